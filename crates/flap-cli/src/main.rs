@@ -1,0 +1,2 @@
+//! The `flap` command.
+fn main() {}

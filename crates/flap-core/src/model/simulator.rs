@@ -1,0 +1,183 @@
+//! The object-safe face of a model: all that sweeps, the command line and Python use.
+
+use super::parameter::{Parameter, Preset};
+
+/// A model that turns design points into rows.
+pub trait Simulator: Sync {
+    /// Name in grid files, such as `direct-drive`.
+    fn name(&self) -> &'static str;
+
+    /// One line: what it models and the paper.
+    fn doc(&self) -> &'static str;
+
+    /// The parameter table. A point is one `f64` per entry, see [`super::Parameter`].
+    fn parameters(&self) -> &'static [Parameter];
+
+    /// Published parameter sets.
+    fn presets(&self) -> &'static [Preset];
+
+    /// What each row measures, in column order.
+    fn columns(&self) -> &[Column];
+
+    /// Runs the points of `jobs` on SIMD lanes until there are none left.
+    ///
+    /// Rows are handed back in the order in which points finish. A row depends on its point and `solver`
+    /// alone: not on its neighbours, nor on the order of the points.
+    fn run(&self, solver: &SolverSettings, jobs: &mut dyn Jobs);
+
+    /// Runs one point on the scalar path. Gives the same bits as [`Simulator::run`].
+    fn run_point(&self, solver: &SolverSettings, values: &[f64]) -> Row;
+
+    /// Samples the motion of one point, settled or from rest.
+    ///
+    /// # Errors
+    /// [`Invalid`] if the values are impossible together, or the motion does not get as far as requested.
+    fn trajectory(
+        &self,
+        solver: &SolverSettings,
+        values: &[f64],
+        request: &TrajectoryRequest,
+    ) -> Result<Trajectory, Invalid>;
+}
+
+/// One design point: its index in the plan and one value per parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Index in the plan.
+    pub index: u64,
+    /// One value per parameter of the model.
+    pub values: Vec<f64>,
+}
+
+/// Where a run takes its points from and leaves its rows.
+pub trait Jobs {
+    /// The next point, or `None` if there is none for now.
+    ///
+    /// With `idle`, nothing else is running: the call may wait, and `None` ends the run.
+    fn next(&mut self, idle: bool) -> Option<Point>;
+
+    /// Takes the row of the point with this index.
+    fn done(&mut self, index: u64, row: Row);
+}
+
+/// How points are integrated and when they count as settled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolverSettings {
+    /// Relative tolerance of the integrator, per step and component.
+    pub rtol: f64,
+    /// Absolute tolerance, in units of each state's typical size in the model.
+    pub atol: f64,
+    /// A point is settled when its state, strobed once per drive period, changes by less than this
+    /// (in units of each state's typical size).
+    pub settle_tol: f64,
+    /// Drive periods after which a point counts as unsettled.
+    pub max_cycles: u32,
+    /// Integration steps within one drive period after which a point is given up.
+    pub max_steps: u32,
+}
+
+impl Default for SolverSettings {
+    fn default() -> Self {
+        SolverSettings { rtol: 1e-6, atol: 1e-8, settle_tol: 1e-6, max_cycles: 400, max_steps: 20_000 }
+    }
+}
+
+/// What became of a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Status {
+    /// Settled on an orbit with the period of the drive.
+    Periodic,
+    /// Settled on an orbit of two or more drive periods.
+    Subharmonic,
+    /// Not settled within `max_cycles`.
+    Unsettled,
+    /// The state became infinite or not a number.
+    Diverged,
+    /// More than `max_steps` integration steps in one drive period, or steps too small to advance time.
+    StepLimit,
+    /// The parameters are impossible together.
+    Invalid,
+}
+
+impl Status {
+    /// All statuses, in the order of reports.
+    pub const ALL: [Status; 6] = [
+        Status::Periodic,
+        Status::Subharmonic,
+        Status::Unsettled,
+        Status::Diverged,
+        Status::StepLimit,
+        Status::Invalid,
+    ];
+
+    /// The word in the `status` column.
+    pub fn name(self) -> &'static str {
+        match self {
+            Status::Periodic => "periodic",
+            Status::Subharmonic => "subharmonic",
+            Status::Unsettled => "unsettled",
+            Status::Diverged => "diverged",
+            Status::StepLimit => "step_limit",
+            Status::Invalid => "invalid",
+        }
+    }
+}
+
+/// What a run found out about one point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// What became of the point.
+    pub status: Status,
+    /// One value per column of the model if the point is periodic, otherwise empty.
+    pub measures: Vec<f64>,
+    /// Drive periods integrated, measuring included.
+    pub cycles: u32,
+    /// Change of the strobed state over the last orbit period, in units of each state's typical size.
+    /// NaN if no period was completed.
+    pub residual: f64,
+    /// Drive periods per orbit: 1, or more for a subharmonic; 0 if no orbit was found.
+    pub period: u32,
+    /// Right-hand sides evaluated by the integrator.
+    pub rhs_evals: u64,
+    /// Why the parameters are invalid.
+    pub reason: Option<String>,
+}
+
+/// One measured column.
+#[derive(Debug, Clone)]
+pub struct Column {
+    /// Name with its unit, such as `lift_mean_mn`.
+    pub name: String,
+    /// Unit in words as printed by `flap params`, such as `mN`.
+    pub unit: &'static str,
+    /// One line of meaning.
+    pub doc: String,
+}
+
+/// Parameters that are impossible together, with the reason.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{reason}")]
+pub struct Invalid {
+    /// What is impossible and why.
+    pub reason: String,
+}
+
+/// Which part of a motion to sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrajectoryRequest {
+    /// Drive periods to sample.
+    pub cycles: u32,
+    /// Samples per drive period; the end of the last period is sampled too.
+    pub samples_per_cycle: u32,
+    /// Start on the settled orbit rather than at rest.
+    pub settled: bool,
+}
+
+/// A sampled motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trajectory {
+    /// Column names with units; the first is `time_s`.
+    pub columns: Vec<String>,
+    /// One row per sample, one value per column.
+    pub rows: Vec<Vec<f64>>,
+}

@@ -1,0 +1,1 @@
+//! Grid files, plans and sweeps.
