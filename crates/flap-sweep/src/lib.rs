@@ -1,1 +1,6 @@
 //! Grid files, plans and sweeps.
+//!
+//! The way of the data: grid file → [`spec`] → [`plan::Plan`] → points → rows → sink.
+
+pub mod axis;
+pub mod plan;

@@ -1,0 +1,90 @@
+//! One axis of a design space: the values of one parameter, or of several that move together.
+//!
+//! Values are computed on demand, so that an axis of 10^9 values costs nothing.
+
+/// The values of one parameter along an axis, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Values given one by one.
+    List(Vec<f64>),
+    /// `count` values evenly spaced from `from` to `to`, both included.
+    Linear {
+        /// First value.
+        from: f64,
+        /// Last value, exact.
+        to: f64,
+        /// Number of values.
+        count: u64,
+    },
+    /// `from`, `from + step`, `from + 2 step`, and so on.
+    Step {
+        /// First value.
+        from: f64,
+        /// Distance between values; negative for a falling axis.
+        step: f64,
+        /// Number of values.
+        count: u64,
+    },
+    /// `count` values from `from` to `to`, both included, in constant ratio.
+    Log {
+        /// First value.
+        from: f64,
+        /// Last value, exact.
+        to: f64,
+        /// Number of values.
+        count: u64,
+    },
+}
+
+impl Values {
+    /// Number of values.
+    pub fn len(&self) -> u64 {
+        match self {
+            Values::List(list) => list.len() as u64,
+            Values::Linear { count, .. } | Values::Step { count, .. } | Values::Log { count, .. } => *count,
+        }
+    }
+
+    /// Whether there are no values.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Value number `index`, which must be less than [`Values::len`].
+    pub fn get(&self, index: u64) -> f64 {
+        match *self {
+            Values::List(ref list) => list[usize::try_from(index).expect("a list fits in memory")],
+            Values::Linear { from, to, count } => match index {
+                0 => from,
+                _ if index + 1 == count => to,
+                _ => from + (to - from) * (index as f64 / (count - 1) as f64),
+            },
+            Values::Step { from, step, .. } => from + step * index as f64,
+            Values::Log { from, to, count } => match index {
+                0 => from,
+                _ if index + 1 == count => to,
+                // libm, not std: the same bits on every machine.
+                _ => from * libm::pow(to / from, index as f64 / (count - 1) as f64),
+            },
+        }
+    }
+}
+
+/// One axis: one or more parameters with as many values each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Indices into the model's parameter table, each with its values.
+    pub parameters: Vec<(usize, Values)>,
+}
+
+impl Axis {
+    /// Number of positions along the axis.
+    pub fn len(&self) -> u64 {
+        self.parameters.first().map_or(0, |(_, values)| values.len())
+    }
+
+    /// Whether the axis has no positions.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}

@@ -1,0 +1,108 @@
+//! A checked design space: which points there are, and how each is run.
+//!
+//! A plan is never materialised: [`Plan::point`] computes any point in constant time.
+
+use std::path::PathBuf;
+
+use flap_core::model::{Parameter, Point, Simulator, SolverSettings};
+
+use crate::axis::Axis;
+
+/// A design space that has passed every check. Made by [`crate::spec`] only.
+pub struct Plan {
+    /// The model.
+    pub simulator: &'static dyn Simulator,
+    /// Name of the preset that the parameters start from.
+    pub preset: &'static str,
+    /// Parameter values before the axes are applied: the preset with `[params]` on top.
+    pub base: Vec<f64>,
+    /// The axes; the last varies fastest.
+    pub axes: Vec<Axis>,
+    /// How points are integrated.
+    pub solver: SolverSettings,
+    /// Where rows go.
+    pub output: Output,
+    /// The grid file itself, for provenance.
+    pub source: Source,
+    points: u64,
+}
+
+/// Where rows go and which columns they have.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Output {
+    /// Path as written in the grid file, relative to the working directory; `None` if it names none.
+    pub path: Option<PathBuf>,
+    /// Indices into the model's columns, in the order wanted; `None` for all.
+    pub columns: Option<Vec<usize>>,
+}
+
+/// A grid file as read.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Source {
+    /// Name for messages, usually the path.
+    pub name: String,
+    /// The text.
+    pub text: String,
+}
+
+/// Everything a plan is made of, before its size is known.
+pub(crate) struct Parts {
+    pub(crate) simulator: &'static dyn Simulator,
+    pub(crate) preset: &'static str,
+    pub(crate) base: Vec<f64>,
+    pub(crate) axes: Vec<Axis>,
+    pub(crate) solver: SolverSettings,
+    pub(crate) output: Output,
+    pub(crate) source: Source,
+}
+
+impl Plan {
+    /// The largest number of points a plan may have: 2^63.
+    pub const MAX_POINTS: u64 = 1 << 63;
+
+    /// Builds the plan, or gives the parts back if it would have more than [`Plan::MAX_POINTS`] points.
+    pub(crate) fn new(parts: Parts) -> Result<Plan, Parts> {
+        let points = parts.axes.iter().try_fold(1_u64, |product, axis| product.checked_mul(axis.len()));
+        match points {
+            Some(points) if points <= Plan::MAX_POINTS => {
+                let Parts { simulator, preset, base, axes, solver, output, source } = parts;
+                Ok(Plan { simulator, preset, base, axes, solver, output, source, points })
+            }
+            _ => Err(parts),
+        }
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> u64 {
+        self.points
+    }
+
+    /// Whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.points == 0
+    }
+
+    /// Point number `index`, which must be less than [`Plan::len`].
+    pub fn point(&self, index: u64) -> Point {
+        let mut values = self.base.clone();
+        let mut rest = index;
+        for axis in self.axes.iter().rev() {
+            let position = rest % axis.len();
+            rest /= axis.len();
+            for (parameter, along) in &axis.parameters {
+                values[*parameter] = along.get(position);
+            }
+        }
+        Point { index, values }
+    }
+
+    /// Indices of the varied parameters, in the order of the axes: the columns after `point`.
+    pub fn varied(&self) -> impl Iterator<Item = usize> + '_ {
+        self.axes.iter().flat_map(|axis| axis.parameters.iter().map(|(parameter, _)| *parameter))
+    }
+
+    /// The model's parameter table.
+    pub fn parameters(&self) -> &'static [Parameter] {
+        self.simulator.parameters()
+    }
+}
