@@ -1,6 +1,8 @@
 //! Grid files, plans and sweeps.
 //!
-//! The way of the data: grid file → [`spec`] → [`plan::Plan`] → points → rows → sink.
+//! The way of the data: grid file → [`spec`] → [`plan::Plan`] → points → [`run`] → rows → [`sink`].
 
 pub mod axis;
+pub mod layout;
 pub mod plan;
+pub mod text;
