@@ -3,6 +3,9 @@
 //! The way of the data: grid file → [`spec`] → [`plan::Plan`] → points → [`run`] → rows → [`sink`].
 
 pub mod axis;
+pub mod csv_sink;
 pub mod layout;
+pub mod output;
 pub mod plan;
+pub mod sink;
 pub mod text;

@@ -1,0 +1,87 @@
+//! Result files: made without overwriting anything unasked, and made durable at the end.
+
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{self, Stdout, Write};
+use std::path::{Path, PathBuf};
+
+/// A place to write to that can be made durable.
+pub trait Durable: Write {
+    /// Waits until what has been written is safe from a crash of the machine, where that means anything.
+    ///
+    /// # Errors
+    /// What the operating system says.
+    fn sync(&self) -> io::Result<()>;
+}
+
+impl Durable for File {
+    fn sync(&self) -> io::Result<()> {
+        // Devices and pipes may refuse to be synchronised, and have nothing to lose.
+        if self.metadata()?.is_file() { self.sync_all() } else { Ok(()) }
+    }
+}
+
+impl Durable for Stdout {
+    fn sync(&self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Durable for Vec<u8> {
+    fn sync(&self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Why a result file cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub enum CreateError {
+    /// There is a file of that name.
+    #[error("{} exists already", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Another process is writing to the file.
+    #[error("another run is writing to {}", path.display())]
+    Busy {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The operating system refuses.
+    #[error("cannot write {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+}
+
+/// Makes an empty result file. An existing file is an error, or emptied with `overwrite`.
+///
+/// The file stays locked as long as it is open, so that a second run that overwrites it is refused.
+///
+/// # Errors
+/// If the file exists, is being written by another run, or cannot be made.
+pub fn create(path: &Path, overwrite: bool) -> Result<File, CreateError> {
+    let refused = |source: io::Error| match source.kind() {
+        io::ErrorKind::AlreadyExists => CreateError::Exists { path: path.to_owned() },
+        _ => CreateError::Io { path: path.to_owned(), source },
+    };
+    let mut open = OpenOptions::new();
+    open.write(true);
+    // Emptied once it is locked, not before: the other run may be alive.
+    if overwrite {
+        open.create(true).truncate(false)
+    } else {
+        open.create_new(true)
+    };
+    let file = open.open(path).map_err(refused)?;
+    if let Err(TryLockError::WouldBlock) = file.try_lock() {
+        return Err(CreateError::Busy { path: path.to_owned() });
+    }
+    if file.metadata().map_err(refused)?.is_file() {
+        file.set_len(0).map_err(refused)?;
+    }
+    Ok(file)
+}
