@@ -7,5 +7,6 @@ pub mod csv_sink;
 pub mod layout;
 pub mod output;
 pub mod plan;
+pub mod run;
 pub mod sink;
 pub mod text;
