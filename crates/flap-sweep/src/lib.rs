@@ -8,5 +8,6 @@ pub mod layout;
 pub mod output;
 pub mod plan;
 pub mod run;
+pub mod sidecar;
 pub mod sink;
 pub mod text;
