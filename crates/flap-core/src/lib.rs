@@ -2,9 +2,20 @@
 //!
 //! Layers, each using only those above it:
 //!
-//! - [`num`]: the numbers models and integrators compute with, scalar or SIMD lanes
-//! - [`model`]: the papers' models, their parameters and presets
+//! - [`num`]: the numbers that models and integrators compute with, scalars or SIMD lanes
+//! - [`ode`]: Dormand-Prince 5(4), for one run or for many in lanes
+//! - [`drive`], [`piezo`], [`linkage`]: components that models share
+//! - [`model`]: the papers' models: parameters → constants → equations of motion → signals
+//! - [`measure`]: what is measured of a motion, whatever the model
+//! - [`simulate`]: design points in, rows out
 //!
 //! This crate prints nothing, opens no file, spawns no thread and reads no clock.
 
+pub mod drive;
+pub mod linkage;
+pub mod measure;
 pub mod model;
+pub mod num;
+pub mod ode;
+pub mod piezo;
+pub mod simulate;

@@ -1,30 +1,77 @@
-//! Models as a sweep sees them: parameters, presets, columns, and a way to run points.
+//! The papers' models: parameters in SI units → constants of a point → equations of motion → signals.
 //!
-//! Each paper has a folder of its own. [`all`] lists them behind the object-safe trait [`Simulator`],
-//! which is all that the layers above need to know.
+//! Each paper has a folder of its own. What a model is made of:
+//!
+//! - a parameter struct with its table ([`crate::parameters!`]) and the published presets,
+//! - constants derived from the parameters once per point ([`crate::per_lane!`]),
+//! - equations of motion ([`Ode`]) and the signals to be measured, written once for scalars and lanes.
 
+pub mod direct_drive;
 mod parameter;
-mod simulator;
+mod signal;
 
-pub use parameter::{Kind, Parameter, Preset, Range};
-pub use simulator::{
-    Column, Invalid, Jobs, Point, Row, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest,
+pub use parameter::{Kind, Parameter, Preset, Range, Slot};
+pub use signal::{Derived, Measure, Signal, SignalCycle};
+
+use crate::num::Lanes;
+use crate::ode::{Ode, Start};
+
+/// A periodically driven model with N states, of which S signals are measured over a drive period.
+pub trait Model<const N: usize, const S: usize>: Ode<N> {
+    /// Name in grid files, such as `direct-drive`.
+    const NAME: &'static str;
+    /// One line: what it models, and the paper.
+    const DOC: &'static str;
+    /// The parameter table.
+    const PARAMETERS: &'static [Parameter];
+    /// The published parameter sets.
+    const PRESETS: &'static [Preset];
+    /// Names of the states with their units, as trajectory columns.
+    const STATES: [&'static str; N];
+    /// What is measured.
+    const SIGNALS: [Signal; S];
+    /// Columns computed from the measured cycle.
+    const DERIVED: &'static [Derived];
+
+    /// The run of a point, given one value per parameter: constants, initial state, drive period, scales.
+    ///
+    /// # Errors
+    /// [`Invalid`] if the parameters are impossible together.
+    fn start(&self, values: &[f64]) -> Result<Start<Self::Constants<f64>, N>, Invalid>;
+
+    /// Angular frequency of the drive (rad/s).
+    fn drive_rate<R: Lanes>(c: &Self::Constants<R>) -> R;
+
+    /// The signals at a state `y` with derivative `dy`, in SI units.
+    fn signals<R: Lanes>(
+        &self,
+        c: &Self::Constants<R>,
+        u: &Self::Input<R>,
+        y: &[R; N],
+        dy: &[R; N],
+    ) -> [R; S];
+
+    /// The values of the [`Model::DERIVED`] columns.
+    fn derived(&self, c: &Self::Constants<f64>, cycle: &[SignalCycle; S]) -> Vec<f64>;
+}
+
+/// Parameters that are impossible together, with the reason.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{reason}")]
+pub struct Invalid {
+    /// What is impossible and why.
+    pub reason: String,
+}
+
+impl Invalid {
+    /// An error with this reason.
+    pub fn new(reason: impl Into<String>) -> Invalid {
+        Invalid { reason: reason.into() }
+    }
+}
+
+// Kept while callers move to `crate::simulate`.
+pub use crate::simulate::{
+    Column, Jobs, Point, Row, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest, all, by_name,
+    preset,
 };
-
-/// Every model, in the order `flap models` lists them.
-pub fn all() -> &'static [&'static dyn Simulator] {
-    &[]
-}
-
-/// The model called `name`.
-pub fn by_name(name: &str) -> Option<&'static dyn Simulator> {
-    all().iter().copied().find(|model| model.name() == name)
-}
-
-/// The preset called `name`, with the model it belongs to.
-pub fn preset(name: &str) -> Option<(&'static dyn Simulator, &'static Preset)> {
-    all().iter().find_map(|&model| {
-        let preset = model.presets().iter().find(|preset| preset.name == name)?;
-        Some((model, preset))
-    })
-}

@@ -72,3 +72,76 @@ pub struct Preset {
     /// The values, one per parameter of the model's table.
     pub values: fn() -> Vec<f64>,
 }
+
+/// A field of a parameter struct, as one `f64` of a design point.
+pub trait Slot {
+    /// The field from a point's value.
+    fn from_value(value: f64) -> Self;
+
+    /// The point's value from the field.
+    fn to_value(&self) -> f64;
+}
+
+impl Slot for f64 {
+    fn from_value(value: f64) -> f64 {
+        value
+    }
+
+    fn to_value(&self) -> f64 {
+        *self
+    }
+}
+
+impl Slot for Option<f64> {
+    fn from_value(value: f64) -> Option<f64> {
+        (!value.is_nan()).then_some(value)
+    }
+
+    fn to_value(&self) -> f64 {
+        self.unwrap_or(f64::NAN)
+    }
+}
+
+/// Declares a model's parameter struct and, from the same lines, its table.
+///
+/// Each line gives the field's documentation, name and type (`f64`; `Option<f64>` for a number that follows
+/// others until it is set; an enum that implements [`Slot`] for a choice), then SI unit, symbol and [`Kind`].
+/// The struct gets `TABLE`, `from_values` and `to_values`; the table's order is that of the fields.
+#[macro_export]
+macro_rules! parameters {
+    ($(#[$meta:meta])* pub struct $Name:ident {
+        $($(#[doc = $doc:literal])+ $field:ident: $type:ty = ($unit:literal, $symbol:literal, $kind:expr),)*
+    }) => {
+        $(#[$meta])*
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct $Name {
+            $($(#[doc = $doc])+ pub $field: $type,)*
+        }
+
+        impl $Name {
+            /// The parameter table, in the order of the fields.
+            pub const TABLE: &'static [$crate::model::Parameter] = &[
+                $($crate::model::Parameter {
+                    name: stringify!($field),
+                    unit: $unit,
+                    symbol: $symbol,
+                    kind: $kind,
+                    doc: concat!($($doc),+).trim_ascii_start(),
+                },)*
+            ];
+
+            /// The parameters of a point, given one value per table entry.
+            pub fn from_values(values: &[f64]) -> $Name {
+                let mut values = values.iter().copied();
+                $Name {
+                    $($field: $crate::model::Slot::from_value(values.next().unwrap_or(f64::NAN)),)*
+                }
+            }
+
+            /// One value per table entry.
+            pub fn to_values(&self) -> Vec<f64> {
+                vec![$($crate::model::Slot::to_value(&self.$field),)*]
+            }
+        }
+    };
+}

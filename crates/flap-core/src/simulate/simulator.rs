@@ -1,6 +1,8 @@
 //! The object-safe face of a model: all that sweeps, the command line and Python use.
 
-use super::parameter::{Parameter, Preset};
+use crate::model::{Invalid, Parameter, Preset};
+use crate::num::InstructionSet;
+use crate::ode::Tolerances;
 
 /// A model that turns design points into rows.
 pub trait Simulator: Sync {
@@ -10,7 +12,7 @@ pub trait Simulator: Sync {
     /// One line: what it models and the paper.
     fn doc(&self) -> &'static str;
 
-    /// The parameter table. A point is one `f64` per entry, see [`super::Parameter`].
+    /// The parameter table. A point is one `f64` per entry, see [`Parameter`].
     fn parameters(&self) -> &'static [Parameter];
 
     /// Published parameter sets.
@@ -19,14 +21,14 @@ pub trait Simulator: Sync {
     /// What each row measures, in column order.
     fn columns(&self) -> &[Column];
 
-    /// Runs the points of `jobs` on SIMD lanes until there are none left.
+    /// Runs the points of `jobs` on the SIMD lanes of `set` until there are none left.
     ///
     /// Rows are handed back in the order in which points finish. A row depends on its point and `solver`
-    /// alone: not on its neighbours, nor on the order of the points.
-    fn run(&self, solver: &SolverSettings, jobs: &mut dyn Jobs);
+    /// alone: not on its neighbours, nor on the order of the points, nor on `set` within an arithmetic class.
+    fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs);
 
-    /// Runs one point on the scalar path. Gives the same bits as [`Simulator::run`].
-    fn run_point(&self, solver: &SolverSettings, values: &[f64]) -> Row;
+    /// Runs one point on scalars, in the arithmetic class of `set`. Gives the same bits as [`Simulator::run`].
+    fn run_point(&self, set: InstructionSet, solver: &SolverSettings, values: &[f64]) -> Row;
 
     /// Samples the motion of one point, settled or from rest.
     ///
@@ -34,6 +36,7 @@ pub trait Simulator: Sync {
     /// [`Invalid`] if the values are impossible together, or the motion does not get as far as requested.
     fn trajectory(
         &self,
+        set: InstructionSet,
         solver: &SolverSettings,
         values: &[f64],
         request: &TrajectoryRequest,
@@ -74,6 +77,13 @@ pub struct SolverSettings {
     pub max_cycles: u32,
     /// Integration steps within one drive period after which a point is given up.
     pub max_steps: u32,
+}
+
+impl SolverSettings {
+    /// The part that the integrator sees.
+    pub(super) fn tolerances(&self) -> Tolerances {
+        Tolerances { rtol: self.rtol, atol: self.atol, max_steps: self.max_steps }
+    }
 }
 
 impl Default for SolverSettings {
@@ -152,14 +162,6 @@ pub struct Column {
     pub unit: &'static str,
     /// One line of meaning.
     pub doc: String,
-}
-
-/// Parameters that are impossible together, with the reason.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{reason}")]
-pub struct Invalid {
-    /// What is impossible and why.
-    pub reason: String,
 }
 
 /// Which part of a motion to sample.

@@ -1,0 +1,220 @@
+//! What does not change along a trajectory of the direct-drive model, computed once per point.
+//!
+//! Ozaki and Hamaguchi 2018; numbers in parentheses are the paper's equations. Powers of constants that the
+//! equations of motion need together are multiplied out here.
+
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+use super::params::{AddedMass, CentreOfPressure, LiftSign, Params};
+use crate::model::Invalid;
+use crate::piezo::{Laminate, Layer};
+
+crate::per_lane! {
+    /// Constants of one design point, in SI units.
+    pub struct Constants {
+        /// Constant part of the drive voltage (V).
+        pub drive_bias,
+        /// Amplitude of the drive voltage (V).
+        pub drive_amplitude,
+        /// Angular frequency of the drive (rad/s).
+        pub drive_rate,
+
+        /// Stroke stiffness k_φ (N·m/rad), (11).
+        pub k_phi,
+        /// Hinge stiffness k_w (N·m/rad).
+        pub k_w,
+        /// Torque per voltage and charge per stroke angle Γ (N·m/V = C/rad), (11), (38).
+        pub gamma,
+        /// Capacitance C_p (F), (37).
+        pub c_p,
+
+        /// Inertia of actuator, leading edge and wing about the stroke axis m₁₁ (kg·m²).
+        pub m11,
+        /// Inertia about the span axis that a pitched wing adds to the stroke m_s (kg·m²).
+        pub m_s,
+        /// Inertial coupling of stroke and pitch m₁₂ (kg·m²).
+        pub m12,
+        /// Pitch inertia m₂₂ (kg·m²).
+        pub m22,
+
+        /// Added mass of the stroke a₁₁ (kg·m²), (29).
+        pub a11,
+        /// Added-mass coupling a₁₂ (kg·m²), (29), (30).
+        pub a12,
+        /// Added mass of the pitch a₂₂ (kg·m²), (30).
+        pub a22,
+        /// Added-mass force per stroke acceleration f₁ (kg·m), (28).
+        pub f1,
+        /// Added-mass force per pitch acceleration f₂ (kg·m), (28).
+        pub f2,
+        /// 1 for the gyroscopic terms of the Lagrangian added mass, 0 for the paper's form.
+        pub gyroscopic,
+
+        /// Lever of the stroke rate in the wing's mean velocity: R/2 + x_r (m).
+        pub mid_radius,
+        /// Lever of the pitch rate in the wing's mean velocity: c(R/2)/2 (m).
+        pub mid_half_chord,
+
+        /// Lift coefficient amplitude K_L, (26).
+        pub k_lift,
+        /// Mean of the drag coefficient's largest and smallest value, (27).
+        pub drag_mean,
+        /// Half of the drag coefficient's range, (27).
+        pub drag_swing,
+
+        /// Lift per φ̇² (kg), (21): ½ρA_w R² I₂₁.
+        pub lift_pp,
+        /// Lift per φ̇ψ̇cosψ (kg): −½ρA_w R c̄ I₁₂.
+        pub lift_pw,
+        /// Lift per (ψ̇cosψ)² (kg): ½ρA_w c̄² I₀₃/4.
+        pub lift_ww,
+        /// Stroke moment of the drag per φ̇² (kg·m), (25): ½ρA_w R · R² I₃₁.
+        pub stroke_pp,
+        /// The same per φ̇ψ̇cosψ (kg·m): −½ρA_w R · R c̄ I₂₂.
+        pub stroke_pw,
+        /// The same per (ψ̇cosψ)² (kg·m): ½ρA_w R · c̄² I₁₃/4.
+        pub stroke_ww,
+        /// Pitch moment per φ̇² (kg·m), (23): ½ρA_w c̄ · R² I₂₂.
+        pub pitch_pp,
+        /// The same per φ̇ψ̇cosψ (kg·m): −½ρA_w c̄ · R c̄ I₁₃.
+        pub pitch_pw,
+        /// The same per (ψ̇cosψ)² (kg·m): ½ρA_w c̄ · c̄² I₀₄/4.
+        pub pitch_ww,
+        /// Rotational drag moment per ψ̇|ψ̇| (kg·m²), (32): ½ρC_rd R I_rd.
+        pub rotation,
+
+        /// Centre of pressure per radian of attack, in chords, (24).
+        pub pressure_slope,
+        /// Centre of pressure at zero attack, in chords, (24).
+        pub pressure_offset,
+        /// 1 if the attack angle is taken relative to the motion (π/2 − σψ), else 0.
+        pub attack_directional,
+        /// 1 if the attack angle is folded (π/2 − |ψ|), else 0.
+        pub attack_folded,
+        /// 1 if the attack angle is as printed (π/2 − ψ), else 0.
+        pub attack_literal,
+
+        /// +1 if F_am sin ψ counts against lift, −1 as printed in (35).
+        pub lift_sign,
+
+        /// Thickness of the piezoelectric layer t₀ (m).
+        pub piezo_thickness,
+        /// Strain of the piezoelectric layer's outer face per radian of stroke (1/rad): z_c / L_A.
+        pub strain_per_stroke,
+    }
+}
+
+impl Constants<f64> {
+    /// Derives the constants of a point.
+    ///
+    /// # Errors
+    /// If the mass matrix is not positive definite for every pitch angle, or a constant is not finite.
+    pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
+        let laminate = Laminate {
+            layers: [
+                Layer { thickness: p.piezo_thickness, modulus: p.piezo_modulus, density: p.piezo_density },
+                Layer {
+                    thickness: p.adhesive_thickness,
+                    modulus: p.adhesive_modulus,
+                    density: p.adhesive_density,
+                },
+                Layer { thickness: p.shim_thickness, modulus: p.shim_modulus, density: p.shim_density },
+            ],
+        };
+        let l_a = p.actuator_length;
+        let z_c = laminate.neutral_axis();
+        let z_0 = laminate.mid_planes()[0];
+        let s_a = laminate.bending_stiffness();
+        let mu = laminate.areal_density();
+        let widths = p.actuator_root_width + p.actuator_tip_width;
+        let j_a = mu * (p.actuator_root_width + 5.0 * p.actuator_tip_width) * (l_a * l_a * l_a) / 120.0;
+
+        let r = p.wing_length;
+        let c = p.mean_chord;
+        let area = c * r;
+        let x_r = p.wing_offset.unwrap_or(0.5 * l_a);
+        let x_g = p.mass_centre_span + x_r;
+        let y_g = p.mass_centre_chord;
+        let m_s = p.wing_inertia_span + p.wing_mass * y_g * y_g;
+
+        let rho = p.air_density;
+        let dynamic = 0.5 * rho * area;
+        let aspect = 0.5 * r / c;
+        let k_lift = FRAC_PI_2 * (r / c) / (1.0 + (aspect * aspect + 1.0).sqrt());
+
+        let one_if = |yes: bool| if yes { 1.0 } else { 0.0 };
+        let constants = Constants {
+            drive_bias: p.drive_bias.unwrap_or(0.5 * p.drive_voltage_pp),
+            drive_amplitude: 0.5 * p.drive_voltage_pp,
+            drive_rate: 2.0 * PI * p.drive_frequency,
+
+            k_phi: 0.5 * s_a * widths / l_a,
+            k_w: p.hinge_stiffness,
+            gamma: 0.5 * p.piezo_modulus * p.piezo_coefficient * (z_0 - z_c) * widths,
+            c_p: p.piezo_permittivity * widths * l_a / (2.0 * p.piezo_thickness),
+
+            m11: j_a + p.leading_edge_inertia + p.wing_mass * x_g * x_g + p.wing_inertia_chord,
+            m_s,
+            m12: p.wing_mass * x_g * y_g + p.wing_inertia_product,
+            m22: m_s,
+
+            a11: FRAC_PI_4 * rho * (c * c) * (r * r * r) * p.shape_moment_22,
+            a12: 0.5 * FRAC_PI_4 * rho * (c * c * c) * (r * r) * p.shape_moment_13,
+            a22: 0.25 * FRAC_PI_4 * rho * (c * c * c * c) * r * p.shape_moment_04,
+            f1: FRAC_PI_4 * rho * (c * c) * (r * r) * p.shape_moment_12,
+            f2: 0.5 * FRAC_PI_4 * rho * (c * c * c) * r * p.shape_moment_03,
+            gyroscopic: one_if(p.added_mass == AddedMass::Lagrangian),
+
+            mid_radius: 0.5 * r + x_r,
+            mid_half_chord: 0.5 * p.midspan_chord.unwrap_or(c),
+
+            k_lift,
+            drag_mean: 0.5 * (p.drag_max + p.drag_min),
+            drag_swing: 0.5 * (p.drag_max - p.drag_min),
+
+            lift_pp: dynamic * r * r * p.shape_moment_21,
+            lift_pw: -dynamic * r * c * p.shape_moment_12,
+            lift_ww: dynamic * c * c * p.shape_moment_03 * 0.25,
+            stroke_pp: dynamic * r * r * r * p.shape_moment_31,
+            stroke_pw: -dynamic * r * r * c * p.shape_moment_22,
+            stroke_ww: dynamic * r * c * c * p.shape_moment_13 * 0.25,
+            pitch_pp: dynamic * c * r * r * p.shape_moment_22,
+            pitch_pw: -dynamic * c * r * c * p.shape_moment_13,
+            pitch_ww: dynamic * c * c * c * p.shape_moment_04 * 0.25,
+            rotation: 0.5 * rho * p.rotation_drag * r * p.rotation_moment,
+
+            pressure_slope: p.pressure_slope,
+            pressure_offset: p.pressure_offset,
+            attack_directional: one_if(p.centre_of_pressure == CentreOfPressure::Directional),
+            attack_folded: one_if(p.centre_of_pressure == CentreOfPressure::Folded),
+            attack_literal: one_if(p.centre_of_pressure == CentreOfPressure::Literal),
+
+            lift_sign: if p.lift_sign == LiftSign::Corrected { 1.0 } else { -1.0 },
+
+            piezo_thickness: p.piezo_thickness,
+            strain_per_stroke: z_c / l_a,
+        };
+        constants.checked()
+    }
+
+    fn checked(self) -> Result<Constants<f64>, Invalid> {
+        if !self.is_finite() {
+            return Err(Invalid::new(
+                "a derived constant is not finite: the parameters are too large or too small",
+            ));
+        }
+        // The determinant is linear in cos²ψ: positive everywhere if it is at both ends.
+        let pitch = self.m22 + self.a22;
+        let coupling = self.m12 - self.a12;
+        let upright = (self.m11 + self.a11) * pitch - coupling * coupling;
+        let flat = (self.m11 + self.m_s) * pitch;
+        if upright > 0.0 && flat > 0.0 {
+            Ok(self)
+        } else {
+            Err(Invalid::new(
+                "the mass matrix is not positive definite: the wing's inertias do not go together \
+                 (mass_centre_chord and wing_inertia_product against wing_inertia_span and wing_mass)",
+            ))
+        }
+    }
+}

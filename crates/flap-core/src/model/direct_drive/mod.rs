@@ -1,0 +1,243 @@
+//! A unimorph piezoelectric actuator bolted straight to a wing that pitches on a flexure hinge.
+//!
+//! Ozaki and Hamaguchi, "Electro-aero-mechanical model of piezoelectric direct-driven flapping-wing
+//! actuator", Applied Sciences 8, 1699 (2018). Lagrangian wing inertia, added mass in the mass matrix,
+//! quasi-steady translational and rotational aerodynamics in moment form, current and power.
+
+mod constants;
+mod params;
+mod rhs;
+
+pub use constants::Constants;
+pub use params::{AddedMass, CentreOfPressure, LiftSign, Params};
+pub use rhs::{AddedMassLoad, Aerodynamics, added_mass, aerodynamics, current, derivative, lift};
+
+use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
+use super::{Derived, Invalid, Model, Parameter, Preset, Signal, SignalCycle};
+use crate::drive::{Voltage, biased_sine};
+use crate::num::Lanes;
+use crate::ode::{Ode, Start};
+
+/// The model.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DirectDrive;
+
+impl Ode<4> for DirectDrive {
+    type Constants<R: Lanes> = Constants<R>;
+    type Input<R: Lanes> = Voltage<R>;
+
+    #[inline(always)]
+    fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> Voltage<R> {
+        biased_sine(c.drive_bias, c.drive_amplitude, c.drive_rate, t)
+    }
+
+    #[inline(always)]
+    fn rhs<R: Lanes>(&self, c: &Constants<R>, drive: &Voltage<R>, y: &[R; 4]) -> [R; 4] {
+        derivative(c, drive, y)
+    }
+}
+
+const DEGREES: f64 = 180.0 / core::f64::consts::PI;
+/// Standard gravity (m/s²): newtons per kilogram-force.
+const GRAVITY: f64 = 9.80665;
+
+/// Positions in [`Model::SIGNALS`].
+const STROKE: usize = 0;
+const PITCH: usize = 1;
+const LIFT: usize = 2;
+const POWER: usize = 5;
+const DRAG_POWER: usize = 6;
+const ROTATION_POWER: usize = 7;
+
+impl Model<4, 9> for DirectDrive {
+    const NAME: &'static str = "direct-drive";
+    const DOC: &'static str =
+        "unimorph bolted to the wing, passive pitch, blade-element aerodynamics (Ozaki and Hamaguchi 2018)";
+    const PARAMETERS: &'static [Parameter] = Params::TABLE;
+    const PRESETS: &'static [Preset] = Params::PRESETS;
+    const STATES: [&'static str; 4] = ["stroke_rad", "pitch_rad", "stroke_rate_rad_s", "pitch_rate_rad_s"];
+
+    const SIGNALS: [Signal; 9] = [
+        Signal {
+            name: "stroke",
+            unit: "deg",
+            suffix: "deg",
+            factor: DEGREES,
+            doc: "stroke angle",
+            measures: &[Amplitude, PeakToPeak, Mean, Max, Min, First],
+        },
+        Signal {
+            name: "pitch",
+            unit: "deg",
+            suffix: "deg",
+            factor: DEGREES,
+            doc: "pitch angle of the wing on its hinge",
+            measures: &[Amplitude, Mean, Max, Min, First],
+        },
+        Signal {
+            name: "lift",
+            unit: "mN",
+            suffix: "mn",
+            factor: 1e3,
+            doc: "lift of the wing, Eq. (35)",
+            measures: &[Mean, Max, Min],
+        },
+        Signal {
+            name: "lift_translational",
+            unit: "mN",
+            suffix: "mn",
+            factor: 1e3,
+            doc: "lift without the part of the added mass, Eq. (21)",
+            measures: &[Mean],
+        },
+        Signal {
+            name: "drag",
+            unit: "mN",
+            suffix: "mn",
+            factor: 1e3,
+            doc: "translational drag along the stroke, Eq. (21)",
+            measures: &[Magnitude],
+        },
+        Signal {
+            name: "power",
+            unit: "mW",
+            suffix: "mw",
+            factor: 1e3,
+            doc: "electrical power current x voltage, Eq. (40)",
+            measures: &[Mean, Supply],
+        },
+        Signal {
+            name: "power_translational",
+            unit: "mW",
+            suffix: "mw",
+            factor: 1e3,
+            doc: "power taken by translational aerodynamics",
+            measures: &[Mean],
+        },
+        Signal {
+            name: "power_rotational",
+            unit: "mW",
+            suffix: "mw",
+            factor: 1e3,
+            doc: "power taken by rotational drag, Eq. (32)",
+            measures: &[Mean],
+        },
+        Signal {
+            name: "current",
+            unit: "mA",
+            suffix: "ma",
+            factor: 1e3,
+            doc: "current into the actuator, Eq. (39)",
+            measures: &[Rms, Peak],
+        },
+    ];
+
+    const DERIVED: &'static [Derived] = &[
+        Derived {
+            name: "stroke_lag_deg",
+            unit: "deg",
+            doc: "phase by which the first harmonic of the stroke lags that of the drive voltage, in (-180, 180]",
+        },
+        Derived {
+            name: "pitch_lag_deg",
+            unit: "deg",
+            doc: "phase by which the first harmonic of the pitch lags that of the stroke, in (-180, 180]",
+        },
+        Derived { name: "lift_mean_gf", unit: "gf", doc: "mean lift in grams-force" },
+        Derived {
+            name: "efficiency_gf_per_w",
+            unit: "gf/W",
+            doc: "mean lift over mean electrical power (power_mean_mw)",
+        },
+        Derived {
+            name: "power_capacitive_mw",
+            unit: "mW",
+            doc: "C V_pp^2 f / 2, the power of charging the actuator's capacitance without recovery",
+        },
+        Derived {
+            name: "energy_audit",
+            unit: "",
+            doc: "(electrical - aerodynamic power) / electrical power, zero but for the integration's error",
+        },
+        Derived {
+            name: "strain_surface_max",
+            unit: "",
+            doc: "largest strain of the piezoelectric layer's outer face, from the bending of the actuator",
+        },
+        Derived {
+            name: "field_max_v_per_um",
+            unit: "V/um",
+            doc: "largest electric field in the piezoelectric layer",
+        },
+    ];
+
+    fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
+        let params = Params::from_values(values);
+        let constants = Constants::derive(&params)?;
+        let rate = constants.drive_rate;
+        Ok(Start {
+            constants,
+            y: [0.0; 4],
+            span: 1.0 / params.drive_frequency,
+            scale: [0.1, 0.3, 0.1 * rate, 0.3 * rate],
+        })
+    }
+
+    #[inline(always)]
+    fn drive_rate<R: Lanes>(c: &Constants<R>) -> R {
+        c.drive_rate
+    }
+
+    #[inline(always)]
+    fn signals<R: Lanes>(&self, c: &Constants<R>, drive: &Voltage<R>, y: &[R; 4], dy: &[R; 4]) -> [R; 9] {
+        let [phi, psi, phi_dot, psi_dot] = *y;
+        let (sin, cos) = psi.sin_cos();
+        let air = aerodynamics(c, y, sin, cos);
+        let added = added_mass(c, sin, cos, dy);
+        let current = current(c, drive, phi_dot);
+        [
+            phi,
+            psi,
+            lift(c, &air, &added, sin),
+            air.lift,
+            air.drag,
+            current * drive.value,
+            -(air.stroke_moment * phi_dot + air.pitch_moment * psi_dot),
+            -(air.rotation_moment * psi_dot),
+            current,
+        ]
+    }
+
+    fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; 9]) -> Vec<f64> {
+        // The drive's sine has the phase −π/2 against the cosine.
+        let drive_phase = -core::f64::consts::FRAC_PI_2;
+        let lift_gf = cycle[LIFT].mean / GRAVITY * 1e3;
+        let power = cycle[POWER].mean;
+        let taken = cycle[DRAG_POWER].mean + cycle[ROTATION_POWER].mean;
+        let frequency = c.drive_rate / (2.0 * core::f64::consts::PI);
+        let voltage_pp = 2.0 * c.drive_amplitude;
+        let voltage_max = (c.drive_bias.abs() + c.drive_amplitude.abs()) / c.piezo_thickness;
+        vec![
+            wrap_degrees(drive_phase - cycle[STROKE].phase()),
+            wrap_degrees(cycle[STROKE].phase() - cycle[PITCH].phase()),
+            lift_gf,
+            lift_gf / power,
+            0.5 * c.c_p * voltage_pp * voltage_pp * frequency * 1e3,
+            (power - taken) / power,
+            cycle[STROKE].measure(Peak) * c.strain_per_stroke.abs(),
+            voltage_max * 1e-6,
+        ]
+    }
+}
+
+/// An angle in degrees, in (−180, 180].
+fn wrap_degrees(radians: f64) -> f64 {
+    let degrees = radians * DEGREES;
+    if degrees > 180.0 {
+        degrees - 360.0
+    } else if degrees <= -180.0 {
+        degrees + 360.0
+    } else {
+        degrees
+    }
+}

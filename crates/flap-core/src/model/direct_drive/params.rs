@@ -1,0 +1,281 @@
+//! Parameters of the direct-drive model and their published values.
+
+use crate::linkage::TorsionHinge;
+use crate::model::Kind::{Choice, Following, Number};
+use crate::model::Range::{Any, NonNegative, Positive};
+use crate::model::{Preset, Slot};
+
+crate::parameters! {
+    /// Parameters of the direct-drive model, in SI units. Symbols as in Ozaki and Hamaguchi 2018, Table A1.
+    pub struct Params {
+        /// Drive voltage, peak to peak: twice the paper's V_0.
+        drive_voltage_pp: f64 = ("V", "2 V_0", Number(NonNegative)),
+        /// Constant part of the drive voltage. The paper drives with V_0 sin(wt) + V_0.
+        drive_bias: Option<f64> = ("V", "V_0", Following(Any, "half of drive_voltage_pp")),
+        /// Drive frequency.
+        drive_frequency: f64 = ("Hz", "f", Number(Positive)),
+
+        /// Wing length, from the wing's root to its tip.
+        wing_length: f64 = ("m", "R", Number(Positive)),
+        /// Mean chord.
+        mean_chord: f64 = ("m", "c", Number(Positive)),
+        /// Distance from the stroke axis to the wing's root. Not given in the paper.
+        wing_offset: Option<f64> = ("m", "x_r", Following(Any, "half of actuator_length: the stroke axis is at mid-actuator")),
+        /// Chord at half the wing's length. Not given in the paper.
+        midspan_chord: Option<f64> = ("m", "c(R/2)", Following(Positive, "mean_chord")),
+        /// Wing mass.
+        wing_mass: f64 = ("kg", "M_w", Number(Positive)),
+        /// Distance of the wing's centre of mass from its root, along the span.
+        mass_centre_span: f64 = ("m", "r_g", Number(Any)),
+        /// Chordwise position of the wing's centre of mass, positive towards the leading edge: negative in a real wing (the paper prints its magnitude).
+        mass_centre_chord: f64 = ("m", "y_g", Number(Any)),
+        /// Wing inertia about the spanwise axis through the centre of mass.
+        wing_inertia_span: f64 = ("kg*m^2", "J_wx", Number(NonNegative)),
+        /// Wing inertia about the chordwise axis through the centre of mass.
+        wing_inertia_chord: f64 = ("kg*m^2", "J_wy", Number(NonNegative)),
+        /// Product of inertia of the wing about its centre of mass, signed as in Eq. (17).
+        wing_inertia_product: f64 = ("kg*m^2", "J_wxy", Number(Any)),
+        /// Inertia of the leading-edge part about the stroke axis.
+        leading_edge_inertia: f64 = ("kg*m^2", "J_B", Number(NonNegative)),
+        /// Stiffness of the wing hinge.
+        hinge_stiffness: f64 = ("N*m/rad", "k_w", Number(Positive)),
+
+        /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22).
+        shape_moment_03: f64 = ("", "I_w0,3", Number(Positive)),
+        /// Wing shape moment: normalised integral of chord^4.
+        shape_moment_04: f64 = ("", "I_w0,4", Number(Positive)),
+        /// Wing shape moment: normalised integral of radius * chord^2.
+        shape_moment_12: f64 = ("", "I_w1,2", Number(Positive)),
+        /// Wing shape moment: normalised integral of radius * chord^3.
+        shape_moment_13: f64 = ("", "I_w1,3", Number(Positive)),
+        /// Wing shape moment: normalised integral of radius^2 * chord.
+        shape_moment_21: f64 = ("", "I_w2,1", Number(Positive)),
+        /// Wing shape moment: normalised integral of radius^2 * chord^2.
+        shape_moment_22: f64 = ("", "I_w2,2", Number(Positive)),
+        /// Wing shape moment: normalised integral of radius^3 * chord.
+        shape_moment_31: f64 = ("", "I_w3,1", Number(Positive)),
+        /// Moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord and of chord over the span.
+        rotation_moment: f64 = ("m^4", "I_rd", Number(NonNegative)),
+
+        /// Actuator length.
+        actuator_length: f64 = ("m", "L_A", Number(Positive)),
+        /// Actuator width at the root.
+        actuator_root_width: f64 = ("m", "w_r", Number(Positive)),
+        /// Actuator width at the tip.
+        actuator_tip_width: f64 = ("m", "w_t", Number(NonNegative)),
+        /// Thickness of the piezoelectric layer.
+        piezo_thickness: f64 = ("m", "t_0", Number(Positive)),
+        /// Thickness of the adhesive layer.
+        adhesive_thickness: f64 = ("m", "t_1", Number(NonNegative)),
+        /// Thickness of the shim.
+        shim_thickness: f64 = ("m", "t_2", Number(NonNegative)),
+        /// Young's modulus of the piezoelectric layer.
+        piezo_modulus: f64 = ("Pa", "E_0", Number(Positive)),
+        /// Young's modulus of the adhesive.
+        adhesive_modulus: f64 = ("Pa", "E_1", Number(NonNegative)),
+        /// Young's modulus of the shim, already halved for its slits.
+        shim_modulus: f64 = ("Pa", "E_2", Number(NonNegative)),
+        /// Density of the piezoelectric layer.
+        piezo_density: f64 = ("kg/m^3", "rho_0", Number(NonNegative)),
+        /// Density of the adhesive.
+        adhesive_density: f64 = ("kg/m^3", "rho_1", Number(NonNegative)),
+        /// Density of the shim, already halved for its slits.
+        shim_density: f64 = ("kg/m^3", "rho_2", Number(NonNegative)),
+        /// Piezoelectric coefficient. Its sign only mirrors the motion.
+        piezo_coefficient: f64 = ("m/V", "d_pz", Number(Any)),
+        /// Permittivity of the piezoelectric layer (free or clamped is not stated in the paper).
+        piezo_permittivity: f64 = ("F/m", "eps_pz", Number(NonNegative)),
+
+        /// Density of air.
+        air_density: f64 = ("kg/m^3", "rho_Air", Number(NonNegative)),
+        /// Drag coefficient at an attack angle of 90 deg.
+        drag_max: f64 = ("", "C_Dmax", Number(NonNegative)),
+        /// Drag coefficient at an attack angle of 0.
+        drag_min: f64 = ("", "C_Dmin", Number(NonNegative)),
+        /// Rotational drag coefficient, Eq. (32).
+        rotation_drag: f64 = ("", "C_rd", Number(NonNegative)),
+        /// Centre of pressure: shift in chords per radian of attack, Eq. (24).
+        pressure_slope: f64 = ("", "0.82/pi", Number(Any)),
+        /// Centre of pressure at zero attack, in chords from the leading edge, Eq. (24).
+        pressure_offset: f64 = ("", "0.05", Number(Any)),
+
+        /// Which attack angle moves the centre of pressure: relative to the motion, folded to at most 90 deg, or as printed (which breaks mirror symmetry).
+        centre_of_pressure: CentreOfPressure = ("", "", Choice(&["directional", "folded", "literal"])),
+        /// Moments of the added mass: as in the paper, or with the gyroscopic terms of the Lagrangian form.
+        added_mass: AddedMass = ("", "", Choice(&["paper", "lagrangian"])),
+        /// Sign of the added-mass part of lift, Eq. (35): corrected, or as printed.
+        lift_sign: LiftSign = ("", "", Choice(&["corrected", "printed"])),
+    }
+}
+
+/// Readings of Eq. (24): which attack angle the centre of pressure depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CentreOfPressure {
+    /// |π/2 − σψ| with σ the sign of the wing's velocity: the attack angle relative to the motion.
+    Directional,
+    /// π/2 − |ψ|: never above 90°.
+    Folded,
+    /// |π/2 − ψ|: as printed. Breaks the mirror symmetry of the two half strokes.
+    Literal,
+}
+
+impl Slot for CentreOfPressure {
+    fn from_value(value: f64) -> Self {
+        match value {
+            1.0 => CentreOfPressure::Folded,
+            2.0 => CentreOfPressure::Literal,
+            _ => CentreOfPressure::Directional,
+        }
+    }
+
+    fn to_value(&self) -> f64 {
+        f64::from(*self as u8)
+    }
+}
+
+/// Forms of the added-mass moments (28)–(30).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AddedMass {
+    /// As in the paper.
+    Paper,
+    /// With the gyroscopic terms that a Lagrangian gives; they do no work.
+    Lagrangian,
+}
+
+impl Slot for AddedMass {
+    fn from_value(value: f64) -> Self {
+        if value == 1.0 { AddedMass::Lagrangian } else { AddedMass::Paper }
+    }
+
+    fn to_value(&self) -> f64 {
+        f64::from(*self as u8)
+    }
+}
+
+/// Readings of Eq. (35): the sign of F_am sin ψ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LiftSign {
+    /// F_tr − F_am sin ψ.
+    Corrected,
+    /// F_tr + F_am sin ψ.
+    Printed,
+}
+
+impl Slot for LiftSign {
+    fn from_value(value: f64) -> Self {
+        if value == 1.0 { LiftSign::Printed } else { LiftSign::Corrected }
+    }
+
+    fn to_value(&self) -> f64 {
+        f64::from(*self as u8)
+    }
+}
+
+/// The permittivity of free space (F/m), to the digits used for the presets.
+const EPSILON_0: f64 = 8.854_187_812_8e-12;
+
+impl Params {
+    /// The published presets.
+    pub const PRESETS: &'static [Preset] = &[
+        Preset {
+            name: "ozaki2018-small",
+            doc: "17.0 mm wing on a 10.5 mm actuator, 30 V + 30 V at 209 Hz (Ozaki and Hamaguchi 2018, Table A1)",
+            values: || Params::ozaki2018_small().to_values(),
+        },
+        Preset {
+            name: "ozaki2018-large",
+            doc: "32.4 mm wing on a 21.0 mm actuator, 50 V + 50 V at 109 Hz (Ozaki and Hamaguchi 2018, Table A1)",
+            values: || Params::ozaki2018_large().to_values(),
+        },
+    ];
+
+    /// The small type of Table A1, at the largest voltage and the frequency of Fig. 13.
+    pub fn ozaki2018_small() -> Params {
+        Params {
+            drive_voltage_pp: 60.0,
+            drive_bias: None,
+            drive_frequency: 209.0,
+            wing_length: 17.0e-3,
+            mean_chord: 6.51e-3,
+            wing_offset: None,
+            midspan_chord: None,
+            wing_mass: 2.31e-6,
+            mass_centre_span: 9.42e-3,
+            mass_centre_chord: -2.48e-3,
+            wing_inertia_span: 4.81e-12,
+            wing_inertia_chord: 5.07e-11,
+            wing_inertia_product: 3.62e-13,
+            leading_edge_inertia: 3.89e-9,
+            hinge_stiffness: 1.48e-4,
+            shape_moment_03: 1.02,
+            shape_moment_04: 1.04,
+            shape_moment_12: 0.88,
+            shape_moment_13: 0.89,
+            shape_moment_21: 0.82,
+            shape_moment_22: 0.84,
+            shape_moment_31: 0.85,
+            rotation_moment: 4.68e-10,
+            actuator_length: 10.5e-3,
+            actuator_root_width: 6.0e-3,
+            actuator_tip_width: 2.4e-3,
+            piezo_thickness: 100e-6,
+            adhesive_thickness: 10e-6,
+            shim_thickness: 100e-6,
+            piezo_modulus: 14.3e9,
+            adhesive_modulus: 5.0e9,
+            shim_modulus: 50.3e9,
+            piezo_density: 8000.0,
+            adhesive_density: 1500.0,
+            shim_density: 2250.0,
+            piezo_coefficient: 950e-12,
+            piezo_permittivity: 2920.0 * EPSILON_0,
+            air_density: 1.29,
+            drag_max: 5.0,
+            drag_min: 0.4,
+            rotation_drag: 3.5,
+            pressure_slope: 0.82 / core::f64::consts::PI,
+            pressure_offset: 0.05,
+            centre_of_pressure: CentreOfPressure::Directional,
+            added_mass: AddedMass::Paper,
+            lift_sign: LiftSign::Corrected,
+        }
+    }
+
+    /// The large type of Table A1, at the largest voltage and the frequency of Fig. 14.
+    pub fn ozaki2018_large() -> Params {
+        Params {
+            drive_voltage_pp: 100.0,
+            drive_frequency: 109.0,
+            wing_length: 32.4e-3,
+            mean_chord: 8.34e-3,
+            wing_mass: 4.09e-6,
+            mass_centre_span: 15.6e-3,
+            mass_centre_chord: -2.57e-3,
+            wing_inertia_span: 1.03e-11,
+            wing_inertia_chord: 2.70e-10,
+            wing_inertia_product: 7.12e-12,
+            leading_edge_inertia: 1.47e-8,
+            hinge_stiffness: 8.64e-5,
+            shape_moment_03: 1.12,
+            shape_moment_04: 1.23,
+            shape_moment_12: 0.84,
+            shape_moment_13: 0.88,
+            shape_moment_21: 0.75,
+            shape_moment_22: 0.73,
+            shape_moment_31: 0.74,
+            rotation_moment: 1.49e-9,
+            actuator_length: 21.0e-3,
+            actuator_root_width: 10.4e-3,
+            actuator_tip_width: 4.4e-3,
+            shim_thickness: 130e-6,
+            // Materials and air are those of the small type.
+            ..Params::ozaki2018_small()
+        }
+    }
+
+    /// These parameters with the stiffness of a hinge of torsional beams, Eq. (41).
+    #[must_use]
+    pub fn with_hinge(self, hinge: &TorsionHinge) -> Params {
+        Params { hinge_stiffness: hinge.stiffness(), ..self }
+    }
+}

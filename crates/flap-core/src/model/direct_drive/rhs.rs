@@ -1,0 +1,157 @@
+//! Equations of motion and outputs of the direct-drive model.
+//!
+//! Ozaki and Hamaguchi 2018; numbers in parentheses are the paper's equations, with the corrections listed
+//! in `docs/model.md`. State `[φ, ψ, φ̇, ψ̇]`: stroke and pitch (rad), their rates (rad/s). ψ = 0 with the
+//! wing's plane through the stroke axis; ψ > 0 when the trailing edge lags a wing that moves with φ̇ > 0.
+//! Lift is positive upwards, from the trailing towards the leading edge.
+
+use core::f64::consts::FRAC_PI_2;
+
+use super::constants::Constants;
+use crate::drive::Voltage;
+use crate::num::Real;
+
+/// Translational and rotational aerodynamics at one state.
+#[derive(Clone, Copy, Debug)]
+pub struct Aerodynamics<R> {
+    /// Translational lift F_tr,Lift (N), (21).
+    pub lift: R,
+    /// Translational drag F_tr,Drag along the wing's motion (N), (21).
+    pub drag: R,
+    /// Moment about the stroke axis M_tr,y (N·m), (25).
+    pub stroke_moment: R,
+    /// Moment about the span axis M_tr,x′ (N·m), (23) with corrected sign.
+    pub pitch_moment: R,
+    /// Rotational drag moment M_rot (N·m), (32).
+    pub rotation_moment: R,
+}
+
+/// Aerodynamic forces and moments but for the added mass, (21)–(27), (32).
+///
+/// ```text
+/// w = ψ̇ cos ψ     ū = X̄ φ̇ − ½ c_mid w     σ = sign ū
+/// C_L = K_L sin 2ψ     C_D = ½(C_Dmax + C_Dmin) + ½(C_Dmax − C_Dmin) cos 2ψ     C_N = C_L sin ψ + C_D cos ψ
+/// F_Lift = ½ρA_w C_L B_L σ     M_y = −½ρA_w R C_D B_Y σ     M_x′ = ½ρA_w c̄ C_N d_cp B_X σ
+/// B_L, B_Y, B_X: quadratic forms in φ̇ and w     d_cp = (0.82/π) α_d + 0.05
+/// ```
+#[inline(always)]
+pub fn aerodynamics<R: Real>(
+    c: &Constants<R>,
+    [_, psi, phi_dot, psi_dot]: &[R; 4],
+    sin: R,
+    cos: R,
+) -> Aerodynamics<R> {
+    let (phi_dot, psi_dot) = (*phi_dot, *psi_dot);
+    let w = psi_dot * cos;
+    let mean_velocity = c.mid_radius * phi_dot - c.mid_half_chord * w;
+    let direction = phi_dot.lit(1.0).copysign(mean_velocity);
+
+    let sin_2psi = sin * cos * 2.0;
+    let cos_2psi = cos * cos * 2.0 - 1.0;
+    let c_lift = c.k_lift * sin_2psi;
+    let c_drag = c.drag_mean + c.drag_swing * cos_2psi;
+    let c_normal = c_lift * sin + c_drag * cos;
+
+    // Quadratic forms in the two rates, with the direction of the flow.
+    let pp = phi_dot * phi_dot * direction;
+    let pw = phi_dot * w * direction;
+    let ww = w * w * direction;
+    let force = c.lift_pp * pp + c.lift_pw * pw + c.lift_ww * ww;
+    let stroke = c.stroke_pp * pp + c.stroke_pw * pw + c.stroke_ww * ww;
+    let pitch = c.pitch_pp * pp + c.pitch_pw * pw + c.pitch_ww * ww;
+
+    let d_cp = c.pressure_slope * attack(c, *psi, direction) + c.pressure_offset;
+    Aerodynamics {
+        lift: c_lift * force,
+        drag: c_drag * force,
+        stroke_moment: -(c_drag * stroke),
+        pitch_moment: c_normal * d_cp * pitch,
+        rotation_moment: -(c.rotation * psi_dot * psi_dot.abs()),
+    }
+}
+
+/// The attack angle α_d (rad) that moves the centre of pressure (24), in the reading that `c` asks for.
+#[inline(always)]
+fn attack<R: Real>(c: &Constants<R>, psi: R, direction: R) -> R {
+    let tilt = c.attack_directional * direction * psi + c.attack_folded * psi.abs() + c.attack_literal * psi;
+    let attack = -tilt + FRAC_PI_2;
+    // |α|, but for the folded reading, which is signed.
+    R::select(c.attack_folded.lt(attack.lit(0.5)), attack.abs(), attack)
+}
+
+/// The derivative `[φ̇, ψ̇, φ̈, ψ̈]`, from Lagrange's equations (3)–(18) with the added mass (28)–(30) and the
+/// aerodynamic moments (34) moved into the mass matrix and the generalised forces.
+///
+/// ```text
+/// ⎡m₁₁ + m_s s² + a₁₁ c²   (m₁₂ − a₁₂) c⎤ ⎡φ̈⎤ = ⎡Q₁⎤     s = sin ψ, c = cos ψ
+/// ⎣(m₁₂ − a₁₂) c              m₂₂ + a₂₂⎦ ⎣ψ̈⎦   ⎣Q₂⎦
+///
+/// Q₁ = ΓV − k_φ φ − 2m_s φ̇ψ̇ s c + m₁₂ ψ̇² s + a₁₁ φ̇ψ̇ s c + M_tr,y
+/// Q₂ = −k_w ψ + m_s φ̇² s c − a₁₂ φ̇ψ̇ s + M_tr,x′ + M_rot
+/// ```
+///
+/// The Lagrangian form of the added mass adds ψ̇ e to Q₁ and −φ̇ e to Q₂, e = (a₁₁ φ̇ c − a₁₂ ψ̇) s.
+#[inline(always)]
+pub fn derivative<R: Real>(c: &Constants<R>, drive: &Voltage<R>, y: &[R; 4]) -> [R; 4] {
+    let [phi, psi, phi_dot, psi_dot] = *y;
+    let (sin, cos) = psi.sin_cos();
+    let air = aerodynamics(c, y, sin, cos);
+
+    let both = phi_dot * psi_dot;
+    let gyroscopic = c.gyroscopic * (c.a11 * phi_dot * cos - c.a12 * psi_dot) * sin;
+    let q1 = c.gamma * drive.value - c.k_phi * phi
+        + (c.a11 - c.m_s * 2.0) * both * sin * cos
+        + c.m12 * psi_dot * psi_dot * sin
+        + air.stroke_moment
+        + psi_dot * gyroscopic;
+    let q2 = c.m_s * phi_dot * phi_dot * sin * cos - c.k_w * psi - c.a12 * both * sin
+        + air.pitch_moment
+        + air.rotation_moment
+        - phi_dot * gyroscopic;
+
+    let m11 = c.m11 + c.m_s * sin * sin + c.a11 * cos * cos;
+    let m12 = (c.m12 - c.a12) * cos;
+    let m22 = c.m22 + c.a22;
+    let inverse_determinant = phi.lit(1.0) / (m11 * m22 - m12 * m12);
+    let phi_ddot = (m22 * q1 - m12 * q2) * inverse_determinant;
+    let psi_ddot = (m11 * q2 - m12 * q1) * inverse_determinant;
+    [phi_dot, psi_dot, phi_ddot, psi_ddot]
+}
+
+/// The added-mass force and moments (28)–(30) at known accelerations.
+#[derive(Clone, Copy, Debug)]
+pub struct AddedMassLoad<R> {
+    /// Force along the wing's normal F_am (N), (28).
+    pub force: R,
+    /// Moment about the chord axis M_am,y″ (N·m), (29).
+    pub chord_moment: R,
+    /// Moment about the span axis M_am,x′ (N·m), (30).
+    pub span_moment: R,
+}
+
+/// ```text
+/// A = φ̈ cos ψ − φ̇ψ̇ sin ψ
+/// F_am = −f₁ A + f₂ ψ̈     M_am,y″ = −a₁₁ A + a₁₂ ψ̈     M_am,x′ = a₁₂ A − a₂₂ ψ̈
+/// ```
+#[inline(always)]
+pub fn added_mass<R: Real>(c: &Constants<R>, sin: R, cos: R, dy: &[R; 4]) -> AddedMassLoad<R> {
+    let [phi_dot, psi_dot, phi_ddot, psi_ddot] = *dy;
+    let a = phi_ddot * cos - phi_dot * psi_dot * sin;
+    AddedMassLoad {
+        force: c.f2 * psi_ddot - c.f1 * a,
+        chord_moment: c.a12 * psi_ddot - c.a11 * a,
+        span_moment: c.a12 * a - c.a22 * psi_ddot,
+    }
+}
+
+/// Lift (N), positive upwards, (35) with corrected sign: F_tr,Lift − F_am sin ψ.
+#[inline(always)]
+pub fn lift<R: Real>(c: &Constants<R>, air: &Aerodynamics<R>, added: &AddedMassLoad<R>, sin: R) -> R {
+    air.lift - c.lift_sign * added.force * sin
+}
+
+/// Current into the actuator j_A (A), (39) with the reciprocal coupling: C_p V̇ + Γ φ̇.
+#[inline(always)]
+pub fn current<R: Real>(c: &Constants<R>, drive: &Voltage<R>, phi_dot: R) -> R {
+    c.c_p * drive.rate + c.gamma * phi_dot
+}

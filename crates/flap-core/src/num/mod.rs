@@ -1,0 +1,27 @@
+//! The numbers that models and integrators compute with.
+//!
+//! A model's equations are written once, generic over [`Real`]. They then run on
+//! `f64` (one point at a time) and on [`Vector`] (one point per SIMD lane), with the same bits from both:
+//!
+//! - no operation mixes lanes, so a lane never depends on its neighbours;
+//! - elementary functions are the polynomials of [`functions`], never those of std or the C library;
+//! - Rust neither reassociates nor contracts floating-point expressions.
+//!
+//! `mul_add` rounds once where the processor has a fused multiply-add (AVX2, AVX-512, NEON) and twice where
+//! it has not. Results of the two [arithmetic classes](Arithmetic) differ at the level of the integration
+//! tolerance; within a class they are equal to the last bit.
+
+pub mod functions;
+mod instruction_set;
+mod lanes;
+mod per_lane;
+mod real;
+mod unfused;
+mod vector;
+
+pub use instruction_set::{Arithmetic, InstructionSet, Kernel};
+pub use lanes::Lanes;
+pub use per_lane::PerLane;
+pub use real::Real;
+pub use unfused::Unfused;
+pub use vector::Vector;

@@ -1,0 +1,322 @@
+//! Many runs in SIMD lanes.
+//!
+//! Every lane has its own time, step size, accept or reject, and constants. A lane whose run has ended takes
+//! the next one from the queue while its neighbours go on, so lanes are full until the queue is empty; a run
+//! that fails is reported and replaced likewise. No operation mixes lanes: a run's results do not depend on
+//! what runs beside it, and equal those of [`super::solve`] to the last bit.
+
+use core::ops::ControlFlow;
+
+use fearless_simd::Simd;
+
+use super::controller::{Memory, judge};
+use super::norm::error_squared;
+use super::start::{first_step, span_step};
+use super::step::{Step, step};
+use super::{Ending, MIN_STEP, Ode, Outcome, STRETCH, Start, Tolerances};
+use crate::num::{Lanes, PerLane, Vector};
+
+/// Where runs come from and what becomes of them.
+pub trait Queue<O: Ode<N>, V: Observer<O, N>, const N: usize> {
+    /// What the caller wants to remember of a run while it is in a lane.
+    type Run;
+
+    /// The next run, or `None` if there is none for now.
+    ///
+    /// With `idle`, no lane is running: the call may wait, and `None` ends the ensemble.
+    fn next(&mut self, idle: bool) -> Option<(Self::Run, Start<O::Constants<f64>, N>)>;
+
+    /// Looks at a run at the end of a span, and goes on with it or breaks.
+    fn span_end(&mut self, run: &mut Self::Run, y: &[f64; N], totals: &V::Totals<f64>) -> ControlFlow<()>;
+
+    /// Takes leave of a run that has been stopped or has failed.
+    fn ended(&mut self, run: Self::Run, outcome: Outcome);
+}
+
+/// Something that is summed up along a run, lane by lane.
+pub trait Observer<O: Ode<N>, const N: usize> {
+    /// The sums.
+    type Totals<R: Lanes>: PerLane<R, One = Self::Totals<f64>>;
+
+    /// The sums before the first step.
+    fn nothing(&self) -> Self::Totals<f64>;
+
+    /// Adds a step, in the lanes in which it was accepted.
+    fn add<R: Lanes>(
+        &self,
+        ode: &O,
+        c: &O::Constants<R>,
+        t: R,
+        h: R,
+        step: &Step<R, N>,
+        accepted: R::Mask,
+        totals: &mut Self::Totals<R>,
+    );
+}
+
+/// Observes nothing.
+#[derive(Clone, Copy, Debug)]
+pub struct Unobserved;
+
+impl<O: Ode<N>, const N: usize> Observer<O, N> for Unobserved {
+    type Totals<R: Lanes> = ();
+
+    #[inline(always)]
+    fn nothing(&self) {}
+
+    #[inline(always)]
+    fn add<R: Lanes>(
+        &self,
+        _ode: &O,
+        _c: &O::Constants<R>,
+        _t: R,
+        _h: R,
+        _step: &Step<R, N>,
+        _accepted: R::Mask,
+        (): &mut (),
+    ) {
+    }
+}
+
+/// Integrates the runs of `queue` until it has no more.
+pub fn run<S, O, V, Q, const N: usize>(simd: S, ode: &O, observer: &V, tolerances: &Tolerances, queue: &mut Q)
+where
+    S: Simd,
+    O: Ode<N>,
+    V: Observer<O, N>,
+    Q: Queue<O, V, N>,
+{
+    let Some(first) = queue.next(true) else { return };
+    // The callbacks of a queue may call this again: enter a function with these instructions enabled.
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            Bank::<Vector<S>, O, V, Q::Run, N>::new(simd, observer, tolerances, first)
+                .drive(ode, observer, queue)
+        },
+    );
+}
+
+/// The lanes and what runs in them.
+struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> {
+    token: R::Token,
+    tolerances: Tolerances,
+    rtol: R,
+
+    // One of each per lane.
+    constants: O::Constants<R>,
+    totals: V::Totals<R>,
+    span: R,
+    atol: [R; N],
+    t: R,
+    h: R,
+    /// The step size with which a span begins.
+    h_begin: R,
+    y: [R; N],
+    k1: [R; N],
+    memory: Memory<R>,
+    steps_in_span: R,
+    error: R,
+
+    /// What runs in each lane; `None` in a lane that waits for work.
+    runs: Vec<Option<Running<Run>>>,
+    /// Vector steps made, and those made when each lane's run began.
+    steps: u64,
+    /// Lanes with a run, one bit each.
+    active: u64,
+    /// Lanes whose run has not begun, one bit each.
+    fresh: u64,
+}
+
+struct Running<Run> {
+    run: Run,
+    began: u64,
+}
+
+/// Lanes to which something has happened in a step, one bit each.
+struct Events {
+    landed: u64,
+    failed: u64,
+}
+
+impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, Run, N> {
+    /// A bank with one run in lane 0. The idle lanes hold the same numbers, so that they compute nothing odd.
+    #[inline(always)]
+    fn new(
+        token: R::Token,
+        observer: &V,
+        tolerances: &Tolerances,
+        (run, start): (Run, Start<O::Constants<f64>, N>),
+    ) -> Self {
+        let number = R::splat(token, 0.0);
+        let mut bank = Bank {
+            token,
+            tolerances: *tolerances,
+            rtol: number.lit(tolerances.rtol),
+            constants: O::Constants::<R>::splat(token, &start.constants),
+            totals: V::Totals::<R>::splat(token, &observer.nothing()),
+            span: number.lit(start.span),
+            atol: [number; N],
+            t: number,
+            h: number.lit(start.span),
+            h_begin: number.lit(start.span),
+            y: [number; N],
+            k1: [number; N],
+            memory: Memory::new(number),
+            steps_in_span: number,
+            error: number,
+            runs: (0..R::LANES).map(|_| None).collect(),
+            steps: 0,
+            active: 0,
+            fresh: 0,
+        };
+        for i in 0..N {
+            bank.y[i] = number.lit(start.y[i]);
+            bank.atol[i] = number.lit(tolerances.atol * start.scale[i]);
+        }
+        bank.load(0, run, &start, observer);
+        bank
+    }
+
+    /// Puts a run into a lane.
+    fn load(&mut self, lane: usize, run: Run, start: &Start<O::Constants<f64>, N>, observer: &V) {
+        self.constants.set_lane(lane, &start.constants);
+        self.totals.set_lane(lane, &observer.nothing());
+        self.span.set_lane(lane, start.span);
+        for i in 0..N {
+            self.y[i].set_lane(lane, start.y[i]);
+            self.atol[i].set_lane(lane, self.tolerances.atol * start.scale[i]);
+        }
+        self.runs[lane] = Some(Running { run, began: self.steps });
+        self.active |= 1 << lane;
+        self.fresh |= 1 << lane;
+    }
+
+    /// Runs the queue empty.
+    #[inline(always)]
+    fn drive<Q: Queue<O, V, N, Run = Run>>(mut self, ode: &O, observer: &V, queue: &mut Q) {
+        loop {
+            self.refill(observer, queue);
+            if self.active == 0 {
+                return;
+            }
+            if self.fresh != 0 {
+                self.begin(ode);
+            }
+            let events = loop {
+                let events = self.advance(ode, observer);
+                if events.landed | events.failed != 0 {
+                    break events;
+                }
+            };
+            self.settle(&events, queue);
+        }
+    }
+
+    /// Fills the lanes that wait, as far as there are runs.
+    fn refill<Q: Queue<O, V, N, Run = Run>>(&mut self, observer: &V, queue: &mut Q) {
+        for lane in 0..R::LANES {
+            if self.active & (1 << lane) != 0 {
+                continue;
+            }
+            match queue.next(self.active == 0) {
+                Some((run, start)) => self.load(lane, run, &start, observer),
+                None => return,
+            }
+        }
+    }
+
+    /// First slope and step size of the fresh lanes. The others compute along and keep what they have.
+    #[inline(always)]
+    fn begin(&mut self, ode: &O) {
+        let fresh = R::mask(self.token, self.fresh);
+        let (k1, h) = first_step(ode, &self.constants, &self.y, self.span, &self.atol, self.rtol);
+        let zero = self.t.lit(0.0);
+        let memory = Memory::new(zero);
+        for i in 0..N {
+            self.k1[i] = R::select(fresh, k1[i], self.k1[i]);
+        }
+        self.h = R::select(fresh, h, self.h);
+        self.h_begin = R::select(fresh, h, self.h_begin);
+        self.t = R::select(fresh, zero, self.t);
+        self.steps_in_span = R::select(fresh, zero, self.steps_in_span);
+        self.memory.ln_error = R::select(fresh, memory.ln_error, self.memory.ln_error);
+        self.memory.factor_max = R::select(fresh, memory.factor_max, self.memory.factor_max);
+        self.fresh = 0;
+    }
+
+    /// Makes a lane ready for the next span.
+    fn begin_span(&mut self, lane: usize) {
+        let h = span_step(self.h_begin.lane(lane), self.h.lane(lane));
+        let memory = Memory::new(0.0);
+        self.t.set_lane(lane, 0.0);
+        self.steps_in_span.set_lane(lane, 0.0);
+        self.h.set_lane(lane, h);
+        self.h_begin.set_lane(lane, h);
+        self.memory.ln_error.set_lane(lane, memory.ln_error);
+        self.memory.factor_max.set_lane(lane, memory.factor_max);
+    }
+
+    /// Attempts one step in every lane.
+    #[inline(always)]
+    fn advance(&mut self, ode: &O, observer: &V) -> Events {
+        let remaining = self.span - self.t;
+        let landing = remaining.lt(self.h * STRETCH);
+        let h = R::select(landing, remaining, self.h);
+
+        let tried = step(ode, &self.constants, self.t, h, &self.y, &self.k1);
+        self.error = error_squared(&tried.error, &self.y, &tried.y[6], &self.atol, self.rtol);
+        let verdict = judge(self.error, &mut self.memory);
+        let accepted = verdict.accepted;
+        let landed = R::and(accepted, landing);
+        self.steps += 1;
+        self.steps_in_span = self.steps_in_span + 1.0;
+
+        let proposal = h * verdict.factor;
+        // A step cut short by the end of the span says little about the next one.
+        self.h = R::select(landed, proposal.max(self.h), proposal);
+        observer.add(ode, &self.constants, self.t, h, &tried, accepted, &mut self.totals);
+        let t = R::select(landing, self.span, self.t + h);
+        self.t = R::select(accepted, t, self.t);
+        for i in 0..N {
+            self.y[i] = R::select(accepted, tried.y[6][i], self.y[i]);
+            self.k1[i] = R::select(accepted, tried.k[6][i], self.k1[i]);
+        }
+
+        let limit = self.t.lit(f64::from(self.tolerances.max_steps) - 0.5);
+        let exhausted = R::bits(limit.lt(self.steps_in_span));
+        let stuck = R::bits(self.h.lt(self.span * MIN_STEP));
+        let landed = R::bits(landed) & self.active;
+        Events { landed, failed: (exhausted | stuck) & self.active & !landed }
+    }
+
+    /// Asks the queue about the lanes that have landed, and gives up those that have failed.
+    fn settle<Q: Queue<O, V, N, Run = Run>>(&mut self, events: &Events, queue: &mut Q) {
+        for lane in 0..R::LANES {
+            let bit = 1 << lane;
+            if (events.landed | events.failed) & bit == 0 {
+                continue;
+            }
+            let Some(running) = &mut self.runs[lane] else { continue };
+            let ending = if events.failed & bit != 0 {
+                Some(Ending::of_failure(self.error.lane(lane)))
+            } else {
+                let mut y = [0.0; N];
+                for i in 0..N {
+                    y[i] = self.y[i].lane(lane);
+                }
+                let verdict = queue.span_end(&mut running.run, &y, &self.totals.lane(lane));
+                verdict.is_break().then_some(Ending::Stopped)
+            };
+            match ending {
+                None => self.begin_span(lane),
+                Some(ending) => {
+                    self.active &= !bit;
+                    if let Some(Running { run, began }) = self.runs[lane].take() {
+                        queue.ended(run, Outcome::new(ending, self.steps - began));
+                    }
+                }
+            }
+        }
+    }
+}

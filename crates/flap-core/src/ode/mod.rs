@@ -1,0 +1,107 @@
+//! Dormand-Prince 5(4) for one run at a time, or for many runs in SIMD lanes.
+//!
+//! - [`tableau`]: the coefficients, checked when the crate is compiled
+//! - [`step`]: one step: stages, new state, error estimate; no policy
+//! - [`norm`], [`controller`], [`start`]: how large the error is, what follows from it, how to begin
+//! - [`dense`]: the solution between the ends of a step
+//! - [`solve`]: one run on scalars, written to be read; the oracle of the ensemble
+//! - [`ensemble`]: many runs in lanes, each with its own time, step size and constants
+//!
+//! Time runs from 0 to the end of a *span*, usually one drive period, and every span ends exactly on a step.
+//! At its end the caller looks at the state and says whether to go on with another span. An equation whose
+//! inputs repeat with the span therefore sees no growing times.
+
+pub mod controller;
+pub mod dense;
+pub mod ensemble;
+pub mod norm;
+pub mod solve;
+pub mod start;
+pub mod step;
+pub mod tableau;
+
+use crate::num::{Lanes, PerLane};
+
+/// A system of N first-order ordinary differential equations, ẏ = f(c, u(c, t), y).
+///
+/// `c` are constants, which may differ from run to run; `u` is what depends on time alone, so that it is
+/// evaluated once where stages share a time. Both functions are called in the innermost loop: they must not
+/// allocate or panic, and every function they call must be `#[inline(always)]`.
+pub trait Ode<const N: usize>: Sync {
+    /// What does not change during a run.
+    type Constants<R: Lanes>: PerLane<R, One = Self::Constants<f64>>;
+
+    /// What depends on time alone: the drive.
+    type Input<R: Lanes>: Copy;
+
+    /// The inputs at time `t` (s).
+    fn input<R: Lanes>(&self, c: &Self::Constants<R>, t: R) -> Self::Input<R>;
+
+    /// The derivative ẏ.
+    fn rhs<R: Lanes>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, y: &[R; N]) -> [R; N];
+}
+
+/// Where a run begins.
+#[derive(Clone, Copy, Debug)]
+pub struct Start<C, const N: usize> {
+    /// The run's constants.
+    pub constants: C,
+    /// The initial state.
+    pub y: [f64; N],
+    /// Length of a span (s).
+    pub span: f64,
+    /// Typical size of each state; absolute tolerances are multiples of it.
+    pub scale: [f64; N],
+}
+
+/// Tolerances and limits.
+#[derive(Clone, Copy, Debug)]
+pub struct Tolerances {
+    /// Relative tolerance.
+    pub rtol: f64,
+    /// Absolute tolerance, in units of [`Start::scale`].
+    pub atol: f64,
+    /// Attempted steps within one span after which a run is given up.
+    pub max_steps: u32,
+}
+
+/// Why a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// The caller stopped it at the end of a span.
+    Stopped,
+    /// The state or its derivative became infinite or not a number.
+    Diverged,
+    /// Too many steps within one span, or steps too small to advance time.
+    StepLimit,
+}
+
+impl Ending {
+    /// How a run failed whose last step had this squared error.
+    pub(crate) fn of_failure(error_squared: f64) -> Ending {
+        if error_squared.is_finite() { Ending::StepLimit } else { Ending::Diverged }
+    }
+}
+
+/// How a run ended and what it cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Outcome {
+    /// Why it ended.
+    pub ending: Ending,
+    /// Attempted steps, rejected ones included.
+    pub attempts: u64,
+    /// Evaluations of the right-hand side: six per attempted step, and those of the start.
+    pub rhs_evals: u64,
+}
+
+impl Outcome {
+    pub(crate) fn new(ending: Ending, attempts: u64) -> Outcome {
+        Outcome { ending, attempts, rhs_evals: start::RHS_EVALS + 6 * attempts }
+    }
+}
+
+/// The smallest step, as a fraction of the span, before a run counts as stuck.
+pub(crate) const MIN_STEP: f64 = 1e-14;
+
+/// A step this close to the end of the span is stretched to land on it.
+pub(crate) const STRETCH: f64 = 1.01;

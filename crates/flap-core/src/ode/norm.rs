@@ -1,0 +1,25 @@
+//! How large an error is, measured against the tolerances.
+
+use crate::num::Lanes;
+
+/// The mean square of error over tolerance, Hairer I Eq. (II.4.11) without the root: a step is good below 1.
+///
+/// ```text
+/// 1/N Σᵢ (eᵢ / (atolᵢ + rtol max(|yᵢ|, |yᵢ new|)))²
+/// ```
+#[inline(always)]
+pub fn error_squared<R: Lanes, const N: usize>(
+    error: &[R; N],
+    y: &[R; N],
+    y_new: &[R; N],
+    atol: &[R; N],
+    rtol: R,
+) -> R {
+    let mut sum = rtol.lit(0.0);
+    for i in 0..N {
+        let tolerance = rtol.mul_add(y[i].abs().max(y_new[i].abs()), atol[i]);
+        let ratio = error[i] / tolerance;
+        sum = ratio.mul_add(ratio, sum);
+    }
+    sum * (1.0 / N as f64)
+}

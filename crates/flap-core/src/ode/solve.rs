@@ -1,0 +1,92 @@
+//! One run on scalars, written to be read. It makes the same decisions as [`super::ensemble`], in the same
+//! arithmetic, so that its results are equal to the last bit: it is the ensemble's oracle.
+
+use core::ops::ControlFlow;
+
+use super::controller::{Memory, judge};
+use super::norm::error_squared;
+use super::start::{first_step, span_step};
+use super::step::{Step, step};
+use super::{Ending, MIN_STEP, Ode, Outcome, STRETCH, Start, Tolerances};
+use crate::num::{Lanes, PerLane};
+
+/// An accepted step.
+#[derive(Debug)]
+pub struct Accepted<'a, R, const N: usize> {
+    /// Time within the span at which the step begins (s).
+    pub t: R,
+    /// Its size (s).
+    pub h: R,
+    /// Its stages.
+    pub step: &'a Step<R, N>,
+}
+
+/// Integrates one run until `at_span_end` breaks, or until it fails.
+///
+/// `on_step` sees every accepted step; `at_span_end` sees the state at the end of each span.
+/// `R` is `f64` or [`crate::num::Unfused`].
+#[inline(always)]
+pub fn solve<O: Ode<N>, R: Lanes<Token = (), Mask = bool>, const N: usize>(
+    ode: &O,
+    tolerances: &Tolerances,
+    start: &Start<O::Constants<f64>, N>,
+    mut on_step: impl FnMut(&O::Constants<R>, &Accepted<'_, R, N>),
+    mut at_span_end: impl FnMut(&[f64; N]) -> ControlFlow<()>,
+) -> Outcome {
+    let number = |x: f64| R::splat((), x);
+    let c = O::Constants::<R>::splat((), &start.constants);
+    let span = number(start.span);
+    let rtol = number(tolerances.rtol);
+    let mut y = [span; N];
+    let mut atol = [span; N];
+    for i in 0..N {
+        y[i] = number(start.y[i]);
+        atol[i] = number(tolerances.atol * start.scale[i]);
+    }
+
+    let (mut k1, mut h) = first_step(ode, &c, &y, span, &atol, rtol);
+    let mut h_begin = h;
+    let mut memory = Memory::new(span);
+    let mut t = number(0.0);
+    let mut attempts = 0;
+    let mut steps_in_span = 0;
+    loop {
+        let remaining = span - t;
+        let landing = remaining.lt(h * STRETCH);
+        let h_try = if landing { remaining } else { h };
+
+        let tried = step(ode, &c, t, h_try, &y, &k1);
+        let error = error_squared(&tried.error, &y, &tried.y[6], &atol, rtol);
+        let verdict = judge(error, &mut memory);
+        let accepted = verdict.accepted;
+        attempts += 1;
+        steps_in_span += 1;
+
+        let proposal = h_try * verdict.factor;
+        // A step cut short by the end of the span says little about the next one.
+        h = if accepted && landing { proposal.max(h) } else { proposal };
+        if accepted {
+            on_step(&c, &Accepted { t, h: h_try, step: &tried });
+            t = if landing { span } else { t + h_try };
+            y = tried.y[6];
+            k1 = tried.k[6];
+        }
+
+        if accepted && landing {
+            let mut state = [0.0; N];
+            for i in 0..N {
+                state[i] = y[i].lane(0);
+            }
+            if at_span_end(&state).is_break() {
+                return Outcome::new(Ending::Stopped, attempts);
+            }
+            h = number(span_step(h_begin.lane(0), h.lane(0)));
+            h_begin = h;
+            memory = Memory::new(span);
+            t = number(0.0);
+            steps_in_span = 0;
+        } else if steps_in_span >= tolerances.max_steps || h.lt(span * MIN_STEP) {
+            return Outcome::new(Ending::of_failure(error.lane(0)), attempts);
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! The first slope and the first step size.
+
+use super::Ode;
+use crate::num::Lanes;
+
+/// Right-hand sides evaluated by [`first_step`].
+pub const RHS_EVALS: u64 = 2;
+
+/// The slope at time 0 and a starting step size, by the algorithm of Hairer I, section II.4.
+///
+/// Where the state or its slope is too small to judge by (at rest, say), the trial step is a
+/// ten-thousandth of the span.
+#[inline(always)]
+pub fn first_step<O: Ode<N>, R: Lanes, const N: usize>(
+    ode: &O,
+    c: &O::Constants<R>,
+    y: &[R; N],
+    span: R,
+    atol: &[R; N],
+    rtol: R,
+) -> ([R; N], R) {
+    let zero = span.lit(0.0);
+    let k1 = ode.rhs(c, &ode.input(c, zero), y);
+
+    let size_y = weighted_norm(y, y, atol, rtol);
+    let size_k = weighted_norm(&k1, y, atol, rtol);
+    let tiny = zero.lit(1e-5);
+    let unknown_y = size_y.lt(tiny);
+    let unknown_k = size_k.lt(tiny);
+    let trial = size_y / size_k * 0.01;
+    let h0 = R::select(unknown_y, span * 1e-4, R::select(unknown_k, span * 1e-4, trial));
+    let h0 = h0.min(span);
+
+    // An explicit Euler step shows how fast the slope changes.
+    let mut y1 = *y;
+    for i in 0..N {
+        y1[i] = k1[i].mul_add(h0, y[i]);
+    }
+    let k_euler = ode.rhs(c, &ode.input(c, h0), &y1);
+    let mut change = k1;
+    for i in 0..N {
+        change[i] = k_euler[i] - k1[i];
+    }
+    let curvature = weighted_norm(&change, y, atol, rtol) / h0;
+
+    // h1 = (0.01 / max(slope, curvature))^(1/5)
+    let largest = size_k.max(curvature).max(zero.lit(1e-15));
+    let h1 = ((largest.lit(0.01) / largest).ln() * 0.2).exp();
+    (k1, (h0 * 100.0).min(h1).min(span))
+}
+
+/// Root mean square of `x` over the tolerances at `y`.
+#[inline(always)]
+fn weighted_norm<R: Lanes, const N: usize>(x: &[R; N], y: &[R; N], atol: &[R; N], rtol: R) -> R {
+    let mut sum = rtol.lit(0.0);
+    for i in 0..N {
+        let ratio = x[i] / rtol.mul_add(y[i].abs(), atol[i]);
+        sum = ratio.mul_add(ratio, sum);
+    }
+    (sum * (1.0 / N as f64)).sqrt()
+}
+
+/// The step size with which the next span begins, given that of the last and what the controller proposes.
+///
+/// Spans of a periodic motion should be integrated alike, step by step: then the state at their ends converges
+/// as the motion does, where otherwise it would jitter with the integration error. So the old size stays, and
+/// with it a fresh controller, unless it is out of proportion.
+#[inline(always)]
+pub fn span_step(last: f64, proposed: f64) -> f64 {
+    if 0.5 * last < proposed && proposed < 2.0 * last { last } else { proposed }
+}

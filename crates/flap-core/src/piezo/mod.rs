@@ -1,0 +1,5 @@
+//! Piezoelectric actuators: what the models share.
+
+mod laminate;
+
+pub use laminate::{Laminate, Layer};

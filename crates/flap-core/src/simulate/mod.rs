@@ -1,0 +1,38 @@
+//! Design points in, rows out: models as sweeps, the command line and Python see them.
+//!
+//! [`Simulator`] hides what differs between models; [`all`] lists them.
+
+mod lanes;
+mod row;
+mod runner;
+mod scalar;
+mod simulator;
+
+pub use simulator::{
+    Column, Jobs, Point, Row, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest,
+};
+
+use crate::model::Preset;
+use crate::model::direct_drive::DirectDrive;
+use runner::Runner;
+
+static DIRECT_DRIVE: Runner<DirectDrive, 4, 9> = Runner::new(DirectDrive);
+static ALL: [&dyn Simulator; 1] = [&DIRECT_DRIVE];
+
+/// Every model, in the order `flap models` lists them.
+pub fn all() -> &'static [&'static dyn Simulator] {
+    &ALL
+}
+
+/// The model called `name`.
+pub fn by_name(name: &str) -> Option<&'static dyn Simulator> {
+    all().iter().copied().find(|model| model.name() == name)
+}
+
+/// The preset called `name`, with the model it belongs to.
+pub fn preset(name: &str) -> Option<(&'static dyn Simulator, &'static Preset)> {
+    all().iter().find_map(|&model| {
+        let preset = model.presets().iter().find(|preset| preset.name == name)?;
+        Some((model, preset))
+    })
+}

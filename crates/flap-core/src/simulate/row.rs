@@ -1,0 +1,112 @@
+//! From a settled orbit or a failure to a row.
+
+use super::simulator::{Column, Row, Status};
+use crate::measure::cycle::{Totals, finish};
+use crate::measure::strobe::Strobe;
+use crate::model::{Invalid, Model};
+use crate::ode::{Ending, Outcome};
+
+/// The columns of a model: its signals' measures, then what is derived from them.
+pub(super) fn columns<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<Column> {
+    let measured = M::SIGNALS.into_iter().flat_map(|signal| {
+        signal.measures.iter().map(move |measure| Column {
+            name: format!("{}_{}_{}", signal.name, measure.name(), signal.suffix),
+            unit: signal.unit,
+            doc: format!("{} {}", measure.describe(), signal.doc),
+        })
+    });
+    let derived = M::DERIVED.iter().map(|derived| Column {
+        name: derived.name.to_owned(),
+        unit: derived.unit,
+        doc: derived.doc.to_owned(),
+    });
+    measured.chain(derived).collect()
+}
+
+/// The measures of a cycle, one per column.
+fn measures<M: Model<N, S>, const N: usize, const S: usize>(
+    model: &M,
+    c: &M::Constants<f64>,
+    totals: &[Totals<f64>; S],
+    period: f64,
+) -> Vec<f64> {
+    let cycle = finish(totals, period);
+    let mut values = Vec::new();
+    for (signal, cycle) in M::SIGNALS.iter().zip(&cycle) {
+        values.extend(signal.measures.iter().map(|&measure| cycle.measure(measure) * signal.factor));
+    }
+    values.extend(model.derived(c, &cycle));
+    values
+}
+
+/// How settling ended: the strobed states, the orbit's length if one was found, the cost.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Settled<const N: usize> {
+    pub(super) strobe: Strobe<N>,
+    pub(super) period: Option<u32>,
+    pub(super) outcome: Outcome,
+}
+
+impl<const N: usize> Settled<N> {
+    /// The row, unless the orbit has the period of the drive and is to be measured.
+    pub(super) fn unmeasured(&self) -> Option<Row> {
+        let status = match (self.outcome.ending, self.period) {
+            (Ending::Stopped, Some(1)) => return None,
+            (Ending::Stopped, Some(_)) => Status::Subharmonic,
+            (Ending::Stopped, None) => Status::Unsettled,
+            (Ending::Diverged, _) => Status::Diverged,
+            (Ending::StepLimit, _) => Status::StepLimit,
+        };
+        Some(self.row(status))
+    }
+
+    /// The row of a settled orbit after the cycle that was to be measured; its totals, unless it failed.
+    pub(super) fn measured<M: Model<N, S>, const S: usize>(
+        &self,
+        model: &M,
+        c: &M::Constants<f64>,
+        period: f64,
+        totals: Option<&[Totals<f64>; S]>,
+        outcome: Outcome,
+    ) -> Row {
+        let status = match outcome.ending {
+            Ending::Stopped => Status::Periodic,
+            Ending::Diverged => Status::Diverged,
+            Ending::StepLimit => Status::StepLimit,
+        };
+        let mut row = self.row(status);
+        row.cycles += 1;
+        row.rhs_evals += outcome.rhs_evals;
+        match totals {
+            Some(totals) => row.measures = measures(model, c, totals, period),
+            None => row.period = 0,
+        }
+        row
+    }
+
+    fn row(&self, status: Status) -> Row {
+        let period = self.period.unwrap_or(0);
+        Row {
+            status,
+            measures: Vec::new(),
+            cycles: self.strobe.cycles(),
+            residual: self.strobe.change(period.max(1) as usize),
+            period,
+            rhs_evals: self.outcome.rhs_evals,
+            reason: None,
+        }
+    }
+}
+
+/// The row of a point whose parameters are impossible together.
+pub(super) fn invalid(error: Invalid) -> Row {
+    Row {
+        status: Status::Invalid,
+        measures: Vec::new(),
+        cycles: 0,
+        residual: f64::NAN,
+        period: 0,
+        rhs_evals: 0,
+        reason: Some(error.reason),
+    }
+}

@@ -1,0 +1,62 @@
+//! A model behind the object-safe [`Simulator`].
+
+use std::sync::OnceLock;
+
+use super::lanes::{LanesKernel, Sized};
+use super::row;
+use super::scalar::Scalars;
+use super::simulator::{Column, Jobs, Row, Simulator, SolverSettings, Trajectory, TrajectoryRequest};
+use crate::model::{Invalid, Model, Parameter, Preset};
+use crate::num::InstructionSet;
+
+/// A model with N states and S signals.
+pub(super) struct Runner<M, const N: usize, const S: usize> {
+    model: M,
+    columns: OnceLock<Vec<Column>>,
+}
+
+impl<M: Model<N, S>, const N: usize, const S: usize> Runner<M, N, S> {
+    pub(super) const fn new(model: M) -> Self {
+        Runner { model, columns: OnceLock::new() }
+    }
+}
+
+impl<M: Model<N, S>, const N: usize, const S: usize> Simulator for Runner<M, N, S> {
+    fn name(&self) -> &'static str {
+        M::NAME
+    }
+
+    fn doc(&self) -> &'static str {
+        M::DOC
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        M::PARAMETERS
+    }
+
+    fn presets(&self) -> &'static [Preset] {
+        M::PRESETS
+    }
+
+    fn columns(&self) -> &[Column] {
+        self.columns.get_or_init(row::columns::<M, N, S>)
+    }
+
+    fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs) {
+        set.dispatch(Sized::<_, N, S>(LanesKernel { model: &self.model, solver, jobs }));
+    }
+
+    fn run_point(&self, set: InstructionSet, solver: &SolverSettings, values: &[f64]) -> Row {
+        Scalars { model: &self.model, solver, values }.row::<N, S>(set)
+    }
+
+    fn trajectory(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        request: &TrajectoryRequest,
+    ) -> Result<Trajectory, Invalid> {
+        Scalars { model: &self.model, solver, values }.trajectory::<N, S>(set, request)
+    }
+}
