@@ -8,13 +8,14 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use flap_core::model::{Parameter, SolverSettings};
+use flap_core::model::Parameter;
+use flap_core::simulate::SolverSettings;
 use serde::Serialize;
 use toml::Value;
 
 use crate::layout::Layout;
 use crate::plan::Plan;
-use crate::run::Summary;
+use crate::run::{RunOptions, Summary};
 use crate::text;
 
 /// What the caller knows about a sweep that is about to start.
@@ -22,10 +23,8 @@ use crate::text;
 pub struct Start {
     /// Start of the sweep, as RFC 3339 in UTC.
     pub started: String,
-    /// Number class and instruction set of the lanes.
-    pub arithmetic: &'static str,
-    /// Worker threads.
-    pub threads: usize,
+    /// How the plan is run.
+    pub options: RunOptions,
 }
 
 /// What the caller knows about a sweep that has ended.
@@ -52,6 +51,7 @@ pub struct Sidecar {
     seconds: Option<f64>,
     threads: usize,
     arithmetic: &'static str,
+    instructions: &'static str,
     cycles: Option<u64>,
     rhs_evals: Option<u64>,
     statuses: Option<BTreeMap<&'static str, u64>>,
@@ -112,8 +112,9 @@ impl Sidecar {
             started: start.started,
             finished: None,
             seconds: None,
-            threads: start.threads,
-            arithmetic: start.arithmetic,
+            threads: start.options.threads.get(),
+            arithmetic: start.options.instructions.arithmetic().name(),
+            instructions: start.options.instructions.name(),
             cycles: None,
             rhs_evals: None,
             statuses: None,

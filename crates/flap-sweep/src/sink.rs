@@ -2,7 +2,7 @@
 
 use std::io;
 
-use flap_core::model::{Point, Row};
+use flap_core::simulate::{Point, Row};
 
 /// Takes the rows of a sweep in point order.
 ///

@@ -15,15 +15,19 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 use std::thread;
 
+use flap_core::num::InstructionSet;
 pub use summary::{Counts, Summary};
 
 use crate::plan::Plan;
 use crate::sink::Sink;
 use queue::Queue;
 
-/// How a plan is run. Nothing here changes a byte of the output.
+/// How a plan is run. Nothing here changes a byte of the output, but for the arithmetic class of the
+/// instruction set.
 #[derive(Clone, Copy, Debug)]
 pub struct RunOptions {
+    /// Instructions of the lanes.
+    pub instructions: InstructionSet,
     /// Worker threads.
     pub threads: NonZeroUsize,
     /// Most points between the last row written and the last point begun.
@@ -34,9 +38,10 @@ pub struct RunOptions {
 }
 
 impl Default for RunOptions {
-    /// A thread per core, and a window that takes a few megabytes.
+    /// The best instructions of the machine, a thread per core, and a window that takes a few megabytes.
     fn default() -> Self {
-        RunOptions { threads: thread::available_parallelism().unwrap_or(NonZeroUsize::MIN), window: 16_384 }
+        let threads = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        RunOptions { instructions: InstructionSet::best(), threads, window: 16_384 }
     }
 }
 
@@ -89,7 +94,7 @@ pub fn run(
     let queue = Queue::new(plan.len(), options.window, workers, stop);
     let collected = pool.in_place_scope(|scope| {
         for _ in 0..workers {
-            scope.spawn(|_| worker::work(plan, &queue));
+            scope.spawn(|_| worker::work(plan, options.instructions, &queue));
         }
         collect::collect(plan, &queue, sink, progress)
     });

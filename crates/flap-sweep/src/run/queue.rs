@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use flap_core::model::Row;
+use flap_core::simulate::Row;
 
 use super::RunError;
 use super::window::Window;

@@ -1,6 +1,6 @@
 //! What a sweep came to.
 
-use flap_core::model::{Row, Status};
+use flap_core::simulate::{Row, Status};
 
 /// How many points had each status.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

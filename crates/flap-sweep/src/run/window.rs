@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use flap_core::model::Row;
+use flap_core::simulate::Row;
 
 /// The points between the last row written and the last point handed out, at most `capacity` of them.
 ///
@@ -98,7 +98,7 @@ impl Window {
 
 #[cfg(test)]
 mod tests {
-    use flap_core::model::Status;
+    use flap_core::simulate::Status;
 
     use super::*;
 

@@ -3,16 +3,18 @@
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use flap_core::model::{Jobs, Point, Row, Status};
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{Jobs, Point, Row, Status};
 
 use super::RunError;
 use super::queue::Queue;
 use crate::plan::Plan;
 
 /// Runs points until there are none left, and leaves the queue whatever happens.
-pub(super) fn work(plan: &Plan, queue: &Queue) {
+pub(super) fn work(plan: &Plan, instructions: InstructionSet, queue: &Queue) {
     let mut source = Source { plan, queue, in_hand: 0, fault: None };
-    let ended = catch_unwind(AssertUnwindSafe(|| plan.simulator.run(&plan.solver, &mut source)));
+    let ended =
+        catch_unwind(AssertUnwindSafe(|| plan.simulator.run(instructions, &plan.solver, &mut source)));
     let outcome = match (ended, source.fault, source.in_hand) {
         (Err(panic), _, _) => Err(RunError::Panic(panic_message(&*panic))),
         (Ok(()), Some(fault), _) => Err(RunError::Model(fault)),
