@@ -4,3 +4,4 @@
 
 pub mod axis;
 pub mod plan;
+pub mod units;

@@ -1,0 +1,1 @@
+//! Grid files and plans, end to end.
