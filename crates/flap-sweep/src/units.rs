@@ -40,7 +40,7 @@ pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
         return Err(UnitError { span: start..start + length, problem });
     }
     let unit = unit::parse(unit_text)
-        .map_err(|error| offset(with_suggestion(error, unit_text, wanted), unit_start))?;
+        .map_err(|error| offset(with_suggestion(error, unit_text, si_unit, wanted), unit_start))?;
     if !unit.dimension.fits(wanted.dimension) {
         let problem = Problem::Mismatch {
             unit: unit_text.to_owned(),
@@ -64,17 +64,20 @@ fn offset(error: UnitError, start: usize) -> UnitError {
     UnitError { span: from + start..end + start, ..error }
 }
 
-/// Adds a guess at what an unknown unit within `text` was meant to be: one that gives the dimension wanted
-/// before any other.
-fn with_suggestion(mut error: UnitError, text: &str, wanted: Unit) -> UnitError {
+/// Adds to an unknown unit within `text` which ones would do, and a guess at what it was meant to be: one that
+/// makes the whole measure the same as `si_unit` before any other.
+fn with_suggestion(mut error: UnitError, text: &str, si_unit: &str, wanted: Unit) -> UnitError {
     let span = error.span.clone();
-    if let Problem::UnknownUnit { unit, nearest: nearest @ None } = &mut error.problem {
-        let guesses = table::suggestions(unit);
-        let fits = |guess: &&String| {
-            let repaired = format!("{}{guess}{}", &text[..span.start], &text[span.end..]);
-            unit::parse(&repaired).is_ok_and(|unit| unit.dimension.fits(wanted.dimension))
-        };
-        *nearest = guesses.iter().find(fits).or(guesses.first()).cloned();
+    if let Problem::UnknownUnit { unit, nearest, usual } = &mut error.problem {
+        *usual = table::usual(si_unit);
+        if nearest.is_none() {
+            let guesses = table::suggestions(unit);
+            let fits = |guess: &&String| {
+                let repaired = format!("{}{guess}{}", &text[..span.start], &text[span.end..]);
+                unit::parse(&repaired).is_ok_and(|unit| unit.dimension.fits(wanted.dimension))
+            };
+            *nearest = guesses.iter().find(fits).or(guesses.first()).cloned();
+        }
     }
     error
 }

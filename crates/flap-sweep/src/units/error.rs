@@ -38,6 +38,8 @@ pub enum Problem {
         unit: String,
         /// What may have been meant.
         nearest: Option<String>,
+        /// Ways to write the unit wanted; empty for a pure number.
+        usual: Vec<String>,
     },
     /// The unit is not put together properly.
     BadUnit {
@@ -52,7 +54,7 @@ pub enum Problem {
         measures: String,
         /// The SI unit wanted; empty for a pure number.
         wanted: String,
-        /// Ways to write it.
+        /// Ways to write it; empty for a pure number.
         usual: Vec<String>,
     },
 }
@@ -61,7 +63,7 @@ impl UnitError {
     /// The message, with `what` as the name of the value.
     pub fn message(&self, what: &str) -> String {
         match &self.problem {
-            Problem::NoNumber => "expected a number, then a unit".to_owned(),
+            Problem::NoNumber => format!("{what} must start with a number"),
             Problem::BadNumber(text) => format!("`{text}` is not a number"),
             Problem::NotFinite(text) => format!("{what} cannot be `{text}`: values are finite"),
             Problem::TooLarge => format!("{what} is too large for a 64-bit float"),
@@ -80,21 +82,23 @@ impl UnitError {
     /// What to do about it, if that is known.
     pub fn help(&self) -> Option<String> {
         match &self.problem {
-            Problem::NoNumber => Some("write a number and a unit, such as \"200 V\"".to_owned()),
+            Problem::NoNumber => {
+                Some("write a bare number, or a number with its unit such as \"200 V\"".to_owned())
+            }
             Problem::BadNumber(_) => {
                 Some("numbers look like 12, 0.5 or 1.5e-6, with a space before the unit".to_owned())
             }
             Problem::NoUnit { wanted, usual } => {
                 Some(format!("add a unit: {}; or write a bare number in {wanted}", usual.join(", ")))
             }
-            Problem::UnknownUnit { nearest, .. } => {
-                nearest.as_ref().map(|nearest| format!("did you mean `{nearest}`?"))
-            }
+            Problem::UnknownUnit { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
             Problem::BadUnit { .. } => Some("units look like V, N*m/rad, mm^2 or kg/(m*s)".to_owned()),
-            Problem::Mismatch { wanted, .. } if wanted.is_empty() => {
+            Problem::UnknownUnit { usual, .. } | Problem::Mismatch { usual, .. } if usual.is_empty() => {
                 Some("write a bare number, or use %".to_owned())
             }
-            Problem::Mismatch { usual, .. } => Some(format!("use {}", usual.join(", "))),
+            Problem::UnknownUnit { usual, .. } | Problem::Mismatch { usual, .. } => {
+                Some(format!("use {}", usual.join(", ")))
+            }
             Problem::NotFinite(_) | Problem::TooLarge | Problem::TooSmall => None,
         }
     }

@@ -93,8 +93,11 @@ pub(super) fn find(name: &str) -> Option<(&'static Symbol, i32)> {
     })
 }
 
-/// Ways to write a quantity in the SI unit `unit`, itself first.
+/// Ways to write a quantity in the SI unit `unit`, itself first. None for a pure number.
 pub(super) fn usual(unit: &str) -> Vec<String> {
+    if unit.is_empty() {
+        return Vec::new();
+    }
     let end = unit.find(|c: char| !c.is_alphabetic()).unwrap_or(unit.len());
     let (first, rest) = unit.split_at(end);
     let mut ways = vec![unit.to_owned()];
@@ -164,6 +167,7 @@ mod tests {
         assert_eq!(usual("N*m/rad"), ["N*m/rad", "mN*m/rad", "uN*m/rad"]);
         assert_eq!(usual("kg*m^2"), ["kg*m^2", "g*m^2", "mg*m^2"]);
         assert_eq!(usual("1/m"), ["1/m"]);
+        assert!(usual("").is_empty());
         assert_eq!(usual("m^2"), ["m^2", "mm^2", "um^2"]);
     }
 

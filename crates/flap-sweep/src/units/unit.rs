@@ -124,7 +124,11 @@ impl<'t> Reader<'t> {
         let span = self.at..self.at + length + digits;
         let unknown = |nearest| UnitError {
             span: span.clone(),
-            problem: Problem::UnknownUnit { unit: rest[..length + digits].to_owned(), nearest },
+            problem: Problem::UnknownUnit {
+                unit: rest[..length + digits].to_owned(),
+                nearest,
+                usual: Vec::new(),
+            },
         };
         let Some((symbol, prefix)) = table::find(name) else {
             return Err(unknown(None));
@@ -242,7 +246,11 @@ mod tests {
 
     #[test]
     fn digits_after_a_symbol_are_not_a_power() {
-        let problem = Problem::UnknownUnit { unit: "mm2".to_owned(), nearest: Some("mm^2".to_owned()) };
+        let problem = Problem::UnknownUnit {
+            unit: "mm2".to_owned(),
+            nearest: Some("mm^2".to_owned()),
+            usual: Vec::new(),
+        };
         assert_eq!(parse("mg*mm2"), Err(UnitError { span: 3..6, problem }));
     }
 
