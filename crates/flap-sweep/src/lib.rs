@@ -4,10 +4,13 @@
 
 pub mod axis;
 pub mod csv_sink;
+pub mod diagnostic;
 pub mod layout;
 pub mod output;
 pub mod plan;
 pub mod run;
 pub mod sidecar;
 pub mod sink;
+pub mod spec;
 pub mod text;
+pub mod units;
