@@ -59,6 +59,7 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
         c: &M::Constants<R>,
         t: R,
         h: R,
+        side: R,
         step: &Step<R, N>,
         accepted: R::Mask,
         totals: &mut [Totals<R>; S],
@@ -71,7 +72,7 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
             let at = h.mul_add(h.lit(C[stage]), t);
             let weight = h * B[stage];
             let (sin, cos) = (M::drive_rate(c) * at).sin_cos();
-            let values = model.signals(c, &model.input(c, at), &step.y[stage], &step.k[stage]);
+            let values = model.signals(c, &model.input(c, at), side, &step.y[stage], &step.k[stage]);
             for i in 0..S {
                 let part = values[i] * weight;
                 sums[i].integral = sums[i].integral + part;
@@ -82,11 +83,11 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
             }
         }
 
-        let begin = model.signals(c, &model.input(c, t), &step.y[0], &step.k[0]);
+        let begin = model.signals(c, &model.input(c, t), side, &step.y[0], &step.k[0]);
         let y_middle = interpolate(step, h, zero.lit(0.5));
         let input = model.input(c, h.mul_add(h.lit(0.5), t));
-        let middle = model.signals(c, &input, &y_middle, &model.rhs(c, &input, &y_middle));
-        let end = model.signals(c, &model.input(c, t + h), &step.y[6], &step.k[6]);
+        let middle = model.signals(c, &input, side, &y_middle, &model.rhs(c, &input, side, &y_middle));
+        let end = model.signals(c, &model.input(c, t + h), side, &step.y[6], &step.k[6]);
         for i in 0..S {
             let vertex = vertex(begin[i], middle[i], end[i]);
             let max = begin[i].max(middle[i]).max(end[i]).max(vertex);

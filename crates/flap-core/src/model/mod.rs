@@ -42,11 +42,12 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> {
     /// Angular frequency of the drive (rad/s).
     fn drive_rate<R: Lanes>(c: &Self::Constants<R>) -> R;
 
-    /// The signals at a state `y` with derivative `dy`, in SI units.
+    /// The signals at a state `y` with derivative `dy`, on one `side` of the switching surface, in SI units.
     fn signals<R: Lanes>(
         &self,
         c: &Self::Constants<R>,
         u: &Self::Input<R>,
+        side: R,
         y: &[R; N],
         dy: &[R; N],
     ) -> [R; S];

@@ -13,7 +13,8 @@ use super::controller::{Memory, judge};
 use super::norm::error_squared;
 use super::start::{first_step, span_step};
 use super::step::{Step, step};
-use super::{Ending, MIN_STEP, Ode, Outcome, STRETCH, Start, Tolerances};
+use super::switch::{Crossing, Switching, landing_stretch};
+use super::{Ending, MIN_STEP, Ode, Outcome, Start, Tolerances};
 use crate::num::{Lanes, PerLane, Vector};
 
 /// Where runs come from and what becomes of them.
@@ -48,6 +49,7 @@ pub trait Observer<O: Ode<N>, const N: usize> {
         c: &O::Constants<R>,
         t: R,
         h: R,
+        side: R,
         step: &Step<R, N>,
         accepted: R::Mask,
         totals: &mut Self::Totals<R>,
@@ -71,6 +73,7 @@ impl<O: Ode<N>, const N: usize> Observer<O, N> for Unobserved {
         _c: &O::Constants<R>,
         _t: R,
         _h: R,
+        _side: R,
         _step: &Step<R, N>,
         _accepted: R::Mask,
         (): &mut (),
@@ -115,7 +118,9 @@ struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> {
     y: [R; N],
     k1: [R; N],
     memory: Memory<R>,
+    switching: Switching<R>,
     steps_in_span: R,
+    switches: R,
     error: R,
 
     /// What runs in each lane; `None` in a lane that waits for work.
@@ -163,7 +168,9 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
             y: [number; N],
             k1: [number; N],
             memory: Memory::new(number),
+            switching: Switching::new(number),
             steps_in_span: number,
+            switches: number,
             error: number,
             runs: (0..R::LANES).map(|_| None).collect(),
             steps: 0,
@@ -230,7 +237,10 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
     #[inline(always)]
     fn begin(&mut self, ode: &O) {
         let fresh = R::mask(self.token, self.fresh);
-        let (k1, h) = first_step(ode, &self.constants, &self.y, self.span, &self.atol, self.rtol);
+        let switching = Switching::begin(ode, &self.constants, &self.y);
+        let (k1, h) =
+            first_step(ode, &self.constants, switching.side, &self.y, self.span, &self.atol, self.rtol);
+        let value = ode.switch(&self.constants, &self.y, &k1);
         let zero = self.t.lit(0.0);
         let memory = Memory::new(zero);
         for i in 0..N {
@@ -242,6 +252,15 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
         self.steps_in_span = R::select(fresh, zero, self.steps_in_span);
         self.memory.ln_error = R::select(fresh, memory.ln_error, self.memory.ln_error);
         self.memory.factor_max = R::select(fresh, memory.factor_max, self.memory.factor_max);
+        if O::SWITCHES {
+            self.switching.side = R::select(fresh, switching.side, self.switching.side);
+            self.switching.heading = R::select(fresh, zero, self.switching.heading);
+            self.switching.value = [
+                R::select(fresh, value[0], self.switching.value[0]),
+                R::select(fresh, value[1], self.switching.value[1]),
+            ];
+            self.switches = R::select(fresh, zero, self.switches);
+        }
         self.fresh = 0;
     }
 
@@ -261,33 +280,58 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
     #[inline(always)]
     fn advance(&mut self, ode: &O, observer: &V) -> Events {
         let remaining = self.span - self.t;
-        let landing = remaining.lt(self.h * STRETCH);
+        let landing = remaining.lt(self.h * landing_stretch(&self.switching));
         let h = R::select(landing, remaining, self.h);
 
-        let tried = step(ode, &self.constants, self.t, h, &self.y, &self.k1);
+        let side = self.switching.side;
+        let tried = step(ode, &self.constants, self.t, h, side, &self.y, &self.k1);
         self.error = error_squared(&tried.error, &self.y, &tried.y[6], &self.atol, self.rtol);
         let verdict = judge(self.error, &mut self.memory);
-        let accepted = verdict.accepted;
-        let landed = R::and(accepted, landing);
         self.steps += 1;
         self.steps_in_span = self.steps_in_span + 1.0;
 
         let proposal = h * verdict.factor;
         // A step cut short by the end of the span says little about the next one.
-        self.h = R::select(landed, proposal.max(self.h), proposal);
-        observer.add(ode, &self.constants, self.t, h, &tried, accepted, &mut self.totals);
+        let h_next = R::select(R::and(verdict.accepted, landing), proposal.max(self.h), proposal);
+        let mut crossing =
+            Crossing { accepted: verdict.accepted, h: h_next, arrived: R::mask(self.token, 0) };
+        if O::SWITCHES {
+            crossing = self.switching.judge(ode, &self.constants, &tried, h, verdict.accepted, h_next);
+        }
+        self.h = crossing.h;
+        let accepted = crossing.accepted;
+        observer.add(ode, &self.constants, self.t, h, side, &tried, accepted, &mut self.totals);
         let t = R::select(landing, self.span, self.t + h);
         self.t = R::select(accepted, t, self.t);
         for i in 0..N {
             self.y[i] = R::select(accepted, tried.y[6][i], self.y[i]);
             self.k1[i] = R::select(accepted, tried.k[6][i], self.k1[i]);
         }
+        if O::SWITCHES && R::bits(crossing.arrived) != 0 {
+            self.change_sides(ode, crossing.arrived);
+        }
+        let landed = R::and(accepted, landing);
 
         let limit = self.t.lit(f64::from(self.tolerances.max_steps) - 0.5);
         let exhausted = R::bits(limit.lt(self.steps_in_span));
         let stuck = R::bits(self.h.lt(self.span * MIN_STEP));
         let landed = R::bits(landed) & self.active;
         Events { landed, failed: (exhausted | stuck) & self.active & !landed }
+    }
+
+    /// Renews the first slope in the lanes that have arrived at their switching surface.
+    #[inline(always)]
+    fn change_sides(&mut self, ode: &O, arrived: R::Mask) {
+        let input = ode.input(&self.constants, self.t);
+        let k1 = ode.rhs(&self.constants, &input, self.switching.side, &self.y);
+        for i in 0..N {
+            self.k1[i] = R::select(arrived, k1[i], self.k1[i]);
+        }
+        let value = ode.switch(&self.constants, &self.y, &self.k1);
+        for i in 0..2 {
+            self.switching.value[i] = R::select(arrived, value[i], self.switching.value[i]);
+        }
+        self.switches = R::select(arrived, self.switches + 1.0, self.switches);
     }
 
     /// Asks the queue about the lanes that have landed, and gives up those that have failed.
@@ -313,7 +357,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
                 Some(ending) => {
                     self.active &= !bit;
                     if let Some(Running { run, began }) = self.runs[lane].take() {
-                        queue.ended(run, Outcome::new(ending, self.steps - began));
+                        let switches = self.switches.lane(lane) as u64;
+                        queue.ended(run, Outcome::new(ending, self.steps - began, switches));
                     }
                 }
             }

@@ -3,6 +3,7 @@
 //! - [`tableau`]: the coefficients, checked when the crate is compiled
 //! - [`step`]: one step: stages, new state, error estimate; no policy
 //! - [`norm`], [`controller`], [`start`]: how large the error is, what follows from it, how to begin
+//! - [`switch`]: right-hand sides that jump where a function changes sign
 //! - [`dense`]: the solution between the ends of a step
 //! - [`solve`]: one run on scalars, written to be read; the oracle of the ensemble
 //! - [`ensemble`]: many runs in lanes, each with its own time, step size and constants
@@ -18,6 +19,7 @@ pub mod norm;
 pub mod solve;
 pub mod start;
 pub mod step;
+pub mod switch;
 pub mod tableau;
 
 use crate::num::{Lanes, PerLane};
@@ -34,11 +36,21 @@ pub trait Ode<const N: usize>: Sync {
     /// What depends on time alone: the drive.
     type Input<R: Lanes>: Copy;
 
+    /// Whether the right-hand side jumps where [`Ode::switch`] changes sign.
+    const SWITCHES: bool = false;
+
     /// The inputs at time `t` (s).
     fn input<R: Lanes>(&self, c: &Self::Constants<R>, t: R) -> Self::Input<R>;
 
-    /// The derivative ẏ.
-    fn rhs<R: Lanes>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, y: &[R; N]) -> [R; N];
+    /// The derivative ẏ, on one `side` (+1 or −1) of the surface on which [`Ode::switch`] is zero.
+    fn rhs<R: Lanes>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N];
+
+    /// The switching function and its rate, at a state with derivative `dy`.
+    #[inline(always)]
+    fn switch<R: Lanes>(&self, c: &Self::Constants<R>, y: &[R; N], dy: &[R; N]) -> [R; 2] {
+        let _ = (c, dy);
+        [y[0].lit(1.0), y[0].lit(0.0)]
+    }
 }
 
 /// Where a run begins.
@@ -90,13 +102,13 @@ pub struct Outcome {
     pub ending: Ending,
     /// Attempted steps, rejected ones included.
     pub attempts: u64,
-    /// Evaluations of the right-hand side: six per attempted step, and those of the start.
+    /// Evaluations of the right-hand side: six per attempted step, one per switch, and those of the start.
     pub rhs_evals: u64,
 }
 
 impl Outcome {
-    pub(crate) fn new(ending: Ending, attempts: u64) -> Outcome {
-        Outcome { ending, attempts, rhs_evals: start::RHS_EVALS + 6 * attempts }
+    pub(crate) fn new(ending: Ending, attempts: u64, switches: u64) -> Outcome {
+        Outcome { ending, attempts, rhs_evals: start::RHS_EVALS + 6 * attempts + switches }
     }
 }
 

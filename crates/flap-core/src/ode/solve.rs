@@ -7,7 +7,8 @@ use super::controller::{Memory, judge};
 use super::norm::error_squared;
 use super::start::{first_step, span_step};
 use super::step::{Step, step};
-use super::{Ending, MIN_STEP, Ode, Outcome, STRETCH, Start, Tolerances};
+use super::switch::{Crossing, Switching, landing_stretch};
+use super::{Ending, MIN_STEP, Ode, Outcome, Start, Tolerances};
 use crate::num::{Lanes, PerLane};
 
 /// An accepted step.
@@ -17,6 +18,8 @@ pub struct Accepted<'a, R, const N: usize> {
     pub t: R,
     /// Its size (s).
     pub h: R,
+    /// The side of the switching surface it is on.
+    pub side: R,
     /// Its stages.
     pub step: &'a Step<R, N>,
 }
@@ -44,32 +47,46 @@ pub fn solve<O: Ode<N>, R: Lanes<Token = (), Mask = bool>, const N: usize>(
         atol[i] = number(tolerances.atol * start.scale[i]);
     }
 
-    let (mut k1, mut h) = first_step(ode, &c, &y, span, &atol, rtol);
+    let mut switching = Switching::begin(ode, &c, &y);
+    let (mut k1, mut h) = first_step(ode, &c, switching.side, &y, span, &atol, rtol);
+    switching.value = ode.switch(&c, &y, &k1);
     let mut h_begin = h;
     let mut memory = Memory::new(span);
     let mut t = number(0.0);
     let mut attempts = 0;
+    let mut switches = 0;
     let mut steps_in_span = 0;
     loop {
         let remaining = span - t;
-        let landing = remaining.lt(h * STRETCH);
+        let landing = remaining.lt(h * landing_stretch(&switching));
         let h_try = if landing { remaining } else { h };
 
-        let tried = step(ode, &c, t, h_try, &y, &k1);
+        let side = switching.side;
+        let tried = step(ode, &c, t, h_try, side, &y, &k1);
         let error = error_squared(&tried.error, &y, &tried.y[6], &atol, rtol);
         let verdict = judge(error, &mut memory);
-        let accepted = verdict.accepted;
         attempts += 1;
         steps_in_span += 1;
 
         let proposal = h_try * verdict.factor;
         // A step cut short by the end of the span says little about the next one.
-        h = if accepted && landing { proposal.max(h) } else { proposal };
+        let h_next = if verdict.accepted && landing { proposal.max(h) } else { proposal };
+        let mut crossing = Crossing { accepted: verdict.accepted, h: h_next, arrived: false };
+        if O::SWITCHES {
+            crossing = switching.judge(ode, &c, &tried, h_try, verdict.accepted, h_next);
+        }
+        h = crossing.h;
+        let accepted = crossing.accepted;
         if accepted {
-            on_step(&c, &Accepted { t, h: h_try, step: &tried });
+            on_step(&c, &Accepted { t, h: h_try, side, step: &tried });
             t = if landing { span } else { t + h_try };
             y = tried.y[6];
             k1 = tried.k[6];
+        }
+        if crossing.arrived {
+            k1 = ode.rhs(&c, &ode.input(&c, t), switching.side, &y);
+            switching.value = ode.switch(&c, &y, &k1);
+            switches += 1;
         }
 
         if accepted && landing {
@@ -78,7 +95,7 @@ pub fn solve<O: Ode<N>, R: Lanes<Token = (), Mask = bool>, const N: usize>(
                 state[i] = y[i].lane(0);
             }
             if at_span_end(&state).is_break() {
-                return Outcome::new(Ending::Stopped, attempts);
+                return Outcome::new(Ending::Stopped, attempts, switches);
             }
             h = number(span_step(h_begin.lane(0), h.lane(0)));
             h_begin = h;
@@ -86,7 +103,7 @@ pub fn solve<O: Ode<N>, R: Lanes<Token = (), Mask = bool>, const N: usize>(
             t = number(0.0);
             steps_in_span = 0;
         } else if steps_in_span >= tolerances.max_steps || h.lt(span * MIN_STEP) {
-            return Outcome::new(Ending::of_failure(error.lane(0)), attempts);
+            return Outcome::new(Ending::of_failure(error.lane(0)), attempts, switches);
         }
     }
 }

@@ -14,13 +14,14 @@ pub const RHS_EVALS: u64 = 2;
 pub fn first_step<O: Ode<N>, R: Lanes, const N: usize>(
     ode: &O,
     c: &O::Constants<R>,
+    side: R,
     y: &[R; N],
     span: R,
     atol: &[R; N],
     rtol: R,
 ) -> ([R; N], R) {
     let zero = span.lit(0.0);
-    let k1 = ode.rhs(c, &ode.input(c, zero), y);
+    let k1 = ode.rhs(c, &ode.input(c, zero), side, y);
 
     let size_y = weighted_norm(y, y, atol, rtol);
     let size_k = weighted_norm(&k1, y, atol, rtol);
@@ -36,7 +37,7 @@ pub fn first_step<O: Ode<N>, R: Lanes, const N: usize>(
     for i in 0..N {
         y1[i] = k1[i].mul_add(h0, y[i]);
     }
-    let k_euler = ode.rhs(c, &ode.input(c, h0), &y1);
+    let k_euler = ode.rhs(c, &ode.input(c, h0), side, &y1);
     let mut change = k1;
     for i in 0..N {
         change[i] = k_euler[i] - k1[i];

@@ -15,13 +15,15 @@ pub struct Step<R, const N: usize> {
     pub error: [R; N],
 }
 
-/// Attempts a step of size `h` from `y` at `t`, where the slope is `k1`. Evaluates six right-hand sides.
+/// Attempts a step of size `h` from `y` at `t`, where the slope is `k1`, on one `side` of a switching surface.
+/// Evaluates six right-hand sides.
 #[inline(always)]
 pub fn step<O: Ode<N>, R: Lanes, const N: usize>(
     ode: &O,
     c: &O::Constants<R>,
     t: R,
     h: R,
+    side: R,
     y: &[R; N],
     k1: &[R; N],
 ) -> Step<R, N> {
@@ -29,19 +31,19 @@ pub fn step<O: Ode<N>, R: Lanes, const N: usize>(
 
     // Written out stage by stage: as a loop it would index slopes at run time and keep them in memory.
     let y2 = combine(y, h, &[k1], &A[1]);
-    let k2 = ode.rhs(c, &ode.input(c, at(1)), &y2);
+    let k2 = ode.rhs(c, &ode.input(c, at(1)), side, &y2);
     let y3 = combine(y, h, &[k1, &k2], &A[2]);
-    let k3 = ode.rhs(c, &ode.input(c, at(2)), &y3);
+    let k3 = ode.rhs(c, &ode.input(c, at(2)), side, &y3);
     let y4 = combine(y, h, &[k1, &k2, &k3], &A[3]);
-    let k4 = ode.rhs(c, &ode.input(c, at(3)), &y4);
+    let k4 = ode.rhs(c, &ode.input(c, at(3)), side, &y4);
     let y5 = combine(y, h, &[k1, &k2, &k3, &k4], &A[4]);
-    let k5 = ode.rhs(c, &ode.input(c, at(4)), &y5);
+    let k5 = ode.rhs(c, &ode.input(c, at(4)), side, &y5);
     let y6 = combine(y, h, &[k1, &k2, &k3, &k4, &k5], &A[5]);
     // Stages 6 and 7 are both at the end of the step and share its inputs.
     let end = ode.input(c, at(5));
-    let k6 = ode.rhs(c, &end, &y6);
+    let k6 = ode.rhs(c, &end, side, &y6);
     let y7 = combine(y, h, &[k1, &k2, &k3, &k4, &k5, &k6], &A[6]);
-    let k7 = ode.rhs(c, &end, &y7);
+    let k7 = ode.rhs(c, &end, side, &y7);
 
     let zero = [h.lit(0.0); N];
     let error = combine(&zero, h, &[k1, &k2, &k3, &k4, &k5, &k6, &k7], &E);

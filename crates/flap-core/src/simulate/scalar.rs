@@ -66,7 +66,9 @@ where
         model,
         &solver.tolerances(),
         &start,
-        |c, accepted| observer.add(model, c, accepted.t, accepted.h, accepted.step, true, &mut totals),
+        |c, accepted| {
+            observer.add(model, c, accepted.t, accepted.h, accepted.side, accepted.step, true, &mut totals)
+        },
         |_| ControlFlow::Break(()),
     );
     let totals = totals.map(|total| total.lane(0));
@@ -121,12 +123,12 @@ where
                 let time = next as f64 * spacing;
                 let theta = R::splat((), ((time - t) / h).clamp(0.0, 1.0));
                 let y = interpolate(accepted.step, accepted.h, theta);
-                rows.push(sample(model, c, R::splat((), time), &y, before + time));
+                rows.push(sample(model, c, R::splat((), time), accepted.side, &y, before + time));
                 next += 1;
             }
             if begun == request.cycles && t + h >= start.span {
                 let y = accepted.step.y[6];
-                rows.push(sample(model, c, R::splat((), start.span), &y, before + start.span));
+                rows.push(sample(model, c, R::splat((), start.span), accepted.side, &y, before + start.span));
             }
         },
         |_| {
@@ -163,6 +165,7 @@ fn sample<M, R, const N: usize, const S: usize>(
     model: &M,
     c: &M::Constants<R>,
     t: R,
+    side: R,
     y: &[R; N],
     time: f64,
 ) -> Vec<f64>
@@ -171,7 +174,7 @@ where
     R: Lanes<Token = (), Mask = bool>,
 {
     let input = model.input(c, t);
-    let signals = model.signals(c, &input, y, &model.rhs(c, &input, y));
+    let signals = model.signals(c, &input, side, y, &model.rhs(c, &input, side, y));
     let mut row = vec![time];
     row.extend(y.iter().map(|y| y.lane(0)));
     row.extend(signals.iter().zip(&M::SIGNALS).map(|(value, signal)| value.lane(0) * signal.factor));

@@ -10,7 +10,9 @@ mod rhs;
 
 pub use constants::Constants;
 pub use params::{AddedMass, CentreOfPressure, LiftSign, Params};
-pub use rhs::{AddedMassLoad, Aerodynamics, added_mass, aerodynamics, current, derivative, lift};
+pub use rhs::{
+    AddedMassLoad, Aerodynamics, added_mass, aerodynamics, current, derivative, lift, mean_velocity,
+};
 
 use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use super::{Derived, Invalid, Model, Parameter, Preset, Signal, SignalCycle};
@@ -31,9 +33,17 @@ impl Ode<4> for DirectDrive {
         biased_sine(c.drive_bias, c.drive_amplitude, c.drive_rate, t)
     }
 
+    /// The paper takes one sign of the velocity for the whole wing: forces jump where it changes.
+    const SWITCHES: bool = true;
+
     #[inline(always)]
-    fn rhs<R: Lanes>(&self, c: &Constants<R>, drive: &Voltage<R>, y: &[R; 4]) -> [R; 4] {
-        derivative(c, drive, y)
+    fn rhs<R: Lanes>(&self, c: &Constants<R>, drive: &Voltage<R>, side: R, y: &[R; 4]) -> [R; 4] {
+        derivative(c, drive, side, y)
+    }
+
+    #[inline(always)]
+    fn switch<R: Lanes>(&self, c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) -> [R; 2] {
+        mean_velocity(c, y, dy)
     }
 }
 
@@ -189,10 +199,17 @@ impl Model<4, 9> for DirectDrive {
     }
 
     #[inline(always)]
-    fn signals<R: Lanes>(&self, c: &Constants<R>, drive: &Voltage<R>, y: &[R; 4], dy: &[R; 4]) -> [R; 9] {
+    fn signals<R: Lanes>(
+        &self,
+        c: &Constants<R>,
+        drive: &Voltage<R>,
+        side: R,
+        y: &[R; 4],
+        dy: &[R; 4],
+    ) -> [R; 9] {
         let [phi, psi, phi_dot, psi_dot] = *y;
         let (sin, cos) = psi.sin_cos();
-        let air = aerodynamics(c, y, sin, cos);
+        let air = aerodynamics(c, side, y, sin, cos);
         let added = added_mass(c, sin, cos, dy);
         let current = current(c, drive, phi_dot);
         [

@@ -34,17 +34,12 @@ pub struct Aerodynamics<R> {
 /// F_Lift = ½ρA_w C_L B_L σ     M_y = −½ρA_w R C_D B_Y σ     M_x′ = ½ρA_w c̄ C_N d_cp B_X σ
 /// B_L, B_Y, B_X: quadratic forms in φ̇ and w     d_cp = (0.82/π) α_d + 0.05
 /// ```
+///
+/// `side` is σ, the sign of the wing's mean velocity [`mean_velocity`].
 #[inline(always)]
-pub fn aerodynamics<R: Real>(
-    c: &Constants<R>,
-    [_, psi, phi_dot, psi_dot]: &[R; 4],
-    sin: R,
-    cos: R,
-) -> Aerodynamics<R> {
-    let (phi_dot, psi_dot) = (*phi_dot, *psi_dot);
+pub fn aerodynamics<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], sin: R, cos: R) -> Aerodynamics<R> {
+    let [_, psi, phi_dot, psi_dot] = *y;
     let w = psi_dot * cos;
-    let mean_velocity = c.mid_radius * phi_dot - c.mid_half_chord * w;
-    let direction = phi_dot.lit(1.0).copysign(mean_velocity);
 
     let sin_2psi = sin * cos * 2.0;
     let cos_2psi = cos * cos * 2.0 - 1.0;
@@ -53,14 +48,14 @@ pub fn aerodynamics<R: Real>(
     let c_normal = c_lift * sin + c_drag * cos;
 
     // Quadratic forms in the two rates, with the direction of the flow.
-    let pp = phi_dot * phi_dot * direction;
-    let pw = phi_dot * w * direction;
-    let ww = w * w * direction;
+    let pp = phi_dot * phi_dot * side;
+    let pw = phi_dot * w * side;
+    let ww = w * w * side;
     let force = c.lift_pp * pp + c.lift_pw * pw + c.lift_ww * ww;
     let stroke = c.stroke_pp * pp + c.stroke_pw * pw + c.stroke_ww * ww;
     let pitch = c.pitch_pp * pp + c.pitch_pw * pw + c.pitch_ww * ww;
 
-    let d_cp = c.pressure_slope * attack(c, *psi, direction) + c.pressure_offset;
+    let d_cp = c.pressure_slope * attack(c, psi, side) + c.pressure_offset;
     Aerodynamics {
         lift: c_lift * force,
         drag: c_drag * force,
@@ -70,10 +65,25 @@ pub fn aerodynamics<R: Real>(
     }
 }
 
+/// The wing's mean velocity ū (m/s), whose sign directs the aerodynamic forces, and its rate (m/s²).
+///
+/// ```text
+/// ū = (R/2 + x_r) φ̇ − ½ c(R/2) ψ̇ cos ψ
+/// ```
+#[inline(always)]
+pub fn mean_velocity<R: Real>(c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) -> [R; 2] {
+    let [_, psi, phi_dot, psi_dot] = *y;
+    let [_, _, phi_ddot, psi_ddot] = *dy;
+    let (sin, cos) = psi.sin_cos();
+    let velocity = c.mid_radius * phi_dot - c.mid_half_chord * psi_dot * cos;
+    let rate = c.mid_radius * phi_ddot - c.mid_half_chord * (psi_ddot * cos - psi_dot * psi_dot * sin);
+    [velocity, rate]
+}
+
 /// The attack angle α_d (rad) that moves the centre of pressure (24), in the reading that `c` asks for.
 #[inline(always)]
-fn attack<R: Real>(c: &Constants<R>, psi: R, direction: R) -> R {
-    let tilt = c.attack_directional * direction * psi + c.attack_folded * psi.abs() + c.attack_literal * psi;
+fn attack<R: Real>(c: &Constants<R>, psi: R, side: R) -> R {
+    let tilt = c.attack_directional * side * psi + c.attack_folded * psi.abs() + c.attack_literal * psi;
     let attack = -tilt + FRAC_PI_2;
     // |α|, but for the folded reading, which is signed.
     R::select(c.attack_folded.lt(attack.lit(0.5)), attack.abs(), attack)
@@ -92,10 +102,10 @@ fn attack<R: Real>(c: &Constants<R>, psi: R, direction: R) -> R {
 ///
 /// The Lagrangian form of the added mass adds ψ̇ e to Q₁ and −φ̇ e to Q₂, e = (a₁₁ φ̇ c − a₁₂ ψ̇) s.
 #[inline(always)]
-pub fn derivative<R: Real>(c: &Constants<R>, drive: &Voltage<R>, y: &[R; 4]) -> [R; 4] {
+pub fn derivative<R: Real>(c: &Constants<R>, drive: &Voltage<R>, side: R, y: &[R; 4]) -> [R; 4] {
     let [phi, psi, phi_dot, psi_dot] = *y;
     let (sin, cos) = psi.sin_cos();
-    let air = aerodynamics(c, y, sin, cos);
+    let air = aerodynamics(c, side, y, sin, cos);
 
     let both = phi_dot * psi_dot;
     let gyroscopic = c.gyroscopic * (c.a11 * phi_dot * cos - c.a12 * psi_dot) * sin;
