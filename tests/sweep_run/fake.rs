@@ -90,7 +90,7 @@ impl Fake {
     }
 
     fn finish(&self, point: &Point, jobs: &mut dyn Jobs) {
-        let mut row = self.row(&point.values);
+        let mut row = Fake::row(&point.values);
         let size = point.values[0];
         match self.fault {
             Fault::Lose(lost) if size == lost => return,
@@ -101,7 +101,7 @@ impl Fake {
         jobs.done(point.index, row);
     }
 
-    fn row(&self, values: &[f64]) -> Row {
+    fn row(values: &[f64]) -> Row {
         let (size, frequency) = (values[0], values[1]);
         let status = match size % 10.0 {
             3.0 => Status::Subharmonic,
@@ -168,7 +168,7 @@ impl Simulator for Fake {
     }
 
     fn run_point(&self, _set: InstructionSet, _solver: &SolverSettings, values: &[f64]) -> Row {
-        self.row(values)
+        Fake::row(values)
     }
 
     fn trajectory(

@@ -42,6 +42,14 @@ fn a_place_that_cannot_be_written_is_named() {
 }
 
 #[test]
+#[cfg(unix)]
+fn devices_hold_no_results() {
+    let null = std::path::Path::new("/dev/null");
+    let _first = create(null, false).unwrap();
+    assert!(create(null, true).is_ok(), "nor are they locked");
+}
+
+#[test]
 fn the_sidecar_tells_where_rows_come_from() {
     let grid =
         "preset = \"fake2020\"\n[params]\narms = \"axis\"\n[axes]\nsize = { from = 0, to = 9, step = 1 }\n";

@@ -33,13 +33,11 @@ impl<W: Durable> CsvSink<W> {
 
 impl<W: Durable> Sink for CsvSink<W> {
     fn begin(&mut self) -> io::Result<()> {
-        self.writer.write_record(self.layout.names())?;
-        Ok(())
+        self.writer.write_record(self.layout.names()).map_err(cause)
     }
 
     fn write(&mut self, point: &Point, row: &Row) -> io::Result<()> {
-        self.writer.write_record(self.layout.cells(point, row))?;
-        Ok(())
+        self.writer.write_record(self.layout.cells(point, row)).map_err(cause)
     }
 
     fn flush(&mut self) -> io::Result<()> {
@@ -49,5 +47,13 @@ impl<W: Durable> Sink for CsvSink<W> {
     fn finish(&mut self) -> io::Result<()> {
         self.writer.flush()?;
         self.writer.get_ref().sync()
+    }
+}
+
+/// What the operating system said. The conversion of the csv crate would hide it, and a closed pipe with it.
+pub fn cause(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(cause) => cause,
+        other => io::Error::other(format!("{other:?}")),
     }
 }

@@ -1,6 +1,6 @@
 //! Result files: made without overwriting anything unasked, and made durable at the end.
 
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Stdout, Write};
 use std::path::{Path, PathBuf};
 
@@ -60,6 +60,7 @@ pub enum CreateError {
 /// Makes an empty result file. An existing file is an error, or emptied with `overwrite`.
 ///
 /// The file stays locked as long as it is open, so that a second run that overwrites it is refused.
+/// Devices and pipes hold no results: they are neither refused nor locked.
 ///
 /// # Errors
 /// If the file exists, is being written by another run, or cannot be made.
@@ -68,19 +69,21 @@ pub fn create(path: &Path, overwrite: bool) -> Result<File, CreateError> {
         io::ErrorKind::AlreadyExists => CreateError::Exists { path: path.to_owned() },
         _ => CreateError::Io { path: path.to_owned(), source },
     };
+    let holds_no_results = fs::metadata(path).is_ok_and(|metadata| !metadata.is_file());
     let mut open = OpenOptions::new();
     open.write(true);
-    // Emptied once it is locked, not before: the other run may be alive.
-    if overwrite {
-        open.create(true).truncate(false)
+    if overwrite || holds_no_results {
+        // Emptied once it is locked, not before: the other run may be alive.
+        open.create(true).truncate(false);
     } else {
-        open.create_new(true)
-    };
-    let file = open.open(path).map_err(refused)?;
-    if let Err(TryLockError::WouldBlock) = file.try_lock() {
-        return Err(CreateError::Busy { path: path.to_owned() });
+        open.create_new(true);
     }
+    let file = open.open(path).map_err(refused)?;
     if file.metadata().map_err(refused)?.is_file() {
+        // Where files cannot be locked at all, there is no other run to know of.
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            return Err(CreateError::Busy { path: path.to_owned() });
+        }
         file.set_len(0).map_err(refused)?;
     }
     Ok(file)

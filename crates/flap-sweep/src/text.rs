@@ -4,7 +4,7 @@ use flap_core::model::{Kind, Parameter};
 
 /// The shortest decimal text that reads back as the same number.
 ///
-/// Sizes from 1e-4 up to 1e16 are written out (`0.0012`, `100.0`), others with an exponent (`1.52e-6`).
+/// Sizes from 1e-4 up to 1e9 are written out (`0.0012`, `100.0`), others with an exponent (`1.52e-6`, `1.43e10`).
 /// There is always a point or an exponent, so that readers which guess column types from the first rows
 /// guess a floating-point column. NaN is the empty text: an empty cell.
 ///
@@ -18,7 +18,7 @@ pub fn float(value: f64) -> String {
         return String::new();
     }
     let size = value.abs();
-    if size != 0.0 && size.is_finite() && !(1e-4..1e16).contains(&size) {
+    if size != 0.0 && size.is_finite() && !(1e-4..1e9).contains(&size) {
         return format!("{value:e}");
     }
     let mut text = format!("{value}");
@@ -77,8 +77,9 @@ mod tests {
         assert_eq!(float(-100.0), "-100.0");
         assert_eq!(float(0.000_12), "0.00012");
         assert_eq!(float(0.000_012), "1.2e-5");
-        assert_eq!(float(1e15), "1000000000000000.0");
-        assert_eq!(float(1e16), "1e16");
+        assert_eq!(float(999_999_999.0), "999999999.0");
+        assert_eq!(float(1e9), "1e9");
+        assert_eq!(float(14.3e9), "1.43e10");
         assert_eq!(float(f64::INFINITY), "inf");
     }
 
