@@ -23,12 +23,20 @@ fn an_existing_file_is_kept_unless_asked() {
 }
 
 #[test]
+fn an_empty_file_holds_no_results() {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    assert!(create(file.path(), false).is_ok());
+}
+
+#[test]
 fn a_file_being_written_is_not_overwritten() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("rows.csv");
     let _first = create(&path, false).unwrap();
-    let error = create(&path, true).unwrap_err();
-    assert!(matches!(error, CreateError::Busy { .. }), "{error}");
+    for overwrite in [false, true] {
+        let error = create(&path, overwrite).unwrap_err();
+        assert!(matches!(error, CreateError::Busy { .. }), "{error}");
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Result files: made without overwriting anything unasked, and made durable at the end.
 
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Stdout, Write};
 use std::path::{Path, PathBuf};
 
@@ -57,34 +57,34 @@ pub enum CreateError {
     },
 }
 
-/// Makes an empty result file. An existing file is an error, or emptied with `overwrite`.
+/// Makes an empty result file. A file that holds something is an error, or emptied with `overwrite`.
 ///
-/// The file stays locked as long as it is open, so that a second run that overwrites it is refused.
+/// The file stays locked as long as it is open, so that a second run that writes to it is refused.
 /// Devices and pipes hold no results: they are neither refused nor locked.
 ///
 /// # Errors
-/// If the file exists, is being written by another run, or cannot be made.
+/// If the file holds something, is being written by another run, or cannot be made.
 pub fn create(path: &Path, overwrite: bool) -> Result<File, CreateError> {
-    let refused = |source: io::Error| match source.kind() {
-        io::ErrorKind::AlreadyExists => CreateError::Exists { path: path.to_owned() },
-        _ => CreateError::Io { path: path.to_owned(), source },
-    };
-    let holds_no_results = fs::metadata(path).is_ok_and(|metadata| !metadata.is_file());
-    let mut open = OpenOptions::new();
-    open.write(true);
-    if overwrite || holds_no_results {
+    let path = || path.to_owned();
+    let refused = |source| CreateError::Io { path: path(), source };
+    let file = match OpenOptions::new().write(true).create_new(true).open(path()) {
         // Emptied once it is locked, not before: the other run may be alive.
-        open.create(true).truncate(false);
-    } else {
-        open.create_new(true);
-    }
-    let file = open.open(path).map_err(refused)?;
-    if file.metadata().map_err(refused)?.is_file() {
-        // Where files cannot be locked at all, there is no other run to know of.
-        if let Err(TryLockError::WouldBlock) = file.try_lock() {
-            return Err(CreateError::Busy { path: path.to_owned() });
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+            OpenOptions::new().write(true).open(path())
         }
-        file.set_len(0).map_err(refused)?;
+        made => made,
+    };
+    let file = file.map_err(refused)?;
+    if !file.metadata().map_err(refused)?.is_file() {
+        return Ok(file);
     }
+    // Where files cannot be locked at all, there is no other run to know of.
+    if let Err(TryLockError::WouldBlock) = file.try_lock() {
+        return Err(CreateError::Busy { path: path() });
+    }
+    if file.metadata().map_err(refused)?.len() > 0 && !overwrite {
+        return Err(CreateError::Exists { path: path() });
+    }
+    file.set_len(0).map_err(refused)?;
     Ok(file)
 }

@@ -133,9 +133,9 @@ fn page(plan: &Plan, args: &RunArgs, row: &Row) -> String {
         let _ = write!(page, ", point {} of {}", args.point, plan.len());
     }
     let residual = if row.residual.is_nan() { "none".to_owned() } else { six_digits(row.residual) };
-    let (status, cycles, period) = (row.status.name(), row.cycles, row.period);
-    let _ = write!(page, "\n{status} after {cycles} cycles: residual {residual}, period {period}, ");
-    let _ = writeln!(page, "{} right-hand sides", row.rhs_evals);
+    let Row { cycles, period, rhs_evals, .. } = row;
+    let _ = write!(page, "\nstatus = {}, cycles = {cycles}, residual = {residual}, ", row.status.name());
+    let _ = writeln!(page, "period = {period}, rhs_evals = {rhs_evals}");
     if !row.measures.is_empty() {
         let mut table = Table::with_headings(&["column", "value", "unit", "meaning"]);
         for (column, &measure) in plan.simulator.columns().iter().zip(&row.measures) {

@@ -106,7 +106,7 @@ fn run_to_file(
             sidecar.fail(error.to_string(), end);
             // The first error is the one to tell.
             let _ = write_sidecar(&sidecar, beside.as_deref());
-            Err(Failure::from(error).help(format!("the rows written until then are in {}", path.display())))
+            Err(error.into())
         }
     }
 }
