@@ -65,12 +65,11 @@ pub enum CreateError {
 /// # Errors
 /// If the file holds something, is being written by another run, or cannot be made.
 pub fn create(path: &Path, overwrite: bool) -> Result<File, CreateError> {
-    let path = || path.to_owned();
-    let refused = |source| CreateError::Io { path: path(), source };
-    let file = match OpenOptions::new().write(true).create_new(true).open(path()) {
+    let refused = |source| CreateError::Io { path: path.to_owned(), source };
+    let file = match OpenOptions::new().write(true).create_new(true).open(path) {
         // Emptied once it is locked, not before: the other run may be alive.
         Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-            OpenOptions::new().write(true).open(path())
+            OpenOptions::new().write(true).open(path)
         }
         made => made,
     };
@@ -80,10 +79,10 @@ pub fn create(path: &Path, overwrite: bool) -> Result<File, CreateError> {
     }
     // Where files cannot be locked at all, there is no other run to know of.
     if let Err(TryLockError::WouldBlock) = file.try_lock() {
-        return Err(CreateError::Busy { path: path() });
+        return Err(CreateError::Busy { path: path.to_owned() });
     }
     if file.metadata().map_err(refused)?.len() > 0 && !overwrite {
-        return Err(CreateError::Exists { path: path() });
+        return Err(CreateError::Exists { path: path.to_owned() });
     }
     file.set_len(0).map_err(refused)?;
     Ok(file)
