@@ -45,7 +45,7 @@ pub(crate) struct SweepArgs {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) grid: PathBuf,
 
-    /// Where to write rows, or `-` for stdout [default: `path` in the grid file's [output], else the grid
+    /// Where to write rows, or `-` for stdout [default: the output path in the grid file, else the grid
     /// file's name with the ending .csv, in the working directory]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
