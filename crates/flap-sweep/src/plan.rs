@@ -4,7 +4,8 @@
 
 use std::path::PathBuf;
 
-use flap_core::model::{Parameter, Point, Simulator, SolverSettings};
+use flap_core::model::Parameter;
+use flap_core::simulate::{Point, Simulator, SolverSettings};
 
 use crate::axis::Axis;
 
@@ -61,14 +62,14 @@ impl Plan {
     pub const MAX_POINTS: u64 = 1 << 63;
 
     /// Builds the plan, or gives the parts back if it would have more than [`Plan::MAX_POINTS`] points.
-    pub(crate) fn new(parts: Parts) -> Result<Plan, Parts> {
+    pub(crate) fn new(parts: Parts) -> Result<Plan, Box<Parts>> {
         let points = parts.axes.iter().try_fold(1_u64, |product, axis| product.checked_mul(axis.len()));
         match points {
             Some(points) if points <= Plan::MAX_POINTS => {
                 let Parts { simulator, preset, base, axes, solver, output, source } = parts;
                 Ok(Plan { simulator, preset, base, axes, solver, output, source, points })
             }
-            _ => Err(parts),
+            _ => Err(Box::new(parts)),
         }
     }
 
