@@ -26,7 +26,9 @@ pub struct Strobe<const N: usize> {
 impl<const N: usize> Strobe<N> {
     /// A strobe that has seen the initial state only.
     ///
-    /// Changes of a component count in units of its `scale`; below `tolerance` they count as none.
+    /// Changes of a component count in units of its `scale`, but in a motion smaller than its scales relative to
+    /// the motion's own size: a wing that hardly moves is not for that reason settled. A change up to
+    /// `tolerance` counts as none.
     pub fn new(initial: &[f64; N], scale: &[f64; N], tolerance: f64) -> Strobe<N> {
         Strobe { scale: *scale, tolerance, states: [*initial; LONGEST + 1], repeats: [0; LONGEST], cycles: 0 }
     }
@@ -43,7 +45,7 @@ impl<const N: usize> Strobe<N> {
         let separate = self.change(1) > SEPARATE;
         let mut settled = None;
         for period in (1..=LONGEST_PERIOD).rev() {
-            let returned = self.cycles >= period && self.change(period) < self.tolerance;
+            let returned = self.cycles >= period && self.change(period) <= self.tolerance;
             let counts = returned && (period == 1 || separate);
             let repeats = &mut self.repeats[period as usize - 1];
             *repeats = if counts { *repeats + 1 } else { 0 };
@@ -54,18 +56,20 @@ impl<const N: usize> Strobe<N> {
         settled
     }
 
-    /// Largest change of a component over the last `periods` periods, in units of its scale.
+    /// Largest change of a component over the last `periods` periods, in the units of [`Strobe::new`].
     /// NaN before that many periods have passed.
     pub fn change(&self, periods: u32) -> f64 {
         if self.cycles < periods {
             return f64::NAN;
         }
-        let mut largest = 0.0_f64;
+        let before = &self.states[periods as usize];
+        let mut change = 0.0_f64;
+        let mut size = 0.0_f64;
         for i in 0..N {
-            largest =
-                largest.max((self.states[0][i] - self.states[periods as usize][i]).abs() / self.scale[i]);
+            change = change.max((self.states[0][i] - before[i]).abs() / self.scale[i]);
+            size = size.max(self.states[0][i].abs().max(before[i].abs()) / self.scale[i]);
         }
-        largest
+        if change == 0.0 { 0.0 } else { change / size.min(1.0) }
     }
 
     /// The latest state.
