@@ -15,3 +15,4 @@ mod dormand_prince;
 mod elementary;
 mod ensemble;
 mod strobe;
+mod waveforms;

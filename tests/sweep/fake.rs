@@ -2,8 +2,8 @@
 
 use std::sync::LazyLock;
 
-use flap_core::model::{Invalid, Kind, Parameter, Preset, Range};
 use flap_core::num::InstructionSet;
+use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
 use flap_core::simulate::{Column, Jobs, Row, Simulator, SolverSettings, Trajectory, TrajectoryRequest};
 use flap_sweep::diagnostic::Diagnostic;
 use flap_sweep::plan::Plan;

@@ -3,8 +3,8 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-use flap_core::model::{Invalid, Kind, Parameter, Preset, Range};
 use flap_core::num::InstructionSet;
+use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
 use flap_core::simulate::{
     Column, Jobs, Point, Row, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest,
 };

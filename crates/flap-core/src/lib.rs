@@ -4,6 +4,7 @@
 //!
 //! - [`num`]: the numbers that models and integrators compute with, scalars or SIMD lanes
 //! - [`ode`]: Dormand-Prince 5(4), for one run or for many in lanes
+//! - [`parameter`]: what a design point's numbers are called and mean
 //! - [`drive`], [`piezo`], [`linkage`], [`modes`]: components that models share
 //! - [`model`]: the papers' models: parameters → constants → equations of motion → signals
 //! - [`measure`]: what is measured of a motion, whatever the model
@@ -18,5 +19,6 @@ pub mod model;
 pub mod modes;
 pub mod num;
 pub mod ode;
+pub mod parameter;
 pub mod piezo;
 pub mod simulate;

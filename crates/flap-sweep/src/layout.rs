@@ -1,6 +1,6 @@
 //! The columns of a result file: which there are, in which order, and what they mean.
 
-use flap_core::model::Parameter;
+use flap_core::parameter::Parameter;
 use flap_core::simulate::{Point, Row};
 
 use crate::plan::Plan;

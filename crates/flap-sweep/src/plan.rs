@@ -4,7 +4,7 @@
 
 use std::path::PathBuf;
 
-use flap_core::model::Parameter;
+use flap_core::parameter::Parameter;
 use flap_core::simulate::{Point, Simulator, SolverSettings};
 
 use crate::axis::Axis;

@@ -8,7 +8,7 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use flap_core::model::Parameter;
+use flap_core::parameter::Parameter;
 use flap_core::simulate::SolverSettings;
 use serde::Serialize;
 use toml::Value;

@@ -18,7 +18,7 @@ mod zip;
 
 use std::sync::Arc;
 
-use flap_core::model::Preset;
+use flap_core::parameter::Preset;
 use flap_core::simulate::Simulator;
 use toml::de::DeTable;
 

@@ -1,6 +1,6 @@
 //! Numbers and options as text, the same in result files and on the terminal.
 
-use flap_core::model::{Kind, Parameter};
+use flap_core::parameter::{Kind, Parameter};
 
 /// The shortest decimal text that reads back as the same number.
 ///
@@ -97,7 +97,7 @@ mod tests {
             name: "span",
             unit: "m",
             symbol: "",
-            kind: Kind::Number(flap_core::model::Range::Positive),
+            kind: Kind::Number(flap_core::parameter::Range::Positive),
             doc: "",
         };
         assert_eq!(value(&span, 1.0), "1.0");

@@ -42,7 +42,7 @@ fn cases() -> Vec<Case> {
 fn accelerations_forces_and_moments_equal_the_reference() {
     for case in cases() {
         let Case { constants: c, drive, side, y, record } = case;
-        let dy = DirectDrive.rhs(&c, &drive, side, &y);
+        let dy = DirectDrive::default().rhs(&c, &drive, side, &y);
         let (sin, cos) = y[1].sin_cos();
         let air = aerodynamics(&c, side, &y, sin, cos);
         let added = added_mass(&c, sin, cos, &dy);
@@ -71,7 +71,7 @@ fn accelerations_forces_and_moments_equal_the_reference() {
 #[test]
 fn rate_of_the_mean_velocity_is_its_derivative() {
     for Case { constants: c, drive, side, y, record } in cases() {
-        let dy = DirectDrive.rhs(&c, &drive, side, &y);
+        let dy = DirectDrive::default().rhs(&c, &drive, side, &y);
         let [_, rate] = mean_velocity(&c, &y, &dy);
         let at = |dt: f64| mean_velocity(&c, &std::array::from_fn(|i| y[i] + dt * dy[i]), &dy)[0];
         let dt = 1e-8;
@@ -90,19 +90,19 @@ impl Kernel for RhsOnLanes {
         let mut derivatives = Vec::new();
         for group in cases.chunks(Vector::<S>::LANES) {
             let zero = Vector::<S>::splat(simd, 0.0);
-            let mut c = Constants::<Vector<S>>::splat(simd, &group[0].constants);
+            let mut c = Constants::<Vector<S>>::fill(simd, &group[0].constants);
             let mut drive = Voltage { value: zero, rate: zero };
             let mut side = zero;
             let mut y = [zero; 4];
             for (lane, case) in group.iter().enumerate() {
-                c.set_lane(lane, &case.constants);
+                c.set(lane, &case.constants);
                 drive.value.set_lane(lane, case.drive.value);
                 side.set_lane(lane, case.side);
                 for i in 0..4 {
                     y[i].set_lane(lane, case.y[i]);
                 }
             }
-            let dy = DirectDrive.rhs(&c, &drive, side, &y);
+            let dy = DirectDrive::default().rhs(&c, &drive, side, &y);
             derivatives.extend((0..group.len()).map(|lane| dy.map(|d| d.lane(lane))));
         }
         (derivatives, Vector::<S>::LANES)
@@ -116,11 +116,15 @@ fn every_lane_equals_the_scalar_bit_for_bit() {
         assert!(lanes >= 4, "{set} has {lanes} lanes");
         for (case, lane) in cases().iter().zip(derivatives) {
             let scalar = match set.arithmetic() {
-                Arithmetic::Fused => DirectDrive.rhs(&case.constants, &case.drive, case.side, &case.y),
+                Arithmetic::Fused => {
+                    DirectDrive::default().rhs(&case.constants, &case.drive, case.side, &case.y)
+                }
                 Arithmetic::Unfused => {
-                    let c = Constants::<Unfused>::splat((), &case.constants);
+                    let c = Constants::<Unfused>::fill((), &case.constants);
                     let drive = Voltage { value: Unfused(case.drive.value), rate: Unfused(case.drive.rate) };
-                    DirectDrive.rhs(&c, &drive, Unfused(case.side), &case.y.map(Unfused)).map(|d| d.0)
+                    DirectDrive::default()
+                        .rhs(&c, &drive, Unfused(case.side), &case.y.map(Unfused))
+                        .map(|d| d.0)
                 }
             };
             assert_eq!(lane.map(f64::to_bits), scalar.map(f64::to_bits), "{set}, {}", case.record.name);
@@ -131,10 +135,10 @@ fn every_lane_equals_the_scalar_bit_for_bit() {
 #[test]
 fn arithmetic_classes_agree_to_rounding() {
     for case in cases() {
-        let fused = DirectDrive.rhs(&case.constants, &case.drive, case.side, &case.y);
-        let c = Constants::<Unfused>::splat((), &case.constants);
+        let fused = DirectDrive::default().rhs(&case.constants, &case.drive, case.side, &case.y);
+        let c = Constants::<Unfused>::fill((), &case.constants);
         let drive = Voltage { value: Unfused(case.drive.value), rate: Unfused(case.drive.rate) };
-        let unfused = DirectDrive.rhs(&c, &drive, Unfused(case.side), &case.y.map(Unfused));
+        let unfused = DirectDrive::default().rhs(&c, &drive, Unfused(case.side), &case.y.map(Unfused));
         for i in 0..4 {
             assert_close(unfused[i].0, fused[i], 1e-11, &case.record.name);
         }

@@ -5,8 +5,8 @@ mod equations;
 mod physics;
 mod steady;
 
-use flap_core::model::Slot;
 use flap_core::model::direct_drive::{CentreOfPressure, Params};
+use flap_core::parameter::Slot;
 
 /// The parameters of `small` or `large` in the reference tables.
 fn params(kind: &str) -> Params {

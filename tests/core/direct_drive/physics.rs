@@ -53,7 +53,7 @@ proptest! {
     fn energy_changes_by_work_alone(p in any_params(), y in any_state(), volts in -100.0..100.0, up in prop::bool::ANY) {
         let c = Constants::derive(&p).unwrap();
         let side = if up { 1.0 } else { -1.0 };
-        let dy = DirectDrive.rhs(&c, &Voltage { value: volts, rate: 0.0 }, side, &y);
+        let dy = DirectDrive::default().rhs(&c, &Voltage { value: volts, rate: 0.0 }, side, &y);
         let (sin, cos) = Real::sin_cos(y[1]);
         let air = aerodynamics(&c, side, &y, sin, cos);
         let work = c.gamma * volts * y[2]
@@ -75,7 +75,7 @@ proptest! {
         let reading = if folded { CentreOfPressure::Folded } else { CentreOfPressure::Directional };
         let c = Constants::derive(&Params { centre_of_pressure: reading, ..p }).unwrap();
         let [dy, mirrored] = [1.0, -1.0].map(|m| {
-            DirectDrive.rhs(&c, &Voltage { value: m * volts, rate: 0.0 }, m, &y.map(|y| m * y))
+            DirectDrive::default().rhs(&c, &Voltage { value: m * volts, rate: 0.0 }, m, &y.map(|y| m * y))
         });
         prop_assert_eq!(dy, mirrored.map(|d| -d));
         let [plus, minus] = [(1.0, dy), (-1.0, mirrored)].map(|(m, dy)| {
@@ -95,8 +95,8 @@ fn the_literal_reading_breaks_the_mirror_symmetry() {
     let p = Params { centre_of_pressure: CentreOfPressure::Literal, ..Params::ozaki2018_large() };
     let c = Constants::derive(&p).unwrap();
     let y = [0.1, 0.7, 100.0, 50.0];
-    let [dy, mirrored] =
-        [1.0, -1.0].map(|m| DirectDrive.rhs(&c, &Voltage { value: 0.0, rate: 0.0 }, m, &y.map(|y| m * y)));
+    let [dy, mirrored] = [1.0, -1.0]
+        .map(|m| DirectDrive::default().rhs(&c, &Voltage { value: 0.0, rate: 0.0 }, m, &y.map(|y| m * y)));
     assert!((dy[3] + mirrored[3]).abs() > 0.1 * dy[3].abs());
 }
 
@@ -113,7 +113,7 @@ fn a_wing_in_vacuum_keeps_its_energy() {
         let initial = total(&start.y);
         let mut last = initial;
         solve::<_, f64, 4>(
-            &DirectDrive,
+            &DirectDrive::default(),
             &tolerances,
             &start,
             |_, _| {},

@@ -1,6 +1,6 @@
 //! Any text at all: never a panic, and diagnostics that can be shown.
 
-use flap_core::model::Kind;
+use flap_core::parameter::Kind;
 use proptest::prelude::*;
 
 use crate::fake::MODELS;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use flap_core::model::Parameter;
+use flap_core::parameter::Parameter;
 use flap_core::simulate::{Point, SolverSettings};
 use flap_sweep::plan::Plan;
 use flap_sweep::{spec, text};

@@ -1,6 +1,6 @@
 //! `flap params`: the parameters and the output columns of a model.
 
-use flap_core::model::{Kind, Parameter};
+use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{self, Simulator};
 use flap_sweep::diagnostic::nearest;
 use flap_sweep::text;

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::Path;
 
-use flap_core::model::{Kind, Parameter};
 use flap_core::num::InstructionSet;
+use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{self, Row, SolverSettings, Status, Trajectory, TrajectoryRequest};
 use flap_sweep::diagnostic::nearest;
 use flap_sweep::plan::Plan;

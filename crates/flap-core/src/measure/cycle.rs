@@ -14,21 +14,21 @@ use crate::ode::tableau::{B, C};
 
 crate::per_lane! {
     /// What has been summed up of one signal so far.
-    pub struct Totals {
+    pub struct Totals<R> {
         /// ∫ s dt.
-        pub integral,
+        pub integral: R,
         /// ∫ s² dt.
-        pub square,
+        pub square: R,
         /// ∫ max(s, 0) dt.
-        pub positive,
+        pub positive: R,
         /// ∫ s cos ωt dt.
-        pub cosine,
+        pub cosine: R,
         /// ∫ s sin ωt dt.
-        pub sine,
+        pub sine: R,
         /// Largest value.
-        pub max,
+        pub max: R,
         /// Smallest value.
-        pub min,
+        pub min: R,
     }
 }
 

@@ -7,17 +7,16 @@
 //! - equations of motion ([`Ode`]) and the signals to be measured, written once for scalars and lanes.
 
 pub mod direct_drive;
-mod parameter;
 mod signal;
 
-pub use parameter::{Kind, Parameter, Preset, Range, Slot};
 pub use signal::{Derived, Measure, Signal, SignalCycle};
 
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
+use crate::parameter::{Invalid, Parameter, Preset};
 
 /// A periodically driven model with N states, of which S signals are measured over a drive period.
-pub trait Model<const N: usize, const S: usize>: Ode<N> {
+pub trait Model<const N: usize, const S: usize>: Ode<N> + PartialEq {
     /// Name in grid files, such as `direct-drive`.
     const NAME: &'static str;
     /// One line: what it models, and the paper.
@@ -32,6 +31,10 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> {
     const SIGNALS: [Signal; S];
     /// Columns computed from the measured cycle.
     const DERIVED: &'static [Derived];
+
+    /// The model for a point: what its equations do differently for all lanes alike, such as the shape of the
+    /// drive. Points of equal variants share lanes.
+    fn variant(&self, values: &[f64]) -> Self;
 
     /// The run of a point, given one value per parameter: constants, initial state, drive period, scales.
     ///
@@ -54,19 +57,4 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> {
 
     /// The values of the [`Model::DERIVED`] columns.
     fn derived(&self, c: &Self::Constants<f64>, cycle: &[SignalCycle; S]) -> Vec<f64>;
-}
-
-/// Parameters that are impossible together, with the reason.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{reason}")]
-pub struct Invalid {
-    /// What is impossible and why.
-    pub reason: String,
-}
-
-impl Invalid {
-    /// An error with this reason.
-    pub fn new(reason: impl Into<String>) -> Invalid {
-        Invalid { reason: reason.into() }
-    }
 }

@@ -4,66 +4,104 @@ use super::lanes::Lanes;
 
 /// A group of numbers, one set per lane.
 ///
-/// Implemented by [`per_lane!`](crate::per_lane) for structs whose fields are all of one number type,
-/// by arrays of such groups, and by `()` for none at all.
+/// Implemented by numbers, by [`per_lane!`](crate::per_lane) for structs of groups, by arrays of groups, and by
+/// `()` for none at all.
 pub trait PerLane<R: Lanes>: Copy {
     /// One lane's set.
     type One: Copy;
 
     /// The same set in every lane.
-    fn splat(token: R::Token, one: &Self::One) -> Self;
+    fn fill(token: R::Token, one: &Self::One) -> Self;
 
     /// Replaces one lane's set.
-    fn set_lane(&mut self, lane: usize, one: &Self::One);
+    fn set(&mut self, lane: usize, one: &Self::One);
 
     /// One lane's set.
-    fn lane(&self, lane: usize) -> Self::One;
+    fn get(&self, lane: usize) -> Self::One;
+
+    /// Whether no number of a set is infinite or NaN.
+    fn is_finite(one: &Self::One) -> bool;
+}
+
+impl<R: Lanes> PerLane<R> for R {
+    type One = f64;
+
+    #[inline(always)]
+    fn fill(token: R::Token, one: &f64) -> R {
+        R::splat(token, *one)
+    }
+
+    #[inline(always)]
+    fn set(&mut self, lane: usize, one: &f64) {
+        self.set_lane(lane, *one);
+    }
+
+    #[inline(always)]
+    fn get(&self, lane: usize) -> f64 {
+        self.lane(lane)
+    }
+
+    #[inline(always)]
+    fn is_finite(one: &f64) -> bool {
+        one.is_finite()
+    }
 }
 
 impl<R: Lanes> PerLane<R> for () {
     type One = ();
 
     #[inline(always)]
-    fn splat(_token: R::Token, (): &()) {}
+    fn fill(_token: R::Token, (): &()) {}
 
     #[inline(always)]
-    fn set_lane(&mut self, _lane: usize, (): &()) {}
+    fn set(&mut self, _lane: usize, (): &()) {}
 
     #[inline(always)]
-    fn lane(&self, _lane: usize) {}
+    fn get(&self, _lane: usize) {}
+
+    #[inline(always)]
+    fn is_finite((): &()) -> bool {
+        true
+    }
 }
 
 impl<R: Lanes, P: PerLane<R>, const N: usize> PerLane<R> for [P; N] {
     type One = [P::One; N];
 
     #[inline(always)]
-    fn splat(token: R::Token, one: &Self::One) -> Self {
-        core::array::from_fn(|i| P::splat(token, &one[i]))
+    fn fill(token: R::Token, one: &Self::One) -> Self {
+        core::array::from_fn(|i| P::fill(token, &one[i]))
     }
 
     #[inline(always)]
-    fn set_lane(&mut self, lane: usize, one: &Self::One) {
+    fn set(&mut self, lane: usize, one: &Self::One) {
         for i in 0..N {
-            self[i].set_lane(lane, &one[i]);
+            self[i].set(lane, &one[i]);
         }
     }
 
     #[inline(always)]
-    fn lane(&self, lane: usize) -> Self::One {
-        core::array::from_fn(|i| self[i].lane(lane))
+    fn get(&self, lane: usize) -> Self::One {
+        core::array::from_fn(|i| self[i].get(lane))
+    }
+
+    #[inline(always)]
+    fn is_finite(one: &Self::One) -> bool {
+        one.iter().all(P::is_finite)
     }
 }
 
-/// Declares a struct of numbers of one type `R`, with `Name<f64>` being one lane's set.
+/// Declares a struct of which every lane has its own: its fields are numbers `R` or groups of them, and
+/// `Name<f64>` is one lane's set.
 ///
 /// ```
 /// flap_core::per_lane! {
 ///     /// A spring and a mass.
-///     pub struct Oscillator {
+///     pub struct Oscillator<R> {
 ///         /// Stiffness (N/m).
-///         pub stiffness,
+///         pub stiffness: R,
 ///         /// Mass (kg).
-///         pub mass,
+///         pub mass: R,
 ///     }
 /// }
 /// let one = Oscillator { stiffness: 4.0, mass: 1.0 };
@@ -71,36 +109,36 @@ impl<R: Lanes, P: PerLane<R>, const N: usize> PerLane<R> for [P; N] {
 /// ```
 #[macro_export]
 macro_rules! per_lane {
-    ($(#[$meta:meta])* pub struct $Name:ident { $($(#[$field_meta:meta])* pub $field:ident),* $(,)? }) => {
+    ($(#[$meta:meta])* pub struct $Name:ident<R> {
+        $($(#[$field_meta:meta])* pub $field:ident: $type:ty),* $(,)?
+    }) => {
         $(#[$meta])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $Name<R> {
-            $($(#[$field_meta])* pub $field: R,)*
-        }
-
-        impl $Name<f64> {
-            /// Whether no number is infinite or NaN.
-            pub fn is_finite(&self) -> bool {
-                [$(self.$field),*].iter().all(|number| number.is_finite())
-            }
+            $($(#[$field_meta])* pub $field: $type,)*
         }
 
         impl<R: $crate::num::Lanes> $crate::num::PerLane<R> for $Name<R> {
             type One = $Name<f64>;
 
             #[inline(always)]
-            fn splat(token: R::Token, one: &$Name<f64>) -> Self {
-                $Name { $($field: R::splat(token, one.$field),)* }
+            fn fill(token: R::Token, one: &$Name<f64>) -> Self {
+                $Name { $($field: $crate::num::PerLane::fill(token, &one.$field),)* }
             }
 
             #[inline(always)]
-            fn set_lane(&mut self, lane: usize, one: &$Name<f64>) {
-                $(self.$field.set_lane(lane, one.$field);)*
+            fn set(&mut self, lane: usize, one: &$Name<f64>) {
+                $($crate::num::PerLane::set(&mut self.$field, lane, &one.$field);)*
             }
 
             #[inline(always)]
-            fn lane(&self, lane: usize) -> $Name<f64> {
-                $Name { $($field: self.$field.lane(lane),)* }
+            fn get(&self, lane: usize) -> $Name<f64> {
+                $Name { $($field: $crate::num::PerLane::get(&self.$field, lane),)* }
+            }
+
+            #[inline(always)]
+            fn is_finite(one: &$Name<f64>) -> bool {
+                true $(&& <$type as $crate::num::PerLane<R>>::is_finite(&one.$field))*
             }
         }
     };

@@ -155,8 +155,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
             token,
             tolerances: *tolerances,
             rtol: number.lit(tolerances.rtol),
-            constants: O::Constants::<R>::splat(token, &start.constants),
-            totals: V::Totals::<R>::splat(token, &observer.nothing()),
+            constants: O::Constants::<R>::fill(token, &start.constants),
+            totals: V::Totals::<R>::fill(token, &observer.nothing()),
             span: number.lit(start.span),
             atol: [number; N],
             t: number,
@@ -184,8 +184,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
 
     /// Puts a run into a lane.
     fn load(&mut self, lane: usize, run: Run, start: &Start<O::Constants<f64>, N>, observer: &V) {
-        self.constants.set_lane(lane, &start.constants);
-        self.totals.set_lane(lane, &observer.nothing());
+        self.constants.set(lane, &start.constants);
+        self.totals.set(lane, &observer.nothing());
         self.span.set_lane(lane, start.span);
         for i in 0..N {
             self.y[i].set_lane(lane, start.y[i]);
@@ -347,7 +347,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
                 for i in 0..N {
                     y[i] = self.y[i].lane(lane);
                 }
-                let verdict = queue.span_end(&mut running.run, &y, &self.totals.lane(lane));
+                let verdict = queue.span_end(&mut running.run, &y, &self.totals.get(lane));
                 verdict.is_break().then_some(Ending::Stopped)
             };
             match ending {

@@ -24,7 +24,7 @@ pub fn solve<O: Ode<N>, R: Lanes<Token = (), Mask = bool>, const N: usize>(
     mut at_span_end: impl FnMut(&[f64; N]) -> ControlFlow<()>,
 ) -> Outcome {
     let number = |x: f64| R::splat((), x);
-    let c = O::Constants::<R>::splat((), &start.constants);
+    let c = O::Constants::<R>::fill((), &start.constants);
     let span = number(start.span);
     let rtol = number(tolerances.rtol);
     let mut y = [span; N];

@@ -8,7 +8,7 @@ use core::ops::ControlFlow;
 use fearless_simd::Simd;
 
 use super::row::{Settled, invalid};
-use super::simulator::{Jobs, SolverSettings};
+use super::simulator::{Jobs, Point, SolverSettings};
 use crate::measure::cycle::{Signals, Totals};
 use crate::measure::strobe::Strobe;
 use crate::model::Model;
@@ -36,9 +36,17 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Kernel for Sized<LanesKerne
     fn run<I: Simd>(self, simd: I) {
         let LanesKernel { model, solver, jobs } = self.0;
         let tolerances = solver.tolerances();
-        let mut marching = Marching { simd, model, solver, jobs, settled: Vec::with_capacity(BATCH) };
-        run(simd, model, &Unobserved, &tolerances, &mut marching);
-        marching.measure();
+        let mut waiting = jobs.next(true);
+        // One ensemble per run of points of the same variant.
+        while let Some(point) = waiting.take() {
+            let model = &model.variant(&point.values);
+            let settled = Vec::with_capacity(BATCH);
+            let mut marching =
+                Marching { simd, model, solver, jobs: &mut *jobs, waiting: Some(point), settled };
+            run(simd, model, &Unobserved, &tolerances, &mut marching);
+            marching.measure();
+            waiting = marching.waiting;
+        }
     }
 }
 
@@ -48,6 +56,8 @@ struct Marching<'a, I, M: Model<N, S>, const N: usize, const S: usize> {
     model: &'a M,
     solver: &'a SolverSettings,
     jobs: &'a mut dyn Jobs,
+    /// A point that has been taken from `jobs` and not been run.
+    waiting: Option<Point>,
     settled: Vec<Orbit<M::Constants<f64>, N>>,
 }
 
@@ -67,6 +77,16 @@ struct Orbit<C, const N: usize> {
 }
 
 impl<I: Simd, M: Model<N, S>, const N: usize, const S: usize> Marching<'_, I, M, N, S> {
+    /// The point that waits, or the next one of the jobs.
+    fn next_point(&mut self, idle: bool) -> Option<Point> {
+        if let Some(point) = self.waiting.take().or_else(|| self.jobs.next(false)) {
+            return Some(point);
+        }
+        // Whoever hands out points may be waiting for rows that wait here.
+        self.measure();
+        if idle { self.jobs.next(true) } else { None }
+    }
+
     /// Measures the runs that have settled and hands on their rows.
     fn measure(&mut self) {
         if self.settled.is_empty() {
@@ -86,16 +106,11 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const S: usize> Queue<M, Unobserve
 
     fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, N>> {
         loop {
-            let point = if let Some(point) = self.jobs.next(false) {
-                point
-            } else {
-                // Whoever hands out points may be waiting for rows that wait here.
-                self.measure();
-                if !idle {
-                    return None;
-                }
-                self.jobs.next(true)?
-            };
+            let point = self.next_point(idle)?;
+            if self.model.variant(&point.values) != *self.model {
+                self.waiting = Some(point);
+                return None;
+            }
             match self.model.start(&point.values) {
                 Ok(start) => {
                     let strobe = Strobe::new(&start.y, &start.scale, self.solver.settle_tol);

@@ -12,11 +12,12 @@ pub use simulator::{
     Column, Jobs, Point, Row, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest,
 };
 
-use crate::model::Preset;
+use crate::drive::Shape;
 use crate::model::direct_drive::DirectDrive;
+use crate::parameter::Preset;
 use runner::Runner;
 
-static DIRECT_DRIVE: Runner<DirectDrive, 4, 9> = Runner::new(DirectDrive);
+static DIRECT_DRIVE: Runner<DirectDrive, 4, 9> = Runner::new(DirectDrive { shape: Shape::Sine });
 static ALL: [&dyn Simulator; 1] = [&DIRECT_DRIVE];
 
 /// Every model, in the order `flap models` lists them.

@@ -3,8 +3,9 @@
 use super::simulator::{Column, Row, Status};
 use crate::measure::cycle::{Totals, finish};
 use crate::measure::strobe::Strobe;
-use crate::model::{Invalid, Model};
+use crate::model::Model;
 use crate::ode::{Ending, Outcome};
+use crate::parameter::Invalid;
 
 /// The columns of a model: its signals' measures, then what is derived from them.
 pub(super) fn columns<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<Column> {

@@ -6,8 +6,9 @@ use super::lanes::{LanesKernel, Sized};
 use super::row;
 use super::scalar::Scalars;
 use super::simulator::{Column, Jobs, Row, Simulator, SolverSettings, Trajectory, TrajectoryRequest};
-use crate::model::{Invalid, Model, Parameter, Preset};
+use crate::model::Model;
 use crate::num::InstructionSet;
+use crate::parameter::{Invalid, Parameter, Preset};
 
 /// A model with N states and S signals.
 pub(super) struct Runner<M, const N: usize, const S: usize> {

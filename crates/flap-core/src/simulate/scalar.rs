@@ -6,12 +6,13 @@ use super::row::{Settled, invalid};
 use super::simulator::{Row, SolverSettings, Trajectory, TrajectoryRequest};
 use crate::measure::cycle::{Signals, Totals};
 use crate::measure::strobe::Strobe;
-use crate::model::{Invalid, Model};
+use crate::model::Model;
 use crate::num::{Arithmetic, InstructionSet, Lanes, PerLane, Unfused};
 use crate::ode::dense::interpolate;
 use crate::ode::ensemble::Observer;
 use crate::ode::solve::solve;
 use crate::ode::{Ending, Start};
+use crate::parameter::Invalid;
 
 /// Marches a point until it settles.
 #[inline(always)]
@@ -50,6 +51,7 @@ where
     M: Model<N, S>,
     R: Lanes<Token = (), Mask = bool>,
 {
+    let model = &model.variant(values);
     let mut start = match model.start(values) {
         Ok(start) => start,
         Err(error) => return invalid(error),
@@ -61,7 +63,7 @@ where
 
     start.y = *settled.strobe.state();
     let observer = Signals::<S>;
-    let mut totals = Observer::<M, N>::nothing(&observer).map(|one| Totals::<R>::splat((), &one));
+    let mut totals = Observer::<M, N>::nothing(&observer).map(|one| Totals::<R>::fill((), &one));
     let outcome = solve::<M, R, N>(
         model,
         &solver.tolerances(),
@@ -69,7 +71,7 @@ where
         |c, accepted| observer.add(model, c, accepted, true, &mut totals),
         |_| ControlFlow::Break(()),
     );
-    let totals = totals.map(|total| total.lane(0));
+    let totals = totals.map(|total| total.get(0));
     let measured = (outcome.ending == Ending::Stopped).then_some(&totals);
     settled.measured(model, &start.constants, start.span, measured, outcome)
 }
@@ -86,6 +88,7 @@ where
     M: Model<N, S>,
     R: Lanes<Token = (), Mask = bool>,
 {
+    let model = &model.variant(values);
     let mut start = model.start(values)?;
     if request.settled {
         let settled = settle::<M, R, N, S>(model, solver, &start);

@@ -1,8 +1,8 @@
 //! The object-safe face of a model: all that sweeps, the command line and Python use.
 
-use crate::model::{Invalid, Parameter, Preset};
 use crate::num::InstructionSet;
 use crate::ode::Tolerances;
+use crate::parameter::{Invalid, Parameter, Preset};
 
 /// A model that turns design points into rows.
 pub trait Simulator: Sync {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use flap_core::model::Parameter;
+use flap_core::parameter::Parameter;
 use toml::de::DeValue;
 
 use super::params::Lookup;

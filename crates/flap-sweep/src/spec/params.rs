@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use flap_core::model::Parameter;
+use flap_core::parameter::Parameter;
 use flap_core::simulate::Simulator;
 
 use super::problems::Problems;

@@ -1,6 +1,6 @@
 //! The key `preset`: which model, and where its parameters start.
 
-use flap_core::model::Preset;
+use flap_core::parameter::Preset;
 use flap_core::simulate::Simulator;
 
 use super::problems::Problems;

@@ -1,6 +1,6 @@
 //! Ranges of values: `{ from = 60, to = 200, n = 15 }` or with `step`, linear or logarithmic.
 
-use flap_core::model::{Kind, Parameter};
+use flap_core::parameter::{Kind, Parameter};
 use toml::de::DeValue;
 
 use super::problems::Problems;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use flap_core::model::{self, Kind, Parameter};
+use flap_core::parameter::{self, Kind, Parameter};
 use toml::Spanned;
 use toml::de::{DeInteger, DeValue};
 
@@ -26,7 +26,7 @@ pub(super) fn of_parameter(parameter: &Parameter, value: &Value<'_>, problems: &
 /// Whether `number` is in the range of `parameter`; reports it otherwise.
 fn in_range(
     parameter: &Parameter,
-    range: model::Range,
+    range: parameter::Range,
     number: f64,
     value: &Value<'_>,
     problems: &mut Problems,

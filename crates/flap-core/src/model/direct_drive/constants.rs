@@ -3,104 +3,106 @@
 //! Ozaki and Hamaguchi 2018; numbers in parentheses are the paper's equations. Powers of constants that the
 //! equations of motion need together are multiplied out here.
 
-use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::params::{AddedMass, CentreOfPressure, LiftSign, Params};
-use crate::model::Invalid;
+use crate::drive::Waveform;
+use crate::num::PerLane;
+use crate::parameter::Invalid;
 use crate::piezo::{Laminate, Layer};
 
 crate::per_lane! {
     /// Constants of one design point, in SI units.
-    pub struct Constants {
+    pub struct Constants<R> {
         /// Constant part of the drive voltage (V).
-        pub drive_bias,
+        pub drive_bias: R,
         /// Amplitude of the drive voltage (V).
-        pub drive_amplitude,
-        /// Angular frequency of the drive (rad/s).
-        pub drive_rate,
+        pub drive_amplitude: R,
+        /// Shape of the drive voltage over time.
+        pub waveform: Waveform<R>,
 
         /// Stroke stiffness k_φ (N·m/rad), (11).
-        pub k_phi,
+        pub k_phi: R,
         /// Hinge stiffness k_w (N·m/rad).
-        pub k_w,
+        pub k_w: R,
         /// Torque per voltage and charge per stroke angle Γ (N·m/V = C/rad), (11), (38).
-        pub gamma,
+        pub gamma: R,
         /// Capacitance C_p (F), (37).
-        pub c_p,
+        pub c_p: R,
 
         /// Inertia of actuator, leading edge and wing about the stroke axis m₁₁ (kg·m²).
-        pub m11,
+        pub m11: R,
         /// Inertia about the span axis that a pitched wing adds to the stroke m_s (kg·m²).
-        pub m_s,
+        pub m_s: R,
         /// Inertial coupling of stroke and pitch m₁₂ (kg·m²).
-        pub m12,
+        pub m12: R,
         /// Pitch inertia m₂₂ (kg·m²).
-        pub m22,
+        pub m22: R,
 
         /// Added mass of the stroke a₁₁ (kg·m²), (29).
-        pub a11,
+        pub a11: R,
         /// Added-mass coupling a₁₂ (kg·m²), (29), (30).
-        pub a12,
+        pub a12: R,
         /// Added mass of the pitch a₂₂ (kg·m²), (30).
-        pub a22,
+        pub a22: R,
         /// Added-mass force per stroke acceleration f₁ (kg·m), (28).
-        pub f1,
+        pub f1: R,
         /// Added-mass force per pitch acceleration f₂ (kg·m), (28).
-        pub f2,
+        pub f2: R,
         /// 1 for the gyroscopic terms of the Lagrangian added mass, 0 for the paper's form.
-        pub gyroscopic,
+        pub gyroscopic: R,
 
         /// Lever of the stroke rate in the wing's mean velocity: R/2 + x_r (m).
-        pub mid_radius,
+        pub mid_radius: R,
         /// Lever of the pitch rate in the wing's mean velocity: c(R/2)/2 (m).
-        pub mid_half_chord,
+        pub mid_half_chord: R,
 
         /// Lift coefficient amplitude K_L, (26).
-        pub k_lift,
+        pub k_lift: R,
         /// Mean of the drag coefficient's largest and smallest value, (27).
-        pub drag_mean,
+        pub drag_mean: R,
         /// Half of the drag coefficient's range, (27).
-        pub drag_swing,
+        pub drag_swing: R,
 
         /// Lift per φ̇² (kg), (21): ½ρA_w R² I₂₁.
-        pub lift_pp,
+        pub lift_pp: R,
         /// Lift per φ̇ψ̇cosψ (kg): −½ρA_w R c̄ I₁₂.
-        pub lift_pw,
+        pub lift_pw: R,
         /// Lift per (ψ̇cosψ)² (kg): ½ρA_w c̄² I₀₃/4.
-        pub lift_ww,
+        pub lift_ww: R,
         /// Stroke moment of the drag per φ̇² (kg·m), (25): ½ρA_w R · R² I₃₁.
-        pub stroke_pp,
+        pub stroke_pp: R,
         /// The same per φ̇ψ̇cosψ (kg·m): −½ρA_w R · R c̄ I₂₂.
-        pub stroke_pw,
+        pub stroke_pw: R,
         /// The same per (ψ̇cosψ)² (kg·m): ½ρA_w R · c̄² I₁₃/4.
-        pub stroke_ww,
+        pub stroke_ww: R,
         /// Pitch moment per φ̇² (kg·m), (23): ½ρA_w c̄ · R² I₂₂.
-        pub pitch_pp,
+        pub pitch_pp: R,
         /// The same per φ̇ψ̇cosψ (kg·m): −½ρA_w c̄ · R c̄ I₁₃.
-        pub pitch_pw,
+        pub pitch_pw: R,
         /// The same per (ψ̇cosψ)² (kg·m): ½ρA_w c̄ · c̄² I₀₄/4.
-        pub pitch_ww,
+        pub pitch_ww: R,
         /// Rotational drag moment per ψ̇|ψ̇| (kg·m²), (32): ½ρC_rd R I_rd.
-        pub rotation,
+        pub rotation: R,
 
         /// Centre of pressure per radian of attack, in chords, (24).
-        pub pressure_slope,
+        pub pressure_slope: R,
         /// Centre of pressure at zero attack, in chords, (24).
-        pub pressure_offset,
+        pub pressure_offset: R,
         /// 1 if the attack angle is taken relative to the motion (π/2 − σψ), else 0.
-        pub attack_directional,
+        pub attack_directional: R,
         /// 1 if the attack angle is folded (π/2 − |ψ|), else 0.
-        pub attack_folded,
+        pub attack_folded: R,
         /// 1 if the attack angle is as printed (π/2 − ψ), else 0.
-        pub attack_literal,
+        pub attack_literal: R,
 
         /// +1 if F_am sin ψ counts against lift, −1 as printed in (35).
-        pub lift_sign,
+        pub lift_sign: R,
 
         /// Thickness of the piezoelectric layer t₀ (m).
-        pub piezo_thickness,
+        pub piezo_thickness: R,
         /// Strain of the piezoelectric layer's outer face per radian of stroke (1/rad): z_c / L_A.
-        pub strain_per_stroke,
+        pub strain_per_stroke: R,
     }
 }
 
@@ -146,7 +148,7 @@ impl Constants<f64> {
         let constants = Constants {
             drive_bias: p.drive_bias.unwrap_or(0.5 * p.drive_voltage_pp),
             drive_amplitude: 0.5 * p.drive_voltage_pp,
-            drive_rate: 2.0 * PI * p.drive_frequency,
+            waveform: p.waveform(),
 
             k_phi: 0.5 * s_a * widths / l_a,
             k_w: p.hinge_stiffness,
@@ -198,7 +200,7 @@ impl Constants<f64> {
     }
 
     fn checked(self) -> Result<Constants<f64>, Invalid> {
-        if !self.is_finite() {
+        if !<Constants<f64> as PerLane<f64>>::is_finite(&self) {
             return Err(Invalid::new(
                 "a derived constant is not finite: the parameters are too large or too small",
             ));

@@ -15,15 +15,19 @@ pub use rhs::{
 };
 
 use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
-use super::{Derived, Invalid, Model, Parameter, Preset, Signal, SignalCycle};
-use crate::drive::{Voltage, biased_sine};
+use super::{Derived, Model, Signal, SignalCycle};
+use crate::drive::{Shape, Voltage};
 use crate::modes::natural_frequencies;
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
+use crate::parameter::{Invalid, Parameter, Preset};
 
 /// The model.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct DirectDrive;
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DirectDrive {
+    /// Shape of the drive voltage.
+    pub shape: Shape,
+}
 
 impl Ode<4> for DirectDrive {
     type Constants<R: Lanes> = Constants<R>;
@@ -31,7 +35,7 @@ impl Ode<4> for DirectDrive {
 
     #[inline(always)]
     fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> Voltage<R> {
-        biased_sine(c.drive_bias, c.drive_amplitude, c.drive_rate, t)
+        c.waveform.at(self.shape, t).voltage(c.drive_bias, c.drive_amplitude)
     }
 
     /// The paper takes one sign of the velocity for the whole wing: forces jump where it changes.
@@ -188,10 +192,15 @@ impl Model<4, 9> for DirectDrive {
         Derived { name: "mode_2_hz", unit: "Hz", doc: "upper natural frequency of small motions" },
     ];
 
+    fn variant(&self, values: &[f64]) -> DirectDrive {
+        DirectDrive { shape: Params::from_values(values).drive_shape }
+    }
+
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
+        params.drive_shape.check(params.drive_rise)?;
         let constants = Constants::derive(&params)?;
-        let rate = constants.drive_rate;
+        let rate = constants.waveform.rate;
         Ok(Start {
             constants,
             y: [0.0; 4],
@@ -202,7 +211,7 @@ impl Model<4, 9> for DirectDrive {
 
     #[inline(always)]
     fn drive_rate<R: Lanes>(c: &Constants<R>) -> R {
-        c.drive_rate
+        c.waveform.rate
     }
 
     #[inline(always)]
@@ -238,7 +247,7 @@ impl Model<4, 9> for DirectDrive {
         let lift_gf = cycle[LIFT].mean / GRAVITY * 1e3;
         let power = cycle[POWER].mean;
         let taken = cycle[DRAG_POWER].mean + cycle[ROTATION_POWER].mean;
-        let frequency = c.drive_rate / (2.0 * core::f64::consts::PI);
+        let frequency = c.waveform.rate / (2.0 * core::f64::consts::PI);
         let voltage_pp = 2.0 * c.drive_amplitude;
         let [mode_1, mode_2] = DirectDrive::linear_modes(c);
         let voltage_max = (c.drive_bias.abs() + c.drive_amplitude.abs()) / c.piezo_thickness;

@@ -1,9 +1,10 @@
 //! Parameters of the direct-drive model and their published values.
 
+use crate::drive::{Shape, Waveform};
 use crate::linkage::TorsionHinge;
-use crate::model::Kind::{Choice, Following, Number};
-use crate::model::Range::{Any, NonNegative, Positive};
-use crate::model::{Preset, Slot};
+use crate::parameter::Kind::{Choice, Following, Number};
+use crate::parameter::Range::{Any, NonNegative, Positive};
+use crate::parameter::{Preset, Slot};
 
 crate::parameters! {
     /// Parameters of the direct-drive model, in SI units. Symbols as in Ozaki and Hamaguchi 2018, Table A1.
@@ -14,6 +15,18 @@ crate::parameters! {
         drive_bias: Option<f64> = ("V", "V_0", Following(Any, "half of drive_voltage_pp")),
         /// Drive frequency.
         drive_frequency: f64 = ("Hz", "f", Number(Positive)),
+        /// Shape of the drive voltage over a period: a sine, a sine with second and third harmonic, or a square wave with finite rise time.
+        drive_shape: Shape = ("", "", Choice(Shape::NAMES)),
+        /// Amplitude of the second harmonic relative to the first. Only for drive_shape = "harmonics".
+        drive_second_harmonic: f64 = ("", "", Number(Any)),
+        /// Phase of the second harmonic, by which it leads the sine of twice the drive's phase.
+        drive_second_phase: f64 = ("rad", "", Number(Any)),
+        /// Amplitude of the third harmonic relative to the first. Only for drive_shape = "harmonics".
+        drive_third_harmonic: f64 = ("", "", Number(Any)),
+        /// Phase of the third harmonic, by which it leads the sine of three times the drive's phase.
+        drive_third_phase: f64 = ("rad", "", Number(Any)),
+        /// Rise and fall time of the square wave, as a fraction of the period, up to 0.5. Only for drive_shape = "square".
+        drive_rise: f64 = ("", "", Number(Positive)),
 
         /// Wing length, from the wing's root to its tip.
         wing_length: f64 = ("m", "R", Number(Positive)),
@@ -195,6 +208,12 @@ impl Params {
             drive_voltage_pp: 60.0,
             drive_bias: None,
             drive_frequency: 209.0,
+            drive_shape: Shape::Sine,
+            drive_second_harmonic: 0.0,
+            drive_second_phase: 0.0,
+            drive_third_harmonic: 0.0,
+            drive_third_phase: 0.0,
+            drive_rise: 0.05,
             wing_length: 17.0e-3,
             mean_chord: 6.51e-3,
             wing_offset: None,
@@ -271,6 +290,16 @@ impl Params {
             // Materials and air are those of the small type.
             ..Params::ozaki2018_small()
         }
+    }
+
+    /// The drive's waveform.
+    pub(super) fn waveform(&self) -> Waveform<f64> {
+        Waveform::new(
+            self.drive_frequency,
+            [self.drive_second_harmonic, self.drive_third_harmonic],
+            [self.drive_second_phase, self.drive_third_phase],
+            self.drive_rise,
+        )
     }
 
     /// These parameters with the stiffness of a hinge of torsional beams, Eq. (41).

@@ -73,6 +73,21 @@ pub struct Preset {
     pub values: fn() -> Vec<f64>,
 }
 
+/// Parameters that are impossible together, with the reason.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{reason}")]
+pub struct Invalid {
+    /// What is impossible and why.
+    pub reason: String,
+}
+
+impl Invalid {
+    /// An error with this reason.
+    pub fn new(reason: impl Into<String>) -> Invalid {
+        Invalid { reason: reason.into() }
+    }
+}
+
 /// A field of a parameter struct, as one `f64` of a design point.
 pub trait Slot {
     /// The field from a point's value.
@@ -120,8 +135,8 @@ macro_rules! parameters {
 
         impl $Name {
             /// The parameter table, in the order of the fields.
-            pub const TABLE: &'static [$crate::model::Parameter] = &[
-                $($crate::model::Parameter {
+            pub const TABLE: &'static [$crate::parameter::Parameter] = &[
+                $($crate::parameter::Parameter {
                     name: stringify!($field),
                     unit: $unit,
                     symbol: $symbol,
@@ -134,13 +149,13 @@ macro_rules! parameters {
             pub fn from_values(values: &[f64]) -> $Name {
                 let mut values = values.iter().copied();
                 $Name {
-                    $($field: $crate::model::Slot::from_value(values.next().unwrap_or(f64::NAN)),)*
+                    $($field: $crate::parameter::Slot::from_value(values.next().unwrap_or(f64::NAN)),)*
                 }
             }
 
             /// One value per table entry.
             pub fn to_values(&self) -> Vec<f64> {
-                vec![$($crate::model::Slot::to_value(&self.$field),)*]
+                vec![$($crate::parameter::Slot::to_value(&self.$field),)*]
             }
         }
     };

@@ -1,0 +1,145 @@
+//! Waveforms of unit amplitude. All begin to rise through zero (but for harmonics) at the beginning of a period.
+
+use core::f64::consts::PI;
+
+use crate::num::Real;
+use crate::parameter::{Invalid, Slot};
+
+/// The shape of a waveform.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shape {
+    /// sin θ.
+    #[default]
+    Sine,
+    /// sin θ + h₂ sin(2θ + p₂) + h₃ sin(3θ + p₃).
+    Harmonics,
+    /// ±1, with edges of a half sine wave.
+    Square,
+}
+
+impl Shape {
+    /// Names of the shapes, in the order of their values.
+    pub const NAMES: &'static [&'static str] = &["sine", "harmonics", "square"];
+
+    /// Refuses a rise time, as a fraction of the period, that leaves a square wave no time to be flat.
+    ///
+    /// # Errors
+    /// If `rise` is above 0.5 and the shape is a square wave.
+    pub fn check(self, rise: f64) -> Result<(), Invalid> {
+        if self == Shape::Square && rise > 0.5 {
+            return Err(Invalid::new(format!(
+                "drive_rise is {rise}; a square wave rises in at most 0.5 of its period"
+            )));
+        }
+        Ok(())
+    }
+}
+
+impl Slot for Shape {
+    fn from_value(value: f64) -> Shape {
+        match value {
+            1.0 => Shape::Harmonics,
+            2.0 => Shape::Square,
+            _ => Shape::Sine,
+        }
+    }
+
+    fn to_value(&self) -> f64 {
+        f64::from(*self as u8)
+    }
+}
+
+/// A waveform's value and rate of change (1/s) at a time.
+#[derive(Clone, Copy, Debug)]
+pub struct Wave<R> {
+    /// Value.
+    pub value: R,
+    /// Rate of change (1/s).
+    pub rate: R,
+}
+
+crate::per_lane! {
+    /// What shapes a waveform, per design point.
+    pub struct Waveform<R> {
+        /// Angular frequency (rad/s).
+        pub rate: R,
+        /// Second harmonic: factors of sin 2θ and cos 2θ.
+        pub second: [R; 2],
+        /// Third harmonic: factors of sin 3θ and cos 3θ.
+        pub third: [R; 2],
+        /// Square wave: half the period (s).
+        pub half_period: R,
+        /// Square wave: half the rise time (s).
+        pub half_rise: R,
+    }
+}
+
+impl Waveform<f64> {
+    /// A waveform of `frequency` (Hz); relative amplitudes and phases (rad) of the second and third harmonic;
+    /// rise time as a fraction of the period.
+    pub fn new(frequency: f64, harmonics: [f64; 2], phases: [f64; 2], rise: f64) -> Waveform<f64> {
+        let harmonic = |i: usize| {
+            let (sin, cos) = Real::sin_cos(phases[i]);
+            [harmonics[i] * cos, harmonics[i] * sin]
+        };
+        Waveform {
+            rate: 2.0 * PI * frequency,
+            second: harmonic(0),
+            third: harmonic(1),
+            half_period: 0.5 / frequency,
+            half_rise: 0.5 * rise / frequency,
+        }
+    }
+}
+
+impl<R: Real> Waveform<R> {
+    /// The waveform at time `t` (s) of its period, from 0 to its end.
+    #[inline(always)]
+    pub fn at(&self, shape: Shape, t: R) -> Wave<R> {
+        match shape {
+            Shape::Sine => {
+                let (sin, cos) = (self.rate * t).sin_cos();
+                Wave { value: sin, rate: self.rate * cos }
+            }
+            Shape::Harmonics => self.harmonics(t),
+            Shape::Square => self.square(t),
+        }
+    }
+
+    #[inline(always)]
+    fn harmonics(&self, t: R) -> Wave<R> {
+        let (sin, cos) = (self.rate * t).sin_cos();
+        let (sin_2, cos_2) = (sin * cos * 2.0, cos * cos * 2.0 - 1.0);
+        let (sin_3, cos_3) = (sin_2 * cos + cos_2 * sin, cos_2 * cos - sin_2 * sin);
+        let [a_2, b_2] = self.second;
+        let [a_3, b_3] = self.third;
+        Wave {
+            value: sin + a_2 * sin_2 + b_2 * cos_2 + a_3 * sin_3 + b_3 * cos_3,
+            rate: self.rate * (cos + (a_2 * cos_2 - b_2 * sin_2) * 2.0 + (a_3 * cos_3 - b_3 * sin_3) * 3.0),
+        }
+    }
+
+    /// Edges at 0, at half the period and at its end, each a sine from −90° to 90°.
+    #[inline(always)]
+    fn square(&self, t: R) -> Wave<R> {
+        let zero = t.lit(0.0);
+        let one = t.lit(1.0);
+        let from_middle = t - self.half_period;
+        let first_half = from_middle.lt(zero);
+        let level = R::select(first_half, one, -one);
+        // Distance to the nearest edge, and whether it grows with time.
+        let to_outer = self.half_period - from_middle.abs();
+        let to_middle = from_middle.abs();
+        let outer_nearer = to_outer.lt(to_middle);
+        let distance = R::select(outer_nearer, to_outer, to_middle);
+        let away = R::select(outer_nearer, level, -level);
+
+        let on_edge = distance.lt(self.half_rise);
+        let slope = one / self.half_rise * (0.5 * PI);
+        let (sin, cos) = (R::select(on_edge, distance, zero) * slope).sin_cos();
+        Wave {
+            value: R::select(on_edge, level * sin, level),
+            rate: R::select(on_edge, level * away * cos * slope, zero),
+        }
+    }
+}
