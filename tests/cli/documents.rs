@@ -1,0 +1,88 @@
+//! What the documents show works.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::support::Folder;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn document(name: &str) -> String {
+    fs::read_to_string(root().join(name)).unwrap()
+}
+
+/// The code blocks of a Markdown document in `language`.
+fn blocks(text: &str, language: &str) -> Vec<String> {
+    let fence = format!("```{language}\n");
+    text.split(&fence).skip(1).map(|rest| rest.split("```").next().unwrap().to_owned()).collect()
+}
+
+#[test]
+fn grids_in_the_documents_are_valid() {
+    let mut grids = 0;
+    for name in ["README.md", "docs/grid.md"] {
+        for block in blocks(&document(name), "toml").iter().filter(|block| block.starts_with("preset")) {
+            let ended = Folder::with_grid(block).flap("check grid.toml");
+            assert_eq!(ended.code, 0, "{name}:\n{block}\n{}", ended.stderr);
+            grids += 1;
+        }
+    }
+    assert!(grids >= 2, "{grids} grids found");
+}
+
+#[test]
+fn commands_in_the_readme_work() {
+    let mut commands = 0;
+    for block in blocks(&document("README.md"), "sh") {
+        let folder = Folder::new();
+        fs::create_dir(folder.path("examples")).unwrap();
+        fs::copy(root().join("examples/ozaki_large.toml"), folder.path("examples/ozaki_large.toml")).unwrap();
+        for line in block.lines() {
+            let command = line.split('#').next().unwrap().trim();
+            let command = command.replace("cargo run --release -- ", "flap ");
+            let Some(arguments) = command.strip_prefix("flap ") else { continue };
+            // Words, with those in quotation marks kept together.
+            let words: Vec<&str> = arguments
+                .split('"')
+                .enumerate()
+                .flat_map(|(i, part)| if i % 2 == 1 { vec![part] } else { part.split_whitespace().collect() })
+                .collect();
+            let ended = folder.flap_with(&words);
+            assert_eq!(ended.code, 0, "{command}\n{}", ended.stderr);
+            commands += 1;
+        }
+    }
+    assert!(commands >= 5, "{commands} commands found");
+}
+
+#[test]
+fn example_grids_are_valid() {
+    let mut grids = 0;
+    for entry in fs::read_dir(root().join("examples")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            let ended = Folder::new().flap_with(&["check", path.to_str().unwrap()]);
+            assert_eq!(ended.code, 0, "{}\n{}", path.display(), ended.stderr);
+            grids += 1;
+        }
+    }
+    assert!(grids >= 1);
+}
+
+/// Every key of the sidecar and every status is described.
+#[test]
+fn the_results_page_is_complete() {
+    let page = document("docs/results.md");
+    let folder = Folder::with_grid("preset = \"ozaki2018-large\"\n");
+    assert_eq!(folder.flap("sweep --grid grid.toml --out o.csv").code, 0);
+    for line in folder.read("o.csv.meta.toml").lines().take_while(|line| !line.starts_with("[solver]")) {
+        if let Some(key) = line.split(" = ").next().filter(|_| line.contains(" = ")) {
+            assert!(page.contains(&format!("`{key}`")), "{key} is not described");
+        }
+    }
+    for status in flap_core::simulate::Status::ALL {
+        assert!(page.contains(&format!("| `{}` |", status.name())), "{} is not described", status.name());
+    }
+}
