@@ -57,7 +57,8 @@ impl Values {
             Values::Linear { from, to, count } => match index {
                 0 => from,
                 _ if index + 1 == count => to,
-                _ => from + (to - from) * (index as f64 / (count - 1) as f64),
+                // Multiplied first, so that 0 to 1 in steps of 0.1 gives 0.3 and not its neighbour.
+                _ => from + (to - from) * index as f64 / (count - 1) as f64,
             },
             Values::Step { from, step, .. } => from + step * index as f64,
             Values::Log { from, to, count } => match index {

@@ -61,14 +61,14 @@ impl Plan {
     pub const MAX_POINTS: u64 = 1 << 63;
 
     /// Builds the plan, or gives the parts back if it would have more than [`Plan::MAX_POINTS`] points.
-    pub(crate) fn new(parts: Parts) -> Result<Plan, Parts> {
+    pub(crate) fn new(parts: Parts) -> Result<Plan, Box<Parts>> {
         let points = parts.axes.iter().try_fold(1_u64, |product, axis| product.checked_mul(axis.len()));
         match points {
             Some(points) if points <= Plan::MAX_POINTS => {
                 let Parts { simulator, preset, base, axes, solver, output, source } = parts;
                 Ok(Plan { simulator, preset, base, axes, solver, output, source, points })
             }
-            _ => Err(parts),
+            _ => Err(Box::new(parts)),
         }
     }
 

@@ -1,0 +1,155 @@
+//! What is wrong in a grid file, where, and what to do about it.
+//!
+//! A diagnostic carries the text it is about, so that whoever shows it needs nothing else.
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::plan::Source;
+
+/// One mistake in a grid file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// The file the mistake is in.
+    pub source: Arc<Source>,
+    /// What is wrong, in one line.
+    pub message: String,
+    /// Bytes of the source at fault. May be empty where something is missing.
+    pub span: Range<usize>,
+    /// A few words to print at the span; may be empty.
+    pub label: String,
+    /// Other places that have to do with it.
+    pub related: Vec<Related>,
+    /// What is allowed.
+    pub notes: Vec<String>,
+    /// What to do.
+    pub help: Vec<String>,
+}
+
+/// A second place that a diagnostic is about.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Related {
+    /// Bytes of the source.
+    pub span: Range<usize>,
+    /// A few words to print there.
+    pub label: String,
+}
+
+impl Diagnostic {
+    /// A diagnostic that has only a message, to be filled in with the methods below.
+    pub(crate) fn new(source: Arc<Source>, span: Range<usize>, message: String) -> Diagnostic {
+        Diagnostic {
+            source,
+            message,
+            span,
+            label: String::new(),
+            related: Vec::new(),
+            notes: Vec::new(),
+            help: Vec::new(),
+        }
+    }
+
+    /// Sets the words at the span.
+    pub(crate) fn label(&mut self, label: impl Into<String>) -> &mut Diagnostic {
+        self.label = label.into();
+        self
+    }
+
+    /// Adds a second place.
+    pub(crate) fn related(&mut self, span: Range<usize>, label: impl Into<String>) -> &mut Diagnostic {
+        self.related.push(Related { span, label: label.into() });
+        self
+    }
+
+    /// Adds a line on what is allowed.
+    pub(crate) fn note(&mut self, note: impl Into<String>) -> &mut Diagnostic {
+        self.notes.push(note.into());
+        self
+    }
+
+    /// Adds a line on what to do.
+    pub(crate) fn help(&mut self, help: impl Into<String>) -> &mut Diagnostic {
+        self.help.push(help.into());
+        self
+    }
+
+    /// Adds the nearest of `names` if `name` resembles one.
+    pub(crate) fn did_you_mean<'n>(
+        &mut self,
+        name: &str,
+        names: impl IntoIterator<Item = &'n str>,
+    ) -> &mut Diagnostic {
+        if let Some(nearest) = nearest(name, names) {
+            self.help.push(format!("did you mean `{nearest}`?"));
+        }
+        self
+    }
+
+    /// Line of the start of the span, from 1.
+    pub fn line(&self) -> usize {
+        position(&self.source.text, self.span.start).0
+    }
+
+    /// Column of the start of the span in characters, from 1.
+    pub fn column(&self) -> usize {
+        position(&self.source.text, self.span.start).1
+    }
+}
+
+/// `grid.toml:3:13: message`, on one line.
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}:{}: {}", self.source.name, self.line(), self.column(), self.message)
+    }
+}
+
+impl std::error::Error for Diagnostic {}
+
+/// Line and column of a byte of `text`, both from 1; columns count characters.
+pub(crate) fn position(text: &str, byte: usize) -> (usize, usize) {
+    let mut end = byte.min(text.len());
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    let before = &text[..end];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    let line = 1 + before.matches('\n').count();
+    // Editors do not show the byte order mark.
+    let column = 1 + before[line_start..].chars().filter(|c| *c != '\u{feff}').count();
+    (line, column)
+}
+
+/// The one of `names` that `name` is most likely a misspelling of, if any is close.
+pub(crate) fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+    names
+        .into_iter()
+        .map(|candidate| (strsim::jaro_winkler(&name.to_lowercase(), &candidate.to_lowercase()), candidate))
+        .filter(|(likeness, _)| *likeness > 0.8)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_count_characters_not_bytes() {
+        let text = "a = 1\n\"µ\" = 2\n";
+        assert_eq!(position(text, 0), (1, 1));
+        assert_eq!(position(text, 4), (1, 5));
+        assert_eq!(position(text, 6), (2, 1));
+        assert_eq!(position(text, 11), (2, 5));
+        assert_eq!(position(text, text.len()), (3, 1));
+        assert_eq!(position("\u{feff}a", 3), (1, 1));
+    }
+
+    #[test]
+    fn nearest_names() {
+        let names = ["drive_voltage_pp", "drive_frequency", "wing_area"];
+        assert_eq!(nearest("drive_voltage", names), Some("drive_voltage_pp"));
+        assert_eq!(nearest("WING_AREA", names), Some("wing_area"));
+        assert_eq!(nearest("temperature", names), None);
+    }
+}

@@ -1,0 +1,97 @@
+//! Grid files: from text to a [`Plan`], or to everything that is wrong with the text.
+//!
+//! Each part of the file has a module of its own below; all report into one list, so that a file with three
+//! mistakes is reported with all three. See `docs/grid.md` for the format.
+
+mod axes;
+mod output;
+mod params;
+mod preset;
+mod problems;
+mod range;
+mod read;
+mod solver;
+mod syntax;
+mod table;
+mod value;
+mod zip;
+
+use std::sync::Arc;
+
+use flap_core::model::{Preset, Simulator};
+use toml::de::DeTable;
+
+use crate::axis::Axis;
+use crate::diagnostic::Diagnostic;
+use crate::plan::{Parts, Plan, Source};
+use problems::Problems;
+pub use read::{ReadError, read};
+use table::Entry;
+
+/// The keys at the top of a grid file.
+const KEYS: [&str; 6] = ["preset", "params", "axes", "zip", "solver", "output"];
+
+/// Checks the grid file `text` and makes its plan. Presets are looked up in `models`; `name` is for messages.
+///
+/// # Errors
+/// Every mistake found, in the order of the file. A file that is not TOML is reported for that alone.
+pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Result<Plan, Vec<Diagnostic>> {
+    let source = Arc::new(Source { name: name.to_owned(), text: text.to_owned() });
+    let mut problems = Problems::new(Arc::clone(&source));
+    let (root, errors) = DeTable::parse_recoverable(text);
+    if !errors.is_empty() {
+        syntax::report(&errors, &mut problems);
+        return Err(problems.into_diagnostics());
+    }
+
+    let root = table::entries(root.get_ref());
+    let chosen = preset::read(&root, models, &mut problems);
+    report_unknown_keys(&root, chosen.map(|(model, _)| model), &mut problems);
+    let solver = solver::read(table::find(&root, "solver"), &mut problems);
+    let output = output::read(table::find(&root, "output"), chosen.map(|(model, _)| model), &mut problems);
+    // Without a model there are no parameters to check against.
+    let Some((simulator, preset)) = chosen else {
+        return Err(problems.into_diagnostics());
+    };
+    let (base, axes) = read_points(&root, simulator, preset, models, &mut problems);
+
+    if !problems.is_empty() {
+        return Err(problems.into_diagnostics());
+    }
+    let (axes, spans): (Vec<Axis>, Vec<_>) =
+        axes.into_iter().map(|placed| (placed.axis, placed.span)).unzip();
+    let source = (*source).clone();
+    let parts = Parts { simulator, preset: preset.name, base, axes, solver, output, source };
+    Plan::new(parts).map_err(|parts| {
+        axes::report_too_many_points(&parts.axes, &spans, &mut problems);
+        problems.into_diagnostics()
+    })
+}
+
+/// What `[params]`, `[axes]` and `[[zip]]` say about the points.
+fn read_points(
+    root: &[Entry<'_>],
+    simulator: &'static dyn Simulator,
+    preset: &Preset,
+    models: &[&'static dyn Simulator],
+    problems: &mut Problems,
+) -> (Vec<f64>, Vec<axes::Placed>) {
+    let mut base = (preset.values)();
+    let mut lookup = params::Lookup { simulator, models, problems };
+    let set = params::read(table::find(root, "params"), &mut base, &mut lookup);
+    let mut axes = axes::read(table::find(root, "axes"), &mut lookup);
+    axes.extend(zip::read(table::find(root, "zip"), &mut lookup));
+    axes.sort_by_key(|placed| placed.span.start);
+    axes::report_repeats(&axes, &set, &mut lookup);
+    (base, axes)
+}
+
+fn report_unknown_keys(root: &[Entry<'_>], model: Option<&'static dyn Simulator>, problems: &mut Problems) {
+    for entry in root.iter().filter(|entry| !KEYS.contains(&entry.key)) {
+        let diagnostic = table::report_unknown_key(entry, &KEYS, "at the top of a grid file", problems);
+        if model.is_some_and(|model| model.parameters().iter().any(|known| known.name == entry.key)) {
+            diagnostic.help.clear();
+            diagnostic.help("parameters go into [params], or into [axes] to vary them");
+        }
+    }
+}

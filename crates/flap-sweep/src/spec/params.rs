@@ -1,0 +1,73 @@
+//! The section `[params]`: single values on top of the preset.
+
+use std::ops::Range;
+
+use flap_core::model::{Parameter, Simulator};
+
+use super::problems::Problems;
+use super::table::{self, Entry};
+use super::value;
+
+/// What it takes to look a parameter up and complain if it is not there.
+pub(super) struct Lookup<'l> {
+    pub(super) simulator: &'static dyn Simulator,
+    pub(super) models: &'l [&'static dyn Simulator],
+    pub(super) problems: &'l mut Problems,
+}
+
+impl Lookup<'_> {
+    /// The parameter that `entry` is for, with its index.
+    pub(super) fn parameter(&mut self, entry: &Entry<'_>) -> Option<(usize, &'static Parameter)> {
+        let known = self.simulator.parameters();
+        let found = known.iter().enumerate().find(|(_, parameter)| parameter.name == entry.key);
+        if found.is_none() {
+            self.report_unknown(entry, known);
+        }
+        found
+    }
+
+    fn report_unknown(&mut self, entry: &Entry<'_>, known: &[Parameter]) {
+        let model = self.simulator.name();
+        let owners: Vec<&str> = self
+            .models
+            .iter()
+            .filter(|other| other.parameters().iter().any(|parameter| parameter.name == entry.key))
+            .map(|other| other.name())
+            .collect();
+        let diagnostic = self
+            .problems
+            .report(entry.key_span.clone(), format!("model `{model}` has no parameter `{}`", entry.key))
+            .label("unknown parameter")
+            .did_you_mean(entry.key, known.iter().map(|parameter| parameter.name));
+        if !owners.is_empty() {
+            diagnostic.note(format!("it is a parameter of the model {}", owners.join(" and ")));
+        }
+        if diagnostic.help.is_empty() {
+            diagnostic.help("`flap params` lists the parameters of every model");
+        }
+    }
+
+    /// The name of parameter number `index`.
+    pub(super) fn name(&self, index: usize) -> &'static str {
+        self.simulator.parameters()[index].name
+    }
+}
+
+/// Puts the values of `[params]` into `base`. Returns which parameters the section names, and where.
+pub(super) fn read(
+    entry: Option<&Entry<'_>>,
+    base: &mut [f64],
+    lookup: &mut Lookup<'_>,
+) -> Vec<(usize, Range<usize>)> {
+    let mut set = Vec::new();
+    for entry in entry.map(|entry| table::section(entry, lookup.problems)).unwrap_or_default() {
+        let Some((index, parameter)) = lookup.parameter(&entry) else {
+            continue;
+        };
+        set.push((index, entry.key_span.clone()));
+        if let Some(value) = value::of_parameter(parameter, entry.value, lookup.problems) {
+            base[index] = value;
+        }
+    }
+    set
+}

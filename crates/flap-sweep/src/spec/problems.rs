@@ -1,0 +1,41 @@
+//! The mistakes found so far.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::diagnostic::Diagnostic;
+use crate::plan::Source;
+
+/// Collects diagnostics about one file.
+pub(super) struct Problems {
+    source: Arc<Source>,
+    found: Vec<Diagnostic>,
+}
+
+impl Problems {
+    pub(super) fn new(source: Arc<Source>) -> Problems {
+        Problems { source, found: Vec::new() }
+    }
+
+    /// The text of the file.
+    pub(super) fn text(&self) -> &str {
+        &self.source.text
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.found.is_empty()
+    }
+
+    /// Adds a diagnostic, and hands it back for labels, notes and help.
+    pub(super) fn report(&mut self, span: Range<usize>, message: impl Into<String>) -> &mut Diagnostic {
+        let diagnostic = Diagnostic::new(Arc::clone(&self.source), span, message.into());
+        self.found.push(diagnostic);
+        self.found.last_mut().expect("one was just added")
+    }
+
+    /// Everything reported, in the order of the file.
+    pub(super) fn into_diagnostics(mut self) -> Vec<Diagnostic> {
+        self.found.sort_by_key(|diagnostic| diagnostic.span.start);
+        self.found
+    }
+}

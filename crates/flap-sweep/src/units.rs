@@ -1,0 +1,86 @@
+//! Quantities with units, as grid files write them: `"200 V"`, `"1.52 uN*m/rad"`, `"45 °"`.
+//!
+//! A quantity is a number, then a unit: symbols with SI prefixes, joined by `*`, `·` and `/`, with powers
+//! such as `^2` or `²`. Decimal units are converted in the text of the number, before it is rounded to a
+//! float, so that `"135 um"` is the very float that `135e-6` is.
+
+mod dimension;
+mod error;
+mod number;
+mod table;
+mod unit;
+
+use std::ops::Range;
+
+pub use error::{Problem, UnitError};
+pub(crate) use number::scan;
+use unit::Unit;
+
+/// The value in SI units of the quantity `text`, which must measure the same as `si_unit`.
+///
+/// An empty `si_unit` is a pure number. Only there may `text` do without a unit.
+///
+/// # Errors
+/// If there is no number, the unit is unknown or malformed, the unit measures something else, or the value
+/// is not a finite float. Spans are bytes of `text`.
+///
+/// # Panics
+/// If `si_unit` itself is not a unit: it comes from a model's parameter table, not from a user.
+pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
+    let wanted = unit::parse(si_unit).expect("parameter tables hold proper units");
+    let start = text.len() - text.trim_start().len();
+    let trimmed = text.trim();
+    let (number, length) = scan(trimmed).map_err(|error| offset(error, start))?;
+
+    let unit_text = trimmed[length..].trim_start();
+    let unit_start = start + trimmed.len() - unit_text.len();
+    let unit_span = unit_start..unit_start + unit_text.len();
+    if unit_text.is_empty() && !si_unit.is_empty() {
+        let problem = Problem::NoUnit { wanted: si_unit.to_owned(), usual: table::usual(si_unit) };
+        return Err(UnitError { span: start..start + length, problem });
+    }
+    let unit = unit::parse(unit_text)
+        .map_err(|error| offset(with_suggestion(error, unit_text, si_unit, wanted), unit_start))?;
+    if !unit.dimension.fits(wanted.dimension) {
+        let problem = Problem::Mismatch {
+            unit: unit_text.to_owned(),
+            measures: unit.dimension.to_string(),
+            wanted: si_unit.to_owned(),
+            usual: table::usual(si_unit),
+        };
+        return Err(UnitError { span: unit_span, problem });
+    }
+
+    let at_number = |problem| UnitError { span: start..start + length, problem };
+    let decimal = number.shifted(unit.shift).map_err(at_number)?;
+    // Multiplying and dividing by 1 changes nothing: decimal units stay exact.
+    let value = decimal * unit.above / unit.below;
+    if value.is_finite() { Ok(value) } else { Err(at_number(Problem::TooLarge)) }
+}
+
+/// Moves an error along by `start` bytes.
+fn offset(error: UnitError, start: usize) -> UnitError {
+    let Range { start: from, end } = error.span;
+    UnitError { span: from + start..end + start, ..error }
+}
+
+/// Adds to an unknown unit within `text` which ones would do, and a guess at what it was meant to be: one that
+/// makes the whole measure the same as `si_unit` before any other.
+fn with_suggestion(mut error: UnitError, text: &str, si_unit: &str, wanted: Unit) -> UnitError {
+    let span = error.span.clone();
+    if let Problem::UnknownUnit { unit, nearest, usual } = &mut error.problem {
+        *usual = table::usual(si_unit);
+        if nearest.is_none() {
+            let guesses = table::suggestions(unit);
+            let fits = |guess: &&String| {
+                let repaired = format!("{}{guess}{}", &text[..span.start], &text[span.end..]);
+                unit::parse(&repaired).is_ok_and(|unit| unit.dimension.fits(wanted.dimension))
+            };
+            *nearest = guesses.iter().find(fits).or(guesses.first()).cloned();
+        }
+    }
+    error
+}
+
+#[cfg(test)]
+mod tests;

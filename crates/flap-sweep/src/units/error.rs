@@ -1,0 +1,114 @@
+//! What can be wrong with a quantity.
+
+use std::fmt;
+use std::ops::Range;
+
+/// A quantity that cannot be used, and where in its text the trouble is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnitError {
+    /// Bytes of the text at fault.
+    pub span: Range<usize>,
+    /// What is wrong with them.
+    pub problem: Problem,
+}
+
+/// What is wrong with a quantity.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Problem {
+    /// The text does not start with a number.
+    NoNumber,
+    /// The number is not one, such as `1e-3e`.
+    BadNumber(String),
+    /// The number is infinite or not a number.
+    NotFinite(String),
+    /// The value is beyond the largest 64-bit float.
+    TooLarge,
+    /// The value is not zero but too small for a 64-bit float.
+    TooSmall,
+    /// A number without a unit where there must be one.
+    NoUnit {
+        /// The SI unit wanted.
+        wanted: String,
+        /// Ways to write it.
+        usual: Vec<String>,
+    },
+    /// There is no such unit.
+    UnknownUnit {
+        /// As written.
+        unit: String,
+        /// What may have been meant.
+        nearest: Option<String>,
+        /// Ways to write the unit wanted; empty for a pure number.
+        usual: Vec<String>,
+    },
+    /// The unit is not put together properly.
+    BadUnit {
+        /// What should stand here.
+        expected: &'static str,
+    },
+    /// The unit measures something else.
+    Mismatch {
+        /// The unit as written.
+        unit: String,
+        /// What it measures, such as `a time`.
+        measures: String,
+        /// The SI unit wanted; empty for a pure number.
+        wanted: String,
+        /// Ways to write it; empty for a pure number.
+        usual: Vec<String>,
+    },
+}
+
+impl UnitError {
+    /// The message, with `what` as the name of the value.
+    pub fn message(&self, what: &str) -> String {
+        match &self.problem {
+            Problem::NoNumber => format!("{what} must start with a number"),
+            Problem::BadNumber(text) => format!("`{text}` is not a number"),
+            Problem::NotFinite(text) => format!("{what} cannot be `{text}`: values are finite"),
+            Problem::TooLarge => format!("{what} is too large for a 64-bit float"),
+            Problem::TooSmall => format!("{what} is too small for a 64-bit float, but not zero"),
+            Problem::NoUnit { .. } => format!("{what} is written as text but has no unit"),
+            Problem::UnknownUnit { unit, .. } => format!("unknown unit `{unit}`"),
+            Problem::BadUnit { expected } => format!("malformed unit: expected {expected}"),
+            Problem::Mismatch { unit, measures, wanted, .. } => {
+                let wanted =
+                    if wanted.is_empty() { "a pure number".to_owned() } else { format!("in {wanted}") };
+                format!("`{unit}` is {measures}, but {what} is {wanted}")
+            }
+        }
+    }
+
+    /// What to do about it, if that is known.
+    pub fn help(&self) -> Option<String> {
+        match &self.problem {
+            Problem::NoNumber => {
+                Some("write a bare number, or a number with its unit such as \"200 V\"".to_owned())
+            }
+            Problem::BadNumber(_) => {
+                Some("numbers look like 12, 0.5 or 1.5e-6, with a space before the unit".to_owned())
+            }
+            Problem::NoUnit { wanted, usual } => {
+                Some(format!("add a unit: {}; or write a bare number in {wanted}", usual.join(", ")))
+            }
+            Problem::UnknownUnit { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
+            Problem::BadUnit { .. } => Some("units look like V, N*m/rad, mm^2 or kg/(m*s)".to_owned()),
+            Problem::UnknownUnit { usual, .. } | Problem::Mismatch { usual, .. } if usual.is_empty() => {
+                Some("write a bare number, or use %".to_owned())
+            }
+            Problem::UnknownUnit { usual, .. } | Problem::Mismatch { usual, .. } => {
+                Some(format!("use {}", usual.join(", ")))
+            }
+            Problem::NotFinite(_) | Problem::TooLarge | Problem::TooSmall => None,
+        }
+    }
+}
+
+impl fmt::Display for UnitError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message("the value"))?;
+        self.help().map_or(Ok(()), |help| write!(f, "; {help}"))
+    }
+}
+
+impl std::error::Error for UnitError {}

@@ -1,0 +1,7 @@
+//! Grid files and plans: what a grid file means, and what is said about one that means nothing.
+
+mod fake;
+mod files;
+mod meaning;
+mod mistakes;
+mod points;

@@ -1,0 +1,104 @@
+//! Any text at all: never a panic, and diagnostics that can be shown.
+
+use flap_core::model::Kind;
+use proptest::prelude::*;
+
+use crate::fake::MODELS;
+
+const GRID: &str = r#"
+preset = "fly"
+[params]
+drive_voltage_pp = "200 V"
+arms = "axis"
+[axes]
+wing_area = { from = "50 mm^2", to = "60 mm²", n = 11, scale = "log" }
+drive_frequency = { from = 60, to = 200, step = "1 Hz" }
+[[zip]]
+stroke_offset = ["1 deg", 0.2, -3e-1]
+hinge_position = [1, 2, 3]
+[solver]
+rtol = 1e-6
+max_cycles = 10
+[output]
+path = 'a.csv'
+columns = ["lift_mean_mn"]
+"#;
+
+/// Scraps that mean something in a grid file.
+const SCRAPS: [&str; 24] = [
+    "",
+    "\n",
+    "\"",
+    "'",
+    "\"\"\"",
+    "[",
+    "]]",
+    "{",
+    "}",
+    ",",
+    ".",
+    "=",
+    "-",
+    "0",
+    "1e999",
+    "nan",
+    "n = 2",
+    "[[zip]]",
+    "wing_area",
+    "step = 0",
+    " V",
+    "\\u00b5",
+    "µ",
+    "\u{feff}",
+];
+
+proptest! {
+    #[test]
+    fn damaged_grids(cuts in prop::collection::vec((0.0..1.0_f64, 0..12_usize, 0..SCRAPS.len()), 1..4)) {
+        let mut text: Vec<char> = GRID.chars().collect();
+        for (place, length, scrap) in cuts {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a fraction of a length")]
+            let start = (place * text.len() as f64) as usize;
+            let end = (start + length).min(text.len());
+            text.splice(start..end, SCRAPS[scrap].chars());
+        }
+        let text: String = text.into_iter().collect();
+        match flap_sweep::spec::parse("grid.toml", &text, &MODELS) {
+            Ok(plan) => {
+                for index in [0, plan.len() / 2, plan.len() - 1] {
+                    let values = plan.point(index).values;
+                    for (parameter, value) in plan.parameters().iter().zip(values) {
+                        match parameter.kind {
+                            Kind::Number(range) => prop_assert!(range.contains(value), "{}", parameter.name),
+                            Kind::Following(range, _) => prop_assert!(value.is_nan() || range.contains(value)),
+                            Kind::Choice(options) => prop_assert!((0..options.len()).any(|i| i as f64 == value)),
+                        }
+                    }
+                }
+            }
+            Err(problems) => {
+                prop_assert!(!problems.is_empty());
+                for problem in problems {
+                    prop_assert!(text.get(problem.span.clone()).is_some(), "{:?}", problem.span);
+                    for related in &problem.related {
+                        prop_assert!(text.get(related.span.clone()).is_some(), "{:?}", related.span);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn deep_nesting_is_refused() {
+    let deep = |piece: &str| piece.repeat(50_000);
+    let texts = [
+        format!("a = {}1{}", deep("["), deep("]")),
+        format!("a = {}1{}", deep("{ a = "), deep(" }")),
+        format!("{}a = 1", deep("a.")),
+        format!("[{}a]", deep("a.")),
+    ];
+    for text in texts {
+        assert!(flap_sweep::spec::parse("grid.toml", &text, &MODELS).is_err());
+    }
+}

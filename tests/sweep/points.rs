@@ -1,0 +1,87 @@
+//! A plan indexes its points; a plan written out as nested loops must agree.
+
+use proptest::prelude::*;
+
+use crate::fake::{index, plan};
+
+/// One axis as text, and its values computed here.
+#[derive(Clone, Debug)]
+struct Case {
+    text: String,
+    values: Vec<f64>,
+}
+
+/// A list, or a range of any kind, for a parameter that takes any positive number.
+fn values() -> impl Strategy<Value = Case> {
+    let list = prop::collection::vec(0.1..100.0_f64, 1..5)
+        .prop_map(|values| Case { text: format!("{values:?}"), values });
+    let ends = (1.0..50.0_f64, 51.0..100.0_f64, any::<bool>());
+    let ends = ends.prop_map(|(low, high, up)| if up { (low, high) } else { (high, low) });
+    let linear = (ends.clone(), 2..5_u32).prop_map(|((from, to), n)| Case {
+        text: format!("{{ from = {from:?}, to = {to:?}, n = {n} }}"),
+        values: (0..n).map(|i| from + (to - from) * f64::from(i) / f64::from(n - 1)).collect(),
+    });
+    let log = (ends.clone(), 2..5_u32).prop_map(|((from, to), n)| Case {
+        text: format!("{{ from = {from:?}, to = {to:?}, n = {n}, scale = \"log\" }}"),
+        values: (0..n).map(|i| from * (to / from).powf(f64::from(i) / f64::from(n - 1))).collect(),
+    });
+    let step = (ends, 0.2..2.0_f64).prop_map(|((from, to), fraction)| {
+        let step = (to - from) * fraction;
+        let values = (0..10).map(|i| from + step * f64::from(i));
+        Case {
+            text: format!("{{ from = {from:?}, to = {to:?}, step = {step:?} }}"),
+            values: values
+                .take_while(|value| (value - from).abs() <= (to - from).abs() * (1.0 + 1e-12))
+                .collect(),
+        }
+    });
+    prop_oneof![list, linear, log, step]
+}
+
+/// An axis of options, with its indices.
+fn options() -> impl Strategy<Value = Case> {
+    prop::collection::vec(prop_oneof![Just(0.0), Just(1.0)], 1..4).prop_map(|values| Case {
+        text: format!(
+            "{:?}",
+            values.iter().map(|v| if *v == 0.0 { "printed" } else { "axis" }).collect::<Vec<_>>()
+        ),
+        values,
+    })
+}
+
+proptest! {
+    #[test]
+    fn points_are_those_of_nested_loops(
+        area in values(),
+        first in prop::collection::vec(0.1..100.0_f64, 3),
+        second in prop::collection::vec(0.1..100.0_f64, 3),
+        arms in options(),
+        frequency in values(),
+    ) {
+        let plan = plan(&format!(
+            "preset = \"fly\"\nparams.plate_width = 7\n[axes]\nwing_area = {}\narms = {}\n\
+             [[zip]]\nstroke_offset = {first:?}\nhinge_position = {second:?}\n\
+             [[zip]]\ndrive_frequency = {}\n",
+            area.text, arms.text, frequency.text
+        ));
+        let names = ["wing_area", "arms", "stroke_offset", "hinge_position", "drive_frequency", "plate_width"];
+        let mut number = 0;
+        for area in &area.values {
+            for arms in &arms.values {
+                for (first, second) in first.iter().zip(&second) {
+                    for frequency in &frequency.values {
+                        let point = plan.point(number);
+                        prop_assert_eq!(point.index, number);
+                        let expected = [*area, *arms, *first, *second, *frequency, 7.0];
+                        for (name, expected) in names.iter().zip(expected) {
+                            let value = point.values[index(name)];
+                            prop_assert!((value - expected).abs() <= 1e-14 * expected.abs(), "{} {}", name, value);
+                        }
+                        number += 1;
+                    }
+                }
+            }
+        }
+        prop_assert_eq!(plan.len(), number);
+    }
+}
