@@ -121,7 +121,7 @@ pub(crate) fn position(text: &str, byte: usize) -> (usize, usize) {
 }
 
 /// The one of `names` that `name` is most likely a misspelling of, if any is close.
-pub(crate) fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     names
         .into_iter()
         .map(|candidate| (strsim::jaro_winkler(&name.to_lowercase(), &candidate.to_lowercase()), candidate))
