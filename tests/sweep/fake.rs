@@ -2,10 +2,9 @@
 
 use std::sync::LazyLock;
 
-use flap_core::model::{
-    Column, Invalid, Jobs, Kind, Parameter, Preset, Range, Row, Simulator, SolverSettings, Trajectory,
-    TrajectoryRequest,
-};
+use flap_core::model::{Invalid, Kind, Parameter, Preset, Range};
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{Column, Jobs, Row, Simulator, SolverSettings, Trajectory, TrajectoryRequest};
 use flap_sweep::diagnostic::Diagnostic;
 use flap_sweep::plan::Plan;
 
@@ -38,16 +37,17 @@ impl Simulator for Fake {
         self.columns
     }
 
-    fn run(&self, _: &SolverSettings, _: &mut dyn Jobs) {
+    fn run(&self, _: InstructionSet, _: &SolverSettings, _: &mut dyn Jobs) {
         unimplemented!("grid files are checked without running anything")
     }
 
-    fn run_point(&self, _: &SolverSettings, _: &[f64]) -> Row {
+    fn run_point(&self, _: InstructionSet, _: &SolverSettings, _: &[f64]) -> Row {
         unimplemented!("grid files are checked without running anything")
     }
 
     fn trajectory(
         &self,
+        _: InstructionSet,
         _: &SolverSettings,
         _: &[f64],
         _: &TrajectoryRequest,

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use flap_core::model;
+use flap_core::simulate;
 use flap_sweep::spec::{self, ReadError};
 use flap_sweep::units;
 
@@ -52,7 +52,7 @@ fn mistakes_are_named_after_the_file() {
 #[test]
 fn presets_of_all_models_are_found() {
     let folder = tempfile::tempdir().expect("a folder");
-    for preset in model::all().iter().flat_map(|model| model.presets()) {
+    for preset in simulate::all().iter().flat_map(|model| model.presets()) {
         let path = folder.path().join(preset.name);
         fs::write(&path, format!("preset = \"{}\"", preset.name)).expect("written");
         let plan = spec::read(&path).unwrap_or_else(|error| panic!("{error}"));
@@ -63,7 +63,7 @@ fn presets_of_all_models_are_found() {
 /// One of the SI unit is 1: otherwise bare numbers and numbers with units would disagree.
 #[test]
 fn units_of_all_parameters_are_si() {
-    for model in model::all() {
+    for model in simulate::all() {
         for parameter in model.parameters().iter().filter(|parameter| !parameter.unit.is_empty()) {
             let one = units::parse_as(&format!("1 {}", parameter.unit), parameter.unit);
             assert_eq!(one, Ok(1.0), "{} of {}", parameter.name, model.name());

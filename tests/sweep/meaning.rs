@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use flap_core::model::SolverSettings;
+use flap_core::simulate::SolverSettings;
 use flap_sweep::axis::Values;
 use flap_sweep::plan::{Output, Plan};
 

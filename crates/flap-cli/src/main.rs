@@ -1,2 +1,27 @@
 //! The `flap` command.
-fn main() {}
+
+mod args;
+mod cmd;
+mod console;
+mod failure;
+mod progress;
+mod render;
+mod table;
+mod time;
+
+use std::process::ExitCode;
+
+use args::{Args, Command};
+use clap::Parser;
+
+fn main() -> ExitCode {
+    let ended = match Args::parse().command {
+        Command::Sweep(args) => cmd::sweep::run(&args),
+        Command::Run(args) => cmd::run::run(&args),
+        Command::Check(args) => cmd::check::run(&args),
+        Command::Params(args) => cmd::params::run(&args),
+        Command::Models => cmd::models::run(),
+    };
+    let exit = ended.unwrap_or_else(failure::Failure::report);
+    ExitCode::from(exit as u8)
+}

@@ -4,7 +4,7 @@
 //!
 //! - [`num`]: the numbers that models and integrators compute with, scalars or SIMD lanes
 //! - [`ode`]: Dormand-Prince 5(4), for one run or for many in lanes
-//! - [`drive`], [`piezo`], [`linkage`]: components that models share
+//! - [`drive`], [`piezo`], [`linkage`], [`modes`]: components that models share
 //! - [`model`]: the papers' models: parameters → constants → equations of motion → signals
 //! - [`measure`]: what is measured of a motion, whatever the model
 //! - [`simulate`]: design points in, rows out
@@ -15,6 +15,7 @@ pub mod drive;
 pub mod linkage;
 pub mod measure;
 pub mod model;
+pub mod modes;
 pub mod num;
 pub mod ode;
 pub mod piezo;

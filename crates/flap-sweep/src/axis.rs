@@ -57,10 +57,9 @@ impl Values {
             Values::Linear { from, to, count } => match index {
                 0 => from,
                 _ if index + 1 == count => to,
-                // Multiplied first, so that 0 to 1 in steps of 0.1 gives 0.3 and not its neighbour.
-                _ => from + (to - from) * index as f64 / (count - 1) as f64,
+                _ => decimal(from + (to - from) * index as f64 / (count - 1) as f64),
             },
-            Values::Step { from, step, .. } => from + step * index as f64,
+            Values::Step { from, step, .. } => decimal(from + step * index as f64),
             Values::Log { from, to, count } => match index {
                 0 => from,
                 _ if index + 1 == count => to,
@@ -69,6 +68,12 @@ impl Values {
             },
         }
     }
+}
+
+/// `x` to 15 significant digits, so that 60e-6 and 10e-6 more make the 70e-6 one would write, and not its
+/// neighbour 7.000000000000001e-5.
+fn decimal(x: f64) -> f64 {
+    format!("{x:.14e}").parse().unwrap_or(x)
 }
 
 /// One axis: one or more parameters with as many values each.

@@ -1,9 +1,16 @@
 //! Grid files, plans and sweeps.
 //!
-//! The way of the data: grid file → [`spec`] → [`plan::Plan`] → points → rows → sink.
+//! The way of the data: grid file → [`spec`] → [`plan::Plan`] → points → [`run`] → rows → [`sink`].
 
 pub mod axis;
+pub mod csv_sink;
 pub mod diagnostic;
+pub mod layout;
+pub mod output;
 pub mod plan;
+pub mod run;
+pub mod sidecar;
+pub mod sink;
 pub mod spec;
+pub mod text;
 pub mod units;

@@ -4,7 +4,8 @@
 
 use std::path::PathBuf;
 
-use flap_core::model::{Parameter, Point, Simulator, SolverSettings};
+use flap_core::model::Parameter;
+use flap_core::simulate::{Point, Simulator, SolverSettings};
 
 use crate::axis::Axis;
 

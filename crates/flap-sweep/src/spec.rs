@@ -18,7 +18,8 @@ mod zip;
 
 use std::sync::Arc;
 
-use flap_core::model::{Preset, Simulator};
+use flap_core::model::Preset;
+use flap_core::simulate::Simulator;
 use toml::de::DeTable;
 
 use crate::axis::Axis;

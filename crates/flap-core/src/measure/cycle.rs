@@ -1,14 +1,15 @@
 //! Signals over one drive period: means, extrema, first harmonics.
 //!
 //! Means and harmonics are quadratures advanced with the stages of each step: exact to the order of the
-//! integration, not sums over samples. They stand outside the error norm. Extrema come from the parabola
-//! through a signal's values at the beginning, middle and end of each step.
+//! integration, not sums over samples. They stand outside the error norm. Extrema, and the positive part of a
+//! signal in steps where it changes sign, come from the parabola through its values at the beginning, middle
+//! and end of the step.
 
-use crate::model::{Model, SignalCycle};
+use crate::model::{Measure, Model, Signal, SignalCycle};
 use crate::num::Lanes;
 use crate::ode::dense::interpolate;
 use crate::ode::ensemble::Observer;
-use crate::ode::step::Step;
+use crate::ode::step::Attempt;
 use crate::ode::tableau::{B, C};
 
 crate::per_lane! {
@@ -57,15 +58,14 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
         &self,
         model: &M,
         c: &M::Constants<R>,
-        t: R,
-        h: R,
-        side: R,
-        step: &Step<R, N>,
+        attempt: &Attempt<'_, R, N>,
         accepted: R::Mask,
         totals: &mut [Totals<R>; S],
     ) {
+        let Attempt { t, h, side, step } = *attempt;
         let zero = h.lit(0.0);
         let mut sums = *totals;
+        let mut positive = [zero; S];
 
         // Quadrature: B has no weight on stages 2 and 7.
         for stage in [0, 2, 3, 4, 5] {
@@ -77,7 +77,7 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
                 let part = values[i] * weight;
                 sums[i].integral = sums[i].integral + part;
                 sums[i].square = part.mul_add(values[i], sums[i].square);
-                sums[i].positive = values[i].max(zero).mul_add(weight, sums[i].positive);
+                positive[i] = values[i].max(zero).mul_add(weight, positive[i]);
                 sums[i].cosine = part.mul_add(cos, sums[i].cosine);
                 sums[i].sine = part.mul_add(sin, sums[i].sine);
             }
@@ -89,11 +89,17 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
         let middle = model.signals(c, &input, side, &y_middle, &model.rhs(c, &input, side, &y_middle));
         let end = model.signals(c, &model.input(c, t + h), side, &step.y[6], &step.k[6]);
         for i in 0..S {
-            let vertex = vertex(begin[i], middle[i], end[i]);
-            let max = begin[i].max(middle[i]).max(end[i]).max(vertex);
-            let min = begin[i].min(middle[i]).min(end[i]).min(vertex);
-            sums[i].max = max.max(sums[i].max);
-            sums[i].min = min.min(sums[i].min);
+            let parabola = Parabola::through(begin[i], middle[i], end[i]);
+            let vertex = parabola.vertex();
+            let max = begin[i].max(middle[i]).max(end[i]);
+            let min = begin[i].min(middle[i]).min(end[i]);
+            sums[i].max = max.max(vertex).max(sums[i].max);
+            sums[i].min = min.min(vertex).min(sums[i].min);
+            if needs_positive_part(&M::SIGNALS[i]) {
+                let changes_sign = (max * min).lt(zero);
+                let part = R::select(changes_sign, parabola.positive_mean() * h, positive[i]);
+                sums[i].positive = sums[i].positive + part;
+            }
         }
 
         for i in 0..S {
@@ -111,16 +117,62 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
     }
 }
 
-/// The value at the vertex of the parabola through three equidistant values, if it lies between the outer
-/// two; otherwise the middle value.
-#[inline(always)]
-fn vertex<R: Lanes>(begin: R, middle: R, end: R) -> R {
-    // f(x) = middle + slope x + ½ bend x², x from −1 to 1.
-    let slope = (end - begin) * 0.5;
-    let bend = begin + end - middle * 2.0;
-    let inside = slope.abs().lt(bend.abs());
-    let safe_bend = R::select(inside, bend, bend.lit(1.0));
-    R::select(inside, middle - slope * slope / safe_bend * 0.5, middle)
+fn needs_positive_part(signal: &Signal) -> bool {
+    signal.measures.iter().any(|measure| matches!(measure, Measure::Supply | Measure::Magnitude))
+}
+
+/// A signal within a step: middle + slope x + ½ bend x², with x from −1 to 1.
+#[derive(Clone, Copy)]
+struct Parabola<R> {
+    begin: R,
+    middle: R,
+    end: R,
+    slope: R,
+    bend: R,
+}
+
+impl<R: Lanes> Parabola<R> {
+    #[inline(always)]
+    fn through(begin: R, middle: R, end: R) -> Parabola<R> {
+        Parabola { begin, middle, end, slope: (end - begin) * 0.5, bend: begin + end - middle * 2.0 }
+    }
+
+    /// The value at the vertex if that lies within the step, otherwise the middle value.
+    #[inline(always)]
+    fn vertex(&self) -> R {
+        let inside = self.slope.abs().lt(self.bend.abs());
+        let bend = R::select(inside, self.bend, self.bend.lit(1.0));
+        R::select(inside, self.middle - self.slope * self.slope / bend * 0.5, self.middle)
+    }
+
+    /// The mean over the step of the positive part, for at most one change of sign in each half.
+    #[inline(always)]
+    fn positive_mean(&self) -> R {
+        let (zero, one) = (self.middle.lit(0.0), self.middle.lit(1.0));
+        (self.positive_area(-one, self.begin, zero, self.middle)
+            + self.positive_area(zero, self.middle, one, self.end))
+            * 0.5
+    }
+
+    /// ∫ of the positive part from `x0` to `x1`, where the parabola has the values `f0` and `f1`.
+    #[inline(always)]
+    fn positive_area(&self, x0: R, f0: R, x1: R, f1: R) -> R {
+        let mut root = x0 + f0 / (f0 - f1) * (x1 - x0);
+        for _ in 0..3 {
+            let value = root.mul_add(root.mul_add(self.bend * 0.5, self.slope), self.middle);
+            let slope = root.mul_add(self.bend, self.slope);
+            root = (root - value / slope).max(x0).min(x1);
+        }
+        let zero = root.lit(0.0);
+        let from = R::select(zero.lt(f0), x0, root);
+        let to = R::select(zero.lt(f1), x1, root);
+        self.antiderivative(to) - self.antiderivative(from)
+    }
+
+    #[inline(always)]
+    fn antiderivative(&self, x: R) -> R {
+        x * x.mul_add(x.mul_add(self.bend * (1.0 / 6.0), self.slope * 0.5), self.middle)
+    }
 }
 
 /// The cycle's measures from its totals, for a period of `period` seconds.

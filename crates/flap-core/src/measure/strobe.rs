@@ -3,7 +3,9 @@
 //! It knows no model and no waveform, so a new model needs no change here.
 
 /// Longest orbit that is looked for, in drive periods.
-pub const LONGEST_PERIOD: usize = 4;
+pub const LONGEST_PERIOD: u32 = 4;
+
+const LONGEST: usize = LONGEST_PERIOD as usize;
 
 /// Strobed states closer together than this, in units of their typical size, are not the separate points of
 /// a subharmonic: a run that spirals slowly into a period-1 orbit passes near itself too.
@@ -15,24 +17,20 @@ pub struct Strobe<const N: usize> {
     scale: [f64; N],
     tolerance: f64,
     /// The latest state first; then those 1, 2, … periods ago.
-    states: [[f64; N]; LONGEST_PERIOD + 1],
+    states: [[f64; N]; LONGEST + 1],
     /// For how many period ends in a row the state has been what it was 1, 2, … periods ago.
-    repeats: [u32; LONGEST_PERIOD],
+    repeats: [u32; LONGEST],
     cycles: u32,
 }
 
 impl<const N: usize> Strobe<N> {
     /// A strobe that has seen the initial state only.
     ///
-    /// Changes of a component count in units of its `scale`; below `tolerance` they count as none.
+    /// Changes of a component count in units of its `scale`, but in a motion smaller than its scales relative to
+    /// the motion's own size: a wing that hardly moves is not for that reason settled. A change up to
+    /// `tolerance` counts as none.
     pub fn new(initial: &[f64; N], scale: &[f64; N], tolerance: f64) -> Strobe<N> {
-        Strobe {
-            scale: *scale,
-            tolerance,
-            states: [*initial; LONGEST_PERIOD + 1],
-            repeats: [0; LONGEST_PERIOD],
-            cycles: 0,
-        }
+        Strobe { scale: *scale, tolerance, states: [*initial; LONGEST + 1], repeats: [0; LONGEST], cycles: 0 }
     }
 
     /// Takes the state at the end of a period. Returns the orbit's length in periods once it has settled.
@@ -44,25 +42,34 @@ impl<const N: usize> Strobe<N> {
         self.states.rotate_right(1);
         self.states[0] = *y;
         self.cycles += 1;
-        for p in 1..=LONGEST_PERIOD {
-            let returned = self.cycles as usize >= p && self.change(p) < self.tolerance;
-            let apart = p == 1 || self.change(1) > SEPARATE;
-            self.repeats[p - 1] = if returned && apart { self.repeats[p - 1] + 1 } else { 0 };
+        let separate = self.change(1) > SEPARATE;
+        let mut settled = None;
+        for period in (1..=LONGEST_PERIOD).rev() {
+            let returned = self.cycles >= period && self.change(period) <= self.tolerance;
+            let counts = returned && (period == 1 || separate);
+            let repeats = &mut self.repeats[period as usize - 1];
+            *repeats = if counts { *repeats + 1 } else { 0 };
+            if *repeats > period {
+                settled = Some(period);
+            }
         }
-        (1..=LONGEST_PERIOD).find(|&p| self.repeats[p - 1] as usize > p).map(|p| p as u32)
+        settled
     }
 
-    /// Largest change of a component over the last `periods` periods, in units of its scale.
+    /// Largest change of a component over the last `periods` periods, in the units of [`Strobe::new`].
     /// NaN before that many periods have passed.
-    pub fn change(&self, periods: usize) -> f64 {
-        if (self.cycles as usize) < periods {
+    pub fn change(&self, periods: u32) -> f64 {
+        if self.cycles < periods {
             return f64::NAN;
         }
-        let mut largest = 0.0_f64;
+        let before = &self.states[periods as usize];
+        let mut change = 0.0_f64;
+        let mut size = 0.0_f64;
         for i in 0..N {
-            largest = largest.max((self.states[0][i] - self.states[periods][i]).abs() / self.scale[i]);
+            change = change.max((self.states[0][i] - before[i]).abs() / self.scale[i]);
+            size = size.max(self.states[0][i].abs().max(before[i].abs()) / self.scale[i]);
         }
-        largest
+        if change == 0.0 { 0.0 } else { change / size.min(1.0) }
     }
 
     /// The latest state.

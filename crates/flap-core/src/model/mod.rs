@@ -70,9 +70,3 @@ impl Invalid {
         Invalid { reason: reason.into() }
     }
 }
-
-// Kept while callers move to `crate::simulate`.
-pub use crate::simulate::{
-    Column, Jobs, Point, Row, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest, all, by_name,
-    preset,
-};

@@ -12,10 +12,13 @@ use fearless_simd::Simd;
 use super::controller::{Memory, judge};
 use super::norm::error_squared;
 use super::start::{first_step, span_step};
-use super::step::{Step, step};
+use super::step::{Attempt, step};
 use super::switch::{Crossing, Switching, landing_stretch};
 use super::{Ending, MIN_STEP, Ode, Outcome, Start, Tolerances};
 use crate::num::{Lanes, PerLane, Vector};
+
+/// A run to be started: what to remember of it, and where it begins.
+pub type NewRun<Run, C, const N: usize> = (Run, Start<C, N>);
 
 /// Where runs come from and what becomes of them.
 pub trait Queue<O: Ode<N>, V: Observer<O, N>, const N: usize> {
@@ -25,7 +28,7 @@ pub trait Queue<O: Ode<N>, V: Observer<O, N>, const N: usize> {
     /// The next run, or `None` if there is none for now.
     ///
     /// With `idle`, no lane is running: the call may wait, and `None` ends the ensemble.
-    fn next(&mut self, idle: bool) -> Option<(Self::Run, Start<O::Constants<f64>, N>)>;
+    fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, O::Constants<f64>, N>>;
 
     /// Looks at a run at the end of a span, and goes on with it or breaks.
     fn span_end(&mut self, run: &mut Self::Run, y: &[f64; N], totals: &V::Totals<f64>) -> ControlFlow<()>;
@@ -47,10 +50,7 @@ pub trait Observer<O: Ode<N>, const N: usize> {
         &self,
         ode: &O,
         c: &O::Constants<R>,
-        t: R,
-        h: R,
-        side: R,
-        step: &Step<R, N>,
+        attempt: &Attempt<'_, R, N>,
         accepted: R::Mask,
         totals: &mut Self::Totals<R>,
     );
@@ -71,10 +71,7 @@ impl<O: Ode<N>, const N: usize> Observer<O, N> for Unobserved {
         &self,
         _ode: &O,
         _c: &O::Constants<R>,
-        _t: R,
-        _h: R,
-        _side: R,
-        _step: &Step<R, N>,
+        _attempt: &Attempt<'_, R, N>,
         _accepted: R::Mask,
         (): &mut (),
     ) {
@@ -95,7 +92,7 @@ where
         #[inline(always)]
         || {
             Bank::<Vector<S>, O, V, Q::Run, N>::new(simd, observer, tolerances, first)
-                .drive(ode, observer, queue)
+                .drive(ode, observer, queue);
         },
     );
 }
@@ -151,7 +148,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
         token: R::Token,
         observer: &V,
         tolerances: &Tolerances,
-        (run, start): (Run, Start<O::Constants<f64>, N>),
+        (run, start): NewRun<Run, O::Constants<f64>, N>,
     ) -> Self {
         let number = R::splat(token, 0.0);
         let mut bank = Bank {
@@ -300,7 +297,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
         }
         self.h = crossing.h;
         let accepted = crossing.accepted;
-        observer.add(ode, &self.constants, self.t, h, side, &tried, accepted, &mut self.totals);
+        let attempt = Attempt { t: self.t, h, side, step: &tried };
+        observer.add(ode, &self.constants, &attempt, accepted, &mut self.totals);
         let t = R::select(landing, self.span, self.t + h);
         self.t = R::select(accepted, t, self.t);
         for i in 0..N {
@@ -357,6 +355,11 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
                 Some(ending) => {
                     self.active &= !bit;
                     if let Some(Running { run, began }) = self.runs[lane].take() {
+                        #[expect(
+                            clippy::cast_possible_truncation,
+                            clippy::cast_sign_loss,
+                            reason = "a count: whole, positive and small"
+                        )]
                         let switches = self.switches.lane(lane) as u64;
                         queue.ended(run, Outcome::new(ending, self.steps - began, switches));
                     }

@@ -6,23 +6,10 @@ use core::ops::ControlFlow;
 use super::controller::{Memory, judge};
 use super::norm::error_squared;
 use super::start::{first_step, span_step};
-use super::step::{Step, step};
+use super::step::{Attempt, step};
 use super::switch::{Crossing, Switching, landing_stretch};
 use super::{Ending, MIN_STEP, Ode, Outcome, Start, Tolerances};
 use crate::num::{Lanes, PerLane};
-
-/// An accepted step.
-#[derive(Debug)]
-pub struct Accepted<'a, R, const N: usize> {
-    /// Time within the span at which the step begins (s).
-    pub t: R,
-    /// Its size (s).
-    pub h: R,
-    /// The side of the switching surface it is on.
-    pub side: R,
-    /// Its stages.
-    pub step: &'a Step<R, N>,
-}
 
 /// Integrates one run until `at_span_end` breaks, or until it fails.
 ///
@@ -33,7 +20,7 @@ pub fn solve<O: Ode<N>, R: Lanes<Token = (), Mask = bool>, const N: usize>(
     ode: &O,
     tolerances: &Tolerances,
     start: &Start<O::Constants<f64>, N>,
-    mut on_step: impl FnMut(&O::Constants<R>, &Accepted<'_, R, N>),
+    mut on_step: impl FnMut(&O::Constants<R>, &Attempt<'_, R, N>),
     mut at_span_end: impl FnMut(&[f64; N]) -> ControlFlow<()>,
 ) -> Outcome {
     let number = |x: f64| R::splat((), x);
@@ -78,7 +65,7 @@ pub fn solve<O: Ode<N>, R: Lanes<Token = (), Mask = bool>, const N: usize>(
         h = crossing.h;
         let accepted = crossing.accepted;
         if accepted {
-            on_step(&c, &Accepted { t, h: h_try, side, step: &tried });
+            on_step(&c, &Attempt { t, h: h_try, side, step: &tried });
             t = if landing { span } else { t + h_try };
             y = tried.y[6];
             k1 = tried.k[6];

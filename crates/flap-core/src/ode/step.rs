@@ -15,6 +15,19 @@ pub struct Step<R, const N: usize> {
     pub error: [R; N],
 }
 
+/// An attempted step and where it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Attempt<'a, R, const N: usize> {
+    /// Time within the span at which the step begins (s).
+    pub t: R,
+    /// Its size (s).
+    pub h: R,
+    /// The side of the switching surface it is on.
+    pub side: R,
+    /// Its stages.
+    pub step: &'a Step<R, N>,
+}
+
 /// Attempts a step of size `h` from `y` at `t`, where the slope is `k1`, on one `side` of a switching surface.
 /// Evaluates six right-hand sides.
 #[inline(always)]

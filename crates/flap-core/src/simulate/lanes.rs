@@ -13,7 +13,7 @@ use crate::measure::cycle::{Signals, Totals};
 use crate::measure::strobe::Strobe;
 use crate::model::Model;
 use crate::num::Kernel;
-use crate::ode::ensemble::{Queue, Unobserved, run};
+use crate::ode::ensemble::{NewRun, Queue, Unobserved, run};
 use crate::ode::{Outcome, Start};
 
 /// Settled runs measured together: enough to keep 16 lanes full, few enough to hand rows on soon.
@@ -84,18 +84,17 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const S: usize> Queue<M, Unobserve
 {
     type Run = March<M::Constants<f64>, N>;
 
-    fn next(&mut self, idle: bool) -> Option<(Self::Run, Start<M::Constants<f64>, N>)> {
+    fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, N>> {
         loop {
-            let point = match self.jobs.next(false) {
-                Some(point) => point,
-                None => {
-                    // Whoever hands out points may be waiting for rows that wait here.
-                    self.measure();
-                    if !idle {
-                        return None;
-                    }
-                    self.jobs.next(true)?
+            let point = if let Some(point) = self.jobs.next(false) {
+                point
+            } else {
+                // Whoever hands out points may be waiting for rows that wait here.
+                self.measure();
+                if !idle {
+                    return None;
                 }
+                self.jobs.next(true)?
             };
             match self.model.start(&point.values) {
                 Ok(start) => {
@@ -119,15 +118,14 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const S: usize> Queue<M, Unobserve
     fn ended(&mut self, march: Self::Run, outcome: Outcome) {
         let March { index, mut start, strobe, period } = march;
         let settled = Settled { strobe, period, outcome };
-        match settled.unmeasured() {
-            Some(row) => self.jobs.done(index, row),
-            None => {
-                start.y = *strobe.state();
-                self.settled.push(Orbit { index, start, settled });
-                if self.settled.len() == BATCH {
-                    self.measure();
-                }
-            }
+        if let Some(row) = settled.unmeasured() {
+            self.jobs.done(index, row);
+            return;
+        }
+        start.y = *strobe.state();
+        self.settled.push(Orbit { index, start, settled });
+        if self.settled.len() == BATCH {
+            self.measure();
         }
     }
 }
@@ -152,7 +150,7 @@ where
 {
     type Run = Measured<M::Constants<f64>, N, S>;
 
-    fn next(&mut self, _idle: bool) -> Option<(Self::Run, Start<M::Constants<f64>, N>)> {
+    fn next(&mut self, _idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, N>> {
         let orbit = self.orbits.next()?;
         let start = orbit.start;
         Some((Measured { orbit, totals: None }, start))

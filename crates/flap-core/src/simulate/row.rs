@@ -90,7 +90,7 @@ impl<const N: usize> Settled<N> {
             status,
             measures: Vec::new(),
             cycles: self.strobe.cycles(),
-            residual: self.strobe.change(period.max(1) as usize),
+            residual: self.strobe.change(period.max(1)),
             period,
             rhs_evals: self.outcome.rhs_evals,
             reason: None,

@@ -66,9 +66,7 @@ where
         model,
         &solver.tolerances(),
         &start,
-        |c, accepted| {
-            observer.add(model, c, accepted.t, accepted.h, accepted.side, accepted.step, true, &mut totals)
-        },
+        |c, accepted| observer.add(model, c, accepted, true, &mut totals),
         |_| ControlFlow::Break(()),
     );
     let totals = totals.map(|total| total.lane(0));

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use flap_core::model::Simulator;
+use flap_core::simulate::Simulator;
 use toml::Spanned;
 use toml::de::DeValue;
 

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use flap_core::model::{Parameter, Simulator};
+use flap_core::model::Parameter;
+use flap_core::simulate::Simulator;
 
 use super::problems::Problems;
 use super::table::{self, Entry};

@@ -1,6 +1,7 @@
 //! The key `preset`: which model, and where its parameters start.
 
-use flap_core::model::{Preset, Simulator};
+use flap_core::model::Preset;
+use flap_core::simulate::Simulator;
 
 use super::problems::Problems;
 use super::table::{self, Entry};

@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use flap_core::model;
+use flap_core::simulate;
 
 use crate::diagnostic::{Diagnostic, position};
 use crate::plan::Plan;
@@ -75,5 +75,5 @@ pub fn read(path: &Path) -> Result<Plan, ReadError> {
         let (line, column) = position(&before, byte);
         ReadError::NotUtf8 { path: path.to_owned(), byte, line, column }
     })?;
-    super::parse(&path.display().to_string(), &text, model::all()).map_err(ReadError::Grid)
+    super::parse(&path.display().to_string(), &text, simulate::all()).map_err(ReadError::Grid)
 }

@@ -1,6 +1,6 @@
 //! The section `[solver]`: how exactly points are integrated, and for how long.
 
-use flap_core::model::SolverSettings;
+use flap_core::simulate::SolverSettings;
 
 use super::problems::Problems;
 use super::table::{self, Entry};

@@ -17,6 +17,7 @@ pub use rhs::{
 use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use super::{Derived, Invalid, Model, Parameter, Preset, Signal, SignalCycle};
 use crate::drive::{Voltage, biased_sine};
+use crate::modes::natural_frequencies;
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
 
@@ -179,6 +180,12 @@ impl Model<4, 9> for DirectDrive {
             unit: "V/um",
             doc: "largest electric field in the piezoelectric layer",
         },
+        Derived {
+            name: "mode_1_hz",
+            unit: "Hz",
+            doc: "lower natural frequency of small motions in still air, without aerodynamic damping",
+        },
+        Derived { name: "mode_2_hz", unit: "Hz", doc: "upper natural frequency of small motions" },
     ];
 
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
@@ -233,6 +240,7 @@ impl Model<4, 9> for DirectDrive {
         let taken = cycle[DRAG_POWER].mean + cycle[ROTATION_POWER].mean;
         let frequency = c.drive_rate / (2.0 * core::f64::consts::PI);
         let voltage_pp = 2.0 * c.drive_amplitude;
+        let [mode_1, mode_2] = DirectDrive::linear_modes(c);
         let voltage_max = (c.drive_bias.abs() + c.drive_amplitude.abs()) / c.piezo_thickness;
         vec![
             wrap_degrees(drive_phase - cycle[STROKE].phase()),
@@ -243,7 +251,17 @@ impl Model<4, 9> for DirectDrive {
             (power - taken) / power,
             cycle[STROKE].measure(Peak) * c.strain_per_stroke.abs(),
             voltage_max * 1e-6,
+            mode_1,
+            mode_2,
         ]
+    }
+}
+
+impl DirectDrive {
+    /// Natural frequencies (Hz) of small motions about ψ = 0 with the added mass of still air, the lower first.
+    pub fn linear_modes(c: &Constants<f64>) -> [f64; 2] {
+        let coupling = c.m12 - c.a12;
+        natural_frequencies([[c.m11 + c.a11, coupling], [coupling, c.m22 + c.a22]], [c.k_phi, c.k_w])
     }
 }
 

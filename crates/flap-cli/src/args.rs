@@ -1,0 +1,163 @@
+//! What is typed on the command line.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand, value_parser};
+
+/// Sweeps of insect-scale flapping-wing designs: a grid file goes in, one row per design point comes out.
+#[derive(Parser)]
+#[command(name = "flap", version, max_term_width = 100, after_help = EXIT_CODES)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Subcommand)]
+pub(crate) enum Command {
+    /// Run every point of a grid file and write one row per point
+    Sweep(SweepArgs),
+    /// Run one point and print what it measures
+    Run(RunArgs),
+    /// Check a grid file and show what it would run
+    Check(CheckArgs),
+    /// List the parameters and output columns of a model
+    Params(ParamsArgs),
+    /// List the models and their presets
+    Models,
+}
+
+const EXIT_CODES: &str = "\
+Results go to stdout, everything else to stderr.
+
+Exit codes:
+  0    done
+  1    with --strict: done, but not every point is periodic
+  2    the command line or the grid file must be corrected
+  3    reading or writing failed
+  130  interrupted
+  101  a mistake in flap itself";
+
+#[derive(clap::Args)]
+#[command(after_help = SWEEP_HELP)]
+pub(crate) struct SweepArgs {
+    /// The grid file: preset, parameters and axes
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) grid: PathBuf,
+
+    /// Where to write rows, or `-` for stdout [default: the output path in the grid file, else the grid
+    /// file's name with the ending .csv, in the working directory]
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+
+    /// Worker threads; the rows do not depend on it [default: one per core]
+    #[arg(short = 'j', long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+
+    /// Overwrite an existing file of results
+    #[arg(short, long)]
+    pub(crate) force: bool,
+
+    /// Exit with 1 if some points are not periodic
+    #[arg(long)]
+    pub(crate) strict: bool,
+}
+
+const SWEEP_HELP: &str = "\
+Rows leave in point order as they are computed. Ctrl-C finishes the points in hand, keeps their rows \
+and exits with 130; a second Ctrl-C exits at once. Beside FILE, FILE.meta.toml says where the rows come \
+from.
+
+Examples:
+  flap sweep --grid grid.toml
+  flap sweep --grid grid.toml --out results/run1.csv --threads 8
+  flap sweep --grid grid.toml --out - | head";
+
+#[derive(clap::Args)]
+#[command(after_help = RUN_HELP)]
+pub(crate) struct RunArgs {
+    /// A preset, or a grid file
+    #[arg(value_name = "PRESET|FILE")]
+    pub(crate) what: String,
+
+    /// Which point of the grid file
+    #[arg(short, long, value_name = "I", default_value_t = 0)]
+    pub(crate) point: u64,
+
+    /// Set a parameter: a number in SI units, a number with a unit, or an option. May be repeated
+    #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, String)>,
+
+    /// Write the motion over time to a CSV file, or to stdout with `-` instead of the summary
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) trajectory: Option<PathBuf>,
+
+    /// Drive periods of the trajectory
+    #[arg(long, value_name = "N", default_value_t = 2, requires = "trajectory",
+          value_parser = value_parser!(u32).range(1..=100_000))]
+    pub(crate) cycles: u32,
+
+    /// Samples per drive period of the trajectory
+    #[arg(long, value_name = "N", default_value_t = 200, requires = "trajectory",
+          value_parser = value_parser!(u32).range(1..=1_000_000))]
+    pub(crate) samples: u32,
+
+    /// Start the trajectory at rest instead of on the settled orbit
+    #[arg(long, requires = "trajectory")]
+    pub(crate) from_rest: bool,
+
+    /// Overwrite an existing trajectory file
+    #[arg(short, long, requires = "trajectory")]
+    pub(crate) force: bool,
+
+    /// Relative tolerance of the integrator; the absolute one follows, a hundredth of it
+    #[arg(long, value_name = "TOL", value_parser = tolerance)]
+    pub(crate) rtol: Option<f64>,
+
+    /// Change of the state per drive period below which an orbit counts as settled
+    #[arg(long, value_name = "TOL", value_parser = tolerance)]
+    pub(crate) settle_tol: Option<f64>,
+
+    /// Drive periods after which a point counts as unsettled
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
+    pub(crate) max_cycles: Option<u32>,
+}
+
+const RUN_HELP: &str = "\
+Examples:
+  flap run ozaki2018-large
+  flap run ozaki2018-large --set drive_frequency='120 Hz' --set drive_voltage_pp=150
+  flap run grid.toml --point 17 --trajectory point17.csv
+  flap run ozaki2018-large --trajectory - --from-rest --cycles 50";
+
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  flap check grid.toml")]
+pub(crate) struct CheckArgs {
+    /// The grid file
+    #[arg(value_name = "FILE")]
+    pub(crate) grid: PathBuf,
+}
+
+#[derive(clap::Args)]
+#[command(after_help = "Examples:\n  flap params direct-drive\n  flap params ozaki2018-large")]
+pub(crate) struct ParamsArgs {
+    /// A model, or a preset to see its values
+    #[arg(value_name = "MODEL|PRESET")]
+    pub(crate) what: String,
+}
+
+/// `name=value`, both without the blanks around them.
+fn assignment(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as drive_frequency='120 Hz'")?;
+    Ok((name.trim().to_owned(), value.trim().to_owned()))
+}
+
+/// A number more than 0 and less than 0.1: a looser one would mean nothing.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| "expected a number, such as 1e-6".to_owned())?;
+    if number > 0.0 && number < 0.1 {
+        Ok(number)
+    } else {
+        Err("must be more than 0 and less than 0.1".into())
+    }
+}

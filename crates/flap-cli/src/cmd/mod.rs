@@ -1,0 +1,7 @@
+//! One module per command.
+
+pub(crate) mod check;
+pub(crate) mod models;
+pub(crate) mod params;
+pub(crate) mod run;
+pub(crate) mod sweep;

@@ -1,0 +1,19 @@
+//! `flap models`: what there is to run.
+
+use flap_core::simulate;
+
+use crate::console;
+use crate::failure::{Exit, Failure};
+use crate::table::Table;
+
+pub(crate) fn run() -> Result<Exit, Failure> {
+    let mut table = Table::default();
+    for model in simulate::all() {
+        table.row([model.name().to_owned(), model.doc().to_owned()]);
+        for preset in model.presets() {
+            table.row([format!("  {}", preset.name), preset.doc.to_owned()]);
+        }
+    }
+    console::results(&table.text())?;
+    Ok(Exit::Done)
+}

@@ -1,0 +1,168 @@
+//! `flap run`: one point, on the scalar path.
+
+use std::fmt::Write as _;
+use std::io::{self, Write};
+use std::path::Path;
+
+use flap_core::model::{Kind, Parameter};
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{self, Row, SolverSettings, Status, Trajectory, TrajectoryRequest};
+use flap_sweep::diagnostic::nearest;
+use flap_sweep::plan::Plan;
+use flap_sweep::{csv_sink, output, spec, text, units};
+
+use crate::args::RunArgs;
+use crate::console;
+use crate::failure::{Exit, Failure};
+use crate::table::Table;
+
+pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
+    let mut plan = plan(&args.what)?;
+    set_solver(&mut plan.solver, args);
+    if args.point >= plan.len() {
+        let message =
+            format!("there is no point {}: {} has points 0 to {}", args.point, args.what, plan.len() - 1);
+        return Err(Failure::usage(message));
+    }
+    let mut values = plan.point(args.point).values;
+    for (name, value) in &args.set {
+        set_parameter(plan.parameters(), &mut values, name, value)?;
+    }
+
+    let set = InstructionSet::best();
+    if let Some(path) = &args.trajectory {
+        let request = TrajectoryRequest {
+            cycles: args.cycles,
+            samples_per_cycle: args.samples,
+            settled: !args.from_rest,
+        };
+        let motion = plan.simulator.trajectory(set, &plan.solver, &values, &request);
+        let motion = motion.map_err(|invalid| Failure::usage(invalid.to_string()))?;
+        if path.as_os_str() == "-" {
+            write_csv(&motion, io::stdout().lock())?;
+            return Ok(Exit::Done);
+        }
+        write_file(&motion, path, args.force)?;
+        console::say(&format!("{} samples in {}", motion.rows.len(), path.display()));
+    }
+
+    let row = plan.simulator.run_point(set, &plan.solver, &values);
+    if let (Status::Invalid, Some(reason)) = (row.status, &row.reason) {
+        return Err(Failure::usage(format!("the parameters are impossible together: {reason}")));
+    }
+    console::results(&page(&plan, args, &row))?;
+    Ok(Exit::Done)
+}
+
+/// The plan of a preset or a grid file.
+fn plan(what: &str) -> Result<Plan, Failure> {
+    if simulate::preset(what).is_some() {
+        let grid = format!("preset = \"{what}\"\n");
+        return spec::parse(what, &grid, simulate::all()).map_err(Failure::Grid);
+    }
+    let path = Path::new(what);
+    let looks_like_a_file = path.extension().is_some() || path.components().count() > 1;
+    if looks_like_a_file || path.exists() {
+        return Ok(spec::read(path)?);
+    }
+    let presets = simulate::all().iter().flat_map(|model| model.presets()).map(|preset| preset.name);
+    let failure = Failure::usage(format!("there is no preset and no file `{what}`"));
+    Err(match nearest(what, presets) {
+        Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
+        None => failure.help("`flap models` lists models and presets"),
+    })
+}
+
+fn set_solver(settings: &mut SolverSettings, args: &RunArgs) {
+    if let Some(rtol) = args.rtol {
+        settings.rtol = rtol;
+        settings.atol = rtol / 100.0;
+    }
+    settings.settle_tol = args.settle_tol.unwrap_or(settings.settle_tol);
+    settings.max_cycles = args.max_cycles.unwrap_or(settings.max_cycles);
+}
+
+/// Sets the parameter called `name` from text.
+fn set_parameter(
+    parameters: &[Parameter],
+    values: &mut [f64],
+    name: &str,
+    text: &str,
+) -> Result<(), Failure> {
+    let Some(index) = parameters.iter().position(|parameter| parameter.name == name) else {
+        let failure = Failure::usage(format!("there is no parameter `{name}`"));
+        return Err(match nearest(name, parameters.iter().map(|parameter| parameter.name)) {
+            Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
+            None => failure.help("`flap params` lists the parameters of a model"),
+        });
+    };
+    values[index] = value(&parameters[index], text)?;
+    Ok(())
+}
+
+fn value(parameter: &Parameter, text: &str) -> Result<f64, Failure> {
+    let name = parameter.name;
+    match parameter.kind {
+        Kind::Choice(options) => {
+            let index = (0_u32..).zip(options).find(|(_, option)| **option == text).map(|(index, _)| index);
+            let failure = || {
+                let message = format!("`{name}` has no option `{text}`");
+                Failure::usage(message).help(format!("options: {}", options.join(", ")))
+            };
+            index.map(f64::from).ok_or_else(failure)
+        }
+        Kind::Number(range) | Kind::Following(range, _) => {
+            // A bare number is in SI units, as in a grid file.
+            let number = units::parse_as(text, "").or_else(|_| units::parse_as(text, parameter.unit));
+            let number = number.map_err(|error| {
+                let failure = Failure::usage(format!("--set {name}={text}: {}", error.message("the value")));
+                error.help().into_iter().fold(failure, Failure::help)
+            })?;
+            if range.contains(number) {
+                return Ok(number);
+            }
+            Err(Failure::usage(format!("`{name}` must be {}, not {text}", range.describe())))
+        }
+    }
+}
+
+/// The summary of a run.
+fn page(plan: &Plan, args: &RunArgs, row: &Row) -> String {
+    let mut page = format!("{} from {}", plan.simulator.name(), plan.preset);
+    if plan.len() > 1 {
+        let _ = write!(page, ", point {} of {}", args.point, plan.len());
+    }
+    let residual = if row.residual.is_nan() { "none".to_owned() } else { six_digits(row.residual) };
+    let Row { cycles, period, rhs_evals, .. } = row;
+    let _ = write!(page, "\nstatus = {}, cycles = {cycles}, residual = {residual}, ", row.status.name());
+    let _ = writeln!(page, "period = {period}, rhs_evals = {rhs_evals}");
+    if !row.measures.is_empty() {
+        let mut table = Table::with_headings(&["column", "value", "unit", "meaning"]);
+        for (column, &measure) in plan.simulator.columns().iter().zip(&row.measures) {
+            table.row([column.name.clone(), six_digits(measure), column.unit.to_owned(), column.doc.clone()]);
+        }
+        page += "\n";
+        page += &table.text();
+    }
+    page
+}
+
+/// The number to six digits.
+fn six_digits(number: f64) -> String {
+    format!("{number:.5e}").parse().map_or_else(|_| String::new(), text::float)
+}
+
+fn write_file(motion: &Trajectory, path: &Path, overwrite: bool) -> Result<(), Failure> {
+    let refused = |error| Failure::System(format!("cannot write {}: {error}", path.display()), Vec::new());
+    write_csv(motion, output::create(path, overwrite)?).map_err(refused)
+}
+
+fn write_csv(motion: &Trajectory, target: impl Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(target);
+    writer.write_record(&motion.columns).map_err(csv_sink::cause)?;
+    for row in &motion.rows {
+        let cells = row.iter().map(|&value| text::float(value));
+        writer.write_record(cells).map_err(csv_sink::cause)?;
+    }
+    writer.flush()
+}

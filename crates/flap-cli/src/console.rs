@@ -1,0 +1,15 @@
+//! The two streams: results go to stdout, everything else to stderr.
+
+use std::io::{self, Write};
+
+/// Writes results to stdout.
+pub(crate) fn results(text: &str) -> io::Result<()> {
+    let mut stdout = anstream::stdout().lock();
+    stdout.write_all(text.as_bytes())?;
+    stdout.flush()
+}
+
+/// Tells the user something. Nobody is left to tell if stderr is closed.
+pub(crate) fn say(text: &str) {
+    let _ = writeln!(anstream::stderr(), "{text}");
+}

@@ -1,0 +1,131 @@
+//! Why a command could not do its work, and how the program ends.
+
+use std::fmt::Write as _;
+use std::io;
+
+use anstyle::{AnsiColor, Style};
+use flap_sweep::diagnostic::Diagnostic;
+use flap_sweep::output::CreateError;
+use flap_sweep::run::RunError;
+use flap_sweep::spec::ReadError;
+
+use crate::{console, render};
+
+/// How the program ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Exit {
+    Done = 0,
+    NotAllPeriodic = 1,
+    Usage = 2,
+    System = 3,
+    Bug = 101,
+    Interrupted = 130,
+}
+
+/// Why a command could not do its work.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The command line or the grid file must be corrected: what is wrong, and what to do.
+    Usage(String, Vec<String>),
+    /// The grid file must be corrected.
+    Grid(Vec<Diagnostic>),
+    /// The operating system refused: what, and what to do.
+    System(String, Vec<String>),
+    /// A mistake in flap itself.
+    Bug(String),
+    /// Whoever read our output has seen enough. Nothing is wrong.
+    ClosedPipe,
+}
+
+impl Failure {
+    /// Something to be corrected by the user.
+    pub(crate) fn usage(message: impl Into<String>) -> Failure {
+        Failure::Usage(message.into(), Vec::new())
+    }
+
+    /// Adds a line on what to do.
+    pub(crate) fn help(mut self, line: impl Into<String>) -> Failure {
+        if let Failure::Usage(_, help) | Failure::System(_, help) = &mut self {
+            help.push(line.into());
+        }
+        self
+    }
+
+    /// Tells the user.
+    pub(crate) fn report(self) -> Exit {
+        match self {
+            Failure::Usage(message, help) => {
+                complain(&message, &help);
+                Exit::Usage
+            }
+            Failure::Grid(diagnostics) => {
+                console::say(&render::diagnostics(&diagnostics));
+                Exit::Usage
+            }
+            Failure::System(message, help) => {
+                complain(&message, &help);
+                Exit::System
+            }
+            Failure::Bug(message) => {
+                complain(&message, &["this is a mistake in flap: please report it".to_owned()]);
+                Exit::Bug
+            }
+            Failure::ClosedPipe => Exit::Done,
+        }
+    }
+}
+
+fn complain(message: &str, help: &[String]) {
+    let error = Style::new().bold().fg_color(Some(AnsiColor::BrightRed.into()));
+    let advice = Style::new().bold().fg_color(Some(AnsiColor::BrightCyan.into()));
+    let mut text = format!("{error}error{error:#}: {message}");
+    for line in help {
+        let _ = write!(text, "\n{advice}help{advice:#}: {line}");
+    }
+    console::say(&text);
+}
+
+/// Writing to stdout failed.
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Failure {
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
+            _ => Failure::System(format!("cannot write to stdout: {error}"), Vec::new()),
+        }
+    }
+}
+
+impl From<ReadError> for Failure {
+    fn from(error: ReadError) -> Failure {
+        match error {
+            ReadError::Grid(diagnostics) => Failure::Grid(diagnostics),
+            ReadError::Missing { .. } | ReadError::Folder { .. } | ReadError::NotUtf8 { .. } => {
+                Failure::usage(error.to_string())
+            }
+            ReadError::Unreadable { .. } => Failure::System(error.to_string(), Vec::new()),
+        }
+    }
+}
+
+impl From<CreateError> for Failure {
+    fn from(error: CreateError) -> Failure {
+        match error {
+            CreateError::Exists { .. } => {
+                Failure::usage(error.to_string()).help("use --force to overwrite it, or name another file")
+            }
+            CreateError::Busy { .. } | CreateError::Io { .. } => {
+                Failure::System(error.to_string(), Vec::new())
+            }
+        }
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Failure {
+        match error {
+            RunError::Sink(source) if source.kind() == io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
+            RunError::Sink(_) | RunError::Threads(_) => Failure::System(error.to_string(), Vec::new()),
+            RunError::Model(_) | RunError::Panic(_) => Failure::Bug(error.to_string()),
+        }
+    }
+}

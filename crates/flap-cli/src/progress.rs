@@ -1,0 +1,49 @@
+//! The progress bar of a sweep, on stderr if that is a terminal.
+
+use std::fmt::Write;
+
+use flap_sweep::run::Progress;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+
+use crate::console;
+
+const TEMPLATE: &str = "{wide_bar} {human_pos} of {human_len} points, {rate}, {eta} left";
+
+/// Shows how far a sweep is.
+pub(crate) struct Bar {
+    bar: ProgressBar,
+    stopping: bool,
+}
+
+impl Bar {
+    /// Hidden unless stderr is a terminal.
+    pub(crate) fn new() -> Bar {
+        let style = ProgressStyle::with_template(TEMPLATE)
+            .unwrap_or_else(|_| ProgressStyle::default_bar())
+            .with_key("rate", write_rate);
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr()).with_style(style);
+        Bar { bar, stopping: false }
+    }
+
+    /// Moves the bar, and says once that the sweep is stopping.
+    pub(crate) fn show(&mut self, progress: Progress, stopping: bool) {
+        self.bar.set_length(progress.points);
+        self.bar.set_position(progress.finished);
+        if stopping && !self.stopping {
+            self.stopping = true;
+            self.bar.suspend(|| {
+                console::say("stopping: points in hand are finished first; interrupt again to stop at once");
+            });
+        }
+    }
+
+    /// Takes the bar away.
+    pub(crate) fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+fn write_rate(state: &ProgressState, text: &mut dyn Write) {
+    // There is nothing to do about text that cannot be written into memory.
+    let _ = write!(text, "{:.0} points/s", state.per_sec());
+}

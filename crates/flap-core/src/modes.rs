@@ -1,0 +1,18 @@
+//! Natural frequencies of small undamped motions.
+
+use nalgebra::{Matrix2, Vector2};
+
+/// Natural frequencies (Hz), the lower first, of M q̈ + diag(K) q = 0.
+///
+/// `mass` must be symmetric and positive definite, the two entries of `stiffness` positive; otherwise NaN.
+pub fn natural_frequencies(mass: [[f64; 2]; 2], stiffness: [f64; 2]) -> [f64; 2] {
+    let Some(cholesky) = Matrix2::from(mass).cholesky() else { return [f64::NAN; 2] };
+    // M = L Lᵀ turns the problem into an ordinary symmetric one, L⁻¹ K L⁻ᵀ.
+    let Some(inverse) = cholesky.l().try_inverse() else { return [f64::NAN; 2] };
+    let squares = (inverse * Matrix2::from_diagonal(&Vector2::from(stiffness)) * inverse.transpose())
+        .symmetric_eigenvalues();
+    let mut frequencies =
+        [squares[0], squares[1]].map(|square| square.sqrt() / (2.0 * core::f64::consts::PI));
+    frequencies.sort_by(f64::total_cmp);
+    frequencies
+}

@@ -1,0 +1,59 @@
+//! Rows as comma-separated values.
+
+use std::io;
+
+use flap_core::simulate::{Point, Row};
+
+use crate::layout::Layout;
+use crate::output::Durable;
+use crate::sink::Sink;
+
+/// Writes one plain header line, then one line per row.
+///
+/// Numbers are written as [`crate::text::float`] does, choices by the name of their option;
+/// cells of what is not known are empty.
+pub struct CsvSink<W: Durable> {
+    layout: Layout,
+    writer: csv::Writer<W>,
+}
+
+impl<W: Durable> CsvSink<W> {
+    /// Writes the columns of `layout` to `target`.
+    pub fn new(layout: Layout, target: W) -> CsvSink<W> {
+        // One system call takes some hundred rows.
+        let writer = csv::WriterBuilder::new().buffer_capacity(1 << 16).from_writer(target);
+        CsvSink { layout, writer }
+    }
+
+    /// What has been written to; complete after [`Sink::flush`] or [`Sink::finish`].
+    pub fn target(&self) -> &W {
+        self.writer.get_ref()
+    }
+}
+
+impl<W: Durable> Sink for CsvSink<W> {
+    fn begin(&mut self) -> io::Result<()> {
+        self.writer.write_record(self.layout.names()).map_err(cause)
+    }
+
+    fn write(&mut self, point: &Point, row: &Row) -> io::Result<()> {
+        self.writer.write_record(self.layout.cells(point, row)).map_err(cause)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.writer.flush()
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        self.writer.flush()?;
+        self.writer.get_ref().sync()
+    }
+}
+
+/// What the operating system said. The conversion of the csv crate would hide it, and a closed pipe with it.
+pub fn cause(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(cause) => cause,
+        other => io::Error::other(format!("{other:?}")),
+    }
+}

@@ -1,0 +1,74 @@
+//! The columns of a result file: which there are, in which order, and what they mean.
+
+use flap_core::model::Parameter;
+use flap_core::simulate::{Point, Row};
+
+use crate::plan::Plan;
+use crate::text;
+
+/// The columns of the rows of a plan:
+/// `point`, the varied parameters, `status`, the measures, then `cycles`, `residual`, `period`, `rhs_evals`.
+#[derive(Debug)]
+pub struct Layout {
+    /// The varied parameters, each with its index in the model's parameter table.
+    pub varied: Vec<(usize, &'static Parameter)>,
+    /// The selected measures.
+    pub measures: Vec<Measure>,
+}
+
+/// A measured column of a result file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Measure {
+    /// Index in the model's columns.
+    pub index: usize,
+    /// Name with its unit.
+    pub name: String,
+    /// The unit in words.
+    pub unit: &'static str,
+}
+
+impl Layout {
+    /// The columns that `plan` asks for.
+    pub fn of(plan: &Plan) -> Layout {
+        let parameters = plan.parameters();
+        let varied = plan.varied().map(|index| (index, &parameters[index])).collect();
+        let columns = plan.simulator.columns();
+        let measure =
+            |index: usize| Measure { index, name: columns[index].name.clone(), unit: columns[index].unit };
+        let measures = match &plan.output.columns {
+            Some(chosen) => chosen.iter().map(|&index| measure(index)).collect(),
+            None => (0..columns.len()).map(measure).collect(),
+        };
+        Layout { varied, measures }
+    }
+
+    /// The column names.
+    pub fn names(&self) -> Vec<&str> {
+        let mut names = vec!["point"];
+        names.extend(self.varied.iter().map(|(_, parameter)| parameter.name));
+        names.push("status");
+        names.extend(self.measures.iter().map(|measure| measure.name.as_str()));
+        names.extend(["cycles", "residual", "period", "rhs_evals"]);
+        names
+    }
+
+    /// One text per column. What is not known is empty: the measures of a point that is not periodic,
+    /// and the residual of one that completed no period.
+    pub fn cells(&self, point: &Point, row: &Row) -> Vec<String> {
+        let mut cells = vec![point.index.to_string()];
+        cells.extend(
+            self.varied.iter().map(|&(index, parameter)| text::value(parameter, point.values[index])),
+        );
+        cells.push(row.status.name().to_owned());
+        cells.extend(
+            self.measures
+                .iter()
+                .map(|measure| row.measures.get(measure.index).map_or_else(String::new, |&m| text::float(m))),
+        );
+        cells.push(row.cycles.to_string());
+        cells.push(text::float(row.residual));
+        cells.push(row.period.to_string());
+        cells.push(row.rhs_evals.to_string());
+        cells
+    }
+}

@@ -1,0 +1,42 @@
+//! The collector: takes rows out of the queue and writes them.
+
+use std::io;
+
+use super::queue::{Queue, Turn};
+use super::{Progress, Summary};
+use crate::plan::Plan;
+use crate::sink::Sink;
+
+/// Writes rows until the workers have ended.
+pub(super) fn collect(
+    plan: &Plan,
+    queue: &Queue,
+    sink: &mut dyn Sink,
+    progress: &mut dyn FnMut(Progress),
+) -> io::Result<Summary> {
+    let _ends_the_workers = Abort(queue);
+    let mut summary = Summary { points: plan.len(), ..Summary::default() };
+    let mut batch = Vec::new();
+    while let Turn::Rows(finished) = queue.turn(&mut batch) {
+        if !batch.is_empty() {
+            for row in batch.drain(..) {
+                sink.write(&plan.point(summary.rows), &row)?;
+                summary.add(row);
+            }
+            sink.flush()?;
+        }
+        progress(Progress { finished, points: summary.points });
+    }
+    summary.interrupted = summary.rows < summary.points;
+    Ok(summary)
+}
+
+/// Aborts the run when the collector ends, be it by an error or a panic: otherwise workers would wait for room
+/// for ever.
+struct Abort<'a>(&'a Queue<'a>);
+
+impl Drop for Abort<'_> {
+    fn drop(&mut self) {
+        self.0.abort();
+    }
+}

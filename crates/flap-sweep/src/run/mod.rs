@@ -1,0 +1,108 @@
+//! Runs a plan on all cores and writes its rows in point order.
+//!
+//! Each worker is one lane ensemble that lives for the whole sweep, so lanes are never left empty at the end of
+//! a chunk. Points finish in any order; a bounded window puts the rows back into point order, so that memory
+//! does not grow with the number of points and the output does not depend on the number of threads.
+
+mod collect;
+mod queue;
+mod summary;
+mod window;
+mod worker;
+
+use std::io;
+use std::num::NonZeroUsize;
+use std::sync::atomic::AtomicBool;
+use std::thread;
+
+use flap_core::num::InstructionSet;
+pub use summary::{Counts, Summary};
+
+use crate::plan::Plan;
+use crate::sink::Sink;
+use queue::Queue;
+
+/// How a plan is run. Nothing here changes a byte of the output, but for the arithmetic class of the
+/// instruction set.
+#[derive(Clone, Copy, Debug)]
+pub struct RunOptions {
+    /// Instructions of the lanes.
+    pub instructions: InstructionSet,
+    /// Worker threads.
+    pub threads: NonZeroUsize,
+    /// Most points between the last row written and the last point begun.
+    ///
+    /// A point that takes long holds up the rows behind it: the wider the window, the longer the others
+    /// can go on meanwhile. A row of 40 measures takes about half a kilobyte.
+    pub window: usize,
+}
+
+impl Default for RunOptions {
+    /// The best instructions of the machine, a thread per core, and a window that takes a few megabytes.
+    fn default() -> Self {
+        let threads = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        RunOptions { instructions: InstructionSet::best(), threads, window: 16_384 }
+    }
+}
+
+/// How far a sweep is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Points that have run, whether their rows are written yet or not.
+    pub finished: u64,
+    /// Points of the plan.
+    pub points: u64,
+}
+
+/// Why a sweep failed. The rows written until then are in order and complete.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// Rows could not be written.
+    #[error("cannot write rows: {0}")]
+    Sink(#[source] io::Error),
+    /// The threads could not be started.
+    #[error("cannot start the worker threads: {0}")]
+    Threads(#[source] rayon::ThreadPoolBuildError),
+    /// The model broke its contract; this is a mistake in the program.
+    #[error("the model does not keep its contract: {0}")]
+    Model(String),
+    /// A worker panicked; this is a mistake in the program.
+    #[error("a worker panicked: {0}")]
+    Panic(String),
+}
+
+/// Runs every point of `plan` and writes the rows to `sink` in point order.
+///
+/// When `stop` is raised, points in hand are finished and written and the sweep ends; the rows written are
+/// those of the first points of the plan. `progress` is called from this thread, several times a second.
+///
+/// # Errors
+/// [`RunError`] if rows cannot be written or a worker fails. Rows are never left out: those written are
+/// those of the first points of the plan, in this case too.
+pub fn run(
+    plan: &Plan,
+    options: &RunOptions,
+    sink: &mut dyn Sink,
+    stop: &AtomicBool,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Summary, RunError> {
+    let workers = options.threads.get();
+    // A pool of our own: the global one belongs to the caller, and does not survive a fork.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(workers).build().map_err(RunError::Threads)?;
+    sink.begin().map_err(RunError::Sink)?;
+
+    let queue = Queue::new(plan.len(), options.window, workers, stop);
+    let collected = pool.in_place_scope(|scope| {
+        for _ in 0..workers {
+            scope.spawn(|_| worker::work(plan, options.instructions, &queue));
+        }
+        collect::collect(plan, &queue, sink, progress)
+    });
+
+    let summary = collected.map_err(RunError::Sink)?;
+    sink.finish().map_err(RunError::Sink)?;
+    match queue.into_failure() {
+        Some(failure) => Err(failure),
+        None => Ok(summary),
+    }
+}

@@ -1,0 +1,56 @@
+//! What a sweep came to.
+
+use flap_core::simulate::{Row, Status};
+
+/// How many points had each status.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts([u64; Status::ALL.len()]);
+
+impl Counts {
+    /// Points with this status.
+    pub fn of(&self, status: Status) -> u64 {
+        self.0[status as usize]
+    }
+
+    /// Every status with its count, in the order of reports.
+    pub fn iter(&self) -> impl Iterator<Item = (Status, u64)> + '_ {
+        Status::ALL.iter().map(|&status| (status, self.of(status)))
+    }
+}
+
+/// What a sweep came to. Counts are over the rows written.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Summary {
+    /// Points of the plan.
+    pub points: u64,
+    /// Rows written: points `0..rows`.
+    pub rows: u64,
+    /// Whether the sweep was stopped before the last point.
+    pub interrupted: bool,
+    /// Rows by status.
+    pub counts: Counts,
+    /// Right-hand sides evaluated in all.
+    pub rhs_evals: u64,
+    /// Drive periods integrated in all.
+    pub cycles: u64,
+    /// The first few invalid points, each with the reason.
+    pub invalid: Vec<(u64, String)>,
+}
+
+impl Summary {
+    /// Reasons kept in [`Summary::invalid`].
+    pub const MOST_REASONS: usize = 5;
+
+    /// Adds a written row.
+    pub(super) fn add(&mut self, row: Row) {
+        if let (Status::Invalid, Some(reason)) = (row.status, row.reason)
+            && self.invalid.len() < Summary::MOST_REASONS
+        {
+            self.invalid.push((self.rows, reason));
+        }
+        self.rows += 1;
+        self.counts.0[row.status as usize] += 1;
+        self.rhs_evals += row.rhs_evals;
+        self.cycles += u64::from(row.cycles);
+    }
+}

@@ -1,0 +1,37 @@
+# Recipes for work on flap. `just` alone lists them.
+
+default:
+    @just --list
+
+# All tests: formatting, lints, documentation, Rust and Python.
+test:
+    ./scripts/test.sh
+
+# Rust tests alone.
+test-rust:
+    cargo test --workspace
+
+# The wheel and its tests, in a virtual environment below target/.
+test-python:
+    ./scripts/test-python.sh
+
+# Formatting and lints.
+lint:
+    cargo fmt --all --check
+    cargo clippy --workspace --all-targets -- -D warnings
+
+# API documentation, with warnings denied.
+docs:
+    RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps
+
+# The example sweep of the README.
+example:
+    cargo run --release -- sweep --grid examples/ozaki_large.toml --force
+
+# Benchmarks: lanes against scalars, one step, elementary functions.
+bench:
+    cargo bench -p flap-core
+
+# What continuous integration runs.
+ci:
+    .ci/run

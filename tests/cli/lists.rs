@@ -1,0 +1,93 @@
+//! `flap check`, `flap params`, `flap models` and help.
+
+use std::time::{Duration, Instant};
+
+use crate::support::{Folder, frequencies};
+
+#[test]
+fn check_shows_what_would_run() {
+    let grid = r#"preset = "ozaki2018-large"
+
+[axes]
+drive_voltage_pp = ["100 V", "150 V"]
+drive_frequency = { from = "60 Hz", to = "200 Hz", n = 15 }
+"#;
+    let folder = Folder::with_grid(grid);
+    let ended = folder.flap("check grid.toml");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert_eq!(
+        ended.stdout,
+        "\
+30 points of direct-drive from ozaki2018-large
+
+AXIS  PARAMETER         FROM   TO     COUNT  UNIT
+1     drive_voltage_pp  100.0  150.0  2      V
+2     drive_frequency   60.0   200.0  15     Hz
+
+first point, 0: drive_voltage_pp = 100.0 V, drive_frequency = 60.0 Hz
+last point, 29: drive_voltage_pp = 150.0 V, drive_frequency = 200.0 Hz
+
+rtol = 1e-6, atol = 1e-8, settle_tol = 1e-6, max_cycles = 400, max_steps = 20000
+"
+    );
+    assert_eq!(ended.stderr, "");
+    assert_eq!(folder.names(), ["grid.toml"], "nothing is written");
+}
+
+#[test]
+fn check_is_instant_for_any_number_of_points() {
+    let axis = |name: &str| format!("{name} = {{ from = 60, to = 200, n = 1000000 }}\n");
+    let many = "preset = \"ozaki2018-large\"\n[axes]\n".to_owned()
+        + &axis("drive_frequency")
+        + &axis("drive_voltage_pp")
+        + &axis("hinge_stiffness");
+    for (grid, points) in [(frequencies(1_000_000), 1_000_000), (many, 1_000_000_000_000_000_000_u64)] {
+        let folder = Folder::with_grid(&grid);
+        let start = Instant::now();
+        let ended = folder.flap("check grid.toml");
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        assert!(ended.stdout.starts_with(&format!("{points} points of ")), "{}", ended.stdout);
+        assert!(start.elapsed() < Duration::from_secs(5));
+    }
+}
+
+#[test]
+fn models_and_presets_are_listed() {
+    let ended = Folder::new().flap("models");
+    assert_eq!(ended.code, 0);
+    for name in ["direct-drive", "  ozaki2018-small", "  ozaki2018-large"] {
+        assert!(ended.stdout.lines().any(|line| line.starts_with(name)), "{name}: {}", ended.stdout);
+    }
+}
+
+#[test]
+fn parameters_are_listed_with_units_and_values() {
+    let folder = Folder::new();
+    let model = folder.flap("params direct-drive");
+    assert_eq!(model.code, 0, "{}", model.stderr);
+    let preset = folder.flap("params ozaki2018-large");
+    assert_eq!(preset.code, 0, "{}", preset.stderr);
+    let line = |text: &str, name: &str| {
+        let found = text.lines().find(|line| line.split_whitespace().next() == Some(name));
+        found.unwrap_or_else(|| panic!("{name} is missing in\n{text}")).to_owned()
+    };
+    for text in [&model.stdout, &preset.stdout] {
+        assert!(line(text, "drive_frequency").contains(" Hz "));
+        assert!(line(text, "hinge_stiffness").contains(" N*m/rad "));
+        assert!(line(text, "lift_mean_mn").contains(" mN "));
+    }
+    assert!(line(&model.stdout, "PARAMETER").contains("UNIT"));
+    assert!(line(&preset.stdout, "PARAMETER").contains("VALUE"));
+}
+
+#[test]
+fn help_has_examples_and_exit_codes() {
+    let folder = Folder::new();
+    assert!(folder.flap("--help").stdout.contains("Exit codes:"));
+    for command in ["sweep", "run", "check", "params"] {
+        let ended = folder.flap(&format!("{command} --help"));
+        assert_eq!(ended.code, 0);
+        assert!(ended.stdout.contains(&format!("  flap {command} ")), "{}", ended.stdout);
+    }
+    assert_eq!(folder.flap("--version").stdout, format!("flap {}\n", env!("CARGO_PKG_VERSION")));
+}

@@ -1,0 +1,10 @@
+//! The `flap` command from outside: what it prints where, what it writes, and how it exits.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
+
+mod lists;
+mod mistakes;
+mod point;
+mod streams;
+mod support;
+mod sweep;

@@ -1,0 +1,166 @@
+//! Wrong command lines, wrong grid files, and files that cannot be read or written.
+
+use std::fs;
+
+use crate::support::{Folder, frequencies};
+
+#[test]
+fn mistakes_in_a_grid_file_are_shown_in_their_lines() {
+    let grid = r#"preset = "ozaki2018-large"
+
+[params]
+hinge_stifness = "1.5 uN*m/rad"
+
+[axes]
+drive_frequency = { from = "60 Hz", to = "200 mm", n = 15 }
+"#;
+    let folder = Folder::with_grid(grid);
+    let ended = folder.flap("check grid.toml");
+    assert_eq!(ended.code, 2);
+    assert_eq!(ended.stdout, "");
+    assert_eq!(
+        ended.stderr,
+        r#"error: model `direct-drive` has no parameter `hinge_stifness`
+ --> grid.toml:4:1
+  |
+4 | hinge_stifness = "1.5 uN*m/rad"
+  | ^^^^^^^^^^^^^^ unknown parameter
+  |
+  = help: did you mean `hinge_stiffness`?
+
+error: `mm` is a length, but `drive_frequency` is in Hz
+ --> grid.toml:7:47
+  |
+7 | drive_frequency = { from = "60 Hz", to = "200 mm", n = 15 }
+  |                                               ^^
+  |
+  = help: use Hz, kHz
+
+grid.toml: 2 mistakes, nothing was run
+"#
+    );
+}
+
+#[test]
+fn results_are_not_overwritten_unasked() {
+    let folder = Folder::with_grid(&frequencies(2));
+    fs::write(folder.path("grid.csv"), "precious\n").unwrap();
+    let ended = folder.flap("sweep --grid grid.toml");
+    assert_eq!(ended.code, 2);
+    assert_eq!(
+        ended.stderr,
+        "error: grid.csv exists already\nhelp: use --force to overwrite it, or name another file\n"
+    );
+    assert_eq!(folder.read("grid.csv"), "precious\n");
+    assert_eq!(folder.flap("sweep --grid grid.toml --force").code, 0);
+    assert_eq!(folder.read("grid.csv").lines().count(), 3);
+}
+
+#[test]
+fn the_grid_file_is_not_overwritten_at_all() {
+    let folder = Folder::with_grid(&frequencies(2));
+    let ended = folder.flap("sweep --grid grid.toml --out ./grid.toml --force");
+    assert_eq!(ended.code, 2);
+    assert!(ended.stderr.contains("overwrite the grid file"), "{}", ended.stderr);
+    assert_eq!(folder.read("grid.toml"), frequencies(2));
+}
+
+#[test]
+fn places_that_cannot_be_written() {
+    let folder = Folder::with_grid(&frequencies(2));
+    for out in ["missing/rows.csv", "."] {
+        let ended = folder.flap(&format!("sweep --grid grid.toml --force --out {out}"));
+        assert_eq!(ended.code, 3);
+        assert!(ended.stderr.starts_with(&format!("error: cannot write {out}: ")), "{}", ended.stderr);
+        assert_eq!(ended.stdout, "");
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_reported() {
+    let folder = Folder::with_grid(&frequencies(2));
+    let ended = folder.flap("sweep --grid grid.toml --force --out /dev/full");
+    assert_eq!(ended.code, 3);
+    assert!(ended.stderr.starts_with("error: cannot write rows: "), "{}", ended.stderr);
+}
+
+#[test]
+fn files_that_are_not_grid_files() {
+    let folder = Folder::new();
+    fs::write(folder.path("bytes.toml"), b"preset = \"\xff\"").unwrap();
+    fs::write(folder.path("empty.toml"), "").unwrap();
+    for command in ["check ", "sweep --grid ", "run "] {
+        for (file, message) in [
+            ("missing.toml", "error: missing.toml: there is no such file"),
+            ("./", "error: ./: this is a folder"),
+            ("bytes.toml", "error: bytes.toml:1:11: not UTF-8"),
+            ("empty.toml", "error: "),
+        ] {
+            let ended = folder.flap(&format!("{command}{file}"));
+            assert_eq!(ended.code, 2, "{command}{file}: {}", ended.stderr);
+            assert!(ended.stderr.starts_with(message), "{command}{file}: {}", ended.stderr);
+            assert_eq!(ended.stdout, "");
+        }
+    }
+}
+
+#[test]
+fn wrong_command_lines() {
+    let folder = Folder::with_grid(&frequencies(2));
+    for arguments in [
+        "",
+        "fly",
+        "sweep",
+        "sweep --grid grid.toml --threads 0",
+        "sweep --grid grid.toml --threads many",
+        "sweep --grid grid.toml --out rows.parquet",
+        "run ozaki2018-large --rtol 0",
+        "run ozaki2018-large --rtol nan",
+        "run ozaki2018-large --settle-tol 1",
+        "run ozaki2018-large --max-cycles 0",
+        "run ozaki2018-large --cycles 3",
+        "run ozaki2018-large --set drive_frequency",
+        "run ozaki2018-large --point 1",
+        "run grid.toml --point 2",
+    ] {
+        let ended = folder.flap(arguments);
+        assert_eq!(ended.code, 2, "{arguments}");
+        assert_eq!(ended.stdout, "", "{arguments}");
+        assert_ne!(ended.stderr, "", "{arguments}");
+    }
+    assert_eq!(folder.names(), ["grid.toml"]);
+}
+
+#[test]
+fn misspelt_names_are_recognised() {
+    let folder = Folder::new();
+    for (arguments, hint) in [
+        ("params ozaki2018-larg", "help: did you mean `ozaki2018-large`?\n"),
+        ("params direct_drive", "help: did you mean `direct-drive`?\n"),
+        ("params zebra", "help: `flap models` lists models and presets\n"),
+        ("run ozaki2018-larg", "help: did you mean `ozaki2018-large`?\n"),
+        ("run ozaki2018-large --set drive_freqency=100", "help: did you mean `drive_frequency`?\n"),
+    ] {
+        let ended = folder.flap(arguments);
+        assert_eq!(ended.code, 2, "{arguments}");
+        assert!(ended.stderr.ends_with(hint), "{arguments}: {}", ended.stderr);
+    }
+}
+
+#[test]
+fn wrong_values_on_the_command_line_say_what_is_allowed() {
+    let folder = Folder::new();
+    for (value, message) in [
+        ("drive_frequency=120 mm", "drive_frequency"),
+        ("drive_frequency=120 Hzz", "unknown unit `Hzz`"),
+        ("drive_frequency=fast", "must start with a number"),
+        ("drive_frequency=-5", "must be more than zero"),
+        ("drive_frequency=inf", "finite"),
+        ("drive_frequency=", "must start with a number"),
+    ] {
+        let ended = folder.flap_with(&["run", "ozaki2018-large", "--set", value]);
+        assert_eq!(ended.code, 2, "{value}");
+        assert!(ended.stderr.contains(message), "{value}: {}", ended.stderr);
+    }
+}

@@ -1,0 +1,77 @@
+//! `flap run`.
+
+use crate::support::{Folder, frequencies};
+
+/// The text after the first word of the line that starts with `name`.
+fn value<'t>(text: &'t str, name: &str) -> &'t str {
+    let line = text.lines().find(|line| line.split_whitespace().next() == Some(name));
+    line.and_then(|line| line.split_whitespace().nth(1)).unwrap_or_else(|| panic!("no {name} in\n{text}"))
+}
+
+#[test]
+fn a_preset_runs_as_published() {
+    let ended = Folder::new().flap("run ozaki2018-large");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert_eq!(ended.stderr, "");
+    let mut lines = ended.stdout.lines();
+    assert_eq!(lines.next(), Some("direct-drive from ozaki2018-large"));
+    assert!(lines.next().unwrap().starts_with("status = periodic, cycles = "), "{}", ended.stdout);
+    assert!(value(&ended.stdout, "lift_mean_mn").parse::<f64>().unwrap() > 0.0);
+}
+
+#[test]
+fn a_point_measures_the_same_as_its_row_of_a_sweep() {
+    let folder = Folder::with_grid(&(frequencies(10) + "[output]\ncolumns = [\"lift_mean_mn\"]\n"));
+    let sweep = folder.flap("sweep --grid grid.toml --out -").stdout;
+    let row: Vec<&str> = sweep.lines().nth(8).unwrap().split(',').collect();
+    let lift: f64 = row[3].parse().unwrap();
+    for run in ["run grid.toml --point 7", "run ozaki2018-large --set drive_frequency=60.7"] {
+        let shown: f64 = value(&folder.flap(run).stdout, "lift_mean_mn").parse().unwrap();
+        assert!((shown - lift).abs() <= 1e-5 * lift.abs(), "{run}: {shown} and {lift}");
+    }
+}
+
+#[test]
+fn values_are_set_with_units_or_without() {
+    let folder = Folder::new();
+    let bare = folder.flap_with(&["run", "ozaki2018-large", "--set", "drive_frequency=70"]);
+    let unit = folder.flap_with(&["run", "ozaki2018-large", "--set", "drive_frequency = 0.07 kHz"]);
+    assert_eq!(bare.code, 0, "{}", bare.stderr);
+    assert_eq!(bare.stdout, unit.stdout);
+    assert_ne!(bare.stdout, folder.flap("run ozaki2018-large").stdout);
+}
+
+#[test]
+fn tolerances_can_be_changed() {
+    let folder = Folder::new();
+    let evals = |arguments: &str| {
+        let text = folder.flap(&format!("run ozaki2018-large {arguments}")).stdout;
+        let second = text.lines().nth(1).unwrap_or_else(|| panic!("{arguments}: {text}")).to_owned();
+        let words: Vec<&str> = second.split_whitespace().collect();
+        words[words.len() - 1].parse::<u64>().unwrap()
+    };
+    assert!(evals("--rtol 1e-9") > evals(""));
+    assert!(evals("--settle-tol 1e-2") < evals(""));
+    let short = folder.flap("run ozaki2018-large --max-cycles 2");
+    assert_eq!(short.code, 0);
+    assert!(short.stdout.contains("\nstatus = unsettled, cycles = 2, "), "{}", short.stdout);
+}
+
+#[test]
+fn a_trajectory_is_sampled() {
+    let folder = Folder::new();
+    let ended = folder.flap("run ozaki2018-large --trajectory motion.csv --cycles 3 --samples 20");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert!(ended.stdout.contains("lift_mean_mn"));
+    let motion = folder.read("motion.csv");
+    assert!(motion.starts_with("time_s,"), "{motion}");
+    assert_eq!(motion.lines().count(), 1 + 3 * 20 + 1);
+
+    let again = folder.flap("run ozaki2018-large --trajectory motion.csv");
+    assert_eq!(again.code, 2, "it exists");
+    let piped = folder.flap("run ozaki2018-large --trajectory - --cycles 3 --samples 20");
+    assert_eq!(piped.stdout, motion);
+    let rest = folder.flap("run ozaki2018-large --trajectory - --cycles 3 --samples 20 --from-rest");
+    assert_eq!(rest.code, 0, "{}", rest.stderr);
+    assert_ne!(rest.stdout, motion);
+}

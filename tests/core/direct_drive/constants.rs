@@ -1,0 +1,119 @@
+use flap_core::model::direct_drive::{Constants, DirectDrive, Params};
+use flap_core::modes::natural_frequencies;
+use flap_core::piezo::{Laminate, Layer};
+
+use super::params;
+use crate::data::{assert_close, table};
+
+fn laminate(p: &Params) -> Laminate<3> {
+    Laminate {
+        layers: [
+            Layer { thickness: p.piezo_thickness, modulus: p.piezo_modulus, density: p.piezo_density },
+            Layer {
+                thickness: p.adhesive_thickness,
+                modulus: p.adhesive_modulus,
+                density: p.adhesive_density,
+            },
+            Layer { thickness: p.shim_thickness, modulus: p.shim_modulus, density: p.shim_density },
+        ],
+    }
+}
+
+#[test]
+fn equal_the_reference_to_1e_12() {
+    for kind in ["small", "large"] {
+        let p = params(kind);
+        let laminate = laminate(&p);
+        let z = laminate.mid_planes();
+        let c = Constants::derive(&p).unwrap();
+        let area = p.mean_chord * p.wing_length;
+        let [mode_1, mode_2] = DirectDrive::linear_modes(&c);
+        let x_g = p.mass_centre_span + 0.5 * p.actuator_length;
+        let wing = p.wing_mass * x_g * x_g + p.wing_inertia_chord;
+        for row in table("direct-drive/derived_constants.csv") {
+            let actual = match row.text("name") {
+                "z0" => z[0],
+                "z1" => z[1],
+                "z2" => z[2],
+                "zc" => laminate.neutral_axis(),
+                "SA" => laminate.bending_stiffness(),
+                "mu" => laminate.areal_density(),
+                "JA" => c.m11 - p.leading_edge_inertia - wing,
+                "kphi" => c.k_phi,
+                "Gamma" => c.gamma,
+                "Cp" => c.c_p,
+                "x_r" => c.mid_radius - 0.5 * p.wing_length,
+                "m11" => c.m11,
+                "ms" => c.m_s,
+                "m12" => c.m12,
+                "m22" => c.m22,
+                "a11" => c.a11,
+                "a12" => c.a12,
+                "a22" => c.a22,
+                "f1" => c.f1,
+                "f2" => c.f2,
+                "KL" => c.k_lift,
+                "A_w" => area,
+                "krot" => c.rotation,
+                "mode1_Hz" => mode_1,
+                "mode2_Hz" => mode_2,
+                other => panic!("the reference has a constant {other} that is not compared"),
+            };
+            assert_close(actual, row.number(kind), 1e-12, &format!("{} of {kind}", row.text("name")));
+        }
+    }
+}
+
+/// Eq. (33): I_rd = c̄⁴ I_04 / 4, to the three digits of Table A1.
+#[test]
+fn printed_rotation_moment_is_that_of_the_shape() {
+    for kind in ["small", "large"] {
+        let p = params(kind);
+        assert_close(p.rotation_moment, p.mean_chord.powi(4) * p.shape_moment_04 / 4.0, 3e-3, kind);
+    }
+}
+
+#[test]
+fn following_parameters_follow_until_they_are_set() {
+    let p = Params::ozaki2018_small();
+    let derived = |p: Params| Constants::derive(&p).unwrap();
+    assert_eq!(derived(p.clone()).drive_bias, 30.0);
+    assert_eq!(derived(Params { drive_bias: Some(-5.0), ..p.clone() }).drive_bias, -5.0);
+    let set = Params { wing_offset: Some(5.25e-3), midspan_chord: Some(6.51e-3), ..p.clone() };
+    assert_eq!(derived(set), derived(p.clone()));
+    let longer = Params { actuator_length: 2.0 * p.actuator_length, ..p };
+    assert_eq!(derived(longer).mid_radius, 0.5 * 17.0e-3 + 10.5e-3);
+}
+
+#[test]
+fn impossible_inertias_are_refused() {
+    let p = Params::ozaki2018_small();
+    let error = Constants::derive(&Params { wing_inertia_product: 1e-9, ..p.clone() }).unwrap_err();
+    assert!(error.reason.contains("not positive definite"), "{}", error.reason);
+    let error = Constants::derive(&Params { wing_length: 1e200, ..p }).unwrap_err();
+    assert!(error.reason.contains("not finite"), "{}", error.reason);
+}
+
+#[test]
+fn a_torsion_hinge_sets_the_stiffness_of_eq_41() {
+    let hinge = flap_core::linkage::TorsionHinge {
+        beams: 2,
+        shear_modulus: 1.2e9,
+        length: 0.3e-3,
+        width: 1e-3,
+        thickness: 50e-6,
+    };
+    // β = 1/3 − 0.21 · 0.05 (1 − 0.05⁴/12) = 0.3228333388
+    let expected = 2.0 * 0.322_833_338_802 * 1.2e9 * 1e-3 * 1.25e-13 / 0.3e-3;
+    let p = Params::ozaki2018_small().with_hinge(&hinge);
+    assert_close(p.hinge_stiffness, expected, 1e-11, "hinge stiffness");
+}
+
+#[test]
+fn natural_frequencies_of_uncoupled_springs() {
+    let square = (2.0 * std::f64::consts::PI).powi(2);
+    let [low, high] = natural_frequencies([[2.0, 0.0], [0.0, 1.0]], [2.0 * 9.0 * square, 4.0 * square]);
+    assert_close(low, 2.0, 1e-14, "lower");
+    assert_close(high, 3.0, 1e-14, "upper");
+    assert!(natural_frequencies([[1.0, 2.0], [2.0, 1.0]], [1.0, 1.0])[0].is_nan());
+}

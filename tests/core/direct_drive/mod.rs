@@ -1,0 +1,26 @@
+//! The direct-drive model against independent references and its own conservation laws.
+
+mod constants;
+mod equations;
+mod physics;
+mod steady;
+
+use flap_core::model::Slot;
+use flap_core::model::direct_drive::{CentreOfPressure, Params};
+
+/// The parameters of `small` or `large` in the reference tables.
+fn params(kind: &str) -> Params {
+    match kind {
+        "small" => Params::ozaki2018_small(),
+        "large" => Params::ozaki2018_large(),
+        other => panic!("no type {other}"),
+    }
+}
+
+/// The reading called `name` in the reference tables.
+fn centre_of_pressure(name: &str) -> CentreOfPressure {
+    let options = ["directional", "folded", "literal"];
+    let index =
+        options.iter().position(|&option| option == name).unwrap_or_else(|| panic!("no reading {name}"));
+    CentreOfPressure::from_value(index as f64)
+}

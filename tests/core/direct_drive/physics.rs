@@ -1,0 +1,128 @@
+//! Symmetries and conservation laws.
+
+use flap_core::drive::Voltage;
+use flap_core::model::direct_drive::{
+    AddedMass, CentreOfPressure, Constants, DirectDrive, Params, added_mass, aerodynamics, current, lift,
+};
+use flap_core::num::Real;
+use flap_core::ode::{Ode, Start, Tolerances, solve::solve};
+use proptest::prelude::*;
+
+/// Kinetic energy of structure and added mass plus elastic energy (J).
+fn energy(c: &Constants<f64>, y: &[f64; 4]) -> f64 {
+    let [phi, psi, phi_dot, psi_dot] = *y;
+    let (sin, cos) = psi.sin_cos();
+    0.5 * (c.m11 + c.m_s * sin * sin) * phi_dot * phi_dot
+        + c.m12 * cos * phi_dot * psi_dot
+        + 0.5 * c.m22 * psi_dot * psi_dot
+        + 0.5 * c.a11 * cos * cos * phi_dot * phi_dot
+        - c.a12 * cos * phi_dot * psi_dot
+        + 0.5 * c.a22 * psi_dot * psi_dot
+        + 0.5 * c.k_phi * phi * phi
+        + 0.5 * c.k_w * psi * psi
+}
+
+fn any_state() -> impl Strategy<Value = [f64; 4]> {
+    (-0.5..0.5, -1.4..1.4, -400.0..400.0, -800.0..800.0).prop_map(|(a, b, c, d)| [a, b, c, d])
+}
+
+/// Both presets with their parameters moved by up to 30 %.
+fn any_params() -> impl Strategy<Value = Params> {
+    (prop::bool::ANY, prop::array::uniform8(0.7..1.3_f64), prop::bool::ANY).prop_map(
+        |(large, s, lagrangian)| {
+            let p = if large { Params::ozaki2018_large() } else { Params::ozaki2018_small() };
+            Params {
+                wing_length: p.wing_length * s[0],
+                mean_chord: p.mean_chord * s[1],
+                wing_mass: p.wing_mass * s[2],
+                hinge_stiffness: p.hinge_stiffness * s[3],
+                leading_edge_inertia: p.leading_edge_inertia * s[4],
+                piezo_thickness: p.piezo_thickness * s[5],
+                drag_max: p.drag_max * s[6],
+                wing_inertia_product: p.wing_inertia_product * s[7],
+                added_mass: if lagrangian { AddedMass::Lagrangian } else { AddedMass::Paper },
+                ..p
+            }
+        },
+    )
+}
+
+proptest! {
+    /// dE/dt = Γ V φ̇ + aerodynamic power, for any state: inertia, added mass and springs keep energy.
+    #[test]
+    fn energy_changes_by_work_alone(p in any_params(), y in any_state(), volts in -100.0..100.0, up in prop::bool::ANY) {
+        let c = Constants::derive(&p).unwrap();
+        let side = if up { 1.0 } else { -1.0 };
+        let dy = DirectDrive.rhs(&c, &Voltage { value: volts, rate: 0.0 }, side, &y);
+        let (sin, cos) = Real::sin_cos(y[1]);
+        let air = aerodynamics(&c, side, &y, sin, cos);
+        let work = c.gamma * volts * y[2]
+            + air.stroke_moment * y[2]
+            + (air.pitch_moment + air.rotation_moment) * y[3];
+
+        // Central difference along the motion, in a time in which the state changes by a millionth.
+        let fastest = (dy[2] / 400.0).abs().max((dy[3] / 800.0).abs()).max(1.0);
+        let dt = 1e-6 / fastest;
+        let at = |dt: f64| energy(&c, &std::array::from_fn(|i| y[i] + dt * dy[i]));
+        let rate = (at(dt) - at(-dt)) / (2.0 * dt);
+        let size = energy(&c, &y) * fastest + work.abs();
+        prop_assert!((rate - work).abs() < 1e-8 * size, "{rate} against {work}");
+    }
+
+    /// (φ, ψ, V) → −(φ, ψ, V) mirrors the motion and leaves lift and power alone.
+    #[test]
+    fn half_strokes_are_mirror_images(p in any_params(), y in any_state(), volts in -100.0..100.0, folded in prop::bool::ANY) {
+        let reading = if folded { CentreOfPressure::Folded } else { CentreOfPressure::Directional };
+        let c = Constants::derive(&Params { centre_of_pressure: reading, ..p }).unwrap();
+        let [dy, mirrored] = [1.0, -1.0].map(|m| {
+            DirectDrive.rhs(&c, &Voltage { value: m * volts, rate: 0.0 }, m, &y.map(|y| m * y))
+        });
+        prop_assert_eq!(dy, mirrored.map(|d| -d));
+        let [plus, minus] = [(1.0, dy), (-1.0, mirrored)].map(|(m, dy)| {
+            let y = y.map(|y| m * y);
+            let (sin, cos) = Real::sin_cos(y[1]);
+            let added = added_mass(&c, sin, cos, &dy);
+            let drive = Voltage { value: m * volts, rate: m * 1e4 };
+            [lift(&c, &aerodynamics(&c, m, &y, sin, cos), &added, sin), current(&c, &drive, y[2]) * drive.value]
+        });
+        prop_assert_eq!(plus, minus);
+    }
+}
+
+/// As printed, Eq. (24) treats the two half strokes differently.
+#[test]
+fn the_literal_reading_breaks_the_mirror_symmetry() {
+    let p = Params { centre_of_pressure: CentreOfPressure::Literal, ..Params::ozaki2018_large() };
+    let c = Constants::derive(&p).unwrap();
+    let y = [0.1, 0.7, 100.0, 50.0];
+    let [dy, mirrored] =
+        [1.0, -1.0].map(|m| DirectDrive.rhs(&c, &Voltage { value: 0.0, rate: 0.0 }, m, &y.map(|y| m * y)));
+    assert!((dy[3] + mirrored[3]).abs() > 0.1 * dy[3].abs());
+}
+
+/// Without air and at constant voltage, E − Γ V φ is conserved along a whole motion.
+#[test]
+fn a_wing_in_vacuum_keeps_its_energy() {
+    for p in [Params::ozaki2018_small(), Params::ozaki2018_large()] {
+        let p = Params { air_density: 0.0, drive_voltage_pp: 0.0, drive_bias: Some(30.0), ..p };
+        let constants = Constants::derive(&p).unwrap();
+        let total = |y: &[f64; 4]| energy(&constants, y) - constants.gamma * 30.0 * y[0];
+        let start =
+            Start { constants, y: [0.2, 0.5, 30.0, -80.0], span: 0.05, scale: [0.1, 0.3, 70.0, 200.0] };
+        let tolerances = Tolerances { rtol: 1e-10, atol: 1e-12, max_steps: 100_000 };
+        let initial = total(&start.y);
+        let mut last = initial;
+        solve::<_, f64, 4>(
+            &DirectDrive,
+            &tolerances,
+            &start,
+            |_, _| {},
+            |y| {
+                last = total(y);
+                std::ops::ControlFlow::Break(())
+            },
+        );
+        assert!(last != initial, "nothing moved");
+        assert!((last / initial - 1.0).abs() < 1e-7, "{initial} → {last}");
+    }
+}

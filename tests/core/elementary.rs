@@ -1,0 +1,149 @@
+//! Elementary functions against the C library's, and lanes against scalars.
+
+use fearless_simd::Simd;
+use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, Real, Unfused, Vector};
+
+/// Arguments that cover quadrants, signs, exponents and both sides of rounding boundaries.
+fn arguments(from: f64, to: f64) -> Vec<f64> {
+    let n = 20_000;
+    (0..=n).map(|i| from + (to - from) * f64::from(i) / f64::from(n)).collect()
+}
+
+#[test]
+fn sine_and_cosine_are_accurate_to_1e_15() {
+    for x in arguments(-20.0, 20.0).into_iter().chain(arguments(-1e6, 1e6)) {
+        let (sin, cos) = Real::sin_cos(x);
+        assert!((sin - f64::sin(x)).abs() < 3e-16, "sin {x}: {sin}");
+        assert!((cos - f64::cos(x)).abs() < 3e-16, "cos {x}: {cos}");
+        let (unfused, _) = Unfused(x).sin_cos();
+        assert!((unfused.0 - f64::sin(x)).abs() < 4e-16, "sin {x} without fused multiply-add: {}", unfused.0);
+    }
+}
+
+#[test]
+fn sine_and_cosine_are_exact_at_zero() {
+    assert_eq!(Real::sin_cos(0.0_f64), (0.0, 1.0));
+}
+
+#[test]
+fn exponential_and_logarithm_are_accurate_to_a_few_roundings() {
+    for x in arguments(-700.0, 700.0).into_iter().chain(arguments(-1.0, 1.0)) {
+        let (actual, expected) = (Real::exp(x), f64::exp(x));
+        assert!((actual / expected - 1.0).abs() < 6e-16, "exp {x}: {actual} is not {expected}");
+    }
+    for x in arguments(1e-3, 3.0).into_iter().chain(arguments(1.0, 1e9)).chain([1e-300, 1e300]) {
+        let (actual, expected) = (Real::ln(x), f64::ln(x));
+        assert!((actual - expected).abs() <= 3e-16 * expected.abs(), "ln {x}: {actual} is not {expected}");
+    }
+    assert_eq!(Real::ln(1.0_f64), 0.0);
+}
+
+/// The step-size controller relies on it: an error that is not a number must look large.
+#[test]
+fn logarithm_of_nan_and_infinity_is_large_and_finite() {
+    for x in [f64::NAN, f64::INFINITY] {
+        let ln = Real::ln(x);
+        assert!(ln.is_finite() && ln > 700.0, "ln {x} is {ln}");
+    }
+}
+
+/// Every operation a model or the integrator uses, on one value per lane.
+#[inline(always)]
+fn everything<R: Lanes>(x: R) -> [R; 14] {
+    let (sin, cos) = x.sin_cos();
+    let positive = x.abs() + 0.1;
+    let (exponent, mantissa) = positive.exponent_and_mantissa();
+    [
+        sin,
+        cos,
+        x.exp(),
+        positive.ln(),
+        positive.sqrt(),
+        x.mul_add(sin, cos),
+        x.copysign(sin),
+        x.min(cos),
+        x.max(cos),
+        R::select(x.lt(sin), x, cos) / positive,
+        exponent,
+        mantissa,
+        mantissa.times_power_of_two(exponent),
+        (-x - 0.25) * (x * 3.0 + sin) - x.lit(0.7),
+    ]
+}
+
+struct OnLanes<'a>(&'a [f64]);
+
+impl Kernel for OnLanes<'_> {
+    type Output = Vec<[f64; 14]>;
+
+    fn run<S: Simd>(self, simd: S) -> Vec<[f64; 14]> {
+        let mut results = Vec::new();
+        for group in self.0.chunks(Vector::<S>::LANES) {
+            let mut x = Vector::<S>::splat(simd, 0.0);
+            for (lane, &value) in group.iter().enumerate() {
+                x.set_lane(lane, value);
+            }
+            let values = everything(x);
+            results.extend((0..group.len()).map(|lane| values.map(|v| v.lane(lane))));
+        }
+        results
+    }
+}
+
+#[test]
+fn lanes_equal_scalars_bit_for_bit() {
+    let x = arguments(-30.0, 30.0);
+    for set in InstructionSet::available() {
+        for (&x, lane) in x.iter().zip(set.dispatch(OnLanes(&x))) {
+            let scalar = match set.arithmetic() {
+                Arithmetic::Fused => everything(x),
+                Arithmetic::Unfused => everything(Unfused(x)).map(|v| v.0),
+            };
+            assert_eq!(lane.map(f64::to_bits), scalar.map(f64::to_bits), "{set} at {x}");
+        }
+    }
+}
+
+struct Masks;
+
+impl Kernel for Masks {
+    type Output = ();
+
+    fn run<S: Simd>(self, simd: S) {
+        let lanes = Vector::<S>::LANES;
+        let all = (1_u64 << lanes) - 1;
+        for bits in [0, 1, all, 0b1010_1010_1010_1010 & all, 1 << (lanes - 1)] {
+            let mask = Vector::<S>::mask(simd, bits);
+            assert_eq!(Vector::<S>::bits(mask), bits);
+            let even = Vector::<S>::mask(simd, 0x5555 & all);
+            assert_eq!(Vector::<S>::bits(Vector::<S>::and(mask, even)), bits & 0x5555);
+            let chosen = Vector::select(mask, Vector::<S>::splat(simd, 1.0), Vector::splat(simd, 2.0));
+            for lane in 0..lanes {
+                assert_eq!(chosen.lane(lane), if bits >> lane & 1 == 1 { 1.0 } else { 2.0 });
+            }
+        }
+    }
+}
+
+#[test]
+fn masks_hold_one_bit_per_lane() {
+    for set in InstructionSet::available() {
+        set.dispatch(Masks);
+    }
+}
+
+#[test]
+fn comparisons_with_nan_are_false() {
+    assert!(!Real::lt(f64::NAN, 1.0) && !Real::lt(1.0, f64::NAN));
+    assert_eq!(Real::min(f64::NAN, 1.0), 1.0);
+    assert_eq!(Real::max(f64::NAN, 1.0), 1.0);
+}
+
+#[test]
+fn instruction_sets_are_found_by_name() {
+    let best = InstructionSet::best();
+    assert_eq!(InstructionSet::by_name(best.name()).map(InstructionSet::name), Some(best.name()));
+    assert!(InstructionSet::by_name("abacus").is_none());
+    let names: Vec<_> = InstructionSet::available().into_iter().map(InstructionSet::name).collect();
+    assert_eq!(names[0], best.name());
+}

@@ -1,0 +1,17 @@
+//! Tests of flap-core, from elementary functions to published operating points.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::ignored_unit_patterns,
+    reason = "tests may panic and print, and their numbers are small"
+)]
+
+mod data;
+mod direct_drive;
+mod dormand_prince;
+mod elementary;
+mod ensemble;
+mod strobe;

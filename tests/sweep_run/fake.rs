@@ -1,0 +1,200 @@
+//! A model without physics: measures follow from the values at once, and points finish in a random order.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
+
+use flap_core::model::{Invalid, Kind, Parameter, Preset, Range};
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{
+    Column, Jobs, Point, Row, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest,
+};
+
+/// What goes wrong, and at which value of `size`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Fault {
+    None,
+    Panic(f64),
+    Slow(f64, Duration),
+    /// The row is never returned.
+    Lose(f64),
+    /// A row for a point that was never handed out comes along.
+    Invent(f64),
+    /// The row has a measure too few.
+    Narrow(f64),
+}
+
+/// The model. `size` 3, 4, 5 and so on of every ten is not periodic.
+pub(crate) struct Fake {
+    pub(crate) fault: Fault,
+    pub(crate) lanes: usize,
+    /// Rows the sink has written, kept up to date by the test's sink.
+    pub(crate) written: AtomicU64,
+    /// The largest distance seen between a point begun and the rows written.
+    pub(crate) widest: AtomicU64,
+    /// Points begun.
+    pub(crate) begun: AtomicU64,
+    columns: Vec<Column>,
+}
+
+static PARAMETERS: [Parameter; 4] = [
+    Parameter { name: "size", unit: "m", symbol: "s", kind: Kind::Number(Range::NonNegative), doc: "Size." },
+    Parameter {
+        name: "drive_frequency",
+        unit: "Hz",
+        symbol: "f",
+        kind: Kind::Number(Range::Any),
+        doc: "Drive.",
+    },
+    Parameter {
+        name: "arms",
+        unit: "",
+        symbol: "",
+        kind: Kind::Choice(&["printed", "axis"]),
+        doc: "Reading.",
+    },
+    Parameter {
+        name: "span",
+        unit: "m",
+        symbol: "b",
+        kind: Kind::Following(Range::Positive, "twice size"),
+        doc: "Span.",
+    },
+];
+
+static PRESETS: [Preset; 1] =
+    [Preset { name: "fake2020", doc: "Invented.", values: || vec![1.0, 100.0, 0.0, f64::NAN] }];
+
+impl Fake {
+    /// A model that lives as long as the tests.
+    pub(crate) fn leak(fault: Fault, lanes: usize) -> &'static Fake {
+        let column = |name: &str, unit| Column { name: name.to_owned(), unit, doc: String::new() };
+        Box::leak(Box::new(Fake {
+            fault,
+            lanes,
+            written: AtomicU64::new(0),
+            widest: AtomicU64::new(0),
+            begun: AtomicU64::new(0),
+            columns: vec![column("lift_mean_mn", "mN"), column("power_mean_mw", "mW")],
+        }))
+    }
+
+    fn begin(&self, point: &Point) {
+        let ahead = (point.index + 1).saturating_sub(self.written.load(Ordering::SeqCst));
+        self.widest.fetch_max(ahead, Ordering::SeqCst);
+        self.begun.fetch_add(1, Ordering::SeqCst);
+        match self.fault {
+            Fault::Panic(size) => assert!(point.values[0] != size, "the size is {size}"),
+            Fault::Slow(size, time) if point.values[0] == size => std::thread::sleep(time),
+            _ => {}
+        }
+    }
+
+    fn finish(&self, point: &Point, jobs: &mut dyn Jobs) {
+        let mut row = Fake::row(&point.values);
+        let size = point.values[0];
+        match self.fault {
+            Fault::Lose(lost) if size == lost => return,
+            Fault::Invent(at) if size == at => jobs.done(point.index + 1_000_000, row.clone()),
+            Fault::Narrow(at) if size == at => row.measures = vec![1.0],
+            _ => {}
+        }
+        jobs.done(point.index, row);
+    }
+
+    fn row(values: &[f64]) -> Row {
+        let (size, frequency) = (values[0], values[1]);
+        let status = match size % 10.0 {
+            3.0 => Status::Subharmonic,
+            4.0 => Status::Unsettled,
+            5.0 => Status::Diverged,
+            6.0 => Status::StepLimit,
+            7.0 => Status::Invalid,
+            _ => Status::Periodic,
+        };
+        Row {
+            status,
+            measures: if status == Status::Periodic {
+                vec![size / 3.0, size * frequency]
+            } else {
+                Vec::new()
+            },
+            cycles: 10,
+            residual: if status == Status::Invalid { f64::NAN } else { 4e-9 },
+            period: u32::from(status == Status::Periodic),
+            rhs_evals: 1000,
+            reason: (status == Status::Invalid).then(|| format!("a size of {size} m is impossible")),
+        }
+    }
+}
+
+impl Simulator for Fake {
+    fn name(&self) -> &'static str {
+        "fake"
+    }
+
+    fn doc(&self) -> &'static str {
+        "No physics at all."
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        &PARAMETERS
+    }
+
+    fn presets(&self) -> &'static [Preset] {
+        &PRESETS
+    }
+
+    fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    fn run(&self, _set: InstructionSet, _solver: &SolverSettings, jobs: &mut dyn Jobs) {
+        let mut random = Random::new();
+        let mut running: Vec<Point> = Vec::new();
+        loop {
+            while running.len() < self.lanes
+                && let Some(point) = jobs.next(running.is_empty())
+            {
+                self.begin(&point);
+                running.push(point);
+            }
+            if running.is_empty() {
+                return;
+            }
+            let chosen = random.below(running.len());
+            let point = running.swap_remove(chosen);
+            self.finish(&point, jobs);
+        }
+    }
+
+    fn run_point(&self, _set: InstructionSet, _solver: &SolverSettings, values: &[f64]) -> Row {
+        Fake::row(values)
+    }
+
+    fn trajectory(
+        &self,
+        _set: InstructionSet,
+        _solver: &SolverSettings,
+        _values: &[f64],
+        _request: &TrajectoryRequest,
+    ) -> Result<Trajectory, Invalid> {
+        Err(Invalid { reason: "it does not move".to_owned() })
+    }
+}
+
+/// Another sequence for every worker, so that the order of rows differs from run to run.
+struct Random(u64);
+
+impl Random {
+    fn new() -> Random {
+        static SEED: AtomicU64 = AtomicU64::new(1);
+        Random(SEED.fetch_add(0x9E37_79B9_7F4A_7C15, Ordering::Relaxed) | 1)
+    }
+
+    fn below(&mut self, end: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        usize::try_from(self.0 >> 33).unwrap() % end
+    }
+}

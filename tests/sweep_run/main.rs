@@ -1,0 +1,9 @@
+//! From a plan to rows: order, bounded memory, interruption and failure, with a model made for the purpose.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
+
+mod failure;
+mod fake;
+mod files;
+mod rows;
+mod support;

@@ -1,0 +1,116 @@
+//! Plans, sinks and a watchdog.
+
+use std::io;
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc;
+use std::thread;
+use std::time::Duration;
+
+use flap_core::simulate::{Point, Row};
+use flap_sweep::csv_sink::CsvSink;
+use flap_sweep::layout::Layout;
+use flap_sweep::plan::Plan;
+use flap_sweep::run::{RunError, RunOptions, Summary, run};
+use flap_sweep::sink::Sink;
+
+use crate::fake::Fake;
+
+/// A plan of `points` points: `size` runs from 0, in whole numbers.
+pub(crate) fn plan(model: &'static Fake, points: u64) -> Plan {
+    plan_of(
+        model,
+        &format!("preset = \"fake2020\"\n[axes]\nsize = {{ from = 0, to = {}, step = 1 }}\n", points - 1),
+    )
+}
+
+/// The plan of a grid file.
+pub(crate) fn plan_of(model: &'static Fake, grid: &str) -> Plan {
+    flap_sweep::spec::parse("grid.toml", grid, &[model]).expect("a correct grid file")
+}
+
+pub(crate) fn options(threads: usize, window: usize) -> RunOptions {
+    RunOptions { threads: NonZeroUsize::new(threads).unwrap(), window, ..RunOptions::default() }
+}
+
+/// Fails the test if `work` takes longer than any machine needs: it hangs.
+pub(crate) fn must_end<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> T {
+    let (send, receive) = mpsc::channel();
+    let worker = thread::spawn(move || send.send(work()));
+    match receive.recv_timeout(Duration::from_secs(60)) {
+        Ok(value) => value,
+        Err(mpsc::RecvTimeoutError::Timeout) => panic!("hangs"),
+        Err(mpsc::RecvTimeoutError::Disconnected) => {
+            std::panic::resume_unwind(worker.join().expect_err("it ended without a result"))
+        }
+    }
+}
+
+/// Runs to the end, and gives the CSV text with the summary.
+pub(crate) fn csv(plan: &Plan, options: &RunOptions) -> (String, Result<Summary, RunError>) {
+    let mut sink = CsvSink::new(Layout::of(plan), Vec::new());
+    let summary = run(plan, options, &mut sink, &AtomicBool::new(false), &mut |_| {});
+    (String::from_utf8(sink.target().clone()).unwrap(), summary)
+}
+
+/// Keeps the indices of the rows, tells the model how far it is, and can go wrong.
+pub(crate) struct Watch {
+    pub(crate) model: &'static Fake,
+    pub(crate) indices: Vec<u64>,
+    pub(crate) finished: bool,
+    /// Fails at this row.
+    pub(crate) full_at: Option<u64>,
+    /// Panics at this row.
+    pub(crate) panic_at: Option<u64>,
+    /// Raises the flag at this row.
+    pub(crate) stop_at: Option<(u64, &'static AtomicBool)>,
+}
+
+impl Watch {
+    pub(crate) fn new(model: &'static Fake) -> Watch {
+        Watch { model, indices: Vec::new(), finished: false, full_at: None, panic_at: None, stop_at: None }
+    }
+
+    pub(crate) fn assert_prefix(&self) {
+        assert!(self.indices.iter().copied().eq(0..self.indices.len() as u64), "{:?}", self.indices);
+    }
+}
+
+impl Sink for Watch {
+    fn begin(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn write(&mut self, point: &Point, row: &Row) -> io::Result<()> {
+        assert!(
+            row.measures.is_empty() || row.measures[0] == point.values[0] / 3.0,
+            "the row of another point"
+        );
+        assert!(self.panic_at != Some(point.index), "the sink panics");
+        if self.full_at == Some(point.index) {
+            return Err(io::Error::from(io::ErrorKind::StorageFull));
+        }
+        self.indices.push(point.index);
+        self.model.written.fetch_add(1, Ordering::SeqCst);
+        if let Some((index, stop)) = self.stop_at
+            && index == point.index
+        {
+            stop.store(true, Ordering::SeqCst);
+        }
+        Ok(())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        self.finished = true;
+        Ok(())
+    }
+}
+
+/// A stop flag that lives as long as the tests.
+pub(crate) fn flag(raised: bool) -> &'static AtomicBool {
+    Box::leak(Box::new(AtomicBool::new(raised)))
+}
