@@ -49,7 +49,7 @@ export PATH="$work/bin:$PATH"
 
 # pip would take the directory's name for a name and a version, and keep every build in its cache.
 python -m pip install --quiet --disable-pip-version-check --no-cache-dir --no-index --no-deps \
-    --no-build-isolation --config-settings "build-args=--profile $profile" ./crates/flap-py
+    --no-build-isolation --config-settings "build-args=--profile $profile --locked" ./crates/flap-py
 
 export PYTHONDONTWRITEBYTECODE=1
 python -m pytest --quiet -o "cache_dir=$work/pytest-cache" tests/python "$@"

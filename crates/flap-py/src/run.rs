@@ -39,7 +39,8 @@ pub(crate) fn presets() -> Vec<&'static str> {
 ///     Default rtol / 100.
 /// settle_tol : float, optional
 ///     The point has settled when its state changes by less than this from one drive period to the
-///     next, in units of each state's typical size: more than 0. Default 1e-6.
+///     next, in units of each state's typical size (of the motion's own size, if that is smaller):
+///     more than 0. Default 1e-6.
 /// max_cycles : int, optional
 ///     Drive periods after which the point counts as unsettled: 1 or more. Default 400.
 /// max_steps : int, optional
@@ -66,8 +67,8 @@ pub(crate) fn presets() -> Vec<&'static str> {
 ///     cycles : int
 ///         Drive periods integrated, the measured one included.
 ///     residual : float or None
-///         Change of the state over the last period of the motion, in units of each state's typical
-///         size. None if no period was completed.
+///         Change of the state over the last period of the motion, in the units of settle_tol. None if
+///         no period was completed.
 ///     period : int
 ///         Drive periods until the motion repeats: 1 if periodic, more if subharmonic, otherwise 0.
 ///     rhs_evals : int
