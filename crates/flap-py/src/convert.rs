@@ -1,0 +1,58 @@
+//! Numbers out of Python objects, and messages for what is not one.
+
+use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyBool;
+
+/// A finite number, of any type that Python's `float` takes except text and truth values.
+///
+/// `wanted` says what `name` is, for the message if `value` is of another type.
+pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    if value.is_instance_of::<PyBool>() {
+        return Err(wrong_type(name, wanted, value));
+    }
+    let number = value.extract::<f64>().map_err(|error| {
+        if error.is_instance_of::<PyTypeError>(value.py()) {
+            wrong_type(name, wanted, value)
+        } else if error.is_instance_of::<PyOverflowError>(value.py()) {
+            PyValueError::new_err(format!("`{name}` is too large for a 64-bit float"))
+        } else {
+            error
+        }
+    })?;
+    if number.is_finite() {
+        Ok(number)
+    } else {
+        Err(PyValueError::new_err(format!("`{name}` cannot be {}: values are finite", value.str()?)))
+    }
+}
+
+/// A whole number from 1 to the largest `u32`.
+pub(crate) fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
+    let wanted = "a whole number";
+    if value.is_instance_of::<PyBool>() {
+        return Err(wrong_type(name, wanted, value));
+    }
+    let count = match value.extract::<u32>() {
+        Ok(count) => count,
+        Err(error) if error.is_instance_of::<PyTypeError>(value.py()) => {
+            return Err(wrong_type(name, wanted, value));
+        }
+        // Negative, or too large.
+        Err(error) if error.is_instance_of::<PyOverflowError>(value.py()) => 0,
+        Err(error) => return Err(error),
+    };
+    if count == 0 {
+        let message = format!("`{name}` must be from 1 to {}, not {}", u32::MAX, value.str()?);
+        return Err(PyValueError::new_err(message));
+    }
+    Ok(count)
+}
+
+/// The error for a value that is not of the type wanted.
+pub(crate) fn wrong_type(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyErr {
+    match value.get_type().name() {
+        Ok(found) => PyTypeError::new_err(format!("`{name}` must be {wanted}, not {found}")),
+        Err(error) => error,
+    }
+}

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# Builds the Python wheel, installs it into a virtual environment of its own, and tests it:
+#
+#   scripts/test-python.sh [--release] [argument of pytest]...
+#
+# Cargo's dev profile is used, whose compiled dependencies `cargo test` shares; with --release, the profile of
+# published wheels. The environment is kept in target/python; it is made anew when tests/python/requirements.txt
+# or the interpreter changes, and only then does pip fetch anything. PYTHON names an interpreter other than python3.
+set -euo pipefail
+
+die() {
+    printf 'test-python: %s\n' "$1" >&2
+    exit 2
+}
+
+# Cargo will run in another directory, where a relative path would mean something else.
+if [[ -n ${CARGO_TARGET_DIR-} ]]; then
+    mkdir -p -- "$CARGO_TARGET_DIR"
+    CARGO_TARGET_DIR=$(cd -- "$CARGO_TARGET_DIR" && pwd)
+    export CARGO_TARGET_DIR
+fi
+cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
+
+profile=dev
+if [[ ${1-} == --release ]]; then
+    profile=release
+    shift
+fi
+
+python=${PYTHON:-python3}
+command -v "$python" >/dev/null || die "$python is not installed: Python 3.10 or later is needed"
+version=$("$python" -c 'import sys; print(sys.version)') || die "$python does not run"
+"$python" -c 'import sys; sys.exit(sys.version_info < (3, 10))' ||
+    die "$python is ${version%% *}: the tests need Python 3.10 or later"
+"$python" -c 'import ensurepip, venv' 2>/dev/null ||
+    die "$python lacks its venv module: on Debian and Ubuntu, install python3-venv"
+command -v cargo >/dev/null || die "cargo is not installed: building the wheel needs a Rust toolchain"
+
+work=${CARGO_TARGET_DIR:-$PWD/target}/python
+requirements=tests/python/requirements.txt
+made_from=$work/made-from
+if ! diff -q - "$made_from" >/dev/null 2>&1 < <(printf '%s\n' "$work" "$version"; cat "$requirements"); then
+    rm -f -- "$made_from"
+    "$python" -m venv --clear "$work"
+    "$work/bin/python" -m pip install --quiet --disable-pip-version-check -r "$requirements"
+    { printf '%s\n' "$work" "$version"; cat "$requirements"; } >"$made_from"
+fi
+export PATH="$work/bin:$PATH"
+
+# pip would take the directory's name for a name and a version, and keep every build in its cache.
+python -m pip install --quiet --disable-pip-version-check --no-cache-dir --no-index --no-deps \
+    --no-build-isolation --config-settings "build-args=--profile $profile --locked" ./crates/flap-py
+
+export PYTHONDONTWRITEBYTECODE=1
+python -m pytest --quiet -o "cache_dir=$work/pytest-cache" tests/python "$@"
+MYPY_CACHE_DIR=$work/mypy-cache python -m mypy.stubtest flapwing
