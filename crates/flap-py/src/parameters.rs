@@ -1,6 +1,6 @@
 //! A preset's parameters, with keywords on top.
 
-use flap_core::model::{Kind, Parameter, Preset, Range};
+use flap_core::parameter::{Kind, Parameter, Preset, Range};
 use flap_core::simulate::{self, Simulator};
 use flap_sweep::diagnostic::nearest;
 use flap_sweep::units;
