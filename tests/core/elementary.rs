@@ -38,6 +38,26 @@ fn exponential_and_logarithm_are_accurate_to_a_few_roundings() {
     assert_eq!(Real::ln(1.0_f64), 0.0);
 }
 
+/// Relative to their own small values where the exponential is near 1.
+#[test]
+fn exponential_less_one_and_logarithm_of_one_more_are_accurate_near_zero() {
+    let small = (0..280).map(|i| 10.0_f64.powi(-i));
+    let both_signs = small.flat_map(|x| [x, -x]);
+    for x in both_signs.chain(arguments(-1.0, 1.0)).chain(arguments(-700.0, 700.0)) {
+        let (actual, expected) = (Real::exp_m1(x), f64::exp_m1(x));
+        assert!(
+            (actual - expected).abs() <= 6e-16 * expected.abs(),
+            "exp_m1 {x}: {actual} is not {expected}"
+        );
+        let x = if x > -0.999 { x } else { -0.001 * x };
+        let (actual, expected) = (Real::ln_1p(x), f64::ln_1p(x));
+        assert!((actual - expected).abs() <= 6e-16 * expected.abs(), "ln_1p {x}: {actual} is not {expected}");
+    }
+    assert_eq!((Real::exp_m1(0.0_f64), Real::ln_1p(0.0_f64)), (0.0, 0.0));
+    let large = [1e3, 1e15, 1e17, 1e300];
+    assert!(large.iter().all(|&x| (Real::ln_1p(x) / f64::ln_1p(x) - 1.0).abs() < 4e-16));
+}
+
 /// The step-size controller relies on it: an error that is not a number must look large.
 #[test]
 fn logarithm_of_nan_and_infinity_is_large_and_finite() {
@@ -49,7 +69,7 @@ fn logarithm_of_nan_and_infinity_is_large_and_finite() {
 
 /// Every operation a model or the integrator uses, on one value per lane.
 #[inline(always)]
-fn everything<R: Lanes>(x: R) -> [R; 14] {
+fn everything<R: Lanes>(x: R) -> [R; 16] {
     let (sin, cos) = x.sin_cos();
     let positive = x.abs() + 0.1;
     let (exponent, mantissa) = positive.exponent_and_mantissa();
@@ -58,6 +78,8 @@ fn everything<R: Lanes>(x: R) -> [R; 14] {
         cos,
         x.exp(),
         positive.ln(),
+        x.exp_m1(),
+        positive.ln_1p(),
         positive.sqrt(),
         x.mul_add(sin, cos),
         x.copysign(sin),
@@ -74,9 +96,9 @@ fn everything<R: Lanes>(x: R) -> [R; 14] {
 struct OnLanes<'a>(&'a [f64]);
 
 impl Kernel for OnLanes<'_> {
-    type Output = Vec<[f64; 14]>;
+    type Output = Vec<[f64; 16]>;
 
-    fn run<S: Simd>(self, simd: S) -> Vec<[f64; 14]> {
+    fn run<S: Simd>(self, simd: S) -> Vec<[f64; 16]> {
         let mut results = Vec::new();
         for group in self.0.chunks(Vector::<S>::LANES) {
             let mut x = Vector::<S>::splat(simd, 0.0);

@@ -61,9 +61,8 @@ pub fn sin_cos<R: Lanes>(x: R) -> (R, R) {
 /// ln 2 in two parts; the first has 33 significant bits.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 
-/// 1/n! for n = 0 … 13.
-const EXP: [f64; 14] = [
-    1.0,
+/// 1/n! for n = 1 … 13.
+const EXP: [f64; 13] = [
     1.0,
     1.0 / 2.0,
     1.0 / 6.0,
@@ -79,13 +78,29 @@ const EXP: [f64; 14] = [
     1.0 / 6_227_020_800.0,
 ];
 
-/// e^x for |x| up to 700.
+/// A whole number k and r with x = k ln 2 + r, |r| ≤ ½ ln 2.
 #[inline(always)]
-pub fn exp<R: Lanes>(x: R) -> R {
+fn reduce<R: Lanes>(x: R) -> (R, R) {
     let k = x.mul_add(x.lit(core::f64::consts::LOG2_E), x.lit(ROUND)) - ROUND;
     let mut r = k.mul_add(k.lit(-LN_2[0]), x);
     r = k.mul_add(k.lit(-LN_2[1]), r);
-    polynomial(r, &EXP).times_power_of_two(k)
+    (k, r)
+}
+
+/// e^x for |x| up to 700.
+#[inline(always)]
+pub fn exp<R: Lanes>(x: R) -> R {
+    let (k, r) = reduce(x);
+    polynomial(r, &EXP).mul_add(r, r.lit(1.0)).times_power_of_two(k)
+}
+
+/// e^x − 1 for |x| up to 700, accurate for small x too.
+#[inline(always)]
+pub fn exp_m1<R: Lanes>(x: R) -> R {
+    let (k, r) = reduce(x);
+    let power = r.lit(1.0).times_power_of_two(k);
+    // 2^k (e^r − 1) + (2^k − 1)
+    (polynomial(r, &EXP) * r).mul_add(power, power - 1.0)
 }
 
 /// Coefficients of s², s⁴, … in (ln((1 + s)/(1 − s)) − 2s)/s.
@@ -116,4 +131,13 @@ pub fn ln<R: Lanes>(x: R) -> R {
     // ln m = f − (f²/2 − s (f²/2 + rest)), with e ln 2 added from its small part up.
     let small = s.mul_add(half_square + rest, e * LN_2[1]);
     e.mul_add(e.lit(LN_2[0]), f - (half_square - small))
+}
+
+/// ln(1 + x) for x > −1 with 1 + x a normal number, accurate for small x too.
+#[inline(always)]
+pub fn ln_1p<R: Lanes>(x: R) -> R {
+    let sum = x + 1.0;
+    // What rounding the sum has lost. Far from 1 the logarithm does not notice.
+    let lost = x - (sum - 1.0);
+    ln(sum) + R::select(sum.lt(sum.lit(2.0)), lost, lost.lit(0.0))
 }

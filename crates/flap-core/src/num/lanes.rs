@@ -96,8 +96,18 @@ impl Real for f64 {
     }
 
     #[inline(always)]
+    fn exp_m1(self) -> f64 {
+        functions::exp_m1(self)
+    }
+
+    #[inline(always)]
     fn ln(self) -> f64 {
         functions::ln(self)
+    }
+
+    #[inline(always)]
+    fn ln_1p(self) -> f64 {
+        functions::ln_1p(self)
     }
 }
 

@@ -47,8 +47,14 @@ pub trait Real:
     /// e^x, for |x| up to 700.
     fn exp(self) -> Self;
 
+    /// e^x − 1, for |x| up to 700, accurate for small x too.
+    fn exp_m1(self) -> Self;
+
     /// Natural logarithm of a normal positive number.
     fn ln(self) -> Self;
+
+    /// ln(1 + x) for x > −1, accurate for small x too.
+    fn ln_1p(self) -> Self;
 
     /// Sine of an angle in radians.
     #[inline(always)]

@@ -123,8 +123,18 @@ impl Real for Unfused {
     }
 
     #[inline(always)]
+    fn exp_m1(self) -> Unfused {
+        functions::exp_m1(self)
+    }
+
+    #[inline(always)]
     fn ln(self) -> Unfused {
         functions::ln(self)
+    }
+
+    #[inline(always)]
+    fn ln_1p(self) -> Unfused {
+        functions::ln_1p(self)
     }
 }
 

@@ -151,8 +151,18 @@ impl<S: Simd> Real for Vector<S> {
     }
 
     #[inline(always)]
+    fn exp_m1(self) -> Self {
+        functions::exp_m1(self)
+    }
+
+    #[inline(always)]
     fn ln(self) -> Self {
         functions::ln(self)
+    }
+
+    #[inline(always)]
+    fn ln_1p(self) -> Self {
+        functions::ln_1p(self)
     }
 }
 
