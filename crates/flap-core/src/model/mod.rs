@@ -6,6 +6,7 @@
 //! - constants derived from the parameters once per point ([`crate::per_lane!`]),
 //! - equations of motion ([`Ode`]) and the signals to be measured, written once for scalars and lanes.
 
+pub mod bimorph;
 pub mod direct_drive;
 mod signal;
 

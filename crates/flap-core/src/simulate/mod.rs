@@ -13,12 +13,14 @@ pub use simulator::{
 };
 
 use crate::drive::Shape;
+use crate::model::bimorph::Bimorph;
 use crate::model::direct_drive::DirectDrive;
 use crate::parameter::Preset;
 use runner::Runner;
 
+static BIMORPH: Runner<Bimorph, 4, 14> = Runner::new(Bimorph { shape: Shape::Sine });
 static DIRECT_DRIVE: Runner<DirectDrive, 4, 9> = Runner::new(DirectDrive { shape: Shape::Sine });
-static ALL: [&dyn Simulator; 1] = [&DIRECT_DRIVE];
+static ALL: [&dyn Simulator; 2] = [&BIMORPH, &DIRECT_DRIVE];
 
 /// Every model, in the order `flap models` lists them.
 pub fn all() -> &'static [&'static dyn Simulator] {

@@ -1,0 +1,200 @@
+//! What does not change along a trajectory of the bimorph model, computed once per point.
+//!
+//! Jafferis, Graule and Wood 2016; numbers in parentheses are the paper's equations, with the corrections
+//! listed in `docs/model-bimorph.md`. Powers of constants that the equations of motion need together are
+//! multiplied out here.
+
+use super::actuator::Actuator;
+use super::params::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
+use crate::drive::{Shape, Waveform};
+use crate::num::PerLane;
+use crate::parameter::Invalid;
+
+crate::per_lane! {
+    /// Constants of one design point, in SI units.
+    pub struct Constants<R> {
+        /// Half of the drive voltage peak to peak (V).
+        pub half_voltage: R,
+        /// Shape of the drive voltage over time.
+        pub waveform: Waveform<R>,
+
+        /// Field per voltage (1/m): 1/t_pzt.
+        pub field_per_volt: R,
+        /// Piezoelectric stress per field at small fields f_31,min (N/(V·m)), (6).
+        pub f_min: R,
+        /// What the transition takes from its end (N/(V·m)): f_31,min; twice that if (6) is read as printed.
+        pub f_taken: R,
+        /// Piezoelectric stress per field at the transition's end f_31,max (N/(V·m)), (6).
+        pub f_max: R,
+        /// Its decline with field a₄ f_31,max (N/V²), (6).
+        pub f_decline: R,
+        /// Field of the transition ℰ₀ (V/m), (6).
+        pub field_0: R,
+        /// Steepness of the transition a₃ (m/V), (6).
+        pub a_3: R,
+        /// Blocked force per piezoelectric stress F_pre (N/Pa), (6).
+        pub force_per_stress: R,
+        /// Relative change of a plate's force per displacement of the tip b = a₂ s_ε (1/m), (5), (6).
+        pub b: R,
+        /// Capacitance of a plate C_p (F).
+        pub c_p: R,
+
+        /// Stiffness of the actuator without the stiffening by strain (N/m), (3).
+        pub k_soft: R,
+        /// Force of the stiffening by strain (N) per unit of [`super::stiffening`], (3), (4).
+        pub f_stiff: R,
+        /// Strain over the width of the modulus' transition, per displacement a₁ s_ε (1/m), (4).
+        pub u_per_tip: R,
+        /// How far the modulus' transition has come at zero strain σ(a₁ε₀), (4).
+        pub sigma_0: R,
+        /// Stiffness of the transmission K_t (N/m).
+        pub k_t: R,
+
+        /// 1/m_e (1/kg), with the effective mass m_e = (I_zz + I_am) T².
+        pub inverse_m_e: R,
+        /// Drag at the tip C_A (kg/m), (8).
+        pub c_a: R,
+        /// Its swing with the hinge angle C_B (kg/m), (8).
+        pub c_b: R,
+
+        /// 1/I_xx (1/(kg·m²)).
+        pub inverse_i_xx: R,
+        /// Inertial torque per acceleration of the tip T I_xz (kg·m), (2).
+        pub coupling: R,
+        /// Centrifugal torque per ẋ² sin 2ψ (kg): ½ I_xx T², (2).
+        pub centrifugal: R,
+        /// Stiffness of the hinge κ_wh (N·m/rad).
+        pub kappa_wh: R,
+        /// Rotational drag C_C (N·m·s²), (9).
+        pub c_c: R,
+        /// Aerodynamic torque about the hinge per coefficient and centre of pressure (kg), (10), (11).
+        pub hinge_torque: R,
+        /// Chordwise centre of pressure for ψ = 90°, in mean widths, (11).
+        pub p_min: R,
+        /// What it moves by from there to ψ = 0, (11).
+        pub p_swing: R,
+        /// 1 if the centre of pressure follows |ψ|, else 0.
+        pub attack_folded: R,
+        /// 1 if it follows ψ relative to the motion, else 0.
+        pub attack_directional: R,
+        /// 1 if it follows ψ as printed, else 0.
+        pub attack_literal: R,
+
+        /// Mean of the drag coefficient's largest and smallest value b₁.
+        pub b_1: R,
+        /// Half of the drag coefficient's range b₂, positive.
+        pub b_2: R,
+        /// Amplitude of the lift coefficient b_L.
+        pub b_l: R,
+        /// Force on the wing per coefficient and ẋ² (kg/m): ½ρA_w r̂₂²R²T².
+        pub force: R,
+
+        /// Transmission ratio T (rad/m).
+        pub ratio: R,
+        /// Strain of a plate's mid-plane per displacement of the tip s_ε (1/m), (5).
+        pub strain_per_tip: R,
+        /// Strain of a plate's outer face over that of its mid-plane.
+        pub surface_strain_ratio: R,
+        /// Mass of the vehicle (kg).
+        pub vehicle_mass: R,
+    }
+}
+
+/// Largest magnitude of an exponent that `exp` is asked for.
+pub(super) const EXPONENT_MAX: f64 = 600.0;
+
+impl Constants<f64> {
+    /// Derives the constants of a point.
+    ///
+    /// # Errors
+    /// If the actuator has no width at one end, a transition is too steep to compute, or a constant is not
+    /// finite.
+    pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
+        let actuator = Actuator::new(p)?;
+        // Harmonics swing beyond 0 and V_pp.
+        let harmonics = if p.drive_shape == Shape::Harmonics {
+            p.drive_second_harmonic.abs() + p.drive_third_harmonic.abs()
+        } else {
+            0.0
+        };
+        let field_max = p.drive_voltage_pp * (1.0 + harmonics) / p.piezo_thickness;
+        let steepest = (p.stress_field.abs() + field_max) * p.stress_steepness;
+        let z_0 = p.modulus_steepness * p.modulus_strain;
+        if steepest.max(z_0.abs()) > EXPONENT_MAX {
+            return Err(Invalid::new(
+                "a transition is too steep: stress_steepness times field, or modulus_steepness times \
+                 modulus_strain, exceeds 600",
+            ));
+        }
+        let sigma_0 = 1.0 / (1.0 + libm::exp(-z_0));
+        // E_e = E_min + ½ (E_max − E_min) L/u with L/u → σ₀ for u → 0.
+        let half_range = 0.5 * (p.piezo_modulus_max - p.piezo_modulus_min);
+        let u_per_tip = p.modulus_steepness * actuator.strain_per_tip;
+        let stiffens = p.actuator_stiffness == ActuatorStiffness::StrainDependent;
+        let soft_modulus =
+            if stiffens { p.piezo_modulus_min } else { p.piezo_modulus_min + half_range * sigma_0 };
+
+        let ratio = p.transmission_ratio;
+        let r_2 = p.wing_radius_2 * p.wing_length;
+        let w_2 = p.wing_width_2 * p.wing_width;
+        let dynamic = 0.5 * p.air_density * p.wing_area;
+        let force = dynamic * (r_2 * r_2) * (ratio * ratio);
+        let b_1 = 0.5 * (p.drag_max + p.drag_min);
+        let b_2 = 0.5 * (p.drag_max - p.drag_min);
+
+        let one_if = |yes: bool| if yes { 1.0 } else { 0.0 };
+        let constants = Constants {
+            half_voltage: 0.5 * p.drive_voltage_pp,
+            waveform: p.waveform(),
+
+            field_per_volt: 1.0 / p.piezo_thickness,
+            f_min: p.piezo_stress_min,
+            f_taken: p.piezo_stress_min * (1.0 + one_if(p.field_transition == FieldTransition::Printed)),
+            f_max: p.piezo_stress_max,
+            f_decline: p.stress_decline * p.piezo_stress_max,
+            field_0: p.stress_field,
+            a_3: p.stress_steepness,
+            force_per_stress: actuator.force_per_stress,
+            b: p.force_strain_slope * actuator.strain_per_tip,
+            c_p: 0.25 * p.vehicle_capacitance,
+
+            k_soft: actuator.stiffness_per_modulus * soft_modulus + actuator.shim_stiffness,
+            f_stiff: actuator.stiffness_per_modulus * half_range / u_per_tip * one_if(stiffens),
+            u_per_tip,
+            sigma_0,
+            k_t: p.transmission_stiffness,
+
+            inverse_m_e: 1.0
+                / ((p.wing_inertia_stroke + p.added_inertia_stroke) * (ratio * ratio) + p.actuator_mass),
+            c_a: force * p.pressure_radius * ratio * b_1,
+            c_b: force * p.pressure_radius * ratio * b_2,
+
+            inverse_i_xx: 1.0 / p.wing_inertia_hinge,
+            coupling: p.wing_inertia_product * ratio,
+            centrifugal: 0.5 * p.wing_inertia_hinge * (ratio * ratio),
+            kappa_wh: p.hinge_stiffness,
+            c_c: dynamic * p.rotation_pressure_width * (w_2 * w_2) * p.drag_max,
+            hinge_torque: force * (p.wing_area / p.wing_length),
+            p_min: p.pressure_min,
+            p_swing: p.pressure_max - p.pressure_min,
+            attack_folded: one_if(p.centre_of_pressure == CentreOfPressure::Folded),
+            attack_directional: one_if(p.centre_of_pressure == CentreOfPressure::Directional),
+            attack_literal: one_if(p.centre_of_pressure == CentreOfPressure::Literal),
+
+            b_1,
+            b_2,
+            b_l: p.lift_max,
+            force,
+
+            ratio,
+            strain_per_tip: actuator.strain_per_tip,
+            surface_strain_ratio: actuator.surface_strain_ratio,
+            vehicle_mass: p.vehicle_mass,
+        };
+        if <Constants<f64> as PerLane<f64>>::is_finite(&constants) {
+            Ok(constants)
+        } else {
+            Err(Invalid::new("a derived constant is not finite: the parameters are too large or too small"))
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! A bimorph piezoelectric actuator that drives a wing through a transmission; the wing pitches on a hinge.
+//!
+//! Jafferis, Graule and Wood, "Non-linear resonance modeling and system design improvements for
+//! underactuated flapping-wing vehicles", ICRA 2016. Two plates with field- and strain-dependent force and
+//! stiffness, a lumped mass, quasi-steady aerodynamics of the whole wing, a passive hinge.
+
+mod actuator;
+mod columns;
+mod constants;
+mod params;
+mod rhs;
+
+pub use actuator::{Actuator, taper_gain};
+pub use constants::Constants;
+pub use params::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
+pub use rhs::{
+    Plate, charges, currents, derivative, drag_coefficient, elastic_force, hinge_drag, lift_and_drag, plate,
+    plate_forces, secant_stiffness, stiffening, tip_drag,
+};
+
+use super::{Derived, Model, Signal, SignalCycle};
+use crate::drive::Shape;
+use crate::num::Lanes;
+use crate::ode::{Ode, Start};
+use crate::parameter::{Invalid, Parameter, Preset};
+
+/// The model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Bimorph {
+    /// Shape of the drive voltage.
+    pub shape: Shape,
+}
+
+impl Ode<4> for Bimorph {
+    type Constants<R: Lanes> = Constants<R>;
+    type Input<R: Lanes> = [Plate<R>; 2];
+
+    /// The two plates at time `t`, driven in antiphase, (7).
+    ///
+    /// ```text
+    /// V₁ = ½V_pp (1 − sin ωt)     V₂ = ½V_pp (1 + sin ωt)
+    /// ```
+    #[inline(always)]
+    fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> [Plate<R>; 2] {
+        let half = c.half_voltage;
+        let wave = c.waveform.at(self.shape, t);
+        [plate(c, wave.voltage(half, -half)), plate(c, wave.voltage(half, half))]
+    }
+
+    #[inline(always)]
+    fn rhs<R: Lanes>(&self, c: &Constants<R>, plates: &[Plate<R>; 2], _side: R, y: &[R; 4]) -> [R; 4] {
+        derivative(c, plates, y)
+    }
+}
+
+impl Model<4, { columns::S }> for Bimorph {
+    const NAME: &'static str = "bimorph";
+    const DOC: &'static str =
+        "bimorph on a transmission, passive hinge, lumped quasi-steady aerodynamics (Jafferis et al. 2016)";
+    const PARAMETERS: &'static [Parameter] = Params::TABLE;
+    const PRESETS: &'static [Preset] = Params::PRESETS;
+    const STATES: [&'static str; 4] = ["tip_m", "tip_rate_m_s", "pitch_rad", "pitch_rate_rad_s"];
+    const SIGNALS: [Signal; columns::S] = columns::SIGNALS;
+    const DERIVED: &'static [Derived] = columns::DERIVED;
+
+    fn variant(&self, values: &[f64]) -> Bimorph {
+        Bimorph { shape: Params::from_values(values).drive_shape }
+    }
+
+    /// Starts at rest. States are scaled as in the direct-drive model: strokes of 0.1 rad, hinge angles of
+    /// 0.3 rad, and these times the drive's angular frequency for the rates.
+    fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
+        let params = Params::from_values(values);
+        params.drive_shape.check(params.drive_rise)?;
+        let constants = Constants::derive(&params)?;
+        let rate = constants.waveform.rate;
+        let tip = 0.1 / params.transmission_ratio;
+        Ok(Start {
+            constants,
+            y: [0.0; 4],
+            span: 1.0 / params.drive_frequency,
+            scale: [tip, tip * rate, 0.3, 0.3 * rate],
+        })
+    }
+
+    #[inline(always)]
+    fn drive_rate<R: Lanes>(c: &Constants<R>) -> R {
+        c.waveform.rate
+    }
+
+    #[inline(always)]
+    fn signals<R: Lanes>(
+        &self,
+        c: &Constants<R>,
+        plates: &[Plate<R>; 2],
+        _side: R,
+        y: &[R; 4],
+        _dy: &[R; 4],
+    ) -> [R; columns::S] {
+        let [x, x_dot, psi, psi_dot] = *y;
+        let (sin, cos) = psi.sin_cos();
+        let (sin_2psi, cos_2psi) = rhs::double_angle(sin, cos);
+        let [lift, drag] = lift_and_drag(c, x_dot, sin_2psi, cos_2psi);
+        let [f_1, f_2] = plate_forces(c, plates, x);
+        let [i_1, i_2] = currents(c, plates, x, x_dot);
+        let power_1 = plates[0].voltage.value * i_1;
+        let power_2 = plates[1].voltage.value * i_2;
+        [
+            c.ratio * x,
+            psi,
+            lift,
+            drag,
+            power_1 + power_2,
+            power_1,
+            power_2,
+            (f_1 - f_2) * x_dot,
+            tip_drag(c, cos_2psi) * x_dot * x_dot * x_dot.abs(),
+            c.c_c * psi_dot * psi_dot * psi_dot.abs(),
+            i_1,
+            i_2,
+            f_1,
+            f_2,
+        ]
+    }
+
+    fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; columns::S]) -> Vec<f64> {
+        columns::values(c, cycle)
+    }
+}

@@ -1,0 +1,305 @@
+//! Parameters of the bimorph model and their published values.
+
+use crate::drive::{Shape, Waveform};
+use crate::parameter::Kind::{Choice, Number};
+use crate::parameter::Range::{Any, NonNegative, Positive};
+use crate::parameter::{Preset, Slot};
+
+crate::parameters! {
+    /// Parameters of the bimorph model, in SI units. Symbols as in Jafferis, Graule and Wood 2016, Table I.
+    pub struct Params {
+        /// Drive voltage, peak to peak: the plates see 0 to this, in antiphase, Eq. (7).
+        drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)),
+        /// Drive frequency. The paper sweeps it at 15 Hz/s.
+        drive_frequency: f64 = ("Hz", "f", Number(Positive)),
+        /// Shape of the drive voltage over a period: a sine, a sine with second and third harmonic, or a square wave with finite rise time.
+        drive_shape: Shape = ("", "", Choice(Shape::NAMES)),
+        /// Amplitude of the second harmonic relative to the first. Only for drive_shape = "harmonics".
+        drive_second_harmonic: f64 = ("", "", Number(Any)),
+        /// Phase of the second harmonic, by which it leads the sine of twice the drive's phase.
+        drive_second_phase: f64 = ("rad", "", Number(Any)),
+        /// Amplitude of the third harmonic relative to the first. Only for drive_shape = "harmonics".
+        drive_third_harmonic: f64 = ("", "", Number(Any)),
+        /// Phase of the third harmonic, by which it leads the sine of three times the drive's phase.
+        drive_third_phase: f64 = ("rad", "", Number(Any)),
+        /// Rise and fall time of the square wave, as a fraction of the period, up to 0.5. Only for drive_shape = "square".
+        drive_rise: f64 = ("", "", Number(Positive)),
+
+        /// Transmission ratio: stroke angle per displacement of the actuator's tip.
+        transmission_ratio: f64 = ("rad/m", "T", Number(Positive)),
+        /// Stiffness of the transmission felt at the actuator's tip: T^2 kappa_t.
+        transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative)),
+
+        /// Distance from the transmission's flexure to the wing's tip.
+        wing_length: f64 = ("m", "R", Number(Positive)),
+        /// Wing area.
+        wing_area: f64 = ("m^2", "A_w", Number(Positive)),
+        /// Wing shape: radius of the area's second moment about the stroke axis, over wing_length.
+        wing_radius_2: f64 = ("", "r_2", Number(Positive)),
+        /// Wing width: largest distance from the hinge's axis.
+        wing_width: f64 = ("m", "W", Number(Positive)),
+        /// Wing shape: radius of the area's second moment about the hinge's axis, over wing_width.
+        wing_width_2: f64 = ("", "w_2", Number(Positive)),
+        /// Wing inertia about the stroke axis.
+        wing_inertia_stroke: f64 = ("kg*m^2", "I_zz", Number(Positive)),
+        /// Inertia of the air moving with the wing, about the stroke axis.
+        added_inertia_stroke: f64 = ("kg*m^2", "I_am", Number(NonNegative)),
+        /// Wing inertia about the hinge's axis.
+        wing_inertia_hinge: f64 = ("kg*m^2", "I_xx", Number(Positive)),
+        /// Product of inertia that couples stroke and hinge.
+        wing_inertia_product: f64 = ("kg*m^2", "I_xz", Number(Any)),
+        /// Stiffness of the wing hinge.
+        hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive)),
+
+        /// Density of air. Assumed: the paper gives none.
+        air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)),
+        /// Drag coefficient at an attack angle of 90 deg (hinge angle 0).
+        drag_max: f64 = ("", "b_max", Number(NonNegative)),
+        /// Drag coefficient at an attack angle of 0 (hinge angle 90 deg).
+        drag_min: f64 = ("", "b_min", Number(NonNegative)),
+        /// Lift coefficient at an attack angle of 45 deg.
+        lift_max: f64 = ("", "b_L", Number(NonNegative)),
+        /// Radial centre of pressure: lever of the drag about the stroke axis.
+        pressure_radius: f64 = ("m", "R_cp", Number(Positive)),
+        /// Lever of the rotational drag about the hinge's axis.
+        rotation_pressure_width: f64 = ("m", "W_cp1", Number(NonNegative)),
+        /// Chordwise centre of pressure at an attack angle of 0, in mean widths A_w/R, Eq. (11).
+        pressure_min: f64 = ("", "p_min", Number(Any)),
+        /// Chordwise centre of pressure at an attack angle of 90 deg, in mean widths A_w/R, Eq. (11).
+        pressure_max: f64 = ("", "p_max", Number(Any)),
+
+        /// Length of the active part of the actuator.
+        actuator_length: f64 = ("m", "l_pzt", Number(Positive)),
+        /// Mean width of the actuator.
+        actuator_width: f64 = ("m", "w_n", Number(Positive)),
+        /// Width of the actuator at its base over its mean width, between 0 and 2.
+        actuator_width_ratio: f64 = ("", "w_r", Number(Positive)),
+        /// Length of the actuator's rigid extension over actuator_length.
+        actuator_extension_ratio: f64 = ("", "l_r", Number(NonNegative)),
+        /// Mass of the actuator as felt at its tip. Not in the paper's equations, which leave out about 7 mg.
+        actuator_mass: f64 = ("kg", "", Number(NonNegative)),
+        /// Thickness of each piezoelectric plate.
+        piezo_thickness: f64 = ("m", "t_pzt", Number(Positive)),
+        /// Thickness of the carbon-fibre layer between the plates.
+        shim_thickness: f64 = ("m", "t_cf", Number(NonNegative)),
+        /// Young's modulus of the carbon-fibre layer.
+        shim_modulus: f64 = ("Pa", "E_cf", Number(NonNegative)),
+        /// Young's modulus of the plates without compression, Eq. (4).
+        piezo_modulus_min: f64 = ("Pa", "E_min", Number(Positive)),
+        /// Young's modulus of the plates under large compression, Eq. (4).
+        piezo_modulus_max: f64 = ("Pa", "E_max", Number(Positive)),
+        /// Strain at which the modulus is halfway, negative in compression, Eq. (4).
+        modulus_strain: f64 = ("", "eps_0", Number(Any)),
+        /// Steepness of the modulus against strain, Eq. (4).
+        modulus_steepness: f64 = ("", "a_1", Number(Positive)),
+        /// Piezoelectric stress per field at small fields, Eq. (6).
+        piezo_stress_min: f64 = ("N/(V*m)", "f_31,min", Number(NonNegative)),
+        /// Piezoelectric stress per field after the transition, but for its decline, Eq. (6).
+        piezo_stress_max: f64 = ("N/(V*m)", "f_31,max", Number(NonNegative)),
+        /// Field at which the piezoelectric stress per field is halfway, Eq. (6).
+        stress_field: f64 = ("V/m", "E_0", Number(Any)),
+        /// Steepness of the piezoelectric stress per field, Eq. (6).
+        stress_steepness: f64 = ("m/V", "a_3", Number(NonNegative)),
+        /// Relative decline of the piezoelectric stress per field, Eq. (6).
+        stress_decline: f64 = ("m/V", "a_4", Number(Any)),
+        /// Relative change of the plates' force with strain, Eq. (6).
+        force_strain_slope: f64 = ("", "a_2", Number(Any)),
+        /// Share of the plates' force that the actuator's attachment leaves.
+        force_factor: f64 = ("", "p_3", Number(Positive)),
+        /// Share of the actuator's stiffness that its attachment leaves.
+        stiffness_factor: f64 = ("", "p_4", Number(Positive)),
+        /// Factor on the actuator's stiffness that brings its free deflection to the measured one.
+        deflection_factor: f64 = ("", "p_5", Number(Positive)),
+
+        /// Capacitance of a vehicle's two actuators together: four plates.
+        vehicle_capacitance: f64 = ("F", "C_act", Number(NonNegative)),
+        /// Mass of the vehicle with its two actuators and wings, Table II: what payload_mg is reckoned against.
+        vehicle_mass: f64 = ("kg", "M_f", Number(NonNegative)),
+
+        /// Transition of the piezoelectric stress with field, Eq. (6): corrected, or as printed (which halves the force).
+        field_transition: FieldTransition = ("", "", Choice(&["corrected", "printed"])),
+        /// Which attack angle moves the chordwise centre of pressure, Eq. (11): folded to at most 90 deg, relative to the motion, or as printed (which breaks mirror symmetry).
+        centre_of_pressure: CentreOfPressure = ("", "", Choice(&["folded", "directional", "literal"])),
+        /// Stiffness of the actuator: growing with strain, Eq. (4), or constant at its value for none.
+        actuator_stiffness: ActuatorStiffness = ("", "", Choice(&["strain-dependent", "constant"])),
+    }
+}
+
+/// Readings of Eq. (6): what the exponential of the field multiplies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FieldTransition {
+    /// f_min + (f_max (1 − a₄ℰ) − f_min) σ: from f_min to f_max, as the text says.
+    Corrected,
+    /// (f_min + (f_max (1 − a₄ℰ) − f_min) eᶻ)/(1 + eᶻ): as printed, never near f_max.
+    Printed,
+}
+
+impl Slot for FieldTransition {
+    fn from_value(value: f64) -> Self {
+        if value == 1.0 { FieldTransition::Printed } else { FieldTransition::Corrected }
+    }
+
+    fn to_value(&self) -> f64 {
+        f64::from(*self as u8)
+    }
+}
+
+/// Readings of Eq. (11): which hinge angle the centre of pressure depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CentreOfPressure {
+    /// |ψ|: the attack angle is never above 90°.
+    Folded,
+    /// ψ sign(ẋ): the attack angle relative to the motion.
+    Directional,
+    /// ψ: as printed. Breaks the mirror symmetry of the two half strokes.
+    Literal,
+}
+
+impl Slot for CentreOfPressure {
+    fn from_value(value: f64) -> Self {
+        match value {
+            1.0 => CentreOfPressure::Directional,
+            2.0 => CentreOfPressure::Literal,
+            _ => CentreOfPressure::Folded,
+        }
+    }
+
+    fn to_value(&self) -> f64 {
+        f64::from(*self as u8)
+    }
+}
+
+/// Whether the actuator stiffens with strain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ActuatorStiffness {
+    /// Eq. (3) with the modulus (4).
+    StrainDependent,
+    /// Eq. (3) with the modulus (4) at zero strain.
+    Constant,
+}
+
+impl Slot for ActuatorStiffness {
+    fn from_value(value: f64) -> Self {
+        if value == 1.0 { ActuatorStiffness::Constant } else { ActuatorStiffness::StrainDependent }
+    }
+
+    fn to_value(&self) -> f64 {
+        f64::from(*self as u8)
+    }
+}
+
+impl Params {
+    /// The published presets.
+    pub const PRESETS: &'static [Preset] = &[
+        Preset {
+            name: "jafferis2016",
+            doc: "test vehicle with improved actuators, 200 V at 120 Hz (Jafferis, Graule and Wood 2016, Table I)",
+            values: || Params::jafferis2016().to_values(),
+        },
+        Preset {
+            name: "jafferis2016-improved",
+            doc: "redesigned vehicle, 200 V at 155 Hz (Jafferis, Graule and Wood 2016, III-B and Table II)",
+            values: || Params::jafferis2016_improved().to_values(),
+        },
+    ];
+
+    /// Table I, at 200 V and the frequency of its largest stroke. Fitted factors are written out as printed.
+    pub fn jafferis2016() -> Params {
+        Params {
+            drive_voltage_pp: 200.0,
+            drive_frequency: 120.0,
+            drive_shape: Shape::Sine,
+            drive_second_harmonic: 0.0,
+            drive_second_phase: 0.0,
+            drive_third_harmonic: 0.0,
+            drive_third_phase: 0.0,
+            drive_rise: 0.05,
+            transmission_ratio: 3333.0,
+            transmission_stiffness: 197.7,
+            wing_length: 17e-3,
+            wing_area: 54.59e-6,
+            wing_radius_2: 0.564,
+            wing_width: 4.5e-3,
+            wing_width_2: 0.43,
+            wing_inertia_stroke: 51.1e-12,
+            added_inertia_stroke: 10.22e-12,
+            wing_inertia_hinge: 0.95 * 1.29e-12,
+            wing_inertia_product: 0.29 * 2.8e-12,
+            hinge_stiffness: 0.985 * 1.52e-6,
+            air_density: 1.2,
+            drag_max: 1.25 * 3.4,
+            drag_min: 0.39 * 0.4,
+            lift_max: 1.8,
+            pressure_radius: 1.42 * 9.56e-3,
+            rotation_pressure_width: 0.39 * 1.93e-3,
+            pressure_min: 0.132,
+            pressure_max: 0.151,
+            actuator_length: 9e-3,
+            actuator_width: 1.125e-3,
+            actuator_width_ratio: 1.556,
+            actuator_extension_ratio: 0.25,
+            actuator_mass: 0.0,
+            piezo_thickness: 135e-6,
+            shim_thickness: 50e-6,
+            shim_modulus: 340e9,
+            piezo_modulus_min: 38.5e9,
+            piezo_modulus_max: 81e9,
+            modulus_strain: -0.047e-2,
+            modulus_steepness: 8000.0,
+            piezo_stress_min: 14.0,
+            piezo_stress_max: 29.0,
+            stress_field: 0.4e6,
+            stress_steepness: 10e-6,
+            stress_decline: 69e-9,
+            force_strain_slope: -230.0,
+            force_factor: 0.7,
+            stiffness_factor: 0.79,
+            deflection_factor: 0.8,
+            vehicle_capacitance: 10.1e-9,
+            vehicle_mass: 80e-6,
+            field_transition: FieldTransition::Corrected,
+            centre_of_pressure: CentreOfPressure::Folded,
+            actuator_stiffness: ActuatorStiffness::StrainDependent,
+        }
+    }
+
+    /// The redesign of section III-B: transmission and hinge of Table II, all else as in Table I.
+    pub fn jafferis2016_improved() -> Params {
+        Params {
+            drive_frequency: 155.0,
+            transmission_ratio: 2666.0,
+            transmission_stiffness: 215.0,
+            hinge_stiffness: 2.29e-6,
+            vehicle_mass: 87e-6,
+            ..Params::jafferis2016()
+        }
+    }
+
+    /// The drive's waveform.
+    pub(super) fn waveform(&self) -> Waveform<f64> {
+        Waveform::new(
+            self.drive_frequency,
+            [self.drive_second_harmonic, self.drive_third_harmonic],
+            [self.drive_second_phase, self.drive_third_phase],
+            self.drive_rise,
+        )
+    }
+
+    /// These parameters with the transmission ratio scaled by `ratio` and the stiffnesses of transmission and
+    /// hinge following it as in section III-A, which keeps the family of response curves.
+    ///
+    /// ```text
+    /// T ∝ r     κ_t ∝ r^−2.14, so K_t = T² κ_t ∝ r^−0.14     κ_wh ∝ r^−1.47
+    /// ```
+    ///
+    /// Figure 5 has r = 0.8 (T₂) and 0.6 (T₃).
+    #[must_use]
+    pub fn with_transmission_scaled(self, ratio: f64) -> Params {
+        Params {
+            transmission_ratio: self.transmission_ratio * ratio,
+            transmission_stiffness: self.transmission_stiffness * libm::pow(ratio, 2.0 - 2.14),
+            hinge_stiffness: self.hinge_stiffness * libm::pow(ratio, -1.47),
+            ..self
+        }
+    }
+}

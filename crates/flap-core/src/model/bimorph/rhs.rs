@@ -1,0 +1,207 @@
+//! Equations of motion and outputs of the bimorph model.
+//!
+//! Jafferis, Graule and Wood 2016; numbers in parentheses are the paper's equations, with the corrections
+//! listed in `docs/model-bimorph.md`. State `[x, ẋ, ψ, ψ̇]`: displacement of the actuator's tip (m) and hinge
+//! angle (rad), each with its rate. The stroke angle is T x. ψ = 0 with the wing perpendicular to its motion,
+//! ψ > 0 when the trailing edge lags a wing that moves with ẋ > 0. Lift is positive upwards. One actuator,
+//! one wing.
+
+use core::f64::consts::FRAC_2_PI;
+
+use super::constants::{Constants, EXPONENT_MAX};
+use crate::drive::Voltage;
+use crate::num::Real;
+
+/// What depends on the voltage of a plate alone: its force g at zero strain and how that changes with voltage.
+#[derive(Clone, Copy, Debug)]
+pub struct Plate<R> {
+    /// Voltage across the plate and its rate.
+    pub voltage: Voltage<R>,
+    /// Force at zero strain g (N), (6).
+    pub force: R,
+    /// dg/dV (N/V).
+    pub force_per_volt: R,
+    /// d²g/dV² (N/V²).
+    pub force_bend: R,
+}
+
+/// The force of a plate at zero strain (6), with its derivatives, which the current needs.
+///
+/// ```text
+/// g = F_pre ℰ f₃₁(ℰ)     f₃₁ = f_min + A S     A = f_max (1 − a₄ℰ) − f_min     S = σ(a₃ (ℰ − ℰ₀))
+/// ```
+///
+/// As printed, A has 2 f_min.
+#[inline(always)]
+pub fn plate<R: Real>(c: &Constants<R>, voltage: Voltage<R>) -> Plate<R> {
+    let field = voltage.value * c.field_per_volt;
+    let one = field.lit(1.0);
+    let s = one / ((c.a_3 * (c.field_0 - field)).exp() + 1.0);
+    let a = c.f_max - c.f_decline * field - c.f_taken;
+    let f = c.f_min + a * s;
+
+    // Derivatives with respect to the field.
+    let s_1 = c.a_3 * s * (one - s);
+    let s_2 = c.a_3 * s_1 * (one - s * 2.0);
+    let f_1 = a * s_1 - c.f_decline * s;
+    let f_2 = a * s_2 - c.f_decline * s_1 * 2.0;
+    let per_volt = c.force_per_stress * c.field_per_volt;
+    Plate {
+        voltage,
+        force: c.force_per_stress * field * f,
+        force_per_volt: per_volt * (f + field * f_1),
+        force_bend: per_volt * c.field_per_volt * (f_1 * 2.0 + field * f_2),
+    }
+}
+
+/// Forces F₁ and F₂ of the two plates at a displacement of the tip (N), (5), (6).
+///
+/// ```text
+/// F₁ = g(V₁) (1 − b x)     F₂ = g(V₂) (1 + b x)     b = a₂ s_ε
+/// ```
+#[inline(always)]
+pub fn plate_forces<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R) -> [R; 2] {
+    let change = c.b * x;
+    [plates[0].force - plates[0].force * change, plates[1].force + plates[1].force * change]
+}
+
+/// How much the compressed plate has stiffened: L = ln((1 + e^(z₀+u))/(1 + e^z₀)) with u = a₁ s_ε |x|, (4).
+///
+/// ```text
+/// L = ln(1 + σ₀ (eᵘ − 1))     σ₀ = σ(z₀)     z₀ = a₁ε₀
+/// ```
+///
+/// Accurate to rounding for any x: L ≈ σ₀ u for small u, u + ln σ₀ for large.
+#[inline(always)]
+pub fn stiffening<R: Real>(c: &Constants<R>, x: R) -> R {
+    let u = c.u_per_tip * x.abs();
+    let within = u.min(u.lit(EXPONENT_MAX));
+    // Beyond, L grows as u does.
+    (c.sigma_0 * within.exp_m1()).ln_1p() + (u - within)
+}
+
+/// The actuator's elastic force K_act(x) x (N), (3), (4).
+///
+/// K_act is a secant stiffness with L/u in it; multiplied by x, no division by the strain is left.
+///
+/// ```text
+/// K_act = K_pre (E_e D_E + E_cf t_cf³/4)     E_e = E_min + ½ (E_max − E_min) L/u
+/// ```
+#[inline(always)]
+pub fn elastic_force<R: Real>(c: &Constants<R>, x: R) -> R {
+    c.k_soft * x + c.f_stiff * stiffening(c, x).copysign(x)
+}
+
+/// The actuator's secant stiffness K_act (N/m), (3); its limit at x = 0.
+#[inline(always)]
+pub fn secant_stiffness<R: Real>(c: &Constants<R>, x: R) -> R {
+    let x = x.abs().max(x.lit(1e-100));
+    elastic_force(c, x) / x
+}
+
+/// The drag coefficient of the wing: b₁ + b₂ cos 2ψ.
+#[inline(always)]
+pub fn drag_coefficient<R: Real>(c: &Constants<R>, cos_2psi: R) -> R {
+    c.b_1 + c.b_2 * cos_2psi
+}
+
+/// Drag force at the actuator's tip per ẋ|ẋ| (kg/m), (1), (8): C_A + C_B cos 2ψ.
+#[inline(always)]
+pub fn tip_drag<R: Real>(c: &Constants<R>, cos_2psi: R) -> R {
+    c.c_a + c.c_b * cos_2psi
+}
+
+/// Aerodynamic torque about the hinge per ẋ|ẋ|: C_D (kg), (10), (11).
+///
+/// ```text
+/// C_D = ½ρA_w r̂₂²T²R² W_cp2 ((b₁ + b₂ cos 2ψ) cos ψ + b_L sin 2ψ sin ψ)
+/// W_cp2 = A_w/R (p_min + (p_max − p_min) |1 − 2/π ψ̃|)
+/// ```
+///
+/// ψ̃ is |ψ|, ψ sign(ẋ) or, as printed, ψ.
+#[inline(always)]
+pub fn hinge_drag<R: Real>(c: &Constants<R>, psi: R, x_dot: R, sin: R, cos: R) -> R {
+    let (sin_2psi, cos_2psi) = double_angle(sin, cos);
+    let directed = psi * psi.lit(1.0).copysign(x_dot);
+    let tilt = c.attack_folded * psi.abs() + c.attack_directional * directed + c.attack_literal * psi;
+    let arm = c.p_min + c.p_swing * (tilt * -FRAC_2_PI + 1.0).abs();
+    c.hinge_torque * arm * (drag_coefficient(c, cos_2psi) * cos + c.b_l * sin_2psi * sin)
+}
+
+/// sin 2ψ and cos 2ψ.
+#[inline(always)]
+pub(super) fn double_angle<R: Real>(sin: R, cos: R) -> (R, R) {
+    (sin * cos * 2.0, cos * cos * 2.0 - 1.0)
+}
+
+/// The derivative `[ẋ, ẍ, ψ̇, ψ̈]`, (1), (2).
+///
+/// ```text
+/// m_e ẍ + (K_act(x) + K_t) x + (C_A + C_B cos 2ψ) |ẋ| ẋ = F₁ − F₂
+/// I_xx ψ̈ + κ_wh ψ + C_C |ψ̇| ψ̇ = C_D ẋ|ẋ| + I_xz T ẍ cos ψ + ½ I_xx (Tẋ)² sin 2ψ
+/// ```
+#[inline(always)]
+pub fn derivative<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], y: &[R; 4]) -> [R; 4] {
+    let [x, x_dot, psi, psi_dot] = *y;
+    let (sin, cos) = psi.sin_cos();
+    let (sin_2psi, cos_2psi) = double_angle(sin, cos);
+    let flow = x_dot.abs() * x_dot;
+
+    let [f_1, f_2] = plate_forces(c, plates, x);
+    let restoring = elastic_force(c, x) + c.k_t * x;
+    let x_ddot = (f_1 - f_2 - restoring - tip_drag(c, cos_2psi) * flow) * c.inverse_m_e;
+
+    let psi_ddot = (hinge_drag(c, psi, x_dot, sin, cos) * flow
+        + c.coupling * x_ddot * cos
+        + c.centrifugal * x_dot * x_dot * sin_2psi
+        - c.kappa_wh * psi
+        - c.c_c * psi_dot.abs() * psi_dot)
+        * c.inverse_i_xx;
+    [x_dot, x_ddot, psi_dot, psi_ddot]
+}
+
+/// Lift and drag of the wing (N). The paper prints neither; this is the form that (8) and (10) imply.
+///
+/// ```text
+/// L = ½ρA_w r̂₂²R²T² ẋ|ẋ| b_L sin 2ψ     D = ½ρA_w r̂₂²R²T² ẋ|ẋ| (b₁ + b₂ cos 2ψ)
+/// ```
+///
+/// Drag opposes the stroke: its work R_cp T ẋ D is what the actuator loses to the air.
+#[inline(always)]
+pub fn lift_and_drag<R: Real>(c: &Constants<R>, x_dot: R, sin_2psi: R, cos_2psi: R) -> [R; 2] {
+    let force = c.force * x_dot.abs() * x_dot;
+    [force * c.b_l * sin_2psi, force * drag_coefficient(c, cos_2psi)]
+}
+
+/// Charges of the two plates (C). Not in the paper: the reciprocal of (6).
+///
+/// ```text
+/// q₁ = C_p V₁ + g'(V₁) (x − ½ b x²)     q₂ = C_p V₂ − g'(V₂) (x + ½ b x²)
+/// ```
+#[inline(always)]
+pub fn charges<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R) -> [R; 2] {
+    let [p_1, p_2] = plates;
+    let bend = c.b * x * x * 0.5;
+    [
+        c.c_p * p_1.voltage.value + p_1.force_per_volt * (x - bend),
+        c.c_p * p_2.voltage.value - p_2.force_per_volt * (x + bend),
+    ]
+}
+
+/// Currents into the two plates (A): the rates of their [`charges`].
+///
+/// ```text
+/// i₁ = C_p V̇₁ + g''(V₁) V̇₁ (x − ½ b x²) + g'(V₁) (1 − b x) ẋ
+/// i₂ = C_p V̇₂ − g''(V₂) V̇₂ (x + ½ b x²) − g'(V₂) (1 + b x) ẋ
+/// ```
+#[inline(always)]
+pub fn currents<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R, x_dot: R) -> [R; 2] {
+    let [p_1, p_2] = plates;
+    let change = c.b * x;
+    let bend = change * x * 0.5;
+    let moved = change * x_dot;
+    [
+        (c.c_p + p_1.force_bend * (x - bend)) * p_1.voltage.rate + p_1.force_per_volt * (x_dot - moved),
+        (c.c_p - p_2.force_bend * (x + bend)) * p_2.voltage.rate - p_2.force_per_volt * (x_dot + moved),
+    ]
+}
