@@ -51,7 +51,7 @@ pub(crate) struct SweepArgs {
     pub(crate) out: Option<PathBuf>,
 
     /// Worker threads; the rows do not depend on it [default: one per core]
-    #[arg(short = 'j', long, value_name = "N")]
+    #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<NonZeroUsize>,
 
     /// Overwrite an existing file of results
@@ -179,6 +179,12 @@ pub(crate) struct ParamsArgs {
 fn assignment(text: &str) -> Result<(String, String), String> {
     let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as drive_frequency='120 Hz'")?;
     Ok((name.trim().to_owned(), value.trim().to_owned()))
+}
+
+/// A number of threads that a machine could have.
+fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    let number = text.parse::<NonZeroUsize>().ok().filter(|number| number.get() <= 1024);
+    number.ok_or_else(|| "expected a whole number from 1 to 1024".to_owned())
 }
 
 /// A number more than 0 and less than 0.1: a looser one would mean nothing.
