@@ -164,3 +164,13 @@ fn wrong_values_on_the_command_line_say_what_is_allowed() {
         assert!(ended.stderr.contains(message), "{value}: {}", ended.stderr);
     }
 }
+
+#[test]
+fn threads_are_as_many_as_a_machine_could_have() {
+    let folder = Folder::with_grid("preset = \"ozaki2018-large\"\n");
+    for threads in ["0", "100000", "two"] {
+        let ended = folder.flap(&format!("sweep --grid grid.toml --threads {threads}"));
+        assert_eq!(ended.code, 2);
+        assert!(ended.stderr.contains("from 1 to 1024"), "{}", ended.stderr);
+    }
+}

@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use flap_core::drive::{Shape, Wave, Waveform};
 use flap_core::model::direct_drive::Params;
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{SolverSettings, Status, by_name};
+use flap_core::parameter::Invalid;
+use flap_core::simulate::{ChirpRequest, ChirpResponse, SolverSettings, Status, by_name};
 
 const FREQUENCY: f64 = 50.0;
 const PERIOD: f64 = 1.0 / FREQUENCY;
@@ -15,12 +16,13 @@ fn waveform() -> Waveform<f64> {
 }
 
 fn at(shape: Shape, t: f64) -> Wave<f64> {
-    waveform().at(shape, t)
+    let waveform = if shape == Shape::Chirp { Waveform::chirp(FREQUENCY, 300.0) } else { waveform() };
+    waveform.at(shape, t)
 }
 
 #[test]
 fn rates_are_derivatives() {
-    for shape in [Shape::Sine, Shape::Harmonics, Shape::Square] {
+    for shape in [Shape::Sine, Shape::Harmonics, Shape::Square, Shape::Chirp] {
         for i in 1..400 {
             let t = PERIOD * f64::from(i) / 400.3;
             let dt = 1e-8;
@@ -85,4 +87,45 @@ fn a_square_wave_must_have_time_to_be_flat() {
     let row = model.run_point(InstructionSet::best(), &SolverSettings::default(), &p.to_values());
     assert_eq!(row.status, Status::Invalid);
     assert!(row.reason.unwrap().contains("drive_rise"));
+}
+
+fn chirp(from: f64, to: f64, rate: f64) -> Result<ChirpResponse, Invalid> {
+    let request = ChirpRequest { from, to, rate, samples_per_cycle: 20 };
+    let solver = SolverSettings { rtol: 1e-8, atol: 1e-10, ..SolverSettings::default() };
+    let values = Params::ozaki2018_small().to_values();
+    by_name("direct-drive").unwrap().chirp(InstructionSet::best(), &solver, &values, &request)
+}
+
+#[test]
+fn a_chirp_is_a_chain_of_cycles() {
+    let response = chirp(150.0, 260.0, 40.0).unwrap();
+    let rows = &response.envelope.rows;
+    // Phase f t + r t²/2 after 2.75 s, in cycles.
+    assert_eq!(rows.len() as f64, (150.0_f64 * 2.75 + 20.0 * 2.75 * 2.75).ceil());
+    for (i, row) in rows.iter().enumerate() {
+        let [begin, end] = [row[0], row[1]];
+        let cycles = |t: f64| 150.0 * t + 20.0 * t * t;
+        assert!((cycles(end) - cycles(begin) - 1.0).abs() < 1e-9);
+        assert!((cycles(end) - (i + 1) as f64).abs() < 1e-9);
+    }
+    let motion = &response.motion.rows;
+    assert_eq!(motion.len(), 20 * rows.len() + 1);
+    assert!(motion.windows(2).all(|pair| pair[0][0] < pair[1][0]));
+}
+
+/// Slowly swept, the stroke peaks where the steady response does: at 196 Hz for 30 V.
+#[test]
+fn a_slow_chirp_finds_the_resonance() {
+    let response = chirp(170.0, 230.0, 15.0).unwrap();
+    let column = response.envelope.columns.iter().position(|name| name == "stroke_amplitude_deg").unwrap();
+    let peak = response.envelope.rows.iter().max_by(|a, b| a[column].total_cmp(&b[column])).unwrap();
+    assert!((peak[2] - 196.1).abs() < 2.0, "peak at {} Hz", peak[2]);
+    assert!((peak[column] - 11.0).abs() < 0.3, "{} deg", peak[column]);
+}
+
+#[test]
+fn impossible_chirps_are_refused() {
+    assert!(chirp(100.0, 50.0, 15.0).unwrap_err().reason.contains("sign of the change"));
+    assert!(chirp(0.0, 50.0, 15.0).is_err());
+    assert!(chirp(100.0, 90.0, -15.0).is_ok());
 }

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use clap::{Parser, Subcommand, value_parser};
+use clap::{Parser, Subcommand, ValueEnum, value_parser};
 
 /// Sweeps of insect-scale flapping-wing designs: a grid file goes in, one row per design point comes out.
 #[derive(Parser)]
@@ -51,7 +51,7 @@ pub(crate) struct SweepArgs {
     pub(crate) out: Option<PathBuf>,
 
     /// Worker threads; the rows do not depend on it [default: one per core]
-    #[arg(short = 'j', long, value_name = "N")]
+    #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<NonZeroUsize>,
 
     /// Overwrite an existing file of results
@@ -88,6 +88,27 @@ pub(crate) struct RunArgs {
     #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
 
+    /// Drive: `steady` runs the point's own drive until the motion settles; `chirp` sweeps the frequency from
+    /// rest and prints one CSV row per cycle
+    #[arg(long, value_enum, default_value_t = Drive::Steady)]
+    pub(crate) drive: Drive,
+
+    /// Frequency at which the chirp begins (Hz)
+    #[arg(long, value_name = "HZ", default_value_t = 1.0)]
+    pub(crate) chirp_from: f64,
+
+    /// Frequency at which the chirp ends (Hz) [default: twice the point's drive frequency]
+    #[arg(long, value_name = "HZ")]
+    pub(crate) chirp_to: Option<f64>,
+
+    /// Rate of change of the chirp's frequency (Hz/s); negative for a falling chirp
+    #[arg(long, value_name = "HZ/S", default_value_t = 15.0, allow_negative_numbers = true)]
+    pub(crate) chirp_rate: f64,
+
+    /// Write the chirp's rows per cycle to a CSV file instead of stdout
+    #[arg(long, value_name = "FILE")]
+    pub(crate) envelope: Option<PathBuf>,
+
     /// Write the motion over time to a CSV file, or to stdout with `-` instead of the summary
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
@@ -106,8 +127,8 @@ pub(crate) struct RunArgs {
     #[arg(long, requires = "trajectory")]
     pub(crate) from_rest: bool,
 
-    /// Overwrite an existing trajectory file
-    #[arg(short, long, requires = "trajectory")]
+    /// Overwrite existing files
+    #[arg(short, long)]
     pub(crate) force: bool,
 
     /// Relative tolerance of the integrator; the absolute one follows, a hundredth of it
@@ -123,12 +144,20 @@ pub(crate) struct RunArgs {
     pub(crate) max_cycles: Option<u32>,
 }
 
+/// What `flap run` drives a point with.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Drive {
+    Steady,
+    Chirp,
+}
+
 const RUN_HELP: &str = "\
 Examples:
   flap run ozaki2018-large
   flap run ozaki2018-large --set drive_frequency='120 Hz' --set drive_voltage_pp=150
   flap run grid.toml --point 17 --trajectory point17.csv
-  flap run ozaki2018-large --trajectory - --from-rest --cycles 50";
+  flap run ozaki2018-large --trajectory - --from-rest --cycles 50
+  flap run ozaki2018-small --drive chirp --chirp-from 150 --chirp-to 250 --envelope envelope.csv";
 
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  flap check grid.toml")]
@@ -150,6 +179,12 @@ pub(crate) struct ParamsArgs {
 fn assignment(text: &str) -> Result<(String, String), String> {
     let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as drive_frequency='120 Hz'")?;
     Ok((name.trim().to_owned(), value.trim().to_owned()))
+}
+
+/// A number of threads that a machine could have.
+fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    let number = text.parse::<NonZeroUsize>().ok().filter(|number| number.get() <= 1024);
+    number.ok_or_else(|| "expected a whole number from 1 to 1024".to_owned())
 }
 
 /// A number more than 0 and less than 0.1: a looser one would mean nothing.

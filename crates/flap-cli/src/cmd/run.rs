@@ -6,12 +6,12 @@ use std::path::Path;
 
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Kind, Parameter};
-use flap_core::simulate::{self, Row, SolverSettings, Status, Trajectory, TrajectoryRequest};
+use flap_core::simulate::{self, ChirpRequest, Row, SolverSettings, Status, Trajectory, TrajectoryRequest};
 use flap_sweep::diagnostic::nearest;
 use flap_sweep::plan::Plan;
 use flap_sweep::{csv_sink, output, spec, text, units};
 
-use crate::args::RunArgs;
+use crate::args::{Drive, RunArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::table::Table;
@@ -27,6 +27,13 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     let mut values = plan.point(args.point).values;
     for (name, value) in &args.set {
         set_parameter(plan.parameters(), &mut values, name, value)?;
+    }
+
+    if args.drive == Drive::Chirp {
+        return chirp(&plan, args, &values);
+    }
+    if args.envelope.is_some() {
+        return Err(Failure::usage("--envelope goes with --drive chirp"));
     }
 
     let set = InstructionSet::best();
@@ -51,6 +58,32 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
         return Err(Failure::usage(format!("the parameters are impossible together: {reason}")));
     }
     console::results(&page(&plan, args, &row))?;
+    Ok(Exit::Done)
+}
+
+/// Sweeps the frequency: rows per cycle to stdout or a file, the motion to a file.
+fn chirp(plan: &Plan, args: &RunArgs, values: &[f64]) -> Result<Exit, Failure> {
+    let parameters = plan.parameters();
+    let frequency = parameters.iter().position(|parameter| parameter.name == "drive_frequency");
+    let request = ChirpRequest {
+        from: args.chirp_from,
+        to: args.chirp_to.or(frequency.map(|index| 2.0 * values[index])).unwrap_or(args.chirp_from),
+        rate: args.chirp_rate,
+        samples_per_cycle: if args.trajectory.is_some() { args.samples } else { 0 },
+    };
+    let response = plan.simulator.chirp(InstructionSet::best(), &plan.solver, values, &request);
+    let response = response.map_err(|invalid| Failure::usage(invalid.to_string()))?;
+    if let Some(path) = &args.trajectory {
+        write_file(&response.motion, path, args.force)?;
+        console::say(&format!("{} samples in {}", response.motion.rows.len(), path.display()));
+    }
+    match &args.envelope {
+        Some(path) => {
+            write_file(&response.envelope, path, args.force)?;
+            console::say(&format!("{} cycles in {}", response.envelope.rows.len(), path.display()));
+        }
+        None => write_csv(&response.envelope, io::stdout().lock())?,
+    }
     Ok(Exit::Done)
 }
 

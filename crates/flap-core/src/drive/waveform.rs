@@ -15,10 +15,12 @@ pub enum Shape {
     Harmonics,
     /// ±1, with edges of a half sine wave.
     Square,
+    /// sin θ with a frequency that changes steadily. Not a choice of parameters, as it is not periodic.
+    Chirp,
 }
 
 impl Shape {
-    /// Names of the shapes, in the order of their values.
+    /// Names of the periodic shapes, in the order of their values.
     pub const NAMES: &'static [&'static str] = &["sine", "harmonics", "square"];
 
     /// Refuses a rise time, as a fraction of the period, that leaves a square wave no time to be flat.
@@ -61,8 +63,10 @@ pub struct Wave<R> {
 crate::per_lane! {
     /// What shapes a waveform, per design point.
     pub struct Waveform<R> {
-        /// Angular frequency (rad/s).
+        /// Angular frequency (rad/s); of a chirp, at the beginning.
         pub rate: R,
+        /// Rate of change of the angular frequency (rad/s²), zero but for a chirp.
+        pub growth: R,
         /// Second harmonic: factors of sin 2θ and cos 2θ.
         pub second: [R; 2],
         /// Third harmonic: factors of sin 3θ and cos 3θ.
@@ -84,15 +88,27 @@ impl Waveform<f64> {
         };
         Waveform {
             rate: 2.0 * PI * frequency,
+            growth: 0.0,
             second: harmonic(0),
             third: harmonic(1),
             half_period: 0.5 / frequency,
             half_rise: 0.5 * rise / frequency,
         }
     }
+
+    /// A sine that begins at `frequency` (Hz) and changes by `rate` (Hz/s).
+    pub fn chirp(frequency: f64, rate: f64) -> Waveform<f64> {
+        Waveform { growth: 2.0 * PI * rate, ..Waveform::new(frequency, [0.0; 2], [0.0; 2], 0.5) }
+    }
 }
 
 impl<R: Real> Waveform<R> {
+    /// The phase θ (rad) at time `t` (s).
+    #[inline(always)]
+    pub fn phase(&self, t: R) -> R {
+        (self.growth * t).mul_add(t.lit(0.5), self.rate) * t
+    }
+
     /// The waveform at time `t` (s) of its period, from 0 to its end.
     #[inline(always)]
     pub fn at(&self, shape: Shape, t: R) -> Wave<R> {
@@ -103,6 +119,10 @@ impl<R: Real> Waveform<R> {
             }
             Shape::Harmonics => self.harmonics(t),
             Shape::Square => self.square(t),
+            Shape::Chirp => {
+                let (sin, cos) = self.phase(t).sin_cos();
+                Wave { value: sin, rate: (self.growth * t + self.rate) * cos }
+            }
         }
     }
 

@@ -17,7 +17,7 @@ use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
 
 /// A periodically driven model with N states, of which S signals are measured over a drive period.
-pub trait Model<const N: usize, const S: usize>: Ode<N> + PartialEq {
+pub trait Model<const N: usize, const S: usize>: Ode<N> + PartialEq + Sized {
     /// Name in grid files, such as `direct-drive`.
     const NAME: &'static str;
     /// One line: what it models, and the paper.
@@ -43,8 +43,12 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + PartialEq {
     /// [`Invalid`] if the parameters are impossible together.
     fn start(&self, values: &[f64]) -> Result<Start<Self::Constants<f64>, N>, Invalid>;
 
-    /// Angular frequency of the drive (rad/s).
-    fn drive_rate<R: Lanes>(c: &Self::Constants<R>) -> R;
+    /// The model and constants for one cycle of a chirp, which begins at `frequency` (Hz) and phase zero and
+    /// changes by `rate` (Hz/s).
+    fn chirped(&self, c: &Self::Constants<f64>, frequency: f64, rate: f64) -> (Self, Self::Constants<f64>);
+
+    /// Phase of the drive (rad) at time `t` within a period.
+    fn drive_phase<R: Lanes>(&self, c: &Self::Constants<R>, t: R) -> R;
 
     /// The signals at a state `y` with derivative `dy`, on one `side` of the switching surface, in SI units.
     fn signals<R: Lanes>(

@@ -2,14 +2,17 @@
 //!
 //! [`Simulator`] hides what differs between models; [`all`] lists them.
 
+mod chirp;
 mod lanes;
+mod motion;
 mod row;
 mod runner;
 mod scalar;
 mod simulator;
 
 pub use simulator::{
-    Column, Jobs, Point, Row, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, Jobs, Point, Row, Simulator, SolverSettings, Status, Trajectory,
+    TrajectoryRequest,
 };
 
 use crate::drive::Shape;

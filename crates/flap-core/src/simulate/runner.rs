@@ -5,7 +5,9 @@ use std::sync::OnceLock;
 use super::lanes::{LanesKernel, Sized};
 use super::row;
 use super::scalar::Scalars;
-use super::simulator::{Column, Jobs, Row, Simulator, SolverSettings, Trajectory, TrajectoryRequest};
+use super::simulator::{
+    ChirpRequest, ChirpResponse, Column, Jobs, Row, Simulator, SolverSettings, Trajectory, TrajectoryRequest,
+};
 use crate::model::Model;
 use crate::num::InstructionSet;
 use crate::parameter::{Invalid, Parameter, Preset};
@@ -59,5 +61,15 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Simulator for Runner<M, N, 
         request: &TrajectoryRequest,
     ) -> Result<Trajectory, Invalid> {
         Scalars { model: &self.model, solver, values }.trajectory::<N, S>(set, request)
+    }
+
+    fn chirp(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        request: &ChirpRequest,
+    ) -> Result<ChirpResponse, Invalid> {
+        Scalars { model: &self.model, solver, values }.chirp::<N, S>(set, request)
     }
 }

@@ -41,6 +41,40 @@ pub trait Simulator: Sync {
         values: &[f64],
         request: &TrajectoryRequest,
     ) -> Result<Trajectory, Invalid>;
+
+    /// The response of one point to a chirp in place of its drive frequency.
+    ///
+    /// # Errors
+    /// [`Invalid`] if the values are impossible together, the chirp is, or the motion fails on the way.
+    fn chirp(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        request: &ChirpRequest,
+    ) -> Result<ChirpResponse, Invalid>;
+}
+
+/// A drive whose frequency changes steadily, from rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChirpRequest {
+    /// Frequency at the beginning (Hz).
+    pub from: f64,
+    /// Frequency at which the chirp ends, after a whole number of cycles (Hz).
+    pub to: f64,
+    /// Rate of change of the frequency (Hz/s); negative for a falling chirp.
+    pub rate: f64,
+    /// Samples of the motion per cycle; none if 0.
+    pub samples_per_cycle: u32,
+}
+
+/// The response to a chirp.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChirpResponse {
+    /// One row per cycle: `begin_s`, `end_s`, `frequency_hz` (cycles per second), and the signals' measures.
+    pub envelope: Trajectory,
+    /// The sampled motion.
+    pub motion: Trajectory,
 }
 
 /// One design point: its index in the plan and one value per parameter.

@@ -55,7 +55,8 @@ impl Actuator {
     }
 }
 
-/// The gain G of a tapered cantilever with a rigid extension, (3), (6); from the paper's reference [9].
+/// The gain G of a tapered cantilever with a rigid extension, (3), (6), which the paper
+/// takes from its reference 9.
 ///
 /// `width_ratio` w_r is the width at the base over the mean width, `extension_ratio` l_r the length of the
 /// extension over that of the taper. With c = 1 + 2l_r and δ = w_r − 1,

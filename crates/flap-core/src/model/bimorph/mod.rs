@@ -19,7 +19,7 @@ pub use rhs::{
 };
 
 use super::{Derived, Model, Signal, SignalCycle};
-use crate::drive::Shape;
+use crate::drive::{Shape, Waveform};
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
@@ -67,8 +67,8 @@ impl Model<4, { columns::S }> for Bimorph {
         Bimorph { shape: Params::from_values(values).drive_shape }
     }
 
-    /// Starts at rest. States are scaled as in the direct-drive model: strokes of 0.1 rad, hinge angles of
-    /// 0.3 rad, and these times the drive's angular frequency for the rates.
+    /// Starts at rest. The scales are those of the direct-drive model, so that tolerances and residuals mean the
+    /// same: strokes of 0.1 rad, hinge angles of 0.3 rad, times the drive's angular frequency for the rates.
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         params.drive_shape.check(params.drive_rise)?;
@@ -83,9 +83,13 @@ impl Model<4, { columns::S }> for Bimorph {
         })
     }
 
+    fn chirped(&self, c: &Constants<f64>, frequency: f64, rate: f64) -> (Bimorph, Constants<f64>) {
+        (Bimorph { shape: Shape::Chirp }, Constants { waveform: Waveform::chirp(frequency, rate), ..*c })
+    }
+
     #[inline(always)]
-    fn drive_rate<R: Lanes>(c: &Constants<R>) -> R {
-        c.waveform.rate
+    fn drive_phase<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
+        c.waveform.phase(t)
     }
 
     #[inline(always)]

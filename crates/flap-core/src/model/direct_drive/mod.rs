@@ -16,7 +16,7 @@ pub use rhs::{
 
 use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use super::{Derived, Model, Signal, SignalCycle};
-use crate::drive::{Shape, Voltage};
+use crate::drive::{Shape, Voltage, Waveform};
 use crate::modes::natural_frequencies;
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
@@ -209,9 +209,13 @@ impl Model<4, 9> for DirectDrive {
         })
     }
 
+    fn chirped(&self, c: &Constants<f64>, frequency: f64, rate: f64) -> (DirectDrive, Constants<f64>) {
+        (DirectDrive { shape: Shape::Chirp }, Constants { waveform: Waveform::chirp(frequency, rate), ..*c })
+    }
+
     #[inline(always)]
-    fn drive_rate<R: Lanes>(c: &Constants<R>) -> R {
-        c.waveform.rate
+    fn drive_phase<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
+        c.waveform.phase(t)
     }
 
     #[inline(always)]

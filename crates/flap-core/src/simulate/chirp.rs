@@ -1,0 +1,98 @@
+//! The response to a chirp: a drive whose frequency changes steadily.
+//!
+//! A chirp is a chain of cycles. Each begins at phase zero with the frequency that the last one ended with, so
+//! every cycle can be measured like a drive period, and no growing phase loses digits.
+
+use core::ops::ControlFlow;
+
+use super::motion::{Sampler, check};
+use super::simulator::{ChirpRequest, ChirpResponse, SolverSettings, Trajectory};
+use crate::measure::cycle::{Signals, Totals, finish};
+use crate::model::{Measure, Model};
+use crate::num::{Lanes, PerLane};
+use crate::ode::Start;
+use crate::ode::ensemble::Observer;
+use crate::ode::solve::solve;
+use crate::parameter::Invalid;
+
+/// Sweeps the drive's frequency, from rest.
+pub(super) fn respond<M, R, const N: usize, const S: usize>(
+    model: &M,
+    solver: &SolverSettings,
+    values: &[f64],
+    request: &ChirpRequest,
+) -> Result<ChirpResponse, Invalid>
+where
+    M: Model<N, S>,
+    R: Lanes<Token = (), Mask = bool>,
+{
+    let ChirpRequest { from, to, rate, samples_per_cycle } = *request;
+    if !(from > 0.0 && to > 0.0 && (to - from) * rate > 0.0) {
+        return Err(Invalid::new(format!(
+            "a chirp from {from} Hz cannot reach {to} Hz at {rate} Hz/s: frequencies are more than zero, and \
+             the rate has the sign of the change"
+        )));
+    }
+    let model = &model.variant(values);
+    let start = model.start(values)?;
+    let observer = Signals::<S>;
+    let mut sampler = Sampler::new(samples_per_cycle);
+    let mut rows = Vec::new();
+    let (mut frequency, mut time, mut y) = (from, 0.0, start.y);
+    // The frequency at the end is rounded: a chirp that has arrived but for that is over.
+    while (to - frequency) * rate > 1e-9 * to * rate.abs() {
+        // One cycle: f T + r T²/2 = 1, ending with the frequency f + r T = √(f² + 2r).
+        let square = frequency * frequency + 2.0 * rate;
+        if square <= 0.0 {
+            break;
+        }
+        let end = square.sqrt();
+        let span = 2.0 / (frequency + end);
+        let (model, constants) = model.chirped(&start.constants, frequency, rate);
+        let cycle = Start { constants, y, span, scale: start.scale };
+        let mut totals = Observer::<M, N>::nothing(&observer).map(|one| Totals::<R>::fill((), &one));
+        sampler.begin_cycle(span);
+        let outcome = solve::<M, R, N>(
+            &model,
+            &solver.tolerances(),
+            &cycle,
+            |c, attempt| {
+                observer.add(&model, c, attempt, true, &mut totals);
+                if samples_per_cycle > 0 {
+                    sampler.step(&model, c, attempt);
+                }
+            },
+            |end| {
+                y = *end;
+                ControlFlow::Break(())
+            },
+        );
+        check(outcome.ending)?;
+
+        let mut row = vec![time, time + span, 1.0 / span];
+        for (signal, cycle) in M::SIGNALS.iter().zip(&finish(&totals.map(|total| total.get(0)), span)) {
+            row.extend(measures(signal.measures).map(|measure| cycle.measure(measure) * signal.factor));
+        }
+        rows.push(row);
+        time += span;
+        frequency = end;
+    }
+    let envelope = Trajectory { columns: columns::<M, N, S>(), rows };
+    Ok(ChirpResponse { envelope, motion: sampler.finish::<M, N, S>() })
+}
+
+/// The measures that mean something in a cycle that is not periodic.
+fn measures(of_signal: &[Measure]) -> impl Iterator<Item = Measure> + '_ {
+    of_signal.iter().copied().filter(|&measure| measure != Measure::First)
+}
+
+fn columns<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<String> {
+    let mut columns = ["begin_s", "end_s", "frequency_hz"].map(str::to_owned).to_vec();
+    for signal in M::SIGNALS {
+        columns.extend(
+            measures(signal.measures)
+                .map(|measure| format!("{}_{}_{}", signal.name, measure.name(), signal.suffix)),
+        );
+    }
+    columns
+}
