@@ -9,6 +9,7 @@
     reason = "tests may panic and print, and their numbers are small"
 )]
 
+mod bimorph;
 mod data;
 mod direct_drive;
 mod dormand_prince;

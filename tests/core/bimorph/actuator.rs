@@ -1,0 +1,195 @@
+//! Constants of the actuator, the wing and the drive.
+
+use flap_core::model::bimorph::{
+    Actuator, ActuatorStiffness, Bimorph, Constants, FieldTransition, Params, secant_stiffness, stiffening,
+    taper_gain,
+};
+
+use super::params;
+use crate::data::assert_close;
+
+/// (w_r, l_r, G) from the integral in 40-digit arithmetic.
+#[rustfmt::skip]
+const GAINS: [(f64, f64, f64); 12] = [
+    (1.556, 0.25, 0.884_413_064_353_974_9),
+    (0.4, 0.1, 0.589_151_211_092_170_4),
+    (1.9, 0.6, 0.524_385_032_298_304_5),
+    (1.3, 0.25, 0.848_660_558_557_554_8),
+    (0.8, 0.0, 0.893_739_073_961_301_9),
+    (1.000_01, 0.25, 0.774_196_545_248_479),
+    (1.0, 0.25, 0.774_193_548_387_096_8),
+    (1.499_9, 0.25, 0.879_244_248_483_766_3),
+    (1.5, 0.25, 0.879_254_961_766_380_6),
+    (0.5, 0.3, 0.555_842_847_977_731_6),
+    (1.99, 0.25, 0.754_257_477_972_848_5),
+    (0.02, 0.25, 0.185_347_290_923_348_17),
+];
+
+#[test]
+fn gain_of_a_taper_equals_the_reference() {
+    for (width_ratio, extension_ratio, expected) in GAINS {
+        let gain = taper_gain(width_ratio, extension_ratio).unwrap();
+        assert_close(gain, expected, 1e-14, &format!("G({width_ratio}, {extension_ratio})"));
+    }
+}
+
+/// G = (1 + 2l)/3∫₀¹ (1 + l − s)²/(w + 2(1 − w)s) ds by Simpson's rule.
+#[test]
+fn gain_of_a_taper_is_the_compliance_integral() {
+    for i in 0..=140 {
+        let w = 0.3 + 0.01 * f64::from(i);
+        for l in [0.0, 0.25, 1.0] {
+            let integrand = |s: f64| (1.0 + l - s).powi(2) / (w + 2.0 * (1.0 - w) * s);
+            let n = 2000;
+            let h = 1.0 / f64::from(n);
+            let inner: f64 =
+                (1..n).map(|k| (if k % 2 == 1 { 4.0 } else { 2.0 }) * integrand(f64::from(k) * h)).sum();
+            let integral = (integrand(0.0) + inner + integrand(1.0)) * h / 3.0;
+            let expected = (1.0 + 2.0 * l) / (3.0 * integral);
+            assert_close(taper_gain(w, l).unwrap(), expected, 1e-11, &format!("G({w}, {l})"));
+        }
+    }
+}
+
+#[test]
+fn actuators_without_width_at_one_end_are_refused() {
+    for width_ratio in [0.0, 2.0, 2.5, -0.5, f64::NAN] {
+        let p = Params { actuator_width_ratio: width_ratio, ..Params::jafferis2016() };
+        let error = Constants::derive(&p).unwrap_err();
+        assert!(error.reason.contains("between 0 and 2"), "{}", error.reason);
+    }
+}
+
+/// Constants of Table I with ρ = 1.2 kg/m³.
+#[test]
+fn derived_constants_equal_the_reference() {
+    let p = Params::jafferis2016();
+    let a = Actuator::new(&p).unwrap();
+    let c = Constants::derive(&p).unwrap();
+    let d_e = 8.160_75e-12;
+    for (name, actual, expected, tolerance) in [
+        ("s_eps", a.strain_per_tip, 1.522_633_744_855_967_3, 1e-14),
+        ("K_pre D_E", a.stiffness_per_modulus, 575.050_469_826_864_5 * d_e, 1e-13),
+        ("K_pre D_c", a.shim_stiffness, 575.050_469_826_864_5 * 0.010_625, 1e-13),
+        ("F_pre", a.force_per_stress, 1.449_539_193_522_034e-9, 1e-13),
+        ("surface strain", a.surface_strain_ratio, 320.0 / 185.0, 1e-14),
+        ("m_e", 1.0 / c.inverse_m_e, 6.811_970_734_8e-4, 1e-11),
+        ("b_1", c.b_1, 2.203, 1e-14),
+        ("b_2", c.b_2, 2.047, 1e-14),
+        ("C_A", c.c_a, 3.334_164_861_549_411_7, 1e-13),
+        ("C_B", c.c_b, 3.098_064_217_699_340_3, 1e-13),
+        ("C_C", c.c_c, 3.923_170_017_757_086_5e-13, 1e-13),
+        ("force", c.force, 0.033_449_607_241_329_7, 1e-13),
+        ("hinge torque", c.hinge_torque, 1.074_125_917_237_757_7e-4, 1e-13),
+        ("mean width", c.hinge_torque / c.force, 3.211_176_470_588_235e-3, 1e-14),
+        ("C_plate", c.c_p, 2.525e-9, 1e-14),
+        ("K_act(0)", secant_stiffness(&c, 0.0), 189.053_461_025_263_3, 1e-13),
+    ] {
+        assert_close(actual, expected, tolerance, name);
+    }
+    assert_close(
+        (secant_stiffness(&c, 0.0) - a.shim_stiffness) / a.stiffness_per_modulus,
+        38.984e9,
+        2e-5,
+        "E_e(0)",
+    );
+}
+
+/// Section 3 of the text and the caption of Fig. 5.
+#[test]
+fn transmissions_scale_as_in_figure_5() {
+    let [t_2, t_3] = [params("T2"), params("T3")];
+    assert_close(t_2.transmission_ratio, 2666.4, 1e-14, "T of T2");
+    assert_close(t_2.transmission_stiffness, 203.973_651_739_026_96, 1e-14, "K_t of T2");
+    assert_close(t_2.hinge_stiffness, 2.078_440_218_563_571e-6, 1e-14, "kappa_wh of T2");
+    assert_close(t_3.transmission_stiffness, 212.356_468_437_617_1, 1e-14, "K_t of T3");
+    assert_close(t_3.hinge_stiffness, 3.172_469_681_760_742_5e-6, 1e-14, "kappa_wh of T3");
+}
+
+/// ln((1 + e^(z₀+u))/(1 + e^z₀)), accurate for small u by its series, for large u by taking out eᵘ.
+fn expected_stiffening(z_0: f64, u: f64) -> f64 {
+    let sigma = 1.0 / (1.0 + (-z_0).exp());
+    if u < 1e-5 {
+        let rest = 1.0 - sigma;
+        u * (sigma + sigma * rest * u / 2.0 + sigma * rest * (1.0 - 2.0 * sigma) * u * u / 6.0)
+    } else if u < 500.0 {
+        (sigma * u.exp_m1()).ln_1p()
+    } else {
+        u + sigma.ln()
+    }
+}
+
+#[test]
+fn stiffening_is_accurate_for_any_strain() {
+    for modulus_strain in [-0.047e-2, -0.2e-2, 0.0, 0.03e-2] {
+        let p = Params { modulus_strain, ..Params::jafferis2016() };
+        let c = Constants::derive(&p).unwrap();
+        for i in -300..=60 {
+            let u = 10.0_f64.powf(0.1 * f64::from(i));
+            let expected = expected_stiffening(8000.0 * modulus_strain, u);
+            for x in [u / c.u_per_tip, -u / c.u_per_tip] {
+                assert_close(stiffening(&c, x), expected, 2e-14, &format!("u = {u}, {modulus_strain}"));
+            }
+        }
+        assert_eq!(stiffening(&c, 0.0), 0.0);
+    }
+}
+
+/// K_act rises from K(E_min + ½(E_max − E_min) σ₀) towards K(½(E_min + E_max)).
+#[test]
+fn stiffness_grows_between_its_limits() {
+    let p = Params::jafferis2016();
+    let a = Actuator::new(&p).unwrap();
+    let c = Constants::derive(&p).unwrap();
+    let upper = a.stiffness_per_modulus * 0.5 * (38.5e9 + 81e9) + a.shim_stiffness;
+    let mut last = 0.0;
+    for i in -10..=10 {
+        let stiffness = secant_stiffness(&c, 1e-4 * 2.0_f64.powi(i));
+        assert!(stiffness > last && stiffness < upper, "{stiffness}");
+        last = stiffness;
+    }
+    assert_close(secant_stiffness(&c, 1e3), upper, 1e-5, "limit");
+    let constant = Params { actuator_stiffness: ActuatorStiffness::Constant, ..p };
+    let constant = Constants::derive(&constant).unwrap();
+    for x in [0.0, 1e-5, 3e-4, -3e-4] {
+        assert_close(secant_stiffness(&constant, x), secant_stiffness(&c, 0.0), 1e-14, "constant stiffness");
+    }
+}
+
+#[test]
+fn transitions_too_steep_to_compute_are_refused() {
+    let p = Params::jafferis2016;
+    for steep in [
+        Params { stress_steepness: 1e-3, ..p() },
+        Params { drive_voltage_pp: 1e5, ..p() },
+        Params { modulus_steepness: 1e7, ..p() },
+    ] {
+        assert!(Constants::derive(&steep).unwrap_err().reason.contains("too steep"));
+    }
+    let huge = Constants::derive(&Params { wing_length: 1e200, ..p() }).unwrap_err();
+    assert!(huge.reason.contains("not finite"), "{}", huge.reason);
+}
+
+#[test]
+fn an_actuator_mass_adds_to_that_of_the_wing() {
+    let p = Params { actuator_mass: 7e-6, ..Params::jafferis2016() };
+    let c = Constants::derive(&p).unwrap();
+    assert_close(1.0 / c.inverse_m_e, 6.811_970_734_8e-4 + 7e-6, 1e-11, "m_e");
+}
+
+#[test]
+fn presets_differ_as_the_text_says() {
+    let [table_1, improved] = [Params::jafferis2016(), Params::jafferis2016_improved()];
+    let changed = Params {
+        drive_frequency: 155.0,
+        transmission_ratio: 2666.0,
+        transmission_stiffness: 215.0,
+        hinge_stiffness: 2.29e-6,
+        vehicle_mass: 87e-6,
+        ..table_1.clone()
+    };
+    assert_eq!(improved, changed);
+    let printed = Params { field_transition: FieldTransition::Printed, ..table_1 };
+    assert_eq!(Params::from_values(&printed.to_values()), printed);
+    assert_eq!(Bimorph::linear_modes(&Constants::derive(&improved).unwrap()).len(), 2);
+}

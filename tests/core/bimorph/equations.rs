@@ -1,0 +1,215 @@
+//! Forces, accelerations, charges and currents against reference vectors, on scalars and lanes.
+
+use fearless_simd::Simd;
+use flap_core::drive::Voltage;
+use flap_core::model::bimorph::{
+    Bimorph, Constants, Plate, charges, currents, lift_and_drag, plate, plate_forces, secant_stiffness,
+};
+use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Real, Unfused, Vector};
+use flap_core::ode::Ode;
+
+use super::params;
+use crate::data::{Record, assert_close, table};
+
+const TOLERANCE: f64 = 1e-11;
+
+struct Case {
+    voltages: [Voltage<f64>; 2],
+    y: [f64; 4],
+    record: Record,
+}
+
+fn constants() -> Constants<f64> {
+    Constants::derive(&params("T1")).unwrap()
+}
+
+fn cases() -> Vec<Case> {
+    table("bimorph/rhs_vectors.csv")
+        .into_iter()
+        .map(|record| Case {
+            voltages: [("V1_V", "dV1_V_per_s"), ("V2_V", "dV2_V_per_s")]
+                .map(|(value, rate)| Voltage { value: record.number(value), rate: record.number(rate) }),
+            y: ["x_m", "v_m_per_s", "psi_rad", "psidot_rad_per_s"].map(|column| record.number(column)),
+            record,
+        })
+        .collect()
+}
+
+fn plates<R: Lanes>(c: &Constants<R>, voltages: &[Voltage<R>; 2]) -> [Plate<R>; 2] {
+    [plate(c, voltages[0]), plate(c, voltages[1])]
+}
+
+#[test]
+fn accelerations_forces_and_currents_equal_the_reference() {
+    let c = constants();
+    let mut largest = (0.0, String::new());
+    for Case { voltages, y, record } in cases() {
+        let plates = plates(&c, &voltages);
+        let [x, x_dot, psi, _] = y;
+        let [_, x_ddot, _, psi_ddot] = Bimorph::default().rhs(&c, &plates, 1.0, &y);
+        let [f_1, f_2] = plate_forces(&c, &plates, x);
+        let (sin_2psi, cos_2psi) = (2.0 * psi).sin_cos();
+        let [lift, drag] = lift_and_drag(&c, x_dot, sin_2psi, cos_2psi);
+        let [q_1, q_2] = charges(&c, &plates, x);
+        let [i_1, i_2] = currents(&c, &plates, x, x_dot);
+        let stiffness = secant_stiffness(&c, x);
+        let shim = 575.050_469_826_864_5 * 0.010_625;
+        let modulus = (stiffness - shim) / (575.050_469_826_864_5 * 8.160_75e-12);
+        for (column, actual) in [
+            ("F1_N", f_1),
+            ("F2_N", f_2),
+            ("K_act_N_per_m", stiffness),
+            ("E_e_Pa", modulus),
+            ("xdd_m_s2", x_ddot),
+            ("psidd_rad_s2", psi_ddot),
+            ("lift_N", lift),
+            ("drag_N", drag),
+            ("q1_C", q_1),
+            ("q2_C", q_2),
+            ("i1_A", i_1),
+            ("i2_A", i_2),
+        ] {
+            let expected = record.number(column);
+            if expected == 0.0 {
+                assert_eq!(actual, 0.0, "{column} of {}", record.name);
+                continue;
+            }
+            let what = format!("{column} of {}", record.name);
+            assert_close(actual, expected, TOLERANCE, &what);
+            let error = (actual / expected - 1.0).abs();
+            if error > largest.0 {
+                largest = (error, what);
+            }
+        }
+    }
+    println!("largest relative error {:.1e} ({})", largest.0, largest.1);
+}
+
+/// g' and g'' are the derivatives of g, and the currents those of the charges.
+#[test]
+fn derivatives_of_force_and_charge_are_their_rates() {
+    let c = constants();
+    for Case { voltages, y, record } in cases() {
+        for voltage in voltages {
+            let at = |dv: f64| plate(&c, Voltage { value: voltage.value + dv, ..voltage });
+            let (low, mid, high) = (at(-1e-3), at(0.0), at(1e-3));
+            let per_volt = (high.force - low.force) / 2e-3;
+            let bend = (high.force_per_volt - low.force_per_volt) / 2e-3;
+            assert_close(per_volt, mid.force_per_volt, 1e-8, &record.name);
+            assert!((bend - mid.force_bend).abs() < 1e-7 * mid.force_per_volt, "{}", record.name);
+        }
+        let at = |dt: f64| {
+            let moved = voltages.map(|v| Voltage { value: v.value + dt * v.rate, ..v });
+            charges(&c, &plates(&c, &moved), y[0] + dt * y[1])
+        };
+        let currents = currents(&c, &plates(&c, &voltages), y[0], y[1]);
+        let (before, after) = (at(-1e-7), at(1e-7));
+        for i in 0..2 {
+            let rate = (after[i] - before[i]) / 2e-7;
+            assert!((rate - currents[i]).abs() < 1e-6 * currents[i].abs() + 1e-11, "{}", record.name);
+        }
+    }
+}
+
+/// The two plates are driven in antiphase and their voltages add up to V_pp, (7).
+#[test]
+fn voltages_are_those_of_eq_7() {
+    let c = constants();
+    for i in 0..50 {
+        let t = f64::from(i) / 50.0 / 120.0;
+        let [p_1, p_2] = Bimorph::default().input(&c, t);
+        let (sin, cos) = (2.0 * std::f64::consts::PI * 120.0 * t).sin_cos();
+        assert!((p_1.voltage.value - 100.0 * (1.0 - sin)).abs() < 1e-11);
+        assert!((p_1.voltage.value + p_2.voltage.value - 200.0).abs() < 1e-11);
+        assert!((p_1.voltage.rate + 100.0 * 2.0 * std::f64::consts::PI * 120.0 * cos).abs() < 1e-8);
+        assert_eq!(p_1.voltage.rate, -p_2.voltage.rate);
+    }
+}
+
+struct RhsOnLanes;
+
+impl Kernel for RhsOnLanes {
+    type Output = (Vec<[f64; 4]>, usize);
+
+    /// Derivatives of all cases, a different one in every lane.
+    fn run<S: Simd>(self, simd: S) -> (Vec<[f64; 4]>, usize) {
+        let cases = cases();
+        let c = Constants::<Vector<S>>::fill(simd, &constants());
+        let mut derivatives = Vec::new();
+        for group in cases.chunks(Vector::<S>::LANES) {
+            let zero = Vector::<S>::splat(simd, 0.0);
+            let mut voltages = [Voltage { value: zero, rate: zero }; 2];
+            let mut y = [zero; 4];
+            for (lane, case) in group.iter().enumerate() {
+                for i in 0..2 {
+                    voltages[i].value.set_lane(lane, case.voltages[i].value);
+                    voltages[i].rate.set_lane(lane, case.voltages[i].rate);
+                }
+                for i in 0..4 {
+                    y[i].set_lane(lane, case.y[i]);
+                }
+            }
+            let dy = Bimorph::default().rhs(&c, &plates(&c, &voltages), zero, &y);
+            derivatives.extend((0..group.len()).map(|lane| dy.map(|d| d.lane(lane))));
+        }
+        (derivatives, Vector::<S>::LANES)
+    }
+}
+
+fn unfused(case: &Case) -> [f64; 4] {
+    let c = Constants::<Unfused>::fill((), &constants());
+    let voltages = case.voltages.map(|v| Voltage { value: Unfused(v.value), rate: Unfused(v.rate) });
+    Bimorph::default().rhs(&c, &plates(&c, &voltages), Unfused(1.0), &case.y.map(Unfused)).map(|d| d.0)
+}
+
+fn fused(case: &Case) -> [f64; 4] {
+    let c = constants();
+    Bimorph::default().rhs(&c, &plates(&c, &case.voltages), 1.0, &case.y)
+}
+
+#[test]
+fn every_lane_equals_the_scalar_bit_for_bit() {
+    for set in InstructionSet::available() {
+        let (derivatives, lanes) = set.dispatch(RhsOnLanes);
+        assert!(lanes >= 4, "{set} has {lanes} lanes");
+        for (case, lane) in cases().iter().zip(derivatives) {
+            let scalar = match set.arithmetic() {
+                Arithmetic::Fused => fused(case),
+                Arithmetic::Unfused => unfused(case),
+            };
+            assert_eq!(lane.map(f64::to_bits), scalar.map(f64::to_bits), "{set}, {}", case.record.name);
+        }
+    }
+}
+
+#[test]
+fn arithmetic_classes_agree_to_rounding() {
+    for case in cases() {
+        for (fused, unfused) in fused(&case).into_iter().zip(unfused(&case)) {
+            assert!((fused - unfused).abs() <= 1e-11 * fused.abs(), "{}", case.record.name);
+        }
+    }
+}
+
+/// The sign function that the reading `directional` needs is that of the velocity.
+#[test]
+fn sign_of_the_velocity_directs_the_attack_angle() {
+    use flap_core::model::bimorph::{CentreOfPressure, Params, hinge_drag};
+    let reading =
+        |centre_of_pressure| Constants::derive(&Params { centre_of_pressure, ..params("T1") }).unwrap();
+    let [folded, directional, literal] =
+        [CentreOfPressure::Folded, CentreOfPressure::Directional, CentreOfPressure::Literal].map(reading);
+    for psi in [0.3_f64, 1.2] {
+        let torque = |c: &Constants<f64>, psi: f64, x_dot: f64| {
+            let (sin, cos) = Real::sin_cos(psi);
+            hinge_drag(c, psi, x_dot, sin, cos)
+        };
+        for c in [&folded, &directional, &literal] {
+            assert_eq!(torque(c, psi, 0.2), torque(&folded, psi, 0.2));
+        }
+        assert_eq!(torque(&directional, -psi, -0.2), torque(&folded, psi, 0.2));
+        assert_eq!(torque(&directional, psi, -0.2), torque(&literal, -psi, 0.2));
+        assert!(torque(&literal, -psi, 0.2) > torque(&folded, psi, 0.2));
+        assert_eq!(torque(&literal, psi, 0.2), torque(&literal, psi, -0.2));
+    }
+}

@@ -1,0 +1,63 @@
+//! Rows from lanes against rows from scalars.
+
+use flap_core::drive::Shape;
+use flap_core::model::bimorph::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{Row, SolverSettings, Status};
+
+use super::{model, rows};
+
+/// Designs, drives and readings in a fixed odd order; every tenth is impossible or blows up.
+fn points() -> Vec<Vec<f64>> {
+    (0..90)
+        .map(|i| {
+            let k = f64::from(i);
+            let p = Params::jafferis2016().with_transmission_scaled(0.6 + (0.13 * k) % 0.5);
+            let p = Params {
+                drive_voltage_pp: 60.0 + (37.3 * k) % 190.0,
+                drive_frequency: 70.0 + (23.1 * k) % 130.0,
+                hinge_stiffness: p.hinge_stiffness * (0.5 + (0.37 * k) % 1.5),
+                ..p
+            };
+            let p = match i % 10 {
+                1 => Params { field_transition: FieldTransition::Printed, ..p },
+                3 => Params { centre_of_pressure: CentreOfPressure::Directional, ..p },
+                5 => Params { centre_of_pressure: CentreOfPressure::Literal, ..p },
+                7 => Params { actuator_stiffness: ActuatorStiffness::Constant, ..p },
+                4 => Params { drive_shape: Shape::Square, ..p },
+                6 => Params { drive_shape: Shape::Harmonics, drive_third_harmonic: -0.2, ..p },
+                8 => Params { actuator_width_ratio: 2.5, ..p },
+                9 => Params { wing_inertia_product: 1e-3, ..p },
+                _ => p,
+            };
+            p.to_values()
+        })
+        .collect()
+}
+
+/// A row's numbers as bits, so that NaN equals NaN.
+fn bits(row: &Row) -> (Status, Vec<u64>, u32, u64, u32, u64, &Option<String>) {
+    let measures = row.measures.iter().map(|m| m.to_bits()).collect();
+    (row.status, measures, row.cycles, row.residual.to_bits(), row.period, row.rhs_evals, &row.reason)
+}
+
+#[test]
+fn rows_equal_the_scalar_path_bit_for_bit() {
+    let solver = SolverSettings { rtol: 1e-5, atol: 1e-7, settle_tol: 1e-5, max_cycles: 60, max_steps: 500 };
+    let points = points();
+    for set in InstructionSet::available() {
+        let rows = rows(points.clone(), set, &solver);
+        for (i, (values, row)) in points.iter().zip(&rows).enumerate() {
+            let alone = model().run_point(set, &solver, values);
+            assert_eq!(bits(row), bits(&alone), "point {i} with {set}");
+            let measured = row.status == Status::Periodic;
+            assert_eq!(row.measures.len(), if measured { model().columns().len() } else { 0 });
+            assert!(row.measures.iter().all(|m| m.is_finite()), "point {i}: {row:?}");
+        }
+        for status in [Status::Periodic, Status::Invalid] {
+            assert!(rows.iter().any(|row| row.status == status), "no row is {}", status.name());
+        }
+        let settled = rows.iter().filter(|row| row.status == Status::Periodic).count();
+        println!("{set}: {settled} of {} points periodic", rows.len());
+    }
+}

@@ -1,0 +1,90 @@
+//! The bimorph model against independent references, its own conservation laws, and the paper's text.
+
+mod actuator;
+mod equations;
+mod lanes;
+mod orbit;
+mod paper;
+mod physics;
+mod steady;
+mod transient;
+mod variants;
+
+use flap_core::model::bimorph::Params;
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{Jobs, Point, Row, Simulator, SolverSettings, Status, by_name};
+
+use crate::data::Record;
+
+fn model() -> &'static dyn Simulator {
+    by_name("bimorph").unwrap()
+}
+
+/// The parameters of a set in the reference tables.
+fn params(set: &str) -> Params {
+    match set {
+        "T1" => Params::jafferis2016(),
+        "T2" => Params::jafferis2016().with_transmission_scaled(0.8),
+        "T3" => Params::jafferis2016().with_transmission_scaled(0.6),
+        "RD" => Params::jafferis2016_improved(),
+        other => panic!("no set {other}"),
+    }
+}
+
+/// `p` driven at the voltage and frequency of a reference row.
+fn driven(p: &Params, record: &Record) -> Params {
+    Params { drive_voltage_pp: record.number("Vpp_V"), drive_frequency: record.number("f_Hz"), ..p.clone() }
+}
+
+/// The settled row of a point.
+///
+/// Where a wing's velocities change sign the equations have kinks, which make step sizes, and with them the
+/// state at the ends of cycles, jitter with the integration error. Asked for the tightest of these tolerances
+/// that the jitter lets it meet, a point is as settled as it can be.
+fn settled(params: &Params, rtol: f64) -> Row {
+    let mut last = None;
+    for settle_tol in [rtol, 10.0 * rtol, 100.0 * rtol, 1000.0 * rtol] {
+        let solver = SolverSettings { rtol, atol: 1e-2 * rtol, settle_tol, ..SolverSettings::default() };
+        let row = model().run_point(InstructionSet::best(), &solver, &params.to_values());
+        if row.status == Status::Periodic {
+            return row;
+        }
+        println!(
+            "{} V, {} Hz, {} rad/m: not settled to {settle_tol:.0e}, but to {:.1e}",
+            params.drive_voltage_pp, params.drive_frequency, params.transmission_ratio, row.residual
+        );
+        last = Some(row);
+    }
+    panic!("{:?}", last.unwrap())
+}
+
+fn measure(row: &Row, column: &str) -> f64 {
+    let index = model().columns().iter().position(|c| c.name == column);
+    row.measures[index.unwrap_or_else(|| panic!("no column {column}"))]
+}
+
+/// Points given in order; rows kept by index.
+struct Listed {
+    points: Vec<Vec<f64>>,
+    next: usize,
+    rows: Vec<Option<Row>>,
+}
+
+impl Jobs for Listed {
+    fn next(&mut self, _idle: bool) -> Option<Point> {
+        let values = self.points.get(self.next)?.clone();
+        self.next += 1;
+        Some(Point { index: self.next as u64 - 1, values })
+    }
+
+    fn done(&mut self, index: u64, row: Row) {
+        self.rows[index as usize] = Some(row);
+    }
+}
+
+/// The rows of many points, from lanes.
+fn rows(points: Vec<Vec<f64>>, set: InstructionSet, solver: &SolverSettings) -> Vec<Row> {
+    let mut listed = Listed { next: 0, rows: vec![None; points.len()], points };
+    model().run(set, solver, &mut listed);
+    listed.rows.into_iter().map(|row| row.expect("every point has a row")).collect()
+}

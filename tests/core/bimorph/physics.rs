@@ -1,0 +1,259 @@
+//! Symmetries, limits and conservation laws.
+
+use std::ops::ControlFlow;
+
+use flap_core::drive::Voltage;
+use flap_core::model::Model;
+use flap_core::model::bimorph::{
+    Bimorph, CentreOfPressure, Constants, Params, Plate, currents, elastic_force, lift_and_drag, plate,
+    plate_forces, tip_drag,
+};
+use flap_core::num::{InstructionSet, Real};
+use flap_core::ode::solve::solve;
+use flap_core::ode::{Ode, Start};
+use flap_core::simulate::{SolverSettings, TrajectoryRequest};
+use proptest::prelude::*;
+
+use super::orbit::{cycle, tolerances};
+use super::{model, params};
+use crate::data::assert_close;
+
+/// Elastic energy of actuator and transmission (J), by Simpson's rule.
+fn elastic_energy(c: &Constants<f64>, x: f64) -> f64 {
+    let n = 200;
+    let h = x / f64::from(n);
+    let weighted = |k: i32| {
+        let weight = if k == 0 || k == n {
+            1.0
+        } else if k % 2 == 1 {
+            4.0
+        } else {
+            2.0
+        };
+        weight * elastic_force(c, f64::from(k) * h)
+    };
+    (0..=n).map(weighted).sum::<f64>() * h / 3.0 + 0.5 * c.k_t * x * x
+}
+
+/// Kinetic energy at the tip and elastic energy (J).
+fn tip_energy(c: &Constants<f64>, y: &[f64; 4]) -> f64 {
+    0.5 / c.inverse_m_e * y[1] * y[1] + elastic_energy(c, y[0])
+}
+
+/// Energy that the plates' charges have brought in and that is neither elastic nor kinetic (J).
+///
+/// ```text
+/// U = ½C_p (V₁² + V₂²) + (g'V − g)₁ (x − ½bx²) − (g'V − g)₂ (x + ½bx²)
+/// ```
+fn electric_energy(c: &Constants<f64>, plates: &[Plate<f64>; 2], x: f64) -> f64 {
+    let [one, two] = plates.map(|p| p.force_per_volt * p.voltage.value - p.force);
+    let [v_1, v_2] = plates.map(|p| p.voltage.value);
+    let bend = 0.5 * c.b * x * x;
+    0.5 * c.c_p * (v_1 * v_1 + v_2 * v_2) + one * (x - bend) - two * (x + bend)
+}
+
+fn any_state() -> impl Strategy<Value = [f64; 4]> {
+    (-4e-4..4e-4, -0.4..0.4, -1.5..1.5, -1500.0..1500.0).prop_map(|(a, b, c, d)| [a, b, c, d])
+}
+
+/// Both presets with their parameters moved by up to 30 %.
+fn any_params() -> impl Strategy<Value = Params> {
+    (prop::bool::ANY, prop::array::uniform8(0.7..1.3_f64), 0.0..1e-5).prop_map(
+        |(improved, s, actuator_mass)| {
+            let p = if improved { Params::jafferis2016_improved() } else { Params::jafferis2016() };
+            Params {
+                transmission_ratio: p.transmission_ratio * s[0],
+                wing_area: p.wing_area * s[1],
+                hinge_stiffness: p.hinge_stiffness * s[2],
+                piezo_thickness: p.piezo_thickness * s[3],
+                actuator_width_ratio: p.actuator_width_ratio * s[4] * 0.9,
+                modulus_strain: p.modulus_strain * s[5],
+                drag_max: p.drag_max * s[6],
+                stress_field: p.stress_field * s[7],
+                actuator_mass,
+                ..p
+            }
+        },
+    )
+}
+
+fn any_voltages() -> impl Strategy<Value = [Voltage<f64>; 2]> {
+    let voltage = || (0.0..300.0, -1e5..1e5).prop_map(|(value, rate)| Voltage { value, rate });
+    [voltage(), voltage()]
+}
+
+proptest! {
+    /// d(U + E)/dt = V₁i₁ + V₂i₂ − drag, for any state and any change of the voltages.
+    #[test]
+    fn energy_changes_by_electrical_work_and_drag_alone(p in any_params(), y in any_state(), v in any_voltages()) {
+        let c = Constants::derive(&p).unwrap();
+        let plates = v.map(|v| plate(&c, v));
+        let dy = Bimorph::default().rhs(&c, &plates, 1.0, &y);
+        let [i_1, i_2] = currents(&c, &plates, y[0], y[1]);
+        let (_, cos_2psi) = Real::sin_cos(2.0 * y[2]);
+        let drag = tip_drag(&c, cos_2psi) * y[1] * y[1] * y[1].abs();
+        let work = v[0].value * i_1 + v[1].value * i_2 - drag;
+
+        let at = |dt: f64| {
+            let y: [f64; 4] = std::array::from_fn(|i| y[i] + dt * dy[i]);
+            let plates = v.map(|v| plate(&c, Voltage { value: v.value + dt * v.rate, ..v }));
+            electric_energy(&c, &plates, y[0]) + tip_energy(&c, &y)
+        };
+        let dt = 1e-8;
+        let rate = (at(dt) - at(-dt)) / (2.0 * dt);
+        let size = drag.abs() + at(0.0) * 1e4;
+        prop_assert!((rate - work).abs() < 1e-7 * size, "{} against {}", rate, work);
+    }
+
+    /// (x, ψ) → −(x, ψ) with the plates swapped mirrors the motion and leaves lift and power alone.
+    #[test]
+    fn half_strokes_are_mirror_images(p in any_params(), y in any_state(), v in any_voltages(), folded in prop::bool::ANY) {
+        let reading = if folded { CentreOfPressure::Folded } else { CentreOfPressure::Directional };
+        let c = Constants::derive(&Params { centre_of_pressure: reading, ..p }).unwrap();
+        let plates = v.map(|v| plate(&c, v));
+        let swapped = [plates[1], plates[0]];
+        let mirror = y.map(|y| -y);
+        let dy = Bimorph::default().rhs(&c, &plates, 1.0, &y);
+        prop_assert_eq!(Bimorph::default().rhs(&c, &swapped, 1.0, &mirror), dy.map(|d| -d));
+        let [f_1, f_2] = plate_forces(&c, &plates, y[0]);
+        prop_assert_eq!(plate_forces(&c, &swapped, mirror[0]), [f_2, f_1]);
+        let [i_1, i_2] = currents(&c, &plates, y[0], y[1]);
+        prop_assert_eq!(currents(&c, &swapped, mirror[0], mirror[1]), [i_2, i_1]);
+        let (sin, cos) = Real::sin_cos(2.0 * y[2]);
+        let [lift, drag] = lift_and_drag(&c, y[1], sin, cos);
+        prop_assert_eq!(lift_and_drag(&c, mirror[1], -sin, cos), [lift, -drag]);
+    }
+}
+
+/// As printed, Eq. (11) treats the two half strokes differently.
+#[test]
+fn the_literal_reading_breaks_the_mirror_symmetry() {
+    let p = Params { centre_of_pressure: CentreOfPressure::Literal, ..params("T1") };
+    let c = Constants::derive(&p).unwrap();
+    let plates = [plate(&c, Voltage { value: 100.0, rate: 0.0 }); 2];
+    let y = [0.0, 0.2, 1.0, 0.0];
+    let [dy, mirrored] = [1.0, -1.0].map(|m| Bimorph::default().rhs(&c, &plates, 1.0, &y.map(|y| m * y)));
+    assert!((dy[3] + mirrored[3]).abs() > 0.05 * dy[3].abs());
+}
+
+/// Half a period later the settled motion is its own mirror image.
+#[test]
+fn settled_motions_are_antisymmetric() {
+    for set in ["T1", "T3", "RD"] {
+        let values = params(set).to_values();
+        let solver =
+            SolverSettings { rtol: 1e-9, atol: 1e-11, settle_tol: 1e-6, ..SolverSettings::default() };
+        let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 100, settled: true };
+        let motion = model().trajectory(InstructionSet::best(), &solver, &values, &request).unwrap();
+        let scale = model_scale(&values);
+        for k in 0..50 {
+            for i in 0..4 {
+                let sum = motion.rows[k][i + 1] + motion.rows[k + 50][i + 1];
+                assert!(sum.abs() < 1e-5 * scale[i], "{set}, sample {k}, state {i}: {sum:e}");
+            }
+        }
+    }
+}
+
+fn model_scale(values: &[f64]) -> [f64; 4] {
+    Bimorph::default().start(values).unwrap().scale
+}
+
+/// Where the tip rests under constant voltages: K(x) x = F₁ − F₂.
+pub(super) fn static_tip(c: &Constants<f64>, voltages: [f64; 2]) -> f64 {
+    let plates = voltages.map(|value| plate(c, Voltage { value, rate: 0.0 }));
+    let (mut low, mut high) = (-2e-3, 2e-3);
+    for _ in 0..80 {
+        let x = 0.5 * (low + high);
+        let [f_1, f_2] = plate_forces(c, &plates, x);
+        if elastic_force(c, x) + c.k_t * x < f_1 - f_2 { low = x } else { high = x }
+    }
+    0.5 * (low + high)
+}
+
+/// At 1 Hz, a hundredth of its resonance, the tip goes where constant voltages would put it.
+#[test]
+fn slow_motions_are_quasi_static() {
+    for (set, voltage) in [("T1", 50.0), ("T1", 200.0), ("T3", 150.0)] {
+        let p = Params { drive_voltage_pp: voltage, drive_frequency: 1.0, ..params(set) };
+        let c = Constants::derive(&p).unwrap();
+        let expected = static_tip(&c, [voltage, 0.0]);
+        assert_close(static_tip(&c, [0.0, voltage]), -expected, 1e-12, set);
+        // Begin with the velocity of the quasi-static motion, so as not to ring.
+        let later = 1e-4;
+        let swing = 0.5 * voltage * (2.0 * std::f64::consts::PI * later).sin();
+        let velocity = static_tip(&c, [0.5 * voltage - swing, 0.5 * voltage + swing]) / later;
+        let [stroke, ..] = cycle(&p, [0.0, velocity, 0.0, 0.0], 1e-8).0;
+        assert_close(stroke.max / c.ratio, expected, 1e-3, set);
+        assert_close(-stroke.min / c.ratio, expected, 1e-3, set);
+    }
+}
+
+/// Without air and without voltage the tip is an undamped oscillator.
+#[test]
+fn a_tip_in_vacuum_keeps_its_energy() {
+    for set in ["T1", "T3", "RD"] {
+        let p = Params { air_density: 0.0, drive_voltage_pp: 0.0, actuator_mass: 3e-6, ..params(set) };
+        let c = Constants::derive(&p).unwrap();
+        let start = Start {
+            span: 0.05,
+            y: [3e-4, 0.2, 0.5, -80.0],
+            ..Bimorph::default().start(&p.to_values()).unwrap()
+        };
+        let initial = tip_energy(&c, &start.y);
+        let mut last = start.y;
+        solve::<_, f64, 4>(
+            &Bimorph::default(),
+            &tolerances(1e-10),
+            &start,
+            |_, _| {},
+            |y| {
+                last = *y;
+                ControlFlow::Break(())
+            },
+        );
+        assert!(last != start.y, "nothing moved");
+        assert_close(tip_energy(&c, &last), initial, 1e-8, set);
+    }
+}
+
+/// Small motions have the natural frequencies of the columns.
+#[test]
+fn small_motions_repeat_with_their_natural_frequencies() {
+    for set in ["T1", "T2", "RD"] {
+        let p = Params { air_density: 0.0, drive_voltage_pp: 0.0, ..params(set) };
+        let c = Constants::derive(&p).unwrap();
+        let modes = Bimorph::linear_modes(&c);
+        for (frequency, y) in [(modes[0], [1e-8, 0.0, 0.0, 0.0]), (modes[1], [0.0, 0.0, 1e-3, 0.0])] {
+            let start =
+                Start { y, span: 1.0 / frequency, ..Bimorph::default().start(&p.to_values()).unwrap() };
+            let mut end = y;
+            solve::<_, f64, 4>(
+                &Bimorph::default(),
+                &tolerances(1e-11),
+                &start,
+                |_, _| {},
+                |y| {
+                    end = *y;
+                    ControlFlow::Break(())
+                },
+            );
+            let i = if y[0] > 0.0 { 0 } else { 2 };
+            assert_close(end[i], y[i], 1e-6, set);
+            assert!(end[i + 1].abs() < 1e-4 * y[i] * frequency, "{set}: {end:?}");
+        }
+    }
+}
+
+/// No charge is left on the plates after a cycle.
+#[test]
+fn currents_have_no_mean() {
+    let p = params("T1");
+    let row = super::settled(&p, 1e-8);
+    assert!(super::measure(&row, "current_1_rms_ma") > 0.05);
+    let y = super::orbit::march(&p, [0.0; 4], 60, 1e-8);
+    let signals = cycle(&p, y, 1e-8).0;
+    for signal in [signals[10], signals[11]] {
+        assert!(signal.mean.abs() < 1e-6 * signal.mean_square.sqrt(), "{signal:?}");
+    }
+}
