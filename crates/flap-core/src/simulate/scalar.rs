@@ -68,6 +68,8 @@ where
         model,
         &solver.tolerances(),
         &start,
+        // Inlined to have the fused multiply-add instruction, see `fused_scalars`.
+        #[inline(always)]
         |c, accepted| observer.add(model, c, accepted, true, &mut totals),
         |_| ControlFlow::Break(()),
     );
