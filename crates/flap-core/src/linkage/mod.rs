@@ -1,5 +1,10 @@
 //! Hinges and transmissions.
 
+mod four_bar;
+mod plane;
+mod slider_crank;
 mod torsion_hinge;
 
+pub use four_bar::{FourBar, FourBarMotion, LinkInertias, LinkLengths};
+pub use slider_crank::{SliderCrank, SliderMotion};
 pub use torsion_hinge::TorsionHinge;

@@ -1,0 +1,220 @@
+//! A planar four-bar: positions, and how they change with the output's angle.
+//!
+//! The input link L₁ turns about the origin, the output link L₃ about (L₀, 0); the coupler L₂ connects their
+//! ends A and B. The independent variable is the stroke angle θ: the output link stands at ψ = ψ_n + θ.
+
+use core::f64::consts::PI;
+
+use super::plane::{add, cross, dot, scale, scale_add, sub, turn};
+use crate::num::Real;
+
+/// Lengths of the links (m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkLengths {
+    /// Distance of the two fixed pivots, L₀.
+    pub ground: f64,
+    /// Input link, L₁.
+    pub input: f64,
+    /// Coupler, L₂.
+    pub coupler: f64,
+    /// Output link, L₃.
+    pub output: f64,
+}
+
+crate::per_lane! {
+    /// A four-bar and the position in which its stroke angle is zero.
+    pub struct FourBar<R> {
+        /// Length of the ground link L₀ (m).
+        pub ground: R,
+        /// Length of the output link L₃ (m).
+        pub output: R,
+        /// Square of the input link's length, L₁² (m²).
+        pub input_square: R,
+        /// ½(L₁² − L₂²) (m²).
+        pub half_difference: R,
+        /// 1/L₂² (1/m²).
+        pub inverse_coupler_square: R,
+        /// Angle of the output link at zero stroke ψ_n (rad).
+        pub neutral: R,
+        /// The input link's direction at zero stroke, over its length: component along the ground link (1/m).
+        pub direction_x: R,
+        /// The component across it (1/m).
+        pub direction_y: R,
+    }
+}
+
+/// Positions at one stroke angle and their derivatives with respect to it: ( )′ = d/dθ.
+#[derive(Clone, Copy, Debug)]
+pub struct FourBarMotion<R> {
+    /// End of the input link A (m), A′, A″.
+    pub a: [[R; 2]; 3],
+    /// End of the output link B (m), B′, B″.
+    pub b: [[R; 2]; 3],
+    /// Transmission θ₁′ of stroke to the input link's angle, and θ₁″.
+    pub input: [R; 2],
+    /// Transmission θ₂′ of stroke to the coupler's angle, and θ₂″.
+    pub coupler: [R; 2],
+    /// Sine and cosine of the angle η through which the input link has turned since zero stroke.
+    pub turned: [R; 2],
+}
+
+impl FourBar<f64> {
+    /// The four-bar with links of these lengths, whose output link stands at `neutral` (rad) at zero stroke.
+    ///
+    /// Numbers are NaN if it cannot be assembled there.
+    pub fn new(lengths: &LinkLengths, neutral: f64) -> FourBar<f64> {
+        let LinkLengths { ground, input, coupler, output } = *lengths;
+        let mut four_bar = FourBar {
+            ground,
+            output,
+            input_square: input * input,
+            half_difference: 0.5 * (input * input - coupler * coupler),
+            inverse_coupler_square: 1.0 / (coupler * coupler),
+            neutral,
+            direction_x: 0.0,
+            direction_y: 0.0,
+        };
+        let [x, y] = four_bar.motion(0.0).a[0];
+        four_bar.direction_x = x / four_bar.input_square;
+        four_bar.direction_y = y / four_bar.input_square;
+        four_bar
+    }
+}
+
+impl LinkLengths {
+    /// The angle of the output link (rad), between 30° and 80°, at which the transmission θ₁′ is stationary:
+    /// θ₁″ = 0. `None` if θ₁″ does not change its sign there.
+    ///
+    /// ```
+    /// use flap_core::linkage::LinkLengths;
+    /// let links = LinkLengths { ground: 13.5e-3, input: 12.1e-3, coupler: 10.0e-3, output: 5.0e-3 };
+    /// let neutral = links.stationary_angle().unwrap();
+    /// assert!((neutral.to_degrees() - 54.896_327_872).abs() < 1e-9);
+    /// ```
+    pub fn stationary_angle(&self) -> Option<f64> {
+        let four_bar = FourBar::new(self, 0.0);
+        let bend = |angle: f64| four_bar.motion(angle).input[1];
+        root(bend, [30.0 / 180.0 * PI, 80.0 / 180.0 * PI])
+    }
+}
+
+impl<R: Real> FourBar<R> {
+    /// Positions and derivatives at the stroke angle `theta` (rad).
+    ///
+    /// ```text
+    /// B = (L₀ + L₃ cos ψ, L₃ sin ψ)     A = (P B + Q B⊥)/|B|²     P = ½(|B|² + L₁² − L₂²)     Q² = L₁²|B|² − P²
+    /// w = B − A     n = A⊥     w·n = −Q
+    /// θ₁′ = w·B′ / w·n     A′ = n θ₁′     θ₁″ = (|B′ − A′|² + w·(B″ + A θ₁′²)) / w·n     A″ = n θ₁″ − A θ₁′²
+    /// θ₂′ = w×(B′ − A′) / L₂²     θ₂″ = w×(B″ − A″) / L₂²
+    /// ```
+    ///
+    /// Where the links cannot be assembled, Q and all that follows is NaN.
+    #[inline(always)]
+    pub fn motion(&self, theta: R) -> FourBarMotion<R> {
+        let (sin, cos) = (self.neutral + theta).sin_cos();
+        let arm = scale(self.output, [cos, sin]);
+        let b = [self.ground + arm[0], arm[1]];
+        let b_p = turn(arm);
+        let b_pp = scale(theta.lit(-1.0), arm);
+
+        // Q > 0: of the two ways to assemble the links, that with A to the left of the line from 0 to B.
+        let square = dot(b, b);
+        let p = square * 0.5 + self.half_difference;
+        let q = self.input_square.mul_add(square, -(p * p)).sqrt();
+        // One division for 1/|B|² and 1/(w·n).
+        let inverse = theta.lit(1.0) / (square * q);
+        let a = scale(inverse * q, scale_add(q, turn(b), scale(p, b)));
+        let w = sub(b, a);
+        let n = turn(a);
+        let inverse_wn = -(inverse * square);
+
+        let input_p = dot(w, b_p) * inverse_wn;
+        let a_p = scale(input_p, n);
+        let coupler_velocity = sub(b_p, a_p);
+        let centripetal = scale_add(input_p * input_p, a, b_pp);
+        let input_pp = (dot(coupler_velocity, coupler_velocity) + dot(w, centripetal)) * inverse_wn;
+        let a_pp = scale_add(input_pp, n, scale(-(input_p * input_p), a));
+
+        let direction = [self.direction_x, self.direction_y];
+        FourBarMotion {
+            a: [a, a_p, a_pp],
+            b: [b, b_p, b_pp],
+            input: [input_p, input_pp],
+            coupler: [
+                cross(w, coupler_velocity) * self.inverse_coupler_square,
+                cross(w, sub(b_pp, a_pp)) * self.inverse_coupler_square,
+            ],
+            turned: [cross(direction, a), dot(direction, a)],
+        }
+    }
+}
+
+crate::per_lane! {
+    /// Inertias of the moving links.
+    pub struct LinkInertias<R> {
+        /// Inertia of the input link about its pivot (kg·m²).
+        pub input: R,
+        /// A quarter of the coupler's mass (kg).
+        pub quarter_coupler_mass: R,
+        /// Inertia of the coupler about its centre (kg·m²).
+        pub coupler: R,
+        /// Inertia of the output link about its pivot (kg·m²).
+        pub output: R,
+    }
+}
+
+impl<R: Real> LinkInertias<R> {
+    /// The links' inertia as the stroke sees it G (kg·m²), and half its derivative G′/2; Arabagi 2013, (13).
+    ///
+    /// ```text
+    /// G = Σ m_i |x_i′|² + Σ J_i θ_i′²     ½G′ = Σ m_i x_i′·x_i″ + Σ J_i θ_i′ θ_i″
+    /// ```
+    ///
+    /// The links are uniform: their centres are A/2, (A + B)/2 and the middle of the output link.
+    #[inline(always)]
+    pub fn about_stroke(&self, motion: &FourBarMotion<R>) -> [R; 2] {
+        let [_, a_p, a_pp] = motion.a;
+        let [_, b_p, b_pp] = motion.b;
+        let (middle_p, middle_pp) = (add(a_p, b_p), add(a_pp, b_pp));
+        let [input_p, input_pp] = motion.input;
+        let [coupler_p, coupler_pp] = motion.coupler;
+        let inertia = self.output
+            + self.input * input_p * input_p
+            + self.coupler * coupler_p * coupler_p
+            + self.quarter_coupler_mass * dot(middle_p, middle_p);
+        let half_slope = self.input * input_p * input_pp
+            + self.coupler * coupler_p * coupler_pp
+            + self.quarter_coupler_mass * dot(middle_p, middle_pp);
+        [inertia, half_slope]
+    }
+}
+
+/// The root of `f` in the bracket, to the last bit or so. `None` if `f` has the same sign at both ends.
+///
+/// Regula falsi after the Illinois rule, which halves the weight of an end that stays.
+fn root(f: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Option<f64> {
+    let [mut a, mut b] = bracket;
+    let (mut f_a, mut f_b) = (f(a), f(b));
+    if f_a * f_b > 0.0 || !f_a.is_finite() || !f_b.is_finite() {
+        return None;
+    }
+    let mut x = a;
+    for _ in 0..100 {
+        let previous = x;
+        x = b - f_b * (b - a) / (f_b - f_a);
+        if x == previous || f_b == 0.0 {
+            break;
+        }
+        let f_x = f(x);
+        if f_x == 0.0 {
+            break;
+        }
+        if (f_x < 0.0) == (f_b < 0.0) {
+            f_a *= 0.5;
+        } else {
+            (a, f_a) = (b, f_b);
+        }
+        (b, f_b) = (x, f_x);
+    }
+    Some(x)
+}
