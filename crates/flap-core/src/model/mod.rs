@@ -8,6 +8,7 @@
 
 pub mod bimorph;
 pub mod direct_drive;
+pub mod four_bar;
 mod signal;
 
 pub use signal::{Derived, Measure, Signal, SignalCycle};

@@ -1,0 +1,130 @@
+//! Forces and moments of the air on the wing of the four-bar model.
+//!
+//! Arabagi, Hines and Sitti 2013, (5)–(10), (16)–(18), with the corrections listed in `docs/model-four-bar.md`.
+//! Lift is positive upwards; moments are those about the stroke axis (Q_θ) and the rotation axis (Q_φ).
+
+use core::f64::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI};
+
+use super::constants::{Air, Constants};
+use crate::num::Real;
+
+/// What translation and rotation of the wing bring about.
+#[derive(Clone, Copy, Debug)]
+pub struct Aerodynamics<R> {
+    /// Translational lift L_t (N), (5).
+    pub lift: R,
+    /// Translational drag (N), (5): the horizontal force against the motion for θ̇ > 0.
+    pub drag: R,
+    /// Its moment about the stroke axis (N·m), (16).
+    pub stroke_moment: R,
+    /// Moment of translational lift and drag about the rotation axis (N·m), (16), (17).
+    pub pitch_moment: R,
+    /// Rotational lift L_r (N), (6).
+    pub rotation_lift: R,
+    /// Moment of the rotational force about the stroke axis (N·m).
+    pub rotation_stroke_moment: R,
+    /// Moment of the rotational force about the rotation axis (N·m), (18).
+    pub rotation_pitch_moment: R,
+}
+
+/// The wing's attitude as the coefficients see it.
+#[derive(Clone, Copy, Debug)]
+struct Attitude<R> {
+    /// Attack angle folded into [0, π/2], B.
+    attack: R,
+    /// Inclination of the chord against the vertical τ = arcsin sin φ, in [−π/2, π/2].
+    tilt: R,
+}
+
+/// Attack angle and inclination at the pitch `phi`, on one `side`: σ = sign tan φ.
+///
+/// ```text
+/// φ = φ_m + kπ     B = π/2 − σφ_m     τ = (−1)^k φ_m
+/// ```
+///
+/// k is such that φ_m lies within π/2 of σπ/4. So both angles go on smoothly where tan φ changes its sign, as long as
+/// `side` stays what it was.
+#[inline(always)]
+fn attitude<R: Real>(side: R, phi: R) -> Attitude<R> {
+    let k = nearest((phi - side * FRAC_PI_4) * FRAC_1_PI);
+    let phi_m = k.mul_add(k.lit(-PI), phi);
+    let odd = (k - nearest(k * 0.5) * 2.0).abs();
+    Attitude { attack: -(side * phi_m) + FRAC_PI_2, tilt: (odd * -2.0 + 1.0) * phi_m }
+}
+
+/// The nearest whole number, for |x| up to 10^6.
+#[inline(always)]
+fn nearest<R: Real>(x: R) -> R {
+    const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5 · 2^52
+    (x + ROUND) - ROUND
+}
+
+/// Lift and drag coefficient (9), (10) at the folded attack angle B (rad).
+///
+/// ```text
+/// C_l = 0.225 + 1.58 sin(2.13 B − 7.2°)     C_d = 1.92 − 1.55 cos(2.04 B − 9.82°)
+/// ```
+#[inline(always)]
+pub fn coefficients<R: Real>(c: &Air<R>, attack: R) -> [R; 2] {
+    let lift = c.lift_slope.mul_add(attack, -c.lift_phase).sin();
+    let (_, drag) = c.drag_slope.mul_add(attack, -c.drag_phase).sin_cos();
+    [c.lift_amplitude.mul_add(lift, c.lift_offset), c.drag_offset - c.drag_amplitude * drag]
+}
+
+/// Aerodynamic forces and moments but for the added mass, at a state on one `side`, given sin φ and cos φ.
+///
+/// ```text
+/// α = π/2 + sφ, s = sign U; attack folded to B ≤ π/2; σ = sign tan φ
+/// L_t = −σ C_l Σ q s     Q_θ = −C_d Σ r q s     Q_φ = −(C_d cos φ + σ C_l sin φ) Σ (d_cp − χ₀) c q s
+/// d_cp = (0.82/π)(π/2 + sτ) + 0.05     q = ½ρ U² c Δr
+/// ```
+///
+/// The strips of both directions of flow share C_l, C_d and B, because |α| of one is π − |α| of the other. With d_cp
+/// put in, Σ c q s and Σ c q remain, of which the latter is a quadratic form of the rates.
+#[inline(always)]
+pub fn aerodynamics<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], sin: R, cos: R) -> Aerodynamics<R> {
+    let [_, phi, theta_dot, phi_dot] = *y;
+    let air = &c.air;
+    let Attitude { attack, tilt } = attitude(side, phi);
+    let [c_l, c_d] = coefficients(air, attack);
+    let c_l = side * c_l;
+
+    let sweep = phi_dot * cos;
+    let directed = c.strips.sums(theta_dot, sweep);
+    let undirected =
+        (air.chord_tt * theta_dot + air.chord_tw * sweep) * theta_dot + air.chord_ww * sweep * sweep;
+    let pressure = air.pressure_upright * directed.chord + air.pressure_slope * tilt * undirected;
+
+    let rotation = -(phi_dot.abs() * phi_dot);
+    Aerodynamics {
+        lift: -(c_l * directed.force),
+        drag: c_d * directed.force,
+        stroke_moment: -(c_d * directed.radius),
+        pitch_moment: -((c_d * cos + c_l * sin) * pressure),
+        rotation_lift: air.rotation_force * rotation * sin,
+        rotation_stroke_moment: air.rotation_stroke * rotation * cos,
+        rotation_pitch_moment: air.rotation_pitch * rotation,
+    }
+}
+
+/// The function whose sign σ = sign tan φ = sign sin 2φ is the `side`, and its rate: C_l changes its sign with it.
+///
+/// At φ = 0, where the chord is vertical, C_l jumps between ±C_l(90°): the lift jumps, the equations of motion do not,
+/// as C_l enters them times sin φ. At |φ| = 90° it jumps between ±C_l(0), and so do the equations.
+#[inline(always)]
+pub fn side_of<R: Real>(phi: R, phi_dot: R) -> [R; 2] {
+    let (sin, cos) = (phi * 2.0).sin_cos();
+    [sin, phi_dot * 2.0 * cos]
+}
+
+/// Lift of the added mass L_a (N), (7) with corrected sign, at known accelerations.
+///
+/// ```text
+/// L_a = −(AM₁ (θ̈ cos φ − θ̇φ̇ sin φ) + AM₂ φ̈) sin φ
+/// ```
+#[inline(always)]
+pub fn added_mass_lift<R: Real>(air: &Air<R>, sin: R, cos: R, dy: &[R; 4]) -> R {
+    let [theta_dot, phi_dot, theta_ddot, phi_ddot] = *dy;
+    let normal = theta_ddot * cos - theta_dot * phi_dot * sin;
+    -((air.added_stroke * normal + air.added_pitch * phi_ddot) * sin)
+}

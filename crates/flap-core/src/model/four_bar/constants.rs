@@ -1,0 +1,370 @@
+//! What does not change along a trajectory of the four-bar model, computed once per point.
+//!
+//! Arabagi, Hines and Sitti 2013; numbers in parentheses are the paper's equations, those in brackets are missing
+//! from print and rebuilt (see `docs/model-four-bar.md`).
+
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+use super::params::{AddedMassSign, Arms, Params, Quadrature};
+use super::strips::{MAX_STRIPS, Strip, Strips};
+use crate::drive::Waveform;
+use crate::linkage::{FourBar, LinkInertias, LinkLengths, SliderCrank};
+use crate::num::PerLane;
+use crate::parameter::Invalid;
+use crate::piezo::{Layer, TipResponse, Unimorph};
+use crate::quadrature::{gauss_legendre, midpoints};
+
+crate::per_lane! {
+    /// The drive voltage.
+    pub struct Drive<R> {
+        /// Constant part (V).
+        pub bias: R,
+        /// Amplitude (V).
+        pub amplitude: R,
+        /// Shape over time.
+        pub waveform: Waveform<R>,
+    }
+}
+
+crate::per_lane! {
+    /// The actuator in series with a spring.
+    pub struct Actuator<R> {
+        /// Stiffness of tip and series spring together k_eff (N/m).
+        pub stiffness: R,
+        /// Deflection of the free tip per voltage γ (m/V).
+        pub deflection: R,
+        /// Voltage at which zero stroke is unloaded V_ref (V).
+        pub rest_voltage: R,
+        /// 1/k_sc (m/N).
+        pub series_compliance: R,
+        /// Charge per deflection of the tip Γ (C/m).
+        pub coupling: R,
+        /// Capacitance with the tip blocked C_b (F).
+        pub capacitance: R,
+        /// Mass that moves with the tip m_eff (kg).
+        pub mass: R,
+        /// Thickness of the piezoelectric layer h_p (m).
+        pub piezo_thickness: R,
+    }
+}
+
+crate::per_lane! {
+    /// Inertia of the wing with the added mass (19), and its hinges.
+    pub struct Wing<R> {
+        /// m R² (kg·m²).
+        pub upright: R,
+        /// m β² + J_yy: what sin²φ adds to the stroke's inertia (kg·m²).
+        pub j_sin: R,
+        /// J_zz: what cos²φ adds to the stroke's inertia (kg·m²).
+        pub j_cos: R,
+        /// Coupling of stroke and pitch P = m R β + J_xz (kg·m²).
+        pub coupling: R,
+        /// Pitch inertia J_φ = m β² + J_xx (kg·m²).
+        pub j_pitch: R,
+        /// J_d = m β² + J_yy − J_zz (kg·m²).
+        pub j_difference: R,
+        /// Damping of the stroke D (N·m·s).
+        pub stroke_damping: R,
+        /// Damping of the hinge d (N·m·s).
+        pub hinge_damping: R,
+        /// Stiffness of the hinge k_rot (N·m/rad).
+        pub hinge_stiffness: R,
+    }
+}
+
+crate::per_lane! {
+    /// Aerodynamic coefficients and moments of the wing's shape.
+    pub struct Air<R> {
+        /// Constant term of the lift coefficient (9).
+        pub lift_offset: R,
+        /// Amplitude of its sine.
+        pub lift_amplitude: R,
+        /// Factor of the attack angle in it.
+        pub lift_slope: R,
+        /// Angle subtracted in it (rad).
+        pub lift_phase: R,
+        /// Constant term of the drag coefficient (10).
+        pub drag_offset: R,
+        /// Amplitude of its cosine.
+        pub drag_amplitude: R,
+        /// Factor of the attack angle in it.
+        pub drag_slope: R,
+        /// Angle subtracted in it (rad).
+        pub drag_phase: R,
+
+        /// Arm of the centre of pressure at an attack angle of 90°, in chords, (17).
+        pub pressure_upright: R,
+        /// Shift of the centre of pressure per radian, in chords, (17).
+        pub pressure_slope: R,
+        /// Σ c ½ρU²cΔr per θ̇² (kg·m²).
+        pub chord_tt: R,
+        /// The same per θ̇φ̇cosφ (kg·m²).
+        pub chord_tw: R,
+        /// The same per (φ̇cosφ)² (kg·m²).
+        pub chord_ww: R,
+
+        /// Rotational force per |φ̇|φ̇ (kg·m), (6): ½C_rotρ I₁ Σ c³Δr.
+        pub rotation_force: R,
+        /// Its moment about the stroke axis (kg·m²): ½C_rotρ I₁ Σ rc³Δr.
+        pub rotation_stroke: R,
+        /// Its moment about the rotation axis (kg·m²), (18): ½C_rotρ I₂ Σ c⁴Δr.
+        pub rotation_pitch: R,
+
+        /// Added-mass force per acceleration of the stroke (kg·m), (7).
+        pub added_stroke: R,
+        /// Added-mass force per acceleration of the pitch (kg·m), (7).
+        pub added_pitch: R,
+    }
+}
+
+crate::per_lane! {
+    /// Constants of one design point, in SI units.
+    pub struct Constants<R> {
+        /// The drive voltage.
+        pub drive: Drive<R>,
+        /// Actuator and series spring.
+        pub actuator: Actuator<R>,
+        /// From tip displacement to the four-bar's input link.
+        pub slider_crank: SliderCrank<R>,
+        /// From input link to stroke.
+        pub four_bar: FourBar<R>,
+        /// Inertias of the links.
+        pub links: LinkInertias<R>,
+        /// Inertia of the wing, and its hinges.
+        pub wing: Wing<R>,
+        /// Aerodynamics of the whole wing.
+        pub air: Air<R>,
+        /// The wing's strips.
+        pub strips: Strips<R>,
+    }
+}
+
+impl Constants<f64> {
+    /// Derives the constants of a point.
+    ///
+    /// # Errors
+    /// If the four-bar has no neutral position, the chord is negative somewhere, the number of strips is not
+    /// allowed, the mass matrix is not positive definite for every position, or a constant is not finite.
+    pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
+        let cuts = cut(p)?;
+        let constants = Constants {
+            drive: Drive { bias: p.drive_bias, amplitude: 0.5 * p.drive_voltage_pp, waveform: p.waveform() },
+            actuator: actuator(p),
+            slider_crank: SliderCrank { crank: p.crank_radius, rod: p.connecting_rod },
+            four_bar: four_bar(p)?,
+            links: link_inertias(p),
+            wing: wing(p, &cuts),
+            air: air(p, &cuts),
+            strips: strips(p, &cuts),
+        };
+        constants.checked()
+    }
+
+    fn checked(self) -> Result<Constants<f64>, Invalid> {
+        if !<Constants<f64> as PerLane<f64>>::is_finite(&self) {
+            return Err(Invalid::new(
+                "a derived constant is not finite: the parameters are too large or too small",
+            ));
+        }
+        // Linear in cos²φ, so positive everywhere if it is at both ends; the links add at least link 3's inertia.
+        let Wing { upright, j_sin, j_cos, coupling, j_pitch, .. } = self.wing;
+        let least = upright + self.links.output;
+        if (least + j_cos) * j_pitch > coupling * coupling && (least + j_sin) * j_pitch > 0.0 {
+            Ok(self)
+        } else {
+            Err(Invalid::new(
+                "the mass matrix is not positive definite: the wing's inertias do not go together \
+                 (wing_inertia_product and mass_centre_depth against wing_inertia_span and wing_mass)",
+            ))
+        }
+    }
+}
+
+/// Where a strip is and what it measures (m).
+struct Cut {
+    radius: f64,
+    chord: f64,
+    width: f64,
+}
+
+/// Cuts the wing into strips.
+fn cut(p: &Params) -> Result<Vec<Cut>, Invalid> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "checked to be a small whole number"
+    )]
+    let count = p.strips as usize;
+    if count as f64 != p.strips || !(1..=MAX_STRIPS).contains(&count) {
+        return Err(Invalid::new(format!(
+            "strips is {}: not a whole number from 1 to {MAX_STRIPS}",
+            p.strips
+        )));
+    }
+    let nodes = match p.quadrature {
+        Quadrature::Gauss => gauss_legendre(count),
+        Quadrature::Midpoint => midpoints(count),
+    };
+    let terms = [p.chord_term_4, p.chord_term_3, p.chord_term_2, p.chord_term_1, p.chord_term_0];
+    let cuts: Vec<Cut> = nodes
+        .iter()
+        .map(|node| Cut {
+            radius: p.wing_offset + p.wing_length * node.x,
+            chord: p.root_chord * terms.iter().fold(0.0, |sum, term| sum * node.x + term),
+            width: p.wing_length * node.weight,
+        })
+        .collect();
+    match cuts.iter().find(|cut| cut.chord < 0.0) {
+        Some(cut) => Err(Invalid::new(format!(
+            "the chord is negative {} m from the stroke axis: chord_term_0 to chord_term_4 do not describe a wing",
+            cut.radius
+        ))),
+        None => Ok(cuts),
+    }
+}
+
+/// Σ f(r, c) Δr over the strips.
+fn sum(cuts: &[Cut], f: impl Fn(f64, f64) -> f64) -> f64 {
+    cuts.iter().map(|cut| f(cut.radius, cut.chord) * cut.width).sum()
+}
+
+/// Actuator and series spring [(1), (2)].
+fn actuator(p: &Params) -> Actuator<f64> {
+    let unimorph = Unimorph {
+        length: p.actuator_length,
+        width: p.actuator_width,
+        shim: Layer { thickness: p.shim_thickness, modulus: p.shim_modulus, density: p.shim_density },
+        piezo: Layer { thickness: p.piezo_thickness, modulus: p.piezo_modulus, density: p.piezo_density },
+        coefficient: p.piezo_coefficient,
+        permittivity: p.piezo_permittivity,
+    };
+    let TipResponse { stiffness, deflection, coupling, mass, capacitance } = unimorph.tip_response();
+    Actuator {
+        stiffness: stiffness * p.series_stiffness / (stiffness + p.series_stiffness),
+        deflection,
+        rest_voltage: p.rest_voltage.unwrap_or(p.drive_bias),
+        series_compliance: 1.0 / p.series_stiffness,
+        coupling,
+        capacitance,
+        mass,
+        piezo_thickness: p.piezo_thickness,
+    }
+}
+
+/// The four-bar in its neutral position.
+fn four_bar(p: &Params) -> Result<FourBar<f64>, Invalid> {
+    let lengths = LinkLengths {
+        ground: p.ground_link,
+        input: p.input_link,
+        coupler: p.coupler_link,
+        output: p.output_link,
+    };
+    let Some(neutral) = p.neutral_angle.or_else(|| lengths.stationary_angle()) else {
+        return Err(Invalid::new(
+            "the four-bar has no largest transmission between 30 and 80 deg: set neutral_angle",
+        ));
+    };
+    let four_bar = FourBar::new(&lengths, neutral);
+    if <FourBar<f64> as PerLane<f64>>::is_finite(&four_bar) {
+        Ok(four_bar)
+    } else {
+        Err(Invalid::new(format!(
+            "the four-bar cannot be assembled with its output link at {neutral} rad: \
+             ground_link, input_link, coupler_link and output_link do not go together"
+        )))
+    }
+}
+
+/// Inertias of uniform links, about their pivots where they have one.
+fn link_inertias(p: &Params) -> LinkInertias<f64> {
+    let about_centre =
+        |given: Option<f64>, mass: f64, length: f64| given.unwrap_or(mass * length * length / 12.0);
+    let about_pivot = |given: Option<f64>, mass: f64, length: f64| {
+        0.25 * mass * length * length + about_centre(given, mass, length)
+    };
+    LinkInertias {
+        input: about_pivot(p.input_link_inertia, p.input_link_mass, p.input_link),
+        quarter_coupler_mass: 0.25 * p.coupler_link_mass,
+        coupler: about_centre(p.coupler_link_inertia, p.coupler_link_mass, p.coupler_link),
+        output: about_pivot(p.output_link_inertia, p.output_link_mass, p.output_link),
+    }
+}
+
+/// Inertia of the wing with the added mass in its centre of mass (13), (19).
+fn wing(p: &Params, cuts: &[Cut]) -> Wing<f64> {
+    let m = p.wing_mass + FRAC_PI_4 * p.air_density * sum(cuts, |_, c| c * c);
+    let (r, beta) = (p.mass_centre_radius, p.mass_centre_depth);
+    Wing {
+        upright: m * r * r,
+        j_sin: m * beta * beta + p.wing_inertia_normal,
+        j_cos: p.wing_inertia_chord,
+        coupling: m * r * beta + p.wing_inertia_product,
+        j_pitch: m * beta * beta + p.wing_inertia_span,
+        j_difference: m * beta * beta + p.wing_inertia_normal - p.wing_inertia_chord,
+        stroke_damping: p.stroke_damping,
+        hinge_damping: p.hinge_damping,
+        hinge_stiffness: p.hinge_stiffness,
+    }
+}
+
+/// From the rotation axis to the mid-chord in (8), κ, and to where (17) begins, χ₀; in chords.
+fn arms(p: &Params) -> [f64; 2] {
+    match p.arms {
+        Arms::Printed => [0.5, 0.0],
+        Arms::Axis => [0.5 - p.axis_position, p.axis_position],
+    }
+}
+
+/// Aerodynamics of the whole wing.
+fn air(p: &Params, cuts: &[Cut]) -> Air<f64> {
+    let [kappa, origin] = arms(p);
+    let dynamic = 0.5 * p.air_density;
+    // ∫ z|z| dz and ∫ |z|³ dz over a chord of 1, z being the distance behind the rotation axis.
+    let (before, behind) = (p.axis_position, 1.0 - p.axis_position);
+    let i_1 = (behind * behind * behind - before * before * before) / 3.0;
+    let i_2 = (behind * behind * behind * behind + before * before * before * before) / 4.0;
+    let drag = dynamic * p.rotation_drag;
+    let added = FRAC_PI_4 * p.air_density;
+    let pitch_sign = match p.am_sign {
+        AddedMassSign::Corrected => 1.0,
+        AddedMassSign::Printed => -1.0,
+    };
+    Air {
+        lift_offset: p.lift_offset,
+        lift_amplitude: p.lift_amplitude,
+        lift_slope: p.lift_slope,
+        lift_phase: p.lift_phase,
+        drag_offset: p.drag_offset,
+        drag_amplitude: p.drag_amplitude,
+        drag_slope: p.drag_slope,
+        drag_phase: p.drag_phase,
+        pressure_upright: FRAC_PI_2 * p.pressure_slope + p.pressure_offset - origin,
+        pressure_slope: p.pressure_slope,
+        chord_tt: dynamic * sum(cuts, |r, c| r * r * c * c),
+        chord_tw: dynamic * 2.0 * kappa * sum(cuts, |r, c| r * c * c * c),
+        chord_ww: dynamic * kappa * kappa * sum(cuts, |_, c| c * c * c * c),
+        rotation_force: drag * i_1 * sum(cuts, |_, c| c * c * c),
+        rotation_stroke: drag * i_1 * sum(cuts, |r, c| r * c * c * c),
+        rotation_pitch: drag * i_2 * sum(cuts, |_, c| c * c * c * c),
+        added_stroke: added * sum(cuts, |r, c| r * c * c),
+        added_pitch: pitch_sign * added * (0.5 - p.axis_position) * sum(cuts, |_, c| c * c * c),
+    }
+}
+
+/// The strips for the sums that depend on each strip's direction of flow.
+fn strips(p: &Params, cuts: &[Cut]) -> Strips<f64> {
+    let [kappa, _] = arms(p);
+    let strips: Vec<Strip<f64>> = cuts
+        .iter()
+        .map(|cut| {
+            let weight = (0.5 * p.air_density * cut.chord * cut.width).sqrt();
+            Strip {
+                stroke: weight * cut.radius,
+                sweep: weight * kappa * cut.chord,
+                radius: cut.radius,
+                chord: cut.chord,
+            }
+        })
+        .collect();
+    Strips::new(&strips)
+}

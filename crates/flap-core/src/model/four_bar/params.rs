@@ -1,0 +1,349 @@
+//! Parameters of the four-bar model, and the sets that stand for the paper's two prototypes.
+//!
+//! The paper gives the links of one four-bar, voltages, frequencies, the hinges' stiffness and damping, the series
+//! stiffness, C_rot and the position of the rotation axis. Everything else is assumed, and says so.
+
+use crate::drive::{Shape, Waveform};
+use crate::parameter::Kind::{Choice, Following, Number};
+use crate::parameter::Range::{Any, NonNegative, Positive};
+use crate::parameter::{Preset, Slot};
+
+crate::parameters! {
+    /// Parameters of the four-bar model, in SI units. Symbols as in Arabagi, Hines and Sitti 2013 where it has any.
+    pub struct Params {
+        /// Drive voltage, peak to peak.
+        drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)),
+        /// Constant part of the drive voltage.
+        drive_bias: f64 = ("V", "V_dc", Number(Any)),
+        /// Drive frequency.
+        drive_frequency: f64 = ("Hz", "f", Number(Positive)),
+        /// Shape of the drive voltage over a period: a sine, a sine with second and third harmonic, or a square wave with finite rise time.
+        drive_shape: Shape = ("", "", Choice(Shape::NAMES)),
+        /// Amplitude of the second harmonic relative to the first. Only for drive_shape = "harmonics".
+        drive_second_harmonic: f64 = ("", "", Number(Any)),
+        /// Phase of the second harmonic, by which it leads the sine of twice the drive's phase.
+        drive_second_phase: f64 = ("rad", "", Number(Any)),
+        /// Amplitude of the third harmonic relative to the first. Only for drive_shape = "harmonics".
+        drive_third_harmonic: f64 = ("", "", Number(Any)),
+        /// Phase of the third harmonic, by which it leads the sine of three times the drive's phase.
+        drive_third_phase: f64 = ("rad", "", Number(Any)),
+        /// Rise and fall time of the square wave, as a fraction of the period, up to 0.5. Only for drive_shape = "square".
+        drive_rise: f64 = ("", "", Number(Positive)),
+        /// Voltage at which the mechanism stands unloaded at zero stroke; assumed: not in the paper.
+        rest_voltage: Option<f64> = ("V", "V_ref", Following(Any, "drive_bias")),
+
+        /// Actuator length; assumed: gives the drive its strength.
+        actuator_length: f64 = ("m", "L", Number(Positive)),
+        /// Actuator width, uniform; assumed: gives the drive its strength.
+        actuator_width: f64 = ("m", "w", Number(Positive)),
+        /// Thickness of the piezoelectric layer; assumed: a commercial sheet.
+        piezo_thickness: f64 = ("m", "h_p", Number(Positive)),
+        /// Thickness of the shim; assumed.
+        shim_thickness: f64 = ("m", "h_s", Number(NonNegative)),
+        /// Young's modulus of the piezoelectric layer; assumed: PZT-5H.
+        piezo_modulus: f64 = ("Pa", "E_p", Number(Positive)),
+        /// Young's modulus of the shim; assumed: steel.
+        shim_modulus: f64 = ("Pa", "E_s", Number(NonNegative)),
+        /// Density of the piezoelectric layer; assumed: PZT-5H.
+        piezo_density: f64 = ("kg/m^3", "rho_p", Number(NonNegative)),
+        /// Density of the shim; assumed: steel.
+        shim_density: f64 = ("kg/m^3", "rho_s", Number(NonNegative)),
+        /// Piezoelectric coefficient, its magnitude; assumed: PZT-5H.
+        piezo_coefficient: f64 = ("m/V", "d_31", Number(Any)),
+        /// Permittivity of the unstressed piezoelectric layer; assumed: PZT-5H. Acts on the current alone.
+        piezo_permittivity: f64 = ("F/m", "eps_T", Number(NonNegative)),
+        /// Stiffness in series between the actuator's tip and the slider-crank.
+        series_stiffness: f64 = ("N/m", "k_sc", Number(Positive)),
+
+        /// Radius of the slider-crank on the input link; assumed: tuned to the first resonance.
+        crank_radius: f64 = ("m", "L_c", Number(Positive)),
+        /// Length of the slider-crank's connecting rod; assumed.
+        connecting_rod: f64 = ("m", "L_s", Number(Positive)),
+        /// Ground link: distance of the four-bar's fixed pivots.
+        ground_link: f64 = ("m", "L_0", Number(Positive)),
+        /// Input link, driven by the slider-crank.
+        input_link: f64 = ("m", "L_1", Number(Positive)),
+        /// Coupler link.
+        coupler_link: f64 = ("m", "L_2", Number(Positive)),
+        /// Output link, which carries the wing.
+        output_link: f64 = ("m", "L_3", Number(Positive)),
+        /// Angle of the output link to the ground link at zero stroke; assumed: where the transmission is largest.
+        neutral_angle: Option<f64> = ("rad", "psi_n", Following(Any, "the angle between 30 and 80 deg at which the transmission is stationary")),
+        /// Mass of the input link; assumed: carbon fibre.
+        input_link_mass: f64 = ("kg", "m_L1", Number(NonNegative)),
+        /// Mass of the coupler link; assumed: carbon fibre.
+        coupler_link_mass: f64 = ("kg", "m_L2", Number(NonNegative)),
+        /// Mass of the output link; assumed: carbon fibre.
+        output_link_mass: f64 = ("kg", "m_L3", Number(NonNegative)),
+        /// Inertia of the input link about its centre; assumed: a uniform rod.
+        input_link_inertia: Option<f64> = ("kg*m^2", "J_L1", Following(NonNegative, "input_link_mass * input_link^2 / 12")),
+        /// Inertia of the coupler link about its centre; assumed: a uniform rod.
+        coupler_link_inertia: Option<f64> = ("kg*m^2", "J_L2", Following(NonNegative, "coupler_link_mass * coupler_link^2 / 12")),
+        /// Inertia of the output link about its centre; assumed: a uniform rod.
+        output_link_inertia: Option<f64> = ("kg*m^2", "J_L3", Following(NonNegative, "output_link_mass * output_link^2 / 12")),
+        /// Damping of the stroke by the transmission's flexures; assumed: modal damping ratios of 4 to 9 percent.
+        stroke_damping: f64 = ("N*m*s", "D", Number(NonNegative)),
+
+        /// Stiffness of the wing hinge.
+        hinge_stiffness: f64 = ("N*m/rad", "k_rot", Number(Positive)),
+        /// Damping of the wing hinge.
+        hinge_damping: f64 = ("N*m*s", "d", Number(NonNegative)),
+
+        /// Distance from the stroke axis to the wing's root; assumed.
+        wing_offset: f64 = ("m", "r_0", Number(NonNegative)),
+        /// Wing length, from root to tip; assumed.
+        wing_length: f64 = ("m", "L_w", Number(Positive)),
+        /// Chord at the root; assumed. The chord is root_chord times a polynomial in x, 0 at the root and 1 at the tip.
+        root_chord: f64 = ("m", "c_0", Number(Positive)),
+        /// The chord polynomial's constant term; assumed.
+        chord_term_0: f64 = ("", "p_0", Number(Any)),
+        /// The chord polynomial's factor of x; assumed.
+        chord_term_1: f64 = ("", "p_1", Number(Any)),
+        /// The chord polynomial's factor of x^2; assumed.
+        chord_term_2: f64 = ("", "p_2", Number(Any)),
+        /// The chord polynomial's factor of x^3; assumed.
+        chord_term_3: f64 = ("", "p_3", Number(Any)),
+        /// The chord polynomial's factor of x^4; assumed: no chord at the tip.
+        chord_term_4: f64 = ("", "p_4", Number(Any)),
+        /// Position of the rotation axis, in chords behind the leading edge.
+        axis_position: f64 = ("", "z_RA/c", Number(Any)),
+        /// Wing mass; assumed: spar, veins and membrane, scaled to the second resonance.
+        wing_mass: f64 = ("kg", "m_w", Number(Positive)),
+        /// Distance of the wing's centre of mass from the stroke axis; assumed.
+        mass_centre_radius: f64 = ("m", "R_CG", Number(Any)),
+        /// Distance of the wing's centre of mass from the rotation axis, positive towards the trailing edge; assumed.
+        mass_centre_depth: f64 = ("m", "beta_CG", Number(Any)),
+        /// Wing inertia about the spanwise axis through the centre of mass; assumed.
+        wing_inertia_span: f64 = ("kg*m^2", "J_xx", Number(NonNegative)),
+        /// Wing inertia about the normal through the centre of mass; assumed.
+        wing_inertia_normal: f64 = ("kg*m^2", "J_yy", Number(NonNegative)),
+        /// Wing inertia about the chordwise axis through the centre of mass; assumed.
+        wing_inertia_chord: f64 = ("kg*m^2", "J_zz", Number(NonNegative)),
+        /// Product of inertia about the centre of mass, positive if the wing is deeper farther out; assumed.
+        wing_inertia_product: f64 = ("kg*m^2", "J_xz", Number(Any)),
+
+        /// Density of air; assumed.
+        air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)),
+        /// Lift coefficient, Eq. (9): constant term.
+        lift_offset: f64 = ("", "0.225", Number(Any)),
+        /// Lift coefficient, Eq. (9): amplitude of the sine.
+        lift_amplitude: f64 = ("", "1.58", Number(Any)),
+        /// Lift coefficient, Eq. (9): factor of the attack angle.
+        lift_slope: f64 = ("", "2.13", Number(Any)),
+        /// Lift coefficient, Eq. (9): angle subtracted.
+        lift_phase: f64 = ("rad", "7.2 deg", Number(Any)),
+        /// Drag coefficient, Eq. (10): constant term.
+        drag_offset: f64 = ("", "1.92", Number(Any)),
+        /// Drag coefficient, Eq. (10): amplitude of the cosine.
+        drag_amplitude: f64 = ("", "1.55", Number(Any)),
+        /// Drag coefficient, Eq. (10): factor of the attack angle.
+        drag_slope: f64 = ("", "2.04", Number(Any)),
+        /// Drag coefficient, Eq. (10): angle subtracted.
+        drag_phase: f64 = ("rad", "9.82 deg", Number(Any)),
+        /// Rotational drag coefficient, Eq. (6).
+        rotation_drag: f64 = ("", "C_rot", Number(NonNegative)),
+        /// Centre of pressure: shift in chords per radian of attack, Eq. (17).
+        pressure_slope: f64 = ("", "0.82/pi", Number(Any)),
+        /// Centre of pressure at zero attack, in chords, Eq. (17).
+        pressure_offset: f64 = ("", "0.05", Number(Any)),
+
+        /// Chordwise arms of Eqs. (8) and (17): as printed, as if the rotation axis were the leading edge; or from the rotation axis.
+        arms: Arms = ("", "", Choice(&["printed", "axis"])),
+        /// Sign of the pitch acceleration's part of the added-mass lift, Eq. (7): corrected, or as printed.
+        am_sign: AddedMassSign = ("", "", Choice(&["corrected", "printed"])),
+        /// How the wing is cut into strips: at Gauss-Legendre nodes, or into equal widths taken at their middles.
+        quadrature: Quadrature = ("", "", Choice(&["gauss", "midpoint"])),
+        /// Number of strips, a whole number from 1 to 64.
+        strips: f64 = ("", "N", Number(Positive)),
+    }
+}
+
+/// Readings of the chordwise arms of (8) and (17).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arms {
+    /// The mid-chord is c/2, the centre of pressure d_cp c from the rotation axis.
+    Printed,
+    /// Both are measured from the leading edge, and the rotation axis is χc behind it.
+    Axis,
+}
+
+impl Slot for Arms {
+    fn from_value(value: f64) -> Self {
+        if value == 1.0 { Arms::Axis } else { Arms::Printed }
+    }
+
+    fn to_value(&self) -> f64 {
+        f64::from(*self as u8)
+    }
+}
+
+/// Readings of the second term of (7).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AddedMassSign {
+    /// φ̈ (c/2 − z_RA): the acceleration of the mid-chord.
+    Corrected,
+    /// φ̈ (z_RA − c/2).
+    Printed,
+}
+
+impl Slot for AddedMassSign {
+    fn from_value(value: f64) -> Self {
+        if value == 1.0 { AddedMassSign::Printed } else { AddedMassSign::Corrected }
+    }
+
+    fn to_value(&self) -> f64 {
+        f64::from(*self as u8)
+    }
+}
+
+/// How the wing is cut into strips.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quadrature {
+    /// Strips at the nodes of the Gauss-Legendre rule: 8 of them are closer to the integral than 256 equal ones.
+    Gauss,
+    /// Strips of equal width.
+    Midpoint,
+}
+
+impl Slot for Quadrature {
+    fn from_value(value: f64) -> Self {
+        if value == 1.0 { Quadrature::Midpoint } else { Quadrature::Gauss }
+    }
+
+    fn to_value(&self) -> f64 {
+        f64::from(*self as u8)
+    }
+}
+
+/// The permittivity of free space (F/m), to the digits used for the presets.
+const EPSILON_0: f64 = 8.854_187_812_8e-12;
+
+/// 7.2° and 9.82° in radians: the angles of (9) and (10).
+const LIFT_PHASE: f64 = 7.2 / 180.0 * core::f64::consts::PI;
+const DRAG_PHASE: f64 = 9.82 / 180.0 * core::f64::consts::PI;
+
+impl Params {
+    /// The sets that stand for the paper's prototypes.
+    pub const PRESETS: &'static [Preset] = &[
+        Preset {
+            name: "arabagi2013-75hz",
+            doc: "75 Hz prototype, 150 V + 50 V (Arabagi, Hines and Sitti 2013); wing and actuator are assumed",
+            values: || Params::arabagi2013_75hz().to_values(),
+        },
+        Preset {
+            name: "arabagi2013-30hz",
+            doc: "30 Hz prototype, 180 V + 30 V (Arabagi, Hines and Sitti 2013); wing and actuator are assumed",
+            values: || Params::arabagi2013_30hz().to_values(),
+        },
+    ];
+
+    /// The 75 Hz system, with voltages and hinge of the 70 Hz prototype of Figs. 13 to 15.
+    pub fn arabagi2013_75hz() -> Params {
+        Params {
+            drive_voltage_pp: 150.0,
+            drive_bias: 50.0,
+            drive_frequency: 75.0,
+            drive_shape: Shape::Sine,
+            drive_second_harmonic: 0.0,
+            drive_second_phase: 0.0,
+            drive_third_harmonic: 0.0,
+            drive_third_phase: 0.0,
+            drive_rise: 0.05,
+            rest_voltage: None,
+            actuator_length: 16e-3,
+            actuator_width: 18e-3,
+            piezo_thickness: 127e-6,
+            shim_thickness: 76e-6,
+            piezo_modulus: 62e9,
+            shim_modulus: 193e9,
+            piezo_density: 7800.0,
+            shim_density: 7900.0,
+            piezo_coefficient: 320e-12,
+            piezo_permittivity: 3800.0 * EPSILON_0,
+            series_stiffness: 1400.0,
+            crank_radius: 3.285e-3,
+            connecting_rod: 5e-3,
+            ground_link: 13.5e-3,
+            input_link: 12.1e-3,
+            coupler_link: 10e-3,
+            output_link: 5e-3,
+            neutral_angle: None,
+            input_link_mass: 11.616e-6,
+            coupler_link_mass: 9.6e-6,
+            output_link_mass: 4.8e-6,
+            input_link_inertia: None,
+            coupler_link_inertia: None,
+            output_link_inertia: None,
+            stroke_damping: 2e-7,
+            hinge_stiffness: 50e-6,
+            hinge_damping: 5e-9,
+            wing_offset: 4e-3,
+            wing_length: 24e-3,
+            root_chord: 8.3e-3,
+            chord_term_0: 1.0,
+            chord_term_1: 1.0,
+            chord_term_2: 0.0,
+            chord_term_3: 0.0,
+            chord_term_4: -2.0,
+            axis_position: 0.25,
+            wing_mass: 9.577e-6,
+            mass_centre_radius: 15.22e-3,
+            mass_centre_depth: 1.569e-3,
+            wing_inertia_span: 8.333e-11,
+            wing_inertia_normal: 4.269e-10,
+            wing_inertia_chord: 3.436e-10,
+            wing_inertia_product: -8.38e-12,
+            air_density: 1.2,
+            lift_offset: 0.225,
+            lift_amplitude: 1.58,
+            lift_slope: 2.13,
+            lift_phase: LIFT_PHASE,
+            drag_offset: 1.92,
+            drag_amplitude: 1.55,
+            drag_slope: 2.04,
+            drag_phase: DRAG_PHASE,
+            rotation_drag: 2.0,
+            pressure_slope: 0.82 / core::f64::consts::PI,
+            pressure_offset: 0.05,
+            arms: Arms::Printed,
+            am_sign: AddedMassSign::Corrected,
+            quadrature: Quadrature::Gauss,
+            strips: 16.0,
+        }
+    }
+
+    /// The 30 Hz system of Figs. 7 to 9, with the links of the 75 Hz one.
+    pub fn arabagi2013_30hz() -> Params {
+        Params {
+            drive_voltage_pp: 180.0,
+            drive_bias: 30.0,
+            drive_frequency: 30.0,
+            actuator_length: 18e-3,
+            crank_radius: 2.1e-3,
+            hinge_stiffness: 20e-6,
+            hinge_damping: 10e-9,
+            wing_offset: 5e-3,
+            wing_length: 32e-3,
+            root_chord: 10e-3,
+            wing_mass: 1.2803e-5,
+            mass_centre_radius: 19.96e-3,
+            mass_centre_depth: 1.533e-3,
+            wing_inertia_span: 1.911e-10,
+            wing_inertia_normal: 1.0273e-9,
+            wing_inertia_chord: 8.362e-10,
+            wing_inertia_product: -1.682e-11,
+            // Materials, links and air are those of the 75 Hz system.
+            ..Params::arabagi2013_75hz()
+        }
+    }
+
+    /// The drive's waveform.
+    pub(super) fn waveform(&self) -> Waveform<f64> {
+        Waveform::new(
+            self.drive_frequency,
+            [self.drive_second_harmonic, self.drive_third_harmonic],
+            [self.drive_second_phase, self.drive_third_phase],
+            self.drive_rise,
+        )
+    }
+}

@@ -1,0 +1,128 @@
+//! Equations of motion of the four-bar model.
+//!
+//! Arabagi, Hines and Sitti 2013; numbers in parentheses are the paper's equations, with the corrections listed in
+//! `docs/model-four-bar.md`. State `[θ, φ, θ̇, φ̇]`: stroke and pitch (rad), their rates (rad/s). At φ = 0 the chord
+//! is vertical; φ > 0 displaces the trailing edge, which hangs below, to where θ > 0 goes.
+
+use super::aerodynamics::aerodynamics;
+use super::constants::{Actuator, Constants};
+use crate::drive::Voltage;
+use crate::num::Real;
+
+/// Actuator, slider-crank and four-bar as the stroke sees them.
+#[derive(Clone, Copy, Debug)]
+pub struct Transmission<R> {
+    /// Displacement of the slider-crank δ (m).
+    pub displacement: R,
+    /// δ′ = dδ/dθ (m).
+    pub slope: R,
+    /// δ″ (m).
+    pub bend: R,
+    /// Inertia of links and actuator G (kg·m²), the sums of (13).
+    pub inertia: R,
+    /// Half its derivative with respect to θ, G′/2 (kg·m²).
+    pub half_inertia_slope: R,
+}
+
+/// The transmission at the stroke `theta`.
+///
+/// ```text
+/// δ′ = δ_η θ₁′     δ″ = δ_ηη θ₁′² + δ_η θ₁″
+/// G = Σ m_Li |x_i′|² + Σ J_Li θ_i′² + m_eff δ′²     ½G′ = Σ m_Li x_i′·x_i″ + Σ J_Li θ_i′ θ_i″ + m_eff δ′ δ″
+/// ```
+#[inline(always)]
+pub fn transmission<R: Real>(c: &Constants<R>, theta: R) -> Transmission<R> {
+    let links = c.four_bar.motion(theta);
+    let [sin, cos] = links.turned;
+    let slider = c.slider_crank.motion(sin, cos);
+    let [input_p, input_pp] = links.input;
+    let slope = slider.slope * input_p;
+    let bend = slider.bend * input_p * input_p + slider.slope * input_pp;
+    let [inertia, half_slope] = c.links.about_stroke(&links);
+    Transmission {
+        displacement: slider.displacement,
+        slope,
+        bend,
+        inertia: inertia + c.actuator.mass * slope * slope,
+        half_inertia_slope: half_slope + c.actuator.mass * slope * bend,
+    }
+}
+
+/// Force of the actuator on the slider-crank F (N) [(1), (2)].
+///
+/// ```text
+/// F = k_eff (γ (V − V_ref) − δ)
+/// ```
+#[inline(always)]
+pub fn force<R: Real>(c: &Actuator<R>, drive: &Voltage<R>, displacement: R) -> R {
+    c.stiffness * (c.deflection * (drive.value - c.rest_voltage) - displacement)
+}
+
+/// Displacement of the actuator's tip δ_a (m): the slider-crank's and the series spring's. Not in the paper.
+///
+/// ```text
+/// δ_a = δ + F/k_sc
+/// ```
+#[inline(always)]
+pub fn tip<R: Real>(c: &Actuator<R>, displacement: R, force: R) -> R {
+    displacement + force * c.series_compliance
+}
+
+/// Current into the actuator (A), by reciprocity; not in the paper.
+///
+/// ```text
+/// i = C_b V̇ + Γ δ̇_a     δ̇_a = δ′θ̇ + k_eff (γV̇ − δ′θ̇)/k_sc
+/// ```
+#[inline(always)]
+pub fn current<R: Real>(c: &Actuator<R>, drive: &Voltage<R>, slider_rate: R) -> R {
+    let force_rate = c.stiffness * (c.deflection * drive.rate - slider_rate);
+    c.capacitance * drive.rate + c.coupling * tip(c, slider_rate, force_rate)
+}
+
+/// The mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²), of (13).
+///
+/// ```text
+/// M₁₁ = m R² + (m β² + J_yy) sin²φ + J_zz cos²φ + G     M₁₂ = P cos φ     M₂₂ = J_φ
+/// ```
+#[inline(always)]
+pub fn mass_matrix<R: Real>(c: &Constants<R>, inertia: R, sin: R, cos: R) -> [R; 3] {
+    let wing = &c.wing;
+    [
+        wing.upright + wing.j_sin * sin * sin + wing.j_cos * cos * cos + inertia,
+        wing.coupling * cos,
+        wing.j_pitch,
+    ]
+}
+
+/// The derivative `[θ̇, φ̇, θ̈, φ̈]`, from Lagrange's equations (14), (15).
+///
+/// ```text
+/// ⎡M₁₁ M₁₂⎤ ⎡θ̈⎤ = ⎡M_drive + Q_θ − Dθ̇ + P sin φ φ̇² − J_d sin 2φ θ̇φ̇ − ½G′θ̇²⎤     M_drive = F δ′ [(3)]
+/// ⎣M₁₂ M₂₂⎦ ⎣φ̈⎦   ⎣Q_φ − dφ̇ − k_rot φ + ½J_d sin 2φ θ̇²                       ⎦
+/// ```
+#[inline(always)]
+pub fn derivative<R: Real>(c: &Constants<R>, drive: &Voltage<R>, side: R, y: &[R; 4]) -> [R; 4] {
+    let [theta, phi, theta_dot, phi_dot] = *y;
+    let (sin, cos) = phi.sin_cos();
+    let links = transmission(c, theta);
+    let drive_moment = force(&c.actuator, drive, links.displacement) * links.slope;
+    let air = aerodynamics(c, side, y, sin, cos);
+
+    let wing = &c.wing;
+    let gyroscopic = wing.j_difference * sin * cos * theta_dot;
+    let stroke_moment = drive_moment + air.stroke_moment + air.rotation_stroke_moment
+        - wing.stroke_damping * theta_dot
+        + wing.coupling * sin * phi_dot * phi_dot
+        - gyroscopic * phi_dot * 2.0
+        - links.half_inertia_slope * theta_dot * theta_dot;
+    let pitch_moment = air.pitch_moment + air.rotation_pitch_moment
+        - wing.hinge_damping * phi_dot
+        - wing.hinge_stiffness * phi
+        + gyroscopic * theta_dot;
+
+    let [m11, m12, m22] = mass_matrix(c, links.inertia, sin, cos);
+    let inverse_determinant = theta.lit(1.0) / (m11 * m22 - m12 * m12);
+    let theta_ddot = (m22 * stroke_moment - m12 * pitch_moment) * inverse_determinant;
+    let phi_ddot = (m11 * pitch_moment - m12 * stroke_moment) * inverse_determinant;
+    [theta_dot, phi_dot, theta_ddot, phi_ddot]
+}
