@@ -15,5 +15,6 @@ mod direct_drive;
 mod dormand_prince;
 mod elementary;
 mod ensemble;
+mod four_bar;
 mod strobe;
 mod waveforms;

@@ -1,0 +1,266 @@
+//! Forces, moments and accelerations against reference vectors, on scalars and lanes.
+
+use std::f64::consts::PI;
+
+use fearless_simd::Simd;
+use flap_core::drive::Voltage;
+use flap_core::model::four_bar::{
+    Arms, Constants, FourBar, Params, Quadrature, added_mass_lift, aerodynamics, force, mass_matrix, side_of,
+    transmission,
+};
+use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Unfused, Vector};
+use flap_core::ode::Ode;
+
+use super::{arms, assert_close_to, params};
+use crate::data::{Record, table};
+
+struct Case {
+    constants: Constants<f64>,
+    drive: Voltage<f64>,
+    side: f64,
+    y: [f64; 4],
+    record: Record,
+}
+
+fn cases() -> Vec<Case> {
+    table("four-bar/rhs_vectors.csv")
+        .into_iter()
+        .map(|record| {
+            assert_eq!(record.text("quad"), "gauss");
+            let p = Params {
+                arms: arms(record.text("arms")),
+                strips: record.number("N"),
+                ..params(record.text("system"))
+            };
+            let constants = Constants::derive(&p).unwrap();
+            let y = ["theta", "phi", "theta_dot", "phi_dot"].map(|column| record.number(column));
+            let drive = FourBar::default().input(&constants, record.number("t"));
+            Case { constants, drive, side: side_of(y[1], y[3])[0].signum(), y, record }
+        })
+        .collect()
+}
+
+#[test]
+fn accelerations_forces_and_moments_equal_the_reference() {
+    let mut largest = (0.0, String::new());
+    for Case { constants: c, drive, side, y, record } in cases() {
+        let [theta, phi, theta_dot, phi_dot] = y;
+        let dy = FourBar::default().rhs(&c, &drive, side, &y);
+        let (sin, cos) = phi.sin_cos();
+        let air = aerodynamics(&c, side, &y, sin, cos);
+        let links = transmission(&c, theta);
+        let [m11, m12, m22] = mass_matrix(&c, links.inertia, sin, cos);
+        let elastic = c.wing.hinge_stiffness * phi * phi
+            + c.actuator.stiffness * links.displacement * links.displacement;
+        let kinetic = m11 * theta_dot * theta_dot + 2.0 * m12 * theta_dot * phi_dot + m22 * phi_dot * phi_dot;
+        for (column, actual) in [
+            ("theta_dot", dy[0]),
+            ("phi_dot", dy[1]),
+            ("theta_ddot", dy[2]),
+            ("phi_ddot", dy[3]),
+            ("M_drive", force(&c.actuator, &drive, links.displacement) * links.slope),
+            ("Qth_trans", air.stroke_moment),
+            ("Qphi_trans", air.pitch_moment),
+            ("Qth_rot", air.rotation_stroke_moment),
+            ("Qphi_rot", air.rotation_pitch_moment),
+            ("lift_trans", air.lift),
+            ("lift_rot", air.rotation_lift),
+            ("lift_addmass", added_mass_lift(&c.air, sin, cos, &dy)),
+            ("M11", m11),
+            ("M12", m12),
+            ("M22", m22),
+            ("energy", 0.5 * (kinetic + elastic)),
+        ] {
+            let expected = record.number(column);
+            let what = format!("{column} of {}", record.name);
+            let size = if expected == 0.0 { 1e-12 } else { expected.abs() };
+            let error = (actual - expected).abs() / size;
+            if error > largest.0 {
+                largest = (error, what.clone());
+            }
+            assert_close_to(actual, expected, size, 1e-11, &what);
+        }
+    }
+    println!("largest relative error {:.1e} ({})", largest.0, largest.1);
+}
+
+struct RhsOnLanes;
+
+impl Kernel for RhsOnLanes {
+    type Output = (Vec<[f64; 4]>, usize);
+
+    /// Derivatives of all cases, a different one in every lane.
+    fn run<S: Simd>(self, simd: S) -> (Vec<[f64; 4]>, usize) {
+        let cases = mixed_cases();
+        let mut derivatives = Vec::new();
+        for group in cases.chunks(Vector::<S>::LANES) {
+            let zero = Vector::<S>::splat(simd, 0.0);
+            let mut c = Constants::<Vector<S>>::fill(simd, &group[0].constants);
+            let mut drive = Voltage { value: zero, rate: zero };
+            let mut side = zero;
+            let mut y = [zero; 4];
+            for (lane, case) in group.iter().enumerate() {
+                c.set(lane, &case.constants);
+                drive.value.set_lane(lane, case.drive.value);
+                side.set_lane(lane, case.side);
+                for i in 0..4 {
+                    y[i].set_lane(lane, case.y[i]);
+                }
+            }
+            let dy = FourBar::default().rhs(&c, &drive, side, &y);
+            derivatives.extend((0..group.len()).map(|lane| dy.map(|d| d.lane(lane))));
+        }
+        (derivatives, Vector::<S>::LANES)
+    }
+}
+
+/// The cases of the table with all sorts of strips side by side, and with pitches beyond 90°.
+fn mixed_cases() -> Vec<Case> {
+    let mut cases = cases();
+    for (i, case) in cases.iter_mut().enumerate() {
+        let p = Params {
+            quadrature: if i % 3 == 0 { Quadrature::Midpoint } else { Quadrature::Gauss },
+            strips: [16.0, 8.0, 64.0, 1.0, 33.0][i % 5],
+            ..params(case.record.text("system"))
+        };
+        case.constants = Constants::derive(&p).unwrap();
+        if i % 4 == 0 {
+            case.y[1] += 1.3;
+            case.side = side_of(case.y[1], case.y[3])[0].signum();
+        }
+    }
+    cases
+}
+
+#[test]
+fn every_lane_equals_the_scalar_bit_for_bit() {
+    for set in InstructionSet::available() {
+        let (derivatives, lanes) = set.dispatch(RhsOnLanes);
+        assert!(lanes >= 4, "{set} has {lanes} lanes");
+        for (case, lane) in mixed_cases().iter().zip(derivatives) {
+            let scalar = match set.arithmetic() {
+                Arithmetic::Fused => FourBar::default().rhs(&case.constants, &case.drive, case.side, &case.y),
+                Arithmetic::Unfused => unfused(case),
+            };
+            assert_eq!(lane.map(f64::to_bits), scalar.map(f64::to_bits), "{set}, {}", case.record.name);
+        }
+    }
+}
+
+/// The derivative in the arithmetic of processors without fused multiply-add.
+fn unfused(case: &Case) -> [f64; 4] {
+    let c = Constants::<Unfused>::fill((), &case.constants);
+    let drive = Voltage { value: Unfused(case.drive.value), rate: Unfused(case.drive.rate) };
+    FourBar::default().rhs(&c, &drive, Unfused(case.side), &case.y.map(Unfused)).map(|d| d.0)
+}
+
+#[test]
+fn arithmetic_classes_agree_to_rounding() {
+    for case in cases() {
+        let fused = FourBar::default().rhs(&case.constants, &case.drive, case.side, &case.y);
+        let size = |i: usize| fused[i].abs().max(1e-9);
+        for (i, unfused) in unfused(&case).into_iter().enumerate() {
+            assert_close_to(unfused, fused[i], size(i), 1e-11, &case.record.name);
+        }
+    }
+}
+
+/// Translational forces and moments as the paper has them: strip by strip, each with its own attack angle.
+fn strip_by_strip(p: &Params, y: &[f64; 4], strips: usize) -> [f64; 4] {
+    let [_, phi, theta_dot, phi_dot] = *y;
+    let [kappa, origin] = match p.arms {
+        Arms::Printed => [0.5, 0.0],
+        Arms::Axis => [0.5 - p.axis_position, p.axis_position],
+    };
+    let mut sums = [0.0; 4];
+    for i in 0..strips {
+        let x = (i as f64 + 0.5) / strips as f64;
+        let r = p.wing_offset + p.wing_length * x;
+        let chord = p.root_chord * (p.chord_term_0 + p.chord_term_1 * x + p.chord_term_4 * x.powi(4));
+        let u = r * theta_dot + kappa * chord * phi_dot * phi.cos();
+        let q = 0.5 * p.air_density * chord * u * u * p.wing_length / strips as f64;
+
+        // α = 90° − φ for U < 0 and 90° + φ for U > 0, in (−180°, 180°].
+        let attack = 180.0 - (90.0 - u.signum() * phi.to_degrees()).rem_euclid(360.0);
+        let folded = if attack.abs() > 90.0 { 180.0 - attack.abs() } else { attack.abs() };
+        let mut c_l = 0.225 + 1.58 * (2.13 * folded - 7.2).to_radians().sin();
+        let c_d = 1.92 - 1.55 * (2.04 * folded - 9.82).to_radians().cos();
+        if attack.abs() > 90.0 {
+            c_l = -c_l;
+        }
+        if attack < 0.0 {
+            c_l = -c_l;
+        }
+        let arm = (0.82 * attack.abs().to_radians() / PI + 0.05 - origin) * chord;
+        let (lift, push) = (q * c_l, -u.signum() * q * c_d);
+        for (sum, part) in
+            sums.iter_mut().zip([lift, -push, r * push, arm * (push * phi.cos() + lift * phi.sin())])
+        {
+            *sum += part;
+        }
+    }
+    sums
+}
+
+/// The sums over directed strips are the paper's strips, whatever the pitch: 64 strips term by term, and 16 Gauss
+/// nodes as good as 256 strips.
+#[test]
+fn directed_sums_are_the_sums_of_the_strips() {
+    for case in cases() {
+        for turn in -4..=4 {
+            let p = Params {
+                arms: arms(case.record.text("arms")),
+                quadrature: Quadrature::Midpoint,
+                strips: 64.0,
+                ..params(case.record.text("system"))
+            };
+            let mut y = case.y;
+            y[1] += 0.9 * f64::from(turn);
+            let side = side_of(y[1], y[3])[0].signum();
+            let (sin, cos) = y[1].sin_cos();
+            let translation = |p: &Params| {
+                let air = aerodynamics(&Constants::derive(p).unwrap(), side, &y, sin, cos);
+                [air.lift, air.drag, air.stroke_moment, air.pitch_moment]
+            };
+            let sizes = [1e-3, 1e-3, 1e-5, 5e-6];
+            let gauss = Params { quadrature: Quadrature::Gauss, strips: 16.0, ..p.clone() };
+            for (p, strips, tolerance) in [(&p, 64, 1e-11), (&gauss, 256, 1e-3)] {
+                let expected = strip_by_strip(p, &y, strips);
+                for (i, actual) in translation(p).into_iter().enumerate() {
+                    let size = expected[i].abs() + sizes[i];
+                    let what = format!("number {i} of {}, φ = {}, {strips} strips", case.record.name, y[1]);
+                    assert_close_to(actual, expected[i], size, tolerance, &what);
+                }
+            }
+        }
+    }
+}
+
+/// The rate that comes with the side is the derivative of its function along the motion.
+#[test]
+fn rate_of_the_side_is_its_derivative() {
+    for case in cases() {
+        let [_, phi, _, phi_dot] = case.y;
+        let at = |dt: f64| side_of(phi + dt * phi_dot, phi_dot)[0];
+        let dt = 1e-8;
+        let expected = (at(dt) - at(-dt)) / (2.0 * dt);
+        assert_close_to(side_of(phi, phi_dot)[1], expected, phi_dot.abs().max(1.0), 1e-6, &case.record.name);
+    }
+}
+
+/// On either side of φ = 0 the equations of motion are the same, and the lift is not.
+#[test]
+fn equations_go_on_smoothly_past_the_vertical() {
+    let c = Constants::derive(&params("sys75")).unwrap();
+    let drive = Voltage { value: 80.0, rate: 0.0 };
+    let y = [0.1, 0.0, 80.0, -100.0];
+    let [up, down] = [1.0, -1.0].map(|side| FourBar::default().rhs(&c, &drive, side, &y));
+    assert_eq!(up, down);
+    let [up, down] = [1.0, -1.0].map(|side| aerodynamics(&c, side, &y, 0.0, 1.0).lift);
+    assert!(up < 0.0);
+    assert_eq!(up, -down);
+    // With the side held, they go on as a smooth function does.
+    let at = |phi: f64| FourBar::default().rhs(&c, &drive, 1.0, &[0.1, phi, 80.0, -100.0])[3];
+    let third = (at(0.02) - 3.0 * at(0.01) + 3.0 * at(0.0) - at(-0.01)) / at(0.0);
+    assert!(third.abs() < 1e-4, "{third}");
+}

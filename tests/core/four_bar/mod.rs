@@ -1,0 +1,33 @@
+//! The four-bar model against independent references and its own conservation laws.
+
+mod constants;
+mod equations;
+mod kinematics;
+mod physics;
+mod steady;
+mod transient;
+use flap_core::model::four_bar::{Arms, Params};
+
+/// The parameters of `sys75` or `sys30` in the reference tables.
+fn params(system: &str) -> Params {
+    match system {
+        "sys75" => Params::arabagi2013_75hz(),
+        "sys30" => Params::arabagi2013_30hz(),
+        other => panic!("no system {other}"),
+    }
+}
+
+/// The reading called `name` in the reference tables.
+fn arms(name: &str) -> Arms {
+    match name {
+        "printed" => Arms::Printed,
+        "axis" => Arms::Axis,
+        other => panic!("no reading {other}"),
+    }
+}
+
+/// Fails unless `actual` is within `tolerance` of `expected`, relative to `size`.
+fn assert_close_to(actual: f64, expected: f64, size: f64, tolerance: f64, what: &str) {
+    let error = (actual - expected).abs() / size;
+    assert!(error <= tolerance, "{what}: {actual} is not {expected}: error {error:.1e} of {size:.1e}");
+}

@@ -1,0 +1,210 @@
+//! Symmetries and conservation laws.
+
+use flap_core::drive::Voltage;
+use flap_core::model::four_bar::{
+    Arms, Constants, FourBar, Params, added_mass_lift, aerodynamics, current, force, mass_matrix, side_of,
+    tip, transmission,
+};
+use flap_core::num::Real;
+use flap_core::ode::{Ode, Start, Tolerances, solve::solve};
+use proptest::prelude::*;
+
+/// Kinetic energy plus that of hinge, actuator and series spring, less the work of a constant voltage (J).
+fn energy(c: &Constants<f64>, volts: f64, y: &[f64; 4]) -> f64 {
+    let [theta, phi, theta_dot, phi_dot] = *y;
+    let (sin, cos) = Real::sin_cos(phi);
+    let links = transmission(c, theta);
+    let [m11, m12, m22] = mass_matrix(c, links.inertia, sin, cos);
+    let stretch = links.displacement - c.actuator.deflection * (volts - c.actuator.rest_voltage);
+    0.5 * (m11 * theta_dot * theta_dot + 2.0 * m12 * theta_dot * phi_dot + m22 * phi_dot * phi_dot)
+        + 0.5 * c.wing.hinge_stiffness * phi * phi
+        + 0.5 * c.actuator.stiffness * stretch * stretch
+}
+
+fn any_state() -> impl Strategy<Value = [f64; 4]> {
+    (-1.0..1.0, -3.5..3.5, -200.0..200.0, -800.0..800.0).prop_map(|(a, b, c, d)| [a, b, c, d])
+}
+
+/// Both systems with their parameters moved by up to 20 %.
+fn any_params() -> impl Strategy<Value = Params> {
+    (prop::bool::ANY, prop::array::uniform8(0.8..1.2_f64), prop::bool::ANY).prop_map(|(large, s, axis)| {
+        let p = if large { Params::arabagi2013_30hz() } else { Params::arabagi2013_75hz() };
+        Params {
+            wing_length: p.wing_length * s[0],
+            root_chord: p.root_chord * s[1],
+            wing_mass: p.wing_mass * s[2],
+            hinge_stiffness: p.hinge_stiffness * s[3],
+            series_stiffness: p.series_stiffness * s[4],
+            crank_radius: p.crank_radius * s[5],
+            mass_centre_depth: p.mass_centre_depth * s[6],
+            wing_inertia_product: p.wing_inertia_product * s[7],
+            arms: if axis { Arms::Axis } else { Arms::Printed },
+            ..p
+        }
+    })
+}
+
+fn side(y: &[f64; 4]) -> f64 {
+    side_of(y[1], y[3])[0].signum()
+}
+
+proptest! {
+    /// dE/dt is the power of air and damping, for any state: inertia, springs and actuator keep energy.
+    #[test]
+    fn energy_changes_by_dissipation_alone(p in any_params(), y in any_state(), volts in -100.0..100.0) {
+        let c = Constants::derive(&p).unwrap();
+        let side = side(&y);
+        let dy = FourBar::default().rhs(&c, &Voltage { value: volts, rate: 0.0 }, side, &y);
+        let (sin, cos) = Real::sin_cos(y[1]);
+        let air = aerodynamics(&c, side, &y, sin, cos);
+        let work = (air.stroke_moment + air.rotation_stroke_moment - c.wing.stroke_damping * y[2]) * y[2]
+            + (air.pitch_moment + air.rotation_pitch_moment - c.wing.hinge_damping * y[3]) * y[3];
+
+        // Central difference along the motion, in a time in which the state changes by a millionth.
+        let fastest = (dy[2] / 200.0).abs().max((dy[3] / 800.0).abs()).max(800.0);
+        let dt = 1e-6 / fastest;
+        let at = |dt: f64| energy(&c, volts, &std::array::from_fn(|i| y[i] + dt * dy[i]));
+        let rate = (at(dt) - at(-dt)) / (2.0 * dt);
+        let size = energy(&c, volts, &y) * fastest + work.abs();
+        prop_assert!((rate - work).abs() < 1e-8 * size, "{rate} against {work}");
+    }
+
+    /// Rotation takes energy from the wing, and so does translation but for lift on a pitching wing.
+    #[test]
+    fn rotational_drag_always_dissipates(p in any_params(), y in any_state()) {
+        let c = Constants::derive(&p).unwrap();
+        let (sin, cos) = Real::sin_cos(y[1]);
+        let air = aerodynamics(&c, side(&y), &y, sin, cos);
+        prop_assert!(air.rotation_pitch_moment * y[3] <= 0.0);
+        let still = aerodynamics(&c, side(&y), &[y[0], y[1], y[2], 0.0], sin, cos);
+        prop_assert!(still.stroke_moment * y[2] <= 0.0);
+    }
+
+    /// (θ̇, φ, φ̇) → −(θ̇, φ, φ̇) mirrors the forces of the air and leaves lift alone. The four-bar is not symmetric, so
+    /// the whole motion is not either.
+    #[test]
+    fn the_air_treats_both_half_strokes_alike(p in any_params(), y in any_state()) {
+        let c = Constants::derive(&p).unwrap();
+        let dy = [y[2], y[3], 1e4, -3e4];
+        let [one, other] = [1.0, -1.0].map(|m| {
+            let y = y.map(|y| m * y);
+            let (sin, cos) = Real::sin_cos(y[1]);
+            let air = aerodynamics(&c, side(&y), &y, sin, cos);
+            let lift = [air.lift, air.rotation_lift, added_mass_lift(&c.air, sin, cos, &dy.map(|d| m * d))];
+            let mirrored = [
+                air.drag,
+                air.stroke_moment,
+                air.pitch_moment,
+                air.rotation_stroke_moment,
+                air.rotation_pitch_moment,
+            ];
+            (lift, mirrored.map(|x| m * x))
+        });
+        prop_assert_eq!(one, other);
+    }
+
+    /// V·i = F·δ̇ + d/dt of the energy stored in capacitance and springs: the actuator loses nothing.
+    #[test]
+    fn the_actuator_loses_nothing(p in any_params(), theta in -1.0..1.0, theta_dot in -200.0..200.0, value in -100.0..100.0, rate in -1e5..1e5) {
+        let c = Constants::derive(&p).unwrap();
+        let drive = Voltage { value, rate };
+        let links = transmission(&c, theta);
+        let force_at = |theta: f64, value: f64| {
+            force(&c.actuator, &Voltage { value, rate: 0.0 }, transmission(&c, theta).displacement)
+        };
+        // Tip stiffness k_a from 1/k_eff = 1/k_a + 1/k_sc; the tip is bent by δ_a − γ(V − V_ref) against it.
+        let soft = 1.0 / c.actuator.stiffness - c.actuator.series_compliance;
+        let stored = |theta: f64, value: f64| {
+            let force = force_at(theta, value);
+            let tip = tip(&c.actuator, transmission(&c, theta).displacement, force);
+            // Capacitance, bent tip with the offset of V_ref, series spring.
+            0.5 * c.actuator.capacitance * value * value
+                + 0.5 * tip * tip / soft
+                + tip * c.actuator.deflection * c.actuator.rest_voltage / soft
+                + 0.5 * c.actuator.series_compliance * force * force
+        };
+        let slider_rate = links.slope * theta_dot;
+        let electrical = value * current(&c.actuator, &drive, slider_rate);
+        let mechanical = force_at(theta, value) * slider_rate;
+        let dt = 1e-7;
+        let at = |dt: f64| stored(theta + dt * theta_dot, value + dt * rate);
+        let change = (at(dt) - at(-dt)) / (2.0 * dt);
+        let size = (value * rate).abs() * c.actuator.capacitance + mechanical.abs() + 1e-3;
+        prop_assert!((electrical - mechanical - change).abs() < 1e-6 * size, "{} {}", electrical - mechanical, change);
+    }
+}
+
+/// Without air, damping and drive a wing keeps its energy along a whole motion.
+#[test]
+fn a_wing_in_vacuum_keeps_its_energy() {
+    for p in [Params::arabagi2013_75hz(), Params::arabagi2013_30hz()] {
+        let p = Params {
+            air_density: 0.0,
+            stroke_damping: 0.0,
+            hinge_damping: 0.0,
+            drive_voltage_pp: 0.0,
+            rest_voltage: Some(20.0),
+            ..p
+        };
+        let constants = Constants::derive(&p).unwrap();
+        let start =
+            Start { constants, y: [0.3, 0.5, 30.0, -80.0], span: 0.1, scale: [0.3, 0.5, 100.0, 200.0] };
+        let tolerances = Tolerances { rtol: 1e-10, atol: 1e-12, max_steps: 100_000 };
+        let initial = energy(&constants, p.drive_bias, &start.y);
+        let mut last = initial;
+        solve::<_, f64, 4>(
+            &FourBar::default(),
+            &tolerances,
+            &start,
+            |_, _| {},
+            |y| {
+                last = energy(&constants, p.drive_bias, y);
+                std::ops::ControlFlow::Break(())
+            },
+        );
+        assert!(last != initial, "nothing moved");
+        assert!((last / initial - 1.0).abs() < 1e-7, "{initial} → {last}");
+    }
+}
+
+/// An impulse on the stroke makes the wing ring at its natural frequencies.
+#[test]
+fn small_motions_have_the_natural_frequencies() {
+    let p = Params {
+        stroke_damping: 0.0,
+        hinge_damping: 0.0,
+        drive_voltage_pp: 0.0,
+        ..Params::arabagi2013_75hz()
+    };
+    let constants = Constants::derive(&p).unwrap();
+    let [low, high] = FourBar::linear_modes(&constants);
+    // Amplitudes small enough that the air, which is quadratic, does nothing.
+    let tolerances = Tolerances { rtol: 1e-10, atol: 1e-18, max_steps: 1_000_000 };
+    let links = transmission(&constants, 0.0);
+    let [m11, m12, _] = mass_matrix(&constants, links.inertia, 0.0, 1.0);
+    let stiffness = constants.actuator.stiffness * links.slope * links.slope;
+    for frequency in [low, high] {
+        // The mode's shape: (K − ω²M) q = 0.
+        let square = (2.0 * std::f64::consts::PI * frequency).powi(2);
+        let shape = [square * m12, stiffness - square * m11];
+        let mut y = [0.0; 4];
+        for i in 0..2 {
+            y[i] = 1e-7 * shape[i] / shape[0].abs().max(shape[1].abs());
+        }
+        let start = Start { constants, y, span: 10.0 / frequency, scale: [1.0, 1.0, 100.0, 100.0] };
+        let mut end = y;
+        solve::<_, f64, 4>(
+            &FourBar::default(),
+            &tolerances,
+            &start,
+            |_, _| {},
+            |y| {
+                end = *y;
+                std::ops::ControlFlow::Break(())
+            },
+        );
+        for i in 0..2 {
+            assert!((end[i] / y[i] - 1.0).abs() < 1e-4, "{frequency} Hz: {y:?} → {end:?}");
+        }
+    }
+}
