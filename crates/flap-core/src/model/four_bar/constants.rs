@@ -205,12 +205,11 @@ fn cut(p: &Params) -> Result<Vec<Cut>, Invalid> {
         Quadrature::Gauss => gauss_legendre(count),
         Quadrature::Midpoint => midpoints(count),
     };
-    let terms = [p.chord_term_4, p.chord_term_3, p.chord_term_2, p.chord_term_1, p.chord_term_0];
     let cuts: Vec<Cut> = nodes
         .iter()
         .map(|node| Cut {
             radius: p.wing_offset + p.wing_length * node.x,
-            chord: p.root_chord * terms.iter().fold(0.0, |sum, term| sum * node.x + term),
+            chord: p.chord(node.x),
             width: p.wing_length * node.weight,
         })
         .collect();

@@ -8,12 +8,14 @@
 //! assumed. Current and power are an extension.
 
 mod aerodynamics;
+mod composite;
 mod constants;
 mod params;
 mod rhs;
 mod strips;
 
 pub use aerodynamics::{Aerodynamics, added_mass_lift, aerodynamics, coefficients, side_of};
+pub use composite::Composite;
 pub use constants::{Actuator, Air, Constants, Drive, Wing};
 pub use params::{AddedMassSign, Arms, Params, Quadrature};
 pub use rhs::{Transmission, current, derivative, force, mass_matrix, tip, transmission};

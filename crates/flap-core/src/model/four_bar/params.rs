@@ -337,6 +337,13 @@ impl Params {
         }
     }
 
+    /// The chord (m) at `x`, from 0 at the wing's root to 1 at its tip.
+    pub fn chord(&self, x: f64) -> f64 {
+        let terms =
+            [self.chord_term_4, self.chord_term_3, self.chord_term_2, self.chord_term_1, self.chord_term_0];
+        self.root_chord * terms.iter().fold(0.0, |sum, term| sum * x + term)
+    }
+
     /// The drive's waveform.
     pub(super) fn waveform(&self) -> Waveform<f64> {
         Waveform::new(
