@@ -8,6 +8,7 @@
 
 pub mod bimorph;
 pub mod direct_drive;
+#[cfg(feature = "four-bar")]
 pub mod four_bar;
 mod signal;
 

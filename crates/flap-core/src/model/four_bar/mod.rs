@@ -52,6 +52,11 @@ impl Ode<4> for FourBar {
     const SWITCHES: bool = true;
 
     #[inline(always)]
+    fn next_break<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
+        c.drive.waveform.next_break(self.shape, t)
+    }
+
+    #[inline(always)]
     fn rhs<R: Lanes>(&self, c: &Constants<R>, drive: &Voltage<R>, side: R, y: &[R; 4]) -> [R; 4] {
         derivative(c, drive, side, y)
     }
