@@ -72,3 +72,15 @@ fn a_grid_without_axes_is_one_point() {
     assert_eq!(ended.stdout.lines().count(), 2);
     assert!(ended.stdout.contains("\n0,periodic,"), "{}", ended.stdout);
 }
+
+/// `--force` overwrites; it does not destroy results that nothing then replaces.
+#[test]
+fn old_rows_stay_if_new_ones_cannot_be_written() {
+    let folder = Folder::with_grid("preset = \"ozaki2018-large\"\n");
+    std::fs::write(folder.path("old.csv"), "precious").unwrap();
+    // The sidecar cannot be written where a folder has its name.
+    std::fs::create_dir(folder.path("old.csv.meta.toml")).unwrap();
+    let ended = folder.flap("sweep --grid grid.toml --out old.csv --force");
+    assert_eq!(ended.code, 3, "{}", ended.stderr);
+    assert_eq!(folder.read("old.csv"), "precious");
+}

@@ -231,6 +231,49 @@ impl Ode<1> for Counted<'_> {
     }
 }
 
+/// ẍ = −x − 0.1 sign ẋ: an oscillator with dry friction that counts its evaluations.
+struct CountedSwitch<'a>(&'a std::sync::atomic::AtomicU64);
+
+impl Ode<2> for CountedSwitch<'_> {
+    type Constants<R: Lanes> = ();
+    type Input<R: Lanes> = ();
+
+    const SWITCHES: bool = true;
+
+    fn input<R: Lanes>(&self, (): &(), _t: R) {}
+
+    fn rhs<R: Lanes>(&self, (): &(), (): &(), side: R, y: &[R; 2]) -> [R; 2] {
+        self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        [y[1], -y[0] - side * 0.1]
+    }
+
+    fn switch<R: Lanes>(&self, (): &(), y: &[R; 2], dy: &[R; 2]) -> [R; 2] {
+        [y[1], dy[1]]
+    }
+}
+
+/// An oscillator with dry friction: its amplitude falls by 0.2 in every half turn, exactly.
+#[test]
+fn crossings_are_located_and_counted() {
+    let counter = std::sync::atomic::AtomicU64::new(0);
+    let span = 3.5 * std::f64::consts::PI;
+    let start = Start { constants: (), y: [2.0, 0.0], span, scale: [1.0; 2] };
+    let mut end = [0.0; 2];
+    let outcome = solve::<_, f64, 2>(
+        &CountedSwitch(&counter),
+        &Tolerances { rtol: 1e-9, atol: 1e-9, max_steps: 10_000 },
+        &start,
+        |_, _| {},
+        |y| {
+            end = *y;
+            ControlFlow::Break(())
+        },
+    );
+    assert_eq!(outcome.rhs_evals, counter.into_inner());
+    // Three reversals; then a quarter turn on the fourth half turn, of amplitude 1.3 about −0.1.
+    assert!((end[0] + 0.1).abs() < 1e-7 && (end[1] - 1.3).abs() < 1e-7, "{end:?}");
+}
+
 #[test]
 fn a_step_evaluates_the_right_hand_side_six_times() {
     let counter = std::sync::atomic::AtomicU64::new(0);

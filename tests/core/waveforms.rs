@@ -61,6 +61,41 @@ fn a_square_wave_is_flat_between_its_edges_and_odd() {
     }
 }
 
+/// Current and power jump with the edges of a square wave: steps end there, or the audit would not close.
+#[test]
+fn power_balances_for_every_shape() {
+    let model = by_name("direct-drive").unwrap();
+    let audit = model.columns().iter().position(|column| column.name == "energy_audit").unwrap();
+    for drive_shape in [Shape::Sine, Shape::Harmonics, Shape::Square] {
+        for (p, bound) in [(Params::ozaki2018_small(), 1e-5), (Params::ozaki2018_large(), 1e-4)] {
+            let p = Params { drive_shape, drive_second_harmonic: 0.3, drive_second_phase: 0.5, ..p };
+            let row = model.run_point(InstructionSet::best(), &SolverSettings::default(), &p.to_values());
+            assert_eq!(row.status, Status::Periodic, "{drive_shape:?}");
+            assert!(row.measures[audit].abs() < bound, "{drive_shape:?}: {:e}", row.measures[audit]);
+        }
+    }
+}
+
+/// The field and the capacitive power follow the whole waveform, not its fundamental alone.
+#[test]
+fn harmonics_count_in_field_and_capacitive_power() {
+    let model = by_name("direct-drive").unwrap();
+    let measure = |p: &Params, name: &str| {
+        let row = model.run_point(InstructionSet::best(), &SolverSettings::default(), &p.to_values());
+        row.measures[model.columns().iter().position(|column| column.name == name).unwrap()]
+    };
+    // 50 V + 50 V (sin θ + ½ cos 2θ): from −25 to 87.5 V on 100 µm.
+    let p = Params {
+        drive_shape: Shape::Harmonics,
+        drive_second_harmonic: 0.5,
+        drive_second_phase: PI / 2.0,
+        ..Params::ozaki2018_large()
+    };
+    assert!((measure(&p, "field_max_v_per_um") - 0.875).abs() < 1e-5);
+    let sine = measure(&Params::ozaki2018_large(), "power_capacitive_mw");
+    assert!((measure(&p, "power_capacitive_mw") / sine - 1.125_f64.powi(2)).abs() < 1e-5);
+}
+
 /// A square wave's first harmonic is larger than that of a sine of the same amplitude, so the wing strokes wider.
 #[test]
 fn the_shape_of_the_drive_reaches_the_wing() {

@@ -87,7 +87,7 @@ def test_same_call_same_bits():
 
 def test_defaults_are_those_in_the_docstring():
     documented = flapwing.run(
-        PRESET, rtol=1e-6, atol=1e-6 / 100, settle_tol=1e-6, max_cycles=400, max_steps=20000
+        PRESET, rtol=1e-6, atol=1e-6 / 100, settle_tol=1e-6, max_cycles=1000, max_steps=20000
     )
     assert bits(flapwing.run(PRESET)) == bits(documented)
 

@@ -4,7 +4,9 @@ use std::sync::LazyLock;
 
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
-use flap_core::simulate::{Column, Jobs, Row, Simulator, SolverSettings, Trajectory, TrajectoryRequest};
+use flap_core::simulate::{
+    ChirpRequest, ChirpResponse, Column, Jobs, Row, Simulator, SolverSettings, Trajectory, TrajectoryRequest,
+};
 use flap_sweep::diagnostic::Diagnostic;
 use flap_sweep::plan::Plan;
 
@@ -52,6 +54,16 @@ impl Simulator for Fake {
         _: &[f64],
         _: &TrajectoryRequest,
     ) -> Result<Trajectory, Invalid> {
+        unimplemented!("grid files are checked without running anything")
+    }
+
+    fn chirp(
+        &self,
+        _: InstructionSet,
+        _: &SolverSettings,
+        _: &[f64],
+        _: &ChirpRequest,
+    ) -> Result<ChirpResponse, Invalid> {
         unimplemented!("grid files are checked without running anything")
     }
 }

@@ -6,7 +6,8 @@ use std::time::Duration;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
 use flap_core::simulate::{
-    Column, Jobs, Point, Row, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, Jobs, Point, Row, Simulator, SolverSettings, Status, Trajectory,
+    TrajectoryRequest,
 };
 
 /// What goes wrong, and at which value of `size`.
@@ -178,6 +179,16 @@ impl Simulator for Fake {
         _values: &[f64],
         _request: &TrajectoryRequest,
     ) -> Result<Trajectory, Invalid> {
+        Err(Invalid { reason: "it does not move".to_owned() })
+    }
+
+    fn chirp(
+        &self,
+        _set: InstructionSet,
+        _solver: &SolverSettings,
+        _values: &[f64],
+        _request: &ChirpRequest,
+    ) -> Result<ChirpResponse, Invalid> {
         Err(Invalid { reason: "it does not move".to_owned() })
     }
 }

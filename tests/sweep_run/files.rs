@@ -3,7 +3,7 @@
 use std::fs;
 
 use flap_core::num::InstructionSet;
-use flap_sweep::output::{CreateError, create};
+use flap_sweep::output::{CreateError, create, empty};
 use flap_sweep::run::Summary;
 use flap_sweep::sidecar::{End, Sidecar, Start, path_of};
 
@@ -18,7 +18,9 @@ fn an_existing_file_is_kept_unless_asked() {
     let error = create(&path, false).unwrap_err();
     assert!(matches!(error, CreateError::Exists { .. }), "{error}");
     assert_eq!(fs::read_to_string(&path).unwrap(), "precious");
-    drop(create(&path, true).unwrap());
+    let file = create(&path, true).unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), "precious", "kept until there is something to write");
+    empty(&file).unwrap();
     assert_eq!(fs::read_to_string(&path).unwrap(), "");
 }
 

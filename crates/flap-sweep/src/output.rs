@@ -57,7 +57,8 @@ pub enum CreateError {
     },
 }
 
-/// Makes an empty result file. A file that holds something is an error, or emptied with `overwrite`.
+/// Opens a result file for writing from its beginning. What it holds is an error, or with `overwrite` stays until
+/// [`empty`] is called: so that nothing is lost if what follows fails.
 ///
 /// The file stays locked as long as it is open, so that a second run that writes to it is refused.
 /// Devices and pipes hold no results: they are neither refused nor locked.
@@ -66,14 +67,8 @@ pub enum CreateError {
 /// If the file holds something, is being written by another run, or cannot be made.
 pub fn create(path: &Path, overwrite: bool) -> Result<File, CreateError> {
     let refused = |source| CreateError::Io { path: path.to_owned(), source };
-    let file = match OpenOptions::new().write(true).create_new(true).open(path) {
-        // Emptied once it is locked, not before: the other run may be alive.
-        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-            OpenOptions::new().write(true).open(path)
-        }
-        made => made,
-    };
-    let file = file.map_err(refused)?;
+    let opened = OpenOptions::new().write(true).create(true).truncate(false).open(path);
+    let file = opened.map_err(refused)?;
     if !file.metadata().map_err(refused)?.is_file() {
         return Ok(file);
     }
@@ -84,6 +79,13 @@ pub fn create(path: &Path, overwrite: bool) -> Result<File, CreateError> {
     if file.metadata().map_err(refused)?.len() > 0 && !overwrite {
         return Err(CreateError::Exists { path: path.to_owned() });
     }
-    file.set_len(0).map_err(refused)?;
     Ok(file)
+}
+
+/// Drops what a file holds.
+///
+/// # Errors
+/// What the operating system says.
+pub fn empty(file: &File) -> io::Result<()> {
+    if file.metadata()?.is_file() { file.set_len(0) } else { Ok(()) }
 }

@@ -38,6 +38,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
 
     let set = InstructionSet::best();
     if let Some(path) = &args.trajectory {
+        check_length(args)?;
         let request = TrajectoryRequest {
             cycles: args.cycles,
             samples_per_cycle: args.samples,
@@ -59,6 +60,18 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     }
     console::results(&page(&plan, args, &row))?;
     Ok(Exit::Done)
+}
+
+/// The most samples of one trajectory: they are held in memory.
+const SAMPLES_MAX: u64 = 5_000_000;
+
+fn check_length(args: &RunArgs) -> Result<(), Failure> {
+    let samples = u64::from(args.cycles) * u64::from(args.samples);
+    if samples <= SAMPLES_MAX {
+        return Ok(());
+    }
+    let message = format!("{samples} samples are too many: --cycles times --samples may be {SAMPLES_MAX}");
+    Err(Failure::usage(message))
 }
 
 /// Sweeps the frequency: rows per cycle to stdout or a file, the motion to a file.
@@ -187,7 +200,8 @@ fn six_digits(number: f64) -> String {
 
 fn write_file(motion: &Trajectory, path: &Path, overwrite: bool) -> Result<(), Failure> {
     let refused = |error| Failure::System(format!("cannot write {}: {error}", path.display()), Vec::new());
-    write_csv(motion, output::create(path, overwrite)?).map_err(refused)
+    let file = output::create(path, overwrite)?;
+    output::empty(&file).and_then(|()| write_csv(motion, file)).map_err(refused)
 }
 
 fn write_csv(motion: &Trajectory, target: impl Write) -> io::Result<()> {

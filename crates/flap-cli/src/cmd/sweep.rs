@@ -90,6 +90,9 @@ fn run_to_file(
     // Devices and pipes have nothing beside them.
     let beside = file.metadata().is_ok_and(|metadata| metadata.is_file()).then(|| sidecar::path_of(path));
     write_sidecar(&sidecar, beside.as_deref())?;
+    // Earlier rows go only now that nothing stands in the way of new ones.
+    let refused = |error| Failure::System(format!("cannot write {}: {error}", path.display()), Vec::new());
+    output::empty(&file).map_err(refused)?;
 
     let mut sink = CsvSink::new(Layout::of(plan), file);
     let start = Instant::now();
@@ -145,6 +148,14 @@ fn report(summary: &Summary, elapsed: Duration, out: &Path) {
     let seconds = elapsed.as_secs_f64();
     let rate = summary.rows as f64 / seconds.max(1e-9);
     console::say(&format!("{counts} in {seconds:.2} s ({rate:.0} points/s)"));
+
+    let unsettled = summary.counts.of(Status::Unsettled);
+    if unsettled > 0 {
+        console::say(&format!(
+            "{unsettled} did not settle: where `residual` is still falling, raise max_cycles in [solver]; \
+             where it is not, lower rtol"
+        ));
+    }
 
     let place = if out.as_os_str() == "-" { "stdout".to_owned() } else { out.display().to_string() };
     if summary.interrupted {

@@ -83,7 +83,7 @@ impl Waveform<f64> {
     /// rise time as a fraction of the period.
     pub fn new(frequency: f64, harmonics: [f64; 2], phases: [f64; 2], rise: f64) -> Waveform<f64> {
         let harmonic = |i: usize| {
-            let (sin, cos) = Real::sin_cos(phases[i]);
+            let (sin, cos) = Real::sin_cos(phases[i] % (2.0 * PI));
             [harmonics[i] * cos, harmonics[i] * sin]
         };
         Waveform {
@@ -94,6 +94,17 @@ impl Waveform<f64> {
             half_period: 0.5 / frequency,
             half_rise: 0.5 * rise / frequency,
         }
+    }
+
+    /// The smallest and largest value over a period.
+    pub fn range(&self, shape: Shape) -> [f64; 2] {
+        if shape != Shape::Harmonics {
+            return [-1.0, 1.0];
+        }
+        // Sampled finely enough for five digits: between samples a third harmonic moves by 1e-5 of its size.
+        let period = 2.0 * self.half_period;
+        let values = (0..2000).map(|i| self.at(shape, period * f64::from(i) / 2000.0).value);
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
     }
 
     /// A sine that begins at `frequency` (Hz) and changes by `rate` (Hz/s).
@@ -124,6 +135,27 @@ impl<R: Real> Waveform<R> {
                 Wave { value: sin, rate: (self.growth * t + self.rate) * cos }
             }
         }
+    }
+
+    /// The next time after `t` at which a derivative of the waveform jumps: the edges of a square wave begin and
+    /// end there. Infinite if there is none.
+    #[inline(always)]
+    pub fn next_break(&self, shape: Shape, t: R) -> R {
+        let never = t.lit(f64::INFINITY);
+        if shape != Shape::Square {
+            return never;
+        }
+        let period = self.half_period * 2.0;
+        let mut next = never;
+        for edge in [
+            period - self.half_rise,
+            self.half_period + self.half_rise,
+            self.half_period - self.half_rise,
+            self.half_rise,
+        ] {
+            next = R::select(t.lt(edge), edge, next);
+        }
+        next
     }
 
     #[inline(always)]

@@ -276,7 +276,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
     /// Attempts one step in every lane.
     #[inline(always)]
     fn advance(&mut self, ode: &O, observer: &V) -> Events {
-        let remaining = self.span - self.t;
+        let target = ode.next_break(&self.constants, self.t).min(self.span);
+        let remaining = target - self.t;
         let landing = remaining.lt(self.h * landing_stretch(&self.switching));
         let h = R::select(landing, remaining, self.h);
 
@@ -288,7 +289,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
         self.steps_in_span = self.steps_in_span + 1.0;
 
         let proposal = h * verdict.factor;
-        // A step cut short by the end of the span says little about the next one.
+        // A step cut short by its target says little about the next one.
         let h_next = R::select(R::and(verdict.accepted, landing), proposal.max(self.h), proposal);
         let mut crossing =
             Crossing { accepted: verdict.accepted, h: h_next, arrived: R::mask(self.token, 0) };
@@ -299,7 +300,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
         let accepted = crossing.accepted;
         let attempt = Attempt { t: self.t, h, side, step: &tried };
         observer.add(ode, &self.constants, &attempt, accepted, &mut self.totals);
-        let t = R::select(landing, self.span, self.t + h);
+        let t = R::select(landing, target, self.t + h);
         self.t = R::select(accepted, t, self.t);
         for i in 0..N {
             self.y[i] = R::select(accepted, tried.y[6][i], self.y[i]);
@@ -308,12 +309,12 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
         if O::SWITCHES && R::bits(crossing.arrived) != 0 {
             self.change_sides(ode, crossing.arrived);
         }
-        let landed = R::and(accepted, landing);
+        let landed = R::bits(R::and(accepted, landing)) & !R::bits(target.lt(self.span));
 
         let limit = self.t.lit(f64::from(self.tolerances.max_steps) - 0.5);
         let exhausted = R::bits(limit.lt(self.steps_in_span));
         let stuck = R::bits(self.h.lt(self.span * MIN_STEP));
-        let landed = R::bits(landed) & self.active;
+        let landed = landed & self.active;
         Events { landed, failed: (exhausted | stuck) & self.active & !landed }
     }
 
@@ -361,7 +362,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
                             reason = "a count: whole, positive and small"
                         )]
                         let switches = self.switches.lane(lane) as u64;
-                        queue.ended(run, Outcome::new(ending, self.steps - began, switches));
+                        queue.ended(run, Outcome::new::<O, N>(ending, self.steps - began, switches));
                     }
                 }
             }

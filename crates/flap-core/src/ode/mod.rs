@@ -45,6 +45,14 @@ pub trait Ode<const N: usize>: Sync {
     /// The derivative ẏ, on one `side` (+1 or −1) of the surface on which [`Ode::switch`] is zero.
     fn rhs<R: Lanes>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N];
 
+    /// The next time after `t` (s) at which the inputs are not smooth, such as the edge of a square wave; infinite if
+    /// there is none. Steps end there.
+    #[inline(always)]
+    fn next_break<R: Lanes>(&self, c: &Self::Constants<R>, t: R) -> R {
+        let _ = c;
+        t.lit(f64::INFINITY)
+    }
+
     /// The switching function and its rate, at a state with derivative `dy`.
     #[inline(always)]
     fn switch<R: Lanes>(&self, c: &Self::Constants<R>, y: &[R; N], dy: &[R; N]) -> [R; 2] {
@@ -107,8 +115,10 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    pub(crate) fn new(ending: Ending, attempts: u64, switches: u64) -> Outcome {
-        Outcome { ending, attempts, rhs_evals: start::RHS_EVALS + 6 * attempts + switches }
+    pub(crate) fn new<O: Ode<N>, const N: usize>(ending: Ending, attempts: u64, switches: u64) -> Outcome {
+        // The side on which a run begins takes one more.
+        let start = start::RHS_EVALS + u64::from(O::SWITCHES);
+        Outcome { ending, attempts, rhs_evals: start + 6 * attempts + switches }
     }
 }
 

@@ -44,7 +44,8 @@ pub fn solve<O: Ode<N>, R: Lanes<Token = (), Mask = bool>, const N: usize>(
     let mut switches = 0;
     let mut steps_in_span = 0;
     loop {
-        let remaining = span - t;
+        let target = ode.next_break(&c, t).min(span);
+        let remaining = target - t;
         let landing = remaining.lt(h * landing_stretch(&switching));
         let h_try = if landing { remaining } else { h };
 
@@ -56,7 +57,7 @@ pub fn solve<O: Ode<N>, R: Lanes<Token = (), Mask = bool>, const N: usize>(
         steps_in_span += 1;
 
         let proposal = h_try * verdict.factor;
-        // A step cut short by the end of the span says little about the next one.
+        // A step cut short by its target says little about the next one.
         let h_next = if verdict.accepted && landing { proposal.max(h) } else { proposal };
         let mut crossing = Crossing { accepted: verdict.accepted, h: h_next, arrived: false };
         if O::SWITCHES {
@@ -66,7 +67,7 @@ pub fn solve<O: Ode<N>, R: Lanes<Token = (), Mask = bool>, const N: usize>(
         let accepted = crossing.accepted;
         if accepted {
             on_step(&c, &Attempt { t, h: h_try, side, step: &tried });
-            t = if landing { span } else { t + h_try };
+            t = if landing { target } else { t + h_try };
             y = tried.y[6];
             k1 = tried.k[6];
         }
@@ -76,13 +77,13 @@ pub fn solve<O: Ode<N>, R: Lanes<Token = (), Mask = bool>, const N: usize>(
             switches += 1;
         }
 
-        if accepted && landing {
+        if accepted && landing && !target.lt(span) {
             let mut state = [0.0; N];
             for i in 0..N {
                 state[i] = y[i].lane(0);
             }
             if at_span_end(&state).is_break() {
-                return Outcome::new(Ending::Stopped, attempts, switches);
+                return Outcome::new::<O, N>(Ending::Stopped, attempts, switches);
             }
             h = number(span_step(h_begin.lane(0), h.lane(0)));
             h_begin = h;
@@ -90,7 +91,7 @@ pub fn solve<O: Ode<N>, R: Lanes<Token = (), Mask = bool>, const N: usize>(
             t = number(0.0);
             steps_in_span = 0;
         } else if steps_in_span >= tolerances.max_steps || h.lt(span * MIN_STEP) {
-            return Outcome::new(Ending::of_failure(error.lane(0)), attempts, switches);
+            return Outcome::new::<O, N>(Ending::of_failure(error.lane(0)), attempts, switches);
         }
     }
 }

@@ -16,6 +16,7 @@ use crate::ode::solve::solve;
 use crate::parameter::Invalid;
 
 /// Sweeps the drive's frequency, from rest.
+#[inline(always)]
 pub(super) fn respond<M, R, const N: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,

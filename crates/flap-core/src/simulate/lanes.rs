@@ -19,6 +19,10 @@ use crate::ode::{Outcome, Start};
 /// Settled runs measured together: enough to keep 16 lanes full, few enough to hand rows on soon.
 const BATCH: usize = 64;
 
+/// Points of other variants that are put aside before the ensemble is emptied for them: many more than there
+/// are lanes, so that lanes are seldom empty.
+const ASIDE: usize = 512;
+
 /// The points of `jobs` on SIMD lanes.
 pub(super) struct LanesKernel<'a, M> {
     pub(super) model: &'a M,
@@ -36,13 +40,16 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Kernel for Sized<LanesKerne
     fn run<I: Simd>(self, simd: I) {
         let LanesKernel { model, solver, jobs } = self.0;
         let tolerances = solver.tolerances();
-        let mut waiting = jobs.next(true);
-        // One ensemble per run of points of the same variant.
-        while let Some(point) = waiting.take() {
-            let model = &model.variant(&point.values);
+        let mut waiting: Vec<(M, Point)> = Vec::new();
+        // One ensemble per variant, until no points are left.
+        loop {
+            if waiting.is_empty() {
+                let Some(point) = jobs.next(true) else { return };
+                waiting.push((model.variant(&point.values), point));
+            }
+            let model = &model.variant(&waiting[0].1.values);
             let settled = Vec::with_capacity(BATCH);
-            let mut marching =
-                Marching { simd, model, solver, jobs: &mut *jobs, waiting: Some(point), settled };
+            let mut marching = Marching { simd, model, solver, jobs: &mut *jobs, waiting, settled };
             run(simd, model, &Unobserved, &tolerances, &mut marching);
             marching.measure();
             waiting = marching.waiting;
@@ -56,8 +63,8 @@ struct Marching<'a, I, M: Model<N, S>, const N: usize, const S: usize> {
     model: &'a M,
     solver: &'a SolverSettings,
     jobs: &'a mut dyn Jobs,
-    /// A point that has been taken from `jobs` and not been run.
-    waiting: Option<Point>,
+    /// Points that have been taken from `jobs` and not been run, each with its variant.
+    waiting: Vec<(M, Point)>,
     settled: Vec<Orbit<M::Constants<f64>, N>>,
 }
 
@@ -77,14 +84,30 @@ struct Orbit<C, const N: usize> {
 }
 
 impl<I: Simd, M: Model<N, S>, const N: usize, const S: usize> Marching<'_, I, M, N, S> {
-    /// The point that waits, or the next one of the jobs.
+    /// The next point of this ensemble's variant. Those of others are put aside, up to a limit.
     fn next_point(&mut self, idle: bool) -> Option<Point> {
-        if let Some(point) = self.waiting.take().or_else(|| self.jobs.next(false)) {
-            return Some(point);
+        if let Some(ours) = self.waiting.iter().position(|(variant, _)| variant == self.model) {
+            return Some(self.waiting.remove(ours).1);
         }
-        // Whoever hands out points may be waiting for rows that wait here.
-        self.measure();
-        if idle { self.jobs.next(true) } else { None }
+        while self.waiting.len() < ASIDE {
+            let point = if let Some(point) = self.jobs.next(false) {
+                point
+            } else {
+                // Whoever hands out points may be waiting for rows that wait here.
+                self.measure();
+                // Points put aside are to run before this one waits for more.
+                if !idle || !self.waiting.is_empty() {
+                    return None;
+                }
+                self.jobs.next(true)?
+            };
+            let variant = self.model.variant(&point.values);
+            if variant == *self.model {
+                return Some(point);
+            }
+            self.waiting.push((variant, point));
+        }
+        None
     }
 
     /// Measures the runs that have settled and hands on their rows.
@@ -107,10 +130,6 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const S: usize> Queue<M, Unobserve
     fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, N>> {
         loop {
             let point = self.next_point(idle)?;
-            if self.model.variant(&point.values) != *self.model {
-                self.waiting = Some(point);
-                return None;
-            }
             match self.model.start(&point.values) {
                 Ok(start) => {
                     let strobe = Strobe::new(&start.y, &start.scale, self.solver.settle_tol);

@@ -13,6 +13,7 @@ use crate::ode::step::Attempt;
 use crate::parameter::Invalid;
 
 /// Samples the motion of a point.
+#[inline(always)]
 pub(super) fn trajectory<M, R, const N: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,

@@ -78,9 +78,16 @@ impl<const N: usize> Settled<N> {
         let mut row = self.row(status);
         row.cycles += 1;
         row.rhs_evals += outcome.rhs_evals;
-        match totals {
-            Some(totals) => row.measures = measures(model, c, totals, period),
-            None => row.period = 0,
+        if let Some(totals) = totals {
+            row.measures = measures(model, c, totals, period);
+        }
+        // An infinite measure is a motion that has diverged as far as numbers go. NaN is a ratio of zeros.
+        if row.measures.iter().any(|measure| measure.is_infinite()) {
+            row.status = Status::Diverged;
+            row.measures.clear();
+        }
+        if row.status != Status::Periodic {
+            row.period = 0;
         }
         row
     }

@@ -68,6 +68,8 @@ where
         model,
         &solver.tolerances(),
         &start,
+        // Inlined to have the fused multiply-add instruction, see `fused_scalars`.
+        #[inline(always)]
         |c, accepted| observer.add(model, c, accepted, true, &mut totals),
         |_| ControlFlow::Break(()),
     );
@@ -109,7 +111,10 @@ impl<M> Scalars<'_, M> {
     {
         let Scalars { model, solver, values } = *self;
         match set.arithmetic() {
-            Arithmetic::Fused => motion::trajectory::<M, f64, N, S>(model, solver, values, request),
+            Arithmetic::Fused => set.fused_scalars(
+                #[inline(always)]
+                || motion::trajectory::<M, f64, N, S>(model, solver, values, request),
+            ),
             Arithmetic::Unfused => motion::trajectory::<M, Unfused, N, S>(model, solver, values, request),
         }
     }
@@ -125,7 +130,10 @@ impl<M> Scalars<'_, M> {
     {
         let Scalars { model, solver, values } = *self;
         match set.arithmetic() {
-            Arithmetic::Fused => chirp::respond::<M, f64, N, S>(model, solver, values, request),
+            Arithmetic::Fused => set.fused_scalars(
+                #[inline(always)]
+                || chirp::respond::<M, f64, N, S>(model, solver, values, request),
+            ),
             Arithmetic::Unfused => chirp::respond::<M, Unfused, N, S>(model, solver, values, request),
         }
     }

@@ -122,7 +122,7 @@ impl SolverSettings {
 
 impl Default for SolverSettings {
     fn default() -> Self {
-        SolverSettings { rtol: 1e-6, atol: 1e-8, settle_tol: 1e-6, max_cycles: 400, max_steps: 20_000 }
+        SolverSettings { rtol: 1e-6, atol: 1e-8, settle_tol: 1e-6, max_cycles: 1000, max_steps: 20_000 }
     }
 }
 

@@ -49,7 +49,7 @@ def run(
         next, in units of each state's typical size (of the motion's own size, if that is smaller):
         more than 0. Default 1e-6.
     max_cycles : int, optional
-        Drive periods after which the point counts as unsettled: 1 or more. Default 400.
+        Drive periods after which the point counts as unsettled: 1 or more. Default 1000.
     max_steps : int, optional
         Integration steps within one drive period after which the point is given up: 1 or more.
         Default 20000.

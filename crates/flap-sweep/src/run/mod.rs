@@ -86,10 +86,13 @@ pub fn run(
     stop: &AtomicBool,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Summary, RunError> {
-    let workers = options.threads.get();
+    // More workers than points would have nothing to do.
+    let points = usize::try_from(plan.len()).unwrap_or(usize::MAX);
+    let workers = options.threads.get().min(points.max(1));
     // A pool of our own: the global one belongs to the caller, and does not survive a fork.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(workers).build().map_err(RunError::Threads)?;
-    sink.begin().map_err(RunError::Sink)?;
+    // The header is there from the beginning, however long the first row takes.
+    sink.begin().and_then(|()| sink.flush()).map_err(RunError::Sink)?;
 
     let queue = Queue::new(plan.len(), options.window, workers, stop);
     let collected = pool.in_place_scope(|scope| {

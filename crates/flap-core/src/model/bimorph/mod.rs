@@ -48,6 +48,11 @@ impl Ode<4> for Bimorph {
     }
 
     #[inline(always)]
+    fn next_break<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
+        c.waveform.next_break(self.shape, t)
+    }
+
+    #[inline(always)]
     fn rhs<R: Lanes>(&self, c: &Constants<R>, plates: &[Plate<R>; 2], _side: R, y: &[R; 4]) -> [R; 4] {
         derivative(c, plates, y)
     }

@@ -42,6 +42,11 @@ impl Ode<4> for DirectDrive {
     const SWITCHES: bool = true;
 
     #[inline(always)]
+    fn next_break<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
+        c.waveform.next_break(self.shape, t)
+    }
+
+    #[inline(always)]
     fn rhs<R: Lanes>(&self, c: &Constants<R>, drive: &Voltage<R>, side: R, y: &[R; 4]) -> [R; 4] {
         derivative(c, drive, side, y)
     }
@@ -252,9 +257,10 @@ impl Model<4, 9> for DirectDrive {
         let power = cycle[POWER].mean;
         let taken = cycle[DRAG_POWER].mean + cycle[ROTATION_POWER].mean;
         let frequency = c.waveform.rate / (2.0 * core::f64::consts::PI);
-        let voltage_pp = 2.0 * c.drive_amplitude;
+        let [low, high] = c.waveform.range(self.shape).map(|wave| c.drive_bias + c.drive_amplitude * wave);
+        let voltage_pp = high - low;
         let [mode_1, mode_2] = DirectDrive::linear_modes(c);
-        let voltage_max = (c.drive_bias.abs() + c.drive_amplitude.abs()) / c.piezo_thickness;
+        let field_max = high.max(-low) / c.piezo_thickness;
         vec![
             wrap_degrees(drive_phase - cycle[STROKE].phase()),
             wrap_degrees(cycle[STROKE].phase() - cycle[PITCH].phase()),
@@ -263,7 +269,7 @@ impl Model<4, 9> for DirectDrive {
             0.5 * c.c_p * voltage_pp * voltage_pp * frequency * 1e3,
             (power - taken) / power,
             cycle[STROKE].measure(Peak) * c.strain_per_stroke.abs(),
-            voltage_max * 1e-6,
+            field_max * 1e-6,
             mode_1,
             mode_2,
         ]

@@ -9,7 +9,7 @@ use crate::parameter::{Preset, Slot};
 crate::parameters! {
     /// Parameters of the direct-drive model, in SI units. Symbols as in Ozaki and Hamaguchi 2018, Table A1.
     pub struct Params {
-        /// Drive voltage, peak to peak: twice the paper's V_0.
+        /// Drive voltage, peak to peak: twice the paper's V_0. With harmonics, that of the fundamental alone.
         drive_voltage_pp: f64 = ("V", "2 V_0", Number(NonNegative)),
         /// Constant part of the drive voltage. The paper drives with V_0 sin(wt) + V_0.
         drive_bias: Option<f64> = ("V", "V_0", Following(Any, "half of drive_voltage_pp")),
@@ -67,7 +67,7 @@ crate::parameters! {
         shape_moment_22: f64 = ("", "I_w2,2", Number(Positive)),
         /// Wing shape moment: normalised integral of radius^3 * chord.
         shape_moment_31: f64 = ("", "I_w3,1", Number(Positive)),
-        /// Moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord and of chord over the span.
+        /// Moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord, averaged along the span.
         rotation_moment: f64 = ("m^4", "I_rd", Number(NonNegative)),
 
         /// Actuator length.

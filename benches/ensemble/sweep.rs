@@ -1,0 +1,74 @@
+//! The sweep: voltage and frequency of the large actuator of Ozaki and Hamaguchi.
+
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{Jobs, Point, Row, Simulator, SolverSettings, preset};
+
+const VOLTAGES: usize = 16;
+const FREQUENCIES: usize = 32;
+/// Number of points.
+pub(crate) const POINTS: usize = VOLTAGES * FREQUENCIES;
+
+/// The points and what runs them.
+pub(crate) struct Sweep {
+    simulator: &'static dyn Simulator,
+    points: Vec<Vec<f64>>,
+}
+
+impl Sweep {
+    /// From 40 V to 100 V and from 95 Hz to 115 Hz.
+    pub(crate) fn new() -> Sweep {
+        let (simulator, preset) = preset("ozaki2018-large").expect("a preset of the direct-drive model");
+        let position = |name| {
+            simulator.parameters().iter().position(|parameter| parameter.name == name).expect("a parameter")
+        };
+        let (voltage, frequency) = (position("drive_voltage_pp"), position("drive_frequency"));
+        let mut points = Vec::with_capacity(POINTS);
+        for i in 0..VOLTAGES {
+            for j in 0..FREQUENCIES {
+                let mut values = (preset.values)();
+                values[voltage] = 40.0 + 60.0 * i as f64 / (VOLTAGES - 1) as f64;
+                values[frequency] = 95.0 + 20.0 * j as f64 / (FREQUENCIES - 1) as f64;
+                points.push(values);
+            }
+        }
+        Sweep { simulator, points }
+    }
+
+    /// Runs it in lanes. Returns the right-hand sides evaluated.
+    pub(crate) fn lanes(&self, set: InstructionSet) -> u64 {
+        let mut jobs = All { points: &self.points, next: 0, rhs_evals: 0 };
+        self.simulator.run(set, &SolverSettings::default(), &mut jobs);
+        jobs.rhs_evals
+    }
+
+    /// Runs it point by point on scalars of the set's arithmetic class. Returns the right-hand sides evaluated.
+    pub(crate) fn scalars(&self, set: InstructionSet) -> u64 {
+        let settings = SolverSettings::default();
+        self.points.iter().map(|point| self.simulator.run_point(set, &settings, point).rhs_evals).sum()
+    }
+}
+
+/// One instruction set per arithmetic class of this machine.
+pub(crate) fn scalar_sets() -> Vec<InstructionSet> {
+    let mut sets = InstructionSet::available();
+    sets.dedup_by_key(|set| set.arithmetic());
+    sets
+}
+
+struct All<'a> {
+    points: &'a [Vec<f64>],
+    next: usize,
+    rhs_evals: u64,
+}
+
+impl Jobs for All<'_> {
+    fn next(&mut self, _idle: bool) -> Option<Point> {
+        let values = self.points.get(self.next)?.clone();
+        self.next += 1;
+        Some(Point { index: self.next as u64 - 1, values })
+    }
+
+    fn done(&mut self, _index: u64, row: Row) {
+        self.rhs_evals += row.rhs_evals;
+    }
+}

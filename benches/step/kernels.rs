@@ -1,0 +1,193 @@
+//! The timed loops, generic over lanes and compiled for the instructions they are to use.
+
+use core::hint::black_box;
+use core::time::Duration;
+use std::time::Instant;
+
+use fearless_simd::Simd;
+use flap_core::drive::Shape;
+use flap_core::model::Model;
+use flap_core::model::direct_drive::{Constants, DirectDrive};
+use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Unfused, Vector};
+use flap_core::ode::Ode;
+use flap_core::ode::norm::error_squared;
+use flap_core::ode::step::step;
+use flap_core::simulate::preset;
+
+const MODEL: DirectDrive = DirectDrive { shape: Shape::Sine };
+
+/// Function values per iteration.
+pub(crate) const VALUES: usize = 1024;
+
+/// What is timed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Work {
+    /// Sines and cosines of [`VALUES`] numbers.
+    SinCos,
+    /// Exponentials of [`VALUES`] numbers.
+    Exp,
+    /// Logarithms of [`VALUES`] numbers.
+    Ln,
+    /// One right-hand side with its inputs.
+    Rhs,
+    /// One step and the norm of its error.
+    Step,
+}
+
+impl Work {
+    /// The name in reports.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Work::SinCos => "sin_cos",
+            Work::Exp => "exp",
+            Work::Ln => "ln",
+            Work::Rhs => "rhs",
+            Work::Step => "step",
+        }
+    }
+
+    /// Whether it is an elementary function of [`VALUES`] numbers.
+    pub(crate) fn is_function(self) -> bool {
+        matches!(self, Work::SinCos | Work::Exp | Work::Ln)
+    }
+}
+
+/// Iterations in lanes.
+#[derive(Clone, Copy)]
+pub(crate) struct InLanes {
+    pub(crate) work: Work,
+    pub(crate) iterations: u64,
+}
+
+impl Kernel for InLanes {
+    type Output = Duration;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Duration {
+        time::<Vector<S>>(simd, self.work, self.iterations)
+    }
+}
+
+/// Iterations on scalars.
+#[derive(Clone, Copy)]
+pub(crate) struct OnScalars {
+    pub(crate) work: Work,
+    pub(crate) arithmetic: Arithmetic,
+    pub(crate) iterations: u64,
+}
+
+impl Kernel for OnScalars {
+    type Output = Duration;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _simd: S) -> Duration {
+        match self.arithmetic {
+            Arithmetic::Fused => time::<f64>((), self.work, self.iterations),
+            Arithmetic::Unfused => time::<Unfused>((), self.work, self.iterations),
+        }
+    }
+}
+
+/// The number of lanes of a set.
+pub(crate) fn lanes(set: InstructionSet) -> usize {
+    struct Count;
+    impl Kernel for Count {
+        type Output = usize;
+        #[inline(always)]
+        fn run<S: Simd>(self, _simd: S) -> usize {
+            Vector::<S>::LANES
+        }
+    }
+    set.dispatch(Count)
+}
+
+#[inline(always)]
+fn time<R: Lanes>(token: R::Token, work: Work, iterations: u64) -> Duration {
+    match work {
+        Work::SinCos => {
+            let x = values::<R>(token, -10.0, 10.0);
+            let begin = Instant::now();
+            for _ in 0..iterations {
+                for &x in black_box(&x) {
+                    black_box(x.sin_cos());
+                }
+            }
+            begin.elapsed()
+        }
+        Work::Exp => {
+            let x = values::<R>(token, -10.0, 10.0);
+            let begin = Instant::now();
+            for _ in 0..iterations {
+                for &x in black_box(&x) {
+                    black_box(x.exp());
+                }
+            }
+            begin.elapsed()
+        }
+        Work::Ln => {
+            let x = values::<R>(token, 1e-3, 10.0);
+            let begin = Instant::now();
+            for _ in 0..iterations {
+                for &x in black_box(&x) {
+                    black_box(x.ln());
+                }
+            }
+            begin.elapsed()
+        }
+        Work::Rhs => {
+            let Scene { c, h, side, y, .. } = scene::<R>(token);
+            let begin = Instant::now();
+            for _ in 0..iterations {
+                let (t, y) = black_box((h, y));
+                black_box(MODEL.rhs(&c, &MODEL.input(&c, t), side, &y));
+            }
+            begin.elapsed()
+        }
+        Work::Step => {
+            let Scene { c, h, side, y, atol } = scene::<R>(token);
+            let k1 = MODEL.rhs(&c, &MODEL.input(&c, h), side, &y);
+            let begin = Instant::now();
+            for _ in 0..iterations {
+                let (t, y) = black_box((h, y));
+                let tried = step(&MODEL, &c, t, h, side, &y, &k1);
+                let error = error_squared(&tried.error, &y, &tried.y[6], &atol, h.lit(1e-6));
+                black_box((tried.y[6], tried.k[6], error));
+            }
+            begin.elapsed()
+        }
+    }
+}
+
+/// [`VALUES`] numbers from `low` to `high`.
+#[inline(always)]
+fn values<R: Lanes>(token: R::Token, low: f64, high: f64) -> Vec<R> {
+    let mut values = vec![R::splat(token, 0.0); VALUES / R::LANES];
+    for i in 0..VALUES {
+        let value = low + (high - low) * i as f64 / (VALUES - 1) as f64;
+        values[i / R::LANES].set_lane(i % R::LANES, value);
+    }
+    values
+}
+
+/// A state in mid-stroke, with what goes with it.
+struct Scene<R> {
+    c: Constants<R>,
+    h: R,
+    side: R,
+    y: [R; 4],
+    atol: [R; 4],
+}
+
+#[inline(always)]
+fn scene<R: Lanes>(token: R::Token) -> Scene<R> {
+    let (_, preset) = preset("ozaki2018-large").expect("a preset of the direct-drive model");
+    let start = MODEL.start(&(preset.values)()).expect("published parameters are possible");
+    let side = R::splat(token, 1.0);
+    let mut y = [side; 4];
+    let mut atol = [side; 4];
+    for i in 0..4 {
+        y[i] = side.lit(start.scale[i]);
+        atol[i] = side.lit(start.scale[i] * 1e-8);
+    }
+    Scene { c: Constants::<R>::fill(token, &start.constants), h: side.lit(start.span * 0.02), side, y, atol }
+}

@@ -1,0 +1,41 @@
+//! What a run is made of: elementary functions, right-hand side, step; on scalars and in lanes.
+//!
+//! Rates are per lane: one element is one function value, right-hand side or step of one lane.
+
+mod kernels;
+
+use core::time::Duration;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use flap_core::num::InstructionSet;
+
+use kernels::{InLanes, OnScalars, VALUES, Work, lanes};
+
+fn parts(criterion: &mut Criterion) {
+    for work in [Work::SinCos, Work::Exp, Work::Ln, Work::Rhs, Work::Step] {
+        let mut group = criterion.benchmark_group(work.name());
+        group.sample_size(20);
+        group.warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(1));
+        for set in InstructionSet::available() {
+            let elements = if work.is_function() { VALUES } else { lanes(set) };
+            group.throughput(Throughput::Elements(elements as u64));
+            group.bench_function(format!("lanes/{set}"), |bench| {
+                bench.iter_custom(|iterations| set.dispatch(InLanes { work, iterations }));
+            });
+        }
+        // Scalars of both classes; the fused ones in a function with the instruction enabled.
+        for set in [InstructionSet::by_name("avx2"), InstructionSet::available().pop()].into_iter().flatten()
+        {
+            let elements = if work.is_function() { VALUES } else { 1 };
+            let arithmetic = set.arithmetic();
+            group.throughput(Throughput::Elements(elements as u64));
+            group.bench_function(format!("scalars/{}", arithmetic.name()), |bench| {
+                bench.iter_custom(|iterations| set.dispatch(OnScalars { work, arithmetic, iterations }));
+            });
+        }
+        group.finish();
+    }
+}
+
+criterion_group!(benches, parts);
+criterion_main!(benches);

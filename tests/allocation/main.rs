@@ -1,0 +1,58 @@
+//! Marching allocates nothing: ten times the cycles make the same number of allocations.
+
+mod counting;
+mod runs;
+
+use std::hint::black_box;
+
+use flap_core::num::InstructionSet;
+use flap_core::ode::solve::solve;
+
+use counting::allocations;
+use runs::{Ensemble, MODEL, OneStep, TOLERANCES, count_down, one_step, start, sweep};
+
+#[test]
+fn the_count_sees_allocations() {
+    assert_eq!(allocations(|| drop(black_box(vec![1_u8]))), 1);
+}
+
+#[test]
+fn a_step_allocates_nothing() {
+    let start = start();
+    assert_eq!(allocations(|| one_step::<f64>((), &start)), 0);
+    for set in InstructionSet::available() {
+        assert_eq!(allocations(|| set.dispatch(OneStep(&start))), 0, "{set}");
+    }
+}
+
+#[test]
+fn a_scalar_run_allocates_nothing() {
+    let start = start();
+    let march = |cycles| {
+        let mut left = cycles;
+        allocations(|| {
+            let at_span_end = |_: &[f64; 4]| count_down(&mut left);
+            black_box(solve::<_, f64, 4>(&MODEL, &TOLERANCES, &start, |_, _| {}, at_span_end));
+        })
+    };
+    assert_eq!(march(1), 0);
+    assert_eq!(march(10), 0);
+}
+
+#[test]
+fn an_ensemble_allocates_the_same_for_more_cycles() {
+    for set in InstructionSet::available() {
+        let march = |cycles| allocations(|| set.dispatch(Ensemble { runs: 40, cycles }));
+        assert_eq!(march(10), march(1), "{set}");
+    }
+}
+
+#[test]
+fn a_sweep_allocates_the_same_for_more_cycles() {
+    for set in InstructionSet::available() {
+        let (few, few_cycles) = sweep(set, 1e-1);
+        let (many, many_cycles) = sweep(set, 1e-10);
+        assert!(many_cycles > 5 * few_cycles, "{set}: {many_cycles} cycles against {few_cycles}");
+        assert_eq!(many, few, "{set}");
+    }
+}

@@ -1,0 +1,121 @@
+//! Runs on scalars, in lanes, and from points to rows.
+
+use core::ops::ControlFlow;
+use std::hint::black_box;
+
+use fearless_simd::Simd;
+use flap_core::drive::Shape;
+use flap_core::model::Model;
+use flap_core::model::direct_drive::{Constants, DirectDrive};
+use flap_core::num::{InstructionSet, Kernel, Lanes, PerLane, Vector};
+use flap_core::ode::ensemble::{NewRun, Queue, Unobserved, run};
+use flap_core::ode::step::step;
+use flap_core::ode::{Ode, Outcome, Start, Tolerances};
+use flap_core::simulate::{Jobs, Point, Row, SolverSettings, preset};
+
+use crate::counting::allocations;
+
+pub(crate) const MODEL: DirectDrive = DirectDrive { shape: Shape::Sine };
+pub(crate) const TOLERANCES: Tolerances = Tolerances { rtol: 1e-4, atol: 1e-6, max_steps: 20_000 };
+
+fn values() -> Vec<f64> {
+    let (_, preset) = preset("ozaki2018-large").expect("a preset of the direct-drive model");
+    (preset.values)()
+}
+
+/// The beginning of a run.
+pub(crate) fn start() -> Start<Constants<f64>, 4> {
+    MODEL.start(&values()).expect("published parameters are possible")
+}
+
+/// One step from rest.
+#[inline(always)]
+pub(crate) fn one_step<R: Lanes>(token: R::Token, start: &Start<Constants<f64>, 4>) {
+    let c = Constants::<R>::fill(token, &start.constants);
+    let zero = R::splat(token, 0.0);
+    let h = R::splat(token, start.span * 1e-3);
+    let side = R::splat(token, 1.0);
+    let y = start.y.map(
+        #[inline(always)]
+        |y| R::splat(token, y),
+    );
+    let k1 = MODEL.rhs(&c, &MODEL.input(&c, zero), side, &y);
+    black_box(step(&MODEL, &c, zero, h, side, &y, &k1));
+}
+
+/// [`one_step`] in lanes.
+#[derive(Clone, Copy)]
+pub(crate) struct OneStep<'a>(pub(crate) &'a Start<Constants<f64>, 4>);
+
+impl Kernel for OneStep<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        one_step::<Vector<S>>(simd, self.0);
+    }
+}
+
+/// An ensemble of equal runs of so many cycles.
+pub(crate) struct Ensemble {
+    pub(crate) runs: u32,
+    pub(crate) cycles: u32,
+}
+
+impl Kernel for Ensemble {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(mut self, simd: S) {
+        run(simd, &MODEL, &Unobserved, &TOLERANCES, &mut self);
+    }
+}
+
+impl Queue<DirectDrive, Unobserved, 4> for Ensemble {
+    /// Cycles to go.
+    type Run = u32;
+
+    fn next(&mut self, _idle: bool) -> Option<NewRun<u32, Constants<f64>, 4>> {
+        self.runs = self.runs.checked_sub(1)?;
+        Some((self.cycles, start()))
+    }
+
+    fn span_end(&mut self, left: &mut u32, _y: &[f64; 4], (): &()) -> ControlFlow<()> {
+        count_down(left)
+    }
+
+    fn ended(&mut self, _left: u32, outcome: Outcome) {
+        black_box(outcome);
+    }
+}
+
+/// Breaks at the end of the last cycle.
+pub(crate) fn count_down(left: &mut u32) -> ControlFlow<()> {
+    *left -= 1;
+    if *left == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+}
+
+/// Allocations and cycles of a sweep over equal points, from points to rows.
+pub(crate) fn sweep(set: InstructionSet, settle_tol: f64) -> (u64, u64) {
+    let (simulator, _) = preset("ozaki2018-large").expect("a preset of the direct-drive model");
+    let solver = SolverSettings { settle_tol, ..SolverSettings::default() };
+    let mut points = Points { left: 48, cycles: 0 };
+    let allocations = allocations(|| simulator.run(set, &solver, &mut points));
+    (allocations, points.cycles)
+}
+
+struct Points {
+    left: u64,
+    cycles: u64,
+}
+
+impl Jobs for Points {
+    fn next(&mut self, _idle: bool) -> Option<Point> {
+        self.left = self.left.checked_sub(1)?;
+        Some(Point { index: self.left, values: values() })
+    }
+
+    fn done(&mut self, _index: u64, row: Row) {
+        self.cycles += u64::from(row.cycles);
+    }
+}

@@ -1,0 +1,55 @@
+//! How many instructions are few enough.
+
+use flap_core::num::InstructionSet;
+
+use crate::counter::count;
+use crate::workload::{Task, Work, lanes};
+
+/// A vector is two registers, so that lanes take at best 2/LANES of the scalars' instructions. They come within
+/// a quarter of that; the rest is mostly values that do not fit into the registers. One function that is not
+/// inlined costs several times that much with AVX2 and AVX-512.
+const ALLOWANCE: f64 = 1.5;
+
+/// Measuring evaluates the signals at eight states per step besides marching: a little over three times the
+/// instructions.
+const MEASURING: f64 = 4.2;
+
+/// Counts and compares. Says what is wrong if something is.
+pub(crate) fn judge() -> Result<(), String> {
+    let mut failures = Vec::new();
+    let mut check = |what: String, ratio: f64, limit: f64| {
+        println!("{what}: {ratio:.3} of the instructions, at most {limit:.3}");
+        if ratio > limit {
+            failures.push(format!("{what}: {ratio:.3} of the instructions, more than {limit:.3}"));
+        }
+    };
+
+    for (i, set) in InstructionSet::available().into_iter().enumerate() {
+        let scalar = per_rhs(set, Task::ScalarMarch)?;
+        let march = per_rhs(set, Task::March)?;
+        check(format!("{set} lanes against scalars"), march / scalar, ALLOWANCE * 2.0 / lanes(set) as f64);
+        // The sets share their source. Once is enough for what takes longest.
+        if i == 0 {
+            let measure = per_rhs(set, Task::Measure)?;
+            check(format!("{set} lanes, measuring against marching"), measure / march, MEASURING);
+        }
+    }
+    if failures.is_empty() {
+        return Ok(());
+    }
+    Err(format!(
+        "{}\nProbably some function of num, ode, measure or the model is not inlined into the lane driver: \
+         look for one without #[inline(always)], or for calls in the disassembly of vectorize_{}.",
+        failures.join("\n"),
+        InstructionSet::best()
+    ))
+}
+
+/// Instructions per right-hand side and lane.
+fn per_rhs(set: InstructionSet, task: Task) -> Result<f64, String> {
+    let work = Work { set, task };
+    let instructions = count(&work.to_string()).map_err(|error| error.to_string())?;
+    let per_rhs = instructions as f64 / work.rhs_evals() as f64;
+    println!("{work}: {instructions} instructions, {per_rhs:.1} per right-hand side");
+    Ok(per_rhs)
+}

@@ -1,0 +1,77 @@
+//! Lanes must take several times fewer instructions per right-hand side than scalars.
+//!
+//! A lane function that is not inlined into the function with the target feature still gives the right
+//! numbers, only tens of times slower. Time would show it, but not on a busy machine; instructions do.
+#![expect(clippy::print_stdout, reason = "a test with its own harness")]
+
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+mod counter;
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+mod judge;
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+mod workload;
+
+use std::process::ExitCode;
+
+const TEST: &str = "lanes_take_fewer_instructions_than_scalars";
+
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+#[expect(clippy::print_stderr, reason = "a test with its own harness")]
+fn main() -> ExitCode {
+    if let Some(work) = counter::work_of_child() {
+        return be_counted(&work);
+    }
+    if !is_wanted() {
+        return ExitCode::SUCCESS;
+    }
+    match judge::judge() {
+        Ok(()) => {
+            println!("test {TEST} ... ok");
+            ExitCode::SUCCESS
+        }
+        Err(reason) => {
+            eprintln!("test {TEST} ... FAILED\n\n{reason}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+#[cfg(not(all(target_os = "linux", target_arch = "x86_64")))]
+fn main() -> ExitCode {
+    if is_wanted() {
+        println!("test {TEST} ... ignored, instructions are counted on x86-64 Linux only");
+    }
+    ExitCode::SUCCESS
+}
+
+/// What the process does when the test has started it again.
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+#[expect(clippy::print_stderr, reason = "it tells the test's user")]
+fn be_counted(name: &str) -> ExitCode {
+    let Some(work) = workload::Work::by_name(name) else {
+        eprintln!("there is no work \"{name}\"");
+        return ExitCode::FAILURE;
+    };
+    match counter::be_counted(|mark| work.run(mark)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("this process cannot be traced: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Whether the test is to run, going by the usual arguments of test programs.
+fn is_wanted() -> bool {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let has = |flag: &str| arguments.iter().any(|argument| argument == flag);
+    if has("--ignored") {
+        return false;
+    }
+    if has("--list") {
+        println!("{TEST}: test");
+        return false;
+    }
+    let mut names = arguments.iter().filter(|argument| !argument.starts_with('-')).peekable();
+    names.peek().is_none() || names.any(|name| TEST.contains(name.as_str()))
+}

@@ -1,0 +1,172 @@
+//! What is counted: one point on scalars, or the same point in every lane, for about one drive period.
+
+use std::fmt;
+
+use fearless_simd::Simd;
+use flap_core::num::{InstructionSet, Kernel, Lanes, Vector};
+use flap_core::simulate::{Jobs, Point, Row, Simulator, SolverSettings, preset};
+
+/// Some work with a name, so that another process can be asked for it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Work {
+    /// The instructions it is done with.
+    pub(crate) set: InstructionSet,
+    /// What is done.
+    pub(crate) task: Task,
+}
+
+/// What is done with the instructions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Task {
+    /// Marching a point for a period on scalars of the set's arithmetic class.
+    ScalarMarch,
+    /// Marching a point per lane for a period.
+    March,
+    /// Measuring a point per lane along a period on its orbit.
+    Measure,
+}
+
+impl Task {
+    fn name(self) -> &'static str {
+        match self {
+            Task::ScalarMarch => "scalar-march",
+            Task::March => "march",
+            Task::Measure => "measure",
+        }
+    }
+}
+
+impl fmt::Display for Work {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.set, self.task.name())
+    }
+}
+
+impl Work {
+    /// The work that is displayed like this.
+    pub(crate) fn by_name(name: &str) -> Option<Work> {
+        let (set, task) = name.split_once(' ')?;
+        let set = InstructionSet::by_name(set)?;
+        let task =
+            [Task::ScalarMarch, Task::March, Task::Measure].into_iter().find(|one| one.name() == task)?;
+        Some(Work { set, task })
+    }
+
+    /// Does the work, calling `mark` where the count is to begin and where it is to end.
+    pub(crate) fn run(self, mark: &mut dyn FnMut()) {
+        match self.task {
+            Task::ScalarMarch => {
+                let (simulator, values) = point();
+                mark();
+                simulator.run_point(self.set, &MARCH, &values);
+                mark();
+            }
+            Task::March => {
+                self.run_lanes(&MARCH, Begin::WithTheLastPoint, mark);
+            }
+            Task::Measure => {
+                self.run_lanes(&SETTLE_AND_MEASURE, Begin::AfterTheLastPoint, mark);
+            }
+        }
+    }
+
+    /// The right-hand sides evaluated in what is counted, for all lanes together.
+    pub(crate) fn rhs_evals(self) -> u64 {
+        let evals = |settings| self.run_lanes(settings, Begin::WithTheLastPoint, &mut || ());
+        match self.task {
+            Task::ScalarMarch => {
+                let (simulator, values) = point();
+                simulator.run_point(self.set, &MARCH, &values).rhs_evals
+            }
+            Task::March => evals(&MARCH),
+            Task::Measure => evals(&SETTLE_AND_MEASURE) - evals(&SETTLE),
+        }
+    }
+
+    fn run_lanes(self, settings: &SolverSettings, begin: Begin, mark: &mut dyn FnMut()) -> u64 {
+        let (simulator, values) = point();
+        let mut jobs = Alike { values, left: lanes(self.set), begin, marks: 0, rhs_evals: 0, mark };
+        simulator.run(self.set, settings, &mut jobs);
+        jobs.rhs_evals
+    }
+}
+
+/// One period. The tolerance is loose to make it short: what a step costs does not depend on its length.
+const MARCH: SolverSettings =
+    SolverSettings { rtol: 1e-2, atol: 1e-4, settle_tol: 0.0, max_cycles: 1, max_steps: 20_000 };
+
+/// Any change counts as none, so that the motion has settled after two periods and a third is measured.
+const SETTLE_AND_MEASURE: SolverSettings =
+    SolverSettings { settle_tol: f64::INFINITY, max_cycles: 10, ..MARCH };
+
+/// The same two periods without the third.
+const SETTLE: SolverSettings = SolverSettings { max_cycles: 2, ..MARCH };
+
+fn point() -> (&'static dyn Simulator, Vec<f64>) {
+    let (simulator, preset) = preset("ozaki2018-large").expect("a preset of the direct-drive model");
+    (simulator, (preset.values)())
+}
+
+/// Where the count begins.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Begin {
+    /// When all lanes have their points and marching begins.
+    WithTheLastPoint,
+    /// When there is no further point and what has settled is measured.
+    AfterTheLastPoint,
+}
+
+/// The same point for every lane. The lanes then do the same and end together: the count ends with the first.
+struct Alike<'a> {
+    values: Vec<f64>,
+    left: usize,
+    begin: Begin,
+    marks: u32,
+    rhs_evals: u64,
+    mark: &'a mut dyn FnMut(),
+}
+
+impl Alike<'_> {
+    /// Marks, unless there has been a mark of this number.
+    fn mark(&mut self, number: u32) {
+        if self.marks < number {
+            self.marks = number;
+            (self.mark)();
+        }
+    }
+}
+
+impl Jobs for Alike<'_> {
+    fn next(&mut self, _idle: bool) -> Option<Point> {
+        if self.left == 0 {
+            self.mark(1);
+            return None;
+        }
+        self.left -= 1;
+        if self.left == 0 && self.begin == Begin::WithTheLastPoint {
+            self.mark(1);
+        }
+        Some(Point { index: self.left as u64, values: self.values.clone() })
+    }
+
+    fn done(&mut self, _index: u64, row: Row) {
+        self.mark(2);
+        self.rhs_evals += row.rhs_evals;
+    }
+}
+
+/// The number of lanes of a set of instructions.
+pub(crate) fn lanes(set: InstructionSet) -> usize {
+    set.dispatch(CountLanes)
+}
+
+struct CountLanes;
+
+impl Kernel for CountLanes {
+    type Output = usize;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _simd: S) -> usize {
+        Vector::<S>::LANES
+    }
+}
