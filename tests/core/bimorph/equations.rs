@@ -213,3 +213,23 @@ fn sign_of_the_velocity_directs_the_attack_angle() {
         assert_eq!(torque(&literal, psi, 0.2), torque(&literal, psi, -0.2));
     }
 }
+
+/// Harmonics swing beyond 0 and V_pp; the columns of field and capacitive power follow.
+#[test]
+fn harmonics_widen_the_voltages() {
+    use flap_core::drive::Shape;
+    use flap_core::model::bimorph::Params;
+    let third = |h: f64| Params {
+        drive_shape: Shape::Harmonics,
+        drive_third_harmonic: h,
+        drive_voltage_pp: 100.0,
+        ..params("T1")
+    };
+    // sin θ − h sin 3θ has its extremes ±(1 + h) at 90° and 270°.
+    let [plain, wide] = [third(0.0), third(-0.25)].map(|p| super::settled(&p, 1e-6));
+    let field = |row| super::measure(row, "field_max_v_per_um");
+    assert_close(field(&plain), 100.0 / 135.0, 1e-5, "field");
+    assert_close(field(&wide), 50.0 * 2.25 / 135.0, 1e-5, "field");
+    let power = |row| super::measure(row, "power_capacitive_mw");
+    assert_close(power(&wide) / power(&plain), 1.25 * 1.25, 1e-5, "capacitive power");
+}

@@ -3,6 +3,7 @@
 use super::Bimorph;
 use super::constants::Constants;
 use super::rhs::secant_stiffness;
+use crate::drive::Shape;
 use crate::model::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use crate::model::{Derived, Measure, Signal, SignalCycle};
 
@@ -81,12 +82,15 @@ pub(super) const DERIVED: &[Derived] = &[
     derived("mode_hinge_hz", "Hz", "natural frequency of small hinge angles, without drag"),
 ];
 
-/// The values of [`DERIVED`].
-pub(super) fn values(c: &Constants<f64>, cycle: &[SignalCycle; S]) -> Vec<f64> {
+/// The values of [`DERIVED`], for a drive of this `shape`.
+pub(super) fn values(c: &Constants<f64>, shape: Shape, cycle: &[SignalCycle; S]) -> Vec<f64> {
     // F₁ − F₂ goes as −sin ωt, which has the phase π/2 against the cosine.
     let drive_phase = core::f64::consts::FRAC_PI_2;
     let stroke = &cycle[STROKE];
-    let voltage_pp = 2.0 * c.half_voltage;
+    // The plates see ½V_pp (1 ± wave).
+    let [low, high] = c.waveform.range(shape);
+    let voltage_pp = c.half_voltage * (high - low);
+    let voltage_max = c.half_voltage * (1.0 + high.max(-low));
     let tip_peak = stroke.measure(Peak) / c.ratio;
     let stroke_pp = stroke.measure(PeakToPeak);
     let lift_gf = cycle[LIFT].mean / GRAVITY * 1e3;
@@ -98,7 +102,7 @@ pub(super) fn values(c: &Constants<f64>, cycle: &[SignalCycle; S]) -> Vec<f64> {
     vec![
         wrap_degrees(drive_phase - stroke.phase()),
         wrap_degrees(stroke.phase() - cycle[PITCH].phase()),
-        stroke_pp * DEGREES / voltage_pp,
+        stroke_pp * DEGREES / (2.0 * c.half_voltage),
         stroke_pp / c.ratio * 1e6,
         tip_peak * 1e6,
         lift_gf,
@@ -111,7 +115,7 @@ pub(super) fn values(c: &Constants<f64>, cycle: &[SignalCycle; S]) -> Vec<f64> {
         (power - cycle[DRAG_POWER].mean) / power,
         tip_peak * c.strain_per_tip,
         tip_peak * c.strain_per_tip * c.surface_strain_ratio,
-        voltage_pp * c.field_per_volt * 1e-6,
+        voltage_max * c.field_per_volt * 1e-6,
         mode_stroke,
         mode_hinge,
     ]

@@ -133,6 +133,6 @@ impl Model<4, { columns::S }> for Bimorph {
     }
 
     fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; columns::S]) -> Vec<f64> {
-        columns::values(c, cycle)
+        columns::values(c, self.shape, cycle)
     }
 }

@@ -8,7 +8,7 @@ use crate::parameter::{Preset, Slot};
 crate::parameters! {
     /// Parameters of the bimorph model, in SI units. Symbols as in Jafferis, Graule and Wood 2016, Table I.
     pub struct Params {
-        /// Drive voltage, peak to peak: the plates see 0 to this, in antiphase, Eq. (7).
+        /// Drive voltage, peak to peak: the plates see 0 to this, in antiphase, Eq. (7). With harmonics, that of the fundamental alone.
         drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)),
         /// Drive frequency. The paper sweeps it at 15 Hz/s.
         drive_frequency: f64 = ("Hz", "f", Number(Positive)),
