@@ -13,9 +13,13 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("piezo", &["num", "parameter"]),
     ("linkage", &["num", "parameter"]),
     ("modes", &["num", "parameter"]),
-    ("model", &["num", "ode", "parameter", "drive", "piezo", "linkage", "modes"]),
+    ("quadrature", &["num", "parameter"]),
+    ("model", &["num", "ode", "parameter", "drive", "piezo", "linkage", "modes", "quadrature"]),
     ("measure", &["num", "ode", "model"]),
-    ("simulate", &["num", "ode", "parameter", "drive", "piezo", "linkage", "modes", "model", "measure"]),
+    (
+        "simulate",
+        &["num", "ode", "parameter", "drive", "piezo", "linkage", "modes", "quadrature", "model", "measure"],
+    ),
 ];
 
 /// Macros that layers define; their names stand at the root of the crate.
