@@ -51,7 +51,7 @@ fn instructions(set: InstructionSet) -> String {
     use crate::workload::{Task, Work};
 
     let per_rhs = |task| {
-        let work = Work { set, task };
+        let work = Work { preset: "ozaki2018-large", set, task };
         let instructions = count(&work.to_string())?;
         std::io::Result::Ok(instructions as f64 / work.rhs_evals() as f64)
     };

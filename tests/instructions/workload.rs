@@ -6,9 +6,14 @@ use fearless_simd::Simd;
 use flap_core::num::{InstructionSet, Kernel, Lanes, Vector};
 use flap_core::simulate::{Jobs, Point, Row, Simulator, SolverSettings, preset};
 
+/// A point of each model, whether or not it is compiled in.
+pub(crate) const PRESETS: [&str; 3] = ["ozaki2018-large", "jafferis2016", "arabagi2013-75hz"];
+
 /// Some work with a name, so that another process can be asked for it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Work {
+    /// The point, one of [`PRESETS`].
+    pub(crate) preset: &'static str,
     /// The instructions it is done with.
     pub(crate) set: InstructionSet,
     /// What is done.
@@ -38,25 +43,28 @@ impl Task {
 
 impl fmt::Display for Work {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", self.set, self.task.name())
+        write!(f, "{} {} {}", self.preset, self.set, self.task.name())
     }
 }
 
 impl Work {
     /// The work that is displayed like this.
     pub(crate) fn by_name(name: &str) -> Option<Work> {
-        let (set, task) = name.split_once(' ')?;
-        let set = InstructionSet::by_name(set)?;
+        let mut words = name.split(' ');
+        let preset = words.next()?;
+        let preset = PRESETS.into_iter().find(|&one| one == preset)?;
+        let set = InstructionSet::by_name(words.next()?)?;
+        let task = words.next()?;
         let task =
             [Task::ScalarMarch, Task::March, Task::Measure].into_iter().find(|one| one.name() == task)?;
-        Some(Work { set, task })
+        Some(Work { preset, set, task })
     }
 
     /// Does the work, calling `mark` where the count is to begin and where it is to end.
     pub(crate) fn run(self, mark: &mut dyn FnMut()) {
         match self.task {
             Task::ScalarMarch => {
-                let (simulator, values) = point();
+                let (simulator, values) = self.point();
                 mark();
                 simulator.run_point(self.set, &MARCH, &values);
                 mark();
@@ -75,7 +83,7 @@ impl Work {
         let evals = |settings| self.run_lanes(settings, Begin::WithTheLastPoint, &mut || ());
         match self.task {
             Task::ScalarMarch => {
-                let (simulator, values) = point();
+                let (simulator, values) = self.point();
                 simulator.run_point(self.set, &MARCH, &values).rhs_evals
             }
             Task::March => evals(&MARCH),
@@ -84,10 +92,15 @@ impl Work {
     }
 
     fn run_lanes(self, settings: &SolverSettings, begin: Begin, mark: &mut dyn FnMut()) -> u64 {
-        let (simulator, values) = point();
+        let (simulator, values) = self.point();
         let mut jobs = Alike { values, left: lanes(self.set), begin, marks: 0, rhs_evals: 0, mark };
         simulator.run(self.set, settings, &mut jobs);
         jobs.rhs_evals
+    }
+
+    fn point(self) -> (&'static dyn Simulator, Vec<f64>) {
+        let (simulator, preset) = preset(self.preset).expect("one of the presets");
+        (simulator, (preset.values)())
     }
 }
 
@@ -101,11 +114,6 @@ const SETTLE_AND_MEASURE: SolverSettings =
 
 /// The same two periods without the third.
 const SETTLE: SolverSettings = SolverSettings { max_cycles: 2, ..MARCH };
-
-fn point() -> (&'static dyn Simulator, Vec<f64>) {
-    let (simulator, preset) = preset("ozaki2018-large").expect("a preset of the direct-drive model");
-    (simulator, (preset.values)())
-}
 
 /// Where the count begins.
 #[derive(Clone, Copy, PartialEq, Eq)]
