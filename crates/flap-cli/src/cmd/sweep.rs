@@ -153,7 +153,7 @@ fn report(summary: &Summary, elapsed: Duration, out: &Path) {
     if unsettled > 0 {
         console::say(&format!(
             "{unsettled} did not settle: where `residual` is still falling, raise max_cycles in [solver]; \
-             where it is not, lower rtol"
+             where it is not, lower rtol or raise settle_tol"
         ));
     }
 
