@@ -15,7 +15,6 @@ mod direct_drive;
 mod dormand_prince;
 mod elementary;
 mod ensemble;
-#[cfg(feature = "four-bar")]
 mod four_bar;
 mod strobe;
 mod waveforms;

@@ -9,6 +9,7 @@ use crate::model::{Measure, Model, Signal, SignalCycle};
 use crate::num::Lanes;
 use crate::ode::dense::interpolate;
 use crate::ode::ensemble::Observer;
+use crate::ode::slope;
 use crate::ode::step::Attempt;
 use crate::ode::tableau::{B, C};
 
@@ -72,7 +73,7 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
             let at = h.mul_add(h.lit(C[stage]), t);
             let weight = h * B[stage];
             let (sin, cos) = model.drive_phase(c, at).sin_cos();
-            let values = model.signals(c, &model.input(c, at), side, &step.y[stage], &step.k[stage]);
+            let values = signals(model, c, at, side, &step.y[stage], &step.k[stage]);
             for i in 0..S {
                 let part = values[i] * weight;
                 sums[i].integral = sums[i].integral + part;
@@ -83,11 +84,12 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
             }
         }
 
-        let begin = model.signals(c, &model.input(c, t), side, &step.y[0], &step.k[0]);
+        let begin = signals(model, c, t, side, &step.y[0], &step.k[0]);
         let y_middle = interpolate(step, h, zero.lit(0.5));
-        let input = model.input(c, h.mul_add(h.lit(0.5), t));
-        let middle = model.signals(c, &input, side, &y_middle, &model.rhs(c, &input, side, &y_middle));
-        let end = model.signals(c, &model.input(c, t + h), side, &step.y[6], &step.k[6]);
+        let half = h.mul_add(h.lit(0.5), t);
+        let slope_middle = slope(model, c, &model.input(c, half), side, &y_middle);
+        let middle = signals(model, c, half, side, &y_middle, &slope_middle);
+        let end = signals(model, c, t + h, side, &step.y[6], &step.k[6]);
         for i in 0..S {
             let parabola = Parabola::through(begin[i], middle[i], end[i]);
             let vertex = parabola.vertex();
@@ -115,6 +117,22 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
             };
         }
     }
+}
+
+/// The signals at time `t`. Called here for the sake of the compiler, see [`slope`].
+#[inline(always)]
+fn signals<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
+    model: &M,
+    c: &M::Constants<R>,
+    t: R,
+    side: R,
+    y: &[R; N],
+    dy: &[R; N],
+) -> [R; S] {
+    t.apart(
+        #[inline(always)]
+        || model.signals(c, &model.input(c, t), side, y, dy),
+    )
 }
 
 fn needs_positive_part(signal: &Signal) -> bool {

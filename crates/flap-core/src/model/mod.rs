@@ -8,7 +8,6 @@
 
 pub mod bimorph;
 pub mod direct_drive;
-#[cfg(feature = "four-bar")]
 pub mod four_bar;
 mod signal;
 

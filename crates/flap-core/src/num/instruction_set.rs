@@ -4,6 +4,8 @@ use core::fmt;
 
 use fearless_simd::{Level, Simd};
 
+use super::{Scalar, Unfused};
+
 /// Whether `mul_add` rounds once or twice. Results are equal to the last bit within a class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arithmetic {
@@ -106,15 +108,24 @@ impl InstructionSet {
             _ => fearless_simd::dispatch!(self.0, simd => enter(simd, kernel)),
         }
     }
+}
 
-    /// Runs scalar code with the fused multiply-add instruction enabled, where `mul_add` would otherwise be
-    /// a call into the C library (which gives the same bits).
-    #[inline]
-    pub(crate) fn fused_scalars<T>(self, work: impl FnOnce() -> T) -> T {
+impl Scalar for f64 {
+    /// Enables the fused multiply-add instruction, where `mul_add` would otherwise be a call into the C library
+    /// (which gives the same bits).
+    #[inline(always)]
+    fn enter<T>(work: impl FnOnce() -> T) -> T {
         #[cfg(target_arch = "x86_64")]
-        if let Some(simd) = self.0.as_avx2() {
+        if let Some(simd) = Level::new().as_avx2() {
             return simd.vectorize(work);
         }
+        work()
+    }
+}
+
+impl Scalar for Unfused {
+    #[inline(always)]
+    fn enter<T>(work: impl FnOnce() -> T) -> T {
         work()
     }
 }

@@ -23,6 +23,10 @@ pub trait Lanes: Real {
     /// The mask whose lanes hold where the bits of `bits` are set, lane 0 in the lowest bit.
     fn mask(token: Self::Token, bits: u64) -> Self::Mask;
 
+    /// Does the work in a function of its own, compiled once however many callers it has, where that saves the
+    /// compiler more than it costs the processor: with SIMD instructions, whose many layers are inlined.
+    fn apart<T>(self, work: impl FnOnce() -> T) -> T;
+
     /// One bit per lane of `mask`, lane 0 in the lowest.
     fn bits(mask: Self::Mask) -> u64;
 
@@ -41,6 +45,12 @@ pub trait Lanes: Real {
 
     /// `self * 2^k` by adding to the exponent, with `k` a whole number and no overflow.
     fn times_power_of_two(self, k: Self) -> Self;
+}
+
+/// One number at a time: `f64`, or [`Unfused`](super::Unfused) for machines without fused multiply-add.
+pub trait Scalar: Lanes<Token = (), Mask = bool> {
+    /// Does the work with the instructions that this arithmetic is fast on. Results do not depend on it.
+    fn enter<T>(work: impl FnOnce() -> T) -> T;
 }
 
 /// 1.5 · 2^52: adding it rounds to a whole number, whose two's complement then is in the low bits.
@@ -133,6 +143,11 @@ impl Lanes for f64 {
     #[inline(always)]
     fn mask((): (), bits: u64) -> bool {
         bits & 1 != 0
+    }
+
+    #[inline(always)]
+    fn apart<T>(self, work: impl FnOnce() -> T) -> T {
+        work()
     }
 
     #[inline(always)]

@@ -20,7 +20,7 @@ mod unfused;
 mod vector;
 
 pub use instruction_set::{Arithmetic, InstructionSet, Kernel};
-pub use lanes::Lanes;
+pub use lanes::{Lanes, Scalar};
 pub use per_lane::PerLane;
 pub use real::Real;
 pub use unfused::Unfused;

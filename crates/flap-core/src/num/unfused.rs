@@ -163,6 +163,11 @@ impl Lanes for Unfused {
     }
 
     #[inline(always)]
+    fn apart<T>(self, work: impl FnOnce() -> T) -> T {
+        work()
+    }
+
+    #[inline(always)]
     fn bits(mask: bool) -> u64 {
         u64::from(mask)
     }

@@ -200,6 +200,12 @@ impl<S: Simd> Lanes for Vector<S> {
     }
 
     #[inline(always)]
+    fn apart<T>(self, work: impl FnOnce() -> T) -> T {
+        use fearless_simd::ExtractToken;
+        self.lo.token().vectorize(work)
+    }
+
+    #[inline(always)]
     fn bits(mask: VectorMask<S>) -> u64 {
         mask.lo.to_bitmask() | (mask.hi.to_bitmask() << Self::HALF)
     }

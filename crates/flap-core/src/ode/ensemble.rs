@@ -14,7 +14,7 @@ use super::norm::error_squared;
 use super::start::{first_step, span_step};
 use super::step::{Attempt, step};
 use super::switch::{Crossing, Switching, landing_stretch};
-use super::{Ending, MIN_STEP, Ode, Outcome, Start, Tolerances};
+use super::{Ending, MIN_STEP, Ode, Outcome, Start, Tolerances, input, slope};
 use crate::num::{Lanes, PerLane, Vector};
 
 /// A run to be started: what to remember of it, and where it begins.
@@ -321,8 +321,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
     /// Renews the first slope in the lanes that have arrived at their switching surface.
     #[inline(always)]
     fn change_sides(&mut self, ode: &O, arrived: R::Mask) {
-        let input = ode.input(&self.constants, self.t);
-        let k1 = ode.rhs(&self.constants, &input, self.switching.side, &self.y);
+        let u = input(ode, &self.constants, self.t);
+        let k1 = slope(ode, &self.constants, &u, self.switching.side, &self.y);
         for i in 0..N {
             self.k1[i] = R::select(arrived, k1[i], self.k1[i]);
         }

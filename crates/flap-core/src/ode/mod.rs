@@ -61,6 +61,33 @@ pub trait Ode<const N: usize>: Sync {
     }
 }
 
+/// The inputs [`Ode::input`] at time `t`. Integrators call it here, for the sake of [`slope`]'s reason.
+#[inline(always)]
+pub(crate) fn input<O: Ode<N>, R: Lanes, const N: usize>(ode: &O, c: &O::Constants<R>, t: R) -> O::Input<R> {
+    t.apart(
+        #[inline(always)]
+        || ode.input(c, t),
+    )
+}
+
+/// The derivative [`Ode::rhs`].
+///
+/// Integrators call it here, not there: inlined into each stage of each step, a model's right-hand side takes the
+/// compiler minutes.
+#[inline(always)]
+pub(crate) fn slope<O: Ode<N>, R: Lanes, const N: usize>(
+    ode: &O,
+    c: &O::Constants<R>,
+    u: &O::Input<R>,
+    side: R,
+    y: &[R; N],
+) -> [R; N] {
+    side.apart(
+        #[inline(always)]
+        || ode.rhs(c, u, side, y),
+    )
+}
+
 /// Where a run begins.
 #[derive(Clone, Copy, Debug)]
 pub struct Start<C, const N: usize> {

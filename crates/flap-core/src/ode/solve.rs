@@ -8,20 +8,48 @@ use super::norm::error_squared;
 use super::start::{first_step, span_step};
 use super::step::{Attempt, step};
 use super::switch::{Crossing, Switching, landing_stretch};
-use super::{Ending, MIN_STEP, Ode, Outcome, Start, Tolerances};
-use crate::num::{Lanes, PerLane};
+use super::{Ending, MIN_STEP, Ode, Outcome, Start, Tolerances, input, slope};
+use crate::num::{PerLane, Scalar};
 
 /// Integrates one run until `at_span_end` breaks, or until it fails.
 ///
 /// `on_step` sees every accepted step; `at_span_end` sees the state at the end of each span.
 /// `R` is `f64` or [`crate::num::Unfused`].
-#[inline(always)]
-pub fn solve<O: Ode<N>, R: Lanes<Token = (), Mask = bool>, const N: usize>(
+pub fn solve<O: Ode<N>, R: Scalar, const N: usize>(
     ode: &O,
     tolerances: &Tolerances,
     start: &Start<O::Constants<f64>, N>,
     mut on_step: impl FnMut(&O::Constants<R>, &Attempt<'_, R, N>),
     mut at_span_end: impl FnMut(&[f64; N]) -> ControlFlow<()>,
+) -> Outcome {
+    march::<O, R, N>(ode, tolerances, start, &mut on_step, &mut at_span_end)
+}
+
+/// What sees the accepted steps.
+type OnStep<'a, O, R, const N: usize> = dyn FnMut(&<O as Ode<N>>::Constants<R>, &Attempt<'_, R, N>) + 'a;
+
+/// [`solve`], compiled once per system of equations: the callbacks are not part of it.
+#[inline(never)]
+fn march<O: Ode<N>, R: Scalar, const N: usize>(
+    ode: &O,
+    tolerances: &Tolerances,
+    start: &Start<O::Constants<f64>, N>,
+    on_step: &mut OnStep<'_, O, R, N>,
+    at_span_end: &mut dyn FnMut(&[f64; N]) -> ControlFlow<()>,
+) -> Outcome {
+    R::enter(
+        #[inline(always)]
+        || steps::<O, R, N>(ode, tolerances, start, on_step, at_span_end),
+    )
+}
+
+#[inline(always)]
+fn steps<O: Ode<N>, R: Scalar, const N: usize>(
+    ode: &O,
+    tolerances: &Tolerances,
+    start: &Start<O::Constants<f64>, N>,
+    on_step: &mut OnStep<'_, O, R, N>,
+    at_span_end: &mut dyn FnMut(&[f64; N]) -> ControlFlow<()>,
 ) -> Outcome {
     let number = |x: f64| R::splat((), x);
     let c = O::Constants::<R>::fill((), &start.constants);
@@ -72,7 +100,7 @@ pub fn solve<O: Ode<N>, R: Lanes<Token = (), Mask = bool>, const N: usize>(
             k1 = tried.k[6];
         }
         if crossing.arrived {
-            k1 = ode.rhs(&c, &ode.input(&c, t), switching.side, &y);
+            k1 = slope(ode, &c, &input(ode, &c, t), switching.side, &y);
             switching.value = ode.switch(&c, &y, &k1);
             switches += 1;
         }

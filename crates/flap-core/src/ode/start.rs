@@ -1,6 +1,6 @@
 //! The first slope and the first step size.
 
-use super::Ode;
+use super::{Ode, input, slope};
 use crate::num::Lanes;
 
 /// Right-hand sides evaluated by [`first_step`].
@@ -21,7 +21,7 @@ pub fn first_step<O: Ode<N>, R: Lanes, const N: usize>(
     rtol: R,
 ) -> ([R; N], R) {
     let zero = span.lit(0.0);
-    let k1 = ode.rhs(c, &ode.input(c, zero), side, y);
+    let k1 = slope(ode, c, &input(ode, c, zero), side, y);
 
     let size_y = weighted_norm(y, y, atol, rtol);
     let size_k = weighted_norm(&k1, y, atol, rtol);
@@ -37,7 +37,7 @@ pub fn first_step<O: Ode<N>, R: Lanes, const N: usize>(
     for i in 0..N {
         y1[i] = k1[i].mul_add(h0, y[i]);
     }
-    let k_euler = ode.rhs(c, &ode.input(c, h0), side, &y1);
+    let k_euler = slope(ode, c, &input(ode, c, h0), side, &y1);
     let mut change = k1;
     for i in 0..N {
         change[i] = k_euler[i] - k1[i];

@@ -1,7 +1,7 @@
 //! One step of the method: stages, new state, error estimate. No policy, no allocation.
 
-use super::Ode;
 use super::tableau::{A, C, E, STAGES};
+use super::{Ode, input, slope};
 use crate::num::Lanes;
 
 /// What one attempted step found.
@@ -44,19 +44,19 @@ pub fn step<O: Ode<N>, R: Lanes, const N: usize>(
 
     // Written out stage by stage: as a loop it would index slopes at run time and keep them in memory.
     let y2 = combine(y, h, &[k1], &A[1]);
-    let k2 = ode.rhs(c, &ode.input(c, at(1)), side, &y2);
+    let k2 = slope(ode, c, &input(ode, c, at(1)), side, &y2);
     let y3 = combine(y, h, &[k1, &k2], &A[2]);
-    let k3 = ode.rhs(c, &ode.input(c, at(2)), side, &y3);
+    let k3 = slope(ode, c, &input(ode, c, at(2)), side, &y3);
     let y4 = combine(y, h, &[k1, &k2, &k3], &A[3]);
-    let k4 = ode.rhs(c, &ode.input(c, at(3)), side, &y4);
+    let k4 = slope(ode, c, &input(ode, c, at(3)), side, &y4);
     let y5 = combine(y, h, &[k1, &k2, &k3, &k4], &A[4]);
-    let k5 = ode.rhs(c, &ode.input(c, at(4)), side, &y5);
+    let k5 = slope(ode, c, &input(ode, c, at(4)), side, &y5);
     let y6 = combine(y, h, &[k1, &k2, &k3, &k4, &k5], &A[5]);
     // Stages 6 and 7 are both at the end of the step and share its inputs.
-    let end = ode.input(c, at(5));
-    let k6 = ode.rhs(c, &end, side, &y6);
+    let end = input(ode, c, at(5));
+    let k6 = slope(ode, c, &end, side, &y6);
     let y7 = combine(y, h, &[k1, &k2, &k3, &k4, &k5, &k6], &A[6]);
-    let k7 = ode.rhs(c, &end, side, &y7);
+    let k7 = slope(ode, c, &end, side, &y7);
 
     let zero = [h.lit(0.0); N];
     let error = combine(&zero, h, &[k1, &k2, &k3, &k4, &k5, &k6, &k7], &E);

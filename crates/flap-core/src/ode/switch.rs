@@ -6,7 +6,7 @@
 //! to the crossing, and the side is changed there, with a fresh first slope.
 
 use super::step::Step;
-use super::{Ode, STRETCH};
+use super::{Ode, STRETCH, input, slope};
 use crate::num::Lanes;
 
 /// A crossing counts as reached when it is less than this fraction of an ordinary step away. The cubic errs by
@@ -50,7 +50,7 @@ impl<R: Lanes> Switching<R> {
     pub fn begin<O: Ode<N>, const N: usize>(ode: &O, c: &O::Constants<R>, y: &[R; N]) -> Switching<R> {
         let mut memory = Switching::new(y[0]);
         if O::SWITCHES {
-            let k = ode.rhs(c, &ode.input(c, memory.heading), memory.side, y);
+            let k = slope(ode, c, &input(ode, c, memory.heading), memory.side, y);
             let [value, rate] = ode.switch(c, y, &k);
             let off_surface = memory.heading.lt(value.abs());
             memory.side = memory.side.copysign(R::select(off_surface, value, rate));

@@ -9,14 +9,13 @@ use super::motion::{Sampler, check};
 use super::simulator::{ChirpRequest, ChirpResponse, SolverSettings, Trajectory};
 use crate::measure::cycle::{Signals, Totals, finish};
 use crate::model::{Measure, Model};
-use crate::num::{Lanes, PerLane};
+use crate::num::{PerLane, Scalar};
 use crate::ode::Start;
 use crate::ode::ensemble::Observer;
 use crate::ode::solve::solve;
 use crate::parameter::Invalid;
 
 /// Sweeps the drive's frequency, from rest.
-#[inline(always)]
 pub(super) fn respond<M, R, const N: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,
@@ -25,7 +24,7 @@ pub(super) fn respond<M, R, const N: usize, const S: usize>(
 ) -> Result<ChirpResponse, Invalid>
 where
     M: Model<N, S>,
-    R: Lanes<Token = (), Mask = bool>,
+    R: Scalar,
 {
     let ChirpRequest { from, to, rate, samples_per_cycle } = *request;
     if !(from > 0.0 && to > 0.0 && (to - from) * rate > 0.0) {
@@ -58,7 +57,10 @@ where
             &solver.tolerances(),
             &cycle,
             |c, attempt| {
-                observer.add(&model, c, attempt, true, &mut totals);
+                R::enter(
+                    #[inline(always)]
+                    || observer.add(&model, c, attempt, true, &mut totals),
+                );
                 if samples_per_cycle > 0 {
                     sampler.step(&model, c, attempt);
                 }

@@ -18,21 +18,14 @@ pub use simulator::{
 use crate::drive::Shape;
 use crate::model::bimorph::Bimorph;
 use crate::model::direct_drive::DirectDrive;
-#[cfg(feature = "four-bar")]
 use crate::model::four_bar::FourBar;
 use crate::parameter::Preset;
 use runner::Runner;
 
 static BIMORPH: Runner<Bimorph, 4, 14> = Runner::new(Bimorph { shape: Shape::Sine });
 static DIRECT_DRIVE: Runner<DirectDrive, 4, 9> = Runner::new(DirectDrive { shape: Shape::Sine });
-#[cfg(feature = "four-bar")]
 static FOUR_BAR: Runner<FourBar, 4, 15> = Runner::new(FourBar { shape: Shape::Sine });
-static ALL: &[&dyn Simulator] = &[
-    &BIMORPH,
-    &DIRECT_DRIVE,
-    #[cfg(feature = "four-bar")]
-    &FOUR_BAR,
-];
+static ALL: &[&dyn Simulator] = &[&BIMORPH, &DIRECT_DRIVE, &FOUR_BAR];
 
 /// Every model, in the order `flap models` lists them.
 pub fn all() -> &'static [&'static dyn Simulator] {

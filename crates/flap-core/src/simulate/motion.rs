@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use super::scalar::settle;
 use super::simulator::{SolverSettings, Trajectory, TrajectoryRequest};
 use crate::model::Model;
-use crate::num::Lanes;
+use crate::num::Scalar;
 use crate::ode::Ending;
 use crate::ode::dense::interpolate;
 use crate::ode::solve::solve;
@@ -13,7 +13,6 @@ use crate::ode::step::Attempt;
 use crate::parameter::Invalid;
 
 /// Samples the motion of a point.
-#[inline(always)]
 pub(super) fn trajectory<M, R, const N: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,
@@ -22,7 +21,7 @@ pub(super) fn trajectory<M, R, const N: usize, const S: usize>(
 ) -> Result<Trajectory, Invalid>
 where
     M: Model<N, S>,
-    R: Lanes<Token = (), Mask = bool>,
+    R: Scalar,
 {
     let model = &model.variant(values);
     let mut start = model.start(values)?;
@@ -104,7 +103,7 @@ impl Sampler {
         attempt: &Attempt<'_, R, N>,
     ) where
         M: Model<N, S>,
-        R: Lanes<Token = (), Mask = bool>,
+        R: Scalar,
     {
         let (t, h) = (attempt.t.lane(0), attempt.h.lane(0));
         let number = |x: f64| R::splat((), x);
@@ -157,7 +156,7 @@ fn sample<M, R, const N: usize, const S: usize>(
 ) -> Vec<f64>
 where
     M: Model<N, S>,
-    R: Lanes<Token = (), Mask = bool>,
+    R: Scalar,
 {
     let input = model.input(c, t);
     let signals = model.signals(c, &input, side, y, &model.rhs(c, &input, side, y));

@@ -8,14 +8,13 @@ use super::{chirp, motion};
 use crate::measure::cycle::{Signals, Totals};
 use crate::measure::strobe::Strobe;
 use crate::model::Model;
-use crate::num::{Arithmetic, InstructionSet, Lanes, PerLane, Unfused};
+use crate::num::{Arithmetic, InstructionSet, PerLane, Scalar, Unfused};
 use crate::ode::ensemble::Observer;
 use crate::ode::solve::solve;
 use crate::ode::{Ending, Start};
 use crate::parameter::Invalid;
 
 /// Marches a point until it settles.
-#[inline(always)]
 pub(super) fn settle<M, R, const N: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,
@@ -23,7 +22,7 @@ pub(super) fn settle<M, R, const N: usize, const S: usize>(
 ) -> Settled<N>
 where
     M: Model<N, S>,
-    R: Lanes<Token = (), Mask = bool>,
+    R: Scalar,
 {
     let mut strobe = Strobe::new(&start.y, &start.scale, solver.settle_tol);
     let mut period = None;
@@ -45,11 +44,10 @@ where
 }
 
 /// Runs one point.
-#[inline(always)]
 fn point<M, R, const N: usize, const S: usize>(model: &M, solver: &SolverSettings, values: &[f64]) -> Row
 where
     M: Model<N, S>,
-    R: Lanes<Token = (), Mask = bool>,
+    R: Scalar,
 {
     let model = &model.variant(values);
     let mut start = match model.start(values) {
@@ -68,9 +66,12 @@ where
         model,
         &solver.tolerances(),
         &start,
-        // Inlined to have the fused multiply-add instruction, see `fused_scalars`.
-        #[inline(always)]
-        |c, accepted| observer.add(model, c, accepted, true, &mut totals),
+        |c, accepted| {
+            R::enter(
+                #[inline(always)]
+                || observer.add(model, c, accepted, true, &mut totals),
+            );
+        },
         |_| ControlFlow::Break(()),
     );
     let totals = totals.map(|total| total.get(0));
@@ -92,10 +93,7 @@ impl<M> Scalars<'_, M> {
         M: Model<N, S>,
     {
         match set.arithmetic() {
-            Arithmetic::Fused => set.fused_scalars(
-                #[inline(always)]
-                || point::<M, f64, N, S>(self.model, self.solver, self.values),
-            ),
+            Arithmetic::Fused => point::<M, f64, N, S>(self.model, self.solver, self.values),
             Arithmetic::Unfused => point::<M, Unfused, N, S>(self.model, self.solver, self.values),
         }
     }
@@ -111,10 +109,7 @@ impl<M> Scalars<'_, M> {
     {
         let Scalars { model, solver, values } = *self;
         match set.arithmetic() {
-            Arithmetic::Fused => set.fused_scalars(
-                #[inline(always)]
-                || motion::trajectory::<M, f64, N, S>(model, solver, values, request),
-            ),
+            Arithmetic::Fused => motion::trajectory::<M, f64, N, S>(model, solver, values, request),
             Arithmetic::Unfused => motion::trajectory::<M, Unfused, N, S>(model, solver, values, request),
         }
     }
@@ -130,10 +125,7 @@ impl<M> Scalars<'_, M> {
     {
         let Scalars { model, solver, values } = *self;
         match set.arithmetic() {
-            Arithmetic::Fused => set.fused_scalars(
-                #[inline(always)]
-                || chirp::respond::<M, f64, N, S>(model, solver, values, request),
-            ),
+            Arithmetic::Fused => chirp::respond::<M, f64, N, S>(model, solver, values, request),
             Arithmetic::Unfused => chirp::respond::<M, Unfused, N, S>(model, solver, values, request),
         }
     }
