@@ -2,10 +2,12 @@
 
 use std::sync::LazyLock;
 
+use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
 use flap_core::simulate::{
-    ChirpRequest, ChirpResponse, Column, Jobs, Row, Simulator, SolverSettings, Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImpulseRequest, Jobs, Row, Simulator, SolverSettings, Trajectory,
+    TrajectoryRequest,
 };
 use flap_sweep::diagnostic::Diagnostic;
 use flap_sweep::plan::Plan;
@@ -64,6 +66,20 @@ impl Simulator for Fake {
         _: &[f64],
         _: &ChirpRequest,
     ) -> Result<ChirpResponse, Invalid> {
+        unimplemented!("grid files are checked without running anything")
+    }
+
+    fn modes(&self, _: &[f64]) -> Result<[Mode; 2], Invalid> {
+        unimplemented!("grid files are checked without running anything")
+    }
+
+    fn free_response(
+        &self,
+        _: InstructionSet,
+        _: &SolverSettings,
+        _: &[f64],
+        _: &ImpulseRequest,
+    ) -> Result<Trajectory, Invalid> {
         unimplemented!("grid files are checked without running anything")
     }
 }

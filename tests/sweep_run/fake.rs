@@ -3,11 +3,12 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
+use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
 use flap_core::simulate::{
-    ChirpRequest, ChirpResponse, Column, Jobs, Point, Row, Simulator, SolverSettings, Status, Trajectory,
-    TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImpulseRequest, Jobs, Point, Row, Simulator, SolverSettings, Status,
+    Trajectory, TrajectoryRequest,
 };
 
 /// What goes wrong, and at which value of `size`.
@@ -189,6 +190,20 @@ impl Simulator for Fake {
         _values: &[f64],
         _request: &ChirpRequest,
     ) -> Result<ChirpResponse, Invalid> {
+        Err(Invalid { reason: "it does not move".to_owned() })
+    }
+
+    fn modes(&self, _values: &[f64]) -> Result<[Mode; 2], Invalid> {
+        Err(Invalid { reason: "it does not move".to_owned() })
+    }
+
+    fn free_response(
+        &self,
+        _set: InstructionSet,
+        _solver: &SolverSettings,
+        _values: &[f64],
+        _request: &ImpulseRequest,
+    ) -> Result<Trajectory, Invalid> {
         Err(Invalid { reason: "it does not move".to_owned() })
     }
 }

@@ -2,6 +2,7 @@
 
 mod constants;
 mod equations;
+mod impulse;
 mod physics;
 mod steady;
 

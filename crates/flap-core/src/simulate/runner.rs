@@ -6,9 +6,11 @@ use super::lanes::{LanesKernel, Sized};
 use super::row;
 use super::scalar::Scalars;
 use super::simulator::{
-    ChirpRequest, ChirpResponse, Column, Jobs, Row, Simulator, SolverSettings, Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImpulseRequest, Jobs, Row, Simulator, SolverSettings, Trajectory,
+    TrajectoryRequest,
 };
 use crate::model::Model;
+use crate::modes::Mode;
 use crate::num::InstructionSet;
 use crate::parameter::{Invalid, Parameter, Preset};
 
@@ -71,5 +73,20 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Simulator for Runner<M, N, 
         request: &ChirpRequest,
     ) -> Result<ChirpResponse, Invalid> {
         Scalars { model: &self.model, solver, values }.chirp::<N, S>(set, request)
+    }
+
+    fn modes(&self, values: &[f64]) -> Result<[Mode; 2], Invalid> {
+        let model = self.model.variant(values);
+        Ok(model.modes(&model.start(values)?.constants))
+    }
+
+    fn free_response(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        request: &ImpulseRequest,
+    ) -> Result<Trajectory, Invalid> {
+        Scalars { model: &self.model, solver, values }.free_response::<N, S>(set, request)
     }
 }

@@ -1,5 +1,6 @@
 //! The object-safe face of a model: all that sweeps, the command line and Python use.
 
+use crate::modes::Mode;
 use crate::num::InstructionSet;
 use crate::ode::Tolerances;
 use crate::parameter::{Invalid, Parameter, Preset};
@@ -53,6 +54,35 @@ pub trait Simulator: Sync {
         values: &[f64],
         request: &ChirpRequest,
     ) -> Result<ChirpResponse, Invalid>;
+
+    /// Small undamped motions of one point; first the one that an impulse on the stroke is to excite.
+    ///
+    /// # Errors
+    /// [`Invalid`] if the values are impossible together.
+    fn modes(&self, values: &[f64]) -> Result<[Mode; 2], Invalid>;
+
+    /// The free motion of one point after an impulse on the stroke, with the drive held still.
+    ///
+    /// # Errors
+    /// [`Invalid`] if the values are impossible together, the request is, or the motion fails on the way.
+    fn free_response(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        request: &ImpulseRequest,
+    ) -> Result<Trajectory, Invalid>;
+}
+
+/// An impulse on the stroke, and how long the motion that follows is sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImpulseRequest {
+    /// Rate of the stroke right after the impulse (rad/s).
+    pub stroke_rate: f64,
+    /// How long the motion is sampled (s).
+    pub duration: f64,
+    /// Intervals between samples, all of the same length; both ends are sampled.
+    pub intervals: u32,
 }
 
 /// A drive whose frequency changes steadily, from rest.

@@ -24,7 +24,7 @@ pub use strips::{MAX_STRIPS, Strip, StripSums, Strips};
 use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use super::{Derived, Model, Signal, SignalCycle};
 use crate::drive::{Shape, Voltage, Waveform};
-use crate::modes::natural_frequencies;
+use crate::modes::{Mode, natural_frequencies};
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
@@ -344,6 +344,20 @@ impl Model<4, 15> for FourBar {
             mode_1,
             mode_2,
         ]
+    }
+
+    fn modes(&self, c: &Constants<f64>) -> [Mode; 2] {
+        let [lower, upper] = FourBar::linear_modes(c);
+        [Mode { name: "mode_1", frequency: lower }, Mode { name: "mode_2", frequency: upper }]
+    }
+
+    /// At the voltage V_ref: φ̇ = −(M₁₂/M₂₂) θ̇.
+    fn released(&self, c: &Constants<f64>, stroke_rate: f64) -> (FourBar, Constants<f64>, [f64; 4]) {
+        let [_, m12, m22] = mass_matrix(c, transmission(c, 0.0).inertia, 0.0, 1.0);
+        let waveform = Waveform { rate: 0.0, ..c.drive.waveform };
+        let drive = Drive { bias: c.actuator.rest_voltage, amplitude: 0.0, waveform };
+        let state = [0.0, 0.0, stroke_rate, -(m12 / m22) * stroke_rate];
+        (FourBar { shape: Shape::Sine }, Constants { drive, ..*c }, state)
     }
 }
 
