@@ -17,5 +17,6 @@ mod elementary;
 mod ensemble;
 mod four_bar;
 mod frequencies;
+mod resonance;
 mod strobe;
 mod waveforms;
