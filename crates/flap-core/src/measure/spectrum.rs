@@ -60,8 +60,11 @@ impl Spectrum {
 
     /// The highest peaks, at most `count`, the highest first, each refined by the parabola through the bins around it.
     ///
+    /// Peaks closer to a higher one than `apart`, as a share of its frequency, belong to it: the frequency of a motion that
+    /// is not linear drifts as it dies away, and leaves several peaks side by side.
+    ///
     /// What a window that cuts a motion short adds beside a peak is not a peak itself, see [`Spectrum::leaked`].
-    pub fn peaks(&self, count: usize) -> Vec<SpectrumPeak> {
+    pub fn peaks(&self, count: usize, apart: f64) -> Vec<SpectrumPeak> {
         let largest = self.amplitudes.iter().fold(0.0_f64, |largest, amplitude| largest.max(*amplitude));
         let tops = self.amplitudes.windows(3).enumerate();
         let tops = tops.filter(|(_, a)| a[0] < a[1] && a[1] >= a[2] && a[1] > LOWEST * largest);
@@ -72,7 +75,9 @@ impl Spectrum {
         let mut peaks: Vec<SpectrumPeak> = Vec::new();
         for top in tops {
             let leaked: f64 = peaks.iter().map(|peak| self.leaked(peak, top.frequency)).sum();
-            if peaks.len() < count && top.amplitude > leaked {
+            let belongs =
+                |peak: &SpectrumPeak| (top.frequency - peak.frequency).abs() < apart * peak.frequency;
+            if peaks.len() < count && top.amplitude > leaked && !peaks.iter().any(belongs) {
                 peaks.push(top);
             }
         }

@@ -47,8 +47,21 @@ pub struct DrivenPeaks {
     pub larger_at: Option<f64>,
     /// Points run.
     pub points: usize,
-    /// Drive frequencies (Hz) at which the motion did not become periodic, rising, and what became of it.
-    pub unsettled: Vec<(f64, Status)>,
+    /// Where the motion did not become periodic, by rising frequency.
+    pub gaps: Vec<Gap>,
+}
+
+/// Neighbouring drive frequencies at which the motion did not become periodic.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// Lowest of them (Hz).
+    pub from: f64,
+    /// Highest of them (Hz).
+    pub to: f64,
+    /// How many there are.
+    pub points: usize,
+    /// What became of the motion at all of them.
+    pub status: Status,
 }
 
 /// Looks for the drive frequencies at which the stroke of a point is largest.
@@ -69,7 +82,7 @@ pub fn search(
              the last"
         )));
     }
-    if !(tolerance > 0.0) {
+    if tolerance.is_nan() || tolerance <= 0.0 {
         return Err(Invalid::new(format!(
             "a peak cannot be found to {tolerance} Hz, only to more than zero"
         )));
@@ -107,6 +120,7 @@ struct Response<'a> {
     pitch: usize,
     /// Periodic points, by rising frequency.
     settled: Vec<DrivenPeak>,
+    /// The others, by rising frequency, and what became of them.
     unsettled: Vec<(f64, Status)>,
 }
 
@@ -157,6 +171,7 @@ impl<'a> Response<'a> {
             }
         }
         self.settled.sort_by(|one, other| one.frequency.total_cmp(&other.frequency));
+        self.unsettled.sort_by(|one, other| one.0.total_cmp(&other.0));
         Ok(())
     }
 
@@ -177,16 +192,33 @@ impl<'a> Response<'a> {
         near.fold(*top, |highest, &one| if one.stroke_pp > highest.stroke_pp { one } else { highest })
     }
 
-    fn finish(mut self, peaks: Vec<DrivenPeak>) -> DrivenPeaks {
+    /// Where the motion did not become periodic.
+    fn gaps(&self) -> Vec<Gap> {
+        let settled_between = |from: f64, to: f64| {
+            self.settled.iter().any(|point| point.frequency > from && point.frequency < to)
+        };
+        let mut gaps: Vec<Gap> = Vec::new();
+        for &(frequency, status) in &self.unsettled {
+            match gaps.last_mut() {
+                Some(gap) if gap.status == status && !settled_between(gap.to, frequency) => {
+                    gap.to = frequency;
+                    gap.points += 1;
+                }
+                _ => gaps.push(Gap { from: frequency, to: frequency, points: 1, status }),
+            }
+        }
+        gaps
+    }
+
+    fn finish(self, peaks: Vec<DrivenPeak>) -> DrivenPeaks {
         let highest = peaks.first().map_or(f64::NEG_INFINITY, |peak| peak.stroke_pp);
         let ends = [self.settled.first(), self.settled.last()].into_iter().flatten();
         let end = ends.max_by(|one, other| one.stroke_pp.total_cmp(&other.stroke_pp));
-        self.unsettled.sort_by(|one, other| one.0.total_cmp(&other.0));
         DrivenPeaks {
             peaks,
             larger_at: end.filter(|end| end.stroke_pp > highest).map(|end| end.frequency),
             points: self.settled.len() + self.unsettled.len(),
-            unsettled: self.unsettled,
+            gaps: self.gaps(),
         }
     }
 }

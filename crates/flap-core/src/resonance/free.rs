@@ -15,6 +15,9 @@ pub const INTERVALS_MAX: u32 = 5_000_000;
 /// Peaks looked for in a spectrum.
 const PEAKS: usize = 2;
 
+/// Peaks closer together than this share of their frequency are one resonance.
+const APART: f64 = 0.1;
+
 /// What is asked of a free motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeRequest {
@@ -75,7 +78,7 @@ pub fn examine(
         let mut samples = column(&motion, name)?;
         // The window holds whole intervals: its last sample is the first of the next.
         samples.pop();
-        Ok(Spectrum::of(interval, &samples).peaks(PEAKS))
+        Ok(Spectrum::of(interval, &samples).peaks(PEAKS, APART))
     };
     Ok(FreeMotion { stroke_rate, fit, stroke_peaks: peaks("stroke_deg")?, pitch_peaks: peaks("pitch_deg")? })
 }
