@@ -6,6 +6,7 @@ mod documents;
 mod lists;
 mod mistakes;
 mod point;
+mod resonance;
 mod streams;
 mod support;
 mod sweep;

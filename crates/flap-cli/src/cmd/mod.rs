@@ -1,7 +1,11 @@
-//! One module per command.
+//! One module per command, and what they share.
 
 pub(crate) mod check;
+mod impulse;
 pub(crate) mod models;
+mod motion;
 pub(crate) mod params;
+mod point;
+pub(crate) mod resonance;
 pub(crate) mod run;
 pub(crate) mod sweep;
