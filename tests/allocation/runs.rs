@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 use std::hint::black_box;
 
 use fearless_simd::Simd;
-use flap_core::drive::Shape;
+use flap_core::drive::Source;
 use flap_core::model::Model;
 use flap_core::model::direct_drive::{Constants, DirectDrive};
 use flap_core::num::{InstructionSet, Kernel, Lanes, PerLane, Vector};
@@ -15,7 +15,7 @@ use flap_core::simulate::{Jobs, Point, Row, SolverSettings, preset};
 
 use crate::counting::allocations;
 
-pub(crate) const MODEL: DirectDrive = DirectDrive { shape: Shape::Sine };
+pub(crate) const MODEL: DirectDrive = DirectDrive { source: Source::SINE };
 pub(crate) const TOLERANCES: Tolerances = Tolerances { rtol: 1e-4, atol: 1e-6, max_steps: 20_000 };
 
 fn values() -> Vec<f64> {

@@ -16,5 +16,6 @@ mod dormand_prince;
 mod elementary;
 mod ensemble;
 mod four_bar;
+mod samples;
 mod strobe;
 mod waveforms;

@@ -4,6 +4,7 @@ mod constants;
 mod equations;
 mod kinematics;
 mod physics;
+mod prescribed;
 mod steady;
 mod transient;
 use flap_core::model::four_bar::{Arms, Params};

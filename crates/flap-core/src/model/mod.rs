@@ -6,11 +6,14 @@
 //! - constants derived from the parameters once per point ([`crate::per_lane!`]),
 //! - equations of motion ([`Ode`]) and the signals to be measured, written once for scalars and lanes.
 
+mod balance;
 pub mod bimorph;
+mod convert;
 pub mod direct_drive;
 pub mod four_bar;
 mod signal;
 
+pub use balance::{Balance, on_stroke, on_stroke_rates};
 pub use signal::{Derived, Measure, Signal, SignalCycle};
 
 use crate::num::Lanes;

@@ -19,16 +19,16 @@ pub use rhs::{
 };
 
 use super::{Derived, Model, Signal, SignalCycle};
-use crate::drive::{Shape, Waveform};
+use crate::drive::{Source, StrokeMode, Waveform};
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
 
 /// The model.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bimorph {
-    /// Shape of the drive voltage.
-    pub shape: Shape,
+    /// What generates the drive voltage.
+    pub source: Source,
 }
 
 impl Ode<4> for Bimorph {
@@ -43,13 +43,13 @@ impl Ode<4> for Bimorph {
     #[inline(always)]
     fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> [Plate<R>; 2] {
         let half = c.half_voltage;
-        let wave = c.waveform.at(self.shape, t);
-        [plate(c, wave.voltage(half, -half)), plate(c, wave.voltage(half, half))]
+        let wave = self.source.at(&c.waveform, t);
+        [plate(c, wave.drive(half, -half)), plate(c, wave.drive(half, half))]
     }
 
     #[inline(always)]
     fn next_break<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
-        c.waveform.next_break(self.shape, t)
+        self.source.next_break(&c.waveform, t)
     }
 
     #[inline(always)]
@@ -69,14 +69,15 @@ impl Model<4, { columns::S }> for Bimorph {
     const DERIVED: &'static [Derived] = columns::DERIVED;
 
     fn variant(&self, values: &[f64]) -> Bimorph {
-        Bimorph { shape: Params::from_values(values).drive_shape }
+        let params = Params::from_values(values);
+        Bimorph { source: self.source.of_point(params.drive_shape, StrokeMode::Free) }
     }
 
     /// Starts at rest. The scales are those of the direct-drive model, so that tolerances and residuals mean the
     /// same: strokes of 0.1 rad, hinge angles of 0.3 rad, times the drive's angular frequency for the rates.
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
-        params.drive_shape.check(params.drive_rise)?;
+        self.source.check(params.drive_rise)?;
         let constants = Constants::derive(&params)?;
         let rate = constants.waveform.rate;
         let tip = 0.1 / params.transmission_ratio;
@@ -89,7 +90,10 @@ impl Model<4, { columns::S }> for Bimorph {
     }
 
     fn chirped(&self, c: &Constants<f64>, frequency: f64, rate: f64) -> (Bimorph, Constants<f64>) {
-        (Bimorph { shape: Shape::Chirp }, Constants { waveform: Waveform::chirp(frequency, rate), ..*c })
+        (
+            Bimorph { source: self.source.chirped() },
+            Constants { waveform: Waveform::chirp(frequency, rate), ..*c },
+        )
     }
 
     #[inline(always)]
@@ -133,6 +137,6 @@ impl Model<4, { columns::S }> for Bimorph {
     }
 
     fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; columns::S]) -> Vec<f64> {
-        columns::values(c, self.shape, cycle)
+        columns::values(c, self.source.range(&c.waveform), cycle)
     }
 }
