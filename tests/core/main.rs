@@ -18,4 +18,5 @@ mod ensemble;
 mod four_bar;
 mod samples;
 mod strobe;
+mod tracking;
 mod waveforms;

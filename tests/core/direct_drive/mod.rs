@@ -2,6 +2,7 @@
 
 mod constants;
 mod equations;
+mod motion;
 mod physics;
 mod steady;
 

@@ -50,6 +50,14 @@ impl Source {
         Source { shape, ..Source::SINE }
     }
 
+    /// The same with samples for a waveform.
+    pub fn sampled(&self, samples: Samples) -> Source {
+        Source { samples: Some(samples), ..self.clone() }
+    }
+
+    /// A prescribed stroke.
+    pub const PRESCRIBED: Source = Source { stroke: StrokeMode::Prescribed, ..Source::SINE };
+
     /// The source of a point, with this one's samples if it has any.
     pub fn of_point(&self, shape: Shape, stroke: StrokeMode) -> Source {
         Source { shape, stroke, samples: self.samples.clone() }

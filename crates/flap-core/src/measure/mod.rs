@@ -5,3 +5,4 @@
 
 pub mod cycle;
 pub mod strobe;
+pub mod tracking;

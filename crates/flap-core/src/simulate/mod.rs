@@ -3,6 +3,7 @@
 //! [`Simulator`] hides what differs between models; [`all`] lists them.
 
 mod chirp;
+mod imposed;
 mod lanes;
 mod motion;
 mod row;
@@ -11,8 +12,8 @@ mod scalar;
 mod simulator;
 
 pub use simulator::{
-    ChirpRequest, ChirpResponse, Column, Jobs, Point, Row, Simulator, SolverSettings, Status, Trajectory,
-    TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, Jobs, Point, Row, Simulator, SolverSettings, Status,
+    Trajectory, TrajectoryRequest,
 };
 
 use crate::drive::Source;

@@ -19,7 +19,7 @@ pub use rhs::{
 };
 
 use super::{Derived, Model, Signal, SignalCycle};
-use crate::drive::{Source, StrokeMode, Waveform};
+use crate::drive::{Driven, Samples, Source, StrokeMode, Waveform};
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
@@ -134,6 +134,23 @@ impl Model<4, { columns::S }> for Bimorph {
             f_1,
             f_2,
         ]
+    }
+
+    fn imposed(
+        &self,
+        c: &Constants<f64>,
+        stroke: [f64; 3],
+        pitch: [f64; 3],
+    ) -> ([f64; 4], [f64; columns::S]) {
+        let [x, x_dot, x_ddot] = stroke.map(|stroke| stroke / c.ratio);
+        let y = [x, x_dot, pitch[0], pitch[1]];
+        let dy = [x_dot, x_ddot, pitch[1], pitch[2]];
+        let unknown = plate(c, Driven::with_rate(f64::NAN, f64::NAN));
+        (y, self.signals(c, &[unknown; 2], 1.0, &y, &dy))
+    }
+
+    fn sampled(&self, samples: Samples) -> Bimorph {
+        Bimorph { source: self.source.sampled(samples) }
     }
 
     fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; columns::S]) -> Vec<f64> {

@@ -15,7 +15,7 @@ pub use rhs::{AddedMassLoad, Aerodynamics, added_mass, aerodynamics, balance, cu
 use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use super::convert::{DEGREES, GRAVITY, wrap_degrees};
 use super::{Derived, Model, Signal, SignalCycle, on_stroke, on_stroke_rates};
-use crate::drive::{Driven, Source, Waveform};
+use crate::drive::{Driven, Samples, Source, Waveform};
 use crate::modes::natural_frequencies;
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
@@ -257,6 +257,20 @@ impl Model<4, 9> for DirectDrive {
             -(air.rotation_moment * psi_dot),
             current,
         ]
+    }
+
+    fn imposed(&self, c: &Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> ([f64; 4], [f64; 9]) {
+        let y = [stroke[0], pitch[0], stroke[1], pitch[1]];
+        let dy = [stroke[1], pitch[1], stroke[2], pitch[2]];
+        let [velocity, _] = mean_velocity(c, &y, &dy);
+        let side = 1.0_f64.copysign(velocity);
+        let [value, rate, bend] = stroke;
+        let prescribed = DirectDrive { source: Source::PRESCRIBED };
+        (y, prescribed.signals(c, &Driven { value, rate, bend }, side, &y, &dy))
+    }
+
+    fn sampled(&self, samples: Samples) -> DirectDrive {
+        DirectDrive { source: self.source.sampled(samples) }
     }
 
     fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; 9]) -> Vec<f64> {

@@ -24,7 +24,7 @@ pub use strips::{MAX_STRIPS, Strip, StripSums, Strips};
 use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use super::convert::{DEGREES, GRAVITY, wrap_degrees};
 use super::{Derived, Model, Signal, SignalCycle, on_stroke, on_stroke_rates};
-use crate::drive::{Driven, Source, Waveform};
+use crate::drive::{Driven, Samples, Source, Waveform};
 use crate::modes::natural_frequencies;
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
@@ -328,6 +328,20 @@ impl Model<4, 15> for FourBar {
             current,
             tip(&c.actuator, links.displacement, force),
         ]
+    }
+
+    fn imposed(&self, c: &Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> ([f64; 4], [f64; 15]) {
+        let y = [stroke[0], pitch[0], stroke[1], pitch[1]];
+        let dy = [stroke[1], pitch[1], stroke[2], pitch[2]];
+        let [direction, _] = side_of(pitch[0], pitch[1]);
+        let side = 1.0_f64.copysign(direction);
+        let [value, rate, bend] = stroke;
+        let prescribed = FourBar { source: Source::PRESCRIBED };
+        (y, prescribed.signals(c, &Driven { value, rate, bend }, side, &y, &dy))
+    }
+
+    fn sampled(&self, samples: Samples) -> FourBar {
+        FourBar { source: self.source.sampled(samples) }
     }
 
     fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; 15]) -> Vec<f64> {
