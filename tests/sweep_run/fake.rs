@@ -3,11 +3,12 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
+use flap_core::drive::Samples;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
 use flap_core::simulate::{
-    ChirpRequest, ChirpResponse, Column, Jobs, Point, Row, Simulator, SolverSettings, Status, Trajectory,
-    TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, Jobs, Point, Row, Simulator, SolverSettings, Status,
+    Trajectory, TrajectoryRequest,
 };
 
 /// What goes wrong, and at which value of `size`.
@@ -190,6 +191,14 @@ impl Simulator for Fake {
         _request: &ChirpRequest,
     ) -> Result<ChirpResponse, Invalid> {
         Err(Invalid { reason: "it does not move".to_owned() })
+    }
+
+    fn imposed(&self, _values: &[f64], _motion: &ImposedMotion) -> Result<Trajectory, Invalid> {
+        Err(Invalid { reason: "it does not move".to_owned() })
+    }
+
+    fn with_samples(&self, _samples: Samples) -> Box<dyn Simulator> {
+        unimplemented!("it has no drive")
     }
 }
 

@@ -19,6 +19,8 @@ fn main() -> ExitCode {
         Command::Sweep(args) => cmd::sweep::run(&args),
         Command::Run(args) => cmd::run::run(&args),
         Command::Check(args) => cmd::check::run(&args),
+        Command::Lift(args) => cmd::lift::run(&args),
+        Command::Track(args) => cmd::track::run(&args),
         Command::Params(args) => cmd::params::run(&args),
         Command::Models => cmd::models::run(),
     };

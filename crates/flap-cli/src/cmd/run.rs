@@ -1,16 +1,18 @@
 //! `flap run`: one point, on the scalar path.
 
 use std::fmt::Write as _;
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 
+use flap_core::drive::Repeat;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Kind, Parameter};
-use flap_core::simulate::{self, ChirpRequest, Row, SolverSettings, Status, Trajectory, TrajectoryRequest};
+use flap_core::simulate::{self, ChirpRequest, Row, Simulator, SolverSettings, Status, TrajectoryRequest};
 use flap_sweep::diagnostic::nearest;
 use flap_sweep::plan::Plan;
-use flap_sweep::{csv_sink, output, spec, text, units};
+use flap_sweep::{record, spec, text, units};
 
+use super::motion_file;
 use crate::args::{Drive, RunArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
@@ -29,6 +31,8 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
         set_parameter(plan.parameters(), &mut values, name, value)?;
     }
 
+    let sampled = sampled(&plan, args, &mut values)?;
+    let simulator = sampled.as_deref().unwrap_or(plan.simulator);
     if args.drive == Drive::Chirp {
         return chirp(&plan, args, &values);
     }
@@ -40,26 +44,61 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     if let Some(path) = &args.trajectory {
         check_length(args)?;
         let request = TrajectoryRequest {
-            cycles: args.cycles,
+            cycles: if args.once { 1 } else { args.cycles },
             samples_per_cycle: args.samples,
-            settled: !args.from_rest,
+            settled: !args.from_rest && !args.once,
         };
-        let motion = plan.simulator.trajectory(set, &plan.solver, &values, &request);
+        let motion = simulator.trajectory(set, &plan.solver, &values, &request);
         let motion = motion.map_err(|invalid| Failure::usage(invalid.to_string()))?;
         if path.as_os_str() == "-" {
-            write_csv(&motion, io::stdout().lock())?;
+            motion_file::write_csv(&motion, io::stdout().lock())?;
             return Ok(Exit::Done);
         }
-        write_file(&motion, path, args.force)?;
+        motion_file::write(&motion, path, args.force)?;
         console::say(&format!("{} samples in {}", motion.rows.len(), path.display()));
+        if args.once {
+            return Ok(Exit::Done);
+        }
     }
 
-    let row = plan.simulator.run_point(set, &plan.solver, &values);
+    let row = simulator.run_point(set, &plan.solver, &values);
     if let (Status::Invalid, Some(reason)) = (row.status, &row.reason) {
         return Err(Failure::usage(format!("the parameters are impossible together: {reason}")));
     }
     console::results(&page(&plan, args, &row))?;
     Ok(Exit::Done)
+}
+
+/// The model with the waveform or the stroke of a file, if one is given; its period goes into `values`.
+fn sampled(plan: &Plan, args: &RunArgs, values: &mut [f64]) -> Result<Option<Box<dyn Simulator>>, Failure> {
+    let repeat = if args.once { Repeat::Once } else { Repeat::Periodic };
+    let (path, wave) = match (&args.waveform, &args.stroke) {
+        (Some(path), _) => (path, record::WAVE),
+        (None, Some(path)) => (path, record::STROKE),
+        (None, None) if args.once => {
+            return Err(Failure::usage("--once goes with --waveform or --stroke"));
+        }
+        (None, None) => return Ok(None),
+    };
+    if args.drive == Drive::Chirp {
+        return Err(Failure::usage("a chirp has a waveform of its own: leave out --waveform and --stroke"));
+    }
+    let samples = motion_file::samples(path, wave, repeat)?;
+    let mut put = |name: &str, value: f64| {
+        let index = plan.parameters().iter().position(|parameter| parameter.name == name);
+        if let Some(index) = index {
+            values[index] = value;
+        }
+        index.is_some()
+    };
+    if args.set.iter().all(|(name, _)| name != "drive_frequency") {
+        put("drive_frequency", 1.0 / samples.duration());
+    }
+    if args.stroke.is_some() && !(put("stroke_mode", 1.0) && put("stroke_amplitude", 1.0)) {
+        let message = format!("the stroke of the model {} cannot be prescribed", plan.simulator.name());
+        return Err(Failure::usage(message).help("models with a parameter stroke_mode can"));
+    }
+    Ok(Some(plan.simulator.with_samples(samples)))
 }
 
 /// The most samples of one trajectory: they are held in memory.
@@ -87,21 +126,21 @@ fn chirp(plan: &Plan, args: &RunArgs, values: &[f64]) -> Result<Exit, Failure> {
     let response = plan.simulator.chirp(InstructionSet::best(), &plan.solver, values, &request);
     let response = response.map_err(|invalid| Failure::usage(invalid.to_string()))?;
     if let Some(path) = &args.trajectory {
-        write_file(&response.motion, path, args.force)?;
+        motion_file::write(&response.motion, path, args.force)?;
         console::say(&format!("{} samples in {}", response.motion.rows.len(), path.display()));
     }
     match &args.envelope {
         Some(path) => {
-            write_file(&response.envelope, path, args.force)?;
+            motion_file::write(&response.envelope, path, args.force)?;
             console::say(&format!("{} cycles in {}", response.envelope.rows.len(), path.display()));
         }
-        None => write_csv(&response.envelope, io::stdout().lock())?,
+        None => motion_file::write_csv(&response.envelope, io::stdout().lock())?,
     }
     Ok(Exit::Done)
 }
 
 /// The plan of a preset or a grid file.
-fn plan(what: &str) -> Result<Plan, Failure> {
+pub(super) fn plan(what: &str) -> Result<Plan, Failure> {
     if simulate::preset(what).is_some() {
         let grid = format!("preset = \"{what}\"\n");
         return spec::parse(what, &grid, simulate::all()).map_err(Failure::Grid);
@@ -129,7 +168,7 @@ fn set_solver(settings: &mut SolverSettings, args: &RunArgs) {
 }
 
 /// Sets the parameter called `name` from text.
-fn set_parameter(
+pub(super) fn set_parameter(
     parameters: &[Parameter],
     values: &mut [f64],
     name: &str,
@@ -194,22 +233,6 @@ fn page(plan: &Plan, args: &RunArgs, row: &Row) -> String {
 }
 
 /// The number to six digits.
-fn six_digits(number: f64) -> String {
+pub(super) fn six_digits(number: f64) -> String {
     format!("{number:.5e}").parse().map_or_else(|_| String::new(), text::float)
-}
-
-fn write_file(motion: &Trajectory, path: &Path, overwrite: bool) -> Result<(), Failure> {
-    let refused = |error| Failure::System(format!("cannot write {}: {error}", path.display()), Vec::new());
-    let file = output::create(path, overwrite)?;
-    output::empty(&file).and_then(|()| write_csv(motion, file)).map_err(refused)
-}
-
-fn write_csv(motion: &Trajectory, target: impl Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(target);
-    writer.write_record(&motion.columns).map_err(csv_sink::cause)?;
-    for row in &motion.rows {
-        let cells = row.iter().map(|&value| text::float(value));
-        writer.write_record(cells).map_err(csv_sink::cause)?;
-    }
-    writer.flush()
 }

@@ -45,7 +45,7 @@ impl Samples {
     ///
     /// # Errors
     /// If there are fewer than four, a number is not finite, times do not increase, or a periodic record does not end
-    /// with the value that it begins with (within 1e-6 of its range).
+    /// with the value that it begins with (within a thousandth of its range; then it is taken to).
     pub fn new(times: &[f64], values: &[f64], repeat: Repeat) -> Result<Samples, Invalid> {
         let count = times.len().min(values.len());
         if count < FEWEST {
@@ -62,25 +62,22 @@ impl Samples {
             )));
         }
         let duration = times[count - 1] - times[0];
-        let phases: Vec<f64> = times.iter().map(|time| (time - times[0]) / duration).collect();
+        let phases: Vec<f64> = times[..count].iter().map(|time| (time - times[0]) / duration).collect();
+        let mut values = values[..count].to_vec();
         let bends = match repeat {
-            Repeat::Once => bends(&phases, values),
+            Repeat::Once => bends(&phases, &values),
             Repeat::Periodic => {
-                check_closed(values)?;
-                periodic_bends(&phases, values)
+                check_closed(&values)?;
+                values[count - 1] = values[0];
+                periodic_bends(&phases, &values)
             }
         };
-        Ok(Samples(Arc::new(Record { duration, phases, values: values.to_vec(), bends })))
+        Ok(Samples(Arc::new(Record { duration, phases, values, bends })))
     }
 
     /// Time from the first to the last sample (s).
     pub fn duration(&self) -> f64 {
         self.0.duration
-    }
-
-    /// Number of samples.
-    pub fn count(&self) -> usize {
-        self.0.values.len()
     }
 
     /// Value, first and second derivative at a phase, lane by lane: the same bits in every lane and arithmetic.
@@ -135,7 +132,7 @@ fn check_closed(values: &[f64]) -> Result<(), Invalid> {
     let [low, high] =
         values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &v| [low.min(v), high.max(v)]);
     let (first, last) = (values[0], values[values.len() - 1]);
-    if (last - first).abs() <= 1e-6 * (high - low) {
+    if (last - first).abs() <= 1e-3 * (high - low) {
         return Ok(());
     }
     Err(Invalid::new(format!(
