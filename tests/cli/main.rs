@@ -4,6 +4,7 @@
 
 mod documents;
 mod experiments;
+mod irregular;
 mod lists;
 mod mistakes;
 mod point;
