@@ -5,9 +5,10 @@ use std::f64::consts::TAU;
 use flap_core::drive::{Repeat, Samples};
 use flap_core::model::direct_drive::Params;
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{ImposedMotion, Jobs, Point, Row, Simulator, SolverSettings, Status, by_name};
+use flap_core::simulate::{ImposedMotion, Simulator, SolverSettings, Status, by_name};
 
 use crate::data::table;
+use crate::rows;
 
 fn model() -> &'static dyn Simulator {
     by_name("direct-drive").unwrap()
@@ -65,31 +66,5 @@ fn a_recorded_sine_drives_like_a_sine() {
         let small = ["pitch_mean_deg", "energy_audit"].contains(&column.name.as_str());
         assert!(small || error < 1e-5, "{}: {} against {}", column.name, row.measures[i], sine.measures[i]);
     }
-    for set in InstructionSet::available() {
-        let mut jobs = Three { next: 0, values: values.clone(), rows: Vec::new() };
-        sampled.run(set, &settings(), &mut jobs);
-        assert_eq!(jobs.rows.len(), 3);
-        let scalar = sampled.run_point(set, &settings(), &values);
-        let bits = |row: &Row| row.measures.iter().map(|m| m.to_bits()).collect::<Vec<_>>();
-        assert!(jobs.rows.iter().all(|row| bits(row) == bits(&scalar)), "{set}");
-    }
-}
-
-/// The same point three times.
-struct Three {
-    next: u64,
-    values: Vec<f64>,
-    rows: Vec<Row>,
-}
-
-impl Jobs for Three {
-    fn next(&mut self, _idle: bool) -> Option<Point> {
-        let index = self.next;
-        self.next += 1;
-        (index < 3).then(|| Point { index, values: self.values.clone() })
-    }
-
-    fn done(&mut self, _index: u64, row: Row) {
-        self.rows.push(row);
-    }
+    rows::assert_lanes_equal_scalars(&*sampled, &vec![values; 3], &settings());
 }

@@ -3,6 +3,7 @@
 mod constants;
 mod equations;
 mod kinematics;
+mod lanes;
 mod physics;
 mod prescribed;
 mod steady;
