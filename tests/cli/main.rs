@@ -8,6 +8,7 @@ mod irregular;
 mod lists;
 mod mistakes;
 mod point;
+mod resonance;
 mod streams;
 mod support;
 mod sweep;

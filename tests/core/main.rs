@@ -16,6 +16,8 @@ mod dormand_prince;
 mod elementary;
 mod ensemble;
 mod four_bar;
+mod frequencies;
+mod resonance;
 mod rows;
 mod samples;
 mod strobe;

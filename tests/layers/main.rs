@@ -20,6 +20,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         "simulate",
         &["num", "ode", "parameter", "drive", "piezo", "linkage", "modes", "quadrature", "model", "measure"],
     ),
+    ("resonance", &["num", "parameter", "modes", "measure", "simulate"]),
 ];
 
 /// Macros that layers define; their names stand at the root of the crate.

@@ -3,11 +3,12 @@
 use std::sync::LazyLock;
 
 use flap_core::drive::Samples;
+use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
 use flap_core::simulate::{
-    ChirpRequest, ChirpResponse, Column, ImposedMotion, Jobs, Row, Simulator, SolverSettings, Trajectory,
-    TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Row, Simulator, SolverSettings,
+    Trajectory, TrajectoryRequest,
 };
 use flap_sweep::diagnostic::Diagnostic;
 use flap_sweep::plan::Plan;
@@ -74,6 +75,20 @@ impl Simulator for Fake {
     }
 
     fn with_samples(&self, _: Samples) -> Box<dyn Simulator> {
+        unimplemented!("grid files are checked without running anything")
+    }
+
+    fn modes(&self, _: &[f64]) -> Result<[Mode; 2], Invalid> {
+        unimplemented!("grid files are checked without running anything")
+    }
+
+    fn free_response(
+        &self,
+        _: InstructionSet,
+        _: &SolverSettings,
+        _: &[f64],
+        _: &ImpulseRequest,
+    ) -> Result<Trajectory, Invalid> {
         unimplemented!("grid files are checked without running anything")
     }
 }

@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum, value_parser};
+use flap_sweep::units;
 
 /// Sweeps of insect-scale flapping-wing designs: a grid file goes in, one row per design point comes out.
 #[derive(Parser)]
@@ -19,6 +20,8 @@ pub(crate) enum Command {
     Sweep(SweepArgs),
     /// Run one point and print what it measures
     Run(RunArgs),
+    /// Compare the resonances of one point: linear, free and driven
+    Resonance(ResonanceArgs),
     /// Check a grid file and show what it would run
     Check(CheckArgs),
     /// Forces on a wing whose stroke and pitch are given, as filmed
@@ -80,20 +83,12 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_help = RUN_HELP)]
 pub(crate) struct RunArgs {
-    /// A preset, or a grid file
-    #[arg(value_name = "PRESET|FILE")]
-    pub(crate) what: String,
-
-    /// Which point of the grid file
-    #[arg(short, long, value_name = "I", default_value_t = 0)]
-    pub(crate) point: u64,
-
-    /// Set a parameter: a number in SI units, a number with a unit, or an option. May be repeated
-    #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
-    pub(crate) set: Vec<(String, String)>,
+    #[command(flatten)]
+    pub(crate) point: PointArgs,
 
     /// Drive: `steady` runs the point's own drive until the motion settles; `chirp` sweeps the frequency from
-    /// rest and prints one CSV row per cycle
+    /// rest and prints one CSV row per cycle; `impulse` gives the resting stroke an impulse and holds the drive
+    /// still
     #[arg(long, value_enum, default_value_t = Drive::Steady)]
     pub(crate) drive: Drive,
 
@@ -127,6 +122,16 @@ pub(crate) struct RunArgs {
     #[arg(long, requires = "trajectory")]
     pub(crate) once: bool,
 
+    /// Impulse on the stroke, as the amplitude that the first mode alone would reach without damping: `20 deg` is a
+    /// stroke rate of 2 pi f_1 20 deg [default: 20 deg]
+    #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true)]
+    pub(crate) impulse: Option<f64>,
+
+    /// How long the motion after the impulse is followed, such as `50 ms` [default: ten periods of the first
+    /// mode]
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    pub(crate) duration: Option<f64>,
+
     /// Write the motion over time to a CSV file, or to stdout with `-` instead of the summary
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
@@ -136,7 +141,7 @@ pub(crate) struct RunArgs {
           value_parser = value_parser!(u32).range(1..=100_000))]
     pub(crate) cycles: u32,
 
-    /// Samples per drive period of the trajectory
+    /// Samples of the trajectory per drive period; after an impulse, at least as many per period of the first mode
     #[arg(long, value_name = "N", default_value_t = 200, requires = "trajectory",
           value_parser = value_parser!(u32).range(1..=1_000_000))]
     pub(crate) samples: u32,
@@ -149,6 +154,101 @@ pub(crate) struct RunArgs {
     #[arg(short, long)]
     pub(crate) force: bool,
 
+    #[command(flatten)]
+    pub(crate) solver: SolverArgs,
+}
+
+/// What `flap run` drives a point with.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Drive {
+    Steady,
+    Chirp,
+    Impulse,
+}
+
+const RUN_HELP: &str = "\
+Examples:
+  flap run ozaki2018-large
+  flap run ozaki2018-large --set drive_frequency='120 Hz' --set drive_voltage_pp=150
+  flap run grid.toml --point 17 --trajectory point17.csv
+  flap run ozaki2018-large --trajectory - --from-rest --cycles 50
+  flap run ozaki2018-small --drive chirp --chirp-from 150 --chirp-to 250 --envelope envelope.csv
+  flap run ozaki2018-small --drive impulse --impulse '20 deg' --duration '50 ms' --trajectory free.csv";
+
+#[derive(clap::Args)]
+#[command(after_help = RESONANCE_HELP)]
+pub(crate) struct ResonanceArgs {
+    #[command(flatten)]
+    pub(crate) point: PointArgs,
+
+    /// Impulse on the stroke, as the amplitude that the first mode alone would reach without damping
+    #[arg(long, value_name = "ANGLE", default_value = "20 deg", value_parser = angle, allow_hyphen_values = true)]
+    pub(crate) impulse: f64,
+
+    /// Periods of the first mode that the damped sine is fitted to
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = value_parser!(u32).range(2..=1000))]
+    pub(crate) window_cycles: u32,
+
+    /// Length of the motion whose spectrum is taken
+    #[arg(long, value_name = "TIME", default_value = "1 s", value_parser = time)]
+    pub(crate) spectrum_window: f64,
+
+    /// Lowest drive frequency (Hz) [default: half of the lower natural frequency]
+    #[arg(long, value_name = "HZ", value_parser = frequency)]
+    pub(crate) from: Option<f64>,
+
+    /// Highest drive frequency (Hz) [default: one and a half times the upper natural frequency]
+    #[arg(long, value_name = "HZ", value_parser = frequency)]
+    pub(crate) to: Option<f64>,
+
+    /// How closely the peaks of the driven stroke are located (Hz)
+    #[arg(long, value_name = "HZ", default_value = "0.05", value_parser = frequency)]
+    pub(crate) tolerance: f64,
+
+    /// A table to be read, or CSV with all digits
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
+
+    #[command(flatten)]
+    pub(crate) solver: SolverArgs,
+}
+
+/// How results are printed.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    Text,
+    Csv,
+}
+
+const RESONANCE_HELP: &str = "\
+Natural frequencies of small undamped motions; the damped sine and the peaks of the spectrum of the motion after an \
+impulse on the resting stroke; the drive frequencies at which the settled stroke is largest, at the point's own \
+voltage.
+
+Examples:
+  flap resonance ozaki2018-large
+  flap resonance ozaki2018-large --impulse '5 deg' --window-cycles 10
+  flap resonance jafferis2016 --set 'drive_voltage_pp=160 V' --from 100 --to 150 --format csv";
+
+/// Which design point.
+#[derive(clap::Args)]
+pub(crate) struct PointArgs {
+    /// A preset, or a grid file
+    #[arg(value_name = "PRESET|FILE")]
+    pub(crate) what: String,
+
+    /// Which point of the grid file
+    #[arg(short, long, value_name = "I", default_value_t = 0)]
+    pub(crate) point: u64,
+
+    /// Set a parameter: a number in SI units, a number with a unit, or an option. May be repeated
+    #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, String)>,
+}
+
+/// How points are integrated.
+#[derive(clap::Args, Default)]
+pub(crate) struct SolverArgs {
     /// Relative tolerance of the integrator; the absolute one follows, a hundredth of it
     #[arg(long, value_name = "TOL", value_parser = tolerance)]
     pub(crate) rtol: Option<f64>,
@@ -162,35 +262,15 @@ pub(crate) struct RunArgs {
     pub(crate) max_cycles: Option<u32>,
 }
 
-/// What `flap run` drives a point with.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Drive {
-    Steady,
-    Chirp,
-}
-
-const RUN_HELP: &str = "\
-Examples:
-  flap run ozaki2018-large
-  flap run ozaki2018-large --set drive_frequency='120 Hz' --set drive_voltage_pp=150
-  flap run grid.toml --point 17 --trajectory point17.csv
-  flap run ozaki2018-large --trajectory - --from-rest --cycles 50
-  flap run ozaki2018-small --drive chirp --chirp-from 150 --chirp-to 250 --envelope envelope.csv";
-
 #[derive(clap::Args)]
 #[command(after_help = LIFT_HELP)]
 pub(crate) struct LiftArgs {
-    /// A preset, or a grid file
-    #[arg(value_name = "PRESET|FILE")]
-    pub(crate) what: String,
+    #[command(flatten)]
+    pub(crate) point: PointArgs,
 
     /// The motion, a CSV file: columns time_s (or time_ms), stroke_deg (or stroke_rad), pitch_deg (or pitch_rad)
     #[arg(value_name = "MOTION")]
     pub(crate) motion: PathBuf,
-
-    /// Set a parameter: a number in SI units, a number with a unit, or an option. May be repeated
-    #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
-    pub(crate) set: Vec<(String, String)>,
 
     /// The motion is one period: its last sample is the first of the next
     #[arg(long)]
@@ -287,4 +367,25 @@ fn tolerance(text: &str) -> Result<f64, String> {
     } else {
         Err("must be more than 0 and less than 0.1".into())
     }
+}
+
+/// An angle with its unit, in radians.
+fn angle(text: &str) -> Result<f64, String> {
+    quantity(text, "rad", "20 deg")
+}
+
+/// A time with its unit, in seconds.
+fn time(text: &str) -> Result<f64, String> {
+    quantity(text, "s", "50 ms")
+}
+
+/// A frequency (Hz); a bare number is one.
+fn frequency(text: &str) -> Result<f64, String> {
+    units::parse_as(text, "").or_else(|_| quantity(text, "Hz", "120 Hz"))
+}
+
+fn quantity(text: &str, si_unit: &str, example: &str) -> Result<f64, String> {
+    units::parse_as(text, si_unit).map_err(|error| {
+        format!("{}: write a number with a unit, such as `{example}`", error.message("the value"))
+    })
 }

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::io;
 
 use anstyle::{AnsiColor, Style};
+use flap_core::parameter::Invalid;
 use flap_sweep::diagnostic::Diagnostic;
 use flap_sweep::output::CreateError;
 use flap_sweep::run::RunError;
@@ -92,6 +93,12 @@ impl From<io::Error> for Failure {
             io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
             _ => Failure::System(format!("cannot write to stdout: {error}"), Vec::new()),
         }
+    }
+}
+
+impl From<Invalid> for Failure {
+    fn from(invalid: Invalid) -> Failure {
+        Failure::usage(invalid.to_string())
     }
 }
 

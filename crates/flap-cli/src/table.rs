@@ -1,5 +1,12 @@
 //! Text in aligned columns.
 
+use flap_sweep::text;
+
+/// The number to six digits, for cells that are to be read.
+pub(crate) fn six_digits(number: f64) -> String {
+    format!("{number:.5e}").parse().map_or_else(|_| String::new(), text::float)
+}
+
 /// Rows of cells, aligned on the left; a row with fewer cells than others ends early.
 #[derive(Default)]
 pub(crate) struct Table {

@@ -9,6 +9,7 @@
 //! - [`model`]: the papers' models: parameters → constants → equations of motion → signals
 //! - [`measure`]: what is measured of a motion, whatever the model
 //! - [`simulate`]: design points in, rows out
+//! - [`resonance`]: the resonances of a design point
 //!
 //! This crate prints nothing, opens no file, spawns no thread and reads no clock.
 
@@ -22,4 +23,5 @@ pub mod ode;
 pub mod parameter;
 pub mod piezo;
 pub mod quadrature;
+pub mod resonance;
 pub mod simulate;

@@ -2,6 +2,15 @@
 
 use nalgebra::{Matrix2, Vector2};
 
+/// A small undamped motion and its natural frequency.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mode {
+    /// Name, such as `mode_1`.
+    pub name: &'static str,
+    /// Natural frequency (Hz).
+    pub frequency: f64,
+}
+
 /// Natural frequencies (Hz), the lower first, of M q̈ + diag(K) q = 0.
 ///
 /// `mass` must be symmetric and positive definite, the two entries of `stiffness` positive; otherwise NaN.

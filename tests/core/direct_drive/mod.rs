@@ -2,6 +2,7 @@
 
 mod constants;
 mod equations;
+mod impulse;
 mod motion;
 mod physics;
 mod steady;

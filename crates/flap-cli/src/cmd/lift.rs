@@ -6,35 +6,31 @@ use flap_core::drive::Repeat;
 use flap_core::simulate::{ImposedMotion, Trajectory};
 use flap_sweep::record;
 
-use super::motion_file;
-use super::run::{plan, set_parameter, six_digits};
-use crate::args::LiftArgs;
+use super::motion::{write_csv, write_file};
+use super::point::Chosen;
+use super::samples;
+use crate::args::{LiftArgs, SolverArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
-use crate::table::Table;
+use crate::table::{Table, six_digits};
 
 pub(crate) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
-    let plan = plan(&args.what)?;
-    let mut values = plan.point(0).values;
-    for (name, value) in &args.set {
-        set_parameter(plan.parameters(), &mut values, name, value)?;
-    }
+    let Chosen { plan, values, .. } = Chosen::new(&args.point, &SolverArgs::default())?;
     let repeat = if args.periodic { Repeat::Periodic } else { Repeat::Once };
-    let file = motion_file::read(&args.motion)?;
-    let stroke = motion_file::column_of(&file, &args.motion, record::STROKE, repeat)?;
-    let pitch = motion_file::column_of(&file, &args.motion, record::PITCH, repeat)?;
+    let file = samples::read(&args.motion)?;
+    let stroke = samples::column(&file, &args.motion, record::STROKE, repeat)?;
+    let pitch = samples::column(&file, &args.motion, record::PITCH, repeat)?;
     let motion = ImposedMotion { stroke, pitch, samples: args.samples };
-    let forces = plan.simulator.imposed(&values, &motion);
-    let mut forces = forces.map_err(|invalid| Failure::usage(invalid.to_string()))?;
+    let mut forces = plan.simulator.imposed(&values, &motion)?;
     drop_unknown(&mut forces);
 
     match &args.trajectory {
         Some(path) if path.as_os_str() == "-" => {
-            motion_file::write_csv(&forces, io::stdout().lock())?;
+            write_csv(&forces, io::stdout().lock())?;
             return Ok(Exit::Done);
         }
         Some(path) => {
-            motion_file::write(&forces, path, args.force)?;
+            write_file(&forces, path, args.force)?;
             console::say(&format!("{} samples in {}", forces.rows.len(), path.display()));
         }
         None => {}

@@ -1,10 +1,14 @@
-//! One module per command.
+//! One module per command, and what they share.
 
 pub(crate) mod check;
+mod impulse;
 pub(crate) mod lift;
 pub(crate) mod models;
-mod motion_file;
+mod motion;
 pub(crate) mod params;
+mod point;
+pub(crate) mod resonance;
 pub(crate) mod run;
+mod samples;
 pub(crate) mod sweep;
 pub(crate) mod track;

@@ -6,21 +6,21 @@ use flap_core::measure::tracking::{LeadingEdge, pitch_from_projection, rotation_
 use flap_core::simulate::Trajectory;
 use flap_sweep::record::{self, Record, RecordError};
 
-use super::motion_file;
-use super::run::six_digits;
+use super::motion::{write_csv, write_file};
+use super::samples;
 use crate::args::TrackArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
+use crate::table::six_digits;
 
 pub(crate) fn run(args: &TrackArgs) -> Result<Exit, Failure> {
-    let record = motion_file::read(&args.points)?;
-    let refused = |error: RecordError| Failure::usage(error.to_string());
-    let times = record.column(record::TIME).map_err(refused)?;
-    let roots = points(&record, "root").map_err(refused)?;
-    let tips = points(&record, "tip").map_err(refused)?;
+    let record = samples::read(&args.points)?;
+    let times = record.column(record::TIME)?;
+    let roots = points(&record, "root")?;
+    let tips = points(&record, "tip")?;
     let edges: Vec<LeadingEdge> =
         roots.into_iter().zip(tips).map(|(root, tip)| LeadingEdge { root, tip }).collect();
-    let centre = rotation_centre(&edges).map_err(|invalid| Failure::usage(invalid.to_string()))?;
+    let centre = rotation_centre(&edges)?;
 
     let mut motion =
         Trajectory { columns: ["time_s", "stroke_deg"].map(str::to_owned).to_vec(), rows: Vec::new() };
@@ -29,7 +29,7 @@ pub(crate) fn run(args: &TrackArgs) -> Result<Exit, Failure> {
     }
     if let Some(chord) = args.chord {
         motion.columns.push("pitch_deg".to_owned());
-        let lower = points(&record, "edge").map_err(refused)?;
+        let lower = points(&record, "edge")?;
         for (i, (row, (edge, point))) in motion.rows.iter_mut().zip(edges.iter().zip(lower)).enumerate() {
             let pitch = pitch_from_projection(edge.distance(point), chord);
             let pitch = pitch.map_err(|invalid| Failure::usage(format!("image {}: {invalid}", i + 1)))?;
@@ -39,12 +39,12 @@ pub(crate) fn run(args: &TrackArgs) -> Result<Exit, Failure> {
 
     let found = format!("rotation centre at x = {}, y = {}", six_digits(centre[0]), six_digits(centre[1]));
     if let Some(path) = &args.out {
-        motion_file::write(&motion, path, args.force)?;
+        write_file(&motion, path, args.force)?;
         console::say(&format!("{} images in {}", motion.rows.len(), path.display()));
         console::results(&(found + "\n"))?;
     } else {
         console::say(&found);
-        motion_file::write_csv(&motion, io::stdout().lock())?;
+        write_csv(&motion, io::stdout().lock())?;
     }
     Ok(Exit::Done)
 }

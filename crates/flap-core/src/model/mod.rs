@@ -17,6 +17,7 @@ pub use balance::{Balance, on_stroke, on_stroke_rates};
 pub use signal::{Derived, Measure, Signal, SignalCycle};
 
 use crate::drive::Samples;
+use crate::modes::Mode;
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
@@ -74,4 +75,11 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + PartialEq + Sized {
 
     /// The values of the [`Model::DERIVED`] columns.
     fn derived(&self, c: &Self::Constants<f64>, cycle: &[SignalCycle; S]) -> Vec<f64>;
+
+    /// Small undamped motions; first the one that an impulse on the stroke is to excite.
+    fn modes(&self, c: &Self::Constants<f64>) -> [Mode; 2];
+
+    /// The model and constants with the drive held still at the voltage in whose rest position all angles are zero, and
+    /// the state in that position right after a torque impulse on the stroke that gives it `stroke_rate` (rad/s).
+    fn released(&self, c: &Self::Constants<f64>, stroke_rate: f64) -> (Self, Self::Constants<f64>, [f64; N]);
 }

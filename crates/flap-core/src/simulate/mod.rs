@@ -4,6 +4,7 @@
 
 mod chirp;
 mod imposed;
+mod impulse;
 mod lanes;
 mod motion;
 mod row;
@@ -12,8 +13,8 @@ mod scalar;
 mod simulator;
 
 pub use simulator::{
-    ChirpRequest, ChirpResponse, Column, ImposedMotion, Jobs, Point, Row, Simulator, SolverSettings, Status,
-    Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Point, Row, Simulator,
+    SolverSettings, Status, Trajectory, TrajectoryRequest,
 };
 
 use crate::drive::Source;

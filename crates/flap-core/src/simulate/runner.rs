@@ -5,12 +5,13 @@ use std::sync::OnceLock;
 use super::lanes::{LanesKernel, Sized};
 use super::scalar::Scalars;
 use super::simulator::{
-    ChirpRequest, ChirpResponse, Column, ImposedMotion, Jobs, Row, Simulator, SolverSettings, Trajectory,
-    TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Row, Simulator, SolverSettings,
+    Trajectory, TrajectoryRequest,
 };
 use super::{imposed, row};
 use crate::drive::Samples;
 use crate::model::Model;
+use crate::modes::Mode;
 use crate::num::InstructionSet;
 use crate::parameter::{Invalid, Parameter, Preset};
 
@@ -81,5 +82,20 @@ impl<M: Model<N, S> + 'static, const N: usize, const S: usize> Simulator for Run
 
     fn with_samples(&self, samples: Samples) -> Box<dyn Simulator> {
         Box::new(Runner::<M, N, S>::new(self.model.sampled(samples)))
+    }
+
+    fn modes(&self, values: &[f64]) -> Result<[Mode; 2], Invalid> {
+        let model = self.model.variant(values);
+        Ok(model.modes(&model.start(values)?.constants))
+    }
+
+    fn free_response(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        request: &ImpulseRequest,
+    ) -> Result<Trajectory, Invalid> {
+        Scalars { model: &self.model, solver, values }.free_response::<N, S>(set, request)
     }
 }

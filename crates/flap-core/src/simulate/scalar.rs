@@ -3,8 +3,10 @@
 use core::ops::ControlFlow;
 
 use super::row::{Settled, invalid};
-use super::simulator::{ChirpRequest, ChirpResponse, Row, SolverSettings, Trajectory, TrajectoryRequest};
-use super::{chirp, motion};
+use super::simulator::{
+    ChirpRequest, ChirpResponse, ImpulseRequest, Row, SolverSettings, Trajectory, TrajectoryRequest,
+};
+use super::{chirp, impulse, motion};
 use crate::measure::cycle::{Signals, Totals};
 use crate::measure::strobe::Strobe;
 use crate::model::Model;
@@ -127,6 +129,22 @@ impl<M> Scalars<'_, M> {
         match set.arithmetic() {
             Arithmetic::Fused => chirp::respond::<M, f64, N, S>(model, solver, values, request),
             Arithmetic::Unfused => chirp::respond::<M, Unfused, N, S>(model, solver, values, request),
+        }
+    }
+
+    /// The point's free motion after an impulse.
+    pub(super) fn free_response<const N: usize, const S: usize>(
+        &self,
+        set: InstructionSet,
+        request: &ImpulseRequest,
+    ) -> Result<Trajectory, Invalid>
+    where
+        M: Model<N, S>,
+    {
+        let Scalars { model, solver, values } = *self;
+        match set.arithmetic() {
+            Arithmetic::Fused => impulse::respond::<M, f64, N, S>(model, solver, values, request),
+            Arithmetic::Unfused => impulse::respond::<M, Unfused, N, S>(model, solver, values, request),
         }
     }
 }

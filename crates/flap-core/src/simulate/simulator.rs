@@ -1,6 +1,7 @@
 //! The object-safe face of a model: all that sweeps, the command line and Python use.
 
 use crate::drive::Samples;
+use crate::modes::Mode;
 use crate::num::InstructionSet;
 use crate::ode::Tolerances;
 use crate::parameter::{Invalid, Parameter, Preset};
@@ -63,6 +64,24 @@ pub trait Simulator: Sync {
 
     /// The same model with samples for a waveform: `samples` over a drive period replaces `drive_shape`.
     fn with_samples(&self, samples: Samples) -> Box<dyn Simulator>;
+
+    /// Small undamped motions of one point; first the one that an impulse on the stroke is to excite.
+    ///
+    /// # Errors
+    /// [`Invalid`] if the values are impossible together.
+    fn modes(&self, values: &[f64]) -> Result<[Mode; 2], Invalid>;
+
+    /// The free motion of one point after an impulse on the stroke, with the drive held still.
+    ///
+    /// # Errors
+    /// [`Invalid`] if the values are impossible together, the request is, or the motion fails on the way.
+    fn free_response(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        request: &ImpulseRequest,
+    ) -> Result<Trajectory, Invalid>;
 }
 
 /// A motion of the wing that is given, as one that was filmed.
@@ -74,6 +93,17 @@ pub struct ImposedMotion {
     pub pitch: Samples,
     /// Intervals in which forces are evaluated, one more time than that.
     pub samples: u32,
+}
+
+/// An impulse on the stroke, and how long the motion that follows is sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImpulseRequest {
+    /// Rate of the stroke right after the impulse (rad/s).
+    pub stroke_rate: f64,
+    /// How long the motion is sampled (s).
+    pub duration: f64,
+    /// Intervals between samples, all of the same length; both ends are sampled.
+    pub intervals: u32,
 }
 
 /// A drive whose frequency changes steadily, from rest.

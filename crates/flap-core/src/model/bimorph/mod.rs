@@ -20,6 +20,7 @@ pub use rhs::{
 
 use super::{Derived, Model, Signal, SignalCycle};
 use crate::drive::{Driven, Samples, Source, StrokeMode, Waveform};
+use crate::modes::Mode;
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
@@ -155,5 +156,18 @@ impl Model<4, { columns::S }> for Bimorph {
 
     fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; columns::S]) -> Vec<f64> {
         columns::values(c, self.source.range(&c.waveform), cycle)
+    }
+
+    fn modes(&self, c: &Constants<f64>) -> [Mode; 2] {
+        let [stroke, hinge] = Bimorph::linear_modes(c);
+        [Mode { name: "mode_stroke", frequency: stroke }, Mode { name: "mode_hinge", frequency: hinge }]
+    }
+
+    /// With ½V_pp on both plates: ψ̇ = I_xz T ẋ/I_xx, by (2).
+    fn released(&self, c: &Constants<f64>, stroke_rate: f64) -> (Bimorph, Constants<f64>, [f64; 4]) {
+        let tip_rate = stroke_rate / c.ratio;
+        let waveform = Waveform { rate: 0.0, ..c.waveform };
+        let state = [0.0, tip_rate, 0.0, c.coupling * tip_rate * c.inverse_i_xx];
+        (Bimorph { source: Source::SINE }, Constants { waveform, ..*c }, state)
     }
 }

@@ -16,7 +16,7 @@ use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPe
 use super::convert::{DEGREES, GRAVITY, wrap_degrees};
 use super::{Derived, Model, Signal, SignalCycle, on_stroke, on_stroke_rates};
 use crate::drive::{Driven, Samples, Source, Waveform};
-use crate::modes::natural_frequencies;
+use crate::modes::{Mode, natural_frequencies};
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
@@ -301,6 +301,19 @@ impl Model<4, 9> for DirectDrive {
             mode_2,
         ]
     }
+
+    fn modes(&self, c: &Constants<f64>) -> [Mode; 2] {
+        let [lower, upper] = DirectDrive::linear_modes(c);
+        [Mode { name: "mode_1", frequency: lower }, Mode { name: "mode_2", frequency: upper }]
+    }
+
+    /// At 0 V: `[φ̇, ψ̇] = M(0)⁻¹ [ΓI, 0]`.
+    fn released(&self, c: &Constants<f64>, stroke_rate: f64) -> (DirectDrive, Constants<f64>, [f64; 4]) {
+        let [_, [m12, m22]] = DirectDrive::mass_at_rest(c);
+        let waveform = Waveform { rate: 0.0, ..c.waveform };
+        let still = Constants { drive_bias: 0.0, drive_amplitude: 0.0, waveform, ..*c };
+        (DirectDrive { source: Source::SINE }, still, [0.0, 0.0, stroke_rate, -(m12 / m22) * stroke_rate])
+    }
 }
 
 impl DirectDrive {
@@ -312,7 +325,12 @@ impl DirectDrive {
 
     /// Natural frequencies (Hz) of small motions about ψ = 0 with the added mass of still air, the lower first.
     pub fn linear_modes(c: &Constants<f64>) -> [f64; 2] {
+        natural_frequencies(DirectDrive::mass_at_rest(c), [c.k_phi, c.k_w])
+    }
+
+    /// The mass matrix (kg·m²) at ψ = 0, with the added mass.
+    fn mass_at_rest(c: &Constants<f64>) -> [[f64; 2]; 2] {
         let coupling = c.m12 - c.a12;
-        natural_frequencies([[c.m11 + c.a11, coupling], [coupling, c.m22 + c.a22]], [c.k_phi, c.k_w])
+        [[c.m11 + c.a11, coupling], [coupling, c.m22 + c.a22]]
     }
 }

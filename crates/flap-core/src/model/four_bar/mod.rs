@@ -25,7 +25,7 @@ use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPe
 use super::convert::{DEGREES, GRAVITY, wrap_degrees};
 use super::{Derived, Model, Signal, SignalCycle, on_stroke, on_stroke_rates};
 use crate::drive::{Driven, Samples, Source, Waveform};
-use crate::modes::natural_frequencies;
+use crate::modes::{Mode, natural_frequencies};
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
@@ -375,6 +375,20 @@ impl Model<4, 15> for FourBar {
             mode_1,
             mode_2,
         ]
+    }
+
+    fn modes(&self, c: &Constants<f64>) -> [Mode; 2] {
+        let [lower, upper] = FourBar::linear_modes(c);
+        [Mode { name: "mode_1", frequency: lower }, Mode { name: "mode_2", frequency: upper }]
+    }
+
+    /// At the voltage V_ref: φ̇ = −(M₁₂/M₂₂) θ̇.
+    fn released(&self, c: &Constants<f64>, stroke_rate: f64) -> (FourBar, Constants<f64>, [f64; 4]) {
+        let [_, m12, m22] = mass_matrix(c, transmission(c, 0.0).inertia, 0.0, 1.0);
+        let waveform = Waveform { rate: 0.0, ..c.drive.waveform };
+        let drive = Drive { bias: c.actuator.rest_voltage, amplitude: 0.0, waveform };
+        let state = [0.0, 0.0, stroke_rate, -(m12 / m22) * stroke_rate];
+        (FourBar { source: Source::SINE }, Constants { drive, ..*c }, state)
     }
 }
 

@@ -1,0 +1,133 @@
+//! Which design point a command is about: a preset or a point of a grid file, with parameters set on top.
+
+use std::path::Path;
+
+use flap_core::parameter::{Kind, Parameter};
+use flap_core::simulate::{self, Simulator, SolverSettings};
+use flap_sweep::diagnostic::nearest;
+use flap_sweep::plan::Plan;
+use flap_sweep::{spec, units};
+
+use crate::args::{PointArgs, SolverArgs};
+use crate::failure::Failure;
+
+/// A design point, and the plan it comes from.
+pub(crate) struct Chosen {
+    pub(crate) plan: Plan,
+    /// One value per parameter.
+    pub(crate) values: Vec<f64>,
+    /// The model with a waveform or stroke from a file, if there is one.
+    pub(crate) sampled: Option<Box<dyn Simulator>>,
+    index: u64,
+}
+
+impl Chosen {
+    /// The point that the command line asks for.
+    pub(crate) fn new(point: &PointArgs, solver: &SolverArgs) -> Result<Chosen, Failure> {
+        let mut plan = plan(&point.what)?;
+        set_solver(&mut plan.solver, solver);
+        if point.point >= plan.len() {
+            let PointArgs { what, point: index, .. } = point;
+            let message = format!("there is no point {index}: {what} has points 0 to {}", plan.len() - 1);
+            return Err(Failure::usage(message));
+        }
+        let mut values = plan.point(point.point).values;
+        for (name, value) in &point.set {
+            set_parameter(plan.parameters(), &mut values, name, value)?;
+        }
+        Ok(Chosen { plan, values, sampled: None, index: point.point })
+    }
+
+    /// The model that is run.
+    pub(crate) fn simulator(&self) -> &dyn Simulator {
+        self.sampled.as_deref().unwrap_or(self.plan.simulator)
+    }
+
+    /// Sets a parameter if the model has it, and says whether it has.
+    pub(crate) fn put(&mut self, name: &str, value: f64) -> bool {
+        let index = self.plan.parameters().iter().position(|parameter| parameter.name == name);
+        if let Some(index) = index {
+            self.values[index] = value;
+        }
+        index.is_some()
+    }
+
+    /// Model and preset in one line.
+    pub(crate) fn title(&self) -> String {
+        let Chosen { plan, index, .. } = self;
+        let title = format!("{} from {}", plan.simulator.name(), plan.preset);
+        if plan.len() > 1 { format!("{title}, point {index} of {}", plan.len()) } else { title }
+    }
+}
+
+/// The plan of a preset or a grid file.
+fn plan(what: &str) -> Result<Plan, Failure> {
+    if simulate::preset(what).is_some() {
+        let grid = format!("preset = \"{what}\"\n");
+        return spec::parse(what, &grid, simulate::all()).map_err(Failure::Grid);
+    }
+    let path = Path::new(what);
+    let looks_like_a_file = path.extension().is_some() || path.components().count() > 1;
+    if looks_like_a_file || path.exists() {
+        return Ok(spec::read(path)?);
+    }
+    let presets = simulate::all().iter().flat_map(|model| model.presets()).map(|preset| preset.name);
+    let failure = Failure::usage(format!("there is no preset and no file `{what}`"));
+    Err(match nearest(what, presets) {
+        Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
+        None => failure.help("`flap models` lists models and presets"),
+    })
+}
+
+fn set_solver(settings: &mut SolverSettings, args: &SolverArgs) {
+    if let Some(rtol) = args.rtol {
+        settings.rtol = rtol;
+        settings.atol = rtol / 100.0;
+    }
+    settings.settle_tol = args.settle_tol.unwrap_or(settings.settle_tol);
+    settings.max_cycles = args.max_cycles.unwrap_or(settings.max_cycles);
+}
+
+/// Sets the parameter called `name` from text.
+fn set_parameter(
+    parameters: &[Parameter],
+    values: &mut [f64],
+    name: &str,
+    text: &str,
+) -> Result<(), Failure> {
+    let Some(index) = parameters.iter().position(|parameter| parameter.name == name) else {
+        let failure = Failure::usage(format!("there is no parameter `{name}`"));
+        return Err(match nearest(name, parameters.iter().map(|parameter| parameter.name)) {
+            Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
+            None => failure.help("`flap params` lists the parameters of a model"),
+        });
+    };
+    values[index] = value(&parameters[index], text)?;
+    Ok(())
+}
+
+fn value(parameter: &Parameter, text: &str) -> Result<f64, Failure> {
+    let name = parameter.name;
+    match parameter.kind {
+        Kind::Choice(options) => {
+            let index = (0_u32..).zip(options).find(|(_, option)| **option == text).map(|(index, _)| index);
+            let failure = || {
+                let message = format!("`{name}` has no option `{text}`");
+                Failure::usage(message).help(format!("options: {}", options.join(", ")))
+            };
+            index.map(f64::from).ok_or_else(failure)
+        }
+        Kind::Number(range) | Kind::Following(range, _) => {
+            // A bare number is in SI units, as in a grid file.
+            let number = units::parse_as(text, "").or_else(|_| units::parse_as(text, parameter.unit));
+            let number = number.map_err(|error| {
+                let failure = Failure::usage(format!("--set {name}={text}: {}", error.message("the value")));
+                error.help().into_iter().fold(failure, Failure::help)
+            })?;
+            if range.contains(number) {
+                return Ok(number);
+            }
+            Err(Failure::usage(format!("`{name}` must be {}, not {text}", range.describe())))
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! `flap resonance`: the resonances of one point, by every way of looking for them.
+
+use std::io;
+
+use flap_core::measure::spectrum::SpectrumPeak;
+use flap_core::num::InstructionSet;
+use flap_core::resonance::driven::{self, DrivenPeaks, Gap, PeakSearch};
+use flap_core::resonance::free::{self, FreeMotion, FreeRequest};
+use flap_sweep::{csv_sink, text};
+
+use super::point::Chosen;
+use crate::args::{Format, ResonanceArgs};
+use crate::console;
+use crate::failure::{Exit, Failure};
+use crate::table::{Table, six_digits};
+
+/// Samples of a free motion per period of the first mode.
+const SAMPLES: u32 = 200;
+
+/// A fit that leaves more than this over is commented on.
+const POOR_FIT: f64 = 0.1;
+
+/// A second peak at least this high, relative to the highest, is commented on.
+const RIVAL: f64 = 0.95;
+
+pub(crate) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
+    let chosen = Chosen::new(&args.point, &args.solver)?;
+    let Chosen { plan, values, .. } = &chosen;
+    let (simulator, set) = (plan.simulator, InstructionSet::best());
+    let modes = simulator.modes(values)?;
+    let natural = modes.map(|mode| mode.frequency);
+    let request = FreeRequest {
+        amplitude: args.impulse,
+        fit_cycles: args.window_cycles,
+        spectrum_window: args.spectrum_window,
+        samples_per_cycle: SAMPLES,
+    };
+    let search = PeakSearch {
+        from: args.from.unwrap_or(0.5 * natural[0].min(natural[1])),
+        to: args.to.unwrap_or(1.5 * natural[0].max(natural[1])),
+        tolerance: args.tolerance,
+    };
+    let free = free::examine(simulator, set, &plan.solver, values, &request)?;
+    let driven = driven::search(simulator, set, &plan.solver, values, &search)?;
+
+    let mut lines: Vec<Line> = Vec::new();
+    for mode in &modes {
+        lines.push(Line { frequency: mode.frequency, ..Line::new(mode.name, "small undamped motion") });
+    }
+    lines.extend(free_lines(&free, args));
+    lines.extend(driven_lines(&driven));
+    match args.format {
+        Format::Text => console::results(&format!("{}\n\n{}", chosen.title(), table(&lines)))?,
+        Format::Csv => write_lines(&lines)?,
+    }
+    comment_on_free(&free, args);
+    comment_on_driven(&driven, &search);
+    Ok(Exit::Done)
+}
+
+/// One frequency. What does not apply is NaN.
+struct Line {
+    name: String,
+    frequency: f64,
+    height: f64,
+    stroke_pp: f64,
+    pitch_pp: f64,
+    decay: f64,
+    left_over: f64,
+    meaning: String,
+}
+
+const HEADINGS: [&str; 8] = [
+    "resonance",
+    "frequency_hz",
+    "relative_height",
+    "stroke_pp_deg",
+    "pitch_pp_deg",
+    "decay_1_s",
+    "relative_rms",
+    "meaning",
+];
+
+impl Line {
+    fn new(name: impl Into<String>, meaning: impl Into<String>) -> Line {
+        let nothing = f64::NAN;
+        Line {
+            name: name.into(),
+            frequency: nothing,
+            height: nothing,
+            stroke_pp: nothing,
+            pitch_pp: nothing,
+            decay: nothing,
+            left_over: nothing,
+            meaning: meaning.into(),
+        }
+    }
+
+    fn numbers(&self) -> [f64; 6] {
+        let Line { frequency, height, stroke_pp, pitch_pp, decay, left_over, .. } = *self;
+        [frequency, height, stroke_pp, pitch_pp, decay, left_over]
+    }
+
+    fn cells(&self, number: impl Fn(f64) -> String) -> [String; 8] {
+        let [a, b, c, d, e, f] = self.numbers().map(number);
+        [self.name.clone(), a, b, c, d, e, f, self.meaning.clone()]
+    }
+}
+
+fn free_lines(free: &FreeMotion, args: &ResonanceArgs) -> Vec<Line> {
+    let mut lines = Vec::new();
+    if let Some(fit) = &free.fit {
+        let meaning = format!(
+            "damped sine through {} periods after an impulse of {} deg (stroke rate {} rad/s)",
+            args.window_cycles,
+            six_digits(args.impulse.to_degrees()),
+            six_digits(free.stroke_rate)
+        );
+        lines.push(Line {
+            frequency: fit.frequency,
+            decay: fit.decay,
+            left_over: fit.relative_rms,
+            ..Line::new("impulse_fit", meaning)
+        });
+    }
+    for (of, peaks) in [("stroke", &free.stroke_peaks), ("pitch", &free.pitch_peaks)] {
+        let highest = peaks.first().map_or(f64::NAN, |peak| peak.amplitude);
+        for (number, SpectrumPeak { frequency, amplitude }) in (1..).zip(peaks) {
+            let meaning = format!("peak {number} of the {of}'s spectrum after the impulse");
+            lines.push(Line {
+                frequency: *frequency,
+                height: amplitude / highest,
+                ..Line::new(format!("{of}_spectrum_{number}"), meaning)
+            });
+        }
+    }
+    lines
+}
+
+fn driven_lines(driven: &DrivenPeaks) -> Vec<Line> {
+    let highest = driven.peaks.first().map_or(f64::NAN, |peak| peak.stroke_pp);
+    let line = |(number, peak): (u32, &driven::DrivenPeak)| Line {
+        frequency: peak.frequency,
+        height: peak.stroke_pp / highest,
+        stroke_pp: peak.stroke_pp,
+        pitch_pp: peak.pitch_pp,
+        ..Line::new(
+            format!("driven_{number}"),
+            format!("peak {number} of the settled stroke over drive frequency"),
+        )
+    };
+    (1..).zip(&driven.peaks).map(line).collect()
+}
+
+fn table(lines: &[Line]) -> String {
+    let mut table = Table::with_headings(&HEADINGS);
+    for line in lines {
+        table.row(line.cells(six_digits));
+    }
+    table.text()
+}
+
+fn write_lines(lines: &[Line]) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(io::stdout().lock());
+    writer.write_record(HEADINGS).map_err(csv_sink::cause)?;
+    for line in lines {
+        writer.write_record(line.cells(text::float)).map_err(csv_sink::cause)?;
+    }
+    writer.flush()
+}
+
+fn comment_on_free(free: &FreeMotion, args: &ResonanceArgs) {
+    match &free.fit {
+        None => console::say(&format!(
+            "no damped sine fits: the stroke hardly swings in {} periods of the first mode after the impulse",
+            args.window_cycles
+        )),
+        Some(fit) if fit.relative_rms > POOR_FIT => console::say(&format!(
+            "the damped sine leaves {} % of the stroke over (root mean square): there is more than one frequency in \
+             it, or its decay changes",
+            (100.0 * fit.relative_rms).round()
+        )),
+        Some(_) => {}
+    }
+}
+
+fn comment_on_driven(driven: &DrivenPeaks, search: &PeakSearch) {
+    let PeakSearch { from, to, .. } = *search;
+    if let Some(frequency) = driven.larger_at {
+        console::say(&format!(
+            "the settled stroke is larger at the end of the range, {} Hz, than at any peak within: search further \
+             with --from and --to",
+            text::float(frequency)
+        ));
+    } else if driven.peaks.is_empty() {
+        let range = format!("{} to {} Hz", six_digits(from), six_digits(to));
+        console::say(&format!("the settled stroke has no peak at drive frequencies from {range}"));
+    }
+    if let [first, second] = driven.peaks[..]
+        && second.stroke_pp >= RIVAL * first.stroke_pp
+    {
+        let share = 100.0 * (1.0 - second.stroke_pp / first.stroke_pp);
+        console::say(&format!(
+            "the second peak of the settled stroke is only {share:.1} % lower than the first"
+        ));
+    }
+    let unsettled: usize = driven.gaps.iter().map(|gap| gap.points).sum();
+    if unsettled > 0 {
+        let gaps: Vec<String> = driven.gaps.iter().map(describe).collect();
+        console::say(&format!(
+            "{unsettled} of {} drive frequencies did not become periodic, and a peak may hide there: {}",
+            driven.points,
+            gaps.join(", ")
+        ));
+    }
+}
+
+fn describe(gap: &Gap) -> String {
+    let Gap { from, to, points, status } = gap;
+    let [from, to] = [from, to].map(|frequency| six_digits(*frequency));
+    if *points == 1 {
+        format!("{from} Hz {}", status.name())
+    } else {
+        format!("{from} to {to} Hz {} ({points})", status.name())
+    }
+}

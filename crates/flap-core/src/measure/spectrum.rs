@@ -1,0 +1,103 @@
+//! The amplitude spectrum of a sampled motion, and its peaks.
+
+use core::f64::consts::PI;
+
+use realfft::RealFftPlanner;
+use realfft::num_complex::Complex;
+
+/// Zeros appended, in lengths of the motion less one: bins are this many times closer than the motion can resolve.
+const PADDING: usize = 8;
+
+/// Peaks lower than this share of the largest are not looked for.
+const LOWEST: f64 = 1e-3;
+
+/// A peak of an amplitude spectrum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpectrumPeak {
+    /// Frequency (Hz).
+    pub frequency: f64,
+    /// Amplitude, in the unit of the samples: that of a steady sine of this frequency which fills the window.
+    pub amplitude: f64,
+}
+
+/// The amplitude spectrum of a motion, through a rectangular window and padded with zeros to eight times its length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spectrum {
+    /// Distance between bins (Hz); the first is at 0 Hz.
+    pub bin: f64,
+    /// Distance between the samples (s).
+    pub interval: f64,
+    /// Number of samples.
+    pub samples: usize,
+    /// Amplitude per bin, in the unit of the samples.
+    pub amplitudes: Vec<f64>,
+}
+
+impl Spectrum {
+    /// The spectrum of samples `interval` seconds apart.
+    pub fn of(interval: f64, samples: &[f64]) -> Spectrum {
+        let count = samples.len();
+        let mut padded = samples.to_vec();
+        padded.resize(PADDING * count, 0.0);
+        let mut bins = Vec::new();
+        if count > 0 {
+            let transform = RealFftPlanner::new().plan_fft_forward(padded.len());
+            bins = transform.make_output_vec();
+            // The lengths fit each other by construction.
+            if transform.process(&mut padded, &mut bins).is_err() {
+                bins.clear();
+            }
+        }
+        let factor = 2.0 / count as f64;
+        let amplitude = |bin: &Complex<f64>| factor * libm::hypot(bin.re, bin.im);
+        Spectrum {
+            bin: 1.0 / (interval * padded.len() as f64),
+            interval,
+            samples: count,
+            amplitudes: bins.iter().map(amplitude).collect(),
+        }
+    }
+
+    /// The highest peaks, at most `count`, the highest first, each refined by the parabola through the bins around it.
+    ///
+    /// Peaks closer to a higher one than `apart`, as a share of its frequency, belong to it: the frequency of a motion that
+    /// is not linear drifts as it dies away, and leaves several peaks side by side.
+    ///
+    /// What a window that cuts a motion short adds beside a peak is not a peak itself, see [`Spectrum::leaked`].
+    pub fn peaks(&self, count: usize, apart: f64) -> Vec<SpectrumPeak> {
+        let largest = self.amplitudes.iter().fold(0.0_f64, |largest, amplitude| largest.max(*amplitude));
+        let tops = self.amplitudes.windows(3).enumerate();
+        let tops = tops.filter(|(_, a)| a[0] < a[1] && a[1] >= a[2] && a[1] > LOWEST * largest);
+        let mut tops: Vec<SpectrumPeak> =
+            tops.map(|(i, a)| self.refined(i + 1, [a[0], a[1], a[2]])).collect();
+        tops.sort_by(|one, other| other.amplitude.total_cmp(&one.amplitude));
+
+        let mut peaks: Vec<SpectrumPeak> = Vec::new();
+        for top in tops {
+            let leaked: f64 = peaks.iter().map(|peak| self.leaked(peak, top.frequency)).sum();
+            let belongs =
+                |peak: &SpectrumPeak| (top.frequency - peak.frequency).abs() < apart * peak.frequency;
+            if peaks.len() < count && top.amplitude > leaked && !peaks.iter().any(belongs) {
+                peaks.push(top);
+            }
+        }
+        peaks
+    }
+
+    /// The vertex of the parabola through three bins around `index`, the highest in their middle.
+    fn refined(&self, index: usize, [before, top, after]: [f64; 3]) -> SpectrumPeak {
+        let slope = 0.5 * (after - before);
+        let bend = before + after - 2.0 * top;
+        let shift = -slope / bend;
+        SpectrumPeak { frequency: self.bin * (index as f64 + shift), amplitude: top + 0.5 * slope * shift }
+    }
+
+    /// The largest amplitude that a peak of amplitude A can add at a distance d in frequency: A/(N sin πdΔ) for N samples
+    /// at distances Δ, and the same for its mirror image at negative frequencies.
+    fn leaked(&self, peak: &SpectrumPeak, frequency: f64) -> f64 {
+        let of = |distance: f64| {
+            peak.amplitude / (self.samples as f64 * libm::sin(PI * distance * self.interval).abs())
+        };
+        of(frequency - peak.frequency) + of(frequency + peak.frequency)
+    }
+}

@@ -1,0 +1,11 @@
+//! The resonances of a design point, by the ways in which papers look for them.
+//!
+//! - the natural frequencies of small undamped motions: [`Simulator::modes`](crate::simulate::Simulator::modes)
+//! - [`free`]: the motion after an impulse: a damped sine fitted to it, the peaks of its spectrum
+//! - [`driven`]: the drive frequency at which the settled stroke is largest
+//!
+//! They need not agree: damping that grows with the amplitude and forces that are not linear move each of them
+//! differently.
+
+pub mod driven;
+pub mod free;

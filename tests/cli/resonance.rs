@@ -1,0 +1,130 @@
+//! `flap run --drive impulse` and `flap resonance`.
+
+use crate::support::Folder;
+
+/// The second word of the line that starts with `name`, a number.
+fn number(text: &str, name: &str) -> f64 {
+    let line = text.lines().find(|line| line.split_whitespace().next() == Some(name));
+    let word = line.and_then(|line| line.split_whitespace().nth(1));
+    word.and_then(|word| word.parse().ok()).unwrap_or_else(|| panic!("no {name} in\n{text}"))
+}
+
+#[test]
+fn an_impulse_sets_the_resting_wing_in_motion() {
+    let folder = Folder::new();
+    let run = |more: &str| {
+        let words =
+            ["run", "ozaki2018-small", "--drive", "impulse", "--impulse", "20 deg", "--duration", "50 ms"];
+        folder.flap_with(&words.into_iter().chain(more.split_whitespace()).collect::<Vec<_>>())
+    };
+    let ended = run("--trajectory free.csv --samples 100");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    // 2π f₁ times 20 deg.
+    let rate = std::f64::consts::TAU * number(&ended.stdout, "mode_1_hz") * 20_f64.to_radians();
+    assert!((number(&ended.stdout, "stroke_rate_rad_s") / rate - 1.0).abs() < 1e-5, "{}", ended.stdout);
+    let motion = folder.read("free.csv");
+    let rows: Vec<Vec<f64>> = motion
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    assert!(motion.starts_with("time_s,stroke_rad,pitch_rad,stroke_rate_rad_s,"), "{motion}");
+    assert!((rows[0][3] / rate - 1.0).abs() < 1e-5);
+    assert_eq!(rows[0][..3], [0.0; 3]);
+    assert!((rows.last().unwrap()[0] - 0.05).abs() < 1e-15);
+    // 50 ms are 9.8 periods.
+    assert!(rows.len() > 970 && rows.len() < 1000, "{}", rows.len());
+    // The voltage is zero: no power.
+    assert!(rows.iter().all(|row| row[10] == 0.0), "{motion}");
+
+    assert_eq!(run("--trajectory free.csv").code, 2, "existing files are not overwritten unasked");
+    let piped = run("--trajectory - --samples 100");
+    assert_eq!(piped.stdout, motion);
+    assert!(piped.stderr.contains("stroke_rate_rad_s"), "{}", piped.stderr);
+}
+
+#[test]
+fn options_of_another_drive_are_refused() {
+    let folder = Folder::new();
+    for (arguments, message) in [
+        ("--impulse 20deg", "--impulse goes with --drive impulse"),
+        ("--duration 50ms", "--duration goes with --drive impulse"),
+        ("--drive chirp --impulse 20deg", "--impulse goes with --drive impulse"),
+        ("--drive impulse --envelope e.csv", "--envelope goes with --drive chirp"),
+        ("--drive impulse --impulse 20", "write a number with a unit, such as `20 deg`"),
+        ("--drive impulse --impulse 20mm", "write a number with a unit, such as `20 deg`"),
+        ("--drive impulse --impulse 0deg", "any finite number but zero"),
+        ("--drive impulse --duration 0s", "cannot be sampled"),
+        ("--drive impulse --duration 1e9s", "cannot be sampled"),
+        ("--drive impulse --from-rest --trajectory t.csv", "--from-rest goes with --drive steady"),
+    ] {
+        let ended = folder.flap(&format!("run ozaki2018-small {arguments}"));
+        assert_eq!(ended.code, 2, "{arguments}: {}", ended.stderr);
+        assert!(ended.stderr.contains(message), "{arguments}: {}", ended.stderr);
+        assert_eq!(ended.stdout, "", "{arguments}");
+    }
+    assert_eq!(folder.names(), [""; 0]);
+}
+
+#[test]
+fn resonances_are_compared() {
+    let folder = Folder::new();
+    let ended = folder.flap("resonance ozaki2018-large --impulse 20deg --from 90 --to 130");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let text = &ended.stdout;
+    assert!(text.starts_with("direct-drive from ozaki2018-large\n\nRESONANCE "), "{text}");
+    assert!((number(text, "mode_1") - 102.2).abs() < 0.1, "{text}");
+    assert!((number(text, "impulse_fit") - 107.9).abs() < 1.5, "{text}");
+    assert!((number(text, "driven_1") - 110.7).abs() < 0.1, "{text}");
+    assert_eq!(folder.flap("resonance ozaki2018-large --from 90 --to 130 --impulse 20deg").stdout, *text);
+
+    let csv = folder.flap("resonance ozaki2018-large --from 90 --to 130 --format csv").stdout;
+    let lines: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(lines[0][..3], ["resonance", "frequency_hz", "relative_height"]);
+    assert!(lines.iter().all(|line| line.len() == lines[0].len()), "{csv}");
+    let driven = lines.iter().find(|line| line[0] == "driven_1").unwrap();
+    let frequency: f64 = driven[1].parse().unwrap();
+    assert!((frequency - number(text, "driven_1")).abs() < 1e-3, "{csv}");
+    assert_eq!(driven[2], "1.0");
+}
+
+#[test]
+fn what_hides_a_peak_is_told() {
+    let folder = Folder::new();
+    let ended = folder.flap("resonance ozaki2018-large --from 60 --to 90");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert!(ended.stderr.contains("larger at the end of the range, 90.0 Hz"), "{}", ended.stderr);
+    assert!(!ended.stdout.contains("driven_1"), "{}", ended.stdout);
+
+    let ended = folder.flap("resonance ozaki2018-large --from 100 --to 120 --max-cycles 3");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert!(
+        ended.stderr.contains("161 of 161 drive frequencies did not become periodic"),
+        "{}",
+        ended.stderr
+    );
+    assert!(ended.stderr.contains("100.0 to 120.0 Hz unsettled (161)"), "{}", ended.stderr);
+}
+
+#[test]
+fn searches_that_mean_nothing_are_refused() {
+    let folder = Folder::new();
+    for (arguments, message) in [
+        ("--from 100 --to 90", "there are no drive frequencies from 100 to 90 Hz"),
+        ("--from 0", "more than zero"),
+        ("--from 5mm", "write a number with a unit, such as `120 Hz`"),
+        ("--tolerance 0", "only to more than zero"),
+        ("--window-cycles 1", "2..=1000"),
+        ("--spectrum-window 0s", "cannot be sampled"),
+        ("--set drive_freqency=100", "did you mean `drive_frequency`?"),
+        ("--point 1", "there is no point 1"),
+    ] {
+        let ended = folder.flap(&format!("resonance ozaki2018-small {arguments}"));
+        assert_eq!(ended.code, 2, "{arguments}: {}", ended.stderr);
+        assert!(ended.stderr.contains(message), "{arguments}: {}", ended.stderr);
+        assert_eq!(ended.stdout, "", "{arguments}");
+    }
+    let impossible = folder.flap("resonance ozaki2018-small --set wing_inertia_product=1");
+    assert_eq!(impossible.code, 2, "{}", impossible.stderr);
+    assert!(impossible.stderr.contains("mass matrix"), "{}", impossible.stderr);
+}

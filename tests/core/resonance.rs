@@ -1,0 +1,207 @@
+//! Resonances of the presets, by every way of looking for them.
+
+use flap_core::drive::Driven;
+use flap_core::model::Model;
+use flap_core::model::bimorph::{self, Bimorph, plate};
+use flap_core::model::direct_drive::DirectDrive;
+use flap_core::model::four_bar::FourBar;
+use flap_core::num::InstructionSet;
+use flap_core::ode::Ode;
+use flap_core::resonance::driven::{DrivenPeaks, PeakSearch, search};
+use flap_core::resonance::free::{FreeMotion, FreeRequest, examine};
+use flap_core::simulate::{ImpulseRequest, SolverSettings, Status, all, by_name, preset};
+
+/// The values of a preset with some of them set.
+fn values(name: &str, set: &[(&str, f64)]) -> Vec<f64> {
+    let (model, preset) = preset(name).unwrap();
+    let mut values = (preset.values)();
+    for (name, value) in set {
+        let index = model.parameters().iter().position(|parameter| parameter.name == *name).unwrap();
+        values[index] = *value;
+    }
+    values
+}
+
+fn assert_near(actual: f64, expected: f64, distance: f64, what: &str) {
+    assert!((actual - expected).abs() <= distance, "{what}: {actual} is not {expected}");
+}
+
+/// The state after an impulse, and the derivative at rest with the drive held still.
+fn released<M: Model<4, S>, const S: usize>(
+    model: &M,
+    values: &[f64],
+) -> (M::Constants<f64>, [f64; 4], [f64; 4]) {
+    let start = model.start(values).unwrap();
+    let (still, c, y) = model.variant(values).released(&start.constants, 2.0);
+    // At any time: the drive does not change.
+    let rest = still.rhs(&c, &still.input(&c, 0.123), 1.0, &[0.0; 4]);
+    (c, y, rest)
+}
+
+/// An impulse is the limit of a short and strong torque, so it leaves rates in the ratio of the accelerations with which a
+/// drive sets the resting wing in motion. Where it leaves the wing, nothing but the impulse moves it.
+#[test]
+fn an_impulse_moves_the_pitch_as_a_drive_does() {
+    for model in all() {
+        for preset in model.presets() {
+            let values = (preset.values)();
+            let volts = |value| Driven::with_rate(value, 0.0);
+            let (y, rest, driven) = match model.name() {
+                "direct-drive" => {
+                    let (c, y, rest) = released(&DirectDrive::default(), &values);
+                    (y, rest, DirectDrive::default().rhs(&c, &volts(30.0), 1.0, &[0.0; 4]))
+                }
+                "four-bar" => {
+                    let (c, y, rest) = released(&FourBar::default(), &values);
+                    let drive = volts(c.actuator.rest_voltage + 30.0);
+                    (y, rest, FourBar::default().rhs(&c, &drive, 1.0, &[0.0; 4]))
+                }
+                "bimorph" => {
+                    let (c, y, rest) = released(&Bimorph::default(), &values);
+                    let plates = [plate(&c, volts(120.0)), plate(&c, volts(80.0))];
+                    (y, rest, bimorph::derivative(&c, &plates, &[0.0; 4]))
+                }
+                other => panic!("no derivative of {other}"),
+            };
+            let rates = if model.name() == "bimorph" { [1, 3] } else { [2, 3] };
+            let [stroke, pitch] = rates.map(|i| y[i]);
+            let [stroke_driven, pitch_driven] = rates.map(|i| driven[i]);
+            assert!(stroke != 0.0 && pitch != 0.0, "{}: {y:?}", preset.name);
+            let error = (pitch / stroke) / (pitch_driven / stroke_driven) - 1.0;
+            assert!(error.abs() < 1e-12, "{}: {y:?} against {driven:?}", preset.name);
+            for i in 0..4 {
+                assert!(rest[i].abs() < 1e-9 * driven[i].abs().max(1e-9), "{}: {rest:?}", preset.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn impulses_that_mean_nothing_are_refused() {
+    let model = by_name("bimorph").unwrap();
+    let values = values("jafferis2016", &[]);
+    let good = ImpulseRequest { stroke_rate: 1.0, duration: 0.01, intervals: 10 };
+    for (request, reason) in [
+        (ImpulseRequest { stroke_rate: 0.0, ..good }, "a rate of 0 rad/s"),
+        (ImpulseRequest { stroke_rate: f64::NAN, ..good }, "a rate of NaN rad/s"),
+        (ImpulseRequest { duration: 0.0, ..good }, "over 0 s"),
+        (ImpulseRequest { duration: f64::INFINITY, ..good }, "over inf s"),
+        (ImpulseRequest { intervals: 0, ..good }, "in 0 intervals"),
+    ] {
+        let solver = SolverSettings::default();
+        let refused = model.free_response(InstructionSet::best(), &solver, &values, &request).unwrap_err();
+        assert!(refused.reason.contains(reason), "{refused}");
+    }
+}
+
+/// The samples are where they were asked for, however the motion is cut into spans.
+#[test]
+fn a_free_motion_does_not_depend_on_how_it_is_sampled() {
+    let model = by_name("direct-drive").unwrap();
+    let values = values("ozaki2018-large", &[]);
+    let solver = SolverSettings { rtol: 1e-9, atol: 1e-11, ..SolverSettings::default() };
+    let run = |intervals| {
+        let request = ImpulseRequest { stroke_rate: 200.0, duration: 0.05, intervals };
+        model.free_response(InstructionSet::best(), &solver, &values, &request).unwrap().rows
+    };
+    let (coarse, fine) = (run(7), run(7 * 131));
+    assert_eq!(coarse.len(), 8);
+    assert_eq!(fine.len(), 7 * 131 + 1);
+    for (one, other) in coarse.iter().zip(fine.iter().step_by(131)) {
+        assert_near(one[0], other[0], 1e-15, "time");
+        assert_near(one[1], other[1], 1e-7, "stroke");
+        assert_near(one[2], other[2], 1e-7, "pitch");
+    }
+    assert_near(coarse[7][0], 0.05, 1e-15, "end");
+}
+
+fn free(name: &str, degrees: f64, spectrum_window: f64) -> FreeMotion {
+    let (model, _) = preset(name).unwrap();
+    let request = FreeRequest {
+        amplitude: degrees.to_radians(),
+        fit_cycles: 4,
+        spectrum_window,
+        samples_per_cycle: 200,
+    };
+    examine(model, InstructionSet::best(), &SolverSettings::default(), &values(name, &[]), &request).unwrap()
+}
+
+fn driven(name: &str, set: &[(&str, f64)], from: f64, to: f64) -> DrivenPeaks {
+    let (model, _) = preset(name).unwrap();
+    let range = PeakSearch { from, to, tolerance: 0.05 };
+    let found = search(model, InstructionSet::best(), &SolverSettings::default(), &values(name, set), &range);
+    let found = found.unwrap();
+    println!("{name} {set:?}: {found:?}");
+    found
+}
+
+/// Arabagi et al., Fig. 12: 78 and 129 Hz. The reference, with bins of 0.125 Hz: 77.75 and 129.62 Hz in the stroke,
+/// 78.25 and 128.25 Hz in the pitch, with a stroke of at most 1.3 deg peak to peak.
+#[test]
+fn the_spectrum_of_the_four_bar_after_an_impulse() {
+    let FreeMotion { stroke_peaks, pitch_peaks, .. } = free("arabagi2013-75hz", 0.5, 1.0);
+    println!("{stroke_peaks:?} {pitch_peaks:?}");
+    assert_near(stroke_peaks[0].frequency, 77.75, 0.0625, "stroke, first peak");
+    assert_near(stroke_peaks[1].frequency, 129.62, 0.0625, "stroke, second peak");
+    let mut pitch = pitch_peaks.iter().map(|peak| peak.frequency).collect::<Vec<_>>();
+    pitch.sort_by(f64::total_cmp);
+    // A bin: the reference does not state its impulse, on which the pitch depends more.
+    assert_near(pitch[0], 78.25, 0.125, "pitch, lower peak");
+    assert_near(pitch[1], 128.25, 0.125, "pitch, upper peak");
+}
+
+#[test]
+fn driven_peaks_are_where_the_reference_has_them() {
+    for (name, volts, [from, to], expected) in [
+        ("ozaki2018-small", 30.0, [150.0, 250.0], 196.1),
+        ("ozaki2018-large", 50.0, [60.0, 160.0], 110.7),
+        ("jafferis2016", 160.0, [60.0, 260.0], 128.0),
+    ] {
+        let volts = if name.starts_with("ozaki") { 2.0 * volts } else { volts };
+        let found = driven(name, &[("drive_voltage_pp", volts)], from, to);
+        assert_near(found.peaks[0].frequency, expected, 0.5, name);
+        assert_eq!(found.larger_at, None);
+    }
+    let found = driven("arabagi2013-75hz", &[], 39.0, 194.0);
+    assert_near(found.peaks[0].frequency, 75.0, 0.5, "first peak");
+    assert_near(found.peaks[0].stroke_pp, 35.5, 0.05, "its stroke");
+    assert_near(found.peaks[1].frequency, 116.0, 0.5, "second peak");
+    assert_near(found.peaks[1].stroke_pp, 24.3, 0.05, "its stroke");
+    let found = driven("arabagi2013-30hz", &[], 15.0, 80.0);
+    assert_near(found.peaks[0].frequency, 30.0, 0.5, "only peak");
+    assert_eq!(found.peaks.len(), 1);
+}
+
+#[test]
+fn motions_that_do_not_settle_are_named() {
+    let (model, _) = preset("ozaki2018-large").unwrap();
+    let values = values("ozaki2018-large", &[]);
+    let range = PeakSearch { from: 100.0, to: 120.0, tolerance: 0.5 };
+    let solver = SolverSettings { max_cycles: 14, ..SolverSettings::default() };
+    let found = search(model, InstructionSet::best(), &solver, &values, &range).unwrap();
+    let unsettled: usize = found.gaps.iter().map(|gap| gap.points).sum();
+    println!("{found:?}");
+    assert!(unsettled > 0 && unsettled < found.points, "{found:?}");
+    for gap in &found.gaps {
+        assert_eq!(gap.status, Status::Unsettled);
+        assert!(gap.from <= gap.to && gap.from >= 100.0 && gap.to <= 120.0, "{gap:?}");
+    }
+}
+
+#[test]
+fn searches_that_mean_nothing_are_refused() {
+    let (model, _) = preset("ozaki2018-large").unwrap();
+    let values = values("ozaki2018-large", &[]);
+    let good = PeakSearch { from: 100.0, to: 120.0, tolerance: 0.5 };
+    for range in [
+        PeakSearch { from: 0.0, ..good },
+        PeakSearch { to: 100.0, ..good },
+        PeakSearch { to: f64::INFINITY, ..good },
+        PeakSearch { from: f64::NAN, ..good },
+        PeakSearch { tolerance: 0.0, ..good },
+        PeakSearch { tolerance: f64::NAN, ..good },
+    ] {
+        let refused = search(model, InstructionSet::best(), &SolverSettings::default(), &values, &range);
+        assert!(refused.is_err(), "{range:?}");
+    }
+}
