@@ -5,7 +5,7 @@ use core::time::Duration;
 use std::time::Instant;
 
 use fearless_simd::Simd;
-use flap_core::drive::Shape;
+use flap_core::drive::Source;
 use flap_core::model::Model;
 use flap_core::model::direct_drive::{Constants, DirectDrive};
 use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Unfused, Vector};
@@ -14,7 +14,7 @@ use flap_core::ode::norm::error_squared;
 use flap_core::ode::step::step;
 use flap_core::simulate::preset;
 
-const MODEL: DirectDrive = DirectDrive { shape: Shape::Sine };
+const MODEL: DirectDrive = DirectDrive { source: Source::SINE };
 
 /// Function values per iteration.
 pub(crate) const VALUES: usize = 1024;

@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 use std::hint::black_box;
 
 use fearless_simd::Simd;
-use flap_core::drive::Shape;
+use flap_core::drive::Source;
 use flap_core::model::Model;
 use flap_core::model::direct_drive::{Constants, DirectDrive};
 use flap_core::num::{InstructionSet, Kernel, Lanes, PerLane, Vector};
@@ -15,7 +15,7 @@ use flap_core::simulate::{Jobs, Point, Row, SolverSettings, preset};
 
 use crate::counting::allocations;
 
-pub(crate) const MODEL: DirectDrive = DirectDrive { shape: Shape::Sine };
+pub(crate) const MODEL: DirectDrive = DirectDrive { source: Source::SINE };
 pub(crate) const TOLERANCES: Tolerances = Tolerances { rtol: 1e-4, atol: 1e-6, max_steps: 20_000 };
 
 fn values() -> Vec<f64> {
@@ -95,11 +95,11 @@ pub(crate) fn count_down(left: &mut u32) -> ControlFlow<()> {
     if *left == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
-/// Allocations and cycles of a sweep over equal points, from points to rows.
-pub(crate) fn sweep(set: InstructionSet, settle_tol: f64) -> (u64, u64) {
-    let (simulator, _) = preset("ozaki2018-large").expect("a preset of the direct-drive model");
-    let solver = SolverSettings { settle_tol, ..SolverSettings::default() };
-    let mut points = Points { left: 48, cycles: 0 };
+/// Allocations and cycles of a sweep over equal points of a preset, from points to rows.
+pub(crate) fn sweep(name: &str, set: InstructionSet, settle_tol: f64) -> (u64, u64) {
+    let (simulator, preset) = preset(name).expect("a published preset");
+    let solver = SolverSettings { settle_tol, rtol: 1e-8, atol: 1e-10, ..SolverSettings::default() };
+    let mut points = Points { left: 48, cycles: 0, values: (preset.values)() };
     let allocations = allocations(|| simulator.run(set, &solver, &mut points));
     (allocations, points.cycles)
 }
@@ -107,12 +107,13 @@ pub(crate) fn sweep(set: InstructionSet, settle_tol: f64) -> (u64, u64) {
 struct Points {
     left: u64,
     cycles: u64,
+    values: Vec<f64>,
 }
 
 impl Jobs for Points {
     fn next(&mut self, _idle: bool) -> Option<Point> {
         self.left = self.left.checked_sub(1)?;
-        Some(Point { index: self.left, values: values() })
+        Some(Point { index: self.left, values: self.values.clone() })
     }
 
     fn done(&mut self, _index: u64, row: Row) {

@@ -57,18 +57,55 @@ fn commands_in_the_readme_work() {
     assert!(commands >= 5, "{commands} commands found");
 }
 
+/// The example grids: name and path.
+fn examples() -> Vec<(String, PathBuf)> {
+    let entries = fs::read_dir(root().join("examples")).unwrap();
+    let paths = entries.map(|entry| entry.unwrap().path());
+    let grids: Vec<(String, PathBuf)> = paths
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), path))
+        .collect();
+    assert!(grids.len() >= 11, "{} grids found", grids.len());
+    grids
+}
+
+/// How many points the grid at `path` has, in digits. Fails if it is not valid.
+fn points(path: &Path) -> String {
+    let ended = Folder::new().flap_with(&["check", path.to_str().unwrap()]);
+    assert_eq!(ended.code, 0, "{}\n{}", path.display(), ended.stderr);
+    ended.stdout.split(' ').next().unwrap().to_owned()
+}
+
+/// Every example says how to run it and how many designs it has, and is listed with them in `docs/grid.md`.
 #[test]
-fn example_grids_are_valid() {
-    let mut grids = 0;
-    for entry in fs::read_dir(root().join("examples")).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "toml") {
-            let ended = Folder::new().flap_with(&["check", path.to_str().unwrap()]);
-            assert_eq!(ended.code, 0, "{}\n{}", path.display(), ended.stderr);
-            grids += 1;
+fn example_grids_are_valid_and_described() {
+    let page = document("docs/grid.md");
+    for (name, path) in examples() {
+        let points = points(&path);
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(text.contains(&format!("#   flap sweep --grid examples/{name}\n")), "{name}");
+        let results = name.replace(".toml", ".csv");
+        assert!(text.contains(&format!("path = \"{results}\"")), "{name}");
+        assert!(text.contains(&format!("= {points} designs")), "{name} has {points} points");
+
+        let row = page.lines().find(|line| line.starts_with('|') && line.contains(&format!("`{name}`")));
+        let row = row.unwrap_or_else(|| panic!("{name} is not in docs/grid.md")).replace(',', "");
+        assert!(row.split(['|', ' ']).any(|word| word == points), "{row}: {name} has {points} points");
+    }
+}
+
+/// The first and the last design of every example settle.
+#[test]
+fn example_grids_run() {
+    for (name, path) in examples() {
+        let last = points(&path).parse::<u64>().unwrap() - 1;
+        for point in [0, last] {
+            let point = point.to_string();
+            let ended = Folder::new().flap_with(&["run", path.to_str().unwrap(), "--point", &point]);
+            assert_eq!(ended.code, 0, "{name}\n{}", ended.stderr);
+            assert!(ended.stdout.contains("status = periodic"), "{name}, {point}\n{}", ended.stdout);
         }
     }
-    assert!(grids >= 1);
 }
 
 /// Every key of the sidecar and every status is described.

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
 
 mod documents;
+mod experiments;
+mod irregular;
 mod lists;
 mod mistakes;
 mod point;

@@ -3,47 +3,13 @@
 use flap_core::drive::Shape;
 use flap_core::model::direct_drive::Params;
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Jobs, Point, Row, Simulator, SolverSettings, Status, by_name};
+use flap_core::simulate::{Simulator, SolverSettings, Status, by_name};
 use proptest::prelude::*;
+
+use crate::rows::{self, bits};
 
 fn model() -> &'static dyn Simulator {
     by_name("direct-drive").unwrap()
-}
-
-/// Points given in order; rows kept by index.
-struct Listed {
-    points: Vec<Vec<f64>>,
-    next: usize,
-    rows: Vec<Option<Row>>,
-}
-
-impl Listed {
-    fn run(points: Vec<Vec<f64>>, set: InstructionSet, solver: &SolverSettings) -> Vec<Row> {
-        let rows = vec![None; points.len()];
-        let mut listed = Listed { points, next: 0, rows };
-        model().run(set, solver, &mut listed);
-        listed.rows.into_iter().map(|row| row.expect("every point has a row")).collect()
-    }
-}
-
-impl Jobs for Listed {
-    fn next(&mut self, _idle: bool) -> Option<Point> {
-        let values = self.points.get(self.next)?.clone();
-        self.next += 1;
-        Some(Point { index: self.next as u64 - 1, values })
-    }
-
-    fn done(&mut self, index: u64, row: Row) {
-        let slot = &mut self.rows[index as usize];
-        assert!(slot.is_none(), "point {index} has two rows");
-        *slot = Some(row);
-    }
-}
-
-/// A row's numbers as bits, so that NaN equals NaN.
-fn bits(row: &Row) -> (Status, Vec<u64>, u32, u64, u32, u64, &Option<String>) {
-    let measures = row.measures.iter().map(|m| m.to_bits()).collect();
-    (row.status, measures, row.cycles, row.residual.to_bits(), row.period, row.rhs_evals, &row.reason)
 }
 
 /// Good points, slow points, points that never settle, blow up or are impossible, in a fixed odd order.
@@ -75,19 +41,12 @@ const QUICK: SolverSettings =
 
 #[test]
 fn rows_equal_the_scalar_path_bit_for_bit() {
-    let points = mixed_points();
-    for set in InstructionSet::available() {
-        let rows = Listed::run(points.clone(), set, &QUICK);
-        for (i, (values, row)) in points.iter().zip(&rows).enumerate() {
-            let alone = model().run_point(set, &QUICK, values);
-            assert_eq!(bits(row), bits(&alone), "point {i} with {set}");
-        }
-    }
+    rows::assert_lanes_equal_scalars(model(), &mixed_points(), &QUICK);
 }
 
 #[test]
 fn the_mixture_contains_every_kind_of_failure() {
-    let rows = Listed::run(mixed_points(), InstructionSet::best(), &QUICK);
+    let rows = rows::of(model(), &mixed_points(), InstructionSet::best(), &QUICK);
     for status in [Status::Periodic, Status::Unsettled, Status::Diverged, Status::Invalid] {
         assert!(rows.iter().any(|row| row.status == status), "no row is {}", status.name());
     }
@@ -103,10 +62,10 @@ fn the_mixture_contains_every_kind_of_failure() {
 fn instruction_sets_of_a_class_give_the_same_bits() {
     let points = mixed_points();
     let best = InstructionSet::best();
-    let expected = Listed::run(points.clone(), best, &QUICK);
+    let expected = rows::of(model(), &points, best, &QUICK);
     for set in InstructionSet::available() {
         if set.arithmetic() == best.arithmetic() {
-            let rows = Listed::run(points.clone(), set, &QUICK);
+            let rows = rows::of(model(), &points, set, &QUICK);
             assert!(rows.iter().zip(&expected).all(|(a, b)| bits(a) == bits(b)), "{set} differs from {best}");
         }
     }
@@ -120,8 +79,9 @@ proptest! {
     fn a_row_depends_on_its_point_alone(chosen in prop::collection::vec(0..150_usize, 1..70)) {
         let points = mixed_points();
         let set = InstructionSet::best();
-        let together = Listed::run(points.clone(), set, &QUICK);
-        let some = Listed::run(chosen.iter().map(|&i| points[i].clone()).collect(), set, &QUICK);
+        let together = rows::of(model(), &points, set, &QUICK);
+        let few: Vec<_> = chosen.iter().map(|&i| points[i].clone()).collect();
+        let some = rows::of(model(), &few, set, &QUICK);
         for (row, &i) in some.iter().zip(&chosen) {
             prop_assert_eq!(bits(row), bits(&together[i]));
         }
@@ -130,13 +90,14 @@ proptest! {
 
 #[test]
 fn no_points_give_no_rows() {
-    assert!(Listed::run(Vec::new(), InstructionSet::best(), &QUICK).is_empty());
+    assert!(rows::of(model(), &[], InstructionSet::best(), &QUICK).is_empty());
 }
 
 #[test]
 fn step_limit_is_a_status() {
     let solver = SolverSettings { max_steps: 5, ..QUICK };
-    let rows = Listed::run(vec![Params::ozaki2018_large().to_values(); 3], InstructionSet::best(), &solver);
+    let rows =
+        rows::of(model(), &vec![Params::ozaki2018_large().to_values(); 3], InstructionSet::best(), &solver);
     assert!(rows.iter().all(|row| row.status == Status::StepLimit && row.period == 0));
     assert!(rows[0].residual.is_nan() && rows[0].cycles == 0);
 }

@@ -18,5 +18,8 @@ mod ensemble;
 mod four_bar;
 mod frequencies;
 mod resonance;
+mod rows;
+mod samples;
 mod strobe;
+mod tracking;
 mod waveforms;

@@ -2,13 +2,14 @@
 
 use std::f64::consts::PI;
 
-use flap_core::drive::Voltage;
+use flap_core::drive::Driven;
 use flap_core::model::Model;
 use flap_core::model::bimorph::{self, Bimorph, plate};
-use flap_core::model::direct_drive::{self, DirectDrive};
-use flap_core::model::four_bar::{self, FourBar};
+use flap_core::model::direct_drive::DirectDrive;
+use flap_core::model::four_bar::FourBar;
 use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
+use flap_core::ode::Ode;
 use flap_core::resonance::driven::{DrivenPeaks, PeakSearch, search};
 use flap_core::resonance::free::{FreeMotion, FreeRequest, examine, intervals, stroke_rate};
 use flap_core::simulate::{ImpulseRequest, SolverSettings, Status, all, by_name, preset};
@@ -47,17 +48,16 @@ fn an_impulse_moves_the_pitch_as_a_drive_does() {
     for model in all() {
         for preset in model.presets() {
             let values = (preset.values)();
-            let still = Voltage { value: 0.0, rate: 0.0 };
-            let volts = |value| Voltage { value, ..still };
+            let volts = |value| Driven::with_rate(value, 0.0);
             let (y, rest, driven) = match model.name() {
                 "direct-drive" => {
                     let (c, y, rest) = released(&DirectDrive::default(), &values);
-                    (y, rest, direct_drive::derivative(&c, &volts(30.0), 1.0, &[0.0; 4]))
+                    (y, rest, DirectDrive::default().rhs(&c, &volts(30.0), 1.0, &[0.0; 4]))
                 }
                 "four-bar" => {
                     let (c, y, rest) = released(&FourBar::default(), &values);
                     let drive = volts(c.actuator.rest_voltage + 30.0);
-                    (y, rest, four_bar::derivative(&c, &drive, 1.0, &[0.0; 4]))
+                    (y, rest, FourBar::default().rhs(&c, &drive, 1.0, &[0.0; 4]))
                 }
                 "bimorph" => {
                     let (c, y, rest) = released(&Bimorph::default(), &values);

@@ -2,12 +2,13 @@
 
 use std::sync::LazyLock;
 
+use flap_core::drive::Samples;
 use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
 use flap_core::simulate::{
-    ChirpRequest, ChirpResponse, Column, ImpulseRequest, Jobs, Row, Simulator, SolverSettings, Trajectory,
-    TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Row, Simulator, SolverSettings,
+    Trajectory, TrajectoryRequest,
 };
 use flap_sweep::diagnostic::Diagnostic;
 use flap_sweep::plan::Plan;
@@ -66,6 +67,14 @@ impl Simulator for Fake {
         _: &[f64],
         _: &ChirpRequest,
     ) -> Result<ChirpResponse, Invalid> {
+        unimplemented!("grid files are checked without running anything")
+    }
+
+    fn imposed(&self, _: &[f64], _: &ImposedMotion) -> Result<Trajectory, Invalid> {
+        unimplemented!("grid files are checked without running anything")
+    }
+
+    fn with_samples(&self, _: Samples) -> Box<dyn Simulator> {
         unimplemented!("grid files are checked without running anything")
     }
 

@@ -3,12 +3,13 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
+use flap_core::drive::Samples;
 use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
 use flap_core::simulate::{
-    ChirpRequest, ChirpResponse, Column, ImpulseRequest, Jobs, Point, Row, Simulator, SolverSettings, Status,
-    Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Point, Row, Simulator,
+    SolverSettings, Status, Trajectory, TrajectoryRequest,
 };
 
 /// What goes wrong, and at which value of `size`.
@@ -191,6 +192,14 @@ impl Simulator for Fake {
         _request: &ChirpRequest,
     ) -> Result<ChirpResponse, Invalid> {
         Err(Invalid { reason: "it does not move".to_owned() })
+    }
+
+    fn imposed(&self, _values: &[f64], _motion: &ImposedMotion) -> Result<Trajectory, Invalid> {
+        Err(Invalid { reason: "it does not move".to_owned() })
+    }
+
+    fn with_samples(&self, _samples: Samples) -> Box<dyn Simulator> {
+        unimplemented!("it has no drive")
     }
 
     fn modes(&self, _values: &[f64]) -> Result<[Mode; 2], Invalid> {

@@ -24,6 +24,10 @@ pub(crate) enum Command {
     Resonance(ResonanceArgs),
     /// Check a grid file and show what it would run
     Check(CheckArgs),
+    /// Forces on a wing whose stroke and pitch are given, as filmed
+    Lift(LiftArgs),
+    /// Stroke, pitch and rotation centre of a filmed wing from tracked points
+    Track(TrackArgs),
     /// List the parameters and output columns of a model
     Params(ParamsArgs),
     /// List the models and their presets
@@ -103,6 +107,20 @@ pub(crate) struct RunArgs {
     /// Write the chirp's rows per cycle to a CSV file instead of stdout
     #[arg(long, value_name = "FILE")]
     pub(crate) envelope: Option<PathBuf>,
+
+    /// Drive with the waveform in a CSV file in place of drive_shape: columns time_s (or time_ms) and wave. The
+    /// file's duration is the drive period, unless drive_frequency is set
+    #[arg(long, value_name = "FILE", conflicts_with = "stroke")]
+    pub(crate) waveform: Option<PathBuf>,
+
+    /// Prescribe the stroke in a CSV file: columns time_s (or time_ms) and stroke_deg (or stroke_rad). The
+    /// file's duration is the drive period, unless drive_frequency is set
+    #[arg(long, value_name = "FILE")]
+    pub(crate) stroke: Option<PathBuf>,
+
+    /// The waveform or stroke does not repeat: follow it once, from rest
+    #[arg(long, requires = "trajectory")]
+    pub(crate) once: bool,
 
     /// Impulse on the stroke, as the amplitude that the first mode alone would reach without damping: `20 deg` is a
     /// stroke rate of 2 pi f_1 20 deg [default: 20 deg]
@@ -229,7 +247,7 @@ pub(crate) struct PointArgs {
 }
 
 /// How points are integrated.
-#[derive(clap::Args)]
+#[derive(clap::Args, Default)]
 pub(crate) struct SolverArgs {
     /// Relative tolerance of the integrator; the absolute one follows, a hundredth of it
     #[arg(long, value_name = "TOL", value_parser = tolerance)]
@@ -243,6 +261,69 @@ pub(crate) struct SolverArgs {
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
     pub(crate) max_cycles: Option<u32>,
 }
+
+#[derive(clap::Args)]
+#[command(after_help = LIFT_HELP)]
+pub(crate) struct LiftArgs {
+    #[command(flatten)]
+    pub(crate) point: PointArgs,
+
+    /// The motion, a CSV file: columns time_s (or time_ms), stroke_deg (or stroke_rad), pitch_deg (or pitch_rad)
+    #[arg(value_name = "MOTION")]
+    pub(crate) motion: PathBuf,
+
+    /// The motion is one period: its last sample is the first of the next
+    #[arg(long)]
+    pub(crate) periodic: bool,
+
+    /// Write motion and forces over time to a CSV file, or to stdout with `-` instead of the summary
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) trajectory: Option<PathBuf>,
+
+    /// Samples from the beginning of the motion to its end
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = value_parser!(u32).range(1..=5_000_000))]
+    pub(crate) samples: u32,
+
+    /// Overwrite existing files
+    #[arg(short, long)]
+    pub(crate) force: bool,
+}
+
+const LIFT_HELP: &str = "\
+Angles are those of the model's own conventions, see docs/model.md. Between samples the motion is a cubic \
+spline: noise in the samples is amplified twice in their acceleration, so smooth them first.
+
+Examples:
+  flap track points.csv --chord 6.5 --out motion.csv
+  flap lift ozaki2018-small motion.csv --trajectory forces.csv";
+
+#[derive(clap::Args)]
+#[command(after_help = TRACK_HELP)]
+pub(crate) struct TrackArgs {
+    /// Points in every image, a CSV file: columns root_x, root_y, tip_x, tip_y of the leading edge, and edge_x,
+    /// edge_y of a point of the lower edge for the pitch, all in one unit; and time_s or time_ms
+    #[arg(value_name = "POINTS")]
+    pub(crate) points: PathBuf,
+
+    /// Chord from the leading edge to the point of the lower edge, in the unit of the points
+    #[arg(long, value_name = "LENGTH", value_parser = positive)]
+    pub(crate) chord: Option<f64>,
+
+    /// Write stroke_deg and pitch_deg against time to a CSV file [default: stdout]
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+
+    /// Overwrite an existing file
+    #[arg(short, long)]
+    pub(crate) force: bool,
+}
+
+const TRACK_HELP: &str = "\
+Ozaki and Hamaguchi 2018: stroke from the leading edge against the x-axis, pitch from the projected chord \
+(42), centre of rotation by least squares (43).
+
+Example:
+  flap track points.csv --chord 6.5 --out motion.csv";
 
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  flap check grid.toml")]
@@ -270,6 +351,12 @@ fn assignment(text: &str) -> Result<(String, String), String> {
 fn threads(text: &str) -> Result<NonZeroUsize, String> {
     let number = text.parse::<NonZeroUsize>().ok().filter(|number| number.get() <= 1024);
     number.ok_or_else(|| "expected a whole number from 1 to 1024".to_owned())
+}
+
+/// A number more than 0.
+fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|number| number.is_finite() && *number > 0.0);
+    number.ok_or_else(|| "expected a number of more than 0".to_owned())
 }
 
 /// A number more than 0 and less than 0.1: a looser one would mean nothing.

@@ -20,6 +20,8 @@ fn main() -> ExitCode {
         Command::Run(args) => cmd::run::run(&args),
         Command::Resonance(args) => cmd::resonance::run(&args),
         Command::Check(args) => cmd::check::run(&args),
+        Command::Lift(args) => cmd::lift::run(&args),
+        Command::Track(args) => cmd::track::run(&args),
         Command::Params(args) => cmd::params::run(&args),
         Command::Models => cmd::models::run(),
     };

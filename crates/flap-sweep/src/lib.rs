@@ -8,6 +8,7 @@ pub mod diagnostic;
 pub mod layout;
 pub mod output;
 pub mod plan;
+pub mod record;
 pub mod run;
 pub mod sidecar;
 pub mod sink;

@@ -2,10 +2,10 @@
 
 use flap_core::drive::Shape;
 use flap_core::model::bimorph::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
-use flap_core::num::InstructionSet;
-use flap_core::simulate::{Row, SolverSettings, Status};
+use flap_core::simulate::{SolverSettings, Status};
 
-use super::{model, rows};
+use super::model;
+use crate::rows::assert_lanes_equal_scalars;
 
 /// Designs, drives and readings in a fixed odd order; every tenth is impossible or blows up.
 fn points() -> Vec<Vec<f64>> {
@@ -35,29 +35,14 @@ fn points() -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// A row's numbers as bits, so that NaN equals NaN.
-fn bits(row: &Row) -> (Status, Vec<u64>, u32, u64, u32, u64, &Option<String>) {
-    let measures = row.measures.iter().map(|m| m.to_bits()).collect();
-    (row.status, measures, row.cycles, row.residual.to_bits(), row.period, row.rhs_evals, &row.reason)
-}
-
 #[test]
 fn rows_equal_the_scalar_path_bit_for_bit() {
     let solver = SolverSettings { rtol: 1e-5, atol: 1e-7, settle_tol: 1e-5, max_cycles: 60, max_steps: 500 };
-    let points = points();
-    for set in InstructionSet::available() {
-        let rows = rows(points.clone(), set, &solver);
-        for (i, (values, row)) in points.iter().zip(&rows).enumerate() {
-            let alone = model().run_point(set, &solver, values);
-            assert_eq!(bits(row), bits(&alone), "point {i} with {set}");
-            let measured = row.status == Status::Periodic;
-            assert_eq!(row.measures.len(), if measured { model().columns().len() } else { 0 });
-            assert!(row.measures.iter().all(|m| m.is_finite()), "point {i}: {row:?}");
-        }
-        for status in [Status::Periodic, Status::Invalid] {
-            assert!(rows.iter().any(|row| row.status == status), "no row is {}", status.name());
-        }
-        let settled = rows.iter().filter(|row| row.status == Status::Periodic).count();
-        println!("{set}: {settled} of {} points periodic", rows.len());
+    let rows = assert_lanes_equal_scalars(model(), &points(), &solver);
+    for row in &rows {
+        assert!(row.measures.iter().all(|m| m.is_finite()), "{row:?}");
+    }
+    for status in [Status::Periodic, Status::Invalid] {
+        assert!(rows.iter().any(|row| row.status == status), "no row is {}", status.name());
     }
 }

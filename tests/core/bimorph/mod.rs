@@ -12,7 +12,7 @@ mod variants;
 
 use flap_core::model::bimorph::Params;
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Jobs, Point, Row, Simulator, SolverSettings, Status, by_name};
+use flap_core::simulate::{Row, Simulator, SolverSettings, Status, by_name};
 
 use crate::data::Record;
 
@@ -61,30 +61,4 @@ fn settled(params: &Params, rtol: f64) -> Row {
 fn measure(row: &Row, column: &str) -> f64 {
     let index = model().columns().iter().position(|c| c.name == column);
     row.measures[index.unwrap_or_else(|| panic!("no column {column}"))]
-}
-
-/// Points given in order; rows kept by index.
-struct Listed {
-    points: Vec<Vec<f64>>,
-    next: usize,
-    rows: Vec<Option<Row>>,
-}
-
-impl Jobs for Listed {
-    fn next(&mut self, _idle: bool) -> Option<Point> {
-        let values = self.points.get(self.next)?.clone();
-        self.next += 1;
-        Some(Point { index: self.next as u64 - 1, values })
-    }
-
-    fn done(&mut self, index: u64, row: Row) {
-        self.rows[index as usize] = Some(row);
-    }
-}
-
-/// The rows of many points, from lanes.
-fn rows(points: Vec<Vec<f64>>, set: InstructionSet, solver: &SolverSettings) -> Vec<Row> {
-    let mut listed = Listed { next: 0, rows: vec![None; points.len()], points };
-    model().run(set, solver, &mut listed);
-    listed.rows.into_iter().map(|row| row.expect("every point has a row")).collect()
 }

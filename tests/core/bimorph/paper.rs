@@ -7,8 +7,9 @@ use flap_core::num::InstructionSet;
 use flap_core::simulate::{Row, SolverSettings, Status};
 
 use super::physics::static_tip;
-use super::{measure, params, rows, settled};
+use super::{measure, model, params, settled};
 use crate::data::assert_close;
+use crate::rows;
 
 /// The responses of a design to voltages (V), at frequencies from `from` to `to` in steps of 1 Hz.
 fn responses<const V: usize>(p: &Params, voltages: [f64; V], from: u32, to: u32) -> [Vec<(f64, Row)>; V] {
@@ -21,7 +22,7 @@ fn responses<const V: usize>(p: &Params, voltages: [f64; V], from: u32, to: u32)
     }
     // A hundred times rtol and more: kinks make the state at the ends of cycles jitter.
     let solver = SolverSettings { settle_tol: 2e-4, ..SolverSettings::default() };
-    let mut rows = rows(points, InstructionSet::best(), &solver).into_iter();
+    let mut rows = rows::of(model(), &points, InstructionSet::best(), &solver).into_iter();
     voltages.map(|voltage| {
         (from..=to)
             .map(|frequency| {

@@ -1,7 +1,7 @@
 //! Forces, moments and accelerations against reference vectors, on scalars and lanes.
 
 use fearless_simd::Simd;
-use flap_core::drive::Voltage;
+use flap_core::drive::Driven;
 use flap_core::model::direct_drive::{
     Constants, DirectDrive, Params, added_mass, aerodynamics, current, lift, mean_velocity,
 };
@@ -15,7 +15,7 @@ const TOLERANCE: f64 = 1e-11;
 
 struct Case {
     constants: Constants<f64>,
-    drive: Voltage<f64>,
+    drive: Driven<f64>,
     side: f64,
     y: [f64; 4],
     record: Record,
@@ -30,7 +30,7 @@ fn cases() -> Vec<Case> {
                 ..params(record.text("type"))
             })
             .unwrap(),
-            drive: Voltage { value: record.number("V_V"), rate: record.number("Vdot_V_s") },
+            drive: Driven::with_rate(record.number("V_V"), record.number("Vdot_V_s")),
             side: record.number("ubar_m_s").signum(),
             y: ["phi", "psi", "phidot", "psidot"].map(|column| record.number(column)),
             record,
@@ -91,7 +91,7 @@ impl Kernel for RhsOnLanes {
         for group in cases.chunks(Vector::<S>::LANES) {
             let zero = Vector::<S>::splat(simd, 0.0);
             let mut c = Constants::<Vector<S>>::fill(simd, &group[0].constants);
-            let mut drive = Voltage { value: zero, rate: zero };
+            let mut drive = Driven::with_rate(zero, zero);
             let mut side = zero;
             let mut y = [zero; 4];
             for (lane, case) in group.iter().enumerate() {
@@ -121,7 +121,7 @@ fn every_lane_equals_the_scalar_bit_for_bit() {
                 }
                 Arithmetic::Unfused => {
                     let c = Constants::<Unfused>::fill((), &case.constants);
-                    let drive = Voltage { value: Unfused(case.drive.value), rate: Unfused(case.drive.rate) };
+                    let drive = Driven::with_rate(Unfused(case.drive.value), Unfused(case.drive.rate));
                     DirectDrive::default()
                         .rhs(&c, &drive, Unfused(case.side), &case.y.map(Unfused))
                         .map(|d| d.0)
@@ -137,7 +137,7 @@ fn arithmetic_classes_agree_to_rounding() {
     for case in cases() {
         let fused = DirectDrive::default().rhs(&case.constants, &case.drive, case.side, &case.y);
         let c = Constants::<Unfused>::fill((), &case.constants);
-        let drive = Voltage { value: Unfused(case.drive.value), rate: Unfused(case.drive.rate) };
+        let drive = Driven::with_rate(Unfused(case.drive.value), Unfused(case.drive.rate));
         let unfused = DirectDrive::default().rhs(&c, &drive, Unfused(case.side), &case.y.map(Unfused));
         for i in 0..4 {
             assert_close(unfused[i].0, fused[i], 1e-11, &case.record.name);

@@ -3,6 +3,7 @@
 mod constants;
 mod equations;
 mod impulse;
+mod motion;
 mod physics;
 mod steady;
 

@@ -1,6 +1,6 @@
 //! Symmetries and conservation laws.
 
-use flap_core::drive::Voltage;
+use flap_core::drive::Driven;
 use flap_core::model::direct_drive::{
     AddedMass, CentreOfPressure, Constants, DirectDrive, Params, added_mass, aerodynamics, current, lift,
 };
@@ -53,7 +53,7 @@ proptest! {
     fn energy_changes_by_work_alone(p in any_params(), y in any_state(), volts in -100.0..100.0, up in prop::bool::ANY) {
         let c = Constants::derive(&p).unwrap();
         let side = if up { 1.0 } else { -1.0 };
-        let dy = DirectDrive::default().rhs(&c, &Voltage { value: volts, rate: 0.0 }, side, &y);
+        let dy = DirectDrive::default().rhs(&c, &Driven::with_rate(volts, 0.0), side, &y);
         let (sin, cos) = Real::sin_cos(y[1]);
         let air = aerodynamics(&c, side, &y, sin, cos);
         let work = c.gamma * volts * y[2]
@@ -75,14 +75,14 @@ proptest! {
         let reading = if folded { CentreOfPressure::Folded } else { CentreOfPressure::Directional };
         let c = Constants::derive(&Params { centre_of_pressure: reading, ..p }).unwrap();
         let [dy, mirrored] = [1.0, -1.0].map(|m| {
-            DirectDrive::default().rhs(&c, &Voltage { value: m * volts, rate: 0.0 }, m, &y.map(|y| m * y))
+            DirectDrive::default().rhs(&c, &Driven::with_rate(m * volts, 0.0), m, &y.map(|y| m * y))
         });
         prop_assert_eq!(dy, mirrored.map(|d| -d));
         let [plus, minus] = [(1.0, dy), (-1.0, mirrored)].map(|(m, dy)| {
             let y = y.map(|y| m * y);
             let (sin, cos) = Real::sin_cos(y[1]);
             let added = added_mass(&c, sin, cos, &dy);
-            let drive = Voltage { value: m * volts, rate: m * 1e4 };
+            let drive = Driven::with_rate(m * volts, m * 1e4);
             [lift(&c, &aerodynamics(&c, m, &y, sin, cos), &added, sin), current(&c, &drive, y[2]) * drive.value]
         });
         prop_assert_eq!(plus, minus);
@@ -96,7 +96,7 @@ fn the_literal_reading_breaks_the_mirror_symmetry() {
     let c = Constants::derive(&p).unwrap();
     let y = [0.1, 0.7, 100.0, 50.0];
     let [dy, mirrored] = [1.0, -1.0]
-        .map(|m| DirectDrive::default().rhs(&c, &Voltage { value: 0.0, rate: 0.0 }, m, &y.map(|y| m * y)));
+        .map(|m| DirectDrive::default().rhs(&c, &Driven::with_rate(0.0, 0.0), m, &y.map(|y| m * y)));
     assert!((dy[3] + mirrored[3]).abs() > 0.1 * dy[3].abs());
 }
 

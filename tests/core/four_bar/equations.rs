@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use fearless_simd::Simd;
-use flap_core::drive::Voltage;
+use flap_core::drive::Driven;
 use flap_core::model::four_bar::{
     Arms, Constants, FourBar, Params, Quadrature, added_mass_lift, aerodynamics, force, mass_matrix, side_of,
     transmission,
@@ -16,7 +16,7 @@ use crate::data::{Record, table};
 
 struct Case {
     constants: Constants<f64>,
-    drive: Voltage<f64>,
+    drive: Driven<f64>,
     side: f64,
     y: [f64; 4],
     record: Record,
@@ -96,7 +96,7 @@ impl Kernel for RhsOnLanes {
         for group in cases.chunks(Vector::<S>::LANES) {
             let zero = Vector::<S>::splat(simd, 0.0);
             let mut c = Constants::<Vector<S>>::fill(simd, &group[0].constants);
-            let mut drive = Voltage { value: zero, rate: zero };
+            let mut drive = Driven::with_rate(zero, zero);
             let mut side = zero;
             let mut y = [zero; 4];
             for (lane, case) in group.iter().enumerate() {
@@ -150,7 +150,7 @@ fn every_lane_equals_the_scalar_bit_for_bit() {
 /// The derivative in the arithmetic of processors without fused multiply-add.
 fn unfused(case: &Case) -> [f64; 4] {
     let c = Constants::<Unfused>::fill((), &case.constants);
-    let drive = Voltage { value: Unfused(case.drive.value), rate: Unfused(case.drive.rate) };
+    let drive = Driven::with_rate(Unfused(case.drive.value), Unfused(case.drive.rate));
     FourBar::default().rhs(&c, &drive, Unfused(case.side), &case.y.map(Unfused)).map(|d| d.0)
 }
 
@@ -252,7 +252,7 @@ fn rate_of_the_side_is_its_derivative() {
 #[test]
 fn equations_go_on_smoothly_past_the_vertical() {
     let c = Constants::derive(&params("sys75")).unwrap();
-    let drive = Voltage { value: 80.0, rate: 0.0 };
+    let drive = Driven::with_rate(80.0, 0.0);
     let y = [0.1, 0.0, 80.0, -100.0];
     let [up, down] = [1.0, -1.0].map(|side| FourBar::default().rhs(&c, &drive, side, &y));
     assert_eq!(up, down);

@@ -3,7 +3,9 @@
 mod constants;
 mod equations;
 mod kinematics;
+mod lanes;
 mod physics;
+mod prescribed;
 mod steady;
 mod transient;
 use flap_core::model::four_bar::{Arms, Params};

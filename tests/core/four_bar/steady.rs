@@ -11,12 +11,12 @@ pub(super) fn model() -> &'static dyn Simulator {
     by_name("four-bar").unwrap()
 }
 
-fn run(params: &Params, rtol: f64, settle_tol: f64) -> Row {
+pub(super) fn run(params: &Params, rtol: f64, settle_tol: f64) -> Row {
     let solver = SolverSettings { rtol, atol: 1e-2 * rtol, settle_tol, ..SolverSettings::default() };
     model().run_point(InstructionSet::best(), &solver, &params.to_values())
 }
 
-fn measure(row: &Row, column: &str) -> f64 {
+pub(super) fn measure(row: &Row, column: &str) -> f64 {
     let index = model().columns().iter().position(|c| c.name == column);
     row.measures[index.unwrap_or_else(|| panic!("no column {column}"))]
 }
@@ -45,7 +45,7 @@ fn operating_point(record: &Record) -> Params {
 }
 
 /// An angle in degrees, in (−180, 180].
-fn wrapped(degrees: f64) -> f64 {
+pub(super) fn wrapped(degrees: f64) -> f64 {
     180.0 - (180.0 - degrees).rem_euclid(360.0)
 }
 

@@ -2,10 +2,13 @@
 
 pub(crate) mod check;
 mod impulse;
+pub(crate) mod lift;
 pub(crate) mod models;
 mod motion;
 pub(crate) mod params;
 mod point;
 pub(crate) mod resonance;
 pub(crate) mod run;
+mod samples;
 pub(crate) mod sweep;
+pub(crate) mod track;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use flap_core::parameter::{Kind, Parameter};
-use flap_core::simulate::{self, SolverSettings};
+use flap_core::simulate::{self, Simulator, SolverSettings};
 use flap_sweep::diagnostic::nearest;
 use flap_sweep::plan::Plan;
 use flap_sweep::{spec, units};
@@ -16,6 +16,8 @@ pub(crate) struct Chosen {
     pub(crate) plan: Plan,
     /// One value per parameter.
     pub(crate) values: Vec<f64>,
+    /// The model with a waveform or stroke from a file, if there is one.
+    pub(crate) sampled: Option<Box<dyn Simulator>>,
     index: u64,
 }
 
@@ -33,7 +35,21 @@ impl Chosen {
         for (name, value) in &point.set {
             set_parameter(plan.parameters(), &mut values, name, value)?;
         }
-        Ok(Chosen { plan, values, index: point.point })
+        Ok(Chosen { plan, values, sampled: None, index: point.point })
+    }
+
+    /// The model that is run.
+    pub(crate) fn simulator(&self) -> &dyn Simulator {
+        self.sampled.as_deref().unwrap_or(self.plan.simulator)
+    }
+
+    /// Sets a parameter if the model has it, and says whether it has.
+    pub(crate) fn put(&mut self, name: &str, value: f64) -> bool {
+        let index = self.plan.parameters().iter().position(|parameter| parameter.name == name);
+        if let Some(index) = index {
+            self.values[index] = value;
+        }
+        index.is_some()
     }
 
     /// Model and preset in one line.

@@ -6,17 +6,18 @@ use std::io;
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{ChirpRequest, Row, Status, TrajectoryRequest};
 
-use super::impulse;
 use super::motion::{write_csv, write_file};
 use super::point::Chosen;
+use super::{impulse, samples};
 use crate::args::{Drive, RunArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::table::{Table, six_digits};
 
 pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
-    let chosen = Chosen::new(&args.point, &args.solver)?;
+    let mut chosen = Chosen::new(&args.point, &args.solver)?;
     refuse_strays(args)?;
+    samples::apply(&mut chosen, args)?;
     match args.drive {
         Drive::Steady => steady(&chosen, args),
         Drive::Chirp => chirp(&chosen, args),
@@ -33,6 +34,8 @@ fn refuse_strays(args: &RunArgs) -> Result<(), Failure> {
         Drive::Steady | Drive::Chirp if args.impulse.is_some() => stray("--impulse", "impulse"),
         Drive::Steady | Drive::Chirp if args.duration.is_some() => stray("--duration", "impulse"),
         Drive::Chirp | Drive::Impulse if args.from_rest => stray("--from-rest", "steady"),
+        Drive::Chirp | Drive::Impulse if args.waveform.is_some() => stray("--waveform", "steady"),
+        Drive::Chirp | Drive::Impulse if args.stroke.is_some() => stray("--stroke", "steady"),
         _ => Ok(()),
     }
 }
@@ -44,20 +47,23 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
     if let Some(path) = &args.trajectory {
         check_length(args)?;
         let request = TrajectoryRequest {
-            cycles: args.cycles,
+            cycles: if args.once { 1 } else { args.cycles },
             samples_per_cycle: args.samples,
-            settled: !args.from_rest,
+            settled: !args.from_rest && !args.once,
         };
-        let motion = plan.simulator.trajectory(set, &plan.solver, values, &request)?;
+        let motion = chosen.simulator().trajectory(set, &plan.solver, values, &request)?;
         if path.as_os_str() == "-" {
             write_csv(&motion, io::stdout().lock())?;
             return Ok(Exit::Done);
         }
         write_file(&motion, path, args.force)?;
         console::say(&format!("{} samples in {}", motion.rows.len(), path.display()));
+        if args.once {
+            return Ok(Exit::Done);
+        }
     }
 
-    let row = plan.simulator.run_point(set, &plan.solver, values);
+    let row = chosen.simulator().run_point(set, &plan.solver, values);
     if let (Status::Invalid, Some(reason)) = (row.status, &row.reason) {
         return Err(Failure::usage(format!("the parameters are impossible together: {reason}")));
     }

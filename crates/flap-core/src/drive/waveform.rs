@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use crate::num::Real;
-use crate::parameter::{Invalid, Slot};
+use crate::parameter::Slot;
 
 /// The shape of a waveform.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,19 +22,6 @@ pub enum Shape {
 impl Shape {
     /// Names of the periodic shapes, in the order of their values.
     pub const NAMES: &'static [&'static str] = &["sine", "harmonics", "square"];
-
-    /// Refuses a rise time, as a fraction of the period, that leaves a square wave no time to be flat.
-    ///
-    /// # Errors
-    /// If `rise` is above 0.5 and the shape is a square wave.
-    pub fn check(self, rise: f64) -> Result<(), Invalid> {
-        if self == Shape::Square && rise > 0.5 {
-            return Err(Invalid::new(format!(
-                "drive_rise is {rise}; a square wave rises in at most 0.5 of its period"
-            )));
-        }
-        Ok(())
-    }
 }
 
 impl Slot for Shape {
@@ -51,13 +38,15 @@ impl Slot for Shape {
     }
 }
 
-/// A waveform's value and rate of change (1/s) at a time.
+/// A waveform at a time.
 #[derive(Clone, Copy, Debug)]
 pub struct Wave<R> {
     /// Value.
     pub value: R,
     /// Rate of change (1/s).
     pub rate: R,
+    /// Rate of change of that (1/s²).
+    pub bend: R,
 }
 
 crate::per_lane! {
@@ -126,13 +115,14 @@ impl<R: Real> Waveform<R> {
         match shape {
             Shape::Sine => {
                 let (sin, cos) = (self.rate * t).sin_cos();
-                Wave { value: sin, rate: self.rate * cos }
+                Wave { value: sin, rate: self.rate * cos, bend: -(self.rate * self.rate * sin) }
             }
             Shape::Harmonics => self.harmonics(t),
             Shape::Square => self.square(t),
             Shape::Chirp => {
                 let (sin, cos) = self.phase(t).sin_cos();
-                Wave { value: sin, rate: (self.growth * t + self.rate) * cos }
+                let rate = self.growth * t + self.rate;
+                Wave { value: sin, rate: rate * cos, bend: self.growth * cos - rate * rate * sin }
             }
         }
     }
@@ -168,6 +158,9 @@ impl<R: Real> Waveform<R> {
         Wave {
             value: sin + a_2 * sin_2 + b_2 * cos_2 + a_3 * sin_3 + b_3 * cos_3,
             rate: self.rate * (cos + (a_2 * cos_2 - b_2 * sin_2) * 2.0 + (a_3 * cos_3 - b_3 * sin_3) * 3.0),
+            bend: -(self.rate
+                * self.rate
+                * (sin + (a_2 * sin_2 + b_2 * cos_2) * 4.0 + (a_3 * sin_3 + b_3 * cos_3) * 9.0)),
         }
     }
 
@@ -192,6 +185,7 @@ impl<R: Real> Waveform<R> {
         Wave {
             value: R::select(on_edge, level * sin, level),
             rate: R::select(on_edge, level * away * cos * slope, zero),
+            bend: R::select(on_edge, -(level * sin * slope * slope), zero),
         }
     }
 }

@@ -8,3 +8,4 @@ pub mod cycle;
 pub mod damped_sine;
 pub mod spectrum;
 pub mod strobe;
+pub mod tracking;

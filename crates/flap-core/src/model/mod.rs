@@ -6,13 +6,17 @@
 //! - constants derived from the parameters once per point ([`crate::per_lane!`]),
 //! - equations of motion ([`Ode`]) and the signals to be measured, written once for scalars and lanes.
 
+mod balance;
 pub mod bimorph;
+mod convert;
 pub mod direct_drive;
 pub mod four_bar;
 mod signal;
 
+pub use balance::{Balance, on_stroke, on_stroke_rates};
 pub use signal::{Derived, Measure, Signal, SignalCycle};
 
+use crate::drive::Samples;
 use crate::modes::Mode;
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
@@ -61,6 +65,13 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + PartialEq + Sized {
         y: &[R; N],
         dy: &[R; N],
     ) -> [R; S];
+
+    /// State and signals of a wing whose stroke and pitch are given: value (rad), rate, second derivative. Signals of
+    /// the actuator are not numbers.
+    fn imposed(&self, c: &Self::Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> ([f64; N], [f64; S]);
+
+    /// The model with samples for a waveform.
+    fn sampled(&self, samples: Samples) -> Self;
 
     /// The values of the [`Model::DERIVED`] columns.
     fn derived(&self, c: &Self::Constants<f64>, cycle: &[SignalCycle; S]) -> Vec<f64>;

@@ -3,6 +3,7 @@
 //! [`Simulator`] hides what differs between models; [`all`] lists them.
 
 mod chirp;
+mod imposed;
 mod impulse;
 mod lanes;
 mod motion;
@@ -12,20 +13,20 @@ mod scalar;
 mod simulator;
 
 pub use simulator::{
-    ChirpRequest, ChirpResponse, Column, ImpulseRequest, Jobs, Point, Row, Simulator, SolverSettings, Status,
-    Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Point, Row, Simulator,
+    SolverSettings, Status, Trajectory, TrajectoryRequest,
 };
 
-use crate::drive::Shape;
+use crate::drive::Source;
 use crate::model::bimorph::Bimorph;
 use crate::model::direct_drive::DirectDrive;
 use crate::model::four_bar::FourBar;
 use crate::parameter::Preset;
 use runner::Runner;
 
-static BIMORPH: Runner<Bimorph, 4, 14> = Runner::new(Bimorph { shape: Shape::Sine });
-static DIRECT_DRIVE: Runner<DirectDrive, 4, 9> = Runner::new(DirectDrive { shape: Shape::Sine });
-static FOUR_BAR: Runner<FourBar, 4, 15> = Runner::new(FourBar { shape: Shape::Sine });
+static BIMORPH: Runner<Bimorph, 4, 14> = Runner::new(Bimorph { source: Source::SINE });
+static DIRECT_DRIVE: Runner<DirectDrive, 4, 9> = Runner::new(DirectDrive { source: Source::SINE });
+static FOUR_BAR: Runner<FourBar, 4, 15> = Runner::new(FourBar { source: Source::SINE });
 static ALL: &[&dyn Simulator] = &[&BIMORPH, &DIRECT_DRIVE, &FOUR_BAR];
 
 /// Every model, in the order `flap models` lists them.

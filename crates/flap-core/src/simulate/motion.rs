@@ -132,7 +132,7 @@ impl Sampler {
 }
 
 /// Names of the columns of a trajectory: time, states, signals.
-fn columns<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<String> {
+pub(super) fn columns<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<String> {
     let mut columns = vec!["time_s".to_owned()];
     columns.extend(M::STATES.iter().map(|&name| name.to_owned()));
     columns.extend(M::SIGNALS.iter().map(|signal| {

@@ -3,12 +3,13 @@
 use std::sync::OnceLock;
 
 use super::lanes::{LanesKernel, Sized};
-use super::row;
 use super::scalar::Scalars;
 use super::simulator::{
-    ChirpRequest, ChirpResponse, Column, ImpulseRequest, Jobs, Row, Simulator, SolverSettings, Trajectory,
-    TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Row, Simulator, SolverSettings,
+    Trajectory, TrajectoryRequest,
 };
+use super::{imposed, row};
+use crate::drive::Samples;
 use crate::model::Model;
 use crate::modes::Mode;
 use crate::num::InstructionSet;
@@ -26,7 +27,7 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Runner<M, N, S> {
     }
 }
 
-impl<M: Model<N, S>, const N: usize, const S: usize> Simulator for Runner<M, N, S> {
+impl<M: Model<N, S> + 'static, const N: usize, const S: usize> Simulator for Runner<M, N, S> {
     fn name(&self) -> &'static str {
         M::NAME
     }
@@ -73,6 +74,14 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Simulator for Runner<M, N, 
         request: &ChirpRequest,
     ) -> Result<ChirpResponse, Invalid> {
         Scalars { model: &self.model, solver, values }.chirp::<N, S>(set, request)
+    }
+
+    fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Invalid> {
+        imposed::follow::<M, N, S>(&self.model, values, motion)
+    }
+
+    fn with_samples(&self, samples: Samples) -> Box<dyn Simulator> {
+        Box::new(Runner::<M, N, S>::new(self.model.sampled(samples)))
     }
 
     fn modes(&self, values: &[f64]) -> Result<[Mode; 2], Invalid> {

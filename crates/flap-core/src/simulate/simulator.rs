@@ -1,5 +1,6 @@
 //! The object-safe face of a model: all that sweeps, the command line and Python use.
 
+use crate::drive::Samples;
 use crate::modes::Mode;
 use crate::num::InstructionSet;
 use crate::ode::Tolerances;
@@ -55,6 +56,15 @@ pub trait Simulator: Sync {
         request: &ChirpRequest,
     ) -> Result<ChirpResponse, Invalid>;
 
+    /// States and signals along a given motion. What the actuator would do is not a number.
+    ///
+    /// # Errors
+    /// [`Invalid`] if the values are impossible together, or stroke and pitch do not last equally long.
+    fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Invalid>;
+
+    /// The same model with samples for a waveform: `samples` over a drive period replaces `drive_shape`.
+    fn with_samples(&self, samples: Samples) -> Box<dyn Simulator>;
+
     /// Small undamped motions of one point; first the one that an impulse on the stroke is to excite.
     ///
     /// # Errors
@@ -72,6 +82,17 @@ pub trait Simulator: Sync {
         values: &[f64],
         request: &ImpulseRequest,
     ) -> Result<Trajectory, Invalid>;
+}
+
+/// A motion of the wing that is given, as one that was filmed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImposedMotion {
+    /// Stroke angle (rad).
+    pub stroke: Samples,
+    /// Pitch angle (rad), over the same time.
+    pub pitch: Samples,
+    /// Intervals in which forces are evaluated, one more time than that.
+    pub samples: u32,
 }
 
 /// An impulse on the stroke, and how long the motion that follows is sampled.

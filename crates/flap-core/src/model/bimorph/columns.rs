@@ -3,16 +3,13 @@
 use super::Bimorph;
 use super::constants::Constants;
 use super::rhs::secant_stiffness;
-use crate::drive::Shape;
 use crate::model::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
+use crate::model::convert::{DEGREES, GRAVITY, wrap_degrees};
 use crate::model::{Derived, Measure, Signal, SignalCycle};
 
 /// Number of signals.
 pub(super) const S: usize = 14;
 
-const DEGREES: f64 = 180.0 / core::f64::consts::PI;
-/// Standard gravity (m/s²): newtons per kilogram-force.
-const GRAVITY: f64 = 9.80665;
 /// Share of the largest lift that a vehicle can hover with, the rest being needed for control; section IV.
 const HOVER_SHARE: f64 = 0.8;
 
@@ -82,13 +79,12 @@ pub(super) const DERIVED: &[Derived] = &[
     derived("mode_hinge_hz", "Hz", "natural frequency of small hinge angles, without drag"),
 ];
 
-/// The values of [`DERIVED`], for a drive of this `shape`.
-pub(super) fn values(c: &Constants<f64>, shape: Shape, cycle: &[SignalCycle; S]) -> Vec<f64> {
+/// The values of [`DERIVED`], for a wave that goes from `low` to `high`.
+pub(super) fn values(c: &Constants<f64>, [low, high]: [f64; 2], cycle: &[SignalCycle; S]) -> Vec<f64> {
     // F₁ − F₂ goes as −sin ωt, which has the phase π/2 against the cosine.
     let drive_phase = core::f64::consts::FRAC_PI_2;
     let stroke = &cycle[STROKE];
     // The plates see ½V_pp (1 ± wave).
-    let [low, high] = c.waveform.range(shape);
     let voltage_pp = c.half_voltage * (high - low);
     let voltage_max = c.half_voltage * (1.0 + high.max(-low));
     let tip_peak = stroke.measure(Peak) / c.ratio;
@@ -133,17 +129,5 @@ impl Bimorph {
         let stiffness = secant_stiffness(c, 0.0) + c.k_t;
         [stiffness * c.inverse_m_e, c.kappa_wh * c.inverse_i_xx]
             .map(|square| square.sqrt() / (2.0 * core::f64::consts::PI))
-    }
-}
-
-/// An angle in degrees, in (−180, 180].
-fn wrap_degrees(radians: f64) -> f64 {
-    let degrees = radians * DEGREES;
-    if degrees > 180.0 {
-        degrees - 360.0
-    } else if degrees <= -180.0 {
-        degrees + 360.0
-    } else {
-        degrees
     }
 }

@@ -19,17 +19,17 @@ pub use rhs::{
 };
 
 use super::{Derived, Model, Signal, SignalCycle};
-use crate::drive::{Shape, Waveform};
+use crate::drive::{Driven, Samples, Source, StrokeMode, Waveform};
 use crate::modes::Mode;
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
 
 /// The model.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bimorph {
-    /// Shape of the drive voltage.
-    pub shape: Shape,
+    /// What generates the drive voltage.
+    pub source: Source,
 }
 
 impl Ode<4> for Bimorph {
@@ -44,13 +44,13 @@ impl Ode<4> for Bimorph {
     #[inline(always)]
     fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> [Plate<R>; 2] {
         let half = c.half_voltage;
-        let wave = c.waveform.at(self.shape, t);
-        [plate(c, wave.voltage(half, -half)), plate(c, wave.voltage(half, half))]
+        let wave = self.source.at(&c.waveform, t);
+        [plate(c, wave.drive(half, -half)), plate(c, wave.drive(half, half))]
     }
 
     #[inline(always)]
     fn next_break<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
-        c.waveform.next_break(self.shape, t)
+        self.source.next_break(&c.waveform, t)
     }
 
     #[inline(always)]
@@ -70,14 +70,15 @@ impl Model<4, { columns::S }> for Bimorph {
     const DERIVED: &'static [Derived] = columns::DERIVED;
 
     fn variant(&self, values: &[f64]) -> Bimorph {
-        Bimorph { shape: Params::from_values(values).drive_shape }
+        let params = Params::from_values(values);
+        Bimorph { source: self.source.of_point(params.drive_shape, StrokeMode::Free) }
     }
 
     /// Starts at rest. The scales are those of the direct-drive model, so that tolerances and residuals mean the
     /// same: strokes of 0.1 rad, hinge angles of 0.3 rad, times the drive's angular frequency for the rates.
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
-        params.drive_shape.check(params.drive_rise)?;
+        self.source.check(params.drive_rise)?;
         let constants = Constants::derive(&params)?;
         let rate = constants.waveform.rate;
         let tip = 0.1 / params.transmission_ratio;
@@ -90,7 +91,10 @@ impl Model<4, { columns::S }> for Bimorph {
     }
 
     fn chirped(&self, c: &Constants<f64>, frequency: f64, rate: f64) -> (Bimorph, Constants<f64>) {
-        (Bimorph { shape: Shape::Chirp }, Constants { waveform: Waveform::chirp(frequency, rate), ..*c })
+        (
+            Bimorph { source: self.source.chirped() },
+            Constants { waveform: Waveform::chirp(frequency, rate), ..*c },
+        )
     }
 
     #[inline(always)]
@@ -133,8 +137,25 @@ impl Model<4, { columns::S }> for Bimorph {
         ]
     }
 
+    fn imposed(
+        &self,
+        c: &Constants<f64>,
+        stroke: [f64; 3],
+        pitch: [f64; 3],
+    ) -> ([f64; 4], [f64; columns::S]) {
+        let [x, x_dot, x_ddot] = stroke.map(|stroke| stroke / c.ratio);
+        let y = [x, x_dot, pitch[0], pitch[1]];
+        let dy = [x_dot, x_ddot, pitch[1], pitch[2]];
+        let unknown = plate(c, Driven::with_rate(f64::NAN, f64::NAN));
+        (y, self.signals(c, &[unknown; 2], 1.0, &y, &dy))
+    }
+
+    fn sampled(&self, samples: Samples) -> Bimorph {
+        Bimorph { source: self.source.sampled(samples) }
+    }
+
     fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; columns::S]) -> Vec<f64> {
-        columns::values(c, self.shape, cycle)
+        columns::values(c, self.source.range(&c.waveform), cycle)
     }
 
     fn modes(&self, c: &Constants<f64>) -> [Mode; 2] {
@@ -147,6 +168,6 @@ impl Model<4, { columns::S }> for Bimorph {
         let tip_rate = stroke_rate / c.ratio;
         let waveform = Waveform { rate: 0.0, ..c.waveform };
         let state = [0.0, tip_rate, 0.0, c.coupling * tip_rate * c.inverse_i_xx];
-        (Bimorph { shape: Shape::Sine }, Constants { waveform, ..*c }, state)
+        (Bimorph { source: Source::SINE }, Constants { waveform, ..*c }, state)
     }
 }

@@ -14,9 +14,9 @@ use crate::piezo::{Laminate, Layer};
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// Constant part of the drive voltage (V).
+        /// Constant part of the drive voltage (V), or zero where the stroke is prescribed.
         pub drive_bias: R,
-        /// Amplitude of the drive voltage (V).
+        /// Amplitude of the drive voltage (V), or of the prescribed stroke (rad).
         pub drive_amplitude: R,
         /// Shape of the drive voltage over time.
         pub waveform: Waveform<R>,
@@ -144,10 +144,11 @@ impl Constants<f64> {
         let aspect = 0.5 * r / c;
         let k_lift = FRAC_PI_2 * (r / c) / (1.0 + (aspect * aspect + 1.0).sqrt());
 
+        let [drive_bias, drive_amplitude] = p.drive();
         let one_if = |yes: bool| if yes { 1.0 } else { 0.0 };
         let constants = Constants {
-            drive_bias: p.drive_bias.unwrap_or(0.5 * p.drive_voltage_pp),
-            drive_amplitude: 0.5 * p.drive_voltage_pp,
+            drive_bias,
+            drive_amplitude,
             waveform: p.waveform(),
 
             k_phi: 0.5 * s_a * widths / l_a,

@@ -10,32 +10,31 @@ mod rhs;
 
 pub use constants::Constants;
 pub use params::{AddedMass, CentreOfPressure, LiftSign, Params};
-pub use rhs::{
-    AddedMassLoad, Aerodynamics, added_mass, aerodynamics, current, derivative, lift, mean_velocity,
-};
+pub use rhs::{AddedMassLoad, Aerodynamics, added_mass, aerodynamics, balance, current, lift, mean_velocity};
 
 use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
-use super::{Derived, Model, Signal, SignalCycle};
-use crate::drive::{Shape, Voltage, Waveform};
+use super::convert::{DEGREES, GRAVITY, wrap_degrees};
+use super::{Derived, Model, Signal, SignalCycle, on_stroke, on_stroke_rates};
+use crate::drive::{Driven, Samples, Source, Waveform};
 use crate::modes::{Mode, natural_frequencies};
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
 
 /// The model.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct DirectDrive {
-    /// Shape of the drive voltage.
-    pub shape: Shape,
+    /// What generates the drive voltage, or the stroke.
+    pub source: Source,
 }
 
 impl Ode<4> for DirectDrive {
     type Constants<R: Lanes> = Constants<R>;
-    type Input<R: Lanes> = Voltage<R>;
+    type Input<R: Lanes> = Driven<R>;
 
     #[inline(always)]
-    fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> Voltage<R> {
-        c.waveform.at(self.shape, t).voltage(c.drive_bias, c.drive_amplitude)
+    fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> Driven<R> {
+        self.source.at(&c.waveform, t).drive(c.drive_bias, c.drive_amplitude)
     }
 
     /// The paper takes one sign of the velocity for the whole wing: forces jump where it changes.
@@ -43,12 +42,19 @@ impl Ode<4> for DirectDrive {
 
     #[inline(always)]
     fn next_break<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
-        c.waveform.next_break(self.shape, t)
+        self.source.next_break(&c.waveform, t)
     }
 
     #[inline(always)]
-    fn rhs<R: Lanes>(&self, c: &Constants<R>, drive: &Voltage<R>, side: R, y: &[R; 4]) -> [R; 4] {
-        derivative(c, drive, side, y)
+    fn rhs<R: Lanes>(&self, c: &Constants<R>, drive: &Driven<R>, side: R, y: &[R; 4]) -> [R; 4] {
+        let prescribed = self.source.prescribes_stroke();
+        let at = if prescribed { on_stroke(drive, y) } else { *y };
+        let balance = balance(c, side, &at);
+        if prescribed {
+            balance.prescribed(y, drive, c.waveform.rate)
+        } else {
+            balance.driven(y, c.gamma * drive.value)
+        }
     }
 
     #[inline(always)]
@@ -56,10 +62,6 @@ impl Ode<4> for DirectDrive {
         mean_velocity(c, y, dy)
     }
 }
-
-const DEGREES: f64 = 180.0 / core::f64::consts::PI;
-/// Standard gravity (m/s²): newtons per kilogram-force.
-const GRAVITY: f64 = 9.80665;
 
 /// Positions in [`Model::SIGNALS`].
 const STROKE: usize = 0;
@@ -198,24 +200,28 @@ impl Model<4, 9> for DirectDrive {
     ];
 
     fn variant(&self, values: &[f64]) -> DirectDrive {
-        DirectDrive { shape: Params::from_values(values).drive_shape }
+        let params = Params::from_values(values);
+        DirectDrive { source: self.source.of_point(params.drive_shape, params.stroke_mode) }
     }
 
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
-        params.drive_shape.check(params.drive_rise)?;
+        self.source.check(params.drive_rise)?;
         let constants = Constants::derive(&params)?;
         let rate = constants.waveform.rate;
         Ok(Start {
             constants,
-            y: [0.0; 4],
+            y: self.initial_state(&constants),
             span: 1.0 / params.drive_frequency,
             scale: [0.1, 0.3, 0.1 * rate, 0.3 * rate],
         })
     }
 
     fn chirped(&self, c: &Constants<f64>, frequency: f64, rate: f64) -> (DirectDrive, Constants<f64>) {
-        (DirectDrive { shape: Shape::Chirp }, Constants { waveform: Waveform::chirp(frequency, rate), ..*c })
+        (
+            DirectDrive { source: self.source.chirped() },
+            Constants { waveform: Waveform::chirp(frequency, rate), ..*c },
+        )
     }
 
     #[inline(always)]
@@ -227,16 +233,19 @@ impl Model<4, 9> for DirectDrive {
     fn signals<R: Lanes>(
         &self,
         c: &Constants<R>,
-        drive: &Voltage<R>,
+        drive: &Driven<R>,
         side: R,
         y: &[R; 4],
         dy: &[R; 4],
     ) -> [R; 9] {
+        let prescribed = self.source.prescribes_stroke();
+        let (y, dy) = if prescribed { (&on_stroke(drive, y), &on_stroke_rates(drive, dy)) } else { (y, dy) };
         let [phi, psi, phi_dot, psi_dot] = *y;
         let (sin, cos) = psi.sin_cos();
         let air = aerodynamics(c, side, y, sin, cos);
         let added = added_mass(c, sin, cos, dy);
-        let current = current(c, drive, phi_dot);
+        // A prescribed stroke knows nothing of what the actuator does.
+        let current = if prescribed { phi.lit(f64::NAN) } else { current(c, drive, phi_dot) };
         [
             phi,
             psi,
@@ -250,6 +259,20 @@ impl Model<4, 9> for DirectDrive {
         ]
     }
 
+    fn imposed(&self, c: &Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> ([f64; 4], [f64; 9]) {
+        let y = [stroke[0], pitch[0], stroke[1], pitch[1]];
+        let dy = [stroke[1], pitch[1], stroke[2], pitch[2]];
+        let [velocity, _] = mean_velocity(c, &y, &dy);
+        let side = 1.0_f64.copysign(velocity);
+        let [value, rate, bend] = stroke;
+        let prescribed = DirectDrive { source: Source::PRESCRIBED };
+        (y, prescribed.signals(c, &Driven { value, rate, bend }, side, &y, &dy))
+    }
+
+    fn sampled(&self, samples: Samples) -> DirectDrive {
+        DirectDrive { source: self.source.sampled(samples) }
+    }
+
     fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; 9]) -> Vec<f64> {
         // The drive's sine has the phase −π/2 against the cosine.
         let drive_phase = -core::f64::consts::FRAC_PI_2;
@@ -257,7 +280,11 @@ impl Model<4, 9> for DirectDrive {
         let power = cycle[POWER].mean;
         let taken = cycle[DRAG_POWER].mean + cycle[ROTATION_POWER].mean;
         let frequency = c.waveform.rate / (2.0 * core::f64::consts::PI);
-        let [low, high] = c.waveform.range(self.shape).map(|wave| c.drive_bias + c.drive_amplitude * wave);
+        let [low, high] = if self.source.prescribes_stroke() {
+            [f64::NAN; 2]
+        } else {
+            self.source.range(&c.waveform).map(|wave| c.drive_bias + c.drive_amplitude * wave)
+        };
         let voltage_pp = high - low;
         let [mode_1, mode_2] = DirectDrive::linear_modes(c);
         let field_max = high.max(-low) / c.piezo_thickness;
@@ -285,11 +312,17 @@ impl Model<4, 9> for DirectDrive {
         let [_, [m12, m22]] = DirectDrive::mass_at_rest(c);
         let waveform = Waveform { rate: 0.0, ..c.waveform };
         let still = Constants { drive_bias: 0.0, drive_amplitude: 0.0, waveform, ..*c };
-        (DirectDrive { shape: Shape::Sine }, still, [0.0, 0.0, stroke_rate, -(m12 / m22) * stroke_rate])
+        (DirectDrive { source: Source::SINE }, still, [0.0, 0.0, stroke_rate, -(m12 / m22) * stroke_rate])
     }
 }
 
 impl DirectDrive {
+    /// At rest; where the stroke is prescribed, on it.
+    fn initial_state(&self, c: &Constants<f64>) -> [f64; 4] {
+        let rest = [0.0; 4];
+        if self.source.prescribes_stroke() { on_stroke(&self.input(c, 0.0), &rest) } else { rest }
+    }
+
     /// Natural frequencies (Hz) of small motions about ψ = 0 with the added mass of still air, the lower first.
     pub fn linear_modes(c: &Constants<f64>) -> [f64; 2] {
         natural_frequencies(DirectDrive::mass_at_rest(c), [c.k_phi, c.k_w])
@@ -299,17 +332,5 @@ impl DirectDrive {
     fn mass_at_rest(c: &Constants<f64>) -> [[f64; 2]; 2] {
         let coupling = c.m12 - c.a12;
         [[c.m11 + c.a11, coupling], [coupling, c.m22 + c.a22]]
-    }
-}
-
-/// An angle in degrees, in (−180, 180].
-fn wrap_degrees(radians: f64) -> f64 {
-    let degrees = radians * DEGREES;
-    if degrees > 180.0 {
-        degrees - 360.0
-    } else if degrees <= -180.0 {
-        degrees + 360.0
-    } else {
-        degrees
     }
 }

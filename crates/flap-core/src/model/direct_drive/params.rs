@@ -1,6 +1,6 @@
 //! Parameters of the direct-drive model and their published values.
 
-use crate::drive::{Shape, Waveform};
+use crate::drive::{Shape, StrokeMode, Waveform};
 use crate::linkage::TorsionHinge;
 use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
@@ -27,6 +27,10 @@ crate::parameters! {
         drive_third_phase: f64 = ("rad", "", Number(Any)),
         /// Rise and fall time of the square wave, as a fraction of the period, up to 0.5. Only for drive_shape = "square".
         drive_rise: f64 = ("", "", Number(Positive)),
+        /// Whether the actuator drives the stroke, or the stroke is prescribed: stroke_amplitude times the drive's waveform, whatever that takes. The pitch is free in both.
+        stroke_mode: StrokeMode = ("", "", Choice(StrokeMode::NAMES)),
+        /// Amplitude of the prescribed stroke. Only for stroke_mode = "prescribed".
+        stroke_amplitude: f64 = ("rad", "", Number(NonNegative)),
 
         /// Wing length, from the wing's root to its tip.
         wing_length: f64 = ("m", "R", Number(Positive)),
@@ -214,6 +218,8 @@ impl Params {
             drive_third_harmonic: 0.0,
             drive_third_phase: 0.0,
             drive_rise: 0.05,
+            stroke_mode: StrokeMode::Free,
+            stroke_amplitude: 10.0_f64.to_radians(),
             wing_length: 17.0e-3,
             mean_chord: 6.51e-3,
             wing_offset: None,
@@ -289,6 +295,16 @@ impl Params {
             shim_thickness: 130e-6,
             // Materials and air are those of the small type.
             ..Params::ozaki2018_small()
+        }
+    }
+
+    /// Constant part and amplitude of what is driven: the voltage (V), or the prescribed stroke (rad).
+    pub(super) fn drive(&self) -> [f64; 2] {
+        match self.stroke_mode {
+            StrokeMode::Free => {
+                [self.drive_bias.unwrap_or(0.5 * self.drive_voltage_pp), 0.5 * self.drive_voltage_pp]
+            }
+            StrokeMode::Prescribed => [0.0, self.stroke_amplitude],
         }
     }
 

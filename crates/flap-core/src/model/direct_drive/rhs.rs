@@ -8,7 +8,8 @@
 use core::f64::consts::FRAC_PI_2;
 
 use super::constants::Constants;
-use crate::drive::Voltage;
+use crate::drive::Driven;
+use crate::model::Balance;
 use crate::num::Real;
 
 /// Translational and rotational aerodynamics at one state.
@@ -89,30 +90,28 @@ fn attack<R: Real>(c: &Constants<R>, psi: R, side: R) -> R {
     R::select(c.attack_folded.lt(attack.lit(0.5)), attack.abs(), attack)
 }
 
-/// The derivative `[φ̇, ψ̇, φ̈, ψ̈]`, from Lagrange's equations (3)–(18) with the added mass (28)–(30) and the
-/// aerodynamic moments (34) moved into the mass matrix and the generalised forces.
+/// Mass matrix and generalised forces but the actuator's, from Lagrange's equations (3)–(18) with the added mass
+/// (28)–(30) and the aerodynamic moments (34) moved into them.
 ///
 /// ```text
-/// ⎡m₁₁ + m_s s² + a₁₁ c²   (m₁₂ − a₁₂) c⎤ ⎡φ̈⎤ = ⎡Q₁⎤     s = sin ψ, c = cos ψ
-/// ⎣(m₁₂ − a₁₂) c              m₂₂ + a₂₂⎦ ⎣ψ̈⎦   ⎣Q₂⎦
+/// ⎡m₁₁ + m_s s² + a₁₁ c²   (m₁₂ − a₁₂) c⎤ ⎡φ̈⎤ = ⎡Q₁ + ΓV⎤     s = sin ψ, c = cos ψ
+/// ⎣(m₁₂ − a₁₂) c              m₂₂ + a₂₂⎦ ⎣ψ̈⎦   ⎣Q₂     ⎦
 ///
-/// Q₁ = ΓV − k_φ φ − 2m_s φ̇ψ̇ s c + m₁₂ ψ̇² s + a₁₁ φ̇ψ̇ s c + M_tr,y
+/// Q₁ = −k_φ φ − 2m_s φ̇ψ̇ s c + m₁₂ ψ̇² s + a₁₁ φ̇ψ̇ s c + M_tr,y
 /// Q₂ = −k_w ψ + m_s φ̇² s c − a₁₂ φ̇ψ̇ s + M_tr,x′ + M_rot
 /// ```
 ///
 /// The Lagrangian form of the added mass adds ψ̇ e to Q₁ and −φ̇ e to Q₂, e = (a₁₁ φ̇ c − a₁₂ ψ̇) s.
 #[inline(always)]
-pub fn derivative<R: Real>(c: &Constants<R>, drive: &Voltage<R>, side: R, y: &[R; 4]) -> [R; 4] {
+pub fn balance<R: Real>(c: &Constants<R>, side: R, y: &[R; 4]) -> Balance<R> {
     let [phi, psi, phi_dot, psi_dot] = *y;
     let (sin, cos) = psi.sin_cos();
     let air = aerodynamics(c, side, y, sin, cos);
 
     let both = phi_dot * psi_dot;
     let gyroscopic = c.gyroscopic * (c.a11 * phi_dot * cos - c.a12 * psi_dot) * sin;
-    let q1 = c.gamma * drive.value - c.k_phi * phi
-        + (c.a11 - c.m_s * 2.0) * both * sin * cos
-        + c.m12 * psi_dot * psi_dot * sin
-        + air.stroke_moment
+    let q1 = (c.a11 - c.m_s * 2.0) * both * sin * cos + c.m12 * psi_dot * psi_dot * sin + air.stroke_moment
+        - c.k_phi * phi
         + psi_dot * gyroscopic;
     let q2 = c.m_s * phi_dot * phi_dot * sin * cos - c.k_w * psi - c.a12 * both * sin
         + air.pitch_moment
@@ -122,10 +121,7 @@ pub fn derivative<R: Real>(c: &Constants<R>, drive: &Voltage<R>, side: R, y: &[R
     let m11 = c.m11 + c.m_s * sin * sin + c.a11 * cos * cos;
     let m12 = (c.m12 - c.a12) * cos;
     let m22 = c.m22 + c.a22;
-    let inverse_determinant = phi.lit(1.0) / (m11 * m22 - m12 * m12);
-    let phi_ddot = (m22 * q1 - m12 * q2) * inverse_determinant;
-    let psi_ddot = (m11 * q2 - m12 * q1) * inverse_determinant;
-    [phi_dot, psi_dot, phi_ddot, psi_ddot]
+    Balance { mass: [m11, m12, m22], stroke_moment: q1, pitch_moment: q2 }
 }
 
 /// The added-mass force and moments (28)–(30) at known accelerations.
@@ -162,6 +158,6 @@ pub fn lift<R: Real>(c: &Constants<R>, air: &Aerodynamics<R>, added: &AddedMassL
 
 /// Current into the actuator j_A (A), (39) with the reciprocal coupling: C_p V̇ + Γ φ̇.
 #[inline(always)]
-pub fn current<R: Real>(c: &Constants<R>, drive: &Voltage<R>, phi_dot: R) -> R {
+pub fn current<R: Real>(c: &Constants<R>, drive: &Driven<R>, phi_dot: R) -> R {
     c.c_p * drive.rate + c.gamma * phi_dot
 }

@@ -15,11 +15,11 @@ use crate::piezo::{Layer, TipResponse, Unimorph};
 use crate::quadrature::{gauss_legendre, midpoints};
 
 crate::per_lane! {
-    /// The drive voltage.
+    /// The drive voltage (V), or the prescribed stroke (rad).
     pub struct Drive<R> {
-        /// Constant part (V).
+        /// Constant part.
         pub bias: R,
-        /// Amplitude (V).
+        /// Amplitude.
         pub amplitude: R,
         /// Shape over time.
         pub waveform: Waveform<R>,
@@ -147,8 +147,9 @@ impl Constants<f64> {
     /// allowed, the mass matrix is not positive definite for every position, or a constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let cuts = cut(p)?;
+        let [bias, amplitude] = p.drive();
         let constants = Constants {
-            drive: Drive { bias: p.drive_bias, amplitude: 0.5 * p.drive_voltage_pp, waveform: p.waveform() },
+            drive: Drive { bias, amplitude, waveform: p.waveform() },
             actuator: actuator(p),
             slider_crank: SliderCrank { crank: p.crank_radius, rod: p.connecting_rod },
             four_bar: four_bar(p)?,

@@ -18,31 +18,32 @@ pub use aerodynamics::{Aerodynamics, added_mass_lift, aerodynamics, coefficients
 pub use composite::Composite;
 pub use constants::{Actuator, Air, Constants, Drive, Wing};
 pub use params::{AddedMassSign, Arms, Params, Quadrature};
-pub use rhs::{Transmission, current, derivative, force, mass_matrix, tip, transmission};
+pub use rhs::{Transmission, balance, current, force, mass_matrix, tip, transmission};
 pub use strips::{MAX_STRIPS, Strip, StripSums, Strips};
 
 use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
-use super::{Derived, Model, Signal, SignalCycle};
-use crate::drive::{Shape, Voltage, Waveform};
+use super::convert::{DEGREES, GRAVITY, wrap_degrees};
+use super::{Derived, Model, Signal, SignalCycle, on_stroke, on_stroke_rates};
+use crate::drive::{Driven, Samples, Source, Waveform};
 use crate::modes::{Mode, natural_frequencies};
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
 
 /// The model.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FourBar {
-    /// Shape of the drive voltage.
-    pub shape: Shape,
+    /// What generates the drive voltage, or the stroke.
+    pub source: Source,
 }
 
 impl Ode<4> for FourBar {
     type Constants<R: Lanes> = Constants<R>;
-    type Input<R: Lanes> = Voltage<R>;
+    type Input<R: Lanes> = Driven<R>;
 
     #[inline(always)]
-    fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> Voltage<R> {
-        c.drive.waveform.at(self.shape, t).voltage(c.drive.bias, c.drive.amplitude)
+    fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> Driven<R> {
+        self.source.at(&c.drive.waveform, t).drive(c.drive.bias, c.drive.amplitude)
     }
 
     /// The equations of motion hardly jump (see [`side_of`]), but the lift does, and a mean over a step that
@@ -53,12 +54,20 @@ impl Ode<4> for FourBar {
 
     #[inline(always)]
     fn next_break<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
-        c.drive.waveform.next_break(self.shape, t)
+        self.source.next_break(&c.drive.waveform, t)
     }
 
     #[inline(always)]
-    fn rhs<R: Lanes>(&self, c: &Constants<R>, drive: &Voltage<R>, side: R, y: &[R; 4]) -> [R; 4] {
-        derivative(c, drive, side, y)
+    fn rhs<R: Lanes>(&self, c: &Constants<R>, drive: &Driven<R>, side: R, y: &[R; 4]) -> [R; 4] {
+        let prescribed = self.source.prescribes_stroke();
+        let at = if prescribed { on_stroke(drive, y) } else { *y };
+        let links = transmission(c, at[0]);
+        let balance = balance(c, &links, side, &at);
+        if prescribed {
+            balance.prescribed(y, drive, c.drive.waveform.rate)
+        } else {
+            balance.driven(y, force(&c.actuator, drive, links.displacement) * links.slope)
+        }
     }
 
     #[inline(always)]
@@ -66,10 +75,6 @@ impl Ode<4> for FourBar {
         side_of(y[1], y[3])
     }
 }
-
-const DEGREES: f64 = 180.0 / core::f64::consts::PI;
-/// Standard gravity (m/s²): newtons per kilogram-force.
-const GRAVITY: f64 = 9.80665;
 
 /// Positions in [`Model::SIGNALS`].
 const STROKE: usize = 0;
@@ -256,17 +261,18 @@ impl Model<4, 15> for FourBar {
     ];
 
     fn variant(&self, values: &[f64]) -> FourBar {
-        FourBar { shape: Params::from_values(values).drive_shape }
+        let params = Params::from_values(values);
+        FourBar { source: self.source.of_point(params.drive_shape, params.stroke_mode) }
     }
 
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
-        params.drive_shape.check(params.drive_rise)?;
+        self.source.check(params.drive_rise)?;
         let constants = Constants::derive(&params)?;
         let rate = constants.drive.waveform.rate;
         Ok(Start {
             constants,
-            y: [0.0; 4],
+            y: self.initial_state(&constants),
             span: 1.0 / params.drive_frequency,
             scale: [0.3, 0.5, 0.3 * rate, 0.5 * rate],
         })
@@ -274,7 +280,7 @@ impl Model<4, 15> for FourBar {
 
     fn chirped(&self, c: &Constants<f64>, frequency: f64, rate: f64) -> (FourBar, Constants<f64>) {
         let drive = Drive { waveform: Waveform::chirp(frequency, rate), ..c.drive };
-        (FourBar { shape: Shape::Chirp }, Constants { drive, ..*c })
+        (FourBar { source: self.source.chirped() }, Constants { drive, ..*c })
     }
 
     #[inline(always)]
@@ -286,19 +292,25 @@ impl Model<4, 15> for FourBar {
     fn signals<R: Lanes>(
         &self,
         c: &Constants<R>,
-        drive: &Voltage<R>,
+        drive: &Driven<R>,
         side: R,
         y: &[R; 4],
         dy: &[R; 4],
     ) -> [R; 15] {
+        let prescribed = self.source.prescribes_stroke();
+        let (y, dy) = if prescribed { (&on_stroke(drive, y), &on_stroke_rates(drive, dy)) } else { (y, dy) };
         let [theta, phi, theta_dot, phi_dot] = *y;
         let (sin, cos) = phi.sin_cos();
         let air = aerodynamics(c, side, y, sin, cos);
         let added_mass = added_mass_lift(&c.air, sin, cos, dy);
         let links = transmission(c, theta);
-        let force = force(&c.actuator, drive, links.displacement);
         let slider_rate = links.slope * theta_dot;
-        let current = current(&c.actuator, drive, slider_rate);
+        // A prescribed stroke knows nothing of what the actuator does.
+        let [force, current] = if prescribed {
+            [theta.lit(f64::NAN); 2]
+        } else {
+            [force(&c.actuator, drive, links.displacement), current(&c.actuator, drive, slider_rate)]
+        };
         [
             theta,
             phi,
@@ -318,6 +330,20 @@ impl Model<4, 15> for FourBar {
         ]
     }
 
+    fn imposed(&self, c: &Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> ([f64; 4], [f64; 15]) {
+        let y = [stroke[0], pitch[0], stroke[1], pitch[1]];
+        let dy = [stroke[1], pitch[1], stroke[2], pitch[2]];
+        let [direction, _] = side_of(pitch[0], pitch[1]);
+        let side = 1.0_f64.copysign(direction);
+        let [value, rate, bend] = stroke;
+        let prescribed = FourBar { source: Source::PRESCRIBED };
+        (y, prescribed.signals(c, &Driven { value, rate, bend }, side, &y, &dy))
+    }
+
+    fn sampled(&self, samples: Samples) -> FourBar {
+        FourBar { source: self.source.sampled(samples) }
+    }
+
     fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; 15]) -> Vec<f64> {
         // The drive's sine has the phase −π/2 against the cosine.
         let drive_phase = -core::f64::consts::FRAC_PI_2;
@@ -329,9 +355,14 @@ impl Model<4, 15> for FourBar {
             losses += cycle[i].mean;
         }
         let frequency = c.drive.waveform.rate / (2.0 * core::f64::consts::PI);
-        let voltage_pp = 2.0 * c.drive.amplitude;
+        let [low, high] = if self.source.prescribes_stroke() {
+            [f64::NAN; 2]
+        } else {
+            self.source.range(&c.drive.waveform).map(|wave| c.drive.bias + c.drive.amplitude * wave)
+        };
+        let voltage_pp = high - low;
         let [mode_1, mode_2] = FourBar::linear_modes(c);
-        let field_max = (c.drive.bias.abs() + c.drive.amplitude) / c.actuator.piezo_thickness;
+        let field_max = high.max(-low) / c.actuator.piezo_thickness;
         vec![
             wrap_degrees(drive_phase - cycle[STROKE].phase()),
             wrap_degrees(cycle[STROKE].phase() - cycle[PITCH].phase()),
@@ -357,11 +388,17 @@ impl Model<4, 15> for FourBar {
         let waveform = Waveform { rate: 0.0, ..c.drive.waveform };
         let drive = Drive { bias: c.actuator.rest_voltage, amplitude: 0.0, waveform };
         let state = [0.0, 0.0, stroke_rate, -(m12 / m22) * stroke_rate];
-        (FourBar { shape: Shape::Sine }, Constants { drive, ..*c }, state)
+        (FourBar { source: Source::SINE }, Constants { drive, ..*c }, state)
     }
 }
 
 impl FourBar {
+    /// At rest; where the stroke is prescribed, on it.
+    fn initial_state(&self, c: &Constants<f64>) -> [f64; 4] {
+        let rest = [0.0; 4];
+        if self.source.prescribes_stroke() { on_stroke(&self.input(c, 0.0), &rest) } else { rest }
+    }
+
     /// Natural frequencies (Hz) of small undamped motions about zero stroke and pitch, the lower first.
     ///
     /// Of M(0) and K = diag(k_eff δ′(0)², k_rot): the actuator unloaded there, at the voltage V_ref.
@@ -370,17 +407,5 @@ impl FourBar {
         let [m11, m12, m22] = mass_matrix(c, links.inertia, 0.0, 1.0);
         let stiffness = c.actuator.stiffness * links.slope * links.slope;
         natural_frequencies([[m11, m12], [m12, m22]], [stiffness, c.wing.hinge_stiffness])
-    }
-}
-
-/// An angle in degrees, in (−180, 180].
-fn wrap_degrees(radians: f64) -> f64 {
-    let degrees = radians * DEGREES;
-    if degrees > 180.0 {
-        degrees - 360.0
-    } else if degrees <= -180.0 {
-        degrees + 360.0
-    } else {
-        degrees
     }
 }

@@ -3,7 +3,7 @@
 //! The paper gives the links of one four-bar, voltages, frequencies, the hinges' stiffness and damping, the series
 //! stiffness, C_rot and the position of the rotation axis. Everything else is assumed, and says so.
 
-use crate::drive::{Shape, Waveform};
+use crate::drive::{Shape, StrokeMode, Waveform};
 use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
 use crate::parameter::{Preset, Slot};
@@ -29,6 +29,10 @@ crate::parameters! {
         drive_third_phase: f64 = ("rad", "", Number(Any)),
         /// Rise and fall time of the square wave, as a fraction of the period, up to 0.5. Only for drive_shape = "square".
         drive_rise: f64 = ("", "", Number(Positive)),
+        /// Whether the actuator drives the stroke, or the stroke is prescribed: stroke_amplitude times the drive's waveform, whatever that takes. The pitch is free in both.
+        stroke_mode: StrokeMode = ("", "", Choice(StrokeMode::NAMES)),
+        /// Amplitude of the prescribed stroke. Only for stroke_mode = "prescribed".
+        stroke_amplitude: f64 = ("rad", "", Number(NonNegative)),
         /// Voltage at which the mechanism stands unloaded at zero stroke; assumed: not in the paper.
         rest_voltage: Option<f64> = ("V", "V_ref", Following(Any, "drive_bias")),
 
@@ -249,6 +253,8 @@ impl Params {
             drive_third_harmonic: 0.0,
             drive_third_phase: 0.0,
             drive_rise: 0.05,
+            stroke_mode: StrokeMode::Free,
+            stroke_amplitude: 10.0_f64.to_radians(),
             rest_voltage: None,
             actuator_length: 16e-3,
             actuator_width: 18e-3,
@@ -342,6 +348,14 @@ impl Params {
         let terms =
             [self.chord_term_4, self.chord_term_3, self.chord_term_2, self.chord_term_1, self.chord_term_0];
         self.root_chord * terms.iter().fold(0.0, |sum, term| sum * x + term)
+    }
+
+    /// Constant part and amplitude of what is driven: the voltage (V), or the prescribed stroke (rad).
+    pub(super) fn drive(&self) -> [f64; 2] {
+        match self.stroke_mode {
+            StrokeMode::Free => [self.drive_bias, 0.5 * self.drive_voltage_pp],
+            StrokeMode::Prescribed => [0.0, self.stroke_amplitude],
+        }
     }
 
     /// The drive's waveform.

@@ -6,7 +6,8 @@
 
 use super::aerodynamics::aerodynamics;
 use super::constants::{Actuator, Constants};
-use crate::drive::Voltage;
+use crate::drive::Driven;
+use crate::model::Balance;
 use crate::num::Real;
 
 /// Actuator, slider-crank and four-bar as the stroke sees them.
@@ -54,7 +55,7 @@ pub fn transmission<R: Real>(c: &Constants<R>, theta: R) -> Transmission<R> {
 /// F = k_eff (γ (V − V_ref) − δ)
 /// ```
 #[inline(always)]
-pub fn force<R: Real>(c: &Actuator<R>, drive: &Voltage<R>, displacement: R) -> R {
+pub fn force<R: Real>(c: &Actuator<R>, drive: &Driven<R>, displacement: R) -> R {
     c.stiffness * (c.deflection * (drive.value - c.rest_voltage) - displacement)
 }
 
@@ -74,7 +75,7 @@ pub fn tip<R: Real>(c: &Actuator<R>, displacement: R, force: R) -> R {
 /// i = C_b V̇ + Γ δ̇_a     δ̇_a = δ′θ̇ + k_eff (γV̇ − δ′θ̇)/k_sc
 /// ```
 #[inline(always)]
-pub fn current<R: Real>(c: &Actuator<R>, drive: &Voltage<R>, slider_rate: R) -> R {
+pub fn current<R: Real>(c: &Actuator<R>, drive: &Driven<R>, slider_rate: R) -> R {
     let force_rate = c.stiffness * (c.deflection * drive.rate - slider_rate);
     c.capacitance * drive.rate + c.coupling * tip(c, slider_rate, force_rate)
 }
@@ -94,24 +95,21 @@ pub fn mass_matrix<R: Real>(c: &Constants<R>, inertia: R, sin: R, cos: R) -> [R;
     ]
 }
 
-/// The derivative `[θ̇, φ̇, θ̈, φ̈]`, from Lagrange's equations (14), (15).
+/// Mass matrix and generalised forces but the actuator's, from Lagrange's equations (14), (15).
 ///
 /// ```text
-/// ⎡M₁₁ M₁₂⎤ ⎡θ̈⎤ = ⎡M_drive + Q_θ − Dθ̇ + P sin φ φ̇² − J_d sin 2φ θ̇φ̇ − ½G′θ̇²⎤     M_drive = F δ′ [(3)]
-/// ⎣M₁₂ M₂₂⎦ ⎣φ̈⎦   ⎣Q_φ − dφ̇ − k_rot φ + ½J_d sin 2φ θ̇²                       ⎦
+/// ⎡M₁₁ M₁₂⎤ ⎡θ̈⎤ = ⎡F δ′ + Q_θ − Dθ̇ + P sin φ φ̇² − J_d sin 2φ θ̇φ̇ − ½G′θ̇²⎤
+/// ⎣M₁₂ M₂₂⎦ ⎣φ̈⎦   ⎣Q_φ − dφ̇ − k_rot φ + ½J_d sin 2φ θ̇²                  ⎦
 /// ```
 #[inline(always)]
-pub fn derivative<R: Real>(c: &Constants<R>, drive: &Voltage<R>, side: R, y: &[R; 4]) -> [R; 4] {
-    let [theta, phi, theta_dot, phi_dot] = *y;
+pub fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: R, y: &[R; 4]) -> Balance<R> {
+    let [_, phi, theta_dot, phi_dot] = *y;
     let (sin, cos) = phi.sin_cos();
-    let links = transmission(c, theta);
-    let drive_moment = force(&c.actuator, drive, links.displacement) * links.slope;
     let air = aerodynamics(c, side, y, sin, cos);
 
     let wing = &c.wing;
     let gyroscopic = wing.j_difference * sin * cos * theta_dot;
-    let stroke_moment = drive_moment + air.stroke_moment + air.rotation_stroke_moment
-        - wing.stroke_damping * theta_dot
+    let stroke_moment = air.stroke_moment + air.rotation_stroke_moment - wing.stroke_damping * theta_dot
         + wing.coupling * sin * phi_dot * phi_dot
         - gyroscopic * phi_dot * 2.0
         - links.half_inertia_slope * theta_dot * theta_dot;
@@ -119,10 +117,5 @@ pub fn derivative<R: Real>(c: &Constants<R>, drive: &Voltage<R>, side: R, y: &[R
         - wing.hinge_damping * phi_dot
         - wing.hinge_stiffness * phi
         + gyroscopic * theta_dot;
-
-    let [m11, m12, m22] = mass_matrix(c, links.inertia, sin, cos);
-    let inverse_determinant = theta.lit(1.0) / (m11 * m22 - m12 * m12);
-    let theta_ddot = (m22 * stroke_moment - m12 * pitch_moment) * inverse_determinant;
-    let phi_ddot = (m11 * pitch_moment - m12 * stroke_moment) * inverse_determinant;
-    [theta_dot, phi_dot, theta_ddot, phi_ddot]
+    Balance { mass: mass_matrix(c, links.inertia, sin, cos), stroke_moment, pitch_moment }
 }

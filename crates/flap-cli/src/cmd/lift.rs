@@ -1,0 +1,71 @@
+//! `flap lift`: forces along a motion that is given.
+
+use std::io;
+
+use flap_core::drive::Repeat;
+use flap_core::simulate::{ImposedMotion, Trajectory};
+use flap_sweep::record;
+
+use super::motion::{write_csv, write_file};
+use super::point::Chosen;
+use super::samples;
+use crate::args::{LiftArgs, SolverArgs};
+use crate::console;
+use crate::failure::{Exit, Failure};
+use crate::table::{Table, six_digits};
+
+pub(crate) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
+    let Chosen { plan, values, .. } = Chosen::new(&args.point, &SolverArgs::default())?;
+    let repeat = if args.periodic { Repeat::Periodic } else { Repeat::Once };
+    let file = samples::read(&args.motion)?;
+    let stroke = samples::column(&file, &args.motion, record::STROKE, repeat)?;
+    let pitch = samples::column(&file, &args.motion, record::PITCH, repeat)?;
+    let motion = ImposedMotion { stroke, pitch, samples: args.samples };
+    let mut forces = plan.simulator.imposed(&values, &motion)?;
+    drop_unknown(&mut forces);
+
+    match &args.trajectory {
+        Some(path) if path.as_os_str() == "-" => {
+            write_csv(&forces, io::stdout().lock())?;
+            return Ok(Exit::Done);
+        }
+        Some(path) => {
+            write_file(&forces, path, args.force)?;
+            console::say(&format!("{} samples in {}", forces.rows.len(), path.display()));
+        }
+        None => {}
+    }
+    console::results(&summary(&forces))?;
+    Ok(Exit::Done)
+}
+
+/// Takes out what a given motion says nothing about.
+fn drop_unknown(forces: &mut Trajectory) {
+    let known: Vec<bool> =
+        (0..forces.columns.len()).map(|i| forces.rows.iter().any(|row| !row[i].is_nan())).collect();
+    let keep = |i: &mut usize| {
+        *i += 1;
+        known[*i - 1]
+    };
+    let mut i = 0;
+    forces.columns.retain(|_| keep(&mut i));
+    for row in &mut forces.rows {
+        let mut i = 0;
+        row.retain(|_| keep(&mut i));
+    }
+}
+
+/// Mean, least and largest of every column but the time.
+fn summary(forces: &Trajectory) -> String {
+    let mut table = Table::with_headings(&["column", "mean", "min", "max"]);
+    for (i, column) in forces.columns.iter().enumerate().skip(1) {
+        let values: Vec<f64> = forces.rows.iter().map(|row| row[i]).collect();
+        // Equally spaced: the ends count half.
+        let ends = 0.5 * (values[0] + values[values.len() - 1]);
+        let mean = (values.iter().sum::<f64>() - ends) / (values.len() - 1) as f64;
+        let min = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let max = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        table.row([column.clone(), six_digits(mean), six_digits(min), six_digits(max)]);
+    }
+    table.text()
+}

@@ -1,0 +1,56 @@
+//! Waveforms and motions from files.
+
+use std::path::Path;
+
+use flap_core::drive::{Repeat, Samples};
+use flap_sweep::record::{self, Record, RecordError};
+
+use super::point::Chosen;
+use crate::args::RunArgs;
+use crate::failure::Failure;
+
+/// Puts the waveform or the stroke of a file into the point, if the command line names one.
+pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> {
+    let repeat = if args.once { Repeat::Once } else { Repeat::Periodic };
+    let (path, wave) = match (&args.waveform, &args.stroke) {
+        (Some(path), _) => (path, record::WAVE),
+        (None, Some(path)) => (path, record::STROKE),
+        (None, None) if args.once => {
+            return Err(Failure::usage("--once goes with --waveform or --stroke"));
+        }
+        (None, None) => return Ok(()),
+    };
+    let samples = column(&read(path)?, path, wave, repeat)?;
+    if args.point.set.iter().all(|(name, _)| name != "drive_frequency") {
+        chosen.put("drive_frequency", 1.0 / samples.duration());
+    }
+    if args.stroke.is_some() && !(chosen.put("stroke_mode", 1.0) && chosen.put("stroke_amplitude", 1.0)) {
+        let message =
+            format!("the stroke of the model {} cannot be prescribed", chosen.plan.simulator.name());
+        return Err(Failure::usage(message).help("models with a parameter stroke_mode can"));
+    }
+    chosen.sampled = Some(chosen.plan.simulator.with_samples(samples));
+    Ok(())
+}
+
+/// Reads a file of samples.
+pub(super) fn read(path: &Path) -> Result<Record, Failure> {
+    Ok(Record::read(path)?)
+}
+
+/// A column of a record against its time.
+pub(super) fn column(
+    record: &Record,
+    path: &Path,
+    names: &[(&str, f64)],
+    repeat: Repeat,
+) -> Result<Samples, Failure> {
+    let samples = Samples::new(&record.column(record::TIME)?, &record.column(names)?, repeat);
+    samples.map_err(|invalid| Failure::usage(format!("{}: {invalid}", path.display())))
+}
+
+impl From<RecordError> for Failure {
+    fn from(error: RecordError) -> Failure {
+        Failure::usage(error.to_string())
+    }
+}

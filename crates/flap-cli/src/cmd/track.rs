@@ -1,0 +1,57 @@
+//! `flap track`: stroke, pitch and rotation centre of a filmed wing.
+
+use std::io;
+
+use flap_core::measure::tracking::{LeadingEdge, pitch_from_projection, rotation_centre};
+use flap_core::simulate::Trajectory;
+use flap_sweep::record::{self, Record, RecordError};
+
+use super::motion::{write_csv, write_file};
+use super::samples;
+use crate::args::TrackArgs;
+use crate::console;
+use crate::failure::{Exit, Failure};
+use crate::table::six_digits;
+
+pub(crate) fn run(args: &TrackArgs) -> Result<Exit, Failure> {
+    let record = samples::read(&args.points)?;
+    let times = record.column(record::TIME)?;
+    let roots = points(&record, "root")?;
+    let tips = points(&record, "tip")?;
+    let edges: Vec<LeadingEdge> =
+        roots.into_iter().zip(tips).map(|(root, tip)| LeadingEdge { root, tip }).collect();
+    let centre = rotation_centre(&edges)?;
+
+    let mut motion =
+        Trajectory { columns: ["time_s", "stroke_deg"].map(str::to_owned).to_vec(), rows: Vec::new() };
+    for (time, edge) in times.iter().zip(&edges) {
+        motion.rows.push(vec![*time, edge.stroke().to_degrees()]);
+    }
+    if let Some(chord) = args.chord {
+        motion.columns.push("pitch_deg".to_owned());
+        let lower = points(&record, "edge")?;
+        for (i, (row, (edge, point))) in motion.rows.iter_mut().zip(edges.iter().zip(lower)).enumerate() {
+            let pitch = pitch_from_projection(edge.distance(point), chord);
+            let pitch = pitch.map_err(|invalid| Failure::usage(format!("image {}: {invalid}", i + 1)))?;
+            row.push(pitch.to_degrees());
+        }
+    }
+
+    let found = format!("rotation centre at x = {}, y = {}", six_digits(centre[0]), six_digits(centre[1]));
+    if let Some(path) = &args.out {
+        write_file(&motion, path, args.force)?;
+        console::say(&format!("{} images in {}", motion.rows.len(), path.display()));
+        console::results(&(found + "\n"))?;
+    } else {
+        console::say(&found);
+        write_csv(&motion, io::stdout().lock())?;
+    }
+    Ok(Exit::Done)
+}
+
+/// The points called `name` in every image.
+fn points(record: &Record, name: &str) -> Result<Vec<[f64; 2]>, RecordError> {
+    let coordinate = |axis: &str| record.column(&[(&format!("{name}_{axis}"), 1.0)]);
+    let (x, y) = (coordinate("x")?, coordinate("y")?);
+    Ok(x.into_iter().zip(y).map(|(x, y)| [x, y]).collect())
+}

@@ -1,0 +1,214 @@
+//! Waveforms and motions given as samples, joined by a cubic spline.
+
+use std::sync::Arc;
+
+use crate::num::Lanes;
+use crate::parameter::Invalid;
+
+/// The fewest samples of a record.
+const FEWEST: usize = 4;
+
+/// How a record goes on after its last sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Repeat {
+    /// It begins again: the last sample is the first of the next period.
+    Periodic,
+    /// It ends.
+    Once,
+}
+
+/// A record of samples over a time, as a smooth function of the phase from 0 (first sample) to 1 (last sample).
+///
+/// A cubic spline: value, rate and second derivative are continuous, and the second derivative is linear between
+/// samples. Copies share the samples; two records are equal if they are copies.
+#[derive(Clone, Debug)]
+pub struct Samples(Arc<Record>);
+
+#[derive(Debug)]
+struct Record {
+    /// Time from the first to the last sample (s).
+    duration: f64,
+    phases: Vec<f64>,
+    values: Vec<f64>,
+    /// Second derivative with respect to phase at each sample.
+    bends: Vec<f64>,
+}
+
+impl PartialEq for Samples {
+    fn eq(&self, other: &Samples) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Samples {
+    /// Joins samples at increasing `times` (s).
+    ///
+    /// # Errors
+    /// If there are fewer than four, a number is not finite, times do not increase, or a periodic record does not end
+    /// with the value that it begins with (within a thousandth of its range; then it is taken to).
+    pub fn new(times: &[f64], values: &[f64], repeat: Repeat) -> Result<Samples, Invalid> {
+        let count = times.len().min(values.len());
+        if count < FEWEST {
+            return Err(Invalid::new(format!("{count} samples are too few: a record has at least {FEWEST}")));
+        }
+        if let Some(i) = (0..count).find(|&i| !(times[i].is_finite() && values[i].is_finite())) {
+            return Err(Invalid::new(format!("sample {} is not a number", i + 1)));
+        }
+        if let Some(i) = (1..count).find(|&i| times[i] <= times[i - 1]) {
+            let (time, before) = (times[i], times[i - 1]);
+            return Err(Invalid::new(format!(
+                "times do not increase: sample {} is at {time} s, the one before at {before} s",
+                i + 1
+            )));
+        }
+        let duration = times[count - 1] - times[0];
+        let phases: Vec<f64> = times[..count].iter().map(|time| (time - times[0]) / duration).collect();
+        let mut values = values[..count].to_vec();
+        let bends = match repeat {
+            Repeat::Once => bends(&phases, &values),
+            Repeat::Periodic => {
+                check_closed(&values)?;
+                values[count - 1] = values[0];
+                periodic_bends(&phases, &values)
+            }
+        };
+        Ok(Samples(Arc::new(Record { duration, phases, values, bends })))
+    }
+
+    /// Time from the first to the last sample (s).
+    pub fn duration(&self) -> f64 {
+        self.0.duration
+    }
+
+    /// Value, first and second derivative at a phase, lane by lane: the same bits in every lane and arithmetic.
+    #[inline(always)]
+    pub(super) fn at<R: Lanes>(&self, phase: R) -> [R; 3] {
+        let mut out = [phase; 3];
+        for lane in 0..R::LANES {
+            let all = self.0.at(phase.lane(lane));
+            for i in 0..3 {
+                out[i].set_lane(lane, all[i]);
+            }
+        }
+        out
+    }
+
+    /// Value, first and second derivative with respect to time (1/s) at `time` (s) after the first sample.
+    pub fn motion(&self, time: f64) -> [f64; 3] {
+        let duration = self.0.duration;
+        let [value, rate, bend] = self.0.at(time / duration);
+        [value, rate / duration, bend / (duration * duration)]
+    }
+
+    /// The smallest and largest sample.
+    pub(super) fn range(&self) -> [f64; 2] {
+        let values = self.0.values.iter();
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &v| [low.min(v), high.max(v)])
+    }
+}
+
+impl Record {
+    /// Value, first and second derivative with respect to phase. Without fused operations: one result for all
+    /// arithmetic classes.
+    fn at(&self, phase: f64) -> [f64; 3] {
+        let after = self.phases.partition_point(|&knot| knot <= phase).clamp(1, self.phases.len() - 1);
+        let (i, j) = (after - 1, after);
+        let width = self.phases[j] - self.phases[i];
+        let (a, b) = ((self.phases[j] - phase) / width, (phase - self.phases[i]) / width);
+        let (bend_i, bend_j) = (self.bends[i], self.bends[j]);
+        let sixth = width * width / 6.0;
+        [
+            a * self.values[i]
+                + b * self.values[j]
+                + ((a * a * a - a) * bend_i + (b * b * b - b) * bend_j) * sixth,
+            (self.values[j] - self.values[i]) / width
+                + ((3.0 * b * b - 1.0) * bend_j - (3.0 * a * a - 1.0) * bend_i) * (width / 6.0),
+            a * bend_i + b * bend_j,
+        ]
+    }
+}
+
+fn check_closed(values: &[f64]) -> Result<(), Invalid> {
+    let [low, high] =
+        values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &v| [low.min(v), high.max(v)]);
+    let (first, last) = (values[0], values[values.len() - 1]);
+    if (last - first).abs() <= 1e-3 * (high - low) {
+        return Ok(());
+    }
+    Err(Invalid::new(format!(
+        "a periodic record ends with the value that it begins with: this one begins with {first} and ends with {last}"
+    )))
+}
+
+/// The equations of a spline for its second derivatives: lower, middle and upper diagonal, right-hand side, for the
+/// samples between the ends.
+fn equations(x: &[f64], y: &[f64]) -> [Vec<f64>; 4] {
+    let mut rows: [Vec<f64>; 4] = Default::default();
+    for i in 1..x.len() - 1 {
+        let (before, after) = (x[i] - x[i - 1], x[i + 1] - x[i]);
+        rows[0].push(before / 6.0);
+        rows[1].push((before + after) / 3.0);
+        rows[2].push(after / 6.0);
+        rows[3].push((y[i + 1] - y[i]) / after - (y[i] - y[i - 1]) / before);
+    }
+    rows
+}
+
+/// Second derivatives of the spline whose third derivative is continuous at the samples next to the ends
+/// ("not-a-knot"): the ends go on as the record does.
+fn bends(x: &[f64], y: &[f64]) -> Vec<f64> {
+    let [lower, mut middle, upper, right] = equations(x, y);
+    let n = middle.len();
+    // The ends' second derivatives, extrapolated from the two samples next to them, are put into the equations.
+    let (first, second) = (x[1] - x[0], x[2] - x[1]);
+    let (last, before) = (x[n + 1] - x[n], x[n] - x[n - 1]);
+    let (start, end) = (first / second, last / before);
+    let (mut lower_in, mut upper_in) = (lower.clone(), upper.clone());
+    middle[0] += lower[0] * (1.0 + start);
+    upper_in[0] -= lower[0] * start;
+    middle[n - 1] += upper[n - 1] * (1.0 + end);
+    lower_in[n - 1] -= upper[n - 1] * end;
+    let inner = tridiagonal(&lower_in, &middle, &upper_in, &right);
+    let mut bends = vec![inner[0] + start * (inner[0] - inner[1])];
+    bends.extend(&inner);
+    bends.push(inner[n - 1] + end * (inner[n - 1] - inner[n - 2]));
+    bends
+}
+
+/// Second derivatives of the periodic spline, whose first and last sample are the same.
+fn periodic_bends(x: &[f64], y: &[f64]) -> Vec<f64> {
+    let [lower, middle, upper, right] = equations(x, y);
+    let n = middle.len();
+    let (first, last) = (x[1] - x[0], x[n + 1] - x[n]);
+    let slope = (y[1] - y[0]) / first - (y[n + 1] - y[n]) / last;
+    // The unknown at the seam, s, enters the equations of its neighbours: bends = plain + s · unit.
+    let mut coupling = vec![0.0; n];
+    coupling[0] -= lower[0];
+    coupling[n - 1] -= upper[n - 1];
+    let plain = tridiagonal(&lower, &middle, &upper, &right);
+    let unit = tridiagonal(&lower, &middle, &upper, &coupling);
+    let seam = (slope - first / 6.0 * plain[0] - last / 6.0 * plain[n - 1])
+        / ((first + last) / 3.0 + first / 6.0 * unit[0] + last / 6.0 * unit[n - 1]);
+    let mut bends = vec![seam];
+    bends.extend(plain.iter().zip(&unit).map(|(plain, unit)| plain + seam * unit));
+    bends.push(seam);
+    bends
+}
+
+/// Solves a tridiagonal system (Thomas algorithm). `lower[0]` and the last of `upper` are not used.
+fn tridiagonal(lower: &[f64], middle: &[f64], upper: &[f64], right: &[f64]) -> Vec<f64> {
+    let n = middle.len();
+    let mut factor = vec![0.0; n];
+    let mut solution = vec![0.0; n];
+    let mut pivot = middle[0];
+    solution[0] = right[0] / pivot;
+    for i in 1..n {
+        factor[i] = upper[i - 1] / pivot;
+        pivot = middle[i] - lower[i] * factor[i];
+        solution[i] = (right[i] - lower[i] * solution[i - 1]) / pivot;
+    }
+    for i in (0..n - 1).rev() {
+        solution[i] -= factor[i + 1] * solution[i + 1];
+    }
+    solution
+}

@@ -1,0 +1,31 @@
+//! A motion that is given, stroke and pitch: nothing to integrate, forces to evaluate.
+
+use super::motion::columns;
+use super::simulator::{ImposedMotion, Trajectory};
+use crate::model::Model;
+use crate::parameter::Invalid;
+
+/// States and signals along a given motion, at equal distances from its first sample to its last.
+pub(super) fn follow<M: Model<N, S>, const N: usize, const S: usize>(
+    model: &M,
+    values: &[f64],
+    motion: &ImposedMotion,
+) -> Result<Trajectory, Invalid> {
+    let ImposedMotion { stroke, pitch, samples } = motion;
+    let (duration, other) = (stroke.duration(), pitch.duration());
+    if (duration - other).abs() > 1e-9 * duration {
+        return Err(Invalid::new(format!(
+            "stroke and pitch do not last equally long: {duration} s and {other} s"
+        )));
+    }
+    let constants = model.variant(values).start(values)?.constants;
+    let rows = (0..=*samples).map(|i| {
+        let time = duration * (f64::from(i) / f64::from((*samples).max(1)));
+        let (y, signals) = model.imposed(&constants, stroke.motion(time), pitch.motion(time));
+        let mut row = vec![time];
+        row.extend(y);
+        row.extend(signals.iter().zip(&M::SIGNALS).map(|(value, signal)| value * signal.factor));
+        row
+    });
+    Ok(Trajectory { columns: columns::<M, N, S>(), rows: rows.collect() })
+}

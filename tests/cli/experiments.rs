@@ -1,0 +1,138 @@
+//! Experiments with a wing: waveforms and strokes from files, forces along a filmed motion.
+
+use std::fmt::Write as _;
+use std::fs;
+
+use crate::support::Folder;
+
+/// A table of 401 samples of a sine of 75 Hz and `amplitude`.
+fn sine(heading: &str, amplitude: f64) -> String {
+    let mut text = format!("time_ms,{heading}\n");
+    for i in 0..=400 {
+        let phase = f64::from(i) / 400.0;
+        let _ =
+            writeln!(text, "{},{}", phase * 1e3 / 75.0, amplitude * (std::f64::consts::TAU * phase).sin());
+    }
+    text
+}
+
+fn folder_with(name: &str, text: &str) -> Folder {
+    let folder = Folder::new();
+    fs::write(folder.path(name), text).unwrap();
+    folder
+}
+
+/// The number after a column's name on a page of results.
+fn value(page: &str, name: &str) -> f64 {
+    let mut lines = page.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
+    let line =
+        lines.find(|words| words.first() == Some(&name)).unwrap_or_else(|| panic!("no {name} in\n{page}"));
+    line[1].parse().unwrap()
+}
+
+#[test]
+fn a_waveform_from_a_file_drives_like_its_shape() {
+    let folder = folder_with("wave.csv", &sine("wave", 1.0));
+    let shaped = folder.flap("run arabagi2013-75hz").stdout;
+    let ended = folder.flap("run arabagi2013-75hz --waveform wave.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    for column in ["stroke_pp_deg", "lift_mean_mn", "power_mean_mw"] {
+        let (file, shape) = (value(&ended.stdout, column), value(&shaped, column));
+        assert!((file - shape).abs() < 1e-4 * shape.abs(), "{column}: {file} and {shape}");
+    }
+    // The period of the file gives way to a frequency that is set.
+    let slow = folder.flap("run arabagi2013-75hz --waveform wave.csv --set drive_frequency=60").stdout;
+    assert!((value(&slow, "stroke_pp_deg") - value(&ended.stdout, "stroke_pp_deg")).abs() > 1.0);
+
+    let once = folder.flap("run arabagi2013-75hz --waveform wave.csv --once --trajectory t.csv --samples 50");
+    assert_eq!(once.code, 0, "{}", once.stderr);
+    assert_eq!(folder.read("t.csv").lines().count(), 1 + 51);
+}
+
+#[test]
+fn a_stroke_from_a_file_is_prescribed() {
+    let folder = folder_with("stroke.csv", &sine("stroke_deg", 12.0));
+    let ended = folder.flap("run arabagi2013-75hz --stroke stroke.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let set = ["--set", "stroke_mode=prescribed", "--set", "stroke_amplitude=12 deg"];
+    let shaped = folder.flap_with(&[&["run", "arabagi2013-75hz"], &set[..]].concat()).stdout;
+    for column in ["stroke_pp_deg", "pitch_pp_deg", "lift_mean_mn"] {
+        let (file, shape) = (value(&ended.stdout, column), value(&shaped, column));
+        assert!((file - shape).abs() < 1e-4 * shape.abs(), "{column}: {file} and {shape}");
+    }
+    let bimorph = folder.flap("run jafferis2016 --stroke stroke.csv");
+    assert_eq!(bimorph.code, 2);
+    assert!(bimorph.stderr.contains("cannot be prescribed"), "{}", bimorph.stderr);
+}
+
+/// Forces along a motion that was simulated are those of the simulation.
+#[test]
+fn lift_of_a_given_motion_is_that_of_the_simulation() {
+    for preset in ["ozaki2018-small", "arabagi2013-75hz"] {
+        let folder = Folder::new();
+        let simulated = folder
+            .flap(&format!("run {preset} --trajectory motion.csv --cycles 1 --samples 800 --rtol 1e-8"));
+        assert_eq!(simulated.code, 0, "{}", simulated.stderr);
+        let ended = folder.flap(&format!("lift {preset} motion.csv --periodic --trajectory forces.csv"));
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        let (lift, expected) = (value(&ended.stdout, "lift_mn"), value(&simulated.stdout, "lift_mean_mn"));
+        assert!((lift - expected).abs() < 2e-3 * expected, "{preset}: {lift} and {expected}");
+        assert!(!ended.stdout.contains("power_mw"), "the voltage is not known:\n{}", ended.stdout);
+        assert!(folder.read("forces.csv").starts_with("time_s,stroke_rad,pitch_rad,"));
+        assert_eq!(folder.read("forces.csv").lines().count(), 1 + 2001);
+    }
+}
+
+#[test]
+fn tracked_points_become_a_motion() {
+    let mut points = "time_s,root_x,root_y,tip_x,tip_y,edge_x,edge_y\n".to_owned();
+    for i in 0..60 {
+        let (stroke, pitch) = (0.2 * (0.1 * f64::from(i)).sin(), 0.6 * (0.1 * f64::from(i)).cos());
+        let at = |along: f64, across: f64| {
+            let (sin, cos) = stroke.sin_cos();
+            [3.0 + along * cos - across * sin, -1.0 + along * sin + across * cos]
+        };
+        let ([a, b], [c, d], [e, f]) = (at(5.0, 0.0), at(22.0, 0.0), at(15.0, 6.5 * pitch.sin()));
+        let _ = writeln!(points, "{},{a},{b},{c},{d},{e},{f}", 1e-4 * f64::from(i));
+    }
+    let folder = folder_with("points.csv", &points);
+    let ended = folder.flap("track points.csv --chord 6.5 --out motion.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert_eq!(ended.stdout, "rotation centre at x = 3.0, y = -1.0\n");
+    let motion = folder.read("motion.csv");
+    let mut lines = motion.lines();
+    assert_eq!(lines.next(), Some("time_s,stroke_deg,pitch_deg"));
+    let row: Vec<f64> = lines.nth(9).unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
+    assert!((row[1] - (0.2 * 0.9_f64.sin()).to_degrees()).abs() < 1e-9, "{row:?}");
+    assert!((row[2] - (0.6 * 0.9_f64.cos()).to_degrees()).abs() < 1e-9, "{row:?}");
+    assert_eq!(folder.flap("lift ozaki2018-small motion.csv").code, 0);
+    // To stdout, with the centre beside it.
+    let piped = folder.flap("track points.csv");
+    assert!(piped.stdout.starts_with("time_s,stroke_deg\n") && piped.stderr.contains("rotation centre"));
+    let short = folder.flap("track points.csv --chord 3");
+    assert!(short.code == 2 && short.stderr.contains("image 1: the lower edge appears"), "{}", short.stderr);
+}
+
+#[test]
+fn unusable_files_are_named_with_line_and_column() {
+    let folder = folder_with("wave.csv", "time_s,wave\n0,0\n1,x\n");
+    let refused = |arguments: &str, text: &str, expected: &str| {
+        fs::write(folder.path("file.csv"), text).unwrap();
+        let ended = folder.flap(arguments);
+        assert_eq!(ended.code, 2, "{arguments}: {}", ended.stdout);
+        assert!(ended.stderr.contains(expected), "{arguments}: {}", ended.stderr);
+    };
+    let run = "run ozaki2018-small --waveform file.csv";
+    refused(run, "time_s,wave\n0,0\n1,x\n", "file.csv, line 3, column wave: `x` is not a number");
+    refused(run, "time_s,volts\n0,0\n1,1\n", "there is no column wave; the file has time_s, volts");
+    refused(run, "time_s,wave\n0,0\n1,1\n", "too few");
+    refused(run, "time_s,wave\n0,0\n1,1\n2,0\n3,1\n", "a periodic record ends with");
+    refused(run, "time_s,wave\n0,0\n2,1\n1,1\n3,0\n", "times do not increase");
+    refused("run ozaki2018-small --waveform none.csv", "", "none.csv");
+    refused(
+        "lift ozaki2018-small file.csv",
+        "time_s,stroke_deg\n0,0\n1,1\n2,0\n3,1\n",
+        "no column pitch_rad or pitch_deg",
+    );
+    refused("run ozaki2018-small --once --trajectory -", "", "--once goes with");
+}
