@@ -118,6 +118,7 @@ fn searches_that_mean_nothing_are_refused() {
         ("--spectrum-window 0s", "cannot be sampled"),
         ("--set drive_freqency=100", "did you mean `drive_frequency`?"),
         ("--point 1", "there is no point 1"),
+        ("--set stroke_mode=prescribed", "the same at every frequency, set it to free"),
     ] {
         let ended = folder.flap(&format!("resonance ozaki2018-small {arguments}"));
         assert_eq!(ended.code, 2, "{arguments}: {}", ended.stderr);

@@ -4,7 +4,7 @@
 //! reported comes from a point that was run.
 
 use crate::num::InstructionSet;
-use crate::parameter::Invalid;
+use crate::parameter::{Invalid, Kind, Parameter};
 use crate::simulate::{Jobs, Point, Row, Simulator, SolverSettings, Status};
 
 /// Intervals of the first grid.
@@ -87,6 +87,7 @@ pub fn search(
             "a peak cannot be found to {tolerance} Hz, only to more than zero"
         )));
     }
+    refuse_prescribed(simulator, values)?;
     let mut response = Response::new(simulator, values)?;
     let mut spacing = (to - from) / f64::from(COARSE);
     response.add(set, solver, (0..=COARSE).map(|i| from + spacing * f64::from(i)))?;
@@ -108,6 +109,21 @@ pub fn search(
     }
     tops.sort_by(|one, other| other.stroke_pp.total_cmp(&one.stroke_pp));
     Ok(response.finish(tops))
+}
+
+/// Refuses a stroke that is what it is at every frequency.
+fn refuse_prescribed(simulator: &dyn Simulator, values: &[f64]) -> Result<(), Invalid> {
+    let prescribed = |(parameter, &value): (&Parameter, &f64)| {
+        let Kind::Choice(options) = parameter.kind else { return false };
+        let option = (0_u32..).map(f64::from).zip(options).find(|(index, _)| *index == value);
+        parameter.name == "stroke_mode" && option.is_some_and(|(_, option)| *option == "prescribed")
+    };
+    if simulator.parameters().iter().zip(values).any(prescribed) {
+        return Err(Invalid::new(
+            "stroke_mode is \"prescribed\": such a stroke is the same at every frequency, set it to free",
+        ));
+    }
+    Ok(())
 }
 
 /// The stroke and pitch of a point by drive frequency, as far as they are known.
