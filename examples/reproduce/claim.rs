@@ -117,3 +117,18 @@ impl Said {
         Claim { place, statement, published, computed, verdict }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Verdict, about, between};
+
+    #[test]
+    fn verdicts_follow_from_numbers() {
+        assert_eq!(about(50.0, 0.5).verdict(49.5), Verdict::Met);
+        assert_eq!(about(50.0, 0.5).verdict(48.0), Verdict::MetWithin(0.04));
+        assert_eq!(about(50.0, 0.5).verdict(44.9), Verdict::NotReproduced);
+        assert_eq!(about(50.0, 0.5).verdict(f64::NAN), Verdict::NotReproduced);
+        assert_eq!(between(10.0, 20.0).verdict(20.0), Verdict::Met);
+        assert_eq!(between(10.0, 20.0).verdict(20.1), Verdict::NotReproduced);
+    }
+}

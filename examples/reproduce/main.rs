@@ -41,20 +41,20 @@ fn main() -> io::Result<()> {
 
 /// The page; if `short`, without the counts and with quick groups only.
 fn page(short: bool) -> String {
-    let mut sections = String::new();
-    let mut verdicts: Vec<Vec<Verdict>> = Vec::new();
+    let mut sections = Vec::new();
+    let mut verdicts: Vec<(&Paper, Vec<Verdict>)> = Vec::new();
     for paper in &PAPERS {
-        sections += &format!("## {}\n\n{}", paper.title, paragraph(paper.preface));
+        sections.push(format!("## {}\n\n{}", paper.title, paragraph(paper.preface)));
         let mut of_paper = Vec::new();
         for group in paper.groups.iter().filter(|group| group.quick || !short) {
             let claims: Vec<Claim> = (group.claims)();
             of_paper.extend(claims.iter().map(|claim| claim.verdict));
-            sections += &section(group, &claims);
+            sections.push(section(group, &claims));
         }
-        verdicts.push(of_paper);
+        verdicts.push((paper, of_paper));
     }
-    let counts = if short { String::new() } else { summary(PAPERS.iter().zip(verdicts)) };
-    format!("{HEAD}{counts}{}\n", sections.trim_end())
+    let counts = if short { String::new() } else { summary(&verdicts) };
+    format!("{HEAD}{counts}{}\n", sections.concat().trim_end())
 }
 
 #[cfg(test)]

@@ -67,8 +67,8 @@ impl Bench {
 
 /// Numbers from `from` to `to` in steps.
 pub(crate) fn steps(from: f64, to: f64, step: f64) -> Vec<f64> {
-    let n = ((to - from) / step).round();
-    (0..).map(f64::from).take_while(|i| *i <= n).map(|i| from + i * step).collect()
+    let last = to + 0.5 * step;
+    (0..10_000).map(|i| from + f64::from(i) * step).take_while(|x| *x < last).collect()
 }
 
 impl Settled {

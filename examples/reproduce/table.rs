@@ -22,52 +22,53 @@ pub(crate) struct Group {
 
 /// A group as a section.
 pub(crate) fn section(group: &Group, claims: &[Claim]) -> String {
-    let mut text = format!("### {}\n\n", group.title);
-    if !group.preface.is_empty() {
-        text += &paragraph(group.preface);
+    let mut lines = vec![
+        "| where | what the paper says | published | computed | verdict |".to_owned(),
+        "|---|---|---|---|---|".to_owned(),
+    ];
+    for Claim { place, statement, published, computed, verdict } in claims {
+        lines.push(format!("| {place} | {statement} | {published} | {computed} | {} |", words(*verdict)));
     }
-    text += "| where | what the paper says | published | computed | verdict |\n|---|---|---|---|---|\n";
-    for claim in claims {
-        let Claim { place, statement, published, computed, verdict } = claim;
-        text += &format!("| {place} | {statement} | {published} | {computed} | {} |\n", words(*verdict));
-    }
-    text + "\n"
+    format!("### {}\n\n{}{}\n\n", group.title, paragraph(group.preface), lines.join("\n"))
 }
 
-/// Text in lines of up to 120 characters.
+/// Text in lines of up to 120 characters; nothing if there is no text.
 pub(crate) fn paragraph(text: &str) -> String {
-    let mut lines = vec![String::new()];
+    if text.is_empty() {
+        return String::new();
+    }
+    let mut lines: Vec<String> = Vec::new();
     for word in text.split(' ') {
-        let line = lines.last_mut().expect("there is a line");
-        if line.is_empty() {
-            *line += word;
-        } else if line.chars().count() + 1 + word.chars().count() <= 120 {
-            *line += &format!(" {word}");
-        } else {
-            lines.push(word.to_owned());
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= 120 => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
         }
     }
     lines.join("\n") + "\n\n"
 }
 
 /// How many claims of each paper have which verdict.
-pub(crate) fn summary<'a>(papers: impl Iterator<Item = (&'a Paper, Vec<Verdict>)>) -> String {
-    let mut text = String::from(
-        "| paper | claims | met | met within a share | not reproduced | cannot be checked |\n|---|---|---|---|---|---|\n",
-    );
+pub(crate) fn summary(papers: &[(&Paper, Vec<Verdict>)]) -> String {
+    let mut lines = vec![
+        "| paper | claims | met | met within a share | not reproduced | cannot be checked |".to_owned(),
+        "|---|---|---|---|---|---|".to_owned(),
+    ];
     for (paper, verdicts) in papers {
         let count = |is: fn(&Verdict) -> bool| verdicts.iter().filter(|verdict| is(verdict)).count();
-        text += &format!(
-            "| {} | {} | {} | {} | {} | {} |\n",
+        lines.push(format!(
+            "| {} | {} | {} | {} | {} | {} |",
             paper.title,
             verdicts.len(),
             count(|verdict| matches!(verdict, Verdict::Met)),
             count(|verdict| matches!(verdict, Verdict::MetWithin(_))),
             count(|verdict| matches!(verdict, Verdict::NotReproduced)),
             count(|verdict| matches!(verdict, Verdict::CannotBeChecked(_))),
-        );
+        ));
     }
-    text + "\n"
+    lines.join("\n") + "\n\n"
 }
 
 fn words(verdict: Verdict) -> String {

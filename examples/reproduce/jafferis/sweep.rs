@@ -11,8 +11,9 @@ pub(super) fn claims() -> Vec<Claim> {
     vec![as_settled(), soft_hinge()]
 }
 
-fn at_160_v(p: Params) -> Params {
-    Params { drive_voltage_pp: 160.0, ..p }
+/// Table I at 160 V.
+fn table_1() -> Params {
+    Params { drive_voltage_pp: 160.0, ..transmission(1.0) }
 }
 
 /// Frequencies and strokes (degrees, peak to peak) of a sweep, cycle by cycle.
@@ -32,7 +33,7 @@ fn largest(sweep: &[(f64, f64)]) -> (f64, f64) {
 }
 
 fn as_settled() -> Claim {
-    let p = at_160_v(transmission(1.0));
+    let p = table_1();
     let (f_up, up) = largest(&swept(&p, [1.0, 150.0], 15.0));
     let (f_down, down) = largest(&swept(&p, [160.0, 100.0], -15.0));
     let settled = response(&p, 160.0, [120.0, 135.0]);
@@ -50,7 +51,7 @@ fn as_settled() -> Claim {
 
 /// With half the hinge's stiffness its frequency is near that of the stroke: there are two motions.
 fn soft_hinge() -> Claim {
-    let table_1 = at_160_v(transmission(1.0));
+    let table_1 = table_1();
     let soft = Params { hinge_stiffness: 0.5 * table_1.hinge_stiffness, ..table_1.clone() };
     let [stroke, hinge] = Bimorph::linear_modes(&constants(&soft));
     let apart = |p: &Params| {

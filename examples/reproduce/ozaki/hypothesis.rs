@@ -12,8 +12,8 @@ const LIGHTER: f64 = 3.39e-9;
 pub(super) fn claims() -> Vec<Claim> {
     let swapped_small = Type { params: Params::ozaki2018_small_kw_swapped(), ..small() };
     let swapped_large = Type { params: Params::ozaki2018_large_kw_swapped(), ..large() };
-    let lighter_small = Type { params: lighter(small().params), ..small() };
-    let both = Type { params: lighter(Params::ozaki2018_small_kw_swapped()), ..small() };
+    let lighter_small = Type { params: lighter(&small().params), ..small() };
+    let both = Type { params: lighter(&swapped_small.params), ..small() };
 
     let mut claims = efficiencies("k_w swapped", &swapped_small, &swapped_large);
     claims.push(resonance_of_small("k_w swapped", &swapped_small));
@@ -29,8 +29,8 @@ pub(super) fn claims() -> Vec<Claim> {
     claims
 }
 
-fn lighter(p: Params) -> Params {
-    Params { leading_edge_inertia: LIGHTER, ..p }
+fn lighter(p: &Params) -> Params {
+    Params { leading_edge_inertia: LIGHTER, ..p.clone() }
 }
 
 /// Efficiencies at the largest voltages.
