@@ -30,6 +30,9 @@ the computed number:
 - *not reproduced*: farther off, or the statement does not hold;
 - *cannot be checked*: there is nothing to compare, for the reason given.
 
+The four limits are a choice, made with results in sight: they decide where *met within X %* ends, so read X and the
+computed number rather than the word.
+
 Corrections to print and what is assumed: [model.md](model.md), [model-bimorph.md](model-bimorph.md).
 
 ";
