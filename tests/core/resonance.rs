@@ -1,14 +1,17 @@
 //! Resonances of the presets, by every way of looking for them.
 
+use std::f64::consts::PI;
+
 use flap_core::drive::Driven;
 use flap_core::model::Model;
 use flap_core::model::bimorph::{self, Bimorph, plate};
 use flap_core::model::direct_drive::DirectDrive;
 use flap_core::model::four_bar::FourBar;
+use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::ode::Ode;
 use flap_core::resonance::driven::{DrivenPeaks, PeakSearch, search};
-use flap_core::resonance::free::{FreeMotion, FreeRequest, examine};
+use flap_core::resonance::free::{FreeMotion, FreeRequest, examine, intervals, stroke_rate};
 use flap_core::simulate::{ImpulseRequest, SolverSettings, Status, all, by_name, preset};
 
 /// The values of a preset with some of them set.
@@ -91,6 +94,32 @@ fn impulses_that_mean_nothing_are_refused() {
         let solver = SolverSettings::default();
         let refused = model.free_response(InstructionSet::best(), &solver, &values, &request).unwrap_err();
         assert!(refused.reason.contains(reason), "{refused}");
+    }
+}
+
+#[test]
+fn impulses_are_sized_by_the_first_mode() {
+    let modes =
+        |first| [Mode { name: "mode_1", frequency: first }, Mode { name: "mode_2", frequency: 300.0 }];
+    assert_near(stroke_rate(&modes(100.0), 0.5).unwrap(), 100.0 * PI, 1e-12, "stroke rate");
+    for none in [0.0, f64::NAN, f64::INFINITY] {
+        let refused = stroke_rate(&modes(none), 0.5).unwrap_err();
+        assert!(refused.reason.starts_with("mode_1 has a frequency of"), "{refused}");
+    }
+}
+
+#[test]
+fn motions_are_cut_into_as_many_intervals_as_asked_for() {
+    // 3/102.3 s with 200 samples in each of 102.3 periods per second: 600 but for rounding.
+    for frequency in [102.3, 77.7, 195.761, 31.295] {
+        assert_eq!(intervals(3.0 / frequency, 200.0 * frequency).unwrap(), 600);
+    }
+    assert_eq!(intervals(1.0, 40_000.0).unwrap(), 40_000);
+    assert_eq!(intervals(1.0, 0.1).unwrap(), 1);
+    for (duration, rate) in [(0.0, 100.0), (-1.0, 100.0), (1e9, 100.0), (f64::NAN, 1.0), (f64::INFINITY, 1.0)]
+    {
+        let refused = intervals(duration, rate).unwrap_err();
+        assert!(refused.reason.contains("cannot be sampled"), "{refused}");
     }
 }
 
@@ -177,7 +206,7 @@ fn motions_that_do_not_settle_are_named() {
     let (model, _) = preset("ozaki2018-large").unwrap();
     let values = values("ozaki2018-large", &[]);
     let range = PeakSearch { from: 100.0, to: 120.0, tolerance: 0.5 };
-    let solver = SolverSettings { max_cycles: 14, ..SolverSettings::default() };
+    let solver = SolverSettings { max_cycles: 22, ..SolverSettings::default() };
     let found = search(model, InstructionSet::best(), &solver, &values, &range).unwrap();
     let unsettled: usize = found.gaps.iter().map(|gap| gap.points).sum();
     println!("{found:?}");

@@ -24,9 +24,10 @@ pub(crate) fn run(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
     let modes = plan.simulator.modes(values)?;
     let first = modes[0];
     let amplitude = args.impulse.unwrap_or(IMPULSE);
+    let stroke_rate = stroke_rate(&modes, amplitude)?;
     let duration = args.duration.unwrap_or(CYCLES / first.frequency);
     let request = ImpulseRequest {
-        stroke_rate: stroke_rate(&modes, amplitude),
+        stroke_rate,
         duration,
         intervals: intervals(duration, first.frequency * f64::from(args.samples))?,
     };
@@ -39,7 +40,7 @@ pub(crate) fn run(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
     let impulse = "amplitude of the first mode alone, without damping";
     row("impulse_deg", amplitude.to_degrees(), "deg", impulse);
     row(&format!("{}_hz", first.name), first.frequency, "Hz", "natural frequency of the first mode");
-    row("stroke_rate_rad_s", request.stroke_rate, "rad/s", "rate of the stroke right after the impulse");
+    row("stroke_rate_rad_s", stroke_rate, "rad/s", "rate of the stroke right after the impulse");
     for name in ["stroke", "pitch"] {
         let column = format!("{name}_deg");
         if let Some(index) = motion.columns.iter().position(|other| *other == column) {

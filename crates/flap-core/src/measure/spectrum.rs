@@ -60,36 +60,51 @@ impl Spectrum {
 
     /// The highest peaks, at most `count`, the highest first, each refined by the parabola through the bins around it.
     ///
-    /// Peaks closer to a higher one than `apart`, as a share of its frequency, belong to it: the frequency of a motion that
-    /// is not linear drifts as it dies away, and leaves several peaks side by side.
-    ///
-    /// What a window that cuts a motion short adds beside a peak is not a peak itself, see [`Spectrum::leaked`].
-    pub fn peaks(&self, count: usize, apart: f64) -> Vec<SpectrumPeak> {
+    /// A window that cuts a motion short surrounds each peak with side lobes and ripples: only what stands out from the
+    /// ground towards each higher peak by more than these can is a peak.
+    pub fn peaks(&self, count: usize) -> Vec<SpectrumPeak> {
         let largest = self.amplitudes.iter().fold(0.0_f64, |largest, amplitude| largest.max(*amplitude));
         let tops = self.amplitudes.windows(3).enumerate();
         let tops = tops.filter(|(_, a)| a[0] < a[1] && a[1] >= a[2] && a[1] > LOWEST * largest);
-        let mut tops: Vec<SpectrumPeak> =
-            tops.map(|(i, a)| self.refined(i + 1, [a[0], a[1], a[2]])).collect();
-        tops.sort_by(|one, other| other.amplitude.total_cmp(&one.amplitude));
+        let mut tops: Vec<usize> = tops.map(|(i, _)| i + 1).collect();
+        tops.sort_by(|one, other| self.amplitudes[*other].total_cmp(&self.amplitudes[*one]));
 
-        let mut peaks: Vec<SpectrumPeak> = Vec::new();
+        let mut peaks: Vec<(usize, SpectrumPeak)> = Vec::new();
         for top in tops {
-            let leaked: f64 = peaks.iter().map(|peak| self.leaked(peak, top.frequency)).sum();
-            let belongs =
-                |peak: &SpectrumPeak| (top.frequency - peak.frequency).abs() < apart * peak.frequency;
-            if peaks.len() < count && top.amplitude > leaked && !peaks.iter().any(belongs) {
-                peaks.push(top);
+            if peaks.len() == count {
+                break;
+            }
+            let refined = self.refined(top);
+            let leaked: f64 = peaks.iter().map(|(_, peak)| self.leaked(peak, refined.frequency)).sum();
+            // A ripple goes down by as much as it goes up.
+            if peaks.iter().all(|(higher, _)| self.height_towards(top, *higher) > 2.0 * leaked) {
+                peaks.push((top, refined));
             }
         }
-        peaks
+        peaks.into_iter().map(|(_, peak)| peak).collect()
     }
 
-    /// The vertex of the parabola through three bins around `index`, the highest in their middle.
-    fn refined(&self, index: usize, [before, top, after]: [f64; 3]) -> SpectrumPeak {
+    /// How far a top stands above the lowest ground on the way to what is higher, in the direction of a higher peak.
+    fn height_towards(&self, top: usize, higher: usize) -> f64 {
+        let height = self.amplitudes[top];
+        let lowest = |ground: &mut dyn Iterator<Item = &f64>| {
+            ground.take_while(|amplitude| **amplitude <= height).fold(height, |low, a| low.min(*a))
+        };
+        let lowest = if higher > top {
+            lowest(&mut self.amplitudes[top..higher].iter())
+        } else {
+            lowest(&mut self.amplitudes[higher..top].iter().rev())
+        };
+        height - lowest
+    }
+
+    /// The vertex of the parabola through a top and its neighbours.
+    fn refined(&self, top: usize) -> SpectrumPeak {
+        let [before, at, after] = [top - 1, top, top + 1].map(|i| self.amplitudes[i]);
         let slope = 0.5 * (after - before);
-        let bend = before + after - 2.0 * top;
+        let bend = before + after - 2.0 * at;
         let shift = -slope / bend;
-        SpectrumPeak { frequency: self.bin * (index as f64 + shift), amplitude: top + 0.5 * slope * shift }
+        SpectrumPeak { frequency: self.bin * (top as f64 + shift), amplitude: at + 0.5 * slope * shift }
     }
 
     /// The largest amplitude that a peak of amplitude A can add at a distance d in frequency: A/(N sin πdΔ) for N samples

@@ -15,9 +15,6 @@ pub const INTERVALS_MAX: u32 = 5_000_000;
 /// Peaks looked for in a spectrum.
 const PEAKS: usize = 2;
 
-/// Peaks closer together than this share of their frequency are one resonance.
-const APART: f64 = 0.1;
-
 /// What is asked of a free motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeRequest {
@@ -45,8 +42,17 @@ pub struct FreeMotion {
 }
 
 /// The rate (rad/s) that an impulse gives the stroke, from the amplitude (rad) of the first mode alone, undamped.
-pub fn stroke_rate(modes: &[Mode; 2], amplitude: f64) -> f64 {
-    TAU * modes[0].frequency * amplitude
+///
+/// # Errors
+/// [`Invalid`] if the first mode does not swing: without a spring there is no frequency.
+pub fn stroke_rate(modes: &[Mode; 2], amplitude: f64) -> Result<f64, Invalid> {
+    let Mode { name, frequency } = modes[0];
+    if frequency.is_finite() && frequency > 0.0 {
+        return Ok(TAU * frequency * amplitude);
+    }
+    Err(Invalid::new(format!(
+        "{name} has a frequency of {frequency} Hz, which an impulse cannot be sized by"
+    )))
 }
 
 /// Gives a point's stroke an impulse and looks for the frequencies of the motion that follows.
@@ -61,7 +67,7 @@ pub fn examine(
     request: &FreeRequest,
 ) -> Result<FreeMotion, Invalid> {
     let modes = simulator.modes(values)?;
-    let stroke_rate = stroke_rate(&modes, request.amplitude);
+    let stroke_rate = stroke_rate(&modes, request.amplitude)?;
     let frequency = modes[0].frequency;
     let run = |duration: f64| {
         let intervals = intervals(duration, frequency * f64::from(request.samples_per_cycle))?;
@@ -78,7 +84,7 @@ pub fn examine(
         let mut samples = column(&motion, name)?;
         // The window holds whole intervals: its last sample is the first of the next.
         samples.pop();
-        Ok(Spectrum::of(interval, &samples).peaks(PEAKS, APART))
+        Ok(Spectrum::of(interval, &samples).peaks(PEAKS))
     };
     Ok(FreeMotion { stroke_rate, fit, stroke_peaks: peaks("stroke_deg")?, pitch_peaks: peaks("pitch_deg")? })
 }
