@@ -28,6 +28,12 @@ docs:
 example:
     cargo run --release -- sweep --grid examples/ozaki_large.toml --force
 
+# What the papers say beside what flap computes: writes docs/reproduction.md.
+reproduce:
+    mkdir -p target
+    cargo run --release --locked --example reproduce > target/reproduction.md
+    mv target/reproduction.md docs/reproduction.md
+
 # Benchmarks: lanes against scalars, one step, elementary functions.
 bench:
     cargo bench -p flap-core

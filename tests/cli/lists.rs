@@ -58,6 +58,9 @@ fn models_and_presets_are_listed() {
     for name in ["direct-drive", "  ozaki2018-small", "  ozaki2018-large"] {
         assert!(ended.stdout.lines().any(|line| line.starts_with(name)), "{name}: {}", ended.stdout);
     }
+    for line in ended.stdout.lines().filter(|line| line.contains("kw-swapped")) {
+        assert!(line.contains("HYPOTHESIS"), "{line}");
+    }
 }
 
 #[test]

@@ -15,7 +15,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("modes", &["num", "parameter"]),
     ("quadrature", &["num", "parameter"]),
     ("model", &["num", "ode", "parameter", "drive", "piezo", "linkage", "modes", "quadrature"]),
-    ("measure", &["num", "ode", "model"]),
+    ("measure", &["num", "ode", "parameter", "model"]),
     (
         "simulate",
         &["num", "ode", "parameter", "drive", "piezo", "linkage", "modes", "quadrature", "model", "measure"],

@@ -109,6 +109,14 @@ fn a_torsion_hinge_sets_the_stiffness_of_eq_41() {
     assert_close(p.hinge_stiffness, expected, 1e-11, "hinge stiffness");
 }
 
+/// The presets that are hypotheses swap the hinges of Table A1 and nothing else.
+#[test]
+fn swapped_presets_swap_the_hinges() {
+    let [small, large] = [Params::ozaki2018_small(), Params::ozaki2018_large()];
+    assert_eq!(Params::ozaki2018_small_kw_swapped(), Params { hinge_stiffness: 8.64e-5, ..small });
+    assert_eq!(Params::ozaki2018_large_kw_swapped(), Params { hinge_stiffness: 1.48e-4, ..large });
+}
+
 #[test]
 fn natural_frequencies_of_uncoupled_springs() {
     let square = (2.0 * std::f64::consts::PI).powi(2);

@@ -192,7 +192,7 @@ impl Slot for LiftSign {
 const EPSILON_0: f64 = 8.854_187_812_8e-12;
 
 impl Params {
-    /// The published presets.
+    /// The published presets, and a hypothesis on them.
     pub const PRESETS: &'static [Preset] = &[
         Preset {
             name: "ozaki2018-small",
@@ -203,6 +203,16 @@ impl Params {
             name: "ozaki2018-large",
             doc: "32.4 mm wing on a 21.0 mm actuator, 50 V + 50 V at 109 Hz (Ozaki and Hamaguchi 2018, Table A1)",
             values: || Params::ozaki2018_large().to_values(),
+        },
+        Preset {
+            name: "ozaki2018-small-kw-swapped",
+            doc: "HYPOTHESIS: ozaki2018-small with the k_w of the large type, the table's columns of k_w swapped",
+            values: || Params::ozaki2018_small_kw_swapped().to_values(),
+        },
+        Preset {
+            name: "ozaki2018-large-kw-swapped",
+            doc: "HYPOTHESIS: ozaki2018-large with the k_w of the small type, the table's columns of k_w swapped",
+            values: || Params::ozaki2018_large_kw_swapped().to_values(),
         },
     ];
 
@@ -306,6 +316,16 @@ impl Params {
             }
             StrokeMode::Prescribed => [0.0, self.stroke_amplitude],
         }
+    }
+
+    /// A hypothesis: Table A1 with its columns of k_w swapped, which cannot be proved from the text.
+    pub fn ozaki2018_small_kw_swapped() -> Params {
+        Params { hinge_stiffness: Params::ozaki2018_large().hinge_stiffness, ..Params::ozaki2018_small() }
+    }
+
+    /// The same hypothesis for the large type.
+    pub fn ozaki2018_large_kw_swapped() -> Params {
+        Params { hinge_stiffness: Params::ozaki2018_small().hinge_stiffness, ..Params::ozaki2018_large() }
     }
 
     /// The drive's waveform.

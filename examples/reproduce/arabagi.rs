@@ -1,0 +1,98 @@
+//! Arabagi, Hines and Sitti (2013).
+
+mod control;
+mod lift;
+mod resonance;
+mod reynolds;
+
+use flap_core::model::four_bar::Params;
+
+use crate::claim::{Claim, said};
+use crate::points::{Bench, Response, steps};
+use crate::table::{Group, Paper};
+
+pub(crate) const PAPER: Paper = Paper {
+    title: "Arabagi, Hines and Sitti (2013)",
+    preface: "Model `four-bar`, presets `arabagi2013-75hz` and `arabagi2013-30hz`. The paper gives neither \
+              the wings nor the actuators, and no lifts or amplitudes as numbers: those of the presets are \
+              assumed, and only frequencies, trends and ratios can be compared. **(T)** marks what the \
+              assumed numbers were tuned to, which proves nothing; **(S)** what was in sight when they \
+              were chosen, which is weak evidence.",
+    groups: &[
+        Group { title: "Resonances", preface: "", quick: false, claims: resonance::claims },
+        Group { title: "Lift against frequency", preface: "", quick: false, claims: lift::claims },
+        Group { title: "Parts of the lift", preface: "", quick: true, claims: lift::parts },
+        Group {
+            title: "Voltage, hinge and slider-crank",
+            preface: "Figs. 13 to 15 at 70 Hz, with the 75 Hz system.",
+            quick: false,
+            claims: control::claims,
+        },
+        Group { title: "Reynolds number", preface: "", quick: true, claims: reynolds::claims },
+        Group { title: "Rotation alone, and magnitudes", preface: "", quick: true, claims: unchecked },
+    ],
+};
+
+/// One of the two systems, with the frequencies its responses are looked at.
+struct System {
+    name: &'static str,
+    params: Params,
+    /// From, to and step (Hz).
+    range: [f64; 3],
+}
+
+fn system_75() -> System {
+    System { name: "75 Hz system", params: Params::arabagi2013_75hz(), range: [30.0, 160.0, 1.0] }
+}
+
+fn system_30() -> System {
+    System { name: "30 Hz system", params: Params::arabagi2013_30hz(), range: [12.0, 70.0, 0.5] }
+}
+
+fn bench() -> Bench {
+    Bench::new("four-bar", 1e-6)
+}
+
+impl System {
+    /// The response to frequencies.
+    fn response(&self) -> Response {
+        let [from, to, step] = self.range;
+        bench().response(&steps(from, to, step), |drive_frequency| {
+            Params { drive_frequency, ..self.params.clone() }.to_values()
+        })
+    }
+
+    /// The same system at another voltage.
+    fn at(self, drive_voltage_pp: f64) -> System {
+        System { params: Params { drive_voltage_pp, ..self.params }, ..self }
+    }
+}
+
+/// Coefficient of determination of a straight line fitted to points.
+fn straightness(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
+    let (x_mean, y_mean) = (mean(|point| point.0), mean(|point| point.1));
+    let sum =
+        |of: &dyn Fn(f64, f64) -> f64| points.iter().map(|(x, y)| of(x - x_mean, y - y_mean)).sum::<f64>();
+    let (xx, xy, yy) = (sum(&|x, _| x * x), sum(&|x, y| x * y), sum(&|_, y| y * y));
+    xy * xy / (xx * yy)
+}
+
+fn unchecked() -> Vec<Claim> {
+    const PRESCRIBED: &str = "flap drives the actuator; it does not prescribe strokes";
+    const SIZES: &str = "it depends on wings and actuators that the paper does not give";
+    vec![
+        said("V-B", "(S) rotation alone, 95 Hz: phase of the pitch behind the stroke", "81°")
+            .cannot_be_checked(PRESCRIBED, ""),
+        said(
+            "V-B, Fig. 10b",
+            "rotation alone, 75 Hz system: added mass lifts twice as much as translation",
+            "2 to 1",
+        )
+        .cannot_be_checked(PRESCRIBED, ""),
+        said("V-B, Fig. 11", "translation lifts eight times as much as with rotation alone", "8")
+            .cannot_be_checked(PRESCRIBED, ""),
+        said("Figs. 7 to 15", "lifts and amplitudes", "drawn").cannot_be_checked(SIZES, ""),
+    ]
+}

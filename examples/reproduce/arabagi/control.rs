@@ -1,0 +1,120 @@
+//! Lift against voltage, stiffness of the hinge and of the slider-crank: section VI and Figs. 9, 11, 13 to 15.
+
+use flap_core::model::four_bar::Params;
+
+use super::{System, bench, straightness, system_30, system_75};
+use crate::claim::{Claim, about, said};
+use crate::points::{Response, steps};
+
+const LIFT: &str = "lift_mean_mn";
+const STROKE: &str = "stroke_pp_deg";
+
+pub(super) fn claims() -> Vec<Claim> {
+    let mut claims = vec![voltage()];
+    claims.extend(hinge());
+    claims.push(surface());
+    claims.extend([series(system_75), series(system_30)]);
+    claims
+}
+
+/// The prototype of Figs. 13 to 15.
+fn at_70_hz() -> Params {
+    Params { drive_frequency: 70.0, ..Params::arabagi2013_75hz() }
+}
+
+fn voltage() -> Claim {
+    let response = bench().response(&steps(20.0, 200.0, 10.0), |drive_voltage_pp| {
+        Params { drive_voltage_pp, ..at_70_hz() }.to_values()
+    });
+    let lifts = response.column(LIFT);
+    let all = straightness(&lifts);
+    let upper: Vec<(f64, f64)> = lifts.iter().copied().filter(|(voltage, _)| *voltage >= 100.0).collect();
+    let upper = straightness(&upper);
+    let at = |voltage: f64| lifts.iter().find(|(v, _)| *v == voltage).expect("it is in the response").1;
+    let exponent = (at(160.0) / at(140.0)).ln() / (160.0_f64 / 140.0).ln();
+    said("VI, Fig. 13", "lift is linear in the voltage", "linear").is(
+        &about(1.0, 0.01),
+        all,
+        format!("R² {all:.3} from 20 to 200 V, {upper:.3} from 100 V on; convex: ∝ V^{exponent:.1} at 150 V"),
+    )
+}
+
+fn hinge() -> Vec<Claim> {
+    // Micronewton metres per radian are the paper's mN·mm.
+    let response = bench().response(&steps(20.0, 120.0, 5.0), |stiffness| {
+        Params { hinge_stiffness: 1e-6 * stiffness, ..at_70_hz() }.to_values()
+    });
+    let (lifts, strokes) = (response.column(LIFT), response.column(STROKE));
+    let at = |values: &[(f64, f64)], stiffness: f64| {
+        values.iter().find(|(k, _)| *k == stiffness).expect("it is in the response").1
+    };
+    let [l_30, l_50, l_80, l_120] = [30.0, 50.0, 80.0, 120.0].map(|stiffness| at(&lifts, stiffness));
+    let [s_30, s_120] = [30.0, 120.0].map(|stiffness| at(&strokes, stiffness));
+    let (best, _) = response.peak(LIFT);
+    vec![
+        said("VI, Fig. 14", "lift falls as the hinge gets stiffer, from 30 to 120 mN·mm", "falls").holds(
+            lifts.windows(2).filter(|pair| pair[0].0 >= 30.0).all(|pair| pair[1].1 < pair[0].1),
+            format!("{l_30:.2}, {l_50:.2}, {l_80:.2}, {l_120:.2} mN at 30, 50, 80, 120; largest at {best:.0} mN·mm"),
+        ),
+        said("VI, Fig. 14", "and the stroke grows", "grows")
+            .holds(s_120 > s_30, format!("{s_30:.1}° to {s_120:.1}°, peak to peak")),
+    ]
+}
+
+fn surface() -> Claim {
+    let points: Vec<[f64; 2]> = steps(80.0, 200.0, 20.0)
+        .into_iter()
+        .flat_map(|voltage| steps(30.0, 100.0, 10.0).into_iter().map(move |stiffness| [voltage, stiffness]))
+        .collect();
+    let values = points.iter().map(|&[drive_voltage_pp, stiffness]| {
+        Params { drive_voltage_pp, hinge_stiffness: 1e-6 * stiffness, ..at_70_hz() }.to_values()
+    });
+    let lifts: Vec<f64> = bench().settle(values.collect()).iter().map(|point| point.get(LIFT)).collect();
+    let planeness = planeness(&points, &lifts);
+    let [low, high] = [f64::min, f64::max].map(|of| lifts.iter().copied().fold(lifts[0], of));
+    said("VI, Fig. 15", "lift against voltage and hinge stiffness resembles a plane", "a plane").is(
+        &about(1.0, 0.01),
+        planeness,
+        format!("R² {planeness:.3}, lifts from {low:.2} to {high:.2} mN"),
+    )
+}
+
+/// Coefficient of determination of a plane fitted to values on a rectangular grid, where the two directions separate.
+fn planeness(points: &[[f64; 2]], values: &[f64]) -> f64 {
+    let along = |axis: usize| {
+        straightness(
+            &points.iter().zip(values).map(|(point, value)| (point[axis], *value)).collect::<Vec<_>>(),
+        )
+    };
+    along(0) + along(1)
+}
+
+/// The series stiffness at its critical values.
+fn series(system: fn() -> System) -> Claim {
+    let [soft, base, stiff] = [300.0, 1400.0, 1650.0].map(|series_stiffness| {
+        let system = system();
+        let response =
+            System { params: Params { series_stiffness, ..system.params }, ..system }.response_from_low();
+        (response.humps(STROKE)[0], response.peak(LIFT).1.get(LIFT))
+    });
+    said(
+        "V, Figs. 9 and 11",
+        format!("{}: first peak and lift are sensitive to k_sc, 300 to 1650 N/m", system().name),
+        "sensitive",
+    )
+    .holds(
+        soft.0 < base.0 && base.0 < stiff.0 && soft.1 < base.1 && base.1 < stiff.1,
+        format!(
+            "peaks at {:.1}, {:.1}, {:.1} Hz and largest lifts of {:.2}, {:.2}, {:.2} mN at 300, 1400, 1650 N/m",
+            soft.0, base.0, stiff.0, soft.1, base.1, stiff.1
+        ),
+    )
+}
+
+impl System {
+    /// The response to frequencies from half of the lowest on, as far as the largest lift is.
+    fn response_from_low(self) -> Response {
+        let [from, to, step] = self.range;
+        System { range: [0.5 * from, 0.75 * to, step], ..self }.response()
+    }
+}

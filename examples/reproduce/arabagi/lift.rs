@@ -1,0 +1,83 @@
+//! Lift against frequency, and its parts.
+
+use super::{System, straightness, system_30, system_75};
+use crate::claim::{Claim, about, between, said};
+use crate::points::Response;
+
+const LIFT: &str = "lift_mean_mn";
+
+pub(super) fn claims() -> Vec<Claim> {
+    let [system_75, system_30] = [system_75(), system_30()];
+    let mut claims = Vec::new();
+    for (system, theirs) in [(&system_75, [75.0, 95.0, 115.0, 140.0]), (&system_30, [30.0, 40.0, 50.0, 60.0])]
+    {
+        let response = system.response();
+        let resonance = response.humps("stroke_pp_deg")[0];
+        claims.extend([rise(system, &response, resonance), largest(system, &response, resonance)]);
+        claims.push(collapse(system, &response, theirs));
+    }
+    claims
+}
+
+fn rise(system: &System, response: &Response, resonance: f64) -> Claim {
+    let mut rising = response.column(LIFT);
+    rising.retain(|(frequency, _)| (0.7 * resonance..=resonance).contains(frequency));
+    let straightness = straightness(&rising);
+    said("VI", format!("{}: lift rises linearly up to the first resonance", system.name), "linearly").is(
+        &about(1.0, 0.01),
+        straightness,
+        format!("R² {straightness:.3} from 0.7 of the resonance on"),
+    )
+}
+
+fn largest(system: &System, response: &Response, resonance: f64) -> Claim {
+    let (frequency, _) = response.peak(LIFT);
+    said("V-C", format!("(S) {}: largest lift above the first resonance by", system.name), "10 to 20 Hz").is(
+        &between(10.0, 20.0),
+        frequency - resonance,
+        format!("{:.1} Hz ({frequency:.1} Hz)", frequency - resonance),
+    )
+}
+
+fn collapse(system: &System, response: &Response, frequencies: [f64; 4]) -> Claim {
+    let at = |column: &str, frequency: f64| {
+        let values = response.column(column);
+        values.iter().find(|(f, _)| *f == frequency).expect("the frequency is in the response").1
+    };
+    let lags = frequencies.map(|frequency| at("pitch_lag_deg", frequency));
+    let negative = response.column(LIFT).into_iter().rev().take_while(|(_, lift)| *lift < 0.0).last();
+    let from = negative.map_or(f64::NAN, |(frequency, _)| frequency);
+    let words: Vec<String> =
+        lags.iter().zip(frequencies).map(|(lag, f)| format!("{lag:.0}° at {f:.0} Hz")).collect();
+    said(
+        "V-C",
+        format!("(S) {}: beyond it lift falls sharply, as the pitch comes out of phase", system.name),
+        "to 180°",
+    )
+    .holds(
+        lags.windows(2).all(|pair| pair[1] > pair[0]) && lags[3] > 135.0 && from.is_finite(),
+        format!("lag {}; no lift from {from:.0} Hz on", words.join(", ")),
+    )
+}
+
+/// The parts of the lift at the systems' own frequencies.
+pub(super) fn parts() -> Vec<Claim> {
+    let [split_75, split_30] = [system_75(), system_30()].map(|system| {
+        let point = super::bench().point(system.params.to_values());
+        ["translational", "added_mass", "rotational"].map(|part| point.get(&format!("lift_{part}_mean_mn")))
+    });
+    let shown = |split: [f64; 3]| format!("{:.3} to {:.3} mN", split[0], split[1]);
+    let [translational, added_mass, rotational] = split_30;
+    vec![
+        said("V-B, Fig. 11", "(S) 75 Hz system: translation lifts more than the added mass", "dominant")
+            .holds(split_75[0] > split_75[1], shown(split_75)),
+        said(
+            "IV-A, Fig. 7b",
+            "(S) 30 Hz system: most of the lift is translational, little of the added mass",
+            "most",
+        )
+        .holds(translational > 0.5 * (translational + added_mass + rotational), shown(split_30)),
+        said("IV-A, Fig. 7b", "30 Hz system: rotational lift is very low", "very low")
+            .holds(rotational.abs() < 0.05 * translational, format!("{rotational:.3} mN")),
+    ]
+}

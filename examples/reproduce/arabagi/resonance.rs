@@ -1,0 +1,74 @@
+//! Peaks of the stroke against frequency.
+
+use super::{bench, system_30, system_75};
+use crate::claim::{Claim, assumed, closely, said};
+use crate::points::Response;
+
+const STROKE: &str = "stroke_pp_deg";
+
+pub(super) fn claims() -> Vec<Claim> {
+    let [response_75, response_30] = [system_75(), system_30()].map(|system| system.response());
+    let [gentle_75, gentle_30] = [system_75().at(20.0), system_30().at(20.0)].map(|system| system.response());
+    let [humps_75, humps_30] = [&response_75, &response_30].map(|response| response.humps(STROKE));
+    let [second_75, second_30] = [&gentle_75, &gentle_30].map(|response| peak(&response.humps(STROKE), 1));
+    let point = bench().point(system_75().params.to_values());
+    let [mode_1, mode_2] = ["mode_1_hz", "mode_2_hz"].map(|mode| point.get(mode));
+    let mut claims = vec![
+        frequency("V-B, Fig. 11", "(T) 75 Hz system, first peak of the stroke", 75.0, peak(&humps_75, 0)),
+        frequency("V-B, Fig. 11", "(T) 75 Hz system, second peak, simulated", 115.0, peak(&humps_75, 1)),
+        frequency("V-C, Fig. 12", "(T) 75 Hz system, first peak below 5° (undamped mode)", 78.0, mode_1),
+        frequency("V-C, Fig. 12", "(T) 75 Hz system, second peak below 5° (undamped mode)", 129.0, mode_2),
+        said("V-C", "75 Hz system: driven hard, the second peak moves down", "129 to 115 Hz").holds(
+            peak(&humps_75, 1) < second_75,
+            format!("{second_75:.0} Hz at 20 V, {:.0} Hz at 150 V", peak(&humps_75, 1)),
+        ),
+        frequency("V-A, Fig. 9", "(T) 30 Hz system, first peak of the stroke", 30.0, peak(&humps_30, 0)),
+        said("V-A, Fig. 8", "30 Hz system, second peak, measured", "36 Hz").is(
+            &closely(36.0, 0.5),
+            peak(&humps_30, 1),
+            if humps_30.len() > 1 {
+                format!("{:.1} Hz", peak(&humps_30, 1))
+            } else {
+                format!("none up to {:.0} Hz at 180 V; {second_30:.1} Hz at 20 V", system_30().range[1])
+            },
+        ),
+    ];
+    for (name, response) in [("75 Hz system", &response_75), ("30 Hz system", &response_30)] {
+        let [low, high] = half_power_band(response);
+        let quality = response.peak(STROKE).0 / (high - low);
+        claims.push(said("V-A", format!("quality factor, {name}"), "≈ 2").is(
+            &assumed(2.0, 0.05),
+            quality,
+            format!("{quality:.2} (half power from {low:.1} to {high:.1} Hz)"),
+        ));
+    }
+    claims
+}
+
+/// The frequency of a peak, or NaN if there are not as many.
+fn peak(humps: &[f64], index: usize) -> f64 {
+    humps.get(index).copied().unwrap_or(f64::NAN)
+}
+
+fn frequency(place: &'static str, statement: &str, published: f64, computed: f64) -> Claim {
+    said(place, statement, format!("{published:.0} Hz")).is(
+        &closely(published, 0.5),
+        computed,
+        format!("{computed:.1} Hz"),
+    )
+}
+
+/// Frequencies about the largest stroke between which it is at least 1/√2 of that, interpolated.
+fn half_power_band(response: &Response) -> [f64; 2] {
+    let strokes = response.column(STROKE);
+    let (peak, point) = response.peak(STROKE);
+    let half = point.get(STROKE) * core::f64::consts::FRAC_1_SQRT_2;
+    let crossing = |pair: &[(f64, f64)]| {
+        let [(f_0, s_0), (f_1, s_1)] = [pair[0], pair[1]];
+        ((s_0 < half) != (s_1 < half)).then(|| f_0 + (f_1 - f_0) * (half - s_0) / (s_1 - s_0))
+    };
+    let crossings: Vec<f64> = strokes.windows(2).filter_map(crossing).collect();
+    let below = crossings.iter().copied().filter(|f| *f < peak).fold(f64::NAN, f64::max);
+    let above = crossings.iter().copied().filter(|f| *f > peak).fold(f64::NAN, f64::min);
+    [below, above]
+}

@@ -1,0 +1,42 @@
+//! The Reynolds number, section II-C.
+
+use flap_core::model::four_bar::Params;
+use flap_core::num::InstructionSet;
+use flap_core::simulate::TrajectoryRequest;
+
+use super::{bench, system_30, system_75};
+use crate::claim::{Claim, assumed, said};
+
+/// Kinematic viscosity of air (m²/s).
+const VISCOSITY: f64 = 1.5e-5;
+
+pub(super) fn claims() -> Vec<Claim> {
+    [system_75(), system_30()]
+        .map(|system| {
+            let reynolds = strip_average(&system.params) * largest_rate(&system.params);
+            let statement = format!("{}: Reynolds number, averaged over the strips", system.name);
+            said("II-C", statement, "2800").is(
+                &assumed(2800.0, 50.0),
+                reynolds,
+                format!("{:.0} at the largest speed", 10.0 * (reynolds / 10.0).round()),
+            )
+        })
+        .into()
+}
+
+/// Mean of r c / ν along the span (s).
+fn strip_average(p: &Params) -> f64 {
+    let n = 1000;
+    let strips = (0..n).map(|i| (f64::from(i) + 0.5) / f64::from(n));
+    strips.map(|x| (p.wing_offset + x * p.wing_length) * p.chord(x)).sum::<f64>() / f64::from(n) / VISCOSITY
+}
+
+/// Largest stroke rate (rad/s).
+fn largest_rate(p: &Params) -> f64 {
+    let bench = bench();
+    let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 400, settled: true };
+    let motion = bench.model.trajectory(InstructionSet::best(), &bench.solver, &p.to_values(), &request);
+    let motion = motion.expect("the motion settles");
+    let rate = motion.columns.iter().position(|column| column == "stroke_rate_rad_s").expect("it is a state");
+    motion.rows.iter().map(|row| row[rate].abs()).fold(0.0, f64::max)
+}

@@ -1,0 +1,133 @@
+//! What follows from Table I without integrating a motion.
+
+use flap_core::model::bimorph::{Actuator, Bimorph, Constants, Params, drag_coefficient, secant_stiffness};
+
+use super::{constants, transmission};
+use crate::claim::{Claim, about, between, closely, said};
+
+pub(super) fn claims() -> Vec<Claim> {
+    [masses(), transmissions(), lift_and_drag(), strains()].into_iter().flatten().collect()
+}
+
+fn masses() -> Vec<Claim> {
+    let mass = |p: &Params| 1e6 / constants(p).inverse_m_e;
+    let with_air = mass(&transmission(1.0));
+    let without_air = mass(&Params { added_inertia_stroke: 0.0, ..transmission(1.0) });
+    vec![
+        said("III-A", "mass that the actuator feels, of the wing's inertia", "~570 mg").is(
+            &about(570.0, 5.0),
+            without_air,
+            format!("{without_air:.0} mg"),
+        ),
+        said("III-A", "the same with the added mass of the air", "~700 mg").is(
+            &about(700.0, 5.0),
+            with_air,
+            format!("{with_air:.0} mg"),
+        ),
+    ]
+}
+
+fn transmissions() -> Vec<Claim> {
+    let stiffness = secant_stiffness(&constants(&transmission(1.0)), 240e-6);
+    let mode = |ratio: f64| Bimorph::linear_modes(&constants(&transmission(ratio)))[0];
+    let [t_1, t_2, t_3] = [1.0, 0.8, 0.6].map(mode);
+    vec![
+        said("II-C", "the transmission is as stiff as the actuator at 480 µm peak to peak", "197.7 N/m").is(
+            &closely(197.7, 0.05),
+            stiffness,
+            format!("{stiffness:.1} N/m"),
+        ),
+        said("III-A", "resonance rises as 1/T: undamped, T₂ over T₁", "1.25").is(
+            &about(1.25, 0.005),
+            t_2 / t_1,
+            format!("{:.2} ({t_1:.1} Hz to {t_2:.1} Hz)", t_2 / t_1),
+        ),
+        said("III-A", "the same, T₃ over T₁", "1.67").is(
+            &about(1.0 / 0.6, 0.005),
+            t_3 / t_1,
+            format!("{:.2} (to {t_3:.1} Hz)", t_3 / t_1),
+        ),
+    ]
+}
+
+fn lift_and_drag() -> Vec<Claim> {
+    let fitted = constants(&transmission(1.0));
+    // The coefficients of Fig. 3.
+    let drawn = constants(&Params { drag_max: 3.4, drag_min: 0.4, ..transmission(1.0) });
+    let angle = angle_of_largest(|degrees| lift_to_drag(&drawn, degrees));
+    let angle_fitted = angle_of_largest(|degrees| lift_to_drag(&fitted, degrees));
+    let before = 0.5 * (lift_to_drag(&drawn, 45.0) + lift_to_drag(&drawn, 50.0));
+    let gain = lift_to_drag(&drawn, 70.0) / before;
+    let angle_lift = angle_of_largest(mean_lift);
+    vec![
+        said("II-A, Fig. 3", "hinge angle of the largest lift to drag", "~70°").is(
+            &about(70.0, 0.5),
+            angle,
+            format!("{angle:.1}° ({angle_fitted:.1}° with the fitted coefficients of Table I)"),
+        ),
+        said("III-A, Fig. 3", "lift to drag at 70° over that at 45° to 50°", "about 1.5").is(
+            &about(1.5, 0.05),
+            gain,
+            format!("{gain:.2}"),
+        ),
+        said("II-A", "largest hinge angle that gives the largest mean lift, at ideal phase", "51°").is(
+            &closely(51.0, 0.5),
+            angle_lift,
+            format!("{angle_lift:.1}°"),
+        ),
+    ]
+}
+
+/// Lift over drag at a hinge angle in degrees.
+fn lift_to_drag(c: &Constants<f64>, degrees: f64) -> f64 {
+    let (sin, cos) = (2.0 * degrees).to_radians().sin_cos();
+    c.b_l * sin / drag_coefficient(c, cos)
+}
+
+/// Mean lift of a sinusoidal stroke, ∝ ⟨cos²θ sin(2ψ_m cos θ)⟩, for a largest hinge angle ψ_m in degrees.
+fn mean_lift(degrees: f64) -> f64 {
+    let n = 400;
+    (0..n)
+        .map(|i| (core::f64::consts::PI * (f64::from(i) + 0.5) / f64::from(n)).sin())
+        .map(|speed| speed * speed * (2.0 * degrees.to_radians() * speed).sin())
+        .sum()
+}
+
+/// The angle in degrees, in steps of 0.01, at which `f` is largest.
+fn angle_of_largest(f: impl Fn(f64) -> f64) -> f64 {
+    let angles = (0..9000).map(|i| 0.01 * f64::from(i));
+    angles.max_by(|a, b| f(*a).total_cmp(&f(*b))).expect("there are angles")
+}
+
+fn strains() -> Vec<Claim> {
+    let improved = surface_strain_per_degree(&Params::jafferis2016_improved());
+    let previous = surface_strain_per_degree(&transmission(1.0));
+    let strain = 100.0 * improved * 92.0;
+    let equal = improved * 92.0 / previous;
+    let typical = 0.066e-2 / previous;
+    vec![
+        said(
+            "Table II, IV",
+            "largest strain, at a stroke of 92° peak to peak with T = 2666 rad/m",
+            "0.079 %",
+        )
+        .is(&closely(0.079, 0.0005), strain, format!("{strain:.4} % at the plates' outer faces")),
+        said("IV", "stroke of the previous vehicle that strains its actuators as much", "115°").is(
+            &closely(115.0, 0.5),
+            equal,
+            format!("{equal:.1}°"),
+        ),
+        said("Table II, IV", "that is more than its typical stroke, strained by 0.066 %, by", "15 to 25 %")
+            .is(
+                &between(15.0, 25.0),
+                100.0 * (equal / typical - 1.0),
+                format!("{:.1} % ({typical:.1}°)", 100.0 * (equal / typical - 1.0)),
+            ),
+    ]
+}
+
+/// Strain of the plates' outer faces per degree of stroke, peak to peak.
+fn surface_strain_per_degree(p: &Params) -> f64 {
+    let actuator = Actuator::new(p).expect("published parameters are possible");
+    0.5_f64.to_radians() / p.transmission_ratio * actuator.strain_per_tip * actuator.surface_strain_ratio
+}

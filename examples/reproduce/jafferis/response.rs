@@ -1,0 +1,169 @@
+//! Frequency responses of Table I and of the scaled transmissions of Fig. 5.
+
+use super::{bench, response, transmission};
+use crate::claim::{Claim, about, said};
+use crate::points::{Response, steps};
+use flap_core::model::bimorph::Params;
+
+const PER_VOLT: &str = "stroke_pp_deg_per_v";
+
+pub(super) fn claims() -> Vec<Claim> {
+    let families =
+        [(1.0, [95.0, 140.0]), (0.8, [115.0, 175.0]), (0.6, [150.0, 230.0])].map(|(ratio, range)| {
+            [160.0, 180.0, 200.0, 240.0].map(|voltage| response(&transmission(ratio), voltage, range))
+        });
+    let mut claims = regimes();
+    claims.extend([steep_rise(&families), phase(&families)]);
+    claims.extend(small_peaks());
+    claims.extend(scaling(&families));
+    claims
+}
+
+/// T₁, T₂, T₃, each at 160, 180, 200 and 240 V.
+type Families = [[Response; 4]; 3];
+
+/// Position of 160 V and of 200 V in a family.
+const V_160: usize = 0;
+const V_200: usize = 2;
+
+/// The three regimes of II-A, in volts of T₁.
+fn regimes() -> Vec<Claim> {
+    let at = |voltage: f64| response(&transmission(1.0), voltage, [80.0, 160.0]);
+    let [low, middle, sharp, high] = [80.0, 140.0, 160.0, 200.0].map(at);
+    let peak = |response: &Response| {
+        let (frequency, point) = response.peak(PER_VOLT);
+        (frequency, point.get(PER_VOLT))
+    };
+    let [(f_low, r_low), (f_sharp, r_sharp), (f_high, r_high)] = [&low, &sharp, &high].map(peak);
+    let humps = middle.humps(PER_VOLT);
+    vec![
+        said("II-A (a)", "low force: one broad peak", "one peak").holds(
+            low.humps(PER_VOLT).len() == 1,
+            format!("80 V: one peak, {r_low:.3} °/V at {f_low:.0} Hz"),
+        ),
+        said("II-A (c), Fig. 4a", "medium force: a broad peak, then a sharp one", "two peaks")
+            .holds(humps.len() == 2, format!("140 V: peaks at {} Hz", list(&humps))),
+        said("II-A (c)", "the sharp peak falls in frequency with more force", "falls")
+            .holds(f_high < f_sharp, format!("{f_sharp:.0} Hz at 160 V, {f_high:.0} Hz at 200 V")),
+        said("II-A (c)", "and rises in stroke per volt", "rises")
+            .holds(r_high > r_sharp && r_sharp > r_low, format!("{r_sharp:.3} to {r_high:.3} °/V")),
+    ]
+}
+
+/// The largest hinge angle where the stroke first rises by more than 1° per Hz, by central differences.
+fn onset(response: &Response) -> f64 {
+    let strokes = response.column("stroke_pp_deg");
+    let angles = response.column("pitch_peak_deg");
+    let steep = strokes.windows(3).position(|three| three[2].1 - three[0].1 > 2.0);
+    steep.map_or(f64::NAN, |i| angles[i + 1].1)
+}
+
+fn steep_rise(families: &Families) -> Claim {
+    let angles: Vec<f64> = families.iter().flatten().map(onset).collect();
+    let (low, high) = extremes(&angles);
+    said("II-A, Fig. 4", "largest hinge angle at the onset of the steep rise", "around 50°").is(
+        &about(50.0, 0.5),
+        farther_from(50.0, low, high),
+        format!("{low:.1}° to {high:.1}° (T₁, T₂, T₃ at 160 to 240 V)"),
+    )
+}
+
+fn phase(families: &Families) -> Claim {
+    let lags: Vec<f64> = families
+        .iter()
+        .flatten()
+        .map(|response| response.peak("stroke_pp_deg").1.get("pitch_lag_deg").abs())
+        .collect();
+    let (low, high) = extremes(&lags);
+    said("II-A", "phase between stroke and hinge angle, at the largest stroke", "near 90°").is(
+        &about(90.0, 0.5),
+        farther_from(90.0, low, high),
+        format!("{low:.0}° to {high:.0}° (the same)"),
+    )
+}
+
+fn small_peaks() -> Vec<Claim> {
+    let response = bench().response(&steps(30.0, 70.0, 0.5), |drive_frequency| {
+        Params { drive_voltage_pp: 160.0, drive_frequency, ..transmission(1.0) }.to_values()
+    });
+    let humps = response.humps("pitch_peak_deg");
+    [35.0, 60.0]
+        .map(|published| {
+            let nearest =
+                humps.iter().copied().min_by(|a, b| (a - published).abs().total_cmp(&(b - published).abs()));
+            let nearest = nearest.unwrap_or(f64::NAN);
+            said("II-C", "the model has a small peak of the hinge angle", format!("about {published:.0} Hz"))
+                .is(&about(published, 0.5), nearest, format!("{nearest:.1} Hz (160 V)"))
+        })
+        .into()
+}
+
+/// What a lower transmission ratio does, III-A.
+fn scaling(families: &Families) -> Vec<Claim> {
+    let [t_1, t_2, t_3] = families;
+    let mut claims = Vec::new();
+    for (name, scaled, ratio) in [("T₂", t_2, 0.8_f64), ("T₃", t_3, 0.6)] {
+        let frequency = |response: &Response| response.peak("stroke_pp_deg").0;
+        let [f_1, f_r] = [&t_1[V_160], &scaled[V_160]].map(frequency);
+        claims.push(
+            said(
+                "III-A",
+                format!("frequency of the largest stroke as 1/T: {name}, 160 V"),
+                format!("{:.2}", 1.0 / ratio),
+            )
+            .is(
+                &about(1.0 / ratio, 0.005),
+                f_r / f_1,
+                format!("{:.2} ({f_1:.0} Hz to {f_r:.0} Hz)", f_r / f_1),
+            ),
+        );
+        for (voltage, v) in [(160, V_160), (200, V_200)] {
+            let expected = ratio.powf(-1.47);
+            let gain = lift(&scaled[v]) / lift(&t_1[v]);
+            claims.push(
+                said(
+                    "III-A",
+                    format!("mean lift as 1/T^1.47: {name}, {voltage} V"),
+                    format!("{expected:.2}"),
+                )
+                .is(&about(expected, 0.005), gain, format!("{gain:.2}")),
+            );
+        }
+        let expected = ratio.powf(-0.47);
+        let efficiency =
+            |response: &Response| response.peak("vehicle_lift_mgf").1.get("efficiency_capacitive_gf_per_w");
+        let gain = efficiency(&scaled[V_160]) / efficiency(&t_1[V_160]);
+        claims.push(
+            said("III-A", format!("lift over power as 1/T^0.47: {name}, 160 V"), format!("{expected:.2}"))
+                .is(&about(expected, 0.005), gain, format!("{gain:.2}")),
+        );
+    }
+    let (at, best) = t_2[V_200].peak("vehicle_lift_mgf");
+    let predicted = best.get("vehicle_lift_mgf");
+    claims.push(
+        said("IV", "lift with T₂ (of scaling 140 mg, not of the model: agreement is chance)", "~290 mg").is(
+            &about(290.0, 5.0),
+            predicted,
+            format!("{predicted:.1} mg at 200 V, {at:.0} Hz"),
+        ),
+    );
+    claims
+}
+
+/// The largest lift of a vehicle (mg).
+fn lift(response: &Response) -> f64 {
+    response.peak("vehicle_lift_mgf").1.get("vehicle_lift_mgf")
+}
+
+fn extremes(values: &[f64]) -> (f64, f64) {
+    let smallest = values.iter().copied().fold(f64::INFINITY, f64::min);
+    (smallest, values.iter().copied().fold(f64::NEG_INFINITY, f64::max))
+}
+
+fn farther_from(from: f64, a: f64, b: f64) -> f64 {
+    if (a - from).abs() > (b - from).abs() { a } else { b }
+}
+
+fn list(values: &[f64]) -> String {
+    values.iter().map(|value| format!("{value:.0}")).collect::<Vec<_>>().join(" and ")
+}

@@ -1,0 +1,74 @@
+//! Sweeps of the frequency, as the paper measures (7), and the two motions that they find with a soft hinge.
+
+use flap_core::model::bimorph::{Bimorph, Params};
+use flap_core::num::InstructionSet;
+use flap_core::simulate::ChirpRequest;
+
+use super::{bench, constants, response, transmission};
+use crate::claim::{Claim, closely, said};
+
+pub(super) fn claims() -> Vec<Claim> {
+    vec![as_settled(), soft_hinge()]
+}
+
+/// Table I at 160 V.
+fn table_1() -> Params {
+    Params { drive_voltage_pp: 160.0, ..transmission(1.0) }
+}
+
+/// Frequencies and strokes (degrees, peak to peak) of a sweep, cycle by cycle.
+fn swept(p: &Params, [from, to]: [f64; 2], rate: f64) -> Vec<(f64, f64)> {
+    let bench = bench();
+    let request = ChirpRequest { from, to, rate, samples_per_cycle: 0 };
+    let response = bench.model.chirp(InstructionSet::best(), &bench.solver, &p.to_values(), &request);
+    let envelope = response.expect("the sweep is possible").envelope;
+    let column = |name: &str| envelope.columns.iter().position(|one| one == name).expect("it is measured");
+    let [frequency, stroke] = [column("frequency_hz"), column("stroke_pp_deg")];
+    envelope.rows.iter().map(|row| (row[frequency], row[stroke])).collect()
+}
+
+/// The largest stroke, with its frequency first.
+fn largest(sweep: &[(f64, f64)]) -> (f64, f64) {
+    sweep.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1)).expect("a sweep has cycles")
+}
+
+fn as_settled() -> Claim {
+    let p = table_1();
+    let (f_up, up) = largest(&swept(&p, [1.0, 150.0], 15.0));
+    let (f_down, down) = largest(&swept(&p, [160.0, 100.0], -15.0));
+    let settled = response(&p, 160.0, [120.0, 135.0]);
+    let (frequency, point) = settled.peak("stroke_pp_deg");
+    let stroke = point.get("stroke_pp_deg");
+    let farther = if (up - stroke).abs() > (down - stroke).abs() { up } else { down };
+    said("(7)", "responses are to a sweep of 15 Hz/s, here settled: largest stroke of T₁, 160 V", "a sweep").is(
+        &closely(stroke, 0.0),
+        farther,
+        format!(
+            "rising {up:.1}° at {f_up:.0} Hz, falling {down:.1}° at {f_down:.0} Hz, settled {stroke:.1}° at {frequency:.0} Hz"
+        ),
+    )
+}
+
+/// With half the hinge's stiffness its frequency is near that of the stroke: there are two motions.
+fn soft_hinge() -> Claim {
+    let table_1 = table_1();
+    let soft = Params { hinge_stiffness: 0.5 * table_1.hinge_stiffness, ..table_1.clone() };
+    let [stroke, hinge] = Bimorph::linear_modes(&constants(&soft));
+    let apart = |p: &Params| {
+        let at_126 = |sweep: &[(f64, f64)]| {
+            let nearest = sweep.iter().min_by(|a, b| (a.0 - 126.0).abs().total_cmp(&(b.0 - 126.0).abs()));
+            nearest.expect("a sweep has cycles").1
+        };
+        [at_126(&swept(p, [110.0, 130.0], 0.5)), at_126(&swept(p, [140.0, 122.0], -0.5))]
+    };
+    let [up, down] = apart(&soft);
+    let [up_1, down_1] = apart(&table_1);
+    said("III-A", "scaling is not sustainable as the frequencies of hinge and stroke approach one another", "not sustainable")
+        .holds(
+            (up - down).abs() > 10.0 && (up_1 - down_1).abs() < 1.0,
+            format!(
+                "hysteresis with half of κ_wh (modes {hinge:.0} and {stroke:.0} Hz): at 160 V, 126 Hz {up:.0}° rising, \
+                 {down:.0}° falling; none with Table I ({up_1:.0}°, {down_1:.0}°)"
+            ),
+        )
+}

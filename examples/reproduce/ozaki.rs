@@ -1,0 +1,78 @@
+//! Ozaki and Hamaguchi (2018).
+
+mod hypothesis;
+mod performance;
+mod resonance;
+
+use flap_core::model::direct_drive::Params;
+
+use crate::points::{Bench, Response, Settled, steps};
+use crate::table::{Group, Paper};
+
+pub(crate) const PAPER: Paper = Paper {
+    title: "Ozaki and Hamaguchi (2018)",
+    preface: "Model `direct-drive`, presets `ozaki2018-small` and `ozaki2018-large`: Table A1 as printed, \
+              but for the sign of y_g. The drive is V₀ sin ωt + V₀.",
+    groups: &[
+        Group {
+            title: "Resonance",
+            preface: "The paper calculates it from an impulse of a size it does not state, and measures it \
+                      as the frequency of the largest stroke. There is no linear damping, so frequencies \
+                      depend on the size of the motion. The nearest frequency between small and largest motions counts; driven peaks are found in steps of 0.1 Hz.",
+            quick: false,
+            claims: resonance::claims,
+        },
+        Group {
+            title: "Performance at the paper's frequencies",
+            preface: "The text does not say whether its efficiencies are measured or calculated.",
+            quick: true,
+            claims: performance::claims,
+        },
+        Group {
+            title: "Hypotheses on Table A1",
+            preface: "**Not the defaults.** That the columns of k_w are swapped (presets \
+                      `ozaki2018-small-kw-swapped`, `ozaki2018-large-kw-swapped`), and that J_B of the \
+                      small type is 3.39e-9 instead of 3.89e-9 kg·m², were found by trying to match the \
+                      paper: agreement is weak evidence, and nothing in the text proves either.",
+            quick: false,
+            claims: hypothesis::claims,
+        },
+    ],
+};
+
+/// A type of actuator, with the voltages V₀ and the frequency it is driven with in the calculations of Figs. 13 to 16.
+struct Type {
+    name: &'static str,
+    params: Params,
+    voltages: [f64; 2],
+    frequency: f64,
+}
+
+fn small() -> Type {
+    Type { name: "small", params: Params::ozaki2018_small(), voltages: [15.0, 30.0], frequency: 209.0 }
+}
+
+fn large() -> Type {
+    Type { name: "large", params: Params::ozaki2018_large(), voltages: [20.0, 50.0], frequency: 109.0 }
+}
+
+/// `p` driven with V₀ sin ωt + V₀.
+fn driven(p: &Params, v_0: f64, drive_frequency: f64) -> Vec<f64> {
+    Params { drive_voltage_pp: 2.0 * v_0, drive_frequency, ..p.clone() }.to_values()
+}
+
+fn bench() -> Bench {
+    Bench::new("direct-drive", 1e-6)
+}
+
+impl Type {
+    /// Settled at the lower and at the higher voltage.
+    fn performance(&self) -> [Settled; 2] {
+        self.voltages.map(|v_0| bench().point(driven(&self.params, v_0, self.frequency)))
+    }
+
+    /// The response to frequencies, in steps of 0.1 Hz.
+    fn response(&self, v_0: f64, [from, to]: [f64; 2]) -> Response {
+        bench().response(&steps(from, to, 0.1), |frequency| driven(&self.params, v_0, frequency))
+    }
+}

@@ -1,0 +1,61 @@
+//! Motion, lift, power and efficiency, section 4.3 and Figs. 13 to 17.
+
+use super::{Type, large, small};
+use crate::claim::{Claim, measured, said};
+use crate::points::Settled;
+
+/// Published efficiencies at the largest voltages (gf/W).
+pub(super) const SMALL: f64 = 10.8;
+pub(super) const LARGE: f64 = 7.31;
+
+pub(super) fn efficiency(point: &Settled) -> f64 {
+    point.get("efficiency_gf_per_w")
+}
+
+pub(super) fn claims() -> Vec<Claim> {
+    let types = [small(), large()];
+    let [points_small, points_large] = types.each_ref().map(Type::performance);
+    let [[s_15, s_30], [l_20, l_50]] =
+        [&points_small, &points_large].map(|points| points.each_ref().map(efficiency));
+    let mut claims = vec![
+        said("4.3, Fig. 17", "efficiency of the small type at 30 V, 209 Hz", "10.8 gf/W").is(
+            &measured(SMALL, 0.05),
+            s_30,
+            format!("{s_30:.2} gf/W"),
+        ),
+        said("4.3, Fig. 17", "efficiency of the large type at 50 V, 109 Hz", "7.31 gf/W").is(
+            &measured(LARGE, 0.005),
+            l_50,
+            format!("{l_50:.2} gf/W"),
+        ),
+        said("4.3, Fig. 17", "the small type is the more efficient one", "10.8 > 7.31")
+            .holds(s_30 > l_50, format!("{s_30:.2} and {l_50:.2}")),
+        said("4.3, Fig. 17", "efficiency falls as the voltage rises, small type", "falls")
+            .holds(s_30 < s_15, format!("{s_15:.2} to {s_30:.2} gf/W")),
+        said("4.3, Fig. 17", "the same, large type", "falls")
+            .holds(l_50 < l_20, format!("{l_20:.2} to {l_50:.2} gf/W")),
+        said("4.3", "errors of the calculation: stroke, pitch, lift, power", "20, 8.1, 15, 8.7 %")
+            .cannot_be_checked("the measured points are drawn only", ""),
+    ];
+    for (actuator, points) in types.iter().zip([&points_small, &points_large]) {
+        for (v_0, point) in actuator.voltages.iter().zip(points) {
+            claims.push(drawn(actuator, *v_0, point));
+        }
+    }
+    claims
+}
+
+fn drawn(actuator: &Type, v_0: f64, point: &Settled) -> Claim {
+    let Type { name, frequency, .. } = actuator;
+    let computed = format!(
+        "{:.2}°, {:.1}°, {:.4} gf, {:.2} mW",
+        point.get("stroke_amplitude_deg"),
+        point.get("pitch_amplitude_deg"),
+        point.get("lift_mean_gf"),
+        point.get("power_mean_mw"),
+    );
+    let statement =
+        format!("amplitudes of stroke and pitch, lift, power: {name} type at {v_0:.0} V, {frequency:.0} Hz");
+    said("Figs. 13 to 16", statement, "drawn")
+        .cannot_be_checked("the calculated curves are drawn only", computed)
+}

@@ -1,0 +1,81 @@
+//! Claims as Markdown.
+
+use crate::claim::{Claim, Verdict};
+
+/// A paper, and the groups of its claims.
+pub(crate) struct Paper {
+    pub(crate) title: &'static str,
+    /// What the reader must know of all that follows.
+    pub(crate) preface: &'static str,
+    pub(crate) groups: &'static [Group],
+}
+
+/// Claims that are computed together.
+pub(crate) struct Group {
+    pub(crate) title: &'static str,
+    /// What the reader must know; may be empty.
+    pub(crate) preface: &'static str,
+    /// Whether it is quick to compute.
+    pub(crate) quick: bool,
+    pub(crate) claims: fn() -> Vec<Claim>,
+}
+
+/// A group as a section.
+pub(crate) fn section(group: &Group, claims: &[Claim]) -> String {
+    let mut lines = vec![
+        "| where | what the paper says | published | computed | verdict |".to_owned(),
+        "|---|---|---|---|---|".to_owned(),
+    ];
+    for Claim { place, statement, published, computed, verdict } in claims {
+        lines.push(format!("| {place} | {statement} | {published} | {computed} | {} |", words(*verdict)));
+    }
+    format!("### {}\n\n{}{}\n\n", group.title, paragraph(group.preface), lines.join("\n"))
+}
+
+/// Text in lines of up to 120 characters; nothing if there is no text.
+pub(crate) fn paragraph(text: &str) -> String {
+    if text.is_empty() {
+        return String::new();
+    }
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= 120 => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines.join("\n") + "\n\n"
+}
+
+/// How many claims of each paper have which verdict.
+pub(crate) fn summary(papers: &[(&Paper, Vec<Verdict>)]) -> String {
+    let mut lines = vec![
+        "| paper | claims | met | met within a share | not reproduced | cannot be checked |".to_owned(),
+        "|---|---|---|---|---|---|".to_owned(),
+    ];
+    for (paper, verdicts) in papers {
+        let count = |is: fn(&Verdict) -> bool| verdicts.iter().filter(|verdict| is(verdict)).count();
+        lines.push(format!(
+            "| {} | {} | {} | {} | {} | {} |",
+            paper.title,
+            verdicts.len(),
+            count(|verdict| matches!(verdict, Verdict::Met)),
+            count(|verdict| matches!(verdict, Verdict::MetWithin(_))),
+            count(|verdict| matches!(verdict, Verdict::NotReproduced)),
+            count(|verdict| matches!(verdict, Verdict::CannotBeChecked(_))),
+        ));
+    }
+    lines.join("\n") + "\n\n"
+}
+
+fn words(verdict: Verdict) -> String {
+    match verdict {
+        Verdict::Met => "met".to_owned(),
+        Verdict::MetWithin(share) => format!("met within {:.0} %", (100.0 * share).ceil()),
+        Verdict::NotReproduced => "**not reproduced**".to_owned(),
+        Verdict::CannotBeChecked(why) => format!("cannot be checked: {why}"),
+    }
+}
