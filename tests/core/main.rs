@@ -15,6 +15,7 @@ mod direct_drive;
 mod dormand_prince;
 mod elementary;
 mod ensemble;
+mod floquet;
 mod four_bar;
 mod frequencies;
 mod resonance;

@@ -283,7 +283,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
 
         let side = self.switching.side;
         let tried = step(ode, &self.constants, self.t, h, side, &self.y, &self.k1);
-        self.error = error_squared(&tried.error, &self.y, &tried.y[6], &self.atol, self.rtol);
+        self.error = error_squared(&tried.error, &self.y, &tried.y[6], &self.atol, self.rtol, O::CONTROLLED);
         let verdict = judge(self.error, &mut self.memory);
         self.steps += 1;
         self.steps_in_span = self.steps_in_span + 1.0;
@@ -322,6 +322,10 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
     #[inline(always)]
     fn change_sides(&mut self, ode: &O, arrived: R::Mask) {
         let u = input(ode, &self.constants, self.t);
+        let y = ode.crossed(&self.constants, &u, self.switching.side, &self.y);
+        for i in 0..N {
+            self.y[i] = R::select(arrived, y[i], self.y[i]);
+        }
         let k1 = slope(ode, &self.constants, &u, self.switching.side, &self.y);
         for i in 0..N {
             self.k1[i] = R::select(arrived, k1[i], self.k1[i]);

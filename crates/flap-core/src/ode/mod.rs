@@ -4,6 +4,7 @@
 //! - [`step`]: one step: stages, new state, error estimate; no policy
 //! - [`norm`], [`controller`], [`start`]: how large the error is, what follows from it, how to begin
 //! - [`switch`]: right-hand sides that jump where a function changes sign
+//! - [`variation`]: a run with its response to small changes of where it begins
 //! - [`dense`]: the solution between the ends of a step
 //! - [`solve`]: one run on scalars, written to be read; the oracle of the ensemble
 //! - [`ensemble`]: many runs in lanes, each with its own time, step size and constants
@@ -21,6 +22,7 @@ pub mod start;
 pub mod step;
 pub mod switch;
 pub mod tableau;
+pub mod variation;
 
 use crate::num::{Lanes, PerLane};
 
@@ -38,6 +40,9 @@ pub trait Ode<const N: usize>: Sync {
 
     /// Whether the right-hand side jumps where [`Ode::switch`] changes sign.
     const SWITCHES: bool = false;
+
+    /// How many of the components, the first ones, choose the step size.
+    const CONTROLLED: usize = N;
 
     /// The inputs at time `t` (s).
     fn input<R: Lanes>(&self, c: &Self::Constants<R>, t: R) -> Self::Input<R>;
@@ -58,6 +63,13 @@ pub trait Ode<const N: usize>: Sync {
     fn switch<R: Lanes>(&self, c: &Self::Constants<R>, y: &[R; N], dy: &[R; N]) -> [R; 2] {
         let _ = (c, dy);
         [y[0].lit(1.0), y[0].lit(0.0)]
+    }
+
+    /// The state right after it has crossed the surface to this `side`.
+    #[inline(always)]
+    fn crossed<R: Lanes>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N] {
+        let _ = (c, u, side);
+        *y
     }
 }
 

@@ -4,6 +4,8 @@ use crate::num::Lanes;
 
 /// The mean square of error over tolerance, Hairer I Eq. (II.4.11) without the root: a step is good below 1.
 ///
+/// Over the first `count` components:
+///
 /// ```text
 /// 1/N Σᵢ (eᵢ / (atolᵢ + rtol max(|yᵢ|, |yᵢ new|)))²
 /// ```
@@ -14,12 +16,13 @@ pub fn error_squared<R: Lanes, const N: usize>(
     y_new: &[R; N],
     atol: &[R; N],
     rtol: R,
+    count: usize,
 ) -> R {
     let mut sum = rtol.lit(0.0);
-    for i in 0..N {
+    for i in 0..count {
         let tolerance = rtol.mul_add(y[i].abs().max(y_new[i].abs()), atol[i]);
         let ratio = error[i] / tolerance;
         sum = ratio.mul_add(ratio, sum);
     }
-    sum * (1.0 / N as f64)
+    sum * (1.0 / count as f64)
 }

@@ -79,7 +79,7 @@ fn steps<O: Ode<N>, R: Scalar, const N: usize>(
 
         let side = switching.side;
         let tried = step(ode, &c, t, h_try, side, &y, &k1);
-        let error = error_squared(&tried.error, &y, &tried.y[6], &atol, rtol);
+        let error = error_squared(&tried.error, &y, &tried.y[6], &atol, rtol, O::CONTROLLED);
         let verdict = judge(error, &mut memory);
         attempts += 1;
         steps_in_span += 1;
@@ -100,7 +100,9 @@ fn steps<O: Ode<N>, R: Scalar, const N: usize>(
             k1 = tried.k[6];
         }
         if crossing.arrived {
-            k1 = slope(ode, &c, &input(ode, &c, t), switching.side, &y);
+            let u = input(ode, &c, t);
+            y = ode.crossed(&c, &u, switching.side, &y);
+            k1 = slope(ode, &c, &u, switching.side, &y);
             switching.value = ode.switch(&c, &y, &k1);
             switches += 1;
         }

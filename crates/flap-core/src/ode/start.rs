@@ -23,8 +23,8 @@ pub fn first_step<O: Ode<N>, R: Lanes, const N: usize>(
     let zero = span.lit(0.0);
     let k1 = slope(ode, c, &input(ode, c, zero), side, y);
 
-    let size_y = weighted_norm(y, y, atol, rtol);
-    let size_k = weighted_norm(&k1, y, atol, rtol);
+    let size_y = weighted_norm(y, y, atol, rtol, O::CONTROLLED);
+    let size_k = weighted_norm(&k1, y, atol, rtol, O::CONTROLLED);
     let tiny = zero.lit(1e-5);
     let unknown_y = size_y.lt(tiny);
     let unknown_k = size_k.lt(tiny);
@@ -42,7 +42,7 @@ pub fn first_step<O: Ode<N>, R: Lanes, const N: usize>(
     for i in 0..N {
         change[i] = k_euler[i] - k1[i];
     }
-    let curvature = weighted_norm(&change, y, atol, rtol) / h0;
+    let curvature = weighted_norm(&change, y, atol, rtol, O::CONTROLLED) / h0;
 
     // h1 = (0.01 / max(slope, curvature))^(1/5)
     let largest = size_k.max(curvature).max(zero.lit(1e-15));
@@ -52,13 +52,19 @@ pub fn first_step<O: Ode<N>, R: Lanes, const N: usize>(
 
 /// Root mean square of `x` over the tolerances at `y`.
 #[inline(always)]
-fn weighted_norm<R: Lanes, const N: usize>(x: &[R; N], y: &[R; N], atol: &[R; N], rtol: R) -> R {
+fn weighted_norm<R: Lanes, const N: usize>(
+    x: &[R; N],
+    y: &[R; N],
+    atol: &[R; N],
+    rtol: R,
+    count: usize,
+) -> R {
     let mut sum = rtol.lit(0.0);
-    for i in 0..N {
+    for i in 0..count {
         let ratio = x[i] / rtol.mul_add(y[i].abs(), atol[i]);
         sum = ratio.mul_add(ratio, sum);
     }
-    (sum * (1.0 / N as f64)).sqrt()
+    (sum * (1.0 / count as f64)).sqrt()
 }
 
 /// The step size with which the next span begins, given that of the last and what the controller proposes.

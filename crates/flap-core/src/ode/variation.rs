@@ -1,0 +1,110 @@
+//! A run together with its response to small changes of its initial state.
+
+use super::{Ode, slope};
+use crate::num::Lanes;
+
+/// Size of the changes that are followed, relative to [`initial`]'s scales: their squares, which are neglected, and
+/// rounding, which is magnified, are both far below any tolerance.
+const SMALL: f64 = 1e-7;
+
+/// N states and N responses to changes of them, each of N components: K = N (N + 1) in all.
+///
+/// Step sizes are chosen for the states alone, so that these take the very values that they have without the
+/// responses; the responses are the derivative of what the integrator does. Where the right-hand side jumps, they
+/// jump too, as a changed motion reaches the surface earlier or later.
+#[derive(Clone, Copy, Debug)]
+pub struct Variation<'a, O, const N: usize>(pub &'a O);
+
+/// The states `y`, and responses to changes of each component by its `scale`.
+pub fn initial<const N: usize, const K: usize>(y: &[f64; N], scale: &[f64; N]) -> [f64; K] {
+    const { assert!(K == N * (N + 1)) }
+    let mut all = [0.0; K];
+    all[..N].copy_from_slice(y);
+    for i in 0..N {
+        all[(i + 1) * N + i] = scale[i];
+    }
+    all
+}
+
+/// What has become of the change of one component by its scale.
+pub fn response<const N: usize, const K: usize>(all: &[f64; K], component: usize) -> [f64; N] {
+    core::array::from_fn(|i| all[(component + 1) * N + i])
+}
+
+impl<O: Ode<N>, const N: usize, const K: usize> Ode<K> for Variation<'_, O, N> {
+    type Constants<R: Lanes> = O::Constants<R>;
+    type Input<R: Lanes> = O::Input<R>;
+
+    const SWITCHES: bool = O::SWITCHES;
+    const CONTROLLED: usize = N;
+
+    #[inline(always)]
+    fn input<R: Lanes>(&self, c: &O::Constants<R>, t: R) -> O::Input<R> {
+        self.0.input(c, t)
+    }
+
+    #[inline(always)]
+    fn rhs<R: Lanes>(&self, c: &O::Constants<R>, u: &O::Input<R>, side: R, all: &[R; K]) -> [R; K] {
+        let y = states(all);
+        let f = slope(self.0, c, u, side, &y);
+        let mut out = *all;
+        out[..N].copy_from_slice(&f);
+        for i in 1..=N {
+            let changed = slope(self.0, c, u, side, &changed(&y, all, i));
+            for j in 0..N {
+                out[i * N + j] = (changed[j] - f[j]) * (1.0 / SMALL);
+            }
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn next_break<R: Lanes>(&self, c: &O::Constants<R>, t: R) -> R {
+        self.0.next_break(c, t)
+    }
+
+    #[inline(always)]
+    fn switch<R: Lanes>(&self, c: &O::Constants<R>, all: &[R; K], dy: &[R; K]) -> [R; 2] {
+        self.0.switch(c, &states(all), &states(dy))
+    }
+
+    /// A change w that alters the switching function by dg moves the crossing by −dg/ġ; in between, the changed motion
+    /// has the slope of the other side:
+    ///
+    /// ```text
+    /// w⁺ = w + (f⁺ − f⁻) dg/ġ⁻
+    /// ```
+    #[inline(always)]
+    fn crossed<R: Lanes>(&self, c: &O::Constants<R>, u: &O::Input<R>, side: R, all: &[R; K]) -> [R; K] {
+        let y = states(all);
+        let [before, after] = [slope(self.0, c, u, -side, &y), slope(self.0, c, u, side, &y)];
+        let [value, rate] = self.0.switch(c, &y, &before);
+        let mut out = *all;
+        for i in 1..=N {
+            let [moved, _] = self.0.switch(c, &changed(&y, all, i), &before);
+            let earlier = (moved - value) * (1.0 / SMALL) / rate;
+            for j in 0..N {
+                out[i * N + j] = all[i * N + j] + (after[j] - before[j]) * earlier;
+            }
+        }
+        out
+    }
+}
+
+#[inline(always)]
+fn states<R: Lanes, const N: usize, const K: usize>(all: &[R; K]) -> [R; N] {
+    core::array::from_fn(
+        #[inline(always)]
+        |i| all[i],
+    )
+}
+
+/// The states with the `i`-th change, counted from 1.
+#[inline(always)]
+fn changed<R: Lanes, const N: usize, const K: usize>(y: &[R; N], all: &[R; K], i: usize) -> [R; N] {
+    let mut out = *y;
+    for j in 0..N {
+        out[j] = all[i * N + j].mul_add(y[j].lit(SMALL), y[j]);
+    }
+    out
+}

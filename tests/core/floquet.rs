@@ -1,0 +1,97 @@
+//! Responses to changes of the initial state, against Floquet multipliers of reference orbits.
+
+use std::ops::ControlFlow;
+
+use flap_core::model::Model;
+use flap_core::model::bimorph::{self, Bimorph};
+use flap_core::model::direct_drive::{self, DirectDrive};
+use flap_core::ode::solve::solve;
+use flap_core::ode::variation::{Variation, initial, response};
+use flap_core::ode::{Start, Tolerances};
+use nalgebra::Matrix4;
+
+use crate::data::{assert_close, table};
+
+const TOLERANCES: Tolerances = Tolerances { rtol: 1e-8, atol: 1e-10, max_steps: 20_000 };
+
+/// States at the end of a period that begins at `y`, without and with responses to changes of `y`.
+fn period<M: Model<4, S>, const S: usize>(
+    model: &M,
+    values: &[f64],
+    y: [f64; 4],
+) -> ([f64; 4], [f64; 20], [f64; 4]) {
+    let model = &model.variant(values);
+    let start = Start { y, ..model.start(values).unwrap() };
+    let mut alone = [0.0; 4];
+    solve::<M, f64, 4>(
+        model,
+        &TOLERANCES,
+        &start,
+        |_, _| {},
+        |y| {
+            alone = *y;
+            ControlFlow::Break(())
+        },
+    );
+    let mut scale = [0.0; 20];
+    scale[..4].copy_from_slice(&start.scale);
+    let varied = Start { constants: start.constants, y: initial(&y, &start.scale), span: start.span, scale };
+    let mut all = [0.0; 20];
+    solve::<Variation<'_, M, 4>, f64, 20>(
+        &Variation(model),
+        &TOLERANCES,
+        &varied,
+        |_, _| {},
+        |y| {
+            all = *y;
+            ControlFlow::Break(())
+        },
+    );
+    (alone, all, start.scale)
+}
+
+/// The largest modulus of the multipliers, from the responses of a period.
+fn largest_multiplier(all: &[f64; 20], scale: &[f64; 4]) -> f64 {
+    let monodromy = Matrix4::from_fn(|i, j| response::<4, 20>(all, j)[i] / scale[i]);
+    monodromy.complex_eigenvalues().iter().fold(0.0, |largest, multiplier| multiplier.norm().max(largest))
+}
+
+#[test]
+fn multipliers_of_direct_drive_orbits_equal_the_reference() {
+    for record in table("direct-drive/steady_cases.csv") {
+        let p = match record.text("type") {
+            "small" => direct_drive::Params::ozaki2018_small(),
+            _ => direct_drive::Params::ozaki2018_large(),
+        };
+        let p = direct_drive::Params {
+            drive_voltage_pp: 2.0 * record.number("V0_V"),
+            drive_frequency: record.number("f_Hz"),
+            ..p
+        };
+        let y = ["x_phi0", "x_psi0", "x_phidot0", "x_psidot0"].map(|column| record.number(column));
+        let (alone, all, scale) = period(&DirectDrive::default(), &p.to_values(), y);
+        assert_eq!(alone, all[..4], "the responses change nothing");
+        assert_close(largest_multiplier(&all, &scale), record.number("floquet_max"), 1e-4, &record.name);
+    }
+}
+
+#[test]
+fn multipliers_of_bimorph_orbits_equal_the_reference() {
+    for record in table("bimorph/steady_cases.csv") {
+        let p = match record.text("set") {
+            "T1" => bimorph::Params::jafferis2016(),
+            "T2" => bimorph::Params::jafferis2016().with_transmission_scaled(0.8),
+            "T3" => bimorph::Params::jafferis2016().with_transmission_scaled(0.6),
+            _ => bimorph::Params::jafferis2016_improved(),
+        };
+        let p = bimorph::Params {
+            drive_voltage_pp: record.number("Vpp_V"),
+            drive_frequency: record.number("f_Hz"),
+            ..p
+        };
+        let y = ["x0_m", "v0_m_per_s", "psi0_rad", "psidot0_rad_per_s"].map(|column| record.number(column));
+        let (alone, all, scale) = period(&Bimorph::default(), &p.to_values(), y);
+        assert_eq!(alone, all[..4], "the responses change nothing");
+        assert_close(largest_multiplier(&all, &scale), record.number("floquet_abs_max"), 1e-4, &record.name);
+    }
+}
