@@ -124,6 +124,7 @@ impl Fake {
             cycles: 10,
             residual: if status == Status::Invalid { f64::NAN } else { 4e-9 },
             period: u32::from(status == Status::Periodic),
+            floquet_max: 0.5,
             rhs_evals: 1000,
             reason: (status == Status::Invalid).then(|| format!("a size of {size} m is impossible")),
         }

@@ -1,22 +1,24 @@
-//! Points in SIMD lanes: march each until it settles, then measure one cycle on its orbit.
+//! Points in SIMD lanes: march each until it is near its orbit, go there by Newton's iteration, measure one cycle.
 //!
-//! Two ensembles share the work. The first marches without measuring, which is cheaper per step; runs that
-//! have settled wait in a buffer, and whenever that is full the second ensemble measures them together.
+//! Three ensembles share the work. The first marches, and nothing else, which is cheapest per step; runs that have come
+//! near an orbit wait in a buffer, and whenever that is full the second ensemble integrates their periods with responses
+//! to changes, and the third measures the orbits found. A run whose iteration fails marches on.
 
 use core::ops::ControlFlow;
 
 use fearless_simd::Simd;
 
-use super::row::{Settled, invalid};
+use super::row::{self, invalid};
+use super::search::{Next, Search, varied};
 use super::simulator::{Jobs, Point, SolverSettings};
 use crate::measure::cycle::{Signals, Totals};
-use crate::measure::strobe::Strobe;
 use crate::model::Model;
 use crate::num::Kernel;
 use crate::ode::ensemble::{NewRun, Queue, Unobserved, run};
-use crate::ode::{Outcome, Start};
+use crate::ode::variation::Variation;
+use crate::ode::{Ode, Outcome, Start};
 
-/// Settled runs measured together: enough to keep 16 lanes full, few enough to hand rows on soon.
+/// Runs near their orbits that go on together: enough to keep 16 lanes full, few enough to hand rows on soon.
 const BATCH: usize = 64;
 
 /// Points of other variants that are put aside before the ensemble is emptied for them: many more than there
@@ -31,9 +33,11 @@ pub(super) struct LanesKernel<'a, M> {
 }
 
 /// [`LanesKernel`] with the sizes of its model.
-pub(super) struct Sized<K, const N: usize, const S: usize>(pub(super) K);
+pub(super) struct Sized<W, const N: usize, const K: usize, const S: usize>(pub(super) W);
 
-impl<M: Model<N, S>, const N: usize, const S: usize> Kernel for Sized<LanesKernel<'_, M>, N, S> {
+impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Kernel
+    for Sized<LanesKernel<'_, M>, N, K, S>
+{
     type Output = ();
 
     #[inline(always)]
@@ -48,42 +52,50 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Kernel for Sized<LanesKerne
                 waiting.push((model.variant(&point.values), point));
             }
             let model = &model.variant(&waiting[0].1.values);
-            let settled = Vec::with_capacity(BATCH);
-            let mut marching = Marching { simd, model, solver, jobs: &mut *jobs, waiting, settled };
-            run(simd, model, &Unobserved, &tolerances, &mut marching);
-            marching.measure();
+            let mut marching = Marching::<_, _, N, K, S> {
+                simd,
+                model,
+                solver,
+                jobs: &mut *jobs,
+                waiting,
+                near: Vec::with_capacity(BATCH),
+                resumed: Vec::with_capacity(BATCH),
+            };
+            // Runs whose iteration fails at the very end march on.
+            loop {
+                run(simd, model, &Unobserved, &tolerances, &mut marching);
+                marching.find_and_measure();
+                if marching.resumed.is_empty() {
+                    break;
+                }
+            }
             waiting = marching.waiting;
         }
     }
 }
 
 /// The queue of the first ensemble.
-struct Marching<'a, I, M: Model<N, S>, const N: usize, const S: usize> {
+struct Marching<'a, I, M: Model<N, S>, const N: usize, const K: usize, const S: usize> {
     simd: I,
     model: &'a M,
     solver: &'a SolverSettings,
     jobs: &'a mut dyn Jobs,
     /// Points that have been taken from `jobs` and not been run, each with its variant.
     waiting: Vec<(M, Point)>,
-    settled: Vec<Orbit<M::Constants<f64>, N>>,
+    /// Runs that have come near an orbit, and the state from which their period is to be varied.
+    near: Vec<(Searched<M::Constants<f64>, N>, [f64; N])>,
+    /// Runs whose iteration has failed, and the state from which they march on.
+    resumed: Vec<(Searched<M::Constants<f64>, N>, [f64; N])>,
 }
 
 /// A run on its way to its orbit.
-struct March<C, const N: usize> {
+struct Searched<C, const N: usize> {
     index: u64,
     start: Start<C, N>,
-    strobe: Strobe<N>,
-    period: Option<u32>,
+    search: Search<N>,
 }
 
-/// A run that has settled.
-struct Orbit<C, const N: usize> {
-    index: u64,
-    start: Start<C, N>,
-    settled: Settled<N>,
-}
-
-impl<I: Simd, M: Model<N, S>, const N: usize, const S: usize> Marching<'_, I, M, N, S> {
+impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Marching<'_, I, M, N, K, S> {
     /// The next point of this ensemble's variant. Those of others are put aside, up to a limit.
     fn next_point(&mut self, idle: bool) -> Option<Point> {
         if let Some(ours) = self.waiting.iter().position(|(variant, _)| variant == self.model) {
@@ -94,9 +106,9 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const S: usize> Marching<'_, I, M,
                 point
             } else {
                 // Whoever hands out points may be waiting for rows that wait here.
-                self.measure();
-                // Points put aside are to run before this one waits for more.
-                if !idle || !self.waiting.is_empty() {
+                self.find_and_measure();
+                // Runs that march on and points put aside are to run before this one waits for more.
+                if !idle || !self.waiting.is_empty() || !self.resumed.is_empty() {
                     return None;
                 }
                 self.jobs.next(true)?
@@ -110,61 +122,103 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const S: usize> Marching<'_, I, M,
         None
     }
 
-    /// Measures the runs that have settled and hands on their rows.
-    fn measure(&mut self) {
-        if self.settled.is_empty() {
+    /// Finds the orbits of the runs that are near them, measures those, and hands on their rows.
+    fn find_and_measure(&mut self) {
+        if self.near.is_empty() {
             return;
         }
         let tolerances = self.solver.tolerances();
+        let mut varying = Varying::<_, N, K> { pending: std::mem::take(&mut self.near), done: Vec::new() };
+        run(self.simd, &Variation(self.model), &Unobserved, &tolerances, &mut varying);
+        let mut orbits = Vec::new();
+        for (run, next) in varying.done.drain(..) {
+            match (next, row::unmeasured(&run.search)) {
+                (Next::March(y), _) => self.resumed.push((run, y)),
+                (_, Some(row)) => self.jobs.done(run.index, row),
+                (_, None) => orbits.push(run),
+            }
+        }
+        self.near = varying.pending;
         let mut measuring =
-            Measuring { model: self.model, jobs: &mut *self.jobs, orbits: self.settled.drain(..) };
+            Measuring { model: self.model, jobs: &mut *self.jobs, orbits: orbits.into_iter() };
         run(self.simd, self.model, &Signals::<S>, &tolerances, &mut measuring);
     }
 }
 
-impl<I: Simd, M: Model<N, S>, const N: usize, const S: usize> Queue<M, Unobserved, N>
-    for Marching<'_, I, M, N, S>
+impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Queue<M, Unobserved, N>
+    for Marching<'_, I, M, N, K, S>
 {
-    type Run = March<M::Constants<f64>, N>;
+    type Run = Searched<M::Constants<f64>, N>;
 
     fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, N>> {
+        if let Some((run, y)) = self.resumed.pop() {
+            let start = Start { y, ..run.start };
+            return Some((run, start));
+        }
         loop {
             let point = self.next_point(idle)?;
             match self.model.start(&point.values) {
                 Ok(start) => {
-                    let strobe = Strobe::new(&start.y, &start.scale, self.solver.settle_tol);
-                    return Some((March { index: point.index, start, strobe, period: None }, start));
+                    let search = Search::new(&start, self.solver);
+                    return Some((Searched { index: point.index, start, search }, start));
                 }
                 Err(error) => self.jobs.done(point.index, invalid(error)),
             }
         }
     }
 
-    fn span_end(&mut self, march: &mut Self::Run, y: &[f64; N], (): &()) -> ControlFlow<()> {
-        march.period = march.strobe.period_end(y);
-        if march.period.is_some() || march.strobe.cycles() >= self.solver.max_cycles {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+    fn span_end(&mut self, run: &mut Self::Run, y: &[f64; N], (): &()) -> ControlFlow<()> {
+        run.search.period_end(y)
     }
 
-    fn ended(&mut self, march: Self::Run, outcome: Outcome) {
-        let March { index, mut start, strobe, period } = march;
-        let settled = Settled { strobe, period, outcome };
-        if let Some(row) = settled.unmeasured() {
-            self.jobs.done(index, row);
-            return;
+    fn ended(&mut self, mut run: Self::Run, outcome: Outcome) {
+        match run.search.marched(outcome) {
+            Next::Vary(y) => self.near.push((run, y)),
+            Next::March(y) => self.resumed.push((run, y)),
+            Next::Done => {
+                if let Some(row) = row::unmeasured(&run.search) {
+                    self.jobs.done(run.index, row);
+                }
+            }
         }
-        start.y = *strobe.state();
-        self.settled.push(Orbit { index, start, settled });
-        if self.settled.len() == BATCH {
-            self.measure();
+        if self.near.len() == BATCH {
+            self.find_and_measure();
         }
     }
 }
 
 /// The queue of the second ensemble.
+struct Varying<C, const N: usize, const K: usize> {
+    pending: Vec<(Searched<C, N>, [f64; N])>,
+    done: Vec<(Searched<C, N>, Next<N>)>,
+}
+
+impl<M: Ode<N>, const N: usize, const K: usize> Queue<Variation<'_, M, N>, Unobserved, K>
+    for Varying<M::Constants<f64>, N, K>
+{
+    /// The run, and the end of its period.
+    type Run = (Searched<M::Constants<f64>, N>, Option<[f64; K]>);
+
+    fn next(&mut self, _idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, K>> {
+        let (run, y) = self.pending.pop()?;
+        let start = varied(&run.start, &y);
+        Some(((run, None), start))
+    }
+
+    fn span_end(&mut self, (_, end): &mut Self::Run, all: &[f64; K], (): &()) -> ControlFlow<()> {
+        *end = Some(*all);
+        ControlFlow::Break(())
+    }
+
+    fn ended(&mut self, (mut run, end): Self::Run, outcome: Outcome) {
+        match run.search.varied(end.as_ref(), outcome) {
+            Next::Vary(y) => self.pending.push((run, y)),
+            next => self.done.push((run, next)),
+        }
+    }
+}
+
+/// The queue of the third ensemble.
 struct Measuring<'a, Q, M> {
     model: &'a M,
     jobs: &'a mut dyn Jobs,
@@ -173,21 +227,22 @@ struct Measuring<'a, Q, M> {
 
 /// A run whose cycle is being measured.
 struct Measured<C, const N: usize, const S: usize> {
-    orbit: Orbit<C, N>,
+    run: Searched<C, N>,
     totals: Option<[Totals<f64>; S]>,
 }
 
 impl<M, Q, const N: usize, const S: usize> Queue<M, Signals<S>, N> for Measuring<'_, Q, M>
 where
     M: Model<N, S>,
-    Q: Iterator<Item = Orbit<M::Constants<f64>, N>>,
+    Q: Iterator<Item = Searched<M::Constants<f64>, N>>,
 {
     type Run = Measured<M::Constants<f64>, N, S>;
 
     fn next(&mut self, _idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, N>> {
-        let orbit = self.orbits.next()?;
-        let start = orbit.start;
-        Some((Measured { orbit, totals: None }, start))
+        let run = self.orbits.next()?;
+        let y = run.search.orbit().map_or(run.start.y, |orbit| orbit.y);
+        let start = Start { y, ..run.start };
+        Some((Measured { run, totals: None }, start))
     }
 
     fn span_end(&mut self, run: &mut Self::Run, _y: &[f64; N], totals: &[Totals<f64>; S]) -> ControlFlow<()> {
@@ -195,9 +250,9 @@ where
         ControlFlow::Break(())
     }
 
-    fn ended(&mut self, run: Self::Run, outcome: Outcome) {
-        let Orbit { index, start, settled } = run.orbit;
-        let row = settled.measured(self.model, &start.constants, start.span, run.totals.as_ref(), outcome);
+    fn ended(&mut self, measured: Self::Run, outcome: Outcome) {
+        let Measured { run: Searched { index, start, search }, totals } = measured;
+        let row = row::measured(&search, self.model, &start.constants, start.span, totals.as_ref(), outcome);
         self.jobs.done(index, row);
     }
 }

@@ -7,9 +7,11 @@ mod imposed;
 mod impulse;
 mod lanes;
 mod motion;
+mod newton;
 mod row;
 mod runner;
 mod scalar;
+mod search;
 mod simulator;
 
 pub use simulator::{
@@ -24,9 +26,9 @@ use crate::model::four_bar::FourBar;
 use crate::parameter::Preset;
 use runner::Runner;
 
-static BIMORPH: Runner<Bimorph, 4, 14> = Runner::new(Bimorph { source: Source::SINE });
-static DIRECT_DRIVE: Runner<DirectDrive, 4, 9> = Runner::new(DirectDrive { source: Source::SINE });
-static FOUR_BAR: Runner<FourBar, 4, 15> = Runner::new(FourBar { source: Source::SINE });
+static BIMORPH: Runner<Bimorph, 4, 20, 14> = Runner::new(Bimorph { source: Source::SINE });
+static DIRECT_DRIVE: Runner<DirectDrive, 4, 20, 9> = Runner::new(DirectDrive { source: Source::SINE });
+static FOUR_BAR: Runner<FourBar, 4, 20, 15> = Runner::new(FourBar { source: Source::SINE });
 static ALL: &[&dyn Simulator] = &[&BIMORPH, &DIRECT_DRIVE, &FOUR_BAR];
 
 /// Every model, in the order `flap models` lists them.

@@ -2,7 +2,8 @@
 
 use core::ops::ControlFlow;
 
-use super::scalar::settle;
+use super::row::unmeasured;
+use super::scalar::search;
 use super::simulator::{SolverSettings, Trajectory, TrajectoryRequest};
 use crate::model::Model;
 use crate::num::Scalar;
@@ -13,7 +14,7 @@ use crate::ode::step::Attempt;
 use crate::parameter::Invalid;
 
 /// Samples the motion of a point.
-pub(super) fn trajectory<M, R, const N: usize, const S: usize>(
+pub(super) fn trajectory<M, R, const N: usize, const K: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,
     values: &[f64],
@@ -26,8 +27,8 @@ where
     let model = &model.variant(values);
     let mut start = model.start(values)?;
     if request.settled {
-        let settled = settle::<M, R, N, S>(model, solver, &start);
-        if let Some(row) = settled.unmeasured() {
+        let search = search::<M, R, N, K, S>(model, solver, &start);
+        if let Some(row) = unmeasured(&search) {
             return Err(Invalid::new(format!(
                 "the motion does not settle on an orbit of one drive period (status {}, {} cycles); \
                  sample it from rest instead",
@@ -35,7 +36,7 @@ where
                 row.cycles
             )));
         }
-        start.y = *settled.strobe.state();
+        start.y = search.orbit().map_or(start.y, |orbit| orbit.y);
     }
 
     let mut sampler = Sampler::new(request.samples_per_cycle);

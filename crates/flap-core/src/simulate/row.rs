@@ -1,8 +1,8 @@
-//! From a settled orbit or a failure to a row.
+//! From an orbit or a failure to a row.
 
+use super::search::Search;
 use super::simulator::{Column, Row, Status};
 use crate::measure::cycle::{Totals, finish};
-use crate::measure::strobe::Strobe;
 use crate::model::Model;
 use crate::ode::{Ending, Outcome};
 use crate::parameter::Invalid;
@@ -40,69 +40,60 @@ fn measures<M: Model<N, S>, const N: usize, const S: usize>(
     values
 }
 
-/// How settling ended: the strobed states, the orbit's length if one was found, the cost.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Settled<const N: usize> {
-    pub(super) strobe: Strobe<N>,
-    pub(super) period: Option<u32>,
-    pub(super) outcome: Outcome,
+/// The row of a point, unless it has an orbit that is to be measured.
+pub(super) fn unmeasured<const N: usize>(search: &Search<N>) -> Option<Row> {
+    let status = match (search.ending(), search.period()) {
+        (Ending::Stopped, _) if search.orbit().is_some() => return None,
+        (Ending::Stopped, Some(_)) => Status::Subharmonic,
+        (Ending::Stopped, None) => Status::Unsettled,
+        (Ending::Diverged, _) => Status::Diverged,
+        (Ending::StepLimit, _) => Status::StepLimit,
+    };
+    Some(row(search, status))
 }
 
-impl<const N: usize> Settled<N> {
-    /// The row, unless the orbit has the period of the drive and is to be measured.
-    pub(super) fn unmeasured(&self) -> Option<Row> {
-        let status = match (self.outcome.ending, self.period) {
-            (Ending::Stopped, Some(1)) => return None,
-            (Ending::Stopped, Some(_)) => Status::Subharmonic,
-            (Ending::Stopped, None) => Status::Unsettled,
-            (Ending::Diverged, _) => Status::Diverged,
-            (Ending::StepLimit, _) => Status::StepLimit,
-        };
-        Some(self.row(status))
+/// The row of a point after its orbit's cycle has been integrated; its totals, unless that failed.
+pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
+    search: &Search<N>,
+    model: &M,
+    c: &M::Constants<f64>,
+    period: f64,
+    totals: Option<&[Totals<f64>; S]>,
+    outcome: Outcome,
+) -> Row {
+    let status = match outcome.ending {
+        Ending::Stopped => Status::Periodic,
+        Ending::Diverged => Status::Diverged,
+        Ending::StepLimit => Status::StepLimit,
+    };
+    let mut row = row(search, status);
+    row.cycles += 1;
+    row.rhs_evals += outcome.rhs_evals;
+    if let Some(totals) = totals {
+        row.measures = measures(model, c, totals, period);
     }
-
-    /// The row of a settled orbit after the cycle that was to be measured; its totals, unless it failed.
-    pub(super) fn measured<M: Model<N, S>, const S: usize>(
-        &self,
-        model: &M,
-        c: &M::Constants<f64>,
-        period: f64,
-        totals: Option<&[Totals<f64>; S]>,
-        outcome: Outcome,
-    ) -> Row {
-        let status = match outcome.ending {
-            Ending::Stopped => Status::Periodic,
-            Ending::Diverged => Status::Diverged,
-            Ending::StepLimit => Status::StepLimit,
-        };
-        let mut row = self.row(status);
-        row.cycles += 1;
-        row.rhs_evals += outcome.rhs_evals;
-        if let Some(totals) = totals {
-            row.measures = measures(model, c, totals, period);
-        }
-        // An infinite measure is a motion that has diverged as far as numbers go. NaN is a ratio of zeros.
-        if row.measures.iter().any(|measure| measure.is_infinite()) {
-            row.status = Status::Diverged;
-            row.measures.clear();
-        }
-        if row.status != Status::Periodic {
-            row.period = 0;
-        }
-        row
+    // An infinite measure is a motion that has diverged as far as numbers go. NaN is a ratio of zeros.
+    if row.measures.iter().any(|measure| measure.is_infinite()) {
+        row.status = Status::Diverged;
+        row.measures.clear();
     }
+    if row.status != Status::Periodic {
+        row.period = 0;
+        row.floquet_max = f64::NAN;
+    }
+    row
+}
 
-    fn row(&self, status: Status) -> Row {
-        let period = self.period.unwrap_or(0);
-        Row {
-            status,
-            measures: Vec::new(),
-            cycles: self.strobe.cycles(),
-            residual: self.strobe.change(period.max(1)),
-            period,
-            rhs_evals: self.outcome.rhs_evals,
-            reason: None,
-        }
+fn row<const N: usize>(search: &Search<N>, status: Status) -> Row {
+    Row {
+        status,
+        measures: Vec::new(),
+        cycles: search.cycles(),
+        residual: search.residual(),
+        period: search.period().unwrap_or(0),
+        floquet_max: search.orbit().map_or(f64::NAN, |orbit| orbit.floquet_max),
+        rhs_evals: search.rhs_evals(),
+        reason: None,
     }
 }
 
@@ -114,6 +105,7 @@ pub(super) fn invalid(error: Invalid) -> Row {
         cycles: 0,
         residual: f64::NAN,
         period: 0,
+        floquet_max: f64::NAN,
         rhs_evals: 0,
         reason: Some(error.reason),
     }

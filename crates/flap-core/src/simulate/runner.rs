@@ -15,19 +15,21 @@ use crate::modes::Mode;
 use crate::num::InstructionSet;
 use crate::parameter::{Invalid, Parameter, Preset};
 
-/// A model with N states and S signals.
-pub(super) struct Runner<M, const N: usize, const S: usize> {
+/// A model with N states, K = N (N + 1) states and responses, and S signals.
+pub(super) struct Runner<M, const N: usize, const K: usize, const S: usize> {
     model: M,
     columns: OnceLock<Vec<Column>>,
 }
 
-impl<M: Model<N, S>, const N: usize, const S: usize> Runner<M, N, S> {
+impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Runner<M, N, K, S> {
     pub(super) const fn new(model: M) -> Self {
         Runner { model, columns: OnceLock::new() }
     }
 }
 
-impl<M: Model<N, S> + 'static, const N: usize, const S: usize> Simulator for Runner<M, N, S> {
+impl<M: Model<N, S> + 'static, const N: usize, const K: usize, const S: usize> Simulator
+    for Runner<M, N, K, S>
+{
     fn name(&self) -> &'static str {
         M::NAME
     }
@@ -49,11 +51,11 @@ impl<M: Model<N, S> + 'static, const N: usize, const S: usize> Simulator for Run
     }
 
     fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs) {
-        set.dispatch(Sized::<_, N, S>(LanesKernel { model: &self.model, solver, jobs }));
+        set.dispatch(Sized::<_, N, K, S>(LanesKernel { model: &self.model, solver, jobs }));
     }
 
     fn run_point(&self, set: InstructionSet, solver: &SolverSettings, values: &[f64]) -> Row {
-        Scalars { model: &self.model, solver, values }.row::<N, S>(set)
+        Scalars { model: &self.model, solver, values }.row::<N, K, S>(set)
     }
 
     fn trajectory(
@@ -63,7 +65,7 @@ impl<M: Model<N, S> + 'static, const N: usize, const S: usize> Simulator for Run
         values: &[f64],
         request: &TrajectoryRequest,
     ) -> Result<Trajectory, Invalid> {
-        Scalars { model: &self.model, solver, values }.trajectory::<N, S>(set, request)
+        Scalars { model: &self.model, solver, values }.trajectory::<N, K, S>(set, request)
     }
 
     fn chirp(
@@ -81,7 +83,7 @@ impl<M: Model<N, S> + 'static, const N: usize, const S: usize> Simulator for Run
     }
 
     fn with_samples(&self, samples: Samples) -> Box<dyn Simulator> {
-        Box::new(Runner::<M, N, S>::new(self.model.sampled(samples)))
+        Box::new(Runner::<M, N, K, S>::new(self.model.sampled(samples)))
     }
 
     fn modes(&self, values: &[f64]) -> Result<[Mode; 2], Invalid> {

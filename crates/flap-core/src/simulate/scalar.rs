@@ -2,51 +2,68 @@
 
 use core::ops::ControlFlow;
 
-use super::row::{Settled, invalid};
+use super::row::{self, invalid};
+use super::search::varied;
+use super::search::{Next, Search};
 use super::simulator::{
     ChirpRequest, ChirpResponse, ImpulseRequest, Row, SolverSettings, Trajectory, TrajectoryRequest,
 };
 use super::{chirp, impulse, motion};
 use crate::measure::cycle::{Signals, Totals};
-use crate::measure::strobe::Strobe;
 use crate::model::Model;
 use crate::num::{Arithmetic, InstructionSet, PerLane, Scalar, Unfused};
 use crate::ode::ensemble::Observer;
 use crate::ode::solve::solve;
+use crate::ode::variation::Variation;
 use crate::ode::{Ending, Start};
 use crate::parameter::Invalid;
 
-/// Marches a point until it settles.
-pub(super) fn settle<M, R, const N: usize, const S: usize>(
+/// Searches for the orbit of a point.
+pub(super) fn search<M, R, const N: usize, const K: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,
     start: &Start<M::Constants<f64>, N>,
-) -> Settled<N>
+) -> Search<N>
 where
     M: Model<N, S>,
     R: Scalar,
 {
-    let mut strobe = Strobe::new(&start.y, &start.scale, solver.settle_tol);
-    let mut period = None;
-    let outcome = solve::<M, R, N>(
-        model,
-        &solver.tolerances(),
-        start,
-        |_, _| {},
-        |y| {
-            period = strobe.period_end(y);
-            if period.is_some() || strobe.cycles() >= solver.max_cycles {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
+    let tolerances = &solver.tolerances();
+    let mut search = Search::new(start, solver);
+    let mut next = Next::March(start.y);
+    loop {
+        next = match next {
+            Next::March(y) => {
+                let from = Start { y, ..*start };
+                let outcome = solve::<M, R, N>(model, tolerances, &from, |_, _| {}, |y| search.period_end(y));
+                search.marched(outcome)
             }
-        },
-    );
-    Settled { strobe, period, outcome }
+            Next::Vary(y) => {
+                let from = varied(start, &y);
+                let mut end = None;
+                let outcome = solve::<Variation<'_, M, N>, R, K>(
+                    &Variation(model),
+                    tolerances,
+                    &from,
+                    |_, _| {},
+                    |all| {
+                        end = Some(*all);
+                        ControlFlow::Break(())
+                    },
+                );
+                search.varied(end.as_ref(), outcome)
+            }
+            Next::Done => return search,
+        }
+    }
 }
 
 /// Runs one point.
-fn point<M, R, const N: usize, const S: usize>(model: &M, solver: &SolverSettings, values: &[f64]) -> Row
+fn point<M, R, const N: usize, const K: usize, const S: usize>(
+    model: &M,
+    solver: &SolverSettings,
+    values: &[f64],
+) -> Row
 where
     M: Model<N, S>,
     R: Scalar,
@@ -56,12 +73,12 @@ where
         Ok(start) => start,
         Err(error) => return invalid(error),
     };
-    let settled = settle::<M, R, N, S>(model, solver, &start);
-    if let Some(row) = settled.unmeasured() {
+    let search = search::<M, R, N, K, S>(model, solver, &start);
+    if let Some(row) = row::unmeasured(&search) {
         return row;
     }
 
-    start.y = *settled.strobe.state();
+    start.y = search.orbit().map_or(start.y, |orbit| orbit.y);
     let observer = Signals::<S>;
     let mut totals = Observer::<M, N>::nothing(&observer).map(|one| Totals::<R>::fill((), &one));
     let outcome = solve::<M, R, N>(
@@ -78,7 +95,7 @@ where
     );
     let totals = totals.map(|total| total.get(0));
     let measured = (outcome.ending == Ending::Stopped).then_some(&totals);
-    settled.measured(model, &start.constants, start.span, measured, outcome)
+    row::measured(&search, model, &start.constants, start.span, measured, outcome)
 }
 
 /// One point on scalars of the arithmetic class of a machine's instructions.
@@ -90,18 +107,18 @@ pub(super) struct Scalars<'a, M> {
 
 impl<M> Scalars<'_, M> {
     /// The point's row.
-    pub(super) fn row<const N: usize, const S: usize>(&self, set: InstructionSet) -> Row
+    pub(super) fn row<const N: usize, const K: usize, const S: usize>(&self, set: InstructionSet) -> Row
     where
         M: Model<N, S>,
     {
         match set.arithmetic() {
-            Arithmetic::Fused => point::<M, f64, N, S>(self.model, self.solver, self.values),
-            Arithmetic::Unfused => point::<M, Unfused, N, S>(self.model, self.solver, self.values),
+            Arithmetic::Fused => point::<M, f64, N, K, S>(self.model, self.solver, self.values),
+            Arithmetic::Unfused => point::<M, Unfused, N, K, S>(self.model, self.solver, self.values),
         }
     }
 
     /// The point's sampled motion.
-    pub(super) fn trajectory<const N: usize, const S: usize>(
+    pub(super) fn trajectory<const N: usize, const K: usize, const S: usize>(
         &self,
         set: InstructionSet,
         request: &TrajectoryRequest,
@@ -111,8 +128,8 @@ impl<M> Scalars<'_, M> {
     {
         let Scalars { model, solver, values } = *self;
         match set.arithmetic() {
-            Arithmetic::Fused => motion::trajectory::<M, f64, N, S>(model, solver, values, request),
-            Arithmetic::Unfused => motion::trajectory::<M, Unfused, N, S>(model, solver, values, request),
+            Arithmetic::Fused => motion::trajectory::<M, f64, N, K, S>(model, solver, values, request),
+            Arithmetic::Unfused => motion::trajectory::<M, Unfused, N, K, S>(model, solver, values, request),
         }
     }
 

@@ -232,6 +232,9 @@ pub struct Row {
     pub residual: f64,
     /// Drive periods per orbit: 1, or more for a subharmonic; 0 if no orbit was found.
     pub period: u32,
+    /// Largest modulus of the orbit's Floquet multipliers: below 1 the orbit is stable, and a change of the state decays
+    /// by this factor per drive period in the end. NaN without an orbit.
+    pub floquet_max: f64,
     /// Right-hand sides evaluated by the integrator.
     pub rhs_evals: u64,
     /// Why the parameters are invalid.

@@ -109,6 +109,7 @@ mod tests {
             cycles,
             residual: 0.0,
             period: 1,
+            floquet_max: 0.5,
             rhs_evals: 0,
             reason: None,
         }

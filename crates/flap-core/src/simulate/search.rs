@@ -1,0 +1,166 @@
+//! The search for the periodic orbit that a point approaches from rest: marching, with Newton's iteration when the
+//! march is near.
+
+use core::ops::ControlFlow;
+
+use super::newton::{FixedPoint, Newton, Step};
+use super::simulator::SolverSettings;
+use crate::measure::strobe::Strobe;
+use crate::ode::variation::initial;
+use crate::ode::{Ending, Outcome, Start};
+
+/// Periods that are marched before Newton's iteration is first tried, and the largest change of the state over a
+/// period with which it is: in units of the states' typical sizes.
+const FIRST_TRY: u32 = 6;
+const NEAR: f64 = 0.1;
+
+/// Where a point's search has come to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Search<const N: usize> {
+    strobe: Strobe<N>,
+    newton: Newton<N>,
+    scale: [f64; N],
+    tolerance: f64,
+    max_cycles: u32,
+    next_try: u32,
+    /// Drive periods of Newton's iteration, each integrated N + 1 times.
+    periods_varied: u32,
+    /// Length in drive periods of the orbit on which the march has settled.
+    period: Option<u32>,
+    found: Option<FixedPoint<N>>,
+    ending: Ending,
+    rhs_evals: u64,
+}
+
+/// How a search goes on.
+pub(super) enum Next<const N: usize> {
+    /// Marching from this state.
+    March([f64; N]),
+    /// With a period from this state and its responses to changes of it.
+    Vary([f64; N]),
+    /// Not at all.
+    Done,
+}
+
+impl<const N: usize> Search<N> {
+    /// A search that begins at `start`.
+    pub(super) fn new<C>(start: &Start<C, N>, solver: &SolverSettings) -> Search<N> {
+        let tolerance = solver.settle_tol;
+        Search {
+            strobe: Strobe::new(&start.y, &start.scale, tolerance),
+            newton: Newton::new(&start.y, &start.scale, tolerance),
+            scale: start.scale,
+            tolerance,
+            max_cycles: solver.max_cycles,
+            next_try: FIRST_TRY,
+            periods_varied: 0,
+            period: None,
+            found: None,
+            ending: Ending::Stopped,
+            rhs_evals: 0,
+        }
+    }
+
+    /// Takes the state at the end of a marched period, and goes on marching or breaks.
+    pub(super) fn period_end(&mut self, y: &[f64; N]) -> ControlFlow<()> {
+        self.period = self.strobe.period_end(y);
+        if self.period.is_some() || self.is_promising() || self.is_exhausted() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    fn is_promising(&self) -> bool {
+        self.strobe.cycles() >= self.next_try && self.strobe.change(1) <= NEAR
+    }
+
+    fn is_exhausted(&self) -> bool {
+        self.strobe.cycles() >= self.max_cycles
+    }
+
+    /// How to go on after marching.
+    pub(super) fn marched(&mut self, outcome: Outcome) -> Next<N> {
+        self.rhs_evals += outcome.rhs_evals;
+        self.ending = outcome.ending;
+        let near = self.period == Some(1) || (self.period.is_none() && self.is_promising());
+        if self.ending != Ending::Stopped || !near {
+            return Next::Done;
+        }
+        self.newton = Newton::new(self.strobe.state(), &self.scale, self.tolerance);
+        Next::Vary(*self.strobe.state())
+    }
+
+    /// How to go on after a period with its responses; none if it could not be integrated.
+    pub(super) fn varied<const K: usize>(&mut self, all: Option<&[f64; K]>, outcome: Outcome) -> Next<N> {
+        // Each evaluation is one of the states and one of each response.
+        self.rhs_evals += outcome.rhs_evals * (N as u64 + 1);
+        self.periods_varied += 1;
+        let step = all.map_or(Step::Failed, |all| self.newton.judge(all));
+        match step {
+            Step::Again(y) => Next::Vary(y),
+            Step::Found(point) => {
+                self.period = Some(1);
+                self.found = Some(point);
+                Next::Done
+            }
+            Step::Failed => self.give_up_newton(all),
+        }
+    }
+
+    fn give_up_newton<const K: usize>(&mut self, all: Option<&[f64; K]>) -> Next<N> {
+        if self.period == Some(1) {
+            // The march has settled: its state jitters more than Newton's iteration may leave.
+            let floquet_max = all.map_or(f64::NAN, |all| self.newton.floquet_max(all));
+            let (y, residual) = (*self.strobe.state(), self.strobe.change(1));
+            self.found = Some(FixedPoint { y, residual, floquet_max });
+            return Next::Done;
+        }
+        if self.is_exhausted() {
+            return Next::Done;
+        }
+        self.next_try = 2 * self.strobe.cycles();
+        Next::March(*self.strobe.state())
+    }
+
+    /// The orbit of one drive period, if there is one.
+    pub(super) fn orbit(&self) -> Option<&FixedPoint<N>> {
+        self.found.as_ref()
+    }
+
+    /// Length in drive periods of the orbit on which the march has settled.
+    pub(super) fn period(&self) -> Option<u32> {
+        self.period
+    }
+
+    /// Why the search has ended.
+    pub(super) fn ending(&self) -> Ending {
+        self.ending
+    }
+
+    /// Drive periods integrated.
+    pub(super) fn cycles(&self) -> u32 {
+        self.strobe.cycles() + self.periods_varied * (u32::try_from(N).unwrap_or(0) + 1)
+    }
+
+    /// Change of the state over the orbit, or over the last period if there is none.
+    pub(super) fn residual(&self) -> f64 {
+        self.found.map_or_else(|| self.strobe.change(self.period.unwrap_or(1)), |point| point.residual)
+    }
+
+    /// Right-hand sides evaluated.
+    pub(super) fn rhs_evals(&self) -> u64 {
+        self.rhs_evals
+    }
+}
+
+/// Where a period from `y` begins with its responses to changes of `y`.
+pub(super) fn varied<C: Copy, const N: usize, const K: usize>(
+    start: &Start<C, N>,
+    y: &[f64; N],
+) -> Start<C, K> {
+    // Step sizes depend on the states alone; the responses' scales are never used.
+    let mut scale = [1.0; K];
+    scale[..N].copy_from_slice(&start.scale);
+    Start { constants: start.constants, y: initial(y, &start.scale), span: start.span, scale }
+}
