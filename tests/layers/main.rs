@@ -12,13 +12,26 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("drive", &["num", "parameter"]),
     ("piezo", &["num", "parameter"]),
     ("linkage", &["num", "parameter"]),
+    ("aero", &["num", "parameter"]),
     ("modes", &["num", "parameter"]),
     ("quadrature", &["num", "parameter"]),
-    ("model", &["num", "ode", "parameter", "drive", "piezo", "linkage", "modes", "quadrature"]),
+    ("model", &["num", "ode", "parameter", "drive", "piezo", "linkage", "aero", "modes", "quadrature"]),
     ("measure", &["num", "ode", "model"]),
     (
         "simulate",
-        &["num", "ode", "parameter", "drive", "piezo", "linkage", "modes", "quadrature", "model", "measure"],
+        &[
+            "num",
+            "ode",
+            "parameter",
+            "drive",
+            "piezo",
+            "linkage",
+            "aero",
+            "modes",
+            "quadrature",
+            "model",
+            "measure",
+        ],
     ),
 ];
 
