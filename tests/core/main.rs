@@ -16,6 +16,7 @@ mod dormand_prince;
 mod elementary;
 mod ensemble;
 mod four_bar;
+mod jafferis_figures;
 mod samples;
 mod strobe;
 mod waveforms;

@@ -1,6 +1,6 @@
 //! The chord along the span, which the paper does not give: blade elements and shape moments.
 
-use super::params::Params;
+use super::params::{FlowDirection, Params};
 use crate::aero::{Cut, Strips, sum};
 use crate::parameter::Invalid;
 use crate::quadrature::gauss_legendre;
@@ -45,9 +45,12 @@ impl Params {
     }
 }
 
-/// The blade elements, whose velocity is that of the mid-chord.
+/// The blade elements, whose velocity is that of the mid-chord; none where the flow has one direction.
 pub(super) fn blades(p: &Params) -> Result<Strips<f64, BLADES>, Invalid> {
-    let cuts = cut(p);
+    let cuts = match p.flow_direction {
+        FlowDirection::Uniform => Vec::new(),
+        FlowDirection::Blade => cut(p),
+    };
     match cuts.iter().find(|cut| cut.chord < 0.0) {
         Some(cut) => Err(Invalid::new(format!(
             "the chord is negative {} m from the stroke axis: chord_legendre_1 to chord_legendre_3 do not describe a \

@@ -117,17 +117,10 @@ impl Constants<f64> {
     /// If the chord is negative somewhere, the mass matrix is not positive definite for every pitch angle, or a
     /// constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
-        match p.flow_direction {
-            FlowDirection::Uniform => Constants::with_blades(p, Strips::new(&[], 0.0, 0.0)),
-            FlowDirection::Blade => {
-                let blades = blades(p)?;
-                Constants::with_blades(&p.clone().with_chord_moments(), blades)
-            }
-        }
-    }
-
-    /// Derives the constants, given the blade elements.
-    fn with_blades(p: &Params, blades: Strips<f64, BLADES>) -> Result<Constants<f64>, Invalid> {
+        let p = &match p.flow_direction {
+            FlowDirection::Uniform => p.clone(),
+            FlowDirection::Blade => p.clone().with_chord_moments(),
+        };
         let laminate = Laminate {
             layers: [
                 Layer { thickness: p.piezo_thickness, modulus: p.piezo_modulus, density: p.piezo_density },
@@ -201,7 +194,7 @@ impl Constants<f64> {
             pitch_pw: -dynamic * c * r * c * p.shape_moment_13,
             pitch_ww: dynamic * c * c * c * p.shape_moment_04 * 0.25,
             rotation: 0.5 * rho * p.rotation_drag * r * p.rotation_moment,
-            blades,
+            blades: blades(p)?,
 
             pressure_slope: p.pressure_slope,
             pressure_offset: p.pressure_offset,
