@@ -36,7 +36,7 @@ pub struct Aerodynamics<R> {
 /// F_Lift = C_L ∫ q dr     M_y = −C_D ∫ q X dr     M_x′ = C_N ∫ q c d_cp dr     q = ½ρ c u|u|
 /// ```
 ///
-/// Whose direction u|u| and d_cp follow is what `flow` says: see [`uniform_flow`] and [`blade_flow`]. `side` is σ, the
+/// Whose direction u|u| and d_cp follow is what `flow` says. `side` is σ, the
 /// sign of the wing's [`mean_velocity`].
 #[inline(always)]
 pub fn aerodynamics<R: Real>(
