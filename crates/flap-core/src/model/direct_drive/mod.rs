@@ -277,12 +277,12 @@ impl Model<4, 9> for DirectDrive {
         let [velocity, _] = mean_velocity(c, &y, &dy);
         let side = 1.0_f64.copysign(velocity);
         let [value, rate, bend] = stroke;
-        let prescribed = DirectDrive { source: Source::PRESCRIBED };
+        let prescribed = DirectDrive { source: Source::PRESCRIBED, ..self.clone() };
         (y, prescribed.signals(c, &Driven { value, rate, bend }, side, &y, &dy))
     }
 
     fn sampled(&self, samples: Samples) -> DirectDrive {
-        DirectDrive { source: self.source.sampled(samples) }
+        DirectDrive { source: self.source.sampled(samples), ..self.clone() }
     }
 
     fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; 9]) -> Vec<f64> {
@@ -324,7 +324,11 @@ impl Model<4, 9> for DirectDrive {
         let [_, [m12, m22]] = DirectDrive::mass_at_rest(c);
         let waveform = Waveform { rate: 0.0, ..c.waveform };
         let still = Constants { drive_bias: 0.0, drive_amplitude: 0.0, waveform, ..*c };
-        (DirectDrive { source: Source::SINE }, still, [0.0, 0.0, stroke_rate, -(m12 / m22) * stroke_rate])
+        (
+            DirectDrive { source: Source::SINE, ..self.clone() },
+            still,
+            [0.0, 0.0, stroke_rate, -(m12 / m22) * stroke_rate],
+        )
     }
 }
 
