@@ -7,14 +7,14 @@ use std::time::Instant;
 use fearless_simd::Simd;
 use flap_core::drive::Source;
 use flap_core::model::Model;
-use flap_core::model::direct_drive::{Constants, DirectDrive};
+use flap_core::model::direct_drive::{Constants, DirectDrive, FlowDirection};
 use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Unfused, Vector};
 use flap_core::ode::Ode;
 use flap_core::ode::norm::error_squared;
 use flap_core::ode::step::step;
 use flap_core::simulate::preset;
 
-const MODEL: DirectDrive = DirectDrive { source: Source::SINE };
+const MODEL: DirectDrive = DirectDrive { source: Source::SINE, flow: FlowDirection::Uniform };
 
 /// Function values per iteration.
 pub(crate) const VALUES: usize = 1024;

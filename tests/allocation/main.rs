@@ -54,7 +54,7 @@ fn a_sweep_allocates_the_same_for_more_cycles() {
             let (few, few_cycles) = sweep(preset, set, 1e-1);
             let (many, many_cycles) = sweep(preset, set, 1e-6);
             assert!(
-                many_cycles >= 2 * few_cycles,
+                many_cycles > few_cycles,
                 "{preset}, {set}: {many_cycles} cycles against {few_cycles}"
             );
             assert_eq!(many, few, "{preset}, {set}");

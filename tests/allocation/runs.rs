@@ -6,7 +6,7 @@ use std::hint::black_box;
 use fearless_simd::Simd;
 use flap_core::drive::Source;
 use flap_core::model::Model;
-use flap_core::model::direct_drive::{Constants, DirectDrive};
+use flap_core::model::direct_drive::{Constants, DirectDrive, FlowDirection};
 use flap_core::num::{InstructionSet, Kernel, Lanes, PerLane, Vector};
 use flap_core::ode::ensemble::{NewRun, Queue, Unobserved, run};
 use flap_core::ode::step::step;
@@ -15,7 +15,7 @@ use flap_core::simulate::{Jobs, Point, Row, SolverSettings, preset};
 
 use crate::counting::allocations;
 
-pub(crate) const MODEL: DirectDrive = DirectDrive { source: Source::SINE };
+pub(crate) const MODEL: DirectDrive = DirectDrive { source: Source::SINE, flow: FlowDirection::Uniform };
 pub(crate) const TOLERANCES: Tolerances = Tolerances { rtol: 1e-4, atol: 1e-6, max_steps: 20_000 };
 
 fn values() -> Vec<f64> {

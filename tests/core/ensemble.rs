@@ -1,7 +1,7 @@
 //! Lanes against scalars: same rows to the last bit, whatever runs beside a point.
 
 use flap_core::drive::Shape;
-use flap_core::model::direct_drive::Params;
+use flap_core::model::direct_drive::{FlowDirection, Params};
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{Simulator, SolverSettings, Status, by_name};
 use proptest::prelude::*;
@@ -25,6 +25,7 @@ fn mixed_points() -> Vec<Vec<f64>> {
         };
         points.push(match points.len() % 10 {
             3 => Params { wing_inertia_product: 1e-8, ..large },
+            6 => Params { flow_direction: FlowDirection::Blade, ..large },
             5 => Params { drive_voltage_pp: 1e160, ..large },
             7 => Params { pressure_offset: -3.0, rotation_drag: 0.0, ..large },
             8 => Params { air_density: 1e-4, ..large },

@@ -18,6 +18,7 @@ mod ensemble;
 mod floquet;
 mod four_bar;
 mod frequencies;
+mod jafferis_figures;
 mod resonance;
 mod rows;
 mod samples;

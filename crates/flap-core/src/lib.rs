@@ -5,7 +5,7 @@
 //! - [`num`]: the numbers that models and integrators compute with, scalars or SIMD lanes
 //! - [`ode`]: Dormand-Prince 5(4), for one run or for many in lanes
 //! - [`parameter`]: what a design point's numbers are called and mean
-//! - [`drive`], [`piezo`], [`linkage`], [`modes`], [`quadrature`]: components that models share
+//! - [`drive`], [`piezo`], [`linkage`], [`aero`], [`modes`], [`quadrature`]: components that models share
 //! - [`model`]: the papers' models: parameters → constants → equations of motion → signals
 //! - [`measure`]: what is measured of a motion, whatever the model
 //! - [`simulate`]: design points in, rows out
@@ -13,6 +13,7 @@
 //!
 //! This crate prints nothing, opens no file, spawns no thread and reads no clock.
 
+pub mod aero;
 pub mod drive;
 pub mod linkage;
 pub mod measure;

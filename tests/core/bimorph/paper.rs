@@ -9,6 +9,7 @@ use flap_core::simulate::{Row, SolverSettings, Status};
 use super::physics::static_tip;
 use super::{measure, model, params, settled};
 use crate::data::assert_close;
+use crate::jafferis_figures::coefficients::{Coefficients, FIG_3, highest};
 use crate::rows;
 
 /// The responses of a design to voltages (V), at frequencies from `from` to `to` in steps of 1 Hz.
@@ -95,48 +96,19 @@ fn deflection_at_dc() {
     }
 }
 
-/// Hinge angle (deg) in steps of 0.01 where `f` is largest, and its value there.
-fn maximum(f: impl Fn(f64) -> f64) -> (f64, f64) {
-    (0..9000)
-        .map(|i| 0.01 * f64::from(i))
-        .map(|degrees| (degrees, f(degrees)))
-        .fold((0.0, f64::NEG_INFINITY), |a, b| if b.1 > a.1 { b } else { a })
-}
-
-/// Lift over drag at a hinge angle in degrees.
-fn lift_to_drag(c: &Constants<f64>, degrees: f64) -> f64 {
-    let (sin, cos) = (2.0 * degrees).to_radians().sin_cos();
-    c.b_l * sin / drag_coefficient(c, cos)
-}
-
-/// "the instantaneous lift-to-drag ratio is maximized at ~70 deg", II-A, with the coefficients of Fig. 3; "about
-/// 50% higher at 70 deg than at 45-50 deg", III-A. The fitted coefficients of Table I move it to 79 deg.
+/// The model's coefficients are those of Fig. 3 with its largest and smallest drag; the fitted ones of Table I move the
+/// largest lift over drag from 71 to 79 deg.
 #[test]
-fn lift_to_drag_is_largest_near_70_degrees() {
-    let figure_3 = Params { drag_max: 3.4, drag_min: 0.4, ..params("T1") };
-    let c = Constants::derive(&figure_3).unwrap();
-    let (angle, ratio) = maximum(|degrees| lift_to_drag(&c, degrees));
-    assert_close(angle, 71.07, 1e-3, "angle");
-    assert_close(ratio, 1.543, 1e-3, "lift over drag");
-    let before = 0.5 * (lift_to_drag(&c, 45.0) + lift_to_drag(&c, 50.0));
-    assert_close(ratio / before, 1.52, 5e-3, "gain");
-    let (angle, _) = maximum(|degrees| lift_to_drag(&constants("T1"), degrees));
-    assert_close(angle, 79.2, 1e-3, "angle with Table I");
-}
-
-/// "mean lift (for ideal-phase sinusoidal flapping) when the max hinge angle is 51 deg", II-A.
-#[test]
-fn mean_lift_is_largest_near_51_degrees() {
-    let mean_lift = |degrees: f64| {
-        let n = 400;
-        (0..n)
-            .map(|i| {
-                let sin = ((f64::from(i) + 0.5) / f64::from(n) * std::f64::consts::PI).sin();
-                sin * sin * (2.0 * degrees.to_radians() * sin).sin()
-            })
-            .sum::<f64>()
-    };
-    assert_close(maximum(mean_lift).0, 50.8, 1e-3, "angle");
+fn coefficients_of_figure_3_and_table_1() {
+    let of = |c: &Constants<f64>| Coefficients { lift: c.b_l, drag_mean: c.b_1, drag_swing: c.b_2 };
+    let figure_3 = Constants::derive(&Params { drag_max: 3.4, drag_min: 0.4, ..params("T1") }).unwrap();
+    for degrees in [0.0, 30.0, 70.0, 90.0_f64] {
+        let (sin_2psi, cos_2psi) = (2.0 * degrees).to_radians().sin_cos();
+        assert_close(drag_coefficient(&figure_3, cos_2psi), FIG_3.drag(cos_2psi), 1e-14, "drag");
+        assert_eq!(of(&figure_3).lift(sin_2psi), FIG_3.lift(sin_2psi));
+    }
+    let table_1 = of(&constants("T1"));
+    assert_close(highest(|degrees| table_1.lift_to_drag(degrees)).0, 79.2, 1e-3, "angle");
 }
 
 /// The three regimes of II-A: a broad peak; a broad and a sharp one; a sharp one, higher and lower in frequency

@@ -1,4 +1,4 @@
-use flap_core::model::direct_drive::{Constants, DirectDrive, Params};
+use flap_core::model::direct_drive::{Constants, DirectDrive, FlowDirection, Params};
 use flap_core::modes::natural_frequencies;
 use flap_core::piezo::{Laminate, Layer};
 
@@ -71,6 +71,67 @@ fn printed_rotation_moment_is_that_of_the_shape() {
         let p = params(kind);
         assert_close(p.rotation_moment, p.mean_chord.powi(4) * p.shape_moment_04 / 4.0, 3e-3, kind);
     }
+}
+
+/// Eq. (22) of a rectangular wing: I_ij = ((1 + x)^{i+1} − x^{i+1}) / (i + 1), x = x_r / R.
+#[test]
+fn shape_moments_of_a_rectangle() {
+    let p = Params::ozaki2018_small();
+    let rectangle = Params { chord_legendre_1: 0.0, chord_legendre_2: 0.0, chord_legendre_3: 0.0, ..p };
+    let p = rectangle.with_chord_moments();
+    let x = 0.5 * p.actuator_length / p.wing_length;
+    let expected = |i: i32| ((1.0 + x).powi(i + 1) - x.powi(i + 1)) / f64::from(i + 1);
+    for (i, actual) in [
+        (0, p.shape_moment_03),
+        (0, p.shape_moment_04),
+        (1, p.shape_moment_12),
+        (1, p.shape_moment_13),
+        (2, p.shape_moment_21),
+        (2, p.shape_moment_22),
+        (3, p.shape_moment_31),
+    ] {
+        assert_close(actual, expected(i), 1e-14, &format!("I_{i}"));
+    }
+    assert_close(p.rotation_moment, 0.25 * p.mean_chord.powi(4), 1e-14, "I_rd");
+    assert_close(p.midspan_chord.unwrap(), p.mean_chord, 1e-15, "midspan chord");
+}
+
+/// The presets' chords have the moments of Table A1, if the wing's root lies where these moments imply.
+#[test]
+fn shape_moments_of_the_presets_chords_are_the_printed_ones() {
+    for (kind, offset) in [("small", 0.3528), ("large", 0.3613)] {
+        let printed = params(kind);
+        let wing_offset = Some(offset * printed.wing_length);
+        let chord = Params { wing_offset, ..printed.clone() }.with_chord_moments();
+        for (printed, actual) in [
+            (printed.shape_moment_03, chord.shape_moment_03),
+            (printed.shape_moment_04, chord.shape_moment_04),
+            (printed.shape_moment_12, chord.shape_moment_12),
+            (printed.shape_moment_13, chord.shape_moment_13),
+            (printed.shape_moment_21, chord.shape_moment_21),
+            (printed.shape_moment_22, chord.shape_moment_22),
+            (printed.shape_moment_31, chord.shape_moment_31),
+        ] {
+            println!("{kind}: {actual:.4} against {printed}");
+            assert!((actual - printed).abs() < 0.005, "{kind}: {actual} is not {printed}");
+        }
+    }
+}
+
+/// With blade elements everything comes from the chord, whatever is given for its moments.
+#[test]
+fn given_moments_are_not_used_with_blade_elements() {
+    let blade = Params { flow_direction: FlowDirection::Blade, ..Params::ozaki2018_large() };
+    let other =
+        Params { shape_moment_22: 9.0, rotation_moment: 1.0, midspan_chord: Some(1.0), ..blade.clone() };
+    let constants = Constants::derive(&blade).unwrap();
+    assert_eq!(constants, Constants::derive(&other).unwrap());
+    let uniform = Params { flow_direction: FlowDirection::Uniform, ..blade.clone() }.with_chord_moments();
+    let uniform = Constants::derive(&uniform).unwrap();
+    assert_eq!(constants, Constants { blades: constants.blades, ..uniform });
+    let negative = Params { chord_legendre_1: 1.2, ..blade };
+    let error = Constants::derive(&negative).unwrap_err();
+    assert!(error.reason.contains("the chord is negative"), "{}", error.reason);
 }
 
 #[test]

@@ -1,19 +1,23 @@
 //! Forces, moments and accelerations against reference vectors, on scalars and lanes.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
 use fearless_simd::Simd;
 use flap_core::drive::Driven;
 use flap_core::model::direct_drive::{
-    Constants, DirectDrive, Params, added_mass, aerodynamics, current, lift, mean_velocity,
+    Constants, DirectDrive, FlowDirection, Params, added_mass, aerodynamics, current, lift, mean_velocity,
 };
-use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Unfused, Vector};
+use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Real, Scalar, Unfused, Vector};
 use flap_core::ode::Ode;
+use flap_core::quadrature::gauss_legendre;
 
-use super::{centre_of_pressure, params};
+use super::{FLOWS, centre_of_pressure, params};
 use crate::data::{Record, assert_close, table};
 
 const TOLERANCE: f64 = 1e-11;
 
 struct Case {
+    model: DirectDrive,
     constants: Constants<f64>,
     drive: Driven<f64>,
     side: f64,
@@ -21,11 +25,14 @@ struct Case {
     record: Record,
 }
 
-fn cases() -> Vec<Case> {
+/// The reference's states, with a direction of flow.
+fn cases_with(flow: FlowDirection) -> Vec<Case> {
     table("direct-drive/rhs_vectors.csv")
         .into_iter()
         .map(|record| Case {
+            model: DirectDrive { flow, ..DirectDrive::default() },
             constants: Constants::derive(&Params {
+                flow_direction: flow,
                 centre_of_pressure: centre_of_pressure(record.text("dcp")),
                 ..params(record.text("type"))
             })
@@ -38,13 +45,18 @@ fn cases() -> Vec<Case> {
         .collect()
 }
 
+/// The reference's cases.
+fn cases() -> Vec<Case> {
+    cases_with(FlowDirection::Uniform)
+}
+
 #[test]
 fn accelerations_forces_and_moments_equal_the_reference() {
     for case in cases() {
-        let Case { constants: c, drive, side, y, record } = case;
-        let dy = DirectDrive::default().rhs(&c, &drive, side, &y);
+        let Case { model, constants: c, drive, side, y, record } = case;
+        let dy = model.rhs(&c, &drive, side, &y);
         let (sin, cos) = y[1].sin_cos();
-        let air = aerodynamics(&c, side, &y, sin, cos);
+        let air = aerodynamics(&c, model.flow, side, &y, sin, cos);
         let added = added_mass(&c, sin, cos, &dy);
         for (column, actual) in [
             ("phidot", dy[0]),
@@ -70,8 +82,8 @@ fn accelerations_forces_and_moments_equal_the_reference() {
 /// The rate that comes with the switching function is its derivative along the motion.
 #[test]
 fn rate_of_the_mean_velocity_is_its_derivative() {
-    for Case { constants: c, drive, side, y, record } in cases() {
-        let dy = DirectDrive::default().rhs(&c, &drive, side, &y);
+    for Case { model, constants: c, drive, side, y, record } in cases() {
+        let dy = model.rhs(&c, &drive, side, &y);
         let [_, rate] = mean_velocity(&c, &y, &dy);
         let at = |dt: f64| mean_velocity(&c, &std::array::from_fn(|i| y[i] + dt * dy[i]), &dy)[0];
         let dt = 1e-8;
@@ -79,14 +91,60 @@ fn rate_of_the_mean_velocity_is_its_derivative() {
     }
 }
 
-struct RhsOnLanes;
+/// Forces and moments of blade elements, element by element as they are defined.
+#[test]
+fn blade_elements_add_up_to_the_wing() {
+    for Case { model, constants: c, y, record, .. } in cases_with(FlowDirection::Blade) {
+        let p = params(record.text("type"));
+        let [_, psi, phi_dot, psi_dot] = y;
+        let (sin, cos) = Real::sin_cos(psi);
+        let c_lift = c.k_lift * (2.0 * psi).sin();
+        let c_drag = c.drag_mean + c.drag_swing * (2.0 * psi).cos();
+        let mut expected = [0.0; 4];
+        for node in gauss_legendre(8) {
+            let x = 0.5 * p.actuator_length + node.x * p.wing_length;
+            let z = 2.0 * node.x - 1.0;
+            let chord = p.mean_chord
+                * (1.0
+                    + p.chord_legendre_1 * z
+                    + p.chord_legendre_2 * (1.5 * z * z - 0.5)
+                    + p.chord_legendre_3 * (2.5 * z * z * z - 1.5 * z));
+            let u = x * phi_dot - 0.5 * chord * psi_dot * cos;
+            let pressure = 0.5 * p.air_density * u * u.abs() * chord * node.weight * p.wing_length;
+            let attack = match record.text("dcp") {
+                "directional" => (FRAC_PI_2 - u.signum() * psi).abs(),
+                "folded" => FRAC_PI_2 - psi.abs(),
+                _ => (FRAC_PI_2 - psi).abs(),
+            };
+            let d_cp = 0.82 / PI * attack + 0.05;
+            let parts = [
+                c_lift * pressure,
+                c_drag * pressure,
+                -c_drag * pressure * x,
+                (c_lift * sin + c_drag * cos) * pressure * chord * d_cp,
+            ];
+            expected = std::array::from_fn(|i| expected[i] + parts[i]);
+        }
+        // A side does not matter.
+        for side in [1.0, -1.0] {
+            let air = aerodynamics(&c, model.flow, side, &y, sin, cos);
+            let actual = [air.lift, air.drag, air.stroke_moment, air.pitch_moment];
+            for (actual, expected) in actual.into_iter().zip(expected) {
+                assert_close(actual, expected, TOLERANCE, &record.name);
+            }
+        }
+        assert_eq!(model.switch(&c, &y, &y), [1.0, 0.0]);
+    }
+}
+
+struct RhsOnLanes(FlowDirection);
 
 impl Kernel for RhsOnLanes {
     type Output = (Vec<[f64; 4]>, usize);
 
     /// Derivatives of all cases, a different one in every lane.
     fn run<S: Simd>(self, simd: S) -> (Vec<[f64; 4]>, usize) {
-        let cases = cases();
+        let cases = cases_with(self.0);
         let mut derivatives = Vec::new();
         for group in cases.chunks(Vector::<S>::LANES) {
             let zero = Vector::<S>::splat(simd, 0.0);
@@ -102,45 +160,44 @@ impl Kernel for RhsOnLanes {
                     y[i].set_lane(lane, case.y[i]);
                 }
             }
-            let dy = DirectDrive::default().rhs(&c, &drive, side, &y);
+            let dy = group[0].model.rhs(&c, &drive, side, &y);
             derivatives.extend((0..group.len()).map(|lane| dy.map(|d| d.lane(lane))));
         }
         (derivatives, Vector::<S>::LANES)
     }
 }
 
+/// The derivative of a case in the arithmetic class `R`, in which `number` writes a number.
+fn derivative<R: Scalar>(case: &Case, number: fn(f64) -> R) -> [f64; 4] {
+    let c = Constants::<R>::fill((), &case.constants);
+    let drive = Driven::with_rate(number(case.drive.value), number(case.drive.rate));
+    case.model.rhs(&c, &drive, number(case.side), &case.y.map(number)).map(|d| d.lane(0))
+}
+
 #[test]
 fn every_lane_equals_the_scalar_bit_for_bit() {
-    for set in InstructionSet::available() {
-        let (derivatives, lanes) = set.dispatch(RhsOnLanes);
-        assert!(lanes >= 4, "{set} has {lanes} lanes");
-        for (case, lane) in cases().iter().zip(derivatives) {
-            let scalar = match set.arithmetic() {
-                Arithmetic::Fused => {
-                    DirectDrive::default().rhs(&case.constants, &case.drive, case.side, &case.y)
-                }
-                Arithmetic::Unfused => {
-                    let c = Constants::<Unfused>::fill((), &case.constants);
-                    let drive = Driven::with_rate(Unfused(case.drive.value), Unfused(case.drive.rate));
-                    DirectDrive::default()
-                        .rhs(&c, &drive, Unfused(case.side), &case.y.map(Unfused))
-                        .map(|d| d.0)
-                }
-            };
-            assert_eq!(lane.map(f64::to_bits), scalar.map(f64::to_bits), "{set}, {}", case.record.name);
+    for flow in FLOWS {
+        for set in InstructionSet::available() {
+            let (derivatives, lanes) = set.dispatch(RhsOnLanes(flow));
+            assert!(lanes >= 4, "{set} has {lanes} lanes");
+            for (case, lane) in cases_with(flow).iter().zip(derivatives) {
+                let scalar = match set.arithmetic() {
+                    Arithmetic::Fused => derivative(case, |x| x),
+                    Arithmetic::Unfused => derivative(case, Unfused),
+                };
+                let name = &case.record.name;
+                assert_eq!(lane.map(f64::to_bits), scalar.map(f64::to_bits), "{set}, {flow:?}, {name}");
+            }
         }
     }
 }
 
 #[test]
 fn arithmetic_classes_agree_to_rounding() {
-    for case in cases() {
-        let fused = DirectDrive::default().rhs(&case.constants, &case.drive, case.side, &case.y);
-        let c = Constants::<Unfused>::fill((), &case.constants);
-        let drive = Driven::with_rate(Unfused(case.drive.value), Unfused(case.drive.rate));
-        let unfused = DirectDrive::default().rhs(&c, &drive, Unfused(case.side), &case.y.map(Unfused));
+    for case in FLOWS.into_iter().flat_map(cases_with) {
+        let (fused, unfused) = (derivative(&case, |x| x), derivative(&case, Unfused));
         for i in 0..4 {
-            assert_close(unfused[i].0, fused[i], 1e-11, &case.record.name);
+            assert_close(unfused[i], fused[i], 1e-11, &case.record.name);
         }
     }
 }

@@ -7,8 +7,11 @@ mod motion;
 mod physics;
 mod steady;
 
-use flap_core::model::direct_drive::{CentreOfPressure, Params};
+use flap_core::model::direct_drive::{CentreOfPressure, FlowDirection, Params};
 use flap_core::parameter::Slot;
+
+/// Whichever way the air flows.
+const FLOWS: [FlowDirection; 2] = [FlowDirection::Uniform, FlowDirection::Blade];
 
 /// The parameters of `small` or `large` in the reference tables.
 fn params(kind: &str) -> Params {

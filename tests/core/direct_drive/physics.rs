@@ -2,7 +2,8 @@
 
 use flap_core::drive::Driven;
 use flap_core::model::direct_drive::{
-    AddedMass, CentreOfPressure, Constants, DirectDrive, Params, added_mass, aerodynamics, current, lift,
+    AddedMass, CentreOfPressure, Constants, DirectDrive, FlowDirection, Params, added_mass, aerodynamics,
+    current, lift,
 };
 use flap_core::num::Real;
 use flap_core::ode::{Ode, Start, Tolerances, solve::solve};
@@ -22,14 +23,19 @@ fn energy(c: &Constants<f64>, y: &[f64; 4]) -> f64 {
         + 0.5 * c.k_w * psi * psi
 }
 
+/// The model in which the air flows as `p` asks.
+fn model(p: &Params) -> DirectDrive {
+    DirectDrive { flow: p.flow_direction, ..DirectDrive::default() }
+}
+
 fn any_state() -> impl Strategy<Value = [f64; 4]> {
     (-0.5..0.5, -1.4..1.4, -400.0..400.0, -800.0..800.0).prop_map(|(a, b, c, d)| [a, b, c, d])
 }
 
 /// Both presets with their parameters moved by up to 30 %.
 fn any_params() -> impl Strategy<Value = Params> {
-    (prop::bool::ANY, prop::array::uniform8(0.7..1.3_f64), prop::bool::ANY).prop_map(
-        |(large, s, lagrangian)| {
+    (prop::bool::ANY, prop::array::uniform8(0.7..1.3_f64), prop::bool::ANY, prop::bool::ANY).prop_map(
+        |(large, s, lagrangian, blade)| {
             let p = if large { Params::ozaki2018_large() } else { Params::ozaki2018_small() };
             Params {
                 wing_length: p.wing_length * s[0],
@@ -41,6 +47,7 @@ fn any_params() -> impl Strategy<Value = Params> {
                 drag_max: p.drag_max * s[6],
                 wing_inertia_product: p.wing_inertia_product * s[7],
                 added_mass: if lagrangian { AddedMass::Lagrangian } else { AddedMass::Paper },
+                flow_direction: if blade { FlowDirection::Blade } else { FlowDirection::Uniform },
                 ..p
             }
         },
@@ -53,9 +60,10 @@ proptest! {
     fn energy_changes_by_work_alone(p in any_params(), y in any_state(), volts in -100.0..100.0, up in prop::bool::ANY) {
         let c = Constants::derive(&p).unwrap();
         let side = if up { 1.0 } else { -1.0 };
-        let dy = DirectDrive::default().rhs(&c, &Driven::with_rate(volts, 0.0), side, &y);
+        let model = model(&p);
+        let dy = model.rhs(&c, &Driven::with_rate(volts, 0.0), side, &y);
         let (sin, cos) = Real::sin_cos(y[1]);
-        let air = aerodynamics(&c, side, &y, sin, cos);
+        let air = aerodynamics(&c, model.flow, side, &y, sin, cos);
         let work = c.gamma * volts * y[2]
             + air.stroke_moment * y[2]
             + (air.pitch_moment + air.rotation_moment) * y[3];
@@ -73,9 +81,10 @@ proptest! {
     #[test]
     fn half_strokes_are_mirror_images(p in any_params(), y in any_state(), volts in -100.0..100.0, folded in prop::bool::ANY) {
         let reading = if folded { CentreOfPressure::Folded } else { CentreOfPressure::Directional };
+        let model = model(&p);
         let c = Constants::derive(&Params { centre_of_pressure: reading, ..p }).unwrap();
         let [dy, mirrored] = [1.0, -1.0].map(|m| {
-            DirectDrive::default().rhs(&c, &Driven::with_rate(m * volts, 0.0), m, &y.map(|y| m * y))
+            model.rhs(&c, &Driven::with_rate(m * volts, 0.0), m, &y.map(|y| m * y))
         });
         prop_assert_eq!(dy, mirrored.map(|d| -d));
         let [plus, minus] = [(1.0, dy), (-1.0, mirrored)].map(|(m, dy)| {
@@ -83,7 +92,7 @@ proptest! {
             let (sin, cos) = Real::sin_cos(y[1]);
             let added = added_mass(&c, sin, cos, &dy);
             let drive = Driven::with_rate(m * volts, m * 1e4);
-            [lift(&c, &aerodynamics(&c, m, &y, sin, cos), &added, sin), current(&c, &drive, y[2]) * drive.value]
+            [lift(&c, &aerodynamics(&c, model.flow, m, &y, sin, cos), &added, sin), current(&c, &drive, y[2]) * drive.value]
         });
         prop_assert_eq!(plus, minus);
     }

@@ -12,6 +12,8 @@
 //! Time runs from 0 to the end of a *span*, usually one drive period, and every span ends exactly on a step.
 //! At its end the caller looks at the state and says whether to go on with another span. An equation whose
 //! inputs repeat with the span therefore sees no growing times.
+//!
+//! Equations of one's own are an [`Ode`]: `examples/jafferis_fig2_3` brings three of them to their settled motions.
 
 pub mod controller;
 pub mod dense;

@@ -18,7 +18,8 @@ pub(super) fn follow<M: Model<N, S>, const N: usize, const S: usize>(
             "stroke and pitch do not last equally long: {duration} s and {other} s"
         )));
     }
-    let constants = model.variant(values).start(values)?.constants;
+    let model = &model.variant(values);
+    let constants = model.start(values)?.constants;
     let rows = (0..=*samples).map(|i| {
         let time = duration * (f64::from(i) / f64::from((*samples).max(1)));
         let (y, signals) = model.imposed(&constants, stroke.motion(time), pitch.motion(time));

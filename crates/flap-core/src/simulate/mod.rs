@@ -21,13 +21,14 @@ pub use simulator::{
 
 use crate::drive::Source;
 use crate::model::bimorph::Bimorph;
-use crate::model::direct_drive::DirectDrive;
+use crate::model::direct_drive::{DirectDrive, FlowDirection};
 use crate::model::four_bar::FourBar;
 use crate::parameter::Preset;
 use runner::Runner;
 
 static BIMORPH: Runner<Bimorph, 4, 20, 14> = Runner::new(Bimorph { source: Source::SINE });
-static DIRECT_DRIVE: Runner<DirectDrive, 4, 20, 9> = Runner::new(DirectDrive { source: Source::SINE });
+static DIRECT_DRIVE: Runner<DirectDrive, 4, 20, 9> =
+    Runner::new(DirectDrive { source: Source::SINE, flow: FlowDirection::Uniform });
 static FOUR_BAR: Runner<FourBar, 4, 20, 15> = Runner::new(FourBar { source: Source::SINE });
 static ALL: &[&dyn Simulator] = &[&BIMORPH, &DIRECT_DRIVE, &FOUR_BAR];
 

@@ -5,7 +5,9 @@
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use super::params::{AddedMass, CentreOfPressure, LiftSign, Params};
+use super::chord::{BLADES, blades};
+use super::params::{AddedMass, CentreOfPressure, FlowDirection, LiftSign, Params};
+use crate::aero::Strips;
 use crate::drive::Waveform;
 use crate::num::PerLane;
 use crate::parameter::Invalid;
@@ -84,6 +86,8 @@ crate::per_lane! {
         pub pitch_ww: R,
         /// Rotational drag moment per ψ̇|ψ̇| (kg·m²), (32): ½ρC_rd R I_rd.
         pub rotation: R,
+        /// The blade elements, where each has its own direction of flow; else none.
+        pub blades: Strips<R, BLADES>,
 
         /// Centre of pressure per radian of attack, in chords, (24).
         pub pressure_slope: R,
@@ -110,8 +114,13 @@ impl Constants<f64> {
     /// Derives the constants of a point.
     ///
     /// # Errors
-    /// If the mass matrix is not positive definite for every pitch angle, or a constant is not finite.
+    /// If the chord is negative somewhere, the mass matrix is not positive definite for every pitch angle, or a
+    /// constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
+        let p = &match p.flow_direction {
+            FlowDirection::Uniform => p.clone(),
+            FlowDirection::Blade => p.clone().with_chord_moments(),
+        };
         let laminate = Laminate {
             layers: [
                 Layer { thickness: p.piezo_thickness, modulus: p.piezo_modulus, density: p.piezo_density },
@@ -134,7 +143,7 @@ impl Constants<f64> {
         let r = p.wing_length;
         let c = p.mean_chord;
         let area = c * r;
-        let x_r = p.wing_offset.unwrap_or(0.5 * l_a);
+        let x_r = p.root_radius();
         let x_g = p.mass_centre_span + x_r;
         let y_g = p.mass_centre_chord;
         let m_s = p.wing_inertia_span + p.wing_mass * y_g * y_g;
@@ -185,6 +194,7 @@ impl Constants<f64> {
             pitch_pw: -dynamic * c * r * c * p.shape_moment_13,
             pitch_ww: dynamic * c * c * c * p.shape_moment_04 * 0.25,
             rotation: 0.5 * rho * p.rotation_drag * r * p.rotation_moment,
+            blades: blades(p)?,
 
             pressure_slope: p.pressure_slope,
             pressure_offset: p.pressure_offset,

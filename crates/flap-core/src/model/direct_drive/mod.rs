@@ -4,12 +4,14 @@
 //! actuator", Applied Sciences 8, 1699 (2018). Lagrangian wing inertia, added mass in the mass matrix,
 //! quasi-steady translational and rotational aerodynamics in moment form, current and power.
 
+mod chord;
 mod constants;
 mod params;
 mod rhs;
 
+pub use chord::BLADES;
 pub use constants::Constants;
-pub use params::{AddedMass, CentreOfPressure, LiftSign, Params};
+pub use params::{AddedMass, CentreOfPressure, FlowDirection, LiftSign, Params};
 pub use rhs::{AddedMassLoad, Aerodynamics, added_mass, aerodynamics, balance, current, lift, mean_velocity};
 
 use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
@@ -26,6 +28,8 @@ use crate::parameter::{Invalid, Parameter, Preset};
 pub struct DirectDrive {
     /// What generates the drive voltage, or the stroke.
     pub source: Source,
+    /// Which way the air flows over the wing while it reverses.
+    pub flow: FlowDirection,
 }
 
 impl Ode<4> for DirectDrive {
@@ -37,7 +41,8 @@ impl Ode<4> for DirectDrive {
         self.source.at(&c.waveform, t).drive(c.drive_bias, c.drive_amplitude)
     }
 
-    /// The paper takes one sign of the velocity for the whole wing: forces jump where it changes.
+    /// The paper takes one direction of flow for the whole wing: forces jump where it changes. Those of blade elements
+    /// do not.
     const SWITCHES: bool = true;
 
     #[inline(always)]
@@ -49,7 +54,7 @@ impl Ode<4> for DirectDrive {
     fn rhs<R: Lanes>(&self, c: &Constants<R>, drive: &Driven<R>, side: R, y: &[R; 4]) -> [R; 4] {
         let prescribed = self.source.prescribes_stroke();
         let at = if prescribed { on_stroke(drive, y) } else { *y };
-        let balance = balance(c, side, &at);
+        let balance = balance(c, self.flow, side, &at);
         if prescribed {
             balance.prescribed(y, drive, c.waveform.rate)
         } else {
@@ -59,7 +64,11 @@ impl Ode<4> for DirectDrive {
 
     #[inline(always)]
     fn switch<R: Lanes>(&self, c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) -> [R; 2] {
-        mean_velocity(c, y, dy)
+        match self.flow {
+            FlowDirection::Uniform => mean_velocity(c, y, dy),
+            // A function that never changes its sign.
+            FlowDirection::Blade => [y[0].lit(1.0), y[0].lit(0.0)],
+        }
     }
 }
 
@@ -201,7 +210,10 @@ impl Model<4, 9> for DirectDrive {
 
     fn variant(&self, values: &[f64]) -> DirectDrive {
         let params = Params::from_values(values);
-        DirectDrive { source: self.source.of_point(params.drive_shape, params.stroke_mode) }
+        DirectDrive {
+            source: self.source.of_point(params.drive_shape, params.stroke_mode),
+            flow: params.flow_direction,
+        }
     }
 
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
@@ -219,7 +231,7 @@ impl Model<4, 9> for DirectDrive {
 
     fn chirped(&self, c: &Constants<f64>, frequency: f64, rate: f64) -> (DirectDrive, Constants<f64>) {
         (
-            DirectDrive { source: self.source.chirped() },
+            DirectDrive { source: self.source.chirped(), flow: self.flow },
             Constants { waveform: Waveform::chirp(frequency, rate), ..*c },
         )
     }
@@ -242,7 +254,7 @@ impl Model<4, 9> for DirectDrive {
         let (y, dy) = if prescribed { (&on_stroke(drive, y), &on_stroke_rates(drive, dy)) } else { (y, dy) };
         let [phi, psi, phi_dot, psi_dot] = *y;
         let (sin, cos) = psi.sin_cos();
-        let air = aerodynamics(c, side, y, sin, cos);
+        let air = aerodynamics(c, self.flow, side, y, sin, cos);
         let added = added_mass(c, sin, cos, dy);
         // A prescribed stroke knows nothing of what the actuator does.
         let current = if prescribed { phi.lit(f64::NAN) } else { current(c, drive, phi_dot) };
@@ -265,12 +277,12 @@ impl Model<4, 9> for DirectDrive {
         let [velocity, _] = mean_velocity(c, &y, &dy);
         let side = 1.0_f64.copysign(velocity);
         let [value, rate, bend] = stroke;
-        let prescribed = DirectDrive { source: Source::PRESCRIBED };
+        let prescribed = DirectDrive { source: Source::PRESCRIBED, ..self.clone() };
         (y, prescribed.signals(c, &Driven { value, rate, bend }, side, &y, &dy))
     }
 
     fn sampled(&self, samples: Samples) -> DirectDrive {
-        DirectDrive { source: self.source.sampled(samples) }
+        DirectDrive { source: self.source.sampled(samples), ..self.clone() }
     }
 
     fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; 9]) -> Vec<f64> {
@@ -312,7 +324,11 @@ impl Model<4, 9> for DirectDrive {
         let [_, [m12, m22]] = DirectDrive::mass_at_rest(c);
         let waveform = Waveform { rate: 0.0, ..c.waveform };
         let still = Constants { drive_bias: 0.0, drive_amplitude: 0.0, waveform, ..*c };
-        (DirectDrive { source: Source::SINE }, still, [0.0, 0.0, stroke_rate, -(m12 / m22) * stroke_rate])
+        (
+            DirectDrive { source: Source::SINE, ..self.clone() },
+            still,
+            [0.0, 0.0, stroke_rate, -(m12 / m22) * stroke_rate],
+        )
     }
 }
 

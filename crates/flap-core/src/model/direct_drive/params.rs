@@ -38,7 +38,7 @@ crate::parameters! {
         mean_chord: f64 = ("m", "c", Number(Positive)),
         /// Distance from the stroke axis to the wing's root. Not given in the paper.
         wing_offset: Option<f64> = ("m", "x_r", Following(Any, "half of actuator_length: the stroke axis is at mid-actuator")),
-        /// Chord at half the wing's length. Not given in the paper.
+        /// Chord at half the wing's length. Not given in the paper. For flow_direction = "uniform".
         midspan_chord: Option<f64> = ("m", "c(R/2)", Following(Positive, "mean_chord")),
         /// Wing mass.
         wing_mass: f64 = ("kg", "M_w", Number(Positive)),
@@ -57,7 +57,15 @@ crate::parameters! {
         /// Stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "k_w", Number(Positive)),
 
-        /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22).
+        /// Direction of flow that the translational forces follow: that of the wing's mean velocity, one for the whole wing as in the paper, or that of each blade element's own velocity. With "blade" the shape moments, rotation_moment and midspan_chord are computed from the chord shape, and what is given for them is not used.
+        flow_direction: FlowDirection = ("", "", Choice(&["uniform", "blade"])),
+        /// Chord shape: coefficient of the Legendre polynomial P_1(2r/R - 1) in chord / mean_chord, whose constant term is 1; not in the paper: fitted to its shape moments. Only for flow_direction = "blade".
+        chord_legendre_1: f64 = ("", "a_1", Number(Any)),
+        /// Chord shape: coefficient of the Legendre polynomial P_2; not in the paper.
+        chord_legendre_2: f64 = ("", "a_2", Number(Any)),
+        /// Chord shape: coefficient of the Legendre polynomial P_3; not in the paper.
+        chord_legendre_3: f64 = ("", "a_3", Number(Any)),
+        /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22). All shape moments are for flow_direction = "uniform".
         shape_moment_03: f64 = ("", "I_w0,3", Number(Positive)),
         /// Wing shape moment: normalised integral of chord^4.
         shape_moment_04: f64 = ("", "I_w0,4", Number(Positive)),
@@ -71,7 +79,7 @@ crate::parameters! {
         shape_moment_22: f64 = ("", "I_w2,2", Number(Positive)),
         /// Wing shape moment: normalised integral of radius^3 * chord.
         shape_moment_31: f64 = ("", "I_w3,1", Number(Positive)),
-        /// Moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord, averaged along the span.
+        /// Moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord, averaged along the span. For flow_direction = "uniform".
         rotation_moment: f64 = ("m^4", "I_rd", Number(NonNegative)),
 
         /// Actuator length.
@@ -122,6 +130,26 @@ crate::parameters! {
         added_mass: AddedMass = ("", "", Choice(&["paper", "lagrangian"])),
         /// Sign of the added-mass part of lift, Eq. (35): corrected, or as printed.
         lift_sign: LiftSign = ("", "", Choice(&["corrected", "printed"])),
+    }
+}
+
+/// Which way the air flows over the wing while it reverses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FlowDirection {
+    /// One way for the whole wing: that of its mean velocity. The paper's.
+    #[default]
+    Uniform,
+    /// Over each blade element by its own velocity.
+    Blade,
+}
+
+impl Slot for FlowDirection {
+    fn from_value(value: f64) -> Self {
+        if value == 1.0 { FlowDirection::Blade } else { FlowDirection::Uniform }
+    }
+
+    fn to_value(&self) -> f64 {
+        f64::from(*self as u8)
     }
 }
 
@@ -242,6 +270,10 @@ impl Params {
             wing_inertia_product: 3.62e-13,
             leading_edge_inertia: 3.89e-9,
             hinge_stiffness: 1.48e-4,
+            flow_direction: FlowDirection::Uniform,
+            chord_legendre_1: 0.0562,
+            chord_legendre_2: -0.0913,
+            chord_legendre_3: 0.176,
             shape_moment_03: 1.02,
             shape_moment_04: 1.04,
             shape_moment_12: 0.88,
@@ -291,6 +323,9 @@ impl Params {
             wing_inertia_product: 7.12e-12,
             leading_edge_inertia: 1.47e-8,
             hinge_stiffness: 8.64e-5,
+            chord_legendre_1: -0.212,
+            chord_legendre_2: -0.3696,
+            chord_legendre_3: 0.0482,
             shape_moment_03: 1.12,
             shape_moment_04: 1.23,
             shape_moment_12: 0.84,
@@ -306,6 +341,11 @@ impl Params {
             // Materials and air are those of the small type.
             ..Params::ozaki2018_small()
         }
+    }
+
+    /// Distance from the stroke axis to the wing's root x_r (m).
+    pub(super) fn root_radius(&self) -> f64 {
+        self.wing_offset.unwrap_or(0.5 * self.actuator_length)
     }
 
     /// Constant part and amplitude of what is driven: the voltage (V), or the prescribed stroke (rad).

@@ -8,6 +8,7 @@
 use core::f64::consts::FRAC_PI_2;
 
 use super::constants::Constants;
+use super::params::FlowDirection;
 use crate::drive::Driven;
 use crate::model::Balance;
 use crate::num::Real;
@@ -30,15 +31,22 @@ pub struct Aerodynamics<R> {
 /// Aerodynamic forces and moments but for the added mass, (21)–(27), (32).
 ///
 /// ```text
-/// w = ψ̇ cos ψ     ū = X̄ φ̇ − ½ c_mid w     σ = sign ū
-/// C_L = K_L sin 2ψ     C_D = ½(C_Dmax + C_Dmin) + ½(C_Dmax − C_Dmin) cos 2ψ     C_N = C_L sin ψ + C_D cos ψ
-/// F_Lift = ½ρA_w C_L B_L σ     M_y = −½ρA_w R C_D B_Y σ     M_x′ = ½ρA_w c̄ C_N d_cp B_X σ
-/// B_L, B_Y, B_X: quadratic forms in φ̇ and w     d_cp = (0.82/π) α_d + 0.05
+/// w = ψ̇ cos ψ     C_L = K_L sin 2ψ     C_N = C_L sin ψ + C_D cos ψ
+/// C_D = ½(C_Dmax + C_Dmin) + ½(C_Dmax − C_Dmin) cos 2ψ
+/// F_Lift = C_L ∫ q dr     M_y = −C_D ∫ q X dr     M_x′ = C_N ∫ q c d_cp dr     q = ½ρ c u|u|
 /// ```
 ///
-/// `side` is σ, the sign of the wing's mean velocity [`mean_velocity`].
+/// Whose direction u|u| and d_cp follow is what `flow` says. `side` is σ, the
+/// sign of the wing's [`mean_velocity`].
 #[inline(always)]
-pub fn aerodynamics<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], sin: R, cos: R) -> Aerodynamics<R> {
+pub fn aerodynamics<R: Real>(
+    c: &Constants<R>,
+    flow: FlowDirection,
+    side: R,
+    y: &[R; 4],
+    sin: R,
+    cos: R,
+) -> Aerodynamics<R> {
     let [_, psi, phi_dot, psi_dot] = *y;
     let w = psi_dot * cos;
 
@@ -48,21 +56,67 @@ pub fn aerodynamics<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], sin: R, cos:
     let c_drag = c.drag_mean + c.drag_swing * cos_2psi;
     let c_normal = c_lift * sin + c_drag * cos;
 
-    // Quadratic forms in the two rates, with the direction of the flow.
+    let pressure = match flow {
+        FlowDirection::Uniform => uniform_flow(c, side, psi, phi_dot, w),
+        FlowDirection::Blade => blade_flow(c, psi, phi_dot, w),
+    };
+    Aerodynamics {
+        lift: c_lift * pressure.force,
+        drag: c_drag * pressure.force,
+        stroke_moment: -(c_drag * pressure.stroke),
+        pitch_moment: c_normal * pressure.pitch,
+        rotation_moment: -(c.rotation * psi_dot * psi_dot.abs()),
+    }
+}
+
+/// The dynamic pressure q = ½ρ c u|u| along the span.
+struct Pressure<R> {
+    /// ∫ q dr (N).
+    force: R,
+    /// ∫ q X dr (N·m).
+    stroke: R,
+    /// ∫ q c d_cp dr (N·m).
+    pitch: R,
+}
+
+/// One direction of flow for the whole wing, σ, as in the paper.
+///
+/// ```text
+/// ∫ q dr = ½ρA_w B_L σ     ∫ q X dr = ½ρA_w R B_Y σ     ∫ q c d_cp dr = ½ρA_w c̄ d_cp(σ) B_X σ
+/// B_L, B_Y, B_X: quadratic forms in φ̇ and w
+/// ```
+#[inline(always)]
+fn uniform_flow<R: Real>(c: &Constants<R>, side: R, psi: R, phi_dot: R, w: R) -> Pressure<R> {
     let pp = phi_dot * phi_dot * side;
     let pw = phi_dot * w * side;
     let ww = w * w * side;
-    let force = c.lift_pp * pp + c.lift_pw * pw + c.lift_ww * ww;
-    let stroke = c.stroke_pp * pp + c.stroke_pw * pw + c.stroke_ww * ww;
     let pitch = c.pitch_pp * pp + c.pitch_pw * pw + c.pitch_ww * ww;
+    Pressure {
+        force: c.lift_pp * pp + c.lift_pw * pw + c.lift_ww * ww,
+        stroke: c.stroke_pp * pp + c.stroke_pw * pw + c.stroke_ww * ww,
+        pitch: centre_of_pressure(c, psi, side) * pitch,
+    }
+}
 
-    let d_cp = c.pressure_slope * attack(c, psi, side) + c.pressure_offset;
-    Aerodynamics {
-        lift: c_lift * force,
-        drag: c_drag * force,
-        stroke_moment: -(c_drag * stroke),
-        pitch_moment: c_normal * d_cp * pitch,
-        rotation_moment: -(c.rotation * psi_dot * psi_dot.abs()),
+/// A direction of flow for each blade element, its own.
+///
+/// ```text
+/// u = X φ̇ − ½ c w
+/// ∫ q c d_cp dr = ½ (d_cp(+) + d_cp(−)) ∫ q c dr + ½ (d_cp(+) − d_cp(−)) ∫ |q| c dr     ∫ |q| c dr = ½ρA_w c̄ B_X
+/// ```
+///
+/// Where an element's velocity changes its direction it is zero: nothing jumps, and there is no `side`.
+#[inline(always)]
+fn blade_flow<R: Real>(c: &Constants<R>, psi: R, phi_dot: R, w: R) -> Pressure<R> {
+    let sums = c.blades.sums(phi_dot, w);
+    let undirected = (c.pitch_pp * phi_dot + c.pitch_pw * w) * phi_dot + c.pitch_ww * w * w;
+    let one = psi.lit(1.0);
+    let forth = centre_of_pressure(c, psi, one);
+    let back = centre_of_pressure(c, psi, -one);
+    Pressure {
+        force: sums.force,
+        stroke: sums.radius,
+        pitch: ((forth + back) * sums.chord + (forth - back) * undirected) * 0.5,
     }
 }
 
@@ -81,13 +135,18 @@ pub fn mean_velocity<R: Real>(c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) -> [R; 
     [velocity, rate]
 }
 
-/// The attack angle α_d (rad) that moves the centre of pressure (24), in the reading that `c` asks for.
+/// The centre of pressure d_cp (chords) in a flow of direction `side`, (24), in the reading that `c` asks for.
+///
+/// ```text
+/// d_cp = (0.82/π) α_d + 0.05
+/// ```
 #[inline(always)]
-fn attack<R: Real>(c: &Constants<R>, psi: R, side: R) -> R {
+fn centre_of_pressure<R: Real>(c: &Constants<R>, psi: R, side: R) -> R {
     let tilt = c.attack_directional * side * psi + c.attack_folded * psi.abs() + c.attack_literal * psi;
     let attack = -tilt + FRAC_PI_2;
     // |α|, but for the folded reading, which is signed.
-    R::select(c.attack_folded.lt(attack.lit(0.5)), attack.abs(), attack)
+    let attack = R::select(c.attack_folded.lt(attack.lit(0.5)), attack.abs(), attack);
+    c.pressure_slope * attack + c.pressure_offset
 }
 
 /// Mass matrix and generalised forces but the actuator's, from Lagrange's equations (3)–(18) with the added mass
@@ -103,10 +162,10 @@ fn attack<R: Real>(c: &Constants<R>, psi: R, side: R) -> R {
 ///
 /// The Lagrangian form of the added mass adds ψ̇ e to Q₁ and −φ̇ e to Q₂, e = (a₁₁ φ̇ c − a₁₂ ψ̇) s.
 #[inline(always)]
-pub fn balance<R: Real>(c: &Constants<R>, side: R, y: &[R; 4]) -> Balance<R> {
+pub fn balance<R: Real>(c: &Constants<R>, flow: FlowDirection, side: R, y: &[R; 4]) -> Balance<R> {
     let [phi, psi, phi_dot, psi_dot] = *y;
     let (sin, cos) = psi.sin_cos();
-    let air = aerodynamics(c, side, y, sin, cos);
+    let air = aerodynamics(c, flow, side, y, sin, cos);
 
     let both = phi_dot * psi_dot;
     let gyroscopic = c.gyroscopic * (c.a11 * phi_dot * cos - c.a12 * psi_dot) * sin;

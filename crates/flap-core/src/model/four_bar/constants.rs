@@ -6,13 +6,16 @@
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::params::{AddedMassSign, Arms, Params, Quadrature};
-use super::strips::{MAX_STRIPS, Strip, Strips};
+use crate::aero::{Cut, Strips, sum};
 use crate::drive::Waveform;
 use crate::linkage::{FourBar, LinkInertias, LinkLengths, SliderCrank};
 use crate::num::PerLane;
 use crate::parameter::Invalid;
 use crate::piezo::{Layer, TipResponse, Unimorph};
 use crate::quadrature::{gauss_legendre, midpoints};
+
+/// The largest number of strips.
+pub const MAX_STRIPS: usize = 64;
 
 crate::per_lane! {
     /// The drive voltage (V), or the prescribed stroke (rad).
@@ -135,7 +138,7 @@ crate::per_lane! {
         /// Aerodynamics of the whole wing.
         pub air: Air<R>,
         /// The wing's strips.
-        pub strips: Strips<R>,
+        pub strips: Strips<R, MAX_STRIPS>,
     }
 }
 
@@ -156,7 +159,7 @@ impl Constants<f64> {
             links: link_inertias(p),
             wing: wing(p, &cuts),
             air: air(p, &cuts),
-            strips: strips(p, &cuts),
+            strips: Strips::new(&cuts, p.air_density, arms(p)[0]),
         };
         constants.checked()
     }
@@ -179,13 +182,6 @@ impl Constants<f64> {
             ))
         }
     }
-}
-
-/// Where a strip is and what it measures (m).
-struct Cut {
-    radius: f64,
-    chord: f64,
-    width: f64,
 }
 
 /// Cuts the wing into strips.
@@ -221,11 +217,6 @@ fn cut(p: &Params) -> Result<Vec<Cut>, Invalid> {
         ))),
         None => Ok(cuts),
     }
-}
-
-/// Σ f(r, c) Δr over the strips.
-fn sum(cuts: &[Cut], f: impl Fn(f64, f64) -> f64) -> f64 {
-    cuts.iter().map(|cut| f(cut.radius, cut.chord) * cut.width).sum()
 }
 
 /// Actuator and series spring [(1), (2)].
@@ -349,22 +340,4 @@ fn air(p: &Params, cuts: &[Cut]) -> Air<f64> {
         added_stroke: added * sum(cuts, |r, c| r * c * c),
         added_pitch: pitch_sign * added * (0.5 - p.axis_position) * sum(cuts, |_, c| c * c * c),
     }
-}
-
-/// The strips for the sums that depend on each strip's direction of flow.
-fn strips(p: &Params, cuts: &[Cut]) -> Strips<f64> {
-    let [kappa, _] = arms(p);
-    let strips: Vec<Strip<f64>> = cuts
-        .iter()
-        .map(|cut| {
-            let weight = (0.5 * p.air_density * cut.chord * cut.width).sqrt();
-            Strip {
-                stroke: weight * cut.radius,
-                sweep: weight * kappa * cut.chord,
-                radius: cut.radius,
-                chord: cut.chord,
-            }
-        })
-        .collect();
-    Strips::new(&strips)
 }

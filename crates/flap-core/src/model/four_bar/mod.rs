@@ -12,14 +12,12 @@ mod composite;
 mod constants;
 mod params;
 mod rhs;
-mod strips;
 
 pub use aerodynamics::{Aerodynamics, added_mass_lift, aerodynamics, coefficients, side_of};
 pub use composite::Composite;
-pub use constants::{Actuator, Air, Constants, Drive, Wing};
+pub use constants::{Actuator, Air, Constants, Drive, MAX_STRIPS, Wing};
 pub use params::{AddedMassSign, Arms, Params, Quadrature};
 pub use rhs::{Transmission, balance, current, force, mass_matrix, tip, transmission};
-pub use strips::{MAX_STRIPS, Strip, StripSums, Strips};
 
 use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use super::convert::{DEGREES, GRAVITY, wrap_degrees};

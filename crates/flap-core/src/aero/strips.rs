@@ -1,0 +1,121 @@
+//! The wing as a row of strips, and the sums over them.
+
+use crate::num::{Lanes, PerLane, Real};
+
+/// Where a strip is and what it measures (m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cut {
+    /// Distance from the stroke axis r.
+    pub radius: f64,
+    /// Chord c.
+    pub chord: f64,
+    /// Width along the span Δr.
+    pub width: f64,
+}
+
+/// Σ f(r, c) Δr over the strips.
+pub fn sum(cuts: &[Cut], f: impl Fn(f64, f64) -> f64) -> f64 {
+    cuts.iter().map(|cut| f(cut.radius, cut.chord) * cut.width).sum()
+}
+
+crate::per_lane! {
+    /// One strip of width Δr at the radius r, where the chord is c. With a = ½ρcΔr:
+    pub struct Strip<R> {
+        /// Velocity per stroke rate, weighted: √a r.
+        pub stroke: R,
+        /// Velocity per sweep rate, weighted: √a κc.
+        pub sweep: R,
+        /// Radius r (m).
+        pub radius: R,
+        /// Chord c (m).
+        pub chord: R,
+    }
+}
+
+/// The strips of a wing, of which there are at most `MAX`.
+///
+/// All lanes run through as many strips as the one that has the most. What a lane has too many weighs nothing:
+/// it adds zeros, which change no bit of its sums.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strips<R, const MAX: usize> {
+    count: usize,
+    strips: [Strip<R>; MAX],
+}
+
+impl<const MAX: usize> Strips<f64, MAX> {
+    /// The strips of a wing in air of a density (kg/m³); at most `MAX`. The velocity is taken κ chords (`lever`)
+    /// from the axis of pitch.
+    pub fn new(cuts: &[Cut], air_density: f64, lever: f64) -> Strips<f64, MAX> {
+        let mut strips = [Strip { stroke: 0.0, sweep: 0.0, radius: 0.0, chord: 0.0 }; MAX];
+        for (strip, cut) in strips.iter_mut().zip(cuts) {
+            let weight = (0.5 * air_density * cut.chord * cut.width).sqrt();
+            *strip = Strip {
+                stroke: weight * cut.radius,
+                sweep: weight * lever * cut.chord,
+                radius: cut.radius,
+                chord: cut.chord,
+            };
+        }
+        Strips { count: cuts.len().min(MAX), strips }
+    }
+}
+
+/// Sums over the strips of ½ρ u|u| c Δr, where u is the strip's velocity.
+#[derive(Clone, Copy, Debug)]
+pub struct StripSums<R> {
+    /// Σ ½ρ u|u| c Δr (N).
+    pub force: R,
+    /// Σ r ½ρ u|u| c Δr (N·m).
+    pub radius: R,
+    /// Σ c ½ρ u|u| c Δr (N·m).
+    pub chord: R,
+}
+
+impl<R: Real, const MAX: usize> Strips<R, MAX> {
+    /// The sums at a stroke rate and a sweep rate, which is the pitch rate times the cosine of the pitch.
+    ///
+    /// ```text
+    /// u = r · stroke rate + κ c · sweep rate
+    /// ```
+    ///
+    /// As every term carries u|u|, the sums serve both directions of flow at once, strip by strip.
+    #[inline(always)]
+    pub fn sums(&self, stroke_rate: R, sweep_rate: R) -> StripSums<R> {
+        let zero = stroke_rate.lit(0.0);
+        let mut sums = StripSums { force: zero, radius: zero, chord: zero };
+        for i in 0..self.count.min(MAX) {
+            let strip = &self.strips[i];
+            let u = strip.stroke.mul_add(stroke_rate, strip.sweep * sweep_rate);
+            let force = u * u.abs();
+            sums.force = sums.force + force;
+            sums.radius = strip.radius.mul_add(force, sums.radius);
+            sums.chord = strip.chord.mul_add(force, sums.chord);
+        }
+        sums
+    }
+}
+
+impl<R: Lanes, const MAX: usize> PerLane<R> for Strips<R, MAX> {
+    type One = Strips<f64, MAX>;
+
+    #[inline(always)]
+    fn fill(token: R::Token, one: &Self::One) -> Self {
+        Strips { count: one.count, strips: PerLane::fill(token, &one.strips) }
+    }
+
+    #[inline(always)]
+    fn set(&mut self, lane: usize, one: &Self::One) {
+        self.count = self.count.max(one.count);
+        self.strips.set(lane, &one.strips);
+    }
+
+    #[inline(always)]
+    fn get(&self, lane: usize) -> Self::One {
+        Strips { count: self.count, strips: self.strips.get(lane) }
+    }
+
+    #[inline(always)]
+    fn is_finite(one: &Self::One) -> bool {
+        <[Strip<R>; MAX] as PerLane<R>>::is_finite(&one.strips)
+    }
+}

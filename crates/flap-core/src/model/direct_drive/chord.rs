@@ -1,0 +1,74 @@
+//! The chord along the span, which the paper does not give: blade elements and shape moments.
+
+use super::params::{FlowDirection, Params};
+use crate::aero::{Cut, Strips, sum};
+use crate::parameter::Invalid;
+use crate::quadrature::gauss_legendre;
+
+/// Number of blade elements. At the nodes of the Gauss-Legendre rule, 8 give the shape moments of a cubic chord
+/// exactly, and a settled motion within 1e-5 of that of 64.
+pub const BLADES: usize = 8;
+
+impl Params {
+    /// These parameters with the shape moments (22), (33) and the midspan chord of the chord shape.
+    #[must_use]
+    pub fn with_chord_moments(self) -> Params {
+        let cuts = cut(&self);
+        let (length, mean) = (self.wing_length, self.mean_chord);
+        let moment = |f: fn(f64, f64) -> f64| sum(&cuts, |r, c| f(r / length, c / mean)) / length;
+        let fourth = moment(|_, c| c * c * c * c);
+        Params {
+            midspan_chord: Some(self.chord(0.5)),
+            shape_moment_03: moment(|_, c| c * c * c),
+            shape_moment_04: fourth,
+            shape_moment_12: moment(|r, c| r * c * c),
+            shape_moment_13: moment(|r, c| r * c * c * c),
+            shape_moment_21: moment(|r, c| r * r * c),
+            shape_moment_22: moment(|r, c| r * r * c * c),
+            shape_moment_31: moment(|r, c| r * r * r * c),
+            rotation_moment: 0.25 * mean * mean * mean * mean * fourth,
+            ..self
+        }
+    }
+
+    /// The chord (m) at `span` wing lengths from the root.
+    ///
+    /// ```text
+    /// c = c̄ (1 + a₁ P₁(z) + a₂ P₂(z) + a₃ P₃(z))     z = 2 span − 1
+    /// ```
+    fn chord(&self, span: f64) -> f64 {
+        let z = 2.0 * span - 1.0;
+        let [p_1, p_2, p_3] = [z, 0.5 * (3.0 * z * z - 1.0), 0.5 * z * (5.0 * z * z - 3.0)];
+        let shape =
+            1.0 + self.chord_legendre_1 * p_1 + self.chord_legendre_2 * p_2 + self.chord_legendre_3 * p_3;
+        self.mean_chord * shape
+    }
+}
+
+/// The blade elements, whose velocity is that of the mid-chord; none where the flow has one direction.
+pub(super) fn blades(p: &Params) -> Result<Strips<f64, BLADES>, Invalid> {
+    let cuts = match p.flow_direction {
+        FlowDirection::Uniform => Vec::new(),
+        FlowDirection::Blade => cut(p),
+    };
+    match cuts.iter().find(|cut| cut.chord < 0.0) {
+        Some(cut) => Err(Invalid::new(format!(
+            "the chord is negative {} m from the stroke axis: chord_legendre_1 to chord_legendre_3 do not describe a \
+             wing",
+            cut.radius
+        ))),
+        None => Ok(Strips::new(&cuts, p.air_density, -0.5)),
+    }
+}
+
+/// Cuts the wing into blade elements.
+fn cut(p: &Params) -> Vec<Cut> {
+    gauss_legendre(BLADES)
+        .iter()
+        .map(|node| Cut {
+            radius: p.root_radius() + p.wing_length * node.x,
+            chord: p.chord(node.x),
+            width: p.wing_length * node.weight,
+        })
+        .collect()
+}

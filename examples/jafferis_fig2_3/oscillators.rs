@@ -1,0 +1,133 @@
+//! The three oscillators of Fig. 2, as equations of one's own for flap's integrator.
+//!
+//! Stroke x and hinge angle ψ in radians, the time in units of 1/ω₀, ω₀ being the undamped resonance: all numbers are
+//! ratios. A force F sin ωt drives each of them.
+
+use flap_core::num::Lanes;
+use flap_core::ode::Ode;
+
+use super::coefficients::FIG_3;
+
+// What a run keeps fixed. The macro makes a struct of numbers `R`: scalars, or one number per SIMD lane.
+flap_core::per_lane! {
+    /// The drive and the damping of an oscillator.
+    pub struct Drive<R> {
+        /// Amplitude F of the force.
+        pub force: R,
+        /// Frequency ω over the undamped resonance.
+        pub frequency: R,
+        /// Damping coefficient of the stroke.
+        pub damping: R,
+    }
+}
+
+/// The force at time `t`: what depends on time alone is computed apart from the state.
+#[inline(always)]
+fn force<R: Lanes>(c: &Drive<R>, t: R) -> R {
+    c.force * (c.frequency * t).sin()
+}
+
+/// (i) Damping in proportion to the speed.
+///
+/// ```text
+/// ẍ + x + d ẋ = F sin ωt
+/// ```
+pub(crate) struct Linear;
+
+impl Ode<2> for Linear {
+    type Constants<R: Lanes> = Drive<R>;
+    type Input<R: Lanes> = R;
+
+    #[inline(always)]
+    fn input<R: Lanes>(&self, c: &Drive<R>, t: R) -> R {
+        force(c, t)
+    }
+
+    #[inline(always)]
+    fn rhs<R: Lanes>(&self, c: &Drive<R>, force: &R, _side: R, y: &[R; 2]) -> [R; 2] {
+        let [x, x_dot] = *y;
+        [x_dot, *force - x - c.damping * x_dot]
+    }
+}
+
+/// (ii) Damping by the drag of a wing that is held at one hinge angle.
+///
+/// ```text
+/// ẍ + x + d C_D |ẋ|ẋ = F sin ωt
+/// ```
+pub(crate) struct HeldWing {
+    /// Drag coefficient C_D.
+    pub(crate) drag: f64,
+}
+
+impl HeldWing {
+    /// A wing at a hinge angle (deg).
+    pub(crate) fn at(degrees: f64) -> HeldWing {
+        HeldWing { drag: FIG_3.drag((2.0 * degrees).to_radians().cos()) }
+    }
+}
+
+impl Ode<2> for HeldWing {
+    type Constants<R: Lanes> = Drive<R>;
+    type Input<R: Lanes> = R;
+
+    #[inline(always)]
+    fn input<R: Lanes>(&self, c: &Drive<R>, t: R) -> R {
+        force(c, t)
+    }
+
+    #[inline(always)]
+    fn rhs<R: Lanes>(&self, c: &Drive<R>, force: &R, _side: R, y: &[R; 2]) -> [R; 2] {
+        let [x, x_dot] = *y;
+        [x_dot, *force - x - c.damping * self.drag * x_dot.abs() * x_dot]
+    }
+}
+
+/// (iii) Damping by the drag of a wing that turns on its hinge, Eqs. (1) and (2).
+///
+/// ```text
+/// ẍ + x + d C_D(ψ) |ẋ|ẋ = F sin ωt
+/// ψ̈ + k ψ + c |ψ̇|ψ̇ = m (C_D cos ψ + C_L sin ψ) |ẋ|ẋ + j ẍ cos ψ + ½ ẋ² sin 2ψ
+/// ```
+pub(crate) struct TurningWing {
+    /// Stiffness k of the hinge over the wing's inertia.
+    pub(crate) stiffness: f64,
+    /// Damping c of the hinge.
+    pub(crate) damping: f64,
+    /// Moment m of the air.
+    pub(crate) moment: f64,
+    /// Coupling inertia j over the wing's inertia.
+    pub(crate) coupling: f64,
+}
+
+/// Ratios as of Table I, in round numbers.
+pub(crate) const TABLE_I: TurningWing =
+    TurningWing { stiffness: 2.15, damping: 0.32, moment: 1.1, coupling: 0.66 };
+
+/// The stroke's damping with a drag coefficient of 1, as of Table I.
+pub(crate) const DAMPING: f64 = 0.67;
+
+impl Ode<4> for TurningWing {
+    type Constants<R: Lanes> = Drive<R>;
+    type Input<R: Lanes> = R;
+
+    #[inline(always)]
+    fn input<R: Lanes>(&self, c: &Drive<R>, t: R) -> R {
+        force(c, t)
+    }
+
+    #[inline(always)]
+    fn rhs<R: Lanes>(&self, c: &Drive<R>, force: &R, _side: R, y: &[R; 4]) -> [R; 4] {
+        let [x, psi, x_dot, psi_dot] = *y;
+        let (sin, cos) = psi.sin_cos();
+        let pressure = x_dot.abs() * x_dot;
+        let drag = FIG_3.drag(cos * cos * 2.0 - 1.0);
+        let x_ddot = *force - x - c.damping * drag * pressure;
+        let psi_ddot = FIG_3.normal(sin, cos) * pressure * self.moment
+            + x_ddot * cos * self.coupling
+            + x_dot * x_dot * sin * cos
+            - psi * self.stiffness
+            - psi_dot.abs() * psi_dot * self.damping;
+        [x_dot, psi_dot, x_ddot, psi_ddot]
+    }
+}

@@ -1,0 +1,100 @@
+//! Amplitudes of settled motions: the curves of Fig. 2.
+
+use std::f64::consts::TAU;
+use std::ops::ControlFlow;
+
+use flap_core::measure::strobe::Strobe;
+use flap_core::ode::dense::interpolate;
+use flap_core::ode::solve::solve;
+use flap_core::ode::{Ode, Start, Tolerances};
+
+use super::oscillators::Drive;
+
+const TOLERANCES: Tolerances = Tolerances { rtol: 1e-6, atol: 1e-8, max_steps: 10_000 };
+
+/// A change of the state from period to period that counts as none.
+const SETTLED: f64 = 1e-4;
+
+/// Periods after which a motion is taken as it is.
+const PATIENCE: u32 = 400;
+
+/// Frequencies of the curves, as ratios to the undamped resonance.
+pub(crate) fn frequencies() -> impl Iterator<Item = f64> {
+    (50..=140).map(|percent| f64::from(percent) / 100.0)
+}
+
+/// A point of a response curve.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Response {
+    /// Frequency over the undamped resonance.
+    pub(crate) frequency: f64,
+    /// Amplitude of the stroke per force.
+    pub(crate) stroke: f64,
+    /// Amplitude of the second state: of the hinge angle (rad), where there is one.
+    pub(crate) second: f64,
+}
+
+/// The response of an oscillator to a force, over the frequency.
+pub(crate) fn response<O, const N: usize>(ode: &O, force: f64, damping: f64) -> Vec<Response>
+where
+    O: Ode<N, Constants<f64> = Drive<f64>>,
+{
+    frequencies()
+        .map(|frequency| {
+            let amplitudes = settled_amplitudes(ode, Drive { force, frequency, damping });
+            Response { frequency, stroke: amplitudes[0] / force, second: amplitudes[1] }
+        })
+        .collect()
+}
+
+/// Amplitudes of the states once the motion repeats with every period of the drive.
+fn settled_amplitudes<O, const N: usize>(ode: &O, constants: Drive<f64>) -> [f64; N]
+where
+    O: Ode<N, Constants<f64> = Drive<f64>>,
+{
+    // A run starts from rest and is cut into spans of one drive period.
+    let mut start = Start { constants, y: [0.0; N], span: TAU / constants.frequency, scale: [1.0; N] };
+    let mut strobe = Strobe::new(&start.y, &start.scale, SETTLED);
+    solve::<O, f64, N>(
+        ode,
+        &TOLERANCES,
+        &start,
+        |_, _| {},
+        |y| {
+            if strobe.period_end(y).is_some() || strobe.cycles() == PATIENCE {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        },
+    );
+
+    // One period more, in which every step is looked at closely.
+    start.y = *strobe.state();
+    let (mut least, mut most) = (start.y, start.y);
+    solve::<O, f64, N>(
+        ode,
+        &TOLERANCES,
+        &start,
+        |_, accepted| {
+            for part in 1..=8 {
+                let y = interpolate(accepted.step, accepted.h, 0.125 * f64::from(part));
+                for i in 0..N {
+                    least[i] = least[i].min(y[i]);
+                    most[i] = most[i].max(y[i]);
+                }
+            }
+        },
+        |_| ControlFlow::Break(()),
+    );
+    std::array::from_fn(|i| 0.5 * (most[i] - least[i]))
+}
+
+/// The points of a curve at which the stroke is larger than at both neighbours.
+pub(crate) fn peaks(curve: &[Response]) -> Vec<Response> {
+    curve
+        .windows(3)
+        .filter(|three| three[1].stroke > three[0].stroke && three[1].stroke > three[2].stroke)
+        .map(|three| three[1])
+        .collect()
+}
