@@ -4,6 +4,7 @@ mod control;
 mod lift;
 mod resonance;
 mod reynolds;
+mod rotation;
 
 use flap_core::model::four_bar::Params;
 
@@ -20,6 +21,14 @@ pub(crate) const PAPER: Paper = Paper {
               were chosen, which is weak evidence.",
     groups: &[
         Group { title: "Resonances", preface: "", quick: false, claims: resonance::claims },
+        Group {
+            title: "Resonances of small motions",
+            preface: "Peaks of the spectrum of the first second after an impulse by which the first mode alone, \
+                      undamped, would reach 0.5°. In the paper amplitudes are below 5°, and it is \
+                      the first link of the four-bar that moves, with the stroke.",
+            quick: true,
+            claims: resonance::small_motions,
+        },
         Group { title: "Lift against frequency", preface: "", quick: false, claims: lift::claims },
         Group { title: "Parts of the lift", preface: "", quick: true, claims: lift::parts },
         Group {
@@ -29,7 +38,17 @@ pub(crate) const PAPER: Paper = Paper {
             claims: control::claims,
         },
         Group { title: "Reynolds number", preface: "", quick: true, claims: reynolds::claims },
-        Group { title: "Rotation alone, and magnitudes", preface: "", quick: true, claims: unchecked },
+        Group {
+            title: "Rotation alone",
+            preface: "The stroke is a sinusoid of the measured amplitude, which is not in the text: amplitudes are \
+                      assumed and stated in each row. That arms count from the leading edge, as printed, instead of \
+                      from the axis of rotation, was chosen with such trends in sight. Print says that the full \
+                      simulation underpredicts the stroke by ≈20° peak to peak, then that its larger strokes lift \
+                      more; only the latter agrees with its lift, and is taken.",
+            quick: true,
+            claims: rotation::claims,
+        },
+        Group { title: "Magnitudes", preface: "", quick: true, claims: unchecked },
     ],
 };
 
@@ -80,19 +99,6 @@ fn straightness(points: &[(f64, f64)]) -> f64 {
 }
 
 fn unchecked() -> Vec<Claim> {
-    const PRESCRIBED: &str = "flap drives the actuator; it does not prescribe strokes";
     const SIZES: &str = "it depends on wings and actuators that the paper does not give";
-    vec![
-        said("V-B", "(S) rotation alone, 95 Hz: phase of the pitch behind the stroke", "81°")
-            .cannot_be_checked(PRESCRIBED, ""),
-        said(
-            "V-B, Fig. 10b",
-            "rotation alone, 75 Hz system: added mass lifts twice as much as translation",
-            "2 to 1",
-        )
-        .cannot_be_checked(PRESCRIBED, ""),
-        said("V-B, Fig. 11", "translation lifts eight times as much as with rotation alone", "8")
-            .cannot_be_checked(PRESCRIBED, ""),
-        said("Figs. 7 to 15", "lifts and amplitudes", "drawn").cannot_be_checked(SIZES, ""),
-    ]
+    vec![said("Figs. 7 to 15", "lifts and amplitudes", "drawn").cannot_be_checked(SIZES, "")]
 }

@@ -4,6 +4,7 @@
 
 mod arabagi;
 mod claim;
+mod impulse;
 mod jafferis;
 mod ozaki;
 mod points;
@@ -19,9 +20,10 @@ const PAPERS: [Paper; 3] = [jafferis::PAPER, ozaki::PAPER, arabagi::PAPER];
 const HEAD: &str = "\
 # What the papers say, and what flap computes
 
-Written by `just reproduce`; not to be edited. Every row is a statement of a paper, computed anew with flap's presets,
-settled at `rtol` 1e-7. Responses to frequency have steps of 1 Hz unless a row is finer. A verdict is a rule applied to
-the computed number:
+Written by `just reproduce`; not to be edited. Every row is a statement of a paper, computed anew with flap's presets;
+where the paper leaves a size open, a statement has a row for each size that was tried. `rtol` is 1e-7. Motions are
+driven until they settle, except those after an impulse. Responses to frequency have steps of 1 Hz unless a row is
+finer. A verdict is a rule applied to the computed number:
 
 - *met*: the published number to its rounding, or the statement holds;
 - *met within X %*: off by up to X %, and by no more than 3 % of a resonance or of a number that the paper computed from
@@ -33,7 +35,9 @@ the computed number:
 The four limits are a choice, made with results in sight: they decide where *met within X %* ends, so read X and the
 computed number rather than the word.
 
-Corrections to print and what is assumed: [model.md](model.md), [model-bimorph.md](model-bimorph.md).
+Corrections to print and what is assumed: [model.md](model.md), [model-bimorph.md](model-bimorph.md),
+[model-four-bar.md](model-four-bar.md). How free motions and their frequencies are computed:
+[resonance.md](resonance.md); prescribed strokes: [experiments.md](experiments.md).
 
 ";
 

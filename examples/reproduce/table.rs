@@ -53,7 +53,7 @@ pub(crate) fn paragraph(text: &str) -> String {
 /// How many claims of each paper have which verdict.
 pub(crate) fn summary(papers: &[(&Paper, Vec<Verdict>)]) -> String {
     let mut lines = vec![
-        "| paper | claims | met | met within a share | not reproduced | cannot be checked |".to_owned(),
+        "| paper | rows | met | met within a share | not reproduced | cannot be checked |".to_owned(),
         "|---|---|---|---|---|---|".to_owned(),
     ];
     for (paper, verdicts) in papers {

@@ -3,30 +3,52 @@
 use flap_core::model::direct_drive::Params;
 
 use super::performance::{LARGE, SMALL, efficiency};
-use super::{Type, large, resonance, small};
+use super::resonance::{self, after_an_impulse, largest_stroke_of_large, largest_stroke_of_small};
+use super::{Type, large, small};
 use crate::claim::{Claim, measured, said};
 
 /// Inertia of the small type's leading edge (kg·m²), with one digit of Table A1 changed.
 const LIGHTER: f64 = 3.39e-9;
 
-pub(super) fn claims() -> Vec<Claim> {
-    let swapped_small = Type { params: Params::ozaki2018_small_kw_swapped(), ..small() };
-    let swapped_large = Type { params: Params::ozaki2018_large_kw_swapped(), ..large() };
-    let lighter_small = Type { params: lighter(&small().params), ..small() };
-    let both = Type { params: lighter(&swapped_small.params), ..small() };
+/// Table A1 with one or both changes.
+struct Variants {
+    swapped_small: Type,
+    swapped_large: Type,
+    lighter_small: Type,
+    both: Type,
+}
 
+fn variants() -> Variants {
+    let swapped = Params::ozaki2018_small_kw_swapped();
+    Variants {
+        lighter_small: Type { params: lighter(&small().params), ..small() },
+        both: Type { params: lighter(&swapped), ..small() },
+        swapped_small: Type { params: swapped, ..small() },
+        swapped_large: Type { params: Params::ozaki2018_large_kw_swapped(), ..large() },
+    }
+}
+
+pub(super) fn claims() -> Vec<Claim> {
+    let Variants { swapped_small, swapped_large, lighter_small, both } = variants();
     let mut claims = efficiencies("k_w swapped", &swapped_small, &swapped_large);
-    claims.push(resonance_of_small("k_w swapped", &swapped_small));
-    claims.push(resonance::of(&swapped_large, [100.0, 118.0]).calculated(
-        "k_w swapped, large type",
-        "109 Hz",
-        109.0,
-    ));
+    claims.push(after_an_impulse("k_w swapped", &swapped_small, &resonance::SMALL));
+    claims.push(after_an_impulse("k_w swapped", &swapped_large, &resonance::LARGE));
     claims.extend(efficiencies("J_B lighter", &lighter_small, &large()));
-    claims.push(resonance_of_small("J_B lighter", &lighter_small));
+    claims.push(after_an_impulse("J_B lighter", &lighter_small, &resonance::SMALL));
     claims.extend(efficiencies("both", &both, &swapped_large));
-    claims.push(resonance_of_small("both", &both));
+    claims.push(after_an_impulse("both", &both, &resonance::SMALL));
     claims
+}
+
+/// Measured resonances.
+pub(super) fn driven() -> Vec<Claim> {
+    let Variants { swapped_small, swapped_large, lighter_small, both } = variants();
+    vec![
+        largest_stroke_of_small("k_w swapped, small type", &swapped_small, [185.0, 212.0]),
+        largest_stroke_of_large("k_w swapped, large type", &swapped_large, [100.0, 118.0]),
+        largest_stroke_of_small("J_B lighter, small type", &lighter_small, [185.0, 212.0]),
+        largest_stroke_of_small("both, small type", &both, [185.0, 212.0]),
+    ]
 }
 
 fn lighter(p: &Params) -> Params {
@@ -54,9 +76,4 @@ fn efficiencies(hypothesis: &str, small: &Type, large: &Type) -> Vec<Claim> {
         )
         .holds(s > l, format!("{s:.2} and {l:.2}")),
     ]
-}
-
-fn resonance_of_small(hypothesis: &str, small: &Type) -> Claim {
-    let what = format!("{hypothesis}, small type");
-    resonance::of(small, [185.0, 212.0]).calculated(&what, "209 Hz", 208.5)
 }

@@ -1,70 +1,125 @@
-//! Resonance frequencies, section 4.2 and Fig. 10.
+//! Resonance frequencies, section 4.2 and Figs. 9 and 10.
 
-use super::{Type, large, small};
+use super::{Type, bench, large, small};
 use crate::claim::{Claim, about, closely, said};
 
-pub(super) fn claims() -> Vec<Claim> {
-    let small = of(&small(), [190.0, 202.0]);
-    let large = of(&large(), [100.0, 115.0]);
-    let ratio = small.mode / large.mode;
-    vec![
-        small.calculated("small type", "209 Hz", 208.5),
-        large.calculated("large type", "109 Hz", 109.0),
-        small.measured("small type", "210 Hz", 210.0),
-        large.measured("large type", "105 Hz", 105.0),
-        said("4.2", "frequency of the small type over that of the large one", "roughly 2").is(
-            &about(2.0, 0.05),
-            ratio,
-            format!("{ratio:.2} (small motions)"),
+/// Impulses (rad), as the amplitude of small undamped motions.
+const IMPULSES: [f64; 3] = [0.3, 0.5, 0.8];
+/// Of them, the one whose first stroke peak is nearest to 20 deg for the large type.
+const MIDDLE: usize = 1;
+/// Periods of the first mode that the damped sine is fitted to.
+const WINDOW: u32 = 4;
+/// Other windows, to show how much hangs on it.
+const LONGER: [u32; 2] = [5, 10];
+
+/// A published frequency (Hz), and how it is shown.
+pub(super) struct Published {
+    shown: &'static str,
+    frequency: f64,
+}
+
+pub(super) const SMALL: Published = Published { shown: "209 Hz (208.5)", frequency: 208.5 };
+pub(super) const LARGE: Published = Published { shown: "109 Hz (109.0)", frequency: 109.0 };
+const SMALL_MEASURED: Published = Published { shown: "210 Hz", frequency: 210.0 };
+const LARGE_MEASURED: Published = Published { shown: "105 Hz", frequency: 105.0 };
+
+/// Calculated from an impulse.
+pub(super) fn calculated() -> Vec<Claim> {
+    let [small, large] = [small(), large()];
+    let mut claims = by_size(&small, &SMALL);
+    claims.extend(by_size(&large, &LARGE));
+    let ratios = IMPULSES.map(|impulse| fitted(&small, impulse, WINDOW) / fitted(&large, impulse, WINDOW));
+    claims.push(said("4.2", "frequency of the small type over that of the large one", "roughly 2").is(
+        &about(2.0, 0.05),
+        ratios[MIDDLE],
+        format!(
+            "{:.2} (0.5 rad; {:.2} and {:.2} with 0.3 and 0.8 rad; {:.2} for small motions)",
+            ratios[MIDDLE],
+            ratios[0],
+            ratios[2],
+            mode(&small) / mode(&large)
         ),
+    ));
+    claims
+}
+
+/// A claim for each impulse.
+fn by_size(actuator: &Type, published: &Published) -> Vec<Claim> {
+    let claim = |impulse: f64| {
+        let swing = bench().swing(&actuator.params.to_values(), impulse, WINDOW);
+        let [five, ten] = LONGER.map(|window| fitted(actuator, impulse, window));
+        let what = format!("{} type: calculated, impulse of {impulse:.1} rad", actuator.name);
+        said("4.2, Fig. 10", what, published.shown).is(
+            &closely(published.frequency, 0.5),
+            swing.fit.frequency,
+            format!(
+                "{:.1} Hz, first peak {:.1}°, {:.0} % left over; {five:.1} Hz through 5 periods, {ten:.1} Hz through 10",
+                swing.fit.frequency,
+                swing.first_peak,
+                100.0 * swing.fit.relative_rms
+            ),
+        )
+    };
+    IMPULSES.map(claim).into()
+}
+
+/// A claim for the impulse in the middle, with the frequencies after the others.
+pub(super) fn after_an_impulse(what: &str, actuator: &Type, published: &Published) -> Claim {
+    let [weak, middle, strong] = IMPULSES.map(|impulse| fitted(actuator, impulse, WINDOW));
+    said(
+        "4.2, Fig. 10",
+        format!("{what}, {} type: calculated, impulse of 0.5 rad", actuator.name),
+        published.shown,
+    )
+    .is(
+        &closely(published.frequency, 0.5),
+        middle,
+        format!(
+            "{middle:.1} Hz; {weak:.1} and {strong:.1} Hz with 0.3 and 0.8 rad; small motions {:.1} Hz",
+            mode(actuator)
+        ),
+    )
+}
+
+/// Frequency of the damped sine that fits the stroke after an impulse (Hz).
+fn fitted(actuator: &Type, impulse: f64, window: u32) -> f64 {
+    bench().swing(&actuator.params.to_values(), impulse, window).fit.frequency
+}
+
+/// Frequency of small motions (Hz).
+fn mode(actuator: &Type) -> f64 {
+    let modes = bench().model.modes(&actuator.params.to_values());
+    modes.expect("published parameters are possible")[0].frequency
+}
+
+/// Measured as the frequency of the largest stroke.
+pub(super) fn driven() -> Vec<Claim> {
+    vec![
+        largest_stroke_of_small("small type", &small(), [190.0, 202.0]),
+        largest_stroke_of_large("large type", &large(), [100.0, 115.0]),
     ]
 }
 
-/// Resonance frequencies (Hz).
-pub(super) struct Resonance {
-    /// Of small motions.
-    mode: f64,
-    /// Of the largest stroke at the lower and at the higher voltage.
-    peaks: [f64; 2],
-    voltages: [f64; 2],
+pub(super) fn largest_stroke_of_small(what: &str, actuator: &Type, range: [f64; 2]) -> Claim {
+    largest_stroke(what, actuator, range, &SMALL_MEASURED)
 }
 
-/// The resonance of a type, whose driven peaks are looked for within `range`.
-pub(super) fn of(actuator: &Type, range: [f64; 2]) -> Resonance {
-    let responses = actuator.voltages.map(|v_0| actuator.response(v_0, range));
-    let [low, high] = responses.each_ref().map(|response| response.peak("stroke_amplitude_deg"));
-    for (peak, _) in [low, high] {
+pub(super) fn largest_stroke_of_large(what: &str, actuator: &Type, range: [f64; 2]) -> Claim {
+    largest_stroke(what, actuator, range, &LARGE_MEASURED)
+}
+
+/// At an unknown one of the voltages, so compared with the frequencies between those at the lowest and the highest.
+/// Peaks are looked for within `range`.
+fn largest_stroke(what: &str, actuator: &Type, range: [f64; 2], published: &Published) -> Claim {
+    let [low, high] = actuator.voltages.map(|v_0| {
+        let (peak, _) = actuator.response(v_0, range).peak("stroke_amplitude_deg");
         assert!(range[0] < peak && peak < range[1], "a peak at {peak} Hz may lie outside {range:?}");
-    }
-    Resonance { mode: low.1.get("mode_1_hz"), peaks: [low.0, high.0], voltages: actuator.voltages }
-}
-
-impl Resonance {
-    /// Calculated from an impulse of unknown size, so compared with the frequencies of small to largest motions.
-    pub(super) fn calculated(&self, what: &str, published: &str, frequency: f64) -> Claim {
-        said("4.2, Fig. 10", format!("{what}: calculated, from an impulse"), published).is(
-            &closely(frequency, 0.5),
-            nearest(frequency, self.mode, self.peaks[1]),
-            format!("small motions {:.1} Hz; {}", self.mode, self.driven()),
-        )
-    }
-
-    /// Measured as the frequency of the largest stroke, at an unknown one of the voltages.
-    fn measured(&self, what: &str, published: &str, frequency: f64) -> Claim {
-        said("4.2, Fig. 10", format!("{what}: measured, largest stroke"), published).is(
-            &closely(frequency, 0.5),
-            nearest(frequency, self.peaks[0], self.peaks[1]),
-            self.driven(),
-        )
-    }
-
-    fn driven(&self) -> String {
-        let Resonance { peaks: [low, high], voltages: [v_low, v_high], .. } = self;
-        format!("driven {low:.1} Hz ({v_low:.0} V) to {high:.1} Hz ({v_high:.0} V)")
-    }
-}
-
-/// Of the numbers between `a` and `b`, the nearest to `x`.
-fn nearest(x: f64, a: f64, b: f64) -> f64 {
-    x.clamp(a.min(b), a.max(b))
+        peak
+    });
+    let [v_low, v_high] = actuator.voltages;
+    said("4.2, Fig. 10", format!("{what}: measured, largest stroke"), published.shown).is(
+        &closely(published.frequency, 0.5),
+        published.frequency.clamp(low.min(high), low.max(high)),
+        format!("{low:.1} Hz ({v_low:.0} V) to {high:.1} Hz ({v_high:.0} V)"),
+    )
 }

@@ -1,0 +1,46 @@
+//! Free motions after an impulse on the resting stroke.
+
+use flap_core::measure::damped_sine::{self, DampedSine};
+use flap_core::num::InstructionSet;
+use flap_core::resonance::free::{FreeMotion, FreeRequest, examine, intervals, stroke_rate};
+use flap_core::simulate::ImpulseRequest;
+
+use crate::points::Bench;
+
+/// Samples per period of the first mode.
+const SAMPLES: u32 = 200;
+
+/// The beginning of a free motion.
+pub(crate) struct Swing {
+    pub(crate) fit: DampedSine,
+    /// The stroke where it first turns back (deg).
+    pub(crate) first_peak: f64,
+}
+
+impl Bench {
+    /// The damped sine through the first `cycles` periods after an impulse by which the first mode alone, undamped, would
+    /// reach `amplitude` (rad).
+    pub(crate) fn swing(&self, values: &[f64], amplitude: f64, cycles: u32) -> Swing {
+        let modes = self.model.modes(values).expect("published parameters are possible");
+        let request = ImpulseRequest {
+            stroke_rate: stroke_rate(&modes, amplitude).expect("the first mode swings"),
+            duration: f64::from(cycles) / modes[0].frequency,
+            intervals: intervals(f64::from(cycles), f64::from(SAMPLES)).expect("it is a short motion"),
+        };
+        let motion = self.model.free_response(InstructionSet::best(), &self.solver, values, &request);
+        let motion = motion.expect("the motion does not fail");
+        let stroke = motion.columns.iter().position(|column| column == "stroke_deg").expect("it is a state");
+        let stroke: Vec<f64> = motion.rows.iter().map(|row| row[stroke]).collect();
+        let fit = damped_sine::fit(request.duration / f64::from(request.intervals), &stroke);
+        let first_peak = stroke.windows(2).find(|pair| pair[1] < pair[0]).map_or(f64::NAN, |pair| pair[0]);
+        Swing { fit: fit.expect("the stroke swings"), first_peak }
+    }
+
+    /// The spectra of the first second after an impulse of that size.
+    pub(crate) fn spectra(&self, values: &[f64], amplitude: f64) -> FreeMotion {
+        let request =
+            FreeRequest { amplitude, fit_cycles: 4, spectrum_window: 1.0, samples_per_cycle: SAMPLES };
+        examine(self.model, InstructionSet::best(), &self.solver, values, &request)
+            .expect("the motion does not fail")
+    }
+}
