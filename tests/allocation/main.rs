@@ -53,10 +53,7 @@ fn a_sweep_allocates_the_same_for_more_cycles() {
         for set in InstructionSet::available() {
             let (few, few_cycles) = sweep(preset, set, 1e-1);
             let (many, many_cycles) = sweep(preset, set, 1e-6);
-            assert!(
-                many_cycles > few_cycles,
-                "{preset}, {set}: {many_cycles} cycles against {few_cycles}"
-            );
+            assert!(many_cycles > few_cycles, "{preset}, {set}: {many_cycles} cycles against {few_cycles}");
             assert_eq!(many, few, "{preset}, {set}");
         }
     }

@@ -51,7 +51,10 @@ fn selected_columns_only() {
     let folder = Folder::with_grid(&(frequencies(1) + "[output]\ncolumns = [\"lift_mean_mn\"]\n"));
     let ended = folder.flap("sweep --grid grid.toml --out -");
     let header = ended.stdout.lines().next();
-    assert_eq!(header, Some("point,drive_frequency,status,lift_mean_mn,cycles,residual,period,rhs_evals"));
+    assert_eq!(
+        header,
+        Some("point,drive_frequency,status,lift_mean_mn,cycles,residual,period,floquet_max,rhs_evals")
+    );
 }
 
 #[test]

@@ -19,6 +19,7 @@ mod floquet;
 mod four_bar;
 mod frequencies;
 mod jafferis_figures;
+mod orbits;
 mod resonance;
 mod rows;
 mod samples;

@@ -203,17 +203,19 @@ fn driven_peaks_are_where_the_reference_has_them() {
 
 #[test]
 fn motions_that_do_not_settle_are_named() {
-    let (model, _) = preset("ozaki2018-large").unwrap();
-    let values = values("ozaki2018-large", &[]);
-    let range = PeakSearch { from: 100.0, to: 120.0, tolerance: 0.5 };
-    let solver = SolverSettings { max_cycles: 22, ..SolverSettings::default() };
+    // A soft hinge, which flutters: at 240 V there is no motion of the drive's period from 64.5 to 80 Hz.
+    let (model, _) = preset("jafferis2016").unwrap();
+    let values = values("jafferis2016", &[("hinge_stiffness", 0.7486e-6), ("drive_voltage_pp", 240.0)]);
+    let range = PeakSearch { from: 55.0, to: 95.0, tolerance: 0.5 };
+    let solver = SolverSettings { max_cycles: 100, settle_tol: 1e-4, ..SolverSettings::default() };
     let found = search(model, InstructionSet::best(), &solver, &values, &range).unwrap();
     let unsettled: usize = found.gaps.iter().map(|gap| gap.points).sum();
     println!("{found:?}");
     assert!(unsettled > 0 && unsettled < found.points, "{found:?}");
+    assert!(found.gaps.iter().any(|gap| gap.status == Status::Unsettled));
     for gap in &found.gaps {
-        assert_eq!(gap.status, Status::Unsettled);
-        assert!(gap.from <= gap.to && gap.from >= 100.0 && gap.to <= 120.0, "{gap:?}");
+        assert_ne!(gap.status, Status::Periodic);
+        assert!(gap.from <= gap.to && gap.from >= 60.0 && gap.to <= 85.0, "{gap:?}");
     }
 }
 

@@ -124,7 +124,7 @@ impl Fake {
             cycles: 10,
             residual: if status == Status::Invalid { f64::NAN } else { 4e-9 },
             period: u32::from(status == Status::Periodic),
-            floquet_max: 0.5,
+            floquet_max: if status == Status::Periodic { 0.5 } else { f64::NAN },
             rhs_evals: 1000,
             reason: (status == Status::Invalid).then(|| format!("a size of {size} m is impossible")),
         }

@@ -71,6 +71,9 @@ pub(crate) fn presets() -> Vec<&'static str> {
 ///         no period was completed.
 ///     period : int
 ///         Drive periods until the motion repeats: 1 if periodic, more if subharmonic, otherwise 0.
+///     floquet_max : float or None
+///         Factor by which a change of the motion decays per drive period in the end; below 1 the motion is
+///         stable. None unless the point is periodic.
 ///     rhs_evals : int
 ///         Evaluations of the equations of motion.
 ///     reason : str or None
@@ -117,6 +120,7 @@ fn row_to_dict<'py>(py: Python<'py>, columns: &[Column], row: &Row) -> PyResult<
     dict.set_item("cycles", row.cycles)?;
     dict.set_item("residual", (!row.residual.is_nan()).then_some(row.residual))?;
     dict.set_item("period", row.period)?;
+    dict.set_item("floquet_max", (!row.floquet_max.is_nan()).then_some(row.floquet_max))?;
     dict.set_item("rhs_evals", row.rhs_evals)?;
     dict.set_item("reason", row.reason.as_deref())?;
     Ok(dict)

@@ -112,7 +112,7 @@ fn blade_elements_take_fewer_steps() {
     let uniform = evals(&p.clone().with_chord_moments());
     let blade = evals(&Params { flow_direction: FlowDirection::Blade, ..p });
     println!("right-hand sides per cycle: {uniform:.0} uniform, {blade:.0} blade");
-    assert!(blade < 0.9 * uniform, "{blade} against {uniform}");
+    assert!(blade < 0.95 * uniform, "{blade} against {uniform}");
 }
 
 #[test]

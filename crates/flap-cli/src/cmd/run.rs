@@ -114,8 +114,9 @@ fn page(chosen: &Chosen, row: &Row) -> String {
     let mut page = chosen.title();
     let residual = if row.residual.is_nan() { "none".to_owned() } else { six_digits(row.residual) };
     let Row { cycles, period, rhs_evals, .. } = row;
+    let multiplier = if row.floquet_max.is_nan() { "none".to_owned() } else { six_digits(row.floquet_max) };
     let _ = write!(page, "\nstatus = {}, cycles = {cycles}, residual = {residual}, ", row.status.name());
-    let _ = writeln!(page, "period = {period}, rhs_evals = {rhs_evals}");
+    let _ = writeln!(page, "period = {period}, floquet_max = {multiplier}, rhs_evals = {rhs_evals}");
     if !row.measures.is_empty() {
         let mut table = Table::with_headings(&["column", "value", "unit", "meaning"]);
         for (column, &measure) in chosen.plan.simulator.columns().iter().zip(&row.measures) {

@@ -1,0 +1,73 @@
+//! Orbits found by Newton's iteration: their multipliers, and what marching would take hundreds of periods for.
+
+use flap_core::model::{bimorph, direct_drive};
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{Row, SolverSettings, Status, by_name};
+
+use crate::data::{assert_close, table};
+
+fn run(model: &str, values: &[f64], rtol: f64, settle_tol: f64) -> Row {
+    let solver = SolverSettings { rtol, atol: 1e-2 * rtol, settle_tol, ..SolverSettings::default() };
+    by_name(model).unwrap().run_point(InstructionSet::best(), &solver, values)
+}
+
+/// The parameters of the bimorph's reference sets.
+fn bimorph_set(name: &str) -> bimorph::Params {
+    match name {
+        "T1" => bimorph::Params::jafferis2016(),
+        "T2" => bimorph::Params::jafferis2016().with_transmission_scaled(0.8),
+        "T3" => bimorph::Params::jafferis2016().with_transmission_scaled(0.6),
+        _ => bimorph::Params::jafferis2016_improved(),
+    }
+}
+
+#[test]
+fn multipliers_of_rows_equal_the_reference() {
+    for record in table("direct-drive/steady_cases.csv") {
+        let p = match record.text("type") {
+            "small" => direct_drive::Params::ozaki2018_small(),
+            _ => direct_drive::Params::ozaki2018_large(),
+        };
+        let (drive_voltage_pp, drive_frequency) = (2.0 * record.number("V0_V"), record.number("f_Hz"));
+        let p = direct_drive::Params { drive_voltage_pp, drive_frequency, ..p };
+        let row = run("direct-drive", &p.to_values(), 1e-8, 1e-6);
+        assert_eq!((row.status, row.period), (Status::Periodic, 1), "{}", record.name);
+        assert_close(row.floquet_max, record.number("floquet_max"), 1e-4, &record.name);
+    }
+    for record in table("bimorph/steady_cases.csv") {
+        let (drive_voltage_pp, drive_frequency) = (record.number("Vpp_V"), record.number("f_Hz"));
+        let p = bimorph::Params { drive_voltage_pp, drive_frequency, ..bimorph_set(record.text("set")) };
+        let row = run("bimorph", &p.to_values(), 1e-8, 1e-6);
+        assert_eq!((row.status, row.period), (Status::Periodic, 1), "{}", record.name);
+        assert_close(row.floquet_max, record.number("floquet_abs_max"), 1e-4, &record.name);
+    }
+}
+
+/// Weakly damped points, which need from a hundred to fifteen thousand periods of marching for 1e-6.
+#[test]
+fn slow_points_are_found_in_few_periods() {
+    let t1 = |drive_voltage_pp, drive_frequency| {
+        bimorph::Params { drive_voltage_pp, drive_frequency, ..bimorph::Params::jafferis2016() }.to_values()
+    };
+    let small = direct_drive::Params {
+        drive_voltage_pp: 30.0,
+        drive_frequency: 220.0,
+        ..direct_drive::Params::ozaki2018_small()
+    };
+    for (model, values, slowest) in [
+        ("bimorph", t1(40.0, 60.0), 0.94),
+        ("bimorph", t1(40.0, 20.0), 0.995),
+        ("direct-drive", small.to_values(), 0.9),
+    ] {
+        let row = run(model, &values, 1e-10, 1e-8);
+        // A march decays by the multiplier per period: from a residual of 1 to 1e-8.
+        let march = -8.0 * std::f64::consts::LN_10 / row.floquet_max.ln();
+        println!(
+            "{model}: {} periods, residual {:.1e}, multiplier {:.5}: {march:.0} periods of marching",
+            row.cycles, row.residual, row.floquet_max
+        );
+        assert_eq!(row.status, Status::Periodic);
+        assert!(row.residual <= 1e-8 && row.cycles <= 120, "{row:?}");
+        assert!(row.floquet_max > slowest && row.floquet_max < 1.0, "{}", row.floquet_max);
+    }
+}
