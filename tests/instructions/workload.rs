@@ -27,7 +27,7 @@ pub(crate) enum Task {
     ScalarMarch,
     /// Marching a point per lane for a period.
     March,
-    /// Measuring a point per lane along a period on its orbit.
+    /// Going on with a point per lane that has settled: a period with responses to changes, and one that is measured.
     Measure,
 }
 
@@ -108,11 +108,12 @@ impl Work {
 const MARCH: SolverSettings =
     SolverSettings { rtol: 1e-2, atol: 1e-4, settle_tol: 0.0, max_cycles: 1, max_steps: 20_000 };
 
-/// Any change counts as none, so that the motion has settled after two periods and a third is measured.
+/// Any change counts as none, so that the motion has settled after two periods; a third is integrated with responses to
+/// changes, a fourth is measured.
 const SETTLE_AND_MEASURE: SolverSettings =
     SolverSettings { settle_tol: f64::INFINITY, max_cycles: 10, ..MARCH };
 
-/// The same two periods without the third.
+/// The same two periods and no more.
 const SETTLE: SolverSettings = SolverSettings { max_cycles: 2, ..MARCH };
 
 /// Where the count begins.
@@ -120,7 +121,7 @@ const SETTLE: SolverSettings = SolverSettings { max_cycles: 2, ..MARCH };
 enum Begin {
     /// When all lanes have their points and marching begins.
     WithTheLastPoint,
-    /// When there is no further point and what has settled is measured.
+    /// When there is no further point and what has settled goes on.
     AfterTheLastPoint,
 }
 
