@@ -21,6 +21,7 @@ mod frequencies;
 mod jafferis_figures;
 mod orbits;
 mod resonance;
+mod robustness;
 mod rows;
 mod samples;
 mod strobe;

@@ -83,10 +83,13 @@ struct Marching<'a, I, M: Model<N, S>, const N: usize, const K: usize, const S: 
     /// Points that have been taken from `jobs` and not been run, each with its variant.
     waiting: Vec<(M, Point)>,
     /// Runs that have come near an orbit, and the state from which their period is to be varied.
-    near: Vec<(Searched<M::Constants<f64>, N>, [f64; N])>,
+    near: Vec<Paused<M::Constants<f64>, N>>,
     /// Runs whose iteration has failed, and the state from which they march on.
-    resumed: Vec<(Searched<M::Constants<f64>, N>, [f64; N])>,
+    resumed: Vec<Paused<M::Constants<f64>, N>>,
 }
+
+/// A run that is in no lane, and the state from which it goes on.
+type Paused<C, const N: usize> = (Searched<C, N>, [f64; N]);
 
 /// A run on its way to its orbit.
 struct Searched<C, const N: usize> {
@@ -189,7 +192,7 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Qu
 
 /// The queue of the second ensemble.
 struct Varying<C, const N: usize, const K: usize> {
-    pending: Vec<(Searched<C, N>, [f64; N])>,
+    pending: Vec<Paused<C, N>>,
     done: Vec<(Searched<C, N>, Next<N>)>,
 }
 

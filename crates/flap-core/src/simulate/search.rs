@@ -12,7 +12,7 @@ use crate::ode::{Ending, Outcome, Start};
 /// Periods that are marched before Newton's iteration is first tried, and the largest change of the state over a
 /// period with which it is: in units of the states' typical sizes.
 const FIRST_TRY: u32 = 6;
-const NEAR: f64 = 0.1;
+const NEAR: f64 = 0.3;
 
 /// Where a point's search has come to.
 #[derive(Clone, Copy, Debug)]
