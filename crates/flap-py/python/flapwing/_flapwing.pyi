@@ -78,6 +78,9 @@ def run(
             no period was completed.
         period : int
             Drive periods until the motion repeats: 1 if periodic, more if subharmonic, otherwise 0.
+        floquet_max : float or None
+            Factor by which a change of the motion decays per drive period in the end; below 1 the motion is
+            stable. None unless the point is periodic.
         rhs_evals : int
             Evaluations of the equations of motion.
         reason : str or None
