@@ -196,16 +196,16 @@ impl<R: Lanes> Parabola<R> {
 /// The cycle's measures from its totals, for a period of `period` seconds.
 pub fn finish<const S: usize>(totals: &[Totals<f64>; S], period: f64) -> [SignalCycle; S] {
     totals.map(|total| {
-        // What is unknown has no extremes; a maximum would leave out what is not a number.
-        let extreme = |of_steps: f64| if total.integral.is_nan() { f64::NAN } else { of_steps };
+        // What is unknown has no extremes and no positive part: maxima leave out what is not a number.
+        let known = |value: f64| if total.integral.is_nan() { f64::NAN } else { value };
         SignalCycle {
             mean: total.integral / period,
             mean_square: total.square / period,
-            positive_mean: total.positive / period,
+            positive_mean: known(total.positive / period),
             // X = (2/T) ∫ x e^{−iωt} dt
             first: [2.0 * total.cosine / period, -2.0 * total.sine / period],
-            max: extreme(total.max),
-            min: extreme(total.min),
+            max: known(total.max),
+            min: known(total.min),
         }
     })
 }
