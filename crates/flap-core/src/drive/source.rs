@@ -45,11 +45,6 @@ impl Source {
     /// A sine that drives the voltage.
     pub const SINE: Source = Source { shape: Shape::Sine, stroke: StrokeMode::Free, samples: None };
 
-    /// A source of this shape that drives the voltage.
-    pub const fn shaped(shape: Shape) -> Source {
-        Source { shape, ..Source::SINE }
-    }
-
     /// The same with samples for a waveform.
     pub fn sampled(&self, samples: Samples) -> Source {
         Source { samples: Some(samples), ..self.clone() }
