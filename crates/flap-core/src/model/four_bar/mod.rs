@@ -8,6 +8,7 @@
 //! assumed. Current and power are an extension.
 
 mod aerodynamics;
+mod columns;
 mod composite;
 mod constants;
 mod params;
@@ -19,14 +20,14 @@ pub use constants::{Actuator, Air, Constants, Drive, MAX_STRIPS, Wing};
 pub use params::{AddedMassSign, Arms, Params, Quadrature};
 pub use rhs::{Transmission, balance, current, force, mass_matrix, tip, transmission};
 
-use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
-use super::convert::{DEGREES, GRAVITY, wrap_degrees};
+use super::convert::{GRAVITY, wrap_degrees};
 use super::{Derived, Model, Signal, SignalCycle, on_stroke, on_stroke_rates};
 use crate::drive::{Driven, Samples, Source, Waveform};
 use crate::modes::{Mode, natural_frequencies};
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
+use columns::{DRIVE_POWER, LIFT, LOSSES, PITCH, POWER, S, STROKE};
 
 /// The model.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -74,189 +75,15 @@ impl Ode<4> for FourBar {
     }
 }
 
-/// Positions in [`Model::SIGNALS`].
-const STROKE: usize = 0;
-const PITCH: usize = 1;
-const LIFT: usize = 2;
-const DRIVE_POWER: usize = 7;
-/// What the drive's power goes into: the four signals that follow it.
-const LOSSES: core::ops::Range<usize> = 8..12;
-const POWER: usize = 12;
-
-impl Model<4, 15> for FourBar {
+impl Model<4, S> for FourBar {
     const NAME: &'static str = "four-bar";
     const DOC: &'static str = "unimorph, slider-crank and four-bar, passive pitch, strip aerodynamics (Arabagi, Hines and Sitti 2013)";
     const PARAMETERS: &'static [Parameter] = Params::TABLE;
     const PRESETS: &'static [Preset] = Params::PRESETS;
     const STATES: [&'static str; 4] = ["stroke_rad", "pitch_rad", "stroke_rate_rad_s", "pitch_rate_rad_s"];
 
-    const SIGNALS: [Signal; 15] = [
-        Signal {
-            name: "stroke",
-            unit: "deg",
-            suffix: "deg",
-            factor: DEGREES,
-            doc: "stroke angle",
-            measures: &[Amplitude, PeakToPeak, Mean, Max, Min, First],
-        },
-        Signal {
-            name: "pitch",
-            unit: "deg",
-            suffix: "deg",
-            factor: DEGREES,
-            doc: "pitch angle of the wing on its hinge",
-            measures: &[Amplitude, PeakToPeak, Mean, Max, Min, First],
-        },
-        Signal {
-            name: "lift",
-            unit: "mN",
-            suffix: "mn",
-            factor: 1e3,
-            doc: "lift of the wing, Eq. (4)",
-            measures: &[Mean, Max, Min],
-        },
-        Signal {
-            name: "lift_translational",
-            unit: "mN",
-            suffix: "mn",
-            factor: 1e3,
-            doc: "lift of the wing's translation, Eq. (5)",
-            measures: &[Mean],
-        },
-        Signal {
-            name: "lift_rotational",
-            unit: "mN",
-            suffix: "mn",
-            factor: 1e3,
-            doc: "lift of the wing's rotation, Eq. (6)",
-            measures: &[Mean],
-        },
-        Signal {
-            name: "lift_added_mass",
-            unit: "mN",
-            suffix: "mn",
-            factor: 1e3,
-            doc: "lift of the added mass, Eq. (7)",
-            measures: &[Mean],
-        },
-        Signal {
-            name: "drag",
-            unit: "mN",
-            suffix: "mn",
-            factor: 1e3,
-            doc: "translational drag along the stroke, Eq. (5)",
-            measures: &[Magnitude],
-        },
-        Signal {
-            name: "power_drive",
-            unit: "mW",
-            suffix: "mw",
-            factor: 1e3,
-            doc: "mechanical power of the actuator on the stroke",
-            measures: &[Mean],
-        },
-        Signal {
-            name: "power_stroke_damping",
-            unit: "mW",
-            suffix: "mw",
-            factor: 1e3,
-            doc: "power taken by the damping of the stroke",
-            measures: &[Mean],
-        },
-        Signal {
-            name: "power_hinge_damping",
-            unit: "mW",
-            suffix: "mw",
-            factor: 1e3,
-            doc: "power taken by the damping of the hinge",
-            measures: &[Mean],
-        },
-        Signal {
-            name: "power_translational",
-            unit: "mW",
-            suffix: "mw",
-            factor: 1e3,
-            doc: "power taken by translational aerodynamics",
-            measures: &[Mean],
-        },
-        Signal {
-            name: "power_rotational",
-            unit: "mW",
-            suffix: "mw",
-            factor: 1e3,
-            doc: "power taken by rotational drag, Eqs. (6) and (18)",
-            measures: &[Mean],
-        },
-        Signal {
-            name: "power",
-            unit: "mW",
-            suffix: "mw",
-            factor: 1e3,
-            doc: "electrical power current x voltage (not in the paper)",
-            measures: &[Mean, Supply],
-        },
-        Signal {
-            name: "current",
-            unit: "mA",
-            suffix: "ma",
-            factor: 1e3,
-            doc: "current into the actuator (not in the paper)",
-            measures: &[Rms, Peak],
-        },
-        Signal {
-            name: "tip",
-            unit: "um",
-            suffix: "um",
-            factor: 1e6,
-            doc: "displacement of the actuator's tip",
-            measures: &[PeakToPeak, Peak],
-        },
-    ];
-
-    const DERIVED: &'static [Derived] = &[
-        Derived {
-            name: "stroke_lag_deg",
-            unit: "deg",
-            doc: "phase by which the first harmonic of the stroke lags that of the drive voltage, in (-180, 180]",
-        },
-        Derived {
-            name: "pitch_lag_deg",
-            unit: "deg",
-            doc: "phase by which the first harmonic of the pitch lags that of the stroke, in (-180, 180]: the paper's phase shift",
-        },
-        Derived { name: "lift_mean_gf", unit: "gf", doc: "mean lift in grams-force" },
-        Derived {
-            name: "efficiency_gf_per_w",
-            unit: "gf/W",
-            doc: "mean lift over mean electrical power (power_mean_mw)",
-        },
-        Derived {
-            name: "power_capacitive_mw",
-            unit: "mW",
-            doc: "C V_pp^2 f / 2, the power of charging the blocked actuator's capacitance without recovery",
-        },
-        Derived {
-            name: "energy_audit",
-            unit: "",
-            doc: "(drive power - dissipated powers) / drive power, zero but for the integration's error",
-        },
-        Derived {
-            name: "electrical_audit",
-            unit: "",
-            doc: "(electrical - drive power) / electrical power, zero but for the integration's error",
-        },
-        Derived {
-            name: "field_max_v_per_um",
-            unit: "V/um",
-            doc: "largest electric field in the piezoelectric layer",
-        },
-        Derived {
-            name: "mode_1_hz",
-            unit: "Hz",
-            doc: "lower natural frequency of small undamped motions, with the added mass of still air",
-        },
-        Derived { name: "mode_2_hz", unit: "Hz", doc: "upper natural frequency of small undamped motions" },
-    ];
+    const SIGNALS: [Signal; S] = columns::SIGNALS;
+    const DERIVED: &'static [Derived] = columns::DERIVED;
 
     fn variant(&self, values: &[f64]) -> FourBar {
         let params = Params::from_values(values);
@@ -294,7 +121,7 @@ impl Model<4, 15> for FourBar {
         side: R,
         y: &[R; 4],
         dy: &[R; 4],
-    ) -> [R; 15] {
+    ) -> [R; S] {
         let prescribed = self.source.prescribes_stroke();
         let (y, dy) = if prescribed { (&on_stroke(drive, y), &on_stroke_rates(drive, dy)) } else { (y, dy) };
         let [theta, phi, theta_dot, phi_dot] = *y;
@@ -328,7 +155,7 @@ impl Model<4, 15> for FourBar {
         ]
     }
 
-    fn imposed(&self, c: &Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> ([f64; 4], [f64; 15]) {
+    fn imposed(&self, c: &Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> ([f64; 4], [f64; S]) {
         let y = [stroke[0], pitch[0], stroke[1], pitch[1]];
         let dy = [stroke[1], pitch[1], stroke[2], pitch[2]];
         let [direction, _] = side_of(pitch[0], pitch[1]);
@@ -342,7 +169,7 @@ impl Model<4, 15> for FourBar {
         FourBar { source: self.source.sampled(samples) }
     }
 
-    fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; 15]) -> Vec<f64> {
+    fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; S]) -> Vec<f64> {
         // The drive's sine has the phase −π/2 against the cosine.
         let drive_phase = -core::f64::consts::FRAC_PI_2;
         let lift_gf = cycle[LIFT].mean / GRAVITY * 1e3;
