@@ -10,6 +10,7 @@ pub mod output;
 pub mod plan;
 pub mod record;
 pub mod run;
+pub mod selection;
 pub mod sidecar;
 pub mod sink;
 pub mod spec;

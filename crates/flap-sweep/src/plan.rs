@@ -8,6 +8,7 @@ use flap_core::parameter::Parameter;
 use flap_core::simulate::{Point, Simulator, SolverSettings};
 
 use crate::axis::Axis;
+use crate::selection::Selection;
 
 /// A design space that has passed every check. Made by [`crate::spec`] only.
 pub struct Plan {
@@ -25,6 +26,8 @@ pub struct Plan {
     pub output: Output,
     /// The grid file itself, for provenance.
     pub source: Source,
+    /// Which of the points are run.
+    pub selection: Selection,
     points: u64,
 }
 
@@ -67,7 +70,8 @@ impl Plan {
         match points {
             Some(points) if points <= Plan::MAX_POINTS => {
                 let Parts { simulator, preset, base, axes, solver, output, source } = parts;
-                Ok(Plan { simulator, preset, base, axes, solver, output, source, points })
+                let selection = Selection::All;
+                Ok(Plan { simulator, preset, base, axes, solver, output, source, selection, points })
             }
             _ => Err(Box::new(parts)),
         }
@@ -95,6 +99,16 @@ impl Plan {
             }
         }
         Point { index, values }
+    }
+
+    /// Number of points that are run.
+    pub fn selected(&self) -> u64 {
+        self.selection.len(self.points)
+    }
+
+    /// Number `position` of the points that are run, which must be less than [`Plan::selected`].
+    pub fn selected_point(&self, position: u64) -> Point {
+        self.point(self.selection.index(position))
     }
 
     /// Indices of the varied parameters, in the order of the axes: the columns after `point`.

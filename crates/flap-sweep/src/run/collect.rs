@@ -7,27 +7,30 @@ use super::{Progress, Summary};
 use crate::plan::Plan;
 use crate::sink::Sink;
 
-/// Writes rows until the workers have ended.
+/// Writes rows until the workers have ended; `before` counts the rows that are written already.
 pub(super) fn collect(
     plan: &Plan,
+    before: Summary,
     queue: &Queue,
     sink: &mut dyn Sink,
     progress: &mut dyn FnMut(Progress),
 ) -> io::Result<Summary> {
     let _ends_the_workers = Abort(queue);
-    let mut summary = Summary { points: plan.len(), ..Summary::default() };
+    let mut summary = Summary { points: plan.selected(), ..before };
     let mut batch = Vec::new();
     while let Turn::Rows(finished) = queue.turn(&mut batch) {
         if !batch.is_empty() {
             for row in batch.drain(..) {
-                sink.write(&plan.point(summary.rows), &row)?;
-                summary.add(row);
+                let point = plan.selected_point(summary.done);
+                sink.write(&point, &row)?;
+                summary.add(point.index, row);
+                sink.done(&summary)?;
             }
             sink.flush()?;
         }
         progress(Progress { finished, points: summary.points });
     }
-    summary.interrupted = summary.rows < summary.points;
+    summary.interrupted = summary.done < summary.points;
     Ok(summary)
 }
 

@@ -18,12 +18,22 @@ impl Counts {
     }
 }
 
+impl FromIterator<(Status, u64)> for Counts {
+    fn from_iter<I: IntoIterator<Item = (Status, u64)>>(iter: I) -> Counts {
+        let mut counts = Counts::default();
+        iter.into_iter().for_each(|(status, count)| counts.0[status as usize] += count);
+        counts
+    }
+}
+
 /// What a sweep came to. Counts are over the rows written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
-    /// Points of the plan.
+    /// Points that are run in all.
     pub points: u64,
-    /// Rows written: points `0..rows`.
+    /// Points that have run and are written: the first ones of those selected.
+    pub done: u64,
+    /// Rows written.
     pub rows: u64,
     /// Whether the sweep was stopped before the last point.
     pub interrupted: bool,
@@ -41,13 +51,14 @@ impl Summary {
     /// Reasons kept in [`Summary::invalid`].
     pub const MOST_REASONS: usize = 5;
 
-    /// Adds a written row.
-    pub(super) fn add(&mut self, row: Row) {
+    /// Adds the written row of the point with this index in the plan.
+    pub(super) fn add(&mut self, index: u64, row: Row) {
         if let (Status::Invalid, Some(reason)) = (row.status, row.reason)
             && self.invalid.len() < Summary::MOST_REASONS
         {
-            self.invalid.push((self.rows, reason));
+            self.invalid.push((index, reason));
         }
+        self.done += 1;
         self.rows += 1;
         self.counts.0[row.status as usize] += 1;
         self.rhs_evals += row.rhs_evals;

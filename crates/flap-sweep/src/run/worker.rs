@@ -42,9 +42,10 @@ impl Jobs for Source<'_> {
             return None;
         }
         // A worker with points in hand must never wait: others may be waiting for their rows.
-        let index = self.queue.next(idle && self.in_hand == 0)?;
+        let position = self.queue.next(idle && self.in_hand == 0)?;
         self.in_hand += 1;
-        Some(self.plan.point(index))
+        // The model hands the index back and has no other use for it: rows are put in order by position.
+        Some(Point { index: position, ..self.plan.selected_point(position) })
     }
 
     fn done(&mut self, index: u64, row: Row) {
