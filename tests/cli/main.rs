@@ -4,11 +4,15 @@
 
 mod documents;
 mod experiments;
+mod formats;
 mod irregular;
 mod lists;
 mod mistakes;
 mod point;
+mod rerun;
 mod resonance;
+mod resume;
+mod shards;
 mod streams;
 mod support;
 mod sweep;

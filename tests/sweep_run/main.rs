@@ -5,5 +5,6 @@
 mod failure;
 mod fake;
 mod files;
+mod journal;
 mod rows;
 mod support;

@@ -1,6 +1,6 @@
 //! The columns of a result file: which there are, in which order, and what they mean.
 
-use flap_core::parameter::Parameter;
+use flap_core::parameter::{self, Parameter};
 use flap_core::simulate::{Point, Row};
 
 use crate::plan::Plan;
@@ -28,6 +28,34 @@ pub struct Measure {
     pub unit: &'static str,
 }
 
+/// A column of a result file, as tables with types and units see it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Name, with its unit for a measure.
+    pub name: String,
+    /// The unit in words; empty for what has none.
+    pub unit: &'static str,
+    /// What its cells hold. Any cell may be empty.
+    pub kind: Kind,
+}
+
+/// What the cells of a column hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Whole numbers from 0.
+    Whole,
+    /// Numbers.
+    Number,
+    /// Words.
+    Text,
+}
+
+impl Column {
+    fn new(name: &str, unit: &'static str, kind: Kind) -> Column {
+        Column { name: name.to_owned(), unit, kind }
+    }
+}
+
 impl Layout {
     /// The columns that `plan` asks for.
     pub fn of(plan: &Plan) -> Layout {
@@ -43,14 +71,30 @@ impl Layout {
         Layout { varied, measures }
     }
 
+    /// The columns, from left to right.
+    pub fn columns(&self) -> Vec<Column> {
+        let mut columns = vec![Column::new("point", "", Kind::Whole)];
+        columns.extend(self.varied.iter().map(|(_, parameter)| {
+            let kind = match parameter.kind {
+                parameter::Kind::Choice(_) => Kind::Text,
+                parameter::Kind::Number(_) | parameter::Kind::Following(..) => Kind::Number,
+            };
+            Column::new(parameter.name, parameter.unit, kind)
+        }));
+        columns.push(Column::new("status", "", Kind::Text));
+        let measure = |measure: &Measure| Column::new(&measure.name, measure.unit, Kind::Number);
+        columns.extend(self.measures.iter().map(measure));
+        columns.push(Column::new("cycles", "", Kind::Whole));
+        columns.push(Column::new("residual", "", Kind::Number));
+        columns.push(Column::new("period", "", Kind::Whole));
+        columns.push(Column::new("floquet_max", "", Kind::Number));
+        columns.push(Column::new("rhs_evals", "", Kind::Whole));
+        columns
+    }
+
     /// The column names.
-    pub fn names(&self) -> Vec<&str> {
-        let mut names = vec!["point"];
-        names.extend(self.varied.iter().map(|(_, parameter)| parameter.name));
-        names.push("status");
-        names.extend(self.measures.iter().map(|measure| measure.name.as_str()));
-        names.extend(["cycles", "residual", "period", "floquet_max", "rhs_evals"]);
-        names
+    pub fn names(&self) -> Vec<String> {
+        self.columns().into_iter().map(|column| column.name).collect()
     }
 
     /// One text per column. What is not known is empty: the measures of a point that is not periodic,

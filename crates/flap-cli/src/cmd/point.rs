@@ -79,7 +79,8 @@ fn plan(what: &str) -> Result<Plan, Failure> {
     })
 }
 
-fn set_solver(settings: &mut SolverSettings, args: &SolverArgs) {
+/// Sets what the command line says on top of `settings`.
+pub(crate) fn set_solver(settings: &mut SolverSettings, args: &SolverArgs) {
     if let Some(rtol) = args.rtol {
         settings.rtol = rtol;
         settings.atol = rtol / 100.0;
