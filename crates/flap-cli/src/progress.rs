@@ -12,6 +12,7 @@ const TEMPLATE: &str = "{wide_bar} {human_pos} of {human_len} points, {rate}, {e
 /// Shows how far a sweep is.
 pub(crate) struct Bar {
     bar: ProgressBar,
+    moved: bool,
     stopping: bool,
 }
 
@@ -22,13 +23,18 @@ impl Bar {
             .unwrap_or_else(|_| ProgressStyle::default_bar())
             .with_key("rate", write_rate);
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr()).with_style(style);
-        Bar { bar, stopping: false }
+        Bar { bar, moved: false, stopping: false }
     }
 
     /// Moves the bar, and says once that the sweep is stopping.
     pub(crate) fn show(&mut self, progress: Progress, stopping: bool) {
         self.bar.set_length(progress.points);
         self.bar.set_position(progress.finished);
+        if !self.moved {
+            // Points of earlier sessions took no time now.
+            self.moved = true;
+            self.bar.reset_eta();
+        }
         if stopping && !self.stopping {
             self.stopping = true;
             self.bar.suspend(|| {

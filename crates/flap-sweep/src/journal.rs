@@ -143,10 +143,7 @@ fn line(contents: &impl Serialize) -> io::Result<String> {
 
 /// A journal that is being written.
 #[derive(Debug)]
-pub struct Journal {
-    file: File,
-    path: PathBuf,
-}
+pub struct Journal(File);
 
 impl Journal {
     /// Begins a journal, in place of an earlier one.
@@ -154,7 +151,7 @@ impl Journal {
     /// # Errors
     /// What writing says.
     pub fn create(path: &Path, header: &Header) -> io::Result<Journal> {
-        let mut journal = Journal { file: File::create(path)?, path: path.to_owned() };
+        let mut journal = Journal(File::create(path)?);
         journal.add_line(header)?;
         Ok(journal)
     }
@@ -166,7 +163,7 @@ impl Journal {
     pub fn after(path: &Path, bytes: u64) -> io::Result<Journal> {
         let file = OpenOptions::new().append(true).open(path)?;
         file.set_len(bytes)?;
-        Ok(Journal { file, path: path.to_owned() })
+        Ok(Journal(file))
     }
 
     /// Adds a checkpoint. The rows it tells of must be safe on disk.
@@ -177,14 +174,9 @@ impl Journal {
         self.add_line(checkpoint)
     }
 
-    /// The file, and where it was made.
-    pub fn place(&self) -> (&File, &Path) {
-        (&self.file, &self.path)
-    }
-
     fn add_line(&mut self, contents: &impl Serialize) -> io::Result<()> {
-        self.file.write_all(line(contents)?.as_bytes())?;
-        self.file.sync_data()
+        self.0.write_all(line(contents)?.as_bytes())?;
+        self.0.sync_data()
     }
 }
 

@@ -219,8 +219,6 @@ impl Session {
         if self.format == Format::Parquet {
             output::check_in_place(self.rows.file(), &part_of(&self.path))?;
         }
-        let (journal, journal_path) = self.journal.place();
-        output::check_in_place(journal, journal_path)?;
         self.rows.file().sync_data()?;
         let extent = self.rows.extent();
         self.journal.add(&Checkpoint::new(so_far, extent.bytes, extent.digest, self.seconds()))?;
