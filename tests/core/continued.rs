@@ -101,7 +101,11 @@ fn responses_are_derivatives() {
                 let difference = (above[i] - below[i]) / (2.0 * change);
                 let size = middle.scale[i] / middle.scale[j];
                 let error = (difference - middle.responses[j][i]).abs();
-                assert!(error < 2e-3 * (size + difference.abs()), "{}: {i} by {j}: {difference} {error}", model.name());
+                assert!(
+                    error < 2e-3 * (size + difference.abs()),
+                    "{}: {i} by {j}: {difference} {error}",
+                    model.name()
+                );
             }
         }
     }

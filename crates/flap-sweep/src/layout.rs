@@ -33,7 +33,7 @@ impl Layout {
     pub fn of(plan: &Plan) -> Layout {
         let parameters = plan.parameters();
         let varied = plan.varied().map(|index| (index, &parameters[index])).collect();
-        let columns = plan.simulator.columns();
+        let columns = plan.rows().columns();
         let measure =
             |index: usize| Measure { index, name: columns[index].name.clone(), unit: columns[index].unit };
         let measures = match &plan.output.columns {
