@@ -82,6 +82,7 @@ fn parquet_carries_types_units_and_provenance() {
     assert_eq!(physical("drive_frequency"), Type::DOUBLE);
     assert_eq!(physical("added_mass"), Type::BYTE_ARRAY);
     assert_eq!(physical("status"), Type::BYTE_ARRAY);
+    assert_eq!(physical("stable"), Type::BOOLEAN);
     assert_eq!(physical("lift_mean_mn"), Type::DOUBLE);
 
     let entries = metadata.key_value_metadata().unwrap();

@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Command::Merge(args) => cmd::merge::run(&args),
         Command::Convert(args) => cmd::convert::run(&args),
         Command::Run(args) => cmd::run::run(&args),
+        Command::Respond(args) => cmd::respond::run(&args),
         Command::Resonance(args) => cmd::resonance::run(&args),
         Command::Check(args) => cmd::check::run(&args),
         Command::Lift(args) => cmd::lift::run(&args),

@@ -8,7 +8,7 @@ use crate::text;
 
 /// The columns of the rows of a plan:
 /// `point`, the varied parameters, `status`, the measures, then `cycles`, `residual`, `period`,
-/// `floquet_max`, `rhs_evals`.
+/// `floquet_max`, `stable`, `rhs_evals`.
 #[derive(Debug)]
 pub struct Layout {
     /// The varied parameters, each with its index in the model's parameter table.
@@ -46,6 +46,8 @@ pub enum Kind {
     Whole,
     /// Numbers.
     Number,
+    /// `true` or `false`.
+    Flag,
     /// Words.
     Text,
 }
@@ -88,6 +90,7 @@ impl Layout {
         columns.push(Column::new("residual", "", Kind::Number));
         columns.push(Column::new("period", "", Kind::Whole));
         columns.push(Column::new("floquet_max", "", Kind::Number));
+        columns.push(Column::new("stable", "", Kind::Flag));
         columns.push(Column::new("rhs_evals", "", Kind::Whole));
         columns
     }
@@ -98,7 +101,7 @@ impl Layout {
     }
 
     /// One text per column. What is not known is empty: the measures of a point that is not periodic,
-    /// its largest multiplier, and the residual of one that completed no period.
+    /// the multiplier and stability of one without an orbit, and the residual of one that completed no period.
     pub fn cells(&self, point: &Point, row: &Row) -> Vec<String> {
         let mut cells = vec![point.index.to_string()];
         cells.extend(
@@ -114,6 +117,7 @@ impl Layout {
         cells.push(text::float(row.residual));
         cells.push(row.period.to_string());
         cells.push(text::float(row.floquet_max));
+        cells.push(row.stable().map_or_else(String::new, |stable| stable.to_string()));
         cells.push(row.rhs_evals.to_string());
         cells
     }

@@ -5,18 +5,22 @@
 use std::path::PathBuf;
 
 use flap_core::parameter::Parameter;
-use flap_core::simulate::{Point, Simulator, SolverSettings};
+use flap_core::simulate::{Point, Rows, Simulator, SolverSettings};
 
-use crate::axis::Axis;
+use crate::axis::{Axis, Values};
+use crate::resonance::AtResonance;
 use crate::selection::Selection;
 
 /// A design space that has passed every check. Made by [`crate::spec`] only.
 pub struct Plan {
     /// The model.
     pub simulator: &'static dyn Simulator,
+    /// What turns points into rows if each design is run at its own resonance.
+    pub resonance: Option<AtResonance>,
     /// Name of the preset that the parameters start from.
     pub preset: &'static str,
-    /// Parameter values before the axes are applied: the preset with `[params]` on top.
+    /// Parameter values before the axes are applied: the preset with `[params]` on top. NaN for what is not set: a number
+    /// that follows others, or a drive frequency that is to be the resonance.
     pub base: Vec<f64>,
     /// The axes; the last varies fastest.
     pub axes: Vec<Axis>,
@@ -52,6 +56,7 @@ pub struct Source {
 /// Everything a plan is made of, before its size is known.
 pub(crate) struct Parts {
     pub(crate) simulator: &'static dyn Simulator,
+    pub(crate) resonance: Option<AtResonance>,
     pub(crate) preset: &'static str,
     pub(crate) base: Vec<f64>,
     pub(crate) axes: Vec<Axis>,
@@ -69,12 +74,20 @@ impl Plan {
         let points = parts.axes.iter().try_fold(1_u64, |product, axis| product.checked_mul(axis.len()));
         match points {
             Some(points) if points <= Plan::MAX_POINTS => {
-                let Parts { simulator, preset, base, axes, solver, output, source } = parts;
+                let Parts { simulator, resonance, preset, base, axes, solver, output, source } = parts;
                 let selection = Selection::All;
-                Ok(Plan { simulator, preset, base, axes, solver, output, source, selection, points })
+                Ok(Plan { simulator, resonance, preset, base, axes, solver, output, source, selection, points })
             }
             _ => Err(Box::new(parts)),
         }
+    }
+
+    /// Takes an axis out of the plan and gives its values, if one varies this parameter and no other.
+    pub fn take_axis(&mut self, parameter: usize) -> Option<Values> {
+        let alone = |axis: &Axis| matches!(axis.parameters[..], [(varied, _)] if varied == parameter);
+        let axis = self.axes.remove(self.axes.iter().position(alone)?);
+        self.points /= axis.len();
+        axis.parameters.into_iter().next().map(|(_, values)| values)
     }
 
     /// Number of points.
@@ -98,7 +111,7 @@ impl Plan {
                 values[*parameter] = along.get(position);
             }
         }
-        Point { index, values }
+        Point::at_rest(index, values)
     }
 
     /// Number of points that are run.
@@ -114,6 +127,14 @@ impl Plan {
     /// Indices of the varied parameters, in the order of the axes: the columns after `point`.
     pub fn varied(&self) -> impl Iterator<Item = usize> + '_ {
         self.axes.iter().flat_map(|axis| axis.parameters.iter().map(|(parameter, _)| *parameter))
+    }
+
+    /// What turns points into rows: the model, or the model at the resonance of each design.
+    pub fn rows(&self) -> &dyn Rows {
+        match &self.resonance {
+            Some(resonance) => resonance,
+            None => self.simulator,
+        }
     }
 
     /// The model's parameter table.

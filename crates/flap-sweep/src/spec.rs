@@ -10,6 +10,7 @@ mod preset;
 mod problems;
 mod range;
 mod read;
+mod resonance;
 mod solver;
 mod syntax;
 mod table;
@@ -19,7 +20,7 @@ mod zip;
 use std::sync::Arc;
 
 use flap_core::parameter::Preset;
-use flap_core::simulate::Simulator;
+use flap_core::simulate::{Rows, Simulator};
 use toml::de::DeTable;
 
 use crate::axis::Axis;
@@ -30,7 +31,7 @@ pub use read::{ReadError, read};
 use table::Entry;
 
 /// The keys at the top of a grid file.
-const KEYS: [&str; 6] = ["preset", "params", "axes", "zip", "solver", "output"];
+const KEYS: [&str; 7] = ["preset", "params", "resonance", "axes", "zip", "solver", "output"];
 
 /// Checks the grid file `text` and makes its plan. Presets are looked up in `models`; `name` is for messages.
 ///
@@ -49,12 +50,15 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
     let chosen = preset::read(&root, models, &mut problems);
     report_unknown_keys(&root, chosen.map(|(model, _)| model), &mut problems);
     let solver = solver::read(table::find(&root, "solver"), &mut problems);
-    let output = output::read(table::find(&root, "output"), chosen.map(|(model, _)| model), &mut problems);
-    // Without a model there are no parameters to check against.
+    // Without a model there are no parameters and columns to check against.
     let Some((simulator, preset)) = chosen else {
+        output::read(table::find(&root, "output"), None, &mut problems);
         return Err(problems.into_diagnostics());
     };
-    let (base, axes) = read_points(&root, simulator, preset, models, &mut problems);
+    let (mut base, axes) = read_points(&root, simulator, preset, models, &mut problems);
+    let resonance = resonance::read(&root, simulator, &mut base, &mut problems);
+    let columns = resonance.as_ref().map_or_else(|| simulator.columns(), |resonance| resonance.columns());
+    let output = output::read(table::find(&root, "output"), Some((simulator, columns)), &mut problems);
 
     if !problems.is_empty() {
         return Err(problems.into_diagnostics());
@@ -62,7 +66,7 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
     let (axes, spans): (Vec<Axis>, Vec<_>) =
         axes.into_iter().map(|placed| (placed.axis, placed.span)).unzip();
     let source = (*source).clone();
-    let parts = Parts { simulator, preset: preset.name, base, axes, solver, output, source };
+    let parts = Parts { simulator, resonance, preset: preset.name, base, axes, solver, output, source };
     Plan::new(parts).map_err(|parts| {
         axes::report_too_many_points(&parts.axes, &spans, &mut problems);
         problems.into_diagnostics()

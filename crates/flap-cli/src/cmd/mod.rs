@@ -11,6 +11,7 @@ pub(crate) mod params;
 mod point;
 pub(crate) mod rerun;
 pub(crate) mod resonance;
+pub(crate) mod respond;
 pub(crate) mod resume;
 pub(crate) mod run;
 mod samples;

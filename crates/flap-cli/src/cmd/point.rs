@@ -33,7 +33,8 @@ impl Chosen {
         }
         let mut values = plan.point(point.point).values;
         for (name, value) in &point.set {
-            set_parameter(plan.parameters(), &mut values, name, value)?;
+            let index = find_parameter(plan.parameters(), name)?;
+            values[index] = self::value(&plan.parameters()[index], "--set", value)?;
         }
         Ok(Chosen { plan, values, sampled: None, index: point.point })
     }
@@ -61,7 +62,7 @@ impl Chosen {
 }
 
 /// The plan of a preset or a grid file.
-fn plan(what: &str) -> Result<Plan, Failure> {
+pub(super) fn plan(what: &str) -> Result<Plan, Failure> {
     if simulate::preset(what).is_some() {
         let grid = format!("preset = \"{what}\"\n");
         return spec::parse(what, &grid, simulate::all()).map_err(Failure::Grid);
@@ -79,8 +80,8 @@ fn plan(what: &str) -> Result<Plan, Failure> {
     })
 }
 
-/// Sets what the command line says on top of `settings`.
-pub(crate) fn set_solver(settings: &mut SolverSettings, args: &SolverArgs) {
+/// Puts the settings of the command line over those of the grid file.
+pub(super) fn set_solver(settings: &mut SolverSettings, args: &SolverArgs) {
     if let Some(rtol) = args.rtol {
         settings.rtol = rtol;
         settings.atol = rtol / 100.0;
@@ -89,25 +90,19 @@ pub(crate) fn set_solver(settings: &mut SolverSettings, args: &SolverArgs) {
     settings.max_cycles = args.max_cycles.unwrap_or(settings.max_cycles);
 }
 
-/// Sets the parameter called `name` from text.
-fn set_parameter(
-    parameters: &[Parameter],
-    values: &mut [f64],
-    name: &str,
-    text: &str,
-) -> Result<(), Failure> {
-    let Some(index) = parameters.iter().position(|parameter| parameter.name == name) else {
+/// The index of the parameter called `name`.
+pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usize, Failure> {
+    parameters.iter().position(|parameter| parameter.name == name).ok_or_else(|| {
         let failure = Failure::usage(format!("there is no parameter `{name}`"));
-        return Err(match nearest(name, parameters.iter().map(|parameter| parameter.name)) {
+        match nearest(name, parameters.iter().map(|parameter| parameter.name)) {
             Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
             None => failure.help("`flap params` lists the parameters of a model"),
-        });
-    };
-    values[index] = value(&parameters[index], text)?;
-    Ok(())
+        }
+    })
 }
 
-fn value(parameter: &Parameter, text: &str) -> Result<f64, Failure> {
+/// The value of a parameter from the text given with `option`.
+pub(super) fn value(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Failure> {
     let name = parameter.name;
     match parameter.kind {
         Kind::Choice(options) => {
@@ -122,7 +117,8 @@ fn value(parameter: &Parameter, text: &str) -> Result<f64, Failure> {
             // A bare number is in SI units, as in a grid file.
             let number = units::parse_as(text, "").or_else(|_| units::parse_as(text, parameter.unit));
             let number = number.map_err(|error| {
-                let failure = Failure::usage(format!("--set {name}={text}: {}", error.message("the value")));
+                let failure =
+                    Failure::usage(format!("{option} {text}: {}", error.message(&format!("`{name}`"))));
                 error.help().into_iter().fold(failure, Failure::help)
             })?;
             if range.contains(number) {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use csv::StringRecord;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
-use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
@@ -41,6 +41,7 @@ struct Cells {
 enum Values {
     Whole(Vec<i64>),
     Number(Vec<f64>),
+    Flag(Vec<bool>),
     Text(Vec<ByteArray>),
 }
 
@@ -94,6 +95,7 @@ impl ParquetRows {
             let written = match &column.values {
                 Values::Whole(values) => writer.typed::<Int64Type>().write_batch(values, levels, None),
                 Values::Number(values) => writer.typed::<DoubleType>().write_batch(values, levels, None),
+                Values::Flag(values) => writer.typed::<BoolType>().write_batch(values, levels, None),
                 Values::Text(values) => writer.typed::<ByteArrayType>().write_batch(values, levels, None),
             };
             written.and_then(|_| writer.close()).map_err(io_error)?;
@@ -109,6 +111,7 @@ fn field(column: &Column) -> Result<Type, ParquetError> {
     let (physical, logical) = match column.kind {
         Kind::Whole => (Physical::INT64, Some(LogicalType::integer(64, false))),
         Kind::Number => (Physical::DOUBLE, None),
+        Kind::Flag => (Physical::BOOLEAN, None),
         Kind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
     };
     Type::primitive_type_builder(&column.name, physical)
@@ -122,6 +125,7 @@ impl Cells {
         let values = match column.kind {
             Kind::Whole => Values::Whole(Vec::new()),
             Kind::Number => Values::Number(Vec::new()),
+            Kind::Flag => Values::Flag(Vec::new()),
             Kind::Text => Values::Text(Vec::new()),
         };
         Cells { name: column.name.clone(), values, levels: Vec::new() }
@@ -138,6 +142,7 @@ impl Cells {
                 cell.parse::<u64>().map(|value| values.push(value.cast_signed())).is_ok()
             }
             Values::Number(values) => cell.parse().map(|value| values.push(value)).is_ok(),
+            Values::Flag(values) => cell.parse().map(|value| values.push(value)).is_ok(),
             Values::Text(values) => {
                 values.push(ByteArray::from(cell));
                 true
@@ -146,7 +151,7 @@ impl Cells {
         if fits {
             return Ok(());
         }
-        let message = format!("`{cell}` is not a number, in column {}", self.name);
+        let message = format!("`{cell}` does not belong into column {}", self.name);
         Err(io::Error::new(io::ErrorKind::InvalidData, message))
     }
 
@@ -155,6 +160,7 @@ impl Cells {
         match &mut self.values {
             Values::Whole(values) => values.clear(),
             Values::Number(values) => values.clear(),
+            Values::Flag(values) => values.clear(),
             Values::Text(values) => values.clear(),
         }
     }
@@ -186,6 +192,7 @@ impl ParquetReader {
                 Field::Null => row.push_field(""),
                 Field::ULong(value) => row.push_field(&value.to_string()),
                 Field::Double(value) => row.push_field(&text::float(*value)),
+                Field::Bool(value) => row.push_field(&value.to_string()),
                 Field::Str(value) => row.push_field(value),
                 _ => {
                     let message = format!("column {name} is not one that flap writes");

@@ -113,6 +113,7 @@ mod tests {
             residual: 0.0,
             period: 1,
             floquet_max: 0.5,
+            state: Vec::new(),
             rhs_evals: 0,
             reason: None,
         }

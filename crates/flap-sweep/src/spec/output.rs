@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use flap_core::simulate::Simulator;
+use flap_core::simulate::{Column, Simulator};
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -14,12 +14,16 @@ use crate::plan::Output;
 const KEYS: [&str; 2] = ["path", "columns"];
 
 /// Columns that every row has, whatever is selected.
-const ALWAYS: [&str; 7] = ["point", "status", "cycles", "residual", "period", "floquet_max", "rhs_evals"];
+const ALWAYS: [&str; 8] =
+    ["point", "status", "cycles", "residual", "period", "floquet_max", "stable", "rhs_evals"];
+
+/// A model, and the columns of its rows.
+type Measured<'m> = (&'static dyn Simulator, &'m [Column]);
 
 /// The section; column names are checked only if the model is known.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
-    model: Option<&'static dyn Simulator>,
+    model: Option<Measured<'_>>,
     problems: &mut Problems,
 ) -> Output {
     let Some(entry) = entry else {
@@ -35,11 +39,7 @@ pub(super) fn read(
 }
 
 /// The indices of the columns that `value` lists.
-fn columns_of(
-    model: &'static dyn Simulator,
-    value: &Spanned<DeValue<'_>>,
-    problems: &mut Problems,
-) -> Vec<usize> {
+fn columns_of(model: Measured<'_>, value: &Spanned<DeValue<'_>>, problems: &mut Problems) -> Vec<usize> {
     let list = value.get_ref().as_array().filter(|list| !list.is_empty());
     let Some(list) = list else {
         problems
@@ -52,7 +52,7 @@ fn columns_of(
         let Some(name) = value::text("columns", item, problems) else {
             continue;
         };
-        let Some(index) = model.columns().iter().position(|column| column.name == name) else {
+        let Some(index) = model.1.iter().position(|column| column.name == name) else {
             report_unknown(model, name, item, problems);
             continue;
         };
@@ -69,7 +69,7 @@ fn columns_of(
 }
 
 fn report_unknown(
-    model: &'static dyn Simulator,
+    (model, columns): Measured<'_>,
     name: &str,
     item: &Spanned<DeValue<'_>>,
     problems: &mut Problems,
@@ -86,7 +86,7 @@ fn report_unknown(
             )
             .help(format!("remove `{name}`: `columns` selects among the measures"));
     } else {
-        let names: Vec<&str> = model.columns().iter().map(|column| column.name.as_str()).collect();
+        let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
         diagnostic.note(format!("columns: {}", names.join(", "))).did_you_mean(name, names);
     }
 }
