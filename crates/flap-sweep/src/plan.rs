@@ -76,7 +76,18 @@ impl Plan {
             Some(points) if points <= Plan::MAX_POINTS => {
                 let Parts { simulator, resonance, preset, base, axes, solver, output, source } = parts;
                 let selection = Selection::All;
-                Ok(Plan { simulator, resonance, preset, base, axes, solver, output, source, selection, points })
+                Ok(Plan {
+                    simulator,
+                    resonance,
+                    preset,
+                    base,
+                    axes,
+                    solver,
+                    output,
+                    source,
+                    selection,
+                    points,
+                })
             }
             _ => Err(Box::new(parts)),
         }

@@ -45,7 +45,9 @@ impl fmt::Display for Selection {
             Selection::Shard(shard) => write!(f, "shard {shard}"),
             Selection::Listed(list) => {
                 let mut hash = Xxh3Default::new();
-                list.iter().for_each(|index| hash.update(&index.to_le_bytes()));
+                for index in list {
+                    hash.update(&index.to_le_bytes());
+                }
                 write!(f, "{} listed points ({:016x})", list.len(), hash.digest())
             }
         }

@@ -13,7 +13,7 @@ pub struct Writer(Rows);
 enum Rows {
     Text(Box<TextRows>),
     #[cfg(feature = "parquet")]
-    Parquet(super::parquet::ParquetRows),
+    Parquet(Box<super::parquet::ParquetRows>),
 }
 
 impl Writer {
@@ -24,7 +24,10 @@ impl Writer {
     pub fn new(file: File, format: Format, provenance: &Provenance) -> io::Result<Writer> {
         match format {
             #[cfg(feature = "parquet")]
-            Format::Parquet => Ok(Writer(Rows::Parquet(super::parquet::ParquetRows::new(file, provenance)?))),
+            Format::Parquet => {
+                let rows = super::parquet::ParquetRows::new(file, provenance)?;
+                Ok(Writer(Rows::Parquet(Box::new(rows))))
+            }
             _ => {
                 let mut rows = TextRows::new(file, format)?;
                 rows.header(provenance.columns.iter().map(|column| &column.name))?;
