@@ -292,6 +292,11 @@ pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
         sidecar::PlanError::Points => {
             Failure::usage(format!("{}: its points are not points of its grid", path.display()))
         }
+        sidecar::PlanError::Solver => {
+            let message =
+                format!("{}: its solver settings are not ones that a grid may have", path.display());
+            Failure::usage(message)
+        }
     })
 }
 

@@ -6,6 +6,7 @@ use csv::StringRecord;
 use flap_core::simulate::Status;
 
 use crate::results::Reader;
+use crate::selection::MOST_LISTED;
 
 /// The indices of the rows that have one of `statuses`, rising.
 ///
@@ -25,6 +26,11 @@ pub fn points(reader: &mut Reader, statuses: &[Status], points: u64) -> io::Resu
             continue;
         }
         let index = row.get(point).and_then(|cell| cell.parse().ok());
+        if list.len() as u64 == MOST_LISTED {
+            return Err(wrong(format!(
+                "more than {MOST_LISTED} points would be run again: change the grid file instead"
+            )));
+        }
         match index.filter(|&index| index < points && list.last().is_none_or(|&last| last < index)) {
             Some(index) => list.push(index),
             None => {

@@ -114,13 +114,19 @@ pub fn list_text(list: &[u64]) -> String {
     runs.map(run).collect::<Vec<_>>().join(",")
 }
 
-/// The list that [`list_text`] wrote, of indices below `points`; `None` for any other text.
+/// The most points that may be listed: they are kept in memory.
+pub const MOST_LISTED: u64 = 10_000_000;
+
+/// The list that [`list_text`] wrote, of at most [`MOST_LISTED`] indices below `points`; `None` for any other text.
 pub fn read_list(text: &str, points: u64) -> Option<Vec<u64>> {
     let mut list: Vec<u64> = Vec::new();
     for run in text.split(',').filter(|run| !run.is_empty()) {
         let (first, last) = run.split_once('-').unwrap_or((run, run));
         let (first, last): (u64, u64) = (first.parse().ok()?, last.parse().ok()?);
         if first > last || last >= points || list.last().is_some_and(|&before| before >= first) {
+            return None;
+        }
+        if last - first >= MOST_LISTED - list.len() as u64 {
             return None;
         }
         list.extend(first..=last);
@@ -166,5 +172,6 @@ mod tests {
         for text in ["x", "3-1", "5,4", "5,5", "1-", "100", "0-99999999999999999999"] {
             assert_eq!(read_list(text, 100), None, "{text}");
         }
+        assert_eq!(read_list("0-10000000", u64::MAX), None, "too many");
     }
 }

@@ -191,6 +191,8 @@ pub enum PlanError {
     Grid(Vec<Diagnostic>),
     /// The points in it are not points of the grid.
     Points,
+    /// The solver settings in it are not ones that a grid file may have.
+    Solver,
 }
 
 impl Sidecar {
@@ -271,6 +273,9 @@ impl Sidecar {
     /// If it was written by another version whose grid files differ, or edited.
     pub fn plan(&self, models: &[&'static dyn Simulator]) -> Result<Plan, PlanError> {
         let mut plan = spec::parse(&self.grid.name, &self.grid.text, models).map_err(PlanError::Grid)?;
+        if !self.solver.is_allowed() {
+            return Err(PlanError::Solver);
+        }
         plan.solver = SolverSettings::from(&self.solver);
         if let Some(shard) = &self.shard {
             plan.selection = Selection::Shard(shard.parse().map_err(|_| PlanError::Points)?);
@@ -334,6 +339,14 @@ pub fn path_of(results: &Path) -> PathBuf {
 /// The hash of a grid file's text, in hexadecimal digits.
 pub(crate) fn grid_hash(text: &str) -> String {
     format!("{:016x}", xxhash_rust::xxh3::xxh3_64(text.as_bytes()))
+}
+
+impl Solver {
+    /// Whether a grid file may have these settings.
+    fn is_allowed(&self) -> bool {
+        let positive = [self.rtol, self.atol, self.settle_tol].iter().all(|tolerance| *tolerance > 0.0);
+        positive && self.rtol < spec::LARGEST_RTOL && self.max_cycles > 0 && self.max_steps > 0
+    }
 }
 
 impl From<&SolverSettings> for Solver {

@@ -28,6 +28,7 @@ use crate::diagnostic::Diagnostic;
 use crate::plan::{Parts, Plan, Source};
 use problems::Problems;
 pub use read::{ReadError, read};
+pub(crate) use solver::LARGEST_RTOL;
 use table::Entry;
 
 /// The keys at the top of a grid file.
