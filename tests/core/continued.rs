@@ -8,8 +8,14 @@ use crate::data::assert_close;
 use crate::robustness::designs;
 use crate::rows;
 
-const SOLVER: SolverSettings =
-    SolverSettings { rtol: 1e-8, atol: 1e-10, settle_tol: 1e-6, max_cycles: 1000, max_steps: 20_000 };
+const SOLVER: SolverSettings = SolverSettings {
+    rtol: 1e-8,
+    atol: 1e-10,
+    settle_tol: 1e-6,
+    max_cycles: 1000,
+    max_steps: 20_000,
+    newton: true,
+};
 
 /// Every preset of a model.
 fn presets(model: &dyn Simulator) -> Vec<Vec<f64>> {

@@ -115,6 +115,7 @@ pub struct Solver {
     pub settle_tol: f64,
     pub max_cycles: u32,
     pub max_steps: u32,
+    pub newton: bool,
 }
 
 /// Where the points of a rerun come from.
@@ -351,15 +352,15 @@ impl Solver {
 
 impl From<&SolverSettings> for Solver {
     fn from(settings: &SolverSettings) -> Solver {
-        let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps } = *settings;
-        Solver { rtol, atol, settle_tol, max_cycles, max_steps }
+        let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, newton } = *settings;
+        Solver { rtol, atol, settle_tol, max_cycles, max_steps, newton }
     }
 }
 
 impl From<&Solver> for SolverSettings {
     fn from(solver: &Solver) -> SolverSettings {
-        let Solver { rtol, atol, settle_tol, max_cycles, max_steps } = *solver;
-        SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps }
+        let Solver { rtol, atol, settle_tol, max_cycles, max_steps, newton } = *solver;
+        SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, newton }
     }
 }
 

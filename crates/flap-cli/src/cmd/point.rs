@@ -2,13 +2,16 @@
 
 use std::path::Path;
 
+use flap_core::num::InstructionSet;
 use flap_core::parameter::{Kind, Parameter};
-use flap_core::simulate::{self, Simulator, SolverSettings};
+use flap_core::simulate::{self, Rows, Simulator, SolverSettings};
 use flap_sweep::diagnostic::nearest;
 use flap_sweep::plan::Plan;
+use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
 use flap_sweep::{spec, units};
 
 use crate::args::{PointArgs, SolverArgs};
+use crate::console;
 use crate::failure::Failure;
 
 /// A design point, and the plan it comes from.
@@ -36,7 +39,29 @@ impl Chosen {
             let index = find_parameter(plan.parameters(), name)?;
             values[index] = self::value(&plan.parameters()[index], "--set", value)?;
         }
-        Ok(Chosen { plan, values, sampled: None, index: point.point })
+        let mut chosen = Chosen { plan, values, sampled: None, index: point.point };
+        chosen.find_resonance()?;
+        Ok(chosen)
+    }
+
+    /// Gives a drive frequency that is to be the resonance its value.
+    fn find_resonance(&mut self) -> Result<(), Failure> {
+        let Some(resonance) = &self.plan.resonance else { return Ok(()) };
+        let index = find_parameter(self.plan.parameters(), DRIVE_FREQUENCY)?;
+        if !self.values[index].is_nan() {
+            return Ok(());
+        }
+        let row = resonance.run_point(InstructionSet::best(), &self.plan.solver, &self.values, None);
+        let place = resonance.columns().iter().position(|column| column.name == RESONANCE_HZ);
+        let found = place.and_then(|place| row.measures.get(place));
+        let found = found.copied().ok_or_else(|| {
+            let reason =
+                row.reason.clone().unwrap_or_else(|| format!("at every frequency: {}", row.status.name()));
+            Failure::usage(format!("the resonance of this point was not found: {reason}"))
+        })?;
+        self.values[index] = found;
+        console::say(&format!("{DRIVE_FREQUENCY} = {found} Hz, the resonance"));
+        Ok(())
     }
 
     /// The model that is run.

@@ -37,8 +37,9 @@ pub struct Band {
 pub enum BandKind {
     /// Two motions: on the way up, and on the way down.
     Bistable {
-        /// Largest difference of the stroke between them (deg, peak to peak); zero if it is known nowhere.
-        jump: f64,
+        /// Largest difference of the stroke between them (deg, peak to peak); `None` if everywhere one of them is not
+        /// periodic with the drive.
+        jump: Option<f64>,
     },
     /// Motions that are not periodic with the drive.
     Irregular {
@@ -63,10 +64,10 @@ impl Verdict {
         let mut open = false;
         for (up, down) in curve.up.iter().zip(&curve.down) {
             let strokes = stroke_pp(&up.row).zip(stroke_pp(&down.row));
-            let difference = strokes.map_or(0.0, |(up, down)| (up - down).abs());
+            let difference = strokes.map(|(up, down)| (up - down).abs());
             let kind = match compare(&up.row, &down.row, &sizes) {
                 Comparison::Same => {
-                    verdict.difference = verdict.difference.max(difference);
+                    verdict.difference = verdict.difference.max(difference.unwrap_or(0.0));
                     open = false;
                     continue;
                 }
@@ -105,7 +106,9 @@ impl BandKind {
     /// Adds what is known of the next value of a band.
     fn add(&mut self, next: BandKind) {
         match (self, next) {
-            (BandKind::Bistable { jump }, BandKind::Bistable { jump: next }) => *jump = jump.max(next),
+            (BandKind::Bistable { jump }, BandKind::Bistable { jump: next }) => {
+                *jump = [*jump, next].into_iter().flatten().reduce(f64::max);
+            }
             (BandKind::Irregular { what }, BandKind::Irregular { what: next }) => {
                 for kind in next {
                     if !what.contains(&kind) {
@@ -133,7 +136,12 @@ impl fmt::Display for Verdict {
             }
             let place = span(band.range, self.unit);
             match &band.kind {
-                BandKind::Bistable { jump } => write!(f, "bistable {place}, jump of {} deg", digits(*jump))?,
+                BandKind::Bistable { jump: Some(jump) } => {
+                    write!(f, "bistable {place}, jump of {} deg", digits(*jump))?;
+                }
+                BandKind::Bistable { jump: None } => {
+                    write!(f, "of one drive period on one way alone {place}")?;
+                }
                 BandKind::Irregular { what } => {
                     let what: Vec<String> = what.iter().map(|&kind| describe(kind)).collect();
                     write!(f, "not of one drive period {place} ({})", what.join(", "))?;
