@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use super::row::{self, invalid};
+use super::row;
 use super::search::varied;
 use super::search::{Next, Search};
 use super::simulator::{
@@ -71,7 +71,7 @@ where
     let model = &model.variant(values);
     let mut start = match model.start(values) {
         Ok(start) => start,
-        Err(error) => return invalid(error),
+        Err(error) => return Row::invalid(error),
     };
     let search = search::<M, R, N, K, S>(model, solver, &start);
     if let Some(row) = row::unmeasured(&search) {
