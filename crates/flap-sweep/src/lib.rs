@@ -5,6 +5,7 @@
 pub mod axis;
 pub mod csv_sink;
 pub mod diagnostic;
+pub mod expression;
 pub mod layout;
 pub mod output;
 pub mod plan;
