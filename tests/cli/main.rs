@@ -4,6 +4,7 @@
 
 mod documents;
 mod experiments;
+mod formulas;
 mod irregular;
 mod lists;
 mod mistakes;

@@ -2,6 +2,7 @@
 
 mod fake;
 mod files;
+mod formulas;
 mod meaning;
 mod mistakes;
 mod points;

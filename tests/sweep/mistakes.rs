@@ -2,6 +2,7 @@
 
 mod any;
 mod axes;
+mod formulas;
 mod sections;
 mod syntax;
 mod values;

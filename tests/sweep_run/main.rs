@@ -5,5 +5,6 @@
 mod failure;
 mod fake;
 mod files;
+mod formulas;
 mod rows;
 mod support;

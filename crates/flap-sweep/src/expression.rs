@@ -52,6 +52,16 @@ pub trait Scope {
     fn names(&self) -> Vec<String>;
 }
 
+/// Whether `name` can be given to something that expressions are to use.
+pub fn is_free_name(name: &str) -> bool {
+    let mut characters = name.chars();
+    characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
+        && characters.all(|character| character.is_ascii_alphanumeric() || character == '_')
+        && !["and", "or", "not"].contains(&name)
+        && function::find(name).is_none()
+        && function::constant(name).is_none()
+}
+
 /// An expression that has passed every check.
 #[derive(Clone, Debug)]
 pub struct Expression {

@@ -6,6 +6,7 @@ pub mod axis;
 pub mod csv_sink;
 pub mod diagnostic;
 pub mod expression;
+pub mod formula;
 pub mod layout;
 pub mod output;
 pub mod plan;

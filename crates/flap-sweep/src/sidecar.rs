@@ -46,6 +46,7 @@ pub struct Sidecar {
     preset: &'static str,
     points: u64,
     rows: Option<u64>,
+    excluded: Option<u64>,
     started: String,
     finished: Option<String>,
     seconds: Option<f64>,
@@ -55,6 +56,8 @@ pub struct Sidecar {
     cycles: Option<u64>,
     rhs_evals: Option<u64>,
     statuses: Option<BTreeMap<&'static str, u64>>,
+    /// For each condition, how many points do not satisfy it.
+    unsatisfied: BTreeMap<String, u64>,
     solver: Solver,
     parameters: BTreeMap<&'static str, Value>,
     varied: Vec<Varied>,
@@ -109,6 +112,7 @@ impl Sidecar {
             preset: plan.preset,
             points: plan.len(),
             rows: None,
+            excluded: None,
             started: start.started,
             finished: None,
             seconds: None,
@@ -118,6 +122,7 @@ impl Sidecar {
             cycles: None,
             rhs_evals: None,
             statuses: None,
+            unsatisfied: BTreeMap::new(),
             solver: Solver::from(&plan.solver),
             parameters: parameters(plan),
             varied: layout.varied.iter().map(|(_, p)| Varied { name: p.name, unit: p.unit }).collect(),
@@ -135,11 +140,13 @@ impl Sidecar {
     pub fn finish(&mut self, summary: &Summary, end: End) {
         self.state = if summary.interrupted { "interrupted" } else { "complete" };
         self.rows = Some(summary.rows);
+        self.excluded = Some(summary.excluded);
         self.finished = Some(end.finished);
         self.seconds = Some(end.seconds);
         self.cycles = Some(summary.cycles);
         self.rhs_evals = Some(summary.rhs_evals);
         self.statuses = Some(summary.counts.iter().map(|(status, count)| (status.name(), count)).collect());
+        self.unsatisfied = summary.unsatisfied.iter().cloned().collect();
         let invalid =
             |(point, reason): &(u64, String)| InvalidPoint { point: *point, reason: reason.clone() };
         self.invalid = summary.invalid.iter().map(invalid).collect();

@@ -1,6 +1,7 @@
 //! Any text at all: never a panic, and diagnostics that can be shown.
 
 use flap_core::parameter::Kind;
+use flap_sweep::plan::Verdict;
 use proptest::prelude::*;
 
 use crate::fake::MODELS;
@@ -16,6 +17,13 @@ drive_frequency = { from = 60, to = 200, step = "1 Hz" }
 [[zip]]
 stroke_offset = ["1 deg", 0.2, -3e-1]
 hinge_position = [1, 2, 3]
+[derived]
+hinge_stiffness = "preset.hinge_stiffness * (wing_area / preset.wing_area)^-1.5"
+[where]
+narrow = "stroke_offset < 1 and not arms == 'printed'"
+[measure]
+ratio = "lift_mean_mn / max(power_mean_mw, 1e-3)"
+good = "ratio > 2"
 [solver]
 rtol = 1e-6
 max_cycles = 10
@@ -25,7 +33,13 @@ columns = ["lift_mean_mn"]
 "#;
 
 /// Scraps that mean something in a grid file.
-const SCRAPS: [&str; 24] = [
+const SCRAPS: [&str; 30] = [
+    " ^ ",
+    "(",
+    "not ",
+    "preset.",
+    "* 1e300",
+    "stroke_offset",
     "",
     "\n",
     "\"",
@@ -67,6 +81,12 @@ proptest! {
             Ok(plan) => {
                 for index in [0, plan.len() / 2, plan.len() - 1] {
                     let values = plan.point(index).values;
+                    let mut measures = vec![1.0, 0.0, f64::NAN];
+                    plan.add_own_measures(&values, &mut measures);
+                    prop_assert_eq!(measures.len(), 3 + plan.measures.len());
+                    if plan.judge(&values) != Verdict::Runs {
+                        continue;
+                    }
                     for (parameter, value) in plan.parameters().iter().zip(values) {
                         match parameter.kind {
                             Kind::Number(range) => prop_assert!(range.contains(value), "{}", parameter.name),

@@ -1,6 +1,7 @@
 //! One module per command, and what they share.
 
 pub(crate) mod check;
+mod exclusion;
 mod impulse;
 pub(crate) mod lift;
 pub(crate) mod models;

@@ -5,10 +5,11 @@ use std::path::Path;
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{self, Simulator, SolverSettings};
 use flap_sweep::diagnostic::nearest;
-use flap_sweep::plan::Plan;
+use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::{spec, units};
 
 use crate::args::{PointArgs, SolverArgs};
+use crate::console;
 use crate::failure::Failure;
 
 /// A design point, and the plan it comes from.
@@ -32,8 +33,19 @@ impl Chosen {
             return Err(Failure::usage(message));
         }
         let mut values = plan.point(point.point).values;
+        let mut set = Vec::new();
         for (name, value) in &point.set {
-            set_parameter(plan.parameters(), &mut values, name, value)?;
+            set.push(set_parameter(plan.parameters(), &mut values, name, value)?);
+        }
+        plan.derived.fill(&mut values, &set);
+        match plan.judge(&values) {
+            Verdict::Runs => {}
+            Verdict::Excluded(unsatisfied) => {
+                let names: Vec<&str> =
+                    unsatisfied.iter().map(|&condition| plan.conditions[condition].name.as_str()).collect();
+                console::say(&format!("a sweep does not run this point: {} not satisfied", names.join(", ")));
+            }
+            Verdict::Invalid(invalid) => return Err(invalid.into()),
         }
         Ok(Chosen { plan, values, sampled: None, index: point.point })
     }
@@ -88,13 +100,13 @@ fn set_solver(settings: &mut SolverSettings, args: &SolverArgs) {
     settings.max_cycles = args.max_cycles.unwrap_or(settings.max_cycles);
 }
 
-/// Sets the parameter called `name` from text.
+/// Sets the parameter called `name` from text. Returns its index.
 fn set_parameter(
     parameters: &[Parameter],
     values: &mut [f64],
     name: &str,
     text: &str,
-) -> Result<(), Failure> {
+) -> Result<usize, Failure> {
     let Some(index) = parameters.iter().position(|parameter| parameter.name == name) else {
         let failure = Failure::usage(format!("there is no parameter `{name}`"));
         return Err(match nearest(name, parameters.iter().map(|parameter| parameter.name)) {
@@ -103,7 +115,7 @@ fn set_parameter(
         });
     };
     values[index] = value(&parameters[index], text)?;
-    Ok(())
+    Ok(index)
 }
 
 fn value(parameter: &Parameter, text: &str) -> Result<f64, Failure> {

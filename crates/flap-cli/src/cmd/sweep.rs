@@ -18,6 +18,7 @@ use flap_sweep::{output, spec};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
+use super::exclusion;
 use crate::args::SweepArgs;
 use crate::failure::{Exit, Failure};
 use crate::progress::Bar;
@@ -149,6 +150,9 @@ fn report(summary: &Summary, elapsed: Duration, out: &Path) {
     let rate = summary.rows as f64 / seconds.max(1e-9);
     console::say(&format!("{counts} in {seconds:.2} s ({rate:.0} points/s)"));
 
+    if summary.excluded > 0 {
+        console::say(&exclusion::text(summary.excluded, &summary.unsatisfied));
+    }
     let unsettled = summary.counts.of(Status::Unsettled);
     if unsettled > 0 {
         console::say(&format!(
@@ -159,8 +163,8 @@ fn report(summary: &Summary, elapsed: Duration, out: &Path) {
 
     let place = if out.as_os_str() == "-" { "stdout".to_owned() } else { out.display().to_string() };
     if summary.interrupted {
-        let (rows, points) = (summary.rows, summary.points);
-        console::say(&format!("interrupted: the rows of the first {rows} of {points} points are in {place}"));
+        let (done, points) = (summary.done(), summary.points);
+        console::say(&format!("interrupted: the rows of the first {done} of {points} points are in {place}"));
     } else {
         console::say(&format!("{} rows in {place}", summary.rows));
     }

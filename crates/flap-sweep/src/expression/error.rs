@@ -149,6 +149,9 @@ impl ExpressionError {
                 nearest(option, options.iter().copied())
                     .map_or_else(|| format!("options: {}", options.join(", ")), did_you_mean),
             ),
+            Problem::Unset { name, follows } if name.contains('.') => {
+                Some(format!("it follows others ({follows}), so that there is no number to use"))
+            }
             Problem::Unset { name, follows } => {
                 Some(format!("it follows others ({follows}): set `{name}` under [params] to use it here"))
             }

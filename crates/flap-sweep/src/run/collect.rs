@@ -2,6 +2,7 @@
 
 use std::io;
 
+use super::finished::Finished;
 use super::queue::{Queue, Turn};
 use super::{Progress, Summary};
 use crate::plan::Plan;
@@ -15,19 +16,24 @@ pub(super) fn collect(
     progress: &mut dyn FnMut(Progress),
 ) -> io::Result<Summary> {
     let _ends_the_workers = Abort(queue);
-    let mut summary = Summary { points: plan.len(), ..Summary::default() };
+    let mut summary = Summary::new(plan);
     let mut batch = Vec::new();
     while let Turn::Rows(finished) = queue.turn(&mut batch) {
         if !batch.is_empty() {
-            for row in batch.drain(..) {
-                sink.write(&plan.point(summary.rows), &row)?;
-                summary.add(row);
+            for finished in batch.drain(..) {
+                match finished {
+                    Finished::Row(row) => {
+                        sink.write(&plan.point(summary.done()), &row)?;
+                        summary.add(row);
+                    }
+                    Finished::Excluded(unsatisfied) => summary.exclude(&unsatisfied),
+                }
             }
             sink.flush()?;
         }
         progress(Progress { finished, points: summary.points });
     }
-    summary.interrupted = summary.rows < summary.points;
+    summary.interrupted = summary.done() < summary.points;
     Ok(summary)
 }
 

@@ -5,6 +5,7 @@
 //! does not grow with the number of points and the output does not depend on the number of threads.
 
 mod collect;
+mod finished;
 mod queue;
 mod summary;
 mod window;
@@ -48,7 +49,7 @@ impl Default for RunOptions {
 /// How far a sweep is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// Points that have run, whether their rows are written yet or not.
+    /// Points that have run or are excluded, whether their rows are written yet or not.
     pub finished: u64,
     /// Points of the plan.
     pub points: u64,

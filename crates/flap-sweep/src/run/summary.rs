@@ -2,6 +2,8 @@
 
 use flap_core::simulate::{Row, Status};
 
+use crate::plan::Plan;
+
 /// How many points had each status.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts([u64; Status::ALL.len()]);
@@ -23,8 +25,12 @@ impl Counts {
 pub struct Summary {
     /// Points of the plan.
     pub points: u64,
-    /// Rows written: points `0..rows`.
+    /// Rows written: those of the first points, but for excluded ones.
     pub rows: u64,
+    /// Points among them that were excluded, and have no row.
+    pub excluded: u64,
+    /// The conditions of the plan, with how many of these points do not satisfy them.
+    pub unsatisfied: Vec<(String, u64)>,
     /// Whether the sweep was stopped before the last point.
     pub interrupted: bool,
     /// Rows by status.
@@ -41,12 +47,31 @@ impl Summary {
     /// Reasons kept in [`Summary::invalid`].
     pub const MOST_REASONS: usize = 5;
 
+    /// Of a plan of which nothing has run yet.
+    pub(super) fn new(plan: &Plan) -> Summary {
+        let unsatisfied = plan.conditions.iter().map(|condition| (condition.name.clone(), 0)).collect();
+        Summary { points: plan.len(), unsatisfied, ..Summary::default() }
+    }
+
+    /// Points that are done with: the first ones of the plan.
+    pub fn done(&self) -> u64 {
+        self.rows + self.excluded
+    }
+
+    /// Notes a point that does not satisfy the conditions with these numbers.
+    pub(super) fn exclude(&mut self, unsatisfied: &[usize]) {
+        self.excluded += 1;
+        for &condition in unsatisfied {
+            self.unsatisfied[condition].1 += 1;
+        }
+    }
+
     /// Adds a written row.
     pub(super) fn add(&mut self, row: Row) {
         if let (Status::Invalid, Some(reason)) = (row.status, row.reason)
             && self.invalid.len() < Summary::MOST_REASONS
         {
-            self.invalid.push((self.rows, reason));
+            self.invalid.push((self.done(), reason));
         }
         self.rows += 1;
         self.counts.0[row.status as usize] += 1;

@@ -7,8 +7,9 @@ use flap_core::num::InstructionSet;
 use flap_core::simulate::{Jobs, Point, Row, Status};
 
 use super::RunError;
+use super::finished::Finished;
 use super::queue::Queue;
-use crate::plan::Plan;
+use crate::plan::{Plan, Verdict};
 
 /// Runs points until there are none left, and leaves the queue whatever happens.
 pub(super) fn work(plan: &Plan, instructions: InstructionSet, queue: &Queue) {
@@ -41,13 +42,22 @@ impl Jobs for Source<'_> {
         if self.fault.is_some() {
             return None;
         }
-        // A worker with points in hand must never wait: others may be waiting for their rows.
-        let index = self.queue.next(idle && self.in_hand == 0)?;
-        self.in_hand += 1;
-        Some(self.plan.point(index))
+        loop {
+            // A worker with points in hand must never wait: others may be waiting for their rows.
+            let index = self.queue.next(idle && self.in_hand == 0)?;
+            let point = self.plan.point(index);
+            match self.plan.judge(&point.values) {
+                Verdict::Runs => {
+                    self.in_hand += 1;
+                    return Some(point);
+                }
+                Verdict::Excluded(unsatisfied) => self.queue.done(index, Finished::Excluded(unsatisfied)),
+                Verdict::Invalid(invalid) => self.queue.done(index, Finished::Row(Row::invalid(invalid))),
+            }
+        }
     }
 
-    fn done(&mut self, index: u64, row: Row) {
+    fn done(&mut self, index: u64, mut row: Row) {
         let expected = if row.status == Status::Periodic { self.plan.simulator.columns().len() } else { 0 };
         if row.measures.len() != expected {
             let found = row.measures.len();
@@ -55,7 +65,10 @@ impl Jobs for Source<'_> {
             return;
         }
         self.in_hand = self.in_hand.saturating_sub(1);
-        self.queue.done(index, row);
+        if !self.plan.measures.is_empty() && index < self.plan.len() {
+            self.plan.add_own_measures(&self.plan.point(index).values, &mut row.measures);
+        }
+        self.queue.done(index, Finished::Row(row));
     }
 }
 

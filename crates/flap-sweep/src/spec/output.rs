@@ -14,12 +14,14 @@ use crate::plan::Output;
 const KEYS: [&str; 2] = ["path", "columns"];
 
 /// Columns that every row has, whatever is selected.
-const ALWAYS: [&str; 7] = ["point", "status", "cycles", "residual", "period", "floquet_max", "rhs_evals"];
+pub(super) const ALWAYS: [&str; 7] =
+    ["point", "status", "cycles", "residual", "period", "floquet_max", "rhs_evals"];
 
-/// The section; column names are checked only if the model is known.
+/// The section; column names are checked only if the model is known. `own` are the names of the user's measures.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
     model: Option<&'static dyn Simulator>,
+    own: &[String],
     problems: &mut Problems,
 ) -> Output {
     let Some(entry) = entry else {
@@ -31,12 +33,13 @@ pub(super) fn read(
         .and_then(|entry| value::text("path", entry.value, problems))
         .map(PathBuf::from);
     let columns = table::find(&entries, "columns").zip(model);
-    Output { path, columns: columns.map(|(entry, model)| columns_of(model, entry.value, problems)) }
+    Output { path, columns: columns.map(|(entry, model)| columns_of(model, own, entry.value, problems)) }
 }
 
 /// The indices of the columns that `value` lists.
 fn columns_of(
     model: &'static dyn Simulator,
+    own: &[String],
     value: &Spanned<DeValue<'_>>,
     problems: &mut Problems,
 ) -> Vec<usize> {
@@ -47,13 +50,15 @@ fn columns_of(
             .help("remove `columns` to write all columns of the model");
         return Vec::new();
     };
+    let names: Vec<&str> =
+        model.columns().iter().map(|column| &column.name).chain(own).map(String::as_str).collect();
     let mut chosen: Vec<(usize, &Spanned<DeValue<'_>>)> = Vec::new();
     for item in list {
         let Some(name) = value::text("columns", item, problems) else {
             continue;
         };
-        let Some(index) = model.columns().iter().position(|column| column.name == name) else {
-            report_unknown(model, name, item, problems);
+        let Some(index) = names.iter().position(|known| *known == name) else {
+            report_unknown(model, &names, name, item, problems);
             continue;
         };
         if let Some((_, first)) = chosen.iter().find(|(other, _)| *other == index) {
@@ -70,6 +75,7 @@ fn columns_of(
 
 fn report_unknown(
     model: &'static dyn Simulator,
+    names: &[&str],
     name: &str,
     item: &Spanned<DeValue<'_>>,
     problems: &mut Problems,
@@ -86,7 +92,7 @@ fn report_unknown(
             )
             .help(format!("remove `{name}`: `columns` selects among the measures"));
     } else {
-        let names: Vec<&str> = model.columns().iter().map(|column| column.name.as_str()).collect();
-        diagnostic.note(format!("columns: {}", names.join(", "))).did_you_mean(name, names);
+        let columns = format!("columns: {}", names.join(", "));
+        diagnostic.note(columns).did_you_mean(name, names.iter().copied());
     }
 }
