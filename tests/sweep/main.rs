@@ -6,3 +6,4 @@ mod formulas;
 mod meaning;
 mod mistakes;
 mod points;
+mod sample;

@@ -3,6 +3,7 @@
 mod any;
 mod axes;
 mod formulas;
+mod sample;
 mod sections;
 mod syntax;
 mod values;

@@ -12,6 +12,7 @@ pub mod output;
 pub mod plan;
 pub mod record;
 pub mod run;
+pub mod sample;
 pub mod sidecar;
 pub mod sink;
 pub mod spec;

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use flap_core::parameter::{Invalid, Kind, Parameter, Range};
 use flap_core::simulate::{Point, Simulator, SolverSettings};
 
-use crate::axis::Axis;
+use crate::axis::{Axis, Values};
 use crate::formula::{Condition, Derived, OwnMeasure};
 use crate::text;
 
@@ -21,6 +21,8 @@ pub struct Plan {
     pub base: Vec<f64>,
     /// The axes; the last varies fastest.
     pub axes: Vec<Axis>,
+    /// The file that lists the points of the sample, if one does.
+    pub points_file: Option<PointsFile>,
     /// The parameters that are computed from others.
     pub derived: Derived,
     /// The conditions that points satisfy, or are not run.
@@ -43,6 +45,15 @@ pub struct Output {
     pub path: Option<PathBuf>,
     /// Indices into the model's columns, followed by the plan's own measures, in the order wanted; `None` for all.
     pub columns: Option<Vec<usize>>,
+}
+
+/// A file that lists the points of a sample.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PointsFile {
+    /// Its path, from the working directory.
+    pub path: PathBuf,
+    /// The hash of its text: XXH3 of 64 bits.
+    pub xxh3: u64,
 }
 
 /// Whether a point is run.
@@ -71,6 +82,7 @@ pub(crate) struct Parts {
     pub(crate) preset: &'static str,
     pub(crate) base: Vec<f64>,
     pub(crate) axes: Vec<Axis>,
+    pub(crate) points_file: Option<PointsFile>,
     pub(crate) derived: Derived,
     pub(crate) conditions: Vec<Condition>,
     pub(crate) measures: Vec<OwnMeasure>,
@@ -93,6 +105,7 @@ impl Plan {
                     preset,
                     base,
                     axes,
+                    points_file,
                     derived,
                     conditions,
                     measures,
@@ -105,6 +118,7 @@ impl Plan {
                     preset,
                     base,
                     axes,
+                    points_file,
                     derived,
                     conditions,
                     measures,
@@ -151,9 +165,7 @@ impl Plan {
         if !unsatisfied.is_empty() {
             return Verdict::Excluded(unsatisfied);
         }
-        if let Some(parameter) =
-            self.derived.parameters().find(|&parameter| !self.is_allowed(parameter, values))
-        {
+        if let Some(parameter) = self.computed().find(|&parameter| !self.is_allowed(parameter, values)) {
             return Verdict::Invalid(self.not_allowed(parameter, values[parameter]));
         }
         let unknown = self.conditions.iter().zip(held).find(|(_, holds)| holds.is_none());
@@ -164,6 +176,13 @@ impl Plan {
             ))),
             None => Verdict::Runs,
         }
+    }
+
+    /// The parameters whose values nobody has seen: sampled and derived ones.
+    fn computed(&self) -> impl Iterator<Item = usize> + '_ {
+        let varied = self.axes.iter().flat_map(|axis| &axis.parameters);
+        let sampled = varied.filter(|(_, values)| matches!(values, Values::Sampled { .. }));
+        sampled.map(|(parameter, _)| *parameter).chain(self.derived.parameters())
     }
 
     fn is_allowed(&self, parameter: usize, values: &[f64]) -> bool {

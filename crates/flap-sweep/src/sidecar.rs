@@ -63,6 +63,7 @@ pub struct Sidecar {
     varied: Vec<Varied>,
     columns: Vec<Column>,
     invalid: Vec<InvalidPoint>,
+    points_file: Option<PointsFile>,
     grid: Grid,
 }
 
@@ -91,6 +92,12 @@ struct Column {
 struct InvalidPoint {
     point: u64,
     reason: String,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct PointsFile {
+    path: String,
+    xxh3: String,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -128,6 +135,10 @@ impl Sidecar {
             varied: layout.varied.iter().map(|(_, p)| Varied { name: p.name, unit: p.unit }).collect(),
             columns: layout.measures.into_iter().map(|m| Column { name: m.name, unit: m.unit }).collect(),
             invalid: Vec::new(),
+            points_file: plan.points_file.as_ref().map(|file| PointsFile {
+                path: file.path.display().to_string(),
+                xxh3: format!("{:016x}", file.xxh3),
+            }),
             grid: Grid {
                 name: plan.source.name.clone(),
                 xxh3: format!("{:016x}", xxhash_rust::xxh3::xxh3_64(plan.source.text.as_bytes())),

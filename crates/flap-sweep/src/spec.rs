@@ -14,6 +14,7 @@ mod preset;
 mod problems;
 mod range;
 mod read;
+mod sample;
 mod solver;
 mod syntax;
 mod table;
@@ -29,15 +30,15 @@ use toml::de::DeTable;
 use crate::axis::Axis;
 use crate::diagnostic::Diagnostic;
 use crate::formula::{Condition, Derived};
-use crate::plan::{Parts, Plan, Source};
+use crate::plan::{Parts, Plan, PointsFile, Source};
 use formula::Names;
 use problems::Problems;
 pub use read::{ReadError, read};
 use table::Entry;
 
 /// The keys at the top of a grid file.
-const KEYS: [&str; 9] =
-    ["preset", "params", "axes", "zip", "derived", "where", "measure", "solver", "output"];
+const KEYS: [&str; 10] =
+    ["preset", "params", "axes", "zip", "sample", "derived", "where", "measure", "solver", "output"];
 
 /// Checks the grid file `text` and makes its plan. Presets are looked up in `models`; `name` is for messages.
 ///
@@ -62,7 +63,7 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
         output::read(output_entry, None, &[], &mut problems);
         return Err(problems.into_diagnostics());
     };
-    let Points { base, axes, derived, conditions, mut names } =
+    let Points { base, axes, points_file, derived, conditions, mut names } =
         read_points(&root, simulator, preset, models, &mut problems);
     names.are_measured = true;
     let own = measures::read(table::find(&root, "measure"), simulator, &mut names, &mut problems);
@@ -79,6 +80,7 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
         preset: preset.name,
         base,
         axes,
+        points_file,
         derived,
         conditions,
         measures: names.own,
@@ -96,12 +98,13 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
 struct Points {
     base: Vec<f64>,
     axes: Vec<axes::Placed>,
+    points_file: Option<PointsFile>,
     derived: Derived,
     conditions: Vec<Condition>,
     names: Names,
 }
 
-/// What `[params]`, `[axes]`, `[[zip]]`, `[derived]` and `[where]` say about the points.
+/// What `[params]`, `[axes]`, `[[zip]]`, `[sample]`, `[derived]` and `[where]` say about the points.
 fn read_points(
     root: &[Entry<'_>],
     simulator: &'static dyn Simulator,
@@ -114,6 +117,9 @@ fn read_points(
     let set = params::read(table::find(root, "params"), &mut base, &mut lookup);
     let mut axes = axes::read(table::find(root, "axes"), &mut lookup);
     axes.extend(zip::read(table::find(root, "zip"), &mut lookup));
+    let sample = sample::read(table::find(root, "sample"), &base, &mut lookup);
+    let (sampled, points_file) = sample.map_or((None, None), |sample| (Some(sample.placed), sample.file));
+    axes.extend(sampled);
     axes.sort_by_key(|placed| placed.span.start);
     axes::report_repeats(&axes, &set, &mut lookup);
     let drafts = derived::drafts(table::find(root, "derived"), &mut lookup);
@@ -129,7 +135,7 @@ fn read_points(
     let names = Names { parameters, preset, has_value, columns, are_measured: false, own: Vec::new() };
     let derived = derived::read(&drafts, &names, problems);
     let conditions = conditions::read(table::find(root, "where"), &names, problems);
-    Points { base, axes, derived, conditions, names }
+    Points { base, axes, points_file, derived, conditions, names }
 }
 
 fn report_unknown_keys(root: &[Entry<'_>], model: Option<&'static dyn Simulator>, problems: &mut Problems) {

@@ -9,7 +9,6 @@ use crate::fake::MODELS;
 const GRID: &str = r#"
 preset = "fly"
 [params]
-drive_voltage_pp = "200 V"
 arms = "axis"
 [axes]
 wing_area = { from = "50 mm^2", to = "60 mm²", n = 11, scale = "log" }
@@ -17,6 +16,12 @@ drive_frequency = { from = 60, to = 200, step = "1 Hz" }
 [[zip]]
 stroke_offset = ["1 deg", 0.2, -3e-1]
 hinge_position = [1, 2, 3]
+[sample]
+method = "sobol"
+n = 7
+[sample.parameters]
+drive_voltage_pp = { relative_sd = "5 %", from = 100 }
+plate_width = { from = 1e-3, to = 2e-3, scale = "log" }
 [derived]
 hinge_stiffness = "preset.hinge_stiffness * (wing_area / preset.wing_area)^-1.5"
 [where]
@@ -33,7 +38,9 @@ columns = ["lift_mean_mn"]
 "#;
 
 /// Scraps that mean something in a grid file.
-const SCRAPS: [&str; 30] = [
+const SCRAPS: [&str; 32] = [
+    "mean = 0",
+    "to = 1",
     " ^ ",
     "(",
     "not ",
