@@ -81,3 +81,46 @@ fn derived_parameters_follow_those_that_are_set() {
     assert_eq!(ended.code, 2);
     assert!(ended.stderr.contains("`hinge_stiffness` comes out as -0.99"), "{}", ended.stderr);
 }
+
+#[test]
+fn check_shows_what_is_sampled_derived_and_excluded() {
+    let grid = r#"
+preset = "jafferis2016"
+[axes]
+drive_frequency = { from = 100, to = 119, step = 1 }
+[sample]
+method = "latin-hypercube"
+n = 5
+seed = 3
+[sample.parameters]
+wing_area = { relative_sd = "5 %", from = "40 mm^2" }
+air_density = { from = 1.1, to = 1.3 }
+centre_of_pressure = ["folded", "directional"]
+[derived]
+hinge_stiffness = "preset.hinge_stiffness * drive_frequency / 100"
+[where]
+low = "drive_frequency < 115"
+other = "drive_frequency > 102"
+"#;
+    let ended = Folder::with_grid(grid).flap("check grid.toml");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    for part in [
+        "100 points of bimorph",
+        "\naxis 2: Latin hypercube, seed 3\n",
+        "\n40 points are excluded by [where]; not satisfied: low 25, other 15\n",
+        "  one of folded, directional",
+        ", from 4e-5",
+        "(excluded)\n",
+        ", hinge_stiffness = ",
+        "\nestimate: ",
+    ] {
+        assert!(ended.stdout.contains(part), "{part}\n{}", ended.stdout);
+    }
+    // Too many to count.
+    let many = grid.replace("n = 5", "n = 4_000_000_000");
+    let ended = Folder::with_grid(&many).flap("check grid.toml");
+    let counted = "\nof 1000000 points spread over the grid, which has too many to count, ";
+    let (_, rest) = ended.stdout.split_once(counted).unwrap();
+    let excluded: f64 = rest.split(' ').next().unwrap().parse().unwrap();
+    assert!((excluded / 1e6 - 0.4).abs() < 1e-3, "{excluded}");
+}

@@ -16,5 +16,6 @@ pub mod sample;
 pub mod sidecar;
 pub mod sink;
 pub mod spec;
+pub mod survey;
 pub mod text;
 pub mod units;

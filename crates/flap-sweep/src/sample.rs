@@ -72,6 +72,11 @@ impl Design {
         }
     }
 
+    /// What the points depend on.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
     /// Number of points.
     pub fn count(&self) -> u64 {
         self.count
