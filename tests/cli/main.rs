@@ -11,5 +11,6 @@ mod mistakes;
 mod point;
 mod resonance;
 mod streams;
+mod studies;
 mod support;
 mod sweep;
