@@ -44,7 +44,7 @@ impl Sweep {
     /// Runs it point by point on scalars of the set's arithmetic class. Returns the right-hand sides evaluated.
     pub(crate) fn scalars(&self, set: InstructionSet) -> u64 {
         let settings = SolverSettings::default();
-        self.points.iter().map(|point| self.simulator.run_point(set, &settings, point).rhs_evals).sum()
+        self.points.iter().map(|point| self.simulator.run_point(set, &settings, point, None).rhs_evals).sum()
     }
 }
 
@@ -65,7 +65,7 @@ impl Jobs for All<'_> {
     fn next(&mut self, _idle: bool) -> Option<Point> {
         let values = self.points.get(self.next)?.clone();
         self.next += 1;
-        Some(Point { index: self.next as u64 - 1, values })
+        Some(Point::at_rest(self.next as u64 - 1, values))
     }
 
     fn done(&mut self, _index: u64, row: Row) {

@@ -110,7 +110,7 @@ impl Jobs for List {
     fn next(&mut self, _idle: bool) -> Option<Point> {
         let values = self.points.next()?;
         self.next += 1;
-        Some(Point { index: self.next - 1, values })
+        Some(Point::at_rest(self.next - 1, values))
     }
 
     fn done(&mut self, index: u64, row: Row) {

@@ -113,7 +113,7 @@ struct Points {
 impl Jobs for Points {
     fn next(&mut self, _idle: bool) -> Option<Point> {
         self.left = self.left.checked_sub(1)?;
-        Some(Point { index: self.left, values: self.values.clone() })
+        Some(Point::at_rest(self.left, self.values.clone()))
     }
 
     fn done(&mut self, _index: u64, row: Row) {

@@ -10,6 +10,7 @@
 )]
 
 mod bimorph;
+mod continued;
 mod data;
 mod direct_drive;
 mod dormand_prince;

@@ -8,7 +8,7 @@ use crate::data::{assert_close, table};
 
 fn run(model: &str, values: &[f64], rtol: f64, settle_tol: f64) -> Row {
     let solver = SolverSettings { rtol, atol: 1e-2 * rtol, settle_tol, ..SolverSettings::default() };
-    by_name(model).unwrap().run_point(InstructionSet::best(), &solver, values)
+    by_name(model).unwrap().run_point(InstructionSet::best(), &solver, values, None)
 }
 
 /// The parameters of the bimorph's reference sets.

@@ -23,7 +23,7 @@ impl Random {
 }
 
 /// Every number of the presets times a factor from 0.5 to 1.5, log-uniform; counts stay whole, choices as they are.
-fn designs(model: &dyn Simulator, count: usize) -> Vec<Vec<f64>> {
+pub(crate) fn designs(model: &dyn Simulator, count: usize) -> Vec<Vec<f64>> {
     let mut random = Random(2016);
     let presets = model.presets();
     (0..count)
@@ -57,7 +57,8 @@ fn a_thousand_possible_random_designs_of_each_model_have_rows() {
         for row in &rows {
             let periodic = row.status == Status::Periodic;
             assert_eq!(row.measures.len(), if periodic { model.columns().len() } else { 0 });
-            assert_eq!(row.floquet_max.is_nan(), !periodic, "{row:?}");
+            assert_eq!(row.floquet_max.is_nan(), row.period == 0, "{row:?}");
+            assert_eq!(row.period > 1, row.status == Status::Subharmonic, "{row:?}");
             assert!(!periodic || (row.floquet_max < 1.0 && row.residual <= 1e-5), "{row:?}");
             assert_eq!(row.reason.is_some(), row.status == Status::Invalid);
         }

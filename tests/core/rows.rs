@@ -5,16 +5,16 @@ use flap_core::simulate::{Jobs, Point, Row, Simulator, SolverSettings, Status};
 
 /// Points given in order; rows kept by index.
 struct Listed<'a> {
-    points: &'a [Vec<f64>],
+    points: &'a [Point],
     next: usize,
     rows: Vec<Option<Row>>,
 }
 
 impl Jobs for Listed<'_> {
     fn next(&mut self, _idle: bool) -> Option<Point> {
-        let values = self.points.get(self.next)?.clone();
+        let point = self.points.get(self.next)?.clone();
         self.next += 1;
-        Some(Point { index: self.next as u64 - 1, values })
+        Some(point)
     }
 
     fn done(&mut self, index: u64, row: Row) {
@@ -24,10 +24,25 @@ impl Jobs for Listed<'_> {
     }
 }
 
-/// The rows of `points` on the lanes of `set`, in their order.
+/// Points at rest.
+fn at_rest(points: &[Vec<f64>]) -> Vec<Point> {
+    (0..).zip(points).map(|(index, values)| Point::at_rest(index, values.clone())).collect()
+}
+
+/// The rows of `points` on the lanes of `set`, in their order, each from rest.
 pub(crate) fn of(
     model: &dyn Simulator,
     points: &[Vec<f64>],
+    set: InstructionSet,
+    solver: &SolverSettings,
+) -> Vec<Row> {
+    of_points(model, &at_rest(points), set, solver)
+}
+
+/// The rows of `points` on the lanes of `set`, in their order, which is that of their indices.
+pub(crate) fn of_points(
+    model: &dyn Simulator,
+    points: &[Point],
     set: InstructionSet,
     solver: &SolverSettings,
 ) -> Vec<Row> {
@@ -37,9 +52,10 @@ pub(crate) fn of(
 }
 
 /// A row's numbers as bits, so that NaN equals NaN.
-pub(crate) fn bits(row: &Row) -> (Status, Vec<u64>, u32, u64, u32, u64, &Option<String>) {
-    let measures = row.measures.iter().map(|m| m.to_bits()).collect();
-    (row.status, measures, row.cycles, row.residual.to_bits(), row.period, row.rhs_evals, &row.reason)
+pub(crate) fn bits(row: &Row) -> (Status, Vec<u64>, u32, u32, u64, &Option<String>) {
+    let numbers = [&row.measures[..], &row.state, &[row.residual, row.floquet_max]].concat();
+    let numbers = numbers.iter().map(|number| number.to_bits()).collect();
+    (row.status, numbers, row.cycles, row.period, row.rhs_evals, &row.reason)
 }
 
 /// Fails unless rows from the lanes of every instruction set equal those of the scalar path to the last bit; gives
@@ -49,11 +65,20 @@ pub(crate) fn assert_lanes_equal_scalars(
     points: &[Vec<f64>],
     solver: &SolverSettings,
 ) -> Vec<Row> {
+    assert_lanes_equal_scalars_at(model, &at_rest(points), solver)
+}
+
+/// [`assert_lanes_equal_scalars`] for points that begin anywhere.
+pub(crate) fn assert_lanes_equal_scalars_at(
+    model: &dyn Simulator,
+    points: &[Point],
+    solver: &SolverSettings,
+) -> Vec<Row> {
     let mut best = None;
     for set in InstructionSet::available() {
-        let rows = of(model, points, set, solver);
-        for (i, (values, row)) in points.iter().zip(&rows).enumerate() {
-            let alone = model.run_point(set, solver, values);
+        let rows = of_points(model, points, set, solver);
+        for (i, (point, row)) in points.iter().zip(&rows).enumerate() {
+            let alone = model.run_point(set, solver, &point.values, point.begin.as_deref());
             assert_eq!(bits(row), bits(&alone), "point {i} with {set}");
             let measured = row.status == Status::Periodic;
             assert_eq!(row.measures.len(), if measured { model.columns().len() } else { 0 });

@@ -69,7 +69,8 @@ fn power_balances_for_every_shape() {
     for drive_shape in [Shape::Sine, Shape::Harmonics, Shape::Square] {
         for (p, bound) in [(Params::ozaki2018_small(), 1e-5), (Params::ozaki2018_large(), 1e-4)] {
             let p = Params { drive_shape, drive_second_harmonic: 0.3, drive_second_phase: 0.5, ..p };
-            let row = model.run_point(InstructionSet::best(), &SolverSettings::default(), &p.to_values());
+            let row =
+                model.run_point(InstructionSet::best(), &SolverSettings::default(), &p.to_values(), None);
             assert_eq!(row.status, Status::Periodic, "{drive_shape:?}");
             assert!(row.measures[audit].abs() < bound, "{drive_shape:?}: {:e}", row.measures[audit]);
         }
@@ -81,7 +82,7 @@ fn power_balances_for_every_shape() {
 fn harmonics_count_in_field_and_capacitive_power() {
     let model = by_name("direct-drive").unwrap();
     let measure = |p: &Params, name: &str| {
-        let row = model.run_point(InstructionSet::best(), &SolverSettings::default(), &p.to_values());
+        let row = model.run_point(InstructionSet::best(), &SolverSettings::default(), &p.to_values(), None);
         row.measures[model.columns().iter().position(|column| column.name == name).unwrap()]
     };
     // 50 V + 50 V (sin θ + ½ cos 2θ): from −25 to 87.5 V on 100 µm.
@@ -101,7 +102,7 @@ fn harmonics_count_in_field_and_capacitive_power() {
 fn the_shape_of_the_drive_reaches_the_wing() {
     let model = by_name("direct-drive").unwrap();
     let amplitude = |p: Params| {
-        let row = model.run_point(InstructionSet::best(), &SolverSettings::default(), &p.to_values());
+        let row = model.run_point(InstructionSet::best(), &SolverSettings::default(), &p.to_values(), None);
         assert_eq!(row.status, Status::Periodic);
         row.measures[0]
     };
@@ -119,7 +120,7 @@ fn the_shape_of_the_drive_reaches_the_wing() {
 fn a_square_wave_must_have_time_to_be_flat() {
     let model = by_name("direct-drive").unwrap();
     let p = Params { drive_shape: Shape::Square, drive_rise: 0.6, ..Params::ozaki2018_small() };
-    let row = model.run_point(InstructionSet::best(), &SolverSettings::default(), &p.to_values());
+    let row = model.run_point(InstructionSet::best(), &SolverSettings::default(), &p.to_values(), None);
     assert_eq!(row.status, Status::Invalid);
     assert!(row.reason.unwrap().contains("drive_rise"));
 }

@@ -66,7 +66,7 @@ impl Work {
             Task::ScalarMarch => {
                 let (simulator, values) = self.point();
                 mark();
-                simulator.run_point(self.set, &MARCH, &values);
+                simulator.run_point(self.set, &MARCH, &values, None);
                 mark();
             }
             Task::March => {
@@ -84,7 +84,7 @@ impl Work {
         match self.task {
             Task::ScalarMarch => {
                 let (simulator, values) = self.point();
-                simulator.run_point(self.set, &MARCH, &values).rhs_evals
+                simulator.run_point(self.set, &MARCH, &values, None).rhs_evals
             }
             Task::March => evals(&MARCH),
             Task::Measure => evals(&SETTLE_AND_MEASURE) - evals(&SETTLE),
@@ -155,7 +155,7 @@ impl Jobs for Alike<'_> {
         if self.left == 0 && self.begin == Begin::WithTheLastPoint {
             self.mark(1);
         }
-        Some(Point { index: self.left as u64, values: self.values.clone() })
+        Some(Point::at_rest(self.left as u64, self.values.clone()))
     }
 
     fn done(&mut self, _index: u64, row: Row) {

@@ -10,7 +10,7 @@ import flapwing
 import pytest
 
 PRESET = "ozaki2018-large"
-AFTER_MEASURES = ["cycles", "residual", "period", "floquet_max", "rhs_evals", "reason"]
+AFTER_MEASURES = ["cycles", "residual", "period", "floquet_max", "stable", "rhs_evals", "reason"]
 
 
 def measures(row):
@@ -42,7 +42,7 @@ def test_keys_and_their_order():
     row = flapwing.run(PRESET)
     keys = list(row)
     assert keys[0] == "status"
-    assert keys[-6:] == AFTER_MEASURES
+    assert keys[-7:] == AFTER_MEASURES
     assert {"stroke_pp_deg", "lift_mean_mn", "power_mean_mw"} <= measures(row).keys()
 
 
@@ -55,6 +55,7 @@ def test_periodic_point():
     assert isinstance(row["rhs_evals"], int) and row["rhs_evals"] > 100
     assert 0 <= row["residual"] < 1e-6
     assert 0 < row["floquet_max"] < 1
+    assert row["stable"] is True
     assert row["reason"] is None
 
 
@@ -74,6 +75,7 @@ def test_other_points_have_the_same_keys_but_no_measures(arguments, status):
     assert set(measures(row).values()) == {None}
     assert row["period"] == 0
     assert row["floquet_max"] is None
+    assert row["stable"] is None
 
 
 def test_invalid_point_says_why():

@@ -7,8 +7,8 @@ use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
 use flap_core::simulate::{
-    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Row, Simulator, SolverSettings,
-    Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Period, Row, Rows, Simulator,
+    SolverSettings, Trajectory, TrajectoryRequest,
 };
 use flap_sweep::diagnostic::Diagnostic;
 use flap_sweep::plan::Plan;
@@ -19,6 +19,20 @@ pub(crate) struct Fake {
     parameters: &'static [Parameter],
     presets: &'static [Preset],
     columns: &'static LazyLock<Vec<Column>>,
+}
+
+impl Rows for Fake {
+    fn columns(&self) -> &[Column] {
+        self.columns
+    }
+
+    fn run(&self, _: InstructionSet, _: &SolverSettings, _: &mut dyn Jobs) {
+        unimplemented!("grid files are checked without running anything")
+    }
+
+    fn run_point(&self, _: InstructionSet, _: &SolverSettings, _: &[f64], _: Option<&[f64]>) -> Row {
+        unimplemented!("grid files are checked without running anything")
+    }
 }
 
 impl Simulator for Fake {
@@ -38,16 +52,8 @@ impl Simulator for Fake {
         self.presets
     }
 
-    fn columns(&self) -> &[Column] {
-        self.columns
-    }
-
-    fn run(&self, _: InstructionSet, _: &SolverSettings, _: &mut dyn Jobs) {
-        unimplemented!("grid files are checked without running anything")
-    }
-
-    fn run_point(&self, _: InstructionSet, _: &SolverSettings, _: &[f64]) -> Row {
-        unimplemented!("grid files are checked without running anything")
+    fn period(&self, _: InstructionSet, _: &SolverSettings, _: &[f64], _: &[f64]) -> Result<Period, Invalid> {
+        unreachable!("sweeps do not ask for periods")
     }
 
     fn trajectory(

@@ -8,8 +8,8 @@ use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
 use flap_core::simulate::{
-    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Point, Row, Simulator,
-    SolverSettings, Status, Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Period, Point, Row, Rows,
+    Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest,
 };
 
 /// What goes wrong, and at which value of `size`.
@@ -125,29 +125,14 @@ impl Fake {
             residual: if status == Status::Invalid { f64::NAN } else { 4e-9 },
             period: u32::from(status == Status::Periodic),
             floquet_max: if status == Status::Periodic { 0.5 } else { f64::NAN },
+            state: vec![size],
             rhs_evals: 1000,
             reason: (status == Status::Invalid).then(|| format!("a size of {size} m is impossible")),
         }
     }
 }
 
-impl Simulator for Fake {
-    fn name(&self) -> &'static str {
-        "fake"
-    }
-
-    fn doc(&self) -> &'static str {
-        "No physics at all."
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        &PARAMETERS
-    }
-
-    fn presets(&self) -> &'static [Preset] {
-        &PRESETS
-    }
-
+impl Rows for Fake {
     fn columns(&self) -> &[Column] {
         &self.columns
     }
@@ -171,8 +156,30 @@ impl Simulator for Fake {
         }
     }
 
-    fn run_point(&self, _set: InstructionSet, _solver: &SolverSettings, values: &[f64]) -> Row {
+    fn run_point(&self, _: InstructionSet, _: &SolverSettings, values: &[f64], _: Option<&[f64]>) -> Row {
         Fake::row(values)
+    }
+}
+
+impl Simulator for Fake {
+    fn name(&self) -> &'static str {
+        "fake"
+    }
+
+    fn doc(&self) -> &'static str {
+        "No physics at all."
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        &PARAMETERS
+    }
+
+    fn presets(&self) -> &'static [Preset] {
+        &PRESETS
+    }
+
+    fn period(&self, _: InstructionSet, _: &SolverSettings, _: &[f64], _: &[f64]) -> Result<Period, Invalid> {
+        unreachable!("sweeps do not ask for periods")
     }
 
     fn trajectory(

@@ -56,7 +56,7 @@ pub(crate) fn presets() -> Vec<&'static str> {
 ///     One row of results; the keys and their order are the same for every point of a model:
 ///
 ///     status : str
-///         ``"periodic"``; ``"subharmonic"`` (repeats every 2 to 4 drive periods); ``"unsettled"``
+///         ``"periodic"``; ``"subharmonic"`` (repeats every 2 to 8 drive periods); ``"unsettled"``
 ///         (max_cycles reached); ``"diverged"``; ``"step_limit"`` (max_steps reached, or steps too small
 ///         to advance time); ``"invalid"`` (each parameter is in range, but together they are
 ///         impossible).
@@ -72,8 +72,11 @@ pub(crate) fn presets() -> Vec<&'static str> {
 ///     period : int
 ///         Drive periods until the motion repeats: 1 if periodic, more if subharmonic, otherwise 0.
 ///     floquet_max : float or None
-///         Factor by which a change of the motion decays per drive period in the end; below 1 the motion is
-///         stable. None unless the point is periodic.
+///         Factor by which a change of the motion grows or decays per orbit in the end. None if no orbit was
+///         found.
+///     stable : bool or None
+///         Whether floquet_max is below 1, so that motions near the orbit approach it. None if no orbit was
+///         found.
 ///     rhs_evals : int
 ///         Evaluations of the equations of motion.
 ///     reason : str or None
@@ -106,7 +109,7 @@ pub(crate) fn run<'py>(
     let solver = Keywords { rtol, atol, settle_tol, max_cycles, max_steps }.settings()?;
     let (simulator, preset) = parameters::find_preset(preset)?;
     let values = parameters::values(simulator, preset, parameters)?;
-    let row = py.detach(|| simulator.run_point(InstructionSet::best(), &solver, &values));
+    let row = py.detach(|| simulator.run_point(InstructionSet::best(), &solver, &values, None));
     row_to_dict(py, simulator.columns(), &row)
 }
 
@@ -121,6 +124,7 @@ fn row_to_dict<'py>(py: Python<'py>, columns: &[Column], row: &Row) -> PyResult<
     dict.set_item("residual", (!row.residual.is_nan()).then_some(row.residual))?;
     dict.set_item("period", row.period)?;
     dict.set_item("floquet_max", (!row.floquet_max.is_nan()).then_some(row.floquet_max))?;
+    dict.set_item("stable", row.stable())?;
     dict.set_item("rhs_evals", row.rhs_evals)?;
     dict.set_item("reason", row.reason.as_deref())?;
     Ok(dict)

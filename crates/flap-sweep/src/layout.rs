@@ -9,7 +9,7 @@ use crate::text;
 
 /// The columns of the rows of a plan:
 /// `point`, the varied parameters, the derived ones, `status`, the measures, then `cycles`, `residual`, `period`,
-/// `floquet_max`, `rhs_evals`.
+/// `floquet_max`, `stable`, `rhs_evals`.
 #[derive(Debug)]
 pub struct Layout {
     /// The varied parameters, then the derived ones, each with its index in the model's parameter table.
@@ -63,12 +63,12 @@ impl Layout {
         names.extend(self.varied.iter().map(|(_, parameter)| parameter.name));
         names.push("status");
         names.extend(self.measures.iter().map(|measure| measure.name.as_str()));
-        names.extend(["cycles", "residual", "period", "floquet_max", "rhs_evals"]);
+        names.extend(["cycles", "residual", "period", "floquet_max", "stable", "rhs_evals"]);
         names
     }
 
     /// One text per column. What is not known is empty: the measures of a point that is not periodic,
-    /// its largest multiplier, and the residual of one that completed no period.
+    /// the multiplier and stability of one without an orbit, and the residual of one that completed no period.
     pub fn cells(&self, point: &Point, row: &Row) -> Vec<String> {
         let mut cells = vec![point.index.to_string()];
         cells.extend(
@@ -86,6 +86,7 @@ impl Layout {
         cells.push(text::float(row.residual));
         cells.push(row.period.to_string());
         cells.push(text::float(row.floquet_max));
+        cells.push(row.stable().map_or_else(String::new, |stable| stable.to_string()));
         cells.push(row.rhs_evals.to_string());
         cells
     }

@@ -154,7 +154,7 @@ impl Plan {
             }
         }
         self.derived.fill(&mut values, &[]);
-        Point { index, values }
+        Point { index, values, begin: None }
     }
 
     /// Whether the point with these values is run.

@@ -131,7 +131,7 @@ fn read_points(
         has_value[parameter] = true;
     }
     let (parameters, preset) = (simulator.parameters(), (preset.values)());
-    let columns = simulator.columns();
+    let columns = simulator.columns().to_vec();
     let names = Names { parameters, preset, has_value, columns, are_measured: false, own: Vec::new() };
     let derived = derived::read(&drafts, &names, problems);
     let conditions = conditions::read(table::find(root, "where"), &names, problems);

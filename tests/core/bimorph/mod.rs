@@ -45,7 +45,7 @@ fn settled(params: &Params, rtol: f64) -> Row {
     let mut last = None;
     for settle_tol in [rtol, 10.0 * rtol, 100.0 * rtol, 1000.0 * rtol] {
         let solver = SolverSettings { rtol, atol: 1e-2 * rtol, settle_tol, ..SolverSettings::default() };
-        let row = model().run_point(InstructionSet::best(), &solver, &params.to_values());
+        let row = model().run_point(InstructionSet::best(), &solver, &params.to_values(), None);
         if row.status == Status::Periodic {
             return row;
         }

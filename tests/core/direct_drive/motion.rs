@@ -57,8 +57,8 @@ fn a_recorded_sine_drives_like_a_sine() {
     let sampled = model().with_samples(Samples::new(&times, &wave, Repeat::Periodic).unwrap());
     let values = Params::ozaki2018_large().to_values();
     let set = InstructionSet::best();
-    let row = sampled.run_point(set, &settings(), &values);
-    let sine = model().run_point(set, &settings(), &values);
+    let row = sampled.run_point(set, &settings(), &values, None);
+    let sine = model().run_point(set, &settings(), &values, None);
     assert_eq!((row.status, sine.status), (Status::Periodic, Status::Periodic));
     for (i, column) in model().columns().iter().enumerate() {
         // The charge of a capacitor feels the wave's slope: a spline is third order there.

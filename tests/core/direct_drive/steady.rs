@@ -15,7 +15,7 @@ fn model() -> &'static dyn Simulator {
 
 fn run(params: &Params, rtol: f64, settle_tol: f64) -> Row {
     let solver = SolverSettings { rtol, atol: 1e-2 * rtol, settle_tol, ..SolverSettings::default() };
-    model().run_point(InstructionSet::best(), &solver, &params.to_values())
+    model().run_point(InstructionSet::best(), &solver, &params.to_values(), None)
 }
 
 fn measure(row: &Row, column: &str) -> f64 {

@@ -13,7 +13,7 @@ pub(super) fn model() -> &'static dyn Simulator {
 
 pub(super) fn run(params: &Params, rtol: f64, settle_tol: f64) -> Row {
     let solver = SolverSettings { rtol, atol: 1e-2 * rtol, settle_tol, ..SolverSettings::default() };
-    model().run_point(InstructionSet::best(), &solver, &params.to_values())
+    model().run_point(InstructionSet::best(), &solver, &params.to_values(), None)
 }
 
 pub(super) fn measure(row: &Row, column: &str) -> f64 {

@@ -227,10 +227,10 @@ file = "a"
   note: columns: lift_mean_mn, power_mean_mw, stroke_pp_deg
   help: did you mean `lift_mean_mn`?
 4:25 |"status"| model `flapper` has no column `status` (unknown column)
-  note: every row has these columns, and the varied parameters, without asking: point, status, cycles, residual, period, floquet_max, rhs_evals
+  note: every row has these columns, and the varied parameters, without asking: point, status, cycles, residual, period, floquet_max, stable, rhs_evals
   help: remove `status`: `columns` selects among the measures
 4:35 |"wing_area"| model `flapper` has no column `wing_area` (unknown column)
-  note: every row has these columns, and the varied parameters, without asking: point, status, cycles, residual, period, floquet_max, rhs_evals
+  note: every row has these columns, and the varied parameters, without asking: point, status, cycles, residual, period, floquet_max, stable, rhs_evals
   help: remove `wing_area`: `columns` selects among the measures
 4:64 |3| `columns` must be text in quotes, not a number
 4:67 |"lift_mean_mn"| column `lift_mean_mn` is listed twice (again here)

@@ -65,7 +65,7 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
         }
     }
 
-    let mut row = chosen.simulator().run_point(set, &plan.solver, values);
+    let mut row = chosen.simulator().run_point(set, &plan.solver, values, None);
     plan.add_own_measures(values, &mut row.measures);
     if let (Status::Invalid, Some(reason)) = (row.status, &row.reason) {
         return Err(Failure::usage(format!("the parameters are impossible together: {reason}")));
@@ -119,7 +119,9 @@ fn page(chosen: &Chosen, row: &Row) -> String {
     let Row { cycles, period, rhs_evals, .. } = row;
     let multiplier = if row.floquet_max.is_nan() { "none".to_owned() } else { six_digits(row.floquet_max) };
     let _ = write!(page, "\nstatus = {}, cycles = {cycles}, residual = {residual}, ", row.status.name());
-    let _ = writeln!(page, "period = {period}, floquet_max = {multiplier}, rhs_evals = {rhs_evals}");
+    let stable = row.stable().map_or_else(|| "none".to_owned(), |stable| stable.to_string());
+    let _ = write!(page, "period = {period}, floquet_max = {multiplier}, stable = {stable}, ");
+    let _ = writeln!(page, "rhs_evals = {rhs_evals}");
     if !row.measures.is_empty() {
         let mut table = Table::with_headings(&["column", "value", "unit", "meaning"]);
         let columns = chosen.plan.simulator.columns();

@@ -250,7 +250,7 @@ impl Jobs for Points {
     fn next(&mut self, _idle: bool) -> Option<Point> {
         let values = self.values.get(self.begun)?.clone();
         self.begun += 1;
-        Some(Point { index: self.begun as u64 - 1, values })
+        Some(Point::at_rest(self.begun as u64 - 1, values))
     }
 
     fn done(&mut self, index: u64, row: Row) {

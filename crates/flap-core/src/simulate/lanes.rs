@@ -9,7 +9,7 @@ use core::ops::ControlFlow;
 use fearless_simd::Simd;
 
 use super::row;
-use super::search::{Next, Search, varied};
+use super::search::{Next, Search, begin, varied};
 use super::simulator::{Jobs, Point, Row, SolverSettings};
 use crate::measure::cycle::{Signals, Totals};
 use crate::model::Model;
@@ -160,9 +160,9 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Qu
         }
         loop {
             let point = self.next_point(idle)?;
-            match self.model.start(&point.values) {
+            match begin(self.model, &point.values, point.begin.as_deref()) {
                 Ok(start) => {
-                    let search = Search::new(&start, self.solver);
+                    let search = Search::new(&start, self.solver, point.begin.is_some());
                     return Some((Searched { index: point.index, start, search }, start));
                 }
                 Err(error) => self.jobs.done(point.index, Row::invalid(error)),

@@ -1,6 +1,6 @@
 //! Design points in, rows out: models as sweeps, the command line and Python see them.
 //!
-//! [`Simulator`] hides what differs between models; [`all`] lists them.
+//! [`Rows`] and [`Simulator`] hide what differs between models; [`all`] lists them.
 
 mod chirp;
 mod imposed;
@@ -8,6 +8,7 @@ mod impulse;
 mod lanes;
 mod motion;
 mod newton;
+mod period;
 mod row;
 mod runner;
 mod scalar;
@@ -15,8 +16,8 @@ mod search;
 mod simulator;
 
 pub use simulator::{
-    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Point, Row, Simulator,
-    SolverSettings, Status, Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Period, Point, Row, Rows,
+    Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest,
 };
 
 use crate::drive::Source;

@@ -27,7 +27,7 @@ where
     let model = &model.variant(values);
     let mut start = model.start(values)?;
     if request.settled {
-        let search = search::<M, R, N, K, S>(model, solver, &start);
+        let search = search::<M, R, N, K, S>(model, solver, &start, false);
         if let Some(row) = unmeasured(&search) {
             return Err(Invalid::new(format!(
                 "the motion does not settle on an orbit of one drive period (status {}, {} cycles); \

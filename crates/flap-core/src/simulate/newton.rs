@@ -89,7 +89,7 @@ impl<const N: usize> Newton<N> {
     }
 
     /// Column j: response to a change of component j by its scale, in units of the scales.
-    fn monodromy<const K: usize>(&self, all: &[f64; K]) -> [[f64; N]; N] {
+    pub(super) fn monodromy<const K: usize>(&self, all: &[f64; K]) -> [[f64; N]; N] {
         let mut monodromy = [[0.0; N]; N];
         for j in 0..N {
             let column = response::<N, K>(all, j);
@@ -130,8 +130,19 @@ fn difference<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
     core::array::from_fn(|i| a[i] - b[i])
 }
 
+/// What nothing becomes of.
+pub(super) fn identity<const N: usize>() -> [[f64; N]; N] {
+    core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j))))
+}
+
+/// What becomes of a change in `first`, and of the result in `second`.
+pub(super) fn product<const N: usize>(second: &[[f64; N]; N], first: &[[f64; N]; N]) -> [[f64; N]; N] {
+    core::array::from_fn(|i| core::array::from_fn(|j| (0..N).map(|k| second[i][k] * first[k][j]).sum()))
+}
+
 fn identity_minus<const N: usize>(m: &[[f64; N]; N]) -> [[f64; N]; N] {
-    core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j)) - m[i][j]))
+    let identity = identity::<N>();
+    core::array::from_fn(|i| core::array::from_fn(|j| identity[i][j] - m[i][j]))
 }
 
 /// Solves a small linear system by elimination with pivoting; `None` if it is singular or not finite.
@@ -161,9 +172,12 @@ fn solve<const N: usize>(matrix: &[[f64; N]; N], right: &[f64; N]) -> Option<[f6
     b.iter().all(|x| x.is_finite()).then_some(b)
 }
 
-/// Largest modulus of the eigenvalues; infinite if the matrix is not finite.
-fn spectral_radius<const N: usize>(m: &[[f64; N]; N]) -> f64 {
-    if m.iter().flatten().any(|x| !x.is_finite()) {
+/// Largest modulus of the eigenvalues; infinite if one of the matrix's components is, NaN if one is not a number.
+pub(super) fn spectral_radius<const N: usize>(m: &[[f64; N]; N]) -> f64 {
+    if m.iter().flatten().any(|x| x.is_nan()) {
+        return f64::NAN;
+    }
+    if m.iter().flatten().any(|x| x.is_infinite()) {
         return f64::INFINITY;
     }
     let matrix = DMatrix::from_fn(N, N, |i, j| m[i][j]);

@@ -25,7 +25,7 @@ pub(super) fn columns<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<C
 }
 
 /// The measures of a cycle, one per column.
-fn measures<M: Model<N, S>, const N: usize, const S: usize>(
+pub(super) fn measures<M: Model<N, S>, const N: usize, const S: usize>(
     model: &M,
     c: &M::Constants<f64>,
     totals: &[Totals<f64>; S],
@@ -91,7 +91,8 @@ fn row<const N: usize>(search: &Search<N>, status: Status) -> Row {
         cycles: search.cycles(),
         residual: search.residual(),
         period: search.period().unwrap_or(0),
-        floquet_max: search.orbit().map_or(f64::NAN, |orbit| orbit.floquet_max),
+        floquet_max: search.floquet_max(),
+        state: search.state().map_or_else(Vec::new, |state| state.to_vec()),
         rhs_evals: search.rhs_evals(),
         reason: None,
     }
@@ -107,6 +108,7 @@ impl Row {
             residual: f64::NAN,
             period: 0,
             floquet_max: f64::NAN,
+            state: Vec::new(),
             rhs_evals: 0,
             reason: Some(error.reason),
         }

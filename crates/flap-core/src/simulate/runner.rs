@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 use super::lanes::{LanesKernel, Sized};
 use super::scalar::Scalars;
 use super::simulator::{
-    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Row, Simulator, SolverSettings,
-    Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Period, Row, Rows, Simulator,
+    SolverSettings, Trajectory, TrajectoryRequest,
 };
 use super::{imposed, row};
 use crate::drive::Samples;
@@ -24,6 +24,26 @@ pub(super) struct Runner<M, const N: usize, const K: usize, const S: usize> {
 impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Runner<M, N, K, S> {
     pub(super) const fn new(model: M) -> Self {
         Runner { model, columns: OnceLock::new() }
+    }
+}
+
+impl<M: Model<N, S> + 'static, const N: usize, const K: usize, const S: usize> Rows for Runner<M, N, K, S> {
+    fn columns(&self) -> &[Column] {
+        self.columns.get_or_init(row::columns::<M, N, S>)
+    }
+
+    fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs) {
+        set.dispatch(Sized::<_, N, K, S>(LanesKernel { model: &self.model, solver, jobs }));
+    }
+
+    fn run_point(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        begin: Option<&[f64]>,
+    ) -> Row {
+        Scalars { model: &self.model, solver, values }.row::<N, K, S>(set, begin)
     }
 }
 
@@ -46,16 +66,14 @@ impl<M: Model<N, S> + 'static, const N: usize, const K: usize, const S: usize> S
         M::PRESETS
     }
 
-    fn columns(&self) -> &[Column] {
-        self.columns.get_or_init(row::columns::<M, N, S>)
-    }
-
-    fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs) {
-        set.dispatch(Sized::<_, N, K, S>(LanesKernel { model: &self.model, solver, jobs }));
-    }
-
-    fn run_point(&self, set: InstructionSet, solver: &SolverSettings, values: &[f64]) -> Row {
-        Scalars { model: &self.model, solver, values }.row::<N, K, S>(set)
+    fn period(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        begin: &[f64],
+    ) -> Result<Period, Invalid> {
+        Scalars { model: &self.model, solver, values }.period::<N, K, S>(set, begin)
     }
 
     fn trajectory(

@@ -3,33 +3,33 @@
 use core::ops::ControlFlow;
 
 use super::row;
-use super::search::varied;
-use super::search::{Next, Search};
+use super::search::{Next, Search, begin, varied};
 use super::simulator::{
-    ChirpRequest, ChirpResponse, ImpulseRequest, Row, SolverSettings, Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, ImpulseRequest, Period, Row, SolverSettings, Trajectory, TrajectoryRequest,
 };
-use super::{chirp, impulse, motion};
+use super::{chirp, impulse, motion, period};
 use crate::measure::cycle::{Signals, Totals};
 use crate::model::Model;
 use crate::num::{Arithmetic, InstructionSet, PerLane, Scalar, Unfused};
 use crate::ode::ensemble::Observer;
 use crate::ode::solve::solve;
 use crate::ode::variation::Variation;
-use crate::ode::{Ending, Start};
+use crate::ode::{Ending, Outcome, Start};
 use crate::parameter::Invalid;
 
-/// Searches for the orbit of a point.
+/// Searches for the orbit of a point; `nearby` if it begins perhaps near that.
 pub(super) fn search<M, R, const N: usize, const K: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,
     start: &Start<M::Constants<f64>, N>,
+    nearby: bool,
 ) -> Search<N>
 where
     M: Model<N, S>,
     R: Scalar,
 {
     let tolerances = &solver.tolerances();
-    let mut search = Search::new(start, solver);
+    let mut search = Search::new(start, solver, nearby);
     let mut next = Next::March(start.y);
     loop {
         next = match next {
@@ -63,28 +63,43 @@ fn point<M, R, const N: usize, const K: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,
     values: &[f64],
+    from: Option<&[f64]>,
 ) -> Row
 where
     M: Model<N, S>,
     R: Scalar,
 {
     let model = &model.variant(values);
-    let mut start = match model.start(values) {
+    let mut start = match begin(model, values, from) {
         Ok(start) => start,
         Err(error) => return Row::invalid(error),
     };
-    let search = search::<M, R, N, K, S>(model, solver, &start);
+    let search = search::<M, R, N, K, S>(model, solver, &start, from.is_some());
     if let Some(row) = row::unmeasured(&search) {
         return row;
     }
 
     start.y = search.orbit().map_or(start.y, |orbit| orbit.y);
+    let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start);
+    row::measured(&search, model, &start.constants, start.span, totals.as_ref(), outcome)
+}
+
+/// The totals of a drive period from where a run begins, unless it fails.
+pub(super) fn cycle<M, R, const N: usize, const S: usize>(
+    model: &M,
+    solver: &SolverSettings,
+    start: &Start<M::Constants<f64>, N>,
+) -> (Option<[Totals<f64>; S]>, Outcome)
+where
+    M: Model<N, S>,
+    R: Scalar,
+{
     let observer = Signals::<S>;
     let mut totals = Observer::<M, N>::nothing(&observer).map(|one| Totals::<R>::fill((), &one));
     let outcome = solve::<M, R, N>(
         model,
         &solver.tolerances(),
-        &start,
+        start,
         |c, accepted| {
             R::enter(
                 #[inline(always)]
@@ -94,8 +109,7 @@ where
         |_| ControlFlow::Break(()),
     );
     let totals = totals.map(|total| total.get(0));
-    let measured = (outcome.ending == Ending::Stopped).then_some(&totals);
-    row::measured(&search, model, &start.constants, start.span, measured, outcome)
+    ((outcome.ending == Ending::Stopped).then_some(totals), outcome)
 }
 
 /// One point on scalars of the arithmetic class of a machine's instructions.
@@ -106,14 +120,18 @@ pub(super) struct Scalars<'a, M> {
 }
 
 impl<M> Scalars<'_, M> {
-    /// The point's row.
-    pub(super) fn row<const N: usize, const K: usize, const S: usize>(&self, set: InstructionSet) -> Row
+    /// The point's row, from rest or another state.
+    pub(super) fn row<const N: usize, const K: usize, const S: usize>(
+        &self,
+        set: InstructionSet,
+        begin: Option<&[f64]>,
+    ) -> Row
     where
         M: Model<N, S>,
     {
         match set.arithmetic() {
-            Arithmetic::Fused => point::<M, f64, N, K, S>(self.model, self.solver, self.values),
-            Arithmetic::Unfused => point::<M, Unfused, N, K, S>(self.model, self.solver, self.values),
+            Arithmetic::Fused => point::<M, f64, N, K, S>(self.model, self.solver, self.values, begin),
+            Arithmetic::Unfused => point::<M, Unfused, N, K, S>(self.model, self.solver, self.values, begin),
         }
     }
 
@@ -130,6 +148,22 @@ impl<M> Scalars<'_, M> {
         match set.arithmetic() {
             Arithmetic::Fused => motion::trajectory::<M, f64, N, K, S>(model, solver, values, request),
             Arithmetic::Unfused => motion::trajectory::<M, Unfused, N, K, S>(model, solver, values, request),
+        }
+    }
+
+    /// One drive period of the point from a state.
+    pub(super) fn period<const N: usize, const K: usize, const S: usize>(
+        &self,
+        set: InstructionSet,
+        begin: &[f64],
+    ) -> Result<Period, Invalid>
+    where
+        M: Model<N, S>,
+    {
+        let Scalars { model, solver, values } = *self;
+        match set.arithmetic() {
+            Arithmetic::Fused => period::from::<M, f64, N, K, S>(model, solver, values, begin),
+            Arithmetic::Unfused => period::from::<M, Unfused, N, K, S>(model, solver, values, begin),
         }
     }
 

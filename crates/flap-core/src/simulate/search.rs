@@ -1,17 +1,22 @@
-//! The search for the periodic orbit that a point approaches from rest: marching, with Newton's iteration when the
-//! march is near.
+//! The search for the periodic orbit that a point approaches: marching, with Newton's iteration when the march is near.
 
 use core::ops::ControlFlow;
 
-use super::newton::{FixedPoint, Newton, Step};
+use super::newton::{FixedPoint, Newton, Step, identity, product, spectral_radius};
 use super::simulator::SolverSettings;
 use crate::measure::strobe::Strobe;
+use crate::model::Model;
 use crate::ode::variation::initial;
 use crate::ode::{Ending, Outcome, Start};
+use crate::parameter::Invalid;
 
-/// Periods that are marched before Newton's iteration is first tried, and the largest change of the state over a
-/// period with which it is: in units of the states' typical sizes.
+/// Periods that are marched before Newton's iteration is first tried: from rest, and from a state that is perhaps near
+/// an orbit.
 const FIRST_TRY: u32 = 6;
+const FIRST_TRY_NEARBY: u32 = 1;
+
+/// The largest change of the state over a period with which Newton's iteration is tried: in units of the states' typical
+/// sizes.
 const NEAR: f64 = 0.3;
 
 /// Where a point's search has come to.
@@ -28,8 +33,18 @@ pub(super) struct Search<const N: usize> {
     /// Length in drive periods of the orbit on which the march has settled.
     period: Option<u32>,
     found: Option<FixedPoint<N>>,
+    round: Option<Round<N>>,
     ending: Ending,
     rhs_evals: u64,
+}
+
+/// The way along a subharmonic orbit.
+#[derive(Clone, Copy, Debug)]
+struct Round<const N: usize> {
+    /// Drive periods to go.
+    left: u32,
+    /// What becomes of a change until here, see [`Newton::monodromy`]; not numbers if a period failed.
+    monodromy: [[f64; N]; N],
 }
 
 /// How a search goes on.
@@ -43,8 +58,8 @@ pub(super) enum Next<const N: usize> {
 }
 
 impl<const N: usize> Search<N> {
-    /// A search that begins at `start`.
-    pub(super) fn new<C>(start: &Start<C, N>, solver: &SolverSettings) -> Search<N> {
+    /// A search that begins at `start`; `nearby` if that is perhaps near the orbit.
+    pub(super) fn new<C>(start: &Start<C, N>, solver: &SolverSettings, nearby: bool) -> Search<N> {
         let tolerance = solver.settle_tol;
         Search {
             strobe: Strobe::new(&start.y, &start.scale, tolerance),
@@ -52,10 +67,11 @@ impl<const N: usize> Search<N> {
             scale: start.scale,
             tolerance,
             max_cycles: solver.max_cycles,
-            next_try: FIRST_TRY,
+            next_try: if nearby { FIRST_TRY_NEARBY } else { FIRST_TRY },
             periods_varied: 0,
             period: None,
             found: None,
+            round: None,
             ending: Ending::Stopped,
             rhs_evals: 0,
         }
@@ -83,9 +99,16 @@ impl<const N: usize> Search<N> {
     pub(super) fn marched(&mut self, outcome: Outcome) -> Next<N> {
         self.rhs_evals += outcome.rhs_evals;
         self.ending = outcome.ending;
-        let near = self.period == Some(1) || (self.period.is_none() && self.is_promising());
-        if self.ending != Ending::Stopped || !near {
+        if self.ending != Ending::Stopped {
             return Next::Done;
+        }
+        match self.period {
+            Some(1) => {}
+            None if self.is_promising() => {}
+            None => return Next::Done,
+            Some(period) => {
+                self.round = Some(Round { left: period, monodromy: identity() });
+            }
         }
         self.newton = Newton::new(self.strobe.state(), &self.scale, self.tolerance);
         Next::Vary(*self.strobe.state())
@@ -96,6 +119,9 @@ impl<const N: usize> Search<N> {
         // Each evaluation is one of the states and one of each response.
         self.rhs_evals += outcome.rhs_evals * (N as u64 + 1);
         self.periods_varied += 1;
+        if let Some(round) = &mut self.round {
+            return round.pass(&self.newton, all);
+        }
         let step = all.map_or(Step::Failed, |all| self.newton.judge(all));
         match step {
             Step::Again(y) => Next::Vary(y),
@@ -133,6 +159,18 @@ impl<const N: usize> Search<N> {
         self.period
     }
 
+    /// The state at the end of the last period, on the orbit if there is one.
+    pub(super) fn state(&self) -> Option<&[f64; N]> {
+        let marched = (self.strobe.cycles() > 0).then(|| self.strobe.state());
+        self.found.as_ref().map(|point| &point.y).or(marched)
+    }
+
+    /// Largest modulus of the orbit's Floquet multipliers; NaN if there is no orbit.
+    pub(super) fn floquet_max(&self) -> f64 {
+        let round = self.round.map_or(f64::NAN, |round| spectral_radius(&round.monodromy));
+        self.found.map_or(round, |point| point.floquet_max)
+    }
+
     /// Why the search has ended.
     pub(super) fn ending(&self) -> Ending {
         self.ending
@@ -152,6 +190,35 @@ impl<const N: usize> Search<N> {
     pub(super) fn rhs_evals(&self) -> u64 {
         self.rhs_evals
     }
+}
+
+impl<const N: usize> Round<N> {
+    /// Goes on after a period of the orbit with its responses; none if it could not be integrated.
+    fn pass<const K: usize>(&mut self, newton: &Newton<N>, all: Option<&[f64; K]>) -> Next<N> {
+        let Some(all) = all else {
+            self.monodromy = [[f64::NAN; N]; N];
+            return Next::Done;
+        };
+        self.monodromy = product(&newton.monodromy(all), &self.monodromy);
+        self.left -= 1;
+        if self.left == 0 { Next::Done } else { Next::Vary(core::array::from_fn(|i| all[i])) }
+    }
+}
+
+/// The run of a point, from rest or another state.
+pub(super) fn begin<M: Model<N, S>, const N: usize, const S: usize>(
+    model: &M,
+    values: &[f64],
+    from: Option<&[f64]>,
+) -> Result<Start<M::Constants<f64>, N>, Invalid> {
+    let mut start = model.start(values)?;
+    if let Some(from) = from {
+        let finite = from.iter().all(|y| y.is_finite());
+        start.y = from.try_into().ok().filter(|_| finite).ok_or_else(|| {
+            Invalid::new(format!("the motion cannot begin at {from:?}: a state is {N} finite numbers"))
+        })?;
+    }
+    Ok(start)
 }
 
 /// Where a period from `y` begins with its responses to changes of `y`.

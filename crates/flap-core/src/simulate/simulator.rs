@@ -6,8 +6,30 @@ use crate::num::InstructionSet;
 use crate::ode::Tolerances;
 use crate::parameter::{Invalid, Parameter, Preset};
 
-/// A model that turns design points into rows.
-pub trait Simulator: Sync {
+/// What turns design points into rows.
+pub trait Rows: Sync {
+    /// What each row measures, in column order.
+    fn columns(&self) -> &[Column];
+
+    /// Runs the points of `jobs` on the SIMD lanes of `set` until there are none left.
+    ///
+    /// Rows are handed back in the order in which points finish. A row depends on its point and `solver`
+    /// alone: not on its neighbours, nor on the order of the points, nor on `set` within an arithmetic class.
+    fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs);
+
+    /// Runs one point on scalars, in the arithmetic class of `set`, from rest or from the state `begin` (see
+    /// [`Point::begin`]). Gives the same bits as [`Rows::run`].
+    fn run_point(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        begin: Option<&[f64]>,
+    ) -> Row;
+}
+
+/// A model that turns design points into rows, and can be asked more about each.
+pub trait Simulator: Rows {
     /// Name in grid files, such as `direct-drive`.
     fn name(&self) -> &'static str;
 
@@ -20,17 +42,17 @@ pub trait Simulator: Sync {
     /// Published parameter sets.
     fn presets(&self) -> &'static [Preset];
 
-    /// What each row measures, in column order.
-    fn columns(&self) -> &[Column];
-
-    /// Runs the points of `jobs` on the SIMD lanes of `set` until there are none left.
+    /// Follows one point for one drive period from the state `begin`, whether the motion repeats or not.
     ///
-    /// Rows are handed back in the order in which points finish. A row depends on its point and `solver`
-    /// alone: not on its neighbours, nor on the order of the points, nor on `set` within an arithmetic class.
-    fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs);
-
-    /// Runs one point on scalars, in the arithmetic class of `set`. Gives the same bits as [`Simulator::run`].
-    fn run_point(&self, set: InstructionSet, solver: &SolverSettings, values: &[f64]) -> Row;
+    /// # Errors
+    /// [`Invalid`] if the values are impossible together, `begin` is not a state, or the motion fails on the way.
+    fn period(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        begin: &[f64],
+    ) -> Result<Period, Invalid>;
 
     /// Samples the motion of one point, settled or from rest.
     ///
@@ -84,6 +106,19 @@ pub trait Simulator: Sync {
     ) -> Result<Trajectory, Invalid>;
 }
 
+/// A drive period.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Period {
+    /// The state at its end.
+    pub end: Vec<f64>,
+    /// Derivatives of the end, one vector for each component of the state at the beginning.
+    pub responses: Vec<Vec<f64>>,
+    /// Typical sizes of the state's components.
+    pub scale: Vec<f64>,
+    /// One value per column of the model, meaningful if the period repeats.
+    pub measures: Vec<f64>,
+}
+
 /// A motion of the wing that is given, as one that was filmed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImposedMotion {
@@ -135,6 +170,16 @@ pub struct Point {
     pub index: u64,
     /// One value per parameter of the model.
     pub values: Vec<f64>,
+    /// The state at the beginning of a drive period from which the motion is followed, such as [`Row::state`] of
+    /// a neighbour; at rest if `None`.
+    pub begin: Option<Vec<f64>>,
+}
+
+impl Point {
+    /// A point whose motion begins at rest.
+    pub fn at_rest(index: u64, values: Vec<f64>) -> Point {
+        Point { index, values, begin: None }
+    }
 }
 
 /// Where a run takes its points from and leaves its rows.
@@ -232,13 +277,22 @@ pub struct Row {
     pub residual: f64,
     /// Drive periods per orbit: 1, or more for a subharmonic; 0 if no orbit was found.
     pub period: u32,
-    /// Largest modulus of the orbit's Floquet multipliers: below 1 the orbit is stable, and a change of the state decays
-    /// by this factor per drive period in the end. NaN without an orbit.
+    /// Largest modulus of the orbit's Floquet multipliers: a change of the state grows or decays by this factor per
+    /// orbit in the end. NaN without an orbit.
     pub floquet_max: f64,
+    /// The state at the end of the last drive period, on the orbit if there is one. Empty if no period was completed.
+    pub state: Vec<f64>,
     /// Right-hand sides evaluated by the integrator.
     pub rhs_evals: u64,
     /// Why the parameters are invalid.
     pub reason: Option<String>,
+}
+
+impl Row {
+    /// Whether motions near the orbit approach it. `None` without an orbit.
+    pub fn stable(&self) -> Option<bool> {
+        (!self.floquet_max.is_nan()).then_some(self.floquet_max < 1.0)
+    }
 }
 
 /// One measured column.

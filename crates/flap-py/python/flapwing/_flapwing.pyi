@@ -63,7 +63,7 @@ def run(
         One row of results; the keys and their order are the same for every point of a model:
 
         status : str
-            ``"periodic"``; ``"subharmonic"`` (repeats every 2 to 4 drive periods); ``"unsettled"``
+            ``"periodic"``; ``"subharmonic"`` (repeats every 2 to 8 drive periods); ``"unsettled"``
             (max_cycles reached); ``"diverged"``; ``"step_limit"`` (max_steps reached, or steps too small
             to advance time); ``"invalid"`` (each parameter is in range, but together they are
             impossible).
@@ -79,8 +79,11 @@ def run(
         period : int
             Drive periods until the motion repeats: 1 if periodic, more if subharmonic, otherwise 0.
         floquet_max : float or None
-            Factor by which a change of the motion decays per drive period in the end; below 1 the motion is
-            stable. None unless the point is periodic.
+            Factor by which a change of the motion grows or decays per orbit in the end. None if no orbit was
+            found.
+        stable : bool or None
+            Whether floquet_max is below 1, so that motions near the orbit approach it. None if no orbit was
+            found.
         rhs_evals : int
             Evaluations of the equations of motion.
         reason : str or None

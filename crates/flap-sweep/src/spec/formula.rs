@@ -21,8 +21,8 @@ pub(super) struct Names {
     pub(super) preset: Vec<f64>,
     /// Whether each parameter has a value of its own at every point.
     pub(super) has_value: Vec<bool>,
-    /// What the model measures.
-    pub(super) columns: &'static [Column],
+    /// What rows measure, but for the user's own.
+    pub(super) columns: Vec<Column>,
     /// Whether what the model measures may be used: not before a point is run.
     pub(super) are_measured: bool,
     /// The user's own measures that may be used.
@@ -34,11 +34,13 @@ impl Names {
         self.parameters.iter().position(|parameter| parameter.name == name)
     }
 
-    fn of_parameter(&self, index: usize) -> Meaning {
+    fn of_parameter(&self, index: usize) -> Option<Meaning> {
         match self.parameters[index].kind {
-            ParameterKind::Choice(options) => Meaning::Choice(index, options),
-            ParameterKind::Following(_, follows) if !self.has_value[index] => Meaning::Unset(follows),
-            ParameterKind::Number(_) | ParameterKind::Following(..) => Meaning::Number(index),
+            ParameterKind::Choice(options) => Some(Meaning::Choice(index, options)),
+            ParameterKind::Following(_, follows) if !self.has_value[index] => Some(Meaning::Unset(follows)),
+            // It is found when the point runs, and may be measured then.
+            ParameterKind::Number(_) if !self.has_value[index] => None,
+            ParameterKind::Number(_) | ParameterKind::Following(..) => Some(Meaning::Number(index)),
         }
     }
 
@@ -76,7 +78,7 @@ impl Scope for Names {
         if let Some(name) = name.strip_prefix(PRESET) {
             return self.parameter(name).and_then(|index| self.of_preset(index));
         }
-        self.parameter(name).map(|index| self.of_parameter(index)).or_else(|| self.of_measure(name))
+        self.parameter(name).and_then(|index| self.of_parameter(index)).or_else(|| self.of_measure(name))
     }
 
     fn names(&self) -> Vec<String> {

@@ -14,8 +14,8 @@ use crate::plan::Output;
 const KEYS: [&str; 2] = ["path", "columns"];
 
 /// Columns that every row has, whatever is selected.
-pub(super) const ALWAYS: [&str; 7] =
-    ["point", "status", "cycles", "residual", "period", "floquet_max", "rhs_evals"];
+pub(super) const ALWAYS: [&str; 8] =
+    ["point", "status", "cycles", "residual", "period", "floquet_max", "stable", "rhs_evals"];
 
 /// The section; column names are checked only if the model is known. `own` are the names of the user's measures.
 pub(super) fn read(

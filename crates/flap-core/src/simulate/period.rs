@@ -1,0 +1,52 @@
+//! One drive period from a state, whether it repeats or not.
+
+use core::ops::ControlFlow;
+
+use super::motion::check;
+use super::row::measures;
+use super::scalar::cycle;
+use super::search::{begin, varied};
+use super::simulator::{Period, SolverSettings};
+use crate::model::Model;
+use crate::num::Scalar;
+use crate::ode::solve::solve;
+use crate::ode::variation::{Variation, response};
+use crate::parameter::Invalid;
+
+/// Follows a point from the state `from` for one drive period.
+pub(super) fn from<M, R, const N: usize, const K: usize, const S: usize>(
+    model: &M,
+    solver: &SolverSettings,
+    values: &[f64],
+    from: &[f64],
+) -> Result<Period, Invalid>
+where
+    M: Model<N, S>,
+    R: Scalar,
+{
+    let model = &model.variant(values);
+    let start = begin(model, values, Some(from))?;
+    let mut all = [0.0; K];
+    let outcome = solve::<Variation<'_, M, N>, R, K>(
+        &Variation(model),
+        &solver.tolerances(),
+        &varied(&start, &start.y),
+        |_, _| {},
+        |end| {
+            all = *end;
+            ControlFlow::Break(())
+        },
+    );
+    check(outcome.ending)?;
+    let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start);
+    check(outcome.ending)?;
+    let measures = totals.map(|totals| measures(model, &start.constants, &totals, start.span));
+    Ok(Period {
+        end: all[..N].to_vec(),
+        responses: (0..N)
+            .map(|j| response::<N, K>(&all, j).map(|change| change / start.scale[j]).to_vec())
+            .collect(),
+        scale: start.scale.to_vec(),
+        measures: measures.unwrap_or_default(),
+    })
+}
