@@ -8,8 +8,14 @@ use crate::data::assert_close;
 use crate::robustness::designs;
 use crate::rows;
 
-const SOLVER: SolverSettings =
-    SolverSettings { rtol: 1e-8, atol: 1e-10, settle_tol: 1e-6, max_cycles: 1000, max_steps: 20_000 };
+const SOLVER: SolverSettings = SolverSettings {
+    rtol: 1e-8,
+    atol: 1e-10,
+    settle_tol: 1e-6,
+    max_cycles: 1000,
+    max_steps: 20_000,
+    newton: true,
+};
 
 /// Every preset of a model.
 fn presets(model: &dyn Simulator) -> Vec<Vec<f64>> {
@@ -101,7 +107,11 @@ fn responses_are_derivatives() {
                 let difference = (above[i] - below[i]) / (2.0 * change);
                 let size = middle.scale[i] / middle.scale[j];
                 let error = (difference - middle.responses[j][i]).abs();
-                assert!(error < 2e-3 * (size + difference.abs()), "{}: {i} by {j}: {difference} {error}", model.name());
+                assert!(
+                    error < 2e-3 * (size + difference.abs()),
+                    "{}: {i} by {j}: {difference} {error}",
+                    model.name()
+                );
             }
         }
     }

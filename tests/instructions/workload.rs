@@ -105,8 +105,14 @@ impl Work {
 }
 
 /// One period. The tolerance is loose to make it short: what a step costs does not depend on its length.
-const MARCH: SolverSettings =
-    SolverSettings { rtol: 1e-2, atol: 1e-4, settle_tol: 0.0, max_cycles: 1, max_steps: 20_000 };
+const MARCH: SolverSettings = SolverSettings {
+    rtol: 1e-2,
+    atol: 1e-4,
+    settle_tol: 0.0,
+    max_cycles: 1,
+    max_steps: 20_000,
+    newton: true,
+};
 
 /// Any change counts as none, so that the motion has settled after two periods; a third is integrated with responses to
 /// changes, a fourth is measured.

@@ -18,6 +18,7 @@ fn main() -> ExitCode {
     let ended = match Args::parse().command {
         Command::Sweep(args) => cmd::sweep::run(&args),
         Command::Run(args) => cmd::run::run(&args),
+        Command::Respond(args) => cmd::respond::run(&args),
         Command::Resonance(args) => cmd::resonance::run(&args),
         Command::Check(args) => cmd::check::run(&args),
         Command::Lift(args) => cmd::lift::run(&args),

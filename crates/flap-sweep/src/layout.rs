@@ -44,7 +44,7 @@ impl Layout {
         let parameters = plan.parameters();
         let varied =
             plan.varied().chain(plan.derived.parameters()).map(|index| (index, &parameters[index])).collect();
-        let columns = plan.simulator.columns();
+        let columns = plan.rows().columns();
         let models = columns.iter().map(|column| (column.name.clone(), column.unit, Kind::Number));
         let own = plan.measures.iter().map(|own| (own.name.clone(), "", own.kind()));
         let all: Vec<Measure> = (models.chain(own).enumerate())

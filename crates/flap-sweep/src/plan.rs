@@ -5,19 +5,23 @@
 use std::path::PathBuf;
 
 use flap_core::parameter::{Invalid, Kind, Parameter, Range};
-use flap_core::simulate::{Point, Simulator, SolverSettings};
+use flap_core::simulate::{Point, Rows, Simulator, SolverSettings};
 
 use crate::axis::{Axis, Values};
 use crate::formula::{Condition, Derived, OwnMeasure};
+use crate::resonance::AtResonance;
 use crate::text;
 
 /// A design space that has passed every check. Made by [`crate::spec`] only.
 pub struct Plan {
     /// The model.
     pub simulator: &'static dyn Simulator,
+    /// What turns points into rows if each design is run at its own resonance.
+    pub resonance: Option<AtResonance>,
     /// Name of the preset that the parameters start from.
     pub preset: &'static str,
-    /// Parameter values before the axes are applied: the preset with `[params]` on top.
+    /// Parameter values before the axes are applied: the preset with `[params]` on top. NaN for what is not set: a number
+    /// that follows others, or a drive frequency that is to be the resonance.
     pub base: Vec<f64>,
     /// The axes; the last varies fastest.
     pub axes: Vec<Axis>,
@@ -79,6 +83,7 @@ pub struct Source {
 /// Everything a plan is made of, before its size is known.
 pub(crate) struct Parts {
     pub(crate) simulator: &'static dyn Simulator,
+    pub(crate) resonance: Option<AtResonance>,
     pub(crate) preset: &'static str,
     pub(crate) base: Vec<f64>,
     pub(crate) axes: Vec<Axis>,
@@ -102,6 +107,7 @@ impl Plan {
             Some(points) if points <= Plan::MAX_POINTS => {
                 let Parts {
                     simulator,
+                    resonance,
                     preset,
                     base,
                     axes,
@@ -115,6 +121,7 @@ impl Plan {
                 } = parts;
                 Ok(Plan {
                     simulator,
+                    resonance,
                     preset,
                     base,
                     axes,
@@ -130,6 +137,14 @@ impl Plan {
             }
             _ => Err(Box::new(parts)),
         }
+    }
+
+    /// Takes an axis out of the plan and gives its values, if one varies this parameter and no other.
+    pub fn take_axis(&mut self, parameter: usize) -> Option<Values> {
+        let alone = |axis: &Axis| matches!(axis.parameters[..], [(varied, _)] if varied == parameter);
+        let axis = self.axes.remove(self.axes.iter().position(alone)?);
+        self.points /= axis.len();
+        axis.parameters.into_iter().next().map(|(_, values)| values)
     }
 
     /// Number of points.
@@ -154,7 +169,7 @@ impl Plan {
             }
         }
         self.derived.fill(&mut values, &[]);
-        Point { index, values, begin: None }
+        Point::at_rest(index, values)
     }
 
     /// Whether the point with these values is run.
@@ -201,9 +216,10 @@ impl Plan {
         Invalid::new(format!("`{name}` comes out as {}, but must be {allowed}", value.trim_end()))
     }
 
-    /// Adds the plan's own measures to those of the model, if the point has them.
+    /// Adds the plan's own measures to those of a row, if the point has them.
     pub fn add_own_measures(&self, values: &[f64], measures: &mut Vec<f64>) {
-        if self.measures.is_empty() || measures.is_empty() {
+        // A row that the model made at a resonance found before lacks what was found out about that.
+        if self.measures.is_empty() || measures.len() != self.rows().columns().len() {
             return;
         }
         let mut known = values.to_vec();
@@ -217,6 +233,14 @@ impl Plan {
     /// Indices of the varied parameters, in the order of the axes: the columns after `point`.
     pub fn varied(&self) -> impl Iterator<Item = usize> + '_ {
         self.axes.iter().flat_map(|axis| axis.parameters.iter().map(|(parameter, _)| *parameter))
+    }
+
+    /// What turns points into rows: the model, or the model at the resonance of each design.
+    pub fn rows(&self) -> &dyn Rows {
+        match &self.resonance {
+            Some(resonance) => resonance,
+            None => self.simulator,
+        }
     }
 
     /// The model's parameter table.

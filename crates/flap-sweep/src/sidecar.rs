@@ -74,6 +74,7 @@ struct Solver {
     settle_tol: f64,
     max_cycles: u32,
     max_steps: u32,
+    newton: bool,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -204,8 +205,8 @@ pub fn path_of(results: &Path) -> PathBuf {
 
 impl From<&SolverSettings> for Solver {
     fn from(settings: &SolverSettings) -> Solver {
-        let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps } = *settings;
-        Solver { rtol, atol, settle_tol, max_cycles, max_steps }
+        let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, newton } = *settings;
+        Solver { rtol, atol, settle_tol, max_cycles, max_steps, newton }
     }
 }
 

@@ -14,6 +14,7 @@ mod preset;
 mod problems;
 mod range;
 mod read;
+mod resonance;
 mod sample;
 mod solver;
 mod syntax;
@@ -24,21 +25,33 @@ mod zip;
 use std::sync::Arc;
 
 use flap_core::parameter::Preset;
-use flap_core::simulate::Simulator;
+use flap_core::simulate::{Rows, Simulator};
 use toml::de::DeTable;
 
 use crate::axis::Axis;
 use crate::diagnostic::Diagnostic;
 use crate::formula::{Condition, Derived};
 use crate::plan::{Parts, Plan, PointsFile, Source};
+use crate::resonance::AtResonance;
 use formula::Names;
 use problems::Problems;
 pub use read::{ReadError, read};
 use table::Entry;
 
 /// The keys at the top of a grid file.
-const KEYS: [&str; 10] =
-    ["preset", "params", "axes", "zip", "sample", "derived", "where", "measure", "solver", "output"];
+const KEYS: [&str; 11] = [
+    "preset",
+    "params",
+    "resonance",
+    "axes",
+    "zip",
+    "sample",
+    "derived",
+    "where",
+    "measure",
+    "solver",
+    "output",
+];
 
 /// Checks the grid file `text` and makes its plan. Presets are looked up in `models`; `name` is for messages.
 ///
@@ -58,16 +71,17 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
     report_unknown_keys(&root, chosen.map(|(model, _)| model), &mut problems);
     let solver = solver::read(table::find(&root, "solver"), &mut problems);
     let output_entry = table::find(&root, "output");
-    // Without a model there are no parameters to check against.
+    // Without a model there are no parameters and columns to check against.
     let Some((simulator, preset)) = chosen else {
-        output::read(output_entry, None, &[], &mut problems);
+        output::read(output_entry, None, &mut problems);
         return Err(problems.into_diagnostics());
     };
-    let Points { base, axes, points_file, derived, conditions, mut names } =
+    let Points { base, axes, points_file, resonance, derived, conditions, mut names } =
         read_points(&root, simulator, preset, models, &mut problems);
     names.are_measured = true;
-    let own = measures::read(table::find(&root, "measure"), simulator, &mut names, &mut problems);
-    let output = output::read(output_entry, Some(simulator), &own, &mut problems);
+    let own = measures::read(table::find(&root, "measure"), &mut names, &mut problems);
+    let columns = names.columns.iter().map(|column| column.name.clone()).chain(own).collect::<Vec<_>>();
+    let output = output::read(output_entry, Some((simulator, &columns)), &mut problems);
 
     if !problems.is_empty() {
         return Err(problems.into_diagnostics());
@@ -77,6 +91,7 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
     let source = (*source).clone();
     let parts = Parts {
         simulator,
+        resonance,
         preset: preset.name,
         base,
         axes,
@@ -99,12 +114,13 @@ struct Points {
     base: Vec<f64>,
     axes: Vec<axes::Placed>,
     points_file: Option<PointsFile>,
+    resonance: Option<AtResonance>,
     derived: Derived,
     conditions: Vec<Condition>,
     names: Names,
 }
 
-/// What `[params]`, `[axes]`, `[[zip]]`, `[sample]`, `[derived]` and `[where]` say about the points.
+/// What `[params]`, `[resonance]`, `[axes]`, `[[zip]]`, `[sample]`, `[derived]` and `[where]` say about the points.
 fn read_points(
     root: &[Entry<'_>],
     simulator: &'static dyn Simulator,
@@ -125,17 +141,20 @@ fn read_points(
     let drafts = derived::drafts(table::find(root, "derived"), &mut lookup);
     derived::report_repeats(&drafts, &axes, &set, problems);
 
+    let resonance = resonance::read(root, simulator, &mut base, problems);
+
     let mut has_value: Vec<bool> = base.iter().map(|value| !value.is_nan()).collect();
     let varied = axes.iter().flat_map(|placed| &placed.axis.parameters).map(|(parameter, _)| *parameter);
     for parameter in varied.chain(drafts.iter().map(|draft| draft.parameter)) {
         has_value[parameter] = true;
     }
     let (parameters, preset) = (simulator.parameters(), (preset.values)());
-    let columns = simulator.columns().to_vec();
+    let columns =
+        resonance.as_ref().map_or_else(|| simulator.columns(), |resonance| resonance.columns()).to_vec();
     let names = Names { parameters, preset, has_value, columns, are_measured: false, own: Vec::new() };
     let derived = derived::read(&drafts, &names, problems);
     let conditions = conditions::read(table::find(root, "where"), &names, problems);
-    Points { base, axes, points_file, derived, conditions, names }
+    Points { base, axes, points_file, resonance, derived, conditions, names }
 }
 
 fn report_unknown_keys(root: &[Entry<'_>], model: Option<&'static dyn Simulator>, problems: &mut Problems) {

@@ -37,7 +37,14 @@ fn points() -> Vec<Vec<f64>> {
 
 #[test]
 fn rows_equal_the_scalar_path_bit_for_bit() {
-    let solver = SolverSettings { rtol: 1e-5, atol: 1e-7, settle_tol: 1e-5, max_cycles: 60, max_steps: 500 };
+    let solver = SolverSettings {
+        rtol: 1e-5,
+        atol: 1e-7,
+        settle_tol: 1e-5,
+        max_cycles: 60,
+        max_steps: 500,
+        newton: true,
+    };
     let rows = assert_lanes_equal_scalars(model(), &points(), &solver);
     for row in &rows {
         assert!(row.measures.iter().all(|m| m.is_finite()), "{row:?}");

@@ -49,7 +49,7 @@ rtool = 1
   note: presets, with their models: fly (flapper), moth (flapper), flea (hopper)
   help: did you mean `moth`?
 3:1 |rtool| unknown key `rtool` in [solver] (unknown key)
-  note: keys in [solver]: rtol, atol, settle_tol, max_cycles, max_steps
+  note: keys in [solver]: rtol, atol, settle_tol, max_cycles, max_steps, newton
   help: did you mean `rtol`?
 "#,
     );
@@ -179,7 +179,7 @@ tol = 1
 6:14 |0| `max_cycles` must be a whole number of 1 or more, not 0
 7:13 |5e9| `max_steps` must be a whole number of 1 or more, not 5e9
 8:1 |tol| unknown key `tol` in [solver] (unknown key)
-  note: keys in [solver]: rtol, atol, settle_tol, max_cycles, max_steps
+  note: keys in [solver]: rtol, atol, settle_tol, max_cycles, max_steps, newton
   help: did you mean `atol`?
 ",
     );
@@ -205,7 +205,7 @@ max_step = 5
   help: write a bare number, such as 1e-6, without quotes
 6:14 |5000000000| `max_cycles` must be at most 4294967295, not 5000000000
 7:1 |max_step| unknown key `max_step` in [solver] (unknown key)
-  note: keys in [solver]: rtol, atol, settle_tol, max_cycles, max_steps
+  note: keys in [solver]: rtol, atol, settle_tol, max_cycles, max_steps, newton
   help: did you mean `max_steps`?
 "#,
     );

@@ -9,6 +9,7 @@ use flap_core::parameter::Parameter;
 use flap_core::simulate::{Point, SolverSettings};
 use flap_sweep::axis::Values;
 use flap_sweep::plan::{Plan, Verdict};
+use flap_sweep::resonance::Range;
 use flap_sweep::sample::{Distribution, Method};
 use flap_sweep::{spec, survey, text};
 
@@ -33,6 +34,10 @@ fn page(plan: &Arc<Plan>) -> String {
         page += &samples(plan);
         page += "\n";
         page += &ends(plan);
+    }
+    if let Some(resonance) = &plan.resonance {
+        page += "\n";
+        page += &at_resonance(resonance.range());
     }
     let (excluded, runs) = excluded(plan);
     page += &excluded;
@@ -155,11 +160,26 @@ fn assignment(parameter: &Parameter, index: usize, point: &Point) -> String {
     text.trim_end().to_owned()
 }
 
+/// Where the drive frequency of each point is looked for.
+fn at_resonance(range: &Range) -> String {
+    let Range { of, from, to, tolerance } = range;
+    let from =
+        from.map_or_else(|| "half of the lower natural frequency".to_owned(), |from| format!("{from} Hz"));
+    let to = to.map_or_else(
+        || "one and a half times the upper natural frequency".to_owned(),
+        |to| format!("{to} Hz"),
+    );
+    format!(
+        "drive_frequency: that of the largest {}, from {from} to {to}, within {tolerance} Hz\n",
+        of.name()
+    )
+}
+
 fn solver(settings: &SolverSettings) -> String {
-    let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps } = *settings;
+    let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, newton } = *settings;
     let [rtol, atol, settle_tol] = [rtol, atol, settle_tol].map(text::float);
     format!(
         "rtol = {rtol}, atol = {atol}, settle_tol = {settle_tol}, max_cycles = {max_cycles}, \
-         max_steps = {max_steps}\n"
+         max_steps = {max_steps}, newton = {newton}\n"
     )
 }

@@ -9,6 +9,7 @@ mod motion;
 pub(crate) mod params;
 mod point;
 pub(crate) mod resonance;
+pub(crate) mod respond;
 pub(crate) mod run;
 mod samples;
 pub(crate) mod sweep;

@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
+use flap_core::num::InstructionSet;
 use flap_core::parameter::{Kind, Parameter};
-use flap_core::simulate::{self, Simulator, SolverSettings};
+use flap_core::simulate::{self, Rows, Simulator, SolverSettings};
 use flap_sweep::diagnostic::nearest;
 use flap_sweep::plan::{Plan, Verdict};
+use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
 use flap_sweep::{spec, units};
 
 use crate::args::{PointArgs, SolverArgs};
@@ -35,7 +37,9 @@ impl Chosen {
         let mut values = plan.point(point.point).values;
         let mut set = Vec::new();
         for (name, value) in &point.set {
-            set.push(set_parameter(plan.parameters(), &mut values, name, value)?);
+            let index = find_parameter(plan.parameters(), name)?;
+            values[index] = self::value(&plan.parameters()[index], "--set", value)?;
+            set.push(index);
         }
         plan.derived.fill(&mut values, &set);
         match plan.judge(&values) {
@@ -47,7 +51,29 @@ impl Chosen {
             }
             Verdict::Invalid(invalid) => return Err(invalid.into()),
         }
-        Ok(Chosen { plan, values, sampled: None, index: point.point })
+        let mut chosen = Chosen { plan, values, sampled: None, index: point.point };
+        chosen.find_resonance()?;
+        Ok(chosen)
+    }
+
+    /// Gives a drive frequency that is to be the resonance its value.
+    fn find_resonance(&mut self) -> Result<(), Failure> {
+        let Some(resonance) = &self.plan.resonance else { return Ok(()) };
+        let index = find_parameter(self.plan.parameters(), DRIVE_FREQUENCY)?;
+        if !self.values[index].is_nan() {
+            return Ok(());
+        }
+        let row = resonance.run_point(InstructionSet::best(), &self.plan.solver, &self.values, None);
+        let place = resonance.columns().iter().position(|column| column.name == RESONANCE_HZ);
+        let found = place.and_then(|place| row.measures.get(place));
+        let found = found.copied().ok_or_else(|| {
+            let reason =
+                row.reason.clone().unwrap_or_else(|| format!("at every frequency: {}", row.status.name()));
+            Failure::usage(format!("the resonance of this point was not found: {reason}"))
+        })?;
+        self.values[index] = found;
+        console::say(&format!("{DRIVE_FREQUENCY} = {found} Hz, the resonance"));
+        Ok(())
     }
 
     /// The model that is run.
@@ -73,7 +99,7 @@ impl Chosen {
 }
 
 /// The plan of a preset or a grid file.
-fn plan(what: &str) -> Result<Plan, Failure> {
+pub(super) fn plan(what: &str) -> Result<Plan, Failure> {
     if simulate::preset(what).is_some() {
         let grid = format!("preset = \"{what}\"\n");
         return spec::parse(what, &grid, simulate::all()).map_err(Failure::Grid);
@@ -91,7 +117,8 @@ fn plan(what: &str) -> Result<Plan, Failure> {
     })
 }
 
-fn set_solver(settings: &mut SolverSettings, args: &SolverArgs) {
+/// Puts the settings of the command line over those of the grid file.
+pub(super) fn set_solver(settings: &mut SolverSettings, args: &SolverArgs) {
     if let Some(rtol) = args.rtol {
         settings.rtol = rtol;
         settings.atol = rtol / 100.0;
@@ -100,25 +127,19 @@ fn set_solver(settings: &mut SolverSettings, args: &SolverArgs) {
     settings.max_cycles = args.max_cycles.unwrap_or(settings.max_cycles);
 }
 
-/// Sets the parameter called `name` from text. Returns its index.
-fn set_parameter(
-    parameters: &[Parameter],
-    values: &mut [f64],
-    name: &str,
-    text: &str,
-) -> Result<usize, Failure> {
-    let Some(index) = parameters.iter().position(|parameter| parameter.name == name) else {
+/// The index of the parameter called `name`.
+pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usize, Failure> {
+    parameters.iter().position(|parameter| parameter.name == name).ok_or_else(|| {
         let failure = Failure::usage(format!("there is no parameter `{name}`"));
-        return Err(match nearest(name, parameters.iter().map(|parameter| parameter.name)) {
+        match nearest(name, parameters.iter().map(|parameter| parameter.name)) {
             Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
             None => failure.help("`flap params` lists the parameters of a model"),
-        });
-    };
-    values[index] = value(&parameters[index], text)?;
-    Ok(index)
+        }
+    })
 }
 
-fn value(parameter: &Parameter, text: &str) -> Result<f64, Failure> {
+/// The value of a parameter from the text given with `option`.
+pub(super) fn value(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Failure> {
     let name = parameter.name;
     match parameter.kind {
         Kind::Choice(options) => {
@@ -133,7 +154,8 @@ fn value(parameter: &Parameter, text: &str) -> Result<f64, Failure> {
             // A bare number is in SI units, as in a grid file.
             let number = units::parse_as(text, "").or_else(|_| units::parse_as(text, parameter.unit));
             let number = number.map_err(|error| {
-                let failure = Failure::usage(format!("--set {name}={text}: {}", error.message("the value")));
+                let failure =
+                    Failure::usage(format!("{option} {text}: {}", error.message(&format!("`{name}`"))));
                 error.help().into_iter().fold(failure, Failure::help)
             })?;
             if range.contains(number) {

@@ -27,7 +27,8 @@ pub(super) struct Search<const N: usize> {
     scale: [f64; N],
     tolerance: f64,
     max_cycles: u32,
-    next_try: u32,
+    /// Periods marched before Newton's iteration is tried next; `None` if it never is.
+    next_try: Option<u32>,
     /// Drive periods of Newton's iteration, each integrated N + 1 times.
     periods_varied: u32,
     /// Length in drive periods of the orbit on which the march has settled.
@@ -67,7 +68,7 @@ impl<const N: usize> Search<N> {
             scale: start.scale,
             tolerance,
             max_cycles: solver.max_cycles,
-            next_try: if nearby { FIRST_TRY_NEARBY } else { FIRST_TRY },
+            next_try: solver.newton.then_some(if nearby { FIRST_TRY_NEARBY } else { FIRST_TRY }),
             periods_varied: 0,
             period: None,
             found: None,
@@ -88,7 +89,7 @@ impl<const N: usize> Search<N> {
     }
 
     fn is_promising(&self) -> bool {
-        self.strobe.cycles() >= self.next_try && self.strobe.change(1) <= NEAR
+        self.next_try.is_some_and(|next| self.strobe.cycles() >= next) && self.strobe.change(1) <= NEAR
     }
 
     fn is_exhausted(&self) -> bool {
@@ -145,7 +146,7 @@ impl<const N: usize> Search<N> {
         if self.is_exhausted() {
             return Next::Done;
         }
-        self.next_try = 2 * self.strobe.cycles();
+        self.next_try = Some(2 * self.strobe.cycles());
         Next::March(*self.strobe.state())
     }
 

@@ -207,6 +207,9 @@ pub struct SolverSettings {
     pub max_cycles: u32,
     /// Integration steps within one drive period after which a point is given up.
     pub max_steps: u32,
+    /// Whether Newton's iteration on the period map looks for the orbit to which a motion is on its way. Without it, points
+    /// settle by marching alone: to the same orbits, in more periods.
+    pub newton: bool,
 }
 
 impl SolverSettings {
@@ -218,7 +221,14 @@ impl SolverSettings {
 
 impl Default for SolverSettings {
     fn default() -> Self {
-        SolverSettings { rtol: 1e-6, atol: 1e-8, settle_tol: 1e-6, max_cycles: 1000, max_steps: 20_000 }
+        SolverSettings {
+            rtol: 1e-6,
+            atol: 1e-8,
+            settle_tol: 1e-6,
+            max_cycles: 1000,
+            max_steps: 20_000,
+            newton: true,
+        }
     }
 }
 

@@ -14,8 +14,7 @@ use crate::plan::{Plan, Verdict};
 /// Runs points until there are none left, and leaves the queue whatever happens.
 pub(super) fn work(plan: &Plan, instructions: InstructionSet, queue: &Queue) {
     let mut source = Source { plan, queue, in_hand: 0, fault: None };
-    let ended =
-        catch_unwind(AssertUnwindSafe(|| plan.simulator.run(instructions, &plan.solver, &mut source)));
+    let ended = catch_unwind(AssertUnwindSafe(|| plan.rows().run(instructions, &plan.solver, &mut source)));
     let outcome = match (ended, source.fault, source.in_hand) {
         (Err(panic), _, _) => Err(RunError::Panic(panic_message(&*panic))),
         (Ok(()), Some(fault), _) => Err(RunError::Model(fault)),
@@ -58,7 +57,7 @@ impl Jobs for Source<'_> {
     }
 
     fn done(&mut self, index: u64, mut row: Row) {
-        let expected = if row.status == Status::Periodic { self.plan.simulator.columns().len() } else { 0 };
+        let expected = if row.status == Status::Periodic { self.plan.rows().columns().len() } else { 0 };
         if row.measures.len() != expected {
             let found = row.measures.len();
             self.fault = Some(format!("it returned {found} measures, not {expected}, for point {index}"));

@@ -13,6 +13,9 @@ use crate::formula::OwnMeasure;
 /// What stands before the name of a parameter for its value in the preset.
 const PRESET: &str = "preset.";
 
+/// What a drive frequency follows that is to be the resonance.
+const RESONANCE: &str = "the resonance of each design, which [measure] has as resonance_hz";
+
 /// The names of parameters, of their values in the preset, and of what rows measure. Values stand in this order: the
 /// parameters, the model's measures, the user's own.
 pub(super) struct Names {
@@ -34,13 +37,12 @@ impl Names {
         self.parameters.iter().position(|parameter| parameter.name == name)
     }
 
-    fn of_parameter(&self, index: usize) -> Option<Meaning> {
+    fn of_parameter(&self, index: usize) -> Meaning {
         match self.parameters[index].kind {
-            ParameterKind::Choice(options) => Some(Meaning::Choice(index, options)),
-            ParameterKind::Following(_, follows) if !self.has_value[index] => Some(Meaning::Unset(follows)),
-            // It is found when the point runs, and may be measured then.
-            ParameterKind::Number(_) if !self.has_value[index] => None,
-            ParameterKind::Number(_) | ParameterKind::Following(..) => Some(Meaning::Number(index)),
+            ParameterKind::Choice(options) => Meaning::Choice(index, options),
+            ParameterKind::Following(_, follows) if !self.has_value[index] => Meaning::Unset(follows),
+            ParameterKind::Number(_) if !self.has_value[index] => Meaning::Unset(RESONANCE),
+            ParameterKind::Number(_) | ParameterKind::Following(..) => Meaning::Number(index),
         }
     }
 
@@ -78,7 +80,7 @@ impl Scope for Names {
         if let Some(name) = name.strip_prefix(PRESET) {
             return self.parameter(name).and_then(|index| self.of_preset(index));
         }
-        self.parameter(name).and_then(|index| self.of_parameter(index)).or_else(|| self.of_measure(name))
+        self.parameter(name).map(|index| self.of_parameter(index)).or_else(|| self.of_measure(name))
     }
 
     fn names(&self) -> Vec<String> {

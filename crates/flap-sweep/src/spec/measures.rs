@@ -1,7 +1,5 @@
 //! The section `[measure]`: columns that are computed from what rows measure.
 
-use flap_core::simulate::Simulator;
-
 use super::formula::{self, Names};
 use super::output;
 use super::problems::Problems;
@@ -12,15 +10,10 @@ use crate::formula::OwnMeasure;
 /// Puts the measures of the section into `names`, one by one: each may use those above it.
 ///
 /// Returns the names that measures may have, also those of measures whose expressions are wrong.
-pub(super) fn read(
-    entry: Option<&Entry<'_>>,
-    simulator: &dyn Simulator,
-    names: &mut Names,
-    problems: &mut Problems,
-) -> Vec<String> {
+pub(super) fn read(entry: Option<&Entry<'_>>, names: &mut Names, problems: &mut Problems) -> Vec<String> {
     let entries = entry.map(|entry| table::section(entry, problems)).unwrap_or_default();
     for (place, entry) in entries.iter().enumerate() {
-        if !name_is_sound(entry.key, simulator) {
+        if !name_is_sound(entry.key, names) {
             report_name(entry, problems);
             continue;
         }
@@ -48,16 +41,16 @@ pub(super) fn read(
             }
         }
     }
-    let sound = entries.iter().filter(|entry| name_is_sound(entry.key, simulator));
+    let sound = entries.iter().filter(|entry| name_is_sound(entry.key, names));
     sound.map(|entry| entry.key.to_owned()).collect()
 }
 
 /// Whether a column may be called `name`, and be used in expressions.
-fn name_is_sound(name: &str, simulator: &dyn Simulator) -> bool {
+fn name_is_sound(name: &str, names: &Names) -> bool {
     expression::is_free_name(name)
         && !output::ALWAYS.contains(&name)
-        && simulator.parameters().iter().all(|parameter| parameter.name != name)
-        && simulator.columns().iter().all(|column| column.name != name)
+        && names.parameters.iter().all(|parameter| parameter.name != name)
+        && names.columns.iter().all(|column| column.name != name)
 }
 
 fn report_name(entry: &Entry<'_>, problems: &mut Problems) {

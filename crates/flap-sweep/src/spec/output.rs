@@ -17,11 +17,13 @@ const KEYS: [&str; 2] = ["path", "columns"];
 pub(super) const ALWAYS: [&str; 8] =
     ["point", "status", "cycles", "residual", "period", "floquet_max", "stable", "rhs_evals"];
 
-/// The section; column names are checked only if the model is known. `own` are the names of the user's measures.
+/// A model, and the names of the columns that rows measure, the user's own included.
+type Measured<'m> = (&'static dyn Simulator, &'m [String]);
+
+/// The section; column names are checked only if the model is known.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
-    model: Option<&'static dyn Simulator>,
-    own: &[String],
+    model: Option<Measured<'_>>,
     problems: &mut Problems,
 ) -> Output {
     let Some(entry) = entry else {
@@ -33,16 +35,11 @@ pub(super) fn read(
         .and_then(|entry| value::text("path", entry.value, problems))
         .map(PathBuf::from);
     let columns = table::find(&entries, "columns").zip(model);
-    Output { path, columns: columns.map(|(entry, model)| columns_of(model, own, entry.value, problems)) }
+    Output { path, columns: columns.map(|(entry, model)| columns_of(model, entry.value, problems)) }
 }
 
 /// The indices of the columns that `value` lists.
-fn columns_of(
-    model: &'static dyn Simulator,
-    own: &[String],
-    value: &Spanned<DeValue<'_>>,
-    problems: &mut Problems,
-) -> Vec<usize> {
+fn columns_of(model: Measured<'_>, value: &Spanned<DeValue<'_>>, problems: &mut Problems) -> Vec<usize> {
     let list = value.get_ref().as_array().filter(|list| !list.is_empty());
     let Some(list) = list else {
         problems
@@ -50,15 +47,13 @@ fn columns_of(
             .help("remove `columns` to write all columns of the model");
         return Vec::new();
     };
-    let names: Vec<&str> =
-        model.columns().iter().map(|column| &column.name).chain(own).map(String::as_str).collect();
     let mut chosen: Vec<(usize, &Spanned<DeValue<'_>>)> = Vec::new();
     for item in list {
         let Some(name) = value::text("columns", item, problems) else {
             continue;
         };
-        let Some(index) = names.iter().position(|known| *known == name) else {
-            report_unknown(model, &names, name, item, problems);
+        let Some(index) = model.1.iter().position(|known| known == name) else {
+            report_unknown(model, name, item, problems);
             continue;
         };
         if let Some((_, first)) = chosen.iter().find(|(other, _)| *other == index) {
@@ -74,8 +69,7 @@ fn columns_of(
 }
 
 fn report_unknown(
-    model: &'static dyn Simulator,
-    names: &[&str],
+    (model, columns): Measured<'_>,
     name: &str,
     item: &Spanned<DeValue<'_>>,
     problems: &mut Problems,
@@ -92,7 +86,7 @@ fn report_unknown(
             )
             .help(format!("remove `{name}`: `columns` selects among the measures"));
     } else {
-        let columns = format!("columns: {}", names.join(", "));
-        diagnostic.note(columns).did_you_mean(name, names.iter().copied());
+        let names = columns.iter().map(String::as_str);
+        diagnostic.note(format!("columns: {}", columns.join(", "))).did_you_mean(name, names);
     }
 }

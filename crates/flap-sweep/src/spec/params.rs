@@ -6,6 +6,7 @@ use flap_core::parameter::Parameter;
 use flap_core::simulate::Simulator;
 
 use super::problems::Problems;
+use super::resonance;
 use super::table::{self, Entry};
 use super::value;
 
@@ -66,6 +67,10 @@ pub(super) fn read(
             continue;
         };
         set.push((index, entry.key_span.clone()));
+        // Not a value, but how to find one.
+        if resonance::is_asked_for(&entry) {
+            continue;
+        }
         if let Some(value) = value::of_parameter(parameter, entry.value, lookup.problems) {
             base[index] = value;
         }

@@ -6,7 +6,7 @@ use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
 
-const KEYS: [&str; 5] = ["rtol", "atol", "settle_tol", "max_cycles", "max_steps"];
+const KEYS: [&str; 6] = ["rtol", "atol", "settle_tol", "max_cycles", "max_steps", "newton"];
 
 /// Looser than this, an error estimate means nothing.
 const LARGEST_RTOL: f64 = 0.1;
@@ -34,6 +34,9 @@ pub(super) fn read(entry: Option<&Entry<'_>>, problems: &mut Problems) -> Solver
     }
     if let Some(max_steps) = whole(&entries, "max_steps", problems) {
         settings.max_steps = max_steps;
+    }
+    if let Some(entry) = table::find(&entries, "newton") {
+        settings.newton = value::boolean("newton", entry.value, problems).unwrap_or(settings.newton);
     }
     settings
 }

@@ -107,6 +107,16 @@ pub(super) fn number(name: &str, value: &Value<'_>, problems: &mut Problems) -> 
     number.map_err(|error| report_unit_error(name, value.span(), &error, problems)).ok()
 }
 
+/// `true` or `false`.
+pub(super) fn boolean(name: &str, value: &Value<'_>, problems: &mut Problems) -> Option<bool> {
+    let found = value.get_ref().as_bool();
+    if found.is_none() {
+        let message = format!("`{name}` must be true or false, not {}", table::kind(value.get_ref()));
+        problems.report(value.span(), message);
+    }
+    found
+}
+
 /// A whole number from 1 to `most`.
 pub(super) fn count(name: &str, most: u64, value: &Value<'_>, problems: &mut Problems) -> Option<u64> {
     let found = match value.get_ref() {

@@ -32,7 +32,7 @@ pub(super) fn line(plan: &Arc<Plan>, points: u64) -> Option<String> {
     // A point that takes for ever cannot be stopped: its thread ends with the program.
     thread::spawn(move || {
         let plan = Arc::clone(&trial.plan);
-        plan.simulator.run(InstructionSet::best(), &plan.solver, &mut trial);
+        plan.rows().run(InstructionSet::best(), &plan.solver, &mut trial);
         // Nobody may be waiting any more.
         let _ = send.send(());
     });

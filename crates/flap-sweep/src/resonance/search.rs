@@ -1,0 +1,262 @@
+//! The search for the resonance of one design.
+//!
+//! A grid over the range shows the peaks; the highest are located by [`Maximum`], each probe from the orbit of its nearest
+//! neighbour, which costs half as much as from rest. The row is that of the point from rest, like every row: if
+//! it is not what the search has seen there, the design has more than one orbit, and the peaks are located again with all
+//! probes from rest.
+
+use flap_core::parameter::Invalid;
+use flap_core::simulate::{Point, Row, Status};
+
+use super::AtResonance;
+use super::maximum::Maximum;
+use crate::study::{Probe, Study};
+
+/// Ratio of neighbouring frequencies of the grid, less one. A peak of quality Q is 1/Q wide.
+const SPACING: f64 = 0.02;
+
+/// Fewest and most intervals of the grid.
+const INTERVALS: [f64; 2] = [8.0, 500.0];
+
+/// Peaks that are located, and how far below the highest their parabolas' tops may be.
+const MOST_TOPS: usize = 4;
+const CONTENDER: f64 = 0.15;
+
+/// A second peak is told of if it is this close to the highest, as a share of that.
+const SECOND: f64 = 0.05;
+
+/// Two values this close are of the same orbit, as a share of them.
+const SAME: f64 = 1e-3;
+
+/// A design whose resonance is being looked for.
+pub(super) struct Search<'a> {
+    at: &'a AtResonance,
+    point: Point,
+    /// Lowest and highest frequency (Hz), or why there is no search.
+    ends: Result<[f64; 2], Invalid>,
+    stage: Stage,
+    /// Everything that was run.
+    seen: Vec<Seen>,
+    /// Where the latest probes are (Hz).
+    asked: Vec<f64>,
+    cycles: u32,
+    rhs_evals: u64,
+    row: Option<Row>,
+}
+
+/// What is being done.
+enum Stage {
+    /// Running the grid.
+    Grid,
+    /// Locating peaks; those at the indices `asking` wait for one value each.
+    Tops { tops: Vec<Maximum>, asking: Vec<usize>, from_rest: bool },
+    /// Running the highest of these, `[frequency, value]` each, from rest.
+    Last { tops: Vec<[f64; 2]>, from_rest: bool },
+    /// Nothing.
+    Done { tops: Vec<[f64; 2]> },
+}
+
+/// A point that was run.
+struct Seen {
+    frequency: f64,
+    /// What is to be largest; minus infinity if the motion is not periodic.
+    value: f64,
+    /// The state on its orbit, unless the motion is not periodic.
+    state: Option<Vec<f64>>,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(at: &'a AtResonance, point: Point) -> Search<'a> {
+        let ends = at.ends(&point.values);
+        Search {
+            at,
+            point,
+            ends,
+            stage: Stage::Grid,
+            seen: Vec::new(),
+            asked: Vec::new(),
+            cycles: 0,
+            rhs_evals: 0,
+            row: None,
+        }
+    }
+
+    /// The design's index and its row.
+    pub(super) fn finish(self) -> (u64, Row) {
+        let index = self.point.index;
+        let mut row = match (self.row, &self.ends) {
+            (Some(row), _) => row,
+            (None, Err(error)) => invalid(error.reason.clone()),
+            (None, Ok(_)) => invalid("the search for its resonance was cut short".to_owned()),
+        };
+        if let (Stage::Done { tops }, Ok([from, to]), Status::Periodic) =
+            (&self.stage, &self.ends, row.status)
+            && let Some(&[frequency, best]) = tops.first()
+        {
+            let second = tops[1..].iter().find(|top| best - top[1] <= SECOND * best.abs());
+            let margin = (frequency - from).min(to - frequency);
+            let gaps = self.seen.iter().filter(|seen| seen.state.is_none()).count();
+            row.measures.extend([
+                frequency,
+                second.map_or(f64::NAN, |top| top[0]),
+                if margin <= self.at.range.tolerance { 0.0 } else { margin },
+                self.seen.len() as f64,
+                gaps as f64,
+            ]);
+        }
+        row.cycles = self.cycles;
+        row.rhs_evals = self.rhs_evals;
+        (index, row)
+    }
+
+    fn probe(&self, frequency: f64, begin: Option<Vec<f64>>) -> Probe {
+        let mut values = self.point.values.clone();
+        values[self.at.frequency] = frequency;
+        Probe { values, begin }
+    }
+
+    /// The state on the orbit nearest in frequency.
+    fn nearest_state(&self, frequency: f64) -> Option<Vec<f64>> {
+        let distance = |seen: &&Seen| (seen.frequency - frequency).abs();
+        let known = self.seen.iter().filter(|seen| seen.state.is_some());
+        known.min_by(|a, b| distance(a).total_cmp(&distance(b))).and_then(|seen| seen.state.clone())
+    }
+
+    fn note(&mut self, frequency: f64, row: &Row) {
+        let value = row.measures.get(self.at.objective).copied().filter(|value| value.is_finite());
+        let state = (row.status == Status::Periodic).then(|| row.state.clone());
+        self.seen.push(Seen { frequency, value: value.unwrap_or(f64::NEG_INFINITY), state });
+        self.cycles = self.cycles.saturating_add(row.cycles);
+        self.rhs_evals += row.rhs_evals;
+    }
+
+    /// The peaks of the grid, which are the first points seen.
+    fn tops(&self, grid: usize) -> Vec<Maximum> {
+        let grid: Vec<[f64; 2]> = self.seen[..grid].iter().map(|seen| [seen.frequency, seen.value]).collect();
+        let mut tops: Vec<(f64, [[f64; 2]; 3])> = Vec::new();
+        for (i, &here) in grid.iter().enumerate() {
+            let before = if i > 0 { grid[i - 1] } else { here };
+            let after = *grid.get(i + 1).unwrap_or(&here);
+            let rises = i == 0 || before[1] < here[1];
+            if here[1].is_finite() && rises && here[1] >= after[1] {
+                let points = [before, here, after];
+                tops.push((summit(&points), points));
+            }
+        }
+        tops.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let least = tops.first().map_or(0.0, |(highest, _)| highest - CONTENDER * highest.abs());
+        tops.retain(|(height, _)| *height >= least);
+        tops.truncate(MOST_TOPS);
+        tops.into_iter().map(|(_, points)| Maximum::new(points, self.at.range.tolerance)).collect()
+    }
+
+    /// Locates peaks, or goes on to the last point if they all are.
+    fn locate(&mut self, mut tops: Vec<Maximum>, from_rest: bool) -> Stage {
+        let mut asking = Vec::new();
+        for (index, top) in tops.iter_mut().enumerate() {
+            if let Some(frequency) = top.next() {
+                asking.push(index);
+                self.asked.push(frequency);
+            }
+        }
+        if !asking.is_empty() {
+            return Stage::Tops { tops, asking, from_rest };
+        }
+        let mut tops: Vec<[f64; 2]> = tops.iter().map(Maximum::best).collect();
+        tops.sort_by(|a, b| b[1].total_cmp(&a[1]));
+        self.asked = tops.first().map(|top| top[0]).into_iter().collect();
+        Stage::Last { tops, from_rest }
+    }
+
+    /// Goes on after the latest rows.
+    fn go_on(&mut self, rows: Vec<Row>) -> Stage {
+        let asked = std::mem::take(&mut self.asked);
+        match std::mem::replace(&mut self.stage, Stage::Grid) {
+            Stage::Grid => {
+                let tops = self.tops(asked.len());
+                if tops.is_empty() {
+                    // No motion is periodic, and this row says what became of one of them.
+                    self.row = rows.into_iter().next();
+                    return Stage::Done { tops: Vec::new() };
+                }
+                self.locate(tops, false)
+            }
+            Stage::Tops { mut tops, asking, from_rest } => {
+                let answers = &self.seen[self.seen.len() - asked.len()..];
+                for (index, answer) in asking.into_iter().zip(answers) {
+                    tops[index].take(answer.frequency, answer.value);
+                }
+                self.locate(tops, from_rest)
+            }
+            Stage::Last { mut tops, from_rest } => {
+                let (expected, found) = (tops[0][1], self.seen.last().map_or(f64::NAN, |seen| seen.value));
+                let same = (found - expected).abs() <= SAME * expected.abs();
+                if !same && !from_rest {
+                    let tops = self.tops(self.grid().len());
+                    return self.locate(tops, true);
+                }
+                tops[0][1] = found;
+                self.row = rows.into_iter().next();
+                Stage::Done { tops }
+            }
+            done @ Stage::Done { .. } => done,
+        }
+    }
+
+    /// The frequencies of the grid (Hz), in constant ratio.
+    fn grid(&self) -> Vec<f64> {
+        let Ok([from, to]) = self.ends else { return Vec::new() };
+        let span = libm::log(to / from);
+        let intervals = (span / SPACING).ceil().clamp(INTERVALS[0], INTERVALS[1]);
+        let frequency = |i: u32| from * libm::exp(span * (f64::from(i) / intervals));
+        let inner = (1..).take_while(|&i| f64::from(i) < intervals).map(frequency);
+        std::iter::once(from).chain(inner).chain([to]).collect()
+    }
+}
+
+impl Study for Search<'_> {
+    fn probes(&mut self) -> Vec<Probe> {
+        let from_rest = match self.stage {
+            Stage::Grid => {
+                self.asked = self.grid();
+                true
+            }
+            Stage::Tops { from_rest, .. } => from_rest,
+            Stage::Last { .. } => true,
+            Stage::Done { .. } => return Vec::new(),
+        };
+        let begin = |frequency| if from_rest { None } else { self.nearest_state(frequency) };
+        self.asked.iter().map(|&frequency| self.probe(frequency, begin(frequency))).collect()
+    }
+
+    fn take(&mut self, rows: Vec<Row>) {
+        for (frequency, row) in self.asked.clone().into_iter().zip(&rows) {
+            self.note(frequency, row);
+        }
+        self.stage = self.go_on(rows);
+    }
+}
+
+/// The height of the parabola through three points, or of the one in the middle if they do not have one.
+fn summit(points: &[[f64; 2]; 3]) -> f64 {
+    let [[x0, y0], [x1, y1], [x2, y2]] = *points;
+    let (left, right) = ((y1 - y0) / (x1 - x0), (y2 - y1) / (x2 - x1));
+    let bend = (right - left) / (x2 - x0);
+    let slope = left + bend * (x1 - x0);
+    let height = y1 - slope * slope / (4.0 * bend);
+    if height.is_finite() { height.max(y1) } else { y1 }
+}
+
+fn invalid(reason: String) -> Row {
+    Row {
+        status: Status::Invalid,
+        measures: Vec::new(),
+        cycles: 0,
+        residual: f64::NAN,
+        period: 0,
+        floquet_max: f64::NAN,
+        state: Vec::new(),
+        rhs_evals: 0,
+        reason: Some(reason),
+    }
+}

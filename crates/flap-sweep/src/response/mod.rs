@@ -1,0 +1,146 @@
+//! Responses: the motions of a design as one parameter, usually the drive frequency, rises and falls.
+//!
+//! Every point is begun where its neighbour's motion has ended, so that a branch of orbits is followed as far as it goes.
+//! Where the way up and the way down differ, the design has two motions at the same drive.
+//!
+//! - [`follow`]: one curve, up and down, with the ends of its bistable bands
+//! - [`verdict`]: what a curve shows
+//! - [`table`]: curves as rows of CSV
+
+mod follow;
+mod table;
+mod verdict;
+
+use std::num::NonZeroUsize;
+use std::sync::{Mutex, PoisonError};
+
+use flap_core::num::InstructionSet;
+use flap_core::parameter::Parameter;
+use flap_core::simulate::{Point, Row, SolverSettings, Status};
+pub use table::Table;
+pub use verdict::{Band, BandKind, Verdict};
+
+use crate::plan::Plan;
+use crate::run::RunError;
+use crate::study::{self, Desk};
+use follow::Follow;
+
+/// The parameter that rises and falls.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Along {
+    /// Its index in the model's parameter table.
+    pub parameter: usize,
+    /// Its values, rising; two or more.
+    pub values: Vec<f64>,
+    /// How closely the ends of bistable bands are located, more than zero.
+    pub tolerance: f64,
+}
+
+/// A motion on a curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// Value of the parameter that rises and falls.
+    pub value: f64,
+    /// The motion.
+    pub row: Row,
+}
+
+/// The response of one design.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// The design.
+    pub design: Point,
+    /// The motions on the way up, by rising value.
+    pub up: Vec<Step>,
+    /// The motions on the way down, by rising value too: at the values of `up`.
+    pub down: Vec<Step>,
+}
+
+impl Curve {
+    /// Why the design has no response, if its parameters are impossible together.
+    pub fn invalid(&self) -> Option<&str> {
+        let first = &self.up.first()?.row;
+        if first.status == Status::Invalid { first.reason.as_deref() } else { None }
+    }
+}
+
+/// Curves that are run before they are handed on, per thread: enough to keep lanes full, few enough for memory.
+const CURVES_AT_ONCE: u64 = 128;
+
+/// Follows the response of every point of `plan`, on `threads` threads, and hands the curves on in the order of the points.
+///
+/// # Errors
+/// Those of `take`, at the first of which it ends, and those of starting threads.
+pub fn run<E: From<RunError>>(
+    plan: &Plan,
+    along: &Along,
+    threads: NonZeroUsize,
+    mut take: impl FnMut(Curve) -> Result<(), E>,
+) -> Result<(), E> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build();
+    let pool = pool.map_err(RunError::Threads)?;
+    let at_once = CURVES_AT_ONCE * threads.get() as u64;
+    let mut begin = 0;
+    while begin < plan.len() {
+        let end = plan.len().min(begin + at_once);
+        let shared = Mutex::new(Shared { next: begin, end, curves: Vec::new() });
+        pool.scope(|scope| {
+            for _ in 0..threads.get() {
+                scope.spawn(|_| {
+                    let set = InstructionSet::best();
+                    let mut designs = Designs { plan, along, shared: &shared };
+                    study::run_all(plan.simulator, set, &plan.solver, &mut designs);
+                });
+            }
+        });
+        let mut curves = shared.into_inner().unwrap_or_else(PoisonError::into_inner).curves;
+        curves.sort_by_key(|curve| curve.design.index);
+        curves.into_iter().try_for_each(&mut take)?;
+        begin = end;
+    }
+    Ok(())
+}
+
+/// The response of one point, on scalars. Gives the same bits as [`run`].
+pub fn run_one(plan: &Plan, solver: &SolverSettings, along: &Along, design: Point) -> Curve {
+    let mut follow = Follow::new(along, design);
+    study::run_one(plan.simulator, InstructionSet::best(), solver, &mut follow);
+    follow.finish()
+}
+
+/// What the threads share.
+struct Shared {
+    next: u64,
+    end: u64,
+    curves: Vec<Curve>,
+}
+
+/// Designs on their way from the plan to their curves.
+struct Designs<'a> {
+    plan: &'a Plan,
+    along: &'a Along,
+    shared: &'a Mutex<Shared>,
+}
+
+impl<'a> Desk for Designs<'a> {
+    type Study = Follow<'a>;
+
+    fn next(&mut self, _idle: bool) -> Option<Follow<'a>> {
+        let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
+        let index = shared.next;
+        if index == shared.end {
+            return None;
+        }
+        shared.next += 1;
+        Some(Follow::new(self.along, self.plan.point(index)))
+    }
+
+    fn done(&mut self, follow: Follow<'a>) {
+        self.shared.lock().unwrap_or_else(PoisonError::into_inner).curves.push(follow.finish());
+    }
+}
+
+/// The parameter of `along`, in the table of the plan's model.
+pub fn parameter(plan: &Plan, along: &Along) -> &'static Parameter {
+    &plan.parameters()[along.parameter]
+}

@@ -1,0 +1,171 @@
+//! What a curve shows, in a line.
+
+use std::fmt;
+
+use flap_core::parameter::Parameter;
+use flap_core::simulate::{Row, Status};
+
+use super::Curve;
+use super::follow::{Comparison, compare, sizes};
+
+/// What a curve shows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// First and last value of the parameter.
+    pub range: [f64; 2],
+    /// Its unit.
+    pub unit: &'static str,
+    /// Largest difference of the stroke (deg, peak to peak) between the two ways where they have the same motion.
+    pub difference: f64,
+    /// Where they have not, or where motions are not periodic with the drive, by rising value.
+    pub bands: Vec<Band>,
+    /// Why the design has no response.
+    pub invalid: Option<String>,
+}
+
+/// Values next to each other at which a curve is not a single orbit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Band {
+    /// First and last of them.
+    pub range: [f64; 2],
+    /// What is there.
+    pub kind: BandKind,
+}
+
+/// What there is where a curve is not a single orbit.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BandKind {
+    /// Two motions: on the way up, and on the way down.
+    Bistable {
+        /// Largest difference of the stroke between them (deg, peak to peak); `None` if everywhere one of them is not
+        /// periodic with the drive.
+        jump: Option<f64>,
+    },
+    /// Motions that are not periodic with the drive.
+    Irregular {
+        /// What they are, each kind once: status, and length in drive periods.
+        what: Vec<(Status, u32)>,
+    },
+}
+
+impl Verdict {
+    /// The verdict on a curve along `parameter`, given the index of the stroke's amplitude (deg) among the measures.
+    pub fn new(curve: &Curve, parameter: &'static Parameter, stroke: usize) -> Verdict {
+        let ends = [curve.up.first(), curve.up.last()];
+        let mut verdict = Verdict {
+            range: ends.map(|end| end.map_or(f64::NAN, |step| step.value)),
+            unit: parameter.unit,
+            difference: 0.0,
+            bands: Vec::new(),
+            invalid: curve.invalid().map(str::to_owned),
+        };
+        let sizes = sizes(&curve.up, &curve.down);
+        let stroke_pp = |row: &Row| row.measures.get(stroke).map(|amplitude| 2.0 * amplitude);
+        let mut open = false;
+        for (up, down) in curve.up.iter().zip(&curve.down) {
+            let strokes = stroke_pp(&up.row).zip(stroke_pp(&down.row));
+            let difference = strokes.map(|(up, down)| (up - down).abs());
+            let kind = match compare(&up.row, &down.row, &sizes) {
+                Comparison::Same => {
+                    verdict.difference = verdict.difference.max(difference.unwrap_or(0.0));
+                    open = false;
+                    continue;
+                }
+                Comparison::Different => BandKind::Bistable { jump: difference },
+                Comparison::Irregular => BandKind::irregular(&up.row, &down.row),
+            };
+            match verdict.bands.last_mut().filter(|band| open && band.kind.goes_on_as(&kind)) {
+                Some(band) => {
+                    band.range[1] = up.value;
+                    band.kind.add(kind);
+                }
+                None => verdict.bands.push(Band { range: [up.value; 2], kind }),
+            }
+            open = true;
+        }
+        verdict
+    }
+
+    /// The bands in which there are two motions.
+    pub fn bistable(&self) -> impl Iterator<Item = &Band> {
+        self.bands.iter().filter(|band| matches!(band.kind, BandKind::Bistable { .. }))
+    }
+}
+
+impl BandKind {
+    fn irregular(up: &Row, down: &Row) -> BandKind {
+        let mut kind = BandKind::Irregular { what: vec![(up.status, up.period)] };
+        kind.add(BandKind::Irregular { what: vec![(down.status, down.period)] });
+        kind
+    }
+
+    fn goes_on_as(&self, next: &BandKind) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(next)
+    }
+
+    /// Adds what is known of the next value of a band.
+    fn add(&mut self, next: BandKind) {
+        match (self, next) {
+            (BandKind::Bistable { jump }, BandKind::Bistable { jump: next }) => {
+                *jump = [*jump, next].into_iter().flatten().reduce(f64::max);
+            }
+            (BandKind::Irregular { what }, BandKind::Irregular { what: next }) => {
+                for kind in next {
+                    if !what.contains(&kind) {
+                        what.push(kind);
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(reason) = &self.invalid {
+            return write!(f, "no response: {reason}");
+        }
+        if self.bistable().next().is_none() {
+            let Verdict { range, difference, unit, .. } = self;
+            write!(f, "no hysteresis above {} deg {}", digits(*difference), span(*range, unit))?;
+        }
+        for (i, band) in self.bands.iter().enumerate() {
+            if i > 0 || self.bistable().next().is_none() {
+                write!(f, "; ")?;
+            }
+            let place = span(band.range, self.unit);
+            match &band.kind {
+                BandKind::Bistable { jump: Some(jump) } => {
+                    write!(f, "bistable {place}, jump of {} deg", digits(*jump))?;
+                }
+                BandKind::Bistable { jump: None } => {
+                    write!(f, "of one drive period on one way alone {place}")?;
+                }
+                BandKind::Irregular { what } => {
+                    let what: Vec<String> = what.iter().map(|&kind| describe(kind)).collect();
+                    write!(f, "not of one drive period {place} ({})", what.join(", "))?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn describe((status, period): (Status, u32)) -> String {
+    match status {
+        Status::Subharmonic => format!("period {period}"),
+        status => status.name().to_owned(),
+    }
+}
+
+/// `from 121.5 to 136 Hz`, or `at 121 Hz`.
+fn span([from, to]: [f64; 2], unit: &str) -> String {
+    let text = if from == to { format!("at {from} {unit}") } else { format!("from {from} to {to} {unit}") };
+    text.trim_end().to_owned()
+}
+
+/// Two significant digits of a small number, two decimals of others.
+fn digits(x: f64) -> String {
+    if x != 0.0 && x.abs() < 0.1 { format!("{x:.1e}") } else { format!("{x:.2}") }
+}

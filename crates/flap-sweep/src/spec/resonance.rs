@@ -1,0 +1,87 @@
+//! `drive_frequency = "resonance"`, and the section `[resonance]`: each design at its own resonance.
+
+use flap_core::simulate::Simulator;
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::problems::Problems;
+use super::table::{self, Entry};
+use super::value;
+use crate::resonance::{AtResonance, DRIVE_FREQUENCY, Objective, Range};
+
+const KEYS: [&str; 4] = ["of", "from", "to", "tolerance"];
+
+/// What a drive frequency is set to that is to be the resonance.
+const WORD: &str = "resonance";
+
+/// Whether this sets the drive frequency to the resonance.
+pub(super) fn is_asked_for(entry: &Entry<'_>) -> bool {
+    entry.key == DRIVE_FREQUENCY && entry.value.get_ref().as_str() == Some(WORD)
+}
+
+/// The resonances to run at, if `[params]` ask for them: the drive frequency of `base` is then no number.
+pub(super) fn read(
+    root: &[Entry<'_>],
+    simulator: &'static dyn Simulator,
+    base: &mut [f64],
+    problems: &mut Problems,
+) -> Option<AtResonance> {
+    let params = table::find(root, "params").and_then(|entry| entry.value.get_ref().as_table());
+    let params = params.map(table::entries).unwrap_or_default();
+    let asked = params.iter().find(|entry| is_asked_for(entry));
+    let section = table::find(root, "resonance");
+    let Some(asked) = asked else {
+        if let Some(section) = section {
+            problems
+                .report(section.key_span.clone(), "`resonance` without a drive frequency that is to be one")
+                .help(format!("write {DRIVE_FREQUENCY} = \"{WORD}\" under [params]"));
+        }
+        return None;
+    };
+    let range = section.map_or_else(Range::default, |section| range(section, problems));
+    let resonance = AtResonance::new(simulator, range);
+    if resonance.is_none() {
+        let message = format!("the model {} does not measure a {}", simulator.name(), range.of.name());
+        problems.report(asked.value.span(), message);
+    }
+    let frequency = simulator.parameters().iter().position(|parameter| parameter.name == DRIVE_FREQUENCY);
+    if let Some(frequency) = frequency {
+        base[frequency] = f64::NAN;
+    }
+    resonance
+}
+
+fn range(section: &Entry<'_>, problems: &mut Problems) -> Range {
+    let entries = table::section(section, problems);
+    table::check_keys(&entries, &KEYS, "in [resonance]", problems);
+    let mut range = Range::default();
+    if let Some(of) = table::find(&entries, "of") {
+        let index = value::option("of", &Objective::NAMES, of.value, problems);
+        range.of = index.map_or(range.of, |index| Objective::ALL[index]);
+    }
+    let mut positive = |key: &str| -> Option<f64> {
+        let entry = table::find(&entries, key)?;
+        frequency(key, entry.value, problems)
+    };
+    [range.from, range.to] = [positive("from"), positive("to")];
+    range.tolerance = positive("tolerance").unwrap_or(range.tolerance);
+    if let (Some(from), Some(to)) = (range.from, range.to)
+        && from >= to
+        && let Some(entry) = table::find(&entries, "to")
+    {
+        let message = format!("`to` must be more than `from`, {} Hz", value::shown(from));
+        problems.report(entry.value.span(), message);
+    }
+    range
+}
+
+/// A frequency of more than zero (Hz).
+fn frequency(key: &str, value: &Spanned<DeValue<'_>>, problems: &mut Problems) -> Option<f64> {
+    let number = value::quantity(key, "Hz", value, problems)?;
+    if number > 0.0 && number.is_finite() {
+        return Some(number);
+    }
+    let message = format!("`{key}` must be more than zero, not {} Hz", value::shown(number));
+    problems.report(value.span(), message);
+    None
+}

@@ -1,0 +1,153 @@
+//! Studies: points of which each is chosen by what earlier ones have shown.
+//!
+//! A study knows no threads and no lanes. Many are open at once, so that the lanes are full though each study waits for
+//! its own rows.
+
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{Jobs, Point, Row, Rows, SolverSettings};
+
+/// Points that are run step by step.
+pub trait Study {
+    /// The points to run next; none if the study has ended. Called again when [`Study::take`] has had their rows.
+    fn probes(&mut self) -> Vec<Probe>;
+
+    /// Takes the rows of the latest probes, in their order.
+    fn take(&mut self, rows: Vec<Row>);
+}
+
+/// A point to run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// One value per parameter of the model.
+    pub values: Vec<f64>,
+    /// The state from which the motion is followed, see [`Point::begin`].
+    pub begin: Option<Vec<f64>>,
+}
+
+/// Where studies come from and where they go when they have ended.
+pub trait Desk {
+    /// The kind of study.
+    type Study: Study;
+
+    /// The next study, or `None` if there is none for now. With `idle` nothing is running: the call may wait, and `None`
+    /// means that there will be no more.
+    fn next(&mut self, idle: bool) -> Option<Self::Study>;
+
+    /// Takes a study that has ended.
+    fn done(&mut self, study: Self::Study);
+}
+
+/// Studies that are open at once, as long as none of them has a point to run.
+const MOST_OPEN: usize = 256;
+
+/// Runs the studies of `desk` on the lanes of `set` until there are none left.
+pub fn run_all(rows: &dyn Rows, set: InstructionSet, solver: &SolverSettings, desk: &mut impl Desk) {
+    rows.run(set, solver, &mut Interleaved { desk, open: Vec::new() });
+}
+
+/// Runs one study on scalars. Gives it the same bits as [`run_all`].
+pub fn run_one(rows: &dyn Rows, set: InstructionSet, solver: &SolverSettings, study: &mut impl Study) {
+    loop {
+        let probes = study.probes();
+        if probes.is_empty() {
+            return;
+        }
+        let row = |probe: &Probe| rows.run_point(set, solver, &probe.values, probe.begin.as_deref());
+        let found = probes.iter().map(row).collect();
+        study.take(found);
+    }
+}
+
+/// The points of open studies as one stream.
+struct Interleaved<'a, D: Desk> {
+    desk: &'a mut D,
+    open: Vec<Option<Open<D::Study>>>,
+}
+
+/// A study with points to run or running.
+struct Open<S> {
+    study: S,
+    /// Points that have not begun, the next one last, each with its place among the probes.
+    waiting: Vec<(usize, Probe)>,
+    /// Rows of the probes, as far as they are here.
+    rows: Vec<Option<Row>>,
+    missing: usize,
+}
+
+impl<S: Study> Open<S> {
+    /// Asks the study for points. Gives it back if it has ended.
+    fn ask(mut study: S) -> Result<Open<S>, S> {
+        let probes = study.probes();
+        if probes.is_empty() {
+            return Err(study);
+        }
+        let missing = probes.len();
+        let rows = probes.iter().map(|_| None).collect();
+        Ok(Open { study, waiting: probes.into_iter().enumerate().rev().collect(), rows, missing })
+    }
+}
+
+/// Points of one study have indices from a multiple of this on.
+const STRIDE: u64 = 1 << 32;
+
+impl<D: Desk> Interleaved<'_, D> {
+    /// A point that can begin now.
+    fn waiting(&mut self) -> Option<Point> {
+        for (slot, open) in (0_u64..).zip(&mut self.open) {
+            if let Some((place, probe)) = open.as_mut().and_then(|open| open.waiting.pop()) {
+                let index = slot * STRIDE + place as u64;
+                return Some(Point { index, values: probe.values, begin: probe.begin });
+            }
+        }
+        None
+    }
+
+    /// Opens another study. False if there is none for now.
+    fn open_another(&mut self, idle: bool) -> bool {
+        loop {
+            let Some(study) = self.desk.next(idle) else { return false };
+            match Open::ask(study) {
+                Err(ended) => self.desk.done(ended),
+                Ok(open) => {
+                    match self.open.iter_mut().find(|slot| slot.is_none()) {
+                        Some(slot) => *slot = Some(open),
+                        None => self.open.push(Some(open)),
+                    }
+                    return true;
+                }
+            }
+        }
+    }
+}
+
+impl<D: Desk> Jobs for Interleaved<'_, D> {
+    fn next(&mut self, idle: bool) -> Option<Point> {
+        let waiting = self.waiting();
+        if waiting.is_some() {
+            return waiting;
+        }
+        let open = self.open.iter().flatten().count();
+        if open < MOST_OPEN && self.open_another(idle) { self.waiting() } else { None }
+    }
+
+    fn done(&mut self, index: u64, row: Row) {
+        let slot = usize::try_from(index / STRIDE).ok().and_then(|slot| self.open.get_mut(slot));
+        let Some(slot) = slot else { return };
+        let Some(mut open) = slot.take() else { return };
+        let place = usize::try_from(index % STRIDE).ok().and_then(|place| open.rows.get_mut(place));
+        if let Some(place @ None) = place {
+            *place = Some(row);
+            open.missing -= 1;
+        }
+        if open.missing > 0 {
+            *slot = Some(open);
+            return;
+        }
+        let Open { mut study, rows, .. } = open;
+        study.take(rows.into_iter().flatten().collect());
+        match Open::ask(study) {
+            Ok(open) => *slot = Some(open),
+            Err(ended) => self.desk.done(ended),
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! Studies on the real models: designs at their resonances, and responses up and down.
+
+mod resonance;
+mod response;
+mod support;

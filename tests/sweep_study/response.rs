@@ -1,0 +1,175 @@
+//! Responses up and down: hysteresis where there is some, none where there is none.
+
+use std::num::NonZeroUsize;
+
+use flap_core::simulate::Status;
+use flap_sweep::plan::Plan;
+use flap_sweep::response::{self, Along, BandKind, Curve, Verdict};
+use flap_sweep::run::RunError;
+
+use crate::support::{bits, column, parameter, plan};
+
+/// The bimorph with half its hinge stiffness, or its own, at some voltages.
+fn bimorph(soft: bool, volts: &[u32]) -> Plan {
+    let hinge = if soft { "hinge_stiffness = \"0.7486 uN*m/rad\"" } else { "" };
+    let volts: Vec<String> = volts.iter().map(|volts| format!("\"{volts} V\"")).collect();
+    plan(&format!(
+        "preset = \"jafferis2016\"\n[params]\n{hinge}\n[axes]\ndrive_voltage_pp = [{}]\n[solver]\nmax_cycles = 300\n",
+        volts.join(", ")
+    ))
+}
+
+/// Every whole frequency of a range (Hz).
+fn along(plan: &Plan, range: [u32; 2], tolerance: f64) -> Along {
+    let [from, to] = range;
+    let values = (from..=to).map(f64::from).collect();
+    Along { parameter: parameter(plan, "drive_frequency"), values, tolerance }
+}
+
+fn follow(plan: &Plan, along: &Along, threads: usize) -> Vec<Curve> {
+    let mut curves = Vec::new();
+    let threads = NonZeroUsize::new(threads).unwrap();
+    response::run(plan, along, threads, |curve| {
+        curves.push(curve);
+        Ok::<(), RunError>(())
+    })
+    .unwrap();
+    assert!((0..).zip(&curves).all(|(index, curve)| curve.design.index == index), "in order");
+    curves
+}
+
+fn verdict(plan: &Plan, along: &Along, curve: &Curve) -> Verdict {
+    Verdict::new(curve, response::parameter(plan, along), column(plan.rows(), "stroke_amplitude_deg"))
+}
+
+/// The bands that an independent solver found, stepping 1 Hz: physics of the bimorph with a soft hinge.
+const BISTABLE: [(u32, Option<[f64; 2]>); 9] = [
+    (80, None),
+    (100, Some([121.0, 121.0])),
+    (120, Some([122.0, 123.0])),
+    (140, Some([124.0, 125.0])),
+    (160, Some([125.0, 127.0])),
+    (180, Some([125.0, 129.0])),
+    (200, Some([126.0, 130.0])),
+    (240, Some([127.0, 133.0])),
+    (280, Some([128.0, 136.0])),
+];
+
+#[test]
+fn a_soft_hinge_is_bistable_where_the_reference_is() {
+    let plan = bimorph(true, &BISTABLE.map(|(volts, _)| volts));
+    let along = along(&plan, [114, 145], 0.1);
+    for (curve, (volts, band)) in follow(&plan, &along, 2).iter().zip(BISTABLE) {
+        let verdict = verdict(&plan, &along, curve);
+        println!("{volts} V: {verdict}");
+        let bands: Vec<_> = verdict.bistable().collect();
+        let Some([from, to]) = band else {
+            assert!(bands.is_empty(), "{volts} V: {verdict}");
+            assert!(verdict.to_string().starts_with("no hysteresis above"));
+            continue;
+        };
+        assert_eq!(bands.len(), 1, "{volts} V: {verdict}");
+        let [found_from, found_to] = bands[0].range;
+        assert!((found_from - from).abs() <= 1.0 && (found_to - to).abs() <= 1.0, "{volts} V: {verdict}");
+        // The whole frequencies in the band are those of the reference, to one.
+        assert!((found_from.ceil() - from).abs() <= 1.0 && (found_to.floor() - to).abs() <= 1.0, "{verdict}");
+        let BandKind::Bistable { jump: Some(jump) } = bands[0].kind else { panic!("{verdict}") };
+        assert!(jump > 35.0 && jump < 62.0, "{volts} V: {verdict}");
+    }
+}
+
+/// `tests/data/bimorph/variant_cases.csv`, rows `k_wh x0.5`: volts, frequency, branch, stroke (deg), mean lift (mgf).
+const BRANCHES: [(u32, f64, &str, f64, f64); 3] = [
+    (140, 124.0, "up", 112.982_268, 16.657_555),
+    (160, 126.0, "down", 59.276_549, -1.899_288),
+    (240, 130.0, "up", 126.724_628, 11.066_892),
+];
+
+#[test]
+fn both_branches_are_those_of_the_reference() {
+    let plan = bimorph(true, &BRANCHES.map(|(volts, ..)| volts));
+    let along = along(&plan, [114, 145], 0.5);
+    let [stroke, lift] = ["stroke_pp_deg", "lift_mean_gf"].map(|name| column(plan.rows(), name));
+    for (curve, (volts, frequency, branch, degrees, milligrams)) in
+        follow(&plan, &along, 2).iter().zip(BRANCHES)
+    {
+        let steps = |way: &str| if way == "up" { &curve.up } else { &curve.down };
+        let at = |way| steps(way).iter().find(|step| step.value == frequency).expect("a whole frequency");
+        let row = &at(branch).row;
+        assert_eq!((row.status, row.stable()), (Status::Periodic, Some(true)));
+        assert!((row.measures[stroke] / degrees - 1.0).abs() < 1e-3, "{volts} V: {}", row.measures[stroke]);
+        let found = 1e3 * row.measures[lift];
+        assert!((found - milligrams).abs() < 0.02, "{volts} V: {found}");
+        let other = &at(if branch == "up" { "down" } else { "up" }).row;
+        assert!((other.measures[stroke] - degrees).abs() > 20.0, "the other branch is another motion");
+    }
+}
+
+#[test]
+fn the_published_hinge_shows_no_hysteresis() {
+    let plan = bimorph(false, &[40, 80, 120, 160, 200, 240, 300]);
+    let along = along(&plan, [60, 200], 0.5);
+    for curve in follow(&plan, &along, 2) {
+        let verdict = verdict(&plan, &along, &curve);
+        assert!(verdict.bands.is_empty() && verdict.difference < 0.05, "{:?}: {verdict}", curve.design.index);
+    }
+}
+
+#[test]
+fn motions_that_do_not_repeat_are_reported_as_such() {
+    let plan = bimorph(true, &[180]);
+    let along = along(&plan, [78, 88], 0.5);
+    let curves = follow(&plan, &along, 1);
+    let verdict = verdict(&plan, &along, &curves[0]);
+    let irregular = verdict.bands.iter().find(|band| matches!(band.kind, BandKind::Irregular { .. }));
+    let [from, to] = irregular.expect("between 81 and 84 Hz").range;
+    assert!((from - 81.0).abs() <= 2.0 && (to - 84.0).abs() <= 2.0, "{verdict}");
+    assert!(verdict.to_string().contains("not of one drive period from"), "{verdict}");
+}
+
+#[test]
+fn curves_depend_on_their_design_alone() {
+    let plan = bimorph(true, &[100, 160, 200]);
+    let along = along(&plan, [118, 132], 0.1);
+    let together = follow(&plan, &along, 2);
+    for (curve, other) in together.iter().zip(follow(&plan, &along, 1)) {
+        let alone = response::run_one(&plan, &plan.solver, &along, plan.point(curve.design.index));
+        for (way, (one, two)) in
+            [(&curve.up, (&alone.up, &other.up)), (&curve.down, (&alone.down, &other.down))]
+        {
+            assert_eq!((way.len(), way.len()), (one.len(), two.len()));
+            for (step, (one, two)) in way.iter().zip(one.iter().zip(two)) {
+                for same in [one, two] {
+                    assert_eq!(step.value.to_bits(), same.value.to_bits());
+                    assert_eq!(bits(&step.row.measures), bits(&same.row.measures));
+                    assert_eq!(step.row.rhs_evals, same.row.rhs_evals);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_ends_of_a_band_are_located_as_closely_as_asked() {
+    let plan = bimorph(true, &[160]);
+    let along = along(&plan, [118, 132], 0.01);
+    let curve = &follow(&plan, &along, 1)[0];
+    let values: Vec<f64> = curve.up.iter().map(|step| step.value).collect();
+    assert_eq!(values, curve.down.iter().map(|step| step.value).collect::<Vec<f64>>());
+    assert!(values.windows(2).all(|two| two[0] < two[1]), "rising, each once");
+    let verdict = verdict(&plan, &along, curve);
+    let [from, to] = verdict.bistable().next().unwrap().range;
+    for (edge, outside) in [(from, -1), (to, 1)] {
+        let index = values.iter().position(|&value| value == edge).unwrap() as i32;
+        let neighbour = values[(index + outside) as usize];
+        assert!((edge - neighbour).abs() <= 0.01, "{edge} {neighbour}");
+    }
+}
+
+#[test]
+fn what_is_impossible_has_a_verdict_too() {
+    let plan = plan("preset = \"arabagi2013-75hz\"\n[axes]\nground_link = [\"1 m\"]\n");
+    let along = along(&plan, [70, 80], 0.1);
+    let curve = &follow(&plan, &along, 1)[0];
+    assert!(verdict(&plan, &along, curve).to_string().starts_with("no response: "), "{:?}", curve.up[0].row);
+}
