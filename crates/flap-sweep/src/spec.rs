@@ -76,7 +76,7 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
         output::read(output_entry, None, &mut problems);
         return Err(problems.into_diagnostics());
     };
-    let Points { base, axes, points_file, resonance, derived, conditions, mut names } =
+    let Points { base, axes, sample_file, resonance, derived, conditions, mut names } =
         read_points(&root, simulator, preset, models, &mut problems);
     names.are_measured = true;
     let own = measures::read(table::find(&root, "measure"), &mut names, &mut problems);
@@ -95,7 +95,7 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
         preset: preset.name,
         base,
         axes,
-        points_file,
+        points_file: sample_file,
         derived,
         conditions,
         measures: names.own,
@@ -113,7 +113,7 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
 struct Points {
     base: Vec<f64>,
     axes: Vec<axes::Placed>,
-    points_file: Option<PointsFile>,
+    sample_file: Option<PointsFile>,
     resonance: Option<AtResonance>,
     derived: Derived,
     conditions: Vec<Condition>,
@@ -134,7 +134,7 @@ fn read_points(
     let mut axes = axes::read(table::find(root, "axes"), &mut lookup);
     axes.extend(zip::read(table::find(root, "zip"), &mut lookup));
     let sample = sample::read(table::find(root, "sample"), &base, &mut lookup);
-    let (sampled, points_file) = sample.map_or((None, None), |sample| (Some(sample.placed), sample.file));
+    let (sampled, sample_file) = sample.map_or((None, None), |sample| (Some(sample.placed), sample.file));
     axes.extend(sampled);
     axes.sort_by_key(|placed| placed.span.start);
     axes::report_repeats(&axes, &set, &mut lookup);
@@ -154,7 +154,7 @@ fn read_points(
     let names = Names { parameters, preset, has_value, columns, are_measured: false, own: Vec::new() };
     let derived = derived::read(&drafts, &names, problems);
     let conditions = conditions::read(table::find(root, "where"), &names, problems);
-    Points { base, axes, points_file, resonance, derived, conditions, names }
+    Points { base, axes, sample_file, resonance, derived, conditions, names }
 }
 
 fn report_unknown_keys(root: &[Entry<'_>], model: Option<&'static dyn Simulator>, problems: &mut Problems) {

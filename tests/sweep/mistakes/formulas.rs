@@ -59,14 +59,14 @@ stroke_offset = [1]
 wing_area = "1"
 stroke_offset = "2"
 "#,
-        r#"
+        r"
 7:1 |wing_area| `wing_area` is derived and set under [params] (derived here)
   line 3 |wing_area| (set under [params] here)
   help: keep one of them
 8:1 |stroke_offset| `stroke_offset` is derived and varied (derived here)
   line 5 |stroke_offset| (varied here)
   help: keep one of them
-"#,
+",
     );
 }
 
@@ -82,13 +82,13 @@ stroke_offset = "drive_voltage_pp + wing_area"
 drive_voltage_pp = "3"
 plate_width = "sqrt(plate_width)"
 "#,
-        r#"
+        r"
 4:1 |wing_area| `wing_area` is derived from itself: wing_area from stroke_offset from wing_area
   line 5 |stroke_offset| (by way of this)
   help: use `preset.` for the value in the preset, or set one of them under [params]
 7:1 |plate_width| `plate_width` is derived from itself: plate_width from plate_width
   help: use `preset.` for the value in the preset, or set one of them under [params]
-"#,
+",
     );
 }
 

@@ -43,9 +43,9 @@ fn keys_of_samples() {
     );
     check(
         "preset = \"fly\"\n[sample]\nmethod = \"random\"\nn = 4294967297\nparameters.wing_area = [1]",
-        r#"
+        r"
 4:5 |4294967297| `n` must be at most 4294967296, not 4294967297
-"#,
+",
     );
 }
 

@@ -47,7 +47,6 @@ fn two(binary: Binary, a: f64, b: f64) -> f64 {
     match binary {
         Binary::Add => a + b,
         Binary::Subtract => a - b,
-        Binary::Multiply => a * b,
         Binary::Divide => a / b,
         Binary::Power => power(a, b),
         Binary::Less => compared(a, b, a < b),
@@ -58,8 +57,8 @@ fn two(binary: Binary, a: f64, b: f64) -> f64 {
         Binary::NotEqual => compared(a, b, a != b),
         Binary::And if a == 0.0 || b == 0.0 => 0.0,
         Binary::Or if a == 1.0 || b == 1.0 => 1.0,
-        // Neither side decides: NaN if one of them is, else the same as both.
-        Binary::And | Binary::Or => a * b,
+        // Where neither side of `and` and `or` decides, it is NaN if one of them is, else the same as both.
+        Binary::Multiply | Binary::And | Binary::Or => a * b,
     }
 }
 

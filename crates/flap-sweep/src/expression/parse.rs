@@ -134,14 +134,14 @@ impl<'a> Parser<'a> {
             self.advance()?;
             // What stands on the left of an equal operator goes first, but for powers.
             let right = self.operand(if binds == power::POWER { binds } else { binds + 1 })?;
-            left = self.joined(binary, left, &right);
+            left = self.joined(binary, &left, &right);
         }
         self.nested -= 1;
         Ok(left)
     }
 
     /// The result of an operator between two operands.
-    fn joined(&mut self, binary: Binary, left: Operand, right: &Operand) -> Operand {
+    fn joined(&mut self, binary: Binary, left: &Operand, right: &Operand) -> Operand {
         let (wanted, kind) = match binary {
             Binary::And | Binary::Or => (Kind::Condition, Kind::Condition),
             Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide | Binary::Power => {
@@ -154,7 +154,7 @@ impl<'a> Parser<'a> {
             | Binary::Equal
             | Binary::NotEqual => (Kind::Number, Kind::Condition),
         };
-        self.want(wanted, &left);
+        self.want(wanted, left);
         self.want(wanted, right);
         self.operations.push(Operation::Binary(binary));
         Operand { kind: Some(kind), span: left.span.start..right.span.end }
@@ -235,12 +235,9 @@ impl<'a> Parser<'a> {
         place: usize,
         options: &'static [&'static str],
     ) -> Result<Operand, ExpressionError> {
-        let comparison = match infix(&self.next.0) {
-            Some((comparison @ (Binary::Equal | Binary::NotEqual), _)) => comparison,
-            _ => {
-                self.note(span.clone(), Problem::ChoiceAsNumber { name: name.to_owned(), options });
-                return Ok(Operand { kind: None, span });
-            }
+        let Some((comparison @ (Binary::Equal | Binary::NotEqual), _)) = infix(&self.next.0) else {
+            self.note(span.clone(), Problem::ChoiceAsNumber { name: name.to_owned(), options });
+            return Ok(Operand { kind: None, span });
         };
         self.advance()?;
         let (token, text_span) = self.advance()?;

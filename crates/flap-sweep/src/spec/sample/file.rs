@@ -93,13 +93,7 @@ fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values
     let mut values: Vec<Vec<f64>> = vec![Vec::new(); found.len()];
     let mut mistakes = 0;
     for cells in lines {
-        if cells.len() != found.len() {
-            let (first, last) = (&cells[0].1, &cells[cells.len() - 1].1);
-            let message =
-                format!("the line has {} cells, but there are {} headings", cells.len(), found.len());
-            lookup.problems.report_in(source, first.start..last.end, message);
-            mistakes += 1;
-        } else {
+        if cells.len() == found.len() {
             for ((column, (text, span)), values) in found.iter().zip(&cells).zip(&mut values) {
                 match value(column, text) {
                     Ok(number) => values.push(number),
@@ -110,6 +104,12 @@ fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values
                     }
                 }
             }
+        } else {
+            let (first, last) = (&cells[0].1, &cells[cells.len() - 1].1);
+            let message =
+                format!("the line has {} cells, but there are {} headings", cells.len(), found.len());
+            lookup.problems.report_in(source, first.start..last.end, message);
+            mistakes += 1;
         }
         if mistakes >= MOST_CELLS {
             break;
