@@ -9,6 +9,7 @@ mod lists;
 mod mistakes;
 mod point;
 mod resonance;
+mod respond;
 mod streams;
 mod support;
 mod sweep;
