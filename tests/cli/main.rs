@@ -10,6 +10,7 @@ mod lists;
 mod mistakes;
 mod point;
 mod resonance;
+mod respond;
 mod streams;
 mod studies;
 mod support;

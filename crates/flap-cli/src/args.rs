@@ -204,6 +204,11 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE")]
     pub(crate) tolerance: Option<String>,
 
+    /// Continue the branches of bistable bands around their ends: adds the unstable orbits between them, as rows of the
+    /// branch `unstable`
+    #[arg(long)]
+    pub(crate) unstable: bool,
+
     /// Set a parameter of all designs: a number in SI units, a number with a unit, or an option. May be repeated
     #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,

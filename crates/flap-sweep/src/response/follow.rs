@@ -62,7 +62,7 @@ impl<'a> Follow<'a> {
         for way in [&mut self.up, &mut self.down] {
             way.sort_by(|a, b| a.value.total_cmp(&b.value));
         }
-        Curve { design: self.design, up: self.up, down: self.down }
+        Curve { design: self.design, up: self.up, down: self.down, unstable: Vec::new() }
     }
 
     /// The point at `value`, begun where the motion of `from` has ended.
@@ -70,7 +70,9 @@ impl<'a> Follow<'a> {
         let mut values = self.design.values.clone();
         values[self.along.parameter] = value;
         let begin = from.and_then(|step| match step.row.status {
-            Status::Periodic | Status::Subharmonic | Status::Unsettled => Some(step.row.state.clone()),
+            Status::Periodic | Status::Unstable | Status::Subharmonic | Status::Unsettled => {
+                Some(step.row.state.clone())
+            }
             Status::Diverged | Status::StepLimit | Status::Invalid => None,
         });
         Probe { values, begin: begin.filter(|state| !state.is_empty()) }

@@ -4,9 +4,11 @@
 //! Where the way up and the way down differ, the design has two motions at the same drive.
 //!
 //! - [`follow`]: one curve, up and down, with the ends of its bistable bands
+//! - [`continuation`]: the unstable orbits that join the branches of a bistable band
 //! - [`verdict`]: what a curve shows
 //! - [`table`]: curves as rows of CSV
 
+mod continuation;
 mod follow;
 mod table;
 mod verdict;
@@ -16,7 +18,7 @@ use std::sync::{Mutex, PoisonError};
 
 use flap_core::num::InstructionSet;
 use flap_core::parameter::Parameter;
-use flap_core::simulate::{Point, Row, SolverSettings, Status};
+use flap_core::simulate::{Point, Row, Status};
 pub use table::Table;
 pub use verdict::{Band, BandKind, Verdict};
 
@@ -34,6 +36,8 @@ pub struct Along {
     pub values: Vec<f64>,
     /// How closely the ends of bistable bands are located, more than zero.
     pub tolerance: f64,
+    /// Whether the unstable orbits of bistable bands are looked for.
+    pub unstable: bool,
 }
 
 /// A motion on a curve.
@@ -54,6 +58,9 @@ pub struct Curve {
     pub up: Vec<Step>,
     /// The motions on the way down, by rising value too: at the values of `up`.
     pub down: Vec<Step>,
+    /// Unstable orbits, if they were looked for: for each bistable band, from the end of the upward branch to that of the
+    /// downward one. Values fall and may turn.
+    pub unstable: Vec<Step>,
 }
 
 impl Curve {
@@ -102,10 +109,18 @@ pub fn run<E: From<RunError>>(
 }
 
 /// The response of one point, on scalars. Gives the same bits as [`run`].
-pub fn run_one(plan: &Plan, solver: &SolverSettings, along: &Along, design: Point) -> Curve {
+pub fn run_one(plan: &Plan, along: &Along, design: Point) -> Curve {
     let mut follow = Follow::new(along, design);
-    study::run_one(plan.simulator, InstructionSet::best(), solver, &mut follow);
-    follow.finish()
+    study::run_one(plan.simulator, InstructionSet::best(), &plan.solver, &mut follow);
+    complete(plan, along, follow.finish())
+}
+
+/// Adds the unstable orbits to a curve, if they are wanted.
+fn complete(plan: &Plan, along: &Along, mut curve: Curve) -> Curve {
+    if along.unstable {
+        curve.unstable = continuation::unstable(plan, along, &curve);
+    }
+    curve
 }
 
 /// What the threads share.
@@ -136,7 +151,8 @@ impl<'a> Desk for Designs<'a> {
     }
 
     fn done(&mut self, follow: Follow<'a>) {
-        self.shared.lock().unwrap_or_else(PoisonError::into_inner).curves.push(follow.finish());
+        let curve = complete(self.plan, self.along, follow.finish());
+        self.shared.lock().unwrap_or_else(PoisonError::into_inner).curves.push(curve);
     }
 }
 
