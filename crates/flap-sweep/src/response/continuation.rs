@@ -7,11 +7,11 @@
 
 use flap_core::num::InstructionSet;
 use flap_core::parameter::Invalid;
-use flap_core::simulate::{Period, Row, SolverSettings, Status};
+use flap_core::simulate::{Period, Point, Row, SolverSettings, Status};
 use nalgebra::{DMatrix, DVector};
 
 use super::follow::{Comparison, compare, sizes};
-use super::{Along, Curve, Step};
+use super::{Along, Curve, Step, values};
 use crate::plan::Plan;
 
 /// First, shortest and longest distance between orbits: 1 is the band's width, and the largest of a state component.
@@ -53,7 +53,7 @@ pub(super) fn unstable(plan: &Plan, along: &Along, curve: &Curve) -> Vec<Step> {
         let width = (curve.up[last].value - curve.up[first].value).max(along.tolerance);
         let SolverSettings { rtol, atol, .. } = plan.solver;
         let solver = SolverSettings { rtol: FINER * rtol, atol: FINER * atol, ..plan.solver };
-        let branch = Branch { plan, solver, along, design: &curve.design.values, sizes: &units, width };
+        let branch = Branch { plan, solver, along, design: &curve.design, sizes: &units, width };
         found.extend(branch.turn(&curve.up[last - 1], &curve.up[last]));
     }
     found
@@ -64,7 +64,7 @@ struct Branch<'a> {
     plan: &'a Plan,
     solver: SolverSettings,
     along: &'a Along,
-    design: &'a [f64],
+    design: &'a Point,
     sizes: &'a [f64],
     width: f64,
 }
@@ -126,8 +126,7 @@ impl Branch<'_> {
 
     /// One drive period from a place.
     fn period(&self, place: &DVector<f64>) -> Result<Period, Invalid> {
-        let mut values = self.design.to_vec();
-        values[self.along.parameter] = self.value(place);
+        let values = values(self.plan, self.along, self.design, self.value(place));
         self.plan.simulator.period(InstructionSet::best(), &self.solver, &values, &self.state(place))
     }
 

@@ -17,12 +17,12 @@ use std::num::NonZeroUsize;
 use std::sync::{Mutex, PoisonError};
 
 use flap_core::num::InstructionSet;
-use flap_core::parameter::Parameter;
+use flap_core::parameter::{Invalid, Parameter};
 use flap_core::simulate::{Point, Row, Status};
 pub use table::Table;
 pub use verdict::{Band, BandKind, Verdict};
 
-use crate::plan::Plan;
+use crate::plan::{self, Plan};
 use crate::run::RunError;
 use crate::study::{self, Desk};
 use follow::Follow;
@@ -64,6 +64,13 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// The curve of a design that cannot be run.
+    fn impossible(along: &Along, design: Point, reason: Invalid) -> Curve {
+        let step = |value: &f64| Step { value: *value, row: Row::invalid(reason.clone()) };
+        let up: Vec<Step> = along.values.iter().map(step).collect();
+        Curve { design, down: up.clone(), up, unstable: Vec::new() }
+    }
+
     /// Why the design has no response, if its parameters are impossible together.
     pub fn invalid(&self) -> Option<&str> {
         let first = &self.up.first()?.row;
@@ -74,7 +81,7 @@ impl Curve {
 /// Curves that are run before they are handed on, per thread: enough to keep lanes full, few enough for memory.
 const CURVES_AT_ONCE: u64 = 128;
 
-/// Follows the response of every point of `plan`, on `threads` threads, and hands the curves on in the order of the points.
+/// Follows the response of every point of `plan` that its conditions do not exclude everywhere on its curve, on `threads` threads, and hands the curves on in the order of the points.
 ///
 /// # Errors
 /// Those of `take`, at the first of which it ends, and those of starting threads.
@@ -110,17 +117,40 @@ pub fn run<E: From<RunError>>(
 
 /// The response of one point, on scalars. Gives the same bits as [`run`].
 pub fn run_one(plan: &Plan, along: &Along, design: Point) -> Curve {
-    let mut follow = Follow::new(along, design);
+    let mut follow = Follow::new(plan, along, design);
     study::run_one(plan.simulator, InstructionSet::best(), &plan.solver, &mut follow);
     complete(plan, along, follow.finish())
 }
 
-/// Adds the unstable orbits to a curve, if they are wanted.
+/// Adds the unstable orbits to a curve, if they are wanted, and the plan's own measures to all of its rows.
 fn complete(plan: &Plan, along: &Along, mut curve: Curve) -> Curve {
     if along.unstable {
         curve.unstable = continuation::unstable(plan, along, &curve);
     }
+    let Curve { design, up, down, unstable } = &mut curve;
+    for Step { value, row } in up.iter_mut().chain(down).chain(unstable) {
+        plan.add_own_measures(&values(plan, along, design, *value), &mut row.measures);
+    }
     curve
+}
+
+/// One value per parameter of the model, for a design where the followed parameter has come to `value`.
+fn values(plan: &Plan, along: &Along, design: &Point, value: f64) -> Vec<f64> {
+    let mut values = design.values.clone();
+    values[along.parameter] = value;
+    plan.derived.fill(&mut values, &[]);
+    values
+}
+
+/// Whether a design is followed: if it runs anywhere on its curve.
+fn judge(plan: &Plan, along: &Along, design: &Point) -> plan::Verdict {
+    let mut verdicts = along.values.iter().map(|&value| plan.judge(&values(plan, along, design, value)));
+    let first = verdicts.next().unwrap_or(plan::Verdict::Runs);
+    if first == plan::Verdict::Runs || verdicts.any(|verdict| verdict == plan::Verdict::Runs) {
+        plan::Verdict::Runs
+    } else {
+        first
+    }
 }
 
 /// What the threads share.
@@ -141,17 +171,32 @@ impl<'a> Desk for Designs<'a> {
     type Study = Follow<'a>;
 
     fn next(&mut self, _idle: bool) -> Option<Follow<'a>> {
-        let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
-        let index = shared.next;
-        if index == shared.end {
-            return None;
+        let Designs { plan, along, .. } = *self;
+        loop {
+            let index = {
+                let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
+                if shared.next == shared.end {
+                    return None;
+                }
+                shared.next += 1;
+                shared.next - 1
+            };
+            let design = plan.point(index);
+            match judge(plan, along, &design) {
+                plan::Verdict::Runs => return Some(Follow::new(plan, along, design)),
+                plan::Verdict::Excluded(_) => {}
+                plan::Verdict::Invalid(reason) => self.put(Curve::impossible(along, design, reason)),
+            }
         }
-        shared.next += 1;
-        Some(Follow::new(self.along, self.plan.point(index)))
     }
 
     fn done(&mut self, follow: Follow<'a>) {
-        let curve = complete(self.plan, self.along, follow.finish());
+        self.put(complete(self.plan, self.along, follow.finish()));
+    }
+}
+
+impl Designs<'_> {
+    fn put(&self, curve: Curve) {
         self.shared.lock().unwrap_or_else(PoisonError::into_inner).curves.push(curve);
     }
 }
