@@ -36,7 +36,7 @@ reproduce:
 
 # Benchmarks: lanes against scalars, one step, elementary functions.
 bench:
-    cargo bench -p flap-core
+    cargo bench -p flap-core -p flap-sweep
 
 # What continuous integration runs.
 ci:

@@ -15,8 +15,10 @@ drive_frequency = { from = "60 Hz", to = "200 Hz", n = 15 }
     let folder = Folder::with_grid(grid);
     let ended = folder.flap("check grid.toml");
     assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let (page, estimate) = ended.stdout.split_once("estimate: ").unwrap();
+    assert!(estimate.ends_with(" threads, judged by 30 points spread over the grid\n"), "{estimate}");
     assert_eq!(
-        ended.stdout,
+        page,
         "\
 30 points of direct-drive from ozaki2018-large
 
@@ -28,6 +30,7 @@ first point, 0: drive_voltage_pp = 100.0 V, drive_frequency = 60.0 Hz
 last point, 29: drive_voltage_pp = 150.0 V, drive_frequency = 200.0 Hz
 
 rtol = 1e-6, atol = 1e-8, settle_tol = 1e-6, max_cycles = 1000, max_steps = 20000, newton = true
+
 "
     );
     assert_eq!(ended.stderr, "");

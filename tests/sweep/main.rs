@@ -2,6 +2,8 @@
 
 mod fake;
 mod files;
+mod formulas;
 mod meaning;
 mod mistakes;
 mod points;
+mod sample;

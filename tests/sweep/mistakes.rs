@@ -2,6 +2,8 @@
 
 mod any;
 mod axes;
+mod formulas;
+mod sample;
 mod sections;
 mod syntax;
 mod values;

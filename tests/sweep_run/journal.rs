@@ -59,7 +59,7 @@ impl Sink for Crash<'_> {
 
     fn done(&mut self, so_far: &Summary) -> std::io::Result<()> {
         self.session.done(so_far)?;
-        if so_far.done == self.stop_at { Err(std::io::Error::other("no power")) } else { Ok(()) }
+        if so_far.done() == self.stop_at { Err(std::io::Error::other("no power")) } else { Ok(()) }
     }
 
     fn flush(&mut self) -> std::io::Result<()> {
@@ -87,13 +87,13 @@ fn a_session_goes_on_where_the_last_one_ended() {
             assert_eq!(run_to(&mut start(&path, &plan), &plan, Summary::default(), 1), None);
             for stop_at in [200, 256, 300, 512, 700] {
                 let resumed = Session::resume(&path, &plan, &often()).unwrap();
-                assert!(resumed.before.done <= stop_at);
+                assert!(resumed.before.done() <= stop_at);
                 let at_least = if name == "rows.csv" { stop_at.min(200) } else { stop_at / 256 * 256 };
                 let mut session = resumed.session;
                 assert_eq!(run_to(&mut session, &plan, resumed.before, stop_at), None);
                 drop(session);
                 let resumed = Session::resume(&path, &plan, &often()).unwrap();
-                assert!(resumed.before.done >= at_least, "{} of {stop_at}", resumed.before.done);
+                assert!(resumed.before.done() >= at_least, "{} of {stop_at}", resumed.before.done());
                 assert_eq!(resumed.lost, 0);
                 assert_eq!(resumed.started, "2026-01-02");
             }
@@ -123,7 +123,7 @@ fn a_torn_last_line_is_dropped() {
         let torn = [&whole[..whole.len() - last.len()], &last[..kept]].concat();
         fs::write(journal::path_of(&path), &torn).unwrap();
         let resumed = Session::resume(&path, &plan, &often()).unwrap();
-        assert_eq!(resumed.before.done, 299, "{kept} bytes of the last line");
+        assert_eq!(resumed.before.done(), 299, "{kept} bytes of the last line");
     }
     // Nor does one whose checksum is wrong.
     let mut wrong = whole.clone();
@@ -188,7 +188,7 @@ fn lost_rows_are_computed_again() {
     let rows = fs::read(&path).unwrap();
     fs::write(&path, &rows[..rows.len() / 2]).unwrap();
     let resumed = Session::resume(&path, &plan, &often()).unwrap();
-    assert!((100..200).contains(&resumed.before.done), "{}", resumed.before.done);
+    assert!((100..200).contains(&resumed.before.done()), "{}", resumed.before.done());
     assert_eq!(resumed.lost + resumed.before.rows, 300);
     let mut session = resumed.session;
     run_to(&mut session, &plan, resumed.before, u64::MAX).unwrap();

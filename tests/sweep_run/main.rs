@@ -5,6 +5,7 @@
 mod failure;
 mod fake;
 mod files;
+mod formulas;
 mod journal;
 mod rows;
 mod support;

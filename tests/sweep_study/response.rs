@@ -2,6 +2,7 @@
 
 use std::num::NonZeroUsize;
 
+use flap_core::num::InstructionSet;
 use flap_core::simulate::Status;
 use flap_sweep::plan::Plan;
 use flap_sweep::response::{self, Along, BandKind, Curve, Verdict};
@@ -23,7 +24,7 @@ fn bimorph(soft: bool, volts: &[u32]) -> Plan {
 fn along(plan: &Plan, range: [u32; 2], tolerance: f64) -> Along {
     let [from, to] = range;
     let values = (from..=to).map(f64::from).collect();
-    Along { parameter: parameter(plan, "drive_frequency"), values, tolerance }
+    Along { parameter: parameter(plan, "drive_frequency"), values, tolerance, unstable: false }
 }
 
 fn follow(plan: &Plan, along: &Along, threads: usize) -> Vec<Curve> {
@@ -133,7 +134,7 @@ fn curves_depend_on_their_design_alone() {
     let along = along(&plan, [118, 132], 0.1);
     let together = follow(&plan, &along, 2);
     for (curve, other) in together.iter().zip(follow(&plan, &along, 1)) {
-        let alone = response::run_one(&plan, &plan.solver, &along, plan.point(curve.design.index));
+        let alone = response::run_one(&plan, &along, plan.point(curve.design.index));
         for (way, (one, two)) in
             [(&curve.up, (&alone.up, &other.up)), (&curve.down, (&alone.down, &other.down))]
         {
@@ -172,4 +173,55 @@ fn what_is_impossible_has_a_verdict_too() {
     let along = along(&plan, [70, 80], 0.1);
     let curve = &follow(&plan, &along, 1)[0];
     assert!(verdict(&plan, &along, curve).to_string().starts_with("no response: "), "{:?}", curve.up[0].row);
+}
+
+/// The branches turn round at the ends of the band, and what joins them is unstable: a motion near it goes to one or the other.
+#[test]
+fn unstable_orbits_join_the_branches() {
+    let plan = bimorph(true, &[100, 160, 280]);
+    let along = Along { unstable: true, ..along(&plan, [114, 145], 0.1) };
+    let stroke = column(plan.rows(), "stroke_pp_deg");
+    for curve in follow(&plan, &along, 2) {
+        let verdict = verdict(&plan, &along, &curve);
+        let [from, to] = verdict.bistable().next().unwrap().range;
+        let values = || curve.unstable.iter().map(|step| step.value);
+        let (lowest, highest) = (values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max));
+        assert!(lowest > from - 0.1 && lowest < from + 0.02, "{lowest} {verdict}");
+        assert!(highest < to + 0.1 && highest > to - 0.02, "{highest} {verdict}");
+        for step in &curve.unstable {
+            assert_eq!(
+                (step.row.status, step.row.stable(), step.row.period),
+                (Status::Unstable, Some(false), 1)
+            );
+            assert!(step.row.residual <= plan.solver.settle_tol && step.row.floquet_max > 1.0);
+        }
+
+        // Between the strokes of the branches everywhere.
+        let stroke_at = |steps: &[response::Step], value: f64| {
+            // Right at its end a motion may take too long to settle.
+            let periodic = steps.iter().filter(|step| step.row.status == Status::Periodic);
+            let strokes: Vec<[f64; 2]> =
+                periodic.map(|step| [step.value, step.row.measures[stroke]]).collect();
+            let above = strokes.iter().position(|[at, _]| *at >= value).unwrap();
+            [above - 1, above].map(|index| strokes[index][1])
+        };
+        let inside = curve.unstable.iter().filter(|step| step.value > from && step.value < to);
+        for step in inside.clone() {
+            let here = step.row.measures[stroke];
+            let [high, low] = [&curve.up, &curve.down].map(|steps| stroke_at(steps, step.value));
+            assert!(here < high[0].max(high[1]) && here > low[0].min(low[1]), "{here} {high:?} {low:?}");
+        }
+
+        // Marching from the middle, off by little to either side.
+        let middle = inside.clone().nth(inside.count() / 2).unwrap();
+        let mut values = curve.design.values.clone();
+        values[along.parameter] = middle.value;
+        let ended = [0.98, 1.02].map(|factor| {
+            let begin: Vec<f64> = middle.row.state.iter().map(|y| factor * y).collect();
+            let row = plan.simulator.run_point(InstructionSet::best(), &plan.solver, &values, Some(&begin));
+            assert_eq!((row.status, row.stable()), (Status::Periodic, Some(true)));
+            row.measures[stroke]
+        });
+        assert!((ended[0] - ended[1]).abs() > 20.0, "{ended:?}");
+    }
 }

@@ -229,6 +229,11 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE")]
     pub(crate) tolerance: Option<String>,
 
+    /// Continue the branches of bistable bands around their ends: adds the unstable orbits between them, as rows of the
+    /// branch `unstable`
+    #[arg(long)]
+    pub(crate) unstable: bool,
+
     /// Set a parameter of all designs: a number in SI units, a number with a unit, or an option. May be repeated
     #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
@@ -411,12 +416,20 @@ Example:
   flap track points.csv --chord 6.5 --out motion.csv";
 
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  flap check grid.toml")]
+#[command(after_help = CHECK_HELP)]
 pub(crate) struct CheckArgs {
     /// The grid file
     #[arg(value_name = "FILE")]
     pub(crate) grid: PathBuf,
 }
+
+const CHECK_HELP: &str = "\
+Shows what each axis spans, what [where] excludes, the first and the last point, and an estimate of the time, for \
+which it runs up to 32 points for about a second. Up to a million points are counted one by one; of more, a million \
+are looked at.
+
+Example:
+  flap check grid.toml";
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  flap params direct-drive\n  flap params ozaki2018-large")]

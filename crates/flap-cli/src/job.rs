@@ -22,6 +22,7 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
 use crate::args::WorkArgs;
+use crate::cmd::exclusion;
 use crate::failure::{Exit, Failure};
 use crate::progress::Bar;
 use crate::{console, time};
@@ -119,7 +120,7 @@ impl Job<'_> {
         if lost > 0 {
             console::say(&format!("{lost} rows are no longer in {out}: they are computed again"));
         }
-        console::say(&format!("{} of {} points of {out} are done", before.done, self.plan.selected()));
+        console::say(&format!("{} of {} points of {out} are done", before.done(), self.plan.selected()));
         let sidecar = self.sidecar(started, options);
         write_sidecar(&sidecar, &self.out)?;
         Ok(self.ended(&self.work(session, before, sidecar, options)?))
@@ -258,6 +259,9 @@ fn report(done: &Done) {
     let rate = (summary.rows - rows_before) as f64 / seconds.max(1e-9);
     console::say(&format!("{counts} in {seconds:.2} s ({rate:.0} points/s)"));
 
+    if summary.excluded > 0 {
+        console::say(&exclusion::text(summary.excluded, &summary.unsatisfied));
+    }
     let unsettled = summary.counts.of(Status::Unsettled);
     if unsettled > 0 {
         console::say(&format!(
@@ -268,7 +272,7 @@ fn report(done: &Done) {
 
     let place = place.display();
     if summary.interrupted {
-        let (done, points) = (summary.done, summary.points);
+        let (done, points) = (summary.done(), summary.points);
         console::say(&format!("interrupted: the rows of the first {done} of {points} points are in {place}"));
     } else {
         console::say(&format!("{} rows in {place}", summary.rows));
@@ -292,6 +296,10 @@ pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
         sidecar::PlanError::Points => {
             Failure::usage(format!("{}: its points are not points of its grid", path.display()))
         }
+        sidecar::PlanError::PointsFile(points) => Failure::usage(format!(
+            "{}: the file of points {points} is no longer the one whose points were run",
+            path.display()
+        )),
         sidecar::PlanError::Solver => {
             let message =
                 format!("{}: its solver settings are not ones that a grid may have", path.display());

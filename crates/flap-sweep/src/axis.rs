@@ -2,6 +2,10 @@
 //!
 //! Values are computed on demand, so that an axis of 10^9 values costs nothing.
 
+use std::sync::Arc;
+
+use crate::sample::{Design, Distribution};
+
 /// The values of one parameter along an axis, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
@@ -34,6 +38,15 @@ pub enum Values {
         /// Number of values.
         count: u64,
     },
+    /// The points of a sample along one of its dimensions.
+    Sampled {
+        /// The points, shared by all parameters of the sample.
+        design: Arc<Design>,
+        /// The dimension.
+        dimension: usize,
+        /// How its coordinate is carried over to the parameter.
+        distribution: Distribution,
+    },
 }
 
 impl Values {
@@ -42,6 +55,7 @@ impl Values {
         match self {
             Values::List(list) => list.len() as u64,
             Values::Linear { count, .. } | Values::Step { count, .. } | Values::Log { count, .. } => *count,
+            Values::Sampled { design, .. } => design.count(),
         }
     }
 
@@ -59,6 +73,9 @@ impl Values {
                 _ if index + 1 == count => to,
                 _ => decimal(from + (to - from) * index as f64 / (count - 1) as f64),
             },
+            Values::Sampled { ref design, dimension, ref distribution } => {
+                distribution.quantile(design.coordinate(index, dimension))
+            }
             Values::Step { from, step, .. } => decimal(from + step * index as f64),
             Values::Log { from, to, count } => match index {
                 0 => from,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::plan::Plan;
+use crate::plan::{Plan, PointsFile};
 use crate::run::RunOptions;
 use crate::selection::{self, Selection};
 use crate::sidecar::{Sidecar, Solver, grid_hash};
@@ -16,6 +16,8 @@ pub struct Identity {
     pub arithmetic: String,
     /// Hash of the grid file's text.
     pub grid: String,
+    /// Hash of the file that lists the points of the sample, if one does.
+    pub points_file: Option<String>,
     /// Which points are run, in words.
     pub selection: String,
     /// How they are integrated.
@@ -29,6 +31,7 @@ impl Identity {
             flap: env!("CARGO_PKG_VERSION").to_owned(),
             arithmetic: options.instructions.arithmetic().name().to_owned(),
             grid: grid_hash(&plan.source.text),
+            points_file: plan.points_file.as_ref().map(PointsFile::hash),
             selection: plan.selection.to_string(),
             solver: Solver::from(&plan.solver),
         }
@@ -46,6 +49,7 @@ impl Identity {
             flap: sidecar.flap.clone(),
             arithmetic: sidecar.arithmetic.clone(),
             grid: grid_hash(&sidecar.grid.text),
+            points_file: sidecar.points_file.as_ref().map(|file| file.xxh3.clone()),
             selection,
             solver: sidecar.solver,
         }
@@ -56,6 +60,9 @@ impl Identity {
         let mut differences = Vec::new();
         if self.grid != other.grid {
             differences.push("the grid file is another".to_owned());
+        }
+        if self.points_file != other.points_file {
+            differences.push("the file of points is another".to_owned());
         }
         if self.solver != other.solver {
             differences.push("the solver settings are others".to_owned());

@@ -36,10 +36,10 @@ pub struct Header {
 /// A place at which a run can be resumed: every line but the first.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// Points done: the position among those selected at which to go on.
-    pub next: u64,
     /// Rows written.
     pub rows: u64,
+    /// Points that were excluded.
+    excluded: u64,
     /// Bytes of the file that holds them.
     pub bytes: u64,
     /// XXH3 of these bytes, in hexadecimal digits.
@@ -49,6 +49,7 @@ pub struct Checkpoint {
     cycles: u64,
     rhs_evals: u64,
     statuses: BTreeMap<String, u64>,
+    unsatisfied: BTreeMap<String, u64>,
     invalid: Vec<InvalidPoint>,
 }
 
@@ -69,14 +70,15 @@ impl Checkpoint {
             reason: reason.replace(['\n', '\r'], " "),
         };
         Checkpoint {
-            next: summary.done,
             rows: summary.rows,
+            excluded: summary.excluded,
             bytes,
             xxh3: format!("{digest:016x}"),
             seconds,
             cycles: summary.cycles,
             rhs_evals: summary.rhs_evals,
             statuses: statuses.map(|(status, count)| (status.name().to_owned(), count)).collect(),
+            unsatisfied: summary.unsatisfied.iter().cloned().collect(),
             invalid: summary.invalid.iter().map(invalid).collect(),
         }
     }
@@ -86,8 +88,9 @@ impl Checkpoint {
         let count = |status: Status| (status, self.statuses.get(status.name()).copied().unwrap_or(0));
         Summary {
             points: 0,
-            done: self.next,
             rows: self.rows,
+            excluded: self.excluded,
+            unsatisfied: self.unsatisfied.clone().into_iter().collect(),
             interrupted: false,
             counts: Status::ALL.into_iter().map(count).collect(),
             rhs_evals: self.rhs_evals,

@@ -3,15 +3,16 @@
 use flap_core::parameter::{self, Parameter};
 use flap_core::simulate::{Point, Row};
 
+use crate::expression;
 use crate::plan::Plan;
 use crate::text;
 
 /// The columns of the rows of a plan:
-/// `point`, the varied parameters, `status`, the measures, then `cycles`, `residual`, `period`,
+/// `point`, the varied parameters, the derived ones, `status`, the measures, then `cycles`, `residual`, `period`,
 /// `floquet_max`, `stable`, `rhs_evals`.
 #[derive(Debug)]
 pub struct Layout {
-    /// The varied parameters, each with its index in the model's parameter table.
+    /// The varied parameters, then the derived ones, each with its index in the model's parameter table.
     pub varied: Vec<(usize, &'static Parameter)>,
     /// The selected measures.
     pub measures: Vec<Measure>,
@@ -20,12 +21,21 @@ pub struct Layout {
 /// A measured column of a result file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Measure {
-    /// Index in the model's columns.
+    /// Index in the measures of a row: the model's columns, then the plan's own.
     pub index: usize,
     /// Name with its unit.
     pub name: String,
     /// The unit in words.
     pub unit: &'static str,
+    /// Whether it is a number, or true or false: then 1 stands for true and 0 for false.
+    pub kind: expression::Kind,
+}
+
+impl Measure {
+    /// The value in a row's measures; NaN if they are empty.
+    pub fn value(&self, measures: &[f64]) -> f64 {
+        measures.get(self.index).copied().unwrap_or(f64::NAN)
+    }
 }
 
 /// A column of a result file, as tables with types and units see it.
@@ -62,13 +72,18 @@ impl Layout {
     /// The columns that `plan` asks for.
     pub fn of(plan: &Plan) -> Layout {
         let parameters = plan.parameters();
-        let varied = plan.varied().map(|index| (index, &parameters[index])).collect();
-        let columns = plan.simulator.columns();
-        let measure =
-            |index: usize| Measure { index, name: columns[index].name.clone(), unit: columns[index].unit };
+        let varied =
+            plan.varied().chain(plan.derived.parameters()).map(|index| (index, &parameters[index])).collect();
+        let columns = plan.rows().columns();
+        let models =
+            columns.iter().map(|column| (column.name.clone(), column.unit, expression::Kind::Number));
+        let own = plan.measures.iter().map(|own| (own.name.clone(), "", own.kind()));
+        let all: Vec<Measure> = (models.chain(own).enumerate())
+            .map(|(index, (name, unit, kind))| Measure { index, name, unit, kind })
+            .collect();
         let measures = match &plan.output.columns {
-            Some(chosen) => chosen.iter().map(|&index| measure(index)).collect(),
-            None => (0..columns.len()).map(measure).collect(),
+            Some(chosen) => chosen.iter().map(|&index| all[index].clone()).collect(),
+            None => all,
         };
         Layout { varied, measures }
     }
@@ -84,8 +99,13 @@ impl Layout {
             Column::new(parameter.name, parameter.unit, kind)
         }));
         columns.push(Column::new("status", "", Kind::Text));
-        let measure = |measure: &Measure| Column::new(&measure.name, measure.unit, Kind::Number);
-        columns.extend(self.measures.iter().map(measure));
+        columns.extend(self.measures.iter().map(|measure| {
+            let kind = match measure.kind {
+                expression::Kind::Number => Kind::Number,
+                expression::Kind::Condition => Kind::Flag,
+            };
+            Column::new(&measure.name, measure.unit, kind)
+        }));
         columns.push(Column::new("cycles", "", Kind::Whole));
         columns.push(Column::new("residual", "", Kind::Number));
         columns.push(Column::new("period", "", Kind::Whole));
@@ -108,11 +128,13 @@ impl Layout {
             self.varied.iter().map(|&(index, parameter)| text::value(parameter, point.values[index])),
         );
         cells.push(row.status.name().to_owned());
-        cells.extend(
-            self.measures
-                .iter()
-                .map(|measure| row.measures.get(measure.index).map_or_else(String::new, |&m| text::float(m))),
-        );
+        cells.extend(self.measures.iter().map(|measure| {
+            let value = measure.value(&row.measures);
+            match measure.kind {
+                expression::Kind::Number => text::float(value),
+                expression::Kind::Condition => text::truth(value),
+            }
+        }));
         cells.push(row.cycles.to_string());
         cells.push(text::float(row.residual));
         cells.push(row.period.to_string());

@@ -180,14 +180,19 @@ pub fn summary(parts: &[Part], plan: &Plan) -> Summary {
         let of_shard = |sidecar: &Sidecar| sidecar.statuses.as_ref()?.get(status.name()).copied();
         (status, sidecars().filter_map(of_shard).sum())
     };
+    let unsatisfied = |name: &str| {
+        let counts = sidecars().filter_map(|sidecar| sidecar.unsatisfied.get(name));
+        (name.to_owned(), counts.sum())
+    };
     let invalid = sidecars().flat_map(|sidecar| &sidecar.invalid);
     let mut invalid: Vec<_> = invalid.map(|invalid| (invalid.point, invalid.reason.clone())).collect();
     invalid.sort_unstable();
     invalid.truncate(Summary::MOST_REASONS);
     Summary {
         points: plan.len(),
-        done: plan.len(),
         rows: total(|sidecar| sidecar.rows),
+        excluded: total(|sidecar| sidecar.excluded),
+        unsatisfied: plan.conditions.iter().map(|condition| unsatisfied(&condition.name)).collect(),
         interrupted: false,
         counts: Status::ALL.into_iter().map(count).collect(),
         rhs_evals: total(|sidecar| sidecar.rhs_evals),

@@ -4,12 +4,14 @@
 
 use std::path::PathBuf;
 
-use flap_core::parameter::Parameter;
+use flap_core::parameter::{Invalid, Kind, Parameter, Range};
 use flap_core::simulate::{Point, Rows, Simulator, SolverSettings};
 
 use crate::axis::{Axis, Values};
+use crate::formula::{Condition, Derived, OwnMeasure};
 use crate::resonance::AtResonance;
 use crate::selection::Selection;
+use crate::text;
 
 /// A design space that has passed every check. Made by [`crate::spec`] only.
 pub struct Plan {
@@ -24,6 +26,14 @@ pub struct Plan {
     pub base: Vec<f64>,
     /// The axes; the last varies fastest.
     pub axes: Vec<Axis>,
+    /// The file that lists the points of the sample, if one does.
+    pub points_file: Option<PointsFile>,
+    /// The parameters that are computed from others.
+    pub derived: Derived,
+    /// The conditions that points satisfy, or are not run.
+    pub conditions: Vec<Condition>,
+    /// The columns that are computed from what rows measure. Each may use those before it.
+    pub measures: Vec<OwnMeasure>,
     /// How points are integrated.
     pub solver: SolverSettings,
     /// Where rows go.
@@ -40,8 +50,35 @@ pub struct Plan {
 pub struct Output {
     /// Path as written in the grid file, relative to the working directory; `None` if it names none.
     pub path: Option<PathBuf>,
-    /// Indices into the model's columns, in the order wanted; `None` for all.
+    /// Indices into the model's columns, followed by the plan's own measures, in the order wanted; `None` for all.
     pub columns: Option<Vec<usize>>,
+}
+
+/// A file that lists the points of a sample.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PointsFile {
+    /// Its path, from the working directory.
+    pub path: PathBuf,
+    /// The hash of its text: XXH3 of 64 bits.
+    pub xxh3: u64,
+}
+
+impl PointsFile {
+    /// The hash in hexadecimal digits.
+    pub fn hash(&self) -> String {
+        format!("{:016x}", self.xxh3)
+    }
+}
+
+/// Whether a point is run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It is run.
+    Runs,
+    /// It does not satisfy the conditions with these numbers. It has no row.
+    Excluded(Vec<usize>),
+    /// It cannot be run, but has a row that says so.
+    Invalid(Invalid),
 }
 
 /// A grid file as read.
@@ -60,6 +97,10 @@ pub(crate) struct Parts {
     pub(crate) preset: &'static str,
     pub(crate) base: Vec<f64>,
     pub(crate) axes: Vec<Axis>,
+    pub(crate) points_file: Option<PointsFile>,
+    pub(crate) derived: Derived,
+    pub(crate) conditions: Vec<Condition>,
+    pub(crate) measures: Vec<OwnMeasure>,
     pub(crate) solver: SolverSettings,
     pub(crate) output: Output,
     pub(crate) source: Source,
@@ -74,7 +115,20 @@ impl Plan {
         let points = parts.axes.iter().try_fold(1_u64, |product, axis| product.checked_mul(axis.len()));
         match points {
             Some(points) if points <= Plan::MAX_POINTS => {
-                let Parts { simulator, resonance, preset, base, axes, solver, output, source } = parts;
+                let Parts {
+                    simulator,
+                    resonance,
+                    preset,
+                    base,
+                    axes,
+                    points_file,
+                    derived,
+                    conditions,
+                    measures,
+                    solver,
+                    output,
+                    source,
+                } = parts;
                 let selection = Selection::All;
                 Ok(Plan {
                     simulator,
@@ -82,6 +136,10 @@ impl Plan {
                     preset,
                     base,
                     axes,
+                    points_file,
+                    derived,
+                    conditions,
+                    measures,
                     solver,
                     output,
                     source,
@@ -122,6 +180,7 @@ impl Plan {
                 values[*parameter] = along.get(position);
             }
         }
+        self.derived.fill(&mut values, &[]);
         Point::at_rest(index, values)
     }
 
@@ -133,6 +192,64 @@ impl Plan {
     /// Number `position` of the points that are run, which must be less than [`Plan::selected`].
     pub fn selected_point(&self, position: u64) -> Point {
         self.point(self.selection.index(position))
+    }
+
+    /// Whether the point with these values is run.
+    pub fn judge(&self, values: &[f64]) -> Verdict {
+        let held: Vec<Option<bool>> =
+            self.conditions.iter().map(|condition| condition.holds(values)).collect();
+        let unsatisfied: Vec<usize> = (0..held.len()).filter(|&number| held[number] == Some(false)).collect();
+        if !unsatisfied.is_empty() {
+            return Verdict::Excluded(unsatisfied);
+        }
+        if let Some(parameter) = self.computed().find(|&parameter| !self.is_allowed(parameter, values)) {
+            return Verdict::Invalid(self.not_allowed(parameter, values[parameter]));
+        }
+        let unknown = self.conditions.iter().zip(held).find(|(_, holds)| holds.is_none());
+        match unknown {
+            Some((condition, _)) => Verdict::Invalid(Invalid::new(format!(
+                "whether it satisfies the condition `{}` cannot be computed",
+                condition.name
+            ))),
+            None => Verdict::Runs,
+        }
+    }
+
+    /// The parameters whose values nobody has seen: sampled and derived ones.
+    fn computed(&self) -> impl Iterator<Item = usize> + '_ {
+        let varied = self.axes.iter().flat_map(|axis| &axis.parameters);
+        let sampled = varied.filter(|(_, values)| matches!(values, Values::Sampled { .. }));
+        sampled.map(|(parameter, _)| *parameter).chain(self.derived.parameters())
+    }
+
+    fn is_allowed(&self, parameter: usize, values: &[f64]) -> bool {
+        range(&self.parameters()[parameter]).contains(values[parameter])
+    }
+
+    /// Why a computed value cannot be used.
+    fn not_allowed(&self, parameter: usize, value: f64) -> Invalid {
+        let parameter = &self.parameters()[parameter];
+        let Parameter { name, unit, .. } = parameter;
+        if value.is_nan() {
+            return Invalid::new(format!("`{name}` comes out as not a number"));
+        }
+        let value = format!("{} {unit}", text::float(value));
+        let allowed = range(parameter).describe();
+        Invalid::new(format!("`{name}` comes out as {}, but must be {allowed}", value.trim_end()))
+    }
+
+    /// Adds the plan's own measures to those of a row, if the point has them.
+    pub fn add_own_measures(&self, values: &[f64], measures: &mut Vec<f64>) {
+        // A row that the model made at a resonance found before lacks what was found out about that.
+        if self.measures.is_empty() || measures.len() != self.rows().columns().len() {
+            return;
+        }
+        let mut known = values.to_vec();
+        known.extend_from_slice(measures);
+        for own in &self.measures {
+            known.push(own.value(&known));
+        }
+        measures.extend_from_slice(&known[values.len() + measures.len()..]);
     }
 
     /// Indices of the varied parameters, in the order of the axes: the columns after `point`.
@@ -151,5 +268,13 @@ impl Plan {
     /// The model's parameter table.
     pub fn parameters(&self) -> &'static [Parameter] {
         self.simulator.parameters()
+    }
+}
+
+/// The numbers that a parameter accepts.
+fn range(parameter: &Parameter) -> Range {
+    match parameter.kind {
+        Kind::Number(range) | Kind::Following(range, _) => range,
+        Kind::Choice(_) => Range::NonNegative,
     }
 }

@@ -16,7 +16,7 @@ use toml::Value;
 use crate::diagnostic::Diagnostic;
 use crate::layout::Layout;
 use crate::output;
-use crate::plan::Plan;
+use crate::plan::{self, Plan};
 use crate::run::{RunOptions, Summary};
 use crate::selection::{self, Selection};
 use crate::{spec, text};
@@ -60,6 +60,8 @@ pub struct Sidecar {
     pub shard: Option<String>,
     /// Rows written.
     pub rows: Option<u64>,
+    /// Points that conditions exclude.
+    pub excluded: Option<u64>,
     /// Start, as RFC 3339 in UTC; of the first session if it was interrupted.
     pub started: String,
     /// End, as RFC 3339 in UTC.
@@ -78,6 +80,9 @@ pub struct Sidecar {
     pub rhs_evals: Option<u64>,
     /// Rows by status.
     pub statuses: Option<BTreeMap<String, u64>>,
+    /// For each condition, how many points do not satisfy it.
+    #[serde(default)]
+    pub unsatisfied: BTreeMap<String, u64>,
     /// How points were integrated.
     pub solver: Solver,
     /// The points of a rerun.
@@ -88,6 +93,8 @@ pub struct Sidecar {
     /// The first few invalid points.
     #[serde(default)]
     pub invalid: Vec<InvalidPoint>,
+    /// The file that lists the points of the sample, if one does.
+    pub points_file: Option<PointsFile>,
     /// The grid file.
     pub grid: Grid,
 }
@@ -153,6 +160,15 @@ pub struct InvalidPoint {
     pub reason: String,
 }
 
+/// A file that lists the points of a sample.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PointsFile {
+    /// Its path, from the working directory.
+    pub path: String,
+    /// XXH3 of its text.
+    pub xxh3: String,
+}
+
 /// A grid file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Grid {
@@ -194,6 +210,8 @@ pub enum PlanError {
     Points,
     /// The solver settings in it are not ones that a grid file may have.
     Solver,
+    /// The file of points at this path is no longer the one whose points were run.
+    PointsFile(String),
 }
 
 impl Sidecar {
@@ -222,6 +240,7 @@ impl Sidecar {
             points: plan.len(),
             shard,
             rows: None,
+            excluded: None,
             started: start.started,
             finished: None,
             seconds: None,
@@ -231,12 +250,17 @@ impl Sidecar {
             cycles: None,
             rhs_evals: None,
             statuses: None,
+            unsatisfied: BTreeMap::new(),
             solver: Solver::from(&plan.solver),
             rerun,
             parameters: parameters(plan),
             varied: layout.varied.iter().map(|(_, p)| unit(p.name, p.unit)).collect(),
             columns: layout.measures.iter().map(|m| unit(&m.name, m.unit)).collect(),
             invalid: Vec::new(),
+            points_file: plan
+                .points_file
+                .as_ref()
+                .map(|file| PointsFile { path: file.path.display().to_string(), xxh3: file.hash() }),
             grid: Grid {
                 name: plan.source.name.clone(),
                 xxh3: grid_hash(&plan.source.text),
@@ -249,12 +273,14 @@ impl Sidecar {
     pub fn finish(&mut self, summary: &Summary, end: End) {
         self.state = if summary.interrupted { State::Interrupted } else { State::Complete };
         self.rows = Some(summary.rows);
+        self.excluded = Some(summary.excluded);
         self.finished = Some(end.finished);
         self.seconds = Some(end.seconds);
         self.cycles = Some(summary.cycles);
         self.rhs_evals = Some(summary.rhs_evals);
         let statuses = summary.counts.iter().map(|(status, count)| (status.name().to_owned(), count));
         self.statuses = Some(statuses.collect());
+        self.unsatisfied = summary.unsatisfied.iter().cloned().collect();
         let invalid =
             |(point, reason): &(u64, String)| InvalidPoint { point: *point, reason: reason.clone() };
         self.invalid = summary.invalid.iter().map(invalid).collect();
@@ -278,6 +304,12 @@ impl Sidecar {
             return Err(PlanError::Solver);
         }
         plan.solver = SolverSettings::from(&self.solver);
+        let points_file = plan.points_file.as_ref();
+        if points_file.map(plan::PointsFile::hash) != self.points_file.as_ref().map(|file| file.xxh3.clone())
+        {
+            let path = points_file.map(|file| file.path.display().to_string());
+            return Err(PlanError::PointsFile(path.unwrap_or_default()));
+        }
         if let Some(shard) = &self.shard {
             plan.selection = Selection::Shard(shard.parse().map_err(|_| PlanError::Points)?);
         }

@@ -28,6 +28,14 @@ pub fn float(value: f64) -> String {
     text
 }
 
+/// `true` for 1 and `false` for 0. NaN, what is unknown, is the empty text.
+pub fn truth(value: f64) -> String {
+    if value.is_nan() {
+        return String::new();
+    }
+    (value != 0.0).to_string()
+}
+
 /// The value of a parameter: a number, or the name of the option it chooses.
 pub fn value(parameter: &Parameter, value: f64) -> String {
     match option(parameter, value) {

@@ -1,6 +1,7 @@
 //! Any text at all: never a panic, and diagnostics that can be shown.
 
 use flap_core::parameter::Kind;
+use flap_sweep::plan::Verdict;
 use proptest::prelude::*;
 
 use crate::fake::MODELS;
@@ -8,7 +9,6 @@ use crate::fake::MODELS;
 const GRID: &str = r#"
 preset = "fly"
 [params]
-drive_voltage_pp = "200 V"
 arms = "axis"
 [axes]
 wing_area = { from = "50 mm^2", to = "60 mm²", n = 11, scale = "log" }
@@ -16,6 +16,19 @@ drive_frequency = { from = 60, to = 200, step = "1 Hz" }
 [[zip]]
 stroke_offset = ["1 deg", 0.2, -3e-1]
 hinge_position = [1, 2, 3]
+[sample]
+method = "sobol"
+n = 7
+[sample.parameters]
+drive_voltage_pp = { relative_sd = "5 %", from = 100 }
+plate_width = { from = 1e-3, to = 2e-3, scale = "log" }
+[derived]
+hinge_stiffness = "preset.hinge_stiffness * (wing_area / preset.wing_area)^-1.5"
+[where]
+narrow = "stroke_offset < 1 and not arms == 'printed'"
+[measure]
+ratio = "lift_mean_mn / max(power_mean_mw, 1e-3)"
+good = "ratio > 2"
 [solver]
 rtol = 1e-6
 max_cycles = 10
@@ -25,7 +38,15 @@ columns = ["lift_mean_mn"]
 "#;
 
 /// Scraps that mean something in a grid file.
-const SCRAPS: [&str; 24] = [
+const SCRAPS: [&str; 32] = [
+    "mean = 0",
+    "to = 1",
+    " ^ ",
+    "(",
+    "not ",
+    "preset.",
+    "* 1e300",
+    "stroke_offset",
     "",
     "\n",
     "\"",
@@ -67,6 +88,12 @@ proptest! {
             Ok(plan) => {
                 for index in [0, plan.len() / 2, plan.len() - 1] {
                     let values = plan.point(index).values;
+                    let mut measures = vec![1.0, 0.0, f64::NAN];
+                    plan.add_own_measures(&values, &mut measures);
+                    prop_assert_eq!(measures.len(), 3 + plan.measures.len());
+                    if plan.judge(&values) != Verdict::Runs {
+                        continue;
+                    }
                     for (parameter, value) in plan.parameters().iter().zip(values) {
                         match parameter.kind {
                             Kind::Number(range) => prop_assert!(range.contains(value), "{}", parameter.name),

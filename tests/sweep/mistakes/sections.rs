@@ -86,17 +86,17 @@ fn unknown_keys() {
 preset = "fly"
 param = 1
 wing_area = 3
-derived = { wing_area = "2" }
+shapes = { wing_area = "2" }
 "#,
         r"
 2:1 |param| unknown key `param` at the top of a grid file (unknown key)
-  note: keys at the top of a grid file: preset, params, axes, zip, solver, output
+  note: keys at the top of a grid file: preset, params, resonance, axes, zip, sample, derived, where, measure, solver, output
   help: did you mean `params`?
 3:1 |wing_area| unknown key `wing_area` at the top of a grid file (unknown key)
-  note: keys at the top of a grid file: preset, params, axes, zip, solver, output
+  note: keys at the top of a grid file: preset, params, resonance, axes, zip, sample, derived, where, measure, solver, output
   help: parameters go into [params], or into [axes] to vary them
-4:1 |derived| unknown key `derived` at the top of a grid file (unknown key)
-  note: keys at the top of a grid file: preset, params, axes, zip, solver, output
+4:1 |shapes| unknown key `shapes` at the top of a grid file (unknown key)
+  note: keys at the top of a grid file: preset, params, resonance, axes, zip, sample, derived, where, measure, solver, output
 ",
     );
 }

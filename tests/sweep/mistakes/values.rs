@@ -117,8 +117,7 @@ drive_frequency = "resonance"
   help: write a bare number, or a number with its unit such as "200 V"
 4:19 |half| `hinge_position` must start with a number
   help: write a bare number, or a number with its unit such as "200 V"
-5:20 |resonance| `drive_frequency` must start with a number
-  help: write a bare number, or a number with its unit such as "200 V"
+5:19 |"resonance"| the model flapper does not measure a stroke
 "#,
     );
 }

@@ -1,30 +1,37 @@
 //! `flap check`: what a grid file would run.
 
+mod estimate;
+
 use std::fmt::Write as _;
+use std::sync::Arc;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Point, SolverSettings};
-use flap_sweep::plan::Plan;
+use flap_sweep::axis::Values;
+use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::resonance::Range;
-use flap_sweep::{spec, text};
+use flap_sweep::sample::{Distribution, Method};
+use flap_sweep::{spec, survey, text};
 
+use super::exclusion;
 use crate::args::CheckArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::table::Table;
 
 pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
-    let plan = spec::read(&args.grid)?;
+    let plan = Arc::new(spec::read(&args.grid)?);
     console::results(&page(&plan))?;
     Ok(Exit::Done)
 }
 
-fn page(plan: &Plan) -> String {
+fn page(plan: &Arc<Plan>) -> String {
     let points = if plan.len() == 1 { "1 point".to_owned() } else { format!("{} points", plan.len()) };
     let mut page = format!("{points} of {} from {}\n", plan.simulator.name(), plan.preset);
     if !plan.axes.is_empty() {
         page += "\n";
         page += &axes(plan);
+        page += &samples(plan);
         page += "\n";
         page += &ends(plan);
     }
@@ -32,10 +39,15 @@ fn page(plan: &Plan) -> String {
         page += "\n";
         page += &at_resonance(resonance.range());
     }
+    let (excluded, runs) = excluded(plan);
+    page += &excluded;
     page += "\n";
     page += &solver(&plan.solver);
     if let Some(path) = &plan.output.path {
         let _ = write!(page, "\nrows go to {}\n", path.display());
+    }
+    if let Some(estimate) = estimate::line(plan, runs) {
+        let _ = write!(page, "\n{estimate}\n");
     }
     page
 }
@@ -46,12 +58,12 @@ fn axes(plan: &Plan) -> String {
     for (number, axis) in plan.axes.iter().enumerate() {
         for (index, values) in &axis.parameters {
             let parameter = &plan.parameters()[*index];
-            let show = |position| text::value(parameter, values.get(position));
+            let [from, to] = span(parameter, values);
             table.row([
                 (number + 1).to_string(),
                 parameter.name.to_owned(),
-                show(0),
-                show(values.len() - 1),
+                from,
+                to,
                 values.len().to_string(),
                 parameter.unit.to_owned(),
             ]);
@@ -60,14 +72,84 @@ fn axes(plan: &Plan) -> String {
     table.text()
 }
 
-/// The varied parameters of the first and the last point.
+/// The first and the last value of an axis, or what stands for them in a sample.
+fn span(parameter: &Parameter, values: &Values) -> [String; 2] {
+    let show = |value| text::value(parameter, value);
+    let Values::Sampled { distribution, .. } = values else {
+        return [0, values.len() - 1].map(|position| show(values.get(position)));
+    };
+    match distribution {
+        Distribution::Among(list) => {
+            let listed: Vec<String> = list.iter().map(|value| show(*value)).collect();
+            [format!("one of {}", listed.join(", ")), String::new()]
+        }
+        Distribution::Uniform { from, to } => [*from, *to].map(show),
+        Distribution::LogUniform { from, to } => [show(*from), show(*to) + " log"],
+        Distribution::Normal { mean, sd, from, to } => {
+            let mut bounds = String::new();
+            if from.is_finite() {
+                let _ = write!(bounds, ", from {}", show(*from));
+            }
+            if to.is_finite() {
+                let _ = write!(bounds, ", to {}", show(*to));
+            }
+            [format!("mean {}", show(*mean)), format!("sd {}{bounds}", show(*sd))]
+        }
+    }
+}
+
+/// How the points of a sample are spread, if there is one.
+fn samples(plan: &Plan) -> String {
+    let mut text = String::new();
+    for (number, axis) in plan.axes.iter().enumerate() {
+        if let Some((_, Values::Sampled { design, .. })) = axis.parameters.first() {
+            let method = match design.method() {
+                Method::Sobol => "scrambled Sobol' sequence",
+                Method::LatinHypercube => "Latin hypercube",
+                Method::Random => "random points",
+            };
+            let _ = write!(text, "\naxis {}: {method}, seed {}\n", number + 1, design.seed());
+        }
+    }
+    if let Some(file) = &plan.points_file {
+        let _ = write!(text, "\npoints from {}\n", file.path.display());
+    }
+    text
+}
+
+/// Points that are looked at one by one to count what conditions exclude.
+const MOST_COUNTED: u64 = 1_000_000;
+
+/// What the conditions exclude, and about how many points are left.
+fn excluded(plan: &Plan) -> (String, u64) {
+    if plan.conditions.is_empty() {
+        return (String::new(), plan.len());
+    }
+    let found = survey::exclusions(plan, MOST_COUNTED);
+    let line = exclusion::text(found.excluded, &found.unsatisfied);
+    if found.looked_at == plan.len() {
+        return (format!("\n{line}\n"), plan.len() - found.excluded);
+    }
+    let share = 1.0 - found.excluded as f64 / found.looked_at as f64;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of the points")]
+    let runs = (plan.len() as f64 * share) as u64;
+    let looked_at = found.looked_at;
+    (format!("\nof {looked_at} points spread over the grid, which has too many to count, {line}\n"), runs)
+}
+
+/// The varied and derived parameters of the first and the last point, and why one of them is not run.
 fn ends(plan: &Plan) -> String {
     let mut text = String::new();
     for (which, index) in [("first", 0), ("last", plan.len() - 1)] {
         let point = plan.point(index);
-        let varied =
-            plan.varied().map(|parameter| assignment(&plan.parameters()[parameter], parameter, &point));
-        let _ = writeln!(text, "{which} point, {index}: {}", varied.collect::<Vec<_>>().join(", "));
+        let shown = plan.varied().chain(plan.derived.parameters());
+        let shown = shown.map(|parameter| assignment(&plan.parameters()[parameter], parameter, &point));
+        let verdict = match plan.judge(&point.values) {
+            Verdict::Runs => String::new(),
+            Verdict::Excluded(_) => " (excluded)".to_owned(),
+            Verdict::Invalid(invalid) => format!(" (invalid: {invalid})"),
+        };
+        let _ = writeln!(text, "{which} point, {index}: {}{verdict}", shown.collect::<Vec<_>>().join(", "));
     }
     text
 }

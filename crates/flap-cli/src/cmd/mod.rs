@@ -2,6 +2,7 @@
 
 pub(crate) mod check;
 pub(crate) mod convert;
+pub(crate) mod exclusion;
 mod impulse;
 pub(crate) mod lift;
 pub(crate) mod merge;

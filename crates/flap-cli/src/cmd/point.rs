@@ -6,7 +6,7 @@ use flap_core::num::InstructionSet;
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{self, Rows, Simulator, SolverSettings};
 use flap_sweep::diagnostic::nearest;
-use flap_sweep::plan::Plan;
+use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
 use flap_sweep::{spec, units};
 
@@ -35,9 +35,21 @@ impl Chosen {
             return Err(Failure::usage(message));
         }
         let mut values = plan.point(point.point).values;
+        let mut set = Vec::new();
         for (name, value) in &point.set {
             let index = find_parameter(plan.parameters(), name)?;
             values[index] = self::value(&plan.parameters()[index], "--set", value)?;
+            set.push(index);
+        }
+        plan.derived.fill(&mut values, &set);
+        match plan.judge(&values) {
+            Verdict::Runs => {}
+            Verdict::Excluded(unsatisfied) => {
+                let names: Vec<&str> =
+                    unsatisfied.iter().map(|&condition| plan.conditions[condition].name.as_str()).collect();
+                console::say(&format!("a sweep does not run this point: {} not satisfied", names.join(", ")));
+            }
+            Verdict::Invalid(invalid) => return Err(invalid.into()),
         }
         let mut chosen = Chosen { plan, values, sampled: None, index: point.point };
         chosen.find_resonance()?;

@@ -111,7 +111,7 @@ fn along(args: &RespondArgs, plan: &mut Plan) -> Result<Along, Failure> {
     if tolerance <= 0.0 {
         return Err(Failure::usage("--tolerance must be more than zero"));
     }
-    Ok(Along { parameter: index, values, tolerance })
+    Ok(Along { parameter: index, values, tolerance, unstable: args.unstable })
 }
 
 fn steps(parameter: &Parameter, from: f64, to: f64, step: f64) -> Result<Vec<f64>, Failure> {

@@ -5,6 +5,8 @@ use std::io;
 
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{ChirpRequest, Row, Status, TrajectoryRequest};
+use flap_sweep::expression::Kind;
+use flap_sweep::text;
 
 use super::motion::{write_csv, write_file};
 use super::point::Chosen;
@@ -63,7 +65,8 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
         }
     }
 
-    let row = chosen.simulator().run_point(set, &plan.solver, values, None);
+    let mut row = chosen.simulator().run_point(set, &plan.solver, values, None);
+    plan.add_own_measures(values, &mut row.measures);
     if let (Status::Invalid, Some(reason)) = (row.status, &row.reason) {
         return Err(Failure::usage(format!("the parameters are impossible together: {reason}")));
     }
@@ -121,8 +124,16 @@ fn page(chosen: &Chosen, row: &Row) -> String {
     let _ = writeln!(page, "rhs_evals = {rhs_evals}");
     if !row.measures.is_empty() {
         let mut table = Table::with_headings(&["column", "value", "unit", "meaning"]);
-        for (column, &measure) in chosen.plan.simulator.columns().iter().zip(&row.measures) {
+        let columns = chosen.plan.simulator.columns();
+        for (column, &measure) in columns.iter().zip(&row.measures) {
             table.row([column.name.clone(), six_digits(measure), column.unit.to_owned(), column.doc.clone()]);
+        }
+        for (own, &measure) in chosen.plan.measures.iter().zip(&row.measures[columns.len()..]) {
+            let value = match own.kind() {
+                Kind::Number => six_digits(measure),
+                Kind::Condition => text::truth(measure),
+            };
+            table.row([own.name.clone(), value, String::new(), "[measure] in the grid file".to_owned()]);
         }
         page += "\n";
         page += &table.text();

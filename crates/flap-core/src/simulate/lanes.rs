@@ -8,9 +8,9 @@ use core::ops::ControlFlow;
 
 use fearless_simd::Simd;
 
-use super::row::{self, invalid};
+use super::row;
 use super::search::{Next, Search, begin, varied};
-use super::simulator::{Jobs, Point, SolverSettings};
+use super::simulator::{Jobs, Point, Row, SolverSettings};
 use crate::measure::cycle::{Signals, Totals};
 use crate::model::Model;
 use crate::num::Kernel;
@@ -165,7 +165,7 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Qu
                     let search = Search::new(&start, self.solver, point.begin.is_some());
                     return Some((Searched { index: point.index, start, search }, start));
                 }
-                Err(error) => self.jobs.done(point.index, invalid(error)),
+                Err(error) => self.jobs.done(point.index, Row::invalid(error)),
             }
         }
     }

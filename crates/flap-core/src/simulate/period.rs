@@ -38,6 +38,7 @@ where
         },
     );
     check(outcome.ending)?;
+    let varied = outcome.rhs_evals * (N as u64 + 1);
     let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start);
     check(outcome.ending)?;
     let measures = totals.map(|totals| measures(model, &start.constants, &totals, start.span));
@@ -48,5 +49,6 @@ where
             .collect(),
         scale: start.scale.to_vec(),
         measures: measures.unwrap_or_default(),
+        rhs_evals: varied + outcome.rhs_evals,
     })
 }

@@ -98,17 +98,19 @@ fn row<const N: usize>(search: &Search<N>, status: Status) -> Row {
     }
 }
 
-/// The row of a point whose parameters are impossible together.
-pub(super) fn invalid(error: Invalid) -> Row {
-    Row {
-        status: Status::Invalid,
-        measures: Vec::new(),
-        cycles: 0,
-        residual: f64::NAN,
-        period: 0,
-        floquet_max: f64::NAN,
-        state: Vec::new(),
-        rhs_evals: 0,
-        reason: Some(error.reason),
+impl Row {
+    /// The row of a point whose parameters are impossible together.
+    pub fn invalid(error: Invalid) -> Row {
+        Row {
+            status: Status::Invalid,
+            measures: Vec::new(),
+            cycles: 0,
+            residual: f64::NAN,
+            period: 0,
+            floquet_max: f64::NAN,
+            state: Vec::new(),
+            rhs_evals: 0,
+            reason: Some(error.reason),
+        }
     }
 }

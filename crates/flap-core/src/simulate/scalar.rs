@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use super::row::{self, invalid};
+use super::row;
 use super::search::{Next, Search, begin, varied};
 use super::simulator::{
     ChirpRequest, ChirpResponse, ImpulseRequest, Period, Row, SolverSettings, Trajectory, TrajectoryRequest,
@@ -72,7 +72,7 @@ where
     let model = &model.variant(values);
     let mut start = match begin(model, values, from) {
         Ok(start) => start,
-        Err(error) => return invalid(error),
+        Err(error) => return Row::invalid(error),
     };
     let search = search::<M, R, N, K, S>(model, solver, &start, from.is_some());
     if let Some(row) = row::unmeasured(&search) {

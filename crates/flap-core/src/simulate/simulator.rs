@@ -117,6 +117,8 @@ pub struct Period {
     pub scale: Vec<f64>,
     /// One value per column of the model, meaningful if the period repeats.
     pub measures: Vec<f64>,
+    /// Right-hand sides evaluated.
+    pub rhs_evals: u64,
 }
 
 /// A motion of the wing that is given, as one that was filmed.
@@ -237,6 +239,9 @@ impl Default for SolverSettings {
 pub enum Status {
     /// Settled on an orbit with the period of the drive.
     Periodic,
+    /// On an orbit with the period of the drive that motions leave. No motion settles there: it is found where a branch of
+    /// orbits is continued, and has measures.
+    Unstable,
     /// Settled on an orbit of two or more drive periods.
     Subharmonic,
     /// Not settled within `max_cycles`.
@@ -251,8 +256,9 @@ pub enum Status {
 
 impl Status {
     /// All statuses, in the order of reports.
-    pub const ALL: [Status; 6] = [
+    pub const ALL: [Status; 7] = [
         Status::Periodic,
+        Status::Unstable,
         Status::Subharmonic,
         Status::Unsettled,
         Status::Diverged,
@@ -264,6 +270,7 @@ impl Status {
     pub fn name(self) -> &'static str {
         match self {
             Status::Periodic => "periodic",
+            Status::Unstable => "unstable",
             Status::Subharmonic => "subharmonic",
             Status::Unsettled => "unsettled",
             Status::Diverged => "diverged",
@@ -278,7 +285,7 @@ impl Status {
 pub struct Row {
     /// What became of the point.
     pub status: Status,
-    /// One value per column of the model if the point is periodic, otherwise empty.
+    /// One value per column of the model if the point is on an orbit of one drive period, otherwise empty.
     pub measures: Vec<f64>,
     /// Drive periods integrated, measuring included.
     pub cycles: u32,

@@ -86,8 +86,8 @@ impl<'a> Search<'a> {
         let index = self.point.index;
         let mut row = match (self.row, &self.ends) {
             (Some(row), _) => row,
-            (None, Err(error)) => invalid(error.reason.clone()),
-            (None, Ok(_)) => invalid("the search for its resonance was cut short".to_owned()),
+            (None, Err(error)) => Row::invalid(error.clone()),
+            (None, Ok(_)) => Row::invalid(Invalid::new("the search for its resonance was cut short")),
         };
         if let (Stage::Done { tops }, Ok([from, to]), Status::Periodic) =
             (&self.stage, &self.ends, row.status)
@@ -245,18 +245,4 @@ fn summit(points: &[[f64; 2]; 3]) -> f64 {
     let slope = left + bend * (x1 - x0);
     let height = y1 - slope * slope / (4.0 * bend);
     if height.is_finite() { height.max(y1) } else { y1 }
-}
-
-fn invalid(reason: String) -> Row {
-    Row {
-        status: Status::Invalid,
-        measures: Vec::new(),
-        cycles: 0,
-        residual: f64::NAN,
-        period: 0,
-        floquet_max: f64::NAN,
-        state: Vec::new(),
-        rhs_evals: 0,
-        reason: Some(reason),
-    }
 }

@@ -5,7 +5,8 @@
 
 use flap_core::simulate::{Point, Row, Status};
 
-use super::{Along, Curve, Step};
+use super::{Along, Curve, Step, values};
+use crate::plan::Plan;
 use crate::study::{Probe, Study};
 
 /// Periodic motions are different if a component of the state at the beginning of a period differs by more than this, as a
@@ -14,6 +15,7 @@ const DIFFERENT: f64 = 1e-2;
 
 /// A curve that is being followed.
 pub(super) struct Follow<'a> {
+    plan: &'a Plan,
     along: &'a Along,
     design: Point,
     /// Motions on the way up and on the way down, in the order in which they were run.
@@ -54,23 +56,24 @@ pub(super) enum Comparison {
 }
 
 impl<'a> Follow<'a> {
-    pub(super) fn new(along: &'a Along, design: Point) -> Follow<'a> {
-        Follow { along, design, up: Vec::new(), down: Vec::new(), stage: Stage::Steps }
+    pub(super) fn new(plan: &'a Plan, along: &'a Along, design: Point) -> Follow<'a> {
+        Follow { plan, along, design, up: Vec::new(), down: Vec::new(), stage: Stage::Steps }
     }
 
     pub(super) fn finish(mut self) -> Curve {
         for way in [&mut self.up, &mut self.down] {
             way.sort_by(|a, b| a.value.total_cmp(&b.value));
         }
-        Curve { design: self.design, up: self.up, down: self.down }
+        Curve { design: self.design, up: self.up, down: self.down, unstable: Vec::new() }
     }
 
     /// The point at `value`, begun where the motion of `from` has ended.
     fn probe(&self, value: f64, from: Option<&Step>) -> Probe {
-        let mut values = self.design.values.clone();
-        values[self.along.parameter] = value;
+        let values = values(self.plan, self.along, &self.design, value);
         let begin = from.and_then(|step| match step.row.status {
-            Status::Periodic | Status::Subharmonic | Status::Unsettled => Some(step.row.state.clone()),
+            Status::Periodic | Status::Unstable | Status::Subharmonic | Status::Unsettled => {
+                Some(step.row.state.clone())
+            }
             Status::Diverged | Status::StepLimit | Status::Invalid => None,
         });
         Probe { values, begin: begin.filter(|state| !state.is_empty()) }

@@ -4,9 +4,11 @@
 //! Where the way up and the way down differ, the design has two motions at the same drive.
 //!
 //! - [`follow`]: one curve, up and down, with the ends of its bistable bands
+//! - [`continuation`]: the unstable orbits that join the branches of a bistable band
 //! - [`verdict`]: what a curve shows
 //! - [`table`]: curves as rows of CSV
 
+mod continuation;
 mod follow;
 mod table;
 mod verdict;
@@ -15,12 +17,12 @@ use std::num::NonZeroUsize;
 use std::sync::{Mutex, PoisonError};
 
 use flap_core::num::InstructionSet;
-use flap_core::parameter::Parameter;
-use flap_core::simulate::{Point, Row, SolverSettings, Status};
+use flap_core::parameter::{Invalid, Parameter};
+use flap_core::simulate::{Point, Row, Status};
 pub use table::Table;
 pub use verdict::{Band, BandKind, Verdict};
 
-use crate::plan::Plan;
+use crate::plan::{self, Plan};
 use crate::run::RunError;
 use crate::study::{self, Desk};
 use follow::Follow;
@@ -34,6 +36,8 @@ pub struct Along {
     pub values: Vec<f64>,
     /// How closely the ends of bistable bands are located, more than zero.
     pub tolerance: f64,
+    /// Whether the unstable orbits of bistable bands are looked for.
+    pub unstable: bool,
 }
 
 /// A motion on a curve.
@@ -54,9 +58,19 @@ pub struct Curve {
     pub up: Vec<Step>,
     /// The motions on the way down, by rising value too: at the values of `up`.
     pub down: Vec<Step>,
+    /// Unstable orbits, if they were looked for: for each bistable band, from the end of the upward branch to that of the
+    /// downward one. Values fall and may turn.
+    pub unstable: Vec<Step>,
 }
 
 impl Curve {
+    /// The curve of a design that cannot be run.
+    fn impossible(along: &Along, design: Point, reason: Invalid) -> Curve {
+        let step = |value: &f64| Step { value: *value, row: Row::invalid(reason.clone()) };
+        let up: Vec<Step> = along.values.iter().map(step).collect();
+        Curve { design, down: up.clone(), up, unstable: Vec::new() }
+    }
+
     /// Why the design has no response, if its parameters are impossible together.
     pub fn invalid(&self) -> Option<&str> {
         let first = &self.up.first()?.row;
@@ -67,7 +81,7 @@ impl Curve {
 /// Curves that are run before they are handed on, per thread: enough to keep lanes full, few enough for memory.
 const CURVES_AT_ONCE: u64 = 128;
 
-/// Follows the response of every point of `plan`, on `threads` threads, and hands the curves on in the order of the points.
+/// Follows the response of every point of `plan` that its conditions do not exclude everywhere on its curve, on `threads` threads, and hands the curves on in the order of the points.
 ///
 /// # Errors
 /// Those of `take`, at the first of which it ends, and those of starting threads.
@@ -102,10 +116,41 @@ pub fn run<E: From<RunError>>(
 }
 
 /// The response of one point, on scalars. Gives the same bits as [`run`].
-pub fn run_one(plan: &Plan, solver: &SolverSettings, along: &Along, design: Point) -> Curve {
-    let mut follow = Follow::new(along, design);
-    study::run_one(plan.simulator, InstructionSet::best(), solver, &mut follow);
-    follow.finish()
+pub fn run_one(plan: &Plan, along: &Along, design: Point) -> Curve {
+    let mut follow = Follow::new(plan, along, design);
+    study::run_one(plan.simulator, InstructionSet::best(), &plan.solver, &mut follow);
+    complete(plan, along, follow.finish())
+}
+
+/// Adds the unstable orbits to a curve, if they are wanted, and the plan's own measures to all of its rows.
+fn complete(plan: &Plan, along: &Along, mut curve: Curve) -> Curve {
+    if along.unstable {
+        curve.unstable = continuation::unstable(plan, along, &curve);
+    }
+    let Curve { design, up, down, unstable } = &mut curve;
+    for Step { value, row } in up.iter_mut().chain(down).chain(unstable) {
+        plan.add_own_measures(&values(plan, along, design, *value), &mut row.measures);
+    }
+    curve
+}
+
+/// One value per parameter of the model, for a design where the followed parameter has come to `value`.
+fn values(plan: &Plan, along: &Along, design: &Point, value: f64) -> Vec<f64> {
+    let mut values = design.values.clone();
+    values[along.parameter] = value;
+    plan.derived.fill(&mut values, &[]);
+    values
+}
+
+/// Whether a design is followed: if it runs anywhere on its curve.
+fn judge(plan: &Plan, along: &Along, design: &Point) -> plan::Verdict {
+    let mut verdicts = along.values.iter().map(|&value| plan.judge(&values(plan, along, design, value)));
+    let first = verdicts.next().unwrap_or(plan::Verdict::Runs);
+    if first == plan::Verdict::Runs || verdicts.any(|verdict| verdict == plan::Verdict::Runs) {
+        plan::Verdict::Runs
+    } else {
+        first
+    }
 }
 
 /// What the threads share.
@@ -126,17 +171,33 @@ impl<'a> Desk for Designs<'a> {
     type Study = Follow<'a>;
 
     fn next(&mut self, _idle: bool) -> Option<Follow<'a>> {
-        let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
-        let index = shared.next;
-        if index == shared.end {
-            return None;
+        let Designs { plan, along, .. } = *self;
+        loop {
+            let index = {
+                let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
+                if shared.next == shared.end {
+                    return None;
+                }
+                shared.next += 1;
+                shared.next - 1
+            };
+            let design = plan.point(index);
+            match judge(plan, along, &design) {
+                plan::Verdict::Runs => return Some(Follow::new(plan, along, design)),
+                plan::Verdict::Excluded(_) => {}
+                plan::Verdict::Invalid(reason) => self.put(Curve::impossible(along, design, reason)),
+            }
         }
-        shared.next += 1;
-        Some(Follow::new(self.along, self.plan.point(index)))
     }
 
     fn done(&mut self, follow: Follow<'a>) {
-        self.shared.lock().unwrap_or_else(PoisonError::into_inner).curves.push(follow.finish());
+        self.put(complete(self.plan, self.along, follow.finish()));
+    }
+}
+
+impl Designs<'_> {
+    fn put(&self, curve: Curve) {
+        self.shared.lock().unwrap_or_else(PoisonError::into_inner).curves.push(curve);
     }
 }
 

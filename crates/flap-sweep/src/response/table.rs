@@ -37,14 +37,15 @@ impl<W: Durable> Table<W> {
         Ok(table)
     }
 
-    /// Writes the way up, by rising value, then the way down, by falling value.
+    /// Writes the way up, by rising value, then the way down, by falling value, then the unstable orbits.
     ///
     /// # Errors
     /// What writing says.
     pub fn write(&mut self, curve: &Curve) -> io::Result<()> {
         let up = curve.up.iter().map(|step| ("up", step));
         let down = curve.down.iter().rev().map(|step| ("down", step));
-        for (branch, Step { value, row }) in up.chain(down) {
+        let unstable = curve.unstable.iter().map(|step| ("unstable", step));
+        for (branch, Step { value, row }) in up.chain(down).chain(unstable) {
             let place = [branch.to_owned(), text::value(self.parameter, *value)];
             let cells = self.insert(self.layout.cells(&curve.design, row), place);
             self.writer.write_record(cells).map_err(cause)?;

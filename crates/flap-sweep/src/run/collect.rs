@@ -2,6 +2,7 @@
 
 use std::io;
 
+use super::finished::Finished;
 use super::queue::{Queue, Turn};
 use super::{Progress, Summary};
 use crate::plan::Plan;
@@ -16,21 +17,26 @@ pub(super) fn collect(
     progress: &mut dyn FnMut(Progress),
 ) -> io::Result<Summary> {
     let _ends_the_workers = Abort(queue);
-    let mut summary = Summary { points: plan.selected(), ..before };
+    let mut summary = Summary::after(before, plan);
     let mut batch = Vec::new();
     while let Turn::Rows(finished) = queue.turn(&mut batch) {
         if !batch.is_empty() {
-            for row in batch.drain(..) {
-                let point = plan.selected_point(summary.done);
-                sink.write(&point, &row)?;
-                summary.add(point.index, row);
+            for finished in batch.drain(..) {
+                match finished {
+                    Finished::Row(row) => {
+                        let point = plan.selected_point(summary.done());
+                        sink.write(&point, &row)?;
+                        summary.add(point.index, row);
+                    }
+                    Finished::Excluded(unsatisfied) => summary.exclude(&unsatisfied),
+                }
                 sink.done(&summary)?;
             }
             sink.flush()?;
         }
         progress(Progress { finished, points: summary.points });
     }
-    summary.interrupted = summary.done < summary.points;
+    summary.interrupted = summary.done() < summary.points;
     Ok(summary)
 }
 

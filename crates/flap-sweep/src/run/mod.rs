@@ -5,6 +5,7 @@
 //! does not grow with the number of points and the output does not depend on the number of threads.
 
 mod collect;
+mod finished;
 mod queue;
 mod summary;
 mod window;
@@ -48,7 +49,7 @@ impl Default for RunOptions {
 /// How far a sweep is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// Points that have run, whether their rows are written yet or not.
+    /// Points that have run or are excluded, whether their rows are written yet or not.
     pub finished: u64,
     /// Points that are run in all.
     pub points: u64,
@@ -101,7 +102,7 @@ pub fn resume(
     stop: &AtomicBool,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Summary, RunError> {
-    let (done, selected) = (before.done, plan.selected());
+    let (done, selected) = (before.done(), plan.selected());
     // More workers than points would have nothing to do.
     let points = usize::try_from(selected - done).unwrap_or(usize::MAX);
     let workers = options.threads.get().min(points.max(1));

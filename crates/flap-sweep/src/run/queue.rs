@@ -11,9 +11,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use flap_core::simulate::Row;
-
 use super::RunError;
+use super::finished::Finished;
 use super::window::Window;
 
 /// The collector looks for rows at least this often, which is also how often progress is reported.
@@ -80,13 +79,13 @@ impl<'a> Queue<'a> {
         }
     }
 
-    /// Takes the row of a point.
-    pub(super) fn done(&self, index: u64, row: Row) {
+    /// Takes what became of a point.
+    pub(super) fn done(&self, index: u64, finished: Finished) {
         let mut state = self.lock();
         if state.aborted {
             return;
         }
-        if !state.window.insert(index, row) {
+        if !state.window.insert(index, finished) {
             state.fail(RunError::Model(format!("it returned a row for point {index}, which is not running")));
         }
         self.wake_collector(&state);
@@ -118,7 +117,7 @@ impl<'a> Queue<'a> {
 
     /// Tells that the rows of the last turn are written, and waits for more, not longer than one turn.
     /// `batch` must be empty.
-    pub(super) fn turn(&self, batch: &mut Vec<Row>) -> Turn {
+    pub(super) fn turn(&self, batch: &mut Vec<Finished>) -> Turn {
         let mut state = self.lock();
         state.window.mark_written();
         self.room.notify_all();

@@ -2,6 +2,8 @@
 
 use flap_core::simulate::{Row, Status};
 
+use crate::plan::Plan;
+
 /// How many points had each status.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts([u64; Status::ALL.len()]);
@@ -31,10 +33,12 @@ impl FromIterator<(Status, u64)> for Counts {
 pub struct Summary {
     /// Points that are run in all.
     pub points: u64,
-    /// Points that have run and are written: the first ones of those selected.
-    pub done: u64,
-    /// Rows written.
+    /// Rows written: those of the first points selected, but for excluded ones.
     pub rows: u64,
+    /// Points among them that were excluded, and have no row.
+    pub excluded: u64,
+    /// The conditions of the plan, with how many of these points do not satisfy them.
+    pub unsatisfied: Vec<(String, u64)>,
     /// Whether the sweep was stopped before the last point.
     pub interrupted: bool,
     /// Rows by status.
@@ -51,6 +55,29 @@ impl Summary {
     /// Reasons kept in [`Summary::invalid`].
     pub const MOST_REASONS: usize = 5;
 
+    /// What `before` came to, as the beginning of what `plan` comes to.
+    pub(super) fn after(before: Summary, plan: &Plan) -> Summary {
+        let counted = |name: &str| before.unsatisfied.iter().find(|(known, _)| known == name);
+        let unsatisfied = plan.conditions.iter().map(|condition| {
+            let count = counted(&condition.name).map_or(0, |(_, count)| *count);
+            (condition.name.clone(), count)
+        });
+        Summary { points: plan.selected(), unsatisfied: unsatisfied.collect(), interrupted: false, ..before }
+    }
+
+    /// Points that are done with: the first ones of those selected.
+    pub fn done(&self) -> u64 {
+        self.rows + self.excluded
+    }
+
+    /// Notes a point that does not satisfy the conditions with these numbers.
+    pub(super) fn exclude(&mut self, unsatisfied: &[usize]) {
+        self.excluded += 1;
+        for &condition in unsatisfied {
+            self.unsatisfied[condition].1 += 1;
+        }
+    }
+
     /// Adds the written row of the point with this index in the plan.
     pub(super) fn add(&mut self, index: u64, row: Row) {
         if let (Status::Invalid, Some(reason)) = (row.status, row.reason)
@@ -58,7 +85,6 @@ impl Summary {
         {
             self.invalid.push((index, reason));
         }
-        self.done += 1;
         self.rows += 1;
         self.counts.0[row.status as usize] += 1;
         self.rhs_evals += row.rhs_evals;

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 
-use flap_core::simulate::Row;
+use super::finished::Finished;
 
 /// The points between the last row written and the last point handed out, at most `capacity` of them.
 ///
@@ -20,7 +20,7 @@ pub(super) struct Window {
     written: u64,
     taken: u64,
     handed_out: u64,
-    rows: VecDeque<Option<Row>>,
+    rows: VecDeque<Option<Finished>>,
     /// How many of `rows` are here.
     waiting: usize,
 }
@@ -55,11 +55,11 @@ impl Window {
     }
 
     /// Keeps the row of a point that was handed out. False if the point was not, or has a row already.
-    pub(super) fn insert(&mut self, index: u64, row: Row) -> bool {
+    pub(super) fn insert(&mut self, index: u64, finished: Finished) -> bool {
         let place = index.checked_sub(self.taken).and_then(|place| usize::try_from(place).ok());
         match place.and_then(|place| self.rows.get_mut(place)) {
             Some(slot @ None) => {
-                *slot = Some(row);
+                *slot = Some(finished);
                 self.waiting += 1;
                 true
             }
@@ -78,7 +78,7 @@ impl Window {
     }
 
     /// Moves rows that follow on the last one taken to `batch`, at most `limit` of them.
-    pub(super) fn take(&mut self, batch: &mut Vec<Row>, limit: usize) {
+    pub(super) fn take(&mut self, batch: &mut Vec<Finished>, limit: usize) {
         while batch.len() < limit
             && let Some(Some(_)) = self.rows.front()
         {
@@ -101,28 +101,23 @@ impl Window {
 
 #[cfg(test)]
 mod tests {
-    use flap_core::simulate::Status;
+    use flap_core::parameter::Invalid;
+    use flap_core::simulate::Row;
 
     use super::*;
 
-    fn row(cycles: u32) -> Row {
-        Row {
-            status: Status::Periodic,
-            measures: Vec::new(),
-            cycles,
-            residual: 0.0,
-            period: 1,
-            floquet_max: 0.5,
-            state: Vec::new(),
-            rhs_evals: 0,
-            reason: None,
-        }
+    fn row(cycles: u32) -> Finished {
+        Finished::Row(Row { cycles, ..Row::invalid(Invalid::new("a test")) })
     }
 
     fn take(window: &mut Window, limit: usize) -> Vec<u32> {
         let mut batch = Vec::new();
         window.take(&mut batch, limit);
-        batch.iter().map(|row| row.cycles).collect()
+        let cycles = |finished: &Finished| match finished {
+            Finished::Row(row) => row.cycles,
+            Finished::Excluded(_) => u32::MAX,
+        };
+        batch.iter().map(cycles).collect()
     }
 
     #[test]

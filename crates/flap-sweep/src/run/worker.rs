@@ -7,8 +7,9 @@ use flap_core::num::InstructionSet;
 use flap_core::simulate::{Jobs, Point, Row, Status};
 
 use super::RunError;
+use super::finished::Finished;
 use super::queue::Queue;
-use crate::plan::Plan;
+use crate::plan::{Plan, Verdict};
 
 /// Runs points until there are none left, and leaves the queue whatever happens.
 pub(super) fn work(plan: &Plan, instructions: InstructionSet, queue: &Queue) {
@@ -40,22 +41,34 @@ impl Jobs for Source<'_> {
         if self.fault.is_some() {
             return None;
         }
-        // A worker with points in hand must never wait: others may be waiting for their rows.
-        let position = self.queue.next(idle && self.in_hand == 0)?;
-        self.in_hand += 1;
-        // The model hands the index back and has no other use for it: rows are put in order by position.
-        Some(Point { index: position, ..self.plan.selected_point(position) })
+        loop {
+            // A worker with points in hand must never wait: others may be waiting for their rows.
+            let position = self.queue.next(idle && self.in_hand == 0)?;
+            let point = self.plan.selected_point(position);
+            match self.plan.judge(&point.values) {
+                Verdict::Runs => {
+                    self.in_hand += 1;
+                    // The model hands the index back and has no other use for it: rows are put in order by position.
+                    return Some(Point { index: position, ..point });
+                }
+                Verdict::Excluded(unsatisfied) => self.queue.done(position, Finished::Excluded(unsatisfied)),
+                Verdict::Invalid(invalid) => self.queue.done(position, Finished::Row(Row::invalid(invalid))),
+            }
+        }
     }
 
-    fn done(&mut self, index: u64, row: Row) {
+    fn done(&mut self, position: u64, mut row: Row) {
         let expected = if row.status == Status::Periodic { self.plan.rows().columns().len() } else { 0 };
         if row.measures.len() != expected {
             let found = row.measures.len();
-            self.fault = Some(format!("it returned {found} measures, not {expected}, for point {index}"));
+            self.fault = Some(format!("it returned {found} measures, not {expected}, for point {position}"));
             return;
         }
         self.in_hand = self.in_hand.saturating_sub(1);
-        self.queue.done(index, row);
+        if !self.plan.measures.is_empty() && position < self.plan.selected() {
+            self.plan.add_own_measures(&self.plan.selected_point(position).values, &mut row.measures);
+        }
+        self.queue.done(position, Finished::Row(row));
     }
 }
 

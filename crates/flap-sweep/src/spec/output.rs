@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use flap_core::simulate::{Column, Simulator};
+use flap_core::simulate::Simulator;
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -14,11 +14,11 @@ use crate::plan::Output;
 const KEYS: [&str; 2] = ["path", "columns"];
 
 /// Columns that every row has, whatever is selected.
-const ALWAYS: [&str; 8] =
+pub(super) const ALWAYS: [&str; 8] =
     ["point", "status", "cycles", "residual", "period", "floquet_max", "stable", "rhs_evals"];
 
-/// A model, and the columns of its rows.
-type Measured<'m> = (&'static dyn Simulator, &'m [Column]);
+/// A model, and the names of the columns that rows measure, the user's own included.
+type Measured<'m> = (&'static dyn Simulator, &'m [String]);
 
 /// The section; column names are checked only if the model is known.
 pub(super) fn read(
@@ -52,7 +52,7 @@ fn columns_of(model: Measured<'_>, value: &Spanned<DeValue<'_>>, problems: &mut 
         let Some(name) = value::text("columns", item, problems) else {
             continue;
         };
-        let Some(index) = model.1.iter().position(|column| column.name == name) else {
+        let Some(index) = model.1.iter().position(|known| known == name) else {
             report_unknown(model, name, item, problems);
             continue;
         };
@@ -86,7 +86,7 @@ fn report_unknown(
             )
             .help(format!("remove `{name}`: `columns` selects among the measures"));
     } else {
-        let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
-        diagnostic.note(format!("columns: {}", names.join(", "))).did_you_mean(name, names);
+        let names = columns.iter().map(String::as_str);
+        diagnostic.note(format!("columns: {}", columns.join(", "))).did_you_mean(name, names);
     }
 }

@@ -1,6 +1,7 @@
 //! The mistakes found so far.
 
 use std::ops::Range;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::diagnostic::Diagnostic;
@@ -33,9 +34,27 @@ impl Problems {
         self.found.last_mut().expect("one was just added")
     }
 
-    /// Everything reported, in the order of the file.
+    /// Adds a diagnostic about another file.
+    pub(super) fn report_in(
+        &mut self,
+        source: &Arc<Source>,
+        span: Range<usize>,
+        message: String,
+    ) -> &mut Diagnostic {
+        self.found.push(Diagnostic::new(Arc::clone(source), span, message));
+        self.found.last_mut().expect("one was just added")
+    }
+
+    /// The path of a file that the grid file names: relative to the folder of the grid file.
+    pub(super) fn beside(&self, path: &str) -> PathBuf {
+        Path::new(&self.source.name).parent().unwrap_or(Path::new("")).join(path)
+    }
+
+    /// Everything reported, in the order of the file, then what is about other files.
     pub(super) fn into_diagnostics(mut self) -> Vec<Diagnostic> {
-        self.found.sort_by_key(|diagnostic| diagnostic.span.start);
+        let source = Arc::clone(&self.source);
+        self.found
+            .sort_by_key(|diagnostic| (!Arc::ptr_eq(&diagnostic.source, &source), diagnostic.span.start));
         self.found
     }
 }

@@ -193,7 +193,7 @@ fn decimal(text: &str) -> Result<f64, UnitError> {
 /// The bytes `part` of the text of a TOML string, as bytes of the file.
 ///
 /// If escapes make the text differ from what stands in the file, it is the whole string.
-fn inside(file: &str, span: Range<usize>, text: &str, part: &Range<usize>) -> Range<usize> {
+pub(super) fn inside(file: &str, span: Range<usize>, text: &str, part: &Range<usize>) -> Range<usize> {
     let raw = file.get(span.clone()).unwrap_or_default();
     let quotes = ["\"\"\"", "'''", "\"", "'"].into_iter().find(|quotes| raw.starts_with(quotes));
     let length = quotes.map_or(0, str::len);

@@ -1,0 +1,112 @@
+//! How long a sweep would take, judged by a few of its points.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, mpsc};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{Jobs, Point, Row};
+use flap_sweep::plan::{Plan, Verdict};
+use flap_sweep::run::RunOptions;
+use flap_sweep::survey::spread;
+
+/// Points that are run at most.
+const MOST: u64 = 32;
+
+/// No point is begun after this time.
+const LONGEST_BEGIN: Duration = Duration::from_secs(1);
+
+/// Points that have not ended after this time are no longer waited for.
+const LONGEST: Duration = Duration::from_secs(2);
+
+/// Points that are looked at at most, to find some that are not excluded.
+const MOST_LOOKED_AT: u64 = 100_000;
+
+/// One line: how long a sweep of `points` points of `plan` would take. `None` if there is no point to judge by.
+pub(super) fn line(plan: &Arc<Plan>, points: u64) -> Option<String> {
+    let started = Instant::now();
+    let begun = Arc::new(AtomicU64::new(0));
+    let (send, ended) = mpsc::channel();
+    let mut trial = Trial { plan: Arc::clone(plan), started, looked_at: 0, begun: Arc::clone(&begun) };
+    // A point that takes for ever cannot be stopped: its thread ends with the program.
+    thread::spawn(move || {
+        let plan = Arc::clone(&trial.plan);
+        plan.rows().run(InstructionSet::best(), &plan.solver, &mut trial);
+        // Nobody may be waiting any more.
+        let _ = send.send(());
+    });
+    let is_over = ended.recv_timeout(LONGEST).is_ok();
+    let elapsed = started.elapsed().as_secs_f64();
+    let ran = begun.load(Ordering::Relaxed);
+    if ran == 0 {
+        return None;
+    }
+    let threads = RunOptions::default().threads.get();
+    let seconds = elapsed / ran as f64 * points as f64 / (threads as f64).min(points as f64);
+    let bound = if is_over { "" } else { "more than " };
+    let time = words(seconds);
+    Some(format!("estimate: {bound}{time} on {threads} threads, judged by {ran} points spread over the grid"))
+}
+
+/// Points of a plan, spread over it, until there are enough or it has taken long enough.
+struct Trial {
+    plan: Arc<Plan>,
+    started: Instant,
+    looked_at: u64,
+    begun: Arc<AtomicU64>,
+}
+
+impl Jobs for Trial {
+    fn next(&mut self, _idle: bool) -> Option<Point> {
+        while self.begun.load(Ordering::Relaxed) < MOST.min(self.plan.len())
+            && self.looked_at < MOST_LOOKED_AT
+            && self.started.elapsed() < LONGEST_BEGIN
+        {
+            let mut point = self.plan.point(spread(self.looked_at, self.plan.len()));
+            // A small grid may come up with a point twice: each run has a number of its own.
+            point.index = self.looked_at;
+            self.looked_at += 1;
+            if self.plan.judge(&point.values) == Verdict::Runs {
+                self.begun.fetch_add(1, Ordering::Relaxed);
+                return Some(point);
+            }
+        }
+        None
+    }
+
+    fn done(&mut self, _index: u64, _row: Row) {}
+}
+
+/// A time as one would say it.
+fn words(seconds: f64) -> String {
+    const UNITS: [(f64, &str); 5] =
+        [(31_557_600.0, "years"), (86_400.0, "days"), (3600.0, "hours"), (60.0, "minutes"), (1.0, "seconds")];
+    let unit = UNITS.iter().find(|(length, _)| seconds >= 2.0 * length);
+    match unit {
+        Some((length, name)) => format!("about {:.0} {name}", seconds / length),
+        None => "a second or two".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::words;
+
+    #[test]
+    fn times_in_words() {
+        let cases = [
+            (0.01, "a second or two"),
+            (2.4, "about 2 seconds"),
+            (119.0, "about 119 seconds"),
+            (120.0, "about 2 minutes"),
+            (7.4e3, "about 2 hours"),
+            (1e5, "about 28 hours"),
+            (2e5, "about 2 days"),
+            (1e9, "about 32 years"),
+        ];
+        for (seconds, expected) in cases {
+            assert_eq!(words(seconds), expected, "{seconds}");
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Expressions of grid files: `1.52e-6 * (transmission_ratio / preset.transmission_ratio)^-1.47`.
+//!
+//! An expression is checked once, when it is read: its names are looked up, and numbers are told from conditions. It
+//! is then a flat list of operations. Elementary functions are those of `libm`, so that its value has the same bits on
+//! every machine. See `docs/grid.md` for the language.
+//!
+//! What is not a number makes everything computed from it not a number. A comparison with it is unknown, neither true
+//! nor false; `and`, `or` and `not` of what is unknown are unknown unless the other side decides.
+
+mod error;
+mod evaluate;
+mod function;
+mod operation;
+mod parse;
+#[cfg(test)]
+mod tests;
+mod token;
+
+pub use error::{ExpressionError, Problem};
+use operation::Operation;
+
+/// What an expression is: a number, or a condition.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// It has a number for a value.
+    Number,
+    /// It is true or false.
+    Condition,
+}
+
+/// What a name in an expression stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Meaning {
+    /// The number at this place of the values.
+    Number(usize),
+    /// The condition at this place of the values, as [`Expression::value`] gives it.
+    Condition(usize),
+    /// The choice at this place of the values, as the index of one of these options.
+    Choice(usize, &'static [&'static str]),
+    /// A number that never changes.
+    Constant(f64),
+    /// A number that is not set and follows others, as the text says.
+    Unset(&'static str),
+}
+
+/// The names that an expression may use.
+pub trait Scope {
+    /// What `name` stands for, if anything.
+    fn meaning(&self, name: &str) -> Option<Meaning>;
+
+    /// All names, from which to guess what a misspelt one was meant to be.
+    fn names(&self) -> Vec<String>;
+}
+
+/// Whether `name` can be given to something that expressions are to use.
+pub fn is_free_name(name: &str) -> bool {
+    let mut characters = name.chars();
+    characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
+        && characters.all(|character| character.is_ascii_alphanumeric() || character == '_')
+        && !["and", "or", "not"].contains(&name)
+        && function::find(name).is_none()
+        && function::constant(name).is_none()
+}
+
+/// An expression that has passed every check.
+#[derive(Clone, Debug)]
+pub struct Expression {
+    kind: Kind,
+    operations: Vec<Operation>,
+}
+
+impl Expression {
+    /// Checks the expression `text`, whose names are those of `scope`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the names, or the first thing that is wrong with the rest. Spans are bytes of
+    /// `text`.
+    pub fn parse(text: &str, scope: &dyn Scope) -> Result<Expression, Vec<ExpressionError>> {
+        parse::parse(text, scope).map(|(kind, operations)| Expression { kind, operations })
+    }
+
+    /// Whether it is a number or a condition.
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// The places of the values that it reads, in the order of the text.
+    pub fn reads(&self) -> impl Iterator<Item = usize> + '_ {
+        self.operations.iter().filter_map(|operation| match operation {
+            Operation::Read(place) => Some(*place),
+            _ => None,
+        })
+    }
+
+    /// Its value where names have these `values`: a number; 1 for a condition that is true and 0 for one that is
+    /// false; NaN for what is not a number or unknown.
+    pub fn value(&self, values: &[f64]) -> f64 {
+        evaluate::evaluate(&self.operations, values)
+    }
+}

@@ -1,0 +1,277 @@
+use proptest::prelude::*;
+
+use super::*;
+
+/// `T`, `preset.kappa`, `x` and `y` are numbers, `ok` a condition, `arms` a choice, `width` not set.
+struct Names;
+
+const OPTIONS: &[&str] = &["printed", "axis"];
+
+impl Scope for Names {
+    fn meaning(&self, name: &str) -> Option<Meaning> {
+        Some(match name {
+            "T" => Meaning::Number(0),
+            "x" => Meaning::Number(1),
+            "y" => Meaning::Number(2),
+            "arms" => Meaning::Choice(3, OPTIONS),
+            "ok" => Meaning::Condition(4),
+            "preset.kappa" => Meaning::Constant(1.52e-6),
+            "width" => Meaning::Unset("half of the length"),
+            _ => return None,
+        })
+    }
+
+    fn names(&self) -> Vec<String> {
+        ["T", "x", "y", "arms", "ok", "preset.kappa", "width"].map(str::to_owned).to_vec()
+    }
+}
+
+const VALUES: [f64; 5] = [2000.0, 3.0, f64::NAN, 1.0, 1.0];
+
+fn value(text: &str) -> f64 {
+    let expression = Expression::parse(text, &Names).unwrap_or_else(|errors| panic!("{text}: {errors:?}"));
+    expression.value(&VALUES)
+}
+
+/// What other expression libraries get wrong, then all the rest.
+#[test]
+fn numbers() {
+    let scaled = 1.52e-6 * libm::pow(2000.0 / 3333.0, -1.47);
+    let cases = [
+        ("1.52e-6*(T/3333)^(-1.47)", scaled),
+        ("preset.kappa * (T / 3333) ^ -1.47", scaled),
+        ("2^3^2", 512.0),
+        ("-2^2", -4.0),
+        ("(-2)^2", 4.0),
+        ("1/2", 0.5),
+        ("2^-1", 0.5),
+        ("2^-1^2", 0.5),
+        ("2^-2*3", 0.75),
+        ("-x^2*2", -18.0),
+        ("1 - 2 - 3", -4.0),
+        ("12/2/3", 2.0),
+        ("12 / 2 * 3", 18.0),
+        ("1 + 2 * 3", 7.0),
+        ("(1 + 2) * 3", 9.0),
+        ("--x", 3.0),
+        ("+x - -x", 6.0),
+        (".5 + 5. + 1E2 + 1e+2 + 1e-1", 205.6),
+        ("x", 3.0),
+        ("\tx\n", 3.0),
+        ("min(3, 1, 2) + max(3, 1, 2)", 4.0),
+        ("sqrt(16) + cbrt(8) + abs(-1)", 7.0),
+        ("exp(0) + ln(exp(2)) + log10(1000) + log2(8)", 9.0),
+        ("sin(pi/2) + cos(0) + tan(0) + asin(0) + acos(1) + atan(0)", 2.0),
+        ("atan2(0, -1)", std::f64::consts::PI),
+        ("hypot(3, 4) + sinh(0) + cosh(0) + tanh(0)", 6.0),
+        ("floor(1.5) + ceil(1.5) + round(1.5) + sign(-3) + sign(0)", 4.0),
+    ];
+    for (text, expected) in cases {
+        assert_eq!(value(text).to_bits(), expected.to_bits(), "{text} is {}", value(text));
+        assert_eq!(Expression::parse(text, &Names).map(|e| e.kind()), Ok(Kind::Number), "{text}");
+    }
+}
+
+#[test]
+fn conditions() {
+    let cases = [
+        ("x < 3", false),
+        ("x <= 3", true),
+        ("x > 3", false),
+        ("x >= 3", true),
+        ("x == 3", true),
+        ("x != 3", false),
+        ("1 + 1 == 4 / 2", true),
+        ("1 < x and x < 5", true),
+        ("x < 1 or x > 2 and x > 5", false),
+        ("(x < 1 or x > 2) and x < 5", true),
+        ("not x < 1", true),
+        ("not x > 1 or x > 1", true),
+        ("not not ok", true),
+        ("ok and arms == 'axis'", true),
+        ("arms != \"axis\"", false),
+        ("arms=='printed'", false),
+        // What is unknown decides nothing, but need not.
+        ("x < 5 or y > 1", true),
+        ("y > 1 and x > 5", false),
+    ];
+    for (text, expected) in cases {
+        assert_eq!(value(text), f64::from(u8::from(expected)), "{text}");
+        assert_eq!(Expression::parse(text, &Names).map(|e| e.kind()), Ok(Kind::Condition), "{text}");
+    }
+}
+
+#[test]
+fn what_is_unknown_stays_unknown() {
+    let cases = [
+        "y",
+        "y^0",
+        "min(y, 1)",
+        "max(1, y)",
+        "y == y",
+        "y != y",
+        "not y > 1",
+        "y > 1 and ok",
+        "y > 1 or x > 5",
+        "sqrt(-1)",
+        "0/0",
+        "sign(y)",
+    ];
+    for text in cases {
+        assert!(value(text).is_nan(), "{text} is {}", value(text));
+    }
+}
+
+#[test]
+fn reads_are_the_places_of_the_names() {
+    let expression = Expression::parse("x + T * x + preset.kappa", &Names).expect("an expression");
+    assert_eq!(expression.reads().collect::<Vec<_>>(), [1, 0, 1]);
+}
+
+/// Text, the parts at fault with the whole messages.
+#[test]
+fn mistakes_say_what_and_where() {
+    let cases: [(&str, &[(&str, &str)]); 35] = [
+        ("", &[("", "the expression is empty")]),
+        ("  ", &[("  ", "the expression is empty")]),
+        ("2 + S", &[("S", "unknown name `S`")]),
+        (
+            "preset.kapa * z",
+            &[
+                ("preset.kapa", "unknown name `preset.kapa`; did you mean `preset.kappa`?"),
+                ("z", "unknown name `z`"),
+            ],
+        ),
+        ("2x", &[("2x", "`2x` is not a number; numbers look like 12, 0.5 or 1.5e-6; products need a `*`")]),
+        (
+            "1.2.3",
+            &[("1.2.3", "`1.2.3` is not a number; numbers look like 12, 0.5 or 1.5e-6; products need a `*`")],
+        ),
+        ("1e", &[("1e", "`1e` is not a number; numbers look like 12, 0.5 or 1.5e-6; products need a `*`")]),
+        (".", &[(".", "`.` is not a number; numbers look like 12, 0.5 or 1.5e-6; products need a `*`")]),
+        ("1e999", &[("1e999", "the number is too large for a 64-bit float")]),
+        (
+            "60 Hz",
+            &[(
+                "Hz",
+                "expected an operator; values are in SI units and written without them; products need a `*`",
+            )],
+        ),
+        (
+            "(60 Hz)",
+            &[(
+                "Hz",
+                "expected an operator; values are in SI units and written without them; products need a `*`",
+            )],
+        ),
+        ("x +", &[("", "expected a number, a name or `(`")]),
+        ("* x", &[("*", "expected a number, a name or `(`")]),
+        ("(x", &[("", "expected `)`")]),
+        (
+            "x)",
+            &[(
+                ")",
+                "expected an operator; values are in SI units and written without them; products need a `*`",
+            )],
+        ),
+        (
+            "sin x",
+            &[
+                ("sin", "`sin` is a function; write sin(…)"),
+                (
+                    "x",
+                    "expected an operator; values are in SI units and written without them; products need a `*`",
+                ),
+            ],
+        ),
+        ("sine(x)", &[("sine", "there is no function `sine`; did you mean `sin`?")]),
+        ("log(x)", &[("log", "there is no function `log`; write ln for the natural logarithm, or log10")]),
+        ("sin()", &[("sin()", "`sin` takes one argument")]),
+        ("1 + atan2(x)", &[("atan2(x)", "`atan2` takes two arguments")]),
+        ("min(x)", &[("min(x)", "`min` takes two arguments or more")]),
+        ("sin(x, T)", &[("sin(x, T)", "`sin` takes one argument")]),
+        ("max(1, ", &[("", "expected a number, a name or `(`")]),
+        ("x ** 2", &[("**", "`**` is not an operator; write ^ for powers")]),
+        ("x = 2", &[("=", "`=` is not an operator; write == to compare")]),
+        ("ok && ok", &[("&&", "`&&` is not an operator; write and")]),
+        ("!ok", &[("!", "`!` is not an operator; write not")]),
+        ("x · 2", &[("·", "`·` means nothing in an expression")]),
+        ("1 < x < 5", &[("<", "comparisons cannot be chained; join two comparisons: 1 < x and x < 2")]),
+        ("1 + (x < 2)", &[("(x < 2)", "this is a condition, not a number")]),
+        (
+            "x and ok",
+            &[("x", "this is a number, not a condition; conditions compare numbers with < <= > >= == or !=")],
+        ),
+        (
+            "arms + 1",
+            &[(
+                "arms",
+                "`arms` is a choice between options, not a number; compare it with an option: arms == 'printed'",
+            )],
+        ),
+        ("arms == 'axes'", &[("'axes'", "`arms` has no option `axes`; did you mean `axis`?")]),
+        ("arms == axis", &[("axis", "expected the name of an option in quotes")]),
+        (
+            "width / 2",
+            &[(
+                "width",
+                "`width` has no value of its own; it follows others (half of the length): set `width` under [params] to use it here",
+            )],
+        ),
+    ];
+    for (text, expected) in cases {
+        let errors = Expression::parse(text, &Names).expect_err(text);
+        let found: Vec<(&str, String)> =
+            errors.iter().map(|error| (&text[error.span.clone()], error.to_string())).collect();
+        let expected: Vec<(&str, String)> =
+            expected.iter().map(|(part, message)| (*part, (*message).to_owned())).collect();
+        assert_eq!(found, expected, "{text}");
+    }
+}
+
+#[test]
+fn hostile_nesting_is_refused() {
+    for piece in ["(", "-", "not ", "sin(", "2^", "min(1,"] {
+        let errors = Expression::parse(&piece.repeat(1_000_000), &Names).expect_err(piece);
+        assert_eq!(errors[0].problem, Problem::TooDeep, "{piece}");
+    }
+    // Long is not deep.
+    assert_eq!(value(&format!("{}1", "1+".repeat(100_000))), 100_001.0);
+}
+
+proptest! {
+    /// No text panics, and spans always lie within the text.
+    #[test]
+    fn any_text_is_handled(words in prop::collection::vec(0..24_usize, 0..12), other in "\\PC{0,16}") {
+        const WORDS: [&str; 24] = [
+            "x", "T", "arms", "ok", "width", "preset.kappa", "1", "2.5e-3", "'axis'", "(", ")", "+", "-", "*", "/", "^",
+            "<", "==", "and", "or", "not", "min(", ",", "µ",
+        ];
+        let words: Vec<&str> = words.into_iter().map(|word| WORDS[word]).collect();
+        for text in [words.join(" "), words.concat(), other] {
+            match Expression::parse(&text, &Names) {
+                Ok(expression) => {
+                    let value = expression.value(&VALUES);
+                    let logical = value.is_nan() || value == 0.0 || value == 1.0;
+                    prop_assert!(expression.kind() == Kind::Number || logical, "{} is {}", text, value);
+                }
+                Err(errors) => {
+                    prop_assert!(!errors.is_empty());
+                    for error in errors {
+                        prop_assert!(text.get(error.span.clone()).is_some(), "{} {:?}", text, error);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Sums, products and powers of random numbers are those of Rust.
+    #[test]
+    fn arithmetic_is_that_of_rust(a in -1e3..1e3_f64, b in -1e3..1e3_f64, c in 0.1..3.0_f64) {
+        prop_assert_eq!(value(&format!("{a} + {b} * {c}")), a + b * c);
+        prop_assert_eq!(value(&format!("{a} - {b} / {c}")), a - b / c);
+        prop_assert_eq!(value(&format!("({a} - {b}) / {c}")), (a - b) / c);
+        prop_assert_eq!(value(&format!("{c}^{c}^2")), libm::pow(c, libm::pow(c, 2.0)));
+        prop_assert_eq!(value(&format!("{a} < {b} and not {a} == {c}")), f64::from(u8::from(a < b && a != c)));
+    }
+}

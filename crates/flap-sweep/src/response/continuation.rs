@@ -1,0 +1,187 @@
+//! The unstable orbits between the two motions of a bistable band.
+//!
+//! At the end of its band a branch of orbits turns round and comes back, unstable, to turn again at the other end into
+//! the other branch. It is followed by pseudo-arclength continuation (H. B. Keller, 1977): unknown are the state at
+//! the beginning of the period and the parameter at once, and each orbit is looked for on a plane across the secant
+//! through the last two.
+
+use flap_core::num::InstructionSet;
+use flap_core::parameter::Invalid;
+use flap_core::simulate::{Period, Point, Row, SolverSettings, Status};
+use nalgebra::{DMatrix, DVector};
+
+use super::follow::{Comparison, compare, sizes};
+use super::{Along, Curve, Step, values};
+use crate::plan::Plan;
+
+/// First, shortest and longest distance between orbits: 1 is the band's width, and the largest of a state component.
+const STEPS: [f64; 3] = [0.01, 1e-5, 0.03];
+
+/// Orbits after which a branch is given up.
+const MOST: usize = 2000;
+
+/// Newton iterations after which a step is tried shorter, and up to which it grows.
+const SLOW: usize = 8;
+const QUICK: usize = 3;
+
+/// Change of the parameter, as a share of the band's width, by which the derivative is taken.
+const CHANGE: f64 = 1e-3;
+
+/// How much finer periods are integrated than elsewhere: what they end at must change smoothly along the branch, far below
+/// `settle_tol`, or a plane may have no orbit on it.
+const FINER: f64 = 1e-2;
+
+/// The unstable orbits of all bistable bands of a curve.
+pub(super) fn unstable(plan: &Plan, along: &Along, curve: &Curve) -> Vec<Step> {
+    let sizes = sizes(&curve.up, &curve.down);
+    let is_bistable = |index: usize| {
+        let rows = [&curve.up[index].row, &curve.down[index].row];
+        rows.iter().all(|row| row.status == Status::Periodic)
+            && compare(rows[0], rows[1], &sizes) == Comparison::Different
+    };
+    let mut found = Vec::new();
+    let mut units = sizes.clone();
+    // What never moves has no size of its own.
+    units.iter_mut().filter(|size| **size == 0.0).for_each(|size| *size = 1.0);
+    for last in 1..curve.up.len() {
+        let ends_here = is_bistable(last) && (last + 1 == curve.up.len() || !is_bistable(last + 1));
+        // The branch ends between this value and the next: two of its orbits give the direction.
+        if !ends_here || curve.up[last - 1].row.status != Status::Periodic {
+            continue;
+        }
+        let first = (0..last).rev().take_while(|&index| is_bistable(index)).last().unwrap_or(last);
+        let width = (curve.up[last].value - curve.up[first].value).max(along.tolerance);
+        let SolverSettings { rtol, atol, .. } = plan.solver;
+        let solver = SolverSettings { rtol: FINER * rtol, atol: FINER * atol, ..plan.solver };
+        let branch = Branch { plan, solver, along, design: &curve.design, sizes: &units, width };
+        found.extend(branch.turn(&curve.up[last - 1], &curve.up[last]));
+    }
+    found
+}
+
+/// A branch of orbits as points of a space: the state in units of its sizes, then the parameter in widths of the band.
+struct Branch<'a> {
+    plan: &'a Plan,
+    solver: SolverSettings,
+    along: &'a Along,
+    design: &'a Point,
+    sizes: &'a [f64],
+    width: f64,
+}
+
+/// An orbit on a branch.
+struct Orbit {
+    place: DVector<f64>,
+    period: Period,
+    residual: f64,
+    iterations: usize,
+    rhs_evals: u64,
+}
+
+impl Branch<'_> {
+    /// The orbits after `before` and `last` as long as they are unstable. Empty if the branch does not turn.
+    fn turn(&self, before: &Step, last: &Step) -> Vec<Step> {
+        let mut places = [self.place(before), self.place(last)];
+        let mut distance = STEPS[0];
+        let mut found: Vec<Step> = Vec::new();
+        for _ in 0..MOST {
+            let [a, b] = &places;
+            let direction = (b - a).normalize();
+            let Some(orbit) = self.correct(b + &direction * distance, &direction) else {
+                distance *= 0.5;
+                if distance < STEPS[1] {
+                    return found;
+                }
+                continue;
+            };
+            let row = self.row(&orbit);
+            if orbit.iterations <= QUICK {
+                distance = (1.5 * distance).min(STEPS[2]);
+            }
+            match row.status {
+                Status::Unstable => found.push(Step { value: self.value(&orbit.place), row }),
+                // Round the other end, and on the other branch.
+                _ if !found.is_empty() => return found,
+                // The branch goes on: the band has ended there for another reason.
+                _ if self.value(&orbit.place) > last.value + self.width => return found,
+                _ => {}
+            }
+            places = [places[1].clone(), orbit.place];
+        }
+        found
+    }
+
+    fn place(&self, step: &Step) -> DVector<f64> {
+        let state = step.row.state.iter().zip(self.sizes).map(|(y, size)| y / size);
+        DVector::from_iterator(self.sizes.len() + 1, state.chain([step.value / self.width]))
+    }
+
+    fn value(&self, place: &DVector<f64>) -> f64 {
+        place[self.sizes.len()] * self.width
+    }
+
+    fn state(&self, place: &DVector<f64>) -> Vec<f64> {
+        place.iter().zip(self.sizes).map(|(y, size)| y * size).collect()
+    }
+
+    /// One drive period from a place.
+    fn period(&self, place: &DVector<f64>) -> Result<Period, Invalid> {
+        let values = values(self.plan, self.along, self.design, self.value(place));
+        self.plan.simulator.period(InstructionSet::best(), &self.solver, &values, &self.state(place))
+    }
+
+    /// The orbit nearest to `guess` on the plane through it across `direction`, by Newton's iteration.
+    fn correct(&self, guess: DVector<f64>, direction: &DVector<f64>) -> Option<Orbit> {
+        let n = self.sizes.len();
+        let mut place = guess.clone();
+        let mut rhs_evals = 0;
+        for iterations in 0..SLOW {
+            let period = self.period(&place).ok()?;
+            rhs_evals += period.rhs_evals;
+            let mut miss = DVector::from_fn(n + 1, |i, _| match i {
+                i if i < n => period.end[i] / self.sizes[i] - place[i],
+                _ => 0.0,
+            });
+            let residual = miss.amax();
+            if residual <= self.solver.settle_tol {
+                return Some(Orbit { place, period, residual, iterations, rhs_evals });
+            }
+            miss[n] = direction.dot(&(&place - &guess));
+            let mut changed = place.clone();
+            changed[n] += CHANGE;
+            let changed = self.period(&changed).ok()?;
+            rhs_evals += changed.rhs_evals;
+            let jacobian = DMatrix::from_fn(n + 1, n + 1, |i, j| match (i < n, j < n) {
+                (true, true) => {
+                    period.responses[j][i] * self.sizes[j] / self.sizes[i] - f64::from(u8::from(i == j))
+                }
+                (true, false) => (changed.end[i] - period.end[i]) / (CHANGE * self.sizes[i]),
+                (false, _) => direction[j],
+            });
+            place -= jacobian.lu().solve(&miss)?;
+        }
+        None
+    }
+
+    fn row(&self, orbit: &Orbit) -> Row {
+        let n = self.sizes.len();
+        let Orbit { place, period, residual, iterations, rhs_evals } = orbit;
+        let monodromy = DMatrix::from_fn(n, n, |i, j| period.responses[j][i] * self.sizes[j] / self.sizes[i]);
+        let multipliers = monodromy.complex_eigenvalues();
+        let floquet_max =
+            multipliers.iter().fold(0.0_f64, |largest, one| largest.max(libm::hypot(one.re, one.im)));
+        // A period with its responses counts as many as there are of them and one, and each was measured.
+        let periods = (2 * iterations + 1) * (n + 2);
+        Row {
+            status: if floquet_max < 1.0 { Status::Periodic } else { Status::Unstable },
+            measures: period.measures.clone(),
+            cycles: u32::try_from(periods).unwrap_or(u32::MAX),
+            residual: *residual,
+            period: 1,
+            floquet_max,
+            state: self.state(place),
+            rhs_evals: *rhs_evals,
+            reason: None,
+        }
+    }
+}

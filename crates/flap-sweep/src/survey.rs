@@ -1,0 +1,57 @@
+//! A look at a plan without running it: which points its conditions leave out, and points spread over it.
+
+use crate::plan::{Plan, Verdict};
+
+/// What the conditions of a plan leave out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Exclusions {
+    /// Points that were looked at: all of the plan, or some that are spread over it.
+    pub looked_at: u64,
+    /// Points among them that are excluded.
+    pub excluded: u64,
+    /// The conditions, with how many of these points do not satisfy them.
+    pub unsatisfied: Vec<(String, u64)>,
+}
+
+/// Counts what the conditions of `plan` leave out, among all of its points or, if there are more than `most`, among so
+/// many that are spread over it.
+pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
+    let names = plan.conditions.iter().map(|condition| (condition.name.clone(), 0));
+    let mut found = Exclusions { looked_at: plan.len().min(most), excluded: 0, unsatisfied: names.collect() };
+    for number in 0..found.looked_at {
+        let index = if plan.len() > most { spread(number, plan.len()) } else { number };
+        if let Verdict::Excluded(unsatisfied) = plan.judge(&plan.point(index).values) {
+            found.excluded += 1;
+            for condition in unsatisfied {
+                found.unsatisfied[condition].1 += 1;
+            }
+        }
+    }
+    found
+}
+
+/// Indices of points spread over a plan of `points` points, without end: multiples of the golden ratio, which leave no
+/// large gaps and are in step with no axis.
+pub fn spread(number: u64, points: u64) -> u64 {
+    const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+    let share = number.wrapping_mul(GOLDEN);
+    // Never more than `points`, so that it fits.
+    u64::try_from((u128::from(share) * u128::from(points)) >> 64).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::spread;
+
+    #[test]
+    fn spread_points_leave_no_large_gaps() {
+        for points in [1_u64, 10, 1000, 1 << 63] {
+            let mut found: Vec<u64> = (0..100).map(|number| spread(number, points)).collect();
+            found.sort_unstable();
+            assert!(found.iter().all(|index| *index < points));
+            let ends = found.iter().copied().chain([points]);
+            let largest = ends.zip([0].iter().chain(&found)).map(|(b, a)| b - a).max();
+            assert!(largest <= Some((points / 50).max(1)), "{points}: {largest:?}");
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! `flap respond`, and designs at their own resonances.
+
+use crate::support::Folder;
+
+const SOFT: &str = "\
+preset = \"jafferis2016\"
+[params]
+hinge_stiffness = \"0.7486 uN*m/rad\"
+[axes]
+drive_voltage_pp = [\"80 V\", \"160 V\"]
+drive_frequency = { from = \"120 Hz\", to = \"130 Hz\", step = \"1 Hz\" }
+";
+
+#[test]
+fn a_line_per_design_says_where_it_is_bistable() {
+    let folder = Folder::with_grid(SOFT);
+    let ended = folder.flap("respond grid.toml --out curves.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let lines: Vec<&str> = ended.stdout.lines().collect();
+    assert_eq!(lines.len(), 2, "{}", ended.stdout);
+    assert!(lines[0].starts_with("drive_voltage_pp = 80.0 V: no hysteresis above "), "{}", lines[0]);
+    assert!(
+        lines[1].starts_with("drive_voltage_pp = 160.0 V: bistable from 124.25 to 127.625 Hz, jump of 5")
+    );
+    assert!(ended.stderr.contains("2 curves in curves.csv"), "{}", ended.stderr);
+
+    let text = folder.read("curves.csv");
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows[0][..5], ["curve", "drive_voltage_pp", "branch", "drive_frequency", "status"]);
+    assert_eq!(rows[1][..5], ["0", "80.0", "up", "120.0", "periodic"]);
+    assert!(rows.iter().all(|row| row.len() == rows[0].len()));
+    // Eleven steps each way, and for the second curve the halvings at both ends of its band.
+    assert_eq!(rows[1..].iter().filter(|row| row[0] == "0").count(), 22);
+    let second: Vec<&Vec<&str>> = rows[1..].iter().filter(|row| row[0] == "1").collect();
+    assert_eq!(second.len(), 2 * (11 + 2 * 4));
+    let way = |branch: &str| -> Vec<f64> {
+        second.iter().filter(|row| row[2] == branch).map(|row| row[3].parse().unwrap()).collect()
+    };
+    let (up, mut down) = (way("up"), way("down"));
+    down.reverse();
+    assert_eq!(up, down, "rising, then falling");
+
+    assert_eq!(folder.flap("respond grid.toml --out curves.csv").code, 2, "never overwritten unasked");
+    let piped = folder.flap("respond grid.toml --out - --threads 1");
+    assert_eq!(piped.stdout, text);
+    assert_eq!(piped.stderr.lines().collect::<Vec<_>>(), lines);
+}
+
+#[test]
+fn a_preset_follows_any_number() {
+    let folder = Folder::new();
+    let ended = folder.flap_with(&[
+        "respond",
+        "ozaki2018-large",
+        "--along",
+        "drive_voltage_pp",
+        "--from",
+        "60 V",
+        "--to",
+        "80",
+        "--step",
+        "10 V",
+        "--set",
+        "drive_frequency=105 Hz",
+    ]);
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert!(ended.stdout.starts_with("no hysteresis above "), "{}", ended.stdout);
+    assert!(ended.stdout.ends_with(" deg from 60 to 80 V\n"), "{}", ended.stdout);
+}
+
+#[test]
+fn mistakes_are_told() {
+    let folder = Folder::with_grid(SOFT);
+    let range = "--from 120 --to 130 --step 1";
+    for (arguments, message) in [
+        ("jafferis2016".to_owned(), "how `drive_frequency` rises is not known"),
+        ("grid.toml --from 120".to_owned(), "how `drive_frequency` rises is not known"),
+        (format!("jafferis2016 {range} --along drive_frequncy"), "did you mean `drive_frequency`?"),
+        (format!("jafferis2016 {range} --along arms"), "`arms`"),
+        (format!("jafferis2016 {range} --tolerance 0"), "`drive_frequency` must be more than zero"),
+        (
+            "jafferis2016 --from 130 --to 120 --step 1".to_owned(),
+            "there are no steps of 1 in `drive_frequency`",
+        ),
+        ("jafferis2016 --from 1m --to 120 --step 1".to_owned(), "--from 1m"),
+        ("grid.toml --set drive_voltage_pp=100".to_owned(), "is set with --set and varied"),
+        ("grid.toml --set drive_frequency=100".to_owned(), "is set with --set and varied"),
+        ("nothing.toml".to_owned(), "there is no such file"),
+    ] {
+        let ended = folder.flap(&format!("respond {arguments}"));
+        assert_eq!(ended.code, 2, "{arguments}: {}", ended.stderr);
+        assert!(ended.stderr.contains(message), "{arguments}: {}", ended.stderr);
+        assert!(ended.stdout.is_empty());
+    }
+}
+
+const AT_RESONANCE: &str = "\
+preset = \"ozaki2018-large\"
+[params]
+drive_frequency = \"resonance\"
+[resonance]
+of = \"lift\"
+from = \"80 Hz\"
+to = \"140 Hz\"
+[axes]
+drive_voltage_pp = [\"50 V\", \"80 V\"]
+[output]
+columns = [\"lift_mean_mn\", \"resonance_hz\", \"resonance_second_hz\"]
+";
+
+#[test]
+fn each_design_is_run_at_its_own_resonance() {
+    let folder = Folder::with_grid(AT_RESONANCE);
+    let check = folder.flap("check grid.toml");
+    assert!(
+        check.stdout.contains("that of the largest lift, from 80 Hz to 140 Hz, within 0.05 Hz"),
+        "{}",
+        check.stdout
+    );
+    assert_eq!(folder.flap("sweep --grid grid.toml").code, 0);
+    let text = folder.read("grid.csv");
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(
+        rows[0][..6],
+        ["point", "drive_voltage_pp", "status", "lift_mean_mn", "resonance_hz", "resonance_second_hz"]
+    );
+    assert_eq!(rows.len(), 3);
+    for (index, row) in rows[1..].iter().enumerate() {
+        assert_eq!((row[2], row[5]), ("periodic", ""), "{row:?}");
+        // A single point is run at its resonance too, and is the same.
+        let one = folder.flap(&format!("run grid.toml --point {index}"));
+        assert_eq!(one.code, 0, "{}", one.stderr);
+        assert!(
+            one.stderr.contains(&format!("drive_frequency = {} Hz, the resonance", row[4])),
+            "{}",
+            one.stderr
+        );
+        let lift: f64 = row[3].parse().unwrap();
+        let line = one.stdout.lines().find(|line| line.starts_with("lift_mean_mn")).unwrap();
+        let printed: f64 = line.split_whitespace().nth(1).unwrap().parse().unwrap();
+        assert!((printed / lift - 1.0).abs() < 1e-5, "{line}");
+    }
+    let refused = folder.flap("respond grid.toml --along drive_voltage_pp --from 50 --to 60 --step 1");
+    assert_eq!(refused.code, 2);
+    assert!(refused.stderr.contains("runs each design at its own resonance"), "{}", refused.stderr);
+}
