@@ -103,6 +103,54 @@ fn parquet_carries_types_units_and_provenance() {
     assert!(!entry("flap").is_empty() && !entry("flap.arithmetic").is_empty());
 }
 
+/// A grid whose rows have columns of their own behind the model's: of the resonance, and of `[measure]`.
+#[test]
+fn every_format_holds_the_columns_of_resonances_and_own_measures() {
+    use parquet::basic::Type;
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+
+    let folder = Folder::with_grid(
+        r#"
+preset = "ozaki2018-large"
+[params]
+drive_frequency = "resonance"
+[resonance]
+from = "90 Hz"
+to = "130 Hz"
+tolerance = "1 Hz"
+[axes]
+drive_voltage_pp = [20, 30]
+[measure]
+speed = "resonance_hz * stroke_amplitude_deg"
+high = "resonance_hz > 50"
+"#,
+    );
+    for ending in ENDINGS {
+        let ended = folder.flap(&format!("sweep --grid grid.toml --out rows.{ending} --strict"));
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        let ended = folder.flap(&format!("convert rows.{ending} from-{ending}.csv"));
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        assert_eq!(folder.read("rows.csv"), folder.read(&format!("from-{ending}.csv")));
+    }
+    let text = folder.read("rows.csv");
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let place = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
+    for row in &rows[1..] {
+        let number = |name: &str| row[place(name)].parse::<f64>().unwrap();
+        assert!((90.0..=130.0).contains(&number("resonance_hz")), "{row:?}");
+        assert_eq!(number("speed"), number("resonance_hz") * number("stroke_amplitude_deg"));
+        assert_eq!(row[place("high")], "true");
+    }
+
+    let reader = SerializedFileReader::new(fs::File::open(folder.path("rows.parquet")).unwrap()).unwrap();
+    let fields = reader.metadata().file_metadata().schema().get_fields();
+    let names: Vec<&str> = fields.iter().map(|field| field.name()).collect();
+    assert_eq!(names, rows[0]);
+    assert_eq!(fields[place("resonance_hz")].get_physical_type(), Type::DOUBLE);
+    assert_eq!(fields[place("speed")].get_physical_type(), Type::DOUBLE);
+    assert_eq!(fields[place("high")].get_physical_type(), Type::BOOLEAN);
+}
+
 #[test]
 fn endings_that_stand_for_no_format() {
     let folder = Folder::with_grid(&quick(1));

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::Folder;
+use crate::support::{Folder, quick};
 
 /// Some of the points do not settle in so little time.
 const GRID: &str = r#"
@@ -98,4 +98,46 @@ fn what_cannot_be_run_again() {
     let ended = folder.flap("rerun rows.csv --status unsettled --out rows.csv --force");
     assert_eq!(ended.code, 2);
     assert!(ended.stderr.contains("rows would overwrite rows.csv"), "{}", ended.stderr);
+}
+
+/// The file of points is looked for where the grid file was, and must be as it was.
+#[test]
+fn a_sweep_of_a_file_of_points_is_repeated_from_its_sidecar() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("designs")).unwrap();
+    let grid = quick(3).replace("[solver]", "[sample]\nmethod = \"file\"\npath = \"points.csv\"\n[solver]");
+    fs::write(folder.path("designs/grid.toml"), grid).unwrap();
+    let points = "drive_voltage_pp\n20\n30\n";
+    fs::write(folder.path("designs/points.csv"), points).unwrap();
+    let ended = folder.flap("sweep --grid designs/grid.toml --out rows.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert_eq!(folder.read("rows.csv").lines().count(), 7);
+    fs::remove_file(folder.path("designs/grid.toml")).unwrap();
+    let ended = folder.flap("sweep --from-sidecar rows.csv.meta.toml --out again.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert_eq!(folder.read("rows.csv"), folder.read("again.csv"));
+    let ended = folder.flap("rerun rows.csv --status unsettled --max-cycles 2 --out rerun.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert_eq!(folder.flap("resume rerun.csv").stderr, "rerun.csv is complete: nothing is left to run\n");
+
+    fs::write(folder.path("designs/points.csv"), points.replace("30", "31")).unwrap();
+    for arguments in [
+        "sweep --from-sidecar rows.csv.meta.toml --out third.csv",
+        "resume rows.csv",
+        "rerun rows.csv --status unsettled --out third.csv",
+        "convert rows.csv third.parquet",
+    ] {
+        let ended = folder.flap(arguments);
+        assert_eq!(ended.code, 2, "{arguments}: {}", ended.stderr);
+        assert_eq!(
+            ended.stderr,
+            "error: rows.csv.meta.toml: designs/points.csv no longer holds the points that were run\n\
+             help: put the file of points back as it was, or sweep its grid file anew\n",
+            "{arguments}"
+        );
+    }
+    fs::remove_file(folder.path("designs/points.csv")).unwrap();
+    let ended = folder.flap("resume rows.csv");
+    assert_eq!(ended.code, 2, "{}", ended.stderr);
+    assert!(ended.stderr.contains("designs/points.csv: "), "{}", ended.stderr);
 }

@@ -6,7 +6,11 @@ use crate::support::{Folder, quick};
 
 /// A folder with all points of a grid in `whole.csv`, and its shards in `grid.1of3.csv` and so on.
 fn folder(points: u64) -> Folder {
-    let folder = Folder::with_grid(&quick(points));
+    folder_of(&quick(points))
+}
+
+fn folder_of(grid: &str) -> Folder {
+    let folder = Folder::with_grid(grid);
     for arguments in ["--out whole.csv", "--shard 1/3", "--shard 2/3", "--shard 3/3"] {
         let ended = folder.flap(&format!("sweep --grid grid.toml {arguments}"));
         assert_eq!(ended.code, 0, "{}", ended.stderr);
@@ -32,6 +36,38 @@ fn merged_shards_are_the_file_of_one_machine() {
                 assert_eq!(sidecar(&merged).get(key), sidecar("whole.csv").get(key), "{key}");
             }
             assert!(!sidecar(&merged).contains_key("shard"));
+        }
+    }
+}
+
+/// Shards of a grid with conditions have different numbers of rows, and count what is excluded together.
+#[test]
+fn merged_shards_of_a_grid_with_conditions_are_the_file_of_one_machine() {
+    let grid = quick(1000)
+        + r#"
+[derived]
+hinge_stiffness = "preset.hinge_stiffness * (drive_frequency / preset.drive_frequency)^2"
+[where]
+not_around_70 = "abs(drive_frequency - 70) > 4"
+not_every_third = "drive_frequency > 100 or abs(sin(pi * (drive_frequency - 60) / 0.3)) > 1e-3"
+[measure]
+strong = "lift_mean_mn > 1"
+"#;
+    let folder = folder_of(&grid);
+    let rows = |name: &str| folder.read(name).lines().count() - 1;
+    assert_eq!(rows("grid.1of3.csv") + rows("grid.2of3.csv") + rows("grid.3of3.csv"), rows("whole.csv"));
+    assert!(rows("grid.1of3.csv") + 100 < rows("grid.2of3.csv"));
+    for ending in ["csv", "csv.zst", "parquet"] {
+        let merged = format!("merged.{ending}");
+        let ended = folder.flap(&format!("merge {merged} grid.2of3.csv grid.1of3.csv grid.3of3.csv"));
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        assert_eq!(folder.flap(&format!("sweep --grid grid.toml --out one.{ending}")).code, 0);
+        let bytes = |name: &str| fs::read(folder.path(name)).unwrap();
+        assert!(bytes(&merged) == bytes(&format!("one.{ending}")), "{merged}");
+        let sidecar = |name: &str| folder.read(&format!("{name}.meta.toml")).parse::<toml::Table>().unwrap();
+        for key in ["points", "rows", "excluded", "unsatisfied", "statuses"] {
+            assert!(sidecar(&merged).contains_key(key), "{key}");
+            assert_eq!(sidecar(&merged)[key], sidecar("whole.csv")[key], "{key}");
         }
     }
 }

@@ -13,11 +13,12 @@ use flap_sweep::plan::Plan;
 use flap_sweep::results::Format;
 use flap_sweep::run::{self, RunError, Summary};
 use flap_sweep::selection::Selection;
-use flap_sweep::session::{ResumeError, Session, SessionOptions};
+use flap_sweep::session::{ResumeError, Resumed, Session, SessionOptions};
 use flap_sweep::sink::Sink;
+use flap_sweep::spec;
 
 use crate::fake::{Fake, Fault};
-use crate::support::{csv, options, plan};
+use crate::support::{csv, options, plan, plan_of};
 
 /// Checkpoints wherever there may be one.
 fn often() -> SessionOptions {
@@ -109,6 +110,75 @@ fn a_session_goes_on_where_the_last_one_ended() {
     }
 }
 
+/// Excluded points, derived parameters, measures of one's own and a sample.
+const FORMULAS: &str = r#"
+preset = "fake2020"
+[axes]
+size = { from = 0, to = 12, step = 1 }
+[sample]
+method = "latin-hypercube"
+n = 200
+[sample.parameters]
+drive_frequency = { mean = 50, sd = 20 }
+[derived]
+span = "size - 0.5"
+[where]
+not_slow = "drive_frequency > 40"
+not_two_or_nine = "size != 2 and size != 9"
+[measure]
+ratio = "power_mean_mw / lift_mean_mn"
+strong = "ratio > 150"
+"#;
+
+#[test]
+fn a_session_with_formulas_goes_on_where_the_last_one_ended() {
+    for selection in ["1/1", "2/3"] {
+        let mut plan = plan_of(Fake::leak(Fault::None, 8), FORMULAS);
+        plan.selection = Selection::Shard(selection.parse().unwrap());
+        let (text, summary) = csv(&plan, &options(2, 100));
+        let summary = summary.unwrap();
+        assert!(summary.excluded > summary.points / 3 && summary.rows > summary.points / 3);
+        assert!(text.contains(",true,") && text.contains(",false,") && text.contains("invalid"));
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("rows.csv");
+        let mut stops: Vec<u64> = (1..summary.points).step_by(97).collect();
+        let mut session = start(&path, &plan);
+        assert_eq!(run_to(&mut session, &plan, Summary::default(), stops.remove(0)), None);
+        drop(session);
+        let mut done = 1;
+        for stop_at in stops {
+            let Resumed { mut session, before, .. } = Session::resume(&path, &plan, &often()).unwrap();
+            // After excluded points too.
+            assert_eq!(before.done(), done);
+            assert_eq!(run_to(&mut session, &plan, before, stop_at), None);
+            done = stop_at;
+        }
+        let Resumed { mut session, before, .. } = Session::resume(&path, &plan, &often()).unwrap();
+        assert_eq!(run_to(&mut session, &plan, before, u64::MAX), Some(summary));
+        assert!(fs::read_to_string(&path).unwrap() == text, "{selection}");
+    }
+}
+
+#[test]
+fn a_changed_file_of_points_is_not_resumed() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, points] = ["rows.csv", "points.csv"].map(|name| folder.path().join(name));
+    let plan = |sizes: &str| {
+        fs::write(&points, format!("size\n{sizes}\n")).unwrap();
+        let grid = "preset = \"fake2020\"\n[sample]\nmethod = \"file\"\npath = \"points.csv\"\n";
+        let name = folder.path().join("grid.toml").display().to_string();
+        spec::parse(&name, grid, &[Fake::leak(Fault::None, 8)]).unwrap()
+    };
+    let (first, other) = (plan("1\n2\n3"), plan("1\n2\n8"));
+    assert_eq!(run_to(&mut start(&path, &first), &first, Summary::default(), 2), None);
+    match Session::resume(&path, &other, &often()).map(|_| ()) {
+        Err(ResumeError::Changed { changes, .. }) => assert_eq!(changes, ["the file of points is another"]),
+        other => panic!("{other:?}"),
+    }
+    let Resumed { mut session, before, .. } = Session::resume(&path, &first, &often()).unwrap();
+    assert_eq!(run_to(&mut session, &first, before, u64::MAX).unwrap().rows, 3);
+}
+
 /// What a crash may leave behind the last whole line does no harm.
 #[test]
 fn a_torn_last_line_is_dropped() {
@@ -138,7 +208,7 @@ fn a_torn_last_line_is_dropped() {
 fn checkpoints_read_back() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("journal");
-    let plan = plan(Fake::leak(Fault::None, 8), 1000);
+    let plan = plan_of(Fake::leak(Fault::None, 8), FORMULAS);
     let (_, summary) = csv(&plan, &options(2, 100));
     let mut summary = summary.unwrap();
     summary.invalid[0].1 = "a reason with 'all' \"quotes\", \\ and µ".to_owned();

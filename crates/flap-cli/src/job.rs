@@ -296,10 +296,11 @@ pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
         sidecar::PlanError::Points => {
             Failure::usage(format!("{}: its points are not points of its grid", path.display()))
         }
-        sidecar::PlanError::PointsFile(points) => Failure::usage(format!(
-            "{}: the file of points {points} is no longer the one whose points were run",
-            path.display()
-        )),
+        sidecar::PlanError::PointsFile => {
+            let points = sidecar.points_file.as_ref().map_or("its file of points", |file| file.path.as_str());
+            let message = format!("{}: {points} no longer holds the points that were run", path.display());
+            Failure::usage(message).help("put the file of points back as it was, or sweep its grid file anew")
+        }
         sidecar::PlanError::Solver => {
             let message =
                 format!("{}: its solver settings are not ones that a grid may have", path.display());

@@ -210,8 +210,8 @@ pub enum PlanError {
     Points,
     /// The solver settings in it are not ones that a grid file may have.
     Solver,
-    /// The file of points at this path is no longer the one whose points were run.
-    PointsFile(String),
+    /// The file of points has changed.
+    PointsFile,
 }
 
 impl Sidecar {
@@ -307,8 +307,7 @@ impl Sidecar {
         let points_file = plan.points_file.as_ref();
         if points_file.map(plan::PointsFile::hash) != self.points_file.as_ref().map(|file| file.xxh3.clone())
         {
-            let path = points_file.map(|file| file.path.display().to_string());
-            return Err(PlanError::PointsFile(path.unwrap_or_default()));
+            return Err(PlanError::PointsFile);
         }
         if let Some(shard) = &self.shard {
             plan.selection = Selection::Shard(shard.parse().map_err(|_| PlanError::Points)?);

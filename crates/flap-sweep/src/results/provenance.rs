@@ -26,7 +26,7 @@ impl Provenance {
         let columns = Layout::of(plan).columns();
         let units = columns.iter().filter(|column| !column.unit.is_empty());
         let units: BTreeMap<&str, &str> = units.map(|column| (column.name.as_str(), column.unit)).collect();
-        let entries = [
+        let mut entries = vec![
             ("flap", identity.flap.clone()),
             ("flap.model", plan.simulator.name().to_owned()),
             ("flap.preset", plan.preset.to_owned()),
@@ -36,6 +36,7 @@ impl Provenance {
             ("flap.units", text(&units)),
             ("flap.grid", plan.source.text.clone()),
         ];
+        entries.extend(plan.points_file.as_ref().map(|file| ("flap.points_file", file.hash())));
         let entries = entries.into_iter().map(|(key, text)| (key.to_owned(), text)).collect();
         Provenance { columns, entries }
     }
