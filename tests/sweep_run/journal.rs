@@ -12,7 +12,7 @@ use flap_sweep::output;
 use flap_sweep::plan::Plan;
 use flap_sweep::results::Format;
 use flap_sweep::run::{self, RunError, Summary};
-use flap_sweep::selection::Selection;
+use flap_sweep::selection::{Selection, Shard};
 use flap_sweep::session::{ResumeError, Resumed, Session, SessionOptions};
 use flap_sweep::sink::Sink;
 use flap_sweep::spec;
@@ -126,17 +126,23 @@ span = "size - 0.5"
 not_slow = "drive_frequency > 40"
 not_two_or_nine = "size != 2 and size != 9"
 [measure]
-ratio = "power_mean_mw / lift_mean_mn"
-strong = "ratio > 150"
+work = "power_mean_mw / drive_frequency"
+strong = "lift_mean_mn > 0.05 * drive_frequency"
 "#;
 
 #[test]
 fn a_session_with_formulas_goes_on_where_the_last_one_ended() {
+    let mut plan = plan_of(Fake::leak(Fault::None, 8), FORMULAS);
+    let (whole, _) = csv(&plan, &options(2, 100));
     for selection in ["1/1", "2/3"] {
-        let mut plan = plan_of(Fake::leak(Fault::None, 8), FORMULAS);
-        plan.selection = Selection::Shard(selection.parse().unwrap());
+        let shard: Shard = selection.parse().unwrap();
+        plan.selection = Selection::Shard(shard);
         let (text, summary) = csv(&plan, &options(2, 100));
         let summary = summary.unwrap();
+        let mut lines = whole.lines();
+        let header = lines.next();
+        let of_shard = |row: &&str| shard.contains(row.split(',').next().unwrap().parse().unwrap());
+        assert!(text.lines().eq(header.into_iter().chain(lines.filter(of_shard))), "{selection}");
         assert!(summary.excluded > summary.points / 3 && summary.rows > summary.points / 3);
         assert!(text.contains(",true,") && text.contains(",false,") && text.contains("invalid"));
         let folder = tempfile::tempdir().unwrap();
