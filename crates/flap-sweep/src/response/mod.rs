@@ -65,7 +65,7 @@ pub struct Curve {
 
 impl Curve {
     /// The curve of a design that cannot be run.
-    fn impossible(along: &Along, design: Point, reason: Invalid) -> Curve {
+    fn impossible(along: &Along, design: Point, reason: &Invalid) -> Curve {
         let step = |value: &f64| Step { value: *value, row: Row::invalid(reason.clone()) };
         let up: Vec<Step> = along.values.iter().map(step).collect();
         Curve { design, down: up.clone(), up, unstable: Vec::new() }
@@ -185,7 +185,7 @@ impl<'a> Desk for Designs<'a> {
             match judge(plan, along, &design) {
                 plan::Verdict::Runs => return Some(Follow::new(plan, along, design)),
                 plan::Verdict::Excluded(_) => {}
-                plan::Verdict::Invalid(reason) => self.put(Curve::impossible(along, design, reason)),
+                plan::Verdict::Invalid(reason) => self.put(Curve::impossible(along, design, &reason)),
             }
         }
     }
