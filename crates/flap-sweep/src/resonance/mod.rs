@@ -1,8 +1,8 @@
 //! Each design at its own resonance: the drive frequency at which its stroke, lift or efficiency is largest.
 //!
 //! - [`AtResonance`]: what is looked for; turns designs into rows as a model turns points
-//! - [`search`]: the search of one design
-//! - [`maximum`]: the top of one peak
+//! - `search`: the search of one design
+//! - `maximum`: the top of one peak
 
 mod maximum;
 mod search;

@@ -3,10 +3,10 @@
 //! Every point is begun where its neighbour's motion has ended, so that a branch of orbits is followed as far as it goes.
 //! Where the way up and the way down differ, the design has two motions at the same drive.
 //!
-//! - [`follow`]: one curve, up and down, with the ends of its bistable bands
-//! - [`continuation`]: the unstable orbits that join the branches of a bistable band
-//! - [`verdict`]: what a curve shows
-//! - [`table`]: curves as rows of CSV
+//! - `follow`: one curve, up and down, with the ends of its bistable bands
+//! - `continuation`: the unstable orbits that join the branches of a bistable band
+//! - `verdict`: what a curve shows
+//! - `table`: curves as rows of CSV
 
 mod continuation;
 mod follow;
