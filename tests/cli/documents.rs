@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::support::Folder;
+use crate::support::{Folder, quick};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -111,6 +111,47 @@ fn example_grids_run() {
             assert!(ended.stdout.contains("status = periodic"), "{name}, {point}\n{}", ended.stdout);
         }
     }
+}
+
+/// The tasks of the example for Slurm, run one after the other, make shards that can be merged.
+#[test]
+#[cfg(unix)]
+fn the_slurm_example_works() {
+    let folder = Folder::with_grid(&quick(50));
+    let flap = Path::new(env!("CARGO_BIN_EXE_flap")).parent().unwrap();
+    let paths = format!("{}:{}", flap.display(), std::env::var("PATH").unwrap());
+    for task in 1..=8 {
+        let output = std::process::Command::new(root().join("examples/slurm_array.sh"))
+            .arg("grid.toml")
+            .env("PATH", &paths)
+            .env("SLURM_ARRAY_TASK_ID", task.to_string())
+            .env("SLURM_CPUS_PER_TASK", "1")
+            .current_dir(folder.path(""))
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    let shards: Vec<String> = folder.names().into_iter().filter(|name| name.ends_with("of8.csv")).collect();
+    let ended = folder.flap(&format!("merge grid.csv {}", shards.join(" ")));
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert_eq!(folder.read("grid.csv").lines().count(), 51);
+}
+
+/// The commands of the results page work one after the other, from a sweep that left points unsettled.
+#[test]
+fn commands_in_the_results_page_work() {
+    let folder = Folder::with_grid(&quick(20));
+    assert_eq!(folder.flap("sweep --grid grid.toml --out sweep.csv").code, 0);
+    let mut commands = 0;
+    for block in blocks(&document("docs/results.md"), "sh") {
+        for line in block.lines() {
+            let command = line.split('#').next().unwrap().trim();
+            let ended = folder.flap(command.strip_prefix("flap ").unwrap());
+            assert_eq!(ended.code, 0, "{command}\n{}", ended.stderr);
+            commands += 1;
+        }
+    }
+    assert!(commands >= 6, "{commands} commands found");
 }
 
 /// Every key of the sidecar and every status is described.

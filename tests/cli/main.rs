@@ -4,13 +4,17 @@
 
 mod documents;
 mod experiments;
+mod formats;
 mod formulas;
 mod irregular;
 mod lists;
 mod mistakes;
 mod point;
+mod rerun;
 mod resonance;
 mod respond;
+mod resume;
+mod shards;
 mod streams;
 mod studies;
 mod support;

@@ -1,12 +1,8 @@
 //! Standard streams, closed pipes and signals.
 
-use std::fs;
 use std::io::{BufRead, BufReader, Read};
-use std::process::{Child, Command, Stdio};
-use std::thread;
-use std::time::{Duration, Instant};
 
-use crate::support::{Folder, frequencies};
+use crate::support::{Folder, frequencies, send, start, wait, wait_for_rows};
 
 #[test]
 fn stdout_carries_rows_and_nothing_else() {
@@ -52,7 +48,10 @@ fn an_interrupted_sweep_keeps_the_rows_of_the_first_points() {
         assert!(rows >= 100, "{rows}");
         let mut stderr = String::new();
         child.stderr.take().unwrap().read_to_string(&mut stderr).unwrap();
-        let last = format!("interrupted: the rows of the first {rows} of 100000000 points are in grid.csv\n");
+        let last = format!(
+            "interrupted: the rows of the first {rows} of 100000000 points are in grid.csv\n\
+             `flap resume grid.csv` goes on\n"
+        );
         assert!(stderr.ends_with(&last), "{stderr}");
         let sidecar: toml::Table = folder.read("grid.csv.meta.toml").parse().unwrap();
         assert_eq!(sidecar["state"].as_str(), Some("interrupted"));
@@ -75,43 +74,4 @@ fn a_second_signal_ends_at_once() {
     send("INT", &child);
     send("INT", &child);
     assert_eq!(wait(&mut child), Some(130));
-}
-
-fn start(folder: &Folder, arguments: &[&str]) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_flap"))
-        .args(arguments)
-        .current_dir(folder.path(""))
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap()
-}
-
-/// The exit code; fails the test if the command does not end.
-fn wait(child: &mut Child) -> Option<i32> {
-    let start = Instant::now();
-    loop {
-        if let Some(status) = child.try_wait().unwrap() {
-            return status.code();
-        }
-        if start.elapsed() > Duration::from_secs(60) {
-            child.kill().unwrap();
-            panic!("it does not end");
-        }
-        thread::sleep(Duration::from_millis(10));
-    }
-}
-
-fn wait_for_rows(folder: &Folder, rows: usize) {
-    let start = Instant::now();
-    while fs::read_to_string(folder.path("grid.csv")).unwrap_or_default().lines().count() <= rows {
-        assert!(start.elapsed() < Duration::from_secs(60), "no rows are written");
-        thread::sleep(Duration::from_millis(10));
-    }
-}
-
-fn send(signal: &str, child: &Child) {
-    let status = Command::new("kill").arg(format!("-{signal}")).arg(child.id().to_string()).status().unwrap();
-    assert!(status.success());
 }

@@ -2,6 +2,9 @@
 
 use std::fs;
 use std::path::PathBuf;
+use std::process::{self, Child, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use assert_cmd::Command;
 use tempfile::TempDir;
@@ -55,7 +58,7 @@ impl Folder {
         let output = Command::new(env!("CARGO_BIN_EXE_flap"))
             .args(arguments)
             .current_dir(self.0.path())
-            .timeout(std::time::Duration::from_secs(120))
+            .timeout(Duration::from_secs(120))
             .output()
             .unwrap();
         Ended {
@@ -71,4 +74,52 @@ pub(crate) fn frequencies(points: u64) -> String {
     let last = 600 + points - 1;
     let range = format!("{{ from = 60, to = {}.{}, step = 0.1 }}", last / 10, last % 10);
     format!("preset = \"ozaki2018-large\"\n\n[axes]\ndrive_frequency = {range}\n")
+}
+
+/// A grid of `points` points that take no time: one drive period each, and none settles.
+pub(crate) fn quick(points: u64) -> String {
+    frequencies(points) + "\n[solver]\nrtol = 1e-3\nsettle_tol = 1e-3\nmax_cycles = 1\n"
+}
+
+/// Starts `flap` and does not wait for it.
+pub(crate) fn start(folder: &Folder, arguments: &[&str]) -> Child {
+    process::Command::new(env!("CARGO_BIN_EXE_flap"))
+        .args(arguments)
+        .current_dir(folder.path(""))
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+/// The exit code, none if it was killed; fails the test if the command does not end.
+pub(crate) fn wait(child: &mut Child) -> Option<i32> {
+    let start = Instant::now();
+    loop {
+        if let Some(status) = child.try_wait().unwrap() {
+            return status.code();
+        }
+        if start.elapsed() > Duration::from_secs(60) {
+            child.kill().unwrap();
+            panic!("it does not end");
+        }
+        thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// Waits until more than `rows` lines are in `grid.csv`.
+pub(crate) fn wait_for_rows(folder: &Folder, rows: usize) {
+    let start = Instant::now();
+    while fs::read_to_string(folder.path("grid.csv")).unwrap_or_default().lines().count() <= rows {
+        assert!(start.elapsed() < Duration::from_secs(60), "no rows are written");
+        thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// Sends a signal.
+pub(crate) fn send(signal: &str, child: &Child) {
+    let status =
+        process::Command::new("kill").arg(format!("-{signal}")).arg(child.id().to_string()).status().unwrap();
+    assert!(status.success());
 }

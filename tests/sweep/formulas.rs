@@ -30,7 +30,7 @@ drive_frequency = 120
     assert_eq!(found, [1e-4, 0.02, 2.0, 1.0]);
     assert_eq!(plan.judge(&values), Verdict::Runs);
     // After the varied ones, in the order of the file.
-    let names = Layout::of(&plan).names().into_iter().map(str::to_owned).collect::<Vec<_>>();
+    let names = Layout::of(&plan).names();
     assert_eq!(names[..5], ["point", "wing_area", "stroke_offset", "hinge_position", "plate_width"]);
 }
 

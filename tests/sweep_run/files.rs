@@ -65,7 +65,7 @@ fn the_sidecar_tells_where_rows_come_from() {
         "preset = \"fake2020\"\n[params]\narms = \"axis\"\n[axes]\nsize = { from = 0, to = 9, step = 1 }\n";
     let plan = plan_of(Fake::leak(Fault::None, 4), grid);
     let started = "2026-01-02T03:04:05Z".to_owned();
-    let mut sidecar = Sidecar::new(&plan, Start { started, options: options(2, 10) });
+    let mut sidecar = Sidecar::new(&plan, Start { started, options: options(2, 10), rerun: None });
     let directory = tempfile::tempdir().unwrap();
     let path = path_of(&directory.path().join("rows.csv"));
     assert!(path.ends_with("rows.csv.meta.toml"));
@@ -104,7 +104,7 @@ fn the_sidecar_tells_where_rows_come_from() {
 #[test]
 fn the_sidecar_of_a_stopped_sweep_says_so() {
     let plan = plan_of(Fake::leak(Fault::None, 4), "preset = \"fake2020\"\n");
-    let start = Start { started: String::new(), options: options(1, 10) };
+    let start = Start { started: String::new(), options: options(1, 10), rerun: None };
     let mut sidecar = Sidecar::new(&plan, start);
     let summary = Summary { interrupted: true, ..Summary::default() };
     sidecar.finish(&summary, End { finished: String::new(), seconds: 0.0 });

@@ -6,5 +6,6 @@ mod failure;
 mod fake;
 mod files;
 mod formulas;
+mod journal;
 mod rows;
 mod support;

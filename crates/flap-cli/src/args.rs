@@ -1,10 +1,14 @@
 //! What is typed on the command line.
 
+mod results;
+
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum, value_parser};
+use flap_sweep::selection::Shard;
 use flap_sweep::units;
+pub(crate) use results::{ConvertArgs, MergeArgs, RerunArgs, ResumeArgs, WorkArgs};
 
 /// Sweeps of insect-scale flapping-wing designs: a grid file goes in, one row per design point comes out.
 #[derive(Parser)]
@@ -18,6 +22,14 @@ pub(crate) struct Args {
 pub(crate) enum Command {
     /// Run every point of a grid file and write one row per point
     Sweep(SweepArgs),
+    /// Go on with an interrupted sweep
+    Resume(ResumeArgs),
+    /// Run points of earlier results again with other solver settings
+    Rerun(RerunArgs),
+    /// Put the shards of a sweep together
+    Merge(MergeArgs),
+    /// Write results in another format
+    Convert(ConvertArgs),
     /// Run one point and print what it measures
     Run(RunArgs),
     /// Follow the response of designs up and down in frequency or another parameter, and find hysteresis
@@ -44,42 +56,55 @@ Exit codes:
   1    with --strict: done, but not every point is periodic
   2    the command line or the grid file must be corrected
   3    reading or writing failed
-  130  interrupted
+  130  interrupted; `flap resume` goes on
   101  a mistake in flap itself";
 
 #[derive(clap::Args)]
 #[command(after_help = SWEEP_HELP)]
 pub(crate) struct SweepArgs {
     /// The grid file: preset, parameters and axes
-    #[arg(short, long, value_name = "FILE")]
-    pub(crate) grid: PathBuf,
+    #[arg(short, long, value_name = "FILE", required_unless_present = "from_sidecar")]
+    pub(crate) grid: Option<PathBuf>,
+
+    /// Run again what the sidecar of other results tells of, .meta.toml
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["grid", "shard"], requires = "out")]
+    pub(crate) from_sidecar: Option<PathBuf>,
 
     /// Where to write rows, or `-` for stdout [default: the output path in the grid file, else the grid
-    /// file's name with the ending .csv, in the working directory]
+    /// file's name with the ending .csv, in the working directory]. The ending chooses the format: .csv, .csv.zst or
+    /// .parquet
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// Worker threads; the rows do not depend on it [default: one per core]
-    #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
-    pub(crate) threads: Option<NonZeroUsize>,
+    /// Run only one of N equal parts, for several machines; `flap merge` puts them together. Without --out, rows go to a
+    /// name such as grid.2of8.csv
+    #[arg(long, value_name = "I/N")]
+    pub(crate) shard: Option<Shard>,
+
+    /// Go on if the sweep was interrupted; start it if there are no results, do nothing if they are complete
+    #[arg(long, conflicts_with = "force")]
+    pub(crate) resume: bool,
 
     /// Overwrite an existing file of results
     #[arg(short, long)]
     pub(crate) force: bool,
 
-    /// Exit with 1 if some points are not periodic
-    #[arg(long)]
-    pub(crate) strict: bool,
+    #[command(flatten)]
+    pub(crate) work: WorkArgs,
 }
 
 const SWEEP_HELP: &str = "\
 Rows leave in point order as they are computed. Ctrl-C finishes the points in hand, keeps their rows \
 and exits with 130; a second Ctrl-C exits at once. Beside FILE, FILE.meta.toml says where the rows come \
-from.
+from. Until the sweep is complete, FILE.journal says how far they are, so that `flap resume FILE` can go on, \
+whatever ended it.
 
 Examples:
   flap sweep --grid grid.toml
   flap sweep --grid grid.toml --out results/run1.csv --threads 8
+  flap sweep --grid grid.toml --out run1.parquet --resume
+  flap sweep --grid grid.toml --shard 2/8
+  flap sweep --from-sidecar run1.csv.meta.toml --out again.csv
   flap sweep --grid grid.toml --out - | head";
 
 #[derive(clap::Args)]

@@ -2,12 +2,17 @@
 
 use std::fmt::Write as _;
 use std::io;
+use std::path::Path;
 
 use anstyle::{AnsiColor, Style};
 use flap_core::parameter::Invalid;
 use flap_sweep::diagnostic::Diagnostic;
+use flap_sweep::merge::MergeError;
 use flap_sweep::output::CreateError;
+use flap_sweep::results::{Format, FormatError};
 use flap_sweep::run::RunError;
+use flap_sweep::session::ResumeError;
+use flap_sweep::sidecar;
 use flap_sweep::spec::ReadError;
 
 use crate::{console, render};
@@ -42,6 +47,11 @@ impl Failure {
     /// Something to be corrected by the user.
     pub(crate) fn usage(message: impl Into<String>) -> Failure {
         Failure::Usage(message.into(), Vec::new())
+    }
+
+    /// A file that the operating system does not let us write.
+    pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
+        Failure::System(format!("cannot write {}: {error}", path.display()), Vec::new())
     }
 
     /// Adds a line on what to do.
@@ -120,9 +130,52 @@ impl From<CreateError> for Failure {
             CreateError::Exists { .. } => {
                 Failure::usage(error.to_string()).help("use --force to overwrite it, or name another file")
             }
+            CreateError::Unfinished { .. } => Failure::usage(error.to_string())
+                .help("`flap sweep --resume` or `flap resume` goes on with it, --force overwrites it"),
             CreateError::Busy { .. } | CreateError::Io { .. } => {
                 Failure::System(error.to_string(), Vec::new())
             }
+        }
+    }
+}
+
+impl From<FormatError> for Failure {
+    fn from(error: FormatError) -> Failure {
+        Failure::usage(error.to_string()).help(format!("name a file that ends in {}", Format::ENDINGS))
+    }
+}
+
+impl From<ResumeError> for Failure {
+    fn from(error: ResumeError) -> Failure {
+        let message = error.to_string();
+        match error {
+            ResumeError::Create(error) => error.into(),
+            ResumeError::Format(error) => error.into(),
+            ResumeError::NoJournal { .. } | ResumeError::Changed { .. } | ResumeError::Altered { .. } => {
+                Failure::usage(message).help("use `flap sweep --force` to start over, or name another file")
+            }
+        }
+    }
+}
+
+impl From<MergeError> for Failure {
+    fn from(error: MergeError) -> Failure {
+        let message = error.to_string();
+        match error {
+            MergeError::Parts(_) => Failure::usage(message),
+            MergeError::Format(error) => error.into(),
+            MergeError::Read { .. } | MergeError::Write(_) => Failure::System(message, Vec::new()),
+        }
+    }
+}
+
+impl From<sidecar::ReadError> for Failure {
+    fn from(error: sidecar::ReadError) -> Failure {
+        match &error {
+            sidecar::ReadError::Io { source, .. } if source.kind() != io::ErrorKind::NotFound => {
+                Failure::System(error.to_string(), Vec::new())
+            }
+            _ => Failure::usage(error.to_string()),
         }
     }
 }

@@ -4,6 +4,7 @@ mod args;
 mod cmd;
 mod console;
 mod failure;
+mod job;
 mod progress;
 mod render;
 mod table;
@@ -17,6 +18,10 @@ use clap::Parser;
 fn main() -> ExitCode {
     let ended = match Args::parse().command {
         Command::Sweep(args) => cmd::sweep::run(&args),
+        Command::Resume(args) => cmd::resume::run(&args),
+        Command::Rerun(args) => cmd::rerun::run(&args),
+        Command::Merge(args) => cmd::merge::run(&args),
+        Command::Convert(args) => cmd::convert::run(&args),
         Command::Run(args) => cmd::run::run(&args),
         Command::Respond(args) => cmd::respond::run(&args),
         Command::Resonance(args) => cmd::resonance::run(&args),

@@ -11,7 +11,8 @@ const TEMPLATE: &str = "{wide_bar} {human_pos} of {human_len} points, {rate}, {e
 
 /// Shows how far a sweep is.
 pub(crate) struct Bar {
-    bar: ProgressBar,
+    drawn: ProgressBar,
+    moved: bool,
     stopping: bool,
 }
 
@@ -21,17 +22,22 @@ impl Bar {
         let style = ProgressStyle::with_template(TEMPLATE)
             .unwrap_or_else(|_| ProgressStyle::default_bar())
             .with_key("rate", write_rate);
-        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr()).with_style(style);
-        Bar { bar, stopping: false }
+        let drawn = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr()).with_style(style);
+        Bar { drawn, moved: false, stopping: false }
     }
 
     /// Moves the bar, and says once that the sweep is stopping.
     pub(crate) fn show(&mut self, progress: Progress, stopping: bool) {
-        self.bar.set_length(progress.points);
-        self.bar.set_position(progress.finished);
+        self.drawn.set_length(progress.points);
+        self.drawn.set_position(progress.finished);
+        if !self.moved {
+            // Points of earlier sessions took no time now.
+            self.moved = true;
+            self.drawn.reset_eta();
+        }
         if stopping && !self.stopping {
             self.stopping = true;
-            self.bar.suspend(|| {
+            self.drawn.suspend(|| {
                 console::say("stopping: points in hand are finished first; interrupt again to stop at once");
             });
         }
@@ -39,7 +45,7 @@ impl Bar {
 
     /// Takes the bar away.
     pub(crate) fn clear(&self) {
-        self.bar.finish_and_clear();
+        self.drawn.finish_and_clear();
     }
 }
 

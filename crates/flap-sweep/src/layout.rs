@@ -1,9 +1,9 @@
 //! The columns of a result file: which there are, in which order, and what they mean.
 
-use flap_core::parameter::Parameter;
+use flap_core::parameter::{self, Parameter};
 use flap_core::simulate::{Point, Row};
 
-use crate::expression::Kind;
+use crate::expression;
 use crate::plan::Plan;
 use crate::text;
 
@@ -28,13 +28,43 @@ pub struct Measure {
     /// The unit in words.
     pub unit: &'static str,
     /// Whether it is a number, or true or false: then 1 stands for true and 0 for false.
-    pub kind: Kind,
+    pub kind: expression::Kind,
 }
 
 impl Measure {
     /// The value in a row's measures; NaN if they are empty.
     pub fn value(&self, measures: &[f64]) -> f64 {
         measures.get(self.index).copied().unwrap_or(f64::NAN)
+    }
+}
+
+/// A column of a result file, as tables with types and units see it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Name, with its unit for a measure.
+    pub name: String,
+    /// The unit in words; empty for what has none.
+    pub unit: &'static str,
+    /// What its cells hold. Any cell may be empty.
+    pub kind: Kind,
+}
+
+/// What the cells of a column hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Whole numbers from 0.
+    Whole,
+    /// Numbers.
+    Number,
+    /// `true` or `false`.
+    Flag,
+    /// Words.
+    Text,
+}
+
+impl Column {
+    fn new(name: &str, unit: &'static str, kind: Kind) -> Column {
+        Column { name: name.to_owned(), unit, kind }
     }
 }
 
@@ -45,7 +75,8 @@ impl Layout {
         let varied =
             plan.varied().chain(plan.derived.parameters()).map(|index| (index, &parameters[index])).collect();
         let columns = plan.rows().columns();
-        let models = columns.iter().map(|column| (column.name.clone(), column.unit, Kind::Number));
+        let models =
+            columns.iter().map(|column| (column.name.clone(), column.unit, expression::Kind::Number));
         let own = plan.measures.iter().map(|own| (own.name.clone(), "", own.kind()));
         let all: Vec<Measure> = (models.chain(own).enumerate())
             .map(|(index, (name, unit, kind))| Measure { index, name, unit, kind })
@@ -57,14 +88,36 @@ impl Layout {
         Layout { varied, measures }
     }
 
+    /// The columns, from left to right.
+    pub fn columns(&self) -> Vec<Column> {
+        let mut columns = vec![Column::new("point", "", Kind::Whole)];
+        columns.extend(self.varied.iter().map(|(_, parameter)| {
+            let kind = match parameter.kind {
+                parameter::Kind::Choice(_) => Kind::Text,
+                parameter::Kind::Number(_) | parameter::Kind::Following(..) => Kind::Number,
+            };
+            Column::new(parameter.name, parameter.unit, kind)
+        }));
+        columns.push(Column::new("status", "", Kind::Text));
+        columns.extend(self.measures.iter().map(|measure| {
+            let kind = match measure.kind {
+                expression::Kind::Number => Kind::Number,
+                expression::Kind::Condition => Kind::Flag,
+            };
+            Column::new(&measure.name, measure.unit, kind)
+        }));
+        columns.push(Column::new("cycles", "", Kind::Whole));
+        columns.push(Column::new("residual", "", Kind::Number));
+        columns.push(Column::new("period", "", Kind::Whole));
+        columns.push(Column::new("floquet_max", "", Kind::Number));
+        columns.push(Column::new("stable", "", Kind::Flag));
+        columns.push(Column::new("rhs_evals", "", Kind::Whole));
+        columns
+    }
+
     /// The column names.
-    pub fn names(&self) -> Vec<&str> {
-        let mut names = vec!["point"];
-        names.extend(self.varied.iter().map(|(_, parameter)| parameter.name));
-        names.push("status");
-        names.extend(self.measures.iter().map(|measure| measure.name.as_str()));
-        names.extend(["cycles", "residual", "period", "floquet_max", "stable", "rhs_evals"]);
-        names
+    pub fn names(&self) -> Vec<String> {
+        self.columns().into_iter().map(|column| column.name).collect()
     }
 
     /// One text per column. What is not known is empty: the measures of a point that is not periodic,
@@ -78,8 +131,8 @@ impl Layout {
         cells.extend(self.measures.iter().map(|measure| {
             let value = measure.value(&row.measures);
             match measure.kind {
-                Kind::Number => text::float(value),
-                Kind::Condition => text::truth(value),
+                expression::Kind::Number => text::float(value),
+                expression::Kind::Condition => text::truth(value),
             }
         }));
         cells.push(row.cycles.to_string());

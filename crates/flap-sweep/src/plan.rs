@@ -10,6 +10,7 @@ use flap_core::simulate::{Point, Rows, Simulator, SolverSettings};
 use crate::axis::{Axis, Values};
 use crate::formula::{Condition, Derived, OwnMeasure};
 use crate::resonance::AtResonance;
+use crate::selection::Selection;
 use crate::text;
 
 /// A design space that has passed every check. Made by [`crate::spec`] only.
@@ -39,6 +40,8 @@ pub struct Plan {
     pub output: Output,
     /// The grid file itself, for provenance.
     pub source: Source,
+    /// Which of the points are run.
+    pub selection: Selection,
     points: u64,
 }
 
@@ -58,6 +61,13 @@ pub struct PointsFile {
     pub path: PathBuf,
     /// The hash of its text: XXH3 of 64 bits.
     pub xxh3: u64,
+}
+
+impl PointsFile {
+    /// The hash in hexadecimal digits.
+    pub fn hash(&self) -> String {
+        format!("{:016x}", self.xxh3)
+    }
 }
 
 /// Whether a point is run.
@@ -119,6 +129,7 @@ impl Plan {
                     output,
                     source,
                 } = parts;
+                let selection = Selection::All;
                 Ok(Plan {
                     simulator,
                     resonance,
@@ -132,6 +143,7 @@ impl Plan {
                     solver,
                     output,
                     source,
+                    selection,
                     points,
                 })
             }
@@ -170,6 +182,16 @@ impl Plan {
         }
         self.derived.fill(&mut values, &[]);
         Point::at_rest(index, values)
+    }
+
+    /// Number of points that are run.
+    pub fn selected(&self) -> u64 {
+        self.selection.len(self.points)
+    }
+
+    /// Number `position` of the points that are run, which must be less than [`Plan::selected`].
+    pub fn selected_point(&self, position: u64) -> Point {
+        self.point(self.selection.index(position))
     }
 
     /// Whether the point with these values is run.

@@ -1,22 +1,25 @@
 //! The file beside the results that says where they come from: `<results>.meta.toml`.
 //!
 //! It is written when a sweep starts, with `state = "running"`, and again when it ends. Each time it is replaced
-//! as a whole, so that a reader never sees half of it.
+//! as a whole, so that a reader never sees half of it. It holds all that it takes to run the sweep again.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use flap_core::parameter::Parameter;
-use flap_core::simulate::SolverSettings;
-use serde::Serialize;
+use flap_core::simulate::{Simulator, SolverSettings};
+use serde::{Deserialize, Serialize};
 use toml::Value;
 
+use crate::diagnostic::Diagnostic;
 use crate::layout::Layout;
-use crate::plan::Plan;
+use crate::output;
+use crate::plan::{self, Plan};
 use crate::run::{RunOptions, Summary};
-use crate::text;
+use crate::selection::{self, Selection};
+use crate::{spec, text};
 
 /// What the caller knows about a sweep that is about to start.
 #[derive(Clone, Debug)]
@@ -25,6 +28,8 @@ pub struct Start {
     pub started: String,
     /// How the plan is run.
     pub options: RunOptions,
+    /// Where the points of a plan that lists them come from.
+    pub rerun: Option<Origin>,
 }
 
 /// What the caller knows about a sweep that has ended.
@@ -32,117 +37,233 @@ pub struct Start {
 pub struct End {
     /// End of the sweep, as RFC 3339 in UTC.
     pub finished: String,
-    /// Seconds from start to end.
+    /// Seconds that it ran.
     pub seconds: f64,
 }
 
 /// The contents of the file.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sidecar {
-    flap: &'static str,
-    state: &'static str,
-    error: Option<String>,
-    model: &'static str,
-    preset: &'static str,
-    points: u64,
-    rows: Option<u64>,
-    excluded: Option<u64>,
-    started: String,
-    finished: Option<String>,
-    seconds: Option<f64>,
-    threads: usize,
-    arithmetic: &'static str,
-    instructions: &'static str,
-    cycles: Option<u64>,
-    rhs_evals: Option<u64>,
-    statuses: Option<BTreeMap<&'static str, u64>>,
+    /// Version of flap.
+    pub flap: String,
+    /// How far the sweep is.
+    pub state: State,
+    /// Why it failed.
+    pub error: Option<String>,
+    /// The model.
+    pub model: String,
+    /// The preset.
+    pub preset: String,
+    /// Points of the grid.
+    pub points: u64,
+    /// Which of them are run, such as `2/3`; `None` for all.
+    pub shard: Option<String>,
+    /// Rows written.
+    pub rows: Option<u64>,
+    /// Points that conditions exclude.
+    pub excluded: Option<u64>,
+    /// Start, as RFC 3339 in UTC; of the first session if it was interrupted.
+    pub started: String,
+    /// End, as RFC 3339 in UTC.
+    pub finished: Option<String>,
+    /// Seconds that it ran, in all sessions.
+    pub seconds: Option<f64>,
+    /// Worker threads.
+    pub threads: usize,
+    /// Class of arithmetic.
+    pub arithmetic: String,
+    /// Instructions of the lanes.
+    pub instructions: String,
+    /// Drive periods integrated in all.
+    pub cycles: Option<u64>,
+    /// Right-hand sides evaluated in all.
+    pub rhs_evals: Option<u64>,
+    /// Rows by status.
+    pub statuses: Option<BTreeMap<String, u64>>,
     /// For each condition, how many points do not satisfy it.
-    unsatisfied: BTreeMap<String, u64>,
-    solver: Solver,
-    parameters: BTreeMap<&'static str, Value>,
-    varied: Vec<Varied>,
-    columns: Vec<Column>,
-    invalid: Vec<InvalidPoint>,
-    points_file: Option<PointsFile>,
-    grid: Grid,
+    #[serde(default)]
+    pub unsatisfied: BTreeMap<String, u64>,
+    /// How points were integrated.
+    pub solver: Solver,
+    /// The points of a rerun.
+    pub rerun: Option<Rerun>,
+    parameters: BTreeMap<String, Value>,
+    varied: Vec<Unit>,
+    columns: Vec<Unit>,
+    /// The first few invalid points.
+    #[serde(default)]
+    pub invalid: Vec<InvalidPoint>,
+    /// The file that lists the points of the sample, if one does.
+    pub points_file: Option<PointsFile>,
+    /// The grid file.
+    pub grid: Grid,
 }
 
-#[derive(Clone, Debug, Serialize)]
-struct Solver {
-    rtol: f64,
-    atol: f64,
-    settle_tol: f64,
-    max_cycles: u32,
-    max_steps: u32,
-    newton: bool,
+/// How far a sweep is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum State {
+    /// Running, or killed while it was.
+    Running,
+    /// Every row is written.
+    Complete,
+    /// Stopped before the end.
+    Interrupted,
+    /// Failed before the end.
+    Failed,
 }
 
-#[derive(Clone, Debug, Serialize)]
-struct Varied {
-    name: &'static str,
-    unit: &'static str,
+/// How points were integrated, as [`SolverSettings`].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "they are the fields of SolverSettings")]
+pub struct Solver {
+    pub rtol: f64,
+    pub atol: f64,
+    pub settle_tol: f64,
+    pub max_cycles: u32,
+    pub max_steps: u32,
+    pub newton: bool,
 }
 
-#[derive(Clone, Debug, Serialize)]
-struct Column {
+/// Where the points of a rerun come from.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Origin {
+    /// The results whose points they are.
+    pub of: String,
+    /// The statuses they had there.
+    pub statuses: Vec<String>,
+}
+
+/// The points of a rerun.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Rerun {
+    /// The results whose points they are.
+    pub of: String,
+    /// The statuses they had there.
+    pub statuses: Vec<String>,
+    /// Their indices, such as `3,17,20-31`.
+    pub points: String,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Unit {
     name: String,
-    unit: &'static str,
+    unit: String,
 }
 
-#[derive(Clone, Debug, Serialize)]
-struct InvalidPoint {
-    point: u64,
-    reason: String,
+/// A point whose parameters are impossible together.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct InvalidPoint {
+    /// Its index.
+    pub point: u64,
+    /// Why.
+    pub reason: String,
 }
 
-#[derive(Clone, Debug, Serialize)]
-struct PointsFile {
-    path: String,
-    xxh3: String,
+/// A file that lists the points of a sample.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PointsFile {
+    /// Its path, from the working directory.
+    pub path: String,
+    /// XXH3 of its text.
+    pub xxh3: String,
 }
 
-#[derive(Clone, Debug, Serialize)]
-struct Grid {
-    name: String,
-    xxh3: String,
-    text: String,
+/// A grid file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Grid {
+    /// Its name.
+    pub name: String,
+    /// XXH3 of its text.
+    pub xxh3: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// Why a file cannot be used as a sidecar.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// It cannot be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// It is not a sidecar.
+    #[error("{}: not a sidecar of results: {reason}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// Why a sidecar is not a plan.
+#[derive(Debug)]
+pub enum PlanError {
+    /// The grid file in it has mistakes for this version of flap.
+    Grid(Vec<Diagnostic>),
+    /// The points in it are not points of the grid.
+    Points,
+    /// The solver settings in it are not ones that a grid file may have.
+    Solver,
+    /// The file of points has changed.
+    PointsFile,
 }
 
 impl Sidecar {
     /// The contents for a sweep of `plan` that is about to start.
     pub fn new(plan: &Plan, start: Start) -> Sidecar {
         let layout = Layout::of(plan);
+        let unit = |name: &str, unit: &str| Unit { name: name.to_owned(), unit: unit.to_owned() };
+        let shard = match plan.selection {
+            Selection::Shard(shard) => Some(shard.to_string()),
+            Selection::All | Selection::Listed(_) => None,
+        };
+        let rerun = match (&plan.selection, start.rerun) {
+            (Selection::Listed(list), origin) => {
+                let Origin { of, statuses } =
+                    origin.unwrap_or(Origin { of: String::new(), statuses: vec![] });
+                Some(Rerun { of, statuses, points: selection::list_text(list) })
+            }
+            _ => None,
+        };
         Sidecar {
-            flap: env!("CARGO_PKG_VERSION"),
-            state: "running",
+            flap: env!("CARGO_PKG_VERSION").to_owned(),
+            state: State::Running,
             error: None,
-            model: plan.simulator.name(),
-            preset: plan.preset,
+            model: plan.simulator.name().to_owned(),
+            preset: plan.preset.to_owned(),
             points: plan.len(),
+            shard,
             rows: None,
             excluded: None,
             started: start.started,
             finished: None,
             seconds: None,
             threads: start.options.threads.get(),
-            arithmetic: start.options.instructions.arithmetic().name(),
-            instructions: start.options.instructions.name(),
+            arithmetic: start.options.instructions.arithmetic().name().to_owned(),
+            instructions: start.options.instructions.name().to_owned(),
             cycles: None,
             rhs_evals: None,
             statuses: None,
             unsatisfied: BTreeMap::new(),
             solver: Solver::from(&plan.solver),
+            rerun,
             parameters: parameters(plan),
-            varied: layout.varied.iter().map(|(_, p)| Varied { name: p.name, unit: p.unit }).collect(),
-            columns: layout.measures.into_iter().map(|m| Column { name: m.name, unit: m.unit }).collect(),
+            varied: layout.varied.iter().map(|(_, p)| unit(p.name, p.unit)).collect(),
+            columns: layout.measures.iter().map(|m| unit(&m.name, m.unit)).collect(),
             invalid: Vec::new(),
-            points_file: plan.points_file.as_ref().map(|file| PointsFile {
-                path: file.path.display().to_string(),
-                xxh3: format!("{:016x}", file.xxh3),
-            }),
+            points_file: plan
+                .points_file
+                .as_ref()
+                .map(|file| PointsFile { path: file.path.display().to_string(), xxh3: file.hash() }),
             grid: Grid {
                 name: plan.source.name.clone(),
-                xxh3: format!("{:016x}", xxhash_rust::xxh3::xxh3_64(plan.source.text.as_bytes())),
+                xxh3: grid_hash(&plan.source.text),
                 text: plan.source.text.clone(),
             },
         }
@@ -150,14 +271,15 @@ impl Sidecar {
 
     /// Notes how the sweep ended.
     pub fn finish(&mut self, summary: &Summary, end: End) {
-        self.state = if summary.interrupted { "interrupted" } else { "complete" };
+        self.state = if summary.interrupted { State::Interrupted } else { State::Complete };
         self.rows = Some(summary.rows);
         self.excluded = Some(summary.excluded);
         self.finished = Some(end.finished);
         self.seconds = Some(end.seconds);
         self.cycles = Some(summary.cycles);
         self.rhs_evals = Some(summary.rhs_evals);
-        self.statuses = Some(summary.counts.iter().map(|(status, count)| (status.name(), count)).collect());
+        let statuses = summary.counts.iter().map(|(status, count)| (status.name().to_owned(), count));
+        self.statuses = Some(statuses.collect());
         self.unsatisfied = summary.unsatisfied.iter().cloned().collect();
         let invalid =
             |(point, reason): &(u64, String)| InvalidPoint { point: *point, reason: reason.clone() };
@@ -166,10 +288,41 @@ impl Sidecar {
 
     /// Notes that the sweep failed.
     pub fn fail(&mut self, error: String, end: End) {
-        self.state = "failed";
+        self.state = State::Failed;
         self.error = Some(error);
         self.finished = Some(end.finished);
         self.seconds = Some(end.seconds);
+    }
+
+    /// The plan whose rows these are, with the presets of `models`.
+    ///
+    /// # Errors
+    /// If it was written by another version whose grid files differ, or edited.
+    pub fn plan(&self, models: &[&'static dyn Simulator]) -> Result<Plan, PlanError> {
+        let mut plan = spec::parse(&self.grid.name, &self.grid.text, models).map_err(PlanError::Grid)?;
+        if !self.solver.is_allowed() {
+            return Err(PlanError::Solver);
+        }
+        plan.solver = SolverSettings::from(&self.solver);
+        let points_file = plan.points_file.as_ref();
+        if points_file.map(plan::PointsFile::hash) != self.points_file.as_ref().map(|file| file.xxh3.clone())
+        {
+            return Err(PlanError::PointsFile);
+        }
+        if let Some(shard) = &self.shard {
+            plan.selection = Selection::Shard(shard.parse().map_err(|_| PlanError::Points)?);
+        }
+        if let Some(rerun) = &self.rerun {
+            let list = selection::read_list(&rerun.points, plan.len()).ok_or(PlanError::Points)?;
+            plan.selection = Selection::Listed(list);
+        }
+        Ok(plan)
+    }
+
+    /// Where the points come from, if they are those of a rerun.
+    pub fn origin(&self) -> Option<Origin> {
+        let rerun = self.rerun.as_ref()?;
+        Some(Origin { of: rerun.of.clone(), statuses: rerun.statuses.clone() })
     }
 
     /// The text of the file.
@@ -180,19 +333,31 @@ impl Sidecar {
         toml::to_string(self)
     }
 
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// If it cannot be read or is not a sidecar.
+    pub fn read(path: &Path) -> Result<Sidecar, ReadError> {
+        let text =
+            fs::read_to_string(path).map_err(|source| ReadError::Io { path: path.to_owned(), source })?;
+        Sidecar::parse(&text).map_err(|reason| ReadError::Format { path: path.to_owned(), reason })
+    }
+
+    /// Reads the text of the file.
+    ///
+    /// # Errors
+    /// What is wrong with it, in one line.
+    pub fn parse(text: &str) -> Result<Sidecar, String> {
+        toml::from_str(text).map_err(|error| error.message().to_owned())
+    }
+
     /// Writes the file, in place of an earlier one.
     ///
     /// # Errors
     /// What writing says.
     pub fn write(&self, path: &Path) -> io::Result<()> {
         let text = self.text().map_err(io::Error::other)?;
-        let mut temporary = path.as_os_str().to_owned();
-        temporary.push(".tmp");
-        let temporary = PathBuf::from(temporary);
-        let mut file = File::create(&temporary)?;
-        file.write_all(text.as_bytes())?;
-        file.sync_all()?;
-        fs::rename(&temporary, path)
+        output::replace(path, |mut file| file.write_all(text.as_bytes()))
     }
 }
 
@@ -203,6 +368,19 @@ pub fn path_of(results: &Path) -> PathBuf {
     PathBuf::from(path)
 }
 
+/// The hash of a grid file's text, in hexadecimal digits.
+pub(crate) fn grid_hash(text: &str) -> String {
+    format!("{:016x}", xxhash_rust::xxh3::xxh3_64(text.as_bytes()))
+}
+
+impl Solver {
+    /// Whether a grid file may have these settings.
+    fn is_allowed(&self) -> bool {
+        let positive = [self.rtol, self.atol, self.settle_tol].iter().all(|tolerance| *tolerance > 0.0);
+        positive && self.rtol < spec::LARGEST_RTOL && self.max_cycles > 0 && self.max_steps > 0
+    }
+}
+
 impl From<&SolverSettings> for Solver {
     fn from(settings: &SolverSettings) -> Solver {
         let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, newton } = *settings;
@@ -210,12 +388,19 @@ impl From<&SolverSettings> for Solver {
     }
 }
 
+impl From<&Solver> for SolverSettings {
+    fn from(solver: &Solver) -> SolverSettings {
+        let Solver { rtol, atol, settle_tol, max_cycles, max_steps, newton } = *solver;
+        SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, newton }
+    }
+}
+
 /// The parameters before the axes are applied, without those that follow others.
-fn parameters(plan: &Plan) -> BTreeMap<&'static str, Value> {
+pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
     let value = |parameter: &Parameter, value: f64| match text::option(parameter, value) {
         Some(option) => Value::String(option.to_owned()),
         None => Value::Float(value),
     };
     let set = plan.parameters().iter().zip(&plan.base).filter(|(_, base)| !base.is_nan());
-    set.map(|(parameter, &base)| (parameter.name, value(parameter, base))).collect()
+    set.map(|(parameter, &base)| (parameter.name.to_owned(), value(parameter, base))).collect()
 }

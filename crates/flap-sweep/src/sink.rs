@@ -4,9 +4,11 @@ use std::io;
 
 use flap_core::simulate::{Point, Row};
 
+use crate::run::Summary;
+
 /// Takes the rows of a sweep in point order.
 ///
-/// Calls come as `begin`, then any number of `write` and `flush`, then `finish`; nothing comes after an error.
+/// Calls come as `begin`, then any number of `write`, `done` and `flush`, then `finish`; nothing comes after an error.
 pub trait Sink {
     /// Writes what stands before the rows.
     ///
@@ -19,6 +21,15 @@ pub trait Sink {
     /// # Errors
     /// What writing says.
     fn write(&mut self, point: &Point, row: &Row) -> io::Result<()>;
+
+    /// Told after every point what the run has come to, so that it can be resumed after it.
+    ///
+    /// # Errors
+    /// What noting it says.
+    fn done(&mut self, so_far: &Summary) -> io::Result<()> {
+        let _ = so_far;
+        Ok(())
+    }
 
     /// Hands what has been written to the operating system, so that a killed process loses little.
     /// Called after every batch of rows, several times a second.

@@ -36,6 +36,7 @@ use crate::resonance::AtResonance;
 use formula::Names;
 use problems::Problems;
 pub use read::{ReadError, read};
+pub(crate) use solver::LARGEST_RTOL;
 use table::Entry;
 
 /// The keys at the top of a grid file.

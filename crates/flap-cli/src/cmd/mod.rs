@@ -1,15 +1,19 @@
 //! One module per command, and what they share.
 
 pub(crate) mod check;
-mod exclusion;
+pub(crate) mod convert;
+pub(crate) mod exclusion;
 mod impulse;
 pub(crate) mod lift;
+pub(crate) mod merge;
 pub(crate) mod models;
 mod motion;
 pub(crate) mod params;
 mod point;
+pub(crate) mod rerun;
 pub(crate) mod resonance;
 pub(crate) mod respond;
+pub(crate) mod resume;
 pub(crate) mod run;
 mod samples;
 pub(crate) mod sweep;

@@ -30,7 +30,7 @@ impl<W: Durable> Table<W> {
             parameter: parameter(plan, along),
             writer: csv::Writer::from_writer(target),
         };
-        let mut names: Vec<String> = table.layout.names().into_iter().map(str::to_owned).collect();
+        let mut names = table.layout.names();
         "curve".clone_into(&mut names[0]);
         let names = table.insert(names, ["branch".to_owned(), table.parameter.name.to_owned()]);
         table.writer.write_record(names).map_err(cause)?;

@@ -51,7 +51,7 @@ impl Default for RunOptions {
 pub struct Progress {
     /// Points that have run or are excluded, whether their rows are written yet or not.
     pub finished: u64,
-    /// Points of the plan.
+    /// Points that are run in all.
     pub points: u64,
 }
 
@@ -72,14 +72,14 @@ pub enum RunError {
     Panic(String),
 }
 
-/// Runs every point of `plan` and writes the rows to `sink` in point order.
+/// Runs the selected points of `plan` and writes the rows to `sink` in point order.
 ///
 /// When `stop` is raised, points in hand are finished and written and the sweep ends; the rows written are
-/// those of the first points of the plan. `progress` is called from this thread, several times a second.
+/// those of the first points selected. `progress` is called from this thread, several times a second.
 ///
 /// # Errors
 /// [`RunError`] if rows cannot be written or a worker fails. Rows are never left out: those written are
-/// those of the first points of the plan, in this case too.
+/// those of the first points selected, in this case too.
 pub fn run(
     plan: &Plan,
     options: &RunOptions,
@@ -87,20 +87,36 @@ pub fn run(
     stop: &AtomicBool,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Summary, RunError> {
+    resume(plan, options, Summary::default(), sink, stop, progress)
+}
+
+/// Goes on as [`run`] does after the points that `before` counts, whose rows are written. The summary is of all of them.
+///
+/// # Errors
+/// As [`run`].
+pub fn resume(
+    plan: &Plan,
+    options: &RunOptions,
+    before: Summary,
+    sink: &mut dyn Sink,
+    stop: &AtomicBool,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Summary, RunError> {
+    let (done, selected) = (before.done(), plan.selected());
     // More workers than points would have nothing to do.
-    let points = usize::try_from(plan.len()).unwrap_or(usize::MAX);
+    let points = usize::try_from(selected - done).unwrap_or(usize::MAX);
     let workers = options.threads.get().min(points.max(1));
     // A pool of our own: the global one belongs to the caller, and does not survive a fork.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(workers).build().map_err(RunError::Threads)?;
     // The header is there from the beginning, however long the first row takes.
     sink.begin().and_then(|()| sink.flush()).map_err(RunError::Sink)?;
 
-    let queue = Queue::new(plan.len(), options.window, workers, stop);
+    let queue = Queue::new(done..selected, options.window, workers, stop);
     let collected = pool.in_place_scope(|scope| {
         for _ in 0..workers {
             scope.spawn(|_| worker::work(plan, options.instructions, &queue));
         }
-        collect::collect(plan, &queue, sink, progress)
+        collect::collect(plan, before, &queue, sink, progress)
     });
 
     let summary = collected.map_err(RunError::Sink)?;

@@ -6,6 +6,7 @@
 //! with points in hand fails the run. The collector waits only while there are workers, and whatever ends the
 //! collector aborts the run for the workers.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -49,8 +50,8 @@ pub(super) enum Turn {
 }
 
 impl<'a> Queue<'a> {
-    pub(super) fn new(total: u64, window: usize, workers: usize, stop: &'a AtomicBool) -> Queue<'a> {
-        let state = State { window: Window::new(total, window), workers, aborted: false, failure: None };
+    pub(super) fn new(points: Range<u64>, window: usize, workers: usize, stop: &'a AtomicBool) -> Queue<'a> {
+        let state = State { window: Window::new(points, window), workers, aborted: false, failure: None };
         Queue { stop, state: Mutex::new(state), room: Condvar::new(), rows: Condvar::new() }
     }
 

@@ -20,12 +20,20 @@ impl Counts {
     }
 }
 
+impl FromIterator<(Status, u64)> for Counts {
+    fn from_iter<I: IntoIterator<Item = (Status, u64)>>(iter: I) -> Counts {
+        let mut counts = Counts::default();
+        iter.into_iter().for_each(|(status, count)| counts.0[status as usize] += count);
+        counts
+    }
+}
+
 /// What a sweep came to. Counts are over the rows written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
-    /// Points of the plan.
+    /// Points that are run in all.
     pub points: u64,
-    /// Rows written: those of the first points, but for excluded ones.
+    /// Rows written: those of the first points selected, but for excluded ones.
     pub rows: u64,
     /// Points among them that were excluded, and have no row.
     pub excluded: u64,
@@ -47,13 +55,17 @@ impl Summary {
     /// Reasons kept in [`Summary::invalid`].
     pub const MOST_REASONS: usize = 5;
 
-    /// Of a plan of which nothing has run yet.
-    pub(super) fn new(plan: &Plan) -> Summary {
-        let unsatisfied = plan.conditions.iter().map(|condition| (condition.name.clone(), 0)).collect();
-        Summary { points: plan.len(), unsatisfied, ..Summary::default() }
+    /// What `before` came to, as the beginning of what `plan` comes to.
+    pub(super) fn after(before: Summary, plan: &Plan) -> Summary {
+        let counted = |name: &str| before.unsatisfied.iter().find(|(known, _)| known == name);
+        let unsatisfied = plan.conditions.iter().map(|condition| {
+            let count = counted(&condition.name).map_or(0, |(_, count)| *count);
+            (condition.name.clone(), count)
+        });
+        Summary { points: plan.selected(), unsatisfied: unsatisfied.collect(), interrupted: false, ..before }
     }
 
-    /// Points that are done with: the first ones of the plan.
+    /// Points that are done with: the first ones of those selected.
     pub fn done(&self) -> u64 {
         self.rows + self.excluded
     }
@@ -66,12 +78,12 @@ impl Summary {
         }
     }
 
-    /// Adds a written row.
-    pub(super) fn add(&mut self, row: Row) {
+    /// Adds the written row of the point with this index in the plan.
+    pub(super) fn add(&mut self, index: u64, row: Row) {
         if let (Status::Invalid, Some(reason)) = (row.status, row.reason)
             && self.invalid.len() < Summary::MOST_REASONS
         {
-            self.invalid.push((self.done(), reason));
+            self.invalid.push((index, reason));
         }
         self.rows += 1;
         self.counts.0[row.status as usize] += 1;

@@ -1,6 +1,7 @@
 //! Puts rows back into point order, within a bounded number of points.
 
 use std::collections::VecDeque;
+use std::ops::Range;
 
 use super::finished::Finished;
 
@@ -11,6 +12,8 @@ use super::finished::Finished;
 ///      │ being      │ `rows`: here or    │ not yet
 ///      │ written    │ still running      │ begun
 /// ```
+///
+/// Points are numbered as they are handed out: by their position among those selected, not by their index in the plan.
 pub(super) struct Window {
     capacity: u64,
     total: u64,
@@ -23,14 +26,14 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// A window over points `0..total`.
-    pub(super) fn new(total: u64, capacity: usize) -> Window {
+    /// A window over `points`; those before have been written.
+    pub(super) fn new(points: Range<u64>, capacity: usize) -> Window {
         Window {
             capacity: capacity.max(1) as u64,
-            total,
-            written: 0,
-            taken: 0,
-            handed_out: 0,
+            total: points.end,
+            written: points.start,
+            taken: points.start,
+            handed_out: points.start,
             rows: VecDeque::new(),
             waiting: 0,
         }
@@ -119,7 +122,7 @@ mod tests {
 
     #[test]
     fn rows_leave_in_point_order() {
-        let mut window = Window::new(4, 10);
+        let mut window = Window::new(0..4, 10);
         while window.hand_out().is_some() {}
         assert!(window.insert(2, row(2)));
         assert!(window.insert(1, row(1)));
@@ -136,7 +139,7 @@ mod tests {
 
     #[test]
     fn room_comes_from_writing_alone() {
-        let mut window = Window::new(100, 2);
+        let mut window = Window::new(0..100, 2);
         assert_eq!(window.hand_out(), Some(0));
         assert_eq!(window.hand_out(), Some(1));
         assert_eq!(window.hand_out(), None);
@@ -152,7 +155,7 @@ mod tests {
 
     #[test]
     fn rows_of_other_points_are_refused() {
-        let mut window = Window::new(100, 10);
+        let mut window = Window::new(0..100, 10);
         window.hand_out();
         window.hand_out();
         assert!(!window.insert(2, row(2)), "never handed out");
@@ -161,5 +164,17 @@ mod tests {
         take(&mut window, 10);
         assert!(!window.insert(0, row(0)), "taken already");
         assert!(window.insert(1, row(1)));
+    }
+
+    #[test]
+    fn a_window_may_begin_anywhere() {
+        let mut window = Window::new(7..9, 10);
+        assert_eq!(window.finished(), 7);
+        assert_eq!([window.hand_out(), window.hand_out(), window.hand_out()], [Some(7), Some(8), None]);
+        assert!(window.insert(8, row(8)));
+        assert!(!window.insert(6, row(6)), "before the window");
+        assert!(window.insert(7, row(7)));
+        assert_eq!(take(&mut window, 10), [7, 8]);
+        assert_eq!(window.finished(), 9);
     }
 }

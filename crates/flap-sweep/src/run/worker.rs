@@ -43,31 +43,32 @@ impl Jobs for Source<'_> {
         }
         loop {
             // A worker with points in hand must never wait: others may be waiting for their rows.
-            let index = self.queue.next(idle && self.in_hand == 0)?;
-            let point = self.plan.point(index);
+            let position = self.queue.next(idle && self.in_hand == 0)?;
+            let point = self.plan.selected_point(position);
             match self.plan.judge(&point.values) {
                 Verdict::Runs => {
                     self.in_hand += 1;
-                    return Some(point);
+                    // The model hands the index back and has no other use for it: rows are put in order by position.
+                    return Some(Point { index: position, ..point });
                 }
-                Verdict::Excluded(unsatisfied) => self.queue.done(index, Finished::Excluded(unsatisfied)),
-                Verdict::Invalid(invalid) => self.queue.done(index, Finished::Row(Row::invalid(invalid))),
+                Verdict::Excluded(unsatisfied) => self.queue.done(position, Finished::Excluded(unsatisfied)),
+                Verdict::Invalid(invalid) => self.queue.done(position, Finished::Row(Row::invalid(invalid))),
             }
         }
     }
 
-    fn done(&mut self, index: u64, mut row: Row) {
+    fn done(&mut self, position: u64, mut row: Row) {
         let expected = if row.status == Status::Periodic { self.plan.rows().columns().len() } else { 0 };
         if row.measures.len() != expected {
             let found = row.measures.len();
-            self.fault = Some(format!("it returned {found} measures, not {expected}, for point {index}"));
+            self.fault = Some(format!("it returned {found} measures, not {expected}, for point {position}"));
             return;
         }
         self.in_hand = self.in_hand.saturating_sub(1);
-        if !self.plan.measures.is_empty() && index < self.plan.len() {
-            self.plan.add_own_measures(&self.plan.point(index).values, &mut row.measures);
+        if !self.plan.measures.is_empty() && position < self.plan.selected() {
+            self.plan.add_own_measures(&self.plan.selected_point(position).values, &mut row.measures);
         }
-        self.queue.done(index, Finished::Row(row));
+        self.queue.done(position, Finished::Row(row));
     }
 }
 

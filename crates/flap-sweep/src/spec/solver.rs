@@ -9,7 +9,7 @@ use super::value;
 const KEYS: [&str; 6] = ["rtol", "atol", "settle_tol", "max_cycles", "max_steps", "newton"];
 
 /// Looser than this, an error estimate means nothing.
-const LARGEST_RTOL: f64 = 0.1;
+pub(crate) const LARGEST_RTOL: f64 = 0.1;
 
 /// The settings, with defaults for what is not set.
 pub(super) fn read(entry: Option<&Entry<'_>>, problems: &mut Problems) -> SolverSettings {

@@ -1,0 +1,140 @@
+//! Commands on results: `resume`, `rerun`, `merge`, `convert`.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use flap_core::simulate::Status;
+use flap_sweep::diagnostic::nearest;
+
+use super::{SolverArgs, threads, time};
+
+/// How the points of a sweep are worked through.
+#[derive(clap::Args)]
+pub(crate) struct WorkArgs {
+    /// Worker threads; the rows do not depend on it [default: one per core]
+    #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
+    pub(crate) threads: Option<NonZeroUsize>,
+
+    /// Exit with 1 if some points are not periodic
+    #[arg(long)]
+    pub(crate) strict: bool,
+
+    /// Time between checkpoints: what a killed sweep computes again
+    #[arg(long, value_name = "TIME", default_value = "1 s", value_parser = interval)]
+    pub(crate) checkpoint: Duration,
+}
+
+#[derive(clap::Args)]
+#[command(after_help = RESUME_HELP)]
+pub(crate) struct ResumeArgs {
+    /// The unfinished results
+    #[arg(value_name = "FILE")]
+    pub(crate) results: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) work: WorkArgs,
+}
+
+const RESUME_HELP: &str = "\
+Goes on after the last row that is safe in FILE, to the same bytes as if nothing had happened. The grid is the one in \
+FILE.meta.toml. Refuses if another version of flap or another kind of machine began the sweep.
+
+Example:
+  flap resume results/run1.csv";
+
+#[derive(clap::Args)]
+#[command(after_help = RERUN_HELP)]
+pub(crate) struct RerunArgs {
+    /// Results with their sidecar beside them
+    #[arg(value_name = "RESULTS")]
+    pub(crate) results: PathBuf,
+
+    /// Which points: those with one of these statuses
+    #[arg(long, value_name = "STATUS,...", required = true, value_delimiter = ',', value_parser = status)]
+    pub(crate) status: Vec<Status>,
+
+    /// Where to write their rows
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) out: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) solver: SolverArgs,
+
+    #[command(flatten)]
+    pub(crate) work: WorkArgs,
+
+    /// Overwrite an existing file of results
+    #[arg(short, long)]
+    pub(crate) force: bool,
+}
+
+const RERUN_HELP: &str = "\
+The rows keep the indices of their points. Solver settings that are not given are those of RESULTS.
+
+Examples:
+  flap rerun sweep.csv --status unsettled --max-cycles 10000 --out again.csv
+  flap rerun sweep.csv --status diverged,step_limit --rtol 1e-8 --out again.csv";
+
+#[derive(clap::Args)]
+#[command(after_help = MERGE_HELP)]
+pub(crate) struct MergeArgs {
+    /// Where to write all rows: .csv, .csv.zst or .parquet
+    #[arg(value_name = "OUT")]
+    pub(crate) out: PathBuf,
+
+    /// The results of every shard, with their sidecars beside them
+    #[arg(value_name = "SHARD", required = true)]
+    pub(crate) shards: Vec<PathBuf>,
+
+    /// Overwrite an existing file of results
+    #[arg(short, long)]
+    pub(crate) force: bool,
+}
+
+const MERGE_HELP: &str = "\
+The result has the bytes of a sweep on one machine. Refuses if a shard is missing, unfinished, given twice or of another \
+sweep.
+
+Example:
+  flap sweep --grid grid.toml --shard 1/2
+  flap sweep --grid grid.toml --shard 2/2
+  flap merge grid.csv grid.1of2.csv grid.2of2.csv";
+
+#[derive(clap::Args)]
+#[command(after_help = CONVERT_HELP)]
+pub(crate) struct ConvertArgs {
+    /// Results with their sidecar beside them
+    #[arg(value_name = "IN")]
+    pub(crate) from: PathBuf,
+
+    /// Where to write the same rows: .csv, .csv.zst or .parquet
+    #[arg(value_name = "OUT")]
+    pub(crate) to: PathBuf,
+
+    /// Overwrite an existing file of results
+    #[arg(short, long)]
+    pub(crate) force: bool,
+}
+
+const CONVERT_HELP: &str = "\
+The result has the bytes of a sweep that wrote OUT.
+
+Example:
+  flap convert sweep.csv sweep.parquet";
+
+/// A time from 0 to a day.
+fn interval(text: &str) -> Result<Duration, String> {
+    let seconds = time(text)?;
+    let allowed = Some(seconds).filter(|seconds| (0.0..=86_400.0).contains(seconds));
+    allowed.map(Duration::from_secs_f64).ok_or_else(|| "must be from 0 s to 86400 s".to_owned())
+}
+
+fn status(text: &str) -> Result<Status, String> {
+    let found = Status::ALL.into_iter().find(|status| status.name() == text);
+    found.ok_or_else(|| {
+        let names = Status::ALL.map(Status::name);
+        let hint = nearest(text, names).map_or_else(String::new, |name| format!("; did you mean `{name}`?"));
+        format!("statuses are {}{hint}", names.join(", "))
+    })
+}

@@ -1,0 +1,47 @@
+//! `flap merge`: the shards of a sweep into the file that one machine would have written.
+
+use std::path::Path;
+
+use flap_sweep::merge::{self, Part};
+use flap_sweep::results::Format;
+use flap_sweep::run::RunOptions;
+use flap_sweep::selection::Selection;
+use flap_sweep::sidecar::{self, End, Sidecar, Start};
+
+use crate::args::MergeArgs;
+use crate::console;
+use crate::failure::{Exit, Failure};
+use crate::job;
+
+pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
+    let format = Format::of(&args.out)?;
+    let parts = args.shards.iter().map(|path| part(path)).collect::<Result<Vec<_>, _>>()?;
+    merge::check(&parts)?;
+    let Some(Part { path, sidecar: first }) = parts.first() else {
+        return Err(Failure::usage("name the shards to be merged"));
+    };
+    let mut plan = job::plan_of(&sidecar::path_of(path), first)?;
+    plan.selection = Selection::All;
+
+    job::make(&args.out, args.force, |target| merge::merge(&parts, &plan, (target, format)))??;
+
+    let sidecars = || parts.iter().map(|part| &part.sidecar);
+    let started = sidecars().map(|sidecar| sidecar.started.clone()).min().unwrap_or_default();
+    let mut whole = Sidecar::new(&plan, Start { started, options: RunOptions::default(), rerun: None });
+    whole.threads = sidecars().map(|sidecar| sidecar.threads).sum();
+    whole.arithmetic.clone_from(&first.arithmetic);
+    whole.instructions.clone_from(&first.instructions);
+    let summary = merge::summary(&parts, &plan);
+    let finished = sidecars().filter_map(|sidecar| sidecar.finished.clone()).max().unwrap_or_default();
+    whole.finish(&summary, End { finished, seconds: sidecars().filter_map(|sidecar| sidecar.seconds).sum() });
+    let beside = sidecar::path_of(&args.out);
+    whole.write(&beside).map_err(|error| Failure::cannot_write(&beside, &error))?;
+    console::say(&format!("{} rows of {} shards in {}", summary.rows, parts.len(), args.out.display()));
+    Ok(Exit::Done)
+}
+
+fn part(path: &Path) -> Result<Part, Failure> {
+    let beside = sidecar::path_of(path);
+    let sidecar = Sidecar::read(&beside).map_err(|error| Failure::from(error).help(job::SIDECAR_HELP))?;
+    Ok(Part { path: path.to_owned(), sidecar })
+}

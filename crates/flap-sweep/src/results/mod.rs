@@ -1,0 +1,21 @@
+//! Result files: their formats, and rows as text into them and out of them.
+//!
+//! Rows are the same text in every format: a cell is what [`Layout::cells`](crate::layout::Layout::cells) writes, whether
+//! it comes from a model or from a file. So a file converted, or merged from parts, has the bytes of one that was
+//! written at once.
+
+mod convert;
+mod format;
+#[cfg(feature = "parquet")]
+mod parquet;
+mod provenance;
+mod read;
+mod text;
+mod write;
+
+pub use convert::{ConvertError, convert};
+pub use format::{Format, FormatError};
+pub use provenance::Provenance;
+pub use read::Reader;
+pub use text::{BLOCK_ROWS, TextRows};
+pub use write::Writer;

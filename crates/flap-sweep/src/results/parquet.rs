@@ -1,0 +1,216 @@
+//! Rows as typed columns in Parquet files.
+
+use std::fs::File;
+use std::io;
+use std::sync::Arc;
+
+use csv::StringRecord;
+use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
+use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::writer::SerializedFileWriter;
+use parquet::record::Field;
+use parquet::record::reader::RowIter;
+use parquet::schema::types::{ColumnPath, Type};
+
+use super::Provenance;
+use crate::layout::{Column, Kind};
+use crate::text;
+
+/// Rows in one row group: a few megabytes in memory, and long enough to be read fast.
+const GROUP_ROWS: usize = 1 << 15;
+
+/// Writes rows in row groups; an empty cell is null.
+pub(super) struct ParquetRows {
+    writer: SerializedFileWriter<File>,
+    columns: Vec<Cells>,
+    rows: usize,
+}
+
+/// The cells of one column in the row group that is being filled.
+struct Cells {
+    name: String,
+    values: Values,
+    /// One per row: 1 for a value, 0 for null.
+    levels: Vec<i16>,
+}
+
+enum Values {
+    Whole(Vec<i64>),
+    Number(Vec<f64>),
+    Flag(Vec<bool>),
+    Text(Vec<ByteArray>),
+}
+
+impl ParquetRows {
+    pub(super) fn new(file: File, provenance: &Provenance) -> io::Result<ParquetRows> {
+        let columns = &provenance.columns;
+        let fields = columns.iter().map(|column| field(column).map(Arc::new)).collect::<Result<_, _>>();
+        let schema = Type::group_type_builder("flap").with_fields(fields.map_err(io_error)?).build();
+        let entries = provenance.entries.iter();
+        let metadata = entries.map(|(key, text)| KeyValue::new(key.clone(), text.clone())).collect();
+        // Digits seldom repeat, words always do.
+        let mut properties = WriterProperties::builder()
+            .set_compression(Compression::ZSTD(parquet::basic::ZstdLevel::default()))
+            .set_dictionary_enabled(false)
+            .set_key_value_metadata(Some(metadata));
+        for column in columns.iter().filter(|column| column.kind == Kind::Text) {
+            let path = ColumnPath::from(column.name.as_str());
+            properties = properties.set_column_dictionary_enabled(path, true);
+        }
+        let schema = Arc::new(schema.map_err(io_error)?);
+        let writer = SerializedFileWriter::new(file, schema, Arc::new(properties.build()));
+        let columns = columns.iter().map(Cells::new).collect();
+        Ok(ParquetRows { writer: writer.map_err(io_error)?, columns, rows: 0 })
+    }
+
+    pub(super) fn row(&mut self, cells: &StringRecord) -> io::Result<()> {
+        if cells.len() != self.columns.len() {
+            let message = format!("a row has {} cells, not {}", cells.len(), self.columns.len());
+            return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+        }
+        for (column, cell) in self.columns.iter_mut().zip(cells) {
+            column.push(cell)?;
+        }
+        self.rows += 1;
+        if self.rows == GROUP_ROWS { self.write_group() } else { Ok(()) }
+    }
+
+    pub(super) fn finish(mut self) -> io::Result<File> {
+        if self.rows > 0 {
+            self.write_group()?;
+        }
+        self.writer.into_inner().map_err(io_error)
+    }
+
+    fn write_group(&mut self) -> io::Result<()> {
+        let mut group = self.writer.next_row_group().map_err(io_error)?;
+        for column in &mut self.columns {
+            let writer = group.next_column().map_err(io_error)?;
+            let mut writer = writer.ok_or_else(|| io::Error::other("the schema has too few columns"))?;
+            let levels = Some(column.levels.as_slice());
+            let written = match &column.values {
+                Values::Whole(values) => writer.typed::<Int64Type>().write_batch(values, levels, None),
+                Values::Number(values) => writer.typed::<DoubleType>().write_batch(values, levels, None),
+                Values::Flag(values) => writer.typed::<BoolType>().write_batch(values, levels, None),
+                Values::Text(values) => writer.typed::<ByteArrayType>().write_batch(values, levels, None),
+            };
+            written.and_then(|_| writer.close()).map_err(io_error)?;
+            column.clear();
+        }
+        group.close().map_err(io_error)?;
+        self.rows = 0;
+        Ok(())
+    }
+}
+
+fn field(column: &Column) -> Result<Type, ParquetError> {
+    let (physical, logical) = match column.kind {
+        Kind::Whole => (Physical::INT64, Some(LogicalType::integer(64, false))),
+        Kind::Number => (Physical::DOUBLE, None),
+        Kind::Flag => (Physical::BOOLEAN, None),
+        Kind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+    };
+    Type::primitive_type_builder(&column.name, physical)
+        .with_logical_type(logical)
+        .with_repetition(Repetition::OPTIONAL)
+        .build()
+}
+
+impl Cells {
+    fn new(column: &Column) -> Cells {
+        let values = match column.kind {
+            Kind::Whole => Values::Whole(Vec::new()),
+            Kind::Number => Values::Number(Vec::new()),
+            Kind::Flag => Values::Flag(Vec::new()),
+            Kind::Text => Values::Text(Vec::new()),
+        };
+        Cells { name: column.name.clone(), values, levels: Vec::new() }
+    }
+
+    fn push(&mut self, cell: &str) -> io::Result<()> {
+        self.levels.push(i16::from(!cell.is_empty()));
+        if cell.is_empty() {
+            return Ok(());
+        }
+        let fits = match &mut self.values {
+            // Parquet keeps the bits of an unsigned number in a signed one.
+            Values::Whole(values) => {
+                cell.parse::<u64>().map(|value| values.push(value.cast_signed())).is_ok()
+            }
+            Values::Number(values) => cell.parse().map(|value| values.push(value)).is_ok(),
+            Values::Flag(values) => cell.parse().map(|value| values.push(value)).is_ok(),
+            Values::Text(values) => {
+                values.push(ByteArray::from(cell));
+                true
+            }
+        };
+        if fits {
+            return Ok(());
+        }
+        let message = format!("`{cell}` does not belong into column {}", self.name);
+        Err(io::Error::new(io::ErrorKind::InvalidData, message))
+    }
+
+    fn clear(&mut self) {
+        self.levels.clear();
+        match &mut self.values {
+            Values::Whole(values) => values.clear(),
+            Values::Number(values) => values.clear(),
+            Values::Flag(values) => values.clear(),
+            Values::Text(values) => values.clear(),
+        }
+    }
+}
+
+/// Reads rows back as the text they were written from.
+pub(super) struct ParquetReader {
+    names: Vec<String>,
+    rows: RowIter<'static>,
+}
+
+impl ParquetReader {
+    pub(super) fn new(file: File) -> io::Result<ParquetReader> {
+        let reader = SerializedFileReader::new(file).map_err(io_error)?;
+        let columns = reader.metadata().file_metadata().schema().get_fields();
+        let names = columns.iter().map(|column| column.name().to_owned()).collect();
+        Ok(ParquetReader { names, rows: RowIter::from_file_into(Box::new(reader)) })
+    }
+
+    pub(super) fn names(&self) -> Vec<String> {
+        self.names.clone()
+    }
+
+    pub(super) fn next(&mut self, row: &mut StringRecord) -> io::Result<bool> {
+        row.clear();
+        let Some(fields) = self.rows.next() else { return Ok(false) };
+        for (name, field) in fields.map_err(io_error)?.get_column_iter() {
+            match field {
+                Field::Null => row.push_field(""),
+                Field::ULong(value) => row.push_field(&value.to_string()),
+                Field::Double(value) => row.push_field(&text::float(*value)),
+                Field::Bool(value) => row.push_field(&value.to_string()),
+                Field::Str(value) => row.push_field(value),
+                _ => {
+                    let message = format!("column {name} is not one that flap writes");
+                    return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+                }
+            }
+        }
+        Ok(true)
+    }
+}
+
+/// What the operating system said, or what is wrong with the file.
+fn io_error(error: ParquetError) -> io::Error {
+    match error {
+        ParquetError::External(cause) => match cause.downcast::<io::Error>() {
+            Ok(cause) => *cause,
+            Err(cause) => io::Error::other(cause),
+        },
+        other => io::Error::new(io::ErrorKind::InvalidData, other),
+    }
+}

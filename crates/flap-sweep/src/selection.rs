@@ -1,0 +1,177 @@
+//! Which of a plan's points are run: all of them, every n-th, or a list.
+
+use std::fmt;
+use std::str::FromStr;
+
+use xxhash_rust::xxh3::Xxh3Default;
+
+/// The points that are run, in the order of the plan. The rows keep the indices of the whole plan.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Selection {
+    /// Every point.
+    #[default]
+    All,
+    /// The points of one machine among several.
+    Shard(Shard),
+    /// These points, rising.
+    Listed(Vec<u64>),
+}
+
+impl Selection {
+    /// How many of `points` points are run.
+    pub fn len(&self, points: u64) -> u64 {
+        match self {
+            Selection::All => points,
+            Selection::Shard(shard) => (points + shard.of - shard.number) / shard.of,
+            Selection::Listed(list) => list.len() as u64,
+        }
+    }
+
+    /// The index in the plan of the selected point number `position`, which must be less than [`Selection::len`].
+    pub fn index(&self, position: u64) -> u64 {
+        match self {
+            Selection::All => position,
+            Selection::Shard(shard) => shard.number - 1 + position * shard.of,
+            Selection::Listed(list) => usize::try_from(position).map_or(u64::MAX, |position| list[position]),
+        }
+    }
+}
+
+/// `all points`, `shard 2/3`, or how many points are listed, with a hash that tells lists apart.
+impl fmt::Display for Selection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Selection::All => f.write_str("all points"),
+            Selection::Shard(shard) => write!(f, "shard {shard}"),
+            Selection::Listed(list) => {
+                let mut hash = Xxh3Default::new();
+                for index in list {
+                    hash.update(&index.to_le_bytes());
+                }
+                write!(f, "{} listed points ({:016x})", list.len(), hash.digest())
+            }
+        }
+    }
+}
+
+/// One of several equal parts of a plan: the points whose index leaves the remainder `number - 1` when divided by `of`.
+///
+/// Neighbouring points take similar time, so parts that take every n-th point take similar time too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    number: u64,
+    of: u64,
+}
+
+impl Shard {
+    /// Most shards of a plan.
+    pub const MOST: u64 = 1_000_000;
+
+    /// Which shard, from 1.
+    pub fn number(self) -> u64 {
+        self.number
+    }
+
+    /// How many shards there are.
+    pub fn of(self) -> u64 {
+        self.of
+    }
+
+    /// Whether the point is of this shard.
+    pub fn contains(self, index: u64) -> bool {
+        index % self.of == self.number - 1
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.number, self.of)
+    }
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    /// Reads `2/3`.
+    fn from_str(text: &str) -> Result<Shard, String> {
+        let numbers = text.split_once('/').and_then(|(number, of)| number.parse().ok().zip(of.parse().ok()));
+        match numbers {
+            Some((number, of)) if 1 <= number && number <= of && of <= Shard::MOST => {
+                Ok(Shard { number, of })
+            }
+            _ => Err(format!("expected I/N with I from 1 to N and N up to {}, such as 2/8", Shard::MOST)),
+        }
+    }
+}
+
+/// A rising list of indices as text, with runs drawn together: `3,17,20-31`.
+pub fn list_text(list: &[u64]) -> String {
+    let runs = list.chunk_by(|a, b| a + 1 == *b);
+    let run = |run: &[u64]| match run {
+        [first, .., last] => format!("{first}-{last}"),
+        _ => run.iter().map(u64::to_string).collect(),
+    };
+    runs.map(run).collect::<Vec<_>>().join(",")
+}
+
+/// The most points that may be listed: they are kept in memory.
+pub const MOST_LISTED: u64 = 10_000_000;
+
+/// The list that [`list_text`] wrote, of at most [`MOST_LISTED`] indices below `points`; `None` for any other text.
+pub fn read_list(text: &str, points: u64) -> Option<Vec<u64>> {
+    let mut list: Vec<u64> = Vec::new();
+    for run in text.split(',').filter(|run| !run.is_empty()) {
+        let (first, last) = run.split_once('-').unwrap_or((run, run));
+        let (first, last): (u64, u64) = (first.parse().ok()?, last.parse().ok()?);
+        if first > last || last >= points || list.last().is_some_and(|&before| before >= first) {
+            return None;
+        }
+        if last - first >= MOST_LISTED - list.len() as u64 {
+            return None;
+        }
+        list.extend(first..=last);
+    }
+    Some(list)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_share_the_points_out() {
+        for points in [0, 1, 2, 3, 7, 100] {
+            for of in [1, 2, 3, 8] {
+                let mut seen: Vec<u64> = Vec::new();
+                for number in 1..=of {
+                    let shard: Shard = format!("{number}/{of}").parse().unwrap();
+                    let selection = Selection::Shard(shard);
+                    let indices = (0..selection.len(points)).map(|position| selection.index(position));
+                    seen.extend(indices.inspect(|&index| assert!(shard.contains(index))));
+                }
+                seen.sort_unstable();
+                assert!(seen.into_iter().eq(0..points), "{points} points in {of} shards");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_shard_is_refused() {
+        for text in ["", "1", "0/3", "4/3", "1/0", "a/b", "1/3/5", "-1/3", "1/1000001"] {
+            assert!(text.parse::<Shard>().is_err(), "{text}");
+        }
+        assert_eq!("2/3".parse::<Shard>().unwrap().to_string(), "2/3");
+    }
+
+    #[test]
+    fn lists_read_back() {
+        for list in [&[][..], &[5], &[0, 1, 2], &[3, 17, 20, 21, 22, 31], &[1, 2, 4, 5]] {
+            assert_eq!(read_list(&list_text(list), 100).as_deref(), Some(list));
+        }
+        assert_eq!(list_text(&[3, 17, 20, 21, 22]), "3,17,20-22");
+        for text in ["x", "3-1", "5,4", "5,5", "1-", "100", "0-99999999999999999999"] {
+            assert_eq!(read_list(text, 100), None, "{text}");
+        }
+        assert_eq!(read_list("0-10000000", u64::MAX), None, "too many");
+    }
+}

@@ -1,0 +1,184 @@
+//! Rows as CSV, compressed CSV and Parquet.
+
+use std::fs;
+
+use crate::support::{Folder, frequencies, quick};
+
+const ENDINGS: [&str; 3] = ["csv", "csv.zst", "parquet"];
+
+/// More rows than a compressed frame takes, of all kinds of cells: words, numbers, and none.
+fn grid() -> String {
+    quick(700) + "[[zip]]\nadded_mass = [\"paper\", \"lagrangian\"]\n"
+}
+
+#[test]
+fn every_format_holds_the_same_rows() {
+    let folder =
+        Folder::with_grid(&(frequencies(20) + "[[zip]]\nadded_mass = [\"paper\", \"lagrangian\"]\n"));
+    for ending in ENDINGS {
+        let ended = folder.flap(&format!("sweep --grid grid.toml --out rows.{ending}"));
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        assert!(ended.stderr.ends_with(&format!("40 rows in rows.{ending}\n")), "{}", ended.stderr);
+        let sidecar: toml::Table = folder.read(&format!("rows.{ending}.meta.toml")).parse().unwrap();
+        assert_eq!(sidecar["state"].as_str(), Some("complete"));
+        let ended = folder.flap(&format!("convert rows.{ending} from-{ending}.csv"));
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        assert_eq!(folder.read("rows.csv"), folder.read(&format!("from-{ending}.csv")));
+    }
+    for left in ["rows.csv.journal", "rows.parquet.journal", "rows.parquet.part"] {
+        assert!(!folder.path(left).exists(), "{left}");
+    }
+}
+
+#[test]
+fn converted_files_have_the_bytes_of_written_ones() {
+    let folder = Folder::with_grid(&grid());
+    for ending in ENDINGS {
+        assert_eq!(folder.flap(&format!("sweep --grid grid.toml --out {ending}.{ending}")).code, 0);
+    }
+    for from in ENDINGS {
+        for to in ENDINGS {
+            let ended = folder.flap(&format!("convert {from}.{from} out.{to} --force"));
+            assert_eq!(ended.code, 0, "{from} to {to}: {}", ended.stderr);
+            assert_eq!(ended.stdout, "");
+            let bytes = |name: &str| fs::read(folder.path(name)).unwrap();
+            assert!(bytes(&format!("{to}.{to}")) == bytes(&format!("out.{to}")), "{from} to {to}");
+            let sidecar = |name: &str| folder.read(&format!("{name}.meta.toml"));
+            assert_eq!(sidecar(&format!("{from}.{from}")), sidecar(&format!("out.{to}")));
+        }
+    }
+    let size = |name: &str| fs::metadata(folder.path(name)).unwrap().len();
+    assert!(size("csv.zst.csv.zst") * 3 < size("csv.csv"), "compressed");
+}
+
+/// What `zstd -d` gives is the CSV file, and it is made of more than one frame.
+#[test]
+fn compressed_files_are_frames_of_plain_ones() {
+    let folder = Folder::with_grid(&quick(600));
+    for ending in ["csv", "csv.zst"] {
+        assert_eq!(folder.flap(&format!("sweep --grid grid.toml --out rows.{ending}")).code, 0);
+    }
+    let compressed = fs::read(folder.path("rows.csv.zst")).unwrap();
+    let magic = [0x28, 0xb5, 0x2f, 0xfd];
+    let frames = compressed.windows(4).filter(|bytes| *bytes == magic).count();
+    assert_eq!(frames, 1 + 3, "a header and three blocks");
+    assert_eq!(zstd::decode_all(&compressed[..]).unwrap(), fs::read(folder.path("rows.csv")).unwrap());
+}
+
+#[test]
+fn parquet_carries_types_units_and_provenance() {
+    use parquet::basic::Type;
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+
+    let folder = Folder::with_grid(&grid());
+    assert_eq!(folder.flap("sweep --grid grid.toml --out rows.parquet").code, 0);
+    let file = fs::File::open(folder.path("rows.parquet")).unwrap();
+    let reader = SerializedFileReader::new(file).unwrap();
+    let metadata = reader.metadata().file_metadata();
+    assert_eq!(metadata.num_rows(), 1400);
+    let physical = |name: &str| {
+        let fields = metadata.schema().get_fields();
+        fields.iter().find(|field| field.name() == name).unwrap().get_physical_type()
+    };
+    assert_eq!(physical("point"), Type::INT64);
+    assert_eq!(physical("drive_frequency"), Type::DOUBLE);
+    assert_eq!(physical("added_mass"), Type::BYTE_ARRAY);
+    assert_eq!(physical("status"), Type::BYTE_ARRAY);
+    assert_eq!(physical("stable"), Type::BOOLEAN);
+    assert_eq!(physical("lift_mean_mn"), Type::DOUBLE);
+
+    let entries = metadata.key_value_metadata().unwrap();
+    let entry = |key: &str| {
+        let entry = entries.iter().find(|entry| entry.key == key);
+        entry.unwrap_or_else(|| panic!("{key}")).value.clone().unwrap()
+    };
+    assert_eq!(entry("flap.preset"), "ozaki2018-large");
+    assert_eq!(entry("flap.grid"), grid());
+    let units: toml::Table = entry("flap.units").parse().unwrap();
+    assert_eq!(units["lift_mean_mn"].as_str(), Some("mN"));
+    let solver: toml::Table = entry("flap.solver").parse().unwrap();
+    assert_eq!(solver["max_cycles"].as_integer(), Some(1));
+    let parameters: toml::Table = entry("flap.parameters").parse().unwrap();
+    assert!(parameters.contains_key("hinge_stiffness"));
+    assert!(!entry("flap").is_empty() && !entry("flap.arithmetic").is_empty());
+}
+
+/// A grid whose rows have columns of their own behind the model's: of the resonance, and of `[measure]`.
+#[test]
+fn every_format_holds_the_columns_of_resonances_and_own_measures() {
+    use parquet::basic::Type;
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+
+    let folder = Folder::with_grid(
+        r#"
+preset = "ozaki2018-large"
+[params]
+drive_frequency = "resonance"
+[resonance]
+from = "90 Hz"
+to = "130 Hz"
+tolerance = "1 Hz"
+[axes]
+drive_voltage_pp = [20, 30]
+[measure]
+speed = "resonance_hz * stroke_amplitude_deg"
+high = "resonance_hz > 50"
+"#,
+    );
+    for ending in ENDINGS {
+        let ended = folder.flap(&format!("sweep --grid grid.toml --out rows.{ending} --strict"));
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        let ended = folder.flap(&format!("convert rows.{ending} from-{ending}.csv"));
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        assert_eq!(folder.read("rows.csv"), folder.read(&format!("from-{ending}.csv")));
+    }
+    let text = folder.read("rows.csv");
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let place = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
+    for row in &rows[1..] {
+        let number = |name: &str| row[place(name)].parse::<f64>().unwrap();
+        assert!((90.0..=130.0).contains(&number("resonance_hz")), "{row:?}");
+        assert_eq!(number("speed"), number("resonance_hz") * number("stroke_amplitude_deg"));
+        assert_eq!(row[place("high")], "true");
+    }
+
+    let reader = SerializedFileReader::new(fs::File::open(folder.path("rows.parquet")).unwrap()).unwrap();
+    let fields = reader.metadata().file_metadata().schema().get_fields();
+    let names: Vec<&str> = fields.iter().map(|field| field.name()).collect();
+    assert_eq!(names, rows[0]);
+    assert_eq!(fields[place("resonance_hz")].get_physical_type(), Type::DOUBLE);
+    assert_eq!(fields[place("speed")].get_physical_type(), Type::DOUBLE);
+    assert_eq!(fields[place("high")].get_physical_type(), Type::BOOLEAN);
+}
+
+#[test]
+fn endings_that_stand_for_no_format() {
+    let folder = Folder::with_grid(&quick(1));
+    let ended = folder.flap("sweep --grid grid.toml --out rows.xlsx");
+    assert_eq!(ended.code, 2);
+    assert_eq!(
+        ended.stderr,
+        "error: rows.xlsx: rows cannot be written as .xlsx\n\
+         help: name a file that ends in .csv, .csv.zst or .parquet\n"
+    );
+}
+
+#[test]
+fn what_cannot_be_converted() {
+    let folder = Folder::with_grid(&quick(10));
+    assert_eq!(folder.flap("sweep --grid grid.toml --out rows.csv").code, 0);
+    fs::write(folder.path("alone.csv"), folder.read("rows.csv")).unwrap();
+    let ended = folder.flap("convert alone.csv out.parquet");
+    assert_eq!(ended.code, 2, "{}", ended.stderr);
+    assert!(ended.stderr.contains("alone.csv.meta.toml: cannot be read"), "{}", ended.stderr);
+
+    let ended = folder.flap("convert rows.csv rows.csv");
+    assert_eq!(ended.code, 2, "{}", ended.stderr);
+    assert!(ended.stderr.contains("exists already"), "{}", ended.stderr);
+
+    fs::write(folder.path("rows.csv"), "point,other\n0,1\n").unwrap();
+    let ended = folder.flap("convert rows.csv out.parquet");
+    assert_eq!(ended.code, 3, "{}", ended.stderr);
+    assert!(ended.stderr.contains("its columns are not those of the grid"), "{}", ended.stderr);
+    assert!(!folder.path("out.parquet").exists());
+}

@@ -1,0 +1,143 @@
+//! Sweeps that are repeated from what lies beside their results.
+
+use std::fs;
+
+use crate::support::{Folder, quick};
+
+/// Some of the points do not settle in so little time.
+const GRID: &str = r#"
+preset = "ozaki2018-large"
+
+[axes]
+drive_voltage_pp = [1, 10, 60, 200]
+drive_frequency = { from = 60, to = 170, step = 10 }
+
+[solver]
+settle_tol = 1e-4
+max_cycles = 6
+
+[output]
+columns = ["lift_mean_mn"]
+"#;
+
+fn unsettled() -> Folder {
+    let folder = Folder::with_grid(GRID);
+    let ended = folder.flap("sweep --grid grid.toml --out rows.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder
+}
+
+fn points(folder: &Folder, name: &str) -> Vec<(String, String)> {
+    let text = folder.read(name);
+    let rows = text.lines().skip(1).map(|row| {
+        let cells: Vec<&str> = row.split(',').collect();
+        (cells[0].to_owned(), cells[3].to_owned())
+    });
+    rows.collect()
+}
+
+#[test]
+fn a_sidecar_is_enough_to_repeat_a_sweep() {
+    let folder = unsettled();
+    fs::remove_file(folder.path("grid.toml")).unwrap();
+    let ended = folder.flap("sweep --from-sidecar rows.csv.meta.toml --out again.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert_eq!(folder.read("rows.csv"), folder.read("again.csv"));
+
+    let ended = folder.flap("sweep --from-sidecar rows.csv --out other.csv");
+    assert_eq!(ended.code, 2);
+    assert!(ended.stderr.contains("rows.csv: not a sidecar of results"), "{}", ended.stderr);
+    let ended = folder.flap("sweep --from-sidecar rows.csv.meta.toml");
+    assert_eq!(ended.code, 2);
+    assert!(ended.stderr.contains("--out"), "{}", ended.stderr);
+}
+
+#[test]
+fn failed_points_are_run_again_with_other_settings() {
+    let folder = unsettled();
+    let failed: Vec<(String, String)> =
+        points(&folder, "rows.csv").into_iter().filter(|(_, status)| status == "unsettled").collect();
+    assert!(!failed.is_empty() && failed.len() < 48, "{}", folder.read("rows.csv"));
+    let ended = folder.flap("rerun rows.csv --status unsettled --max-cycles 500 --out again.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let again = points(&folder, "again.csv");
+    assert!(again.iter().map(|(point, _)| point).eq(failed.iter().map(|(point, _)| point)));
+    assert!(again.iter().all(|(_, status)| status == "periodic"), "{again:?}");
+
+    let sidecar: toml::Table = folder.read("again.csv.meta.toml").parse().unwrap();
+    assert_eq!(sidecar["solver"]["max_cycles"].as_integer(), Some(500));
+    assert_eq!(sidecar["solver"]["settle_tol"].as_float(), Some(1e-4));
+    assert_eq!(sidecar["rerun"]["of"].as_str(), Some("rows.csv"));
+    assert_eq!(sidecar["rerun"]["statuses"].as_array().unwrap().len(), 1);
+
+    // The sidecar of a rerun repeats the rerun.
+    let ended = folder.flap("sweep --from-sidecar again.csv.meta.toml --out third.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert_eq!(folder.read("again.csv"), folder.read("third.csv"));
+}
+
+#[test]
+fn what_cannot_be_run_again() {
+    let folder = unsettled();
+    let ended = folder.flap("rerun rows.csv --status diverged --out again.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert_eq!(ended.stderr, "no point in rows.csv is diverged: nothing is left to run\n");
+    assert!(!folder.path("again.csv").exists());
+
+    let edited =
+        folder.read("rows.csv.meta.toml").replace("max_cycles = 6\nmax_steps", "max_cycles = 0\nmax_steps");
+    fs::write(folder.path("edited.meta.toml"), edited).unwrap();
+    let ended = folder.flap("sweep --from-sidecar edited.meta.toml --out again.csv");
+    assert_eq!(ended.code, 2, "{}", ended.stderr);
+    assert!(ended.stderr.contains("its solver settings are not ones"), "{}", ended.stderr);
+
+    let ended = folder.flap("rerun rows.csv --status unsetled --out again.csv");
+    assert_eq!(ended.code, 2);
+    assert!(ended.stderr.contains("did you mean `unsettled`?"), "{}", ended.stderr);
+
+    let ended = folder.flap("rerun rows.csv --status unsettled --out rows.csv --force");
+    assert_eq!(ended.code, 2);
+    assert!(ended.stderr.contains("rows would overwrite rows.csv"), "{}", ended.stderr);
+}
+
+/// The file of points is looked for where the grid file was, and must be as it was.
+#[test]
+fn a_sweep_of_a_file_of_points_is_repeated_from_its_sidecar() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("designs")).unwrap();
+    let grid = quick(3).replace("[solver]", "[sample]\nmethod = \"file\"\npath = \"points.csv\"\n[solver]");
+    fs::write(folder.path("designs/grid.toml"), grid).unwrap();
+    let points = "drive_voltage_pp\n20\n30\n";
+    fs::write(folder.path("designs/points.csv"), points).unwrap();
+    let ended = folder.flap("sweep --grid designs/grid.toml --out rows.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert_eq!(folder.read("rows.csv").lines().count(), 7);
+    fs::remove_file(folder.path("designs/grid.toml")).unwrap();
+    let ended = folder.flap("sweep --from-sidecar rows.csv.meta.toml --out again.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert_eq!(folder.read("rows.csv"), folder.read("again.csv"));
+    let ended = folder.flap("rerun rows.csv --status unsettled --max-cycles 2 --out rerun.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert_eq!(folder.flap("resume rerun.csv").stderr, "rerun.csv is complete: nothing is left to run\n");
+
+    fs::write(folder.path("designs/points.csv"), points.replace("30", "31")).unwrap();
+    for arguments in [
+        "sweep --from-sidecar rows.csv.meta.toml --out third.csv",
+        "resume rows.csv",
+        "rerun rows.csv --status unsettled --out third.csv",
+        "convert rows.csv third.parquet",
+    ] {
+        let ended = folder.flap(arguments);
+        assert_eq!(ended.code, 2, "{arguments}: {}", ended.stderr);
+        assert_eq!(
+            ended.stderr,
+            "error: rows.csv.meta.toml: designs/points.csv no longer holds the points that were run\n\
+             help: put the file of points back as it was, or sweep its grid file anew\n",
+            "{arguments}"
+        );
+    }
+    fs::remove_file(folder.path("designs/points.csv")).unwrap();
+    let ended = folder.flap("resume rows.csv");
+    assert_eq!(ended.code, 2, "{}", ended.stderr);
+    assert!(ended.stderr.contains("designs/points.csv: "), "{}", ended.stderr);
+}

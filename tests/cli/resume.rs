@@ -1,0 +1,326 @@
+//! Sweeps that are ended by force, by a full disk or by a lost permission, and gone on with.
+
+#![cfg(unix)]
+
+use std::fs;
+use std::os::unix::fs::{MetadataExt, PermissionsExt, chown};
+use std::os::unix::process::CommandExt;
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::support::{Folder, frequencies, quick, send, start, wait, wait_for_rows};
+
+/// Points of sweeps that are to last long enough to be killed several times.
+const POINTS: u64 = 60_000;
+
+/// What the tests pass on to see many checkpoints in a short time.
+const OFTEN: [&str; 2] = ["--checkpoint", "5 ms"];
+
+/// A folder with a grid and the rows of an uninterrupted sweep in `whole.<ending>`.
+fn folder(points: u64, ending: &str) -> Folder {
+    let folder = Folder::with_grid(&quick(points));
+    let ended = folder.flap(&format!("sweep --grid grid.toml --out whole.{ending}"));
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder
+}
+
+fn length(folder: &Folder, name: &str) -> u64 {
+    fs::metadata(folder.path(name)).map_or(0, |metadata| metadata.len())
+}
+
+/// Waits for `what`; false if the command ends before.
+fn wait_until(child: &mut std::process::Child, mut what: impl FnMut() -> bool) -> bool {
+    let start = Instant::now();
+    while !what() {
+        if child.try_wait().unwrap().is_some() {
+            return false;
+        }
+        assert!(start.elapsed() < Duration::from_secs(60), "it does not come so far");
+        thread::sleep(Duration::from_millis(1));
+    }
+    true
+}
+
+/// The sidecar without what two runs of the same differ in.
+fn comparable(folder: &Folder, name: &str) -> toml::Table {
+    let mut sidecar: toml::Table = folder.read(&format!("{name}.meta.toml")).parse().unwrap();
+    for key in ["started", "finished", "seconds", "threads"] {
+        sidecar.remove(key);
+    }
+    sidecar
+}
+
+fn assert_same(folder: &Folder, ending: &str) {
+    let bytes = |name: &str| fs::read(folder.path(&format!("{name}.{ending}"))).unwrap();
+    assert!(bytes("whole") == bytes("rows"), "{ending}");
+    assert_eq!(
+        comparable(folder, &format!("whole.{ending}")),
+        comparable(folder, &format!("rows.{ending}")),
+        "{ending}"
+    );
+    for left in ["journal", "part", "meta.toml.tmp"] {
+        assert!(!folder.path(&format!("rows.{ending}.{left}")).exists(), "{left}");
+    }
+}
+
+/// Kills the sweep `kills` times at random moments, each after it has got a little further, and lets it end.
+fn killed(ending: &str, kills: u32, mut random: u64) {
+    let folder = folder(POINTS, ending);
+    let out = format!("rows.{ending}");
+    let journal = format!("{out}.journal");
+    let mut arguments = vec!["sweep", "--grid", "grid.toml", "--out", &out, "--resume", "--threads", "1"];
+    arguments.extend(OFTEN);
+    for _ in 0..kills {
+        let before = length(&folder, &journal);
+        let mut child = start(&folder, &arguments);
+        assert!(wait_until(&mut child, || length(&folder, &journal) > before), "{ending}: it is too quick");
+        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        thread::sleep(Duration::from_micros(random >> 50));
+        child.kill().unwrap();
+        assert_eq!(wait(&mut child), None, "{ending}: it ended before it was killed");
+    }
+    if ending == "parquet" {
+        // Once more while the rows are turned into columns.
+        let mut child = start(&folder, &arguments);
+        if wait_until(&mut child, || length(&folder, &out) > 0) {
+            child.kill().unwrap();
+            wait(&mut child);
+        }
+    }
+    let ended = folder.flap(&format!("resume {out}"));
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert_same(&folder, ending);
+}
+
+#[test]
+fn a_killed_sweep_yields_the_same_csv() {
+    killed("csv", 7, 1);
+}
+
+#[test]
+fn a_killed_sweep_yields_the_same_compressed_csv() {
+    killed("csv.zst", 7, 2);
+}
+
+#[test]
+fn a_killed_sweep_yields_the_same_parquet() {
+    killed("parquet", 7, 3);
+}
+
+/// One that is asked to end loses nothing, in any format.
+#[test]
+fn an_interrupted_sweep_goes_on() {
+    for (signal, ending) in [("INT", "csv"), ("TERM", "csv.zst"), ("INT", "parquet")] {
+        let folder = folder(POINTS, ending);
+        let out = format!("rows.{ending}");
+        let arguments = ["sweep", "--grid", "grid.toml", "--out", &out, OFTEN[0], OFTEN[1]];
+        let mut child = start(&folder, &arguments);
+        let journal = format!("{out}.journal");
+        assert!(wait_until(&mut child, || length(&folder, &journal) > 500));
+        send(signal, &child);
+        assert_eq!(wait(&mut child), Some(130), "{ending}");
+        let sidecar: toml::Table = folder.read(&format!("{out}.meta.toml")).parse().unwrap();
+        assert_eq!(sidecar["state"].as_str(), Some("interrupted"));
+
+        let ended = folder.flap(&format!("sweep --grid grid.toml --out {out}"));
+        assert_eq!(ended.code, 2);
+        assert!(
+            ended.stderr.contains("is the unfinished result of an interrupted sweep"),
+            "{}",
+            ended.stderr
+        );
+        assert!(ended.stderr.contains("`flap sweep --resume`"), "{}", ended.stderr);
+        let ended = folder.flap(&format!("sweep --grid grid.toml --out {out} --resume"));
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        assert!(
+            ended.stderr.contains(&format!("of {POINTS} points of {out} are done\n")),
+            "{}",
+            ended.stderr
+        );
+        assert_same(&folder, ending);
+    }
+}
+
+#[test]
+fn a_full_disk_loses_nothing() {
+    for (ending, blocks) in [("csv", 200), ("csv.zst", 20), ("parquet", 20)] {
+        let folder = folder(5_000, ending);
+        let flap = env!("CARGO_BIN_EXE_flap");
+        let sweep = format!("{flap} sweep --grid grid.toml --out rows.{ending} --checkpoint '5 ms'");
+        let limited = Command::new("sh")
+            .args(["-c", &format!("ulimit -f {blocks}; exec {sweep}")])
+            .current_dir(folder.path(""))
+            .output()
+            .unwrap();
+        let stderr = String::from_utf8(limited.stderr).unwrap();
+        assert_eq!(limited.status.code(), Some(3), "{stderr}");
+        assert!(stderr.starts_with("error: cannot write rows: "), "{stderr}");
+        assert!(stderr.ends_with(&format!("help: `flap resume rows.{ending}` goes on\n")), "{stderr}");
+        let ended = folder.flap(&format!("resume rows.{ending}"));
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        assert_same(&folder, ending);
+    }
+}
+
+/// Nobody: root may write where it is not permitted.
+const NOBODY: u32 = 65_534;
+
+#[test]
+fn a_lost_permission_loses_nothing() {
+    let folder = folder(POINTS, "csv");
+    let writable = |writable: bool| {
+        let mode = if writable { 0o755 } else { 0o555 };
+        fs::set_permissions(folder.path(""), fs::Permissions::from_mode(mode)).unwrap();
+    };
+    fs::copy(env!("CARGO_BIN_EXE_flap"), folder.path("flap")).unwrap();
+    let command = |arguments: &str| {
+        let mut command = Command::new(folder.path("flap"));
+        command.args(arguments.split_whitespace()).current_dir(folder.path(""));
+        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let owner = fs::metadata(folder.path("")).unwrap().uid();
+        if owner == 0 || owner == NOBODY {
+            chown(folder.path(""), Some(NOBODY), Some(NOBODY)).unwrap();
+            command.uid(NOBODY).gid(NOBODY);
+        }
+        command
+    };
+    let run = |arguments: &str| {
+        let output = command(arguments).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+
+    // From the beginning.
+    writable(false);
+    let (code, stderr) = run("sweep --grid grid.toml --out rows.csv");
+    assert_eq!(code, Some(3), "{stderr}");
+    assert!(stderr.starts_with("error: cannot write rows.csv: "), "{stderr}");
+    assert!(!folder.path("rows.csv").exists());
+
+    // In the middle: the files that are open go on, what is beside them cannot be replaced.
+    writable(true);
+    let mut child = command("sweep --grid grid.toml --out rows.csv --threads 1").spawn().unwrap();
+    assert!(wait_until(&mut child, || length(&folder, "rows.csv") > 10_000));
+    writable(false);
+    assert_eq!(wait(&mut child), Some(3));
+    let (code, stderr) = run("resume rows.csv");
+    assert_eq!(code, Some(3), "{stderr}");
+    assert!(stderr.contains("error: cannot write rows.csv.meta.toml: "), "{stderr}");
+    writable(true);
+    let (code, stderr) = run("resume rows.csv");
+    assert_eq!(code, Some(0), "{stderr}");
+    assert_same(&folder, "csv");
+}
+
+#[test]
+fn results_removed_meanwhile_are_noticed() {
+    for (ending, removed) in [("csv", "rows.csv"), ("parquet", "rows.parquet.part")] {
+        let folder = folder(POINTS, ending);
+        let out = format!("rows.{ending}");
+        let arguments = ["sweep", "--grid", "grid.toml", "--out", &out, OFTEN[0], OFTEN[1]];
+        let mut child = start(&folder, &arguments);
+        let journal = format!("{out}.journal");
+        assert!(wait_until(&mut child, || length(&folder, &journal) > 500));
+        fs::remove_file(folder.path(removed)).unwrap();
+        assert_eq!(wait(&mut child), Some(3), "{removed}");
+        let stderr = std::io::read_to_string(child.stderr.take().unwrap()).unwrap();
+        assert!(stderr.contains(&format!("{removed} was removed or replaced meanwhile")), "{stderr}");
+
+        let ended = folder.flap(&format!("resume {out}"));
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        assert!(ended.stderr.contains("rows are no longer in"), "{}", ended.stderr);
+        assert_same(&folder, ending);
+    }
+}
+
+/// Two processes cannot write to the same results, however they begin.
+#[test]
+fn a_running_sweep_is_not_resumed() {
+    let folder = Folder::with_grid(&frequencies(100_000_000));
+    let mut child = start(&folder, &["sweep", "--grid", "grid.toml"]);
+    wait_for_rows(&folder, 1);
+    for arguments in ["resume grid.csv", "sweep --grid grid.toml --resume", "sweep --grid grid.toml --force"]
+    {
+        let ended = folder.flap(arguments);
+        assert_eq!(ended.code, 3, "{arguments}: {}", ended.stderr);
+        assert_eq!(ended.stderr, "error: another run is writing to grid.csv\n");
+    }
+    child.kill().unwrap();
+    wait(&mut child);
+}
+
+/// An unfinished sweep of `grid.toml` in `grid.csv`.
+fn unfinished() -> Folder {
+    let folder = Folder::with_grid(&quick(100_000_000));
+    let mut child = start(&folder, &["sweep", "--grid", "grid.toml", OFTEN[0], OFTEN[1]]);
+    assert!(wait_until(&mut child, || length(&folder, "grid.csv.journal") > 500));
+    child.kill().unwrap();
+    wait(&mut child);
+    folder
+}
+
+#[test]
+fn a_changed_grid_is_not_resumed() {
+    let folder = unfinished();
+    let rows = folder.read("grid.csv");
+    let grid = folder.read("grid.toml").replace("rtol = 1e-3", "rtol = 1e-4");
+    fs::write(folder.path("grid.toml"), grid).unwrap();
+    let ended = folder.flap("sweep --grid grid.toml --resume");
+    assert_eq!(ended.code, 2);
+    assert_eq!(
+        ended.stderr,
+        "error: grid.csv cannot be resumed: the grid file is another; the solver settings are others\n\
+         help: use `flap sweep --force` to start over, or name another file\n\
+         help: line 7 of the grid was `rtol = 1e-3`, it is `rtol = 1e-4`\n"
+    );
+    assert_eq!(folder.read("grid.csv"), rows, "nothing is lost");
+}
+
+#[test]
+fn another_shard_is_not_resumed() {
+    let folder = unfinished();
+    let ended = folder.flap("sweep --grid grid.toml --out grid.csv --shard 2/3 --resume");
+    assert_eq!(ended.code, 2);
+    let message = "grid.csv cannot be resumed: the rows are of all points, not shard 2/3\n";
+    assert!(ended.stderr.contains(message), "{}", ended.stderr);
+}
+
+#[test]
+fn rows_edited_meanwhile_are_not_resumed() {
+    let folder = unfinished();
+    let rows = folder.read("grid.csv").replacen("unsettled", "periodic!", 1);
+    fs::write(folder.path("grid.csv"), &rows).unwrap();
+    let ended = folder.flap("resume grid.csv");
+    assert_eq!(ended.code, 2);
+    assert!(ended.stderr.contains("it is not as the sweep left it"), "{}", ended.stderr);
+    assert_eq!(folder.read("grid.csv"), rows);
+}
+
+#[test]
+fn there_may_be_nothing_to_resume() {
+    let folder = Folder::with_grid(&quick(10));
+    let ended = folder.flap("resume grid.csv");
+    assert_eq!(ended.code, 2, "{}", ended.stderr);
+    assert!(ended.stderr.contains("grid.csv.meta.toml: cannot be read"), "{}", ended.stderr);
+
+    // A job script may always say --resume.
+    let ended = folder.flap("sweep --grid grid.toml --resume");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let rows = folder.read("grid.csv");
+    let ended = folder.flap("sweep --grid grid.toml --resume --strict");
+    assert_eq!(ended.code, 1, "{}", ended.stderr);
+    assert_eq!(ended.stderr, "grid.csv is complete: nothing is left to run\n");
+    assert_eq!(folder.read("grid.csv"), rows);
+
+    fs::write(folder.path("grid.toml"), quick(11)).unwrap();
+    let ended = folder.flap("sweep --grid grid.toml --resume");
+    assert_eq!(ended.code, 2, "{}", ended.stderr);
+    assert!(ended.stderr.contains("the grid file is another"), "{}", ended.stderr);
+
+    fs::write(folder.path("alone.csv"), "precious\n").unwrap();
+    let ended = folder.flap("sweep --grid grid.toml --out alone.csv --resume");
+    assert_eq!(ended.code, 2, "{}", ended.stderr);
+    assert!(ended.stderr.contains("alone.csv has no journal"), "{}", ended.stderr);
+    assert_eq!(folder.read("alone.csv"), "precious\n");
+    assert_eq!(folder.flap("sweep --grid grid.toml --out - --resume").code, 2);
+}

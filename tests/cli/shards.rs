@@ -1,0 +1,161 @@
+//! Shards of a sweep, and putting them together.
+
+use std::fs;
+
+use crate::support::{Folder, quick};
+
+/// A folder with all points of a grid in `whole.csv`, and its shards in `grid.1of3.csv` and so on.
+fn folder(points: u64) -> Folder {
+    folder_of(&quick(points))
+}
+
+fn folder_of(grid: &str) -> Folder {
+    let folder = Folder::with_grid(grid);
+    for arguments in ["--out whole.csv", "--shard 1/3", "--shard 2/3", "--shard 3/3"] {
+        let ended = folder.flap(&format!("sweep --grid grid.toml {arguments}"));
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+    }
+    folder
+}
+
+#[test]
+fn merged_shards_are_the_file_of_one_machine() {
+    for points in [1000, 2] {
+        let folder = folder(points);
+        for ending in ["csv", "csv.zst", "parquet"] {
+            let merged = format!("merged.{ending}");
+            let ended = folder.flap(&format!("merge {merged} grid.3of3.csv grid.1of3.csv grid.2of3.csv"));
+            assert_eq!(ended.code, 0, "{}", ended.stderr);
+            assert_eq!(ended.stderr, format!("{points} rows of 3 shards in {merged}\n"));
+            assert_eq!(folder.flap(&format!("convert whole.csv one.{ending}")).code, 0);
+            let bytes = |name: &str| fs::read(folder.path(name)).unwrap();
+            assert!(bytes(&merged) == bytes(&format!("one.{ending}")), "{merged}");
+            let sidecar =
+                |name: &str| folder.read(&format!("{name}.meta.toml")).parse::<toml::Table>().unwrap();
+            for key in ["state", "points", "rows", "cycles", "rhs_evals", "statuses", "invalid", "grid"] {
+                assert_eq!(sidecar(&merged).get(key), sidecar("whole.csv").get(key), "{key}");
+            }
+            assert!(!sidecar(&merged).contains_key("shard"));
+        }
+    }
+}
+
+/// Shards of a grid with conditions have different numbers of rows, and count what is excluded together.
+#[test]
+fn merged_shards_of_a_grid_with_conditions_are_the_file_of_one_machine() {
+    let grid = quick(1000)
+        + r#"
+[derived]
+hinge_stiffness = "preset.hinge_stiffness * (drive_frequency / preset.drive_frequency)^2"
+[where]
+not_around_70 = "abs(drive_frequency - 70) > 4"
+not_every_third = "drive_frequency > 100 or abs(sin(pi * (drive_frequency - 60) / 0.3)) > 1e-3"
+[measure]
+strong = "lift_mean_mn > 1"
+"#;
+    let folder = folder_of(&grid);
+    let rows = |name: &str| folder.read(name).lines().count() - 1;
+    assert_eq!(rows("grid.1of3.csv") + rows("grid.2of3.csv") + rows("grid.3of3.csv"), rows("whole.csv"));
+    assert!(rows("grid.1of3.csv") + 100 < rows("grid.2of3.csv"));
+    for ending in ["csv", "csv.zst", "parquet"] {
+        let merged = format!("merged.{ending}");
+        let ended = folder.flap(&format!("merge {merged} grid.2of3.csv grid.1of3.csv grid.3of3.csv"));
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        assert_eq!(folder.flap(&format!("sweep --grid grid.toml --out one.{ending}")).code, 0);
+        let bytes = |name: &str| fs::read(folder.path(name)).unwrap();
+        assert!(bytes(&merged) == bytes(&format!("one.{ending}")), "{merged}");
+        let sidecar = |name: &str| folder.read(&format!("{name}.meta.toml")).parse::<toml::Table>().unwrap();
+        for key in ["points", "rows", "excluded", "unsatisfied", "statuses"] {
+            assert!(sidecar(&merged).contains_key(key), "{key}");
+            assert_eq!(sidecar(&merged)[key], sidecar("whole.csv")[key], "{key}");
+        }
+    }
+}
+
+#[test]
+fn a_shard_keeps_the_indices_of_the_grid() {
+    let folder = folder(10);
+    let rows = folder.read("grid.2of3.csv");
+    let points: Vec<&str> = rows.lines().skip(1).map(|row| row.split(',').next().unwrap()).collect();
+    assert_eq!(points, ["1", "4", "7"]);
+    let sidecar: toml::Table = folder.read("grid.2of3.csv.meta.toml").parse().unwrap();
+    assert_eq!(sidecar["shard"].as_str(), Some("2/3"));
+    assert_eq!((sidecar["points"].as_integer(), sidecar["rows"].as_integer()), (Some(10), Some(3)));
+}
+
+#[test]
+fn shards_that_do_not_belong_together_are_refused() {
+    let folder = folder(100);
+    fs::write(folder.path("other.toml"), quick(101)).unwrap();
+    assert_eq!(folder.flap("sweep --grid other.toml --shard 3/3").code, 0);
+    assert_eq!(folder.flap("sweep --grid grid.toml --shard 3/4").code, 0);
+    for (shards, message) in [
+        ("grid.1of3.csv grid.2of3.csv", "error: shard 3/3 is missing\n"),
+        ("grid.3of3.csv", "error: 2 shards are missing, the first is 1/3\n"),
+        (
+            "grid.1of3.csv grid.2of3.csv grid.3of3.csv grid.2of3.csv",
+            "error: grid.2of3.csv and grid.2of3.csv are both shard 2/3\n",
+        ),
+        (
+            "grid.1of3.csv grid.2of3.csv other.3of3.csv",
+            "error: other.3of3.csv does not belong to grid.1of3.csv: the grid file is another\n\
+             shard 3/3 is missing\n",
+        ),
+        (
+            "grid.1of3.csv grid.2of3.csv grid.3of4.csv",
+            "error: grid.3of4.csv is shard 3/4, grid.1of3.csv is shard 1/3\nshard 3/3 is missing\n",
+        ),
+        ("whole.csv", "error: whole.csv is not a shard\n"),
+    ] {
+        let ended = folder.flap(&format!("merge merged.csv {shards}"));
+        assert_eq!(ended.code, 2, "{shards}");
+        assert_eq!(ended.stderr, message, "{shards}");
+    }
+    let ended = folder.flap("merge merged.csv missing.csv");
+    assert_eq!(ended.code, 2);
+    assert!(ended.stderr.contains("missing.csv.meta.toml: cannot be read"), "{}", ended.stderr);
+    assert!(!folder.path("merged.csv").exists());
+}
+
+#[test]
+fn shards_that_do_not_hold_what_they_should_are_refused() {
+    let whole = folder(100).read("grid.2of3.csv");
+    let mut lines: Vec<&str> = whole.lines().collect();
+    let last = lines.pop().unwrap();
+    let short = lines.join("\n") + "\n";
+    let foreign = short.clone() + "3," + last.split_once(',').unwrap().1 + "\n";
+    for (rows, message) in [
+        (short.as_str(), "it does not have as many rows as its sidecar says"),
+        (foreign.as_str(), "it holds a row that is not of this shard or not in order"),
+        ("a,b\n1,2\n", "its columns are not those of its grid file"),
+        ("", "its columns are not those of its grid file"),
+    ] {
+        let folder = folder(100);
+        fs::write(folder.path("grid.2of3.csv"), rows).unwrap();
+        let ended = folder.flap("merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv");
+        assert_eq!(ended.code, 3, "{}", ended.stderr);
+        assert_eq!(ended.stderr, format!("error: cannot read grid.2of3.csv: {message}\n"));
+        assert!(!folder.path("merged.csv").exists());
+    }
+}
+
+/// A shard whose sweep was interrupted says so.
+#[test]
+fn unfinished_shards_are_refused() {
+    let folder = folder(100);
+    let sidecar = folder.read("grid.2of3.csv.meta.toml").replace("\"complete\"", "\"interrupted\"");
+    fs::write(folder.path("grid.2of3.csv.meta.toml"), sidecar).unwrap();
+    let ended = folder.flap("merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv");
+    assert_eq!(ended.code, 2);
+    assert_eq!(ended.stderr, "error: grid.2of3.csv is not complete\n");
+}
+
+#[test]
+fn wrong_shards_are_explained() {
+    let folder = Folder::with_grid(&quick(10));
+    for shard in ["0/3", "4/3", "3"] {
+        let ended = folder.flap(&format!("sweep --grid grid.toml --shard {shard}"));
+        assert_eq!(ended.code, 2);
+        assert!(ended.stderr.contains("expected I/N with I from 1 to N"), "{}", ended.stderr);
+    }
+}

@@ -1,0 +1,266 @@
+//! Journals, and sessions that go on from them.
+
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use flap_core::simulate::{Point, Row};
+use flap_sweep::identity::Identity;
+use flap_sweep::journal::{self, Checkpoint, Header, Journal};
+use flap_sweep::output;
+use flap_sweep::plan::Plan;
+use flap_sweep::results::Format;
+use flap_sweep::run::{self, RunError, Summary};
+use flap_sweep::selection::Selection;
+use flap_sweep::session::{ResumeError, Resumed, Session, SessionOptions};
+use flap_sweep::sink::Sink;
+use flap_sweep::spec;
+
+use crate::fake::{Fake, Fault};
+use crate::support::{csv, options, plan, plan_of};
+
+/// Checkpoints wherever there may be one.
+fn often() -> SessionOptions {
+    SessionOptions { run: options(2, 100), checkpoint: Duration::ZERO }
+}
+
+fn start(path: &Path, plan: &Plan) -> Session {
+    let file = output::create(path, false).unwrap();
+    Session::start(file, (path, Format::of(path).unwrap()), plan, &often(), "2026-01-02".to_owned()).unwrap()
+}
+
+/// Runs until `stop_at` rows are written, as if the machine lost its power then.
+fn run_to(session: &mut Session, plan: &Plan, before: Summary, stop_at: u64) -> Option<Summary> {
+    let mut sink = Crash { session, stop_at };
+    match run::resume(plan, &often().run, before, &mut sink, &AtomicBool::new(false), &mut |_| {}) {
+        Ok(summary) => {
+            session.close(&summary).unwrap();
+            Some(summary)
+        }
+        Err(RunError::Sink(_)) => None,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// Fails when so many points are done.
+struct Crash<'a> {
+    session: &'a mut Session,
+    stop_at: u64,
+}
+
+impl Sink for Crash<'_> {
+    fn begin(&mut self) -> std::io::Result<()> {
+        self.session.begin()
+    }
+
+    fn write(&mut self, point: &Point, row: &Row) -> std::io::Result<()> {
+        self.session.write(point, row)
+    }
+
+    fn done(&mut self, so_far: &Summary) -> std::io::Result<()> {
+        self.session.done(so_far)?;
+        if so_far.done() == self.stop_at { Err(std::io::Error::other("no power")) } else { Ok(()) }
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.session.flush()
+    }
+
+    fn finish(&mut self) -> std::io::Result<()> {
+        self.session.finish()
+    }
+}
+
+/// Wherever a run ends, it goes on to the same bytes and the same summary.
+#[test]
+fn a_session_goes_on_where_the_last_one_ended() {
+    let mut listed = plan(Fake::leak(Fault::None, 8), 5000);
+    listed.selection = Selection::Listed((0..5000).filter(|index| index % 7 < 3).collect());
+    let mut shard = plan(Fake::leak(Fault::None, 8), 3000);
+    shard.selection = Selection::Shard("2/3".parse().unwrap());
+    for plan in [plan(Fake::leak(Fault::None, 8), 1000), listed, shard] {
+        let (text, summary) = csv(&plan, &options(2, 100));
+        let summary = summary.unwrap();
+        for name in ["rows.csv", "rows.csv.zst"] {
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join(name);
+            assert_eq!(run_to(&mut start(&path, &plan), &plan, Summary::default(), 1), None);
+            for stop_at in [200, 256, 300, 512, 700] {
+                let resumed = Session::resume(&path, &plan, &often()).unwrap();
+                assert!(resumed.before.done() <= stop_at);
+                let at_least = if name == "rows.csv" { stop_at.min(200) } else { stop_at / 256 * 256 };
+                let mut session = resumed.session;
+                assert_eq!(run_to(&mut session, &plan, resumed.before, stop_at), None);
+                drop(session);
+                let resumed = Session::resume(&path, &plan, &often()).unwrap();
+                assert!(resumed.before.done() >= at_least, "{} of {stop_at}", resumed.before.done());
+                assert_eq!(resumed.lost, 0);
+                assert_eq!(resumed.started, "2026-01-02");
+            }
+            let resumed = Session::resume(&path, &plan, &often()).unwrap();
+            let mut session = resumed.session;
+            assert_eq!(run_to(&mut session, &plan, resumed.before, u64::MAX), Some(summary.clone()));
+            session.forget().unwrap();
+            let bytes = fs::read(&path).unwrap();
+            let rows = if name == "rows.csv" { bytes } else { zstd::decode_all(&bytes[..]).unwrap() };
+            assert!(String::from_utf8(rows).unwrap() == text, "{name}");
+            assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        }
+    }
+}
+
+/// Excluded points, derived parameters, measures of one's own and a sample.
+const FORMULAS: &str = r#"
+preset = "fake2020"
+[axes]
+size = { from = 0, to = 12, step = 1 }
+[sample]
+method = "latin-hypercube"
+n = 200
+[sample.parameters]
+drive_frequency = { mean = 50, sd = 20 }
+[derived]
+span = "size - 0.5"
+[where]
+not_slow = "drive_frequency > 40"
+not_two_or_nine = "size != 2 and size != 9"
+[measure]
+ratio = "power_mean_mw / lift_mean_mn"
+strong = "ratio > 150"
+"#;
+
+#[test]
+fn a_session_with_formulas_goes_on_where_the_last_one_ended() {
+    for selection in ["1/1", "2/3"] {
+        let mut plan = plan_of(Fake::leak(Fault::None, 8), FORMULAS);
+        plan.selection = Selection::Shard(selection.parse().unwrap());
+        let (text, summary) = csv(&plan, &options(2, 100));
+        let summary = summary.unwrap();
+        assert!(summary.excluded > summary.points / 3 && summary.rows > summary.points / 3);
+        assert!(text.contains(",true,") && text.contains(",false,") && text.contains("invalid"));
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("rows.csv");
+        let mut stops: Vec<u64> = (1..summary.points).step_by(97).collect();
+        let mut session = start(&path, &plan);
+        assert_eq!(run_to(&mut session, &plan, Summary::default(), stops.remove(0)), None);
+        drop(session);
+        let mut done = 1;
+        for stop_at in stops {
+            let Resumed { mut session, before, .. } = Session::resume(&path, &plan, &often()).unwrap();
+            // After excluded points too.
+            assert_eq!(before.done(), done);
+            assert_eq!(run_to(&mut session, &plan, before, stop_at), None);
+            done = stop_at;
+        }
+        let Resumed { mut session, before, .. } = Session::resume(&path, &plan, &often()).unwrap();
+        assert_eq!(run_to(&mut session, &plan, before, u64::MAX), Some(summary));
+        assert!(fs::read_to_string(&path).unwrap() == text, "{selection}");
+    }
+}
+
+#[test]
+fn a_changed_file_of_points_is_not_resumed() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, points] = ["rows.csv", "points.csv"].map(|name| folder.path().join(name));
+    let plan = |sizes: &str| {
+        fs::write(&points, format!("size\n{sizes}\n")).unwrap();
+        let grid = "preset = \"fake2020\"\n[sample]\nmethod = \"file\"\npath = \"points.csv\"\n";
+        let name = folder.path().join("grid.toml").display().to_string();
+        spec::parse(&name, grid, &[Fake::leak(Fault::None, 8)]).unwrap()
+    };
+    let (first, other) = (plan("1\n2\n3"), plan("1\n2\n8"));
+    assert_eq!(run_to(&mut start(&path, &first), &first, Summary::default(), 2), None);
+    match Session::resume(&path, &other, &often()).map(|_| ()) {
+        Err(ResumeError::Changed { changes, .. }) => assert_eq!(changes, ["the file of points is another"]),
+        other => panic!("{other:?}"),
+    }
+    let Resumed { mut session, before, .. } = Session::resume(&path, &first, &often()).unwrap();
+    assert_eq!(run_to(&mut session, &first, before, u64::MAX).unwrap().rows, 3);
+}
+
+/// What a crash may leave behind the last whole line does no harm.
+#[test]
+fn a_torn_last_line_is_dropped() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows.csv");
+    let plan = plan(Fake::leak(Fault::None, 8), 1000);
+    run_to(&mut start(&path, &plan), &plan, Summary::default(), 300);
+    let whole = fs::read(journal::path_of(&path)).unwrap();
+    let lines: Vec<&[u8]> = whole.split_inclusive(|&byte| byte == b'\n').collect();
+    let last = lines[lines.len() - 1];
+    for kept in [0, 1, 17, last.len() / 2, last.len() - 1] {
+        let torn = [&whole[..whole.len() - last.len()], &last[..kept]].concat();
+        fs::write(journal::path_of(&path), &torn).unwrap();
+        let resumed = Session::resume(&path, &plan, &often()).unwrap();
+        assert_eq!(resumed.before.done(), 299, "{kept} bytes of the last line");
+    }
+    // Nor does one whose checksum is wrong.
+    let mut wrong = whole.clone();
+    let digit = whole.len() - 4;
+    wrong[digit] ^= 1;
+    assert_eq!(journal::parse(&wrong).unwrap().checkpoints.len(), 299);
+    assert_eq!(journal::parse(&whole).unwrap().checkpoints.len(), 300);
+    assert_eq!(journal::parse(&whole[1..]), None, "without a first line nothing is known");
+}
+
+#[test]
+fn checkpoints_read_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("journal");
+    let plan = plan_of(Fake::leak(Fault::None, 8), FORMULAS);
+    let (_, summary) = csv(&plan, &options(2, 100));
+    let mut summary = summary.unwrap();
+    summary.invalid[0].1 = "a reason with 'all' \"quotes\", \\ and µ".to_owned();
+    summary.invalid[1].1 = "two\nlines".to_owned();
+    let header = Header::new("2026-01-02".to_owned(), Identity::of(&plan, &options(2, 100)));
+    let mut journal = Journal::create(&path, &header).unwrap();
+    let checkpoint = Checkpoint::new(&summary, 12_345, 0xfeed, 1.5);
+    journal.add(&checkpoint).unwrap();
+    let past = journal::read(&path).unwrap().unwrap();
+    assert_eq!(past.header, header);
+    assert_eq!(past.checkpoints.len(), 1);
+    assert_eq!(past.checkpoints[0].0, checkpoint);
+    summary.invalid[1].1 = "two lines".to_owned();
+    // The plan says how many points there are, not the journal.
+    assert_eq!(past.checkpoints[0].0.summary(), Summary { points: 0, ..summary });
+}
+
+#[test]
+fn other_versions_and_machines_do_not_go_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows.csv");
+    let plan = plan(Fake::leak(Fault::None, 8), 1000);
+    let ours = Identity::of(&plan, &often().run);
+    for (identity, change) in [
+        (Identity { flap: "0.0.1".to_owned(), ..ours.clone() }, "the rows are by flap 0.0.1, not "),
+        (Identity { arithmetic: "other".to_owned(), ..ours.clone() }, "the arithmetic is other, not "),
+        (Identity { grid: String::new(), ..ours.clone() }, "the grid file is another"),
+    ] {
+        Journal::create(&journal::path_of(&path), &Header::new(String::new(), identity)).unwrap();
+        match Session::resume(&path, &plan, &often()).map(|_| ()) {
+            Err(error @ ResumeError::Changed { .. }) => {
+                assert!(error.to_string().contains(change), "{error}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+/// A file shorter than its journal says is gone on with from the last checkpoint that it holds.
+#[test]
+fn lost_rows_are_computed_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows.csv");
+    let plan = plan(Fake::leak(Fault::None, 8), 1000);
+    let (text, _) = csv(&plan, &options(2, 100));
+    run_to(&mut start(&path, &plan), &plan, Summary::default(), 300);
+    let rows = fs::read(&path).unwrap();
+    fs::write(&path, &rows[..rows.len() / 2]).unwrap();
+    let resumed = Session::resume(&path, &plan, &often()).unwrap();
+    assert!((100..200).contains(&resumed.before.done()), "{}", resumed.before.done());
+    assert_eq!(resumed.lost + resumed.before.rows, 300);
+    let mut session = resumed.session;
+    run_to(&mut session, &plan, resumed.before, u64::MAX).unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), text);
+}
