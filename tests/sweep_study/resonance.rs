@@ -34,12 +34,13 @@ fn fine_sweep(plan: &Plan, values: &[f64], objective: usize, range: [u32; 2]) ->
         let evals: u64 = rows.iter().map(|row| row.rhs_evals).sum();
         let value = |row: &Row| row.measures.get(objective).copied().unwrap_or(f64::NEG_INFINITY);
         let best = rows.iter().zip(frequencies).map(|(row, f)| (value(row), f));
-        (best.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap(), evals)
+        (best.max_by(|a, b| a.0.total_cmp(&b.0)).expect("there are points"), evals)
     };
-    let [from, to] = range.map(f64::from);
-    let coarse = (0..=(to - from) as u32 * 2).map(|i| from + 0.5 * f64::from(i));
+    let coarse = (2 * range[0]..=2 * range[1]).map(|half| 0.5 * f64::from(half));
     let ((_, top), evals) = highest(coarse.collect());
-    let fine = (0..=40).map(|i| top - 1.0 + 0.05 * f64::from(i)).filter(|f| (from..=to).contains(f));
+    let fine = (0..=40)
+        .map(|i| top - 1.0 + 0.05 * f64::from(i))
+        .filter(|f| (f64::from(range[0])..=f64::from(range[1])).contains(f));
     let ((value, top), _) = highest(fine.collect());
     (value, top, 10.0 * evals as f64)
 }

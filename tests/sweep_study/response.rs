@@ -29,12 +29,12 @@ fn along(plan: &Plan, range: [u32; 2], tolerance: f64) -> Along {
 
 fn follow(plan: &Plan, along: &Along, threads: usize) -> Vec<Curve> {
     let mut curves = Vec::new();
-    let threads = NonZeroUsize::new(threads).unwrap();
+    let threads = NonZeroUsize::new(threads).expect("at least one");
     response::run(plan, along, threads, |curve| {
         curves.push(curve);
         Ok::<(), RunError>(())
     })
-    .unwrap();
+    .expect("threads");
     assert!((0..).zip(&curves).all(|(index, curve)| curve.design.index == index), "in order");
     curves
 }
@@ -160,9 +160,9 @@ fn the_ends_of_a_band_are_located_as_closely_as_asked() {
     assert!(values.windows(2).all(|two| two[0] < two[1]), "rising, each once");
     let verdict = verdict(&plan, &along, curve);
     let [from, to] = verdict.bistable().next().unwrap().range;
-    for (edge, outside) in [(from, -1), (to, 1)] {
-        let index = values.iter().position(|&value| value == edge).unwrap() as i32;
-        let neighbour = values[(index + outside) as usize];
+    for (edge, outside) in [(from, false), (to, true)] {
+        let index = values.iter().position(|&value| value == edge).unwrap();
+        let neighbour = values[if outside { index + 1 } else { index - 1 }];
         assert!((edge - neighbour).abs() <= 0.01, "{edge} {neighbour}");
     }
 }

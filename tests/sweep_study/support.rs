@@ -30,7 +30,7 @@ impl Jobs for Listed {
     }
 
     fn done(&mut self, index: u64, row: Row) {
-        let place = &mut self.rows[usize::try_from(index).unwrap()];
+        let place = &mut self.rows[usize::try_from(index).expect("few points")];
         assert!(place.is_none(), "point {index} has two rows");
         *place = Some(row);
     }

@@ -87,7 +87,11 @@ pub fn search(
             "a peak cannot be found to {tolerance} Hz, only to more than zero"
         )));
     }
-    refuse_prescribed(simulator, values)?;
+    if has_prescribed_stroke(simulator.parameters(), values) {
+        return Err(Invalid::new(
+            "stroke_mode is \"prescribed\": such a stroke is the same at every frequency, set it to free",
+        ));
+    }
     let mut response = Response::new(simulator, values)?;
     let mut spacing = (to - from) / f64::from(COARSE);
     response.add(set, solver, (0..=COARSE).map(|i| from + spacing * f64::from(i)))?;
@@ -111,19 +115,13 @@ pub fn search(
     Ok(response.finish(tops))
 }
 
-/// Refuses a stroke that is what it is at every frequency.
-fn refuse_prescribed(simulator: &dyn Simulator, values: &[f64]) -> Result<(), Invalid> {
-    let prescribed = |(parameter, &value): (&Parameter, &f64)| {
+/// Whether the stroke of a point is prescribed, and so the same at every frequency.
+pub fn has_prescribed_stroke(parameters: &[Parameter], values: &[f64]) -> bool {
+    parameters.iter().zip(values).any(|(parameter, &value)| {
         let Kind::Choice(options) = parameter.kind else { return false };
         let option = (0_u32..).map(f64::from).zip(options).find(|(index, _)| *index == value);
         parameter.name == "stroke_mode" && option.is_some_and(|(_, option)| *option == "prescribed")
-    };
-    if simulator.parameters().iter().zip(values).any(prescribed) {
-        return Err(Invalid::new(
-            "stroke_mode is \"prescribed\": such a stroke is the same at every frequency, set it to free",
-        ));
-    }
-    Ok(())
+    })
 }
 
 /// The stroke and pitch of a point by drive frequency, as far as they are known.

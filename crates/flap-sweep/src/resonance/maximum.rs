@@ -42,17 +42,14 @@ impl Maximum {
         if (x - middle).abs() <= 2.0 * tolerance - 0.5 * (b - a) {
             return None;
         }
-        let step = match self.to_the_parabolas_top() {
-            Some(step) => {
-                let u = x + step;
-                let near_a_bound = u - a < 2.0 * tolerance || b - u < 2.0 * tolerance;
-                if near_a_bound { tolerance.copysign(middle - x) } else { step }
-            }
-            None => {
-                let larger = if x < middle { b - x } else { a - x };
-                self.steps[0] = larger;
-                GOLDEN * larger
-            }
+        let step = if let Some(step) = self.to_the_parabolas_top() {
+            let u = x + step;
+            let near_a_bound = u - a < 2.0 * tolerance || b - u < 2.0 * tolerance;
+            if near_a_bound { tolerance.copysign(middle - x) } else { step }
+        } else {
+            let larger = if x < middle { b - x } else { a - x };
+            self.steps[0] = larger;
+            GOLDEN * larger
         };
         self.steps = [step, self.steps[0]];
         Some(if step.abs() >= tolerance { x + step } else { x + tolerance.copysign(step) })

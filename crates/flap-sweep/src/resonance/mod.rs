@@ -1,14 +1,15 @@
 //! Each design at its own resonance: the drive frequency at which its stroke, lift or efficiency is largest.
 //!
 //! - [`AtResonance`]: what is looked for; turns designs into rows as a model turns points
-//! - [`search`]: the search of one design
-//! - [`maximum`]: the top of one peak
+//! - `search`: the search of one design
+//! - `maximum`: the top of one peak
 
 mod maximum;
 mod search;
 
 use flap_core::num::InstructionSet;
-use flap_core::parameter::{Invalid, Kind, Parameter};
+use flap_core::parameter::Invalid;
+use flap_core::resonance::driven::has_prescribed_stroke;
 use flap_core::simulate::{Column, Jobs, Point, Row, Rows, Simulator, SolverSettings};
 
 use crate::study::{self, Desk};
@@ -124,7 +125,7 @@ impl AtResonance {
     /// The frequencies (Hz) between which the resonance of a design is looked for.
     fn ends(&self, values: &[f64]) -> Result<[f64; 2], Invalid> {
         let Range { of, from, to, .. } = self.range;
-        if of == Objective::Stroke && self.has_prescribed_stroke(values) {
+        if of == Objective::Stroke && has_prescribed_stroke(self.model.parameters(), values) {
             return Err(Invalid::new(
                 "stroke_mode is \"prescribed\": such a stroke is the same at every frequency, and has no resonance",
             ));
@@ -147,15 +148,6 @@ impl AtResonance {
         Err(Invalid::new(format!(
             "there are no drive frequencies from {from} to {to} Hz to look for a resonance"
         )))
-    }
-
-    fn has_prescribed_stroke(&self, values: &[f64]) -> bool {
-        let prescribed = |(parameter, &value): (&Parameter, &f64)| {
-            let Kind::Choice(options) = parameter.kind else { return false };
-            let option = (0_u32..).map(f64::from).zip(options).find(|(index, _)| *index == value);
-            parameter.name == "stroke_mode" && option.is_some_and(|(_, option)| *option == "prescribed")
-        };
-        self.model.parameters().iter().zip(values).any(prescribed)
     }
 }
 

@@ -87,7 +87,7 @@ impl Branch<'_> {
         for _ in 0..MOST {
             let [a, b] = &places;
             let direction = (b - a).normalize();
-            let Some(orbit) = self.correct(b + &direction * distance, &direction) else {
+            let Some(orbit) = self.correct(&(b + &direction * distance), &direction) else {
                 distance *= 0.5;
                 if distance < STEPS[1] {
                     return found;
@@ -131,7 +131,7 @@ impl Branch<'_> {
     }
 
     /// The orbit nearest to `guess` on the plane through it across `direction`, by Newton's iteration.
-    fn correct(&self, guess: DVector<f64>, direction: &DVector<f64>) -> Option<Orbit> {
+    fn correct(&self, guess: &DVector<f64>, direction: &DVector<f64>) -> Option<Orbit> {
         let n = self.sizes.len();
         let mut place = guess.clone();
         let mut rhs_evals = 0;
@@ -146,7 +146,7 @@ impl Branch<'_> {
             if residual <= self.solver.settle_tol {
                 return Some(Orbit { place, period, residual, iterations, rhs_evals });
             }
-            miss[n] = direction.dot(&(&place - &guess));
+            miss[n] = direction.dot(&(&place - guess));
             let mut changed = place.clone();
             changed[n] += CHANGE;
             let changed = self.period(&changed).ok()?;

@@ -3,10 +3,10 @@
 //! Every point is begun where its neighbour's motion has ended, so that a branch of orbits is followed as far as it goes.
 //! Where the way up and the way down differ, the design has two motions at the same drive.
 //!
-//! - [`follow`]: one curve, up and down, with the ends of its bistable bands
-//! - [`continuation`]: the unstable orbits that join the branches of a bistable band
-//! - [`verdict`]: what a curve shows
-//! - [`table`]: curves as rows of CSV
+//! - `follow`: one curve, up and down, with the ends of its bistable bands
+//! - `continuation`: the unstable orbits that join the branches of a bistable band
+//! - `verdict`: what a curve shows
+//! - `table`: curves as rows of CSV
 
 mod continuation;
 mod follow;
@@ -65,7 +65,7 @@ pub struct Curve {
 
 impl Curve {
     /// The curve of a design that cannot be run.
-    fn impossible(along: &Along, design: Point, reason: Invalid) -> Curve {
+    fn impossible(along: &Along, design: Point, reason: &Invalid) -> Curve {
         let step = |value: &f64| Step { value: *value, row: Row::invalid(reason.clone()) };
         let up: Vec<Step> = along.values.iter().map(step).collect();
         Curve { design, down: up.clone(), up, unstable: Vec::new() }
@@ -185,7 +185,7 @@ impl<'a> Desk for Designs<'a> {
             match judge(plan, along, &design) {
                 plan::Verdict::Runs => return Some(Follow::new(plan, along, design)),
                 plan::Verdict::Excluded(_) => {}
-                plan::Verdict::Invalid(reason) => self.put(Curve::impossible(along, design, reason)),
+                plan::Verdict::Invalid(reason) => self.put(Curve::impossible(along, design, &reason)),
             }
         }
     }
