@@ -38,6 +38,12 @@ reproduce:
 bench:
     cargo bench -p flap-core -p flap-sweep
 
+# Looks for input that breaks a reader of text: grid, units, expression, journal or sidecar. Needs a nightly compiler and
+# `cargo install cargo-fuzz`. Findings go to fuzz/artifacts; the corpus stays as it is.
+fuzz TARGET SECONDS="600":
+    mkdir -p target/fuzz/{{TARGET}}
+    cargo +nightly fuzz run --sanitizer none --fuzz-dir fuzz {{TARGET}} target/fuzz/{{TARGET}} fuzz/corpus/{{TARGET}} -- -max_total_time={{SECONDS}} -max_len=4096
+
 # What continuous integration runs.
 ci:
     .ci/run

@@ -1,0 +1,73 @@
+//! Hostile input: every target on its corpus, and on thousands of changes of that. `fuzz` has the same targets for a fuzzer
+//! that looks for new paths by itself.
+
+mod mutate;
+mod targets;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use mutate::Mutator;
+use targets::TARGETS;
+
+/// Changed inputs per target.
+const CHANGES: usize = 8000;
+
+/// The inputs of a target's corpus; grid files have the examples too.
+fn corpus(name: &str) -> Vec<Vec<u8>> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let listed = |folder: PathBuf| {
+        let entries = fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+        let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("a file").path()).collect();
+        paths.sort();
+        paths
+    };
+    let mut paths = listed(root.join("fuzz/corpus").join(name));
+    if name == "grid" {
+        let examples = listed(root.join("examples"));
+        paths.extend(examples.into_iter().filter(|path| path.extension().is_some_and(|is| is == "toml")));
+    }
+    paths.iter().map(|path| fs::read(path).expect("a readable file")).collect()
+}
+
+#[test]
+fn no_input_is_too_odd() {
+    for (name, target) in TARGETS {
+        let corpus = corpus(name);
+        assert!(!corpus.is_empty(), "{name}");
+        for input in &corpus {
+            target(input);
+        }
+        let mut mutator = Mutator::new(&corpus);
+        for _ in 0..CHANGES {
+            target(&mutator.next());
+        }
+    }
+}
+
+/// Seeds are what they are meant to be, or changing them would not get far.
+#[test]
+fn seeds_are_good() {
+    for input in corpus("grid") {
+        let text = String::from_utf8(input).expect("text");
+        let parsed = flap_sweep::spec::parse("grid.toml", &text, flap_core::simulate::all());
+        assert!(parsed.is_ok(), "{text}: {:?}", parsed.err());
+    }
+    for input in corpus("sidecar") {
+        let text = String::from_utf8(input).expect("text");
+        let parsed = flap_sweep::sidecar::Sidecar::parse(&text);
+        assert!(parsed.is_ok(), "{text}: {:?}", parsed.err());
+    }
+    for input in corpus("journal") {
+        let lines = input.split_inclusive(|&byte| byte == b'\n').count();
+        let whole: Vec<u8> = input
+            .split(|&byte| byte == b'\n')
+            .filter(|line| !line.is_empty())
+            .flat_map(|line| {
+                [format!("{:016x} ", xxhash_rust::xxh3::xxh3_64(line)).as_bytes(), line, b"\n"].concat()
+            })
+            .collect();
+        let past = flap_sweep::journal::parse(&whole).expect("a first line");
+        assert_eq!(past.checkpoints.len() + 1, lines);
+    }
+}

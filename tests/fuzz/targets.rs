@@ -1,0 +1,122 @@
+//! What must hold for any input: the bodies of the fuzz targets in `fuzz`, run by an ordinary test too.
+
+use flap_core::simulate::all;
+use flap_sweep::expression::{Expression, Meaning, Scope};
+use flap_sweep::sidecar::Sidecar;
+use flap_sweep::{journal, spec, units};
+use xxhash_rust::xxh3::xxh3_64;
+
+/// A target by its name, which is that of its corpus.
+pub(crate) type Target = (&'static str, fn(&[u8]));
+
+/// All targets.
+pub(crate) const TARGETS: [Target; 5] = [
+    ("grid", grid),
+    ("units", units),
+    ("expression", expression),
+    ("journal", journal),
+    ("sidecar", sidecar),
+];
+
+/// Any text is a plan, whose first and last point can be computed, or a list of mistakes that can be shown.
+pub(crate) fn grid(bytes: &[u8]) {
+    let Ok(text) = str::from_utf8(bytes) else { return };
+    match spec::parse("grid.toml", text, all()) {
+        Ok(plan) => {
+            for index in [0, plan.len() / 2, plan.len().saturating_sub(1)] {
+                if index < plan.len() {
+                    let point = plan.point(index);
+                    assert_eq!(point.values.len(), plan.parameters().len());
+                    plan.judge(&point.values);
+                }
+            }
+        }
+        Err(mistakes) => {
+            assert!(!mistakes.is_empty());
+            for mistake in mistakes {
+                assert!(text.get(mistake.span.clone()).is_some(), "{mistake}");
+            }
+        }
+    }
+}
+
+/// Any text is a quantity, or an error with a message.
+pub(crate) fn units(bytes: &[u8]) {
+    let Ok(text) = str::from_utf8(bytes) else { return };
+    for unit in ["", "m", "Hz", "N*m/rad", "kg*m^2"] {
+        match units::parse_as(text, unit) {
+            Ok(number) => assert!(!number.is_nan(), "{text}"),
+            Err(error) => assert!(!error.message("it").is_empty()),
+        }
+    }
+}
+
+/// Names of every kind.
+struct Names;
+
+impl Scope for Names {
+    fn meaning(&self, name: &str) -> Option<Meaning> {
+        Some(match name {
+            "x" => Meaning::Number(0),
+            "y" => Meaning::Number(1),
+            "arms" => Meaning::Choice(2, &["printed", "axis"]),
+            "ok" => Meaning::Condition(3),
+            "preset.x" => Meaning::Constant(2.5),
+            "width" => Meaning::Unset("half of the length"),
+            _ => return None,
+        })
+    }
+
+    fn names(&self) -> Vec<String> {
+        ["x", "y", "arms", "ok", "preset.x", "width"].map(str::to_owned).to_vec()
+    }
+}
+
+/// Any text is an expression with a value, the same each time, or a list of mistakes within it.
+pub(crate) fn expression(bytes: &[u8]) {
+    let Ok(text) = str::from_utf8(bytes) else { return };
+    match Expression::parse(text, &Names) {
+        Ok(expression) => {
+            for values in [[2.0, 3.0, 1.0, 1.0], [f64::NAN, -0.0, 0.0, f64::NAN]] {
+                let bits = || expression.value(&values).to_bits();
+                assert_eq!(bits(), bits(), "{text}");
+            }
+        }
+        Err(mistakes) => {
+            assert!(!mistakes.is_empty());
+            for mistake in mistakes {
+                assert!(text.get(mistake.span.clone()).is_some(), "{text}: {}", mistake.message());
+            }
+        }
+    }
+}
+
+/// Any bytes are a journal as far as their lines are whole. Lines are given their checksums, or few would be.
+pub(crate) fn journal(bytes: &[u8]) {
+    let _ = journal::parse(bytes);
+    let line =
+        |contents: &[u8]| [format!("{:016x} ", xxh3_64(contents)).as_bytes(), contents, b"\n"].concat();
+    let whole: Vec<u8> = bytes.split(|&byte| byte == b'\n').flat_map(line).collect();
+    if let Some(past) = journal::parse(&whole) {
+        let mut end = past.header_bytes;
+        for (checkpoint, next) in past.checkpoints {
+            assert!(end < next && next <= whole.len() as u64);
+            end = next;
+            assert_eq!(checkpoint.summary().rows, checkpoint.rows);
+        }
+    }
+}
+
+/// Any text is a sidecar that can be written again, or an error. Its plan has only points of its grid.
+pub(crate) fn sidecar(bytes: &[u8]) {
+    let Ok(text) = str::from_utf8(bytes) else { return };
+    let Ok(sidecar) = Sidecar::parse(text) else { return };
+    if let Ok(again) = sidecar.text() {
+        assert!(Sidecar::parse(&again).is_ok(), "{again}");
+    }
+    if let Ok(plan) = sidecar.plan(all())
+        && plan.selected() > 0
+    {
+        assert!(plan.selected_point(plan.selected() - 1).index < plan.len());
+    }
+}
