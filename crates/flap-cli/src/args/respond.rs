@@ -1,0 +1,69 @@
+//! `flap respond`.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use super::{SolverArgs, assignment, threads};
+
+#[derive(clap::Args)]
+#[command(after_help = RESPOND_HELP)]
+pub(crate) struct RespondArgs {
+    /// A preset, or a grid file: each of its points, without the axis that is followed, is a design with a curve
+    #[arg(value_name = "PRESET|FILE")]
+    pub(crate) what: String,
+
+    /// The parameter that rises and falls
+    #[arg(short, long, value_name = "NAME", default_value = "drive_frequency")]
+    pub(crate) along: String,
+
+    /// Its first value: a number in SI units, or with a unit [default: the first of the grid file's axis]
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub(crate) from: Option<String>,
+
+    /// Its last value [default: the last of the grid file's axis]
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub(crate) to: Option<String>,
+
+    /// The step from one value to the next [default: those of the grid file's axis]
+    #[arg(long, value_name = "VALUE")]
+    pub(crate) step: Option<String>,
+
+    /// How closely the ends of bistable bands are located [default: a sixteenth of the shortest step]
+    #[arg(long, value_name = "VALUE")]
+    pub(crate) tolerance: Option<String>,
+
+    /// Continue the branches of bistable bands around their ends: adds the unstable orbits between them, as rows of the
+    /// branch `unstable`
+    #[arg(long)]
+    pub(crate) unstable: bool,
+
+    /// Set a parameter of all designs: a number in SI units, a number with a unit, or an option. May be repeated
+    #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, String)>,
+
+    /// Write the motions, a row each, to a CSV file, or to stdout with `-`
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+
+    /// Overwrite an existing file
+    #[arg(short, long)]
+    pub(crate) force: bool,
+
+    /// Worker threads; the rows do not depend on it [default: one per core]
+    #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
+    pub(crate) threads: Option<NonZeroUsize>,
+
+    #[command(flatten)]
+    pub(crate) solver: SolverArgs,
+}
+
+const RESPOND_HELP: &str = "\
+The first point of each way is followed from rest, every other from where its neighbour's motion has ended. Where the \
+way up and the way down come to different motions, the design is bistable: the ends of such bands are located by \
+halving steps. A line per design tells what was found; it goes to stdout, with --out - to stderr.
+
+Examples:
+  flap respond jafferis2016 --from '60 Hz' --to '200 Hz' --step '1 Hz'
+  flap respond jafferis2016 --set 'hinge_stiffness=0.7486 uN*m/rad' --set 'drive_voltage_pp=160 V' \
+--from '110 Hz' --to '140 Hz' --step '1 Hz' --out response.csv
+  flap respond ozaki2018-large --along drive_voltage_pp --from '20 V' --to '200 V' --step '5 V'";
