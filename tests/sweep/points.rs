@@ -84,4 +84,38 @@ proptest! {
         }
         prop_assert_eq!(plan.len(), number);
     }
+
+    /// A sample is one more axis: its points are those that it has alone, and what is derived follows each.
+    #[test]
+    fn samples_cross_with_axes_and_derived_values_follow(
+        method in prop_oneof![Just("sobol"), Just("latin-hypercube"), Just("random")],
+        n in 1..9_u64,
+        seed in 0..1000_u32,
+        frequency in values(),
+        sample_first in any::<bool>(),
+    ) {
+        let sample = format!(
+            "[sample]\nmethod = \"{method}\"\nn = {n}\nseed = {seed}\n[sample.parameters]\n\
+             plate_width = {{ from = 1, to = 2 }}\nhinge_position = {{ mean = 0.5, sd = 0.01 }}\n"
+        );
+        let axes = format!("[axes]\ndrive_frequency = {}\n", frequency.text);
+        let alone = plan(&format!("preset = \"fly\"\n{sample}"));
+        let parts = if sample_first { [&sample, &axes] } else { [&axes, &sample] };
+        let derived = "[derived]\nwing_area = \"plate_width * drive_frequency\"\n";
+        let crossed = plan(&format!("preset = \"fly\"\n{}{}{derived}", parts[0], parts[1]));
+        let axis = frequency.values.len() as u64;
+        prop_assert_eq!((alone.len(), crossed.len()), (n, n * axis));
+        for number in 0..crossed.len() {
+            let (drawn, along) =
+                if sample_first { (number / axis, number % axis) } else { (number % n, number / n) };
+            let (point, expected) = (crossed.point(number), alone.point(drawn));
+            for name in ["plate_width", "hinge_position"] {
+                prop_assert_eq!(point.values[index(name)].to_bits(), expected.values[index(name)].to_bits());
+            }
+            let hertz = point.values[index("drive_frequency")];
+            prop_assert!((hertz - frequency.values[usize::try_from(along).expect("few")]).abs() <= 1e-12);
+            let area = point.values[index("plate_width")] * hertz;
+            prop_assert_eq!(point.values[index("wing_area")].to_bits(), area.to_bits());
+        }
+    }
 }
