@@ -47,12 +47,15 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
             let file: File = output::create(path, args.force)?;
             output::empty(&file).map_err(|error| refused(path, error))?;
             let mut table = begin(&plan, &along, file, path)?;
+            // Conditions may exclude some of the designs.
+            let mut curves = 0_u64;
             response::run(&plan, &along, threads, |curve| {
+                curves += 1;
                 console::results(&(verdicts.line(&curve) + "\n"))?;
                 write(&mut table, &curve, path)
             })?;
             finish(table, path)?;
-            console::say(&format!("{} curves in {}", plan.len(), path.display()));
+            console::say(&format!("{curves} curves in {}", path.display()));
         }
         None => response::run(&plan, &along, threads, |curve| {
             console::results(&(verdicts.line(&curve) + "\n")).map_err(Failure::from)

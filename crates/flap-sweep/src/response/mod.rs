@@ -81,7 +81,8 @@ impl Curve {
 /// Curves that are run before they are handed on, per thread: enough to keep lanes full, few enough for memory.
 const CURVES_AT_ONCE: u64 = 128;
 
-/// Follows the response of every point of `plan` that its conditions do not exclude everywhere on its curve, on `threads` threads, and hands the curves on in the order of the points.
+/// Follows the response of every point of `plan` that its conditions do not exclude everywhere on its curve, on `threads`
+/// threads, and hands the curves on in the order of the points.
 ///
 /// # Errors
 /// Those of `take`, at the first of which it ends, and those of starting threads.
