@@ -7,5 +7,6 @@ mod fake;
 mod files;
 mod formulas;
 mod journal;
+mod parcels;
 mod rows;
 mod support;
