@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io;
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::Point;
@@ -32,12 +33,13 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     for (name, value) in &args.set {
         set(&mut plan, &along, name, value)?;
     }
+    let never = AtomicBool::new(false);
     let threads = args.threads.unwrap_or(RunOptions::default().threads);
     let verdicts = Verdicts::new(&plan, &along)?;
     match args.out.as_deref() {
         Some(path) if path.as_os_str() == "-" => {
             let mut table = begin(&plan, &along, io::stdout(), path)?;
-            response::run(&plan, &along, threads, |curve| {
+            response::run(&plan, &along, threads, &never, |curve| {
                 console::say(&verdicts.line(&curve));
                 write(&mut table, &curve, path)
             })?;
@@ -49,7 +51,7 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
             let mut table = begin(&plan, &along, file, path)?;
             // Conditions may exclude some of the designs.
             let mut curves = 0_u64;
-            response::run(&plan, &along, threads, |curve| {
+            response::run(&plan, &along, threads, &never, |curve| {
                 curves += 1;
                 console::results(&(verdicts.line(&curve) + "\n"))?;
                 write(&mut table, &curve, path)
@@ -57,7 +59,7 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
             finish(table, path)?;
             console::say(&format!("{curves} curves in {}", path.display()));
         }
-        None => response::run(&plan, &along, threads, |curve| {
+        None => response::run(&plan, &along, threads, &never, |curve| {
             console::results(&(verdicts.line(&curve) + "\n")).map_err(Failure::from)
         })?,
     }
