@@ -3,11 +3,13 @@
 //! Every point is begun where its neighbour's motion has ended, so that a branch of orbits is followed as far as it goes.
 //! Where the way up and the way down differ, the design has two motions at the same drive.
 //!
+//! - `along`: the values that the parameter takes
 //! - `follow`: one curve, up and down, with the ends of its bistable bands
 //! - `continuation`: the unstable orbits that join the branches of a bistable band
 //! - `verdict`: what a curve shows
 //! - `table`: curves as rows of CSV
 
+mod along;
 mod continuation;
 mod follow;
 mod table;
@@ -17,6 +19,7 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+pub use along::{Along, AlongError};
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Invalid, Parameter};
 use flap_core::simulate::{Point, Row, Status};
@@ -27,19 +30,6 @@ use crate::plan::{self, Plan};
 use crate::run::RunError;
 use crate::study::{self, Desk};
 use follow::Follow;
-
-/// The parameter that rises and falls.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Along {
-    /// Its index in the model's parameter table.
-    pub parameter: usize,
-    /// Its values, rising; two or more.
-    pub values: Vec<f64>,
-    /// How closely the ends of bistable bands are located, more than zero.
-    pub tolerance: f64,
-    /// Whether the unstable orbits of bistable bands are looked for.
-    pub unstable: bool,
-}
 
 /// A motion on a curve.
 #[derive(Clone, Debug, PartialEq)]
