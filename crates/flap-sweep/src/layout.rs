@@ -202,3 +202,37 @@ impl Layout {
         cells
     }
 }
+
+/// Endings of names, each with its unit in words; of two that fit, the longer one comes first.
+const ENDINGS: [(&str, &str); 19] = [
+    ("_gf_per_w", "gf/W"),
+    ("_v_per_um", "V/um"),
+    ("_deg_per_v", "deg/V"),
+    ("_rad_s", "rad/s"),
+    ("_m_s", "m/s"),
+    ("_1_s", "1/s"),
+    ("_deg", "deg"),
+    ("_rad", "rad"),
+    ("_mgf", "mgf"),
+    ("_hz", "Hz"),
+    ("_mn", "mN"),
+    ("_mw", "mW"),
+    ("_ma", "mA"),
+    ("_um", "um"),
+    ("_gf", "gf"),
+    ("_mg", "mg"),
+    ("_ms", "ms"),
+    ("_m", "m"),
+    ("_s", "s"),
+];
+
+/// The unit that a column's name ends in, for tables that do not come with units; empty if there is none.
+///
+/// ```
+/// assert_eq!(flap_sweep::layout::unit_of_name("lift_mean_mn"), "mN");
+/// assert_eq!(flap_sweep::layout::unit_of_name("status"), "");
+/// ```
+pub fn unit_of_name(name: &str) -> &'static str {
+    let ending = ENDINGS.iter().find(|(ending, _)| name.ends_with(ending));
+    ending.map_or("", |(_, unit)| unit)
+}
