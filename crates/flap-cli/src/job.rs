@@ -38,7 +38,7 @@ pub(crate) fn run(
     }
     if out.as_os_str() == "-" {
         let done = job::to_stream(plan, io::stdout(), &options, &mut run_with_progress)?;
-        return Ok(ended(&done, work));
+        return Ok(ended(&done, None, work));
     }
     let options = SessionOptions { run: options, checkpoint: work.checkpoint };
     let job = Job { plan, out, begin, options, origin };
@@ -50,7 +50,7 @@ pub(crate) fn run(
         console::say(&format!("{done} of {points} points of {place} are done"));
     });
     match outcome.map_err(|error| Failure::of_job(error, &job.out))? {
-        Outcome::Ran(done) => Ok(ended(&done, work)),
+        Outcome::Ran(done) => Ok(ended(&done, Some(&job.out), work)),
         Outcome::Complete { all_periodic } => {
             console::say(&format!("{place} is complete: nothing is left to run"));
             Ok(complete(all_periodic, work))
@@ -58,9 +58,12 @@ pub(crate) fn run(
     }
 }
 
-fn ended(done: &Done, work: &WorkArgs) -> Exit {
+fn ended(done: &Done, resumable: Option<&Path>, work: &WorkArgs) -> Exit {
     report(done);
     if done.summary.interrupted {
+        if let Some(out) = resumable {
+            console::say(&format!("`flap resume {}` goes on", out.display()));
+        }
         return Exit::Interrupted;
     }
     complete(done.summary.counts.of(Status::Periodic) == done.summary.rows, work)
