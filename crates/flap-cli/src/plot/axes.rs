@@ -49,7 +49,9 @@ impl Levels {
                     values: Values::Words(present.into_iter().map(text).collect()),
                 }
             }
-            Cells::Unread => Levels { codes: vec![0; rows.len()], values: Values::Words(vec![String::new()]) },
+            Cells::Unread => {
+                Levels { codes: vec![0; rows.len()], values: Values::Words(vec![String::new()]) }
+            }
         }
     }
 
@@ -169,7 +171,8 @@ fn wanted(table: &Table, column: usize, text: &str) -> Result<f64, Failure> {
         let message = format!("--where {}={text}: not a number", column.name);
         match column.unit.as_str() {
             "" => Failure::usage(message),
-            unit => Failure::usage(message).help(format!("write a number in {unit}, or with a unit of the same kind")),
+            unit => Failure::usage(message)
+                .help(format!("write a number in {unit}, or with a unit of the same kind")),
         }
     })
 }
@@ -241,7 +244,12 @@ pub(super) fn sliced(table: &Table, axes: &[usize], shown: &[usize], mut rows: V
             typed: format!("{name}={value}"),
             of: levels.len(),
         });
-        rows = rows.into_iter().zip(&levels.codes).filter(|(_, code)| **code == middle).map(|(row, _)| row).collect();
+        rows = rows
+            .into_iter()
+            .zip(&levels.codes)
+            .filter(|(_, code)| **code == middle)
+            .map(|(row, _)| row)
+            .collect();
     }
     Slice { rows, taken }
 }

@@ -60,7 +60,8 @@ impl<'a> Wishes<'a> {
 
     /// Whether the cells of a column are needed.
     pub(super) fn wants(&self, column: usize) -> bool {
-        let asked = [self.x, self.y, self.by, self.color].contains(&Some(column)) || self.filters.contains(&column);
+        let asked =
+            [self.x, self.y, self.by, self.color].contains(&Some(column)) || self.filters.contains(&column);
         // Behind `branch` is the parameter that rises and falls, behind `status` the first measure.
         asked || column <= self.end + 1 || USUAL.contains(&self.names[column].as_str())
     }
@@ -84,7 +85,9 @@ impl<'a> Wishes<'a> {
             let slice = axes::sliced(table, &axes.columns, &shown, rows);
             for taken in &slice.taken {
                 let axes::Taken { typed, of, .. } = taken;
-                console::say(&format!("drawn is the slice {typed}, the middle of {of} values; --where takes another"));
+                console::say(&format!(
+                    "drawn is the slice {typed}, the middle of {of} values; --where takes another"
+                ));
             }
             notes.extend(slice.taken.into_iter().map(|taken| taken.shown));
             slice.rows
@@ -110,7 +113,8 @@ impl<'a> Wishes<'a> {
             PictureKind::Trajectory => self.trajectory()?,
             PictureKind::Hysteresis => self.hysteresis(axes)?,
         };
-        let aim = |asked: Option<Aim>, column: usize| asked.unwrap_or_else(|| pareto::aim(&self.names[column]));
+        let aim =
+            |asked: Option<Aim>, column: usize| asked.unwrap_or_else(|| pareto::aim(&self.names[column]));
         let aims = (aim(self.args.x_aim, x), aim(self.args.y_aim, y));
         Ok(Shown { kind, x, y, by, color, aims })
     }
@@ -206,7 +210,10 @@ impl<'a> Wishes<'a> {
             let taken = [other, self.color];
             axes.columns.iter().copied().filter(move |column| !taken.contains(&Some(*column)))
         };
-        let x = self.x.or_else(|| self.frequency(axes).filter(|&f| self.y != Some(f))).or_else(|| free(self.y).last());
+        let x = self
+            .x
+            .or_else(|| self.frequency(axes).filter(|&f| self.y != Some(f)))
+            .or_else(|| free(self.y).last());
         let x = x.ok_or_else(|| self.unclear("x", "no parameter has more than one value"))?;
         let y = self.y.or_else(|| free(Some(x)).next());
         let y = y.ok_or_else(|| self.unclear("y", "a map needs two parameters that vary"))?;
@@ -226,7 +233,8 @@ impl<'a> Wishes<'a> {
     fn trajectory(&self) -> Result<Columns, Failure> {
         for name in ["time_s", "stroke_deg", "pitch_deg"] {
             if self.place(name).is_none() {
-                let message = format!("a trajectory needs a column {name}, as `flap run --trajectory` writes it");
+                let message =
+                    format!("a trajectory needs a column {name}, as `flap run --trajectory` writes it");
                 return Err(Failure::usage(message).help(self.listed()));
             }
         }
@@ -236,7 +244,8 @@ impl<'a> Wishes<'a> {
 
     fn hysteresis(&self, axes: &Axes) -> Result<Columns, Failure> {
         let Some(branch) = self.place("branch") else {
-            let message = "a picture of hysteresis needs a column `branch`, as `flap respond --out` writes it";
+            let message =
+                "a picture of hysteresis needs a column `branch`, as `flap respond --out` writes it";
             return Err(Failure::usage(message).help(self.listed()));
         };
         let x = self.x.unwrap_or(branch + 1);

@@ -217,9 +217,10 @@ impl Table {
     pub(super) fn label(&self, index: usize) -> label::Label {
         let column = &self.columns[index];
         let largest = match &column.cells {
-            Cells::Numbers(values) => {
-                values.iter().filter(|value| value.is_finite()).fold(0.0, |most: f64, value| most.max(value.abs()))
-            }
+            Cells::Numbers(values) => values
+                .iter()
+                .filter(|value| value.is_finite())
+                .fold(0.0, |most: f64, value| most.max(value.abs())),
             _ => 0.0,
         };
         label::Label::new(&column.name, &column.unit, largest)
@@ -237,13 +238,18 @@ impl Units {
         let beside = sidecar::path_of(results);
         let mut recorded = BTreeMap::new();
         if beside.exists() {
-            let plan = Sidecar::read(&beside).map_err(Failure::from).and_then(|sidecar| job::plan_of(&beside, &sidecar));
+            let plan = Sidecar::read(&beside)
+                .map_err(Failure::from)
+                .and_then(|sidecar| job::plan_of(&beside, &sidecar));
             match plan {
                 Ok(plan) => {
                     let columns = Layout::of(&plan).columns();
                     recorded.extend(columns.into_iter().map(|column| (column.name, column.unit.to_owned())));
                 }
-                Err(_) => console::say(&format!("{} cannot be used: units are those of the columns' names", beside.display())),
+                Err(_) => console::say(&format!(
+                    "{} cannot be used: units are those of the columns' names",
+                    beside.display()
+                )),
             }
         }
         Units { recorded }

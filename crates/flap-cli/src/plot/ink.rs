@@ -69,7 +69,8 @@ const LETTER: f64 = 0.56;
 impl Panel {
     /// The library's description of the panel in a picture of `size`.
     pub(super) fn layout(&self, size: Size) -> Layout {
-        let letters = (size.width / (12.0 * LETTER)) as usize;
+        // Notes are centred over the plot, which is narrower than the picture.
+        let letters = (0.72 * size.width / (12.0 * LETTER)) as usize;
         let mut layout = Layout::auto_from_plots(&self.plots)
             .with_width(size.width)
             .with_height(size.height)
@@ -88,14 +89,16 @@ impl Panel {
         layout.theme.axis_color = "#444444".to_owned();
         layout.theme.tick_color = "#444444".to_owned();
         if !self.title.is_empty() {
-            layout = layout.with_title(plain(&self.title)).with_title_wrap((size.width / (17.0 * LETTER)) as usize);
+            layout = layout
+                .with_title(plain(&self.title))
+                .with_title_wrap((size.width / (17.0 * LETTER)) as usize);
         }
         if !self.notes.is_empty() {
             let notes = plain(&self.notes.join(" · "));
             layout = layout.with_subtitle(notes).with_subtitle_size(12).with_subtitle_wrap(letters);
         }
         if let Some(title) = &self.legend {
-            layout = layout.with_legend_wrap(22);
+            layout = layout.with_legend_wrap(if size.width < 700.0 { 16 } else { 22 });
             if !title.is_empty() {
                 layout = layout.with_legend_title(plain(title));
             }
@@ -126,7 +129,8 @@ fn with_ticks(layout: Layout, axis: &Axis, across: bool, size: Size) -> Layout {
         return if across { layout.with_log_x() } else { layout.with_log_y() };
     }
     let range = axis.range;
-    let count = if across { (size.width / 90.0).clamp(4.0, 9.0) } else { (size.height / 65.0).clamp(4.0, 9.0) };
+    let count =
+        if across { (size.width / 90.0).clamp(4.0, 9.0) } else { (size.height / 65.0).clamp(4.0, 9.0) };
     let step = scale::step(range, count);
     let format = TickFormat::Custom(Arc::new(move |value| scale::tick(value, range, step)));
     if across {

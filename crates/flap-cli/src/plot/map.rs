@@ -49,7 +49,8 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     if missing > 0 {
         notes.push(format!("{missing} of {} cells without a value", values.len()));
     }
-    let panel = Panel { title: chosen.title.clone(), notes, x, y, plots: Vec::new(), legend: None, bar: true };
+    let panel =
+        Panel { title: chosen.title.clone(), notes, x, y, plots: Vec::new(), legend: None, bar: true };
     let frame = ComputedLayout::from_layout(&panel.layout(size));
     let mut scene = panel.scene(size);
     scene.add(cells((&x_edges, &y_edges), &values, &frame, bar.range));
@@ -68,9 +69,11 @@ fn grid(table: &Table, chosen: &Chosen, color: usize) -> Result<Grid, Failure> {
     let [across, up] = &levels;
     let cells = across.len() * up.len();
     if cells > MOST_CELLS {
-        let message = format!("a map of {} times {} cells is more than a picture shows", across.len(), up.len());
-        return Err(Failure::usage(message)
-            .help("`--kind pareto` draws a sample; --where takes one value of an axis; --html thins out by itself"));
+        let message =
+            format!("a map of {} times {} cells is more than a picture shows", across.len(), up.len());
+        return Err(Failure::usage(message).help(
+            "`--kind pareto` draws a sample; --where takes one value of an axis; --html thins out by itself",
+        ));
     }
     let mut values = vec![f64::NAN; cells];
     let mut taken = vec![false; cells];
@@ -105,7 +108,12 @@ fn edges(values: &[f64], log: bool) -> Vec<f64> {
     std::iter::once(ends.0).chain(between).chain([ends.1]).map(from).collect()
 }
 
-fn cells(edges: (&[f64], &[f64]), values: &[f64], frame: &ComputedLayout, (low, high): (f64, f64)) -> Primitive {
+fn cells(
+    edges: (&[f64], &[f64]),
+    values: &[f64],
+    frame: &ComputedLayout,
+    (low, high): (f64, f64),
+) -> Primitive {
     let columns: Vec<f64> = edges.0.iter().map(|&edge| frame.map_x(edge)).collect();
     let rows: Vec<f64> = edges.1.iter().map(|&edge| frame.map_y(edge)).collect();
     let (mut x, mut y, mut w, mut h, mut fills) = (vec![], vec![], vec![], vec![], vec![]);

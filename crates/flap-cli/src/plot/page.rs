@@ -78,7 +78,15 @@ impl Start {
                 let (Some(x), Some(y)) = (x, y) else {
                     return Err(Failure::usage("no column of the file holds numbers"));
                 };
-                return Ok(Start { kind: "scatter", x, y, by: None, color: None, best: String::new(), filters });
+                return Ok(Start {
+                    kind: "scatter",
+                    x,
+                    y,
+                    by: None,
+                    color: None,
+                    best: String::new(),
+                    filters,
+                });
             }
         };
         let sign = |aim: Aim| if aim == Aim::Max { "1" } else { "-1" };
@@ -125,7 +133,8 @@ fn data(table: &Table, axes: &[usize], start: &Start, ordered: bool) -> String {
     let _ = write!(json, "\"single\":{single},\"ordered\":{ordered},\"axes\":[{list}],");
     let Start { kind, x, y, best, .. } = start;
     let (by, color) = (index(start.by), index(start.color));
-    let _ = write!(json, "\"start\":{{\"kind\":\"{kind}\",\"x\":{x},\"y\":{y},\"by\":{by},\"color\":{color},");
+    let _ =
+        write!(json, "\"start\":{{\"kind\":\"{kind}\",\"x\":{x},\"y\":{y},\"by\":{by},\"color\":{color},");
     let _ = write!(json, "\"best\":\"{best}\",\"where\":{{{}}}}},\"columns\":[", wheres.join(","));
     for (place, of_column) in table.columns.iter().enumerate() {
         let label = table.label(place);
@@ -159,7 +168,8 @@ fn column(json: &mut String, column: &Column, single: bool) {
             }
             None if single => {
                 #[expect(clippy::cast_possible_truncation, reason = "seven digits are what is promised")]
-                let bytes = values.iter().flat_map(|&value| (value as f32).to_le_bytes()).collect::<Vec<u8>>();
+                let bytes =
+                    values.iter().flat_map(|&value| (value as f32).to_le_bytes()).collect::<Vec<u8>>();
                 let _ = write!(json, "\"type\":\"f32\",\"data\":\"{}\"", base64(&bytes));
             }
             None => {
@@ -261,9 +271,14 @@ mod tests {
 
     #[test]
     fn base64_is_that_of_the_standard() {
-        for (text, code) in
-            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg=="), ("fooba", "Zm9vYmE=")]
-        {
+        for (text, code) in [
+            ("", ""),
+            ("f", "Zg=="),
+            ("fo", "Zm8="),
+            ("foo", "Zm9v"),
+            ("foob", "Zm9vYg=="),
+            ("fooba", "Zm9vYmE="),
+        ] {
             assert_eq!(base64(text.as_bytes()), code);
         }
         assert_eq!(base64(&[255, 239, 191]), "/++/");

@@ -32,7 +32,8 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let (x, y) = (table.label(chosen.x), table.label(chosen.y));
     let rows: Vec<usize> =
         chosen.rows.iter().copied().filter(|&row| across[row].is_finite() && up[row].is_finite()).collect();
-    let points: Vec<(f64, f64)> = rows.iter().map(|&row| (across[row] * x.factor, up[row] * y.factor)).collect();
+    let points: Vec<(f64, f64)> =
+        rows.iter().map(|&row| (across[row] * x.factor, up[row] * y.factor)).collect();
     let (Some(width), Some(height)) =
         (scale::range(points.iter().map(|point| point.0)), scale::range(points.iter().map(|point| point.1)))
     else {
@@ -70,8 +71,13 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
             let mut shades = vec![Vec::new(); SHADES + 1];
             for &place in &shown {
                 let share = (values[rows[place]] * label.factor - low) / (high - low);
-                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to SHADES")]
-                let shade = if share.is_finite() { (share * (SHADES - 1) as f64).round() as usize } else { SHADES };
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "from 0 to SHADES"
+                )]
+                let shade =
+                    if share.is_finite() { (share * (SHADES - 1) as f64).round() as usize } else { SHADES };
                 shades[shade].push(points[place]);
             }
             for (shade, points) in shades.iter().enumerate().filter(|(_, points)| !points.is_empty()) {

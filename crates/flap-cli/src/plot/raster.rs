@@ -32,7 +32,8 @@ struct Image {
 
 impl Image {
     fn read(png: &[u8]) -> Result<Image, String> {
-        let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().map_err(|error| error.to_string())?;
+        let mut reader =
+            png::Decoder::new(std::io::Cursor::new(png)).read_info().map_err(|error| error.to_string())?;
         let size = reader.output_buffer_size().ok_or("an image too large")?;
         let mut bytes = vec![0; size];
         let info = reader.next_frame(&mut bytes).map_err(|error| error.to_string())?;
@@ -69,6 +70,8 @@ impl Image {
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_compression(png::Compression::High);
+        // Flat colours repeat byte by byte.
+        encoder.set_filter(png::Filter::NoFilter);
         let mut writer = encoder.write_header().map_err(|error| error.to_string())?;
         writer.write_image_data(&self.bytes).map_err(|error| error.to_string())?;
         writer.finish().map_err(|error| error.to_string())?;
@@ -134,7 +137,9 @@ mod tests {
                 stroke_dasharray: Some("8 4".to_owned()),
             };
             let pieces = dashes(line).into_iter().filter_map(|piece| match piece {
-                Primitive::PolyLine { points, .. } => Some((points[0].0.round(), points[points.len() - 1].0.round())),
+                Primitive::PolyLine { points, .. } => {
+                    Some((points[0].0.round(), points[points.len() - 1].0.round()))
+                }
                 _ => None,
             });
             pieces.collect::<Vec<_>>()

@@ -26,7 +26,9 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     if shown.len() < family.len() {
         let by = chosen.by.map_or("", |by| table.columns[by].name.as_str());
         let (drawn, all) = (shown.len(), family.len());
-        console::say(&format!("{drawn} of the {all} values of {by} are drawn, evenly chosen; --where takes one"));
+        console::say(&format!(
+            "{drawn} of the {all} values of {by} are drawn, evenly chosen; --where takes one"
+        ));
     }
 
     let mut plots = Vec::new();
@@ -87,7 +89,11 @@ pub(super) fn family(table: &Table, chosen: &Chosen) -> Result<Vec<Line>, Failur
     let levels = Levels::of(table, by, &chosen.rows);
     if levels.len() * 3 > chosen.rows.len() && levels.len() > MOST_LINES {
         let name = &table.columns[by].name;
-        let message = format!("{} of {} rows have a {name} of their own: they make no lines", levels.len(), chosen.rows.len());
+        let message = format!(
+            "{} of {} rows have a {name} of their own: they make no lines",
+            levels.len(),
+            chosen.rows.len()
+        );
         return Err(Failure::usage(message).help("draw a sample with --kind pareto"));
     }
     // The legend's heading has the unit.
@@ -96,7 +102,8 @@ pub(super) fn family(table: &Table, chosen: &Chosen) -> Result<Vec<Line>, Failur
         Values::Numbers(values) => super::label::short(values[place] * label.factor),
         Values::Words(words) => words[place].clone(),
     };
-    let mut lines: Vec<Line> = (0..levels.len()).map(|place| Line { name: name(place), rows: Vec::new() }).collect();
+    let mut lines: Vec<Line> =
+        (0..levels.len()).map(|place| Line { name: name(place), rows: Vec::new() }).collect();
     for (&row, &code) in chosen.rows.iter().zip(&levels.codes) {
         lines[code].rows.push(row);
     }
@@ -110,6 +117,7 @@ pub(super) fn ordered(table: &Table, chosen: &Chosen) -> bool {
 
 fn several(table: &Table, chosen: &Chosen) -> Failure {
     let name = &table.columns[chosen.x].name;
-    Failure::usage(format!("several rows of one line have the same {name}"))
-        .help("--by draws a line for each value of a column, --where takes one value; --kind pareto draws points")
+    Failure::usage(format!("several rows of one line have the same {name}")).help(
+        "--by draws a line for each value of a column, --where takes one value; --kind pareto draws points",
+    )
 }

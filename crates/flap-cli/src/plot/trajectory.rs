@@ -27,14 +27,16 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let mut ticking = 0;
     for (place, (angle, name)) in ANGLES.iter().enumerate() {
         let values = table.numbers(table.find(&format!("{angle}_deg"))?)?;
-        let rates = match table.columns.iter().position(|column| column.name == format!("{angle}_rate_rad_s")) {
+        let rates = match table.columns.iter().position(|column| column.name == format!("{angle}_rate_rad_s"))
+        {
             Some(column) => table.numbers(column)?.iter().map(|rate| rate.to_degrees() * 1e-3).collect(),
             None => {
                 console::say(&format!("the rate of the {name} is that of its samples' differences"));
                 rates(time, values)
             }
         };
-        let motion: Vec<(f64, f64)> = chosen.rows.iter().map(|&row| (time[row] * label.factor, values[row])).collect();
+        let motion: Vec<(f64, f64)> =
+            chosen.rows.iter().map(|&row| (time[row] * label.factor, values[row])).collect();
         let mut around: Vec<(f64, f64)> = chosen.rows.iter().map(|&row| (values[row], rates[row])).collect();
         ticking = motion.len();
         if around.len() > MOST_POINTS {
@@ -49,7 +51,9 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     }
     if ticking > MOST_POINTS {
         notes.push(format!("phase portrait: the last {MOST_POINTS} of {ticking} samples"));
-        console::say(&format!("of {ticking} samples, extremes are drawn over time, the last {MOST_POINTS} in the phase portrait"));
+        console::say(&format!(
+            "of {ticking} samples, extremes are drawn over time, the last {MOST_POINTS} in the phase portrait"
+        ));
     }
     let range = |points: &[(f64, f64)], side: fn(&(f64, f64)) -> f64| scale::range(points.iter().map(side));
     let (Some(span), Some(angles), Some(around), Some(rates)) = (
@@ -86,7 +90,8 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
 fn side_by_side(left: Panel, right: Panel, title: &str, notes: &[String], size: Size) -> Scene {
     let half = Size { width: size.width * 0.5, height: size.height - 60.0 };
     let layouts = vec![left.layout(half), right.layout(half)];
-    let title = std::iter::once(title.to_owned()).chain(notes.iter().cloned()).collect::<Vec<_>>().join(" · ");
+    let title =
+        std::iter::once(title.to_owned()).chain(notes.iter().cloned()).collect::<Vec<_>>().join(" · ");
     Figure::new(1, 2)
         .with_plots(vec![left.plots, right.plots])
         .with_layouts(layouts)

@@ -127,6 +127,8 @@ const front = (list, xs, ys, [betterX, betterY]) => {
 
 // ---- Drawing. ----
 const canvas = $("canvas"), pen = canvas.getContext("2d");
+// The picture without what follows the pointer, so that pointing costs no drawing of every mark.
+const base = document.createElement("canvas");
 let scene = null;
 const draw = () => {
   const width = canvas.clientWidth, height = canvas.clientHeight, ratio = window.devicePixelRatio || 1;
@@ -200,6 +202,8 @@ const draw = () => {
   if (bar && rangeC) colourBar(box, width, rangeC, colour);
   if (colour && colour.words) for (const level of levelsOf(colour, whole)) legend.push([FEW[level % FEW.length], colour.words[level]]);
   legendText(legend);
+  base.width = canvas.width; base.height = canvas.height;
+  base.getContext("2d").drawImage(canvas, 0, 0);
   overlay();
   return say(list, without, problem);
 };
@@ -304,6 +308,15 @@ const legendText = (entries) => {
     return entry;
   }));
 };
+const point = () => {
+  if (!scene.toX || base.width !== canvas.width || base.height !== canvas.height) return draw();
+  pen.save();
+  pen.setTransform(1, 0, 0, 1, 0, 0);
+  pen.clearRect(0, 0, canvas.width, canvas.height);
+  pen.drawImage(base, 0, 0);
+  pen.restore();
+  return overlay();
+};
 const overlay = () => {
   for (const [row, colour] of [[state.pinned, "#d55e00"], [state.hover, css("--ink")]]) {
     const mark = row === null ? null : scene.marks.find((mark) => mark.row === row);
@@ -368,7 +381,7 @@ const tip = () => {
   $("tip").style.right = right ? `${canvas.clientWidth - mark.px + 14}px` : "";
   $("tip").style.top = `${Math.max(mark.py - 20, 0)}px`;
 };
-const refresh = () => { draw(); tip(); table(); };
+const refresh = (whole = true) => { if (whole) draw(); else point(); tip(); table(); };
 
 // ---- Controls. ----
 const option = (value, text) => { const element = document.createElement("option"); element.value = value; element.textContent = text; return element; };
@@ -513,9 +526,9 @@ canvas.onkeydown = (event) => {
   later();
 };
 let waiting = false;
-const later = () => { if (!waiting) { waiting = true; requestAnimationFrame(() => { waiting = false; refresh(); }); } };
-window.addEventListener("resize", later);
-window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", later);
+const later = () => { if (!waiting) { waiting = true; requestAnimationFrame(() => { waiting = false; refresh(false); }); } };
+window.addEventListener("resize", () => refresh());
+window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => refresh());
 show();
 refresh();
 })();
