@@ -142,6 +142,29 @@ fn a_map_shows_what_is_missing() {
 }
 
 #[test]
+fn even_ratios_are_drawn_evenly() {
+    let folder = Folder::new();
+    let mut text = HEADER.to_owned() + "\n";
+    for point in 0..8 {
+        let (voltage, frequency) = (10_i32.pow(point / 2), 90 + 10 * (point % 2));
+        let _ = writeln!(text, "{point},{voltage},{frequency},1e-4,periodic,{point},1,2,3,true");
+    }
+    fs::write(folder.path("decades.csv"), text).unwrap();
+    let (svg, _) = drawn(&folder, "decades.csv --kind map --y drive_voltage_pp --color stroke_amplitude_deg");
+    has(&svg, &["1", "10", "100", "1000"]);
+    let rectangles: Vec<&str> = svg.split("<rect").skip(1).filter(|rect| rect.contains("height=")).collect();
+    let height = |rect: &str| {
+        rect.split_once("height=\"").unwrap().1.split_once('"').unwrap().0.parse::<f64>().unwrap()
+    };
+    let cells = rectangles.iter().map(|rect| height(rect)).filter(|height| (50.0..200.0).contains(height));
+    let (low, high) =
+        cells.fold((f64::MAX, 0.0_f64), |(low, high), height| (low.min(height), high.max(height)));
+    assert!(high - low < 1.0 && high > 50.0, "{low} to {high}");
+    let (svg, _) = drawn(&folder, "decades.csv --kind response --x drive_voltage_pp --by drive_frequency");
+    has(&svg, &["1", "10", "100", "1000"]);
+}
+
+#[test]
 fn a_front_of_two_measures() {
     let folder = folder();
     let (svg, said) = drawn(&folder, "sweep.csv --kind pareto");

@@ -197,7 +197,7 @@ impl<'a> Wishes<'a> {
     fn response(&self, axes: &Axes) -> Result<Columns, Failure> {
         let taken = [self.y, self.by];
         let free = || axes.columns.iter().copied().filter(|column| !taken.contains(&Some(*column)));
-        let x = self.x.or_else(|| self.frequency(axes)).or_else(|| free().last());
+        let x = self.x.or_else(|| self.frequency(axes)).or_else(|| free().next_back());
         let x = x.ok_or_else(|| self.unclear("x", "no parameter has more than one value"))?;
         let y = self.y.or_else(|| self.measure("stroke_amplitude_deg"));
         let y = y.ok_or_else(|| self.unclear("y", "the file has no measures"))?;
@@ -213,7 +213,7 @@ impl<'a> Wishes<'a> {
         let x = self
             .x
             .or_else(|| self.frequency(axes).filter(|&f| self.y != Some(f)))
-            .or_else(|| free(self.y).last());
+            .or_else(|| free(self.y).next_back());
         let x = x.ok_or_else(|| self.unclear("x", "no parameter has more than one value"))?;
         let y = self.y.or_else(|| free(Some(x)).next());
         let y = y.ok_or_else(|| self.unclear("y", "a map needs two parameters that vary"))?;

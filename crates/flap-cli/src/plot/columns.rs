@@ -146,7 +146,7 @@ impl Gathered {
             match cell.parse() {
                 Ok(value) => values.push(value),
                 Err(_) if cell.is_empty() => values.push(f64::NAN),
-                Err(_) => self.into_words(row),
+                Err(_) => self.turn_to_words(row),
             }
         }
         if let Cells::Words { codes, words } = &mut self.cells
@@ -169,7 +169,7 @@ impl Gathered {
     }
 
     /// The first `rows` cells were numbers or empty, the next one is a word.
-    fn into_words(&mut self, rows: usize) {
+    fn turn_to_words(&mut self, rows: usize) {
         let Cells::Numbers(values) = &self.cells else { return };
         let mut words = Vec::new();
         let text = |value: &f64| if value.is_nan() { String::new() } else { value.to_string() };

@@ -61,7 +61,8 @@ mod tests {
     #[test]
     fn it_is_what_comparing_every_pair_gives() {
         for seed in 0..200 {
-            let points = points(1 + seed as usize % 40, seed);
+            let count = usize::try_from(1 + seed % 40).unwrap();
+            let points = points(count, seed);
             for better in [(true, true), (true, false), (false, true), (false, false)] {
                 let mut found = front(&points, better);
                 let rising: Vec<f64> = found.iter().map(|&index| points[index].0).collect();

@@ -60,17 +60,28 @@ pub(super) struct Panel {
 
 /// Dollars begin formulas in the library's labels.
 pub(super) fn plain(text: &str) -> String {
-    text.replace('\\', "\u{29f5}").replace('$', "\\$")
+    text.replace('$', "\\$")
 }
 
 /// How wide a letter is on average, relative to the size of the text.
-const LETTER: f64 = 0.56;
+pub(super) const LETTER: f64 = 0.56;
+
+/// How many letters of a size fit into a width.
+fn letters(width: f64, size: f64) -> usize {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a picture is 200 to 4000 wide"
+    )]
+    let letters = (width / (size * LETTER)) as usize;
+    letters
+}
 
 impl Panel {
     /// The library's description of the panel in a picture of `size`.
     pub(super) fn layout(&self, size: Size) -> Layout {
         // Notes are centred over the plot, which is narrower than the picture.
-        let letters = (0.72 * size.width / (12.0 * LETTER)) as usize;
+        let notes_wrap = letters(0.72 * size.width, 12.0);
         let mut layout = Layout::auto_from_plots(&self.plots)
             .with_width(size.width)
             .with_height(size.height)
@@ -85,17 +96,19 @@ impl Panel {
             .with_tick_size(12)
             .with_body_size(12)
             .with_legend_box(false);
-        layout.theme.grid_color = "#e4e4e4".to_owned();
-        layout.theme.axis_color = "#444444".to_owned();
-        layout.theme.tick_color = "#444444".to_owned();
+        // The library looks at the ranges of the plots too, which may be none.
+        (layout.x_range, layout.y_range) = (self.x.range, self.y.range);
+        (layout.data_x_range, layout.data_y_range) = (Some(self.x.range), Some(self.y.range));
+        "#e4e4e4".clone_into(&mut layout.theme.grid_color);
+        "#444444".clone_into(&mut layout.theme.axis_color);
+        "#444444".clone_into(&mut layout.theme.tick_color);
+        let titles = letters(0.72 * size.width, 17.0);
         if !self.title.is_empty() {
-            layout = layout
-                .with_title(plain(&self.title))
-                .with_title_wrap((size.width / (17.0 * LETTER)) as usize);
+            layout = layout.with_title(plain(&self.title)).with_title_wrap(titles);
         }
         if !self.notes.is_empty() {
             let notes = plain(&self.notes.join(" · "));
-            layout = layout.with_subtitle(notes).with_subtitle_size(12).with_subtitle_wrap(letters);
+            layout = layout.with_subtitle(notes).with_subtitle_size(12).with_subtitle_wrap(notes_wrap);
         }
         if let Some(title) = &self.legend {
             layout = layout.with_legend_wrap(if size.width < 700.0 { 16 } else { 22 });

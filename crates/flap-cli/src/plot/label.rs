@@ -161,7 +161,7 @@ const SCALABLE: [(&str, i32); 13] = [
 
 /// The unit with the prefix that suits `largest`, and the factor from `unit` to it.
 fn scaled(unit: &str, largest: f64) -> (f64, String) {
-    let suits = largest == 0.0 || (0.1..1e4).contains(&largest);
+    let suits = largest == 0.0 || (0.1..=1e4).contains(&largest);
     if suits || !largest.is_finite() {
         return (1.0, unit.to_owned());
     }

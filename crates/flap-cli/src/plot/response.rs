@@ -62,7 +62,12 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     if missing > 0 {
         notes.push(format!("{missing} of {rows} points without a value"));
     }
-    let range = if log { width } else { scale::padded(width, 0.02) };
+    let range = if log {
+        let (low, high) = scale::padded((width.0.ln(), width.1.ln()), 0.02);
+        (low.exp(), high.exp())
+    } else {
+        scale::padded(width, 0.02)
+    };
     let panel = Panel {
         title: chosen.title.clone(),
         notes,

@@ -22,18 +22,17 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let time = table.numbers(chosen.x)?;
     let label = table.label(chosen.x);
     let (mut over_time, mut portrait) = (Vec::new(), Vec::new());
-    let (mut motions, mut loops): (Vec<(f64, f64)>, Vec<(f64, f64)>) = (Vec::new(), Vec::new());
+    let (mut motions, mut loops) = (Vec::new(), Vec::new());
     let mut notes = chosen.notes.clone();
     let mut ticking = 0;
     for (place, (angle, name)) in ANGLES.iter().enumerate() {
         let values = table.numbers(table.find(&format!("{angle}_deg"))?)?;
-        let rates = match table.columns.iter().position(|column| column.name == format!("{angle}_rate_rad_s"))
-        {
-            Some(column) => table.numbers(column)?.iter().map(|rate| rate.to_degrees() * 1e-3).collect(),
-            None => {
-                console::say(&format!("the rate of the {name} is that of its samples' differences"));
-                rates(time, values)
-            }
+        let rate = format!("{angle}_rate_rad_s");
+        let rates = if let Some(column) = table.columns.iter().position(|column| column.name == rate) {
+            table.numbers(column)?.iter().map(|rate| rate.to_degrees() * 1e-3).collect()
+        } else {
+            console::say(&format!("the rate of the {name} is that of its samples' differences"));
+            rates(time, values)
         };
         let motion: Vec<(f64, f64)> =
             chosen.rows.iter().map(|&row| (time[row] * label.factor, values[row])).collect();
@@ -92,11 +91,15 @@ fn side_by_side(left: Panel, right: Panel, title: &str, notes: &[String], size: 
     let layouts = vec![left.layout(half), right.layout(half)];
     let title =
         std::iter::once(title.to_owned()).chain(notes.iter().cloned()).collect::<Vec<_>>().join(" · ");
+    // A long title gets smaller letters, for it has one line.
+    let letters = (size.width / (ink::LETTER * title.chars().count().max(1) as f64)).clamp(9.0, 17.0);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "9 to 17")]
+    let letters = letters as u32;
     Figure::new(1, 2)
         .with_plots(vec![left.plots, right.plots])
         .with_layouts(layouts)
         .with_title(ink::plain(&title))
-        .with_title_size(17)
+        .with_title_size(letters)
         .with_figure_size(size.width, size.height)
         .render()
 }
