@@ -152,11 +152,11 @@ fn even_ratios_are_drawn_evenly() {
     fs::write(folder.path("decades.csv"), text).unwrap();
     let (svg, _) = drawn(&folder, "decades.csv --kind map --y drive_voltage_pp --color stroke_amplitude_deg");
     has(&svg, &["1", "10", "100", "1000"]);
-    let rectangles: Vec<&str> = svg.split("<rect").skip(1).filter(|rect| rect.contains("height=")).collect();
-    let height = |rect: &str| {
-        rect.split_once("height=\"").unwrap().1.split_once('"').unwrap().0.parse::<f64>().unwrap()
-    };
-    let cells = rectangles.iter().map(|rect| height(rect)).filter(|height| (50.0..200.0).contains(height));
+    let heights = svg.split("<rect").skip(1).filter_map(|rect| {
+        let height = rect.split_once("height=\"")?.1.split_once('"')?.0;
+        height.parse::<f64>().ok()
+    });
+    let cells = heights.filter(|height| (50.0..200.0).contains(height));
     let (low, high) =
         cells.fold((f64::MAX, 0.0_f64), |(low, high), height| (low.min(height), high.max(height)));
     assert!(high - low < 1.0 && high > 50.0, "{low} to {high}");
@@ -305,10 +305,13 @@ fn mistakes_are_told() {
         (&["sweep.csv", "--y", "status"], &["column `status` holds words, not numbers"]),
         (
             &["sweep.csv", "--kind", "map", "--by", "status"],
-            &["this picture is a map, and --by is for lines"],
+            &["--by goes with lines: --kind response or hysteresis, and this picture is a map"],
         ),
-        (&["sweep.csv", "--kind", "response", "--color", "cycles"], &["--color is for --kind map or pareto"]),
-        (&["sweep.csv", "--y-aim", "min"], &["--x-aim and --y-aim is for --kind pareto"]),
+        (
+            &["sweep.csv", "--kind", "response", "--color", "cycles"],
+            &["--color goes with --kind map or pareto, and this picture is a response"],
+        ),
+        (&["sweep.csv", "--y-aim", "min"], &["--x-aim and --y-aim go with --kind pareto"]),
         (&["sweep.csv", "--kind", "trajectory"], &["needs a column time_s"]),
         (&["sweep.csv", "--kind", "hysteresis"], &["needs a column `branch`"]),
         (&["sweep.csv", "--out", "picture.pdf"], &["pictures end in .svg or .png"]),
@@ -513,7 +516,7 @@ fn a_page_of_any_table() {
         let ended = folder.flap(&format!("plot {file} --html {file}.html"));
         assert_eq!(ended.code, 0, "{}", ended.stderr);
     }
-    assert!(data(&folder.read("response.csv.html")).contains("\"ordered\":true"));
+    assert!(data(&folder.read("response.csv.html")).contains("\"branch\":1,"));
     assert_eq!(numbers(&folder.read("other.csv.html"), "b"), [2.0, 4.0]);
     let ended = folder.flap("plot response.csv --html both.html --out both.png");
     assert_eq!(ended.code, 0, "{}", ended.stderr);

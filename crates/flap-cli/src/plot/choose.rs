@@ -134,9 +134,9 @@ impl<'a> Wishes<'a> {
         self.end
     }
 
-    /// Whether the file is of `flap respond`, whose rows lie in the order of its branches.
-    pub(super) fn is_response(&self) -> bool {
-        self.place("branch").is_some()
+    /// The column that says which branch a row of `flap respond` belongs to.
+    pub(super) fn branch(&self) -> Option<usize> {
+        self.place("branch")
     }
 
     /// The kind that suits the file and what is asked for.
@@ -180,14 +180,14 @@ impl<'a> Wishes<'a> {
         let color = matches!(kind, Map | Pareto);
         let aims = self.args.x_aim.is_some() || self.args.y_aim.is_some();
         let strays = [
-            (self.by.is_some() && !by, "--by", "lines: --kind response or hysteresis"),
-            (self.color.is_some() && !color, "--color", "--kind map or pareto"),
-            (aims && kind != Pareto, "--x-aim and --y-aim", "--kind pareto"),
-            ((self.x.is_some() || self.y.is_some()) && kind == Trajectory, "--x and --y", "other kinds"),
+            (self.by.is_some() && !by, "--by goes", "lines: --kind response or hysteresis"),
+            (self.color.is_some() && !color, "--color goes", "--kind map or pareto"),
+            (aims && kind != Pareto, "--x-aim and --y-aim go", "--kind pareto"),
+            ((self.x.is_some() || self.y.is_some()) && kind == Trajectory, "--x and --y go", "other kinds"),
         ];
         match strays.iter().find(|(stray, ..)| *stray) {
             Some((_, option, home)) => {
-                let message = format!("this picture is a {}, and {option} is for {home}", kind.name());
+                let message = format!("{option} with {home}, and this picture is a {}", kind.name());
                 Err(Failure::usage(message).help("name the kind with --kind"))
             }
             None => Ok(()),

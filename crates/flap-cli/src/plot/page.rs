@@ -30,7 +30,7 @@ pub(super) fn page(args: &PlotArgs, heading: &str) -> Result<String, Failure> {
         console::say(&format!("{} of {} rows are in the page, evenly chosen", table.rows, table.of));
     }
     let axes = Axes::of(&table, wishes.end());
-    let data = data(&table, &axes.columns, &start, wishes.is_response());
+    let data = data(&table, &axes.columns, &start, wishes.branch());
     // In this order: what is put in is not searched again.
     let mut page = String::new();
     for (number, part) in PAGE.split("{{").enumerate() {
@@ -122,7 +122,7 @@ fn filter(table: &Table, name: &str, text: &str) -> Result<String, Failure> {
 }
 
 /// All that the script reads.
-fn data(table: &Table, axes: &[usize], start: &Start, ordered: bool) -> String {
+fn data(table: &Table, axes: &[usize], start: &Start, branch: Option<usize>) -> String {
     let single = table.rows > MOST_EXACT;
     let index = |column: Option<usize>| column.map_or_else(|| "null".to_owned(), |column| column.to_string());
     let list = axes.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
@@ -130,7 +130,8 @@ fn data(table: &Table, axes: &[usize], start: &Start, ordered: bool) -> String {
         start.filters.iter().map(|(name, value)| format!("{}:{value}", quoted(name))).collect();
     let stride = table.of.div_ceil(table.rows.max(1));
     let mut json = format!("{{\"rows\":{},\"of\":{},\"stride\":{stride},", table.rows, table.of);
-    let _ = write!(json, "\"single\":{single},\"ordered\":{ordered},\"axes\":[{list}],");
+    let branch = index(branch);
+    let _ = write!(json, "\"single\":{single},\"branch\":{branch},\"axes\":[{list}],");
     let Start { kind, x, y, best, .. } = start;
     let (by, color) = (index(start.by), index(start.color));
     let _ =

@@ -177,7 +177,7 @@ const draw = () => {
   pen.save();
   pen.beginPath(); pen.rect(box.left, box.top, box.right - box.left, box.bottom - box.top); pen.clip();
   if (state.kind === "map") {
-    problem = drawCells(cells, whole, ofX, ofY, toX, toY, colour ? tint : () => css("--accent"));
+    problem = drawCells(cells, whole, ofX, ofY, toX, toY, colour ? tint : () => css("--accent"), legend, colour);
   } else if (state.kind === "line") {
     drawLines(list, ofX, ofY, toX, toY, legend);
   } else {
@@ -231,7 +231,7 @@ const frame = (box, rangeX, rangeY, toX, toY, x, y, grid) => {
 };
 const rule = (x1, y1, x2, y2) => { pen.beginPath(); pen.moveTo(x1, y1); pen.lineTo(x2, y2); pen.stroke(); };
 const turned = (text, x, y) => { pen.save(); pen.translate(x, y); pen.rotate(-Math.PI / 2); pen.fillText(text, 0, 0); pen.restore(); };
-const path = (points, colour, width, dots) => {
+const path = (points, colour, width, dots, dashes = []) => {
   pen.strokeStyle = pen.fillStyle = colour; pen.lineWidth = width; pen.lineJoin = "round";
   pen.beginPath();
   let down = false;
@@ -240,7 +240,9 @@ const path = (points, colour, width, dots) => {
     if (down) pen.lineTo(px, py); else pen.moveTo(px, py);
     down = true;
   }
+  pen.setLineDash(dashes);
   pen.stroke();
+  pen.setLineDash([]);
   if (dots) for (const [px, py] of points) if (!Number.isNaN(py)) { pen.beginPath(); pen.arc(px, py, width + 0.6, 0, 7); pen.fill(); }
 };
 const drawLines = (list, ofX, ofY, toX, toY, legend) => {
@@ -252,20 +254,25 @@ const drawLines = (list, ofX, ofY, toX, toY, legend) => {
     groups.get(key).push(row);
   }
   const keys = [...groups.keys()].sort((a, b) => a - b);
-  // Rows of a response lie in the order of its branches, which go up and down.
-  const ordered = data.ordered;
+  // Rows of a response lie in the order of its branches, which go up and down: each is a line of its own.
+  const branch = data.branch === null ? null : columns[data.branch], dark = window.matchMedia("(prefers-color-scheme: dark)").matches;
   keys.forEach((key, place) => {
     const members = groups.get(key);
-    if (!ordered) members.sort((a, b) => ofX(a) - ofX(b));
-    const colour = by && !by.words && keys.length > 2 ? shade(0.93 * place / (keys.length - 1)) : FEW[place % FEW.length];
+    if (!branch) members.sort((a, b) => ofX(a) - ofX(b));
+    const colour = by && !by.words && keys.length > 2 ? shade(dark ? 0.25 + 0.75 * place / (keys.length - 1) : 0.93 * place / (keys.length - 1)) : FEW[place % FEW.length];
     const points = members.map((row) => [toX(ofX(row)), toY(ofY(row))]);
-    path(points, colour, 2, list.length < 400);
+    const stretches = branch ? new Map(members.map((row) => [branch.cells[row], []])) : new Map([[0, points]]);
+    if (branch) members.forEach((row, i) => stretches.get(branch.cells[row]).push(points[i]));
+    for (const [code, stretch] of stretches) {
+      const unstable = branch && branch.words && branch.words[code] === "unstable";
+      path(stretch, colour, 2, list.length < 400 && !unstable, unstable ? [7, 5] : []);
+    }
     members.forEach((row, i) => { if (!Number.isNaN(points[i][1])) scene.marks.push({ row, px: points[i][0], py: points[i][1] }); });
     if (by && place < 40) legend.push([colour, by.words ? by.words[key] ?? "none" : `${short(key * by.factor)} ${by.unit}`]);
   });
   if (by) legend.unshift([null, by.label + ":"]);
 };
-const drawCells = (cells, list, ofX, ofY, toX, toY, tint) => {
+const drawCells = (cells, list, ofX, ofY, toX, toY, tint, legend, colour) => {
   const place = (levels) => new Map(levels.map((level, i) => [level, i]));
   const [placeX, placeY] = [place(cells.levelsX), place(cells.levelsY)];
   const [ex, ey] = [cells.edgesX.map(toX), cells.edgesY.map(toY)];
@@ -282,6 +289,9 @@ const drawCells = (cells, list, ofX, ofY, toX, toY, tint) => {
     pen.fillRect(ex[i], ey[j + 1], ex[i + 1] - ex[i] + 0.5, ey[j] - ey[j + 1] + 0.5);
     scene.marks.push({ row, px: (ex[i] + ex[i + 1]) / 2, py: (ey[j] + ey[j + 1]) / 2, cell: [ex[i], ey[j + 1], ex[i + 1], ey[j]] });
   }
+  const empty = cells.levelsX.length * cells.levelsY.length - taken.size;
+  const without = colour ? [...taken.values()].filter((row) => Number.isNaN(colour.cells[row])).length : 0;
+  if (empty + without) legend.push([css("--missing"), `no value (${empty + without} cells)`]);
   return twice ? `${twice} rows share a cell with another, of which the first is drawn: choose slices` : "";
 };
 const colourBar = (box, width, range, column) => {
@@ -352,7 +362,7 @@ const table = () => {
   const head = document.createElement("tr");
   for (const column of columns) {
     const cell = document.createElement("th");
-    cell.scope = "col"; cell.textContent = column.name;
+    cell.scope = "col"; cell.textContent = column.label; cell.title = column.name;
     const unit = document.createElement("small"); unit.textContent = column.unit || "\u00a0"; cell.append(unit);
     head.append(cell);
   }
