@@ -8,9 +8,7 @@ mod job;
 #[cfg(feature = "plots")]
 mod plot;
 mod progress;
-mod render;
 mod table;
-mod time;
 
 use std::process::ExitCode;
 
