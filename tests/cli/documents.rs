@@ -19,6 +19,14 @@ fn blocks(text: &str, language: &str) -> Vec<String> {
     text.split(&fence).skip(1).map(|rest| rest.split("```").next().unwrap().to_owned()).collect()
 }
 
+/// Words, with those in quotation marks kept together.
+fn words(arguments: &str) -> Vec<&str> {
+    let parts = arguments.split('"').enumerate();
+    parts
+        .flat_map(|(i, part)| if i % 2 == 1 { vec![part] } else { part.split_whitespace().collect() })
+        .collect()
+}
+
 #[test]
 fn grids_in_the_documents_are_valid() {
     let mut grids = 0;
@@ -45,14 +53,7 @@ fn commands_in_the_documents_work() {
                 let command = line.split('#').next().unwrap().trim();
                 let command = command.replace("cargo run --release -- ", "flap ");
                 let Some(arguments) = command.strip_prefix("flap ") else { continue };
-                // Words, with those in quotation marks kept together.
-                let words: Vec<&str> = arguments
-                    .split('"')
-                    .enumerate()
-                    .flat_map(
-                        |(i, part)| if i % 2 == 1 { vec![part] } else { part.split_whitespace().collect() },
-                    )
-                    .collect();
+                let words = words(arguments);
                 let ended = folder.flap_with(&words);
                 assert_eq!(ended.code, 0, "{name}: {command}\n{}", ended.stderr);
                 commands += 1;
@@ -152,6 +153,35 @@ fn commands_in_the_results_page_work() {
         }
     }
     assert!(commands >= 6, "{commands} commands found");
+}
+
+/// The commands of the page on pictures work one after the other, and its pictures are there, and small.
+#[test]
+#[cfg(feature = "plots")]
+fn commands_in_the_page_on_plots_work() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("examples")).unwrap();
+    fs::copy(root().join("examples/ozaki_large.toml"), folder.path("examples/ozaki_large.toml")).unwrap();
+    let page = document("docs/plots.md");
+    let mut commands = 0;
+    for block in blocks(&page, "sh") {
+        for line in block.lines() {
+            let Some(arguments) = line.split('#').next().unwrap().trim().strip_prefix("flap ") else {
+                continue;
+            };
+            let ended = folder.flap_with(&words(arguments));
+            assert_eq!(ended.code, 0, "{line}\n{}", ended.stderr);
+            commands += 1;
+        }
+    }
+    assert!(commands >= 10, "{commands} commands found");
+    let pictures: Vec<&str> =
+        page.split("](pictures/cli-").skip(1).map(|rest| rest.split(')').next().unwrap()).collect();
+    assert!(pictures.len() >= 6, "{pictures:?}");
+    for picture in pictures {
+        let size = fs::metadata(root().join("docs/pictures/cli-".to_owned() + picture)).unwrap().len();
+        assert!(size < 60_000, "{picture} has {size} bytes");
+    }
 }
 
 /// Every key of the sidecar and every status is described.

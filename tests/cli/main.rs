@@ -9,6 +9,8 @@ mod formulas;
 mod irregular;
 mod lists;
 mod mistakes;
+#[cfg(feature = "plots")]
+mod plot;
 mod point;
 mod rerun;
 mod resonance;

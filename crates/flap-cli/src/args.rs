@@ -1,5 +1,7 @@
 //! What is typed on the command line.
 
+#[cfg(feature = "plots")]
+mod plot;
 mod respond;
 mod results;
 
@@ -9,6 +11,8 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand, ValueEnum, value_parser};
 use flap_sweep::selection::Shard;
 use flap_sweep::units;
+#[cfg(feature = "plots")]
+pub(crate) use plot::{Aim, PictureKind, PlotArgs, Size};
 pub(crate) use respond::RespondArgs;
 pub(crate) use results::{ConvertArgs, MergeArgs, RerunArgs, ResumeArgs, WorkArgs};
 
@@ -36,6 +40,9 @@ pub(crate) enum Command {
     Run(RunArgs),
     /// Follow the response of designs up and down in frequency or another parameter, and find hysteresis
     Respond(RespondArgs),
+    /// Draw results: a picture, or a page to explore them
+    #[cfg(feature = "plots")]
+    Plot(PlotArgs),
     /// Compare the resonances of one point: linear, free and driven
     Resonance(ResonanceArgs),
     /// Check a grid file and show what it would run

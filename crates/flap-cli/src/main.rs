@@ -5,6 +5,8 @@ mod cmd;
 mod console;
 mod failure;
 mod job;
+#[cfg(feature = "plots")]
+mod plot;
 mod progress;
 mod table;
 
@@ -22,6 +24,8 @@ fn main() -> ExitCode {
         Command::Convert(args) => cmd::convert::run(&args),
         Command::Run(args) => cmd::run::run(&args),
         Command::Respond(args) => cmd::respond::run(&args),
+        #[cfg(feature = "plots")]
+        Command::Plot(args) => plot::run(&args),
         Command::Resonance(args) => cmd::resonance::run(&args),
         Command::Check(args) => cmd::check::run(&args),
         Command::Lift(args) => cmd::lift::run(&args),

@@ -1,0 +1,131 @@
+//! `flap plot`.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+
+use super::assignment;
+
+#[derive(clap::Args)]
+#[command(after_help = PLOT_HELP)]
+pub(crate) struct PlotArgs {
+    /// Results of `flap sweep`, `rerun` or `merge`, of `flap respond --out`, or a trajectory of `flap run`
+    #[arg(value_name = "FILE")]
+    pub(crate) results: PathBuf,
+
+    /// Where to write the picture; the ending chooses the format: .svg or .png [default: FILE's name with the ending
+    /// .svg, in the working directory; none with --html]
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+
+    /// Write one page for a browser, in which to choose columns, filter rows and look at them. It needs no network
+    #[arg(long, value_name = "FILE")]
+    pub(crate) html: Option<PathBuf>,
+
+    /// What to draw [default: what fits the columns of the file]
+    #[arg(short, long, value_enum)]
+    pub(crate) kind: Option<PictureKind>,
+
+    /// Column of the horizontal axis
+    #[arg(short, long, value_name = "COLUMN")]
+    pub(crate) x: Option<String>,
+
+    /// Column of the vertical axis
+    #[arg(short, long, value_name = "COLUMN")]
+    pub(crate) y: Option<String>,
+
+    /// One line for each value of this column
+    #[arg(long, value_name = "COLUMN")]
+    pub(crate) by: Option<String>,
+
+    /// Column that gives the colour: of the cells of a map, of the points of a Pareto picture
+    #[arg(long, value_name = "COLUMN")]
+    pub(crate) color: Option<String>,
+
+    /// Take the rows with this value alone: a number as in the file, a number with a unit, or a word. May be repeated.
+    /// Of an axis that the picture does not show, the middle value is taken
+    #[arg(long = "where", value_name = "COLUMN=VALUE", value_parser = assignment)]
+    pub(crate) filters: Vec<(String, String)>,
+
+    /// Which x is better in a Pareto picture [default: less of power, current, strain and field, more of the rest]
+    #[arg(long, value_enum)]
+    pub(crate) x_aim: Option<Aim>,
+
+    /// Which y is better
+    #[arg(long, value_enum)]
+    pub(crate) y_aim: Option<Aim>,
+
+    /// Heading [default: the name of the file]
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) title: Option<String>,
+
+    /// Width and height of an SVG; a PNG has twice as many pixels each way
+    #[arg(long, value_name = "WxH", default_value = "900x560", value_parser = size)]
+    pub(crate) size: Size,
+
+    /// Overwrite existing files
+    #[arg(short, long)]
+    pub(crate) force: bool,
+}
+
+/// What a picture shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PictureKind {
+    /// A measure over a parameter, one line for each value of another
+    Response,
+    /// A measure as the colour of cells over two parameters
+    Map,
+    /// Two measures of every design, and the designs that no other is better than in both
+    Pareto,
+    /// Stroke and pitch over time, and their rates over them
+    Trajectory,
+    /// The branches up and down of a response, unstable orbits dashed
+    Hysteresis,
+}
+
+impl PictureKind {
+    /// Its name on the command line.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            PictureKind::Response => "response",
+            PictureKind::Map => "map",
+            PictureKind::Pareto => "pareto",
+            PictureKind::Trajectory => "trajectory",
+            PictureKind::Hysteresis => "hysteresis",
+        }
+    }
+}
+
+/// Which values are better.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Aim {
+    Max,
+    Min,
+}
+
+/// Width and height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Size {
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+}
+
+const PLOT_HELP: &str = "\
+Without --kind: `hysteresis` for results of `flap respond`, `trajectory` for a motion, `response` for a sweep of one \
+parameter or of the drive frequency and others, `map` for other sweeps of two parameters or more, `pareto` for a sample.
+
+Examples:
+  flap plot sweep.csv
+  flap plot sweep.csv --y lift_mean_mn --by hinge_stiffness --where drive_voltage_pp=100 --out lift.svg
+  flap plot sweep.csv --kind map --color efficiency_gf_per_w --out map.png
+  flap plot sweep.csv --kind pareto --x lift_mean_mn --y power_mean_mw --color drive_frequency
+  flap plot loop.csv --y stroke_pp_deg --out loop.png --size 700x500
+  flap plot sweep.parquet --html sweep.html";
+
+/// `WxH` in pixels.
+fn size(text: &str) -> Result<Size, String> {
+    let number = |text: &str| text.trim().parse::<u16>().ok().filter(|side| (200..=4000).contains(side));
+    let sides = text.split_once(['x', 'X', '×']).and_then(|(w, h)| number(w).zip(number(h)));
+    let (width, height) = sides.ok_or("expected WxH, each from 200 to 4000, such as 900x560")?;
+    Ok(Size { width: f64::from(width), height: f64::from(height) })
+}

@@ -1,0 +1,116 @@
+//! Two measures of every design, and the designs that no other is better than in both.
+
+use kuva::render::layout::ComputedLayout;
+use kuva::render::render::Scene;
+
+use super::chosen::Chosen;
+use super::columns::Table;
+use super::front::front;
+use super::ink::{self, Axis, Look, Panel};
+use super::scale;
+use crate::args::{Aim, Size};
+use crate::console;
+use crate::failure::Failure;
+
+/// The most points that a picture shows besides the front.
+const MOST_POINTS: usize = 20_000;
+
+/// How many shades coloured points have.
+const SHADES: usize = 24;
+
+/// What is less, the better: what a design consumes, or what breaks it.
+const LESS: [&str; 6] = ["power", "current", "strain", "field", "drag", "force"];
+
+/// Whether more of a column is better, as far as its name tells.
+pub(super) fn aim(name: &str) -> Aim {
+    if LESS.iter().any(|word| name.starts_with(word)) { Aim::Min } else { Aim::Max }
+}
+
+/// Draws column `y` over column `x`, with the front.
+pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
+    let (across, up) = (table.numbers(chosen.x)?, table.numbers(chosen.y)?);
+    let (x, y) = (table.label(chosen.x), table.label(chosen.y));
+    let rows: Vec<usize> =
+        chosen.rows.iter().copied().filter(|&row| across[row].is_finite() && up[row].is_finite()).collect();
+    let points: Vec<(f64, f64)> =
+        rows.iter().map(|&row| (across[row] * x.factor, up[row] * y.factor)).collect();
+    let (Some(width), Some(height)) =
+        (scale::range(points.iter().map(|point| point.0)), scale::range(points.iter().map(|point| point.1)))
+    else {
+        return Err(chosen.nothing(table, chosen.y));
+    };
+    let (x_aim, y_aim) = chosen.aims;
+    let best = front(&points, (x_aim == Aim::Max, y_aim == Aim::Max));
+    let shown = scale::even(points.len(), MOST_POINTS);
+    if shown.len() < points.len() {
+        let (drawn, all) = (shown.len(), points.len());
+        console::say(&format!("{drawn} of {all} points are drawn, evenly chosen; the front is of all"));
+    }
+
+    let mut notes = chosen.notes.clone();
+    let word = |aim: Aim| if aim == Aim::Max { "larger" } else { "smaller" };
+    notes.push(format!("better: x {}, y {}", word(x_aim), word(y_aim)));
+    if rows.len() < chosen.rows.len() {
+        let missing = chosen.rows.len() - rows.len();
+        notes.push(format!("{missing} of {} designs without values", chosen.rows.len()));
+    }
+    let mut plots = Vec::new();
+    let bar = match chosen.color {
+        None => {
+            let plain: Vec<(f64, f64)> = shown.iter().map(|&place| points[place]).collect();
+            plots.push(ink::points(&plain, &format!("designs ({})", points.len()), ink::PLAIN, 2.2));
+            None
+        }
+        Some(color) => {
+            let values = table.numbers(color)?;
+            let label = table.label(color);
+            let Some(range) = scale::range(rows.iter().map(|&row| values[row] * label.factor)) else {
+                return Err(chosen.nothing(table, color));
+            };
+            let (low, high) = scale::padded(range, 0.0);
+            let mut shades = vec![Vec::new(); SHADES + 1];
+            for &place in &shown {
+                let share = (values[rows[place]] * label.factor - low) / (high - low);
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "from 0 to SHADES"
+                )]
+                let shade =
+                    if share.is_finite() { (share * (SHADES - 1) as f64).round() as usize } else { SHADES };
+                shades[shade].push(points[place]);
+            }
+            for (shade, points) in shades.iter().enumerate().filter(|(_, points)| !points.is_empty()) {
+                let colour = match shade {
+                    SHADES => ink::MISSING.to_owned(),
+                    _ => ink::shade(shade as f64 / (SHADES - 1) as f64),
+                };
+                plots.push(ink::points(points, "", &colour, 2.6));
+            }
+            Some(Axis { label: label.text(), range: (low, high), log: false })
+        }
+    };
+    let line: Vec<(f64, f64)> = best.iter().map(|&place| points[place]).collect();
+    let name = if bar.is_some() { String::new() } else { format!("not dominated ({})", best.len()) };
+    if bar.is_some() {
+        notes.push(format!("orange line: the {} that none dominates", best.len()));
+    }
+    let look = Look { marks: true, width: 1.8, ..Look::new(name, ink::COLOURS[1]) };
+    plots.extend(ink::line(&line, &look));
+
+    let panel = Panel {
+        title: chosen.title.clone(),
+        notes,
+        x: Axis { label: x.text(), range: scale::padded(width, 0.04), log: false },
+        y: Axis { label: y.text(), range: scale::padded(height, 0.04), log: false },
+        plots,
+        legend: bar.is_none().then(String::new),
+        bar: bar.is_some(),
+    };
+    let frame = ComputedLayout::from_layout(&panel.layout(size));
+    let mut scene = panel.scene(size);
+    if let Some(bar) = &bar {
+        ink::colour_bar(&mut scene, &frame, bar, None);
+    }
+    Ok(scene)
+}

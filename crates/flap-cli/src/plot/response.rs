@@ -1,0 +1,128 @@
+//! A measure over a parameter: one line for each value of another.
+
+use kuva::render::render::Scene;
+
+use super::axes::{self, Levels, Values};
+use super::chosen::Chosen;
+use super::columns::Table;
+use super::ink::{self, Axis, Look, Panel};
+use super::scale;
+use crate::args::Size;
+use crate::console;
+use crate::failure::Failure;
+
+/// The most lines that can be told apart.
+const MOST_LINES: usize = 16;
+
+/// The most points that a line is drawn with.
+const MOST_POINTS: usize = 4000;
+
+/// Draws column `y` over column `x`.
+pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
+    let (across, up) = (table.numbers(chosen.x)?, table.numbers(chosen.y)?);
+    let (x, y) = (table.label(chosen.x), table.label(chosen.y));
+    let family = family(table, chosen)?;
+    let shown = scale::even(family.len(), MOST_LINES);
+    if shown.len() < family.len() {
+        let by = chosen.by.map_or("", |by| table.columns[by].name.as_str());
+        let (drawn, all) = (shown.len(), family.len());
+        console::say(&format!(
+            "{drawn} of the {all} values of {by} are drawn, evenly chosen; --where takes one"
+        ));
+    }
+
+    let mut plots = Vec::new();
+    let mut drawn: Vec<(f64, f64)> = Vec::new();
+    let (mut missing, mut rows) = (0, 0);
+    for (place, &number) in shown.iter().enumerate() {
+        let Line { name, rows: of_line } = &family[number];
+        let mut points: Vec<(f64, f64)> =
+            of_line.iter().map(|&row| (across[row] * x.factor, up[row] * y.factor)).collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if points.windows(2).any(|two| two[0].0 == two[1].0) {
+            return Err(several(table, chosen));
+        }
+        missing += points.iter().filter(|point| !point.1.is_finite()).count();
+        rows += points.len();
+        let points = if points.len() > MOST_POINTS { scale::thinned(&points, MOST_POINTS) } else { points };
+        let mut look = Look::new(name.clone(), ink::line_colour(place, shown.len(), ordered(table, chosen)));
+        look.marks = points.len() <= 40 && shown.len() <= 8;
+        plots.extend(ink::line(&points, &look));
+        drawn.extend(points);
+    }
+    let Some(heights) = scale::range(drawn.iter().map(|point| point.1)) else {
+        return Err(chosen.nothing(table, chosen.y));
+    };
+    let mut values: Vec<f64> = drawn.iter().map(|point| point.0).collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    let log = axes::is_log(&values);
+    let width = scale::range(values).unwrap_or((0.0, 1.0));
+    let mut notes = chosen.notes.clone();
+    if missing > 0 {
+        notes.push(format!("{missing} of {rows} points without a value"));
+    }
+    let range = if log {
+        let (low, high) = scale::padded((width.0.ln(), width.1.ln()), 0.02);
+        (low.exp(), high.exp())
+    } else {
+        scale::padded(width, 0.02)
+    };
+    let panel = Panel {
+        title: chosen.title.clone(),
+        notes,
+        x: Axis { label: x.text(), range, log },
+        y: Axis { label: y.text(), range: scale::from_zero(heights), log: false },
+        plots,
+        legend: chosen.by.map(|by| table.label(by).text()),
+        bar: false,
+    };
+    Ok(panel.scene(size))
+}
+
+/// Rows that belong on one line.
+pub(super) struct Line {
+    pub(super) name: String,
+    pub(super) rows: Vec<usize>,
+}
+
+/// The chosen rows by the value of the column `by`; all of them if there is none.
+pub(super) fn family(table: &Table, chosen: &Chosen) -> Result<Vec<Line>, Failure> {
+    let Some(by) = chosen.by else {
+        return Ok(vec![Line { name: String::new(), rows: chosen.rows.clone() }]);
+    };
+    let levels = Levels::of(table, by, &chosen.rows);
+    if levels.len() * 3 > chosen.rows.len() && levels.len() > MOST_LINES {
+        let name = &table.columns[by].name;
+        let message = format!(
+            "{} of {} rows have a {name} of their own: they make no lines",
+            levels.len(),
+            chosen.rows.len()
+        );
+        return Err(Failure::usage(message).help("draw a sample with --kind pareto"));
+    }
+    // The legend's heading has the unit.
+    let label = table.label(by);
+    let name = |place: usize| match &levels.values {
+        Values::Numbers(values) => super::label::short(values[place] * label.factor),
+        Values::Words(words) => words[place].clone(),
+    };
+    let mut lines: Vec<Line> =
+        (0..levels.len()).map(|place| Line { name: name(place), rows: Vec::new() }).collect();
+    for (&row, &code) in chosen.rows.iter().zip(&levels.codes) {
+        lines[code].rows.push(row);
+    }
+    Ok(lines)
+}
+
+/// Whether the lines have an order: numbers have.
+pub(super) fn ordered(table: &Table, chosen: &Chosen) -> bool {
+    chosen.by.is_some_and(|by| table.numbers(by).is_ok())
+}
+
+fn several(table: &Table, chosen: &Chosen) -> Failure {
+    let name = &table.columns[chosen.x].name;
+    Failure::usage(format!("several rows of one line have the same {name}")).help(
+        "--by draws a line for each value of a column, --where takes one value; --kind pareto draws points",
+    )
+}

@@ -1,0 +1,139 @@
+//! Ranges of axes, their ticks, and how many points a line needs.
+
+/// The smallest and the largest number, if there is one.
+pub(super) fn range(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
+    let finite = values.into_iter().filter(|value| value.is_finite());
+    finite.fold(None, |range, value| {
+        let (low, high) = range.unwrap_or((value, value));
+        Some((value.min(low), value.max(high)))
+    })
+}
+
+/// A range with a margin of `share` on both sides, and never empty.
+pub(super) fn padded((low, high): (f64, f64), share: f64) -> (f64, f64) {
+    let width = high - low;
+    // Numbers that are equal but for rounding are one number.
+    if width <= 1e-12 * high.abs().max(low.abs()) {
+        let around = if high == 0.0 { 1.0 } else { 0.05 * high.abs() };
+        return (low - around, high + around);
+    }
+    (low - share * width, high + share * width)
+}
+
+/// The range of a vertical axis: from 0 if that is near, otherwise with margins.
+pub(super) fn from_zero((low, high): (f64, f64)) -> (f64, f64) {
+    let (padded_low, padded_high) = padded((low, high), 0.05);
+    if low >= 0.0 && low < 0.3 * high { (0.0, padded_high) } else { (padded_low, padded_high) }
+}
+
+/// The distance of ticks: 1, 2 or 5 times a power of ten, about `count` of them.
+pub(super) fn step((low, high): (f64, f64), count: f64) -> f64 {
+    let rough = (high - low) / count;
+    let ten = 10_f64.powf(rough.log10().floor());
+    let factor = [1.0, 2.0, 5.0].into_iter().find(|factor| factor * ten >= rough * 0.75).unwrap_or(10.0);
+    factor * ten
+}
+
+/// Ticks within the range.
+pub(super) fn ticks(range: (f64, f64), step: f64) -> Vec<f64> {
+    let (low, high) = range;
+    let first = (low / step - 1e-9).ceil();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a dozen")]
+    let count = ((high / step + 1e-9).floor() - first + 1.0).clamp(0.0, 1000.0) as usize;
+    (0..count).map(|i| (first + i as f64) * step).collect()
+}
+
+/// The text at a tick, with the decimals that `step` needs.
+pub(super) fn tick(value: f64, range: (f64, f64), step: f64) -> String {
+    let largest = range.0.abs().max(range.1.abs());
+    // Of rounding: no tick is meant so close to 0.
+    let value = if value.abs() < 1e-6 * step { 0.0 } else { value };
+    if largest >= 1e6 || step < 1e-4 {
+        return super::label::short(value);
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 5")]
+    let decimals = (-(step * 1.0001).log10().floor()).clamp(0.0, 5.0) as usize;
+    format!("{value:.decimals$}").replace('-', "−")
+}
+
+/// At most about `most` of the points of a line, in their order: of each stretch its ends and its extremes, so that peaks
+/// stay.
+pub(super) fn thinned(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
+    if points.len() <= most {
+        return points.to_vec();
+    }
+    let stretch = points.len().div_ceil((most / 4).max(1));
+    let mut kept = Vec::with_capacity(most);
+    for (number, part) in points.chunks(stretch).enumerate() {
+        let by_height = |a: &&usize, b: &&usize| part[**a].1.total_cmp(&part[**b].1);
+        let places: Vec<usize> = (0..part.len()).collect();
+        let low = places.iter().min_by(by_height).copied().unwrap_or(0);
+        let high = places.iter().max_by(by_height).copied().unwrap_or(0);
+        let mut chosen = vec![0, low, high, part.len() - 1];
+        chosen.sort_unstable();
+        chosen.dedup();
+        kept.extend(chosen.into_iter().map(|place| points[number * stretch + place]));
+    }
+    kept
+}
+
+/// `count` of the numbers from 0 up to `of`, evenly, the first and the last among them.
+pub(super) fn even(of: usize, count: usize) -> Vec<usize> {
+    if of <= count {
+        return (0..of).collect();
+    }
+    (0..count).map(|i| i * (of - 1) / (count - 1).max(1)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_neither_few_nor_many() {
+        for i in 1..400 {
+            let range = (-1.3, f64::from(i) * 0.37);
+            let ticks = ticks(range, step(range, 6.0));
+            assert!((3..=9).contains(&ticks.len()), "{range:?}: {ticks:?}");
+        }
+    }
+
+    #[test]
+    fn ticks_are_round() {
+        let range = (95.0, 122.0);
+        let step = step(range, 6.0);
+        assert_eq!(step, 5.0);
+        assert_eq!(ticks(range, step), [95.0, 100.0, 105.0, 110.0, 115.0, 120.0]);
+        assert_eq!(tick(105.0, range, step), "105");
+        assert_eq!(tick(-0.25, (-1.0, 1.0), 0.05), "−0.25");
+        assert_eq!(tick(1e-17, (-1.0, 1.0), 0.5), "0.0");
+        assert_eq!(tick(2e-7, (0.0, 1e-6), 2e-7), "2e-7");
+        assert_eq!(tick(0.2, (0.1, 0.3), 0.1), "0.2");
+    }
+
+    #[test]
+    fn ranges_are_never_empty() {
+        assert_eq!(range([3.0, f64::NAN, 1.0]), Some((1.0, 3.0)));
+        assert_eq!(range([f64::NAN]), None);
+        for one in [0.0, 5.0, -2.0] {
+            let (low, high) = padded((one, one), 0.1);
+            assert!(low < one && one < high);
+        }
+        assert_eq!(from_zero((0.1, 10.0)).0, 0.0);
+        assert!(from_zero((9.0, 10.0)).0 > 8.0);
+    }
+
+    #[test]
+    fn thinning_keeps_peaks_and_ends() {
+        let points: Vec<(f64, f64)> =
+            (0..10_000).map(|i| (f64::from(i), if i == 4321 { 9.0 } else { f64::from(i % 7) })).collect();
+        let kept = thinned(&points, 400);
+        assert!(kept.len() <= 400 && kept.len() > 200, "{}", kept.len());
+        assert!(kept.contains(&(4321.0, 9.0)));
+        assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[9999]));
+        assert!(kept.is_sorted_by(|a, b| a.0 < b.0));
+        assert_eq!(thinned(&points[..50], 400), points[..50]);
+        assert_eq!(even(10, 4), [0, 3, 6, 9]);
+        assert_eq!(even(3, 4), [0, 1, 2]);
+    }
+}

@@ -1,0 +1,130 @@
+//! Stroke and pitch over time, and their rates over them.
+
+use kuva::render::figure::Figure;
+use kuva::render::render::Scene;
+
+use super::chosen::Chosen;
+use super::columns::Table;
+use super::ink::{self, Axis, Look, Panel};
+use super::scale;
+use crate::args::Size;
+use crate::console;
+use crate::failure::Failure;
+
+/// The most points of one line.
+const MOST_POINTS: usize = 8000;
+
+/// The angles, by the beginning of their columns' names.
+const ANGLES: [(&str, &str); 2] = [("stroke", "stroke"), ("pitch", "pitch")];
+
+/// Draws the motion beside its phase portrait.
+pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
+    let time = table.numbers(chosen.x)?;
+    let label = table.label(chosen.x);
+    let (mut over_time, mut portrait) = (Vec::new(), Vec::new());
+    let (mut motions, mut loops) = (Vec::new(), Vec::new());
+    let mut notes = chosen.notes.clone();
+    let mut ticking = 0;
+    for (place, (angle, name)) in ANGLES.iter().enumerate() {
+        let values = table.numbers(table.find(&format!("{angle}_deg"))?)?;
+        let rate = format!("{angle}_rate_rad_s");
+        let rates = if let Some(column) = table.columns.iter().position(|column| column.name == rate) {
+            table.numbers(column)?.iter().map(|rate| rate.to_degrees() * 1e-3).collect()
+        } else {
+            console::say(&format!("the rate of the {name} is that of its samples' differences"));
+            rates(time, values)
+        };
+        let motion: Vec<(f64, f64)> =
+            chosen.rows.iter().map(|&row| (time[row] * label.factor, values[row])).collect();
+        let mut around: Vec<(f64, f64)> = chosen.rows.iter().map(|&row| (values[row], rates[row])).collect();
+        ticking = motion.len();
+        if around.len() > MOST_POINTS {
+            around.drain(..around.len() - MOST_POINTS);
+        }
+        let look = |name: &str| Look { width: 1.8, ..Look::new(name, ink::COLOURS[place]) };
+        let motion = scale::thinned(&motion, MOST_POINTS);
+        over_time.extend(ink::line(&motion, &look("")));
+        portrait.extend(ink::line(&around, &look(name)));
+        motions.extend(motion);
+        loops.extend(around);
+    }
+    if ticking > MOST_POINTS {
+        notes.push(format!("phase portrait: the last {MOST_POINTS} of {ticking} samples"));
+        console::say(&format!(
+            "of {ticking} samples, extremes are drawn over time, the last {MOST_POINTS} in the phase portrait"
+        ));
+    }
+    let range = |points: &[(f64, f64)], side: fn(&(f64, f64)) -> f64| scale::range(points.iter().map(side));
+    let (Some(span), Some(angles), Some(around), Some(rates)) = (
+        range(&motions, |point| point.0),
+        range(&motions, |point| point.1),
+        range(&loops, |point| point.0),
+        range(&loops, |point| point.1),
+    ) else {
+        return Err(chosen.nothing(table, chosen.x));
+    };
+    let axis = |label: String, range| Axis { label, range, log: false };
+    let left = Panel {
+        title: String::new(),
+        notes: Vec::new(),
+        x: axis(label.text(), scale::padded(span, 0.0)),
+        y: axis("Angle (deg)".to_owned(), scale::padded(angles, 0.05)),
+        plots: over_time,
+        legend: None,
+        bar: false,
+    };
+    let right = Panel {
+        title: String::new(),
+        notes: Vec::new(),
+        x: axis("Angle (deg)".to_owned(), scale::padded(around, 0.05)),
+        y: axis("Rate (deg/ms)".to_owned(), scale::padded(rates, 0.05)),
+        plots: portrait,
+        legend: Some(String::new()),
+        bar: false,
+    };
+    Ok(side_by_side(left, right, &chosen.title, &notes, size))
+}
+
+/// Two panels below one title.
+fn side_by_side(left: Panel, right: Panel, title: &str, notes: &[String], size: Size) -> Scene {
+    let half = Size { width: size.width * 0.5, height: size.height - 60.0 };
+    let layouts = vec![left.layout(half), right.layout(half)];
+    let title =
+        std::iter::once(title.to_owned()).chain(notes.iter().cloned()).collect::<Vec<_>>().join(" · ");
+    // A long title gets smaller letters, for it has one line.
+    let letters = (size.width / (ink::LETTER * title.chars().count().max(1) as f64)).clamp(9.0, 17.0);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "9 to 17")]
+    let letters = letters as u32;
+    Figure::new(1, 2)
+        .with_plots(vec![left.plots, right.plots])
+        .with_layouts(layouts)
+        .with_title(ink::plain(&title))
+        .with_title_size(letters)
+        .with_figure_size(size.width, size.height)
+        .render()
+}
+
+/// Rates in degrees per millisecond from the differences of neighbours.
+fn rates(time: &[f64], angles: &[f64]) -> Vec<f64> {
+    let last = time.len() - 1;
+    (0..time.len())
+        .map(|i| {
+            let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
+            (angles[after] - angles[before]) / (time[after] - time[before]) * 1e-3
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_are_those_of_a_line() {
+        let time: Vec<f64> = (0..5).map(|i| f64::from(i) * 1e-3).collect();
+        let angles: Vec<f64> = (0..5).map(|i| 3.0 * f64::from(i)).collect();
+        for rate in rates(&time, &angles) {
+            assert!((rate - 3.0).abs() < 1e-9);
+        }
+    }
+}
