@@ -48,7 +48,7 @@ class Data:
         meta = getattr(data, "meta", None)
         return cls(
             columns,
-            dict(units) if isinstance(units, Mapping) else _parameter_units(),
+            units if isinstance(units, Mapping) else {},
             [list(dim) for dim in dims] if isinstance(dims, (list, tuple)) else [],
             meta if isinstance(meta, Mapping) else {},
         )
@@ -76,7 +76,11 @@ class Data:
         return Data({name: column[mask] for name, column in self.columns.items()}, self.units, self.dims, self.meta)
 
     def unit(self, name: str) -> str:
-        """The unit of a column, as flap writes it."""
+        """The unit of a column, as flap writes it; parameters in a file without a sidecar have none of their own."""
+        if self.units.get(name):
+            return self.units[name]
+        if "model" not in self.meta and name in _parameter_units():
+            return _parameter_units()[name]
         return _labels.unit_of(name, self.units)
 
     def measured(self) -> np.ndarray:

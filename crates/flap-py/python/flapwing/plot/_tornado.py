@@ -53,8 +53,8 @@ def sensitivities(
 ) -> list[Sensitivity]:
     """Change each parameter of a design by a little, down and up, and see what it does to a measure.
 
-    Two points are run for each parameter, and one for the design. All other parameters stay as they are, except those that
-    follow the one that is changed, such as the bias that follows the voltage.
+    Two points are run for each parameter, and one for the design. All other parameters stay as they are, except those
+    that follow the one that is changed, such as the bias that follows the voltage.
 
     Parameters
     ----------
@@ -69,6 +69,7 @@ def sensitivities(
         The relative change of parameters that have none of their own.
     **fixed
         Parameters of the design that differ from the preset: numbers in SI units, text with a unit, or options.
+        Solver settings, as for `flapwing.evaluate`.
 
     Returns
     -------
@@ -84,22 +85,26 @@ def sensitivities(
 
     known = flapwing.params(design)
     ranges = _ranges(known, parameters, change, fixed)
-    base = flapwing.evaluate(design, {name: [value] for name, value in fixed.items()} or _itself(known), threads=1)
-    if measure not in base.keys():
-        raise ValueError(unknown("measure", measure, base.keys()))
+    # What is both given and changed has its number from the row of the design itself.
+    both = {name: value for name, value in fixed.items() if name in ranges}
+    others = {name: value for name, value in fixed.items() if name not in ranges}
+    free = (name for name, each in known.items() if isinstance(each.value, float) and name not in fixed)
+    base = flapwing.evaluate(design, both or {(name := next(free)): known[name].value}, **others)
+    if measure not in base:
+        raise ValueError(unknown("measure", measure, flapwing.measures(design)))
     start = float(base[measure][0])
     if math.isnan(start):
-        raise ValueError(f"{design} has no {measure}: its motion is {base['status'][0]}")
+        raise ValueError(f"the design itself has no {measure}: its motion is {base['status'][0]}")
     found = []
     for name, spread in ranges.items():
-        value = float(base[name][0]) if name in fixed else float(known[name].value)
+        value = float(base[name][0]) if name in both else float(known[name].value)
         below, above = spread if isinstance(spread, tuple) else sorted((value * (1 - spread), value * (1 + spread)))
+        if below == above and parameters is None:
+            continue
         if below == above:
-            raise ValueError(
-                f"`{name}` is {value:g}, which a relative change leaves as it is: give the two values to try"
-            )
-        others = {other: given for other, given in fixed.items() if other != name}
-        rows = flapwing.evaluate(design, {**others, name: np.array([below, above])})
+            raise ValueError(f"`{name}` is {value:g}, which no relative change alters: give the two values to try")
+        unchanged = {other: given for other, given in fixed.items() if other != name}
+        rows = flapwing.evaluate(design, {name: np.array([below, above])}, **unchanged)
         low, high = (float(each) for each in rows[measure])
         units = (known[name].unit, base.units.get(measure, ""))
         found.append(Sensitivity(name, value, below, above, measure, start, low, high, *units))
@@ -208,7 +213,7 @@ def _ranges(
         chosen: dict[str, Any] = {
             name: change
             for name, parameter in known.items()
-            if name not in fixed and isinstance(parameter.value, float) and parameter.value != 0.0
+            if isinstance(parameter.value, float) and (name in fixed or parameter.value != 0.0)
         }
     elif isinstance(parameters, Mapping):
         chosen = dict(parameters)
@@ -217,8 +222,10 @@ def _ranges(
     for name, spread in chosen.items():
         if name not in known:
             raise ValueError(unknown("parameter", name, known))
-        if not isinstance(known[name].value, (int, float)):
-            raise ValueError(f"`{name}` is {known[name].value!r}: only numbers can be changed by a little")
+        if name not in fixed and not isinstance(known[name].value, float):
+            value = known[name].value
+            said = "follows others in this preset" if value is None else f"is {value!r}"
+            raise ValueError(f"`{name}` {said}: only numbers can be changed by a little")
         if isinstance(spread, (tuple, list)):
             if len(spread) != 2:
                 raise ValueError(f"`{name}` needs two values to try, not {len(spread)}")
@@ -226,11 +233,6 @@ def _ranges(
         elif not 0 < float(spread) < math.inf:
             raise ValueError(f"the change of `{name}` must be more than zero, not {spread}")
     return chosen
-
-
-def _itself(known: Mapping[str, Any]) -> dict[str, list[float]]:
-    """Columns of one row that change nothing: evaluate needs one to know how many rows there are."""
-    return {"drive_frequency": [float(known["drive_frequency"].value)]}
 
 
 def _named(each: Sensitivity) -> str:
