@@ -53,4 +53,6 @@ python -m pip install --quiet --disable-pip-version-check --no-cache-dir --no-in
 
 export PYTHONDONTWRITEBYTECODE=1
 python -m pytest --quiet -o "cache_dir=$work/pytest-cache" tests/python "$@"
-MYPY_CACHE_DIR=$work/mypy-cache python -m mypy.stubtest flapwing
+export MYPY_CACHE_DIR=$work/mypy-cache
+python -m mypy --config-file tests/python/mypy.ini crates/flap-py/python/flapwing
+python -m mypy.stubtest flapwing._flapwing --mypy-config-file tests/python/mypy.ini

@@ -3,10 +3,12 @@
 import ast
 import importlib.metadata
 import inspect
+import operator
 import re
 from pathlib import Path
 
 import flapwing
+from flapwing import _flapwing
 
 REPOSITORY = Path(__file__).parents[2]
 WHEEL = REPOSITORY / "crates" / "flap-py"
@@ -20,12 +22,23 @@ def test_version_is_that_of_the_workspace():
     assert importlib.metadata.version("flapwing") == version
 
 
+def documented(body, prefix=""):
+    """Functions, classes and methods with docstrings in the stub, by their dotted names."""
+    for node in body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            name = prefix + node.name
+            if ast.get_docstring(node):
+                yield name, ast.get_docstring(node)
+            if isinstance(node, ast.ClassDef):
+                yield from documented(node.body, name + ".")
+
+
 def test_stub_repeats_the_docstrings():
     stub = ast.parse((WHEEL / "python/flapwing/_flapwing.pyi").read_text(encoding="utf-8"))
-    functions = [node for node in stub.body if isinstance(node, ast.FunctionDef)]
-    assert {function.name for function in functions} == {"presets", "run"}
-    for function in functions:
-        assert ast.get_docstring(function) == inspect.getdoc(getattr(flapwing, function.name))
+    found = dict(documented(stub.body))
+    assert {"presets", "sweep", "evaluate", "Grid", "Grid.axes", "Diagnostic", "GridError"} <= set(found)
+    for name, doc in found.items():
+        assert doc == inspect.getdoc(operator.attrgetter(name)(_flapwing)), name
 
 
 def test_readme_examples_run():

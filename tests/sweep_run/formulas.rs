@@ -8,7 +8,7 @@ use flap_sweep::run::{Progress, run};
 use crate::fake::{Fake, Fault};
 use crate::support::{Watch, csv, flag, must_end, options, plan_of};
 
-const GRID: &str = r#"
+pub(crate) const GRID: &str = r#"
 preset = "fake2020"
 [axes]
 size = { from = 0, to = 11, step = 1 }

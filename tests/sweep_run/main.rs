@@ -7,5 +7,7 @@ mod fake;
 mod files;
 mod formulas;
 mod journal;
+mod layout;
+mod parcels;
 mod rows;
 mod support;

@@ -1,6 +1,7 @@
 //! Responses up and down: hysteresis where there is some, none where there is none.
 
 use std::num::NonZeroUsize;
+use std::sync::atomic::AtomicBool;
 
 use flap_core::num::InstructionSet;
 use flap_core::simulate::Status;
@@ -30,7 +31,7 @@ fn along(plan: &Plan, range: [u32; 2], tolerance: f64) -> Along {
 fn follow(plan: &Plan, along: &Along, threads: usize) -> Vec<Curve> {
     let mut curves = Vec::new();
     let threads = NonZeroUsize::new(threads).expect("at least one");
-    response::run(plan, along, threads, |curve| {
+    response::run(plan, along, threads, &AtomicBool::new(false), |curve| {
         curves.push(curve);
         Ok::<(), RunError>(())
     })

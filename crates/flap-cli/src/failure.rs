@@ -6,7 +6,8 @@ use std::path::Path;
 
 use anstyle::{AnsiColor, Style};
 use flap_core::parameter::Invalid;
-use flap_sweep::diagnostic::Diagnostic;
+use flap_sweep::diagnostic::{self, Diagnostic};
+use flap_sweep::job::JobError;
 use flap_sweep::merge::MergeError;
 use flap_sweep::output::CreateError;
 use flap_sweep::results::{Format, FormatError};
@@ -15,7 +16,7 @@ use flap_sweep::session::ResumeError;
 use flap_sweep::sidecar;
 use flap_sweep::spec::ReadError;
 
-use crate::{console, render};
+use crate::console;
 
 /// How the program ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,6 +55,20 @@ impl Failure {
         Failure::System(format!("cannot write {}: {error}", path.display()), Vec::new())
     }
 
+    /// A job whose results are at `out`.
+    pub(crate) fn of_job(error: JobError, out: &Path) -> Failure {
+        let resumable =
+            matches!(error, JobError::Write { resumable: true, .. } | JobError::Run { resumable: true, .. });
+        let failure = match error {
+            JobError::Format(error) => error.into(),
+            JobError::Create(error) => error.into(),
+            JobError::Resume { error, changed } => changed.into_iter().fold(error.into(), Failure::help),
+            JobError::Write { path, source, .. } => Failure::cannot_write(&path, &source),
+            JobError::Run { error, .. } => error.into(),
+        };
+        if resumable { failure.help(format!("`flap resume {}` goes on", out.display())) } else { failure }
+    }
+
     /// Adds a line on what to do.
     pub(crate) fn help(mut self, line: impl Into<String>) -> Failure {
         if let Failure::Usage(_, help) | Failure::System(_, help) = &mut self {
@@ -70,7 +85,7 @@ impl Failure {
                 Exit::Usage
             }
             Failure::Grid(diagnostics) => {
-                console::say(&render::diagnostics(&diagnostics));
+                console::say(&diagnostic::render(&diagnostics, true));
                 Exit::Usage
             }
             Failure::System(message, help) => {
@@ -121,6 +136,12 @@ impl From<ReadError> for Failure {
             }
             ReadError::Unreadable { .. } => Failure::System(error.to_string(), Vec::new()),
         }
+    }
+}
+
+impl From<JobError> for Failure {
+    fn from(error: JobError) -> Failure {
+        Failure::of_job(error, Path::new("-"))
     }
 }
 
@@ -184,7 +205,9 @@ impl From<RunError> for Failure {
     fn from(error: RunError) -> Failure {
         match error {
             RunError::Sink(source) if source.kind() == io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
-            RunError::Sink(_) | RunError::Threads(_) => Failure::System(error.to_string(), Vec::new()),
+            RunError::Sink(_) | RunError::Threads(_) | RunError::Parcel(_) | RunError::Fetch(_) => {
+                Failure::System(error.to_string(), Vec::new())
+            }
             RunError::Model(_) | RunError::Panic(_) => Failure::Bug(error.to_string()),
         }
     }

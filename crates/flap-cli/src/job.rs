@@ -1,225 +1,73 @@
 //! The rows of a plan to a file or to stdout: what `sweep`, `resume` and `rerun` share.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
 use flap_core::simulate::Status;
-use flap_sweep::csv_sink::CsvSink;
-use flap_sweep::identity::Identity;
-use flap_sweep::layout::Layout;
+pub(crate) use flap_sweep::job::Begin;
+use flap_sweep::job::{self, Before, Done, Job, Outcome};
 use flap_sweep::output;
 use flap_sweep::plan::Plan;
-use flap_sweep::results::Format;
 use flap_sweep::run::{self, RunError, RunOptions, Summary};
-use flap_sweep::session::{self, ResumeError, Resumed, Session, SessionOptions};
-use flap_sweep::sidecar::{self, End, Origin, Sidecar, Start, State};
+use flap_sweep::session::{self, SessionOptions};
+use flap_sweep::sidecar::{self, Origin, Sidecar};
 use flap_sweep::sink::Sink;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
 use crate::args::WorkArgs;
 use crate::cmd::exclusion;
+use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::progress::Bar;
-use crate::{console, time};
 
-/// What is to be run, and where its rows go.
-pub(crate) struct Job<'a> {
-    pub(crate) plan: Plan,
-    pub(crate) out: PathBuf,
-    pub(crate) begin: Begin,
-    pub(crate) work: &'a WorkArgs,
-    /// Where the points of a rerun come from.
-    pub(crate) origin: Option<Origin>,
-}
-
-/// What becomes of results that are there already.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Begin {
-    /// They are an error.
-    New,
-    /// They are dropped.
-    Overwrite,
-    /// They are gone on with.
-    Resume,
-}
-
-/// What this process did.
-struct Done {
-    /// Of the rows of earlier sessions too.
-    summary: Summary,
-    rows_before: u64,
-    seconds: f64,
-    place: PathBuf,
-}
-
-/// Runs the job and tells what it came to.
-pub(crate) fn run(job: &Job<'_>) -> Result<Exit, Failure> {
+/// Runs `plan`, writes its rows to `out`, and tells what it came to. `origin` says where the points of a rerun come from.
+pub(crate) fn run(
+    plan: Plan,
+    out: PathBuf,
+    begin: Begin,
+    work: &WorkArgs,
+    origin: Option<Origin>,
+) -> Result<Exit, Failure> {
     let mut options = RunOptions::default();
-    if let Some(threads) = job.work.threads {
+    if let Some(threads) = work.threads {
         options.threads = threads;
     }
-    if job.out.as_os_str() == "-" {
-        return Ok(job.ended(&job.to_stream(io::stdout(), &options, PathBuf::from("stdout"))?));
+    if out.as_os_str() == "-" {
+        let done = job::to_stream(&plan, io::stdout(), &options, &mut run_with_progress)?;
+        return Ok(ended(&done, work));
     }
-    let options = SessionOptions { run: options, checkpoint: job.work.checkpoint };
-    match job.begin {
-        Begin::Resume => job.resume(&options),
-        Begin::New | Begin::Overwrite => Ok(job.ended(&job.start(&options)?)),
-    }
-}
-
-impl Job<'_> {
-    /// Tells what the run came to, and how the program ends.
-    fn ended(&self, done: &Done) -> Exit {
-        report(done);
-        if done.summary.interrupted {
-            if self.out.as_os_str() != "-" {
-                console::say(&format!("`flap resume {}` goes on", self.out.display()));
-            }
-            return Exit::Interrupted;
-        }
-        self.complete(done.summary.counts.of(Status::Periodic) == done.summary.rows)
-    }
-
-    fn complete(&self, all_periodic: bool) -> Exit {
-        if self.work.strict && !all_periodic { Exit::NotAllPeriodic } else { Exit::Done }
-    }
-
-    fn start(&self, options: &SessionOptions) -> Result<Done, Failure> {
-        let format = Format::of(&self.out)?;
-        let file = output::create(&self.out, self.begin == Begin::Overwrite)?;
-        // Devices and pipes have nothing beside them, and nothing to resume.
-        if !file.metadata().is_ok_and(|metadata| metadata.is_file()) {
-            return self.to_stream(file, &options.run, self.out.clone());
-        }
-        let started = time::now();
-        let sidecar = self.sidecar(started.clone(), options);
-        write_sidecar(&sidecar, &self.out)?;
-        // Earlier rows go only now that nothing stands in the way of new ones.
-        let session = Session::start(file, (&self.out, format), &self.plan, options, started);
-        let session = session.map_err(|error| Failure::cannot_write(&self.out, &error))?;
-        self.work(session, Summary::default(), sidecar, options)
-    }
-
-    fn resume(&self, options: &SessionOptions) -> Result<Exit, Failure> {
-        let out = self.out.display();
-        let resumed = match Session::resume(&self.out, &self.plan, options) {
-            Ok(resumed) => resumed,
-            Err(ResumeError::NoJournal { .. }) if is_empty(&self.out) => {
-                return Ok(self.ended(&self.start(options)?));
-            }
-            Err(error @ ResumeError::NoJournal { .. }) => return self.is_complete(error, options),
-            Err(error) => return Err(self.cannot_resume(error)),
-        };
-        let Resumed { session, before, started, lost } = resumed;
+    let options = SessionOptions { run: options, checkpoint: work.checkpoint };
+    let job = Job { plan, out, begin, options, origin };
+    let (place, points) = (job.out.display(), job.plan.selected());
+    let outcome = job::run(&job, &mut run_with_progress, &mut |Before { lost, done }| {
         if lost > 0 {
-            console::say(&format!("{lost} rows are no longer in {out}: they are computed again"));
+            console::say(&format!("{lost} rows are no longer in {place}: they are computed again"));
         }
-        console::say(&format!("{} of {} points of {out} are done", before.done(), self.plan.selected()));
-        let sidecar = self.sidecar(started, options);
-        write_sidecar(&sidecar, &self.out)?;
-        Ok(self.ended(&self.work(session, before, sidecar, options)?))
-    }
-
-    /// There is nothing to resume: that is well if the rows wanted are all there.
-    fn is_complete(&self, error: ResumeError, options: &SessionOptions) -> Result<Exit, Failure> {
-        let sidecar = Sidecar::read(&sidecar::path_of(&self.out));
-        let Some(sidecar) = sidecar.ok().filter(|sidecar| sidecar.state == State::Complete) else {
-            return Err(self.cannot_resume(error));
-        };
-        let changes = Identity::recorded(&sidecar).differences(&Identity::of(&self.plan, &options.run));
-        if !changes.is_empty() {
-            return Err(self.cannot_resume(ResumeError::Changed { path: self.out.clone(), changes }));
+        console::say(&format!("{done} of {points} points of {place} are done"));
+    });
+    match outcome.map_err(|error| Failure::of_job(error, &job.out))? {
+        Outcome::Ran(done) => Ok(ended(&done, work)),
+        Outcome::Complete { all_periodic } => {
+            console::say(&format!("{place} is complete: nothing is left to run"));
+            Ok(complete(all_periodic, work))
         }
-        console::say(&format!("{} is complete: nothing is left to run", self.out.display()));
-        let periodic = sidecar.statuses.as_ref().and_then(|counts| counts.get(Status::Periodic.name()));
-        Ok(self.complete(periodic == sidecar.rows.as_ref()))
-    }
-
-    /// The error, with the first line of the grid file that is another.
-    fn cannot_resume(&self, error: ResumeError) -> Failure {
-        let changed = matches!(error, ResumeError::Changed { .. });
-        let mut failure = Failure::from(error);
-        let before = Sidecar::read(&sidecar::path_of(&self.out)).ok().filter(|_| changed);
-        if let Some(line) = before.and_then(|before| difference(&before.grid.text, &self.plan.source.text)) {
-            failure = failure.help(line);
-        }
-        failure
-    }
-
-    fn sidecar(&self, started: String, options: &SessionOptions) -> Sidecar {
-        Sidecar::new(&self.plan, Start { started, options: options.run, rerun: self.origin.clone() })
-    }
-
-    fn work(
-        &self,
-        mut session: Session,
-        before: Summary,
-        mut sidecar: Sidecar,
-        options: &SessionOptions,
-    ) -> Result<Done, Failure> {
-        let start = Instant::now();
-        let rows_before = before.rows;
-        let outcome = run_with_progress(&self.plan, &options.run, before, &mut session);
-        let outcome = outcome.and_then(|summary| match session.close(&summary) {
-            Ok(()) => Ok(summary),
-            Err(error) => Err(RunError::Sink(error)),
-        });
-        let end = End { finished: time::now(), seconds: session.seconds() };
-        let go_on = |failure: Failure| failure.help(format!("`flap resume {}` goes on", self.out.display()));
-        match outcome {
-            Ok(summary) => {
-                let place = session.rows_path(!summary.interrupted);
-                sidecar.finish(&summary, end);
-                write_sidecar(&sidecar, &self.out).map_err(go_on)?;
-                if !summary.interrupted {
-                    session.forget().map_err(|error| go_on(Failure::cannot_write(&self.out, &error)))?;
-                }
-                Ok(Done { summary, rows_before, seconds: start.elapsed().as_secs_f64(), place })
-            }
-            Err(error) => {
-                sidecar.fail(error.to_string(), end);
-                // The first error is the one to tell.
-                let _ = write_sidecar(&sidecar, &self.out);
-                Err(go_on(error.into()))
-            }
-        }
-    }
-
-    /// Writes to what can neither be read again nor resumed.
-    fn to_stream(
-        &self,
-        stream: impl output::Durable,
-        options: &RunOptions,
-        place: PathBuf,
-    ) -> Result<Done, Failure> {
-        let mut sink = CsvSink::new(Layout::of(&self.plan), stream);
-        let start = Instant::now();
-        let summary = run_with_progress(&self.plan, options, Summary::default(), &mut sink)?;
-        Ok(Done { summary, rows_before: 0, seconds: start.elapsed().as_secs_f64(), place })
     }
 }
 
-fn is_empty(path: &Path) -> bool {
-    fs::metadata(path).map_or(true, |metadata| metadata.is_file() && metadata.len() == 0)
+fn ended(done: &Done, work: &WorkArgs) -> Exit {
+    report(done);
+    if done.summary.interrupted {
+        return Exit::Interrupted;
+    }
+    complete(done.summary.counts.of(Status::Periodic) == done.summary.rows, work)
 }
 
-fn write_sidecar(sidecar: &Sidecar, results: &Path) -> Result<(), Failure> {
-    let path = sidecar::path_of(results);
-    sidecar.write(&path).map_err(|error| Failure::cannot_write(&path, &error))
-}
-
-/// The first line that differs, in words.
-fn difference(before: &str, now: &str) -> Option<String> {
-    let (before, now): (Vec<&str>, Vec<&str>) = (before.lines().collect(), now.lines().collect());
-    let line = (0..before.len().max(now.len())).find(|&line| before.get(line) != now.get(line))?;
-    let shown = |lines: &[&str]| lines.get(line).map_or("not there".to_owned(), |text| format!("`{text}`"));
-    Some(format!("line {} of the grid was {}, it is {}", line + 1, shown(&before), shown(&now)))
+fn complete(all_periodic: bool, work: &WorkArgs) -> Exit {
+    if work.strict && !all_periodic { Exit::NotAllPeriodic } else { Exit::Done }
 }
 
 /// Runs the plan with a progress bar; the first signal to end drains the sweep, the second exits at once.
@@ -270,7 +118,7 @@ fn report(done: &Done) {
         ));
     }
 
-    let place = place.display();
+    let place = place.as_deref().map_or("stdout".into(), Path::to_string_lossy);
     if summary.interrupted {
         let (done, points) = (summary.done(), summary.points);
         console::say(&format!("interrupted: the rows of the first {done} of {points} points are in {place}"));
@@ -326,8 +174,8 @@ pub(crate) fn make<E: From<io::Error>>(
     let written = output::replace(results, write);
     if written.is_ok() {
         session::forget(results).map_err(|error| Failure::cannot_write(results, &error))?;
-    } else if is_empty(results) {
-        let _ = fs::remove_file(results);
+    } else if job::is_empty(results) {
+        let _ = std::fs::remove_file(results);
     }
     drop(locked);
     Ok(written)

@@ -6,9 +6,7 @@ mod console;
 mod failure;
 mod job;
 mod progress;
-mod render;
 mod table;
-mod time;
 
 use std::process::ExitCode;
 

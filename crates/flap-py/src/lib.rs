@@ -1,19 +1,51 @@
 //! Native part of the `flapwing` Python package.
 //!
-//! Python values become plain ones at the edge, in [`parameters`] and [`solver`]; rows become dictionaries in
-//! [`run`]. Nothing behind that sees Python. `python/flapwing/_flapwing.pyi` repeats signatures and docstrings
-//! for editors and type checkers; tests hold both to be equal.
+//! Python values become plain ones at the edge, in [`parameters`], [`design`] and [`solver`]; results become columns in
+//! [`columns`]. Nothing behind that sees Python. `python/flapwing/_flapwing.pyi` repeats signatures and docstrings
+//! for editors and type checkers; tests hold both to be equal. What users see of the functions without docstrings of
+//! their own is in `python/flapwing`.
 
+mod cluster;
+mod columns;
 mod convert;
+mod design;
+mod error;
+mod evaluate;
+mod grid;
+mod grid_text;
+mod listing;
 mod parameters;
+mod read;
+mod resonance;
+mod respond;
 mod run;
 mod solver;
+mod sweep;
+mod watch;
 
 /// Native part of flapwing.
 #[pyo3::pymodule]
 mod _flapwing {
     #[pymodule_export]
-    use crate::run::{presets, run};
+    use crate::cluster::part;
+    #[pymodule_export]
+    use crate::error::{Diagnostic, GridError};
+    #[pymodule_export]
+    use crate::evaluate::evaluate;
+    #[pymodule_export]
+    use crate::grid::Grid;
+    #[pymodule_export]
+    use crate::listing::{measures, params};
+    #[pymodule_export]
+    use crate::read::read;
+    #[pymodule_export]
+    use crate::resonance::resonance;
+    #[pymodule_export]
+    use crate::respond::respond;
+    #[pymodule_export]
+    use crate::run::{presets, run, trajectory};
+    #[pymodule_export]
+    use crate::sweep::sweep;
 
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "Python's name for it")]

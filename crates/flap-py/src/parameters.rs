@@ -6,9 +6,10 @@ use flap_sweep::diagnostic::nearest;
 use flap_sweep::units;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::PyString;
 
-use crate::{convert, solver};
+use crate::convert;
+use crate::solver::{self, Keyword};
 
 /// The names of all presets, in the order of the models.
 pub(crate) fn preset_names() -> Vec<&'static str> {
@@ -28,25 +29,23 @@ pub(crate) fn find_preset(name: &Bound<'_, PyAny>) -> PyResult<(&'static dyn Sim
     })
 }
 
-/// The values of a design point: those of `preset`, with `keywords` on top.
-pub(crate) fn values(
-    simulator: &dyn Simulator,
-    preset: &Preset,
-    keywords: Option<&Bound<'_, PyDict>>,
-) -> PyResult<Vec<f64>> {
-    let mut values = (preset.values)();
-    for (key, value) in keywords.into_iter().flatten() {
-        let key = key.cast::<PyString>()?.to_cow()?;
-        let known = simulator.parameters();
-        let index = known.iter().position(|parameter| parameter.name == key);
-        let index = index.ok_or_else(|| unknown_parameter(simulator, &key))?;
-        values[index] = value_of(&known[index], &value)?;
+/// The index of the parameter called `name`.
+pub(crate) fn index(simulator: &dyn Simulator, name: &str) -> PyResult<usize> {
+    let index = simulator.parameters().iter().position(|parameter| parameter.name == name);
+    index.ok_or_else(|| unknown_parameter(simulator, name))
+}
+
+/// Puts the parameters given as keywords over `values`.
+pub(crate) fn apply(simulator: &dyn Simulator, values: &mut [f64], keywords: &[Keyword<'_>]) -> PyResult<()> {
+    for (name, value) in keywords {
+        let index = index(simulator, name)?;
+        values[index] = value_of(&simulator.parameters()[index], value)?;
     }
-    Ok(values)
+    Ok(())
 }
 
 /// What a design point holds for `parameter`: a number in SI units, or the index of an option.
-fn value_of(parameter: &Parameter, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+pub(crate) fn value_of(parameter: &Parameter, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     match &parameter.kind {
         Kind::Number(range) | Kind::Following(range, _) => quantity(parameter, *range, value),
         Kind::Choice(options) => option(parameter.name, options, value),

@@ -11,6 +11,8 @@ use crate::sample::{Design, Distribution};
 pub enum Values {
     /// Values given one by one.
     List(Vec<f64>),
+    /// Values that a program gives one by one, and nobody has checked: some may be out of range.
+    Unchecked(Vec<f64>),
     /// `count` values evenly spaced from `from` to `to`, both included.
     Linear {
         /// First value.
@@ -53,7 +55,7 @@ impl Values {
     /// Number of values.
     pub fn len(&self) -> u64 {
         match self {
-            Values::List(list) => list.len() as u64,
+            Values::List(list) | Values::Unchecked(list) => list.len() as u64,
             Values::Linear { count, .. } | Values::Step { count, .. } | Values::Log { count, .. } => *count,
             Values::Sampled { design, .. } => design.count(),
         }
@@ -67,7 +69,9 @@ impl Values {
     /// Value number `index`, which must be less than [`Values::len`].
     pub fn get(&self, index: u64) -> f64 {
         match *self {
-            Values::List(ref list) => list[usize::try_from(index).expect("a list fits in memory")],
+            Values::List(ref list) | Values::Unchecked(ref list) => {
+                list[usize::try_from(index).expect("a list fits in memory")]
+            }
             Values::Linear { from, to, count } => match index {
                 0 => from,
                 _ if index + 1 == count => to,

@@ -4,7 +4,7 @@ use std::io;
 
 use flap_core::simulate::{Point, Row};
 
-use crate::layout::Layout;
+use crate::layout::{Cell, Layout};
 use crate::output::Durable;
 use crate::sink::Sink;
 
@@ -37,7 +37,7 @@ impl<W: Durable> Sink for CsvSink<W> {
     }
 
     fn write(&mut self, point: &Point, row: &Row) -> io::Result<()> {
-        self.writer.write_record(self.layout.cells(point, row)).map_err(cause)
+        self.writer.write_record(self.layout.cells(point, row).into_iter().map(Cell::text)).map_err(cause)
     }
 
     fn flush(&mut self) -> io::Result<()> {

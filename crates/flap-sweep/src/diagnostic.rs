@@ -2,9 +2,13 @@
 //!
 //! A diagnostic carries the text it is about, so that whoever shows it needs nothing else.
 
+mod render;
+
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
+
+pub use render::render;
 
 use crate::plan::Source;
 

@@ -27,6 +27,8 @@ pub struct Measure {
     pub name: String,
     /// The unit in words.
     pub unit: &'static str,
+    /// One line of meaning.
+    pub doc: String,
     /// Whether it is a number, or true or false: then 1 stands for true and 0 for false.
     pub kind: expression::Kind,
 }
@@ -47,6 +49,8 @@ pub struct Column {
     pub unit: &'static str,
     /// What its cells hold. Any cell may be empty.
     pub kind: Kind,
+    /// One line of meaning.
+    pub doc: String,
 }
 
 /// What the cells of a column hold.
@@ -63,8 +67,45 @@ pub enum Kind {
 }
 
 impl Column {
-    fn new(name: &str, unit: &'static str, kind: Kind) -> Column {
-        Column { name: name.to_owned(), unit, kind }
+    pub(crate) fn new(name: &str, unit: &'static str, kind: Kind, doc: &str) -> Column {
+        Column { name: name.to_owned(), unit, kind, doc: doc.to_owned() }
+    }
+
+    pub(crate) fn of_parameter(parameter: &Parameter) -> Column {
+        let kind = match parameter.kind {
+            parameter::Kind::Choice(_) => Kind::Text,
+            parameter::Kind::Number(_) | parameter::Kind::Following(..) => Kind::Number,
+        };
+        Column::new(parameter.name, parameter.unit, kind, parameter.doc)
+    }
+}
+
+/// What stands in a row under a column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cell {
+    /// A whole number.
+    Whole(u64),
+    /// A number; NaN if it is not known.
+    Number(f64),
+    /// True or false; `None` if it is not known.
+    Flag(Option<bool>),
+    /// A word.
+    Text(&'static str),
+}
+
+impl Cell {
+    /// The text in a file of CSV; empty for what is not known.
+    pub fn text(self) -> String {
+        match self {
+            Cell::Whole(number) => number.to_string(),
+            Cell::Number(number) => text::float(number),
+            Cell::Flag(flag) => flag.map_or_else(String::new, |flag| flag.to_string()),
+            Cell::Text(word) => word.to_owned(),
+        }
+    }
+
+    pub(crate) fn of_parameter(parameter: &Parameter, value: f64) -> Cell {
+        text::option(parameter, value).map_or(Cell::Number(value), Cell::Text)
     }
 }
 
@@ -75,12 +116,22 @@ impl Layout {
         let varied =
             plan.varied().chain(plan.derived.parameters()).map(|index| (index, &parameters[index])).collect();
         let columns = plan.rows().columns();
-        let models =
-            columns.iter().map(|column| (column.name.clone(), column.unit, expression::Kind::Number));
-        let own = plan.measures.iter().map(|own| (own.name.clone(), "", own.kind()));
-        let all: Vec<Measure> = (models.chain(own).enumerate())
-            .map(|(index, (name, unit, kind))| Measure { index, name, unit, kind })
-            .collect();
+        let models = columns.iter().map(|column| Measure {
+            index: 0,
+            name: column.name.clone(),
+            unit: column.unit,
+            doc: column.doc.clone(),
+            kind: expression::Kind::Number,
+        });
+        let own = plan.measures.iter().map(|own| Measure {
+            index: 0,
+            name: own.name.clone(),
+            unit: "",
+            doc: "[measure] in the grid file".to_owned(),
+            kind: own.kind(),
+        });
+        let all: Vec<Measure> =
+            models.chain(own).enumerate().map(|(index, measure)| Measure { index, ..measure }).collect();
         let measures = match &plan.output.columns {
             Some(chosen) => chosen.iter().map(|&index| all[index].clone()).collect(),
             None => all,
@@ -90,28 +141,35 @@ impl Layout {
 
     /// The columns, from left to right.
     pub fn columns(&self) -> Vec<Column> {
-        let mut columns = vec![Column::new("point", "", Kind::Whole)];
-        columns.extend(self.varied.iter().map(|(_, parameter)| {
-            let kind = match parameter.kind {
-                parameter::Kind::Choice(_) => Kind::Text,
-                parameter::Kind::Number(_) | parameter::Kind::Following(..) => Kind::Number,
-            };
-            Column::new(parameter.name, parameter.unit, kind)
-        }));
-        columns.push(Column::new("status", "", Kind::Text));
+        let mut columns =
+            vec![Column::new("point", "", Kind::Whole, "index of the point in the grid, from 0")];
+        columns.extend(self.varied.iter().map(|(_, parameter)| Column::of_parameter(parameter)));
+        columns.push(Column::new("status", "", Kind::Text, "what became of the point"));
         columns.extend(self.measures.iter().map(|measure| {
             let kind = match measure.kind {
                 expression::Kind::Number => Kind::Number,
                 expression::Kind::Condition => Kind::Flag,
             };
-            Column::new(&measure.name, measure.unit, kind)
+            Column::new(&measure.name, measure.unit, kind, &measure.doc)
         }));
-        columns.push(Column::new("cycles", "", Kind::Whole));
-        columns.push(Column::new("residual", "", Kind::Number));
-        columns.push(Column::new("period", "", Kind::Whole));
-        columns.push(Column::new("floquet_max", "", Kind::Number));
-        columns.push(Column::new("stable", "", Kind::Flag));
-        columns.push(Column::new("rhs_evals", "", Kind::Whole));
+        for (name, kind, doc) in [
+            ("cycles", Kind::Whole, "drive periods integrated, the measured one included"),
+            (
+                "residual",
+                Kind::Number,
+                "change of the state over the last period of the motion, in units of settle_tol",
+            ),
+            ("period", Kind::Whole, "drive periods until the motion repeats; 0 if no orbit was found"),
+            (
+                "floquet_max",
+                Kind::Number,
+                "factor by which a change of the motion grows or decays per orbit in the end",
+            ),
+            ("stable", Kind::Flag, "whether motions near the orbit approach it"),
+            ("rhs_evals", Kind::Whole, "evaluations of the equations of motion"),
+        ] {
+            columns.push(Column::new(name, "", kind, doc));
+        }
         columns
     }
 
@@ -120,27 +178,61 @@ impl Layout {
         self.columns().into_iter().map(|column| column.name).collect()
     }
 
-    /// One text per column. What is not known is empty: the measures of a point that is not periodic,
+    /// One cell per column. What is not known is empty: the measures of a point that is not periodic,
     /// the multiplier and stability of one without an orbit, and the residual of one that completed no period.
-    pub fn cells(&self, point: &Point, row: &Row) -> Vec<String> {
-        let mut cells = vec![point.index.to_string()];
+    pub fn cells(&self, point: &Point, row: &Row) -> Vec<Cell> {
+        let mut cells = vec![Cell::Whole(point.index)];
         cells.extend(
-            self.varied.iter().map(|&(index, parameter)| text::value(parameter, point.values[index])),
+            self.varied.iter().map(|&(index, parameter)| Cell::of_parameter(parameter, point.values[index])),
         );
-        cells.push(row.status.name().to_owned());
+        cells.push(Cell::Text(row.status.name()));
         cells.extend(self.measures.iter().map(|measure| {
             let value = measure.value(&row.measures);
             match measure.kind {
-                expression::Kind::Number => text::float(value),
-                expression::Kind::Condition => text::truth(value),
+                expression::Kind::Number => Cell::Number(value),
+                expression::Kind::Condition => Cell::Flag((!value.is_nan()).then_some(value != 0.0)),
             }
         }));
-        cells.push(row.cycles.to_string());
-        cells.push(text::float(row.residual));
-        cells.push(row.period.to_string());
-        cells.push(text::float(row.floquet_max));
-        cells.push(row.stable().map_or_else(String::new, |stable| stable.to_string()));
-        cells.push(row.rhs_evals.to_string());
+        cells.push(Cell::Whole(row.cycles.into()));
+        cells.push(Cell::Number(row.residual));
+        cells.push(Cell::Whole(row.period.into()));
+        cells.push(Cell::Number(row.floquet_max));
+        cells.push(Cell::Flag(row.stable()));
+        cells.push(Cell::Whole(row.rhs_evals));
         cells
     }
+}
+
+/// Endings of names, each with its unit in words; of two that fit, the longer one comes first.
+const ENDINGS: [(&str, &str); 19] = [
+    ("_gf_per_w", "gf/W"),
+    ("_v_per_um", "V/um"),
+    ("_deg_per_v", "deg/V"),
+    ("_rad_s", "rad/s"),
+    ("_m_s", "m/s"),
+    ("_1_s", "1/s"),
+    ("_deg", "deg"),
+    ("_rad", "rad"),
+    ("_mgf", "mgf"),
+    ("_hz", "Hz"),
+    ("_mn", "mN"),
+    ("_mw", "mW"),
+    ("_ma", "mA"),
+    ("_um", "um"),
+    ("_gf", "gf"),
+    ("_mg", "mg"),
+    ("_ms", "ms"),
+    ("_m", "m"),
+    ("_s", "s"),
+];
+
+/// The unit that a column's name ends in, for tables that do not come with units; empty if there is none.
+///
+/// ```
+/// assert_eq!(flap_sweep::layout::unit_of_name("lift_mean_mn"), "mN");
+/// assert_eq!(flap_sweep::layout::unit_of_name("status"), "");
+/// ```
+pub fn unit_of_name(name: &str) -> &'static str {
+    let ending = ENDINGS.iter().find(|(ending, _)| name.ends_with(ending));
+    ending.map_or("", |(_, unit)| unit)
 }

@@ -159,6 +159,19 @@ impl Plan {
         axis.parameters.into_iter().next().map(|(_, values)| values)
     }
 
+    /// Puts the points that a program gives into a plan of one point: the values of some parameters, as many for each.
+    ///
+    /// # Panics
+    /// If the plan has axes already.
+    pub fn vary_together(&mut self, parameters: Vec<(usize, Vec<f64>)>) {
+        assert!(self.axes.is_empty(), "a plan of one point");
+        let parameters =
+            parameters.into_iter().map(|(parameter, list)| (parameter, Values::Unchecked(list))).collect();
+        let axis = Axis { parameters };
+        self.points = axis.len();
+        self.axes.push(axis);
+    }
+
     /// Number of points.
     pub fn len(&self) -> u64 {
         self.points
@@ -215,11 +228,12 @@ impl Plan {
         }
     }
 
-    /// The parameters whose values nobody has seen: sampled and derived ones.
+    /// The parameters whose values nobody has seen: sampled and derived ones, and those that a program gives.
     fn computed(&self) -> impl Iterator<Item = usize> + '_ {
         let varied = self.axes.iter().flat_map(|axis| &axis.parameters);
-        let sampled = varied.filter(|(_, values)| matches!(values, Values::Sampled { .. }));
-        sampled.map(|(parameter, _)| *parameter).chain(self.derived.parameters())
+        let unseen =
+            varied.filter(|(_, values)| matches!(values, Values::Sampled { .. } | Values::Unchecked(_)));
+        unseen.map(|(parameter, _)| *parameter).chain(self.derived.parameters())
     }
 
     fn is_allowed(&self, parameter: usize, values: &[f64]) -> bool {

@@ -11,7 +11,7 @@ use crate::args::RerunArgs;
 use crate::cmd::point::set_solver;
 use crate::console;
 use crate::failure::{Exit, Failure};
-use crate::job::{self, Begin, Job};
+use crate::job::{self, Begin};
 
 pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     let of = args.results.display();
@@ -34,5 +34,5 @@ pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
         let failure = Failure::usage(format!("rows would overwrite {of}, whose points are run again"));
         return Err(failure.help("name another file with --out"));
     }
-    job::run(&Job { plan, out: args.out.clone(), begin, work: &args.work, origin })
+    job::run(plan, args.out.clone(), begin, &args.work, origin)
 }

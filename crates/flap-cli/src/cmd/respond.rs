@@ -3,13 +3,13 @@
 use std::fs::File;
 use std::io;
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
-use flap_core::parameter::{Kind, Parameter};
+use flap_core::parameter::Parameter;
 use flap_core::simulate::Point;
-use flap_sweep::axis::Values;
 use flap_sweep::output::{self, Durable};
 use flap_sweep::plan::Plan;
-use flap_sweep::response::{self, Along, Curve, Table, Verdict};
+use flap_sweep::response::{self, Along, AlongError, Curve, Table, Verdict};
 use flap_sweep::run::RunOptions;
 use flap_sweep::text;
 
@@ -17,9 +17,6 @@ use super::point;
 use crate::args::RespondArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
-
-/// The most values that a parameter takes on the way up.
-const MOST_VALUES: f64 = 1e6;
 
 pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     let mut plan = point::plan(&args.what)?;
@@ -32,12 +29,13 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     for (name, value) in &args.set {
         set(&mut plan, &along, name, value)?;
     }
+    let never = AtomicBool::new(false);
     let threads = args.threads.unwrap_or(RunOptions::default().threads);
     let verdicts = Verdicts::new(&plan, &along)?;
     match args.out.as_deref() {
         Some(path) if path.as_os_str() == "-" => {
             let mut table = begin(&plan, &along, io::stdout(), path)?;
-            response::run(&plan, &along, threads, |curve| {
+            response::run(&plan, &along, threads, &never, |curve| {
                 console::say(&verdicts.line(&curve));
                 write(&mut table, &curve, path)
             })?;
@@ -49,7 +47,7 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
             let mut table = begin(&plan, &along, file, path)?;
             // Conditions may exclude some of the designs.
             let mut curves = 0_u64;
-            response::run(&plan, &along, threads, |curve| {
+            response::run(&plan, &along, threads, &never, |curve| {
                 curves += 1;
                 console::results(&(verdicts.line(&curve) + "\n"))?;
                 write(&mut table, &curve, path)
@@ -57,7 +55,7 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
             finish(table, path)?;
             console::say(&format!("{curves} curves in {}", path.display()));
         }
-        None => response::run(&plan, &along, threads, |curve| {
+        None => response::run(&plan, &along, threads, &never, |curve| {
             console::results(&(verdicts.line(&curve) + "\n")).map_err(Failure::from)
         })?,
     }
@@ -87,62 +85,23 @@ fn refused(path: &Path, error: io::Error) -> Failure {
 fn along(args: &RespondArgs, plan: &mut Plan) -> Result<Along, Failure> {
     let index = point::find_parameter(plan.parameters(), &args.along)?;
     let parameter = &plan.parameters()[index];
-    if let Kind::Choice(_) = parameter.kind {
-        return Err(Failure::usage(format!("`{}` is a choice and cannot rise and fall", parameter.name)));
-    }
-    let axis = plan.take_axis(index);
-    if plan.varied().any(|varied| varied == index) {
-        let message = format!("`{}` is varied together with other parameters", parameter.name);
-        return Err(Failure::usage(message).help("follow a parameter with an axis of its own, or none"));
-    }
     let number = |option: &str, given: &Option<String>| -> Result<Option<f64>, Failure> {
         given.as_deref().map(|text| point::value(parameter, option, text)).transpose()
     };
-    let ends = [number("--from", &args.from)?, number("--to", &args.to)?, number("--step", &args.step)?];
-    let values = match (ends, axis) {
-        ([Some(from), Some(to), Some(step)], _) => steps(parameter, from, to, step)?,
-        ([None, None, None], Some(axis)) => rising(parameter, &axis)?,
-        _ => {
-            let message = format!("how `{}` rises is not known", parameter.name);
-            let help =
-                "give --from, --to and --step, or a grid file with an axis of its own for the parameter";
-            return Err(Failure::usage(message).help(help));
-        }
-    };
-    let shortest = values.windows(2).map(|two| two[1] - two[0]).fold(f64::INFINITY, f64::min);
-    let tolerance = number("--tolerance", &args.tolerance)?.unwrap_or(shortest / 16.0);
-    if tolerance <= 0.0 {
-        return Err(Failure::usage("--tolerance must be more than zero"));
-    }
-    Ok(Along { parameter: index, values, tolerance, unstable: args.unstable })
-}
-
-fn steps(parameter: &Parameter, from: f64, to: f64, step: f64) -> Result<Vec<f64>, Failure> {
-    // A last step that is short by rounding alone is a step.
-    let whole = ((to - from) / step + 1e-9).floor();
-    if !(step > 0.0 && (1.0..MOST_VALUES).contains(&whole)) {
-        let name = parameter.name;
-        let message = format!("there are no steps of {step} in `{name}` from {from} to {to}");
-        return Err(
-            Failure::usage(message).help("--from less than --to by one step or more, up to a million")
-        );
-    }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to a million")]
-    let count = whole as u64 + 1;
-    let values = Values::Step { from, step, count };
-    Ok((0..count).map(|i| values.get(i)).collect())
-}
-
-/// The values of an axis by rising value.
-fn rising(parameter: &Parameter, axis: &Values) -> Result<Vec<f64>, Failure> {
-    let mut values: Vec<f64> = (0..axis.len()).map(|i| axis.get(i)).collect();
-    values.sort_by(f64::total_cmp);
-    values.dedup();
-    if values.len() < 2 {
-        let message = format!("the axis of `{}` has one value: nothing rises and falls", parameter.name);
-        return Err(Failure::usage(message));
-    }
-    Ok(values)
+    let steps =
+        match [number("--from", &args.from)?, number("--to", &args.to)?, number("--step", &args.step)?] {
+            [Some(from), Some(to), Some(step)] => Some([from, to, step]),
+            [None, None, None] => None,
+            _ => {
+                let message = format!("how `{}` rises is not known", parameter.name);
+                return Err(Failure::usage(message).help("--from, --to and --step go together"));
+            }
+        };
+    let tolerance = number("--tolerance", &args.tolerance)?;
+    Along::new(plan, index, steps, tolerance, args.unstable).map_err(|AlongError { message, help }| {
+        let failure = Failure::usage(message);
+        if help.is_empty() { failure } else { failure.help(help) }
+    })
 }
 
 /// Sets a parameter of all designs.

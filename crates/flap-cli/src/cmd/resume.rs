@@ -2,10 +2,10 @@
 
 use crate::args::ResumeArgs;
 use crate::failure::{Exit, Failure};
-use crate::job::{self, Begin, Job};
+use crate::job::{self, Begin};
 
 pub(crate) fn run(args: &ResumeArgs) -> Result<Exit, Failure> {
     let (plan, sidecar) = job::recorded(&args.results)?;
     let origin = sidecar.origin();
-    job::run(&Job { plan, out: args.results.clone(), begin: Begin::Resume, work: &args.work, origin })
+    job::run(plan, args.results.clone(), Begin::Resume, &args.work, origin)
 }

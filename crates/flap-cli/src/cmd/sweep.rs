@@ -10,7 +10,7 @@ use flap_sweep::spec;
 
 use crate::args::SweepArgs;
 use crate::failure::{Exit, Failure};
-use crate::job::{self, Begin, Job};
+use crate::job::{self, Begin};
 
 pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
     let (mut plan, origin) = plan(args)?;
@@ -32,7 +32,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
         (false, true) => Begin::Overwrite,
         (false, false) => Begin::New,
     };
-    job::run(&Job { plan, out, begin, work: &args.work, origin })
+    job::run(plan, out, begin, &args.work, origin)
 }
 
 /// The plan, and where its points come from if it is that of a rerun.

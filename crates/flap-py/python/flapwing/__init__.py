@@ -1,8 +1,34 @@
 """Simulation of insect-scale piezoelectric flapping-wing actuators.
 
-`presets` lists published designs; `run` simulates one of them, with any parameters changed.
+`presets` lists published designs, `params` their numbers. `run` simulates one design, `trajectory` gives its motion and
+`resonance` its resonances; `sweep` runs a whole grid, `evaluate` a batch of points, and `respond` follows designs up and
+down in frequency. Results are a `Table`, whose columns are NumPy arrays, and go to pandas, polars, Arrow and xarray.
+
+Pictures are in `flapwing.plot`, which needs matplotlib.
 """
 
-from ._flapwing import __version__, presets, run
+from ._evaluate import evaluate
+from ._flapwing import Diagnostic, Grid, GridError, __version__, presets
+from ._point import Parameter, measures, params, resonance, run, trajectory
+from ._respond import respond
+from ._sweep import read, sweep
+from ._table import Table
 
-__all__ = ["__version__", "presets", "run"]
+__all__ = [
+    "Diagnostic",
+    "Grid",
+    "GridError",
+    "Parameter",
+    "Table",
+    "__version__",
+    "evaluate",
+    "measures",
+    "params",
+    "presets",
+    "read",
+    "resonance",
+    "respond",
+    "run",
+    "sweep",
+    "trajectory",
+]

@@ -1,10 +1,133 @@
 """Native part of flapwing."""
 
-from typing import Any, SupportsFloat, SupportsIndex
+from os import PathLike
+from typing import Any, Callable, SupportsFloat, SupportsIndex, final, overload
 
-__all__ = ["__version__", "presets", "run"]
+__all__ = [
+    "Diagnostic",
+    "Grid",
+    "GridError",
+    "__version__",
+    "evaluate",
+    "measures",
+    "params",
+    "part",
+    "presets",
+    "read",
+    "resonance",
+    "respond",
+    "run",
+    "sweep",
+    "trajectory",
+]
 
 __version__: str
+
+class GridError(ValueError):
+    """A grid with mistakes.
+
+    The text shows every mistake with its lines; `diagnostics` lists them.
+    """
+
+    diagnostics: list[Diagnostic]
+
+@final
+class Diagnostic:
+    """One mistake in a grid.
+
+    Attributes
+    ----------
+    file : str
+        The grid file, or ``"<grid>"``.
+    line, column : int
+        Where the mistake is, from 1; columns count characters.
+    start, end : int
+        The same in bytes of the text in UTF-8.
+    message : str
+        What is wrong.
+    notes, help : list of str
+        What is allowed, and what to do.
+    """
+
+    @property
+    def file(self) -> str: ...
+    @property
+    def line(self) -> int: ...
+    @property
+    def column(self) -> int: ...
+    @property
+    def start(self) -> int: ...
+    @property
+    def end(self) -> int: ...
+    @property
+    def message(self) -> str: ...
+    @property
+    def notes(self) -> list[str]: ...
+    @property
+    def help(self) -> list[str]: ...
+
+@final
+class Grid:
+    """A design space: a checked grid file.
+
+    A grid is a sequence of design points, computed when asked for::
+
+        grid = Grid({"preset": "ozaki2018-large", "axes": {"drive_frequency": [100.0, 105.0, 110.0]}})
+        len(grid)                       # 3
+        grid[1]["drive_frequency"]      # 105.0
+
+    Parameters
+    ----------
+    source : path, str, dict or Grid
+        A grid file by its path; the text of one (a str with a line break or ``=``); or what such a file says as a
+        dictionary of dictionaries.
+
+    Raises
+    ------
+    GridError
+        Mistakes in the grid: all of them, each with its line, what is allowed and the nearest name.
+    OSError
+        The file is not there or cannot be read.
+    TypeError
+        `source`, or something in it, is of another type.
+    """
+
+    def __new__(cls, source: Any, /) -> Grid: ...
+    def __len__(self) -> int: ...
+    @overload
+    def __getitem__(self, key: SupportsIndex, /) -> dict[str, float | str]: ...
+    @overload
+    def __getitem__(self, key: slice, /) -> list[dict[str, float | str]]: ...
+    def __getnewargs__(self) -> tuple[str]: ...
+    @property
+    def text(self) -> str:
+        """The text of the grid file."""
+
+    @property
+    def preset(self) -> str:
+        """The name of the preset that parameters start from."""
+
+    @property
+    def model(self) -> str:
+        """The name of the model."""
+
+    @property
+    def axes(self) -> list[dict[str, Any]]:
+        """The axes, the last of which varies fastest: one dictionary each, of the parameters that move together along it
+        with their values in SI units. An axis of a sample begins with the entry `sample`, numbers from 0.
+        """
+
+    def exclusions(self) -> dict[str, Any]:
+        """Counts what the conditions of ``[where]`` leave out, among all points or, if there are more than a million, among a
+        million spread over the grid.
+
+        Returns
+        -------
+        dict
+            `looked_at` and `excluded`, numbers of points, and `unsatisfied`, a dictionary from each condition to the
+            number of points that do not satisfy it.
+        """
+
 
 def presets() -> list[str]:
     """The names of the published parameter sets, each with its model.
@@ -15,85 +138,85 @@ def presets() -> list[str]:
         Names that `run` takes, such as ``"ozaki2018-large"``.
     """
 
-def run(
+def params(name: str, /) -> list[tuple[str, float | str | None, str, str, str, str, list[str]]]:
+    """The parameters of a preset or a model; see `flapwing.params`."""
+
+def measures(name: str, /) -> list[tuple[str, str, str]]:
+    """What rows of a preset or a model measure: names, each with unit and meaning; see `flapwing.measures`."""
+
+def run(preset: str, keywords: dict[str, Any], /) -> dict[str, Any]:
+    """Runs one point; see `flapwing.run`."""
+
+def trajectory(
     preset: str,
+    keywords: dict[str, Any],
     /,
     *,
-    rtol: SupportsFloat | None = None,
-    atol: SupportsFloat | None = None,
-    settle_tol: SupportsFloat | None = None,
-    max_cycles: SupportsIndex | None = None,
-    max_steps: SupportsIndex | None = None,
-    **parameters: SupportsFloat | str,
+    cycles: SupportsIndex,
+    samples: SupportsIndex,
+    from_rest: bool,
 ) -> dict[str, Any]:
-    """Run one design point until its motion repeats with the drive, then measure one drive period.
+    """Samples the motion of one point; see `flapwing.trajectory`."""
 
-    The preset's parameters hold except those given as keywords::
+def resonance(
+    preset: str,
+    keywords: dict[str, Any],
+    /,
+    *,
+    start: float | None,
+    stop: float | None,
+    tolerance: float,
+    impulse: float,
+    fit_cycles: SupportsIndex,
+    spectrum_window: float,
+) -> dict[str, Any]:
+    """Finds the resonances of one point; see `flapwing.resonance`."""
 
-        run("ozaki2018-large", drive_voltage_pp="80 V", hinge_stiffness=9e-5, lift_sign="printed")
-
-    The same call gives the same bits every time. Other Python threads go on meanwhile.
-
-    Parameters
-    ----------
-    preset : str
-        One of `presets()`. It names the model too.
-    rtol : float, optional
-        Relative tolerance of the integrator, per step and state: more than 0 and less than 0.1.
-        Default 1e-6.
-    atol : float, optional
-        Absolute tolerance of the integrator, in units of each state's typical size: more than 0.
-        Default rtol / 100.
-    settle_tol : float, optional
-        The point has settled when its state changes by less than this from one drive period to the
-        next, in units of each state's typical size (of the motion's own size, if that is smaller):
-        more than 0. Default 1e-6.
-    max_cycles : int, optional
-        Drive periods after which the point counts as unsettled: 1 or more. Default 1000.
-    max_steps : int, optional
-        Integration steps within one drive period after which the point is given up: 1 or more.
-        Default 20000.
-    **parameters : float or str
-        Parameters of the model by name: a number in SI units, text with a unit such as
-        ``"1.5 uN*m/rad"``, or the name of an option where there are options to choose from.
-
-    Returns
-    -------
-    dict
-        One row of results; the keys and their order are the same for every point of a model:
-
-        status : str
-            ``"periodic"``; ``"subharmonic"`` (repeats every 2 to 8 drive periods); ``"unsettled"``
-            (max_cycles reached); ``"diverged"``; ``"step_limit"`` (max_steps reached, or steps too small
-            to advance time); ``"invalid"`` (each parameter is in range, but together they are
-            impossible).
-        measures : float or None
-            Several keys, named after what is measured, how and in which unit: ``stroke_pp_deg``,
-            ``lift_mean_mn``, ``power_mean_mw``. All are None unless the point is periodic; a ratio of
-            nothing to nothing, such as efficiency without power, is nan.
-        cycles : int
-            Drive periods integrated, the measured one included.
-        residual : float or None
-            Change of the state over the last period of the motion, in the units of settle_tol. None if
-            no period was completed.
-        period : int
-            Drive periods until the motion repeats: 1 if periodic, more if subharmonic, otherwise 0.
-        floquet_max : float or None
-            Factor by which a change of the motion grows or decays per orbit in the end. None if no orbit was
-            found.
-        stable : bool or None
-            Whether floquet_max is below 1, so that motions near the orbit approach it. None if no orbit was
-            found.
-        rhs_evals : int
-            Evaluations of the equations of motion.
-        reason : str or None
-            Why the point is invalid; None if it is not.
-
-    Raises
-    ------
-    ValueError
-        Unknown preset, parameter, option or unit; a value out of range, infinite or not a number. The
-        message gives the nearest name and what is allowed.
-    TypeError
-        A value of the wrong type, such as text for a tolerance or a number for an option.
+def evaluate(
+    design: Any,
+    columns: dict[str, Any],
+    /,
+    *,
+    threads: SupportsIndex | None = None,
+    progress: Callable[[int, int], object] | None = None,
+    keywords: dict[str, Any] | None = None,
+) -> dict[str, Any]:
+    """Runs a batch of points; see `flapwing.evaluate`. `columns` has a one-dimensional array of float64, or a list of text,
+    for each parameter that varies, all as long.
     """
+
+def respond(
+    design: Any,
+    along: str,
+    /,
+    *,
+    start: SupportsFloat | str | None = None,
+    stop: SupportsFloat | str | None = None,
+    step: SupportsFloat | str | None = None,
+    tolerance: SupportsFloat | str | None = None,
+    unstable: bool = False,
+    threads: SupportsIndex | None = None,
+    keywords: dict[str, Any] | None = None,
+) -> dict[str, Any]:
+    """Follows responses; see `flapwing.respond`."""
+
+def sweep(
+    grid: Grid,
+    /,
+    *,
+    out: str | PathLike[str] | None = None,
+    resume: bool = False,
+    overwrite: bool = False,
+    threads: SupportsIndex | None = None,
+    progress: Callable[[int, int], object] | None = None,
+    parcels: Callable[[int], bytes | None] | None = None,
+) -> dict[str, Any]:
+    """Runs a grid; see `flapwing.sweep`. `parcels` gives the rows of other processes: called with the number of points done,
+    it gives the bytes of the next parcel.
+    """
+
+def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None = None) -> bytes:
+    """Runs the points from `begin` to before `end`, and gives their rows as bytes that `sweep` takes as parcels."""
+
+def read(path: str | PathLike[str], /) -> dict[str, Any]:
+    """Reads a result file; see `flapwing.read`."""

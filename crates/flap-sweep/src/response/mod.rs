@@ -3,42 +3,33 @@
 //! Every point is begun where its neighbour's motion has ended, so that a branch of orbits is followed as far as it goes.
 //! Where the way up and the way down differ, the design has two motions at the same drive.
 //!
+//! - `along`: the values that the parameter takes
 //! - `follow`: one curve, up and down, with the ends of its bistable bands
 //! - `continuation`: the unstable orbits that join the branches of a bistable band
 //! - `verdict`: what a curve shows
 //! - `table`: curves as rows of CSV
 
+mod along;
 mod continuation;
 mod follow;
 mod table;
 mod verdict;
 
 use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+pub use along::{Along, AlongError};
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Invalid, Parameter};
 use flap_core::simulate::{Point, Row, Status};
-pub use table::Table;
+pub use table::{Motions, Table};
 pub use verdict::{Band, BandKind, Verdict};
 
 use crate::plan::{self, Plan};
 use crate::run::RunError;
 use crate::study::{self, Desk};
 use follow::Follow;
-
-/// The parameter that rises and falls.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Along {
-    /// Its index in the model's parameter table.
-    pub parameter: usize,
-    /// Its values, rising; two or more.
-    pub values: Vec<f64>,
-    /// How closely the ends of bistable bands are located, more than zero.
-    pub tolerance: f64,
-    /// Whether the unstable orbits of bistable bands are looked for.
-    pub unstable: bool,
-}
 
 /// A motion on a curve.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,7 +73,7 @@ impl Curve {
 const CURVES_AT_ONCE: u64 = 128;
 
 /// Follows the response of every point of `plan` that its conditions do not exclude everywhere on its curve, on `threads`
-/// threads, and hands the curves on in the order of the points.
+/// threads, and hands the curves on in the order of the points. When `stop` is raised no more curves are begun.
 ///
 /// # Errors
 /// Those of `take`, at the first of which it ends, and those of starting threads.
@@ -90,20 +81,21 @@ pub fn run<E: From<RunError>>(
     plan: &Plan,
     along: &Along,
     threads: NonZeroUsize,
+    stop: &AtomicBool,
     mut take: impl FnMut(Curve) -> Result<(), E>,
 ) -> Result<(), E> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build();
     let pool = pool.map_err(RunError::Threads)?;
     let at_once = CURVES_AT_ONCE * threads.get() as u64;
     let mut begin = 0;
-    while begin < plan.len() {
+    while begin < plan.len() && !stop.load(Ordering::Relaxed) {
         let end = plan.len().min(begin + at_once);
         let shared = Mutex::new(Shared { next: begin, end, curves: Vec::new() });
         pool.scope(|scope| {
             for _ in 0..threads.get() {
                 scope.spawn(|_| {
                     let set = InstructionSet::best();
-                    let mut designs = Designs { plan, along, shared: &shared };
+                    let mut designs = Designs { plan, along, stop, shared: &shared };
                     study::run_all(plan.simulator, set, &plan.solver, &mut designs);
                 });
             }
@@ -165,6 +157,7 @@ struct Shared {
 struct Designs<'a> {
     plan: &'a Plan,
     along: &'a Along,
+    stop: &'a AtomicBool,
     shared: &'a Mutex<Shared>,
 }
 
@@ -176,7 +169,7 @@ impl<'a> Desk for Designs<'a> {
         loop {
             let index = {
                 let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
-                if shared.next == shared.end {
+                if shared.next == shared.end || self.stop.load(Ordering::Relaxed) {
                     return None;
                 }
                 shared.next += 1;

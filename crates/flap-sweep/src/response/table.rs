@@ -1,4 +1,4 @@
-//! Curves as rows of CSV.
+//! Curves as rows of a table.
 
 use std::io;
 
@@ -6,16 +6,54 @@ use flap_core::parameter::Parameter;
 
 use super::{Along, Curve, Step, parameter};
 use crate::csv_sink::cause;
-use crate::layout::Layout;
+use crate::layout::{Cell, Column, Kind, Layout};
 use crate::output::Durable;
 use crate::plan::Plan;
-use crate::text;
 
-/// Writes one plain header line, then one line per motion: `curve`, the design's varied parameters, `branch`, the parameter
-/// that rises and falls, and what follows it in the rows of a sweep.
-pub struct Table<W: Durable> {
+/// What a row per motion holds: `curve`, the design's varied parameters, `branch`, the parameter that rises and falls, and
+/// what follows it in the rows of a sweep.
+pub struct Motions {
     layout: Layout,
     parameter: &'static Parameter,
+}
+
+impl Motions {
+    /// The columns for the curves of `plan`.
+    pub fn of(plan: &Plan, along: &Along) -> Motions {
+        Motions { layout: Layout::of(plan), parameter: parameter(plan, along) }
+    }
+
+    /// The columns, from left to right.
+    pub fn columns(&self) -> Vec<Column> {
+        let mut columns = self.layout.columns();
+        columns[0] = Column::new("curve", "", Kind::Whole, "index of the design in the grid, from 0");
+        let branch = "the way that the motion is on: up, down, or unstable between the two";
+        let two = [Column::new("branch", "", Kind::Text, branch), Column::of_parameter(self.parameter)];
+        self.insert(columns, two)
+    }
+
+    /// The way up, by rising value, then the way down, by falling value, then the unstable orbits.
+    pub fn rows(&self, curve: &Curve) -> impl Iterator<Item = Vec<Cell>> {
+        let up = curve.up.iter().map(|step| ("up", step));
+        let down = curve.down.iter().rev().map(|step| ("down", step));
+        let unstable = curve.unstable.iter().map(|step| ("unstable", step));
+        up.chain(down).chain(unstable).map(|(branch, Step { value, row })| {
+            let place = [Cell::Text(branch), Cell::Number(*value)];
+            self.insert(self.layout.cells(&curve.design, row), place)
+        })
+    }
+
+    /// Puts two cells behind those of the varied parameters.
+    fn insert<T>(&self, mut cells: Vec<T>, two: [T; 2]) -> Vec<T> {
+        let behind = 1 + self.layout.varied.len();
+        cells.splice(behind..behind, two);
+        cells
+    }
+}
+
+/// Writes one plain header line, then one line per motion.
+pub struct Table<W: Durable> {
+    motions: Motions,
     writer: csv::Writer<W>,
 }
 
@@ -25,30 +63,19 @@ impl<W: Durable> Table<W> {
     /// # Errors
     /// What writing says.
     pub fn begin(plan: &Plan, along: &Along, target: W) -> io::Result<Table<W>> {
-        let mut table = Table {
-            layout: Layout::of(plan),
-            parameter: parameter(plan, along),
-            writer: csv::Writer::from_writer(target),
-        };
-        let mut names = table.layout.names();
-        "curve".clone_into(&mut names[0]);
-        let names = table.insert(names, ["branch".to_owned(), table.parameter.name.to_owned()]);
-        table.writer.write_record(names).map_err(cause)?;
+        let mut table = Table { motions: Motions::of(plan, along), writer: csv::Writer::from_writer(target) };
+        let names = table.motions.columns().into_iter().map(|column| column.name);
+        table.writer.write_record(names.collect::<Vec<_>>()).map_err(cause)?;
         Ok(table)
     }
 
-    /// Writes the way up, by rising value, then the way down, by falling value, then the unstable orbits.
+    /// Writes the rows of a curve.
     ///
     /// # Errors
     /// What writing says.
     pub fn write(&mut self, curve: &Curve) -> io::Result<()> {
-        let up = curve.up.iter().map(|step| ("up", step));
-        let down = curve.down.iter().rev().map(|step| ("down", step));
-        let unstable = curve.unstable.iter().map(|step| ("unstable", step));
-        for (branch, Step { value, row }) in up.chain(down).chain(unstable) {
-            let place = [branch.to_owned(), text::value(self.parameter, *value)];
-            let cells = self.insert(self.layout.cells(&curve.design, row), place);
-            self.writer.write_record(cells).map_err(cause)?;
+        for cells in self.motions.rows(curve) {
+            self.writer.write_record(cells.into_iter().map(Cell::text)).map_err(cause)?;
         }
         self.writer.flush()
     }
@@ -60,12 +87,5 @@ impl<W: Durable> Table<W> {
     pub fn finish(mut self) -> io::Result<()> {
         self.writer.flush()?;
         self.writer.get_ref().sync()
-    }
-
-    /// Puts two cells behind those of the varied parameters.
-    fn insert(&self, mut cells: Vec<String>, two: [String; 2]) -> Vec<String> {
-        let behind = 1 + self.layout.varied.len();
-        cells.splice(behind..behind, two);
-        cells
     }
 }

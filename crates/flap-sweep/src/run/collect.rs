@@ -1,43 +1,26 @@
-//! The collector: takes rows out of the queue and writes them.
-
-use std::io;
+//! The collector: takes what became of points out of the queue, in order.
 
 use super::finished::Finished;
 use super::queue::{Queue, Turn};
-use super::{Progress, Summary};
-use crate::plan::Plan;
-use crate::sink::Sink;
+use super::{Progress, RunError};
 
-/// Writes rows until the workers have ended; `before` counts the rows that are written already.
+/// Hands what became of points to `take` until the workers have ended.
 pub(super) fn collect(
-    plan: &Plan,
-    before: Summary,
+    points: u64,
     queue: &Queue,
-    sink: &mut dyn Sink,
+    take: &mut dyn FnMut(&mut Vec<Finished>) -> Result<(), RunError>,
     progress: &mut dyn FnMut(Progress),
-) -> io::Result<Summary> {
+) -> Result<(), RunError> {
     let _ends_the_workers = Abort(queue);
-    let mut summary = Summary::after(before, plan);
     let mut batch = Vec::new();
     while let Turn::Rows(finished) = queue.turn(&mut batch) {
         if !batch.is_empty() {
-            for finished in batch.drain(..) {
-                match finished {
-                    Finished::Row(row) => {
-                        let point = plan.selected_point(summary.done());
-                        sink.write(&point, &row)?;
-                        summary.add(point.index, row);
-                    }
-                    Finished::Excluded(unsatisfied) => summary.exclude(&unsatisfied),
-                }
-                sink.done(&summary)?;
-            }
-            sink.flush()?;
+            take(&mut batch)?;
+            batch.clear();
         }
-        progress(Progress { finished, points: summary.points });
+        progress(Progress { finished, points });
     }
-    summary.interrupted = summary.done() < summary.points;
-    Ok(summary)
+    Ok(())
 }
 
 /// Aborts the run when the collector ends, be it by an error or a panic: otherwise workers would wait for room

@@ -6,6 +6,8 @@
 
 mod collect;
 mod finished;
+mod ledger;
+mod parcel;
 mod queue;
 mod summary;
 mod window;
@@ -13,14 +15,18 @@ mod worker;
 
 use std::io;
 use std::num::NonZeroUsize;
+use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 use std::thread;
 
 use flap_core::num::InstructionSet;
+pub use parcel::{Parcel, feed, part};
 pub use summary::{Counts, Summary};
 
 use crate::plan::Plan;
 use crate::sink::Sink;
+use finished::Finished;
+use ledger::Ledger;
 use queue::Queue;
 
 /// How a plan is run. Nothing here changes a byte of the output, but for the arithmetic class of the
@@ -67,6 +73,12 @@ pub enum RunError {
     /// The model broke its contract; this is a mistake in the program.
     #[error("the model does not keep its contract: {0}")]
     Model(String),
+    /// Rows that another process has computed do not belong here.
+    #[error("rows from elsewhere do not fit: {0}")]
+    Parcel(String),
+    /// Whoever fetches rows from elsewhere has given up.
+    #[error("rows cannot be fetched: {0}")]
+    Fetch(String),
     /// A worker panicked; this is a mistake in the program.
     #[error("a worker panicked: {0}")]
     Panic(String),
@@ -102,27 +114,40 @@ pub fn resume(
     stop: &AtomicBool,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Summary, RunError> {
-    let (done, selected) = (before.done(), plan.selected());
+    let mut ledger = Ledger::begin(plan, before, sink).map_err(RunError::Sink)?;
+    let positions = ledger.done()..ledger.points();
+    let mut take = |batch: &mut Vec<Finished>| ledger.take(batch.drain(..)).map_err(RunError::Sink);
+    let worked = work(plan, options, positions, stop, &mut take, progress);
+    // What cannot be written cannot be completed.
+    if matches!(worked, Err(RunError::Sink(_))) {
+        return worked.map(|()| Summary::default());
+    }
+    let summary = ledger.finish().map_err(RunError::Sink)?;
+    worked.map(|()| summary)
+}
+
+/// Runs the points at these positions among the selected ones, on all threads, and hands what became of them to `take`,
+/// in order.
+fn work(
+    plan: &Plan,
+    options: &RunOptions,
+    positions: Range<u64>,
+    stop: &AtomicBool,
+    take: &mut dyn FnMut(&mut Vec<Finished>) -> Result<(), RunError>,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<(), RunError> {
     // More workers than points would have nothing to do.
-    let points = usize::try_from(selected - done).unwrap_or(usize::MAX);
+    let points = usize::try_from(positions.end - positions.start).unwrap_or(usize::MAX);
     let workers = options.threads.get().min(points.max(1));
     // A pool of our own: the global one belongs to the caller, and does not survive a fork.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(workers).build().map_err(RunError::Threads)?;
-    // The header is there from the beginning, however long the first row takes.
-    sink.begin().and_then(|()| sink.flush()).map_err(RunError::Sink)?;
-
-    let queue = Queue::new(done..selected, options.window, workers, stop);
-    let collected = pool.in_place_scope(|scope| {
+    let end = positions.end;
+    let queue = Queue::new(positions, options.window, workers, stop);
+    pool.in_place_scope(|scope| {
         for _ in 0..workers {
             scope.spawn(|_| worker::work(plan, options.instructions, &queue));
         }
-        collect::collect(plan, before, &queue, sink, progress)
-    });
-
-    let summary = collected.map_err(RunError::Sink)?;
-    sink.finish().map_err(RunError::Sink)?;
-    match queue.into_failure() {
-        Some(failure) => Err(failure),
-        None => Ok(summary),
-    }
+        collect::collect(end, &queue, take, progress)
+    })?;
+    queue.into_failure().map_or(Ok(()), Err)
 }

@@ -3,7 +3,7 @@
 use std::time::{Duration, SystemTime};
 
 /// Now, as RFC 3339 in UTC: `2026-01-02T03:04:05Z`.
-pub(crate) fn now() -> String {
+pub fn now() -> String {
     let since_1970 = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or(Duration::ZERO);
     utc(since_1970.as_secs())
 }

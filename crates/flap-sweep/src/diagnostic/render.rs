@@ -1,11 +1,12 @@
 //! Mistakes in grid files, shown with the lines they are in.
 
 use annotate_snippets::{AnnotationKind, Element, Group, Level, Renderer, Snippet};
-use flap_sweep::diagnostic::Diagnostic;
 
-/// All of `diagnostics`, with colours.
-pub(crate) fn diagnostics(diagnostics: &[Diagnostic]) -> String {
-    let renderer = Renderer::styled();
+use super::Diagnostic;
+
+/// The text of all `diagnostics`, with the lines of the grid file that they are about, and with colours if `styled`.
+pub fn render(diagnostics: &[Diagnostic], styled: bool) -> String {
+    let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
     let text: String =
         diagnostics.iter().map(|diagnostic| renderer.render(&[group(diagnostic)]) + "\n\n").collect();
     let name = diagnostics.first().map_or("", |diagnostic| diagnostic.source.name.as_str());

@@ -1,0 +1,69 @@
+"""Rows that the workers of a Dask cluster compute, in the order of the points."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING, Any, Deque, Optional, SupportsIndex, Tuple
+
+from . import _flapwing
+from ._flapwing import Grid
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
+
+#: Points of a task: some seconds of work, so that little is lost with a worker and sending rows takes no time.
+TASK_POINTS = 2048
+#: Tasks per thread of the cluster that are under way or waiting, so that no worker is idle and memory stays bounded.
+TASKS_PER_THREAD = 4
+#: Times that a task is tried on other workers after its own has died.
+RETRIES = 5
+
+
+def part(grid: str, begin: int, end: int, threads: Optional[SupportsIndex]) -> bytes:
+    """What a worker runs."""
+    return _flapwing.part(Grid(grid), begin, end, threads=threads)
+
+
+class Parcels:
+    """Hands out stretches of a grid to a cluster, and gives what comes back in order."""
+
+    def __init__(self, grid: Grid, client: Client, threads: Optional[SupportsIndex]) -> None:
+        self._client = client
+        self._text = grid.text
+        self._points = len(grid)
+        self._threads = 1 if threads is None else threads
+        self._under_way: Deque[Tuple[int, Future[Any]]] = deque()
+        self._submitted: Optional[int] = None
+        # Every worker gets some of a small grid.
+        workers = max(1, sum(client.nthreads().values()))
+        self._size = max(1, min(TASK_POINTS, -(-self._points // (TASKS_PER_THREAD * workers))))
+        self._ahead = TASKS_PER_THREAD * workers
+
+    def __enter__(self) -> Parcels:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        # What nobody waits for need not run.
+        self._client.cancel([future for _, future in self._under_way], force=True)
+        self._under_way.clear()
+
+    def next(self, done: int) -> Optional[bytes]:
+        """The parcel that begins after the points that are done."""
+        if self._submitted is None:
+            self._submitted = done
+        while self._submitted < self._points and len(self._under_way) < self._ahead:
+            end = min(self._points, self._submitted + self._size)
+            future = self._client.submit(
+                part, self._text, self._submitted, end, self._threads, pure=False, retries=RETRIES
+            )
+            self._under_way.append((self._submitted, future))
+            self._submitted = end
+        if not self._under_way:
+            return None
+        begin, future = self._under_way.popleft()
+        assert begin == done, "parcels are asked for in order"
+        try:
+            parcel: bytes = future.result()
+        finally:
+            future.release()
+        return parcel

@@ -1,0 +1,108 @@
+"""Batches of points."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, SupportsFloat, SupportsIndex, Union
+
+import numpy as np
+
+from . import _flapwing
+from ._progress import Progress, shown
+from ._table import Table
+
+if TYPE_CHECKING:
+    import pandas
+
+__all__ = ["evaluate"]
+
+
+def evaluate(
+    design: Any,
+    columns: Union[Mapping[str, Any], "pandas.DataFrame"],
+    /,
+    *,
+    threads: Optional[SupportsIndex] = None,
+    progress: Progress = False,
+    **keywords: Union[SupportsFloat, str],
+) -> Table:
+    """Run a batch of design points, given as columns of parameters.
+
+    This is what optimisers, samplers and fits call: points go in as arrays, what they measure comes out as arrays in
+    the same order. All points run at once, on all cores. A row depends on its point alone, whatever stands in the
+    other rows.
+
+    Parameters
+    ----------
+    design : str, path, dict or Grid
+        What points have in common: a preset; a model, whose parameters all have to be given then; or a grid without
+        axes (see `Grid`), whose ``[derived]``, ``[where]``, ``[measure]`` and ``[solver]`` hold for every point.
+    columns : mapping or DataFrame
+        Parameters by name, each with an array of n values in SI units, a list of texts with units or of options, or
+        one value for all points.
+    threads : int, optional
+        Threads, 1 or more. Default: one per core. Rows do not depend on it.
+    progress : bool or function, optional
+        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
+        points in all.
+    **keywords : float or str
+        Parameters of all points and solver settings, as for `run`.
+
+    Returns
+    -------
+    Table
+        n rows in the order of `columns`, less those of points that ``[where]`` excludes: the column `point` is the
+        place in `columns`. A value that is out of range, infinite or not a number makes a row with the status
+        ``"invalid"``, and so do parameters that are impossible together; ``table.meta["invalid"]`` says why for the
+        first few.
+
+    Raises
+    ------
+    ValueError
+        Unknown preset, parameter, option or unit; columns of different lengths; a parameter that a model needs is
+        missing. GridError if there are mistakes in a grid.
+    TypeError
+        A value of the wrong type.
+
+    Examples
+    --------
+    >>> rows = flapwing.evaluate("ozaki2018-large", {"drive_frequency": [100.0, 105.0, 110.0]})
+    >>> rows["lift_mean_mn"].round(2)
+    array([2.79, 3.84, 4.73])
+    """
+    given: Dict[str, Any] = {}
+    constants: Dict[str, Any] = {}
+    for name in columns.keys():
+        values = columns[name]
+        if isinstance(values, (str, bytes)) or np.ndim(values) == 0:
+            constants[name] = values
+        else:
+            given[name] = _column(name, values)
+    if constants and given:
+        length = len(next(iter(given.values())))
+        for name, value in constants.items():
+            given[name] = [value] * length if isinstance(value, str) else np.full(length, _number(name, value))
+        given = {name: given[name] for name in columns.keys()}
+    elif constants:
+        given = {name: [value] for name, value in constants.items()}
+    with shown(progress) as show:
+        native = _flapwing.evaluate(design, given, threads=threads, progress=show, keywords=dict(keywords))
+    table = Table._of({**native, "axes": []})
+    table.meta["set"] = dict(keywords)
+    return table
+
+
+def _column(name: str, values: Any) -> Union[np.ndarray[Any, Any], List[Any]]:
+    """An array of float64, or a list of whatever else there is."""
+    array = np.asarray(values)
+    if array.ndim != 1:
+        raise ValueError(f"`{name}` must be one value or have one dimension, not {array.ndim}")
+    if array.dtype.kind in "fiu":
+        return np.ascontiguousarray(array, dtype=np.float64)
+    listed: List[Any] = array.tolist()
+    return listed
+
+
+def _number(name: str, value: Any) -> float:
+    if isinstance(value, (bool, np.bool_, bytes)):
+        raise TypeError(f"`{name}` must be a number or text with a unit, not {type(value).__name__}")
+    return float(value)

@@ -1,0 +1,86 @@
+"""Responses up and down."""
+
+from __future__ import annotations
+
+from typing import Any, Optional, SupportsFloat, SupportsIndex, Union
+
+from . import _flapwing
+from ._table import Table
+
+__all__ = ["respond"]
+
+
+def respond(
+    design: Any,
+    along: str = "drive_frequency",
+    /,
+    *,
+    start: Union[SupportsFloat, str, None] = None,
+    stop: Union[SupportsFloat, str, None] = None,
+    step: Union[SupportsFloat, str, None] = None,
+    tolerance: Union[SupportsFloat, str, None] = None,
+    unstable: bool = False,
+    threads: Optional[SupportsIndex] = None,
+    **keywords: Union[SupportsFloat, str],
+) -> Table:
+    """Follow the motions of designs as a parameter rises and falls, and find hysteresis.
+
+    The first point of each way is followed from rest, every other from where its neighbour's motion has ended. Where
+    the way up and the way down come to different motions the design is bistable; the ends of such bands are located
+    by halving steps.
+
+    Parameters
+    ----------
+    design : str, path, dict or Grid
+        A preset, or a grid: each of its points, without the axis that is followed, is a design with a curve.
+    along : str, optional
+        The parameter that rises and falls. Default ``"drive_frequency"``.
+    start, stop, step : float or str, optional
+        Its first and last value and the step between them: in SI units, or with a unit. Default: the values of the
+        grid's axis.
+    tolerance : float or str, optional
+        How closely the ends of bistable bands are located. Default: a sixteenth of the shortest step.
+    unstable : bool, optional
+        Continue the branches around the ends of bistable bands: adds the unstable orbits between them.
+    threads : int, optional
+        Threads, 1 or more. Default: one per core. Rows do not depend on it.
+    **keywords : float or str
+        Parameters of all designs and solver settings, as for `run`.
+
+    Returns
+    -------
+    Table
+        A row per motion: `curve` (number of the design), its parameters, `branch` (``"up"``, ``"down"`` or
+        ``"unstable"``), the parameter that is followed, and the columns of a sweep. ``meta["verdicts"]`` tells in a
+        line for each design what was found, ``meta["along"]`` what was followed.
+
+    Raises
+    ------
+    ValueError
+        Unknown preset, parameter, option or unit; no steps; the parameter is a choice, or varies together with
+        others. GridError if there are mistakes in a grid.
+    TypeError
+        A value of the wrong type.
+
+    Examples
+    --------
+    >>> curve = flapwing.respond("ozaki2018-large", start=100, stop=120, step=5)
+    >>> curve.meta["verdicts"]
+    ['no hysteresis above 9.4e-7 deg from 100 to 120 Hz']
+    """
+    if along in keywords:
+        raise ValueError(f"`{along}` is set here and followed: keep one of them")
+    native = _flapwing.respond(
+        design,
+        along,
+        start=start,
+        stop=stop,
+        step=step,
+        tolerance=tolerance,
+        unstable=unstable,
+        threads=threads,
+        keywords=dict(keywords),
+    )
+    table = Table._of(native)
+    table.meta["set"] = dict(keywords)
+    return table

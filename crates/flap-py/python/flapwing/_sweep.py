@@ -1,0 +1,123 @@
+"""Sweeps, on this machine and on others, and their results."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Dict, Optional, SupportsIndex, Union
+
+from . import _flapwing
+from ._flapwing import Grid
+from ._progress import Progress, shown
+from ._table import Table
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+__all__ = ["read", "sweep"]
+
+
+def sweep(
+    grid: Any,
+    /,
+    *,
+    out: Union[str, "os.PathLike[str]", None] = None,
+    resume: bool = False,
+    overwrite: bool = False,
+    threads: Optional[SupportsIndex] = None,
+    progress: Progress = False,
+    client: Optional["Client"] = None,
+) -> Table:
+    """Run every point of a grid.
+
+    Parameters
+    ----------
+    grid : path, str, dict or Grid
+        The design space, see `Grid`. Its ``[output]`` chooses columns; its path is not used here.
+    out : path, optional
+        Write the rows to this file as they come, as ``flap sweep --out`` does to the same bytes: ``.csv``,
+        ``.csv.zst`` or ``.parquet``, with a sidecar that says where they come from. By default they are kept in
+        memory: about half a kilobyte each.
+    resume : bool, optional
+        Go on with the unfinished results in `out`, or begin them.
+    overwrite : bool, optional
+        Replace the results in `out`. By default a file that holds something is an error.
+    threads : int, optional
+        Threads, 1 or more; with `client`, those of each task. Default: one per core; with `client`, 1. Rows do not
+        depend on it.
+    progress : bool or function, optional
+        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
+        points in all.
+    client : distributed.Client, optional
+        Run the points on the workers of a Dask cluster, which need flapwing of the same version. Rows come in the
+        same order and with the same bytes as on one machine; those of a worker that dies are run again by others.
+        What cannot be the same, because a worker's processor rounds differently, is an error.
+
+    Returns
+    -------
+    Table
+        One row per point in the order of the grid, less those that ``[where]`` excludes: `point`, the varied and
+        derived parameters in SI units, `status`, the measures, `cycles`, `residual`, `period`, `floquet_max`,
+        `stable`, `rhs_evals`. A point that fails is a row with a status. With `out`, the rows are read from the file
+        when they are first asked for.
+
+    Raises
+    ------
+    GridError
+        Mistakes in the grid: all of them, each with its line, what is allowed and the nearest name. It is a
+        ValueError.
+    FileExistsError
+        `out` holds results, and neither `resume` nor `overwrite` is given.
+    OSError
+        A file cannot be read or written.
+    ValueError
+        `out` cannot be resumed: it is of another grid, or was changed.
+    KeyboardInterrupt
+        Ctrl-C. Rows in `out` are kept, and `resume` goes on with them.
+
+    Examples
+    --------
+    >>> rows = flapwing.sweep({
+    ...     "preset": "ozaki2018-large",
+    ...     "axes": {"drive_voltage_pp": [60.0, 80.0], "drive_frequency": {"from": 100, "to": 110, "step": 5}},
+    ... })
+    >>> len(rows), rows.counts
+    (6, {'periodic': 6})
+    """
+    checked = grid if isinstance(grid, Grid) else Grid(grid)
+    given: Dict[str, Any] = {"out": out, "resume": resume, "overwrite": overwrite}
+    with shown(progress) as show:
+        if client is None:
+            native = _flapwing.sweep(checked, threads=threads, progress=show, **given)
+        else:
+            from ._cluster import Parcels
+
+            with Parcels(checked, client, threads) as parcels:
+                native = _flapwing.sweep(checked, progress=show, parcels=parcels.next, **given)
+    if out is None:
+        return Table._of(native)
+    return read(out)
+
+
+def read(path: Union[str, "os.PathLike[str]"], /) -> Table:
+    """Read results that flap has written.
+
+    Parameters
+    ----------
+    path : path
+        Results of a sweep (``.csv``, ``.csv.zst``, ``.parquet``); or a table in CSV that ``flap respond``, ``flap run
+        --trajectory`` or the like has written. Units, meanings and the axes come from the sidecar beside the
+        results; without one, units come from the names of the columns.
+
+    Returns
+    -------
+    Table
+        The rows. Numbers have the same bits as when they were written.
+
+    Raises
+    ------
+    OSError
+        The file cannot be read.
+    ValueError
+        It holds something else.
+    """
+    return Table._of(_flapwing.read(os.fspath(path)))

@@ -1,0 +1,254 @@
+"""Results as columns."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, NamedTuple, Optional, Union, overload
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pandas
+    import polars
+    import pyarrow
+    import xarray
+
+__all__ = ["Table"]
+
+#: Rows that a notebook shows.
+SHOWN_ROWS = 10
+
+
+class _Column(NamedTuple):
+    """A column as the native part hands it over."""
+
+    unit: str
+    doc: str
+    #: float64 and uint64 as they are; int8 for flags (1, 0, -1 for unknown); uint32 places among `words` for text.
+    cells: np.ndarray[Any, Any]
+    words: Optional[List[str]]
+
+    def values(self) -> np.ndarray[Any, Any]:
+        if self.words is not None:
+            words: np.ndarray[Any, Any] = np.array(self.words, dtype=np.str_)
+            return words[self.cells]
+        if self.cells.dtype == np.int8:
+            return np.equal(self.cells, 1)
+        return self.cells
+
+    def known(self) -> np.ndarray[Any, Any]:
+        """Which cells hold something."""
+        if self.words is None and self.cells.dtype == np.int8:
+            return np.greater_equal(self.cells, 0)
+        if self.cells.dtype == np.float64:
+            return ~np.isnan(self.cells)
+        return np.ones(len(self.cells), dtype=np.bool_)
+
+
+class Table:
+    """Results as columns: one NumPy array each, all of the same length.
+
+    ``table["lift_mean_mn"]`` is a column, ``table[rows]`` a table of some of the rows, ``len(table)`` their number.
+    Iterating gives the names of the columns, as a DataFrame does.
+
+    Columns are float64 with nan for what is not known (the measures of a point that is not periodic), uint64 for
+    counts, bool for flags (False also where nothing is known; `to_pandas`, `to_polars` and `to_arrow` tell the two
+    apart), and text for options and words. Units are in `units`, meanings in `docs`.
+
+    Attributes
+    ----------
+    dims : list of dict
+        The axes of the grid, the last of which varies fastest: for each, the parameters that move together along it
+        with their values. Empty if the rows are not those of a grid with axes.
+    meta : dict
+        Where the rows come from: `flap` (version), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of
+        the grid file), and what the call adds: `counts`, rows by status; `excluded` points, which have no row;
+        `invalid`, the first few invalid points with the reason; `set`, keywords that stand over the grid.
+    """
+
+    dims: List[Dict[str, np.ndarray[Any, Any]]]
+    meta: Dict[str, Any]
+    _columns: Dict[str, _Column]
+
+    def __init__(self, *_: object) -> None:
+        raise TypeError("a Table comes from sweep, evaluate, respond, trajectory or read")
+
+    @classmethod
+    def _of(cls, native: Dict[str, Any]) -> Table:
+        columns = {name: _Column(unit, doc, cells, words) for name, unit, doc, cells, words in native["columns"]}
+        return cls._new(columns, native.get("axes", []), {**native.get("meta", {}), **native.get("summary", {})})
+
+    @classmethod
+    def _new(cls, columns: Dict[str, _Column], dims: List[Dict[str, Any]], meta: Dict[str, Any]) -> Table:
+        table = object.__new__(cls)
+        table._columns = columns
+        table.dims = [{name: np.asarray(values) for name, values in dim.items()} for dim in dims]
+        table.meta = meta
+        return table
+
+    def __len__(self) -> int:
+        return next((len(column.cells) for column in self._columns.values()), 0)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._columns
+
+    @overload
+    def __getitem__(self, key: str) -> np.ndarray[Any, Any]: ...
+    @overload
+    def __getitem__(self, key: Union[slice, np.ndarray[Any, Any], List[int], List[bool]]) -> Table: ...
+    def __getitem__(self, key: Any) -> Any:
+        if isinstance(key, str):
+            try:
+                return self._columns[key].values()
+            except KeyError:
+                raise KeyError(f"there is no column {key!r}; there are {', '.join(self._columns)}") from None
+        if not isinstance(key, slice):
+            key = np.asarray(key)
+            if key.ndim != 1:
+                raise TypeError("rows are chosen by a slice, or by an array of one dimension: a mask or indices")
+        columns = {name: column._replace(cells=column.cells[key]) for name, column in self._columns.items()}
+        return self._new(columns, self.dims, self.meta)
+
+    def keys(self) -> List[str]:
+        """The names of the columns, so that ``dict(table)`` has all of them."""
+        return list(self._columns)
+
+    @property
+    def columns(self) -> List[str]:
+        """The names of the columns, from left to right."""
+        return list(self._columns)
+
+    @property
+    def units(self) -> Dict[str, str]:
+        """The unit of each column, ``""`` for what has none."""
+        return {name: column.unit for name, column in self._columns.items()}
+
+    @property
+    def docs(self) -> Dict[str, str]:
+        """The meaning of each column in a line; ``""`` if it is not known."""
+        return {name: column.doc for name, column in self._columns.items()}
+
+    @property
+    def counts(self) -> Dict[str, int]:
+        """How many rows have each status, for statuses that occur."""
+        if "status" not in self:
+            return {}
+        statuses, counts = np.unique(self["status"], return_counts=True)
+        return {str(status): int(count) for status, count in zip(statuses, counts)}
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The table as a pandas DataFrame, numbers without a copy where pandas allows it.
+
+        Flags are of the type ``boolean``, text is categorical; ``frame.attrs`` has `units`.
+        """
+        import pandas
+
+        def series(column: _Column) -> Any:
+            if column.words is not None:
+                return pandas.Categorical.from_codes(column.cells.astype(np.int32), column.words)
+            if column.cells.dtype == np.int8:
+                return pandas.arrays.BooleanArray(column.values(), ~column.known())
+            return column.cells
+
+        frame = pandas.DataFrame({name: series(column) for name, column in self._columns.items()}, copy=False)
+        frame.attrs["units"] = self.units
+        return frame
+
+    def to_polars(self) -> polars.DataFrame:
+        """The table as a polars DataFrame, through Arrow; what is not known is null."""
+        import polars
+
+        frame = polars.from_arrow(self.to_arrow())
+        assert isinstance(frame, polars.DataFrame)
+        return frame
+
+    def to_arrow(self) -> pyarrow.Table:
+        """The table as an Arrow table: numbers share memory with the table, what is not known is null.
+
+        Units and meanings are in the metadata of the fields.
+        """
+        import pyarrow
+
+        arrays, fields = [], []
+        for name, column in self._columns.items():
+            unknown = ~column.known()
+            if column.words is not None:
+                cells = pyarrow.array(column.cells.view(np.int32))
+                array = pyarrow.DictionaryArray.from_arrays(cells, pyarrow.array(column.words, pyarrow.string()))
+            else:
+                array = pyarrow.array(column.values(), mask=unknown if unknown.any() else None)
+            arrays.append(array)
+            about = {"unit": column.unit, "doc": column.doc}
+            fields.append(pyarrow.field(name, array.type, metadata={k: v for k, v in about.items() if v}))
+        return pyarrow.Table.from_arrays(arrays, schema=pyarrow.schema(fields))
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        """The table through the Arrow C stream interface, which needs pyarrow."""
+        return self.to_arrow().__arrow_c_stream__(requested_schema)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The table as an xarray Dataset: the axes of the grid are its dimensions, in the order of the grid.
+
+        A dimension is named after the first parameter of its axis; others that move with it are coordinates along it.
+        Without axes, rows are along the dimension ``row``. Columns are variables with the attributes `units` and
+        `long_name`. Points that have no row, because the grid excludes them, are nan, 0, False or empty text.
+        """
+        import xarray
+
+        dims = [next(iter(dim)) for dim in self.dims] or ["row"]
+        shape = [len(next(iter(dim.values()))) for dim in self.dims] or [len(self)]
+        axes = {name for dim in self.dims for name in dim}
+        places = self["point"].astype(np.intp) if self.dims else np.arange(len(self))
+
+        def spread(values: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+            empty = np.nan if values.dtype == np.float64 else np.zeros((), values.dtype)
+            whole = np.full(int(np.prod(shape)), empty, dtype=values.dtype)
+            whole[places] = values
+            return whole.reshape(shape)
+
+        def about(name: str) -> Dict[str, str]:
+            column = self._columns.get(name)
+            pairs = {"units": column.unit, "long_name": column.doc} if column else {}
+            return {key: value for key, value in pairs.items() if value}
+
+        variables = {
+            name: (dims, spread(column.values()), about(name))
+            for name, column in self._columns.items()
+            if name not in axes and not (self.dims and name == "point")
+        }
+        coordinates = {
+            name: (dims[place], values, about(name))
+            for place, dim in enumerate(self.dims)
+            for name, values in dim.items()
+        }
+        attributes = {name: self.meta[name] for name in ("flap", "model", "preset", "grid") if name in self.meta}
+        return xarray.Dataset(variables, coordinates, attributes)
+
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{count} {status}" for status, count in self.counts.items())
+        told = f" ({counts})" if counts else ""
+        return f"<flapwing.Table of {len(self)} rows{told}: {', '.join(self._columns)}>"
+
+    def _repr_html_(self) -> str:
+        """The first rows, for notebooks."""
+        from html import escape
+
+        def text(value: Any) -> str:
+            return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+        units = self.units
+        heads = "".join(
+            f"<th>{escape(name)}{f' ({escape(units[name])})' if units[name] else ''}</th>" for name in self._columns
+        )
+        first = self[:SHOWN_ROWS]
+        shown = [first[name].tolist() for name in self._columns]
+        rows = "".join(
+            "<tr>" + "".join(f"<td>{escape(text(column[row]))}</td>" for column in shown) + "</tr>"
+            for row in range(len(first))
+        )
+        return (
+            f"<p>{len(self)} rows, {len(self._columns)} columns</p>"
+            f'<div style="overflow-x:auto"><table><tr>{heads}</tr>{rows}</table></div>'
+        )

@@ -1,0 +1,36 @@
+//! Stretches of a sweep, for the workers of a cluster.
+
+use flap_sweep::run;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::grid::{self, Grid};
+use crate::watch::Watch;
+use crate::{error, sweep};
+
+/// Runs the points from `begin` to before `end`, and gives their rows as bytes that `sweep` takes as parcels.
+#[pyfunction]
+#[pyo3(signature = (grid, begin, end, /, *, threads=None))]
+pub(crate) fn part<'py>(
+    py: Python<'py>,
+    grid: &Bound<'py, Grid>,
+    begin: u64,
+    end: u64,
+    threads: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let plan = grid::plan(grid.as_any())?;
+    let options = sweep::options(threads)?;
+    if begin >= end || end > plan.selected() {
+        let message = format!("there are no points {begin} to {end}: the grid has {}", plan.selected());
+        return Err(PyValueError::new_err(message));
+    }
+    let mut watch = Watch::new(None);
+    let stop = std::sync::Arc::clone(&watch.stop);
+    let ran = py.detach(|| {
+        let mut look = |progress: run::Progress| watch.look(progress.finished, progress.points);
+        run::part(&plan, &options, begin..end, &stop, &mut look)?.to_bytes()
+    });
+    watch.ended()?;
+    Ok(PyBytes::new(py, &ran.map_err(|error| error::run(&error))?))
+}

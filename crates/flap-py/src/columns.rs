@@ -1,0 +1,173 @@
+//! Results as columns: rows go in, NumPy arrays come out without a copy.
+
+use std::io;
+
+use flap_core::simulate::{Point, Row};
+use flap_sweep::layout::{Cell, Column, Kind, Layout};
+use flap_sweep::run::Summary;
+use flap_sweep::sink::Sink;
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+/// A table in memory.
+pub(crate) struct Columns {
+    columns: Vec<(Column, Data)>,
+}
+
+/// The cells of a column.
+enum Data {
+    Whole(Vec<u64>),
+    Number(Vec<f64>),
+    /// 1 for true, 0 for false, -1 for what is not known.
+    Flag(Vec<i8>),
+    /// Places among the words that occur.
+    Text(Vec<u32>, Vec<String>),
+}
+
+impl Data {
+    fn new(kind: Kind) -> Data {
+        match kind {
+            Kind::Whole => Data::Whole(Vec::new()),
+            Kind::Number => Data::Number(Vec::new()),
+            Kind::Flag => Data::Flag(Vec::new()),
+            Kind::Text => Data::Text(Vec::new(), Vec::new()),
+        }
+    }
+
+    fn push_text(&mut self, word: &str) {
+        if let Data::Text(places, words) = self {
+            // Columns of text have few different words.
+            let place = words.iter().position(|known| known == word).unwrap_or_else(|| {
+                words.push(word.to_owned());
+                words.len() - 1
+            });
+            places.push(u32::try_from(place).unwrap_or(u32::MAX));
+        }
+    }
+
+    /// Adds a cell, which must be of the column's kind.
+    fn push(&mut self, cell: Cell) {
+        match (self, cell) {
+            (Data::Whole(cells), Cell::Whole(cell)) => cells.push(cell),
+            (Data::Number(cells), Cell::Number(cell)) => cells.push(cell),
+            (Data::Flag(cells), Cell::Flag(cell)) => cells.push(cell.map_or(-1, i8::from)),
+            (data @ Data::Text(..), Cell::Text(word)) => data.push_text(word),
+            _ => debug_assert!(false, "a cell of another kind than its column"),
+        }
+    }
+}
+
+impl Columns {
+    /// An empty table.
+    pub(crate) fn new(columns: Vec<Column>) -> Columns {
+        let columns = columns.into_iter().map(|column| {
+            let data = Data::new(column.kind);
+            (column, data)
+        });
+        Columns { columns: columns.collect() }
+    }
+
+    /// Adds a row of one cell per column.
+    pub(crate) fn push(&mut self, cells: Vec<Cell>) {
+        for ((_, data), cell) in self.columns.iter_mut().zip(cells) {
+            data.push(cell);
+        }
+    }
+
+    /// Adds a row out of a file. Gives the column whose cell does not fit.
+    pub(crate) fn push_record<'a>(&mut self, cells: impl Iterator<Item = &'a str>) -> Result<(), &str> {
+        for ((column, data), cell) in self.columns.iter_mut().zip(cells) {
+            let known = (!cell.is_empty()).then_some(cell);
+            let fits = match data {
+                Data::Whole(cells) => cell.parse().map(|cell| cells.push(cell)).is_ok(),
+                Data::Number(cells) => {
+                    known.map_or(Ok(f64::NAN), str::parse).map(|cell| cells.push(cell)).is_ok()
+                }
+                Data::Flag(cells) => {
+                    let flag = known.map_or(Ok(-1), |cell| cell.parse::<bool>().map(i8::from));
+                    flag.map(|flag| cells.push(flag)).is_ok()
+                }
+                Data::Text(..) => {
+                    data.push_text(cell);
+                    true
+                }
+            };
+            if !fits {
+                return Err(&column.name);
+            }
+        }
+        Ok(())
+    }
+
+    /// A list of tuples: name, unit, meaning, and an array; with the words that it points to, for a column of text.
+    /// Arrays of flags hold 1, 0, and -1 for what is not known.
+    pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyList>> {
+        let list = PyList::empty(py);
+        for (Column { name, unit, doc, .. }, data) in self.columns {
+            let none = py.None();
+            let (array, words) = match data {
+                Data::Whole(cells) => (PyArray1::from_vec(py, cells).into_any(), none),
+                Data::Number(cells) => (PyArray1::from_vec(py, cells).into_any(), none),
+                Data::Flag(cells) => (PyArray1::from_vec(py, cells).into_any(), none),
+                Data::Text(places, words) => {
+                    (PyArray1::from_vec(py, places).into_any(), PyList::new(py, words)?.into_any().unbind())
+                }
+            };
+            list.append((name, unit, doc, array, words))?;
+        }
+        Ok(list)
+    }
+}
+
+/// Rows of a sweep into columns.
+pub(crate) struct ColumnsSink {
+    pub(crate) columns: Columns,
+    layout: Layout,
+}
+
+impl ColumnsSink {
+    pub(crate) fn new(layout: Layout) -> ColumnsSink {
+        ColumnsSink { columns: Columns::new(layout.columns()), layout }
+    }
+}
+
+impl Sink for ColumnsSink {
+    fn begin(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn write(&mut self, point: &Point, row: &Row) -> io::Result<()> {
+        self.columns.push(self.layout.cells(point, row));
+        Ok(())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// What a sweep came to, as a dictionary.
+pub(crate) fn summary<'py>(py: Python<'py>, summary: &Summary) -> PyResult<Bound<'py, PyDict>> {
+    let counts = PyDict::new(py);
+    for (status, count) in summary.counts.iter().filter(|(_, count)| *count > 0) {
+        counts.set_item(status.name(), count)?;
+    }
+    let unsatisfied = PyDict::new(py);
+    for (condition, count) in &summary.unsatisfied {
+        unsatisfied.set_item(condition, count)?;
+    }
+    let dict = PyDict::new(py);
+    dict.set_item("rows", summary.rows)?;
+    dict.set_item("counts", counts)?;
+    dict.set_item("excluded", summary.excluded)?;
+    dict.set_item("unsatisfied", unsatisfied)?;
+    dict.set_item("cycles", summary.cycles)?;
+    dict.set_item("rhs_evals", summary.rhs_evals)?;
+    dict.set_item("invalid", summary.invalid.clone())?;
+    Ok(dict)
+}

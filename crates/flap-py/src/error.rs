@@ -1,0 +1,163 @@
+//! What goes wrong, as Python exceptions.
+
+use std::io;
+
+use flap_core::parameter::Invalid;
+use flap_sweep::diagnostic;
+use flap_sweep::job::JobError;
+use flap_sweep::output::CreateError;
+use flap_sweep::results::Format;
+use flap_sweep::run::RunError;
+use flap_sweep::session::ResumeError;
+use flap_sweep::spec::ReadError;
+use pyo3::create_exception;
+use pyo3::exceptions::{
+    PyFileExistsError, PyFileNotFoundError, PyIsADirectoryError, PyOSError, PyRuntimeError, PyValueError,
+};
+use pyo3::prelude::*;
+
+create_exception!(
+    flapwing,
+    GridError,
+    PyValueError,
+    "A grid with mistakes.\n\nThe text shows every mistake with its lines; `diagnostics` lists them."
+);
+
+/// One mistake in a grid.
+///
+/// Attributes
+/// ----------
+/// file : str
+///     The grid file, or ``"<grid>"``.
+/// line, column : int
+///     Where the mistake is, from 1; columns count characters.
+/// start, end : int
+///     The same in bytes of the text in UTF-8.
+/// message : str
+///     What is wrong.
+/// notes, help : list of str
+///     What is allowed, and what to do.
+#[pyclass(frozen, get_all, module = "flapwing")]
+pub(crate) struct Diagnostic {
+    file: String,
+    line: usize,
+    column: usize,
+    start: usize,
+    end: usize,
+    message: String,
+    notes: Vec<String>,
+    help: Vec<String>,
+}
+
+#[pymethods]
+impl Diagnostic {
+    fn __repr__(&self) -> String {
+        format!("{}:{}:{}: {}", self.file, self.line, self.column, self.message)
+    }
+}
+
+impl From<&diagnostic::Diagnostic> for Diagnostic {
+    fn from(diagnostic: &diagnostic::Diagnostic) -> Diagnostic {
+        Diagnostic {
+            file: diagnostic.source.name.clone(),
+            line: diagnostic.line(),
+            column: diagnostic.column(),
+            start: diagnostic.span.start,
+            end: diagnostic.span.end,
+            message: diagnostic.message.clone(),
+            notes: diagnostic.notes.clone(),
+            help: diagnostic.help.clone(),
+        }
+    }
+}
+
+/// The exception for mistakes in a grid.
+pub(crate) fn grid(py: Python<'_>, diagnostics: &[diagnostic::Diagnostic]) -> PyErr {
+    let error = GridError::new_err(diagnostic::render(diagnostics, false));
+    let listed: Vec<Diagnostic> = diagnostics.iter().map(Diagnostic::from).collect();
+    match error.value(py).setattr("diagnostics", listed) {
+        Ok(()) => error,
+        Err(error) => error,
+    }
+}
+
+/// The exception for a grid file without a plan.
+pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
+    match error {
+        ReadError::Grid(diagnostics) => grid(py, diagnostics),
+        ReadError::Missing { .. } => PyFileNotFoundError::new_err(error.to_string()),
+        ReadError::Folder { .. } => PyIsADirectoryError::new_err(error.to_string()),
+        ReadError::NotUtf8 { .. } => PyValueError::new_err(error.to_string()),
+        ReadError::Unreadable { .. } => PyOSError::new_err(error.to_string()),
+    }
+}
+
+pub(crate) fn invalid(invalid: &Invalid) -> PyErr {
+    PyValueError::new_err(invalid.to_string())
+}
+
+pub(crate) fn run(error: &RunError) -> PyErr {
+    match error {
+        RunError::Sink(_) => PyOSError::new_err(error.to_string()),
+        RunError::Threads(_) | RunError::Parcel(_) | RunError::Fetch(_) => {
+            PyRuntimeError::new_err(error.to_string())
+        }
+        RunError::Model(_) | RunError::Panic(_) => {
+            PyRuntimeError::new_err(format!("{error}; this is a mistake in flap: please report it"))
+        }
+    }
+}
+
+/// The exception for results that were not written, or not completed.
+pub(crate) fn job(error: &JobError) -> PyErr {
+    let go_on = |error: PyErr, resumable: bool, py: Python<'_>| {
+        if resumable {
+            // Notes on exceptions are as old as Python 3.11.
+            let _ = error.value(py).call_method1("add_note", ("the same call with resume=True goes on",));
+        }
+        error
+    };
+    Python::attach(|py| match error {
+        JobError::Format(error) => {
+            PyValueError::new_err(format!("{error}: name a file that ends in {}", Format::ENDINGS))
+        }
+        JobError::Create(error) => create(error),
+        JobError::Resume { error, changed } => resume(error, changed.as_deref()),
+        JobError::Write { resumable, .. } => go_on(PyOSError::new_err(error.to_string()), *resumable, py),
+        JobError::Run { error, resumable } => go_on(run(error), *resumable, py),
+    })
+}
+
+fn create(error: &CreateError) -> PyErr {
+    match error {
+        CreateError::Exists { .. } => {
+            PyFileExistsError::new_err(format!("{error}: overwrite=True replaces it, or name another file"))
+        }
+        CreateError::Unfinished { .. } => PyFileExistsError::new_err(format!(
+            "{error}: resume=True goes on with it, overwrite=True replaces it"
+        )),
+        CreateError::Busy { .. } => PyOSError::new_err(error.to_string()),
+        CreateError::Io { path, source } => io_error(&format!("cannot write {}", path.display()), source),
+    }
+}
+
+fn resume(error: &ResumeError, changed: Option<&str>) -> PyErr {
+    let message = changed.map_or(error.to_string(), |changed| format!("{error}; {changed}"));
+    match error {
+        ResumeError::Create(error) => create(error),
+        ResumeError::Format(_) => PyValueError::new_err(message),
+        ResumeError::NoJournal { .. } | ResumeError::Changed { .. } | ResumeError::Altered { .. } => {
+            PyValueError::new_err(format!("{message}: overwrite=True starts over, or name another file"))
+        }
+    }
+}
+
+/// The exception that Python itself raises for what the operating system says.
+pub(crate) fn io_error(what: &str, error: &io::Error) -> PyErr {
+    let message = format!("{what}: {error}");
+    match error.kind() {
+        io::ErrorKind::NotFound => PyFileNotFoundError::new_err(message),
+        io::ErrorKind::InvalidData => PyValueError::new_err(message),
+        _ => PyOSError::new_err(message),
+    }
+}

@@ -1,0 +1,209 @@
+//! Grids: design spaces that have passed every check.
+
+use std::path::PathBuf;
+
+use flap_core::simulate;
+use flap_sweep::axis::Values;
+use flap_sweep::plan::Plan;
+use flap_sweep::{spec, survey, text};
+use numpy::PyArray1;
+use pyo3::exceptions::{PyIndexError, PyTypeError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList, PySlice, PyString};
+
+use crate::{error, grid_text};
+
+/// The most points that are looked at to count what conditions leave out.
+const LOOKED_AT: u64 = 1_000_000;
+
+/// A design space: a checked grid file.
+///
+/// A grid is a sequence of design points, computed when asked for::
+///
+///     grid = Grid({"preset": "ozaki2018-large", "axes": {"drive_frequency": [100.0, 105.0, 110.0]}})
+///     len(grid)                       # 3
+///     grid[1]["drive_frequency"]      # 105.0
+///
+/// Parameters
+/// ----------
+/// source : path, str, dict or Grid
+///     A grid file by its path; the text of one (a str with a line break or ``=``); or what such a file says as a
+///     dictionary of dictionaries.
+///
+/// Raises
+/// ------
+/// GridError
+///     Mistakes in the grid: all of them, each with its line, what is allowed and the nearest name.
+/// OSError
+///     The file is not there or cannot be read.
+/// TypeError
+///     `source`, or something in it, is of another type.
+#[pyclass(frozen, module = "flapwing")]
+pub(crate) struct Grid {
+    pub(crate) plan: Plan,
+}
+
+#[pymethods]
+impl Grid {
+    #[new]
+    #[pyo3(signature = (source, /))]
+    fn new(source: &Bound<'_, PyAny>) -> PyResult<Grid> {
+        Ok(Grid { plan: plan(source)? })
+    }
+
+    fn __len__(&self) -> PyResult<usize> {
+        usize::try_from(self.plan.len()).map_err(|_| PyIndexError::new_err("too many points for len()"))
+    }
+
+    /// Point number `index`: its parameters by name, in SI units; options by name. A slice gives a list of points.
+    fn __getitem__<'py>(&self, py: Python<'py>, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        if let Ok(slice) = index.cast::<PySlice>() {
+            let length = isize::try_from(self.__len__()?).unwrap_or(isize::MAX);
+            let range = slice.indices(length)?;
+            let points = PyList::empty(py);
+            let mut place = range.start;
+            for _ in 0..range.slicelength {
+                points.append(self.point(py, place.unsigned_abs() as u64)?)?;
+                place += range.step;
+            }
+            return Ok(points.into_any());
+        }
+        let index: i64 = index.extract()?;
+        let length = self.plan.len();
+        let place =
+            if index < 0 { length.checked_sub(index.unsigned_abs()) } else { Some(index.unsigned_abs()) };
+        match place.filter(|place| *place < length) {
+            Some(place) => Ok(self.point(py, place)?.into_any()),
+            None => Err(PyIndexError::new_err(format!("there is no point {index}: the grid has {length}"))),
+        }
+    }
+
+    fn __repr__(&self) -> String {
+        let axes = self.plan.axes.iter().map(|axis| {
+            let names = axis.parameters.iter().map(|(parameter, _)| self.plan.parameters()[*parameter].name);
+            format!("{} ({})", names.collect::<Vec<_>>().join(" + "), axis.len())
+        });
+        let axes = axes.collect::<Vec<_>>().join(" x ");
+        let along = if axes.is_empty() { String::new() } else { format!(": {axes}") };
+        format!("<flapwing.Grid of {} points of {}{along}>", self.plan.len(), self.plan.preset)
+    }
+
+    /// The text of a grid always has a `=`, which tells it from a path.
+    fn __getnewargs__(&self) -> (&str,) {
+        (&self.plan.source.text,)
+    }
+
+    /// The text of the grid file.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.plan.source.text
+    }
+
+    /// The name of the preset that parameters start from.
+    #[getter]
+    fn preset(&self) -> &'static str {
+        self.plan.preset
+    }
+
+    /// The name of the model.
+    #[getter]
+    fn model(&self) -> &'static str {
+        self.plan.simulator.name()
+    }
+
+    /// The axes, the last of which varies fastest: one dictionary each, of the parameters that move together along it
+    /// with their values in SI units. An axis of a sample begins with the entry `sample`, numbers from 0.
+    #[getter]
+    pub(crate) fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        axes(py, &self.plan)
+    }
+
+    /// Counts what the conditions of ``[where]`` leave out, among all points or, if there are more than a million, among a
+    /// million spread over the grid.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     `looked_at` and `excluded`, numbers of points, and `unsatisfied`, a dictionary from each condition to the
+    ///     number of points that do not satisfy it.
+    fn exclusions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let found = py.detach(|| survey::exclusions(&self.plan, LOOKED_AT));
+        let unsatisfied = PyDict::new(py);
+        for (condition, count) in found.unsatisfied {
+            unsatisfied.set_item(condition, count)?;
+        }
+        let dict = PyDict::new(py);
+        dict.set_item("looked_at", found.looked_at)?;
+        dict.set_item("excluded", found.excluded)?;
+        dict.set_item("unsatisfied", unsatisfied)?;
+        Ok(dict)
+    }
+}
+
+impl Grid {
+    fn point<'py>(&self, py: Python<'py>, index: u64) -> PyResult<Bound<'py, PyDict>> {
+        let dict = PyDict::new(py);
+        let values = self.plan.point(index).values;
+        for (parameter, value) in self.plan.parameters().iter().zip(values) {
+            match text::option(parameter, value) {
+                Some(option) => dict.set_item(parameter.name, option)?,
+                // What follows others, or is to be found, has no value of its own.
+                None if value.is_nan() => {}
+                None => dict.set_item(parameter.name, value)?,
+            }
+        }
+        Ok(dict)
+    }
+}
+
+/// The plan of a path, a text, a dictionary or a grid.
+pub(crate) fn plan(source: &Bound<'_, PyAny>) -> PyResult<Plan> {
+    let py = source.py();
+    if let Ok(grid) = source.cast::<Grid>() {
+        let source = &grid.get().plan.source;
+        return parse(py, &source.name, &source.text);
+    }
+    if let Ok(dict) = source.cast::<PyDict>() {
+        return parse(py, "<grid>", &grid_text::write(dict)?);
+    }
+    if let Ok(text) = source.cast::<PyString>() {
+        let text = text.to_cow()?;
+        if text.contains(['\n', '=']) {
+            return parse(py, "<grid>", &text);
+        }
+    }
+    let Ok(path) = source.extract::<PathBuf>() else {
+        let found = source.get_type().name()?;
+        let message =
+            format!("a grid is a path, the text of a grid file, a dictionary or a Grid, not {found}");
+        return Err(PyTypeError::new_err(message));
+    };
+    spec::read(&path).map_err(|error| error::grid_file(py, &error))
+}
+
+fn parse(py: Python<'_>, name: &str, text: &str) -> PyResult<Plan> {
+    spec::parse(name, text, simulate::all()).map_err(|diagnostics| error::grid(py, &diagnostics))
+}
+
+/// The axes of a plan, see [`Grid::axes`].
+pub(crate) fn axes<'py>(py: Python<'py>, plan: &Plan) -> PyResult<Bound<'py, PyList>> {
+    let list = PyList::empty(py);
+    for axis in &plan.axes {
+        let dict = PyDict::new(py);
+        if axis.parameters.iter().any(|(_, values)| matches!(values, Values::Sampled { .. })) {
+            dict.set_item("sample", PyArray1::from_iter(py, 0..axis.len()))?;
+        }
+        for (index, values) in &axis.parameters {
+            let parameter = &plan.parameters()[*index];
+            let numbers = (0..values.len()).map(|place| values.get(place));
+            let mut options = numbers.clone().map(|value| text::option(parameter, value)).peekable();
+            if options.peek().is_some_and(Option::is_some) {
+                dict.set_item(parameter.name, options.collect::<Vec<_>>())?;
+            } else {
+                dict.set_item(parameter.name, PyArray1::from_iter(py, numbers))?;
+            }
+        }
+        list.append(dict)?;
+    }
+    Ok(list)
+}

@@ -1,0 +1,85 @@
+//! The resonances of one point, by every way of looking for them.
+
+use flap_core::modes::Mode;
+use flap_core::num::InstructionSet;
+use flap_core::resonance::driven::{self, PeakSearch};
+use flap_core::resonance::free::{self, FreeRequest};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::run::DesignPoint;
+use crate::{convert, error};
+
+/// Samples of a free motion per period of the first mode.
+const SAMPLES: u32 = 200;
+
+/// Finds the resonances of one point; see `flapwing.resonance`.
+#[pyfunction]
+#[pyo3(signature = (preset, keywords, /, *, start, stop, tolerance, impulse, fit_cycles, spectrum_window))]
+#[expect(clippy::too_many_arguments, reason = "one per keyword")]
+pub(crate) fn resonance<'py>(
+    py: Python<'py>,
+    preset: &Bound<'py, PyAny>,
+    keywords: &Bound<'py, PyDict>,
+    start: Option<f64>,
+    stop: Option<f64>,
+    tolerance: f64,
+    impulse: f64,
+    fit_cycles: &Bound<'py, PyAny>,
+    spectrum_window: f64,
+) -> PyResult<Bound<'py, PyDict>> {
+    let DesignPoint { simulator, solver, values } = DesignPoint::new(preset, keywords)?;
+    let request = FreeRequest {
+        amplitude: impulse.to_radians(),
+        fit_cycles: convert::count("fit_cycles", fit_cycles)?,
+        spectrum_window,
+        samples_per_cycle: SAMPLES,
+    };
+    let set = InstructionSet::best();
+    let modes = simulator.modes(&values).map_err(|reason| error::invalid(&reason))?;
+    let natural = modes.map(|Mode { frequency, .. }| frequency);
+    let search = PeakSearch {
+        from: start.unwrap_or(0.5 * natural[0].min(natural[1])),
+        to: stop.unwrap_or(1.5 * natural[0].max(natural[1])),
+        tolerance,
+    };
+    let found = py.detach(|| {
+        let free = free::examine(simulator, set, &solver, &values, &request)?;
+        Ok((free, driven::search(simulator, set, &solver, &values, &search)?))
+    });
+    let (free, driven) = found.map_err(|reason| error::invalid(&reason))?;
+
+    let linear = PyDict::new(py);
+    for Mode { name, frequency } in modes {
+        linear.set_item(name, frequency)?;
+    }
+    let fit = free.fit.map(|fit| {
+        let dict = PyDict::new(py);
+        dict.set_item("frequency_hz", fit.frequency)?;
+        dict.set_item("decay_1_s", fit.decay)?;
+        dict.set_item("relative_rms", fit.relative_rms)?;
+        PyResult::Ok(dict)
+    });
+    let spectrum = |peaks: &[flap_core::measure::spectrum::SpectrumPeak]| {
+        peaks.iter().map(|peak| peak.frequency).collect::<Vec<f64>>()
+    };
+    let peaks = PyList::empty(py);
+    for peak in &driven.peaks {
+        let dict = PyDict::new(py);
+        dict.set_item("frequency_hz", peak.frequency)?;
+        dict.set_item("stroke_pp_deg", peak.stroke_pp)?;
+        dict.set_item("pitch_pp_deg", peak.pitch_pp)?;
+        peaks.append(dict)?;
+    }
+    let gaps = driven.gaps.iter().map(|gap| (gap.from, gap.to, gap.status.name())).collect::<Vec<_>>();
+
+    let dict = PyDict::new(py);
+    dict.set_item("linear_hz", linear)?;
+    dict.set_item("impulse_fit", fit.transpose()?)?;
+    dict.set_item("stroke_spectrum_hz", spectrum(&free.stroke_peaks))?;
+    dict.set_item("pitch_spectrum_hz", spectrum(&free.pitch_peaks))?;
+    dict.set_item("driven", peaks)?;
+    dict.set_item("larger_at_hz", driven.larger_at)?;
+    dict.set_item("gaps", gaps)?;
+    Ok(dict)
+}

@@ -1,0 +1,177 @@
+//! Sweeps: every point of a plan into columns, or into a file.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use flap_core::simulate::SolverSettings;
+use flap_sweep::identity::Identity;
+use flap_sweep::job::{self, Begin, Job, Outcome};
+use flap_sweep::layout::Layout;
+use flap_sweep::plan::Plan;
+use flap_sweep::run::{self, Parcel, RunError, RunOptions, Summary};
+use flap_sweep::session::SessionOptions;
+use flap_sweep::sink::Sink;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+
+use crate::columns::{self, ColumnsSink};
+use crate::grid::{self, Grid};
+use crate::watch::Watch;
+use crate::{convert, error};
+
+/// Time between checkpoints of results in a file.
+const CHECKPOINT: Duration = Duration::from_secs(1);
+
+/// Runs a grid; see `flapwing.sweep`. `parcels` gives the rows of other processes: called with the number of points done,
+/// it gives the bytes of the next parcel.
+#[pyfunction]
+#[pyo3(signature = (grid, /, *, out=None, resume=false, overwrite=false, threads=None, progress=None, parcels=None))]
+#[expect(clippy::too_many_arguments, reason = "one per keyword")]
+pub(crate) fn sweep<'py>(
+    py: Python<'py>,
+    grid: &Bound<'py, Grid>,
+    out: Option<PathBuf>,
+    resume: bool,
+    overwrite: bool,
+    threads: Option<&Bound<'py, PyAny>>,
+    progress: Option<Py<PyAny>>,
+    parcels: Option<Py<PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let plan = grid::plan(grid.as_any())?;
+    let options = options(threads)?;
+    let begin = match (resume, overwrite) {
+        (true, true) => {
+            return Err(PyValueError::new_err("resume keeps what overwrite would drop: choose one of them"));
+        }
+        (true, false) => Begin::Resume,
+        (false, true) => Begin::Overwrite,
+        (false, false) => Begin::New,
+    };
+    match out {
+        None if begin != Begin::New => {
+            Err(PyValueError::new_err("resume and overwrite are about a file of results: give out"))
+        }
+        None => into_columns(py, &plan, &options, progress, parcels.as_ref()),
+        Some(out) => {
+            let options = SessionOptions { run: options, checkpoint: CHECKPOINT };
+            let job = Job { plan, out, begin, options, origin: None };
+            into_file(py, &job, progress, parcels.as_ref())
+        }
+    }
+}
+
+/// How points are run, on so many threads or all.
+pub(crate) fn options(threads: Option<&Bound<'_, PyAny>>) -> PyResult<RunOptions> {
+    let mut options = RunOptions::default();
+    if let Some(threads) = threads {
+        let count = usize::try_from(convert::count("threads", threads)?).unwrap_or(usize::MAX);
+        options.threads = NonZeroUsize::new(count).unwrap_or(NonZeroUsize::MIN);
+    }
+    Ok(options)
+}
+
+/// Runs a plan, and gives its `columns`, `summary`, `axes` and `meta`.
+pub(crate) fn into_columns<'py>(
+    py: Python<'py>,
+    plan: &Plan,
+    options: &RunOptions,
+    progress: Option<Py<PyAny>>,
+    parcels: Option<&Py<PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let mut sink = ColumnsSink::new(Layout::of(plan));
+    let mut watch = Watch::new(progress);
+    let ran = py.detach(|| work(plan, options, Summary::default(), &mut sink, &mut watch, parcels));
+    watch.ended()?;
+    let summary = ran.map_err(|error| error::run(&error))?;
+    let dict = PyDict::new(py);
+    dict.set_item("columns", sink.columns.into_python(py)?)?;
+    dict.set_item("summary", columns::summary(py, &summary)?)?;
+    dict.set_item("axes", grid::axes(py, plan)?)?;
+    dict.set_item("meta", meta(py, plan, options)?)?;
+    Ok(dict)
+}
+
+/// Runs a job, and gives its `summary`: of the rows of earlier runs too, and `None` if nothing was left to run.
+fn into_file<'py>(
+    py: Python<'py>,
+    job: &Job,
+    progress: Option<Py<PyAny>>,
+    parcels: Option<&Py<PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let mut watch = Watch::new(progress);
+    let ran = py.detach(|| {
+        let mut engine = |plan: &Plan, options: &RunOptions, before: Summary, sink: &mut dyn Sink| {
+            work(plan, options, before, sink, &mut watch, parcels)
+        };
+        job::run(job, &mut engine, &mut |_| {})
+    });
+    watch.ended()?;
+    let outcome = ran.map_err(|error| error::job(&error))?;
+    let dict = PyDict::new(py);
+    match outcome {
+        Outcome::Ran(done) => dict.set_item("summary", columns::summary(py, &done.summary)?)?,
+        Outcome::Complete { .. } => dict.set_item("summary", py.None())?,
+    }
+    Ok(dict)
+}
+
+/// Makes the rows: here, or of parcels.
+fn work(
+    plan: &Plan,
+    options: &RunOptions,
+    before: Summary,
+    sink: &mut dyn Sink,
+    watch: &mut Watch,
+    parcels: Option<&Py<PyAny>>,
+) -> Result<Summary, RunError> {
+    let Some(parcels) = parcels else {
+        let stop = Arc::clone(&watch.stop);
+        let mut progress = |progress: run::Progress| watch.look(progress.finished, progress.points);
+        return run::resume(plan, options, before, sink, &stop, &mut progress);
+    };
+    let points = plan.selected();
+    run::feed(plan, options, before, sink, &mut |done| {
+        watch.look(done, points);
+        if watch.stop.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
+        let fetched: PyResult<Option<Vec<u8>>> = Python::attach(|py| {
+            let bytes = parcels.call1(py, (done,))?;
+            let bytes = bytes.bind(py);
+            if bytes.is_none() { Ok(None) } else { Ok(Some(bytes.cast::<PyBytes>()?.as_bytes().to_vec())) }
+        });
+        match fetched {
+            Ok(bytes) => bytes.map(|bytes| Parcel::from_bytes(&bytes)).transpose(),
+            Err(error) => {
+                let told = error.to_string();
+                watch.note(Err(error));
+                Err(RunError::Fetch(told))
+            }
+        }
+    })
+}
+
+/// Where rows come from.
+pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> PyResult<Bound<'py, PyDict>> {
+    let identity = Identity::of(plan, options);
+    let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, newton } = plan.solver;
+    let solver = PyDict::new(py);
+    solver.set_item("rtol", rtol)?;
+    solver.set_item("atol", atol)?;
+    solver.set_item("settle_tol", settle_tol)?;
+    solver.set_item("max_cycles", max_cycles)?;
+    solver.set_item("max_steps", max_steps)?;
+    solver.set_item("newton", newton)?;
+    let dict = PyDict::new(py);
+    dict.set_item("flap", identity.flap)?;
+    dict.set_item("model", plan.simulator.name())?;
+    dict.set_item("preset", plan.preset)?;
+    dict.set_item("arithmetic", identity.arithmetic)?;
+    dict.set_item("solver", solver)?;
+    dict.set_item("grid", &plan.source.text)?;
+    Ok(dict)
+}

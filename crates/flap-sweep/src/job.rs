@@ -1,0 +1,275 @@
+//! The rows of a plan into a result file: with its sidecar, and such that the run can be resumed.
+//!
+//! How rows are made is up to the caller: by [`run::resume`](crate::run::resume) on this machine, or by
+//! [`run::feed`](crate::run::feed) on others.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use flap_core::simulate::Status;
+
+use crate::csv_sink::CsvSink;
+use crate::identity::Identity;
+use crate::layout::Layout;
+use crate::output::{self, CreateError, Durable};
+use crate::plan::Plan;
+use crate::results::{Format, FormatError};
+use crate::run::{RunError, RunOptions, Summary};
+use crate::session::{ResumeError, Resumed, Session, SessionOptions};
+use crate::sidecar::{self, End, Origin, Sidecar, Start, State};
+use crate::sink::Sink;
+use crate::time;
+
+/// What is to be run, and where its rows go.
+pub struct Job {
+    /// The points.
+    pub plan: Plan,
+    /// The result file.
+    pub out: PathBuf,
+    /// What becomes of results that are there already.
+    pub begin: Begin,
+    /// How the plan is run.
+    pub options: SessionOptions,
+    /// Where the points of a rerun come from.
+    pub origin: Option<Origin>,
+}
+
+/// What becomes of results that are there already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Begin {
+    /// They are an error.
+    New,
+    /// They are dropped.
+    Overwrite,
+    /// They are gone on with.
+    Resume,
+}
+
+/// What makes the rows of a plan and writes them to a sink, behind those that are there.
+pub type Engine<'a> =
+    &'a mut dyn FnMut(&Plan, &RunOptions, Summary, &mut dyn Sink) -> Result<Summary, RunError>;
+
+/// What a job came to.
+#[derive(Debug)]
+pub enum Outcome {
+    /// Points were run.
+    Ran(Done),
+    /// All rows wanted were there already.
+    Complete {
+        /// Whether all of them are periodic.
+        all_periodic: bool,
+    },
+}
+
+/// What this process did.
+#[derive(Debug)]
+pub struct Done {
+    /// Of the rows of earlier sessions too.
+    pub summary: Summary,
+    /// Rows of earlier sessions.
+    pub rows_before: u64,
+    /// Seconds of running in this process.
+    pub seconds: f64,
+    /// Where the rows are; `None` if they went into a stream.
+    pub place: Option<PathBuf>,
+}
+
+/// What a user may want to know before the points are run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Before {
+    /// Rows that had been written but are no longer there: they are computed again.
+    pub lost: u64,
+    /// Points that are done with.
+    pub done: u64,
+}
+
+/// Why a job failed.
+#[derive(Debug, thiserror::Error)]
+pub enum JobError {
+    /// The name stands for no format.
+    #[error(transparent)]
+    Format(#[from] FormatError),
+    /// The results cannot be made.
+    #[error(transparent)]
+    Create(#[from] CreateError),
+    /// The run cannot be resumed.
+    #[error("{error}")]
+    Resume {
+        /// Why.
+        error: ResumeError,
+        /// The first line of the grid file that is another, in words.
+        changed: Option<String>,
+    },
+    /// A file beside the results cannot be written, or they cannot be completed.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+        /// Whether the run can be resumed.
+        resumable: bool,
+    },
+    /// The run failed; it can be resumed if it went into a file.
+    #[error("{error}")]
+    Run {
+        /// Why.
+        error: RunError,
+        /// Whether the run can be resumed.
+        resumable: bool,
+    },
+}
+
+impl JobError {
+    fn write(path: &Path, source: io::Error, resumable: bool) -> JobError {
+        JobError::Write { path: path.to_owned(), source, resumable }
+    }
+}
+
+/// Runs the job. `tell` is called if it goes on with earlier work.
+///
+/// # Errors
+/// [`JobError`]; rows that were written are kept, with what it takes to resume.
+pub fn run(job: &Job, engine: Engine<'_>, tell: &mut dyn FnMut(Before)) -> Result<Outcome, JobError> {
+    match job.begin {
+        Begin::Resume => job.resume(engine, tell),
+        Begin::New | Begin::Overwrite => job.start(engine).map(Outcome::Ran),
+    }
+}
+
+/// Writes the rows of a plan to what can neither be read again nor resumed, as CSV.
+///
+/// # Errors
+/// [`JobError::Run`].
+pub fn to_stream(
+    plan: &Plan,
+    stream: impl Durable,
+    options: &RunOptions,
+    engine: Engine<'_>,
+) -> Result<Done, JobError> {
+    let mut sink = CsvSink::new(Layout::of(plan), stream);
+    let start = Instant::now();
+    let summary = engine(plan, options, Summary::default(), &mut sink)
+        .map_err(|error| JobError::Run { error, resumable: false })?;
+    Ok(Done { summary, rows_before: 0, seconds: start.elapsed().as_secs_f64(), place: None })
+}
+
+impl Job {
+    fn start(&self, engine: Engine<'_>) -> Result<Done, JobError> {
+        let format = Format::of(&self.out)?;
+        let file = output::create(&self.out, self.begin == Begin::Overwrite)?;
+        // Devices and pipes have nothing beside them, and nothing to resume.
+        if !file.metadata().is_ok_and(|metadata| metadata.is_file()) {
+            let done = to_stream(&self.plan, file, &self.options.run, engine)?;
+            return Ok(Done { place: Some(self.out.clone()), ..done });
+        }
+        let started = time::now();
+        let sidecar = self.sidecar(started.clone());
+        self.write_sidecar(&sidecar, false)?;
+        // Earlier rows go only now that nothing stands in the way of new ones.
+        let session = self.session(file, format, started)?;
+        self.work(session, Summary::default(), sidecar, engine)
+    }
+
+    fn session(&self, file: File, format: Format, started: String) -> Result<Session, JobError> {
+        Session::start(file, (&self.out, format), &self.plan, &self.options, started)
+            .map_err(|error| JobError::write(&self.out, error, false))
+    }
+
+    fn resume(&self, engine: Engine<'_>, tell: &mut dyn FnMut(Before)) -> Result<Outcome, JobError> {
+        let resumed = match Session::resume(&self.out, &self.plan, &self.options) {
+            Ok(resumed) => resumed,
+            Err(ResumeError::NoJournal { .. }) if is_empty(&self.out) => {
+                return self.start(engine).map(Outcome::Ran);
+            }
+            Err(error @ ResumeError::NoJournal { .. }) => return self.is_complete(error),
+            Err(error) => return Err(self.cannot_resume(error)),
+        };
+        let Resumed { session, before, started, lost } = resumed;
+        tell(Before { lost, done: before.done() });
+        let sidecar = self.sidecar(started);
+        self.write_sidecar(&sidecar, false)?;
+        self.work(session, before, sidecar, engine).map(Outcome::Ran)
+    }
+
+    /// There is nothing to resume: that is well if the rows wanted are all there.
+    fn is_complete(&self, error: ResumeError) -> Result<Outcome, JobError> {
+        let sidecar = Sidecar::read(&sidecar::path_of(&self.out));
+        let Some(sidecar) = sidecar.ok().filter(|sidecar| sidecar.state == State::Complete) else {
+            return Err(self.cannot_resume(error));
+        };
+        let own = Identity::of(&self.plan, &self.options.run);
+        let changes = Identity::recorded(&sidecar).differences(&own);
+        if !changes.is_empty() {
+            return Err(self.cannot_resume(ResumeError::Changed { path: self.out.clone(), changes }));
+        }
+        let periodic = sidecar.statuses.as_ref().and_then(|counts| counts.get(Status::Periodic.name()));
+        Ok(Outcome::Complete { all_periodic: periodic == sidecar.rows.as_ref() })
+    }
+
+    /// The error, with the first line of the grid file that is another.
+    fn cannot_resume(&self, error: ResumeError) -> JobError {
+        let is_changed = matches!(error, ResumeError::Changed { .. });
+        let before = Sidecar::read(&sidecar::path_of(&self.out)).ok().filter(|_| is_changed);
+        let changed = before.and_then(|before| difference(&before.grid.text, &self.plan.source.text));
+        JobError::Resume { error, changed }
+    }
+
+    fn sidecar(&self, started: String) -> Sidecar {
+        Sidecar::new(&self.plan, Start { started, options: self.options.run, rerun: self.origin.clone() })
+    }
+
+    fn write_sidecar(&self, sidecar: &Sidecar, resumable: bool) -> Result<(), JobError> {
+        let path = sidecar::path_of(&self.out);
+        sidecar.write(&path).map_err(|error| JobError::write(&path, error, resumable))
+    }
+
+    fn work(
+        &self,
+        mut session: Session,
+        before: Summary,
+        mut sidecar: Sidecar,
+        engine: Engine<'_>,
+    ) -> Result<Done, JobError> {
+        let start = Instant::now();
+        let rows_before = before.rows;
+        let outcome = engine(&self.plan, &self.options.run, before, &mut session);
+        let outcome = outcome.and_then(|summary| match session.close(&summary) {
+            Ok(()) => Ok(summary),
+            Err(error) => Err(RunError::Sink(error)),
+        });
+        let end = End { finished: time::now(), seconds: session.seconds() };
+        match outcome {
+            Ok(summary) => {
+                let place = Some(session.rows_path(!summary.interrupted));
+                sidecar.finish(&summary, end);
+                self.write_sidecar(&sidecar, true)?;
+                if !summary.interrupted {
+                    session.forget().map_err(|error| JobError::write(&self.out, error, true))?;
+                }
+                Ok(Done { summary, rows_before, seconds: start.elapsed().as_secs_f64(), place })
+            }
+            Err(error) => {
+                sidecar.fail(error.to_string(), end);
+                // The first error is the one to tell.
+                let _ = self.write_sidecar(&sidecar, true);
+                Err(JobError::Run { error, resumable: true })
+            }
+        }
+    }
+}
+
+/// Whether there is nothing at `path`.
+pub fn is_empty(path: &Path) -> bool {
+    fs::metadata(path).map_or(true, |metadata| metadata.is_file() && metadata.len() == 0)
+}
+
+/// The first line that differs, in words.
+fn difference(before: &str, now: &str) -> Option<String> {
+    let (before, now): (Vec<&str>, Vec<&str>) = (before.lines().collect(), now.lines().collect());
+    let line = (0..before.len().max(now.len())).find(|&line| before.get(line) != now.get(line))?;
+    let shown = |lines: &[&str]| lines.get(line).map_or("not there".to_owned(), |text| format!("`{text}`"));
+    Some(format!("line {} of the grid was {}, it is {}", line + 1, shown(&before), shown(&now)))
+}

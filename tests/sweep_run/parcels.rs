@@ -1,0 +1,93 @@
+//! Rows that other processes compute, put together to what one process writes.
+
+use std::collections::VecDeque;
+use std::sync::atomic::AtomicBool;
+
+use flap_core::num::InstructionSet;
+use flap_sweep::csv_sink::CsvSink;
+use flap_sweep::layout::Layout;
+use flap_sweep::plan::Plan;
+use flap_sweep::run::{Parcel, RunError, Summary, feed, part};
+
+use crate::fake::{Fake, Fault};
+use crate::formulas::GRID;
+use crate::support::{csv, options, plan, plan_of};
+
+/// What a worker sends for these points.
+fn bytes(plan: &Plan, from: u64, to: u64) -> Vec<u8> {
+    let stop = AtomicBool::new(false);
+    part(plan, &options(2, 10), from..to, &stop, &mut |_| {}).unwrap().to_bytes().unwrap()
+}
+
+/// The text that comes of parcels, with what they come to.
+fn put_together(plan: &Plan, parcels: Vec<Vec<u8>>) -> (String, Result<Summary, RunError>) {
+    let mut parcels = VecDeque::from(parcels);
+    let mut sink = CsvSink::new(Layout::of(plan), Vec::new());
+    let mut next = |_| parcels.pop_front().map(|bytes| Parcel::from_bytes(&bytes)).transpose();
+    let summary = feed(plan, &options(1, 1), Summary::default(), &mut sink, &mut next);
+    (String::from_utf8(sink.target().clone()).unwrap(), summary)
+}
+
+#[test]
+fn parcels_put_together_are_the_rows_of_one_run() {
+    let grids: [&dyn Fn() -> Plan; 2] =
+        [&|| plan(Fake::leak(Fault::None, 4), 100), &|| plan_of(Fake::leak(Fault::None, 4), GRID)];
+    for grid in grids {
+        let plan = grid();
+        let (alone, summary) = csv(&plan, &options(2, 10));
+        for size in [1, 5, 1000] {
+            let starts = (0..plan.len()).step_by(size);
+            let parcels = starts.map(|from| bytes(&plan, from, plan.len().min(from + size as u64)));
+            let (together, of_parcels) = put_together(&plan, parcels.collect());
+            assert_eq!(together, alone);
+            assert_eq!(of_parcels.unwrap(), *summary.as_ref().unwrap());
+        }
+    }
+}
+
+#[test]
+fn parcels_that_end_early_are_an_interrupted_run() {
+    let plan = plan(Fake::leak(Fault::None, 4), 100);
+    let (text, summary) = put_together(&plan, vec![bytes(&plan, 0, 30), bytes(&plan, 30, 50)]);
+    let summary = summary.unwrap();
+    assert!(summary.interrupted);
+    assert_eq!(summary.done(), 50);
+    assert_eq!(text.lines().count(), 51);
+}
+
+#[test]
+fn parcels_that_do_not_fit_are_refused() {
+    let whole = plan(Fake::leak(Fault::None, 4), 100);
+    let other = plan(Fake::leak(Fault::None, 4), 101);
+    for (parcels, complaint) in [
+        (vec![bytes(&whole, 10, 20)], "points 10 to 20 came where 0 was next"),
+        (vec![bytes(&whole, 0, 10), bytes(&whole, 0, 10)], "points 0 to 10 came where 10 was next"),
+        (vec![bytes(&other, 0, 10)], "the grid file is another"),
+        (vec![vec![7, 7, 7]], ""),
+        (vec![bytes(&whole, 0, 10)[..40].to_vec()], ""),
+    ] {
+        let (text, summary) = put_together(&whole, parcels);
+        let error = summary.expect_err(complaint).to_string();
+        assert!(
+            error.starts_with("rows from elsewhere do not fit: ") && error.contains(complaint),
+            "{error}"
+        );
+        // What came before is kept.
+        assert!(text.lines().count() == 1 || text.lines().count() == 11, "{text}");
+    }
+}
+
+#[test]
+fn parcels_of_other_arithmetic_are_refused() {
+    let plan = plan(Fake::leak(Fault::None, 4), 10);
+    let mut others = options(1, 10);
+    let classes: Vec<InstructionSet> = InstructionSet::available();
+    let own = others.instructions.arithmetic();
+    let Some(&other) = classes.iter().find(|set| set.arithmetic() != own) else { return };
+    others.instructions = other;
+    let stop = AtomicBool::new(false);
+    let parcel = part(&plan, &others, 0..10, &stop, &mut |_| {}).unwrap();
+    let (_, summary) = put_together(&plan, vec![parcel.to_bytes().unwrap()]);
+    let error = summary.expect_err("other rounding").to_string();
+    assert!(error.contains("the arithmetic is"), "{error}");
+}
