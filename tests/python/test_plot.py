@@ -91,9 +91,10 @@ def legend(ax):
 
 
 def message(error, function, *arguments, **keywords):
+    before = plt.get_fignums()
     with pytest.raises(error) as caught:
         function(*arguments, **keywords)
-    assert not plt.get_fignums(), "a figure was begun before the mistake was found"
+    assert plt.get_fignums() == before, "a figure was begun before the mistake was found"
     return str(caught.value)
 
 
@@ -287,7 +288,7 @@ def test_points_that_the_grid_excludes_are_gaps():
         {
             "preset": "ozaki2018-large",
             "axes": {"drive_voltage_pp": [60.0, 80.0], "drive_frequency": HERTZ},
-            "where": {"kept": "drive_frequency != 105 || drive_voltage_pp > 70"},
+            "where": {"kept": "drive_frequency != 105 or drive_voltage_pp > 70"},
         }
     )
     assert len(rows) == 9
