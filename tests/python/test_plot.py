@@ -153,6 +153,9 @@ def test_everything_has_a_docstring():
         ("hinge_stiffness", "N*m/rad", "Hinge stiffness (N·m/rad)"),
         ("air_density", "kg/m^3", "Air density (kg/m³)"),
         ("drag_max", "", "Drag max"),
+        ("force_factor", "", "Force factor"),
+        ("lift_slope", "", "Lift slope"),
+        ("strain_surface_max", "", "Surface strain, largest"),
     ],
 )
 def test_labels(name, unit, expected):
@@ -295,6 +298,23 @@ def test_points_that_the_grid_excludes_are_gaps():
     ax = plot.response(rows, "lift_mean_mn")
     assert_array_equal(ax.lines[0].get_xdata(), HERTZ)
     assert_array_equal(np.isnan(ax.lines[0].get_ydata()), [False, False, True, False, False])
+    alone = plot.response(rows, "lift_mean_mn", drive_voltage_pp=60)
+    assert_array_equal(np.isnan(alone.lines[0].get_ydata()), [False, False, True, False, False])
+    assert legend(plot.heatmap(rows, "lift_mean_mn")) == ["no row (1)"]
+
+
+def test_a_response_up_and_down_has_a_line_for_each_way():
+    ax = drawn(plot.response(loop()))
+    assert legend(ax) == ["up", "down", "unstable"]
+    assert_array_equal(ax.lines[2].get_xdata(), [3, 4, 5])
+
+
+def test_frames_of_polars_and_files_in_parquet_are_drawn(sweep, tmp_path):
+    path = tmp_path / "rows.parquet"
+    written = flapwing.sweep(sweep.meta["grid"], out=path)
+    wanted = [line.get_ydata() for line in plot.response(sweep, "lift_mean_mn").lines]
+    for same in (written.to_polars(), path):
+        assert_array_equal([line.get_ydata() for line in plot.response(same, "lift_mean_mn").lines], wanted)
 
 
 def test_si_parameters_are_shown_with_prefixes():
@@ -736,6 +756,7 @@ def test_tornado_draws_bars_in_order(sensitivities):
         assert high[i].get_width() == pytest.approx(100 * (each.high / each.base - 1))
         assert low[i].get_y() + low[i].get_height() / 2 == pytest.approx(i)
     assert ax.yaxis_inverted()
+    assert {bar.get_height() for bar in (*low, *high)} == {0.62}
     labels = [text.get_text() for text in ax.get_yticklabels()]
     assert set(labels) == {"Drive frequency, 109 Hz", "Hinge stiffness, 86.4 µN·m/rad", "Wing length, 32.4 mm"}
     assert legend(ax) == ["−5 %", "+5 %"]
@@ -748,6 +769,21 @@ def test_tornado_draws_bars_in_order(sensitivities):
 def test_tornado_runs_what_it_draws():
     ax = plot.tornado("ozaki2018-large", "lift_mean_mn", ["wing_length"], change=0.01)
     assert legend(ax) == ["−1 %", "+1 %"]
+
+
+def test_changes_that_go_the_same_way_are_both_seen(sensitivities):
+    first = sensitivities[0]
+    ax = plot.tornado([first._replace(low=0.8 * first.base, high=0.9 * first.base)])
+    (long,), (short,) = ax.containers[:2]
+    assert (long.get_height(), short.get_height()) == (0.62, 0.28)
+    assert short.get_zorder() > long.get_zorder()
+
+
+def test_by_default_all_numbers_that_can_be_changed_are():
+    found = {each.parameter for each in plot.sensitivities("arabagi2013-75hz", "lift_mean_mn", rtol=1e-4)}
+    known = flapwing.params("arabagi2013-75hz")
+    numbers = {name for name, each in known.items() if isinstance(each.value, float) and each.value != 0}
+    assert found == numbers - {"strips"}
 
 
 def test_a_change_without_a_periodic_motion_is_said(sensitivities):

@@ -14,7 +14,7 @@ from . import _labels
 # Statuses whose rows have measures.
 MEASURED = ("periodic", "unstable")
 
-_NOT_PARAMETERS = ("point", "curve", "branch")
+_NOT_PARAMETERS = ("point", "curve")
 
 
 class Data:
@@ -119,6 +119,10 @@ class Data:
             if name in dim:
                 return next(member for member in dim if member in self.columns)
         return name
+
+    def values_along(self, name: str, whole: Data) -> np.ndarray:
+        """A parameter's values: if it has an axis of its own, those without a row in this slice of `whole` too."""
+        return distinct((whole if [name] in self.dims else self)[name])
 
     def groups(self, names: Sequence[str]) -> np.ndarray:
         """A number per row, equal for rows that agree in all of these columns."""

@@ -86,12 +86,13 @@ def heatmap(
     >>> [float(end) for end in ax.get_xlim()]
     [85.0, 105.0]
     """
-    data = Data.of(table).slice(where, slices)
+    whole = Data.of(table)
+    data = whole.slice(where, slices)
     data.numbers(value)
     x, y = _two_axes(data, x, y)
     data.one_row_for([x, y])
 
-    shown, across, up = data.shown(value), _Axis(data, x, xscale), _Axis(data, y, yscale)
+    shown, across, up = data.shown(value), _Axis(data, whole, x, xscale), _Axis(data, whole, y, yscale)
     rows = np.full((up.count, across.count), -1)
     rows[up.places(data[y]), across.places(data[x])] = np.arange(len(data))
     measured = data.measured()
@@ -126,9 +127,9 @@ def heatmap(
 class _Axis:
     """The values along one axis, and the edges of their cells."""
 
-    def __init__(self, data: Data, name: str, scale: str | None) -> None:
+    def __init__(self, data: Data, whole: Data, name: str, scale: str | None) -> None:
         self.shown: Shown = data.shown(name)
-        self.keys = distinct(data[name])
+        self.keys = data.values_along(name, whole)
         self.count = len(self.keys)
         if self.shown.text:
             self.log, self.edges = False, np.arange(self.count + 1) - 0.5

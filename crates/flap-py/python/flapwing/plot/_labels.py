@@ -44,7 +44,7 @@ _QUALIFIERS = {
     "lag": "lag",
 }
 
-# Nouns that names put before what describes them: power_drag_mean_mw is a drag power.
+# Nouns that names of measures put before what describes them: power_drag_mean_mw is a drag power.
 _NOUNS = {"lift", "drag", "power", "current", "force", "efficiency", "strain", "field"}
 
 # Parameters whose last word is part of the noun, not a qualifier.
@@ -74,10 +74,10 @@ def unit_of(name: str, units: Mapping[str, str]) -> str:
 
 def words(name: str, unit: str = "") -> str:
     """A column's name in words, without its unit: `lift_mean_mn` is "Lift, mean"."""
-    stem = name
+    stem, measure = name, name.startswith("strain_")
     for suffix, meant in _SUFFIXES.items():
         if name.endswith(suffix) and unit in ("", meant):
-            stem = name[: -len(suffix)]
+            stem, measure = name[: -len(suffix)], True
             break
     if stem in _WHOLE:
         return stem.replace("_", " ").capitalize()
@@ -87,7 +87,7 @@ def words(name: str, unit: str = "") -> str:
     else:
         first = next((i for i, part in enumerate(parts) if i > 0 and part in _QUALIFIERS), len(parts))
         noun, behind = parts[:first], parts[first:]
-    if noun[0] in _NOUNS and len(noun) > 1 and not noun[1].isdigit() and noun[1] != "audit":
+    if measure and noun[0] in _NOUNS and len(noun) > 1 and not noun[1].isdigit() and noun[1] != "audit":
         noun = noun[1:] + noun[:1]
     text = " ".join(noun)
     said = [_QUALIFIERS.get(part, part) for part in behind]

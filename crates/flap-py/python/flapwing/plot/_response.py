@@ -15,7 +15,7 @@ from . import _style
 from ._data import Data, Shown, distinct, unknown
 
 # What is drawn if nothing is said: the first of these that there is.
-_USUAL = ("stroke_pp_deg", "lift_mean_mn", "vehicle_lift_mgf")
+_USUAL = ("stroke_pp_deg", "stroke_amplitude_deg", "lift_mean_mn", "lift_mean_gf", "vehicle_lift_mgf")
 
 
 def response(
@@ -72,7 +72,8 @@ def response(
     >>> [line.get_ydata().tolist() for line in ax.lines]
     [[20.0, 40.0], [35.0, 60.0]]
     """
-    data = Data.of(table).slice(where, slices)
+    whole = Data.of(table)
+    data = whole.slice(where, slices)
     several = y is not None and not isinstance(y, str)
     measures = [_usual(data)] if y is None else [y] if isinstance(y, str) else list(y)
     if not measures:
@@ -96,7 +97,7 @@ def response(
         else:
             figure = _style.new_figure(6.4, 1.2 + 2.1 * len(measures))
             axes = list(np.atleast_1d(figure.subplots(len(measures), 1, sharex=True)))
-        family = _Family(data, x, by)
+        family = _Family(data, whole, x, by)
         for each, name in zip(axes, measures):
             family.draw(each, name)
             if each is axes[0]:
@@ -111,29 +112,29 @@ def response(
 class _Family:
     """The lines of one picture: their rows and colours are the same for every measure."""
 
-    def __init__(self, data: Data, x: str, by: str | None) -> None:
+    def __init__(self, data: Data, whole: Data, x: str, by: str | None) -> None:
         self.data, self.x = data, data.shown(x)
         self.by: Shown | None = None if by is None else data.shown(by)
         self.values: np.ndarray = np.array([0.0]) if by is None else distinct(data[by])
         keys = np.zeros(len(data)) if by is None else data[by]
-        every_x = distinct(data[x]) if any(dim == [x] for dim in data.dims) else None
-        self.rows = [self._ordered(np.flatnonzero(keys == value), every_x) for value in self.values]
+        self.every_x = data.values_along(x, whole)
+        self.rows = [self._ordered(np.flatnonzero(keys == value)) for value in self.values]
         self.colours = _style.shades(self.values, self.by is not None and self.by.text)
 
-    def _ordered(self, rows: np.ndarray, every_x: np.ndarray | None) -> np.ndarray:
+    def _ordered(self, rows: np.ndarray) -> np.ndarray:
         """The rows of one line by rising x; -1 stands for points of the grid that have no row."""
         xs = self.data[self.x.name]
         rows = rows[np.argsort(xs[rows], kind="stable")]
-        if every_x is None or len(every_x) == len(rows):
+        if [self.x.name] not in self.data.dims:
             return rows
-        placed = np.full(len(every_x), -1)
-        placed[np.searchsorted(every_x, xs[rows])] = rows
+        placed = np.full(len(self.every_x), -1)
+        placed[np.searchsorted(self.every_x, xs[rows])] = rows
         return placed
 
     def draw(self, ax: Axes, name: str) -> None:
         measured = self.data.measured()
         shown = self.data.shown(name)
-        every_x = distinct(self.data[self.x.name]) * self.x.factor
+        every_x = self.every_x * self.x.factor
         for value, rows, colour in zip(self.values, self.rows, self.colours):
             there = rows >= 0
             xs = np.where(there, self.x.values[rows], every_x if len(every_x) == len(rows) else np.nan)

@@ -64,7 +64,8 @@ def sensitivities(
         A measure of its model.
     parameters : mapping or iterable of str, optional
         The parameters to change; in a mapping, each with its own relative change or with the two values to try (SI).
-        By default all numbers that are not zero, but for those that follow others.
+        By default all numbers that are not zero, but for those that follow others and those that cannot take such
+        values, such as whole numbers.
     change : float
         The relative change of parameters that have none of their own.
     **fixed
@@ -97,7 +98,7 @@ def sensitivities(
         raise ValueError(f"the design itself has no {measure}: its motion is {base['status'][0]}")
     found = []
     for name, spread in ranges.items():
-        value = float(base[name][0]) if name in both else float(known[name].value)
+        value = float(base[name][0]) if name in both else _number(known[name].value)
         below, above = spread if isinstance(spread, tuple) else sorted((value * (1 - spread), value * (1 + spread)))
         if below == above and parameters is None:
             continue
@@ -105,6 +106,8 @@ def sensitivities(
             raise ValueError(f"`{name}` is {value:g}, which no relative change alters: give the two values to try")
         unchanged = {other: given for other, given in fixed.items() if other != name}
         rows = flapwing.evaluate(design, {name: np.array([below, above])}, **unchanged)
+        if parameters is None and (rows["status"] == "invalid").all():
+            continue
         low, high = (float(each) for each in rows[measure])
         units = (known[name].unit, base.units.get(measure, ""))
         found.append(Sensitivity(name, value, below, above, measure, start, low, high, *units))
@@ -164,18 +167,16 @@ def tornado(
         ax = _style.axes_of(ax, 6.8, 1.5 + 0.32 * len(shown))
         ax.grid(False, axis="y")
         less, more = _names_of_changes(shown)
-        ax.barh(places, low, height=0.62, color=_style.BLUE, label=less)
-        ax.barh(places, high, height=0.62, color=_style.ORANGE, label=more)
-        # Where both changes go the same way, the shorter bar lies on the longer one.
-        for place, (first, second) in enumerate(zip(low, high)):
-            if first * second > 0 and abs(second) > abs(first):
-                ax.barh(place, first, height=0.28, color=_style.BLUE)
-            elif first * second > 0:
-                ax.barh(place, second, height=0.28, color=_style.ORANGE)
+        # Where both changes go the same way, the shorter bar lies on the longer one and is thinner.
+        within = np.where(low * high > 0, np.sign(np.abs(low) - np.abs(high)), 0.0)
+        for ends, thin, colour, name in ((low, within < 0, _style.BLUE, less), (high, within > 0, _style.ORANGE, more)):
+            bars = ax.barh(places, ends, height=np.where(thin, 0.28, 0.62), color=colour, label=name)
+            for bar, above in zip(bars, thin):
+                bar.set_zorder(1.6 if above else 1.5)
         ax.axvline(0.0, color=_style.DARK, linewidth=0.9)
         ax.set_yticks(places, labels=[_named(each) for each in shown])
         ax.tick_params(axis="y", length=0)
-        ax.invert_yaxis()
+        ax.set_ylim(len(shown) - 0.4, -0.6)
         unit = _labels.pretty(shown[0].measure_unit)
         words = _labels.words(shown[0].measure, shown[0].measure_unit)
         ax.set_xlabel(
@@ -233,6 +234,11 @@ def _ranges(
         elif not 0 < float(spread) < math.inf:
             raise ValueError(f"the change of `{name}` must be more than zero, not {spread}")
     return chosen
+
+
+def _number(value: float | str | None) -> float:
+    assert isinstance(value, float), "`_ranges` lets numbers alone pass"
+    return value
 
 
 def _named(each: Sensitivity) -> str:
