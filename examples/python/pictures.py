@@ -1,4 +1,4 @@
-"""Makes the pictures of docs/plots.md, in a minute or so:
+"""Makes the pictures of docs/plots.md, in some ten seconds:
 
     pip install "./crates/flap-py[plot]"
     python examples/python/pictures.py             # into docs/pictures

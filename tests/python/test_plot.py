@@ -3,9 +3,11 @@
 import doctest
 import importlib
 import itertools
+import re
 import subprocess
 import sys
 import textwrap
+from pathlib import Path
 
 import flapwing
 import matplotlib
@@ -22,6 +24,7 @@ from matplotlib.figure import Figure
 from numpy.testing import assert_allclose, assert_array_equal
 from PIL import Image
 
+REPOSITORY = Path(__file__).parents[2]
 VOLTS = [60.0, 80.0, 100.0]
 HERTZ = [95.0, 100.0, 105.0, 110.0, 115.0]
 
@@ -815,3 +818,43 @@ def test_pandas_words_and_flags_with_gaps():
     table["stable"] = pandas.array([True, None] * 7 + [False], dtype="boolean")
     ax = plot.response(table, "lift_mean_mn")
     assert np.isnan(lines(ax)[0].get_ydata()[3])
+
+
+# --- the page ------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def page():
+    """The part of docs/plots.md that is about Python."""
+    text = (REPOSITORY / "docs" / "plots.md").read_text(encoding="utf-8")
+    return text.split("\n## In Python\n")[1].split("\n## ")[0]
+
+
+def test_the_examples_of_the_page_run(page, tmp_path, monkeypatch):
+    (tmp_path / "examples").symlink_to(REPOSITORY / "examples")
+    monkeypatch.chdir(tmp_path)
+    saved = []
+
+    def save(animation, path):
+        animation._draw_was_started = True
+        saved.append(path)
+
+    monkeypatch.setattr(plot.WingPath, "save", save)
+    names = {}
+    for example in re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL):
+        exec(compile(example, "docs/plots.md", "exec"), names)
+    assert saved == ["cycle.gif"] and Path("lift.png").is_file()
+    text = message(ValueError, plot.heatmap, names["large"], "efficiency_gf_per_w")
+    assert f"ValueError: {text}\n" in page
+
+
+def test_pictures_of_the_page_are_there_and_small(page):
+    shown = set(re.findall(r"\]\((pictures/py-.*?)\)", page))
+    files = {f"pictures/{path.name}": path for path in (REPOSITORY / "docs" / "pictures").glob("py-*")}
+    assert shown == set(files)
+    sizes = [path.stat().st_size for path in files.values()]
+    assert max(sizes) < 80_000 and sum(sizes) < 500_000
+    script = (REPOSITORY / "examples" / "python" / "pictures.py").read_text(encoding="utf-8")
+    for name in files:
+        function = name.split("py-")[1].split(".")[0].replace("-", "_")
+        assert f"def {function}(" in script
