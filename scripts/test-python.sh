@@ -28,10 +28,10 @@ if [[ ${1-} == --release ]]; then
 fi
 
 python=${PYTHON:-python3}
-command -v "$python" >/dev/null || die "$python is not installed: Python 3.10 or later is needed"
+command -v "$python" >/dev/null || die "$python is not installed: Python 3.11 or later is needed"
 version=$("$python" -c 'import sys; print(sys.version)') || die "$python does not run"
-"$python" -c 'import sys; sys.exit(sys.version_info < (3, 10))' ||
-    die "$python is ${version%% *}: the tests need Python 3.10 or later"
+"$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' ||
+    die "$python is ${version%% *}: the tests need Python 3.11 or later"
 "$python" -c 'import ensurepip, venv' 2>/dev/null ||
     die "$python lacks its venv module: on Debian and Ubuntu, install python3-venv"
 command -v cargo >/dev/null || die "cargo is not installed: building the wheel needs a Rust toolchain"
@@ -50,6 +50,12 @@ export PATH="$work/bin:$PATH"
 # pip would take the directory's name for a name and a version, and keep every build in its cache.
 python -m pip install --quiet --disable-pip-version-check --no-cache-dir --no-index --no-deps \
     --no-build-isolation --config-settings "build-args=--profile $profile --locked" ./crates/flap-py
+
+# Rows are compared with those of the command.
+cargo build --quiet --profile "$profile" --locked -p flap-cli
+folder=$profile
+[[ $profile == dev ]] && folder=debug
+export FLAP=${CARGO_TARGET_DIR:-$PWD/target}/$folder/flap
 
 export PYTHONDONTWRITEBYTECODE=1
 python -m pytest --quiet -o "cache_dir=$work/pytest-cache" tests/python "$@"

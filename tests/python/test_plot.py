@@ -312,6 +312,22 @@ def test_a_response_up_and_down_has_a_line_for_each_way():
     assert_array_equal(ax.lines[2].get_xdata(), [3, 4, 5])
 
 
+def test_samples_have_axes_only_where_they_are_crossed_with_some():
+    rows = flapwing.sweep(
+        {
+            "preset": "ozaki2018-large",
+            "sample": {"method": "sobol", "n": 4, "parameters": {"hinge_stiffness": {"from": 6e-5, "to": 1e-4}}},
+            "axes": {"drive_frequency": HERTZ},
+        }
+    )
+    ax = drawn(plot.response(rows, "lift_mean_mn"))
+    assert len(ax.lines) == 4
+    assert_array_equal(ax.lines[0].get_xdata(), HERTZ)
+    text = message(ValueError, plot.response, rows, "lift_mean_mn", x="hinge_stiffness")
+    assert "`hinge_stiffness` is sampled" in text and "plot.pareto" in text
+    assert "is sampled" in message(ValueError, plot.heatmap, rows, "lift_mean_mn")
+
+
 def test_frames_of_polars_and_files_in_parquet_are_drawn(sweep, tmp_path):
     path = tmp_path / "rows.parquet"
     written = flapwing.sweep(sweep.meta["grid"], out=path)

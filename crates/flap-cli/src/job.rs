@@ -26,7 +26,7 @@ use crate::progress::Bar;
 
 /// Runs `plan`, writes its rows to `out`, and tells what it came to. `origin` says where the points of a rerun come from.
 pub(crate) fn run(
-    plan: Plan,
+    plan: &Plan,
     out: PathBuf,
     begin: Begin,
     work: &WorkArgs,
@@ -37,7 +37,7 @@ pub(crate) fn run(
         options.threads = threads;
     }
     if out.as_os_str() == "-" {
-        let done = job::to_stream(&plan, io::stdout(), &options, &mut run_with_progress)?;
+        let done = job::to_stream(plan, io::stdout(), &options, &mut run_with_progress)?;
         return Ok(ended(&done, work));
     }
     let options = SessionOptions { run: options, checkpoint: work.checkpoint };

@@ -5,7 +5,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::grid::{self, Grid};
+use crate::grid::Grid;
 use crate::watch::Watch;
 use crate::{error, sweep};
 
@@ -19,7 +19,7 @@ pub(crate) fn part<'py>(
     end: u64,
     threads: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyBytes>> {
-    let plan = grid::plan(grid.as_any())?;
+    let plan = &grid.get().plan;
     let options = sweep::options(threads)?;
     if begin >= end || end > plan.selected() {
         let message = format!("there are no points {begin} to {end}: the grid has {}", plan.selected());
@@ -29,7 +29,7 @@ pub(crate) fn part<'py>(
     let stop = std::sync::Arc::clone(&watch.stop);
     let ran = py.detach(|| {
         let mut look = |progress: run::Progress| watch.look(progress.finished, progress.points);
-        run::part(&plan, &options, begin..end, &stop, &mut look)?.to_bytes()
+        run::part(plan, &options, begin..end, &stop, &mut look)?.to_bytes()
     });
     watch.ended()?;
     Ok(PyBytes::new(py, &ran.map_err(|error| error::run(&error))?))

@@ -51,6 +51,28 @@ pub(crate) struct Diagnostic {
 
 #[pymethods]
 impl Diagnostic {
+    #[new]
+    #[pyo3(signature = (file, line, column, start, end, message, notes, help, /))]
+    #[expect(clippy::too_many_arguments, reason = "one per attribute")]
+    fn new(
+        file: String,
+        line: usize,
+        column: usize,
+        start: usize,
+        end: usize,
+        message: String,
+        notes: Vec<String>,
+        help: Vec<String>,
+    ) -> Diagnostic {
+        Diagnostic { file, line, column, start, end, message, notes, help }
+    }
+
+    /// What it is pickled as: errors travel between the processes of a cluster.
+    fn __getnewargs__(&self) -> (&str, usize, usize, usize, usize, &str, Vec<String>, Vec<String>) {
+        let Diagnostic { file, line, column, start, end, message, notes, help } = self;
+        (file, *line, *column, *start, *end, message, notes.clone(), help.clone())
+    }
+
     fn __repr__(&self) -> String {
         format!("{}:{}:{}: {}", self.file, self.line, self.column, self.message)
     }

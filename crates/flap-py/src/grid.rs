@@ -88,9 +88,23 @@ impl Grid {
         format!("<flapwing.Grid of {} points of {}{along}>", self.plan.len(), self.plan.preset)
     }
 
-    /// The text of a grid always has a `=`, which tells it from a path.
-    fn __getnewargs__(&self) -> (&str,) {
-        (&self.plan.source.text,)
+    /// The grid of a text that was read from the file `name`.
+    #[staticmethod]
+    #[pyo3(signature = (name, text, /))]
+    fn _named(py: Python<'_>, name: &str, text: &str) -> PyResult<Grid> {
+        Ok(Grid { plan: parse(py, name, text)? })
+    }
+
+    /// What it is pickled as.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, String))> {
+        let source = &slf.get().plan.source;
+        Ok((slf.get_type().getattr("_named")?, (source.name.clone(), source.text.clone())))
+    }
+
+    /// The path of the grid file, or ``"<grid>"``. Files that the grid names are in its folder.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.plan.source.name
     }
 
     /// The text of the grid file.

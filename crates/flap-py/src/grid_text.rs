@@ -9,21 +9,21 @@ use toml::Value;
 
 /// The text of a grid file that says what `grid` says.
 pub(crate) fn write(grid: &Bound<'_, PyDict>) -> PyResult<String> {
-    let mut head = String::new();
-    let mut tables = String::new();
+    let (mut head, mut tables) = (Vec::new(), Vec::new());
     for (key, value) in grid {
         let name = name(&key)?;
         if let Ok(table) = value.cast::<PyDict>() {
-            tables += &format!("\n[{name}]\n{}", lines(table, &name)?);
+            tables.push(format!("\n[{name}]\n{}", lines(table, &name)?));
         } else if let Some(blocks) = dictionaries(&value) {
             for block in blocks {
-                tables += &format!("\n[[{name}]]\n{}", lines(&block, &name)?);
+                tables.push(format!("\n[[{name}]]\n{}", lines(&block, &name)?));
             }
         } else {
-            head += &format!("{name} = {}\n", inline(&value, &name)?);
+            head.push(format!("{name} = {}\n", inline(&value, &name)?));
         }
     }
-    Ok(head + &tables)
+    head.append(&mut tables);
+    Ok(head.concat())
 }
 
 /// The dictionaries of a list, if it is a list of nothing else.
@@ -36,12 +36,11 @@ fn dictionaries<'py>(value: &Bound<'py, PyAny>) -> Option<Vec<Bound<'py, PyDict>
 }
 
 fn lines(table: &Bound<'_, PyDict>, place: &str) -> PyResult<String> {
-    let mut lines = String::new();
-    for (key, value) in table {
+    let lines = table.iter().map(|(key, value)| {
         let name = name(&key)?;
-        lines += &format!("{name} = {}\n", inline(&value, &format!("{place}.{name}"))?);
-    }
-    Ok(lines)
+        Ok(format!("{name} = {}\n", inline(&value, &format!("{place}.{name}"))?))
+    });
+    lines.collect()
 }
 
 fn name(key: &Bound<'_, PyAny>) -> PyResult<String> {

@@ -20,6 +20,7 @@ use crate::{error, grid, sweep};
 /// Reads a result file; see `flapwing.read`.
 #[pyfunction]
 #[pyo3(signature = (path, /))]
+#[expect(clippy::needless_pass_by_value, reason = "a path out of Python is an owned one")]
 pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
     let format = Format::of(&path).map_err(|error| PyValueError::new_err(error.to_string()))?;
     let (columns, recorded) = py.detach(|| read_columns(&path, format))?;

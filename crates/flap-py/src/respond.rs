@@ -1,5 +1,6 @@
 //! Responses up and down.
 
+use flap_core::parameter::Kind;
 use flap_sweep::layout::Column;
 use flap_sweep::response::{self, Along, AlongError, Motions, Verdict};
 use flap_sweep::run::RunError;
@@ -39,8 +40,12 @@ pub(crate) fn respond<'py>(
     }
     let index = parameters::index(plan.simulator, along)?;
     let parameter = &plan.parameters()[index];
-    let number = |value: Option<&Bound<'py, PyAny>>| {
-        value.map(|value| parameters::value_of(parameter, value)).transpose()
+    let number = |value: Option<&Bound<'py, PyAny>>| match parameter.kind {
+        // It is refused below.
+        Kind::Choice(_) => Ok(None),
+        Kind::Number(_) | Kind::Following(..) => {
+            value.map(|value| parameters::value_of(parameter, value)).transpose()
+        }
     };
     let steps = match [number(start)?, number(stop)?, number(step)?] {
         [Some(start), Some(stop), Some(step)] => Some([start, stop, step]),

@@ -39,9 +39,10 @@ pub(crate) fn sweep<'py>(
     overwrite: bool,
     threads: Option<&Bound<'py, PyAny>>,
     progress: Option<Py<PyAny>>,
-    parcels: Option<Py<PyAny>>,
+    parcels: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let plan = grid::plan(grid.as_any())?;
+    let parcels = parcels.map(Bound::unbind);
+    let plan = &grid.get().plan;
     let options = options(threads)?;
     let begin = match (resume, overwrite) {
         (true, true) => {
@@ -55,7 +56,7 @@ pub(crate) fn sweep<'py>(
         None if begin != Begin::New => {
             Err(PyValueError::new_err("resume and overwrite are about a file of results: give out"))
         }
-        None => into_columns(py, &plan, &options, progress, parcels.as_ref()),
+        None => into_columns(py, plan, &options, progress, parcels.as_ref()),
         Some(out) => {
             let options = SessionOptions { run: options, checkpoint: CHECKPOINT };
             let job = Job { plan, out, begin, options, origin: None };
@@ -98,7 +99,7 @@ pub(crate) fn into_columns<'py>(
 /// Runs a job, and gives its `summary`: of the rows of earlier runs too, and `None` if nothing was left to run.
 fn into_file<'py>(
     py: Python<'py>,
-    job: &Job,
+    job: &Job<'_>,
     progress: Option<Py<PyAny>>,
     parcels: Option<&Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {

@@ -23,9 +23,9 @@ use crate::sink::Sink;
 use crate::time;
 
 /// What is to be run, and where its rows go.
-pub struct Job {
+pub struct Job<'a> {
     /// The points.
-    pub plan: Plan,
+    pub plan: &'a Plan,
     /// The result file.
     pub out: PathBuf,
     /// What becomes of results that are there already.
@@ -132,7 +132,7 @@ impl JobError {
 ///
 /// # Errors
 /// [`JobError`]; rows that were written are kept, with what it takes to resume.
-pub fn run(job: &Job, engine: Engine<'_>, tell: &mut dyn FnMut(Before)) -> Result<Outcome, JobError> {
+pub fn run(job: &Job<'_>, engine: Engine<'_>, tell: &mut dyn FnMut(Before)) -> Result<Outcome, JobError> {
     match job.begin {
         Begin::Resume => job.resume(engine, tell),
         Begin::New | Begin::Overwrite => job.start(engine).map(Outcome::Ran),
@@ -156,13 +156,13 @@ pub fn to_stream(
     Ok(Done { summary, rows_before: 0, seconds: start.elapsed().as_secs_f64(), place: None })
 }
 
-impl Job {
+impl Job<'_> {
     fn start(&self, engine: Engine<'_>) -> Result<Done, JobError> {
         let format = Format::of(&self.out)?;
         let file = output::create(&self.out, self.begin == Begin::Overwrite)?;
         // Devices and pipes have nothing beside them, and nothing to resume.
         if !file.metadata().is_ok_and(|metadata| metadata.is_file()) {
-            let done = to_stream(&self.plan, file, &self.options.run, engine)?;
+            let done = to_stream(self.plan, file, &self.options.run, engine)?;
             return Ok(Done { place: Some(self.out.clone()), ..done });
         }
         let started = time::now();
@@ -174,12 +174,12 @@ impl Job {
     }
 
     fn session(&self, file: File, format: Format, started: String) -> Result<Session, JobError> {
-        Session::start(file, (&self.out, format), &self.plan, &self.options, started)
+        Session::start(file, (&self.out, format), self.plan, &self.options, started)
             .map_err(|error| JobError::write(&self.out, error, false))
     }
 
     fn resume(&self, engine: Engine<'_>, tell: &mut dyn FnMut(Before)) -> Result<Outcome, JobError> {
-        let resumed = match Session::resume(&self.out, &self.plan, &self.options) {
+        let resumed = match Session::resume(&self.out, self.plan, &self.options) {
             Ok(resumed) => resumed,
             Err(ResumeError::NoJournal { .. }) if is_empty(&self.out) => {
                 return self.start(engine).map(Outcome::Ran);
@@ -200,7 +200,7 @@ impl Job {
         let Some(sidecar) = sidecar.ok().filter(|sidecar| sidecar.state == State::Complete) else {
             return Err(self.cannot_resume(error));
         };
-        let own = Identity::of(&self.plan, &self.options.run);
+        let own = Identity::of(self.plan, &self.options.run);
         let changes = Identity::recorded(&sidecar).differences(&own);
         if !changes.is_empty() {
             return Err(self.cannot_resume(ResumeError::Changed { path: self.out.clone(), changes }));
@@ -218,7 +218,7 @@ impl Job {
     }
 
     fn sidecar(&self, started: String) -> Sidecar {
-        Sidecar::new(&self.plan, Start { started, options: self.options.run, rerun: self.origin.clone() })
+        Sidecar::new(self.plan, Start { started, options: self.options.run, rerun: self.origin.clone() })
     }
 
     fn write_sidecar(&self, sidecar: &Sidecar, resumable: bool) -> Result<(), JobError> {
@@ -235,7 +235,7 @@ impl Job {
     ) -> Result<Done, JobError> {
         let start = Instant::now();
         let rows_before = before.rows;
-        let outcome = engine(&self.plan, &self.options.run, before, &mut session);
+        let outcome = engine(self.plan, &self.options.run, before, &mut session);
         let outcome = outcome.and_then(|summary| match session.close(&summary) {
             Ok(()) => Ok(summary),
             Err(error) => Err(RunError::Sink(error)),

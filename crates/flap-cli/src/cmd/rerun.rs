@@ -34,5 +34,5 @@ pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
         let failure = Failure::usage(format!("rows would overwrite {of}, whose points are run again"));
         return Err(failure.help("name another file with --out"));
     }
-    job::run(plan, args.out.clone(), begin, &args.work, origin)
+    job::run(&plan, args.out.clone(), begin, &args.work, origin)
 }

@@ -7,5 +7,5 @@ use crate::job::{self, Begin};
 pub(crate) fn run(args: &ResumeArgs) -> Result<Exit, Failure> {
     let (plan, sidecar) = job::recorded(&args.results)?;
     let origin = sidecar.origin();
-    job::run(plan, args.results.clone(), Begin::Resume, &args.work, origin)
+    job::run(&plan, args.results.clone(), Begin::Resume, &args.work, origin)
 }

@@ -32,7 +32,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
         (false, true) => Begin::Overwrite,
         (false, false) => Begin::New,
     };
-    job::run(plan, out, begin, &args.work, origin)
+    job::run(&plan, out, begin, &args.work, origin)
 }
 
 /// The plan, and where its points come from if it is that of a rerun.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections import deque
 from typing import TYPE_CHECKING, Any, Deque, Optional, SupportsIndex, Tuple
 
@@ -19,9 +20,9 @@ TASKS_PER_THREAD = 4
 RETRIES = 5
 
 
-def part(grid: str, begin: int, end: int, threads: Optional[SupportsIndex]) -> bytes:
+def part(name: str, text: str, begin: int, end: int, threads: Optional[SupportsIndex]) -> bytes:
     """What a worker runs."""
-    return _flapwing.part(Grid(grid), begin, end, threads=threads)
+    return _flapwing.part(Grid._named(name, text), begin, end, threads=threads)
 
 
 class Parcels:
@@ -29,7 +30,8 @@ class Parcels:
 
     def __init__(self, grid: Grid, client: Client, threads: Optional[SupportsIndex]) -> None:
         self._client = client
-        self._text = grid.text
+        # Workers look for files that the grid names where this process does.
+        self._grid = (os.path.abspath(grid.name), grid.text)
         self._points = len(grid)
         self._threads = 1 if threads is None else threads
         self._under_way: Deque[Tuple[int, Future[Any]]] = deque()
@@ -54,7 +56,7 @@ class Parcels:
         while self._submitted < self._points and len(self._under_way) < self._ahead:
             end = min(self._points, self._submitted + self._size)
             future = self._client.submit(
-                part, self._text, self._submitted, end, self._threads, pure=False, retries=RETRIES
+                part, *self._grid, self._submitted, end, self._threads, pure=False, retries=RETRIES
             )
             self._under_way.append((self._submitted, future))
             self._submitted = end

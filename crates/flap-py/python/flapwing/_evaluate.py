@@ -93,6 +93,9 @@ def evaluate(
 
 def _column(name: str, values: Any) -> Union[np.ndarray[Any, Any], List[Any]]:
     """An array of float64, or a list of whatever else there is."""
+    if isinstance(values, (list, tuple)) and any(isinstance(value, str) for value in values):
+        # NumPy would make text of the numbers among them.
+        return list(values)
     array = np.asarray(values)
     if array.ndim != 1:
         raise ValueError(f"`{name}` must be one value or have one dimension, not {array.ndim}")

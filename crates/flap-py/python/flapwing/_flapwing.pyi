@@ -49,6 +49,19 @@ class Diagnostic:
         What is allowed, and what to do.
     """
 
+    def __new__(
+        cls,
+        file: str,
+        line: int,
+        column: int,
+        start: int,
+        end: int,
+        message: str,
+        notes: list[str],
+        help: list[str],
+        /,
+    ) -> Diagnostic: ...
+    def __getnewargs__(self) -> tuple[str, int, int, int, int, str, list[str], list[str]]: ...
     @property
     def file(self) -> str: ...
     @property
@@ -98,7 +111,15 @@ class Grid:
     def __getitem__(self, key: SupportsIndex, /) -> dict[str, float | str]: ...
     @overload
     def __getitem__(self, key: slice, /) -> list[dict[str, float | str]]: ...
-    def __getnewargs__(self) -> tuple[str]: ...
+    @staticmethod
+    def _named(name: str, text: str, /) -> Grid:
+        """The grid of a text that was read from the file `name`."""
+
+    def __reduce__(self) -> tuple[Any, tuple[str, str]]: ...
+    @property
+    def name(self) -> str:
+        """The path of the grid file, or ``"<grid>"``. Files that the grid names are in its folder."""
+
     @property
     def text(self) -> str:
         """The text of the grid file."""

@@ -124,6 +124,10 @@ class Data:
         """A parameter's values: if it has an axis of its own, those without a row in this slice of `whole` too."""
         return distinct((whole if [name] in self.dims else self)[name])
 
+    def on_a_grid(self, name: str) -> bool:
+        """Whether a parameter has an axis; those of a ``[sample]`` are scattered."""
+        return not any(name in dim for dim in self.dims if dim[0] not in self.columns)
+
     def groups(self, names: Sequence[str]) -> np.ndarray:
         """A number per row, equal for rows that agree in all of these columns."""
         numbers = np.zeros(len(self), dtype=np.int64)
@@ -225,6 +229,11 @@ def distinct(column: np.ndarray) -> np.ndarray:
         return words[np.sort(first)]
     values = np.unique(column)
     return values[~np.isnan(values)] if values.dtype.kind == "f" else values
+
+
+def scattered(name: str) -> ValueError:
+    """What to raise if a parameter without an axis is to be one."""
+    return ValueError(f"`{name}` is sampled, so that its values are not on an axis; plot.pareto draws such designs")
 
 
 def listed(values: Sequence[Any] | np.ndarray) -> str:

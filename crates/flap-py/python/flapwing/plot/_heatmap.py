@@ -11,7 +11,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.patches import Patch
 
 from . import _style
-from ._data import Data, Shown, distinct
+from ._data import Data, Shown, distinct, scattered
 
 # Statuses without measures, and the greys of their cells.
 _GREYS = {
@@ -90,6 +90,9 @@ def heatmap(
     data = whole.slice(where, slices)
     data.numbers(value)
     x, y = _two_axes(data, x, y)
+    for name in (x, y):
+        if not data.on_a_grid(name):
+            raise scattered(name)
     data.one_row_for([x, y])
 
     shown, across, up = data.shown(value), _Axis(data, whole, x, xscale), _Axis(data, whole, y, yscale)

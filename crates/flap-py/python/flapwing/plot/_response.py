@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from . import _style
-from ._data import Data, Shown, distinct, unknown
+from ._data import Data, Shown, distinct, scattered, unknown
 
 # What is drawn if nothing is said: the first of these that there is.
 _USUAL = ("stroke_pp_deg", "stroke_amplitude_deg", "lift_mean_mn", "lift_mean_gf", "vehicle_lift_mgf")
@@ -84,6 +84,8 @@ def response(
         data.numbers(name)
     x = _along(data, by) if x is None else x
     by = _family(data, x) if by is None else by
+    if not data.on_a_grid(x):
+        raise scattered(x)
     data.numbers(x)
     if by is not None:
         data[by]
@@ -224,8 +226,9 @@ def _along(data: Data, by: str | None) -> str:
     axes = [name for name in data.axes() if by is None or name != data.axis(by)]
     if "drive_frequency" in data and ("drive_frequency" in axes or not axes):
         return "drive_frequency"
-    if axes:
-        return axes[-1]
+    numbers = [name for name in axes if not data.shown(name).text]
+    if numbers:
+        return next((name for name in reversed(numbers) if data.on_a_grid(name)), numbers[0])
     raise ValueError(unknown("parameter for", "x", data.columns))
 
 

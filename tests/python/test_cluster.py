@@ -1,0 +1,99 @@
+"""Sweeps on the workers of a Dask cluster."""
+
+import os
+import signal
+import threading
+
+import flapwing
+import numpy as np
+import pytest
+from conftest import GRID
+
+distributed = pytest.importorskip("distributed")
+
+#: Some seconds of work for two workers.
+LONG = 'preset = "ozaki2018-large"\n[axes]\ndrive_voltage_pp = [60, 80]\ndrive_frequency = { from = 95, to = 120, n = 4000 }\n'
+
+
+@pytest.fixture(scope="module")
+def client():
+    """Two worker processes on this machine."""
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0", host="127.0.0.1"
+    ) as cluster, distributed.Client(cluster) as client:
+        yield client
+
+
+def test_rows_are_those_of_one_machine(client):
+    whole, local = flapwing.sweep(GRID, client=client), flapwing.sweep(GRID)
+    assert whole.columns == local.columns and whole.meta == local.meta
+    for column in local.columns:
+        np.testing.assert_array_equal(whole[column], local[column], strict=True)
+
+
+def test_a_killed_worker_changes_nothing(client, tmp_path):
+    killed = []
+
+    def kill(done, points):
+        # Once the first rows are here, one worker dies with rows in its hands.
+        if done > 0 and not killed:
+            victim = next(iter(client.run(os.getpid).values()))
+            killed.append(victim)
+            os.kill(victim, signal.SIGKILL)
+
+    out = tmp_path / "cluster.csv"
+    table = flapwing.sweep(LONG, client=client, out=out, progress=kill)
+    assert killed and len(table) == 8000
+    flapwing.sweep(LONG, out=tmp_path / "local.csv")
+    assert out.read_bytes() == (tmp_path / "local.csv").read_bytes()
+    # Another process took its place.
+    client.wait_for_workers(2)
+    assert killed[0] not in client.run(os.getpid).values()
+
+
+def test_an_interrupted_run_goes_on(client, tmp_path):
+    class Enough(Exception):
+        pass
+
+    def stop(done, points):
+        if done > 1000:
+            raise Enough
+
+    out = tmp_path / "rows.parquet"
+    with pytest.raises(Enough):
+        flapwing.sweep(LONG, client=client, out=out, progress=stop)
+    flapwing.sweep(LONG, client=client, out=out, resume=True)
+    flapwing.sweep(LONG, out=tmp_path / "local.parquet")
+    assert out.read_bytes() == (tmp_path / "local.parquet").read_bytes()
+
+
+def test_two_sweeps_share_a_cluster(client):
+    tables = []
+    threads = [threading.Thread(target=lambda: tables.append(flapwing.sweep(GRID, client=client))) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert [len(table) for table in tables] == [24, 24]
+
+
+def test_files_of_the_grid_are_found(client, tmp_path):
+    (tmp_path / "points.csv").write_text("drive_frequency\n100\n105\n")
+    path = tmp_path / "grid.toml"
+    path.write_text('preset = "ozaki2018-large"\n[sample]\nmethod = "file"\npath = "points.csv"\n')
+    assert flapwing.sweep(path, client=client)["drive_frequency"].tolist() == [100, 105]
+
+
+def test_what_a_worker_says_arrives(client, tmp_path):
+    points = tmp_path / "points.csv"
+    points.write_text("drive_frequency\n100\n105\n")
+    path = tmp_path / "grid.toml"
+    path.write_text('preset = "ozaki2018-large"\n[sample]\nmethod = "file"\npath = "points.csv"\n')
+    grid = flapwing.Grid(path)
+    points.write_text("drive_frequency\n100\n106\n")
+    with pytest.raises(RuntimeError, match="rows from elsewhere do not fit: the file of points is another"):
+        flapwing.sweep(grid, client=client)
+    points.unlink()
+    with pytest.raises(flapwing.GridError, match="points.csv") as caught:
+        flapwing.sweep(grid, client=client)
+    assert caught.value.diagnostics[0].line == 4

@@ -1,0 +1,48 @@
+"""What docstrings and pages show is what happens."""
+
+import doctest
+import importlib
+import pkgutil
+import re
+from pathlib import Path
+
+import flapwing
+import pytest
+
+REPOSITORY = Path(__file__).parents[2]
+
+
+@pytest.mark.parametrize("name", [module.name for module in pkgutil.iter_modules(flapwing.__path__)])
+def test_docstrings(name):
+    if name == "plot":
+        pytest.importorskip("matplotlib")
+    module = importlib.import_module(f"flapwing.{name}")
+    failed, _ = doctest.testmod(module, extraglobs={"flapwing": flapwing}, optionflags=doctest.NORMALIZE_WHITESPACE)
+    assert failed == 0
+
+
+def test_docstrings_have_examples():
+    for function in [flapwing.sweep, flapwing.evaluate, flapwing.respond, flapwing.trajectory, flapwing.params]:
+        assert ">>> " in function.__doc__
+
+
+def test_public_functions_say_what_they_take_give_and_raise():
+    for name in flapwing.__all__:
+        thing = getattr(flapwing, name)
+        assert name == "__version__" or thing.__doc__
+        if callable(thing) and not isinstance(thing, type) and name != "presets":
+            for heading in ["Parameters\n", "Returns\n", "Raises\n"]:
+                assert heading in thing.__doc__, (name, heading)
+
+
+def test_python_in_the_pages_runs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "examples").mkdir()
+    for example in (REPOSITORY / "examples").glob("*.toml"):
+        (tmp_path / "examples" / example.name).write_bytes(example.read_bytes())
+    page = (REPOSITORY / "docs/python.md").read_text(encoding="utf-8")
+    names = {}
+    blocks = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+    assert len(blocks) >= 6
+    for block in blocks:
+        exec(compile(block, "docs/python.md", "exec"), names)

@@ -1,0 +1,126 @@
+"""Batches of points."""
+
+import flapwing
+import numpy as np
+import pandas
+import pytest
+
+PRESET = "ozaki2018-large"
+FREQUENCIES = np.linspace(95, 120, 21)
+
+
+def test_rows_are_those_of_single_runs_bit_for_bit():
+    stiffness = np.linspace(8e-5, 1.2e-4, 21)
+    table = flapwing.evaluate(PRESET, {"drive_frequency": FREQUENCIES, "hinge_stiffness": stiffness}, rtol=1e-5)
+    assert table["point"].tolist() == list(range(21))
+    for row, (frequency, spring) in enumerate(zip(FREQUENCIES, stiffness)):
+        alone = flapwing.run(PRESET, drive_frequency=frequency, hinge_stiffness=spring, rtol=1e-5)
+        for name, value in alone.items():
+            if name != "reason":
+                assert table[name][row] == value, name
+
+
+def test_a_row_does_not_depend_on_its_neighbours():
+    whole = flapwing.evaluate(PRESET, {"drive_frequency": FREQUENCIES})
+    backwards = flapwing.evaluate(PRESET, {"drive_frequency": FREQUENCIES[::-1]}, threads=1)
+    np.testing.assert_array_equal(whole["lift_mean_mn"], backwards["lift_mean_mn"][::-1])
+
+
+@pytest.mark.parametrize(
+    "columns",
+    [
+        {"drive_frequency": [100, 105], "drive_voltage_pp": 80},
+        {"drive_frequency": np.array([100, 105], dtype=np.int32), "drive_voltage_pp": np.float32(80)},
+        {"drive_voltage_pp": "80 V", "drive_frequency": ["100 Hz", "0.105 kHz"]},
+        pandas.DataFrame({"drive_frequency": [100.0, 105.0], "drive_voltage_pp": [80.0, 80.0]}),
+        {"drive_frequency": pandas.Series([100, 105], index=[7, 8]), "drive_voltage_pp": (80.0, "80 V")},
+        flapwing.sweep({"preset": PRESET, "axes": {"drive_voltage_pp": [80], "drive_frequency": [100, 105]}}).to_pandas()[
+            ["drive_voltage_pp", "drive_frequency"]
+        ],
+    ],
+)
+def test_columns_come_in_many_shapes(columns):
+    expected = flapwing.evaluate(PRESET, {"drive_frequency": [100.0, 105.0]}, drive_voltage_pp=80)
+    table = flapwing.evaluate(PRESET, columns)
+    np.testing.assert_array_equal(table["lift_mean_mn"], expected["lift_mean_mn"])
+
+
+def test_options_and_constants():
+    table = flapwing.evaluate(PRESET, {"lift_sign": ["corrected", "printed"]}, drive_frequency="105 Hz")
+    assert table["lift_sign"].tolist() == ["corrected", "printed"]
+    assert table["lift_mean_mn"][0] != table["lift_mean_mn"][1]
+    assert len(flapwing.evaluate(PRESET, {"lift_sign": "printed", "drive_frequency": 105})) == 1
+    assert len(flapwing.evaluate(PRESET, {"drive_frequency": []})) == 0
+    assert table.meta["set"] == {"drive_frequency": "105 Hz"}
+
+
+def test_values_out_of_range_are_rows():
+    table = flapwing.evaluate(PRESET, {"drive_frequency": [105, -5, np.nan, np.inf, 0, 106]})
+    assert table["status"].tolist() == ["periodic", "invalid", "invalid", "invalid", "invalid", "periodic"]
+    assert np.isnan(table["lift_mean_mn"][1:5]).all()
+    reasons = dict(table.meta["invalid"])
+    assert reasons[1] == "`drive_frequency` comes out as -5.0 Hz, but must be more than zero"
+    assert reasons[2] == "`drive_frequency` comes out as not a number"
+
+
+def test_a_grid_without_axes_is_a_design():
+    grid = {
+        "preset": PRESET,
+        "derived": {"hinge_stiffness": "1e-6 * drive_frequency"},
+        "where": {"low": "drive_frequency < 110"},
+        "measure": {"double": "2 * lift_mean_mn"},
+    }
+    table = flapwing.evaluate(grid, {"drive_frequency": [100, 120, 105]})
+    assert table["point"].tolist() == [0, 2] and table.meta["excluded"] == 1
+    np.testing.assert_array_equal(table["hinge_stiffness"], 1e-6 * table["drive_frequency"])
+    np.testing.assert_array_equal(table["double"], 2 * table["lift_mean_mn"])
+
+
+def test_each_design_at_its_own_resonance():
+    grid = {"preset": "ozaki2018-small", "params": {"drive_frequency": "resonance"}, "resonance": {"from": 150, "to": 250}}
+    table = flapwing.evaluate(grid, {"drive_voltage_pp": [20.0, 30.0]})
+    assert ((table["resonance_hz"] > 180) & (table["resonance_hz"] < 210)).all()
+
+
+def test_a_model_needs_all_its_parameters():
+    with pytest.raises(ValueError, match="model `direct-drive` has no values of its own: give drive_voltage_pp, "):
+        flapwing.evaluate("direct-drive", {"drive_frequency": [100.0]})
+    values = {name: p.value for name, p in flapwing.params(PRESET).items() if p.value is not None}
+    table = flapwing.evaluate("direct-drive", {**values, "drive_frequency": FREQUENCIES})
+    expected = flapwing.evaluate(PRESET, {"drive_frequency": FREQUENCIES})
+    np.testing.assert_array_equal(table["lift_mean_mn"], expected["lift_mean_mn"])
+
+
+@pytest.mark.parametrize(
+    ("design", "columns", "error", "says"),
+    [
+        (PRESET, {"drive_frequenc": [1.0]}, ValueError, "did you mean `drive_frequency`?"),
+        ("ozaki2018-larg", {"drive_frequency": [1.0]}, ValueError, "did you mean `ozaki2018-large`?"),
+        (PRESET, {}, ValueError, "there are no columns"),
+        (PRESET, {"drive_frequency": [1.0, 2.0], "wing_length": [1.0]}, ValueError, "columns differ in length"),
+        (PRESET, {"drive_frequency": [[1.0]]}, ValueError, "one dimension, not 2"),
+        (PRESET, {"drive_frequency": ["100 V"]}, ValueError, "`drive_frequency`"),
+        (PRESET, {"lift_sign": ["prined"]}, ValueError, "did you mean `printed`?"),
+        (PRESET, {"lift_sign": [1.0]}, TypeError, "`lift_sign` must be one of"),
+        (PRESET, {"drive_frequency": [True]}, TypeError, "`drive_frequency` must be a number in Hz"),
+        (PRESET, {"drive_frequency": True}, TypeError, "`drive_frequency` must be a number"),
+        (PRESET, {"drive_frequency": [None]}, TypeError, "`drive_frequency` must be a number in Hz"),
+        ({"preset": PRESET, "axes": {"wing_length": [0.03]}}, {"drive_frequency": [1]}, ValueError, "varies wing_length itself"),
+        ({"preset": PRESET, "derived": {"wing_length": "0.03"}}, {"wing_length": [1]}, ValueError, "is derived in the grid"),
+    ],
+)
+def test_what_is_refused(design, columns, error, says):
+    with pytest.raises(error) as caught:
+        flapwing.evaluate(design, columns)
+    assert says in str(caught.value)
+
+
+def test_keywords_do_not_compete_with_the_grid():
+    with pytest.raises(ValueError, match="`wing_length` is set here, and the grid varies or derives it"):
+        flapwing.evaluate({"preset": PRESET, "derived": {"wing_length": "0.03"}}, {"drive_frequency": [1]}, wing_length=1)
+
+
+def test_progress_is_told():
+    told = []
+    flapwing.evaluate(PRESET, {"drive_frequency": FREQUENCIES}, progress=lambda done, points: told.append(points))
+    assert told and set(told) == {21}

@@ -1,0 +1,96 @@
+"""Responses, trajectories, resonances, and what there is to be set."""
+
+import csv
+
+import flapwing
+import numpy as np
+import pytest
+
+SOFT = {"hinge_stiffness": "0.7486 uN*m/rad", "drive_voltage_pp": "160 V"}
+
+
+def test_rows_are_those_of_the_command(flap, tmp_path):
+    options = [f"--set={name}={value}" for name, value in SOFT.items()]
+    out = tmp_path / "response.csv"
+    span = ["--from", "122 Hz", "--to", "130 Hz", "--step", "1 Hz", "--tolerance", "0.5", "--unstable"]
+    ended = flap("respond", "jafferis2016", *options, *span, "--out", out)
+    table = flapwing.respond(
+        "jafferis2016", start="122 Hz", stop=130, step="1 Hz", tolerance=0.5, unstable=True, threads=1, **SOFT
+    )
+    assert table.meta["verdicts"] == [ended.stdout.strip()]
+    assert "bistable from 124" in ended.stdout
+    assert table.meta["along"] == "drive_frequency"
+    assert set(table["branch"]) == {"up", "down", "unstable"}
+    with open(out, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert list(rows[0]) == table.columns
+    assert [row["branch"] for row in rows] == table["branch"].tolist()
+    for name in ["drive_frequency", "stroke_pp_deg", "floquet_max"]:
+        np.testing.assert_array_equal([float(row[name] or "nan") for row in rows], table[name])
+
+
+def test_designs_of_a_grid_have_a_curve_each():
+    grid = {
+        "preset": "ozaki2018-large",
+        "axes": {"drive_voltage_pp": [40, 60, 80], "drive_frequency": {"from": 100, "to": 120, "step": 10}},
+    }
+    table = flapwing.respond(grid)
+    assert table["curve"].tolist() == [0] * 6 + [1] * 6 + [2] * 6
+    assert len(table.meta["verdicts"]) == 3
+    other = flapwing.respond(grid, "drive_voltage_pp")
+    assert len(other.meta["verdicts"]) == 3 and other.meta["along"] == "drive_voltage_pp"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "keywords", "says"),
+    [
+        ((), {}, "how `drive_frequency` rises is not known"),
+        ((), {"start": 100, "stop": 120}, "start, stop and step go together"),
+        ((), {"start": 100, "stop": 90, "step": 1}, "no steps of 1"),
+        (("lift_sign",), {"start": 1, "stop": 2, "step": 1}, "is a choice"),
+        (("drive_frequenc",), {}, "did you mean `drive_frequency`?"),
+        ((), {"start": 100, "stop": 110, "step": 1, "drive_frequency": 3}, "is set here and followed"),
+        ((), {"start": 100, "stop": 110, "step": 1, "tolerance": 0}, "must be more than zero"),
+    ],
+)
+def test_what_cannot_be_followed(arguments, keywords, says):
+    with pytest.raises((ValueError, TypeError)) as caught:
+        flapwing.respond("ozaki2018-large", *arguments, **keywords)
+    assert says in str(caught.value)
+
+
+def test_trajectories():
+    settled = flapwing.trajectory("jafferis2016", cycles=2, samples=50)
+    assert len(settled) == 101
+    np.testing.assert_allclose(settled["stroke_deg"][0], settled["stroke_deg"][50], atol=1e-3)
+    at_rest = flapwing.trajectory("jafferis2016", cycles=1, samples=10, from_rest=True, drive_frequency="100 Hz")
+    assert at_rest["stroke_deg"][0] == 0 and at_rest["time_s"][-1] == pytest.approx(0.01)
+    with pytest.raises(ValueError, match="too many"):
+        flapwing.trajectory("jafferis2016", cycles=10_000, samples=10_000)
+    with pytest.raises(ValueError, match="`cycles` must be from 1"):
+        flapwing.trajectory("jafferis2016", cycles=0)
+    with pytest.raises(ValueError, match="did you mean `drive_frequency`"):
+        flapwing.trajectory("jafferis2016", drive_frequenc=3)
+
+
+def test_resonances(flap):
+    found = flapwing.resonance("ozaki2018-large")
+    printed = {row["resonance"]: row for row in csv.DictReader(flap("resonance", "ozaki2018-large", "--format", "csv").stdout.splitlines())}
+    assert found["driven"][0]["frequency_hz"] == float(printed["driven_1"]["frequency_hz"])
+    assert found["impulse_fit"]["decay_1_s"] == float(printed["impulse_fit"]["decay_1_s"])
+    assert found["linear_hz"]["mode_1"] == float(printed["mode_1"]["frequency_hz"])
+    assert found["stroke_spectrum_hz"][0] == float(printed["stroke_spectrum_1"]["frequency_hz"])
+    assert found["larger_at_hz"] is None and found["gaps"] == []
+    assert flapwing.resonance("ozaki2018-large", start=115, stop=130)["larger_at_hz"] == 115
+
+
+def test_parameters_and_measures():
+    table = flapwing.params("ozaki2018-large")
+    frequency = table["drive_frequency"]
+    assert (frequency.unit, frequency.symbol, frequency.allowed) == ("Hz", "f", "more than zero")
+    assert table["lift_sign"].value == "corrected" and table["lift_sign"].options == ("corrected", "printed")
+    assert flapwing.params("direct-drive")["drive_frequency"].value is None
+    assert set(flapwing.measures("bimorph")) == set(flapwing.measures("jafferis2016"))
+    for function in [flapwing.params, flapwing.measures]:
+        with pytest.raises(ValueError, match="did you mean `ozaki2018-large`"):
+            function("ozaki2018-larg")

@@ -1,0 +1,216 @@
+"""Sweeps: rows equal to the command's, in memory and in files."""
+
+import csv
+import math
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+
+import flapwing
+import numpy as np
+import pytest
+from conftest import GRID
+
+QUICK = 'preset = "ozaki2018-large"\n[axes]\ndrive_frequency = { from = 95, to = 120, n = 26 }\n'
+
+
+
+def assert_same_bits(table, path):
+    """Every cell of the table is the one in the file."""
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert len(table) == len(rows)
+    assert table.columns == list(rows[0])
+    frame = table.to_pandas()
+    for name in table.columns:
+        kind = table[name].dtype.kind
+        for cell, value in zip((row[name] for row in rows), frame[name]):
+            if kind == "f":
+                assert math.isnan(value) if cell == "" else float(cell).hex() == float(value).hex(), (name, cell)
+            elif kind == "b":
+                assert cell == ("" if value is None or value is frame[name].dtype.na_value else str(value).lower())
+            else:
+                assert cell == str(value)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        GRID,
+        'preset = "jafferis2016"\n[axes]\ndrive_frequency = { from = 60, to = 200, n = 15 }\n',
+        'preset = "arabagi2013-30hz"\n[sample]\nmethod = "sobol"\nn = 16\nseed = 3\n'
+        "[sample.parameters]\ndrive_frequency = { from = 20, to = 40 }\n[output]\ncolumns = ['lift_mean_mn', 'stroke_pp_deg']\n",
+        'preset = "ozaki2018-small"\n[params]\ndrive_frequency = "resonance"\n[resonance]\nfrom = 150\nto = 250\n'
+        "[axes]\ndrive_voltage_pp = [20, 30]\n",
+    ],
+)
+def test_rows_are_those_of_the_command_bit_for_bit(flap, tmp_path, text):
+    path = tmp_path / "grid.toml"
+    path.write_text(text, encoding="utf-8")
+    flap("sweep", "--grid", path, "--out", tmp_path / "rows.csv")
+    assert_same_bits(flapwing.sweep(path), tmp_path / "rows.csv")
+
+
+@pytest.mark.parametrize("name", ["rows.csv", "rows.csv.zst", "rows.parquet"])
+def test_files_are_those_of_the_command_byte_for_byte(flap, grid, tmp_path, name):
+    (tmp_path / "a").mkdir()
+    flap("sweep", "--grid", grid, "--out", tmp_path / "a" / name)
+    table = flapwing.sweep(grid, out=tmp_path / name, threads=1)
+    assert (tmp_path / name).read_bytes() == (tmp_path / "a" / name).read_bytes()
+    assert not (tmp_path / (name + ".journal")).exists()
+    assert "state = \"complete\"" in (tmp_path / (name + ".meta.toml")).read_text()
+    in_memory = flapwing.sweep(grid)
+    assert table.columns == in_memory.columns
+    for column in table.columns:
+        np.testing.assert_array_equal(table[column], in_memory[column], strict=True)
+    assert table.units == in_memory.units and table.docs == in_memory.docs
+    assert [list(dim) for dim in table.dims] == [list(dim) for dim in in_memory.dims]
+    assert table.meta["grid"] == in_memory.meta["grid"] == GRID
+    # A file of another one's rows is not overwritten unasked.
+    with pytest.raises(FileExistsError, match="overwrite=True"):
+        flapwing.sweep(grid, out=tmp_path / name)
+    flapwing.sweep(grid, out=tmp_path / name, overwrite=True)
+    # Nothing is left to run.
+    assert len(flapwing.sweep(grid, out=tmp_path / name, resume=True)) == len(table)
+
+
+def test_rows_do_not_depend_on_threads():
+    one, two = flapwing.sweep(GRID, threads=1), flapwing.sweep(GRID, threads=2)
+    for column in one.columns:
+        np.testing.assert_array_equal(one[column], two[column], strict=True)
+
+
+def test_meta_tells_what_the_rows_are():
+    table = flapwing.sweep(GRID)
+    meta = table.meta
+    assert (meta["flap"], meta["model"], meta["preset"]) == (flapwing.__version__, "direct-drive", "ozaki2018-large")
+    assert meta["solver"]["max_cycles"] == 24
+    assert meta["excluded"] == 4 and meta["unsatisfied"] == {"not_hundred": 4}
+    assert len(table) == 28 - 4
+    assert meta["counts"] == table.counts
+    # Points that fail are rows.
+    assert set(table.counts) >= {"periodic", "unsettled", "invalid"}
+    assert np.isnan(table["lift_mean_mn"][table["status"] == "unsettled"]).all()
+
+
+def test_where_grids_go_wrong():
+    with pytest.raises(flapwing.GridError):
+        flapwing.sweep({"preset": "ozaki"})
+    for arguments in [{"resume": True}, {"overwrite": True}]:
+        with pytest.raises(ValueError, match="give out"):
+            flapwing.sweep(QUICK, **arguments)
+    with pytest.raises(ValueError, match="choose one"):
+        flapwing.sweep(QUICK, out="x.csv", resume=True, overwrite=True)
+    with pytest.raises(ValueError, match="`threads` must be from 1"):
+        flapwing.sweep(QUICK, threads=0)
+    with pytest.raises(TypeError, match="`threads` must be a whole number, not str"):
+        flapwing.sweep(QUICK, threads="2")
+
+
+def test_where_files_go_wrong(tmp_path):
+    with pytest.raises(FileNotFoundError):
+        flapwing.sweep(QUICK, out=tmp_path / "no" / "rows.csv")
+    with pytest.raises(ValueError, match="written as .xlsx"):
+        flapwing.sweep(QUICK, out=tmp_path / "rows.xlsx")
+    (tmp_path / "other.csv").write_text("something else\n")
+    with pytest.raises(ValueError, match="not the result of an interrupted sweep"):
+        flapwing.sweep(QUICK, out=tmp_path / "other.csv", resume=True)
+    flapwing.sweep(QUICK, out=tmp_path / "rows.csv")
+    with pytest.raises(ValueError, match="the grid file is another; line 3 of the grid was"):
+        flapwing.sweep(QUICK.replace("26", "27"), out=tmp_path / "rows.csv", resume=True)
+
+
+def test_progress_is_told():
+    told = []
+    table = flapwing.sweep(QUICK, progress=lambda done, points: told.append((done, points)))
+    assert len(table) == 26
+    assert told and all(done <= points == 26 for done, points in told)
+    assert told == sorted(told)
+
+
+def test_a_bar_is_shown(capsys):
+    flapwing.sweep(QUICK, progress=True)
+    assert "points" in capsys.readouterr().err
+
+
+def test_an_exception_in_progress_ends_the_sweep(tmp_path):
+    def stop(done, points):
+        raise RuntimeError("enough")
+
+    big = QUICK.replace("n = 26", "n = 80000")
+    with pytest.raises(RuntimeError, match="enough"):
+        flapwing.sweep(big, progress=stop)
+    out = tmp_path / "rows.csv"
+    with pytest.raises(RuntimeError, match="enough"):
+        flapwing.sweep(big, out=out, progress=stop)
+    assert "state = \"interrupted\"" in (tmp_path / "rows.csv.meta.toml").read_text()
+
+
+def test_an_interrupted_sweep_goes_on_to_the_same_bytes(tmp_path):
+    calls = iter(range(3))
+
+    def stop(done, points):
+        if next(calls, None) is None:
+            raise RuntimeError("enough")
+
+    grid = QUICK.replace("n = 26", "n = 8000")
+    out = tmp_path / "rows.csv"
+    with pytest.raises(RuntimeError):
+        flapwing.sweep(grid, out=out, progress=stop)
+    with pytest.raises(FileExistsError, match="resume=True goes on"):
+        flapwing.sweep(grid, out=out)
+    assert len(flapwing.sweep(grid, out=out, resume=True)) == 8000
+    flapwing.sweep(grid, out=tmp_path / "whole.csv")
+    assert out.read_bytes() == (tmp_path / "whole.csv").read_bytes()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals")
+def test_ctrl_c_ends_a_sweep(tmp_path):
+    script = """
+    import sys, flapwing
+    print("begun", flush=True)
+    flapwing.sweep(sys.argv[1], out=sys.argv[2])
+    """
+    out = tmp_path / "rows.csv"
+    grid = QUICK.replace("n = 26", "n = 10000000")
+    process = subprocess.Popen(
+        [sys.executable, "-c", textwrap.dedent(script), grid, out], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+    process.stdout.readline()
+    while not out.exists() or out.stat().st_size < 10_000:
+        assert process.poll() is None
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert b"KeyboardInterrupt" in errors
+    assert process.returncode == -signal.SIGINT
+    assert "interrupted" in (tmp_path / "rows.csv.meta.toml").read_text()
+
+
+def test_other_threads_sweep_at_the_same_time():
+    expected = flapwing.sweep(QUICK)
+    tables = []
+    threads = [threading.Thread(target=lambda: tables.append(flapwing.sweep(QUICK, threads=2))) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(tables) == 8
+    for table in tables:
+        for column in table.columns:
+            np.testing.assert_array_equal(table[column], expected[column], strict=True)
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="fork")
+@pytest.mark.filterwarnings("ignore:.*multi-threaded, use of fork.*:DeprecationWarning")
+def test_a_forked_process_sweeps_too():
+    """As the workers of multiprocessing do, whose parent may have swept before."""
+    flapwing.sweep(QUICK, threads=2)
+    child = os.fork()
+    if child == 0:
+        os._exit(0 if len(flapwing.sweep(QUICK, threads=2)) == 26 else 1)
+    assert os.waitpid(child, 0)[1] == 0

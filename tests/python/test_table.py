@@ -1,0 +1,136 @@
+"""Tables: columns, and what they become elsewhere."""
+
+import flapwing
+import numpy as np
+import pandas
+import polars
+import pyarrow
+import pytest
+from conftest import GRID
+
+
+@pytest.fixture(scope="module")
+def table():
+    return flapwing.sweep(GRID)
+
+
+def test_columns_have_types_units_and_meanings(table):
+    kinds = {name: table[name].dtype.kind for name in table}
+    assert kinds["lift_mean_mn"] == "f" and kinds["cycles"] == "u" and kinds["stable"] == kinds["strong"] == "b"
+    assert kinds["status"] == kinds["lift_sign"] == "U"
+    assert table.units["lift_mean_mn"] == "mN" and table.units["drive_frequency"] == "Hz"
+    assert table.units["status"] == ""
+    assert table.docs["lift_mean_mn"] == flapwing.measures("direct-drive")["lift_mean_mn"][1]
+    assert all(table.docs.values())
+    assert table.keys() == table.columns == list(table)
+    assert "lift_mean_mn" in table and "lift" not in table
+    with pytest.raises(KeyError, match="there is no column 'lift'; there are point, "):
+        table["lift"]
+
+
+def test_numbers_are_not_copied(table):
+    lift = table["lift_mean_mn"]
+    assert np.shares_memory(lift, table["lift_mean_mn"])
+    assert lift.flags.c_contiguous
+    buffer = table.to_arrow().column("cycles").chunk(0).buffers()[1]
+    assert buffer.address == table["cycles"].ctypes.data
+    # In pandas too.
+    assert np.shares_memory(table.to_pandas()["rhs_evals"].to_numpy(), table["rhs_evals"])
+
+
+def test_rows_are_chosen_by_masks_slices_and_indices(table):
+    periodic = table[table["status"] == "periodic"]
+    assert periodic.counts == {"periodic": table.counts["periodic"]}
+    assert len(periodic) < len(table)
+    assert periodic.units == table.units
+    assert table[2:4]["point"].tolist() == table["point"][2:4].tolist()
+    assert table[[3, 1]]["point"].tolist() == table["point"][[3, 1]].tolist()
+    with pytest.raises(TypeError, match="one dimension"):
+        table[3]
+    with pytest.raises(IndexError):
+        table[np.ones(3, dtype=bool)]
+
+
+def test_a_table_is_not_made_by_hand():
+    with pytest.raises(TypeError, match="comes from sweep"):
+        flapwing.Table()
+
+
+def test_pandas(table):
+    frame = table.to_pandas()
+    assert list(frame) == table.columns and len(frame) == len(table)
+    assert isinstance(frame["status"].dtype, pandas.CategoricalDtype)
+    assert frame["strong"].dtype == "boolean"
+    assert frame["strong"].isna().tolist() == np.isnan(table["lift_mean_mn"]).tolist()
+    assert frame.attrs["units"]["lift_mean_mn"] == "mN"
+    assert frame.groupby("status", observed=True).size().to_dict() == table.counts
+    plain = pandas.DataFrame(dict(table))
+    np.testing.assert_array_equal(plain["lift_mean_mn"], table["lift_mean_mn"])
+
+
+def test_arrow_and_polars(table):
+    arrow = table.to_arrow()
+    assert arrow.schema.field("lift_mean_mn").metadata[b"unit"] == b"mN"
+    unknown = int(np.isnan(table["lift_mean_mn"]).sum())
+    assert unknown > 0
+    assert arrow["lift_mean_mn"].null_count == arrow["strong"].null_count == unknown
+    assert arrow["status"].to_pylist() == table["status"].tolist()
+    frame = table.to_polars()
+    assert frame["lift_mean_mn"].null_count() == unknown
+    assert frame["status"].to_list() == table["status"].tolist()
+    # Without naming either.
+    assert pyarrow.table(table).equals(arrow)
+    assert polars.DataFrame(table).equals(frame)
+
+
+def test_xarray_has_the_axes_of_the_grid(table):
+    data = table.to_xarray()
+    assert dict(data.sizes) == {"drive_voltage_pp": 2, "lift_sign": 2, "drive_frequency": 7}
+    lift = data["lift_mean_mn"]
+    assert lift.dims == ("drive_voltage_pp", "lift_sign", "drive_frequency")
+    assert lift.attrs == {"units": "mN", "long_name": table.docs["lift_mean_mn"]}
+    assert data["drive_frequency"].attrs["units"] == "Hz"
+    one = table[(table["drive_voltage_pp"] == 80) & (table["lift_sign"] == "printed") & (table["drive_frequency"] == 95)]
+    assert lift.sel(drive_voltage_pp=80, lift_sign="printed", drive_frequency=95).item() == one["lift_mean_mn"][0]
+    # Excluded points are holes.
+    assert np.isnan(lift.sel(drive_frequency=100)).all()
+    assert (data["status"].sel(drive_frequency=100) == "").all()
+    assert data.attrs["preset"] == "ozaki2018-large"
+
+
+def test_xarray_of_other_tables():
+    motion = flapwing.trajectory("ozaki2018-large", cycles=1, samples=10).to_xarray()
+    assert dict(motion.sizes) == {"row": 11} and motion["stroke_deg"].attrs == {"units": "deg"}
+    zipped = flapwing.sweep(
+        {"preset": "jafferis2016", "zip": [{"wing_area": [5e-5, 6e-5], "wing_length": [0.015, 0.016]}]}
+    ).to_xarray()
+    assert zipped["wing_length"].dims == ("wing_area",)
+    sampled = flapwing.sweep(
+        {"preset": "jafferis2016", "sample": {"method": "random", "n": 3, "seed": 1, "parameters": {"wing_area": {"from": 5e-5, "to": 6e-5}}}}
+    ).to_xarray()
+    assert sampled["wing_area"].dims == ("sample",) and sampled.sizes["sample"] == 3
+
+
+def test_a_table_shows_itself(table):
+    assert repr(table).startswith(f"<flapwing.Table of {len(table)} rows (")
+    html = table._repr_html_()
+    assert f"{len(table)} rows" in html and "<th>lift_mean_mn (mN)</th>" in html
+    assert html.count("<tr>") == 11
+
+
+def test_files_that_others_wrote_are_read(flap, tmp_path):
+    flap("run", "ozaki2018-large", "--trajectory", tmp_path / "motion.csv")
+    motion = flapwing.read(tmp_path / "motion.csv")
+    assert motion.units["stroke_deg"] == "deg" and motion.dims == [] and len(motion) > 100
+    same = flapwing.trajectory("ozaki2018-large", cycles=2, samples=200)
+    np.testing.assert_array_equal(same["stroke_rad"], motion["stroke_rad"])
+    text = "name,size,ok,all\na,1.5,true,1\nb,,,2\n"
+    (tmp_path / "table.csv").write_text(text)
+    table = flapwing.read(tmp_path / "table.csv")
+    assert [table[name].dtype.kind for name in table] == ["U", "f", "b", "u"]
+    assert table.to_pandas()["ok"].isna().tolist() == [False, True]
+    (tmp_path / "ragged.csv").write_text("a,b\n1,2\n3\n")
+    with pytest.raises((ValueError, OSError), match="ragged"):
+        flapwing.read(tmp_path / "ragged.csv")
+    with pytest.raises(FileNotFoundError, match="no.csv"):
+        flapwing.read(tmp_path / "no.csv")
