@@ -98,7 +98,7 @@ def hysteresis(
             )
             for i in jumps:
                 _arrow(ax, way.x[i], way.y[i], way.x[i + 1], way.y[i + 1], colour, "--")
-            _along_the_way(ax, way, colour, size, bands, jumps)
+            _along_the_way(ax, way, colour, bands, jumps)
         unstable = ways["unstable"]
         if unstable.x.size:
             ax.plot(
@@ -187,34 +187,20 @@ def _arrow(ax: Axes, x0: float, y0: float, x1: float, y1: float, colour: str, li
     )
 
 
-def _along_the_way(
-    ax: Axes, way: _Way, colour: str, size: float, bands: list[tuple[float, float]], jumps: list[int]
-) -> None:
+def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, float]], jumps: list[int]) -> None:
     """An arrowhead on the line: where the ways are apart, else after a third of the way."""
     count = len(way.x)
     if count < 3:
         return
+    place = count // 3
     if bands:
         low, high = max(bands, key=lambda band: band[1] - band[0])
-        places = [int(np.argmin(np.abs(way.x - 0.5 * (low + high))))]
-    else:
-        places = [count // 3]
-    for i in places:
-        i = min(max(i, 1), count - 2)
-        if np.isfinite(way.y[i - 1 : i + 2]).all() and not {i - 1, i} & set(jumps):
-            ax.annotate(
-                "",
-                xy=(way.x[i + 1], way.y[i + 1]),
-                xytext=(way.x[i - 1], way.y[i - 1]),
-                arrowprops={
-                    "arrowstyle": "-|>",
-                    "color": colour,
-                    "linewidth": 0,
-                    "mutation_scale": 20,
-                    "shrinkA": 0,
-                    "shrinkB": 0,
-                },
-            )
+        place = int(np.argmin(np.abs(way.x - 0.5 * (low + high))))
+    i = min(max(place, 1), count - 2)
+    if not np.isfinite(way.y[i - 1 : i + 2]).all() or {i - 1, i} & set(jumps):
+        return
+    head = {"arrowstyle": "-|>", "color": colour, "linewidth": 0, "mutation_scale": 20, "shrinkA": 0, "shrinkB": 0}
+    ax.annotate("", xy=(way.x[i + 1], way.y[i + 1]), xytext=(way.x[i - 1], way.y[i - 1]), arrowprops=head)
 
 
 def _mark(ax: Axes, data: Data, x: Shown, branches: np.ndarray) -> None:
