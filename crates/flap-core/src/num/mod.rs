@@ -19,6 +19,7 @@ mod real;
 mod unfused;
 mod vector;
 
+pub use fearless_simd::Simd;
 pub use instruction_set::{Arithmetic, InstructionSet, Kernel};
 pub use lanes::{Lanes, Scalar};
 pub use per_lane::PerLane;

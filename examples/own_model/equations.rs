@@ -1,0 +1,147 @@
+//! The equations of motion, and what is measured of them.
+//!
+//! A bimorph of Jafferis, Graule and Wood (2016) with constant stiffness and a sinusoidal force: Eqs. (1), (2), (8) to
+//! (11), numbers of Table I.
+
+use core::f64::consts::FRAC_1_PI;
+
+use flap_core::num::Lanes;
+use flap_core::ode::Ode;
+use flap_core::ode::dense::interpolate;
+use flap_core::ode::ensemble::Observer;
+use flap_core::ode::step::Attempt;
+use flap_core::ode::tableau::B;
+
+const TRANSMISSION: f64 = 3333.0; // T (rad/m)
+const MASS: f64 = (51.1 + 10.22) * 1e-12 * TRANSMISSION * TRANSMISSION; // at the tip (kg)
+const STIFFNESS: f64 = 395.0; // of the actuator (N/m)
+const INERTIA: f64 = 1.2255e-12; // I_xx (kg m²)
+const COUPLING: f64 = 0.812e-12; // I_xz (kg m²)
+const HINGE: f64 = 1.497e-6; // κ (N m/rad)
+const DRAG_MEAN: f64 = (4.25 + 0.156) / 2.0;
+const DRAG_SWING: f64 = (4.25 - 0.156) / 2.0;
+const LIFT: f64 = 1.8;
+/// ½ ρ A r₂² (R T)²: pressure on the wing per squared tip speed (kg/m).
+const PRESSURE: f64 = 0.5 * 1.2 * 54.59e-6 * 0.564 * 0.564 * (0.017 * TRANSMISSION) * (0.017 * TRANSMISSION);
+/// Drag at the tip per squared tip speed and drag coefficient (kg/m), Eq. (8).
+const TIP_DRAG: f64 = PRESSURE * 13.58e-3 * TRANSMISSION;
+/// Moment of the air on the hinge per squared tip speed, coefficient and arm (kg), Eq. (10).
+const MOMENT: f64 = PRESSURE * 54.59e-6 / 0.017;
+/// Damping of the hinge per squared rate (kg m²), Eq. (11).
+const HINGE_DRAG: f64 = 0.5 * 1.2 * 54.59e-6 * 0.753e-3 * 0.43 * 0.43 * 4.5e-3 * 4.5e-3 * 4.25;
+
+// What a point of the grid has of its own. The macro makes a struct of numbers `R`: one per SIMD lane.
+flap_core::per_lane! {
+    /// The drive.
+    pub struct Drive<R> {
+        /// Amplitude of the force over the mass (m/s²).
+        pub force: R,
+        /// Angular frequency (rad/s).
+        pub frequency: R,
+    }
+}
+
+impl Drive<f64> {
+    /// A force of this amplitude (N) and frequency (Hz).
+    pub(crate) fn new(force: f64, frequency: f64) -> Drive<f64> {
+        Drive { force: force / MASS, frequency: core::f64::consts::TAU * frequency }
+    }
+}
+
+/// The wing: tip of the actuator (m), its rate, hinge angle (rad), its rate.
+pub(crate) struct Wing;
+
+/// Typical sizes of the states.
+pub(crate) const SCALE: [f64; 4] = [1e-4, 0.1, 1.0, 1e3];
+
+impl Ode<4> for Wing {
+    type Constants<R: Lanes> = Drive<R>;
+    type Input<R: Lanes> = R;
+
+    #[inline(always)]
+    fn input<R: Lanes>(&self, c: &Drive<R>, t: R) -> R {
+        c.force * (c.frequency * t).sin()
+    }
+
+    #[inline(always)]
+    fn rhs<R: Lanes>(&self, _c: &Drive<R>, force: &R, _side: R, y: &[R; 4]) -> [R; 4] {
+        let [x, v, psi, w] = *y;
+        let (sin, cos) = psi.sin_cos();
+        let (sin_2psi, cos_2psi) = (sin * cos * 2.0, sin * sin * -2.0 + 1.0);
+        let speed = v * v.abs();
+        let drag = cos_2psi * DRAG_SWING + DRAG_MEAN;
+        let a = *force - x * (STIFFNESS / MASS) - drag * speed * (TIP_DRAG / MASS);
+        // The centre of pressure moves with the angle of attack.
+        let arm = (psi.abs() * (-2.0 * FRAC_1_PI) + 1.0).abs() * (0.151 - 0.132) + 0.132;
+        let air = arm * (drag * cos + sin_2psi * sin * LIFT) * speed * (MOMENT / INERTIA);
+        let swing =
+            (a * (COUPLING * TRANSMISSION) + v * v * sin * (INERTIA * TRANSMISSION * TRANSMISSION)) * cos;
+        let spring = psi * (HINGE / INERTIA) + w * w.abs() * (HINGE_DRAG / INERTIA);
+        [v, a, w, air + swing * (1.0 / INERTIA) - spring]
+    }
+}
+
+flap_core::per_lane! {
+    /// What is measured.
+    #[derive(Default)]
+    pub struct Sums<R> {
+        /// Largest |x| (m).
+        pub tip: R,
+        /// Largest |ψ| (rad).
+        pub psi: R,
+        /// ∫ lift dt (N s).
+        pub lift: R,
+    }
+}
+
+/// Measures peaks and lift.
+pub(crate) struct Measured;
+
+impl Observer<Wing, 4> for Measured {
+    type Totals<R: Lanes> = Sums<R>;
+
+    fn nothing(&self) -> Sums<f64> {
+        Sums { tip: 0.0, psi: 0.0, lift: 0.0 }
+    }
+
+    #[inline(always)]
+    fn add<R: Lanes>(
+        &self,
+        _ode: &Wing,
+        _c: &Drive<R>,
+        attempt: &Attempt<'_, R, 4>,
+        accepted: R::Mask,
+        sums: &mut Sums<R>,
+    ) {
+        let Attempt { h, step, .. } = *attempt;
+        // A quadrature with the stages of the step.
+        let mut lift = sums.lift;
+        for stage in [0, 2, 3, 4, 5] {
+            let [_, v, psi, _] = step.y[stage];
+            let (sin, cos) = psi.sin_cos();
+            lift = (v * v.abs() * sin * cos * (2.0 * LIFT * PRESSURE)).mul_add(h * B[stage], lift);
+        }
+        sums.lift = R::select(accepted, lift, sums.lift);
+        let tip = peak(attempt, accepted, 0, 1, sums.tip);
+        sums.tip = tip;
+        sums.psi = peak(attempt, accepted, 2, 3, sums.psi);
+    }
+}
+
+/// The larger of `so_far` and of what a state comes to where its rate changes sign within the step.
+#[inline(always)]
+fn peak<R: Lanes>(attempt: &Attempt<'_, R, 4>, accepted: R::Mask, state: usize, rate: usize, so_far: R) -> R {
+    let Attempt { h, step, .. } = *attempt;
+    let (begin, end) = (step.y[0][rate], step.y[6][rate]);
+    let turns = R::and(accepted, (begin * end).lt(h.lit(0.0)));
+    if R::bits(turns) == 0 {
+        return so_far;
+    }
+    // Where the rate is zero: the chord, then Newton's iteration with the chord's slope.
+    let slope = R::select(turns, end - begin, h.lit(1.0));
+    let mut at = -begin / slope;
+    for _ in 0..3 {
+        at = (at - interpolate(step, h, at)[rate] / slope).max(h.lit(0.0)).min(h.lit(1.0));
+    }
+    R::select(turns, interpolate(step, h, at)[state].abs().max(so_far), so_far)
+}
