@@ -1,0 +1,48 @@
+"""Pictures of results, one line each, with matplotlib.
+
+Every function takes a `flapwing.Table`, a data frame, a mapping of columns or the path of a file of results, and
+returns what matplotlib would: the Axes, the Figure where there are several, or the animation. Nothing global changes.
+
+    >>> import numpy as np
+    >>> from flapwing import plot
+    >>> table = {"drive_frequency": np.array([100.0, 110.0, 120.0]), "lift_mean_mn": np.array([0.2, 0.5, 0.3])}
+    >>> plot.response(table, "lift_mean_mn").get_ylabel()
+    'Lift, mean (mN)'
+
+Needs the extra: ``pip install "./crates/flap-py[plot]"``.
+"""
+
+from __future__ import annotations
+
+try:
+    import matplotlib as _matplotlib
+except ImportError as _missing:
+    raise ImportError(
+        'flapwing.plot needs matplotlib: pip install "./crates/flap-py[plot]", or pip install "matplotlib>=3.7"'
+    ) from _missing
+del _matplotlib
+
+from ._front import non_dominated
+from ._heatmap import heatmap
+from ._hysteresis import hysteresis
+from ._labels import label
+from ._pareto import pareto
+from ._response import response
+from ._tornado import Sensitivity, sensitivities, tornado
+from ._trajectory import trajectory
+from ._wing_path import WingPath, wing_path
+
+__all__ = [
+    "Sensitivity",
+    "WingPath",
+    "heatmap",
+    "hysteresis",
+    "label",
+    "non_dominated",
+    "pareto",
+    "response",
+    "sensitivities",
+    "tornado",
+    "trajectory",
+    "wing_path",
+]

@@ -1,0 +1,266 @@
+"""Results of any kind as columns, and slices of them. Nothing here draws."""
+
+from __future__ import annotations
+
+import difflib
+import os
+from functools import lru_cache
+from typing import Any, Iterable, Mapping, Sequence
+
+import numpy as np
+
+from . import _labels
+
+# Statuses whose rows have measures.
+MEASURED = ("periodic", "unstable")
+
+_NOT_PARAMETERS = ("point", "curve")
+
+
+class Data:
+    """Columns of equal length with their units, and which of them are the axes of a grid."""
+
+    def __init__(
+        self, columns: Mapping[str, Any], units: Mapping[str, str], dims: list[list[str]], meta: Mapping[str, Any]
+    ) -> None:
+        self.columns = dict(columns)
+        self.units = units
+        self.dims = dims
+        self.meta = meta
+
+    @classmethod
+    def of(cls, data: Any) -> Data:
+        """A Table, a data frame, a mapping of columns, or the path of a file of results."""
+        if isinstance(data, Data):
+            return data
+        if isinstance(data, (str, os.PathLike)):
+            import flapwing
+
+            data = flapwing.read(data)
+        if not hasattr(data, "__getitem__") or not (hasattr(data, "columns") or hasattr(data, "keys")):
+            raise TypeError(
+                f"a flapwing.Table, a data frame, a mapping of columns or a path is needed, not {type(data).__name__}"
+            )
+        names = [str(name) for name in (data.columns if hasattr(data, "columns") else data.keys())]
+        columns = {name: _column(data[name]) for name in names}
+        units = getattr(data, "units", None)
+        dims = getattr(data, "dims", None) or []
+        meta = getattr(data, "meta", None)
+        return cls(
+            columns,
+            units if isinstance(units, Mapping) else {},
+            [list(dim) for dim in dims] if isinstance(dims, (list, tuple)) else [],
+            meta if isinstance(meta, Mapping) else {},
+        )
+
+    def __len__(self) -> int:
+        return len(next(iter(self.columns.values()))) if self.columns else 0
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.columns
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self.columns:
+            raise ValueError(unknown("column", name, self.columns))
+        return self.columns[name]
+
+    def numbers(self, name: str) -> np.ndarray:
+        """A column as floats, NaN where its row has no measures."""
+        column = self[name]
+        if is_text(column):
+            raise ValueError(f"`{name}` is text, and a number is needed")
+        return column.astype(float)
+
+    def rows(self, mask: np.ndarray) -> Data:
+        """Those rows alone."""
+        return Data({name: column[mask] for name, column in self.columns.items()}, self.units, self.dims, self.meta)
+
+    def unit(self, name: str) -> str:
+        """The unit of a column, as flap writes it; parameters in a file without a sidecar have none of their own."""
+        if self.units.get(name):
+            return self.units[name]
+        if "model" not in self.meta and name in _parameter_units():
+            return _parameter_units()[name]
+        return _labels.unit_of(name, self.units)
+
+    def measured(self) -> np.ndarray:
+        """Which rows have measures."""
+        if "status" not in self.columns:
+            return np.ones(len(self), dtype=bool)
+        return np.isin(self.columns["status"].astype(str), MEASURED)
+
+    def parameters(self) -> list[str]:
+        """The columns that say which point a row is: those of the grid's axes, else those left of the status."""
+        names = list(self.columns)
+        if self.dims:
+            return [name for dim in self.dims for name in dim if name in self.columns]
+        if "status" in names:
+            names = names[: names.index("status")]
+            return [name for name in names if name not in _NOT_PARAMETERS]
+        return []
+
+    def axes(self) -> list[str]:
+        """One parameter for each axis with more than one value; parameters that follow others are not axes."""
+        if self.dims:
+            firsts = [next((name for name in dim if name in self.columns), "") for dim in self.dims]
+            return [name for name in firsts if name and len(distinct(self.columns[name])) > 1]
+        kept: list[str] = []
+        combinations = 1
+        for name in self.parameters():
+            with_it = len(np.unique(self.groups([*kept, name]))) if len(self) else 0
+            if with_it > combinations:
+                kept.append(name)
+                combinations = with_it
+        return kept
+
+    def axis(self, name: str) -> str:
+        """The axis that a parameter belongs to: with parameters that move together, the first of them."""
+        for dim in self.dims:
+            if name in dim:
+                return next(member for member in dim if member in self.columns)
+        return name
+
+    def values_along(self, name: str, whole: Data) -> np.ndarray:
+        """A parameter's values: if it has an axis of its own, those without a row in this slice of `whole` too."""
+        return distinct((whole if [name] in self.dims else self)[name])
+
+    def on_a_grid(self, name: str) -> bool:
+        """Whether a parameter has an axis; those of a ``[sample]`` are scattered."""
+        return not any(name in dim for dim in self.dims if dim[0] not in self.columns)
+
+    def groups(self, names: Sequence[str]) -> np.ndarray:
+        """A number per row, equal for rows that agree in all of these columns."""
+        numbers = np.zeros(len(self), dtype=np.int64)
+        for name in names:
+            values, inverse = np.unique(self[name], return_inverse=True)
+            _, numbers = np.unique(numbers * len(values) + inverse.reshape(-1), return_inverse=True)
+            numbers = numbers.reshape(-1)
+        return numbers
+
+    def slice(self, where: Mapping[str, Any] | None, keywords: Mapping[str, Any]) -> Data:
+        """The rows in which columns have these values."""
+        chosen = {**(where or {}), **keywords}
+        for name in chosen:
+            if name not in self.columns:
+                raise ValueError(unknown("column or option", name, self.columns))
+        data = self
+        for name, value in chosen.items():
+            column = data[name]
+            if is_text(column):
+                mask = column.astype(str) == str(value)
+            elif isinstance(value, (int, float, np.number, np.bool_)):
+                mask = np.isclose(column.astype(float), float(value), rtol=1e-9, atol=0.0)
+            else:
+                raise TypeError(f"`{name}` is compared with a number in SI units, not with {value!r}")
+            if not mask.any():
+                values = listed(distinct(column))
+                raise ValueError(f"no row has {name} = {value}; the values of {self.described(name)} are {values}")
+            data = data.rows(mask)
+        return data
+
+    def one_row_for(self, names: Sequence[str]) -> None:
+        """Refuses if rows agree in all of these columns: another axis is left."""
+        if len(np.unique(self.groups(names))) == len(self):
+            return
+        shown = [self.axis(name) for name in names]
+        left = [name for name in self.axes() if name not in shown]
+        if not left:
+            raise ValueError(f"several rows have the same {' and '.join(f'`{name}`' for name in names)}")
+        raise ValueError(self.left_over(left))
+
+    def left_over(self, left: Iterable[str]) -> str:
+        """What to say of axes that a picture has no place for."""
+        lines = [f"  {self.described(name)}: {listed(distinct(self[name]))}" for name in left]
+        first = lines[0].strip().split(" ")[0].rstrip(":")
+        value = distinct(self[first])[0]
+        value = repr(str(value)) if is_text(self[first]) else f"{value:g}"
+        return "\n".join(
+            [f"choose one value of each axis that is left, such as {first}={value} as a keyword argument:", *lines]
+        )
+
+    def described(self, name: str) -> str:
+        """A column's name with its unit."""
+        unit = self.unit(name)
+        return f"{name} ({unit})" if unit else name
+
+    def shown(self, name: str) -> Shown:
+        """A column as it is drawn: in a readable unit, with its label."""
+        return Shown(self, name)
+
+
+class Shown:
+    """How a column is drawn: the factor to a readable unit, and what is written beside it."""
+
+    def __init__(self, data: Data, name: str) -> None:
+        self.name = name
+        self.text = is_text(data[name])
+        unit = data.unit(name)
+        self.factor, self.unit = (1.0, "") if self.text else _labels.scale(data[name], unit)
+        self.words = _labels.words(name, unit)
+        self.label = _labels.titled(self.words, self.unit)
+        self.values = data[name] if self.text else data[name].astype(float) * self.factor
+
+    def value(self, value: Any) -> str:
+        """A value of the column, given as it is in the table, in the shown unit but without it."""
+        return str(value) if self.text else _labels.number(float(value) * self.factor)
+
+
+def _column(values: Any) -> np.ndarray:
+    """A column as an array of numbers, flags or words; data frames keep words, and flags with gaps, as objects."""
+    column = np.asarray(values)
+    if column.dtype.kind not in "OT":
+        return column
+    try:
+        return column.astype(float)
+    except (TypeError, ValueError):
+        return column.astype(str)
+
+
+def is_text(column: np.ndarray) -> bool:
+    """Whether a column holds words."""
+    return column.dtype.kind in "OUST"
+
+
+def distinct(column: np.ndarray) -> np.ndarray:
+    """The values of a column: numbers in rising order without NaN, words in order of appearance."""
+    if is_text(column):
+        words = column.astype(str)
+        _, first = np.unique(words, return_index=True)
+        return words[np.sort(first)]
+    values = np.unique(column)
+    return values[~np.isnan(values)] if values.dtype.kind == "f" else values
+
+
+def scattered(name: str) -> ValueError:
+    """What to raise if a parameter without an axis is to be one."""
+    return ValueError(f"`{name}` is sampled, so that its values are not on an axis; plot.pareto draws such designs")
+
+
+def listed(values: Sequence[Any] | np.ndarray) -> str:
+    """Values in a sentence; long lists are cut in the middle."""
+    texts = [value if isinstance(value, str) else f"{value:.12g}" for value in values]
+    if len(texts) > 12:
+        texts = [*texts[:8], "…", *texts[-2:], f"({len(texts)} values)"]
+        return ", ".join(texts[:-1]) + " " + texts[-1]
+    return ", ".join(texts)
+
+
+def unknown(what: str, name: str, known: Iterable[str]) -> str:
+    """An error's words for a name that there is not, with the nearest that there is."""
+    names = list(known)
+    near = difflib.get_close_matches(str(name), names, n=1, cutoff=0.6)
+    hint = f" Did you mean `{near[0]}`?" if near else ""
+    return f"there is no {what} `{name}`.{hint} There are: {', '.join(names)}"
+
+
+@lru_cache(maxsize=1)
+def _parameter_units() -> dict[str, str]:
+    """Units of all models' parameters, for columns that come without units."""
+    import flapwing
+
+    units: dict[str, str] = {}
+    for preset in flapwing.presets():
+        for name, parameter in flapwing.params(preset).items():
+            if parameter.unit:
+                units.setdefault(name, parameter.unit)
+    return units

@@ -1,0 +1,267 @@
+"""A measure over two axes, as colours."""
+
+from __future__ import annotations
+
+from typing import Any, Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import to_rgba
+from matplotlib.patches import Patch
+
+from . import _style
+from ._data import Data, Shown, distinct, scattered
+
+# Statuses without measures, and the greys of their cells.
+_GREYS = {
+    "subharmonic": "#8c8c8c",
+    "unsettled": "#b5b5b5",
+    "diverged": "#5e5e5e",
+    "step_limit": "#454545",
+    "invalid": "#2b2b2b",
+}
+_UNDEFINED, _NO_ROW = "no value", "no row"
+
+
+def heatmap(
+    table: Any,
+    value: str,
+    *,
+    x: str | None = None,
+    y: str | None = None,
+    xscale: str | None = None,
+    yscale: str | None = None,
+    cmap: str = "viridis",
+    vmin: float | None = None,
+    vmax: float | None = None,
+    where: Mapping[str, Any] | None = None,
+    ax: Axes | None = None,
+    **slices: Any,
+) -> Axes:
+    """Draw a measure over two axes as a map: lift, power or efficiency over frequency and voltage, say.
+
+    Cells end halfway between their values, in the logarithm where an axis is logarithmic. Cells without a periodic
+    motion are grey and those without a row (left out by ``[where]``, or not in the file) hatched; the legend says so.
+
+    Parameters
+    ----------
+    table : Table, data frame, mapping of columns, or path
+        Results of a sweep over a grid.
+    value : str
+        The measure.
+    x, y : str, optional
+        The parameters along the axes: numbers or words. By default the two axes that there are, with
+        ``drive_frequency`` or else the last of them along x.
+    xscale, yscale : {"linear", "log"}, optional
+        By default logarithmic if the values are in constant ratio.
+    cmap : str
+        A colour map of matplotlib.
+    vmin, vmax : float, optional
+        The ends of the colours, in the unit of the colour bar; by default those of the values.
+    where, **slices
+        Columns and the value that rows must have: the slice of a grid with more axes.
+    ax : matplotlib Axes, optional
+        Where to draw; by default in a new figure.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    ValueError
+        A column or value that there is not; axes that are left, with their values; several rows in one cell.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> table = {
+    ...     "drive_voltage_pp": np.array([100.0, 100.0, 200.0, 200.0]),
+    ...     "drive_frequency": np.array([90.0, 100.0, 90.0, 100.0]),
+    ...     "status": np.array(["periodic"] * 4),
+    ...     "lift_mean_mn": np.array([0.1, 0.2, 0.3, 0.5]),
+    ... }
+    >>> ax = heatmap(table, "lift_mean_mn")
+    >>> [float(end) for end in ax.get_xlim()]
+    [85.0, 105.0]
+    """
+    whole = Data.of(table)
+    data = whole.slice(where, slices)
+    data.numbers(value)
+    x, y = _two_axes(data, x, y)
+    for name in (x, y):
+        if not data.on_a_grid(name):
+            raise scattered(name)
+    data.one_row_for([x, y])
+
+    shown, across, up = data.shown(value), _Axis(data, whole, x, xscale), _Axis(data, whole, y, yscale)
+    rows = np.full((up.count, across.count), -1)
+    rows[up.places(data[y]), across.places(data[x])] = np.arange(len(data))
+    measured = data.measured()
+    values = np.where((rows >= 0) & measured[rows], shown.values[rows], np.nan)
+
+    with _style.style():
+        ax = _style.axes_of(ax, 6.4, 4.4)
+        ax.grid(False)
+        mesh = ax.pcolormesh(
+            across.edges, up.edges, np.ma.masked_invalid(values), cmap=cmap, vmin=vmin, vmax=vmax, rasterized=True
+        )
+        bar = _style.figure_of(ax).colorbar(mesh, ax=ax, label=shown.label, pad=0.02)
+        bar.ax.grid(False)
+        legend = []
+        for name, mask in _missing(data, rows, values).items():
+            legend.append(_fill(ax, across.edges, up.edges, mask, name))
+        across.finish(ax, "x")
+        up.finish(ax, "y")
+        if legend:
+            ax.legend(
+                handles=legend,
+                loc="lower left",
+                bbox_to_anchor=(0.0, 1.005),
+                ncols=3,
+                borderaxespad=0.2,
+                handlelength=1.6,
+                handleheight=1.1,
+            )
+    return ax
+
+
+class _Axis:
+    """The values along one axis, and the edges of their cells."""
+
+    def __init__(self, data: Data, whole: Data, name: str, scale: str | None) -> None:
+        self.shown: Shown = data.shown(name)
+        self.keys = data.values_along(name, whole)
+        self.count = len(self.keys)
+        if self.shown.text:
+            self.log, self.edges = False, np.arange(self.count + 1) - 0.5
+            return
+        if scale not in (None, "linear", "log"):
+            raise ValueError(f'a scale is "linear" or "log", not {scale!r}')
+        values = self.keys.astype(float) * self.shown.factor
+        self.log = _in_ratio(values) if scale is None else scale == "log"
+        if self.log and values[0] <= 0:
+            raise ValueError(f"`{name}` cannot have a logarithmic scale: its smallest value is {self.keys[0]:g}")
+        self.edges = edges(values, self.log)
+
+    def places(self, column: np.ndarray) -> np.ndarray:
+        """The cell of each row."""
+        if self.shown.text:
+            place = {word: i for i, word in enumerate(self.keys)}
+            return np.array([place[word] for word in column.astype(str)])
+        return np.searchsorted(self.keys, column)
+
+    def finish(self, ax: Axes, which: str) -> None:
+        axis = ax.xaxis if which == "x" else ax.yaxis
+        (ax.set_xlabel if which == "x" else ax.set_ylabel)(self.shown.label)
+        if self.shown.text:
+            axis.set_ticks(range(self.count), labels=list(self.keys))
+            return
+        if self.log:
+            (ax.set_xscale if which == "x" else ax.set_yscale)("log")
+            _readable_log_ticks(axis, self.edges)
+        (ax.set_xlim if which == "x" else ax.set_ylim)(self.edges[0], self.edges[-1])
+
+
+def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
+    """The edges of cells around rising values: halfway between neighbours, and as far out at the ends."""
+    places = np.log(values) if log else np.asarray(values, dtype=float)
+    if len(places) == 1:
+        half = 0.05 if log else 0.05 * abs(places[0]) or 0.5
+        ends = places[0] + half * np.array([-1.0, 1.0])
+    else:
+        middle = 0.5 * (places[1:] + places[:-1])
+        ends = np.concatenate([[2 * places[0] - middle[0]], middle, [2 * places[-1] - middle[-1]]])
+    return np.exp(ends) if log else ends
+
+
+def _in_ratio(values: np.ndarray) -> bool:
+    """Whether three or more values are in constant ratio."""
+    if len(values) < 3 or values[0] <= 0:
+        return False
+    ratios = values[1:] / values[:-1]
+    return bool(np.ptp(ratios) < 1e-6 * ratios[0])
+
+
+def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
+    """The parameters along the axes, those that are not named chosen from what is left."""
+    for name in (x, y):
+        if name is not None:
+            data[name]
+    if x is not None and y is not None:
+        if x == y:
+            raise ValueError(f"`x` and `y` are both `{x}`")
+        return x, y
+    named = [data.axis(name) for name in (x, y) if name is not None]
+    left = [name for name in data.axes() if name not in named]
+    wanted = 2 - len(named)
+    if len(left) > wanted:
+        raise ValueError(data.left_over(left))
+    if len(left) < wanted:
+        there = ", ".join([*named, *left]) or "none"
+        raise ValueError(f"a map needs two axes with more than one value each; there are: {there}")
+    if not named:
+        across = "drive_frequency" if "drive_frequency" in left else left[-1]
+        return across, next(name for name in left if name != across)
+    return (x, left[0]) if x is not None else (left[0], str(y))
+
+
+def _missing(data: Data, rows: np.ndarray, values: np.ndarray) -> dict[str, np.ndarray]:
+    """Which cells have no value, by reason."""
+    empty = ~np.isfinite(values)
+    reasons: dict[str, np.ndarray] = {}
+    if "status" in data:
+        statuses = data["status"].astype(str)[rows]
+        without = empty & (rows >= 0) & ~data.measured()[rows]
+        for status in distinct(statuses[without]):
+            reasons[str(status)] = without & (statuses == status)
+    undefined = empty & (rows >= 0) & data.measured()[rows]
+    for name, mask in ((_UNDEFINED, undefined), (_NO_ROW, empty & (rows < 0))):
+        if mask.any():
+            reasons[name] = mask
+    return reasons
+
+
+def _fill(ax: Axes, across: np.ndarray, up: np.ndarray, mask: np.ndarray, name: str) -> Patch:
+    """Fills cells without a value; gives the entry of the legend."""
+    text = f"{name} ({mask.sum()})"
+    if name in (_NO_ROW, _UNDEFINED):
+        hatch = "////" if name == _NO_ROW else "...."
+        # Without a colour map, so that only these cells are drawn at all.
+        ax.add_collection(
+            PolyCollection(
+                _runs(across, up, mask), facecolors="none", edgecolors="#9a9a9a", linewidths=0.0, hatch=hatch
+            )
+        )
+        return Patch(facecolor="white", edgecolor="#9a9a9a", hatch=hatch, linewidth=0.6, label=text)
+    colour = _GREYS.get(name, "#707070")
+    layer = np.zeros((*mask.shape, 4))
+    layer[mask] = to_rgba(colour)
+    ax.pcolormesh(across, up, layer, rasterized=True)
+    return Patch(color=colour, label=text)
+
+
+def _runs(across: np.ndarray, up: np.ndarray, mask: np.ndarray) -> list[list[tuple[float, float]]]:
+    """The outlines of neighbouring cells in a row, for every row."""
+    outlines = []
+    for row, flags in enumerate(mask):
+        ends = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
+        for first, behind in zip(ends[::2], ends[1::2]):
+            left, right, low, high = across[first], across[behind], up[row], up[row + 1]
+            outlines.append([(left, low), (right, low), (right, high), (left, high)])
+    return outlines
+
+
+def _readable_log_ticks(axis: Any, ends: np.ndarray) -> None:
+    """Plain numbers at round places: a decade's powers alone would leave a short axis without any."""
+    from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
+
+    low, high = float(ends[0]), float(ends[-1])
+    subs = [1.0, 2.0, 5.0] if high / low < 300 else [1.0]
+    if high / low < 8:
+        subs = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0]
+    ticks = [tick for tick in LogLocator(subs=subs).tick_values(low, high) if low <= tick <= high]
+    axis.set_major_locator(FixedLocator(ticks))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())

@@ -1,0 +1,223 @@
+"""Both ways of a response: the loop between them."""
+
+from __future__ import annotations
+
+from typing import Any, Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from . import _style
+from ._data import Data, Shown, distinct, listed
+
+# Ways that differ by less than this share of the measure's range have come to the same motion.
+_SAME = 0.01
+
+
+def hysteresis(
+    table: Any,
+    y: str = "stroke_pp_deg",
+    *,
+    along: str | None = None,
+    curve: int | None = None,
+    where: Mapping[str, Any] | None = None,
+    ax: Axes | None = None,
+    **slices: Any,
+) -> Axes:
+    """Draw the way up and the way down of a response, with the unstable orbits between them if the table has them.
+
+    Arrows show the ways and their jumps. Bands in which the ways have come to different motions are shaded.
+
+    Parameters
+    ----------
+    table : Table, data frame, mapping of columns, or path
+        Results of `flapwing.respond` or ``flap respond --out``.
+    y : str
+        The measure.
+    along : str, optional
+        The parameter that is followed; by default the column behind ``branch``.
+    curve : int, optional
+        Which design, if there are several: its number in the column ``curve``.
+    where, **slices
+        Columns and the value that rows must have, to choose the design by its parameters.
+    ax : matplotlib Axes, optional
+        Where to draw; by default in a new figure.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    ValueError
+        Several designs, with their parameters; a column or value that there is not; no ways.
+    """
+    data = Data.of(table)
+    if "branch" not in data:
+        raise ValueError("a table of `respond` is needed, with a column `branch`")
+    data = data.slice(where, slices)
+    if curve is not None:
+        data = data.slice({"curve": curve}, {})
+    _one_design(data)
+    data.numbers(y)
+    if along is None:
+        names = list(data.columns)
+        along = str(data.meta.get("along") or names[names.index("branch") + 1])
+    data.numbers(along)
+    x, shown = data.shown(along), data.shown(y)
+    values = np.where(data.measured(), shown.values, np.nan)
+    branches = data["branch"].astype(str)
+    ways = {name: _Way(x.values[branches == name], values[branches == name]) for name in ("up", "down", "unstable")}
+    up, down = ways["up"], ways["down"]
+    if not up.x.size and not down.x.size:
+        raise ValueError("the table has neither a way up nor a way down")
+    size = float(np.nanmax(values) - np.nanmin(values)) if np.isfinite(values).any() else 0.0
+    common, differ = _different(up, down, _SAME * size)
+    bands = _bands(common, differ)
+
+    with _style.style():
+        ax = _style.axes_of(ax)
+        for i, (low, high) in enumerate(bands):
+            text = f"bistable, {_ends(low, high, x)}" if len(bands) == 1 else "bistable"
+            ax.axvspan(low, high, color="#f3e3b3", alpha=0.75, linewidth=0, label=text if i == 0 else f"_{text}")
+        looks = {"up": (_style.VERMILLION, 3.0, "o"), "down": (_style.BLUE, 1.2, "s")}
+        for name, (colour, width, marker) in looks.items():
+            way = ways[name]
+            if not way.x.size:
+                continue
+            jumps = way.jumps(common, differ)
+            xs, ys = _with_gaps(way.x, way.y, jumps)
+            ax.plot(
+                xs,
+                ys,
+                color=colour,
+                linewidth=width,
+                marker=marker,
+                markersize=1.2 * width if name == "up" else 2.4,
+                label=f"way {name}",
+            )
+            for i in jumps:
+                _arrow(ax, way.x[i], way.y[i], way.x[i + 1], way.y[i + 1], colour, "--")
+            _along_the_way(ax, way, colour, bands, jumps)
+        unstable = ways["unstable"]
+        if unstable.x.size:
+            ax.plot(
+                unstable.x,
+                unstable.y,
+                color=_style.DARK,
+                linewidth=1.2,
+                linestyle=(0, (4, 2.5)),
+                label="unstable orbits",
+            )
+        _mark(ax, data, x, branches)
+        ax.set_xlabel(x.label)
+        ax.set_ylabel(shown.label)
+        ax.margins(x=0.02, y=0.08)
+        ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.1)
+    return ax
+
+
+class _Way:
+    """A branch in the order in which it was followed."""
+
+    def __init__(self, x: np.ndarray, y: np.ndarray) -> None:
+        self.x, self.y = x, y
+
+    def jumps(self, common: np.ndarray, differ: np.ndarray) -> list[int]:
+        """After which rows this way leaves the motion that the other way has not: where they become the same again."""
+        different = dict(zip(common.tolist(), differ.tolist()))
+        flags = [different.get(value, False) for value in self.x.tolist()]
+        return [
+            i for i in range(len(self.x) - 1) if flags[i] and not flags[i + 1] and np.isfinite(self.y[i : i + 2]).all()
+        ]
+
+
+def _one_design(data: Data) -> None:
+    """Refuses rows of several designs, and tells which there are."""
+    if "curve" not in data:
+        return
+    curves = distinct(data["curve"])
+    if len(curves) < 2:
+        return
+    names = list(data.columns)
+    varied = [name for name in names[names.index("curve") + 1 : names.index("branch")] if len(distinct(data[name])) > 1]
+    lines = [f"  {data.described(name)}: {listed(distinct(data[name]))}" for name in varied]
+    raise ValueError(
+        "\n".join([f"choose one of {len(curves)} designs: curve={curves[0]:g}, or by its parameters", *lines])
+    )
+
+
+def _different(up: _Way, down: _Way, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
+    """The values that both ways have, rising, and whether the ways differ there."""
+    common, here, there = np.intersect1d(up.x, down.x, return_indices=True)
+    return common, np.abs(up.y[here] - down.y[there]) > tolerance
+
+
+def _bands(common: np.ndarray, differ: np.ndarray) -> list[tuple[float, float]]:
+    """First and last value of each run of values where the ways differ."""
+    flags = np.concatenate([[False], differ, [False]]).astype(int)
+    starts, ends = np.flatnonzero(np.diff(flags) == 1), np.flatnonzero(np.diff(flags) == -1) - 1
+    return [(float(common[a]), float(common[b])) for a, b in zip(starts, ends)]
+
+
+def _ends(low: float, high: float, x: Shown) -> str:
+    return f"{low:.7g} to {high:.7g} {x.unit}".strip()
+
+
+def _with_gaps(x: np.ndarray, y: np.ndarray, after: list[int]) -> tuple[np.ndarray, np.ndarray]:
+    """A line that is interrupted after these rows."""
+    places = [i + 1 for i in after]
+    return np.insert(x, places, np.nan), np.insert(y, places, np.nan)
+
+
+def _arrow(ax: Axes, x0: float, y0: float, x1: float, y1: float, colour: str, linestyle: str) -> None:
+    ax.annotate(
+        "",
+        xy=(x1, y1),
+        xytext=(x0, y0),
+        arrowprops={
+            "arrowstyle": "-|>",
+            "color": colour,
+            "linestyle": linestyle,
+            "linewidth": 1.1,
+            "mutation_scale": 13,
+            "shrinkA": 2,
+            "shrinkB": 2,
+        },
+    )
+
+
+def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, float]], jumps: list[int]) -> None:
+    """An arrowhead on the line: where the ways are apart, else after a third of the way."""
+    count = len(way.x)
+    if count < 3:
+        return
+    place = count // 3
+    if bands:
+        low, high = max(bands, key=lambda band: band[1] - band[0])
+        place = int(np.argmin(np.abs(way.x - 0.5 * (low + high))))
+    i = min(max(place, 1), count - 2)
+    if not np.isfinite(way.y[i - 1 : i + 2]).all() or {i - 1, i} & set(jumps):
+        return
+    head = {"arrowstyle": "-|>", "color": colour, "linewidth": 0, "mutation_scale": 20, "shrinkA": 0, "shrinkB": 0}
+    ax.annotate("", xy=(way.x[i + 1], way.y[i + 1]), xytext=(way.x[i - 1], way.y[i - 1]), arrowprops=head)
+
+
+def _mark(ax: Axes, data: Data, x: Shown, branches: np.ndarray) -> None:
+    """Marks above the axes where a way has no periodic motion."""
+    without = ~data.measured()
+    shown = False
+    for place, (name, colour) in enumerate((("up", _style.VERMILLION), ("down", _style.BLUE))):
+        mask = without & (branches == name)
+        if mask.any():
+            ax.plot(
+                x.values[mask],
+                np.full(int(mask.sum()), 0.985 - 0.025 * place),
+                linestyle="none",
+                marker="|",
+                markersize=5,
+                color=colour,
+                transform=ax.get_xaxis_transform(),
+                label="_" if shown else "no periodic motion",
+            )
+            shown = True

@@ -1,0 +1,255 @@
+"""Measures over one parameter, a line for each value of another."""
+
+from __future__ import annotations
+
+from typing import Any, Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from . import _style
+from ._data import Data, Shown, distinct, scattered, unknown
+
+# What is drawn if nothing is said: the first of these that there is.
+_USUAL = ("stroke_pp_deg", "stroke_amplitude_deg", "lift_mean_mn", "lift_mean_gf", "vehicle_lift_mgf")
+
+
+def response(
+    table: Any,
+    y: str | Sequence[str] | None = None,
+    *,
+    x: str | None = None,
+    by: str | None = None,
+    where: Mapping[str, Any] | None = None,
+    ax: Axes | None = None,
+    **slices: Any,
+) -> Axes | Figure:
+    """Draw measures over one parameter, with a line for each value of another: a family of frequency responses.
+
+    Where rows are not periodic a line has a gap, and a mark in its colour above the picture tells where that is.
+
+    Parameters
+    ----------
+    table : Table, data frame, mapping of columns, or path
+        Results of `sweep`, `evaluate` or `respond`, or the path of a file of them.
+    y : str or sequence of str, optional
+        The measures, in axes one above the other if there are several. By default the stroke, peak to peak.
+    x : str, optional
+        The parameter along the horizontal axis; by default ``drive_frequency``, else the grid's last axis.
+    by : str, optional
+        The parameter that has a line for each value; by default the axis that is left, if one is.
+    where : mapping, optional
+        Columns and the value that rows must have, a number in SI units or a word: the slice of a grid with more axes.
+    ax : matplotlib Axes, optional
+        Where to draw, if `y` is one measure; by default in a new figure.
+    **slices
+        The same as `where`, as keywords: ``drive_voltage_pp=100``.
+
+    Returns
+    -------
+    matplotlib Axes, or Figure if `y` is a sequence
+        Parameters are in readable units, which the labels give.
+
+    Raises
+    ------
+    ValueError
+        A column or value that there is not; axes that are left, with their values; text where numbers are needed.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> table = {
+    ...     "drive_voltage_pp": np.array([100.0, 100.0, 200.0, 200.0]),
+    ...     "drive_frequency": np.array([90.0, 100.0, 90.0, 100.0]),
+    ...     "status": np.array(["periodic"] * 4),
+    ...     "stroke_pp_deg": np.array([20.0, 40.0, 35.0, 60.0]),
+    ... }
+    >>> ax = response(table)
+    >>> [line.get_ydata().tolist() for line in ax.lines]
+    [[20.0, 40.0], [35.0, 60.0]]
+    """
+    whole = Data.of(table)
+    data = whole.slice(where, slices)
+    several = y is not None and not isinstance(y, str)
+    measures = [_usual(data)] if y is None else [y] if isinstance(y, str) else list(y)
+    if not measures:
+        raise ValueError("`y` names no measure")
+    if several and len(measures) > 1 and ax is not None:
+        raise ValueError("`ax` is for one measure; several make a figure of their own")
+    for name in measures:
+        data.numbers(name)
+    x = _along(data, by) if x is None else x
+    by = _family(data, x) if by is None else by
+    if not data.on_a_grid(x):
+        raise scattered(x)
+    data.numbers(x)
+    if by is not None:
+        data[by]
+    data.one_row_for([x] if by is None else [x, by])
+
+    with _style.style():
+        if ax is not None:
+            axes = [ax]
+        elif len(measures) == 1:
+            axes = [_style.axes_of(None)]
+        else:
+            figure = _style.new_figure(6.4, 1.2 + 2.1 * len(measures))
+            axes = list(np.atleast_1d(figure.subplots(len(measures), 1, sharex=True)))
+        family = _Family(data, whole, x, by)
+        for each, name in zip(axes, measures):
+            family.draw(each, name)
+            if each is axes[0]:
+                family.mark(each)
+        axes[-1].set_xlabel(family.x.label)
+        family.explain(axes)
+        if len(axes) > 1:
+            _style.figure_of(axes[0]).align_ylabels(axes)
+    return _style.figure_of(axes[0]) if several else axes[0]
+
+
+class _Family:
+    """The lines of one picture: their rows and colours are the same for every measure."""
+
+    def __init__(self, data: Data, whole: Data, x: str, by: str | None) -> None:
+        self.data, self.x = data, data.shown(x)
+        self.by: Shown | None = None if by is None else data.shown(by)
+        self.values: np.ndarray = np.array([0.0]) if by is None else distinct(data[by])
+        keys = np.zeros(len(data)) if by is None else data[by]
+        self.every_x = data.values_along(x, whole)
+        self.rows = [self._ordered(np.flatnonzero(keys == value)) for value in self.values]
+        self.colours = _style.shades(self.values, self.by is not None and self.by.text)
+
+    def _ordered(self, rows: np.ndarray) -> np.ndarray:
+        """The rows of one line by rising x; -1 stands for points of the grid that have no row."""
+        xs = self.data[self.x.name]
+        rows = rows[np.argsort(xs[rows], kind="stable")]
+        if [self.x.name] not in self.data.dims:
+            return rows
+        placed = np.full(len(self.every_x), -1)
+        placed[np.searchsorted(self.every_x, xs[rows])] = rows
+        return placed
+
+    def draw(self, ax: Axes, name: str) -> None:
+        measured = self.data.measured()
+        shown = self.data.shown(name)
+        every_x = self.every_x * self.x.factor
+        for value, rows, colour in zip(self.values, self.rows, self.colours):
+            there = rows >= 0
+            xs = np.where(there, self.x.values[rows], every_x if len(every_x) == len(rows) else np.nan)
+            ys = np.where(there & measured[rows], shown.values[rows], np.nan)
+            alone = _alone(ys)
+            text = None if self.by is None else self.by.value(value)
+            ax.plot(xs, ys, color=colour, label=text, marker="o", markersize=3.5, markevery=list(np.flatnonzero(alone)))
+        ax.set_ylabel(shown.label)
+        ax.margins(x=0.02)
+
+    def mark(self, ax: Axes) -> None:
+        """Marks above the axes, a row of them for each line, where rows have no measures."""
+        without = ~self.data.measured()
+        marked = [rows[(rows >= 0) & without[rows]] for rows in self.rows]
+        lines = [(rows, colour) for rows, colour in zip(marked, self.colours) if rows.size]
+        if not lines:
+            return
+        step = min(0.022, 0.16 / len(lines))
+        for place, (rows, colour) in enumerate(lines):
+            ax.plot(
+                self.x.values[rows],
+                np.full(len(rows), 1.02 + place * step),
+                linestyle="none",
+                marker="|",
+                markersize=4.5,
+                markeredgewidth=1.1,
+                color=colour,
+                clip_on=False,
+                transform=ax.get_xaxis_transform(),
+                label="_not periodic",
+            )
+        statuses = self.data["status"].astype(str)[np.concatenate([rows for rows, _ in lines])]
+        counts = ", ".join(f"{np.sum(statuses == status)} {status}" for status in distinct(statuses))
+        ax.annotate(
+            f"marks: no periodic motion ({counts})",
+            (1.0, 1.02 + len(lines) * step),
+            xycoords="axes fraction",
+            xytext=(0, 2),
+            textcoords="offset points",
+            ha="right",
+            va="bottom",
+            fontsize=8.5,
+            color=_style.DARK,
+        )
+
+    def explain(self, axes: list[Axes]) -> None:
+        """A legend, or a colour bar for many numbers."""
+        if self.by is None:
+            return
+        if self.by.text or len(self.values) <= _style.LEGEND_LINES:
+            handles = [
+                Line2D([], [], color=colour, label=self.by.value(value))
+                for value, colour in zip(self.values, self.colours)
+            ]
+            # Beside the axes: a family of responses leaves no corner free.
+            axes[0].legend(
+                handles=handles,
+                title=_wrapped(self.by.label),
+                loc="upper left",
+                bbox_to_anchor=(1.01, 1.0),
+                borderaxespad=0.0,
+                alignment="left",
+            )
+            return
+        numbers = self.values.astype(float) * self.by.factor
+        middle = 0.5 * (numbers[1:] + numbers[:-1])
+        edges = np.concatenate([[2 * numbers[0] - middle[0]], middle, [2 * numbers[-1] - middle[-1]]])
+        colours = ListedColormap(self.colours)
+        mappable = ScalarMappable(BoundaryNorm(edges, colours.N), colours)
+        bar = _style.figure_of(axes[0]).colorbar(mappable, ax=axes, label=self.by.label, spacing="proportional")
+        shown = numbers[:: -(-len(numbers) // 12)]
+        bar.set_ticks(list(shown), labels=[f"{number:.4g}" for number in shown])
+        bar.minorticks_off()
+        bar.ax.grid(False)
+
+
+def _usual(data: Data) -> str:
+    """The measure that is drawn if none is named."""
+    for name in _USUAL:
+        if name in data:
+            return name
+    raise ValueError(f"say which column to draw as `y`. There are: {', '.join(data.columns)}")
+
+
+def _along(data: Data, by: str | None) -> str:
+    """The parameter along the horizontal axis if none is named."""
+    axes = [name for name in data.axes() if by is None or name != data.axis(by)]
+    if "drive_frequency" in data and ("drive_frequency" in axes or not axes):
+        return "drive_frequency"
+    numbers = [name for name in axes if not data.shown(name).text]
+    if numbers:
+        return next((name for name in reversed(numbers) if data.on_a_grid(name)), numbers[0])
+    raise ValueError(unknown("parameter for", "x", data.columns))
+
+
+def _family(data: Data, x: str) -> str | None:
+    """The axis that is left beside x, if it is one."""
+    left = [name for name in data.axes() if name != data.axis(x)]
+    if x not in data.parameters():
+        return None
+    if len(left) > 1:
+        raise ValueError(data.left_over(left[:-1] if len(left) > 2 else left))
+    return left[0] if left else None
+
+
+def _alone(ys: np.ndarray) -> np.ndarray:
+    """Which values have no neighbour, so that no line would show them."""
+    there = np.isfinite(ys)
+    before = np.concatenate([[False], there[:-1]])
+    after = np.concatenate([there[1:], [False]])
+    return there & ~before & ~after
+
+
+def _wrapped(text: str) -> str:
+    """A legend's title in lines that are not much longer than the legend is wide."""
+    return text.replace(", ", ",\n").replace(" (", "\n(")

@@ -1,0 +1,76 @@
+"""How pictures look. Settings hold while a picture is made and are then as they were."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import Any, Iterator, Sequence
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+# Okabe and Ito's colours, which readers with any colour vision tell apart.
+BLUE, VERMILLION, GREEN, PURPLE, SKY, ORANGE = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00"
+COLOURS = [BLUE, VERMILLION, GREEN, PURPLE, SKY, ORANGE, "#000000"]
+DARK, GREY, LIGHT = "#222222", "#777777", "#d9d9d9"
+
+# More lines than this get a colour bar in place of a legend.
+LEGEND_LINES = 8
+
+_SETTINGS: Any = {
+    "axes.axisbelow": True,
+    "axes.edgecolor": "#444444",
+    "axes.grid": True,
+    "axes.labelsize": 10,
+    "axes.linewidth": 0.8,
+    "axes.spines.right": False,
+    "axes.spines.top": False,
+    "axes.titlesize": 11,
+    "figure.dpi": 100,
+    "font.size": 9.5,
+    "grid.color": "#e4e4e4",
+    "grid.linewidth": 0.7,
+    "legend.fontsize": 9,
+    "legend.framealpha": 0.9,
+    "legend.frameon": False,
+    "legend.title_fontsize": 9,
+    "lines.linewidth": 1.6,
+    "xtick.labelsize": 9,
+    "ytick.labelsize": 9,
+}
+
+
+@contextmanager
+def style() -> Iterator[None]:
+    """The look of flap's pictures, for as long as one is made."""
+    with mpl.rc_context(_SETTINGS):
+        yield
+
+
+def new_figure(width: float = 6.4, height: float = 4.0) -> Figure:
+    """A figure that makes room for its labels."""
+    return plt.figure(figsize=(width, height), layout="constrained")
+
+
+def axes_of(ax: Axes | None, width: float = 6.4, height: float = 4.0) -> Axes:
+    """The axes given, or those of a new figure."""
+    return new_figure(width, height).add_subplot() if ax is None else ax
+
+
+def figure_of(ax: Axes) -> Figure:
+    """The figure that axes are in."""
+    figure: Any = ax.figure
+    while not isinstance(figure, Figure):  # a part of a figure
+        figure = figure.figure
+    return figure
+
+
+def shades(values: Sequence[Any] | np.ndarray, text: bool) -> list[Any]:
+    """A colour for each value: in an order for numbers, apart for words."""
+    if text:
+        return [COLOURS[i % len(COLOURS)] for i in range(len(values))]
+    if len(values) == 1:
+        return [BLUE]
+    return list(mpl.colormaps["viridis"](np.linspace(0.0, 0.88, len(values))))

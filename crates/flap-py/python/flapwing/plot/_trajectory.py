@@ -1,0 +1,149 @@
+"""A motion over time, and its phase portrait."""
+
+from __future__ import annotations
+
+from typing import Any, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from . import _labels, _style
+from ._data import Data
+
+_ANGLES = ("stroke_deg", "pitch_deg")
+
+
+def trajectory(
+    table: Any,
+    signals: str | Sequence[str] = _ANGLES,
+    *,
+    portrait: Sequence[str] | None = None,
+    time: str = "time_s",
+    ax: Axes | None = None,
+) -> Figure | Axes:
+    """Draw signals over time, and beside them the phase portraits: each angle against its rate.
+
+    Parameters
+    ----------
+    table : Table, data frame, mapping of columns, or path
+        A trajectory, as `flapwing.trajectory` gives it or ``flap run --trajectory`` writes it.
+    signals : str or sequence of str
+        The columns over time; those with the same unit share axes. By default stroke and pitch.
+    portrait : sequence of str, optional
+        The columns that have a phase portrait; by default stroke and pitch if they are among the signals. A rate that
+        is no column of the table is the slope of the samples.
+    time : str
+        The column of the time.
+    ax : matplotlib Axes, optional
+        Where to draw signals of one unit, without a portrait.
+
+    Returns
+    -------
+    matplotlib Figure, or Axes if `ax` is given
+        The figure's axes are those over time from top to bottom, then the portraits.
+
+    Raises
+    ------
+    ValueError
+        A column that there is not; signals of several units, or portraits, with `ax`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> phase = np.linspace(0.0, 2.0 * np.pi, 101)
+    >>> table = {"time_s": phase / 754.0, "stroke_deg": 60.0 * np.sin(phase), "pitch_deg": 45.0 * np.cos(phase)}
+    >>> [each.get_xlabel() for each in trajectory(table).axes]
+    ['Time (ms)', 'Stroke (°)', 'Pitch (°)']
+    """
+    data = Data.of(table)
+    names = [signals] if isinstance(signals, str) else list(signals)
+    if not names:
+        raise ValueError("`signals` names no column")
+    t = data.numbers(time)
+    groups: dict[str, list[str]] = {}
+    for name in names:
+        data.numbers(name)
+        groups.setdefault(data.shown(name).unit, []).append(name)
+    portraits = [name for name in _ANGLES if name in names] if portrait is None else list(portrait)
+    if ax is not None:
+        if len(groups) > 1 or portrait:
+            raise ValueError("`ax` is for signals of one unit; several units and portraits make a figure of their own")
+        portraits = []
+    rates = {name: _rate(data, name, t) for name in portraits}
+
+    with _style.style():
+        if ax is not None:
+            over_time, beside = [ax], list[Axes]()
+        else:
+            over_time, beside = _layout(len(groups), len(portraits))
+        drawn = dict.fromkeys([*names, *portraits])
+        colours = {name: _style.COLOURS[i % len(_style.COLOURS)] for i, name in enumerate(drawn)}
+        x = data.shown(time)
+        for each, (unit, members) in zip(over_time, groups.items()):
+            for name in members:
+                shown = data.shown(name)
+                each.plot(x.values, shown.values, color=colours[name], label=shown.words)
+            if len(members) == 1:
+                each.set_ylabel(data.shown(members[0]).label)
+            else:
+                each.set_ylabel(_labels.titled(_common([data.shown(name).words for name in members]), unit))
+                each.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.1)
+            each.margins(x=0.0)
+        over_time[-1].set_xlabel(x.label)
+        for each, name in zip(beside, portraits):
+            shown = data.shown(name)
+            rate, unit = rates[name]
+            each.plot(shown.values, rate, color=colours[name])
+            each.plot(shown.values[:1], rate[:1], "o", color=colours[name], markersize=4, label="start")
+            _direction(each, shown.values, rate, colours[name])
+            each.set_xlabel(shown.label)
+            each.set_ylabel(_labels.titled(f"{shown.words} rate", unit))
+    return _style.figure_of(over_time[0]) if ax is None else ax
+
+
+def _layout(signals: int, portraits: int) -> tuple[list[Axes], list[Axes]]:
+    """Axes over time in a column, and beside them the portraits."""
+    rows = max(signals, portraits)
+    height = 1.0 + 1.9 * rows
+    if not portraits:
+        figure = _style.new_figure(6.4, height)
+        return list(np.atleast_1d(figure.subplots(signals, 1, sharex=True))), []
+    figure = _style.new_figure(8.6, max(height, 3.2))
+    parts: Any = figure.subfigures(1, 2, width_ratios=[1.7, 1.0])
+    left, right = parts
+    over_time = list(np.atleast_1d(left.subplots(signals, 1, sharex=True)))
+    return over_time, list(np.atleast_1d(right.subplots(portraits, 1)))
+
+
+def _rate(data: Data, name: str, t: np.ndarray) -> tuple[np.ndarray, str]:
+    """The rate of a signal, and its unit: an angle's from its own column if there is one, else the slope."""
+    values = data.numbers(name)
+    if data.unit(name) == "deg":
+        stem = name[: -len("_deg")] if name.endswith("_deg") else name
+        for column in (f"{stem}_rate_rad_s", f"{stem}_rate"):
+            if column in data:
+                return np.degrees(data.numbers(column)) / 1000.0, "°/ms"
+        return np.gradient(values, t) / 1000.0, "°/ms"
+    shown = data.shown(name)
+    return np.gradient(shown.values, t * 1000.0), f"{shown.unit}/ms" if shown.unit else "1/ms"
+
+
+def _common(words: list[str]) -> str:
+    """What several signals have in common: their last words, else all of them."""
+    if len(words) <= 2:
+        return ", ".join([words[0], *(word[:1].lower() + word[1:] for word in words[1:])])
+    last = {word.split(",")[0].split(" ")[-1].lower() for word in words}
+    return last.pop().capitalize() if len(last) == 1 else "Value"
+
+
+def _direction(ax: Axes, x: np.ndarray, y: np.ndarray, colour: str) -> None:
+    """An arrow along a curve, a third of the way through its first turn."""
+    i = max(1, len(x) // 12)
+    if i + 1 < len(x):
+        ax.annotate(
+            "",
+            xy=(x[i + 1], y[i + 1]),
+            xytext=(x[i - 1], y[i - 1]),
+            arrowprops={"arrowstyle": "-|>", "color": colour, "mutation_scale": 13, "shrinkA": 0, "shrinkB": 0},
+        )

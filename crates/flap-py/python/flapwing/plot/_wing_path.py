@@ -1,0 +1,287 @@
+"""One cycle of the wing, as an animation."""
+
+from __future__ import annotations
+
+import os
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.animation import FuncAnimation
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+
+from . import _labels, _style
+from ._data import Data
+
+# Chords of the past that are shown, and how far apart they are, in cycles.
+_PAST, _APART = 9, 1.0 / 36.0
+
+
+class WingPath(FuncAnimation):
+    """An animation that is saved in the format that the file's name says, and shows itself in notebooks."""
+
+    def __init__(self, scene: _Scene) -> None:
+        self._scene = scene
+        super().__init__(scene.figure, scene.draw, frames=scene.cycle.frames, interval=40, blit=False)
+
+    def save(  # type: ignore[override]  # what it leaves out goes through `options`
+        self, filename: str | os.PathLike[str], writer: Any = None, fps: int = 25, **options: Any
+    ) -> None:
+        """Save the animation.
+
+        Parameters
+        ----------
+        filename : path
+            Ending in ``.gif`` (written with Pillow); in ``.html``, a page with buttons; or in anything else that
+            matplotlib's writer (ffmpeg by default) writes.
+        writer, fps, **options
+            As for matplotlib's ``Animation.save``; of the options, a GIF or page knows ``dpi`` alone.
+        """
+        ending = Path(filename).suffix.lower()
+        if writer is None and ending in (".html", ".htm"):
+            with mpl.rc_context({"savefig.dpi": options.get("dpi", "figure")}):
+                Path(filename).write_text(self.to_jshtml(fps=fps), encoding="utf-8")
+        elif writer is None and ending == ".gif":
+            self._save_gif(filename, fps, options.get("dpi", "figure"))
+        else:
+            if writer is None or isinstance(writer, str):
+                options["fps"] = fps
+            super().save(os.fspath(filename), writer=writer, **options)
+
+    def _save_gif(self, filename: str | os.PathLike[str], fps: int, dpi: float | str) -> None:
+        """One palette for all frames makes a third of the size, and one drawing for each half of the time."""
+        from PIL import Image
+
+        self._draw_was_started = True  # else matplotlib warns of an animation that was never drawn
+        images: list[Any] = []
+        palette = None
+        for frame in range(self._scene.cycle.frames):
+            self._scene.draw(frame)
+            with BytesIO() as buffer:
+                self._scene.figure.savefig(buffer, format="png", dpi=dpi, facecolor="white")
+                with Image.open(buffer) as drawn:
+                    image = drawn.convert("RGB")
+            if palette is None:
+                palette = _palette(image)
+            images.append(image.quantize(palette=palette, dither=Image.Dither.NONE))
+        first, *others = images
+        first.save(filename, format="GIF", save_all=True, append_images=others, duration=round(1000 / fps), loop=0)
+
+    def _repr_html_(self) -> str:
+        return str(self.to_jshtml())
+
+
+def wing_path(
+    table: Any,
+    *,
+    frames: int = 48,
+    frequency: float | None = None,
+    radius: float = 3.0,
+    lift: str | None = "lift_mn",
+    pitch_sign: int | None = None,
+    ax: Axes | None = None,
+) -> WingPath:
+    """Animate the last cycle of a motion: the wing's chord seen from its tip, moving along the stroke.
+
+    The dot is the leading edge, which is up; the line ends at the trailing edge, and an arrow of the lift's size
+    points up (down if the lift is negative). Below run stroke and pitch over the cycle. Keep the returned object
+    until it is saved or shown: ``plot.wing_path(trajectory).save("cycle.gif")``.
+
+    Parameters
+    ----------
+    table : Table, data frame, mapping of columns, or path
+        A trajectory with ``time_s``, ``stroke_deg`` and ``pitch_deg``, of one cycle or more, evenly sampled.
+    frames : int
+        Frames of the cycle, evenly spaced.
+    frequency : float, optional
+        Cycles per second (Hz); by default found from where the motion repeats.
+    radius : float
+        Distance of the chord that is seen from the stroke's axis, in chords.
+    lift : str or None
+        The column that the arrow shows; None, or a column that is not there by default, for no arrow.
+    pitch_sign : {1, -1}, optional
+        1 if a positive pitch has the trailing edge lag a wing that moves to positive stroke, -1 if it leads; by
+        default as the model of the table has it.
+    ax : matplotlib Axes, optional
+        Where to draw the wing, without the curves below.
+
+    Returns
+    -------
+    WingPath
+        A matplotlib ``FuncAnimation``; `save` knows ``.gif`` and ``.html``, and notebooks show ``_repr_html_``.
+
+    Raises
+    ------
+    ValueError
+        A column that there is not; a motion that does not repeat, or less than one cycle of it.
+    """
+    data = Data.of(table)
+    if frames < 2:
+        raise ValueError(f"an animation has two frames or more, not {frames}")
+    if pitch_sign not in (None, 1, -1):
+        raise ValueError(f"`pitch_sign` is 1 or -1, not {pitch_sign}")
+    if lift is not None and lift != "lift_mn":
+        data[lift]
+    cycle = _Cycle(data, frames, frequency, lift if lift is not None and lift in data else None)
+    sign = _pitch_sign(data) if pitch_sign is None else pitch_sign
+    with _style.style():
+        return WingPath(_Scene(cycle, sign, radius, ax))
+
+
+def _palette(image: Any) -> Any:
+    """The most frequent colours of a picture, as they are; Pillow cannot tell apart those within a few parts in 256."""
+    from PIL import Image
+
+    chosen: list[tuple[int, ...]] = []
+    for _, colour in sorted(image.getcolors(image.width * image.height), reverse=True):
+        if all(max(abs(a - b) for a, b in zip(colour, other)) > 8 for other in chosen):
+            chosen.append(colour)
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([channel for colour in chosen[:64] for channel in colour])
+    return palette
+
+
+class _Cycle:
+    """The last cycle of a trajectory, resampled; phases run from 0 to 1."""
+
+    def __init__(self, data: Data, frames: int, frequency: float | None, lift: str | None) -> None:
+        t, stroke, pitch = (data.numbers(name) for name in ("time_s", "stroke_deg", "pitch_deg"))
+        if len(t) < 9:
+            raise ValueError(f"a trajectory of {len(t)} samples is too short")
+        self.seconds = _period(t, stroke, pitch) if frequency is None else 1.0 / frequency
+        start = t[-1] - self.seconds
+        if start < t[0] - 1e-6 * self.seconds:
+            raise ValueError(f"the trajectory has less than one cycle of {self.seconds:g} s")
+        self.phase = np.arange(frames) / frames
+        self.frames = frames
+        times = start + self.phase * self.seconds
+        self.stroke, self.pitch = np.interp(times, t, stroke), np.interp(times, t, pitch)
+        self.lift = None if lift is None else np.interp(times, t, data.numbers(lift))
+        self.lift_words = "" if lift is None else data.shown(lift).words
+        self.lift_unit = "" if lift is None else _labels.pretty(data.unit(lift))
+
+
+class _Scene:
+    """What is drawn once, and what every frame moves."""
+
+    def __init__(self, cycle: _Cycle, sign: int, radius: float, ax: Axes | None) -> None:
+        self.cycle = cycle
+        along = np.radians(cycle.stroke) * radius
+        tilt = np.radians(cycle.pitch) * sign
+        self.leading = np.column_stack([along, np.zeros_like(along)])
+        self.trailing = np.column_stack([along - np.sin(tilt), -np.cos(tilt)])
+        below: Axes | None = None
+        if ax is None:
+            figure = _style.new_figure(6.4, 5.0)
+            ax, below = figure.subplots(2, 1, height_ratios=[2.2, 1.0])
+        self.figure: Figure = _style.figure_of(ax)
+        self._set_up(ax, radius)
+        self.now = None if below is None else self._curves(below)
+        if below is not None:
+            # The layout is the same in all frames, and finding it takes longer than drawing one.
+            self.figure.draw_without_rendering()
+            self.figure.set_layout_engine(None)
+
+    def _set_up(self, ax: Axes, radius: float) -> None:
+        reach = np.abs(np.concatenate([self.leading[:, 0], self.trailing[:, 0]])).max() + 0.25
+        ax.set_aspect("equal")
+        ax.set_xlim(-max(reach, 2.0), max(reach, 2.0))
+        ax.set_ylim(-1.2, 1.2 if self.cycle.lift is not None else 0.75)
+        ax.grid(False)
+        for side in ("left", "bottom"):
+            ax.spines[side].set_visible(False)
+        ax.set_yticks([])
+        low, high = self.cycle.stroke.min(), self.cycle.stroke.max()
+        room = 0.12 * (ax.get_xlim()[1] - ax.get_xlim()[0])
+        step = next((step for step in (1, 2, 5, 10, 15, 30, 60, 90) if np.radians(step) * radius >= room), 180)
+        degrees = np.arange(np.ceil(low / step) * step, high + 1e-9, step)
+        ax.set_xticks(np.radians(degrees) * radius, labels=[f"{degree:.0f}°".replace("-", "−") for degree in degrees])
+        ax.set_xlabel("Stroke, at the leading edge")
+        ends = [self.leading[:, 0].min(), self.leading[:, 0].max()]
+        ax.plot(ends, [0.0, 0.0], color="#bbbbbb", linewidth=1.0, linestyle=(0, (4, 3)))
+        self.past = LineCollection([], colors=[], linewidths=1.6, capstyle="round")
+        ax.add_collection(self.past)
+        (self.chord,) = ax.plot([], [], color=_style.BLUE, linewidth=3.2, solid_capstyle="round", label="chord")
+        (self.edge,) = ax.plot([], [], "o", color=_style.DARK, markersize=7, label="leading edge")
+        self.arrow: Any = None
+        handles = [self.edge, self.chord]
+        if self.cycle.lift is not None:
+            peak = float(np.abs(self.cycle.lift).max())
+            self.per_unit = 1.1 / peak if peak > 0 else 0.0
+            text = f"{self.cycle.lift_words.lower()}, up to {_labels.number(peak)} {self.cycle.lift_unit}"
+            (self.shaft,) = ax.plot([], [], color=_style.VERMILLION, linewidth=2.0, label=text.strip())
+            (self.head,) = ax.plot([], [], "^", color=_style.VERMILLION, markersize=7)
+            self.arrow = self.shaft
+            handles.append(self.shaft)
+        ax.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, borderaxespad=0.1)
+
+    def _curves(self, ax: Axes) -> Any:
+        phase = np.append(self.cycle.phase, 1.0)
+        for values, name, colour in (
+            (self.cycle.stroke, "stroke", _style.BLUE),
+            (self.cycle.pitch, "pitch", _style.VERMILLION),
+        ):
+            ax.plot(phase, np.append(values, values[0]), color=colour, label=name)
+        ax.set_xlim(0.0, 1.0)
+        ax.set_xlabel(f"Cycle (of {_labels.number(self.cycle.seconds * 1e3)} ms)")
+        ax.set_ylabel("Angle (°)")
+        ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
+        return ax.axvline(0.0, color=_style.DARK, linewidth=1.0)
+
+    def draw(self, frame: int) -> list[Any]:
+        """Moves everything to a frame."""
+        cycle = self.cycle
+        spacing = max(1, round(_APART * cycle.frames))
+        ago = [(frame - i * spacing) % cycle.frames for i in range(_PAST, 0, -1)]
+        self.past.set_segments([np.array([self.leading[i], self.trailing[i]]) for i in ago])
+        self.past.set_color([(0.0, 0.447, 0.698, 0.06 + 0.3 * i / _PAST) for i in range(_PAST)])
+        leading, trailing = self.leading[frame], self.trailing[frame]
+        self.chord.set_data([leading[0], trailing[0]], [leading[1], trailing[1]])
+        self.edge.set_data([leading[0]], [leading[1]])
+        moved: list[Any] = [self.past, self.chord, self.edge]
+        if self.arrow is not None and cycle.lift is not None:
+            # From where the centre of pressure roughly is, a quarter of the chord behind the leading edge.
+            foot = 0.75 * leading + 0.25 * trailing
+            length = cycle.lift[frame] * self.per_unit
+            self.shaft.set_data([foot[0], foot[0]], [foot[1], foot[1] + length])
+            self.head.set_data([foot[0]], [foot[1] + length])
+            self.head.set_marker("^" if length >= 0 else "v")
+            self.head.set_visible(abs(length) > 0.05)
+            moved += [self.shaft, self.head]
+        if self.now is not None:
+            self.now.set_xdata([cycle.phase[frame]] * 2)
+            moved.append(self.now)
+        return moved
+
+
+def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
+    """How long it takes until the end of a motion repeats what was before (s)."""
+    n = len(t)
+    states = np.column_stack([stroke, pitch])
+    size = np.ptp(states, axis=0)
+    if not (size > 0).any():
+        raise ValueError("the wing does not move")
+    states = states[:, size > 0] / size[size > 0]
+    error = np.full(n, np.inf)
+    for shift in range(8, n):
+        overlap = min(shift, n - shift)
+        error[shift] = np.abs(states[n - overlap :] - states[n - overlap - shift : n - shift]).max()
+    close = np.flatnonzero(error < 0.01)
+    if close.size == 0:
+        raise ValueError("the motion does not repeat within the trajectory: say its `frequency`")
+    shift = int(close[0])
+    while shift + 1 < n and error[shift + 1] < error[shift]:
+        shift += 1
+    return float(t[-1] - t[n - 1 - shift])
+
+
+def _pitch_sign(data: Data) -> int:
+    """Whether the trailing edge lags (1) or leads (-1) at a positive pitch: the four-bar's paper has it lead."""
+    model = data.meta.get("model")
+    if model is not None:
+        return -1 if model == "four-bar" else 1
+    return -1 if "power_hinge_damping_mw" in data else 1

@@ -1,0 +1,140 @@
+"""Makes the pictures of docs/plots.md, in some ten seconds:
+
+    pip install "./crates/flap-py[plot]"
+    python examples/python/pictures.py             # into docs/pictures
+    python examples/python/pictures.py elsewhere
+
+Each function makes one picture of what it computes itself; copy the one that you need.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")  # files, no windows
+
+import flapwing
+import matplotlib.pyplot as plt
+from flapwing import plot
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+REPOSITORY = Path(__file__).parents[2]
+
+
+def response() -> Axes:
+    """Frequency responses of the bimorph with a softened hinge; from 180 V on some motions are not periodic."""
+    table = flapwing.sweep(
+        {
+            "preset": "jafferis2016",
+            "params": {"hinge_stiffness": "0.7486 uN*m/rad"},
+            "axes": {
+                "drive_voltage_pp": {"from": "80 V", "to": "240 V", "step": "40 V"},
+                "drive_frequency": {"from": "60 Hz", "to": "160 Hz", "step": "1 Hz"},
+            },
+        }
+    )
+    return plot.response(table, "vehicle_lift_mgf")
+
+
+def measures() -> Figure:
+    """Three measures of the four-bar over frequency, at three stiffnesses of its series spring."""
+    table = flapwing.sweep(REPOSITORY / "examples" / "arabagi_fig11.toml")
+    return plot.response(table, ["stroke_pp_deg", "lift_mean_mn", "power_mean_mw"])
+
+
+def heatmap(large: flapwing.Table) -> Axes:
+    """Efficiency of the large direct drive over frequency and hinge stiffness, at one of the sweep's voltages."""
+    return plot.heatmap(large, "efficiency_gf_per_w", drive_voltage_pp=100)
+
+
+def gaps() -> Axes:
+    """Lift of the bimorph with a softened hinge: some motions are not periodic, and some designs are not run."""
+    table = flapwing.sweep(
+        {
+            "preset": "jafferis2016",
+            "params": {"hinge_stiffness": "0.7486 uN*m/rad"},
+            "axes": {
+                "drive_voltage_pp": {"from": "160 V", "to": "280 V", "step": "20 V"},
+                "drive_frequency": {"from": "60 Hz", "to": "140 Hz", "step": "1 Hz"},
+            },
+            "where": {"within_the_amplifier": "drive_voltage_pp * drive_frequency < 34000"},
+        }
+    )
+    return plot.heatmap(table, "vehicle_lift_mgf")
+
+
+def pareto(large: flapwing.Table) -> Axes:
+    """Lift against power of all designs of the same sweep."""
+    return plot.pareto(large, maximize="lift_mean_mn", minimize="power_mean_mw", color="drive_frequency")
+
+
+def trajectory() -> Figure:
+    """Two cycles of the bimorph."""
+    return plot.trajectory(flapwing.trajectory("jafferis2016"), ["stroke_deg", "pitch_deg", "lift_mn"])
+
+
+def wing_path() -> plot.WingPath:
+    """One cycle of it, seen from the wing's tip."""
+    return plot.wing_path(flapwing.trajectory("jafferis2016"), frames=36)
+
+
+def hysteresis() -> Axes:
+    """The bimorph with a softened hinge, bistable around 126 Hz."""
+    table = flapwing.respond(
+        "jafferis2016",
+        start="115 Hz",
+        stop="135 Hz",
+        step="1 Hz",
+        unstable=True,
+        hinge_stiffness="0.7486 uN*m/rad",
+        drive_voltage_pp="160 V",
+    )
+    return plot.hysteresis(table)
+
+
+def tornado() -> Axes:
+    """What changes the lift of the large direct drive."""
+    return plot.tornado("ozaki2018-large", "lift_mean_mn", top=10)
+
+
+def main() -> None:
+    """Writes all pictures to a folder."""
+    parser = argparse.ArgumentParser(description="Makes the pictures of docs/plots.md.")
+    parser.add_argument("folder", nargs="?", type=Path, default=REPOSITORY / "docs" / "pictures")
+    folder = parser.parse_args().folder
+    folder.mkdir(parents=True, exist_ok=True)
+
+    large = flapwing.sweep(REPOSITORY / "examples" / "ozaki_large.toml")
+    pictures = {
+        "response": response(),
+        "measures": measures(),
+        "heatmap": heatmap(large),
+        "gaps": gaps(),
+        "pareto": pareto(large),
+        "trajectory": trajectory(),
+        "hysteresis": hysteresis(),
+        "tornado": tornado(),
+    }
+    for name, picture in pictures.items():
+        figure = picture if isinstance(picture, Figure) else picture.figure
+        save(figure, folder / f"py-{name}.png")
+    wing_path().save(folder / "py-wing-path.gif", dpi=64)
+    plt.close("all")
+
+
+def save(figure: Figure, path: Path) -> None:
+    """A small PNG: few colours are enough for a chart."""
+    from PIL import Image
+
+    figure.savefig(path, dpi=90)
+    with Image.open(path) as image:
+        few = image.convert("RGB").quantize(128, dither=Image.Dither.NONE)
+    few.save(path, optimize=True)
+
+
+if __name__ == "__main__":
+    main()
