@@ -18,8 +18,8 @@ const STIFFNESS: f64 = 395.0; // of the actuator (N/m)
 const INERTIA: f64 = 1.2255e-12; // I_xx (kg m²)
 const COUPLING: f64 = 0.812e-12; // I_xz (kg m²)
 const HINGE: f64 = 1.497e-6; // κ (N m/rad)
-const DRAG_MEAN: f64 = (4.25 + 0.156) / 2.0;
-const DRAG_SWING: f64 = (4.25 - 0.156) / 2.0;
+const DRAG_MEAN: f64 = 0.5 * (4.25 + 0.156);
+const DRAG_SWING: f64 = 0.5 * (4.25 - 0.156);
 const LIFT: f64 = 1.8;
 /// ½ ρ A r₂² (R T)²: pressure on the wing per squared tip speed (kg/m).
 const PRESSURE: f64 = 0.5 * 1.2 * 54.59e-6 * 0.564 * 0.564 * (0.017 * TRANSMISSION) * (0.017 * TRANSMISSION);

@@ -29,6 +29,9 @@ const PERIODS: [u32; 2] = [35, 5];
 
 type Begin = Start<Drive<f64>, 4>;
 
+/// Number, force (N) and frequency (Hz) of a point.
+type Point = (String, f64, f64);
+
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [points, rtol, out] = &arguments[..] else {
@@ -42,12 +45,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let found = InstructionSet::best().dispatch(Runs { points: &points, tolerances });
     let (wall, cpu) = (wall.elapsed(), cpu_time()?.saturating_sub(cpu));
 
-    let mut table = String::from("id,F0,f,max_x,max_psi,lift\n");
+    let mut table = vec!["id,F0,f,max_x,max_psi,lift".to_owned()];
     for ((id, force, frequency), Sums { tip, psi, lift }) in points.iter().zip(&found.sums) {
         let mean = lift * frequency / f64::from(PERIODS[1]);
-        table += &format!("{id},{force:?},{frequency:?},{tip:e},{psi:e},{mean:e}\n");
+        table.push(format!("{id},{force:?},{frequency:?},{tip:e},{psi:e},{mean:e}"));
     }
-    fs::write(out, table)?;
+    fs::write(out, table.join("\n") + "\n")?;
     println!(
         "{{\"solve_s\":{},\"cpu_s\":{},\"rhs_per_point\":{}}}",
         wall.as_secs_f64(),
@@ -57,8 +60,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Number, force (N) and frequency (Hz) of each point.
-fn read(text: &str) -> Result<Vec<(String, f64, f64)>, Box<dyn Error>> {
+/// The points of a file.
+fn read(text: &str) -> Result<Vec<Point>, Box<dyn Error>> {
     let rows = text.lines().skip(1).map(|line| {
         let cells: Vec<&str> = line.split(',').collect();
         let [id, force, frequency] = cells[..] else { return Err(format!("not a point: {line}").into()) };
@@ -74,7 +77,7 @@ fn cpu_time() -> Result<Duration, nix::Error> {
 
 /// All runs, with the instructions of the machine.
 struct Runs<'a> {
-    points: &'a [(String, f64, f64)],
+    points: &'a [Point],
     tolerances: Tolerances,
 }
 
@@ -89,7 +92,7 @@ impl Kernel for Runs<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Found {
-        let begin = |(_, force, frequency): &(String, f64, f64)| Begin {
+        let begin = |(_, force, frequency): &Point| Begin {
             constants: Drive::new(*force, *frequency),
             y: [0.0; 4],
             span: 1.0 / frequency,
