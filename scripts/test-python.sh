@@ -48,8 +48,12 @@ fi
 export PATH="$work/bin:$PATH"
 
 # pip would take the directory's name for a name and a version, and keep every build in its cache.
-python -m pip install --quiet --disable-pip-version-check --no-cache-dir --no-index --no-deps \
-    --no-build-isolation --config-settings "build-args=--profile $profile --locked" ./crates/flap-py
+rm -rf -- "$work/wheels"
+python -m pip wheel --quiet --disable-pip-version-check --no-cache-dir --no-index --no-deps --no-build-isolation \
+    --config-settings "build-args=--profile $profile --locked" --wheel-dir "$work/wheels" ./crates/flap-py
+FLAPWING_WHEEL=$(echo "$work"/wheels/*.whl)
+export FLAPWING_WHEEL
+python -m pip install --quiet --disable-pip-version-check --no-index --no-deps --force-reinstall "$FLAPWING_WHEEL"
 
 # Rows are compared with those of the command.
 cargo build --quiet --profile "$profile" --locked -p flap-cli

@@ -4,10 +4,15 @@ import ast
 import importlib.metadata
 import inspect
 import operator
+import os
 import re
+import subprocess
+import sys
+import zipfile
 from pathlib import Path
 
 import flapwing
+import pytest
 from flapwing import _flapwing
 
 REPOSITORY = Path(__file__).parents[2]
@@ -20,6 +25,24 @@ def test_version_is_that_of_the_workspace():
     version = re.search(r'^version = "(.*)"$', package, re.MULTILINE).group(1)
     assert flapwing.__version__ == version
     assert importlib.metadata.version("flapwing") == version
+
+
+def test_one_wheel_serves_every_python_since_3_9():
+    name = Path(os.environ["FLAPWING_WHEEL"]).name
+    assert re.fullmatch(r"flapwing-[0-9.]+-cp39-abi3-\w+\.whl", name), name
+    with zipfile.ZipFile(os.environ["FLAPWING_WHEEL"]) as wheel:
+        native = [file for file in wheel.namelist() if file.endswith((".so", ".pyd", ".dylib"))]
+    assert len(native) == 1 and "abi3" in native[0]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="about Linux")
+def test_the_wheel_needs_nothing_but_the_system():
+    command = [sys.executable, "-m", "auditwheel", "show", os.environ["FLAPWING_WHEEL"]]
+    told = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    told = " ".join(told.split())
+    assert re.search(r'is consistent with the following platform tag: "manylinux_', told), told
+    # Only what every Linux has.
+    assert set(re.findall(r"(\S+)\.so\.\d", told)) <= {"libc", "libm", "libgcc_s", "libpthread", "libdl"}, told
 
 
 def documented(body, prefix=""):

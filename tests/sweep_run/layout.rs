@@ -1,14 +1,14 @@
 //! Columns and what they mean.
 
 use flap_core::simulate;
-use flap_sweep::layout::unit_of_name;
+use flap_sweep::layout::split_unit;
 
 #[test]
 fn names_of_measures_end_in_their_units() {
     let mut with_unit = 0;
     for model in simulate::all() {
         for column in model.columns() {
-            let unit = unit_of_name(&column.name);
+            let (_, unit) = split_unit(&column.name);
             assert_eq!(unit, column.unit, "{}", column.name);
             with_unit += usize::from(!unit.is_empty());
         }

@@ -35,7 +35,7 @@ mod _flapwing {
     #[pymodule_export]
     use crate::grid::Grid;
     #[pymodule_export]
-    use crate::listing::{measures, params};
+    use crate::listing::{measures, params, split_unit};
     #[pymodule_export]
     use crate::read::read;
     #[pymodule_export]

@@ -82,7 +82,7 @@ fn guess(reader: &mut Reader) -> std::io::Result<Vec<Column>> {
     }
     let column = |(name, kind): (&String, Option<Kind>)| Column {
         name: name.clone(),
-        unit: layout::unit_of_name(name),
+        unit: layout::split_unit(name).1,
         kind: kind.unwrap_or(Kind::Number),
         doc: String::new(),
     };

@@ -63,7 +63,7 @@ pub(crate) fn trajectory<'py>(
     let motion = motion.map_err(|reason| error::invalid(&reason))?;
     let column = |name: &String| layout::Column {
         name: name.clone(),
-        unit: layout::unit_of_name(name),
+        unit: layout::split_unit(name).1,
         kind: Kind::Number,
         doc: String::new(),
     };

@@ -204,35 +204,45 @@ impl Layout {
 }
 
 /// Endings of names, each with its unit in words; of two that fit, the longer one comes first.
-const ENDINGS: [(&str, &str); 19] = [
+const ENDINGS: [(&str, &str); 29] = [
     ("_gf_per_w", "gf/W"),
-    ("_v_per_um", "V/um"),
     ("_deg_per_v", "deg/V"),
+    ("_v_per_um", "V/um"),
     ("_rad_s", "rad/s"),
     ("_m_s", "m/s"),
     ("_1_s", "1/s"),
+    ("_mgf", "mgf"),
     ("_deg", "deg"),
     ("_rad", "rad"),
-    ("_mgf", "mgf"),
+    ("_khz", "kHz"),
     ("_hz", "Hz"),
-    ("_mn", "mN"),
-    ("_mw", "mW"),
-    ("_ma", "mA"),
-    ("_um", "um"),
     ("_gf", "gf"),
+    ("_mn", "mN"),
+    ("_un", "uN"),
+    ("_mw", "mW"),
+    ("_uw", "uW"),
+    ("_ma", "mA"),
+    ("_ua", "uA"),
+    ("_mm", "mm"),
+    ("_um", "um"),
     ("_mg", "mg"),
+    ("_kg", "kg"),
     ("_ms", "ms"),
-    ("_m", "m"),
+    ("_us", "us"),
+    ("_mj", "mJ"),
+    ("_uj", "uJ"),
+    ("_v", "V"),
     ("_s", "s"),
+    ("_m", "m"),
 ];
 
-/// The unit that a column's name ends in, for tables that do not come with units; empty if there is none.
+/// A column's name without the unit that it ends in, and that unit; empty if there is none.
 ///
 /// ```
-/// assert_eq!(flap_sweep::layout::unit_of_name("lift_mean_mn"), "mN");
-/// assert_eq!(flap_sweep::layout::unit_of_name("status"), "");
+/// assert_eq!(flap_sweep::layout::split_unit("lift_mean_mn"), ("lift_mean", "mN"));
+/// assert_eq!(flap_sweep::layout::split_unit("status"), ("status", ""));
 /// ```
-pub fn unit_of_name(name: &str) -> &'static str {
-    let ending = ENDINGS.iter().find(|(ending, _)| name.ends_with(ending));
-    ending.map_or("", |(_, unit)| unit)
+pub fn split_unit(name: &str) -> (&str, &'static str) {
+    let split = ENDINGS.iter().find_map(|(ending, unit)| Some((name.strip_suffix(ending)?, *unit)));
+    split.unwrap_or((name, ""))
 }

@@ -6,11 +6,11 @@ use std::path::Path;
 use csv::StringRecord;
 use flap_core::simulate;
 use flap_sweep::diagnostic::nearest;
-use flap_sweep::layout::Layout;
+use flap_sweep::layout::{self, Layout};
 use flap_sweep::results::{Format, Reader};
 use flap_sweep::sidecar::{self, Sidecar};
 
-use super::label;
+use super::label::Label;
 use crate::failure::Failure;
 use crate::{console, job};
 
@@ -214,7 +214,7 @@ impl Table {
     }
 
     /// The label of a column with its unit, and what its numbers are multiplied with for that unit.
-    pub(super) fn label(&self, index: usize) -> label::Label {
+    pub(super) fn label(&self, index: usize) -> Label {
         let column = &self.columns[index];
         let largest = match &column.cells {
             Cells::Numbers(values) => values
@@ -223,7 +223,7 @@ impl Table {
                 .fold(0.0, |most: f64, value| most.max(value.abs())),
             _ => 0.0,
         };
-        label::Label::new(&column.name, &column.unit, largest)
+        Label::new(&column.name, &column.unit, largest)
     }
 }
 
@@ -268,7 +268,7 @@ impl Units {
                 return column.unit.to_owned();
             }
         }
-        label::unit_of_name(name).unwrap_or_default().to_owned()
+        layout::split_unit(name).1.to_owned()
     }
 }
 

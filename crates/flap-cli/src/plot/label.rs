@@ -1,5 +1,7 @@
 //! What is written at axes: a column's name in words, and its unit.
 
+use flap_sweep::layout;
+
 /// A column's label, and the unit that its numbers are shown in.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Label {
@@ -49,43 +51,6 @@ fn trimmed(digits: &str) -> &str {
     if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
 }
 
-/// Endings of names and the units that they stand for. Longer ones first.
-const ENDINGS: [(&str, &str); 28] = [
-    ("_gf_per_w", "gf/W"),
-    ("_deg_per_v", "deg/V"),
-    ("_v_per_um", "V/um"),
-    ("_rad_s", "rad/s"),
-    ("_m_s", "m/s"),
-    ("_mgf", "mgf"),
-    ("_deg", "deg"),
-    ("_rad", "rad"),
-    ("_khz", "kHz"),
-    ("_hz", "Hz"),
-    ("_gf", "gf"),
-    ("_mn", "mN"),
-    ("_un", "uN"),
-    ("_mw", "mW"),
-    ("_uw", "uW"),
-    ("_ma", "mA"),
-    ("_ua", "uA"),
-    ("_mm", "mm"),
-    ("_um", "um"),
-    ("_mg", "mg"),
-    ("_kg", "kg"),
-    ("_ms", "ms"),
-    ("_us", "us"),
-    ("_mj", "mJ"),
-    ("_uj", "uJ"),
-    ("_v", "V"),
-    ("_s", "s"),
-    ("_m", "m"),
-];
-
-/// The unit that a name ends in.
-pub(super) fn unit_of_name(name: &str) -> Option<&'static str> {
-    ENDINGS.iter().find(|(ending, _)| name.ends_with(ending)).map(|(_, unit)| *unit)
-}
-
 /// Words at the end of a name that say which number of a signal it is.
 const QUALIFIERS: [(&str, &str); 13] = [
     ("mean", "mean"),
@@ -106,10 +71,8 @@ const QUALIFIERS: [(&str, &str); 13] = [
 /// A column's name in words, without its unit.
 fn words(name: &str, unit: &str) -> String {
     // A parameter such as `air_density` has a unit that its name does not tell.
-    let stem = match ENDINGS.iter().find(|(ending, known)| *known == unit && name.ends_with(ending)) {
-        Some((ending, _)) => &name[..name.len() - ending.len()],
-        None => name,
-    };
+    let (stem, known) = layout::split_unit(name);
+    let stem = if known == unit { stem } else { name };
     let mut parts: Vec<&str> = stem.split('_').filter(|part| !part.is_empty()).collect();
     let mut qualifiers = Vec::new();
     while parts.len() > 1 {

@@ -17,6 +17,7 @@ __all__ = [
     "resonance",
     "respond",
     "run",
+    "split_unit",
     "sweep",
     "trajectory",
 ]
@@ -241,3 +242,6 @@ def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None =
 
 def read(path: str | PathLike[str], /) -> dict[str, Any]:
     """Reads a result file; see `flapwing.read`."""
+
+def split_unit(name: str, /) -> tuple[str, str]:
+    """A column's name without the unit that it ends in, and that unit; empty if there is none."""

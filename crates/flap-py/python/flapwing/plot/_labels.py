@@ -8,26 +8,7 @@ from typing import Mapping, NamedTuple
 
 import numpy as np
 
-# Endings of names, longest first, and the units that they mean.
-_SUFFIXES = {
-    "_gf_per_w": "gf/W",
-    "_deg_per_v": "deg/V",
-    "_v_per_um": "V/um",
-    "_rad_s": "rad/s",
-    "_m_s": "m/s",
-    "_mgf": "mgf",
-    "_deg": "deg",
-    "_rad": "rad",
-    "_mn": "mN",
-    "_mw": "mW",
-    "_ma": "mA",
-    "_hz": "Hz",
-    "_um": "um",
-    "_mg": "mg",
-    "_gf": "gf",
-    "_s": "s",
-    "_m": "m",
-}
+from .._flapwing import split_unit
 
 # What is said behind a comma.
 _QUALIFIERS = {
@@ -64,21 +45,15 @@ class Scale(NamedTuple):
 
 def unit_of(name: str, units: Mapping[str, str]) -> str:
     """The unit of a column as flap writes it, from a table's units or else from the ending of the name."""
-    if name in units:
-        return units[name]
-    for suffix, unit in _SUFFIXES.items():
-        if name.endswith(suffix):
-            return unit
-    return ""
+    return units[name] if name in units else split_unit(name)[1]
 
 
 def words(name: str, unit: str = "") -> str:
     """A column's name in words, without its unit: `lift_mean_mn` is "Lift, mean"."""
     stem, measure = name, name.startswith("strain_")
-    for suffix, meant in _SUFFIXES.items():
-        if name.endswith(suffix) and unit in ("", meant):
-            stem, measure = name[: -len(suffix)], True
-            break
+    shortened, meant = split_unit(name)
+    if meant and unit in ("", meant):
+        stem, measure = shortened, True
     if stem in _WHOLE:
         return stem.replace("_", " ").capitalize()
     parts = stem.split("_")
