@@ -28,7 +28,8 @@ from pymoo.optimize import minimize
 DESIGN = {
     "preset": "jafferis2016",
     "derived": {
-        "transmission_stiffness": "preset.transmission_stiffness * (transmission_ratio / preset.transmission_ratio)^-0.14",
+        "transmission_stiffness": "preset.transmission_stiffness"
+        " * (transmission_ratio / preset.transmission_ratio)^-0.14",
     },
 }
 # Lowest and highest values, in SI units.

@@ -90,8 +90,8 @@ def main():
     print(f"{whole} of {blocks} blocks of the design are used.")
     if whole < blocks:
         print(
-            f"{blocks - whole} blocks hold a motion that is not periodic, which has no mean lift or power. They are left out:\n"
-            "the indices are those of the periodic motions, estimated from a sample that is no longer a Sobol' sequence."
+            f"{blocks - whole} blocks hold a motion that is not periodic, which has no mean lift or power. They are\n"
+            "left out: the indices are those of the periodic motions, and the sample is no longer a Sobol' sequence."
         )
     if whole < 0.9 * blocks:
         raise SystemExit("That is more than a tenth: indices would say little. Take a smaller --spread.")

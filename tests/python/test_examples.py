@@ -214,6 +214,17 @@ def test_fit_takes_other_measures_and_its_derivatives_are_right():
     assert found.x == pytest.approx(true, abs=1e-4)
 
 
+def test_fit_leaves_out_what_no_response_tells():
+    # All that stands in the equation of the stroke, times the same factor: lever of the drag, not drag, which turns the
+    # wing too.
+    names = ["force_factor", "stiffness_factor", "transmission_stiffness", "wing_inertia_stroke"]
+    names += ["added_inertia_stroke", "pressure_radius"]
+    example = load("fit_bimorph")
+    response = example.Response(names, np.linspace(80.0, 140.0, 7), {"stroke_pp_deg": None}, 160.0)
+    same, larger = response.model(np.log([[1.0] * 6, [1.3] * 6]))
+    assert larger == pytest.approx(same, rel=1e-6)
+
+
 @pytest.mark.parametrize(
     ("text", "says"),
     [
@@ -300,8 +311,8 @@ def test_notebook_links_lead_somewhere():
         assert (EXAMPLES / script).exists(), script
 
 
-# Runs the notebook with sockets in the folder in place of ports. It is a process of its own because nbclient leaves sockets
-# open, which is a warning whenever they are collected.
+# Runs the notebook with sockets in the folder in place of ports. It is a process of its own because nbclient leaves
+# sockets open, which is a warning whenever they are collected.
 RUN_NOTEBOOK = """
 import sys
 import nbclient
@@ -319,7 +330,8 @@ nbformat.write(cells, executed)
 def test_notebook_runs(tmp_path):
     import nbformat
 
-    # The names of sockets must be short. Nothing is written to the user's home, and the kernel chooses how pictures are shown.
+    # The names of sockets must be short. Nothing is written to the user's home, and the kernel chooses how pictures are
+    # shown.
     executed = tmp_path / NOTEBOOK
     with tempfile.TemporaryDirectory(prefix="nb") as folder:
         environment = {**os.environ, "JUPYTER_RUNTIME_DIR": folder, "IPYTHONDIR": folder, "JUPYTER_NO_CONFIG": "1"}
