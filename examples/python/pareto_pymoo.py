@@ -97,7 +97,8 @@ def main():
 
     print(f"{len(front)} designs on the front after {population * generations} points")
     print(
-        f"limits: strain {arguments.strain:g}, stroke {STROKE_DEG:g} deg, pitch {PITCH_DEG:g} deg; lift {VEHICLE_MG:g} mgf or more"
+        f"limits: strain {arguments.strain:g}, stroke {STROKE_DEG:g} deg, pitch {PITCH_DEG:g} deg; "
+        f"lift of both wings {VEHICLE_MG:g} mgf or more"
     )
     shown = ["lift_mean_mn", "power_supply_mw", "strain_surface_max", "stroke_pp_deg", "pitch_peak_deg", *VARIABLES]
     print(" ".join(f"{name:>18}" for name in shown))

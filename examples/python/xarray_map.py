@@ -68,7 +68,8 @@ def main():
     # The place of the largest lift of all, with all its coordinates.
     top = lift.isel(lift.argmax(...))
     print(
-        f"\nmost lift of all: {float(top):.3f} {lift.attrs['units']} at {float(top['hinge_stiffness']) * 1e6:.1f} uN*m/rad, "
+        f"\nmost lift of all: {float(top):.3f} {lift.attrs['units']} "
+        f"at {float(top['hinge_stiffness']) * 1e6:.1f} uN*m/rad, "
         f"{float(top['drive_voltage_pp']):g} V, {float(top['drive_frequency']):g} Hz"
     )
 
