@@ -46,7 +46,12 @@ _SETTINGS: Any = {
 def style() -> Iterator[None]:
     """The look of flap's pictures, for as long as one is made."""
     with mpl.rc_context(_SETTINGS):
-        yield
+        try:
+            yield
+        finally:
+            interactive = mpl.is_interactive()
+    # In a notebook the first figure turns this on, and without it no other would be shown.
+    mpl.interactive(interactive)
 
 
 def new_figure(width: float = 6.4, height: float = 4.0) -> Figure:

@@ -1,0 +1,96 @@
+"""How is a sweep spread over the processes of a cluster, and is the result the same?
+
+Starts a small Dask cluster on this machine, sweeps on it into one file, and compares that with a sweep without a
+cluster: the same bytes. A worker that dies does no harm; others run its points again. A sweep that is interrupted goes
+on with ``resume=True``, on the cluster or without it.
+
+    python dask_cluster.py
+    python dask_cluster.py --size full --workers 8 --out sweep.csv
+
+On a cluster, put another line in place of `LocalCluster(...)`, and the rest stays as it is. With SLURM
+(pip install dask-jobqueue):
+
+    from dask_jobqueue import SLURMCluster
+    cluster = SLURMCluster(cores=1, memory="2GB", walltime="01:00:00")
+    cluster.scale(64)
+
+With Kubernetes (pip install dask-kubernetes), where the image needs flapwing:
+
+    from dask_kubernetes.operator import KubeCluster
+    cluster = KubeCluster(image="registry.example/flapwing")
+    cluster.scale(64)
+
+Workers need the same version of flapwing, and processors on which elementary functions round alike; if not, the sweep
+says so and stops. The file is written here, not by workers.
+
+Needs Dask: pip install distributed
+
+M. Rocklin, "Dask: parallel computation with blocked algorithms and task scheduling", Proc. 14th Python in Science
+Conf. (2015) 126-132.
+"""
+
+import argparse
+import filecmp
+import os
+import tempfile
+import time
+
+import flapwing
+from distributed import Client, LocalCluster
+
+STEP_HZ = {"small": 1.0, "full": 0.02}
+
+
+def grid(step):
+    return {
+        "preset": "ozaki2018-large",
+        "axes": {
+            "hinge_stiffness": {"from": "70 uN*m/rad", "to": "110 uN*m/rad", "n": 9},
+            "drive_frequency": {"from": "90 Hz", "to": "130 Hz", "step": f"{step} Hz"},
+        },
+    }
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--size", choices=list(STEP_HZ), default="small")
+    parser.add_argument("--workers", type=int, default=2, help="processes, with one thread each")
+    parser.add_argument("--out", metavar="FILE", help="keep the rows: .csv, .csv.zst or .parquet")
+    arguments = parser.parse_args()
+
+    space = flapwing.Grid(grid(STEP_HZ[arguments.size]))
+    with tempfile.TemporaryDirectory() as folder:
+        out = arguments.out or os.path.join(folder, "cluster.csv")
+        with (
+            # Only this machine can reach the cluster; `dashboard_address=":8787"` would serve a page on its progress.
+            LocalCluster(
+                n_workers=arguments.workers,
+                threads_per_worker=1,
+                processes=True,
+                host="127.0.0.1",
+                dashboard_address=None,
+            ) as cluster,
+            Client(cluster) as client,
+        ):
+            begin = time.perf_counter()
+            table = flapwing.sweep(space, client=client, out=out)
+            seconds = time.perf_counter() - begin
+        statuses = ", ".join(f"{count} {status}" for status, count in table.counts.items())
+        print(f"{len(table)} points on {arguments.workers} workers in {seconds:.1f} s: {statuses}")
+        row = table["lift_mean_mn"].argmax()
+        print(f"most lift: {table['lift_mean_mn'][row]:.3f} mN at {table['drive_frequency'][row]:g} Hz")
+
+        local = os.path.join(folder, "local-" + os.path.basename(out))
+        flapwing.sweep(space, out=local)
+        if not filecmp.cmp(out, local, shallow=False):
+            raise SystemExit(
+                "The rows differ from those of a sweep without the cluster. That is a bug: please report it."
+            )
+        print("The same bytes as without the cluster.")
+        if arguments.out:
+            print(f"wrote {arguments.out}")
+
+
+if __name__ == "__main__":
+    # Worker processes import this file, and must not start clusters of their own.
+    main()

@@ -1,0 +1,114 @@
+"""Which parameters decide lift and power, when each is known to 10 % only?
+
+Sobol' indices say what share of a result's variance comes from each parameter: the first-order index S1 from it alone,
+the total index ST from it and all its interactions with others. First-order indices add up to at most 1; what is
+missing are interactions. A parameter whose ST is near 0 may as well be fixed.
+
+All points go through one call of `flapwing.evaluate`.
+
+    python sobol_indices.py
+    python sobol_indices.py --size full
+    python sobol_indices.py --preset jafferis2016 --spread 25
+
+Needs SALib: pip install SALib
+
+I. M. Sobol', "Global sensitivity indices for nonlinear mathematical models and their Monte Carlo estimates", Math.
+Comput. Simul. 55 (2001) 271-280.
+A. Saltelli et al., "Variance based sensitivity analysis of model output. Design and estimator for the total
+sensitivity index", Comput. Phys. Commun. 181 (2010) 259-270.
+T. Iwanaga, W. Usher and J. Herman, "Toward SALib 2.0", Socio-Environmental Systems Modelling 4 (2022) 18155.
+"""
+
+import argparse
+
+import flapwing
+import numpy as np
+from SALib.analyze import sobol as sobol_analyze
+from SALib.sample import sobol as sobol_sample
+
+# What is uncertain in each design: things that are hard to measure or to make.
+UNCERTAIN = {
+    "ozaki2018-large": [
+        "hinge_stiffness",
+        "shim_thickness",
+        "piezo_modulus",
+        "piezo_coefficient",
+        "leading_edge_inertia",
+        "drag_max",
+    ],
+    "jafferis2016": [
+        "hinge_stiffness",
+        "transmission_ratio",
+        "wing_inertia_stroke",
+        "piezo_thickness",
+        "drag_max",
+        "lift_max",
+    ],
+}
+RESULTS = ["lift_mean_mn", "power_mean_mw"]
+# Points of Saltelli's design that are moved in one parameter at a time: a power of 2.
+BASES = {"small": 1024, "full": 8192}
+
+
+def uncertain_parameters(preset, spread):
+    """SALib's description of the parameters, each uniform within a share of its value in the preset."""
+    names = UNCERTAIN[preset]
+    values = [flapwing.params(preset)[name].value for name in names]
+    bounds = [[value * (1 - spread), value * (1 + spread)] for value in values]
+    return {"num_vars": len(names), "names": names, "bounds": bounds}
+
+
+def rows_of_whole_blocks(periodic, parameters):
+    """Marks the rows of blocks that are periodic throughout.
+
+    Saltelli's design comes in blocks of rows that belong together: two points, and the first with each parameter
+    taken from the second. The estimators compare rows within blocks, so if one row of a block is no periodic motion
+    and has no lift or power, the block has to go, and nothing must be put in its place.
+    """
+    blocks = periodic.reshape(-1, parameters + 2)
+    whole = blocks.all(axis=1)
+    return np.repeat(whole, parameters + 2)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--size", choices=list(BASES), default="small")
+    parser.add_argument("--preset", choices=list(UNCERTAIN), default="ozaki2018-large")
+    parser.add_argument("--spread", type=float, default=10.0, help="uncertainty of each parameter, in %% either way")
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+
+    problem = uncertain_parameters(arguments.preset, arguments.spread / 100)
+    parameters = problem["num_vars"]
+    sample = sobol_sample.sample(problem, BASES[arguments.size], calc_second_order=False, seed=arguments.seed)
+    table = flapwing.evaluate(arguments.preset, dict(zip(problem["names"], sample.T)))
+
+    used = rows_of_whole_blocks(table["status"] == "periodic", parameters)
+    blocks, whole = len(used) // (parameters + 2), int(used.sum()) // (parameters + 2)
+    statuses = ", ".join(f"{count} {status}" for status, count in table.counts.items())
+    print(f"{arguments.preset}, {parameters} parameters within {arguments.spread:g} %: {len(table)} points, {statuses}")
+    print(f"{whole} of {blocks} blocks of the design are used.")
+    if whole < blocks:
+        print(
+            f"{blocks - whole} blocks hold a motion that is not periodic, which has no mean lift or power. They are\n"
+            "left out: the indices are those of the periodic motions, and the sample is no longer a Sobol' sequence."
+        )
+    if whole < 0.9 * blocks:
+        raise SystemExit("That is more than a tenth: indices would say little. Take a smaller --spread.")
+
+    for name in RESULTS:
+        values = table[name][used]
+        indices = sobol_analyze.analyze(problem, values, calc_second_order=False, seed=arguments.seed)
+        deviation = np.std(values, ddof=1)
+        print(f"\n{name}: mean {np.mean(values):.4g} {table.units[name]}, standard deviation {deviation:.3g}")
+        print(f"{'parameter':24} {'S1':>7} {'± 95 %':>8} {'ST':>7} {'± 95 %':>8}")
+        for place in np.argsort(-indices["ST"]):
+            first, total = indices["S1"][place], indices["ST"][place]
+            first_error, total_error = indices["S1_conf"][place], indices["ST_conf"][place]
+            print(f"{problem['names'][place]:24} {first:7.3f} {first_error:8.3f} {total:7.3f} {total_error:8.3f}")
+        together = indices["S1"].sum()
+        print(f"{'sum of S1':24} {together:7.3f}          the other {1 - together:.0%} come from interactions")
+
+
+if __name__ == "__main__":
+    main()

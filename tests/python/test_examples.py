@@ -1,0 +1,362 @@
+"""The examples run as they are, and what they say is so."""
+
+import importlib.util
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import flapwing
+import numpy as np
+import pytest
+
+EXAMPLES = Path(__file__).parents[2] / "examples/python"
+SCRIPTS = ["dask_cluster", "fit_bimorph", "pareto_pymoo", "sobol_indices", "xarray_map"]
+ELSEWHERE = ["pictures"]  # in test_plot.py
+NOTEBOOK = "first_steps.ipynb"
+
+
+def run(name, *arguments, code=0):
+    """What a script prints. Warnings are errors, those of other libraries and of Dask's workers too."""
+    command = [sys.executable, "-W", "error", EXAMPLES / f"{name}.py", *arguments]
+    ended = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, timeout=300)
+    assert ended.returncode == code, ended.stderr
+    return ended.stdout if code == 0 else ended.stderr
+
+
+def load(name):
+    """A script as a module."""
+    spec = importlib.util.spec_from_file_location(f"example_{name}", EXAMPLES / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_every_example_is_here():
+    assert sorted(path.name for path in EXAMPLES.glob("*.py")) == sorted(f"{name}.py" for name in SCRIPTS + ELSEWHERE)
+    assert [path.name for path in EXAMPLES.glob("*.ipynb")] == [NOTEBOOK]
+
+
+def indices(printed):
+    """The printed tables: by result and parameter, S1, its error, ST, its error."""
+    tables = {}
+    for line in printed.splitlines():
+        if heading := re.match(r"(\w+): mean", line):
+            table = tables[heading[1]] = {}
+        elif row := re.match(r"(\w+) +(-?[\d.]+) +([\d.]+) +(-?[\d.]+) +([\d.]+)$", line):
+            table[row[1]] = tuple(map(float, row.groups()[1:]))
+    return tables
+
+
+@pytest.fixture(scope="module")
+def sobol():
+    return indices(run("sobol_indices"))
+
+
+def test_sobol_indices_are_shares_of_a_variance(sobol):
+    names = load("sobol_indices").UNCERTAIN["ozaki2018-large"]
+    assert list(sobol) == ["lift_mean_mn", "power_mean_mw"]
+    for table in sobol.values():
+        assert sorted(table) == sorted(names)
+        for first, first_error, total, total_error in table.values():
+            assert -first_error <= first <= total + first_error + total_error
+            assert 0 <= total <= 1
+        assert 0.4 < sum(row[0] for row in table.values()) < 1.05
+        assert sum(row[2] for row in table.values()) > 0.95
+        # What detunes the wing matters most; the total indices are in order.
+        assert next(iter(table)) == "shim_thickness"
+        totals = [row[2] for row in table.values()]
+        assert totals == sorted(totals, reverse=True)
+
+
+@pytest.mark.parametrize("name", ["shim_thickness", "piezo_coefficient"])
+def test_sobol_first_order_is_that_of_its_definition(sobol, name):
+    # Var E(Y | x) / Var Y, by Gauss' rule over the parameter and a Latin hypercube over the others.
+    from scipy.stats import qmc
+
+    problem = load("sobol_indices").uncertain_parameters("ozaki2018-large", 0.1)
+    lowest, highest = np.array(problem["bounds"]).T
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    others = qmc.LatinHypercube(problem["num_vars"], rng=2).random(600)
+    points = np.tile(others, (len(nodes), 1))
+    place = problem["names"].index(name)
+    points[:, place] = np.repeat((nodes + 1) / 2, len(others))
+    points = lowest + (highest - lowest) * points
+    lift = flapwing.evaluate("ozaki2018-large", dict(zip(problem["names"], points.T)))["lift_mean_mn"]
+    lift = lift.reshape(len(nodes), len(others))
+    weights = weights / 2
+    mean = weights @ lift.mean(axis=1)
+    variance = weights @ (lift**2).mean(axis=1) - mean**2
+    explained = weights @ lift.mean(axis=1) ** 2 - mean**2
+    first, error, _, _ = sobol["lift_mean_mn"][name]
+    assert explained / variance == pytest.approx(first, abs=1.5 * error + 0.02)
+
+
+def test_sobol_leaves_out_whole_blocks(monkeypatch, capsys):
+    example = load("sobol_indices")
+    periodic = np.ones(32, dtype=bool)
+    periodic[[9, 14]] = False
+    assert example.rows_of_whole_blocks(periodic, 6).tolist() == [True] * 8 + [False] * 8 + [True] * 16
+
+    monkeypatch.setattr(example, "BASES", {"small": 256})
+    monkeypatch.setattr(sys, "argv", ["sobol_indices.py", "--preset", "jafferis2016", "--spread", "25"])
+    example.main()
+    printed = capsys.readouterr().out
+    unsettled = int(re.search(r"(\d+) unsettled", printed)[1])
+    left_out = int(re.search(r"(\d+) blocks hold a motion that is not periodic", printed)[1])
+    assert 0 < left_out <= unsettled
+    assert f"{256 - left_out} of 256 blocks" in printed
+    assert all(np.isfinite(row).all() for table in indices(printed).values() for row in table.values())
+
+    monkeypatch.setattr(sys, "argv", ["sobol_indices.py", "--preset", "jafferis2016", "--spread", "40"])
+    with pytest.raises(SystemExit, match="smaller --spread"):
+        example.main()
+
+
+def test_pareto_front_is_one(tmp_path):
+    from pymoo.indicators.hv import HV
+    from scipy.stats import qmc
+
+    example = load("pareto_pymoo")
+    out, picture = tmp_path / "front.csv", tmp_path / "front.png"
+    run("pareto_pymoo", "--out", out, "--picture", picture)
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    front = np.genfromtxt(out, delimiter=",", names=True)
+    assert len(front) > 50
+
+    # Nothing in it beats anything else in it.
+    lift, power = front["lift_mean_mn"], front["power_supply_mw"]
+    no_worse = (lift[:, None] >= lift) & (power[:, None] <= power)
+    better = (lift[:, None] > lift) | (power[:, None] < power)
+    assert not (no_worse & better).any()
+
+    # It keeps to the limits, and is what `run` says of such designs.
+    assert (front["strain_surface_max"] <= example.STRAIN).all()
+    assert (front["stroke_pp_deg"] <= example.STROKE_DEG).all()
+    assert (front["pitch_peak_deg"] <= example.PITCH_DEG).all()
+    # The strain is what holds the strongest design back.
+    assert front["strain_surface_max"].max() > 0.97 * example.STRAIN
+    strongest = front[np.argmax(lift)]
+    ratio = strongest["transmission_ratio"] / flapwing.params("jafferis2016")["transmission_ratio"].value
+    stiffness = flapwing.params("jafferis2016")["transmission_stiffness"].value * ratio**-0.14
+    row = flapwing.run(
+        "jafferis2016", transmission_stiffness=stiffness, **{name: strongest[name] for name in example.VARIABLES}
+    )
+    assert row["lift_mean_mn"] == pytest.approx(strongest["lift_mean_mn"], rel=1e-6)
+    assert row["vehicle_lift_mgf"] >= example.VEHICLE_MG
+
+    # The search is worth it: more is dominated than by as many random designs.
+    lowest, highest = np.array(list(example.VARIABLES.values())).T
+    sample = qmc.scale(qmc.LatinHypercube(len(lowest), rng=3).random(np.prod(example.SIZES["small"])), lowest, highest)
+    answer = {}
+    example.Wing(example.STRAIN)._evaluate(sample, answer)
+    allowed = answer["F"][(answer["G"] <= 0).all(axis=1)]
+    dominated = HV(ref_point=np.array([0.0, 45.0]))
+    assert dominated(np.column_stack([-lift, power])) > dominated(allowed)
+
+
+def test_pareto_keeps_out_what_is_not_periodic():
+    example = load("pareto_pymoo")
+    answer = {}
+    points = np.array([[250.0, 120.0, 3333.0, 0.2e-6], [200.0, 120.0, 3333.0, 1.5e-6]])
+    example.Wing(example.STRAIN)._evaluate(points, answer)
+    assert (answer["G"][0] > 0).all() and answer["G"][1, -1] < 0
+    assert np.isfinite(answer["F"]).all() and np.isfinite(answer["G"]).all()
+
+
+def fitted(printed):
+    """The printed table: by parameter, value, ends of its interval, error (%), and what else there is."""
+    rows = re.findall(r"^(\w+) +(?:N\*m/rad|kg\*m\^2)? +(\d[^\n]*)$", printed, re.MULTILINE)
+    return {name: [float(cell) for cell in cells.replace("sigma", "").split()] for name, cells in rows[:3]}
+
+
+def test_fit_recovers_what_is_true(tmp_path):
+    example = load("fit_bimorph")
+    data = tmp_path / "synthetic.csv"
+    printed = run("fit_bimorph", "--write-data", data)
+    table = fitted(printed)
+    assert list(table) == example.FITTED
+    for value, low, high, error, true, off in table.values():
+        assert low < value < high
+        assert 0 < error < 2
+        assert abs(off) < 3
+        assert abs(np.log(value / true)) < 3 * error / 100
+    noise = float(re.search(r"residuals: ([\d.]+) deg rms", printed)[1])
+    assert 0.5 < noise / example.NOISE_DEG < 1.6
+    condition = float(re.search(r"condition of the Jacobian: ([\d.]+)", printed)[1])
+    assert condition < 30
+
+    # From a file the same comes out, without true values.
+    again = fitted(run("fit_bimorph", data))
+    for name, row in again.items():
+        assert len(row) == 4
+        assert row == pytest.approx(table[name][:4], rel=1e-3)
+
+
+def test_fit_takes_other_measures_and_its_derivatives_are_right():
+    from scipy.optimize import approx_fprime
+
+    example = load("fit_bimorph")
+    frequency = np.linspace(80.0, 140.0, 7)
+    names = [*example.FITTED, "force_factor"]
+    true = np.log([1.1, 0.95, 0.9, 1.05])
+    response = example.Response(names, frequency, {"stroke_pp_deg": None, "pitch_amplitude_deg": None}, 160.0)
+    exact = response.model(true[np.newaxis])[0]
+    response.measured = dict(zip(response.measured, np.split(exact, 2)))
+    assert np.abs(response.residuals(true)).max() == 0
+    slopes = response.jacobian(true)
+    assert slopes.shape == (14, 4)
+    assert slopes == pytest.approx(approx_fprime(true, response.residuals, 1e-5), abs=0.02 * np.abs(slopes).max())
+    found, _, freedom = example.fit(response)
+    assert freedom == 10
+    assert found.x == pytest.approx(true, abs=1e-4)
+
+
+def test_fit_leaves_out_what_no_response_tells():
+    # All that stands in the equation of the stroke, times the same factor: lever of the drag, not drag, which turns the
+    # wing too.
+    names = ["force_factor", "stiffness_factor", "transmission_stiffness", "wing_inertia_stroke"]
+    names += ["added_inertia_stroke", "pressure_radius"]
+    example = load("fit_bimorph")
+    response = example.Response(names, np.linspace(80.0, 140.0, 7), {"stroke_pp_deg": None}, 160.0)
+    same, larger = response.model(np.log([[1.0] * 6, [1.3] * 6]))
+    assert larger == pytest.approx(same, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("hz,stroke_pp_deg\n100,50\n", "has no column `frequency_hz`"),
+        ("frequency_hz,stroke\n100,50\n", "`stroke` is not among the measures stroke_amplitude_deg, stroke_pp_deg"),
+        ("frequency_hz\n100\n110\n", "no column of a measure"),
+        ("frequency_hz,stroke_pp_deg\n100,50\n110,\n", "`stroke_pp_deg` has cells without a number"),
+        ("frequency_hz,stroke_pp_deg\n100,50\n110,60\n", "3 parameters need more than 3 readings"),
+    ],
+)
+def test_fit_says_what_is_wrong_with_data(tmp_path, monkeypatch, text, says):
+    data = tmp_path / "data.csv"
+    data.write_text(text, encoding="utf-8")
+    monkeypatch.setattr(sys, "argv", ["fit_bimorph.py", str(data)])
+    with pytest.raises(SystemExit, match=says):
+        load("fit_bimorph").main()
+
+
+def test_map_has_its_maximum_at_the_right_place(tmp_path):
+    import xarray
+
+    example = load("xarray_map")
+    saved, picture = tmp_path / "map.nc", tmp_path / "map.png"
+    printed = run("xarray_map", "--save", saved, "--picture", picture)
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert "at an end of the range" not in printed
+
+    # The same by another way: every point as a batch, without xarray.
+    grid = flapwing.Grid(example.grid(**example.STEPS["small"]))
+    names = ["hinge_stiffness", "drive_voltage_pp", "drive_frequency"]
+    axes = [axis[name] for axis, name in zip(grid.axes, names)]
+    points = [column.ravel() for column in np.meshgrid(*axes, indexing="ij")]
+    table = flapwing.evaluate("ozaki2018-large", dict(zip(names, points)))
+    lift = table["lift_mean_mn"].reshape([len(axis) for axis in axes])
+    with xarray.open_dataset(saved, engine="scipy") as atlas:
+        assert atlas["lift_mean_mn"].dims == ("hinge_stiffness", "drive_voltage_pp")
+        assert atlas["lift_mean_mn"].attrs["units"] == "mN"
+        assert (atlas["lift_mean_mn"].values == lift.max(axis=2)).all()
+        assert (atlas["best_frequency_hz"].values == np.array(axes[2])[lift.argmax(axis=2)]).all()
+    most, hinge, volts, hertz = map(
+        float, re.search(r"most lift of all: (\S+) mN at (\S+) uN\*m/rad, (\S+) V, (\S+) Hz", printed).groups()
+    )
+    top = lift.argmax()
+    assert most == pytest.approx(lift.max(), abs=1e-3)
+    assert [hinge * 1e-6, volts, hertz] == pytest.approx([column[top] for column in points])
+    # The peak between the steps is within one of them.
+    fine = np.arange(hertz - 6, hertz + 6.01, 0.25)
+    design = {"hinge_stiffness": hinge * 1e-6, "drive_voltage_pp": volts}
+    table = flapwing.evaluate("ozaki2018-large", {"drive_frequency": fine}, **design)
+    assert abs(fine[table["lift_mean_mn"].argmax()] - hertz) <= 2
+    guess, simulated = map(float, re.search(r"interpolated (\S+) mN, simulated (\S+) mN", printed).groups())
+    assert guess == pytest.approx(simulated, rel=0.02)
+
+
+def test_cluster_gives_the_same_bytes(tmp_path):
+    example = load("dask_cluster")
+    out, local = tmp_path / "cluster.csv", tmp_path / "local.csv"
+    printed = run("dask_cluster", "--out", out)
+    assert "369 points on 2 workers" in printed
+    assert "The same bytes as without the cluster." in printed
+    flapwing.sweep(example.grid(example.STEP_HZ["small"]), out=local)
+    assert out.read_bytes() == local.read_bytes()
+
+
+def test_notebook_is_stripped():
+    import nbformat
+
+    text = (EXAMPLES / NOTEBOOK).read_text(encoding="utf-8")
+    notebook = nbformat.reads(text, as_version=4)
+    nbformat.validate(notebook)
+    for cell in notebook.cells:
+        if cell.cell_type == "code":
+            assert cell.outputs == [] and cell.execution_count is None, cell.source
+        assert not cell.metadata, cell.source
+    assert set(notebook.metadata) == {"kernelspec", "language_info"}
+    assert nbformat.writes(notebook, indent=1) + "\n" == text
+
+
+def test_notebook_links_lead_somewhere():
+    text = (EXAMPLES / NOTEBOOK).read_text(encoding="utf-8")
+    for target in re.findall(r"\]\((\.\./[^)]+)\)", text):
+        assert (EXAMPLES / target).resolve().exists(), target
+    for script in re.findall(r"`(\w+\.py)`", text):
+        assert (EXAMPLES / script).exists(), script
+
+
+# Runs the notebook with sockets in the folder in place of ports. It is a process of its own because nbclient leaves
+# sockets open, which is a warning whenever they are collected.
+RUN_NOTEBOOK = """
+import sys
+import nbclient
+import nbformat
+from jupyter_client.manager import AsyncKernelManager
+
+notebook, folder, executed = sys.argv[1:]
+kernel = AsyncKernelManager(kernel_name="python3", transport="ipc", ip=f"{folder}/ipc")
+cells = nbformat.read(notebook, as_version=4)
+nbclient.NotebookClient(cells, km=kernel, timeout=120, resources={"metadata": {"path": folder}}).execute()
+nbformat.write(cells, executed)
+"""
+
+
+def test_notebook_runs(tmp_path):
+    import nbformat
+
+    # The names of sockets must be short. Nothing is written to the user's home, and the kernel chooses how pictures are
+    # shown.
+    executed = tmp_path / NOTEBOOK
+    with tempfile.TemporaryDirectory(prefix="nb") as folder:
+        environment = {**os.environ, "JUPYTER_RUNTIME_DIR": folder, "IPYTHONDIR": folder, "JUPYTER_NO_CONFIG": "1"}
+        environment.pop("MPLBACKEND", None)
+        command = [sys.executable, "-c", RUN_NOTEBOOK, EXAMPLES / NOTEBOOK, folder, executed]
+        ended = subprocess.run(command, env=environment, capture_output=True, text=True, check=False, timeout=300)
+        assert ended.returncode == 0, ended.stderr
+    notebook = nbformat.read(executed, as_version=4)
+
+    shown, pictures = "", 0
+    for cell in notebook.cells:
+        outputs = cell.get("outputs", [])
+        for output in outputs:
+            assert output.output_type != "error" and output.get("name") != "stderr", output
+            shown += output.get("text", "") + output.get("data", {}).get("text/plain", "")
+        pictured = any("image/png" in output.get("data", {}) for output in outputs)
+        assert pictured == cell.source.splitlines()[-1].startswith("plot."), cell.source
+        pictures += pictured
+    assert pictures == 3
+    for said in [
+        "ozaki2018-large",
+        "'unsettled'",
+        "did you mean `drive_frequency`?",
+        "`V` is a voltage",
+        "interrupted",
+    ]:
+        assert said in shown
+    assert "the same as the sweep in memory: True" in shown
