@@ -76,6 +76,22 @@ def test_a_grid_without_axes_is_a_design():
     np.testing.assert_array_equal(table["double"], 2 * table["lift_mean_mn"])
 
 
+def test_a_grid_with_axes_is_run_for_every_row():
+    grid = {"preset": PRESET, "axes": {"drive_frequency": [100, 110]}, "output": {"columns": ["lift_mean_mn"]}}
+    stiffness = [8e-5, 9e-5, 1e-4]
+    table = flapwing.evaluate(grid, {"hinge_stiffness": stiffness, "drive_voltage_pp": "80 V"})
+    assert table["point"].tolist() == list(range(6))
+    assert table["hinge_stiffness"].tolist() == np.repeat(stiffness, 2).tolist()
+    assert table["drive_frequency"].tolist() == [100, 110] * 3
+    lift = table.to_xarray()["lift_mean_mn"]
+    assert lift.dims == ("row", "drive_frequency") and lift["hinge_stiffness"].dims == ("row",)
+    alone = flapwing.run(PRESET, hinge_stiffness=9e-5, drive_frequency=110, drive_voltage_pp=80)
+    assert lift[1, 1] == alone["lift_mean_mn"]
+    huge = {"preset": PRESET, "axes": {"air_density": {"from": 1, "to": 2, "n": 4 * 10**18}}}
+    with pytest.raises(ValueError, match="too many points"):
+        flapwing.evaluate(huge, {"hinge_stiffness": stiffness})
+
+
 def test_each_design_at_its_own_resonance():
     grid = {"preset": "ozaki2018-small", "params": {"drive_frequency": "resonance"}, "resonance": {"from": 150, "to": 250}}
     table = flapwing.evaluate(grid, {"drive_voltage_pp": [20.0, 30.0]})
@@ -105,8 +121,8 @@ def test_a_model_needs_all_its_parameters():
         (PRESET, {"drive_frequency": [True]}, TypeError, "`drive_frequency` must be a number in Hz"),
         (PRESET, {"drive_frequency": True}, TypeError, "`drive_frequency` must be a number"),
         (PRESET, {"drive_frequency": [None]}, TypeError, "`drive_frequency` must be a number in Hz"),
-        ({"preset": PRESET, "axes": {"wing_length": [0.03]}}, {"drive_frequency": [1]}, ValueError, "varies wing_length itself"),
-        ({"preset": PRESET, "derived": {"wing_length": "0.03"}}, {"wing_length": [1]}, ValueError, "is derived in the grid"),
+        ({"preset": PRESET, "axes": {"wing_length": [0.03]}}, {"wing_length": [1]}, ValueError, "the grid varies or derives it"),
+        ({"preset": PRESET, "derived": {"wing_length": "0.03"}}, {"wing_length": [1]}, ValueError, "the grid varies or derives it"),
     ],
 )
 def test_what_is_refused(design, columns, error, says):

@@ -90,6 +90,8 @@ def test_a_grid_says_what_it_is():
     assert (grid.model, grid.preset) == ("direct-drive", "ozaki2018-large")
     assert repr(grid) == "<flapwing.Grid of 10 points of ozaki2018-large: drive_voltage_pp (2) x drive_frequency (5)>"
     assert grid.axes[0]["drive_voltage_pp"].tolist() == [60.0, 80.0]
+    assert grid.varied == ["drive_voltage_pp", "drive_frequency"]
+    assert flapwing.Grid(GRID).varied[-1] == "hinge_stiffness"
 
 
 def test_a_huge_grid_costs_nothing():

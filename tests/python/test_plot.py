@@ -874,3 +874,11 @@ def test_pictures_of_the_page_are_there_and_small(page):
     for name in files:
         function = name.split("py-")[1].split(".")[0].replace("-", "_")
         assert f"def {function}(" in script
+
+
+def test_the_pictures_of_the_page_are_made(tmp_path):
+    """By the script that makes them, all of them and no others."""
+    script = Path(__file__).parents[2] / "examples/python/pictures.py"
+    subprocess.run([sys.executable, "-W", "error", script, tmp_path], check=True, capture_output=True, text=True)
+    kept = {picture.name for picture in (script.parents[2] / "docs/pictures").glob("py-*")}
+    assert {picture.name for picture in tmp_path.iterdir()} == kept

@@ -39,7 +39,7 @@ def test_numbers_are_not_copied(table):
 
 
 def test_rows_are_chosen_by_masks_slices_and_indices(table):
-    periodic = table[table["status"] == "periodic"]
+    periodic = table.periodic
     assert periodic.counts == {"periodic": table.counts["periodic"]}
     assert len(periodic) < len(table)
     assert periodic.units == table.units
@@ -88,7 +88,7 @@ def test_xarray_has_the_axes_of_the_grid(table):
     assert dict(data.sizes) == {"drive_voltage_pp": 2, "lift_sign": 2, "drive_frequency": 7}
     lift = data["lift_mean_mn"]
     assert lift.dims == ("drive_voltage_pp", "lift_sign", "drive_frequency")
-    assert lift.attrs == {"units": "mN", "long_name": table.docs["lift_mean_mn"]}
+    assert lift.attrs == {"units": "mN", "long_name": "lift mean", "description": table.docs["lift_mean_mn"]}
     assert data["drive_frequency"].attrs["units"] == "Hz"
     one = table[(table["drive_voltage_pp"] == 80) & (table["lift_sign"] == "printed") & (table["drive_frequency"] == 95)]
     assert lift.sel(drive_voltage_pp=80, lift_sign="printed", drive_frequency=95).item() == one["lift_mean_mn"][0]
@@ -100,7 +100,7 @@ def test_xarray_has_the_axes_of_the_grid(table):
 
 def test_xarray_of_other_tables():
     motion = flapwing.trajectory("ozaki2018-large", cycles=1, samples=10).to_xarray()
-    assert dict(motion.sizes) == {"row": 11} and motion["stroke_deg"].attrs == {"units": "deg"}
+    assert dict(motion.sizes) == {"row": 11} and motion["stroke_deg"].attrs["units"] == "deg"
     zipped = flapwing.sweep(
         {"preset": "jafferis2016", "zip": [{"wing_area": [5e-5, 6e-5], "wing_length": [0.015, 0.016]}]}
     ).to_xarray()
@@ -113,6 +113,7 @@ def test_xarray_of_other_tables():
 
 def test_a_table_shows_itself(table):
     assert repr(table).startswith(f"<flapwing.Table of {len(table)} rows (")
+    assert len(repr(table)) < 300 and repr(table).endswith(", …>")
     html = table._repr_html_()
     assert f"{len(table)} rows" in html and "<th>lift_mean_mn (mN)</th>" in html
     assert html.count("<tr>") == 11

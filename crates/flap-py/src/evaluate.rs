@@ -28,12 +28,6 @@ pub(crate) fn evaluate<'py>(
         Some(plan) => plan,
         None => design::plan(design, keywords)?,
     };
-    if !plan.axes.is_empty() {
-        let axes = plan.varied().map(|index| plan.parameters()[index].name).collect::<Vec<_>>().join(", ");
-        let message =
-            format!("the grid varies {axes} itself: `sweep` runs it, and `evaluate` takes one without axes");
-        return Err(PyValueError::new_err(message));
-    }
     let given = columns.iter().map(|(name, column)| read(&plan, &name.extract::<String>()?, &column));
     let given = given.collect::<PyResult<Vec<_>>>()?;
     let Some(length) = given.first().map(|(_, values)| values.len()) else {
@@ -48,14 +42,22 @@ pub(crate) fn evaluate<'py>(
     if is_model {
         refuse_missing(&plan, &given)?;
     }
-    if let Some((index, _)) =
-        given.iter().find(|(index, _)| plan.derived.parameters().any(|derived| derived == *index))
+    if let Some(index) = plan.varied().chain(plan.derived.parameters()).find(|index| is_given(*index, &given))
     {
-        let name = plan.parameters()[*index].name;
-        return Err(PyValueError::new_err(format!("`{name}` is derived in the grid, and given as a column")));
+        let message = format!(
+            "`{}` is a column, and the grid varies or derives it: keep one of them",
+            plan.parameters()[index].name
+        );
+        return Err(PyValueError::new_err(message));
     }
-    plan.vary_together(given);
+    if !plan.cross(given) {
+        return Err(PyValueError::new_err("too many points"));
+    }
     sweep::into_columns(py, &plan, &options, progress, None)
+}
+
+fn is_given(index: usize, given: &[(usize, Vec<f64>)]) -> bool {
+    given.iter().any(|(given, _)| *given == index)
 }
 
 /// The values of a column.

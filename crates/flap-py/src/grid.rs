@@ -132,6 +132,13 @@ impl Grid {
         axes(py, &self.plan)
     }
 
+    /// The parameters that differ from point to point: those of the axes, then the derived ones.
+    #[getter]
+    fn varied(&self) -> Vec<&'static str> {
+        let varied = self.plan.varied().chain(self.plan.derived.parameters());
+        varied.map(|index| self.plan.parameters()[index].name).collect()
+    }
+
     /// Counts what the conditions of ``[where]`` leave out, among all points or, if there are more than a million, among a
     /// million spread over the grid.
     ///
@@ -206,6 +213,8 @@ pub(crate) fn axes<'py>(py: Python<'py>, plan: &Plan) -> PyResult<Bound<'py, PyL
         let dict = PyDict::new(py);
         if axis.parameters.iter().any(|(_, values)| matches!(values, Values::Sampled { .. })) {
             dict.set_item("sample", PyArray1::from_iter(py, 0..axis.len()))?;
+        } else if axis.parameters.iter().any(|(_, values)| matches!(values, Values::Unchecked(_))) {
+            dict.set_item("row", PyArray1::from_iter(py, 0..axis.len()))?;
         }
         for (index, values) in &axis.parameters {
             let parameter = &plan.parameters()[*index];

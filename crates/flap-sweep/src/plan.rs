@@ -159,17 +159,21 @@ impl Plan {
         axis.parameters.into_iter().next().map(|(_, values)| values)
     }
 
-    /// Puts the points that a program gives into a plan of one point: the values of some parameters, as many for each.
-    ///
-    /// # Panics
-    /// If the plan has axes already.
-    pub fn vary_together(&mut self, parameters: Vec<(usize, Vec<f64>)>) {
-        assert!(self.axes.is_empty(), "a plan of one point");
+    /// Crosses the points with rows of values that a program gives for some parameters, as many for each: an axis before
+    /// all others. False, and no change, if that would make more than [`Plan::MAX_POINTS`] points.
+    #[must_use]
+    pub fn cross(&mut self, parameters: Vec<(usize, Vec<f64>)>) -> bool {
         let parameters =
             parameters.into_iter().map(|(parameter, list)| (parameter, Values::Unchecked(list))).collect();
         let axis = Axis { parameters };
-        self.points = axis.len();
-        self.axes.push(axis);
+        match self.points.checked_mul(axis.len()) {
+            Some(points) if points <= Plan::MAX_POINTS => {
+                self.points = points;
+                self.axes.insert(0, axis);
+                true
+            }
+            _ => false,
+        }
     }
 
     /// Number of points.

@@ -34,8 +34,9 @@ def evaluate(
     Parameters
     ----------
     design : str, path, dict or Grid
-        What points have in common: a preset; a model, whose parameters all have to be given then; or a grid without
-        axes (see `Grid`), whose ``[derived]``, ``[where]``, ``[measure]`` and ``[solver]`` hold for every point.
+        What points have in common: a preset; a model, whose parameters all have to be given then; or a grid (see
+        `Grid`), whose ``[derived]``, ``[where]``, ``[measure]``, ``[solver]`` and ``[output]`` hold for every point. A
+        grid with axes is run for each row of `columns`: designs times frequencies, for instance.
     columns : mapping or DataFrame
         Parameters by name, each with an array of n values in SI units, a list of texts with units or of options, or
         one value for all points.
@@ -50,8 +51,9 @@ def evaluate(
     Returns
     -------
     Table
-        n rows in the order of `columns`, less those of points that ``[where]`` excludes: the column `point` is the
-        place in `columns`. A value that is out of range, infinite or not a number makes a row with the status
+        n rows in the order of `columns`, or n times the points of the grid's axes, which vary faster; less those of
+        points that ``[where]`` excludes: the column `point` counts all. With axes, `dims` begins with the dimension
+        `row`. A value that is out of range, infinite or not a number makes a row with the status
         ``"invalid"``, and so do parameters that are impossible together; ``table.meta["invalid"]`` says why for the
         first few.
 
@@ -86,7 +88,8 @@ def evaluate(
         given = {name: [value] for name, value in constants.items()}
     with shown(progress) as show:
         native = _flapwing.evaluate(design, given, threads=threads, progress=show, keywords=dict(keywords))
-    table = Table._of({**native, "axes": []})
+    # Without axes rows are just rows.
+    table = Table._of(native if len(native["axes"]) > 1 else {**native, "axes": []})
     table.meta["set"] = dict(keywords)
     return table
 

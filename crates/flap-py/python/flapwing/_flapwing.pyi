@@ -139,6 +139,10 @@ class Grid:
         with their values in SI units. An axis of a sample begins with the entry `sample`, numbers from 0.
         """
 
+    @property
+    def varied(self) -> list[str]:
+        """The parameters that differ from point to point: those of the axes, then the derived ones."""
+
     def exclusions(self) -> dict[str, Any]:
         """Counts what the conditions of ``[where]`` leave out, among all points or, if there are more than a million, among a
         million spread over the grid.

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, Dict, Iterator, List, NamedTuple, Optiona
 
 import numpy as np
 
+from ._flapwing import split_unit
+
 if TYPE_CHECKING:
     import pandas
     import polars
@@ -16,6 +18,8 @@ __all__ = ["Table"]
 
 #: Rows that a notebook shows.
 SHOWN_ROWS = 10
+#: Names of columns that are shown where there is one line for all.
+SHOWN_NAMES = 8
 
 
 class _Column(NamedTuple):
@@ -138,6 +142,11 @@ class Table:
         statuses, counts = np.unique(self["status"], return_counts=True)
         return {str(status): int(count) for status, count in zip(statuses, counts)}
 
+    @property
+    def periodic(self) -> Table:
+        """The rows whose motion is periodic: those that have measures."""
+        return self[self["status"] == "periodic"]
+
     def to_pandas(self) -> pandas.DataFrame:
         """The table as a pandas DataFrame, numbers without a copy where pandas allows it.
 
@@ -192,8 +201,8 @@ class Table:
         """The table as an xarray Dataset: the axes of the grid are its dimensions, in the order of the grid.
 
         A dimension is named after the first parameter of its axis; others that move with it are coordinates along it.
-        Without axes, rows are along the dimension ``row``. Columns are variables with the attributes `units` and
-        `long_name`. Points that have no row, because the grid excludes them, are nan, 0, False or empty text.
+        Without axes, rows are along the dimension ``row``. Columns are variables with the attributes `units`,
+        `long_name` and `description`. Points that have no row, because the grid excludes them, are nan, 0, False or empty text.
         """
         import xarray
 
@@ -210,7 +219,10 @@ class Table:
 
         def about(name: str) -> Dict[str, str]:
             column = self._columns.get(name)
-            pairs = {"units": column.unit, "long_name": column.doc} if column else {}
+            if column is None:
+                return {}
+            words = split_unit(name)[0].replace("_", " ")
+            pairs = {"units": column.unit, "long_name": words, "description": column.doc}
             return {key: value for key, value in pairs.items() if value}
 
         variables = {
@@ -229,7 +241,9 @@ class Table:
     def __repr__(self) -> str:
         counts = ", ".join(f"{count} {status}" for status, count in self.counts.items())
         told = f" ({counts})" if counts else ""
-        return f"<flapwing.Table of {len(self)} rows{told}: {', '.join(self._columns)}>"
+        names = list(self._columns)
+        shown = ", ".join(names[:SHOWN_NAMES]) + (", …" if len(names) > SHOWN_NAMES else "")
+        return f"<flapwing.Table of {len(self)} rows{told}, {len(names)} columns: {shown}>"
 
     def _repr_html_(self) -> str:
         """The first rows, for notebooks."""
