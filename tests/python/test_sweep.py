@@ -78,6 +78,21 @@ def test_files_are_those_of_the_command_byte_for_byte(flap, grid, tmp_path, name
     assert len(flapwing.sweep(grid, out=tmp_path / name, resume=True)) == len(table)
 
 
+def test_rows_in_a_file_are_read_when_they_are_asked_for(tmp_path, monkeypatch):
+    """A night's run may be larger than the memory."""
+    monkeypatch.chdir(tmp_path)
+    table = flapwing.sweep(QUICK, out="rows.csv")
+    (tmp_path / "rows.csv").rename(tmp_path / "elsewhere.csv")
+    assert table.meta["counts"] == {"periodic": 26} and list(table.dims[0]) == ["drive_frequency"]
+    with pytest.raises(FileNotFoundError):
+        table["lift_mean_mn"]
+    (tmp_path / "elsewhere.csv").rename(tmp_path / "rows.csv")
+    monkeypatch.chdir("/")
+    assert len(table["lift_mean_mn"]) == 26
+    (tmp_path / "rows.csv").unlink()
+    assert len(table) == 26
+
+
 def test_rows_do_not_depend_on_threads():
     one, two = flapwing.sweep(GRID, threads=1), flapwing.sweep(GRID, threads=2)
     for column in one.columns:

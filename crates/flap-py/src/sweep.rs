@@ -96,7 +96,8 @@ pub(crate) fn into_columns<'py>(
     Ok(dict)
 }
 
-/// Runs a job, and gives its `summary`: of the rows of earlier runs too, and `None` if nothing was left to run.
+/// Runs a job, and gives its `summary` (of the rows of earlier runs too, and empty if nothing was left to run), `axes` and
+/// `meta`.
 fn into_file<'py>(
     py: Python<'py>,
     job: &Job<'_>,
@@ -113,10 +114,13 @@ fn into_file<'py>(
     watch.ended()?;
     let outcome = ran.map_err(|error| error::job(&error))?;
     let dict = PyDict::new(py);
-    match outcome {
-        Outcome::Ran(done) => dict.set_item("summary", columns::summary(py, &done.summary)?)?,
-        Outcome::Complete { .. } => dict.set_item("summary", py.None())?,
-    }
+    let summary = match outcome {
+        Outcome::Ran(done) => columns::summary(py, &done.summary)?,
+        Outcome::Complete { .. } => PyDict::new(py),
+    };
+    dict.set_item("summary", summary)?;
+    dict.set_item("axes", grid::axes(py, job.plan)?)?;
+    dict.set_item("meta", meta(py, job.plan, &job.options.run)?)?;
     Ok(dict)
 }
 

@@ -93,9 +93,7 @@ def sweep(
 
             with Parcels(checked, client, threads) as parcels:
                 native = _flapwing.sweep(checked, progress=show, parcels=parcels.next, **given)
-    if out is None:
-        return Table._of(native)
-    return read(out)
+    return Table._of(native, None if out is None else os.path.abspath(out))
 
 
 def read(path: Union[str, "os.PathLike[str]"], /) -> Table:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, NamedTuple, Optional, Union, overload
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Union, overload
 
 import numpy as np
 
+from . import _flapwing
 from ._flapwing import split_unit
 
 if TYPE_CHECKING:
@@ -48,6 +49,10 @@ class _Column(NamedTuple):
         return np.ones(len(self.cells), dtype=np.bool_)
 
 
+def _columns(native: Dict[str, Any]) -> Dict[str, _Column]:
+    return {name: _Column(unit, doc, cells, words) for name, unit, doc, cells, words in native["columns"]}
+
+
 class Table:
     """Results as columns: one NumPy array each, all of the same length.
 
@@ -71,23 +76,37 @@ class Table:
 
     dims: List[Dict[str, np.ndarray[Any, Any]]]
     meta: Dict[str, Any]
-    _columns: Dict[str, _Column]
+    _held: Optional[Dict[str, _Column]]
+    _source: Callable[[], Dict[str, _Column]]
 
     def __init__(self, *_: object) -> None:
         raise TypeError("a Table comes from sweep, evaluate, respond, trajectory or read")
 
     @classmethod
-    def _of(cls, native: Dict[str, Any]) -> Table:
-        columns = {name: _Column(unit, doc, cells, words) for name, unit, doc, cells, words in native["columns"]}
-        return cls._new(columns, native.get("axes", []), {**native.get("meta", {}), **native.get("summary", {})})
+    def _of(cls, native: Dict[str, Any], path: Optional[str] = None) -> Table:
+        """The table of what the native part gives; with a path, its columns are read when they are asked for."""
+        meta = {**native.get("meta", {}), **native.get("summary", {})}
+        if path is None:
+            return cls._new(_columns(native), native.get("axes", []), meta)
+        table = cls._new(None, native["axes"], meta)
+        table._source = lambda: _columns(_flapwing.read(path))
+        return table
 
     @classmethod
-    def _new(cls, columns: Dict[str, _Column], dims: List[Dict[str, Any]], meta: Dict[str, Any]) -> Table:
+    def _new(
+        cls, columns: Optional[Dict[str, _Column]], dims: List[Dict[str, Any]], meta: Dict[str, Any]
+    ) -> Table:
         table = object.__new__(cls)
-        table._columns = columns
+        table._held = columns
         table.dims = [{name: np.asarray(values) for name, values in dim.items()} for dim in dims]
         table.meta = meta
         return table
+
+    @property
+    def _columns(self) -> Dict[str, _Column]:
+        if self._held is None:
+            self._held = self._source()
+        return self._held
 
     def __len__(self) -> int:
         return next((len(column.cells) for column in self._columns.values()), 0)
