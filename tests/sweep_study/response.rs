@@ -226,3 +226,22 @@ fn unstable_orbits_join_the_branches() {
         assert!((ended[0] - ended[1]).abs() > 20.0, "{ended:?}");
     }
 }
+
+#[test]
+fn a_curve_that_is_stopped_is_not_handed_on() {
+    let plan = bimorph(false, &[100, 200]);
+    // A hundred thousand steps, which would take minutes.
+    let values = (0..100_000).map(|i| 60.0 + 0.001 * f64::from(i)).collect();
+    let along = Along { values, ..along(&plan, [60, 61], 1e-3) };
+    let stop = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            std::thread::sleep(std::time::Duration::from_millis(100));
+            stop.store(true, std::sync::atomic::Ordering::Relaxed);
+        });
+        let two = NonZeroUsize::new(2).unwrap();
+        let outcome: Result<(), RunError> =
+            response::run(&plan, &along, two, &stop, |curve| panic!("{} steps", curve.up.len()));
+        outcome.unwrap();
+    });
+}

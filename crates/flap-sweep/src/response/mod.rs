@@ -28,7 +28,7 @@ pub use verdict::{Band, BandKind, Verdict};
 
 use crate::plan::{self, Plan};
 use crate::run::RunError;
-use crate::study::{self, Desk};
+use crate::study::{self, Desk, Probe, Study};
 use follow::Follow;
 
 /// A motion on a curve.
@@ -73,7 +73,8 @@ impl Curve {
 const CURVES_AT_ONCE: u64 = 128;
 
 /// Follows the response of every point of `plan` that its conditions do not exclude everywhere on its curve, on `threads`
-/// threads, and hands the curves on in the order of the points. When `stop` is raised no more curves are begun.
+/// threads, and hands the curves on in the order of the points. When `stop` is raised, curves in hand are dropped and no more
+/// are handed on.
 ///
 /// # Errors
 /// Those of `take`, at the first of which it ends, and those of starting threads.
@@ -88,7 +89,7 @@ pub fn run<E: From<RunError>>(
     let pool = pool.map_err(RunError::Threads)?;
     let at_once = CURVES_AT_ONCE * threads.get() as u64;
     let mut begin = 0;
-    while begin < plan.len() && !stop.load(Ordering::Relaxed) {
+    while begin < plan.len() {
         let end = plan.len().min(begin + at_once);
         let shared = Mutex::new(Shared { next: begin, end, curves: Vec::new() });
         pool.scope(|scope| {
@@ -100,6 +101,9 @@ pub fn run<E: From<RunError>>(
                 });
             }
         });
+        if stop.load(Ordering::Relaxed) {
+            return Ok(());
+        }
         let mut curves = shared.into_inner().unwrap_or_else(PoisonError::into_inner).curves;
         curves.sort_by_key(|curve| curve.design.index);
         curves.into_iter().try_for_each(&mut take)?;
@@ -161,15 +165,31 @@ struct Designs<'a> {
     shared: &'a Mutex<Shared>,
 }
 
-impl<'a> Desk for Designs<'a> {
-    type Study = Follow<'a>;
+/// A curve on its way, which ends where it is when `stop` is raised.
+struct Stoppable<'a> {
+    follow: Follow<'a>,
+    stop: &'a AtomicBool,
+}
 
-    fn next(&mut self, _idle: bool) -> Option<Follow<'a>> {
-        let Designs { plan, along, .. } = *self;
+impl Study for Stoppable<'_> {
+    fn probes(&mut self) -> Vec<Probe> {
+        if self.stop.load(Ordering::Relaxed) { Vec::new() } else { self.follow.probes() }
+    }
+
+    fn take(&mut self, rows: Vec<Row>) {
+        self.follow.take(rows);
+    }
+}
+
+impl<'a> Desk for Designs<'a> {
+    type Study = Stoppable<'a>;
+
+    fn next(&mut self, _idle: bool) -> Option<Stoppable<'a>> {
+        let Designs { plan, along, stop, .. } = *self;
         loop {
             let index = {
                 let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
-                if shared.next == shared.end || self.stop.load(Ordering::Relaxed) {
+                if shared.next == shared.end || stop.load(Ordering::Relaxed) {
                     return None;
                 }
                 shared.next += 1;
@@ -177,15 +197,19 @@ impl<'a> Desk for Designs<'a> {
             };
             let design = plan.point(index);
             match judge(plan, along, &design) {
-                plan::Verdict::Runs => return Some(Follow::new(plan, along, design)),
+                plan::Verdict::Runs => {
+                    return Some(Stoppable { follow: Follow::new(plan, along, design), stop });
+                }
                 plan::Verdict::Excluded(_) => {}
                 plan::Verdict::Invalid(reason) => self.put(Curve::impossible(along, design, &reason)),
             }
         }
     }
 
-    fn done(&mut self, follow: Follow<'a>) {
-        self.put(complete(self.plan, self.along, follow.finish()));
+    fn done(&mut self, Stoppable { follow, stop }: Stoppable<'a>) {
+        if !stop.load(Ordering::Relaxed) {
+            self.put(complete(self.plan, self.along, follow.finish()));
+        }
     }
 }
 
