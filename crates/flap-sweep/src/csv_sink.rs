@@ -50,10 +50,19 @@ impl<W: Durable> Sink for CsvSink<W> {
     }
 }
 
-/// What the operating system said. The conversion of the csv crate would hide it, and a closed pipe with it.
+/// What the operating system said, which the conversion of the csv crate would hide, and a closed pipe with it; or what is
+/// wrong with the table.
 pub fn cause(error: csv::Error) -> io::Error {
+    let wrong = |place: Option<csv::Position>, what: String| {
+        let line = place.map_or_else(String::new, |place| format!("line {}: ", place.line()));
+        io::Error::new(io::ErrorKind::InvalidData, line + &what)
+    };
     match error.into_kind() {
         csv::ErrorKind::Io(cause) => cause,
+        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
+            wrong(pos, format!("{len} cells under {expected_len} headings"))
+        }
+        csv::ErrorKind::Utf8 { pos, .. } => wrong(pos, "not UTF-8 text".to_owned()),
         other => io::Error::other(format!("{other:?}")),
     }
 }
