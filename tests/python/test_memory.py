@@ -1,6 +1,7 @@
 """Nothing is kept of calls that have ended."""
 
 import gc
+import os
 
 import flapwing
 import pytest
@@ -31,7 +32,7 @@ def call(number):
         flapwing.trajectory(PRESET, cycles=1, samples=100, from_rest=True, rtol=1e-2)["stroke_deg"].sum()
 
 
-@pytest.mark.skipif(not __import__("os").path.exists("/proc/self/statm"), reason="reads /proc")
+@pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="reads /proc")
 def test_no_leak_over_ten_thousand_calls():
     for number in range(CALLS // 5):
         call(number)

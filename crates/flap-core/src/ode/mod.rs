@@ -13,7 +13,8 @@
 //! At its end the caller looks at the state and says whether to go on with another span. An equation whose
 //! inputs repeat with the span therefore sees no growing times.
 //!
-//! Equations of one's own are an [`Ode`]: `examples/jafferis_fig2_3` brings three of them to their settled motions.
+//! Equations of one's own are an [`Ode`]: `examples/jafferis_fig2_3` brings three of them to their settled motions,
+//! `examples/own_model` runs thousands of points in lanes.
 
 pub mod controller;
 pub mod dense;
