@@ -75,13 +75,11 @@ fn read(plan: &Plan, name: &str, column: &Bound<'_, PyAny>) -> PyResult<(usize, 
 
 /// A model has no values of its own: those that nothing follows from must be given.
 fn refuse_missing(plan: &Plan, given: &[(usize, Vec<f64>)]) -> PyResult<()> {
-    let is_given =
-        |index: usize| given.iter().any(|(given, _)| *given == index) || !plan.base[index].is_nan();
-    let missing = plan
-        .parameters()
-        .iter()
-        .enumerate()
-        .filter(|(index, parameter)| !matches!(parameter.kind, Kind::Following(..)) && !is_given(*index));
+    let missing = plan.parameters().iter().enumerate().filter(|(index, parameter)| {
+        !matches!(parameter.kind, Kind::Following(..))
+            && plan.base[*index].is_nan()
+            && !is_given(*index, given)
+    });
     let missing: Vec<&str> = missing.map(|(_, parameter)| parameter.name).collect();
     if missing.is_empty() {
         return Ok(());

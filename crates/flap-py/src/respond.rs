@@ -1,7 +1,10 @@
 //! Responses up and down.
 
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+
 use flap_core::parameter::Kind;
-use flap_sweep::layout::Column;
 use flap_sweep::response::{self, Along, AlongError, Motions, Verdict};
 use flap_sweep::run::RunError;
 use pyo3::exceptions::PyValueError;
@@ -11,6 +14,9 @@ use pyo3::types::PyDict;
 use crate::columns::Columns;
 use crate::watch::Watch;
 use crate::{design, error, parameters, sweep};
+
+/// How often the end of the work is looked for.
+const LOOK: Duration = Duration::from_millis(2);
 
 /// The column that says how far the stroke swings.
 const STROKE: &str = "stroke_amplitude_deg";
@@ -61,19 +67,18 @@ pub(crate) fn respond<'py>(
     })?;
 
     let motions = Motions::of(&plan, &along);
-    let described: Vec<Column> = motions.columns();
     let stroke = plan.rows().columns().iter().position(|column| column.name == STROKE);
     let stroke = stroke.ok_or_else(|| PyValueError::new_err("the model measures no stroke"))?;
-    let mut columns = Columns::new(described);
+    let mut columns = Columns::new(motions.columns());
     let mut verdicts = Vec::new();
     let mut watch = Watch::new(None);
-    let raised = std::sync::Arc::clone(&watch.stop);
+    let raised = Arc::clone(&watch.stop);
     let ran: Result<(), RunError> = py.detach(|| {
-        std::thread::scope(|scope| {
+        thread::scope(|scope| {
             let follow = scope.spawn(|| {
                 response::run(&plan, &along, options.threads, &raised, |curve| {
                     let verdict = Verdict::new(&curve, parameter, stroke);
-                    verdicts.push((curve.design.index, verdict.to_string()));
+                    verdicts.push(verdict.to_string());
                     for cells in motions.rows(&curve) {
                         columns.push(cells);
                     }
@@ -82,7 +87,7 @@ pub(crate) fn respond<'py>(
             });
             while !follow.is_finished() {
                 watch.look(0, 0);
-                std::thread::park_timeout(std::time::Duration::from_millis(2));
+                thread::park_timeout(LOOK);
             }
             follow.join().unwrap_or_else(|_| Err(RunError::Panic("while following a response".to_owned())))
         })
@@ -91,7 +96,7 @@ pub(crate) fn respond<'py>(
     ran.map_err(|error| error::run(&error))?;
     let meta = sweep::meta(py, &plan, &options)?;
     meta.set_item("along", parameter.name)?;
-    meta.set_item("verdicts", verdicts.into_iter().map(|(_, text)| text).collect::<Vec<_>>())?;
+    meta.set_item("verdicts", verdicts)?;
     let dict = PyDict::new(py);
     dict.set_item("columns", columns.into_python(py)?)?;
     dict.set_item("meta", meta)?;
