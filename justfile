@@ -38,6 +38,10 @@ reproduce:
 bench:
     cargo bench -p flap-core -p flap-sweep
 
+# flap beside other solvers on the same equations, in turn on one core (benches/peers): `just peers --help`.
+peers *ARGS:
+    python3 benches/peers {{ARGS}}
+
 # Looks for input that breaks a reader of text: grid, units, expression, journal or sidecar. Needs a nightly compiler and
 # `cargo install cargo-fuzz`. Findings go to fuzz/artifacts; the corpus stays as it is.
 fuzz TARGET SECONDS="600":
