@@ -125,7 +125,9 @@ def parse(arguments: Optional[Sequence[str]]) -> argparse.Namespace:
     parser.add_argument("--points", type=int, default=256, metavar="N", help="points of the sweep (default: 256)")
     parser.add_argument("--rtol", type=float, default=1e-6, help="relative tolerance, 1e-10 to 1e-2 (default: 1e-6)")
     parser.add_argument("--rounds", type=int, default=5, metavar="N", help="runs of each peer (default: 5)")
-    parser.add_argument("--only", type=pattern, default=re.compile(""), metavar="REGEX", help="peers by name")
+    parser.add_argument(
+        "--only", type=pattern, default=re.compile(""), metavar="REGEX", help="peers whose names match, beside the base"
+    )
     parser.add_argument("--core", type=int, default=None, metavar="N", help="where to run (default: the last core)")
     parser.add_argument(
         "--json", type=Path, default=WORK / "result.json", metavar="FILE", help="default: target/peers/result.json"
