@@ -97,7 +97,7 @@ def show(rows: Sequence[report.Row], skipped: Sequence[Dict[str, str]], setting:
         f"{setting['points']} points at rtol {setting['rtol']:g}, {setting['rounds']} rounds in turn"
         f" on core {setting['core']} of {setting['processor']}; load {load}\n"
     )
-    print(report.table(rows, base, setting["points"]))
+    print(report.table(rows, base, setting["points"]) if rows else "Nothing could be run.")
     print(f"\nThe base is {BASE.name}; ratios are taken round by round.")
     for row in rows:
         print(f"{row.timing.peer.name}: {row.timing.peer.what}")

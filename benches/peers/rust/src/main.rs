@@ -95,11 +95,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let found: Vec<[f64; 3]> = runs.map(|wing| wing.measures(rtol)).collect::<Result<_, _>>()?;
     let seconds = cpu_time()?.saturating_sub(begin).as_secs_f64();
 
-    let mut table = "id,max_x,max_psi,lift\n".to_owned();
+    let mut table = vec!["id,max_x,max_psi,lift".to_owned()];
     for ((id, ..), [tip, psi, lift]) in points.iter().zip(found) {
-        table += &format!("{id},{tip:e},{psi:e},{lift:e}\n");
+        table.push(format!("{id},{tip:e},{psi:e},{lift:e}"));
     }
-    fs::write(out, table)?;
+    fs::write(out, table.join("\n") + "\n")?;
     let per_point = evaluations.get() as f64 / points.len() as f64;
     println!("{{\"cpu_s\":{seconds},\"rhs_per_point\":{per_point}}}");
     Ok(())
