@@ -38,6 +38,11 @@ reproduce:
 bench:
     cargo bench -p flap-core -p flap-sweep
 
+# flap beside other solvers on the same equations, in turn on one core (benches/peers): `just peers --help`.
+[positional-arguments]
+peers *ARGS:
+    python3 benches/peers "$@"
+
 # Looks for input that breaks a reader of text: grid, units, expression, journal or sidecar. Needs a nightly compiler and
 # `cargo install cargo-fuzz`. Findings go to fuzz/artifacts; the corpus stays as it is.
 fuzz TARGET SECONDS="600":
