@@ -65,6 +65,9 @@ impl<R: Lanes, const N: usize> Step<R, N> {
     }
 }
 
+/// Components whose sums stay in registers while slopes are added up.
+const BLOCK: usize = 4;
+
 /// y + h Σ wⱼ kⱼ over the first `count` slopes, leaving out those of weight zero.
 #[inline(always)]
 fn combine<R: Lanes, const N: usize>(
@@ -74,21 +77,40 @@ fn combine<R: Lanes, const N: usize>(
     weights: &[f64],
     count: usize,
 ) -> [R; N] {
-    let mut sum = k[0];
-    for i in 0..N {
-        sum[i] = k[0][i] * weights[0];
+    let mut out = *y;
+    let whole = N / BLOCK * BLOCK;
+    for first in (0..whole).step_by(BLOCK) {
+        add::<R, N, BLOCK>(&mut out, h, k, weights, count, first);
+    }
+    for one in whole..N {
+        add::<R, N, 1>(&mut out, h, k, weights, count, one);
+    }
+    out
+}
+
+/// Adds h Σ wⱼ kⱼ to `SIZE` components from the `first` on.
+#[inline(always)]
+fn add<R: Lanes, const N: usize, const SIZE: usize>(
+    y: &mut [R; N],
+    h: R,
+    k: &[[R; N]; STAGES],
+    weights: &[f64],
+    count: usize,
+    first: usize,
+) {
+    let mut sum = [h; SIZE];
+    for i in 0..SIZE {
+        sum[i] = k[0][first + i] * weights[0];
     }
     for j in 1..count {
         if weights[j] != 0.0 {
             let weight = h.lit(weights[j]);
-            for i in 0..N {
-                sum[i] = k[j][i].mul_add(weight, sum[i]);
+            for i in 0..SIZE {
+                sum[i] = k[j][first + i].mul_add(weight, sum[i]);
             }
         }
     }
-    let mut out = *y;
-    for i in 0..N {
-        out[i] = sum[i].mul_add(h, y[i]);
+    for i in 0..SIZE {
+        y[first + i] = sum[i].mul_add(h, y[first + i]);
     }
-    out
 }
