@@ -38,6 +38,11 @@ reproduce:
 bench:
     cargo bench -p flap-core -p flap-sweep
 
+# Instructions of small sweeps against the stored numbers (needs valgrind); `just count-instructions --renew` stores them.
+count-instructions *ARGUMENTS:
+    cargo build --release --locked -p flap-cli
+    python3 benches/instructions/count.py "${CARGO_TARGET_DIR:-target}/release/flap" {{ARGUMENTS}}
+
 # Looks for input that breaks a reader of text: grid, units, expression, journal or sidecar. Needs a nightly compiler and
 # `cargo install cargo-fuzz`. Findings go to fuzz/artifacts; the corpus stays as it is.
 fuzz TARGET SECONDS="600":
