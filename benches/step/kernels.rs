@@ -4,11 +4,10 @@ use core::hint::black_box;
 use core::time::Duration;
 use std::time::Instant;
 
-use fearless_simd::Simd;
 use flap_core::drive::Source;
 use flap_core::model::Model;
 use flap_core::model::direct_drive::{Constants, DirectDrive, FlowDirection};
-use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Unfused, Vector};
+use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Simd, Unfused, Vector};
 use flap_core::ode::Ode;
 use flap_core::ode::norm::error_squared;
 use flap_core::ode::step::step;

@@ -1,12 +1,13 @@
 //! Equations of one's own in flap's integrator: thousands of runs in SIMD lanes.
 //!
 //! ```sh
-//! cargo run --release -p flap-core --example own_model -- POINTS.csv RTOL OUT.csv
+//! cargo run --release -p flap-core --example own_model -- POINTS.csv RTOL OUT.csv [SET]
 //! ```
 //!
 //! POINTS.csv has the columns `id,F0,f`: number, amplitude of the force (N) and frequency (Hz). Each point is run for 40
 //! drive periods from rest; OUT.csv says how far tip and hinge swing and what the mean lift is in the last five. The time
-//! that the runs took goes to stdout, as JSON.
+//! that the runs took goes to stdout, as JSON. SET names the instructions to be used (avx512, avx2, sse2 or neon): without
+//! it, the best.
 
 #![expect(clippy::print_stdout, reason = "an example prints what it finds")]
 
@@ -34,15 +35,20 @@ type Point = (String, f64, f64);
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [points, rtol, out] = &arguments[..] else {
-        return Err("three arguments are needed: POINTS.csv RTOL OUT.csv".into());
+    let ([points, rtol, out], set) = match &arguments[..] {
+        [points, rtol, out] => ([points, rtol, out], InstructionSet::best()),
+        [points, rtol, out, set] => {
+            let set = InstructionSet::by_name(set).ok_or_else(|| format!("this machine has no {set}"))?;
+            ([points, rtol, out], set)
+        }
+        _ => return Err("arguments are needed: POINTS.csv RTOL OUT.csv [SET]".into()),
     };
     let points = read(&fs::read_to_string(points)?)?;
     let rtol: f64 = rtol.parse()?;
     let tolerances = Tolerances { rtol, atol: 0.1 * rtol, max_steps: 100_000 };
 
     let (wall, cpu) = (Instant::now(), cpu_time()?);
-    let found = InstructionSet::best().dispatch(Runs { points: &points, tolerances });
+    let found = set.dispatch(Runs { points: &points, tolerances });
     let (wall, cpu) = (wall.elapsed(), cpu_time()?.saturating_sub(cpu));
 
     let mut table = vec!["id,F0,f,max_x,max_psi,lift".to_owned()];

@@ -3,11 +3,10 @@
 use core::ops::ControlFlow;
 use std::hint::black_box;
 
-use fearless_simd::Simd;
 use flap_core::drive::Source;
 use flap_core::model::Model;
 use flap_core::model::direct_drive::{Constants, DirectDrive, FlowDirection};
-use flap_core::num::{InstructionSet, Kernel, Lanes, PerLane, Vector};
+use flap_core::num::{InstructionSet, Kernel, Lanes, PerLane, Simd, Vector};
 use flap_core::ode::ensemble::{NewRun, Queue, Unobserved, run};
 use flap_core::ode::step::step;
 use flap_core::ode::{Ode, Outcome, Start, Tolerances};

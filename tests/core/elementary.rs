@@ -1,7 +1,6 @@
 //! Elementary functions against the C library's, and lanes against scalars.
 
-use fearless_simd::Simd;
-use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, Real, Unfused, Vector};
+use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, Real, Simd, Unfused, Vector};
 
 /// Arguments that cover quadrants, signs, exponents and both sides of rounding boundaries.
 fn arguments(from: f64, to: f64) -> Vec<f64> {
@@ -139,7 +138,8 @@ impl Kernel for Masks {
             assert_eq!(Vector::<S>::bits(mask), bits);
             let even = Vector::<S>::mask(simd, 0x5555 & all);
             assert_eq!(Vector::<S>::bits(Vector::<S>::and(mask, even)), bits & 0x5555);
-            let chosen = Vector::select(mask, Vector::<S>::splat(simd, 1.0), Vector::splat(simd, 2.0));
+            let [yes, no] = [1.0, 2.0].map(|c| Vector::<S>::splat(simd, c));
+            let chosen = Vector::<S>::select(mask, yes, no);
             for lane in 0..lanes {
                 assert_eq!(chosen.lane(lane), if bits >> lane & 1 == 1 { 1.0 } else { 2.0 });
             }

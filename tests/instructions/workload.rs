@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use fearless_simd::Simd;
-use flap_core::num::{InstructionSet, Kernel, Lanes, Vector};
+use flap_core::num::{InstructionSet, Kernel, Lanes, Simd, Vector};
 use flap_core::simulate::{Jobs, Point, Row, Simulator, SolverSettings, preset};
 
 /// A point of each model, whether or not it is compiled in.

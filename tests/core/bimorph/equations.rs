@@ -1,11 +1,10 @@
 //! Forces, accelerations, charges and currents against reference vectors, on scalars and lanes.
 
-use fearless_simd::Simd;
 use flap_core::drive::Driven;
 use flap_core::model::bimorph::{
     Bimorph, Constants, Plate, charges, currents, lift_and_drag, plate, plate_forces, secant_stiffness,
 };
-use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Real, Unfused, Vector};
+use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Real, Simd, Unfused, Vector};
 use flap_core::ode::Ode;
 
 use super::params;

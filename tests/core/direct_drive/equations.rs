@@ -2,12 +2,13 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use fearless_simd::Simd;
 use flap_core::drive::Driven;
 use flap_core::model::direct_drive::{
     Constants, DirectDrive, FlowDirection, Params, added_mass, aerodynamics, current, lift, mean_velocity,
 };
-use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Real, Scalar, Unfused, Vector};
+use flap_core::num::{
+    Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Real, Scalar, Simd, Unfused, Vector,
+};
 use flap_core::ode::Ode;
 use flap_core::quadrature::gauss_legendre;
 

@@ -2,13 +2,12 @@
 
 use std::f64::consts::PI;
 
-use fearless_simd::Simd;
 use flap_core::drive::Driven;
 use flap_core::model::four_bar::{
     Arms, Constants, FourBar, Params, Quadrature, added_mass_lift, aerodynamics, force, mass_matrix, side_of,
     transmission,
 };
-use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Unfused, Vector};
+use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Simd, Unfused, Vector};
 use flap_core::ode::Ode;
 
 use super::{arms, assert_close_to, params};

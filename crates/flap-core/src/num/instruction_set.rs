@@ -2,9 +2,15 @@
 
 use core::fmt;
 
-use fearless_simd::{Level, Simd};
+use fearless_simd::Level;
+#[cfg(target_arch = "aarch64")]
+use fearless_simd::Neon;
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::{Avx2, Sse2};
 
-use super::{Scalar, Unfused};
+#[cfg(target_arch = "x86_64")]
+use super::avx512::Avx512;
+use super::{Scalar, Simd, Unfused};
 
 /// Whether `mul_add` rounds once or twice. Results are equal to the last bit within a class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +33,7 @@ impl Arithmetic {
 
 /// A set of SIMD instructions that this machine has.
 #[derive(Clone, Copy, Debug)]
-pub struct InstructionSet(Level);
+pub struct InstructionSet(Proof);
 
 /// Work that is generic over SIMD instructions.
 pub trait Kernel {
@@ -38,26 +44,40 @@ pub trait Kernel {
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
+#[derive(Clone, Copy, Debug)]
+enum Proof {
+    #[cfg(target_arch = "x86_64")]
+    Avx512(Avx512),
+    #[cfg(target_arch = "x86_64")]
+    Avx2(Avx2),
+    #[cfg(target_arch = "x86_64")]
+    Sse2(Sse2),
+    #[cfg(target_arch = "aarch64")]
+    Neon(Neon),
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    Other(Level),
+}
+
 impl InstructionSet {
     /// The best this machine has.
     pub fn best() -> InstructionSet {
-        InstructionSet(Level::new())
+        Self::available().swap_remove(0)
     }
 
     /// All that this machine has, best first.
     pub fn available() -> Vec<InstructionSet> {
-        let best = Level::new();
-        let mut sets = vec![InstructionSet(best)];
+        let level = Level::new();
         #[cfg(target_arch = "x86_64")]
-        {
-            if best.as_avx512().is_some() {
-                sets.extend(best.as_avx2().map(|token| InstructionSet(Level::Avx2(token))));
-            }
-            if best.as_avx2().is_some() {
-                sets.extend(best.as_sse2().map(|token| InstructionSet(Level::Sse2(token))));
-            }
-        }
-        sets
+        let proofs = [
+            Avx512::detect().map(Proof::Avx512),
+            level.as_avx2().map(Proof::Avx2),
+            level.as_sse2().map(Proof::Sse2),
+        ];
+        #[cfg(target_arch = "aarch64")]
+        let proofs = [level.as_neon().map(Proof::Neon)];
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        let proofs = [Some(Proof::Other(level))];
+        proofs.into_iter().flatten().map(InstructionSet).collect()
     }
 
     /// The available set with this [name](InstructionSet::name).
@@ -69,14 +89,15 @@ impl InstructionSet {
     pub fn name(self) -> &'static str {
         match self.0 {
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512(_) => "avx512",
+            Proof::Avx512(_) => "avx512",
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2(_) => "avx2",
+            Proof::Avx2(_) => "avx2",
             #[cfg(target_arch = "x86_64")]
-            Level::Sse2(_) | Level::Sse4_2(_) => "sse2",
+            Proof::Sse2(_) => "sse2",
             #[cfg(target_arch = "aarch64")]
-            Level::Neon(_) => "neon",
-            _ => "scalar",
+            Proof::Neon(_) => "neon",
+            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            Proof::Other(_) => "scalar",
         }
     }
 
@@ -93,19 +114,15 @@ impl InstructionSet {
     pub fn dispatch<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512(simd) => enter(simd, kernel),
+            Proof::Avx512(simd) => enter(simd, kernel),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2(simd) => enter(simd, kernel),
-            // SSE4.2 adds nothing here; one copy of the code serves both.
+            Proof::Avx2(simd) => enter(simd, kernel),
             #[cfg(target_arch = "x86_64")]
-            level => match level.as_sse2() {
-                Some(simd) => enter(simd, kernel),
-                None => unreachable!("x86-64 has SSE2"),
-            },
+            Proof::Sse2(simd) => enter(simd, kernel),
             #[cfg(target_arch = "aarch64")]
-            Level::Neon(simd) => enter(simd, kernel),
+            Proof::Neon(simd) => enter(simd, kernel),
             #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-            _ => fearless_simd::dispatch!(self.0, simd => enter(simd, kernel)),
+            Proof::Other(level) => fearless_simd::dispatch!(level, simd => enter(simd, kernel)),
         }
     }
 }
@@ -117,7 +134,7 @@ impl Scalar for f64 {
     fn enter<T>(work: impl FnOnce() -> T) -> T {
         #[cfg(target_arch = "x86_64")]
         if let Some(simd) = Level::new().as_avx2() {
-            return simd.vectorize(work);
+            return Simd::vectorize(simd, work);
         }
         work()
     }

@@ -11,18 +11,21 @@
 //! it has not. Results of the two [arithmetic classes](Arithmetic) differ at the level of the integration
 //! tolerance; within a class they are equal to the last bit.
 
+#[cfg(target_arch = "x86_64")]
+mod avx512;
 pub mod functions;
 mod instruction_set;
 mod lanes;
+mod pair;
 mod per_lane;
 mod real;
+mod register;
+mod simd;
 mod unfused;
-mod vector;
 
-pub use fearless_simd::Simd;
 pub use instruction_set::{Arithmetic, InstructionSet, Kernel};
 pub use lanes::{Lanes, Scalar};
 pub use per_lane::PerLane;
 pub use real::Real;
+pub use simd::{Simd, Vector};
 pub use unfused::Unfused;
-pub use vector::Vector;

@@ -7,15 +7,13 @@
 
 use core::ops::ControlFlow;
 
-use fearless_simd::Simd;
-
 use super::controller::{Memory, judge};
 use super::norm::error_squared;
 use super::start::{first_step, span_step};
 use super::step::{Attempt, step};
 use super::switch::{Crossing, Switching, landing_stretch};
 use super::{Ending, MIN_STEP, Ode, Outcome, Start, Tolerances, input, slope};
-use crate::num::{Lanes, PerLane, Vector};
+use crate::num::{Lanes, PerLane, Simd, Vector};
 
 /// A run to be started: what to remember of it, and where it begins.
 pub type NewRun<Run, C, const N: usize> = (Run, Start<C, N>);

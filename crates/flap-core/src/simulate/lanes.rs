@@ -6,14 +6,12 @@
 
 use core::ops::ControlFlow;
 
-use fearless_simd::Simd;
-
 use super::row;
 use super::search::{Next, Search, begin, varied};
 use super::simulator::{Jobs, Point, Row, SolverSettings};
 use crate::measure::cycle::{Signals, Totals};
 use crate::model::Model;
-use crate::num::Kernel;
+use crate::num::{Kernel, Simd};
 use crate::ode::ensemble::{NewRun, Queue, Unobserved, run};
 use crate::ode::variation::Variation;
 use crate::ode::{Ode, Outcome, Start};

@@ -1,0 +1,303 @@
+//! One AVX-512 register of `f64`.
+//!
+//! `fearless_simd` has AVX-512 for processors from Ice Lake and Zen 4 on. The instructions needed here are those of the
+//! first server processors with AVX-512 (Skylake-SP, 2017), of which many clusters consist.
+
+#![expect(unsafe_code, reason = "an Avx512 exists only where its instructions do, and they touch no memory")]
+
+use core::arch::x86_64::{
+    __m512d, __m512i, __mmask8, _CMP_LT_OQ, _mm512_abs_pd, _mm512_add_epi64, _mm512_add_pd, _mm512_and_si512,
+    _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_fmadd_pd,
+    _mm512_mask_blend_pd, _mm512_mul_pd, _mm512_or_si512, _mm512_set1_epi64, _mm512_set1_pd,
+    _mm512_slli_epi64, _mm512_sqrt_pd, _mm512_srli_epi64, _mm512_sub_pd, _mm512_ternarylogic_epi64,
+    _mm512_test_epi64_mask, _mm512_xor_si512,
+};
+use core::mem::transmute;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::functions;
+use super::lanes::{EXPONENT_BITS, Lanes, MANTISSA_BITS, ONE_BITS, ROUND, TWO_52, TWO_52_BITS};
+use super::pair::Pair;
+use super::real::Real;
+use super::simd::Simd;
+
+/// Proof that the processor has AVX-512 F, DQ, BW, VL and CD, and FMA.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Avx512(());
+
+impl Avx512 {
+    /// The proof, if the processor has the instructions.
+    pub(super) fn detect() -> Option<Avx512> {
+        let has = is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512bw")
+            && is_x86_feature_detected!("avx512vl")
+            && is_x86_feature_detected!("avx512cd")
+            && is_x86_feature_detected!("fma")
+            && is_x86_feature_detected!("bmi2");
+        has.then_some(Avx512(()))
+    }
+}
+
+impl Simd for Avx512 {
+    type Vector = Pair<F64x8>;
+
+    #[inline(always)]
+    fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
+        #[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl,avx512cd,fma,bmi2")]
+        fn vectorize_avx512<T>(work: impl FnOnce() -> T) -> T {
+            work()
+        }
+        // SAFETY: `self` proves that the processor has these instructions.
+        unsafe { vectorize_avx512(work) }
+    }
+}
+
+/// Eight lanes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct F64x8(__m512d);
+
+/// The bits of a register's numbers.
+type Bits = __m512i;
+
+/// Wraps an intrinsic.
+///
+/// SAFETY: every value of [`F64x8`] comes of [`F64x8::splat`], which takes a proof that the instructions exist.
+macro_rules! intrinsic {
+    ($call:expr) => {
+        unsafe { $call }
+    };
+}
+
+impl F64x8 {
+    #[inline(always)]
+    fn broadcast(c: f64) -> F64x8 {
+        F64x8(intrinsic!(_mm512_set1_pd(c)))
+    }
+
+    #[inline(always)]
+    fn to_array(self) -> [f64; 8] {
+        // SAFETY: both are eight numbers, whatever their bits.
+        unsafe { transmute(self.0) }
+    }
+
+    #[inline(always)]
+    fn to_bits(self) -> Bits {
+        intrinsic!(_mm512_castpd_si512(self.0))
+    }
+
+    #[inline(always)]
+    fn from_bits(bits: Bits) -> F64x8 {
+        F64x8(intrinsic!(_mm512_castsi512_pd(bits)))
+    }
+
+    #[inline(always)]
+    fn all(bits: u64) -> Bits {
+        intrinsic!(_mm512_set1_epi64(bits.cast_signed()))
+    }
+}
+
+impl Add for F64x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, rhs: Self) -> Self {
+        F64x8(intrinsic!(_mm512_add_pd(self.0, rhs.0)))
+    }
+}
+
+impl Sub for F64x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, rhs: Self) -> Self {
+        F64x8(intrinsic!(_mm512_sub_pd(self.0, rhs.0)))
+    }
+}
+
+impl Mul for F64x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, rhs: Self) -> Self {
+        F64x8(intrinsic!(_mm512_mul_pd(self.0, rhs.0)))
+    }
+}
+
+impl Div for F64x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, rhs: Self) -> Self {
+        F64x8(intrinsic!(_mm512_div_pd(self.0, rhs.0)))
+    }
+}
+
+impl Neg for F64x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::from_bits(intrinsic!(_mm512_xor_si512(self.to_bits(), Self::all(SIGN_BIT))))
+    }
+}
+
+impl Add<f64> for F64x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, rhs: f64) -> Self {
+        self + Self::broadcast(rhs)
+    }
+}
+
+impl Sub<f64> for F64x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, rhs: f64) -> Self {
+        self - Self::broadcast(rhs)
+    }
+}
+
+impl Mul<f64> for F64x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, rhs: f64) -> Self {
+        self * Self::broadcast(rhs)
+    }
+}
+
+impl Real for F64x8 {
+    type Mask = __mmask8;
+
+    #[inline(always)]
+    fn lit(self, c: f64) -> Self {
+        Self::broadcast(c)
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        F64x8(intrinsic!(_mm512_fmadd_pd(self.0, a.0, b.0)))
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        F64x8(intrinsic!(_mm512_abs_pd(self.0)))
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        F64x8(intrinsic!(_mm512_sqrt_pd(self.0)))
+    }
+
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        // The bits of the first where the third are set, else those of the second.
+        const CHOOSE: i32 = 0xE4;
+        let (magnitude, sign) = (self.to_bits(), sign.to_bits());
+        Self::from_bits(intrinsic!(_mm512_ternarylogic_epi64::<CHOOSE>(sign, magnitude, Self::all(SIGN_BIT))))
+    }
+
+    #[inline(always)]
+    fn lt(self, other: Self) -> __mmask8 {
+        intrinsic!(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0))
+    }
+
+    #[inline(always)]
+    fn select(mask: __mmask8, yes: Self, no: Self) -> Self {
+        F64x8(intrinsic!(_mm512_mask_blend_pd(mask, no.0, yes.0)))
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        functions::sin_cos(self)
+    }
+
+    #[inline(always)]
+    fn exp(self) -> Self {
+        functions::exp(self)
+    }
+
+    #[inline(always)]
+    fn exp_m1(self) -> Self {
+        functions::exp_m1(self)
+    }
+
+    #[inline(always)]
+    fn ln(self) -> Self {
+        functions::ln(self)
+    }
+
+    #[inline(always)]
+    fn ln_1p(self) -> Self {
+        functions::ln_1p(self)
+    }
+}
+
+impl Lanes for F64x8 {
+    const LANES: usize = 8;
+    type Token = Avx512;
+
+    #[inline(always)]
+    fn splat(_token: Avx512, c: f64) -> Self {
+        Self::broadcast(c)
+    }
+
+    #[inline(always)]
+    fn lane(self, lane: usize) -> f64 {
+        self.to_array()[lane]
+    }
+
+    #[inline(always)]
+    fn set_lane(&mut self, lane: usize, value: f64) {
+        let mut lanes = self.to_array();
+        lanes[lane] = value;
+        // SAFETY: as in `to_array`.
+        self.0 = unsafe { transmute::<[f64; 8], __m512d>(lanes) };
+    }
+
+    #[inline(always)]
+    fn mask(_token: Avx512, bits: u64) -> __mmask8 {
+        (bits & 0xff) as __mmask8
+    }
+
+    #[inline(always)]
+    fn apart<T>(self, work: impl FnOnce() -> T) -> T {
+        // A value is proof enough, by what is said at `intrinsic`.
+        Avx512(()).vectorize(work)
+    }
+
+    #[inline(always)]
+    fn bits(mask: __mmask8) -> u64 {
+        u64::from(mask)
+    }
+
+    #[inline(always)]
+    fn and(a: __mmask8, b: __mmask8) -> __mmask8 {
+        a & b
+    }
+
+    #[inline(always)]
+    fn is_bit0_set(self) -> __mmask8 {
+        intrinsic!(_mm512_test_epi64_mask(self.to_bits(), Self::all(1)))
+    }
+
+    #[inline(always)]
+    fn flip_sign_by_bit1(self, selector: Self) -> Self {
+        let sign =
+            intrinsic!(_mm512_and_si512(_mm512_slli_epi64::<62>(selector.to_bits()), Self::all(SIGN_BIT)));
+        Self::from_bits(intrinsic!(_mm512_xor_si512(self.to_bits(), sign)))
+    }
+
+    #[inline(always)]
+    fn exponent_and_mantissa(self) -> (Self, Self) {
+        let bits = self.to_bits();
+        let kept = |mask| intrinsic!(_mm512_and_si512(bits, Self::all(mask)));
+        let mantissa = intrinsic!(_mm512_or_si512(kept(MANTISSA_BITS), Self::all(ONE_BITS)));
+        let field = intrinsic!(_mm512_srli_epi64::<52>(kept(EXPONENT_BITS)));
+        let exponent = Self::from_bits(intrinsic!(_mm512_or_si512(field, Self::all(TWO_52_BITS))));
+        (exponent - (TWO_52 + 1023.0), Self::from_bits(mantissa))
+    }
+
+    #[inline(always)]
+    fn times_power_of_two(self, k: Self) -> Self {
+        let k = intrinsic!(_mm512_slli_epi64::<52>((k + ROUND).to_bits()));
+        Self::from_bits(intrinsic!(_mm512_add_epi64(self.to_bits(), k)))
+    }
+}
+
+const SIGN_BIT: u64 = 1 << 63;

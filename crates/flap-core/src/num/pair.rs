@@ -1,0 +1,219 @@
+//! Two of a kind: twice the lanes.
+//!
+//! A right-hand side is a long chain of dependent operations. A second, independent chain fills the processor's waiting
+//! time.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::functions;
+use super::lanes::Lanes;
+use super::real::Real;
+
+/// Two groups of lanes that go side by side.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<L> {
+    lo: L,
+    hi: L,
+}
+
+/// Which lanes of a [`Pair`] a comparison holds for.
+#[derive(Clone, Copy)]
+pub struct PairMask<M> {
+    lo: M,
+    hi: M,
+}
+
+impl<L: Lanes> Add for Pair<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, rhs: Self) -> Self {
+        Pair { lo: self.lo + rhs.lo, hi: self.hi + rhs.hi }
+    }
+}
+
+impl<L: Lanes> Sub for Pair<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, rhs: Self) -> Self {
+        Pair { lo: self.lo - rhs.lo, hi: self.hi - rhs.hi }
+    }
+}
+
+impl<L: Lanes> Mul for Pair<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, rhs: Self) -> Self {
+        Pair { lo: self.lo * rhs.lo, hi: self.hi * rhs.hi }
+    }
+}
+
+impl<L: Lanes> Div for Pair<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, rhs: Self) -> Self {
+        Pair { lo: self.lo / rhs.lo, hi: self.hi / rhs.hi }
+    }
+}
+
+impl<L: Lanes> Neg for Pair<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Pair { lo: -self.lo, hi: -self.hi }
+    }
+}
+
+impl<L: Lanes> Add<f64> for Pair<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, rhs: f64) -> Self {
+        Pair { lo: self.lo + rhs, hi: self.hi + rhs }
+    }
+}
+
+impl<L: Lanes> Sub<f64> for Pair<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, rhs: f64) -> Self {
+        Pair { lo: self.lo - rhs, hi: self.hi - rhs }
+    }
+}
+
+impl<L: Lanes> Mul<f64> for Pair<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, rhs: f64) -> Self {
+        Pair { lo: self.lo * rhs, hi: self.hi * rhs }
+    }
+}
+
+impl<L: Lanes> Real for Pair<L> {
+    type Mask = PairMask<L::Mask>;
+
+    #[inline(always)]
+    fn lit(self, c: f64) -> Self {
+        Pair { lo: self.lo.lit(c), hi: self.hi.lit(c) }
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        Pair { lo: self.lo.mul_add(a.lo, b.lo), hi: self.hi.mul_add(a.hi, b.hi) }
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Pair { lo: self.lo.abs(), hi: self.hi.abs() }
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Pair { lo: self.lo.sqrt(), hi: self.hi.sqrt() }
+    }
+
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        Pair { lo: self.lo.copysign(sign.lo), hi: self.hi.copysign(sign.hi) }
+    }
+
+    #[inline(always)]
+    fn lt(self, other: Self) -> Self::Mask {
+        PairMask { lo: self.lo.lt(other.lo), hi: self.hi.lt(other.hi) }
+    }
+
+    #[inline(always)]
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        Pair { lo: L::select(mask.lo, yes.lo, no.lo), hi: L::select(mask.hi, yes.hi, no.hi) }
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        functions::sin_cos(self)
+    }
+
+    #[inline(always)]
+    fn exp(self) -> Self {
+        functions::exp(self)
+    }
+
+    #[inline(always)]
+    fn exp_m1(self) -> Self {
+        functions::exp_m1(self)
+    }
+
+    #[inline(always)]
+    fn ln(self) -> Self {
+        functions::ln(self)
+    }
+
+    #[inline(always)]
+    fn ln_1p(self) -> Self {
+        functions::ln_1p(self)
+    }
+}
+
+impl<L: Lanes> Lanes for Pair<L> {
+    const LANES: usize = 2 * L::LANES;
+    type Token = L::Token;
+
+    #[inline(always)]
+    fn splat(token: L::Token, c: f64) -> Self {
+        let half = L::splat(token, c);
+        Pair { lo: half, hi: half }
+    }
+
+    #[inline(always)]
+    fn lane(self, lane: usize) -> f64 {
+        if lane < L::LANES { self.lo.lane(lane) } else { self.hi.lane(lane - L::LANES) }
+    }
+
+    #[inline(always)]
+    fn set_lane(&mut self, lane: usize, value: f64) {
+        if lane < L::LANES {
+            self.lo.set_lane(lane, value);
+        } else {
+            self.hi.set_lane(lane - L::LANES, value);
+        }
+    }
+
+    #[inline(always)]
+    fn mask(token: L::Token, bits: u64) -> Self::Mask {
+        let low = (1_u64 << L::LANES) - 1;
+        PairMask { lo: L::mask(token, bits & low), hi: L::mask(token, (bits >> L::LANES) & low) }
+    }
+
+    #[inline(always)]
+    fn apart<T>(self, work: impl FnOnce() -> T) -> T {
+        self.lo.apart(work)
+    }
+
+    #[inline(always)]
+    fn bits(mask: Self::Mask) -> u64 {
+        L::bits(mask.lo) | (L::bits(mask.hi) << L::LANES)
+    }
+
+    #[inline(always)]
+    fn and(a: Self::Mask, b: Self::Mask) -> Self::Mask {
+        PairMask { lo: L::and(a.lo, b.lo), hi: L::and(a.hi, b.hi) }
+    }
+
+    #[inline(always)]
+    fn is_bit0_set(self) -> Self::Mask {
+        PairMask { lo: self.lo.is_bit0_set(), hi: self.hi.is_bit0_set() }
+    }
+
+    #[inline(always)]
+    fn flip_sign_by_bit1(self, selector: Self) -> Self {
+        Pair { lo: self.lo.flip_sign_by_bit1(selector.lo), hi: self.hi.flip_sign_by_bit1(selector.hi) }
+    }
+
+    #[inline(always)]
+    fn exponent_and_mantissa(self) -> (Self, Self) {
+        let (lo, hi) = (self.lo.exponent_and_mantissa(), self.hi.exponent_and_mantissa());
+        (Pair { lo: lo.0, hi: hi.0 }, Pair { lo: lo.1, hi: hi.1 })
+    }
+
+    #[inline(always)]
+    fn times_power_of_two(self, k: Self) -> Self {
+        Pair { lo: self.lo.times_power_of_two(k.lo), hi: self.hi.times_power_of_two(k.hi) }
+    }
+}
