@@ -15,6 +15,10 @@ test-rust:
 test-python:
     ./scripts/test-python.sh
 
+# Lanes of aarch64 in an emulator, and sweeps of both architectures to the same bytes: see the script for what it needs.
+test-aarch64:
+    ./scripts/test-aarch64.sh
+
 # Formatting and lints.
 lint:
     cargo fmt --all --check
