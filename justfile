@@ -38,9 +38,20 @@ reproduce:
     cargo run --release --locked --example reproduce > target/reproduction.md
     mv target/reproduction.md docs/reproduction.md
 
-# Benchmarks: lanes against scalars, one step, elementary functions.
+# Benchmarks: elementary functions, right-hand sides, one step, lanes against scalars; presets and whole sweeps.
 bench:
     cargo bench -p flap-core -p flap-sweep
+
+# Measures how fast flap is on this machine, beside other solvers too, and writes docs/performance.md: half an hour, in
+# which nothing else should run.
+bench-report:
+    mkdir -p target
+    just peers --points 256 --rtol 1e-6 --json "$PWD/target/peers-256-6.json"
+    just peers --points 4096 --rtol 1e-6 --json "$PWD/target/peers-4096-6.json"
+    just peers --points 256 --rtol 1e-8 --json "$PWD/target/peers-256-8.json"
+    just peers --points 4096 --rtol 1e-8 --json "$PWD/target/peers-4096-8.json"
+    cargo bench --locked -p flap-sweep --bench report -- --peers "$PWD"/target/peers-*-[68].json > target/performance.md
+    mv target/performance.md docs/performance.md
 
 # Instructions of small sweeps against the stored numbers (needs valgrind); `just count-instructions --renew` stores them.
 count-instructions *ARGUMENTS:
