@@ -42,8 +42,8 @@ reproduce:
 bench:
     cargo bench -p flap-core -p flap-sweep
 
-# Measures how fast flap is on this machine, beside other solvers too, and writes docs/performance.md: half an hour, in
-# which nothing else should run.
+# Run nothing else meanwhile: it takes half an hour, most of it for the other solvers.
+# How fast flap is on this machine, beside other solvers too: writes docs/performance.md.
 bench-report:
     mkdir -p target
     just peers --points 256 --rtol 1e-6 --json "$PWD/target/peers-256-6.json"

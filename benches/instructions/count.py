@@ -3,13 +3,13 @@
     python3 benches/instructions/count.py target/release/flap
     python3 benches/instructions/count.py target/release/flap --renew
 
-Valgrind's callgrind counts, in what turns points into rows: start-up and the writing of files are left out. It knows AVX2
-at most, so that the AVX2 lanes are counted on every processor that has them, and it gives the same number every time,
-however busy the machine is. What counts change with is the source, the compiler and the dependencies, and their versions
-are all pinned.
+Valgrind's callgrind counts, in what turns points into rows: start-up and the writing of files are left out. It knows
+AVX2 at most, so that the AVX2 lanes are counted on every processor that has them, and it gives the same number every
+time, however busy the machine is. What counts change with is the source, the compiler and the dependencies, and the
+versions of those are pinned.
 
-A count that differs from the baseline by more than the tolerance is an error in either direction: what has become faster
-is to stay so.
+A count that differs from the baseline by more than the tolerance is an error in either direction: what has become
+faster is to stay so.
 """
 
 import argparse
@@ -100,7 +100,7 @@ def count(flap: Path, text: str) -> Count:
         raise NotComparableError(f"the lanes ran on {told['instructions']}, and the baseline is of avx2")
     instructions = int(collected[1])
     if instructions == 0:
-        sys.exit(f"no function of {flap} matches {COUNTED}: has it another name now? Then change COUNTED in {__file__}.")
+        sys.exit(f"no function of {flap} matches {COUNTED}: has it a new name? Then change COUNTED in {__file__}.")
     return Count(instructions, told["rhs_evals"])
 
 
@@ -153,9 +153,10 @@ def main() -> None:
     args = parser.parse_args()
 
     texts = grids()
+    flap = args.flap.resolve()
     try:
         with ThreadPoolExecutor(args.jobs) as pool:
-            counts = dict(zip(texts, pool.map(lambda text: count(args.flap.resolve(), text), texts.values()), strict=True))
+            counts = dict(zip(texts, pool.map(lambda text: count(flap, text), texts.values()), strict=True))
     except NotComparableError as reason:
         print(f"Instructions are not compared: {reason}.")
         return

@@ -63,6 +63,7 @@ fn file(plan: &Plan, listed: &Listed<'_>) -> io::Result<(f64, f64)> {
     let begin = Instant::now();
     let mut sink = CsvSink::new(Layout::of(plan), file.try_clone()?);
     sink.begin()?;
+    // Rows are in the order in which they were done, which makes no difference to the time.
     for (index, row) in (0..).zip(&listed.rows) {
         sink.write(&plan.point(index), row)?;
     }
