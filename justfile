@@ -42,6 +42,11 @@ reproduce:
 bench:
     cargo bench -p flap-core -p flap-sweep
 
+# flap beside other solvers on the same equations, in turn on one core (benches/peers): `just peers --help`.
+[positional-arguments]
+peers *ARGS:
+    python3 benches/peers "$@"
+
 # Run nothing else meanwhile: it takes half an hour, most of it for the other solvers.
 # How fast flap is on this machine, beside other solvers too: writes docs/performance.md.
 bench-report:

@@ -67,17 +67,21 @@ impl Ode<4> for Wing {
     fn rhs<R: Lanes>(&self, _c: &Drive<R>, force: &R, _side: R, y: &[R; 4]) -> [R; 4] {
         let [x, v, psi, w] = *y;
         let (sin, cos) = psi.sin_cos();
-        let (sin_2psi, cos_2psi) = (sin * cos * 2.0, sin * sin * -2.0 + 1.0);
+        let sin_squared = sin * sin;
         let speed = v * v.abs();
-        let drag = cos_2psi * DRAG_SWING + DRAG_MEAN;
-        let a = *force - x * (STIFFNESS / MASS) - drag * speed * (TIP_DRAG / MASS);
+        // C_D / D₀, and (C_D cos ψ + C_L sin ψ) / cos ψ, of cos 2ψ = 1 - 2 sin² ψ and sin 2ψ = 2 sin ψ cos ψ.
+        let drag = sin_squared.mul_add(x.lit(-2.0 * DRAG_SWING), x.lit(DRAG_MEAN + DRAG_SWING));
+        let force_on_hinge =
+            sin_squared.mul_add(x.lit(2.0 * (LIFT - DRAG_SWING)), x.lit(DRAG_MEAN + DRAG_SWING));
+        let a = (drag * speed).mul_add(x.lit(-TIP_DRAG / MASS), x.mul_add(x.lit(-STIFFNESS / MASS), *force));
         // The centre of pressure moves with the angle of attack.
-        let arm = (psi.abs() * (-2.0 * FRAC_1_PI) + 1.0).abs() * (0.151 - 0.132) + 0.132;
-        let air = arm * (drag * cos + sin_2psi * sin * LIFT) * speed * (MOMENT / INERTIA);
-        let swing =
-            (a * (COUPLING * TRANSMISSION) + v * v * sin * (INERTIA * TRANSMISSION * TRANSMISSION)) * cos;
-        let spring = psi * (HINGE / INERTIA) + w * w.abs() * (HINGE_DRAG / INERTIA);
-        [v, a, w, air + swing * (1.0 / INERTIA) - spring]
+        let arm = psi.abs().mul_add(x.lit(-2.0 * FRAC_1_PI), x.lit(1.0)).abs();
+        let arm = arm.mul_add(x.lit((0.151 - 0.132) * (MOMENT / INERTIA)), x.lit(0.132 * (MOMENT / INERTIA)));
+        let swing = a
+            .mul_add(x.lit(COUPLING * TRANSMISSION / INERTIA), v * v * (sin * (TRANSMISSION * TRANSMISSION)));
+        let on_hinge = (arm * speed).mul_add(force_on_hinge, swing);
+        let spring = psi.mul_add(x.lit(HINGE / INERTIA), w * w.abs() * (HINGE_DRAG / INERTIA));
+        [v, a, w, on_hinge.mul_add(cos, -spring)]
     }
 }
 

@@ -8,7 +8,7 @@ use flap_core::model::Model;
 use flap_core::model::direct_drive::{Constants, DirectDrive, FlowDirection};
 use flap_core::num::{InstructionSet, Kernel, Lanes, PerLane, Simd, Vector};
 use flap_core::ode::ensemble::{NewRun, Queue, Unobserved, run};
-use flap_core::ode::step::step;
+use flap_core::ode::step::Step;
 use flap_core::ode::{Ode, Outcome, Start, Tolerances};
 use flap_core::simulate::{Jobs, Point, Row, SolverSettings, preset};
 
@@ -39,7 +39,9 @@ pub(crate) fn one_step<R: Lanes>(token: R::Token, start: &Start<Constants<f64>, 
         |y| R::splat(token, y),
     );
     let k1 = MODEL.rhs(&c, &MODEL.input(&c, zero), side, &y);
-    black_box(step(&MODEL, &c, zero, h, side, &y, &k1));
+    let mut step = Step::new(y, k1);
+    step.attempt(&MODEL, &c, zero, h, side);
+    black_box(step);
 }
 
 /// [`one_step`] in lanes.

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use flap_core::num::Lanes;
 use flap_core::ode::dense::interpolate;
 use flap_core::ode::solve::solve;
-use flap_core::ode::step::step;
+use flap_core::ode::step::Step;
 use flap_core::ode::tableau::{A, B, C, D, E, STAGES};
 use flap_core::ode::{Ending, Ode, Outcome, Start, Tolerances};
 
@@ -108,10 +108,11 @@ fn fixed_steps(n: u32) -> (f64, f64) {
     for i in 0..n {
         let t = f64::from(i) * h;
         let k1 = Growth.rhs(&(), &Growth.input(&(), t), 1.0, &y);
-        let tried = step(&Growth, &(), t, h, 1.0, &y, &k1);
-        let middle = interpolate(&tried, h, 0.4)[0];
+        let mut step = Step::new(y, k1);
+        step.attempt(&Growth, &(), t, h, 1.0);
+        let middle = interpolate(&step, h, 0.4)[0];
         between = between.max((middle - (t + 0.4 * h).sin().exp()).abs());
-        y = tried.y[6];
+        y = step.y[6];
     }
     ((y[0] - 2.0_f64.sin().exp()).abs(), between)
 }
@@ -133,18 +134,20 @@ fn order_is_5_and_4_between_steps() {
 fn interpolation_meets_both_ends() {
     let y = [1.3];
     let k1 = Growth.rhs(&(), &Growth.input(&(), 0.2), 1.0, &y);
-    let tried = step(&Growth, &(), 0.2, 0.1, 1.0, &y, &k1);
-    assert_eq!(interpolate(&tried, 0.1, 0.0), y);
-    assert!((interpolate(&tried, 0.1, 1.0)[0] - tried.y[6][0]).abs() < 1e-15);
+    let mut step = Step::new(y, k1);
+    step.attempt(&Growth, &(), 0.2, 0.1, 1.0);
+    assert_eq!(interpolate(&step, 0.1, 0.0), y);
+    assert!((interpolate(&step, 0.1, 1.0)[0] - step.y[6][0]).abs() < 1e-15);
 }
 
 #[test]
 fn error_estimate_bounds_the_error_of_a_step() {
     let k1 = Growth.rhs(&(), &1.0, 1.0, &[1.0]);
     for h in [0.02, 0.05, 0.1, 0.2] {
-        let tried = step(&Growth, &(), 0.0, h, 1.0, &[1.0], &k1);
-        let error = (tried.y[6][0] - h.sin().exp()).abs();
-        assert!(error < tried.error[0].abs(), "h = {h}: error {error:e}, estimate {:e}", tried.error[0]);
+        let mut step = Step::new([1.0], k1);
+        step.attempt(&Growth, &(), 0.0, h, 1.0);
+        let error = (step.y[6][0] - f64::sin(h).exp()).abs();
+        assert!(error < step.error[0].abs(), "h = {h}: error {error:e}, estimate {:e}", step.error[0]);
     }
 }
 

@@ -12,10 +12,11 @@ fn arguments(from: f64, to: f64) -> Vec<f64> {
 fn sine_and_cosine_are_accurate_to_1e_15() {
     for x in arguments(-20.0, 20.0).into_iter().chain(arguments(-1e6, 1e6)) {
         let (sin, cos) = Real::sin_cos(x);
-        assert!((sin - f64::sin(x)).abs() < 3e-16, "sin {x}: {sin}");
-        assert!((cos - f64::cos(x)).abs() < 3e-16, "cos {x}: {cos}");
+        assert!((sin - f64::sin(x)).abs() < 4e-16, "sin {x}: {sin}");
+        assert!((cos - f64::cos(x)).abs() < 4e-16, "cos {x}: {cos}");
+        assert_eq!(Real::sin(x), sin, "sin {x} alone");
         let (unfused, _) = Unfused(x).sin_cos();
-        assert!((unfused.0 - f64::sin(x)).abs() < 4e-16, "sin {x} without fused multiply-add: {}", unfused.0);
+        assert!((unfused.0 - f64::sin(x)).abs() < 5e-16, "sin {x} without fused multiply-add: {}", unfused.0);
     }
 }
 

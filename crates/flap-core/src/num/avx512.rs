@@ -8,9 +8,9 @@
 use core::arch::x86_64::{
     __m512d, __m512i, __mmask8, _CMP_LT_OQ, _mm512_abs_pd, _mm512_add_epi64, _mm512_add_pd, _mm512_and_si512,
     _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_fmadd_pd,
-    _mm512_mask_blend_pd, _mm512_mul_pd, _mm512_or_si512, _mm512_set1_epi64, _mm512_set1_pd,
-    _mm512_slli_epi64, _mm512_sqrt_pd, _mm512_srli_epi64, _mm512_sub_pd, _mm512_ternarylogic_epi64,
-    _mm512_test_epi64_mask, _mm512_xor_si512,
+    _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_or_si512, _mm512_set1_epi64,
+    _mm512_set1_pd, _mm512_slli_epi64, _mm512_sqrt_pd, _mm512_srli_epi64, _mm512_sub_pd,
+    _mm512_ternarylogic_epi64, _mm512_xor_si512,
 };
 use core::mem::transmute;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -203,6 +203,21 @@ impl Real for F64x8 {
     }
 
     #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        F64x8(intrinsic!(_mm512_min_pd(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        F64x8(intrinsic!(_mm512_max_pd(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn sin(self) -> Self {
+        functions::sin(self)
+    }
+
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         functions::sin_cos(self)
     }
@@ -272,14 +287,8 @@ impl Lanes for F64x8 {
     }
 
     #[inline(always)]
-    fn is_bit0_set(self) -> __mmask8 {
-        intrinsic!(_mm512_test_epi64_mask(self.to_bits(), Self::all(1)))
-    }
-
-    #[inline(always)]
-    fn flip_sign_by_bit1(self, selector: Self) -> Self {
-        let sign =
-            intrinsic!(_mm512_and_si512(_mm512_slli_epi64::<62>(selector.to_bits()), Self::all(SIGN_BIT)));
+    fn flip_sign_by_lowest_bit(self, selector: Self) -> Self {
+        let sign = intrinsic!(_mm512_slli_epi64::<63>(selector.to_bits()));
         Self::from_bits(intrinsic!(_mm512_xor_si512(self.to_bits(), sign)))
     }
 

@@ -1,61 +1,83 @@
 //! Elementary functions on lanes: polynomials, the same bits on every machine of an arithmetic class.
 //!
-//! Sine and cosine use the kernel polynomials of FreeBSD's msun (`k_sin.c`, `k_cos.c`; Sun Microsystems,
-//! 1993), the logarithm that of `e_log.c`; the exponential is a Taylor polynomial on |r| ≤ ½ ln 2.
+//! Sine and cosine are minimax polynomials, the logarithm is that of FreeBSD's msun (`e_log.c`; Sun Microsystems, 1993),
+//! the exponential is a Taylor polynomial on |r| ≤ ½ ln 2.
 
 use super::lanes::{Lanes, ROUND};
 
-/// π/2 in three parts. The first two have 33 significant bits, so their products with whole numbers
+/// π in three parts. The first two have 33 significant bits, so their products with whole numbers
 /// up to 2^20 are exact.
-const HALF_PI: [f64; 3] = [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_7e-21];
+const PI: [f64; 3] = [3.141_592_653_468_251_2, 1.215_420_101_260_793_2e-10, 4.044_532_497_591_901e-21];
 
-const SIN: [f64; 6] = [
-    -1.666_666_666_666_663_2e-1,
-    8.333_333_333_322_49e-3,
-    -1.984_126_982_985_795e-4,
-    2.755_731_370_707_007e-6,
-    -2.505_076_025_340_686_3e-8,
-    1.589_690_995_211_55e-10,
+/// Coefficients of z, z², … in sin √z / √z − 1 up to a quarter turn; errors below 4·10^-17.
+const SIN: [f64; 8] = [
+    -0.166_666_666_666_666_66,
+    0.008_333_333_333_333_316,
+    -0.000_198_412_698_412_549_66,
+    2.755_731_921_916_083_3e-6,
+    -2.505_210_761_669_045e-8,
+    1.605_897_729_274_264_3e-10,
+    -7.643_969_663_988_074e-13,
+    2.731_436_876_937_989_3e-15,
 ];
 
-const COS: [f64; 6] = [
-    4.166_666_666_666_66e-2,
-    -1.388_888_888_887_411e-3,
-    2.480_158_728_947_673e-5,
-    -2.755_731_435_139_066_3e-7,
-    2.087_572_321_298_175e-9,
-    -1.135_964_755_778_819_5e-11,
+/// Coefficients of z², z³, … in cos √z − 1 + z/2 up to a quarter turn; errors below 7·10^-17.
+const COS: [f64; 7] = [
+    0.041_666_666_666_666_66,
+    -0.001_388_888_888_888_476_5,
+    2.480_158_729_891_222e-5,
+    -2.755_731_857_310_729_6e-7,
+    2.087_668_153_639_063e-9,
+    -1.146_625_136_921_544_4e-11,
+    4.646_422_837_808_079_4e-14,
 ];
 
-/// Horner's rule: c₀ + x (c₁ + x (c₂ + …)).
+/// c₀ + c₁ x + c₂ x² + …, given x²: by Horner's rule in x², over pairs of coefficients. It takes as many operations as the
+/// rule in x, and half of their waiting for each other.
 #[inline(always)]
-fn polynomial<R: Lanes, const N: usize>(x: R, c: &[f64; N]) -> R {
-    let mut sum = x.lit(c[N - 1]);
-    for i in (0..N - 1).rev() {
-        sum = sum.mul_add(x, x.lit(c[i]));
+fn polynomial<R: Lanes, const N: usize>(x: R, square: R, c: &[f64; N]) -> R {
+    let pair = |i: usize| {
+        let low = x.lit(c[i]);
+        if i + 1 < N { x.mul_add(x.lit(c[i + 1]), low) } else { low }
+    };
+    let mut i = (N - 1) / 2 * 2;
+    let mut sum = pair(i);
+    while i > 0 {
+        i -= 2;
+        sum = sum.mul_add(square, pair(i));
     }
     sum
+}
+
+/// Half turns and what is left of an angle: a number whose lowest bit says whether the half turns are odd, and r with
+/// |r| ≤ π/2.
+#[inline(always)]
+fn half_turns<R: Lanes>(x: R) -> (R, R) {
+    let rounded = x.mul_add(x.lit(core::f64::consts::FRAC_1_PI), x.lit(ROUND));
+    let k = rounded - ROUND;
+    let mut r = k.mul_add(k.lit(-PI[0]), x);
+    r = k.mul_add(k.lit(-PI[1]), r);
+    r = k.mul_add(k.lit(-PI[2]), r);
+    (rounded, r)
+}
+
+/// Sine of `x` (rad), for |x| up to 10^6.
+#[inline(always)]
+pub fn sin<R: Lanes>(x: R) -> R {
+    let (odd, r) = half_turns(x);
+    let z = r * r;
+    (z * r).mul_add(polynomial(z, z * z, &SIN), r).flip_sign_by_lowest_bit(odd)
 }
 
 /// Sine and cosine of `x` (rad), for |x| up to 10^6.
 #[inline(always)]
 pub fn sin_cos<R: Lanes>(x: R) -> (R, R) {
-    // The nearest multiple of π/2: `rounded` holds its number k in the low bits, `k` as a float.
-    let rounded = x.mul_add(x.lit(core::f64::consts::FRAC_2_PI), x.lit(ROUND));
-    let k = rounded - ROUND;
-    let mut r = k.mul_add(k.lit(-HALF_PI[0]), x);
-    r = k.mul_add(k.lit(-HALF_PI[1]), r);
-    r = k.mul_add(k.lit(-HALF_PI[2]), r);
-
+    let (odd, r) = half_turns(x);
     let z = r * r;
-    let sin_r = (z * r).mul_add(polynomial(z, &SIN), r);
-    let cos_r = (z * z).mul_add(polynomial(z, &COS), z.mul_add(z.lit(-0.5), z.lit(1.0)));
-
-    // Quadrant k mod 4: odd k swaps the two, bit 1 of k flips the sine, bit 1 of k + 1 the cosine.
-    let odd = rounded.is_bit0_set();
-    let sin = R::select(odd, cos_r, sin_r).flip_sign_by_bit1(rounded);
-    let cos = R::select(odd, sin_r, cos_r).flip_sign_by_bit1(rounded + 1.0);
-    (sin, cos)
+    let zz = z * z;
+    let sin = (z * r).mul_add(polynomial(z, zz, &SIN), r);
+    let cos = zz.mul_add(polynomial(z, zz, &COS), z.mul_add(z.lit(-0.5), z.lit(1.0)));
+    (sin.flip_sign_by_lowest_bit(odd), cos.flip_sign_by_lowest_bit(odd))
 }
 
 /// ln 2 in two parts; the first has 33 significant bits.
@@ -91,7 +113,7 @@ fn reduce<R: Lanes>(x: R) -> (R, R) {
 #[inline(always)]
 pub fn exp<R: Lanes>(x: R) -> R {
     let (k, r) = reduce(x);
-    polynomial(r, &EXP).mul_add(r, r.lit(1.0)).times_power_of_two(k)
+    polynomial(r, r * r, &EXP).mul_add(r, r.lit(1.0)).times_power_of_two(k)
 }
 
 /// e^x − 1 for |x| up to 700, accurate for small x too.
@@ -100,7 +122,7 @@ pub fn exp_m1<R: Lanes>(x: R) -> R {
     let (k, r) = reduce(x);
     let power = r.lit(1.0).times_power_of_two(k);
     // 2^k (e^r − 1) + (2^k − 1)
-    (polynomial(r, &EXP) * r).mul_add(power, power - 1.0)
+    (polynomial(r, r * r, &EXP) * r).mul_add(power, power - 1.0)
 }
 
 /// Coefficients of s², s⁴, … in (ln((1 + s)/(1 − s)) − 2s)/s.
@@ -126,7 +148,7 @@ pub fn ln<R: Lanes>(x: R) -> R {
     let f = m - 1.0;
     let s = f / (f + 2.0);
     let z = s * s;
-    let rest = z * polynomial(z, &LN);
+    let rest = z * polynomial(z, z * z, &LN);
     let half_square = f * f * 0.5;
     // ln m = f − (f²/2 − s (f²/2 + rest)), with e ln 2 added from its small part up.
     let small = s.mul_add(half_square + rest, e * LN_2[1]);

@@ -33,11 +33,8 @@ pub trait Lanes: Real {
     /// Lanes in which both masks hold.
     fn and(a: Self::Mask, b: Self::Mask) -> Self::Mask;
 
-    /// Whether the lowest bit of the number's representation is set.
-    fn is_bit0_set(self) -> Self::Mask;
-
-    /// `self` with its sign flipped where bit 1 of the representation of `selector` is set.
-    fn flip_sign_by_bit1(self, selector: Self) -> Self;
+    /// `self` with its sign flipped where the lowest bit of the representation of `selector` is set.
+    fn flip_sign_by_lowest_bit(self, selector: Self) -> Self;
 
     /// Splits a normal positive number into `(e, m)` with `self = 2^e m` and `m` in [1, 2).
     /// For NaN and infinity `e` is 1024 and `m` finite.
@@ -93,6 +90,11 @@ impl Real for f64 {
     #[inline(always)]
     fn select(mask: bool, yes: f64, no: f64) -> f64 {
         if mask { yes } else { no }
+    }
+
+    #[inline(always)]
+    fn sin(self) -> f64 {
+        functions::sin(self)
     }
 
     #[inline(always)]
@@ -161,13 +163,8 @@ impl Lanes for f64 {
     }
 
     #[inline(always)]
-    fn is_bit0_set(self) -> bool {
-        self.to_bits() & 1 != 0
-    }
-
-    #[inline(always)]
-    fn flip_sign_by_bit1(self, selector: f64) -> f64 {
-        f64::from_bits(self.to_bits() ^ (((selector.to_bits() >> 1) & 1) << 63))
+    fn flip_sign_by_lowest_bit(self, selector: f64) -> f64 {
+        f64::from_bits(self.to_bits() ^ (selector.to_bits() << 63))
     }
 
     #[inline(always)]

@@ -126,6 +126,21 @@ impl<L: Lanes> Real for Pair<L> {
     }
 
     #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Pair { lo: self.lo.min(other.lo), hi: self.hi.min(other.hi) }
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Pair { lo: self.lo.max(other.lo), hi: self.hi.max(other.hi) }
+    }
+
+    #[inline(always)]
+    fn sin(self) -> Self {
+        functions::sin(self)
+    }
+
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         functions::sin_cos(self)
     }
@@ -197,13 +212,11 @@ impl<L: Lanes> Lanes for Pair<L> {
     }
 
     #[inline(always)]
-    fn is_bit0_set(self) -> Self::Mask {
-        PairMask { lo: self.lo.is_bit0_set(), hi: self.hi.is_bit0_set() }
-    }
-
-    #[inline(always)]
-    fn flip_sign_by_bit1(self, selector: Self) -> Self {
-        Pair { lo: self.lo.flip_sign_by_bit1(selector.lo), hi: self.hi.flip_sign_by_bit1(selector.hi) }
+    fn flip_sign_by_lowest_bit(self, selector: Self) -> Self {
+        Pair {
+            lo: self.lo.flip_sign_by_lowest_bit(selector.lo),
+            hi: self.hi.flip_sign_by_lowest_bit(selector.hi),
+        }
     }
 
     #[inline(always)]

@@ -41,6 +41,9 @@ pub trait Real:
     /// `yes` where `mask` holds, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
+    /// Sine of an angle in radians, for |x| up to 10^6; errors stay below 10^-15.
+    fn sin(self) -> Self;
+
     /// Sine and cosine of an angle in radians, for |x| up to 10^6; errors stay below 10^-15.
     fn sin_cos(self) -> (Self, Self);
 
@@ -55,12 +58,6 @@ pub trait Real:
 
     /// ln(1 + x) for x > −1, accurate for small x too.
     fn ln_1p(self) -> Self;
-
-    /// Sine of an angle in radians.
-    #[inline(always)]
-    fn sin(self) -> Self {
-        self.sin_cos().0
-    }
 
     /// The smaller of two numbers; `other` if either is NaN.
     #[inline(always)]

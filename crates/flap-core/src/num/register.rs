@@ -130,6 +130,24 @@ impl<S: Simd> Real for Register<S> {
         Register(mask.0.select(yes.0, no.0))
     }
 
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // One instruction with the very meaning; other architectures' treat NaN in other ways.
+        Register(self.0.min(other.0))
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Register(self.0.max(other.0))
+    }
+
+    #[inline(always)]
+    fn sin(self) -> Self {
+        functions::sin(self)
+    }
+
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         functions::sin_cos(self)
@@ -196,14 +214,8 @@ impl<S: Simd> Lanes for Register<S> {
     }
 
     #[inline(always)]
-    fn is_bit0_set(self) -> RegisterMask<S> {
-        RegisterMask((self.to_bits() & 1).simd_eq(1))
-    }
-
-    #[inline(always)]
-    fn flip_sign_by_bit1(self, selector: Self) -> Self {
-        // Bit 1 moved to the sign bit, everything else cleared.
-        Self::from_bits(self.to_bits() ^ ((selector.to_bits() >> 1) << 63))
+    fn flip_sign_by_lowest_bit(self, selector: Self) -> Self {
+        Self::from_bits(self.to_bits() ^ (selector.to_bits() << 63))
     }
 
     #[inline(always)]

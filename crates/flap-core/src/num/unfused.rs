@@ -113,6 +113,11 @@ impl Real for Unfused {
     }
 
     #[inline(always)]
+    fn sin(self) -> Unfused {
+        functions::sin(self)
+    }
+
+    #[inline(always)]
     fn sin_cos(self) -> (Unfused, Unfused) {
         functions::sin_cos(self)
     }
@@ -178,13 +183,8 @@ impl Lanes for Unfused {
     }
 
     #[inline(always)]
-    fn is_bit0_set(self) -> bool {
-        self.0.is_bit0_set()
-    }
-
-    #[inline(always)]
-    fn flip_sign_by_bit1(self, selector: Unfused) -> Unfused {
-        Unfused(self.0.flip_sign_by_bit1(selector.0))
+    fn flip_sign_by_lowest_bit(self, selector: Unfused) -> Unfused {
+        Unfused(self.0.flip_sign_by_lowest_bit(selector.0))
     }
 
     #[inline(always)]

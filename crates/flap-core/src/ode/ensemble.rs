@@ -10,7 +10,7 @@ use core::ops::{AddAssign, ControlFlow};
 use super::controller::{Memory, judge};
 use super::norm::error_squared;
 use super::start::{first_step, span_step};
-use super::step::{Attempt, step};
+use super::step::{Attempt, Step};
 use super::switch::{Crossing, Switching, landing_stretch};
 use super::{Ending, MIN_STEP, Ode, Outcome, Start, Tolerances, input, slope};
 use crate::num::{Lanes, PerLane, Simd, Vector};
@@ -132,8 +132,7 @@ struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> {
     h: R,
     /// The step size with which a span begins.
     h_begin: R,
-    y: [R; N],
-    k1: [R; N],
+    step: Step<R, N>,
     memory: Memory<R>,
     switching: Switching<R>,
     steps_in_span: R,
@@ -185,8 +184,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
             t: number,
             h: number.lit(start.span),
             h_begin: number.lit(start.span),
-            y: [number; N],
-            k1: [number; N],
+            step: Step::new([number; N], [number; N]),
             memory: Memory::new(number),
             switching: Switching::new(number),
             steps_in_span: number,
@@ -199,7 +197,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
             fresh: 0,
         };
         for i in 0..N {
-            bank.y[i] = number.lit(start.y[i]);
+            bank.step.y[0][i] = number.lit(start.y[i]);
             bank.atol[i] = number.lit(tolerances.atol * start.scale[i]);
         }
         bank.load(0, run, &start, observer);
@@ -212,7 +210,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
         self.totals.set(lane, &observer.nothing());
         self.span.set_lane(lane, start.span);
         for i in 0..N {
-            self.y[i].set_lane(lane, start.y[i]);
+            self.step.y[0][i].set_lane(lane, start.y[i]);
             self.atol[i].set_lane(lane, self.tolerances.atol * start.scale[i]);
         }
         self.runs[lane] = Some(Running { run, began: self.steps });
@@ -258,21 +256,28 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
     #[inline(always)]
     fn begin(&mut self, ode: &O) {
         let fresh = R::mask(self.token, self.fresh);
-        let switching = Switching::begin(ode, &self.constants, &self.y);
-        let (k1, h) =
-            first_step(ode, &self.constants, switching.side, &self.y, self.span, &self.atol, self.rtol);
-        let value = ode.switch(&self.constants, &self.y, &k1);
+        let switching = Switching::begin(ode, &self.constants, &self.step.y[0]);
+        let (k1, h) = first_step(
+            ode,
+            &self.constants,
+            switching.side,
+            &self.step.y[0],
+            self.span,
+            &self.atol,
+            self.rtol,
+        );
+        let value = ode.switch(&self.constants, &self.step.y[0], &k1);
         let zero = self.t.lit(0.0);
         let memory = Memory::new(zero);
         for i in 0..N {
-            self.k1[i] = R::select(fresh, k1[i], self.k1[i]);
+            self.step.k[0][i] = R::select(fresh, k1[i], self.step.k[0][i]);
         }
         self.h = R::select(fresh, h, self.h);
         self.h_begin = R::select(fresh, h, self.h_begin);
         self.t = R::select(fresh, zero, self.t);
         self.steps_in_span = R::select(fresh, zero, self.steps_in_span);
-        self.memory.ln_error = R::select(fresh, memory.ln_error, self.memory.ln_error);
-        self.memory.factor_max = R::select(fresh, memory.factor_max, self.memory.factor_max);
+        self.memory.log2_error = R::select(fresh, memory.log2_error, self.memory.log2_error);
+        self.memory.level_max = R::select(fresh, memory.level_max, self.memory.level_max);
         if O::SWITCHES {
             self.switching.side = R::select(fresh, switching.side, self.switching.side);
             self.switching.heading = R::select(fresh, zero, self.switching.heading);
@@ -293,8 +298,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
         self.steps_in_span.set_lane(lane, 0.0);
         self.h.set_lane(lane, h);
         self.h_begin.set_lane(lane, h);
-        self.memory.ln_error.set_lane(lane, memory.ln_error);
-        self.memory.factor_max.set_lane(lane, memory.factor_max);
+        self.memory.log2_error.set_lane(lane, memory.log2_error);
+        self.memory.level_max.set_lane(lane, memory.level_max);
     }
 
     /// Attempts one step in every lane.
@@ -306,8 +311,9 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
         let h = R::select(landing, remaining, self.h);
 
         let side = self.switching.side;
-        let tried = step(ode, &self.constants, self.t, h, side, &self.y, &self.k1);
-        self.error = error_squared(&tried.error, &self.y, &tried.y[6], &self.atol, self.rtol, O::CONTROLLED);
+        self.step.attempt(ode, &self.constants, self.t, h, side);
+        let Step { y: [y, .., y_new], error, .. } = &self.step;
+        self.error = error_squared(error, y, y_new, &self.atol, self.rtol, O::CONTROLLED);
         let verdict = judge(self.error, &mut self.memory);
         self.steps += 1;
         self.steps_in_span = self.steps_in_span + 1.0;
@@ -318,18 +324,15 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
         let mut crossing =
             Crossing { accepted: verdict.accepted, h: h_next, arrived: R::mask(self.token, 0) };
         if O::SWITCHES {
-            crossing = self.switching.judge(ode, &self.constants, &tried, h, verdict.accepted, h_next);
+            crossing = self.switching.judge(ode, &self.constants, &self.step, h, verdict.accepted, h_next);
         }
         self.h = crossing.h;
         let accepted = crossing.accepted;
-        let attempt = Attempt { t: self.t, h, side, step: &tried };
+        let attempt = Attempt { t: self.t, h, side, step: &self.step };
         observer.add(ode, &self.constants, &attempt, accepted, &mut self.totals);
         let t = R::select(landing, target, self.t + h);
         self.t = R::select(accepted, t, self.t);
-        for i in 0..N {
-            self.y[i] = R::select(accepted, tried.y[6][i], self.y[i]);
-            self.k1[i] = R::select(accepted, tried.k[6][i], self.k1[i]);
-        }
+        self.step.advance(accepted);
         if O::SWITCHES && R::bits(crossing.arrived) != 0 {
             self.change_sides(ode, crossing.arrived);
         }
@@ -346,15 +349,16 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
     #[inline(always)]
     fn change_sides(&mut self, ode: &O, arrived: R::Mask) {
         let u = input(ode, &self.constants, self.t);
-        let y = ode.crossed(&self.constants, &u, self.switching.side, &self.y);
+        let Step { y: [y, ..], k: [k1, ..], .. } = &mut self.step;
+        let crossed = ode.crossed(&self.constants, &u, self.switching.side, y);
         for i in 0..N {
-            self.y[i] = R::select(arrived, y[i], self.y[i]);
+            y[i] = R::select(arrived, crossed[i], y[i]);
         }
-        let k1 = slope(ode, &self.constants, &u, self.switching.side, &self.y);
+        let slope = slope(ode, &self.constants, &u, self.switching.side, y);
         for i in 0..N {
-            self.k1[i] = R::select(arrived, k1[i], self.k1[i]);
+            k1[i] = R::select(arrived, slope[i], k1[i]);
         }
-        let value = ode.switch(&self.constants, &self.y, &self.k1);
+        let value = ode.switch(&self.constants, y, k1);
         for i in 0..2 {
             self.switching.value[i] = R::select(arrived, value[i], self.switching.value[i]);
         }
@@ -374,7 +378,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
             } else {
                 let mut y = [0.0; N];
                 for i in 0..N {
-                    y[i] = self.y[i].lane(lane);
+                    y[i] = self.step.y[0][i].lane(lane);
                 }
                 let verdict = queue.span_end(&mut running.run, &y, &self.totals.get(lane));
                 verdict.is_break().then_some(Ending::Stopped)

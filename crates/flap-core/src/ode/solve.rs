@@ -6,7 +6,7 @@ use core::ops::ControlFlow;
 use super::controller::{Memory, judge};
 use super::norm::error_squared;
 use super::start::{first_step, span_step};
-use super::step::{Attempt, step};
+use super::step::{Attempt, Step};
 use super::switch::{Crossing, Switching, landing_stretch};
 use super::{Ending, MIN_STEP, Ode, Outcome, Start, Tolerances, input, slope};
 use crate::num::{PerLane, Scalar};
@@ -63,8 +63,9 @@ fn steps<O: Ode<N>, R: Scalar, const N: usize>(
     }
 
     let mut switching = Switching::begin(ode, &c, &y);
-    let (mut k1, mut h) = first_step(ode, &c, switching.side, &y, span, &atol, rtol);
+    let (k1, mut h) = first_step(ode, &c, switching.side, &y, span, &atol, rtol);
     switching.value = ode.switch(&c, &y, &k1);
+    let mut step = Step::new(y, k1);
     let mut h_begin = h;
     let mut memory = Memory::new(span);
     let mut t = number(0.0);
@@ -78,8 +79,8 @@ fn steps<O: Ode<N>, R: Scalar, const N: usize>(
         let h_try = if landing { remaining } else { h };
 
         let side = switching.side;
-        let tried = step(ode, &c, t, h_try, side, &y, &k1);
-        let error = error_squared(&tried.error, &y, &tried.y[6], &atol, rtol, O::CONTROLLED);
+        step.attempt(ode, &c, t, h_try, side);
+        let error = error_squared(&step.error, &step.y[0], &step.y[6], &atol, rtol, O::CONTROLLED);
         let verdict = judge(error, &mut memory);
         attempts += 1;
         steps_in_span += 1;
@@ -89,28 +90,28 @@ fn steps<O: Ode<N>, R: Scalar, const N: usize>(
         let h_next = if verdict.accepted && landing { proposal.max(h) } else { proposal };
         let mut crossing = Crossing { accepted: verdict.accepted, h: h_next, arrived: false };
         if O::SWITCHES {
-            crossing = switching.judge(ode, &c, &tried, h_try, verdict.accepted, h_next);
+            crossing = switching.judge(ode, &c, &step, h_try, verdict.accepted, h_next);
         }
         h = crossing.h;
         let accepted = crossing.accepted;
         if accepted {
-            on_step(&c, &Attempt { t, h: h_try, side, step: &tried });
+            on_step(&c, &Attempt { t, h: h_try, side, step: &step });
             t = if landing { target } else { t + h_try };
-            y = tried.y[6];
-            k1 = tried.k[6];
+            step.advance(true);
         }
         if crossing.arrived {
             let u = input(ode, &c, t);
-            y = ode.crossed(&c, &u, switching.side, &y);
-            k1 = slope(ode, &c, &u, switching.side, &y);
-            switching.value = ode.switch(&c, &y, &k1);
+            let Step { y: [y, ..], k: [k1, ..], .. } = &mut step;
+            *y = ode.crossed(&c, &u, switching.side, y);
+            *k1 = slope(ode, &c, &u, switching.side, y);
+            switching.value = ode.switch(&c, y, k1);
             switches += 1;
         }
 
         if accepted && landing && !target.lt(span) {
             let mut state = [0.0; N];
             for i in 0..N {
-                state[i] = y[i].lane(0);
+                state[i] = step.y[0][i].lane(0);
             }
             if at_span_end(&state).is_break() {
                 return Outcome::new::<O, N>(Ending::Stopped, attempts, switches);

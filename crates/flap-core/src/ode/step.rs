@@ -1,10 +1,10 @@
 //! One step of the method: stages, new state, error estimate. No policy, no allocation.
 
+use super::Ode;
 use super::tableau::{A, C, E, STAGES};
-use super::{Ode, input, slope};
 use crate::num::Lanes;
 
-/// What one attempted step found.
+/// A step: where it begins, and what an attempt finds.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<R, const N: usize> {
     /// State at each stage: the old state first, the new one last.
@@ -28,58 +28,67 @@ pub struct Attempt<'a, R, const N: usize> {
     pub step: &'a Step<R, N>,
 }
 
-/// Attempts a step of size `h` from `y` at `t`, where the slope is `k1`, on one `side` of a switching surface.
-/// Evaluates six right-hand sides.
-#[inline(always)]
-pub fn step<O: Ode<N>, R: Lanes, const N: usize>(
-    ode: &O,
-    c: &O::Constants<R>,
-    t: R,
-    h: R,
-    side: R,
-    y: &[R; N],
-    k1: &[R; N],
-) -> Step<R, N> {
-    let at = |stage: usize| h.mul_add(h.lit(C[stage]), t);
+impl<R: Lanes, const N: usize> Step<R, N> {
+    /// A step from `y`, where the slope is `k1`, before any attempt.
+    #[inline(always)]
+    pub fn new(y: [R; N], k1: [R; N]) -> Step<R, N> {
+        Step { y: [y; STAGES], k: [k1; STAGES], error: y }
+    }
 
-    // Written out stage by stage: as a loop it would index slopes at run time and keep them in memory.
-    let y2 = combine(y, h, &[k1], &A[1]);
-    let k2 = slope(ode, c, &input(ode, c, at(1)), side, &y2);
-    let y3 = combine(y, h, &[k1, &k2], &A[2]);
-    let k3 = slope(ode, c, &input(ode, c, at(2)), side, &y3);
-    let y4 = combine(y, h, &[k1, &k2, &k3], &A[3]);
-    let k4 = slope(ode, c, &input(ode, c, at(3)), side, &y4);
-    let y5 = combine(y, h, &[k1, &k2, &k3, &k4], &A[4]);
-    let k5 = slope(ode, c, &input(ode, c, at(4)), side, &y5);
-    let y6 = combine(y, h, &[k1, &k2, &k3, &k4, &k5], &A[5]);
-    // Stages 6 and 7 are both at the end of the step and share its inputs.
-    let end = input(ode, c, at(5));
-    let k6 = slope(ode, c, &end, side, &y6);
-    let y7 = combine(y, h, &[k1, &k2, &k3, &k4, &k5, &k6], &A[6]);
-    let k7 = slope(ode, c, &end, side, &y7);
+    /// Attempts the step with size `h` from time `t`, on one `side` of a switching surface. Evaluates six right-hand
+    /// sides.
+    #[inline(always)]
+    pub fn attempt<O: Ode<N>>(&mut self, ode: &O, c: &O::Constants<R>, t: R, h: R, side: R) {
+        let mut u = ode.input(c, t);
+        // A loop, so that the right-hand side is compiled once: six copies of it take the compiler minutes, and do not fit
+        // into a processor's cache of decoded instructions.
+        for stage in 1..STAGES {
+            let y = combine(&self.y[0], h, &self.k, &A[stage], stage);
+            // Stages 6 and 7 are both at the end of the step and share its inputs.
+            if C[stage] != C[stage - 1] {
+                u = ode.input(c, h.mul_add(h.lit(C[stage]), t));
+            }
+            self.k[stage] = ode.rhs(c, &u, side, &y);
+            self.y[stage] = y;
+        }
+        let zero = [h.lit(0.0); N];
+        self.error = combine(&zero, h, &self.k, &E, STAGES);
+    }
 
-    let zero = [h.lit(0.0); N];
-    let error = combine(&zero, h, &[k1, &k2, &k3, &k4, &k5, &k6, &k7], &E);
-    Step { y: [*y, y2, y3, y4, y5, y6, y7], k: [*k1, k2, k3, k4, k5, k6, k7], error }
+    /// Goes on from where the attempt has come to, in the lanes in which it was `accepted`.
+    #[inline(always)]
+    pub fn advance(&mut self, accepted: R::Mask) {
+        for i in 0..N {
+            self.y[0][i] = R::select(accepted, self.y[STAGES - 1][i], self.y[0][i]);
+            self.k[0][i] = R::select(accepted, self.k[STAGES - 1][i], self.k[0][i]);
+        }
+    }
 }
 
-/// y + h Σ wⱼ kⱼ, leaving out slopes of weight zero.
+/// y + h Σ wⱼ kⱼ over the first `count` slopes, leaving out those of weight zero.
 #[inline(always)]
-fn combine<R: Lanes, const N: usize, const S: usize>(
+fn combine<R: Lanes, const N: usize>(
     y: &[R; N],
     h: R,
-    slopes: &[&[R; N]; S],
+    k: &[[R; N]; STAGES],
     weights: &[f64],
+    count: usize,
 ) -> [R; N] {
-    let mut out = *y;
+    let mut sum = k[0];
     for i in 0..N {
-        let mut sum = slopes[0][i] * weights[0];
-        for j in 1..S {
-            if weights[j] != 0.0 {
-                sum = slopes[j][i].mul_add(h.lit(weights[j]), sum);
+        sum[i] = k[0][i] * weights[0];
+    }
+    for j in 1..count {
+        if weights[j] != 0.0 {
+            let weight = h.lit(weights[j]);
+            for i in 0..N {
+                sum[i] = k[j][i].mul_add(weight, sum[i]);
             }
         }
-        out[i] = sum.mul_add(h, y[i]);
+    }
+    let mut out = *y;
+    for i in 0..N {
+        out[i] = sum[i].mul_add(h, y[i]);
     }
     out
 }

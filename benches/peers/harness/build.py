@@ -1,0 +1,98 @@
+"""How peers are built: what they need is made below target/peers, and what cannot be made is said."""
+
+from __future__ import annotations
+
+import os
+import platform
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import List, Optional, Sequence, Tuple
+
+PEERS = Path(__file__).resolve().parents[1]
+REPOSITORY = PEERS.parents[1]
+TARGET = Path(os.environ.get("CARGO_TARGET_DIR") or REPOSITORY / "target").resolve()
+WORK = TARGET / "peers"
+
+
+class Unavailable(Exception):
+    """A peer cannot be built: why, and what would help."""
+
+    def __init__(self, why: str, remedy: str) -> None:
+        super().__init__(why)
+        self.why = why
+        self.remedy = remedy
+
+
+def run(command: Sequence[object], remedy: str, cwd: Optional[Path] = None) -> None:
+    """Runs a command of a build."""
+    ended = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, cwd=cwd)
+    if ended.returncode != 0:
+        said = [line.strip() for line in ended.stderr.splitlines() if line.strip()]
+        worst = next((line for line in said if "error" in line.lower()), said[-1] if said else "it says nothing")
+        raise Unavailable(f"{Path(str(command[0])).name} failed: {worst}", remedy)
+
+
+@dataclass(frozen=True)
+class Cpp:
+    """A program in C++."""
+
+    source: str
+    flags: Tuple[str, ...]
+    remedy: str
+
+    def build(self) -> List[str]:
+        compiler = os.environ.get("CXX", "g++")
+        if shutil.which(compiler) is None:
+            raise Unavailable(f"there is no {compiler}", self.remedy)
+        source = PEERS / "cpp" / self.source
+        program = WORK / "bin" / source.stem
+        inputs = [*source.parent.iterdir(), *Path(__file__).parent.glob("*.py")]
+        if not program.exists() or program.stat().st_mtime < max(path.stat().st_mtime for path in inputs):
+            program.parent.mkdir(exist_ok=True)
+            run([compiler, "-std=c++17", *self.flags, source, "-o", program], self.remedy)
+        return [str(program)]
+
+
+def processor_flag(level: str) -> str:
+    """The compiler's flag for instructions of this level, where processors have levels."""
+    return f"-march={level}" if platform.machine() in ("x86_64", "AMD64") else "-mcpu=native"
+
+
+@dataclass(frozen=True)
+class Cargo:
+    """A program in Rust: below which folder, with which arguments of cargo, and where cargo puts it."""
+
+    folder: Path
+    arguments: Tuple[str, ...]
+    program: Path
+
+    def build(self) -> List[str]:
+        remedy = "install Rust by rustup, and let cargo reach crates.io"
+        if shutil.which("cargo") is None:
+            raise Unavailable("there is no cargo", remedy)
+        run(["cargo", "build", "--release", "--locked", *self.arguments], remedy, cwd=self.folder)
+        return [str(self.program)]
+
+
+@dataclass(frozen=True)
+class Python:
+    """A script, with packages in a virtual environment that the scripts share."""
+
+    script: str
+    packages: Tuple[str, ...]
+
+    def build(self) -> List[str]:
+        environment = WORK / "venv"
+        python = environment / "bin" / "python"
+        if not python.exists():
+            try:
+                run([sys.executable, "-m", "venv", environment], "install Python's venv (Debian: python3-venv)")
+            except Unavailable:
+                shutil.rmtree(environment, ignore_errors=True)
+                raise
+        install = f"pip must reach a package index that has {' '.join(self.packages)} for this Python"
+        run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *self.packages], install)
+        return [str(python), str(PEERS / "python" / self.script)]

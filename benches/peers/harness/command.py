@@ -1,0 +1,179 @@
+"""The command: options, builds, rounds, report."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import platform
+import re
+import sys
+import time
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Pattern, Sequence, Set
+
+from . import measure, points, report
+from .build import WORK, Unavailable
+from .compare import deviation
+from .measure import Failed, Timing
+from .roster import BASE, PEERS_IN_TURN, REFERENCE, Peer
+
+#: Points that the reference is computed for at most: it takes a tenth of a second for each.
+MOST_REFERENCES = 256
+
+
+def main(arguments: Optional[Sequence[str]] = None) -> None:
+    options = parse(arguments)
+    WORK.mkdir(parents=True, exist_ok=True)
+    sweep = points.grid(options.points)
+
+    skipped: List[Dict[str, str]] = []
+    timings = []
+    for peer in chosen(options.only):
+        say(f"building {peer.name}")
+        try:
+            command = peer.builder.build()
+        except Unavailable as unavailable:
+            skipped.append({"name": peer.name, "why": unavailable.why, "remedy": unavailable.remedy})
+        else:
+            timings.append(Timing(peer, command, min(len(sweep), peer.most_points or len(sweep))))
+    truth = known(sweep, skipped)
+
+    if options.core is not None:
+        os.sched_setaffinity(0, {options.core})
+    begin = load()
+    measure.in_turn(timings, sweep, options.rtol, options.rounds, say)
+    for timing in timings:
+        if timing.failure is not None:
+            skipped.append({"name": timing.peer.name, "why": timing.failure, "remedy": "run it by itself with --only"})
+
+    setting = {
+        "date": time.strftime("%Y-%m-%d"),
+        "processor": processor(),
+        "core": options.core,
+        "load": [begin, load()],
+        "points": len(sweep),
+        "rtol": options.rtol,
+        "rounds": options.rounds,
+        "base": BASE.name,
+    }
+    rows = compared([timing for timing in timings if timing.failure is None], truth)
+    show(rows, skipped, setting, options.json)
+
+
+def known(sweep: Sequence[points.Point], skipped: List[Dict[str, str]]) -> Dict[bool, Dict[int, points.Measures]]:
+    """The reference: what a peer that samples should find, and what one that does not."""
+    say("computing the reference")
+    try:
+        path = measure.reference(REFERENCE.build(), sweep[:MOST_REFERENCES])
+    except Unavailable as unavailable:
+        skipped.append({"name": "reference", "why": unavailable.why, "remedy": unavailable.remedy})
+    except Failed as failed:
+        skipped.append({"name": "reference", "why": str(failed), "remedy": "report it"})
+    else:
+        return {True: points.read(path, "sampled_"), False: points.read(path)}
+    return {True: {}, False: {}}
+
+
+def compared(timings: Sequence[Timing], truth: Dict[bool, Dict[int, points.Measures]]) -> List[report.Row]:
+    """The lines of the report."""
+    base = next((timing.speeds for timing in timings if timing.peer is BASE), [])
+    return [
+        report.Row(
+            timing,
+            [speed / of for speed, of in zip(timing.speeds, base)],
+            deviation(timing.found, truth[False], timing.points),
+            deviation(timing.found, truth[timing.peer.samples], timing.points),
+        )
+        for timing in timings
+    ]
+
+
+def show(rows: Sequence[report.Row], skipped: Sequence[Dict[str, str]], setting: Dict[str, Any], path: Path) -> None:
+    """Prints the table and writes the JSON."""
+    base = next((row.integration for row in rows if row.timing.peer is BASE), None)
+    load = "{:.1f} – {:.1f}".format(*setting["load"])
+    print(
+        f"{setting['points']} points at rtol {setting['rtol']:g}, {setting['rounds']} rounds in turn"
+        f" on core {setting['core']} of {setting['processor']}; load {load}\n"
+    )
+    print(report.table(rows, base, setting["points"]) if rows else "Nothing could be run.")
+    print(f"\nThe base is {BASE.name}; ratios are taken round by round.")
+    for row in rows:
+        print(f"{row.timing.peer.name}: {row.timing.peer.what}")
+    for peer in skipped:
+        print(f"Skipped: {peer['name']}: {peer['why']}. What helps: {peer['remedy']}.")
+    records = [report.record(row, base, setting["points"]) for row in rows]
+    text = json.dumps({**setting, "peers": records, "skipped": skipped}, indent=1, ensure_ascii=False)
+    path.write_text(text + "\n", encoding="utf-8")
+    say(f"wrote {path}")
+
+
+def say(text: str) -> None:
+    print(text, file=sys.stderr)
+
+
+def chosen(only: Pattern[str]) -> List[Peer]:
+    """The peers that take part: the base always does."""
+    return [peer for peer in PEERS_IN_TURN if peer is BASE or only.search(peer.name)]
+
+
+def parse(arguments: Optional[Sequence[str]]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="just peers", description="Runs flap and other solvers on the same points, in turn, on one core."
+    )
+    parser.add_argument("--points", type=int, default=256, metavar="N", help="points of the sweep (default: 256)")
+    parser.add_argument("--rtol", type=float, default=1e-6, help="relative tolerance, 1e-10 to 1e-2 (default: 1e-6)")
+    parser.add_argument("--rounds", type=int, default=5, metavar="N", help="runs of each peer (default: 5)")
+    parser.add_argument(
+        "--only", type=pattern, default=re.compile(""), metavar="REGEX", help="peers whose names match, beside the base"
+    )
+    parser.add_argument("--core", type=int, default=None, metavar="N", help="where to run (default: the last core)")
+    parser.add_argument(
+        "--json", type=Path, default=WORK / "result.json", metavar="FILE", help="default: target/peers/result.json"
+    )
+    options = parser.parse_args(arguments)
+    for name in ("points", "rounds"):
+        if getattr(options, name) < 1:
+            parser.error(f"--{name} is {getattr(options, name)}, but must be 1 or more")
+    if not 1e-10 <= options.rtol <= 1e-2:
+        parser.error(f"--rtol is {options.rtol:g}, but must be from 1e-10, where the reference ends, to 1e-2")
+    if not any(options.only.search(peer.name) for peer in PEERS_IN_TURN):
+        names = ", ".join(peer.name for peer in PEERS_IN_TURN)
+        parser.error(f"--only {options.only.pattern} is none of the peers: {names}")
+    options.json = options.json.resolve()
+    if options.json != WORK / "result.json" and not options.json.parent.is_dir():
+        parser.error(f"--json {options.json}: there is no folder {options.json.parent}")
+    cores = usable_cores()
+    if options.core is None:
+        options.core = max(cores, default=None)
+    elif options.core not in cores:
+        allowed = ", ".join(map(str, sorted(cores))) or "none, because this system does not pin processes"
+        parser.error(f"--core {options.core} cannot be used; allowed: {allowed}")
+    return options
+
+
+def pattern(text: str) -> Pattern[str]:
+    try:
+        return re.compile(text)
+    except re.error as error:
+        raise argparse.ArgumentTypeError(f"{text} is no regular expression: {error}") from None
+
+
+def usable_cores() -> Set[int]:
+    """The cores to which this process may be pinned: none where the system cannot do so."""
+    return os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else set()
+
+
+def load() -> float:
+    return os.getloadavg()[0]
+
+
+def processor() -> str:
+    """What the processor is called."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        lines = []
+    names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.processor() or platform.machine()

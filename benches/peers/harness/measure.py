@@ -1,0 +1,103 @@
+"""One run of a peer, and rounds of runs in turn."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Callable, Dict, List, Optional, Sequence
+
+from . import points as tables
+from .build import WORK
+from .points import Measures, Point
+from .roster import Peer
+
+#: Seconds after which a run is given up.
+TIMEOUT = 600.0
+
+#: Libraries that would start threads are told not to.
+ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("MKL", "NUMBA", "OMP", "OPENBLAS", "RAYON")}
+
+
+class Failed(Exception):
+    """A peer was built, but did not do its work."""
+
+
+@dataclass
+class Timing:
+    """What came of a peer."""
+
+    peer: Peer
+    command: List[str]
+    points: int
+    #: Points per second of CPU time, round by round.
+    speeds: List[float] = field(default_factory=list)
+    rhs_per_point: Optional[float] = None
+    found: Dict[int, Measures] = field(default_factory=dict)
+    failure: Optional[str] = None
+
+
+def in_turn(
+    timings: Sequence[Timing], points: Sequence[Point], rtol: float, rounds: int, say: Callable[[str], None]
+) -> None:
+    """Runs every peer once a round, so that whatever slows the machine down slows all of them."""
+    for number in range(1, rounds + 1):
+        for timing in timings:
+            if timing.failure is None:
+                say(f"round {number} of {rounds}: {timing.peer.name}")
+                try:
+                    once(timing, points, rtol)
+                except Failed as failed:
+                    timing.failure = str(failed)
+
+
+def once(timing: Timing, points: Sequence[Point], rtol: float) -> None:
+    """Runs a peer once."""
+    name = timing.peer.name
+    given, out = WORK / f"{name}-points.csv", WORK / f"{name}-results.csv"
+    tables.write(points[: timing.points], given)
+    out.unlink(missing_ok=True)
+    said = output([*timing.command, str(given), repr(rtol), str(out)])
+    try:
+        told = json.loads(said)
+        seconds = float(told["cpu_s"])
+        timing.rhs_per_point = told["rhs_per_point"]
+        timing.found = tables.read(out)
+    except (KeyError, ValueError, OSError) as error:
+        raise Failed(f"what it wrote cannot be read: {error!r}") from None
+    if not seconds > 0.0:
+        raise Failed("the clock saw no time go by: more points are needed")
+    timing.speeds.append(timing.points / seconds)
+
+
+def output(command: Sequence[str]) -> str:
+    """What a command prints."""
+    try:
+        ended = subprocess.run(
+            command, capture_output=True, text=True, check=False, timeout=TIMEOUT, env={**os.environ, **ONE_THREAD}
+        )
+    except subprocess.TimeoutExpired:
+        raise Failed(f"it ran longer than {TIMEOUT:.0f} s: fewer points are needed") from None
+    except OSError as error:
+        raise Failed(f"it does not start: {error}") from None
+    if ended.returncode != 0:
+        last = ended.stderr.strip().splitlines()[-1:] or ["nothing"]
+        raise Failed(f"it ended with {ended.returncode} and said: {last[0]}")
+    return ended.stdout
+
+
+def reference(command: Sequence[str], points: Sequence[Point]) -> Path:
+    """The table that peers are compared with; that of the same points is kept."""
+    given, out = WORK / "reference-points.csv", WORK / "reference.csv"
+    before = given.read_text(encoding="utf-8") if given.exists() else ""
+    tables.write(points, given)
+    program = Path(command[0])
+    same = before == given.read_text(encoding="utf-8") and out.exists()
+    if not same or out.stat().st_mtime < program.stat().st_mtime:
+        out.unlink(missing_ok=True)
+        part = out.with_suffix(".part")
+        output([*command, str(given), str(part)])
+        part.replace(out)
+    return out

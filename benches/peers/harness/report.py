@@ -1,0 +1,104 @@
+"""What came out, as a table and as JSON."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from statistics import median
+from typing import Any, Dict, Iterable, List, Optional, Sequence
+
+from .compare import Deviation
+from .measure import Timing
+
+#: Times the base's error of integration from which on a peer does not do the same work.
+OUT_OF_LINE = 10.0
+
+
+@dataclass(frozen=True)
+class Row:
+    """A peer's line."""
+
+    timing: Timing
+    #: Speed over that of the base, round by round.
+    ratios: List[float]
+    #: From the true values.
+    deviation: Optional[Deviation]
+    #: From what exact integration gives by the peer's own samples.
+    integration: Optional[Deviation]
+
+    def remarks(self, base: Optional[Deviation], of: int) -> List[str]:
+        """What a reader must know about the line."""
+        remarks = []
+        if not self.timing.peer.adaptive:
+            remarks.append("fixed step, no error control")
+        if self.timing.points < of:
+            remarks.append(f"{self.timing.points} of {of} points: slow")
+        if self.integration is not None:
+            if self.integration.missing:
+                remarks.append(f"{self.integration.missing} POINTS WITHOUT AN ANSWER")
+            if base is not None and self.integration.median > OUT_OF_LINE * base.median:
+                remarks.append(f"OUT OF LINE: {self.integration.median / base.median:.0f} times the base's error")
+        return remarks
+
+
+HEADINGS = [
+    ["", "points per CPU-second", "ratio to base", "rhs per", "deviation", "of the integration", ""],
+    ["peer", "median (range)", "median (range)", "point", "median, max", "median, max", "remarks"],
+]
+
+
+def table(rows: Sequence[Row], base: Optional[Deviation], of: int) -> str:
+    """The table, fastest first."""
+    lines = [*HEADINGS]
+    for row in sorted(rows, key=lambda row: -median(row.timing.speeds)):
+        rhs = row.timing.rhs_per_point
+        lines.append(
+            [
+                row.timing.peer.name,
+                spread(row.timing.speeds),
+                spread(row.ratios),
+                "–" if rhs is None else f"{rhs:,.0f}",
+                errors(row.deviation),
+                errors(row.integration),
+                "; ".join(row.remarks(base, of)),
+            ]
+        )
+    widths = [max(len(line[column]) for line in lines) for column in range(len(lines[0]))]
+    return "\n".join("  ".join(map(str.ljust, line, widths)).rstrip() for line in lines)
+
+
+def spread(values: Sequence[float]) -> str:
+    """Median, smallest and largest."""
+    if not values:
+        return "–"
+    return f"{number(median(values))} ({number(min(values))} – {number(max(values))})"
+
+
+def number(value: float) -> str:
+    """Three digits or all before the point."""
+    return f"{value:,.0f}" if value >= 100.0 else f"{value:.3g}"
+
+
+def errors(found: Optional[Deviation]) -> str:
+    return "–" if found is None else f"{found.median:.1e}, {found.largest:.1e}"
+
+
+def record(row: Row, base: Optional[Deviation], of: int) -> Dict[str, Any]:
+    """A line as JSON."""
+    return {
+        "name": row.timing.peer.name,
+        "what": row.timing.peer.what,
+        "adaptive": row.timing.peer.adaptive,
+        "points": row.timing.points,
+        "points_per_cpu_second": summary(row.timing.speeds),
+        "ratio_to_base": summary(row.ratios),
+        "rhs_per_point": row.timing.rhs_per_point,
+        "deviation": row.deviation and asdict(row.deviation),
+        "integration_deviation": row.integration and asdict(row.integration),
+        "remarks": row.remarks(base, of),
+    }
+
+
+def summary(values: Iterable[float]) -> Optional[Dict[str, Any]]:
+    """Round by round, and what the table says of it."""
+    rounds = list(values)
+    return {"median": median(rounds), "min": min(rounds), "max": max(rounds), "rounds": rounds} if rounds else None

@@ -1,0 +1,35 @@
+"""What is measured of a motion: from equally spaced samples, as users of the libraries do."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import model
+import numpy as np
+from numpy.typing import NDArray
+
+
+def times(frequency: Any, per_period: int = model.SAMPLES_PER_PERIOD) -> NDArray[np.float64]:
+    """When samples are due (s): the measured periods, with both ends."""
+    begin = model.PERIODS - model.MEASURED
+    return (begin + np.arange(model.MEASURED * per_period + 1) / per_period) / frequency
+
+
+def measures(samples: NDArray[np.float64]) -> NDArray[np.float64]:
+    """max |x| (m), max |ψ| (rad) and mean lift (N) of states by point, time and state."""
+    tip = peak(np.abs(samples[:, :, 0])) * model.SCALE[0]
+    psi = peak(np.abs(samples[:, :, 2]))
+    v = samples[:, :, 1] * model.SCALE[1]
+    lift = v * np.abs(v) * np.sin(2.0 * samples[:, :, 2])
+    # Trapezoidal rule.
+    mean = (lift.sum(1) - 0.5 * (lift[:, 0] + lift[:, -1])) / (lift.shape[1] - 1)
+    return np.stack([tip, psi, model.LIFT * model.PRESSURE * mean], axis=1)
+
+
+def peak(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The largest value of each row, with a parabola through the three samples around it."""
+    before, middle, after = values[:, :-2], values[:, 1:-1], values[:, 2:]
+    bend = before - 2.0 * middle + after
+    turns = (middle >= before) & (middle >= after) & (bend < 0.0)
+    above = np.where(turns, -((before - after) ** 2) / (8.0 * np.where(turns, bend, 1.0)), 0.0)
+    return np.maximum(values.max(1), np.max(middle + above, axis=1))

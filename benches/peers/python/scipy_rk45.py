@@ -1,0 +1,41 @@
+"""SciPy: `solve_ivp` with RK45 and a right-hand side in plain Python, point by point."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Tuple
+
+import model
+import numpy as np
+from measures import measures, times
+from scipy.integrate import solve_ivp
+from sweep import Array, sweep
+
+rates = model.equations(math.sin, math.cos, abs)
+
+
+def rhs(t: float, y: Any, force: float, omega: float) -> Tuple[float, float, float, float]:
+    return rates(force * math.sin(omega * t), *y)
+
+
+def motion(force: float, frequency: float, rtol: float, at: Array) -> Any:
+    """States at these times."""
+    return solve_ivp(
+        rhs,
+        (0.0, at[-1]),
+        [0.0, 0.0, 0.0, 0.0],
+        t_eval=at,
+        rtol=rtol,
+        atol=0.1 * rtol,
+        first_step=1e-3 / frequency,
+        args=(force, 2.0 * math.pi * frequency),
+    )
+
+
+def solve(force: Array, frequency: Array, rtol: float) -> Tuple[Array, float]:
+    runs = [motion(*point, rtol, times(point[1])) for point in zip(force.tolist(), frequency.tolist())]
+    return measures(np.stack([run.y.T for run in runs])), sum(run.nfev for run in runs)
+
+
+if __name__ == "__main__":
+    sweep(solve)
