@@ -15,6 +15,10 @@ test-rust:
 test-python:
     ./scripts/test-python.sh
 
+# Lanes of aarch64 in an emulator, and sweeps of both architectures to the same bytes: see the script for what it needs.
+test-aarch64:
+    ./scripts/test-aarch64.sh
+
 # Formatting and lints.
 lint:
     cargo fmt --all --check
@@ -34,7 +38,7 @@ reproduce:
     cargo run --release --locked --example reproduce > target/reproduction.md
     mv target/reproduction.md docs/reproduction.md
 
-# Benchmarks: lanes against scalars, one step, elementary functions.
+# Benchmarks: elementary functions, right-hand sides, one step, lanes against scalars; presets and whole sweeps.
 bench:
     cargo bench -p flap-core -p flap-sweep
 
@@ -42,6 +46,22 @@ bench:
 [positional-arguments]
 peers *ARGS:
     python3 benches/peers "$@"
+
+# Run nothing else meanwhile: it takes half an hour, most of it for the other solvers.
+# How fast flap is on this machine, beside other solvers too: writes docs/performance.md.
+bench-report:
+    mkdir -p target
+    just peers --points 256 --rtol 1e-6 --json "$PWD/target/peers-256-6.json"
+    just peers --points 4096 --rtol 1e-6 --json "$PWD/target/peers-4096-6.json"
+    just peers --points 256 --rtol 1e-8 --json "$PWD/target/peers-256-8.json"
+    just peers --points 4096 --rtol 1e-8 --json "$PWD/target/peers-4096-8.json"
+    cargo bench --locked -p flap-sweep --bench report -- --peers "$PWD"/target/peers-*-[68].json > target/performance.md
+    mv target/performance.md docs/performance.md
+
+# Instructions of small sweeps against the stored numbers (needs valgrind); `just count-instructions --renew` stores them.
+count-instructions *ARGUMENTS:
+    cargo build --release --locked -p flap-cli
+    python3 benches/instructions/count.py "${CARGO_TARGET_DIR:-target}/release/flap" {{ARGUMENTS}}
 
 # Looks for input that breaks a reader of text: grid, units, expression, journal or sidecar. Needs a nightly compiler and
 # `cargo install cargo-fuzz`. Findings go to fuzz/artifacts; the corpus stays as it is.

@@ -52,7 +52,7 @@ fn instructions(set: InstructionSet) -> String {
 
     let per_rhs = |task| {
         let work = Work { preset: "ozaki2018-large", set, task };
-        let instructions = count(&work.to_string())?;
+        let instructions = count(&work.to_string(), &mut |_| Ok(()))?;
         std::io::Result::Ok(instructions as f64 / work.rhs_evals() as f64)
     };
     match (per_rhs(Task::March), per_rhs(Task::ScalarMarch)) {

@@ -6,14 +6,19 @@ use std::time::Instant;
 
 use flap_core::drive::Source;
 use flap_core::model::Model;
-use flap_core::model::direct_drive::{Constants, DirectDrive, FlowDirection};
+use flap_core::model::bimorph::Bimorph;
+use flap_core::model::direct_drive::{DirectDrive, FlowDirection};
+use flap_core::model::four_bar::FourBar;
 use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Simd, Unfused, Vector};
 use flap_core::ode::Ode;
 use flap_core::ode::norm::error_squared;
 use flap_core::ode::step::Step;
 use flap_core::simulate::preset;
 
-const MODEL: DirectDrive = DirectDrive { source: Source::SINE, flow: FlowDirection::Uniform };
+const BIMORPH: Bimorph = Bimorph { source: Source::SINE };
+const DIRECT_DRIVE: DirectDrive = DirectDrive { source: Source::SINE, flow: FlowDirection::Uniform };
+const DIRECT_DRIVE_BLADES: DirectDrive = DirectDrive { source: Source::SINE, flow: FlowDirection::Blade };
+const FOUR_BAR: FourBar = FourBar { source: Source::SINE };
 
 /// Function values per iteration.
 pub(crate) const VALUES: usize = 1024;
@@ -28,9 +33,24 @@ pub(crate) enum Work {
     /// Logarithms of [`VALUES`] numbers.
     Ln,
     /// One right-hand side with its inputs.
-    Rhs,
-    /// One step and the norm of its error.
+    Rhs(Equations),
+    /// One step of the direct-drive model and the norm of its error.
     Step,
+}
+
+/// Whose right-hand side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Equations {
+    Bimorph,
+    DirectDrive,
+    /// With a direction of flow for each blade element.
+    DirectDriveBlades,
+    FourBar,
+}
+
+impl Equations {
+    pub(crate) const ALL: [Equations; 4] =
+        [Equations::Bimorph, Equations::DirectDrive, Equations::DirectDriveBlades, Equations::FourBar];
 }
 
 impl Work {
@@ -40,7 +60,10 @@ impl Work {
             Work::SinCos => "sin_cos",
             Work::Exp => "exp",
             Work::Ln => "ln",
-            Work::Rhs => "rhs",
+            Work::Rhs(Equations::Bimorph) => "rhs-bimorph",
+            Work::Rhs(Equations::DirectDrive) => "rhs-direct-drive",
+            Work::Rhs(Equations::DirectDriveBlades) => "rhs-direct-drive-blades",
+            Work::Rhs(Equations::FourBar) => "rhs-four-bar",
             Work::Step => "step",
         }
     }
@@ -133,28 +156,46 @@ fn time<R: Lanes>(token: R::Token, work: Work, iterations: u64) -> Duration {
             }
             begin.elapsed()
         }
-        Work::Rhs => {
-            let Scene { c, h, side, y, .. } = scene::<R>(token);
-            let begin = Instant::now();
-            for _ in 0..iterations {
-                let (t, y) = black_box((h, y));
-                black_box(MODEL.rhs(&c, &MODEL.input(&c, t), side, &y));
-            }
-            begin.elapsed()
+        Work::Rhs(Equations::Bimorph) => time_rhs::<R, _, _>(token, &BIMORPH, "jafferis2016", iterations),
+        Work::Rhs(Equations::DirectDrive) => {
+            time_rhs::<R, _, _>(token, &DIRECT_DRIVE, "ozaki2018-large", iterations)
+        }
+        Work::Rhs(Equations::DirectDriveBlades) => {
+            time_rhs::<R, _, _>(token, &DIRECT_DRIVE_BLADES, "ozaki2018-large", iterations)
+        }
+        Work::Rhs(Equations::FourBar) => {
+            time_rhs::<R, _, _>(token, &FOUR_BAR, "arabagi2013-75hz", iterations)
         }
         Work::Step => {
-            let Scene { c, h, side, y, atol } = scene::<R>(token);
-            let k1 = MODEL.rhs(&c, &MODEL.input(&c, h), side, &y);
+            let model = &DIRECT_DRIVE;
+            let Scene { c, h, side, y, atol } = scene::<R, _, _>(token, model, "ozaki2018-large");
+            let k1 = model.rhs(&c, &model.input(&c, h), side, &y);
             let mut step = Step::new(y, k1);
             let begin = Instant::now();
             for _ in 0..iterations {
-                step.attempt(&MODEL, &c, black_box(h), h, side);
+                step.attempt(model, &c, black_box(h), h, side);
                 let error = error_squared(&step.error, &y, &step.y[6], &atol, h.lit(1e-6), 4);
                 black_box((&step, error));
             }
             begin.elapsed()
         }
     }
+}
+
+#[inline(always)]
+fn time_rhs<R: Lanes, M: Model<4, S>, const S: usize>(
+    token: R::Token,
+    model: &M,
+    preset: &str,
+    iterations: u64,
+) -> Duration {
+    let Scene { c, h, side, y, .. } = scene::<R, M, S>(token, model, preset);
+    let begin = Instant::now();
+    for _ in 0..iterations {
+        let (t, y) = black_box((h, y));
+        black_box(model.rhs(&c, &model.input(&c, t), side, &y));
+    }
+    begin.elapsed()
 }
 
 /// [`VALUES`] numbers from `low` to `high`.
@@ -169,8 +210,8 @@ fn values<R: Lanes>(token: R::Token, low: f64, high: f64) -> Vec<R> {
 }
 
 /// A state in mid-stroke, with what goes with it.
-struct Scene<R> {
-    c: Constants<R>,
+struct Scene<R, C> {
+    c: C,
     h: R,
     side: R,
     y: [R; 4],
@@ -178,9 +219,13 @@ struct Scene<R> {
 }
 
 #[inline(always)]
-fn scene<R: Lanes>(token: R::Token) -> Scene<R> {
-    let (_, preset) = preset("ozaki2018-large").expect("a preset of the direct-drive model");
-    let start = MODEL.start(&(preset.values)()).expect("published parameters are possible");
+fn scene<R: Lanes, M: Model<4, S>, const S: usize>(
+    token: R::Token,
+    model: &M,
+    published: &str,
+) -> Scene<R, M::Constants<R>> {
+    let (_, published) = preset(published).expect("a preset");
+    let start = model.start(&(published.values)()).expect("published parameters are possible");
     let side = R::splat(token, 1.0);
     let mut y = [side; 4];
     let mut atol = [side; 4];
@@ -188,5 +233,11 @@ fn scene<R: Lanes>(token: R::Token) -> Scene<R> {
         y[i] = side.lit(start.scale[i]);
         atol[i] = side.lit(start.scale[i] * 1e-8);
     }
-    Scene { c: Constants::<R>::fill(token, &start.constants), h: side.lit(start.span * 0.02), side, y, atol }
+    Scene {
+        c: M::Constants::<R>::fill(token, &start.constants),
+        h: side.lit(start.span * 0.02),
+        side,
+        y,
+        atol,
+    }
 }

@@ -1,4 +1,4 @@
-//! What a run is made of: elementary functions, right-hand side, step; on scalars and in lanes.
+//! What a run is made of: elementary functions, right-hand side of each model, step; on scalars and in lanes.
 //!
 //! Rates are per lane: one element is one function value, right-hand side or step of one lane.
 
@@ -9,10 +9,11 @@ use core::time::Duration;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use flap_core::num::InstructionSet;
 
-use kernels::{InLanes, OnScalars, VALUES, Work, lanes};
+use kernels::{Equations, InLanes, OnScalars, VALUES, Work, lanes};
 
 fn parts(criterion: &mut Criterion) {
-    for work in [Work::SinCos, Work::Exp, Work::Ln, Work::Rhs, Work::Step] {
+    let rhs = Equations::ALL.map(Work::Rhs);
+    for work in [Work::SinCos, Work::Exp, Work::Ln, Work::Step].into_iter().chain(rhs) {
         let mut group = criterion.benchmark_group(work.name());
         group.sample_size(20);
         group.warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(1));

@@ -40,15 +40,15 @@ pub(crate) fn be_counted(work: impl FnOnce(&mut dyn FnMut())) -> nix::Result<()>
     stopped
 }
 
-/// In the parent: the number of instructions that a child executes in `work`.
-pub(crate) fn count(work: &str) -> io::Result<u64> {
+/// In the parent: the number of instructions that a child executes in `work`. `each` is called before each of them.
+pub(crate) fn count(work: &str, each: &mut dyn FnMut(Pid) -> io::Result<()>) -> io::Result<u64> {
     // On one processor, switching between child and parent is several times faster.
     let affinity = sched_getaffinity(THIS_THREAD)?;
     let mut here = CpuSet::new();
     here.set(sched_getcpu()?)?;
     sched_setaffinity(THIS_THREAD, &here)?;
     let count = start(work).and_then(|mut child| {
-        let count = follow(&child);
+        let count = follow(&child, each);
         if count.is_ok() {
             child.kill()?;
             child.wait()?;
@@ -70,7 +70,7 @@ fn start(work: &str) -> io::Result<Child> {
 }
 
 /// Steps through a child from its first stop to its second.
-fn follow(child: &Child) -> io::Result<u64> {
+fn follow(child: &Child, each: &mut dyn FnMut(Pid) -> io::Result<()>) -> io::Result<u64> {
     let pid = Pid::from_raw(child.id().cast_signed());
     match waitpid(pid, None)? {
         WaitStatus::Stopped(_, Signal::SIGSTOP) => {}
@@ -78,6 +78,7 @@ fn follow(child: &Child) -> io::Result<u64> {
     }
     let mut count = 0;
     loop {
+        each(pid)?;
         ptrace::step(pid, None)?;
         match waitpid(pid, None)? {
             WaitStatus::Stopped(_, Signal::SIGTRAP) => count += 1,

@@ -61,7 +61,7 @@ pub(crate) fn judge() -> Result<(), String> {
 
 /// Instructions per right-hand side and lane.
 fn per_rhs(work: Work) -> Result<f64, String> {
-    let instructions = count(&work.to_string()).map_err(|error| error.to_string())?;
+    let instructions = count(&work.to_string(), &mut |_| Ok(())).map_err(|error| error.to_string())?;
     let per_rhs = instructions as f64 / work.rhs_evals() as f64;
     println!("{work}: {instructions} instructions, {per_rhs:.1} per right-hand side");
     Ok(per_rhs)

@@ -5,7 +5,7 @@
 //! that fails is reported and replaced likewise. No operation mixes lanes: a run's results do not depend on
 //! what runs beside it, and equal those of [`super::solve`] to the last bit.
 
-use core::ops::ControlFlow;
+use core::ops::{AddAssign, ControlFlow};
 
 use super::controller::{Memory, judge};
 use super::norm::error_squared;
@@ -76,23 +76,45 @@ impl<O: Ode<N>, const N: usize> Observer<O, N> for Unobserved {
     }
 }
 
-/// Integrates the runs of `queue` until it has no more.
-pub fn run<S, O, V, Q, const N: usize>(simd: S, ode: &O, observer: &V, tolerances: &Tolerances, queue: &mut Q)
+/// How full lanes were.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Occupancy {
+    /// Steps attempted in lanes with a run.
+    pub used: u64,
+    /// Steps attempted in all lanes.
+    pub room: u64,
+}
+
+impl AddAssign for Occupancy {
+    fn add_assign(&mut self, more: Occupancy) {
+        self.used += more.used;
+        self.room += more.room;
+    }
+}
+
+/// Integrates the runs of `queue` until it has no more. Returns how full the lanes were.
+pub fn run<S, O, V, Q, const N: usize>(
+    simd: S,
+    ode: &O,
+    observer: &V,
+    tolerances: &Tolerances,
+    queue: &mut Q,
+) -> Occupancy
 where
     S: Simd,
     O: Ode<N>,
     V: Observer<O, N>,
     Q: Queue<O, V, N>,
 {
-    let Some(first) = queue.next(true) else { return };
+    let Some(first) = queue.next(true) else { return Occupancy::default() };
     // The callbacks of a queue may call this again: enter a function with these instructions enabled.
     simd.vectorize(
         #[inline(always)]
         || {
             Bank::<Vector<S>, O, V, Q::Run, N>::new(simd, observer, tolerances, first)
-                .drive(ode, observer, queue);
+                .drive(ode, observer, queue)
         },
-    );
+    )
 }
 
 /// The lanes and what runs in them.
@@ -119,8 +141,10 @@ struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> {
 
     /// What runs in each lane; `None` in a lane that waits for work.
     runs: Vec<Option<Running<Run>>>,
-    /// Vector steps made, and those made when each lane's run began.
+    /// Vector steps made.
     steps: u64,
+    /// Steps that the runs which have ended took.
+    used: u64,
     /// Lanes with a run, one bit each.
     active: u64,
     /// Lanes whose run has not begun, one bit each.
@@ -129,6 +153,7 @@ struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> {
 
 struct Running<Run> {
     run: Run,
+    /// Vector steps made when it began.
     began: u64,
 }
 
@@ -167,6 +192,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
             error: number,
             runs: (0..R::LANES).map(|_| None).collect(),
             steps: 0,
+            used: 0,
             active: 0,
             fresh: 0,
         };
@@ -194,11 +220,11 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
 
     /// Runs the queue empty.
     #[inline(always)]
-    fn drive<Q: Queue<O, V, N, Run = Run>>(mut self, ode: &O, observer: &V, queue: &mut Q) {
+    fn drive<Q: Queue<O, V, N, Run = Run>>(mut self, ode: &O, observer: &V, queue: &mut Q) -> Occupancy {
         loop {
             self.refill(observer, queue);
             if self.active == 0 {
-                return;
+                return Occupancy { used: self.used, room: self.steps * R::LANES as u64 };
             }
             if self.fresh != 0 {
                 self.begin(ode);
@@ -368,7 +394,9 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
                             reason = "a count: whole, positive and small"
                         )]
                         let switches = self.switches.lane(lane) as u64;
-                        queue.ended(run, Outcome::new::<O, N>(ending, self.steps - began, switches));
+                        let steps = self.steps - began;
+                        self.used += steps;
+                        queue.ended(run, Outcome::new::<O, N>(ending, steps, switches));
                     }
                 }
             }

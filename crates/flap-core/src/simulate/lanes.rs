@@ -8,7 +8,7 @@ use core::ops::ControlFlow;
 
 use super::row;
 use super::search::{Next, Search, begin, varied};
-use super::simulator::{Jobs, Point, Row, SolverSettings};
+use super::simulator::{Jobs, LaneUse, Point, Row, SolverSettings};
 use crate::measure::cycle::{Signals, Totals};
 use crate::model::Model;
 use crate::num::{Kernel, Simd};
@@ -43,10 +43,11 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Kernel
         let LanesKernel { model, solver, jobs } = self.0;
         let tolerances = solver.tolerances();
         let mut waiting: Vec<(M, Point)> = Vec::new();
+        let mut lane_use = LaneUse::default();
         // One ensemble per variant, until no points are left.
         loop {
             if waiting.is_empty() {
-                let Some(point) = jobs.next(true) else { return };
+                let Some(point) = jobs.next(true) else { break };
                 waiting.push((model.variant(&point.values), point));
             }
             let model = &model.variant(&waiting[0].1.values);
@@ -58,17 +59,20 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Kernel
                 waiting,
                 near: Vec::with_capacity(BATCH),
                 resumed: Vec::with_capacity(BATCH),
+                lane_use,
             };
             // Runs whose iteration fails at the very end march on.
             loop {
-                run(simd, model, &Unobserved, &tolerances, &mut marching);
+                let occupancy = run(simd, model, &Unobserved, &tolerances, &mut marching);
+                marching.lane_use.marching += occupancy;
                 marching.find_and_measure();
                 if marching.resumed.is_empty() {
                     break;
                 }
             }
-            waiting = marching.waiting;
+            Marching { waiting, lane_use, .. } = marching;
         }
+        jobs.occupied(&lane_use);
     }
 }
 
@@ -84,6 +88,7 @@ struct Marching<'a, I, M: Model<N, S>, const N: usize, const K: usize, const S: 
     near: Vec<Paused<M::Constants<f64>, N>>,
     /// Runs whose iteration has failed, and the state from which they march on.
     resumed: Vec<Paused<M::Constants<f64>, N>>,
+    lane_use: LaneUse,
 }
 
 /// A run that is in no lane, and the state from which it goes on.
@@ -130,7 +135,8 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
         }
         let tolerances = self.solver.tolerances();
         let mut varying = Varying::<_, N, K> { pending: std::mem::take(&mut self.near), done: Vec::new() };
-        run(self.simd, &Variation(self.model), &Unobserved, &tolerances, &mut varying);
+        self.lane_use.varying +=
+            run(self.simd, &Variation(self.model), &Unobserved, &tolerances, &mut varying);
         let mut orbits = Vec::new();
         for (run, next) in varying.done.drain(..) {
             match (next, row::unmeasured(&run.search)) {
@@ -142,7 +148,7 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
         self.near = varying.pending;
         let mut measuring =
             Measuring { model: self.model, jobs: &mut *self.jobs, orbits: orbits.into_iter() };
-        run(self.simd, self.model, &Signals::<S>, &tolerances, &mut measuring);
+        self.lane_use.measuring += run(self.simd, self.model, &Signals::<S>, &tolerances, &mut measuring);
     }
 }
 

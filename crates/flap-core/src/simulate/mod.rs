@@ -16,8 +16,8 @@ mod search;
 mod simulator;
 
 pub use simulator::{
-    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Period, Point, Row, Rows,
-    Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, LaneUse, Period, Point, Row,
+    Rows, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest,
 };
 
 use crate::drive::Source;

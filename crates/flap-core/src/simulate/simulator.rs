@@ -4,6 +4,7 @@ use crate::drive::Samples;
 use crate::modes::Mode;
 use crate::num::InstructionSet;
 use crate::ode::Tolerances;
+use crate::ode::ensemble::Occupancy;
 use crate::parameter::{Invalid, Parameter, Preset};
 
 /// What turns design points into rows.
@@ -193,6 +194,22 @@ pub trait Jobs {
 
     /// Takes the row of the point with this index.
     fn done(&mut self, index: u64, row: Row);
+
+    /// Told at the end how full the lanes were.
+    fn occupied(&mut self, lanes: &LaneUse) {
+        let _ = lanes;
+    }
+}
+
+/// How full the lanes of the three ensembles were.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LaneUse {
+    /// Marching towards an orbit.
+    pub marching: Occupancy,
+    /// Periods with responses to changes, for Newton's iteration.
+    pub varying: Occupancy,
+    /// Periods that are measured.
+    pub measuring: Occupancy,
 }
 
 /// How points are integrated and when they count as settled.

@@ -1,0 +1,69 @@
+//! Writes docs/performance.md to stdout: how fast flap is on this machine, measured in this run.
+//!
+//! ```sh
+//! just bench-report
+//! ```
+//!
+//! What is compared is run in turn, so that whatever else the machine does slows all alike; numbers are medians, with the least
+//! and the most. Without the arguments of a bench it is only tried out, on few points.
+#![expect(clippy::print_stdout, reason = "a bench reports")]
+
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+#[path = "../../tests/instructions/counter.rs"]
+mod counter;
+#[path = "../../examples/own_model/equations.rs"]
+#[allow(dead_code, unreachable_pub, missing_docs, reason = "an example, of which the equations are used")]
+mod equations;
+
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+mod executed;
+mod machine;
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+mod peak;
+mod peers;
+mod presets;
+mod spread;
+mod whole;
+
+use std::path::PathBuf;
+
+/// How much is measured.
+#[derive(Clone, Copy)]
+struct Effort {
+    /// Rounds of each comparison.
+    rounds: usize,
+    /// Points per side of the grid of each preset.
+    side: usize,
+    /// Points of the sweep that is looked at as a whole.
+    points: usize,
+    /// Drive periods that are timed for the share of the peak.
+    periods: u64,
+}
+
+const MEASURED: Effort = Effort { rounds: 5, side: 24, points: 10_000, periods: 2000 };
+const TRIED_OUT: Effort = Effort { rounds: 1, side: 3, points: 50, periods: 2 };
+
+fn main() {
+    #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+    if let Some(name) = counter::work_of_child() {
+        counter::be_counted(|mark| peak::march_by_name(&name, mark)).expect("this process may be traced");
+        return;
+    }
+
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let effort = if arguments.iter().any(|argument| argument == "--bench") { MEASURED } else { TRIED_OUT };
+    let files = arguments.iter().skip_while(|argument| *argument != "--peers").skip(1);
+    let files: Vec<PathBuf> =
+        files.filter(|argument| !argument.starts_with('-')).map(PathBuf::from).collect();
+
+    println!("# Performance\n");
+    println!(
+        "Written by `just bench-report`, which measures everything anew. Other machines give other numbers.\n"
+    );
+    machine::print();
+    peers::print(&files);
+    presets::print(effort);
+    whole::print(effort);
+    #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+    peak::print(effort);
+}

@@ -1,0 +1,170 @@
+//! How close the hot loop comes to what the processor can do: executed arithmetic of vectors against fused multiplications
+//! and additions that do nothing else, in the same run.
+
+use core::hint::black_box;
+use core::ops::ControlFlow;
+use std::time::Instant;
+
+use flap_core::num::{InstructionSet, Kernel, Lanes, Real, Simd, Vector};
+use flap_core::ode::ensemble::{NewRun, Queue, Unobserved, run};
+use flap_core::ode::{Outcome, Start, Tolerances};
+
+use crate::Effort;
+use crate::equations::{Drive, SCALE, Wing};
+use crate::executed::Executed;
+use crate::spread::{Spread, digits};
+
+/// Periods of which the instructions are counted, which takes some ten microseconds for each.
+const COUNTED: u64 = 2;
+
+const TOLERANCES: Tolerances = Tolerances { rtol: 1e-6, atol: 1e-7, max_steps: 100_000 };
+
+pub(crate) fn print(effort: Effort) {
+    println!(
+        "## Share of the peak\n\nThe equations of `examples/own_model` at rtol 1e-6, marched in full lanes. Instructions \
+                    are counted by single steps, and named by a disassembly; *arithmetic* are those that add, multiply, fuse \
+                    both, divide or compare vectors of doubles. The peak is a loop of fused multiplications and additions in ten \
+                    independent registers, run in turn. Per right-hand side and vector of two registers, steps included:\n\n\
+                    | instructions | executed | arithmetic | of which fused | divisions | with the stack | peak, GFLOP/s | \
+                    share of the peak's instructions |\n|---|---|---|---|---|---|---|---|"
+    );
+    for set in InstructionSet::available().into_iter().filter(|set| set.name() != "sse2") {
+        println!("{}", line(set, effort).unwrap_or_else(|error| format!("| {set} | not counted: {error} |")));
+    }
+}
+
+fn line(set: InstructionSet, effort: Effort) -> std::io::Result<String> {
+    let executed = Executed::of(&format!("{set} {COUNTED}"))?;
+    let lanes = set.dispatch(Count) as f64;
+    let counted = rhs_evals(set, COUNTED) / lanes;
+    let [mut peaks, mut shares] = [Vec::new(), Vec::new()];
+    for _ in 0..effort.rounds {
+        let iterations = effort.periods * 10_000;
+        let fused_per_second = set.dispatch(Fused { iterations });
+        let seconds = march_seconds(set, effort.periods);
+        let vectors = rhs_evals(set, effort.periods) / lanes;
+        let per_second = executed.arithmetic() as f64 / counted * vectors / seconds;
+        peaks.push(fused_per_second * lanes * 1e-9);
+        shares.push(100.0 * per_second / fused_per_second);
+    }
+    let per_rhs = |count: u64| digits(count as f64 / counted);
+    Ok(format!(
+        "| {set} | {} | {} | {} | {} | {} | {} | {} % |",
+        per_rhs(executed.all),
+        per_rhs(executed.arithmetic()),
+        per_rhs(executed.fused),
+        per_rhs(executed.divisions),
+        per_rhs(executed.stack),
+        Spread::of(peaks),
+        Spread::of(shares)
+    ))
+}
+
+/// Marches as many periods as `name` says, which is a set of instructions and a number.
+pub(crate) fn march_by_name(name: &str, mark: &mut dyn FnMut()) {
+    let (set, periods) = name.split_once(' ').expect("a set and periods");
+    let set = InstructionSet::by_name(set).expect("a set of this machine");
+    set.dispatch(March { periods: periods.parse().expect("a number"), mark });
+}
+
+fn march_seconds(set: InstructionSet, periods: u64) -> f64 {
+    let mut marks = Vec::new();
+    set.dispatch(March { periods, mark: &mut || marks.push(Instant::now()) });
+    (marks[1] - marks[0]).as_secs_f64()
+}
+
+/// Right-hand sides of all lanes.
+fn rhs_evals(set: InstructionSet, periods: u64) -> f64 {
+    set.dispatch(March { periods, mark: &mut || () }) as f64
+}
+
+/// The number of lanes.
+struct Count;
+
+impl Kernel for Count {
+    type Output = usize;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _simd: S) -> usize {
+        Vector::<S>::LANES
+    }
+}
+
+/// Fused multiplications and additions. Results in instructions per second.
+struct Fused {
+    iterations: u64,
+}
+
+impl Kernel for Fused {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> f64 {
+        let number = |value| black_box(Vector::<S>::splat(simd, value));
+        let (factor, term) = (number(0.5), number(1.0));
+        let mut sums = [number(0.0), number(1.0), number(2.0), number(3.0), number(4.0)];
+        let begin = Instant::now();
+        for _ in 0..self.iterations {
+            for sum in &mut sums {
+                *sum = sum.mul_add(factor, term);
+            }
+        }
+        let seconds = begin.elapsed().as_secs_f64();
+        black_box(sums);
+        (self.iterations * 10) as f64 / seconds
+    }
+}
+
+/// A run in every lane. Results in the right-hand sides of all.
+struct March<'a> {
+    periods: u64,
+    mark: &'a mut dyn FnMut(),
+}
+
+impl Kernel for March<'_> {
+    type Output = u64;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> u64 {
+        let March { periods, mark } = self;
+        let mut alike = Alike { left: Vector::<S>::LANES, periods, marks: 0, rhs_evals: 0, mark };
+        run(simd, &Wing, &Unobserved, &TOLERANCES, &mut alike);
+        alike.rhs_evals
+    }
+}
+
+/// The same run for every lane. They end together: what is marked ends with the first.
+struct Alike<'a> {
+    left: usize,
+    periods: u64,
+    marks: u32,
+    rhs_evals: u64,
+    mark: &'a mut dyn FnMut(),
+}
+
+impl Queue<Wing, Unobserved, 4> for Alike<'_> {
+    /// Periods left.
+    type Run = u64;
+
+    fn next(&mut self, _idle: bool) -> Option<NewRun<u64, Drive<f64>, 4>> {
+        self.left = self.left.checked_sub(1)?;
+        if self.left == 0 {
+            (self.mark)();
+        }
+        let start = Start { constants: Drive::new(0.1, 120.0), y: [0.0; 4], span: 1.0 / 120.0, scale: SCALE };
+        Some((self.periods, start))
+    }
+
+    fn span_end(&mut self, left: &mut u64, _y: &[f64; 4], (): &()) -> ControlFlow<()> {
+        *left -= 1;
+        if *left == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn ended(&mut self, _run: u64, outcome: Outcome) {
+        if self.marks == 0 {
+            self.marks = 1;
+            (self.mark)();
+        }
+        self.rhs_evals += outcome.rhs_evals;
+    }
+}

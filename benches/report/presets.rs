@@ -1,0 +1,125 @@
+//! Points per second of each preset, by marching alone and with Newton's iteration, to the same residual.
+
+use std::time::Instant;
+
+use flap_core::num::InstructionSet;
+use flap_core::ode::ensemble::Occupancy;
+use flap_core::simulate::{self, Jobs, LaneUse, Point, Row, SolverSettings, Status};
+use flap_sweep::plan::Plan;
+use flap_sweep::spec;
+
+use crate::Effort;
+use crate::spread::{Spread, digits};
+
+const PRESETS: [&str; 6] = [
+    "jafferis2016",
+    "jafferis2016-improved",
+    "ozaki2018-small",
+    "ozaki2018-large",
+    "arabagi2013-75hz",
+    "arabagi2013-30hz",
+];
+
+pub(crate) fn print(effort: Effort) {
+    println!(
+        "## Presets\n\n{0} × {0} points of each: 60 to 100 % of the published voltage, 85 to 110 % of its frequency, on one \
+         thread, to a residual of {1:e} at rtol {2:e}. `newton = false` in `[solver]` is marching alone. *Settled* counts \
+         the points with an orbit; *cycles* are the median's drive periods; *lanes full* is the share of the steps of all lanes \
+         that a run needed, with Newton's iteration: marching, periods with responses, measured periods, and all.\n\n\
+         | preset | marching, points/s | cycles | settled | Newton, points/s | cycles | settled | ratio of times | lanes full |\n\
+         |---|---|---|---|---|---|---|---|---|",
+        effort.side,
+        SolverSettings::default().settle_tol,
+        SolverSettings::default().rtol
+    );
+    for preset in PRESETS {
+        let plan = grid(preset, effort.side);
+        let ways = [false, true].map(|newton| SolverSettings { newton, ..plan.solver });
+        let mut seconds = [Vec::new(), Vec::new()];
+        let mut last = [Listed::new(&plan), Listed::new(&plan)];
+        for _ in 0..effort.rounds {
+            for way in 0..2 {
+                let begin = Instant::now();
+                last[way] = run(&plan, &ways[way]);
+                seconds[way].push(begin.elapsed().as_secs_f64());
+            }
+        }
+        print!("| {preset} |");
+        for way in 0..2 {
+            let rate = Spread::of(seconds[way].iter().map(|seconds| plan.len() as f64 / seconds));
+            let cycles = Spread::of(last[way].rows.iter().map(|row| f64::from(row.cycles))).median();
+            let settled = last[way].rows.iter().filter(|row| row.status == Status::Periodic).count();
+            print!(" {rate} | {} | {settled} |", digits(cycles));
+        }
+        let ratio = Spread::of_ratios(&seconds[0], &seconds[1]);
+        println!(" {ratio} | {} |", lanes_full(&last[1].lane_use));
+    }
+    println!();
+}
+
+/// A square grid around the flight of a preset.
+pub(crate) fn grid(preset: &str, side: usize) -> Plan {
+    let (simulator, published) = simulate::preset(preset).expect("a preset");
+    let values = (published.values)();
+    let value = |name: &str| {
+        let position = simulator.parameters().iter().position(|parameter| parameter.name == name);
+        values[position.expect("a parameter")]
+    };
+    let axis = |name: &str, from: f64, to: f64| {
+        let value = value(name);
+        format!("{name} = {{ from = {:?}, to = {:?}, n = {side} }}\n", from * value, to * value)
+    };
+    let text = format!(
+        "preset = \"{preset}\"\n[axes]\n{}{}",
+        axis("drive_voltage_pp", 0.6, 1.0),
+        axis("drive_frequency", 0.85, 1.1)
+    );
+    spec::parse(preset, &text, simulate::all()).expect("a good grid")
+}
+
+/// Runs all points on this thread.
+pub(crate) fn run<'a>(plan: &'a Plan, solver: &SolverSettings) -> Listed<'a> {
+    let mut listed = Listed::new(plan);
+    plan.simulator.run(InstructionSet::best(), solver, &mut listed);
+    listed
+}
+
+/// How full lanes were: in the three ensembles, and in all.
+pub(crate) fn lanes_full(lane_use: &LaneUse) -> String {
+    let share = |lanes: Occupancy| format!("{:.1} %", 100.0 * lanes.used as f64 / lanes.room.max(1) as f64);
+    let LaneUse { marching, varying, measuring } = *lane_use;
+    let mut all = marching;
+    all += varying;
+    all += measuring;
+    format!("{}, {}, {}; {}", share(marching), share(varying), share(measuring), share(all))
+}
+
+/// Points of a plan; rows as they come.
+pub(crate) struct Listed<'a> {
+    plan: &'a Plan,
+    next: u64,
+    pub(crate) rows: Vec<Row>,
+    pub(crate) lane_use: LaneUse,
+}
+
+impl Listed<'_> {
+    fn new(plan: &Plan) -> Listed<'_> {
+        Listed { plan, next: 0, rows: Vec::new(), lane_use: LaneUse::default() }
+    }
+}
+
+impl Jobs for Listed<'_> {
+    fn next(&mut self, _idle: bool) -> Option<Point> {
+        let index = self.next;
+        self.next += 1;
+        (index < self.plan.len()).then(|| self.plan.point(index))
+    }
+
+    fn done(&mut self, _index: u64, row: Row) {
+        self.rows.push(row);
+    }
+
+    fn occupied(&mut self, lanes: &LaneUse) {
+        self.lane_use = *lanes;
+    }
+}

@@ -1,0 +1,83 @@
+//! A sweep as a whole: threads, lanes, and writing and reading its rows.
+
+use std::fs::File;
+use std::io::{self, Seek};
+use std::num::NonZeroUsize;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+use flap_sweep::csv_sink::CsvSink;
+use flap_sweep::layout::Layout;
+use flap_sweep::plan::Plan;
+use flap_sweep::results::{Format, Reader};
+use flap_sweep::run::{self, RunOptions};
+use flap_sweep::sink::Sink;
+
+use crate::Effort;
+use crate::presets::{Listed, grid, lanes_full, run as run_here};
+use crate::spread::Spread;
+
+const PRESET: &str = "ozaki2018-large";
+
+pub(crate) fn print(effort: Effort) {
+    let side = effort.points.isqrt();
+    let plan = grid(PRESET, side);
+    let [mut one, mut two, mut written, mut read] = [const { Vec::new() }; 4];
+    let mut listed = None;
+    for _ in 0..effort.rounds {
+        one.push(sweep(&plan, 1));
+        two.push(sweep(&plan, 2));
+        let rows = listed.insert(run_here(&plan, &plan.solver));
+        let (write, parse) = file(&plan, rows).expect("a temporary file");
+        written.push(100.0 * write / one[one.len() - 1]);
+        read.push(100.0 * parse / one[one.len() - 1]);
+    }
+    let lane_use = listed.map_or_else(String::new, |listed| lanes_full(&listed.lane_use));
+    println!(
+        "## A whole sweep\n\n{} points of {PRESET}, to a CSV file:\n\n| | |\n|---|---|\n\
+         | points per second, one thread | {} |\n| two threads | {} |\n| two threads against one | {} |\n\
+         | writing CSV, in % of the sweep's time on one thread | {} |\n| reading it | {} |\n\
+         | lanes full: marching, responses, measuring; all | {lane_use} |\n",
+        plan.len(),
+        Spread::of(one.iter().map(|seconds| plan.len() as f64 / seconds)),
+        Spread::of(two.iter().map(|seconds| plan.len() as f64 / seconds)),
+        Spread::of_ratios(&one, &two),
+        Spread::of(written),
+        Spread::of(read),
+    );
+}
+
+/// Seconds that a sweep takes.
+fn sweep(plan: &Plan, threads: usize) -> f64 {
+    let threads = NonZeroUsize::new(threads).expect("at least one");
+    let options = RunOptions { threads, ..RunOptions::default() };
+    let mut sink = CsvSink::new(Layout::of(plan), tempfile::tempfile().expect("a temporary file"));
+    let begin = Instant::now();
+    run::run(plan, &options, &mut sink, &AtomicBool::new(false), &mut |_| ()).expect("a sweep");
+    begin.elapsed().as_secs_f64()
+}
+
+/// Seconds that writing all rows takes, and reading them.
+fn file(plan: &Plan, listed: &Listed<'_>) -> io::Result<(f64, f64)> {
+    let mut file: File = tempfile::tempfile()?;
+    let begin = Instant::now();
+    let mut sink = CsvSink::new(Layout::of(plan), file.try_clone()?);
+    sink.begin()?;
+    // Rows are in the order in which they were done, which makes no difference to the time.
+    for (index, row) in (0..).zip(&listed.rows) {
+        sink.write(&plan.point(index), row)?;
+    }
+    sink.flush()?;
+    let written = begin.elapsed().as_secs_f64();
+
+    file.rewind()?;
+    let begin = Instant::now();
+    let mut reader = Reader::new(file, Format::Csv)?;
+    let mut row = csv::StringRecord::new();
+    let mut numbers = 0;
+    while reader.next(&mut row)? {
+        numbers += row.iter().filter(|cell| cell.parse::<f64>().is_ok()).count();
+    }
+    std::hint::black_box(numbers);
+    Ok((written, begin.elapsed().as_secs_f64()))
+}
