@@ -11,12 +11,14 @@ fn at_resonance(plan: &Plan) -> Vec<Row> {
     rows(plan.rows(), &plan.solver, (0..plan.len()).map(|i| plan.point(i).values).collect())
 }
 
-/// A grid of designs at the resonance of something.
+/// A grid of designs at the resonance of something. Peaks are flat: at looser tolerances the errors of integration move them
+/// by more than the search does.
 fn grid(preset: &str, of: &str, range: [u32; 2], axes: &str) -> Plan {
     let [from, to] = range;
     plan(&format!(
         "preset = \"{preset}\"\n[params]\ndrive_frequency = \"resonance\"\n\
-         [resonance]\nof = \"{of}\"\nfrom = \"{from} Hz\"\nto = \"{to} Hz\"\ntolerance = \"0.05 Hz\"\n[axes]\n{axes}\n"
+         [resonance]\nof = \"{of}\"\nfrom = \"{from} Hz\"\nto = \"{to} Hz\"\ntolerance = \"0.05 Hz\"\n\
+         [solver]\nrtol = 1e-8\n[axes]\n{axes}\n"
     ))
 }
 
@@ -93,7 +95,7 @@ fn rows_are_at_the_peak_of_a_fine_sweep_for_a_tenth_of_its_cost() {
                 evals / row.rhs_evals as f64
             );
             assert!((there - value).abs() <= 1e-4 * value.abs(), "{design}: {there} is not {value}");
-            assert!((frequency - top).abs() <= 0.1, "{design}: {frequency} Hz is not {top} Hz");
+            assert!((frequency - top).abs() <= 0.06, "{design}: {frequency} Hz is not {top} Hz");
             assert!(10.0 * row.rhs_evals as f64 <= evals, "{design}: {} of {evals}", row.rhs_evals);
             designs += 1;
         }

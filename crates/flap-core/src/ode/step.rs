@@ -68,33 +68,33 @@ impl<R: Lanes, const N: usize> Step<R, N> {
 /// Components whose sums stay in registers while slopes are added up.
 const BLOCK: usize = 4;
 
-/// y + h Σ wⱼ kⱼ over the first `count` slopes, leaving out those of weight zero.
+/// y + h Σ wⱼ kⱼ over the first `count` slopes.
 #[inline(always)]
-fn combine<R: Lanes, const N: usize>(
+fn combine<R: Lanes, const N: usize, const W: usize>(
     y: &[R; N],
     h: R,
     k: &[[R; N]; STAGES],
-    weights: &[f64],
+    weights: &[f64; W],
     count: usize,
 ) -> [R; N] {
     let mut out = *y;
     let whole = N / BLOCK * BLOCK;
     for first in (0..whole).step_by(BLOCK) {
-        add::<R, N, BLOCK>(&mut out, h, k, weights, count, first);
+        add::<R, N, W, BLOCK>(&mut out, h, k, weights, count, first);
     }
     for one in whole..N {
-        add::<R, N, 1>(&mut out, h, k, weights, count, one);
+        add::<R, N, W, 1>(&mut out, h, k, weights, count, one);
     }
     out
 }
 
 /// Adds h Σ wⱼ kⱼ to `SIZE` components from the `first` on.
 #[inline(always)]
-fn add<R: Lanes, const N: usize, const SIZE: usize>(
+fn add<R: Lanes, const N: usize, const W: usize, const SIZE: usize>(
     y: &mut [R; N],
     h: R,
     k: &[[R; N]; STAGES],
-    weights: &[f64],
+    weights: &[f64; W],
     count: usize,
     first: usize,
 ) {
@@ -102,12 +102,13 @@ fn add<R: Lanes, const N: usize, const SIZE: usize>(
     for i in 0..SIZE {
         sum[i] = k[0][first + i] * weights[0];
     }
-    for j in 1..count {
-        if weights[j] != 0.0 {
-            let weight = h.lit(weights[j]);
-            for i in 0..SIZE {
-                sum[i] = k[j][first + i].mul_add(weight, sum[i]);
-            }
+    for j in 1..W {
+        if j == count {
+            break;
+        }
+        let weight = h.lit(weights[j]);
+        for i in 0..SIZE {
+            sum[i] = k[j][first + i].mul_add(weight, sum[i]);
         }
     }
     for i in 0..SIZE {

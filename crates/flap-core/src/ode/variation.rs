@@ -46,13 +46,17 @@ impl<O: Ode<N>, const N: usize, const K: usize> Ode<K> for Variation<'_, O, N> {
     #[inline(always)]
     fn rhs<R: Lanes>(&self, c: &O::Constants<R>, u: &O::Input<R>, side: R, all: &[R; K]) -> [R; K] {
         let y = states(all);
-        let f = slope(self.0, c, u, side, &y);
+        let mut f = y;
         let mut out = *all;
-        out[..N].copy_from_slice(&f);
-        for i in 1..=N {
-            let changed = slope(self.0, c, u, side, &changed(&y, all, i));
+        // A loop, so that the right-hand side is compiled once, as in a step.
+        for i in 0..=N {
+            let moved = if i == 0 { y } else { changed(&y, all, i) };
+            let slope = self.0.rhs(c, u, side, &moved);
+            if i == 0 {
+                f = slope;
+            }
             for j in 0..N {
-                out[i * N + j] = (changed[j] - f[j]) * (1.0 / SMALL);
+                out[i * N + j] = if i == 0 { slope[j] } else { (slope[j] - f[j]) * (1.0 / SMALL) };
             }
         }
         out

@@ -11,13 +11,13 @@ use super::search::{Next, Search, begin, varied};
 use super::simulator::{Jobs, LaneUse, Point, Row, SolverSettings};
 use crate::measure::cycle::{Signals, Totals};
 use crate::model::Model;
-use crate::num::{Kernel, Simd};
+use crate::num::{Kernel, Lanes, Simd, Vector};
 use crate::ode::ensemble::{NewRun, Queue, Unobserved, run};
 use crate::ode::variation::Variation;
 use crate::ode::{Ode, Outcome, Start};
 
-/// Runs near their orbits that go on together: enough to keep 16 lanes full, few enough to hand rows on soon.
-const BATCH: usize = 64;
+/// Runs near their orbits that go on together: many times the lanes, some of which are empty while the last runs end.
+const BATCH: usize = 256;
 
 /// Points of other variants that are put aside before the ensemble is emptied for them: many more than there
 /// are lanes, so that lanes are seldom empty.
@@ -111,8 +111,10 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
             let point = if let Some(point) = self.jobs.next(false) {
                 point
             } else {
-                // Whoever hands out points may be waiting for rows that wait here.
-                self.find_and_measure();
+                // Whoever hands out points may be waiting for rows that wait here. With few of them most lanes would be empty.
+                if idle || self.near.len() >= Vector::<I>::LANES {
+                    self.find_and_measure();
+                }
                 // Runs that march on and points put aside are to run before this one waits for more.
                 if !idle || !self.waiting.is_empty() || !self.resumed.is_empty() {
                     return None;
