@@ -38,7 +38,7 @@ reproduce:
     cargo run --release --locked --example reproduce > target/reproduction.md
     mv target/reproduction.md docs/reproduction.md
 
-# Benchmarks: elementary functions, right-hand sides, one step, lanes against scalars; presets and whole sweeps.
+# Benchmarks: elementary functions, right-hand sides, one step, lanes against scalars; sweeps of presets; CSV.
 bench:
     cargo bench -p flap-core -p flap-sweep
 

@@ -17,6 +17,7 @@ mod equations;
 
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 mod executed;
+mod grid;
 mod machine;
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 mod peak;

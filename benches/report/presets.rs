@@ -4,21 +4,12 @@ use std::time::Instant;
 
 use flap_core::num::InstructionSet;
 use flap_core::ode::ensemble::Occupancy;
-use flap_core::simulate::{self, Jobs, LaneUse, Point, Row, SolverSettings, Status};
+use flap_core::simulate::{Jobs, LaneUse, Point, Row, SolverSettings, Status};
 use flap_sweep::plan::Plan;
-use flap_sweep::spec;
 
 use crate::Effort;
+use crate::grid::{PRESETS, grid};
 use crate::spread::{Spread, digits};
-
-const PRESETS: [&str; 6] = [
-    "jafferis2016",
-    "jafferis2016-improved",
-    "ozaki2018-small",
-    "ozaki2018-large",
-    "arabagi2013-75hz",
-    "arabagi2013-30hz",
-];
 
 pub(crate) fn print(effort: Effort) {
     println!(
@@ -55,26 +46,6 @@ pub(crate) fn print(effort: Effort) {
         println!(" {ratio} | {} |", lanes_full(&last[1].lane_use));
     }
     println!();
-}
-
-/// A square grid around the flight of a preset.
-pub(crate) fn grid(preset: &str, side: usize) -> Plan {
-    let (simulator, published) = simulate::preset(preset).expect("a preset");
-    let values = (published.values)();
-    let value = |name: &str| {
-        let position = simulator.parameters().iter().position(|parameter| parameter.name == name);
-        values[position.expect("a parameter")]
-    };
-    let axis = |name: &str, from: f64, to: f64| {
-        let value = value(name);
-        format!("{name} = {{ from = {:?}, to = {:?}, n = {side} }}\n", from * value, to * value)
-    };
-    let text = format!(
-        "preset = \"{preset}\"\n[axes]\n{}{}",
-        axis("drive_voltage_pp", 0.6, 1.0),
-        axis("drive_frequency", 0.85, 1.1)
-    );
-    spec::parse(preset, &text, simulate::all()).expect("a good grid")
 }
 
 /// Runs all points on this thread.

@@ -14,7 +14,8 @@ use flap_sweep::run::{self, RunOptions};
 use flap_sweep::sink::Sink;
 
 use crate::Effort;
-use crate::presets::{Listed, grid, lanes_full, run as run_here};
+use crate::grid::grid;
+use crate::presets::{Listed, lanes_full, run as run_here};
 use crate::spread::Spread;
 
 const PRESET: &str = "ozaki2018-large";

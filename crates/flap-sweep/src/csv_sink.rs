@@ -1,6 +1,6 @@
 //! Rows as comma-separated values.
 
-use std::io;
+use std::io::{self, Write};
 
 use flap_core::simulate::{Point, Row};
 
@@ -37,7 +37,7 @@ impl<W: Durable> Sink for CsvSink<W> {
     }
 
     fn write(&mut self, point: &Point, row: &Row) -> io::Result<()> {
-        self.writer.write_record(self.layout.cells(point, row).into_iter().map(Cell::text)).map_err(cause)
+        write_cells(&mut self.writer, &self.layout.cells(point, row)).map_err(cause)
     }
 
     fn flush(&mut self) -> io::Result<()> {
@@ -48,6 +48,17 @@ impl<W: Durable> Sink for CsvSink<W> {
         self.writer.flush()?;
         self.writer.get_ref().sync()
     }
+}
+
+/// Writes a row of cells, each by way of the same buffer.
+pub(crate) fn write_cells<W: Write>(writer: &mut csv::Writer<W>, cells: &[Cell]) -> csv::Result<()> {
+    let mut text = String::new();
+    for cell in cells {
+        text.clear();
+        cell.push_text(&mut text);
+        writer.write_field(&text)?;
+    }
+    writer.write_record(None::<&[u8]>)
 }
 
 /// What the operating system said, which the conversion of the csv crate would hide, and a closed pipe with it; or what is

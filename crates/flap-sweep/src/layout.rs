@@ -94,13 +94,13 @@ pub enum Cell {
 }
 
 impl Cell {
-    /// The text in a file of CSV; empty for what is not known.
-    pub fn text(self) -> String {
+    /// Appends the text in a file of CSV to `text`; nothing for what is not known.
+    pub(crate) fn push_text(self, text: &mut String) {
         match self {
-            Cell::Whole(number) => number.to_string(),
-            Cell::Number(number) => text::float(number),
-            Cell::Flag(flag) => flag.map_or_else(String::new, |flag| flag.to_string()),
-            Cell::Text(word) => word.to_owned(),
+            Cell::Whole(number) => text.push_str(itoa::Buffer::new().format(number)),
+            Cell::Number(number) => text::push_float(text, number),
+            Cell::Flag(flag) => text.push_str(flag.map_or("", |flag| if flag { "true" } else { "false" })),
+            Cell::Text(word) => text.push_str(word),
         }
     }
 
@@ -181,7 +181,9 @@ impl Layout {
     /// One cell per column. What is not known is empty: the measures of a point that is not periodic,
     /// the multiplier and stability of one without an orbit, and the residual of one that completed no period.
     pub fn cells(&self, point: &Point, row: &Row) -> Vec<Cell> {
-        let mut cells = vec![Cell::Whole(point.index)];
+        // Two cells before the measures and six behind them, besides the parameters.
+        let mut cells = Vec::with_capacity(8 + self.varied.len() + self.measures.len());
+        cells.push(Cell::Whole(point.index));
         cells.extend(
             self.varied.iter().map(|&(index, parameter)| Cell::of_parameter(parameter, point.values[index])),
         );

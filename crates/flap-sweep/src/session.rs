@@ -17,7 +17,7 @@ use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::identity::Identity;
 use crate::journal::{self, Checkpoint, Header, Journal, Past};
-use crate::layout::{Cell, Layout};
+use crate::layout::Layout;
 use crate::output::{self, CreateError};
 use crate::plan::Plan;
 use crate::results::{ConvertError, Format, FormatError, Provenance, TextRows, convert};
@@ -246,7 +246,7 @@ impl Sink for Session {
     }
 
     fn write(&mut self, point: &Point, row: &Row) -> io::Result<()> {
-        self.rows.row(self.layout.cells(point, row).into_iter().map(Cell::text))
+        self.rows.cells(&self.layout.cells(point, row))
     }
 
     fn done(&mut self, so_far: &Summary) -> io::Result<()> {

@@ -14,6 +14,27 @@ use flap_core::parameter::{Kind, Parameter};
 /// assert_eq!(flap_sweep::text::float(f64::NAN), "");
 /// ```
 pub fn float(value: f64) -> String {
+    let mut text = String::new();
+    push_float(&mut text, value);
+    text
+}
+
+/// Appends what [`float`] gives to `text`.
+pub(crate) fn push_float(text: &mut String, value: f64) {
+    let size = value.abs();
+    // Elsewhere zmij writes noughts where an exponent should be, or a plus sign in the exponent.
+    let is_size_alike = size < 1e-5 || (1e-4..1e9).contains(&size);
+    // Half-way between two shortest texts zmij takes the even digit and the standard library the upper one. Of the numbers
+    // below 1e9, only some with at most 39 significant bits lie there: the others end in fewer zero bits.
+    if is_size_alike && value.to_bits().trailing_zeros() < 14 {
+        text.push_str(zmij::Buffer::new().format_finite(value));
+    } else {
+        text.push_str(&float_by_standard_library(value));
+    }
+}
+
+/// What [`float`] gives, for all numbers, in several times the time.
+fn float_by_standard_library(value: f64) -> String {
     if value.is_nan() {
         return String::new();
     }
@@ -53,7 +74,46 @@ pub fn option(parameter: &Parameter, value: f64) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
+
+    /// Any bits, sizes that rows hold, and numbers with few bits, of which some lie half-way between two texts.
+    fn numbers() -> impl Strategy<Value = f64> {
+        let few_bits = (any::<i64>(), 10..64_u32, -80..40_i32)
+            .prop_map(|(bits, dropped, exponent)| (bits >> dropped) as f64 * f64::from(exponent).exp2());
+        prop_oneof![
+            any::<u64>().prop_map(f64::from_bits),
+            (-1.0..1.0, -7..18_i32).prop_map(|(digits, exponent)| digits * 10_f64.powi(exponent)),
+            few_bits,
+        ]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(100_000))]
+        #[test]
+        fn the_text_is_that_of_the_standard_library(value in numbers()) {
+            prop_assert_eq!(float(value), float_by_standard_library(value));
+        }
+    }
+
+    #[test]
+    fn the_text_is_that_of_the_standard_library_where_sizes_and_bits_end() {
+        let mut numbers =
+            vec![0.0, f64::INFINITY, f64::NAN, 5.960_464_477_539_063e-8, 2_251_799_813_685_248.25];
+        for border in [f64::MIN_POSITIVE, 1e-5, 1e-4, 1e9, 1e16, 1e17, f64::MAX] {
+            numbers.extend([border.next_down(), border, border.next_up()]);
+        }
+        for exponent in 0..2047 {
+            for bits in [0, 1, (1 << 52) - 1].into_iter().chain((0..52).map(|bit| 1 << bit)) {
+                numbers.push(f64::from_bits((exponent << 52) | bits));
+            }
+        }
+        for value in numbers {
+            assert_eq!(float(value), float_by_standard_library(value));
+            assert_eq!(float(-value), float_by_standard_library(-value));
+        }
+    }
 
     #[test]
     fn floats_read_back_as_the_same_bits() {

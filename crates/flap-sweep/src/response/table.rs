@@ -5,7 +5,7 @@ use std::io;
 use flap_core::parameter::Parameter;
 
 use super::{Along, Curve, Step, parameter};
-use crate::csv_sink::cause;
+use crate::csv_sink::{cause, write_cells};
 use crate::layout::{Cell, Column, Kind, Layout};
 use crate::output::Durable;
 use crate::plan::Plan;
@@ -75,7 +75,7 @@ impl<W: Durable> Table<W> {
     /// What writing says.
     pub fn write(&mut self, curve: &Curve) -> io::Result<()> {
         for cells in self.motions.rows(curve) {
-            self.writer.write_record(cells.into_iter().map(Cell::text)).map_err(cause)?;
+            write_cells(&mut self.writer, &cells).map_err(cause)?;
         }
         self.writer.flush()
     }

@@ -6,7 +6,8 @@ use std::io::{self, Write};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use super::Format;
-use crate::csv_sink::cause;
+use crate::csv_sink::{cause, write_cells};
+use crate::layout::Cell;
 
 /// Rows in one compressed frame. Frames begin at these rows whatever the threads do and wherever a run was resumed, so
 /// that the bytes do not depend on it.
@@ -68,6 +69,19 @@ impl TextRows {
     /// What writing says.
     pub fn row<T: AsRef<[u8]>>(&mut self, cells: impl IntoIterator<Item = T>) -> io::Result<()> {
         self.csv.write_record(cells).map_err(cause)?;
+        self.end_row()
+    }
+
+    /// Writes a row whose cells are not text yet.
+    ///
+    /// # Errors
+    /// What writing says.
+    pub(crate) fn cells(&mut self, cells: &[Cell]) -> io::Result<()> {
+        write_cells(&mut self.csv, cells).map_err(cause)?;
+        self.end_row()
+    }
+
+    fn end_row(&mut self) -> io::Result<()> {
         self.rows_in_block += 1;
         if self.rows_in_block == BLOCK_ROWS {
             self.rows_in_block = 0;

@@ -1,0 +1,71 @@
+//! Sweeps, with their rows in memory, and result files: written as CSV and read back.
+//!
+//! A sweep's rate is points per second on one thread. That of a file is rows per second.
+
+#[path = "../report/grid.rs"]
+mod grid;
+mod rows;
+
+use core::time::Duration;
+use std::num::NonZeroUsize;
+use std::sync::atomic::AtomicBool;
+
+use criterion::measurement::WallTime;
+use criterion::{
+    BatchSize, BenchmarkGroup, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
+};
+use flap_sweep::csv_sink::CsvSink;
+use flap_sweep::layout::Layout;
+use flap_sweep::plan::Plan;
+use flap_sweep::run::{self, RunOptions};
+use flap_sweep::sink::Sink;
+
+use grid::{PRESETS, grid};
+use rows::{Rows, read};
+
+/// Points per side of the grid of each preset.
+const SIDE: usize = 8;
+
+fn presets(criterion: &mut Criterion) {
+    let mut group = group(criterion, "sweep");
+    group.sample_size(10).sampling_mode(SamplingMode::Flat);
+    for preset in PRESETS {
+        let plan = grid(preset, SIDE);
+        group.throughput(Throughput::Elements(plan.len()));
+        group.bench_function(preset, |bench| bench.iter(|| sweep(&plan)));
+    }
+    group.finish();
+}
+
+/// A whole sweep on one thread, its rows into memory.
+fn sweep(plan: &Plan) -> usize {
+    let options = RunOptions { threads: NonZeroUsize::MIN, ..RunOptions::default() };
+    let mut sink = CsvSink::new(Layout::of(plan), Vec::new());
+    run::run(plan, &options, &mut sink, &AtomicBool::new(false), &mut |_| ()).expect("a sweep");
+    sink.target().len()
+}
+
+fn files(criterion: &mut Criterion) {
+    let plan = grid("ozaki2018-large", SIDE);
+    let rows = Rows::of(&plan);
+    let mut group = group(criterion, "csv");
+    group.throughput(Throughput::Elements(rows.len()));
+    group.bench_function("write", |bench| {
+        let empty = || CsvSink::new(Layout::of(&plan), Vec::with_capacity(1 << 20));
+        bench.iter_batched_ref(empty, |sink| rows.write(sink), BatchSize::LargeInput);
+    });
+    let mut sink = CsvSink::new(Layout::of(&plan), tempfile::tempfile().expect("a temporary file"));
+    sink.begin().expect("a header");
+    rows.write(&mut sink);
+    group.bench_function("read", |bench| bench.iter(|| read(sink.target())));
+    group.finish();
+}
+
+fn group<'a>(criterion: &'a mut Criterion, name: &str) -> BenchmarkGroup<'a, WallTime> {
+    let mut group = criterion.benchmark_group(name);
+    group.warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(2));
+    group
+}
+
+criterion_group!(benches, presets, files);
+criterion_main!(benches);

@@ -1,0 +1,71 @@
+//! Rows of a sweep, into a sink and out of a file.
+
+use std::fs::File;
+use std::io::Seek;
+
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{Jobs, Point, Row};
+use flap_sweep::plan::Plan;
+use flap_sweep::results::{Format, Reader};
+use flap_sweep::sink::Sink;
+
+/// Rows are written this often, so that there are more of them than it takes time to compute.
+const COPIES: usize = 16;
+
+/// The rows of all points of a plan.
+pub(crate) struct Rows(Vec<(Point, Row)>);
+
+impl Rows {
+    /// Runs all points on this thread.
+    pub(crate) fn of(plan: &Plan) -> Rows {
+        let mut listed = Listed { plan, next: 0, rows: Vec::new() };
+        plan.simulator.run(InstructionSet::best(), &plan.solver, &mut listed);
+        Rows(listed.rows)
+    }
+
+    /// How many [`Rows::write`] writes.
+    pub(crate) fn len(&self) -> u64 {
+        (COPIES * self.0.len()) as u64
+    }
+
+    /// Writes all of them, several times.
+    pub(crate) fn write(&self, sink: &mut dyn Sink) {
+        for _ in 0..COPIES {
+            for (point, row) in &self.0 {
+                sink.write(point, row).expect("room for a row");
+            }
+        }
+        sink.flush().expect("room for rows");
+    }
+}
+
+/// Reads a file from its beginning, and says how many of its cells are numbers.
+pub(crate) fn read(mut file: &File) -> usize {
+    file.rewind().expect("a file that can be read again");
+    let mut reader = Reader::new(file.try_clone().expect("a file"), Format::Csv).expect("a header");
+    let mut row = csv::StringRecord::new();
+    let mut numbers = 0;
+    while reader.next(&mut row).expect("a row") {
+        numbers += row.iter().filter(|cell| cell.parse::<f64>().is_ok()).count();
+    }
+    numbers
+}
+
+/// Hands out the points of a plan and keeps their rows as they come.
+struct Listed<'a> {
+    plan: &'a Plan,
+    next: u64,
+    rows: Vec<(Point, Row)>,
+}
+
+impl Jobs for Listed<'_> {
+    fn next(&mut self, _idle: bool) -> Option<Point> {
+        let index = self.next;
+        self.next += 1;
+        (index < self.plan.len()).then(|| self.plan.point(index))
+    }
+
+    fn done(&mut self, index: u64, row: Row) {
+        self.rows.push((self.plan.point(index), row));
+    }
+}
