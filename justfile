@@ -51,10 +51,10 @@ peers *ARGS:
 # How fast flap is on this machine, beside other solvers too: writes docs/performance.md.
 bench-report:
     mkdir -p target
-    just peers --points 256 --rtol 1e-6 --json "$PWD/target/peers-256-6.json"
-    just peers --points 4096 --rtol 1e-6 --json "$PWD/target/peers-4096-6.json"
-    just peers --points 256 --rtol 1e-8 --json "$PWD/target/peers-256-8.json"
-    just peers --points 4096 --rtol 1e-8 --json "$PWD/target/peers-4096-8.json"
+    just peers --points 256 --rtol 1e-6 --rounds 3 --json "$PWD/target/peers-256-6.json"
+    just peers --points 4096 --rtol 1e-6 --only 'flap|rk4_lanes' --json "$PWD/target/peers-4096-6.json"
+    just peers --points 256 --rtol 1e-8 --only 'flap|rk4_lanes|ode_solvers' --json "$PWD/target/peers-256-8.json"
+    just peers --points 4096 --rtol 1e-8 --rounds 3 --only 'flap|rk4_lanes' --json "$PWD/target/peers-4096-8.json"
     cargo bench --locked -p flap-sweep --bench report -- --peers "$PWD"/target/peers-*-[68].json > target/performance.md
     mv target/performance.md docs/performance.md
 
