@@ -47,7 +47,7 @@ bench:
 peers *ARGS:
     python3 benches/peers "$@"
 
-# Run nothing else meanwhile: it takes half an hour, most of it for the other solvers.
+# Run nothing else meanwhile: it takes a quarter of an hour, most of it for the other solvers.
 # How fast flap is on this machine, beside other solvers too: writes docs/performance.md.
 bench-report:
     mkdir -p target
