@@ -1,10 +1,11 @@
 //! Rows as comma-separated values.
 
-use std::io::{self, Write};
+use std::io;
 
 use flap_core::simulate::{Point, Row};
 
-use crate::layout::{Cell, Layout};
+use crate::layout::Layout;
+use crate::lines::Lines;
 use crate::output::Durable;
 use crate::sink::Sink;
 
@@ -14,51 +15,38 @@ use crate::sink::Sink;
 /// cells of what is not known are empty.
 pub struct CsvSink<W: Durable> {
     layout: Layout,
-    writer: csv::Writer<W>,
+    lines: Lines<W>,
 }
 
 impl<W: Durable> CsvSink<W> {
     /// Writes the columns of `layout` to `target`.
     pub fn new(layout: Layout, target: W) -> CsvSink<W> {
-        // One system call takes some hundred rows.
-        let writer = csv::WriterBuilder::new().buffer_capacity(1 << 16).from_writer(target);
-        CsvSink { layout, writer }
+        CsvSink { layout, lines: Lines::new(target) }
     }
 
     /// What has been written to; complete after [`Sink::flush`] or [`Sink::finish`].
     pub fn target(&self) -> &W {
-        self.writer.get_ref()
+        self.lines.target()
     }
 }
 
 impl<W: Durable> Sink for CsvSink<W> {
     fn begin(&mut self) -> io::Result<()> {
-        self.writer.write_record(self.layout.names()).map_err(cause)
+        self.lines.texts(self.layout.names())
     }
 
     fn write(&mut self, point: &Point, row: &Row) -> io::Result<()> {
-        write_cells(&mut self.writer, &self.layout.cells(point, row)).map_err(cause)
+        self.lines.cells(&self.layout.cells(point, row))
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.writer.flush()
+        self.lines.flush()
     }
 
     fn finish(&mut self) -> io::Result<()> {
-        self.writer.flush()?;
-        self.writer.get_ref().sync()
+        self.lines.flush()?;
+        self.lines.target().sync()
     }
-}
-
-/// Writes a row of cells, each by way of the same buffer.
-pub(crate) fn write_cells<W: Write>(writer: &mut csv::Writer<W>, cells: &[Cell]) -> csv::Result<()> {
-    let mut text = String::new();
-    for cell in cells {
-        text.clear();
-        cell.push_text(&mut text);
-        writer.write_field(&text)?;
-    }
-    writer.write_record(None::<&[u8]>)
 }
 
 /// What the operating system said, which the conversion of the csv crate would hide, and a closed pipe with it; or what is

@@ -94,16 +94,6 @@ pub enum Cell {
 }
 
 impl Cell {
-    /// Appends the text in a file of CSV to `text`; nothing for what is not known.
-    pub(crate) fn push_text(self, text: &mut String) {
-        match self {
-            Cell::Whole(number) => text.push_str(itoa::Buffer::new().format(number)),
-            Cell::Number(number) => text::push_float(text, number),
-            Cell::Flag(flag) => text.push_str(flag.map_or("", |flag| if flag { "true" } else { "false" })),
-            Cell::Text(word) => text.push_str(word),
-        }
-    }
-
     pub(crate) fn of_parameter(parameter: &Parameter, value: f64) -> Cell {
         text::option(parameter, value).map_or(Cell::Number(value), Cell::Text)
     }

@@ -11,6 +11,7 @@ pub mod identity;
 pub mod job;
 pub mod journal;
 pub mod layout;
+mod lines;
 pub mod merge;
 pub mod output;
 pub mod plan;

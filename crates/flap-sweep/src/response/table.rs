@@ -5,8 +5,8 @@ use std::io;
 use flap_core::parameter::Parameter;
 
 use super::{Along, Curve, Step, parameter};
-use crate::csv_sink::{cause, write_cells};
 use crate::layout::{Cell, Column, Kind, Layout};
+use crate::lines::Lines;
 use crate::output::Durable;
 use crate::plan::Plan;
 
@@ -54,7 +54,7 @@ impl Motions {
 /// Writes one plain header line, then one line per motion.
 pub struct Table<W: Durable> {
     motions: Motions,
-    writer: csv::Writer<W>,
+    lines: Lines<W>,
 }
 
 impl<W: Durable> Table<W> {
@@ -63,9 +63,9 @@ impl<W: Durable> Table<W> {
     /// # Errors
     /// What writing says.
     pub fn begin(plan: &Plan, along: &Along, target: W) -> io::Result<Table<W>> {
-        let mut table = Table { motions: Motions::of(plan, along), writer: csv::Writer::from_writer(target) };
-        let names = table.motions.columns().into_iter().map(|column| column.name);
-        table.writer.write_record(names.collect::<Vec<_>>()).map_err(cause)?;
+        let mut table = Table { motions: Motions::of(plan, along), lines: Lines::new(target) };
+        let columns = table.motions.columns();
+        table.lines.texts(columns.iter().map(|column| &column.name))?;
         Ok(table)
     }
 
@@ -75,9 +75,9 @@ impl<W: Durable> Table<W> {
     /// What writing says.
     pub fn write(&mut self, curve: &Curve) -> io::Result<()> {
         for cells in self.motions.rows(curve) {
-            write_cells(&mut self.writer, &cells).map_err(cause)?;
+            self.lines.cells(&cells)?;
         }
-        self.writer.flush()
+        self.lines.flush()
     }
 
     /// Makes what was written durable.
@@ -85,7 +85,7 @@ impl<W: Durable> Table<W> {
     /// # Errors
     /// What writing says.
     pub fn finish(mut self) -> io::Result<()> {
-        self.writer.flush()?;
-        self.writer.get_ref().sync()
+        self.lines.flush()?;
+        self.lines.target().sync()
     }
 }

@@ -6,8 +6,8 @@ use std::io::{self, Write};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use super::Format;
-use crate::csv_sink::{cause, write_cells};
 use crate::layout::Cell;
+use crate::lines::Lines;
 
 /// Rows in one compressed frame. Frames begin at these rows whatever the threads do and wherever a run was resumed, so
 /// that the bytes do not depend on it.
@@ -20,7 +20,7 @@ const LEVEL: i32 = 3;
 
 /// Writes one header line, then one line per row: [`Format::Csv`] as it is, otherwise in frames of [`BLOCK_ROWS`] rows.
 pub struct TextRows {
-    csv: csv::Writer<Frames>,
+    lines: Lines<Frames>,
     rows_in_block: u32,
 }
 
@@ -49,26 +49,24 @@ impl TextRows {
             Format::CsvZstd | Format::Parquet => Some(zstd::bulk::Compressor::new(LEVEL)?),
         };
         let frames = Frames { file, compressor, frame: Vec::new(), hash, bytes };
-        // One system call takes some hundred rows.
-        let csv = csv::WriterBuilder::new().buffer_capacity(1 << 16).from_writer(frames);
-        Ok(TextRows { csv, rows_in_block: 0 })
+        Ok(TextRows { lines: Lines::new(frames), rows_in_block: 0 })
     }
 
     /// Writes the header, which is a frame of its own.
     ///
     /// # Errors
     /// What writing says.
-    pub fn header<T: AsRef<[u8]>>(&mut self, names: impl IntoIterator<Item = T>) -> io::Result<()> {
-        self.csv.write_record(names).map_err(cause)?;
-        self.csv.flush()
+    pub fn header<T: AsRef<str>>(&mut self, names: impl IntoIterator<Item = T>) -> io::Result<()> {
+        self.lines.texts(names)?;
+        self.lines.flush()
     }
 
     /// Writes a row.
     ///
     /// # Errors
     /// What writing says.
-    pub fn row<T: AsRef<[u8]>>(&mut self, cells: impl IntoIterator<Item = T>) -> io::Result<()> {
-        self.csv.write_record(cells).map_err(cause)?;
+    pub fn row<T: AsRef<str>>(&mut self, cells: impl IntoIterator<Item = T>) -> io::Result<()> {
+        self.lines.texts(cells)?;
         self.end_row()
     }
 
@@ -77,7 +75,7 @@ impl TextRows {
     /// # Errors
     /// What writing says.
     pub(crate) fn cells(&mut self, cells: &[Cell]) -> io::Result<()> {
-        write_cells(&mut self.csv, cells).map_err(cause)?;
+        self.lines.cells(cells)?;
         self.end_row()
     }
 
@@ -85,7 +83,7 @@ impl TextRows {
         self.rows_in_block += 1;
         if self.rows_in_block == BLOCK_ROWS {
             self.rows_in_block = 0;
-            self.csv.flush()?;
+            self.lines.flush()?;
         }
         Ok(())
     }
@@ -95,7 +93,7 @@ impl TextRows {
     /// # Errors
     /// What writing says.
     pub fn flush(&mut self) -> io::Result<()> {
-        if self.is_compressed() { Ok(()) } else { self.csv.flush() }
+        if self.is_compressed() { Ok(()) } else { self.lines.flush() }
     }
 
     /// Ends the file here, be it within a frame.
@@ -103,7 +101,7 @@ impl TextRows {
     /// # Errors
     /// What writing says.
     pub fn finish(&mut self) -> io::Result<()> {
-        self.csv.flush()
+        self.lines.flush()
     }
 
     /// Whether a run that is resumed here yields the bytes of one that was not interrupted.
@@ -113,17 +111,17 @@ impl TextRows {
 
     /// What has been written; complete after [`TextRows::flush`] where the file may be cut.
     pub(crate) fn extent(&self) -> Extent {
-        let frames = self.csv.get_ref();
+        let frames = self.lines.target();
         Extent { bytes: frames.bytes, digest: frames.hash.digest() }
     }
 
     /// The file.
     pub fn file(&self) -> &File {
-        &self.csv.get_ref().file
+        &self.lines.target().file
     }
 
     fn is_compressed(&self) -> bool {
-        self.csv.get_ref().compressor.is_some()
+        self.lines.target().compressor.is_some()
     }
 }
 
