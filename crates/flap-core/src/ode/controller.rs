@@ -1,7 +1,7 @@
 //! The step-size controller: from an error, whether to accept a step and how long the next should be.
 //!
 //! Proportional-integral control with the constants of DOPRI5 (Hairer I, section II.4 and the code):
-//! safety 0.9, factors between 0.2 and 10, β = 0.04, no growth right after a rejection.
+//! safety 0.9, factors between 0.21 and 9.5 (there 0.2 and 10), β = 0.04, no growth right after a rejection.
 //!
 //! Factors are rounded to a few per octave. Motions that hardly differ are then integrated with the very same steps, and
 //! their ends differ as little: otherwise a period's end would jitter by the integration error, and a tight tolerance on

@@ -40,8 +40,8 @@ impl<R: Lanes, const N: usize> Step<R, N> {
     #[inline(always)]
     pub fn attempt<O: Ode<N>>(&mut self, ode: &O, c: &O::Constants<R>, t: R, h: R, side: R) {
         let mut u = ode.input(c, t);
-        // A loop, so that the right-hand side is compiled once: six copies of it take the compiler minutes, and do not fit
-        // into a processor's cache of decoded instructions.
+        // A loop, so that the right-hand side is compiled once: six copies of it take the compiler minutes, and are no
+        // faster.
         for stage in 1..STAGES {
             let y = combine(&self.y[0], h, &self.k, &A[stage], stage);
             // Stages 6 and 7 are both at the end of the step and share its inputs.
