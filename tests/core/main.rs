@@ -19,6 +19,7 @@ mod ensemble;
 mod floquet;
 mod four_bar;
 mod frequencies;
+mod interrupted;
 mod jafferis_figures;
 mod orbits;
 mod resonance;

@@ -12,7 +12,7 @@ use flap_core::num::InstructionSet;
 use flap_core::ode::Ode;
 use flap_core::resonance::driven::{DrivenPeaks, PeakSearch, search};
 use flap_core::resonance::free::{FreeMotion, FreeRequest, examine, intervals, stroke_rate};
-use flap_core::simulate::{ImpulseRequest, SolverSettings, Status, all, by_name, preset};
+use flap_core::simulate::{ImpulseRequest, SolverSettings, Status, all, by_name, never, preset};
 
 /// The values of a preset with some of them set.
 fn values(name: &str, set: &[(&str, f64)]) -> Vec<f64> {
@@ -92,8 +92,9 @@ fn impulses_that_mean_nothing_are_refused() {
         (ImpulseRequest { intervals: 0, ..good }, "in 0 intervals"),
     ] {
         let solver = SolverSettings::default();
-        let refused = model.free_response(InstructionSet::best(), &solver, &values, &request).unwrap_err();
-        assert!(refused.reason.contains(reason), "{refused}");
+        let refused =
+            model.free_response(InstructionSet::best(), &solver, &values, &request, &never).unwrap_err();
+        assert!(refused.to_string().contains(reason), "{refused}");
     }
 }
 
@@ -131,7 +132,7 @@ fn a_free_motion_does_not_depend_on_how_it_is_sampled() {
     let solver = SolverSettings { rtol: 1e-9, atol: 1e-11, ..SolverSettings::default() };
     let run = |intervals| {
         let request = ImpulseRequest { stroke_rate: 200.0, duration: 0.05, intervals };
-        model.free_response(InstructionSet::best(), &solver, &values, &request).unwrap().rows
+        model.free_response(InstructionSet::best(), &solver, &values, &request, &never).unwrap().rows
     };
     let (coarse, fine) = (run(7), run(7 * 131));
     assert_eq!(coarse.len(), 8);
@@ -152,13 +153,15 @@ fn free(name: &str, degrees: f64, spectrum_window: f64) -> FreeMotion {
         spectrum_window,
         samples_per_cycle: 200,
     };
-    examine(model, InstructionSet::best(), &SolverSettings::default(), &values(name, &[]), &request).unwrap()
+    examine(model, InstructionSet::best(), &SolverSettings::default(), &values(name, &[]), &request, &never)
+        .unwrap()
 }
 
 fn driven(name: &str, set: &[(&str, f64)], from: f64, to: f64) -> DrivenPeaks {
     let (model, _) = preset(name).unwrap();
     let range = PeakSearch { from, to, tolerance: 0.05 };
-    let found = search(model, InstructionSet::best(), &SolverSettings::default(), &values(name, set), &range);
+    let found =
+        search(model, InstructionSet::best(), &SolverSettings::default(), &values(name, set), &range, &never);
     let found = found.unwrap();
     println!("{name} {set:?}: {found:?}");
     found
@@ -208,7 +211,7 @@ fn motions_that_do_not_settle_are_named() {
     let values = values("jafferis2016", &[("hinge_stiffness", 0.7486e-6), ("drive_voltage_pp", 240.0)]);
     let range = PeakSearch { from: 55.0, to: 95.0, tolerance: 0.5 };
     let solver = SolverSettings { max_cycles: 100, settle_tol: 1e-4, ..SolverSettings::default() };
-    let found = search(model, InstructionSet::best(), &solver, &values, &range).unwrap();
+    let found = search(model, InstructionSet::best(), &solver, &values, &range, &never).unwrap();
     let unsettled: usize = found.gaps.iter().map(|gap| gap.points).sum();
     println!("{found:?}");
     assert!(unsettled > 0 && unsettled < found.points, "{found:?}");
@@ -232,7 +235,8 @@ fn searches_that_mean_nothing_are_refused() {
         PeakSearch { tolerance: 0.0, ..good },
         PeakSearch { tolerance: f64::NAN, ..good },
     ] {
-        let refused = search(model, InstructionSet::best(), &SolverSettings::default(), &values, &range);
+        let refused =
+            search(model, InstructionSet::best(), &SolverSettings::default(), &values, &range, &never);
         assert!(refused.is_err(), "{range:?}");
     }
 }

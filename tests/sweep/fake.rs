@@ -7,8 +7,8 @@ use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
 use flap_core::simulate::{
-    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Period, Row, Rows, Simulator,
-    SolverSettings, Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Interrupt, Jobs, Period, Row, Rows,
+    Simulator, SolverSettings, Trajectory, TrajectoryRequest, Unfinished,
 };
 use flap_sweep::diagnostic::Diagnostic;
 use flap_sweep::plan::Plan;
@@ -52,7 +52,14 @@ impl Simulator for Fake {
         self.presets
     }
 
-    fn period(&self, _: InstructionSet, _: &SolverSettings, _: &[f64], _: &[f64]) -> Result<Period, Invalid> {
+    fn period(
+        &self,
+        _: InstructionSet,
+        _: &SolverSettings,
+        _: &[f64],
+        _: &[f64],
+        _: Interrupt<'_>,
+    ) -> Result<Period, Unfinished> {
         unreachable!("sweeps do not ask for periods")
     }
 
@@ -62,7 +69,8 @@ impl Simulator for Fake {
         _: &SolverSettings,
         _: &[f64],
         _: &TrajectoryRequest,
-    ) -> Result<Trajectory, Invalid> {
+        _: Interrupt<'_>,
+    ) -> Result<Trajectory, Unfinished> {
         unimplemented!("grid files are checked without running anything")
     }
 
@@ -72,7 +80,8 @@ impl Simulator for Fake {
         _: &SolverSettings,
         _: &[f64],
         _: &ChirpRequest,
-    ) -> Result<ChirpResponse, Invalid> {
+        _: Interrupt<'_>,
+    ) -> Result<ChirpResponse, Unfinished> {
         unimplemented!("grid files are checked without running anything")
     }
 
@@ -94,7 +103,8 @@ impl Simulator for Fake {
         _: &SolverSettings,
         _: &[f64],
         _: &ImpulseRequest,
-    ) -> Result<Trajectory, Invalid> {
+        _: Interrupt<'_>,
+    ) -> Result<Trajectory, Unfinished> {
         unimplemented!("grid files are checked without running anything")
     }
 }

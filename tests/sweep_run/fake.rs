@@ -8,8 +8,8 @@ use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
 use flap_core::simulate::{
-    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Period, Point, Row, Rows,
-    Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Interrupt, Jobs, Period, Point, Row,
+    Rows, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest, Unfinished,
 };
 
 /// What goes wrong, and at which value of `size`.
@@ -178,7 +178,14 @@ impl Simulator for Fake {
         &PRESETS
     }
 
-    fn period(&self, _: InstructionSet, _: &SolverSettings, _: &[f64], _: &[f64]) -> Result<Period, Invalid> {
+    fn period(
+        &self,
+        _: InstructionSet,
+        _: &SolverSettings,
+        _: &[f64],
+        _: &[f64],
+        _: Interrupt<'_>,
+    ) -> Result<Period, Unfinished> {
         unreachable!("sweeps do not ask for periods")
     }
 
@@ -188,8 +195,9 @@ impl Simulator for Fake {
         _solver: &SolverSettings,
         _values: &[f64],
         _request: &TrajectoryRequest,
-    ) -> Result<Trajectory, Invalid> {
-        Err(Invalid { reason: "it does not move".to_owned() })
+        _interrupted: Interrupt<'_>,
+    ) -> Result<Trajectory, Unfinished> {
+        Err(Invalid::new("it does not move").into())
     }
 
     fn chirp(
@@ -198,8 +206,9 @@ impl Simulator for Fake {
         _solver: &SolverSettings,
         _values: &[f64],
         _request: &ChirpRequest,
-    ) -> Result<ChirpResponse, Invalid> {
-        Err(Invalid { reason: "it does not move".to_owned() })
+        _interrupted: Interrupt<'_>,
+    ) -> Result<ChirpResponse, Unfinished> {
+        Err(Invalid::new("it does not move").into())
     }
 
     fn imposed(&self, _values: &[f64], _motion: &ImposedMotion) -> Result<Trajectory, Invalid> {
@@ -220,8 +229,9 @@ impl Simulator for Fake {
         _solver: &SolverSettings,
         _values: &[f64],
         _request: &ImpulseRequest,
-    ) -> Result<Trajectory, Invalid> {
-        Err(Invalid { reason: "it does not move".to_owned() })
+        _interrupted: Interrupt<'_>,
+    ) -> Result<Trajectory, Unfinished> {
+        Err(Invalid::new("it does not move").into())
     }
 }
 

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use anstyle::{AnsiColor, Style};
 use flap_core::parameter::Invalid;
+use flap_core::simulate::Unfinished;
 use flap_sweep::diagnostic::{self, Diagnostic};
 use flap_sweep::job::JobError;
 use flap_sweep::merge::MergeError;
@@ -124,6 +125,12 @@ impl From<io::Error> for Failure {
 impl From<Invalid> for Failure {
     fn from(invalid: Invalid) -> Failure {
         Failure::usage(invalid.to_string())
+    }
+}
+
+impl From<Unfinished> for Failure {
+    fn from(unfinished: Unfinished) -> Failure {
+        Failure::usage(unfinished.to_string())
     }
 }
 

@@ -3,6 +3,7 @@
 use std::io;
 
 use flap_core::parameter::Invalid;
+use flap_core::simulate::Unfinished;
 use flap_sweep::diagnostic;
 use flap_sweep::job::JobError;
 use flap_sweep::output::CreateError;
@@ -116,6 +117,10 @@ pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
 
 pub(crate) fn invalid(invalid: &Invalid) -> PyErr {
     PyValueError::new_err(invalid.to_string())
+}
+
+pub(crate) fn unfinished(unfinished: &Unfinished) -> PyErr {
+    PyValueError::new_err(unfinished.to_string())
 }
 
 pub(crate) fn run(error: &RunError) -> PyErr {

@@ -4,6 +4,7 @@ use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::resonance::driven::{self, PeakSearch};
 use flap_core::resonance::free::{self, FreeRequest};
+use flap_core::simulate::{Unfinished, never};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -44,10 +45,10 @@ pub(crate) fn resonance<'py>(
         tolerance,
     };
     let found = py.detach(|| {
-        let free = free::examine(simulator, set, &solver, &values, &request)?;
-        Ok((free, driven::search(simulator, set, &solver, &values, &search)?))
+        let free = free::examine(simulator, set, &solver, &values, &request, &never)?;
+        Ok((free, driven::search(simulator, set, &solver, &values, &search, &never)?))
     });
-    let (free, driven) = found.map_err(|reason| error::invalid(&reason))?;
+    let (free, driven) = found.map_err(|reason: Unfinished| error::unfinished(&reason))?;
 
     let linear = PyDict::new(py);
     for Mode { name, frequency } in modes {

@@ -1,7 +1,7 @@
 //! One design point at a time.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Column, Row, Simulator, SolverSettings, TrajectoryRequest};
+use flap_core::simulate::{Column, Row, Simulator, SolverSettings, TrajectoryRequest, never};
 use flap_sweep::layout::{self, Cell, Kind};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -59,8 +59,8 @@ pub(crate) fn trajectory<'py>(
     }
     let request = TrajectoryRequest { cycles, samples_per_cycle: samples, settled: !from_rest };
     let set = InstructionSet::best();
-    let motion = py.detach(|| simulator.trajectory(set, &solver, &values, &request));
-    let motion = motion.map_err(|reason| error::invalid(&reason))?;
+    let motion = py.detach(|| simulator.trajectory(set, &solver, &values, &request, &never));
+    let motion = motion.map_err(|reason| error::unfinished(&reason))?;
     let column = |name: &String| layout::Column {
         name: name.clone(),
         unit: layout::split_unit(name).1,

@@ -11,7 +11,7 @@ use flap_core::model::bimorph::{
 use flap_core::num::{InstructionSet, Real};
 use flap_core::ode::solve::solve;
 use flap_core::ode::{Ode, Start};
-use flap_core::simulate::{SolverSettings, TrajectoryRequest};
+use flap_core::simulate::{SolverSettings, TrajectoryRequest, never};
 use proptest::prelude::*;
 
 use super::orbit::{cycle, tolerances};
@@ -144,7 +144,7 @@ fn settled_motions_are_antisymmetric() {
         let solver =
             SolverSettings { rtol: 1e-9, atol: 1e-11, settle_tol: 1e-6, ..SolverSettings::default() };
         let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 100, settled: true };
-        let motion = model().trajectory(InstructionSet::best(), &solver, &values, &request).unwrap();
+        let motion = model().trajectory(InstructionSet::best(), &solver, &values, &request, &never).unwrap();
         let scale = model_scale(&values);
         for k in 0..50 {
             for i in 0..4 {

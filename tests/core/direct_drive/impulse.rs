@@ -3,7 +3,7 @@
 use flap_core::measure::damped_sine::{DampedSine, fit};
 use flap_core::model::direct_drive::Params;
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{ImpulseRequest, SolverSettings, by_name};
+use flap_core::simulate::{ImpulseRequest, SolverSettings, by_name, never};
 
 use super::params;
 use crate::data::{Record, assert_close, table};
@@ -27,7 +27,7 @@ fn released(record: &Record) -> (Vec<Vec<f64>>, DampedSine) {
     let request = ImpulseRequest { stroke_rate: record.number("phidot0"), duration, intervals };
     let values = type_of(record).to_values();
     let model = by_name("direct-drive").unwrap();
-    let motion = model.free_response(InstructionSet::best(), &solver, &values, &request).unwrap();
+    let motion = model.free_response(InstructionSet::best(), &solver, &values, &request, &never).unwrap();
     assert_eq!(motion.rows.len(), intervals as usize + 1);
     let stroke: Vec<f64> = motion.rows.iter().map(|row| row[1]).collect();
     let fit = fit(duration / f64::from(intervals), &stroke);

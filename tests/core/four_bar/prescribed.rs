@@ -3,7 +3,7 @@
 use flap_core::drive::{Shape, StrokeMode};
 use flap_core::model::four_bar::Params;
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{SolverSettings, Status, TrajectoryRequest};
+use flap_core::simulate::{SolverSettings, Status, TrajectoryRequest, never};
 
 use super::steady::{measure, model, run, wrapped};
 use super::{arms, assert_close_to, params};
@@ -60,7 +60,7 @@ fn the_orbit_begins_where_the_reference_does() {
     let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 8, settled: true };
     for record in table("four-bar/rotation_only.csv") {
         let values = operating_point(&record).to_values();
-        let motion = model().trajectory(InstructionSet::best(), &solver, &values, &request).unwrap();
+        let motion = model().trajectory(InstructionSet::best(), &solver, &values, &request, &never).unwrap();
         let [_, stroke, pitch, stroke_rate, pitch_rate] = [0, 1, 2, 3, 4].map(|i| motion.rows[0][i]);
         assert!(stroke.abs() < 1e-6, "{stroke}");
         let speed = record.number("Theta_rad") * std::f64::consts::TAU * record.number("f_Hz");

@@ -6,6 +6,7 @@ use flap_core::measure::spectrum::SpectrumPeak;
 use flap_core::num::InstructionSet;
 use flap_core::resonance::driven::{self, DrivenPeaks, Gap, PeakSearch};
 use flap_core::resonance::free::{self, FreeMotion, FreeRequest};
+use flap_core::simulate::never;
 use flap_sweep::{csv_sink, text};
 
 use super::point::Chosen;
@@ -40,8 +41,8 @@ pub(crate) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
         to: args.to.unwrap_or(1.5 * natural[0].max(natural[1])),
         tolerance: args.tolerance,
     };
-    let free = free::examine(simulator, set, &plan.solver, values, &request)?;
-    let driven = driven::search(simulator, set, &plan.solver, values, &search)?;
+    let free = free::examine(simulator, set, &plan.solver, values, &request, &never)?;
+    let driven = driven::search(simulator, set, &plan.solver, values, &search, &never)?;
 
     let mut lines: Vec<Line> = Vec::new();
     for mode in &modes {

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io;
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{ChirpRequest, Row, Status, TrajectoryRequest};
+use flap_core::simulate::{ChirpRequest, Row, Status, TrajectoryRequest, never};
 use flap_sweep::expression::Kind;
 use flap_sweep::text;
 
@@ -53,7 +53,7 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
             samples_per_cycle: args.samples,
             settled: !args.from_rest && !args.once,
         };
-        let motion = chosen.simulator().trajectory(set, &plan.solver, values, &request)?;
+        let motion = chosen.simulator().trajectory(set, &plan.solver, values, &request, &never)?;
         if path.as_os_str() == "-" {
             write_csv(&motion, io::stdout().lock())?;
             return Ok(Exit::Done);
@@ -97,7 +97,7 @@ fn chirp(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
         rate: args.chirp_rate,
         samples_per_cycle: if args.trajectory.is_some() { args.samples } else { 0 },
     };
-    let response = plan.simulator.chirp(InstructionSet::best(), &plan.solver, values, &request)?;
+    let response = plan.simulator.chirp(InstructionSet::best(), &plan.solver, values, &request, &never)?;
     if let Some(path) = &args.trajectory {
         write_file(&response.motion, path, args.force)?;
         console::say(&format!("{} samples in {}", response.motion.rows.len(), path.display()));

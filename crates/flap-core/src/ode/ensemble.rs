@@ -12,7 +12,7 @@ use super::norm::error_squared;
 use super::start::{first_step, span_step};
 use super::step::{Attempt, Step};
 use super::switch::{Crossing, Switching, landing_stretch};
-use super::{Ending, MIN_STEP, Ode, Outcome, Start, Tolerances, input, slope};
+use super::{Ending, MIN_STEP, Ode, Outcome, Start, Tolerances, UNASKED, input, slope};
 use crate::num::{Lanes, PerLane, Simd, Vector};
 
 /// A run to be started: what to remember of it, and where it begins.
@@ -33,6 +33,11 @@ pub trait Queue<O: Ode<N>, V: Observer<O, N>, const N: usize> {
 
     /// Takes leave of a run that has been stopped or has failed.
     fn ended(&mut self, run: Self::Run, outcome: Outcome);
+
+    /// Whether to end with runs in lanes, which are dropped; see [`Interrupt`](super::Interrupt).
+    fn interrupted(&self) -> bool {
+        false
+    }
 }
 
 /// Something that is summed up along a run, lane by lane.
@@ -92,7 +97,7 @@ impl AddAssign for Occupancy {
     }
 }
 
-/// Integrates the runs of `queue` until it has no more. Returns how full the lanes were.
+/// Integrates the runs of `queue` until it has no more or is interrupted. Returns how full the lanes were.
 pub fn run<S, O, V, Q, const N: usize>(
     simd: S,
     ode: &O,
@@ -223,15 +228,17 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
     fn drive<Q: Queue<O, V, N, Run = Run>>(mut self, ode: &O, observer: &V, queue: &mut Q) -> Occupancy {
         loop {
             self.refill(observer, queue);
-            if self.active == 0 {
+            if self.active == 0 || queue.interrupted() {
                 return Occupancy { used: self.used, room: self.steps * R::LANES as u64 };
             }
             if self.fresh != 0 {
                 self.begin(ode);
             }
+            let mut unasked = UNASKED;
             let events = loop {
                 let events = self.advance(ode, observer);
-                if events.landed | events.failed != 0 {
+                unasked -= 1;
+                if events.landed | events.failed != 0 || unasked == 0 {
                     break events;
                 }
             };

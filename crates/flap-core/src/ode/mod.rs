@@ -130,7 +130,7 @@ pub struct Tolerances {
 /// Why a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// The caller stopped it at the end of a span.
+    /// The caller stopped it, at the end of a span or by an [`Interrupt`].
     Stopped,
     /// The state or its derivative became infinite or not a number.
     Diverged,
@@ -163,6 +163,18 @@ impl Outcome {
         Outcome { ending, attempts, rhs_evals: start + 6 * attempts + switches }
     }
 }
+
+/// Whether a run is to end before it is done: asked at the end of each span, and every some thousand steps within
+/// one. Once it has said yes it must not say no.
+pub type Interrupt<'a> = &'a dyn Fn() -> bool;
+
+/// An [`Interrupt`] that never comes.
+pub fn never() -> bool {
+    false
+}
+
+/// Steps within a span after which an interrupt is asked: some milliseconds of work.
+pub(crate) const UNASKED: u32 = 4096;
 
 /// The smallest step, as a fraction of the span, before a run counts as stuck.
 pub(crate) const MIN_STEP: f64 = 1e-14;

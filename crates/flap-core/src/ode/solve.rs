@@ -8,7 +8,7 @@ use super::norm::error_squared;
 use super::start::{first_step, span_step};
 use super::step::{Attempt, Step};
 use super::switch::{Crossing, Switching, landing_stretch};
-use super::{Ending, MIN_STEP, Ode, Outcome, Start, Tolerances, input, slope};
+use super::{Ending, Interrupt, MIN_STEP, Ode, Outcome, Start, Tolerances, UNASKED, input, never, slope};
 use crate::num::{PerLane, Scalar};
 
 /// Integrates one run until `at_span_end` breaks, or until it fails.
@@ -19,10 +19,22 @@ pub fn solve<O: Ode<N>, R: Scalar, const N: usize>(
     ode: &O,
     tolerances: &Tolerances,
     start: &Start<O::Constants<f64>, N>,
+    on_step: impl FnMut(&O::Constants<R>, &Attempt<'_, R, N>),
+    at_span_end: impl FnMut(&[f64; N]) -> ControlFlow<()>,
+) -> Outcome {
+    solve_until::<O, R, N>(ode, tolerances, start, &never, on_step, at_span_end)
+}
+
+/// [`solve`], which also ends when `interrupted` says so. It then ends as if stopped: the caller asks, too.
+pub fn solve_until<O: Ode<N>, R: Scalar, const N: usize>(
+    ode: &O,
+    tolerances: &Tolerances,
+    start: &Start<O::Constants<f64>, N>,
+    interrupted: Interrupt<'_>,
     mut on_step: impl FnMut(&O::Constants<R>, &Attempt<'_, R, N>),
     mut at_span_end: impl FnMut(&[f64; N]) -> ControlFlow<()>,
 ) -> Outcome {
-    march::<O, R, N>(ode, tolerances, start, &mut on_step, &mut at_span_end)
+    march::<O, R, N>(ode, tolerances, start, interrupted, &mut on_step, &mut at_span_end)
 }
 
 /// What sees the accepted steps.
@@ -34,12 +46,13 @@ fn march<O: Ode<N>, R: Scalar, const N: usize>(
     ode: &O,
     tolerances: &Tolerances,
     start: &Start<O::Constants<f64>, N>,
+    interrupted: Interrupt<'_>,
     on_step: &mut OnStep<'_, O, R, N>,
     at_span_end: &mut dyn FnMut(&[f64; N]) -> ControlFlow<()>,
 ) -> Outcome {
     R::enter(
         #[inline(always)]
-        || steps::<O, R, N>(ode, tolerances, start, on_step, at_span_end),
+        || steps::<O, R, N>(ode, tolerances, start, interrupted, on_step, at_span_end),
     )
 }
 
@@ -48,6 +61,7 @@ fn steps<O: Ode<N>, R: Scalar, const N: usize>(
     ode: &O,
     tolerances: &Tolerances,
     start: &Start<O::Constants<f64>, N>,
+    interrupted: Interrupt<'_>,
     on_step: &mut OnStep<'_, O, R, N>,
     at_span_end: &mut dyn FnMut(&[f64; N]) -> ControlFlow<()>,
 ) -> Outcome {
@@ -113,7 +127,7 @@ fn steps<O: Ode<N>, R: Scalar, const N: usize>(
             for i in 0..N {
                 state[i] = step.y[0][i].lane(0);
             }
-            if at_span_end(&state).is_break() {
+            if at_span_end(&state).is_break() || interrupted() {
                 return Outcome::new::<O, N>(Ending::Stopped, attempts, switches);
             }
             h = number(span_step(h_begin.lane(0), h.lane(0)));
@@ -123,6 +137,8 @@ fn steps<O: Ode<N>, R: Scalar, const N: usize>(
             steps_in_span = 0;
         } else if steps_in_span >= tolerances.max_steps || h.lt(span * MIN_STEP) {
             return Outcome::new::<O, N>(Ending::of_failure(error.lane(0)), attempts, switches);
+        } else if steps_in_span % UNASKED == 0 && interrupted() {
+            return Outcome::new::<O, N>(Ending::Stopped, attempts, switches);
         }
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::num::InstructionSet;
 use crate::parameter::{Invalid, Kind, Parameter};
-use crate::simulate::{Jobs, Point, Row, Simulator, SolverSettings, Status};
+use crate::simulate::{Interrupt, Jobs, Point, Row, Simulator, SolverSettings, Status, Unfinished};
 
 /// Intervals of the first grid.
 const COARSE: u32 = 160;
@@ -67,32 +67,36 @@ pub struct Gap {
 /// Looks for the drive frequencies at which the stroke of a point is largest.
 ///
 /// # Errors
-/// [`Invalid`] if the values are impossible together or the search is.
+/// [`Unfinished`] if it is interrupted, or the values are impossible together or the search is.
 pub fn search(
     simulator: &dyn Simulator,
     set: InstructionSet,
     solver: &SolverSettings,
     values: &[f64],
     search: &PeakSearch,
-) -> Result<DrivenPeaks, Invalid> {
+    interrupted: Interrupt<'_>,
+) -> Result<DrivenPeaks, Unfinished> {
     let PeakSearch { from, to, tolerance } = *search;
     if !(from > 0.0 && from < to && to.is_finite()) {
         return Err(Invalid::new(format!(
             "there are no drive frequencies from {from} to {to} Hz: the first must be more than zero, and less than \
              the last"
-        )));
+        ))
+        .into());
     }
     if tolerance.is_nan() || tolerance <= 0.0 {
         return Err(Invalid::new(format!(
             "a peak cannot be found to {tolerance} Hz, only to more than zero"
-        )));
+        ))
+        .into());
     }
     if has_prescribed_stroke(simulator.parameters(), values) {
         return Err(Invalid::new(
             "stroke_mode is \"prescribed\": such a stroke is the same at every frequency, set it to free",
-        ));
+        )
+        .into());
     }
-    let mut response = Response::new(simulator, values)?;
+    let mut response = Response::new(simulator, values, interrupted)?;
     let mut spacing = (to - from) / f64::from(COARSE);
     response.add(set, solver, (0..=COARSE).map(|i| from + spacing * f64::from(i)))?;
     let mut tops = response.peaks();
@@ -128,6 +132,7 @@ pub fn has_prescribed_stroke(parameters: &[Parameter], values: &[f64]) -> bool {
 struct Response<'a> {
     simulator: &'a dyn Simulator,
     values: &'a [f64],
+    interrupted: Interrupt<'a>,
     /// Positions of the drive frequency among the parameters, and of the amplitudes among the measures.
     frequency: usize,
     stroke: usize,
@@ -139,7 +144,11 @@ struct Response<'a> {
 }
 
 impl<'a> Response<'a> {
-    fn new(simulator: &'a dyn Simulator, values: &'a [f64]) -> Result<Response<'a>, Invalid> {
+    fn new(
+        simulator: &'a dyn Simulator,
+        values: &'a [f64],
+        interrupted: Interrupt<'a>,
+    ) -> Result<Response<'a>, Invalid> {
         let missing = |name: &str| Invalid::new(format!("the model has no {name}"));
         let column = |name: &str| {
             let index = simulator.columns().iter().position(|column| column.name == name);
@@ -150,6 +159,7 @@ impl<'a> Response<'a> {
         Ok(Response {
             simulator,
             values,
+            interrupted,
             frequency: frequency.ok_or_else(|| missing("drive_frequency"))?,
             stroke: column("stroke_amplitude_deg")?,
             pitch: column("pitch_amplitude_deg")?,
@@ -164,14 +174,18 @@ impl<'a> Response<'a> {
         set: InstructionSet,
         solver: &SolverSettings,
         frequencies: impl Iterator<Item = f64>,
-    ) -> Result<(), Invalid> {
+    ) -> Result<(), Unfinished> {
         let points = frequencies.map(|frequency| {
             let mut values = self.values.to_vec();
             values[self.frequency] = frequency;
             values
         });
-        let mut points = Points { values: points.collect(), begun: 0, rows: Vec::new() };
+        let interrupted = self.interrupted;
+        let mut points = Points { values: points.collect(), interrupted, begun: 0, rows: Vec::new() };
         self.simulator.run(set, solver, &mut points);
+        if interrupted() {
+            return Err(Unfinished::Interrupted);
+        }
         for (index, row) in points.rows {
             let frequency = points.values[index][self.frequency];
             match row.status {
@@ -180,7 +194,7 @@ impl<'a> Response<'a> {
                     stroke_pp: 2.0 * row.measures[self.stroke],
                     pitch_pp: 2.0 * row.measures[self.pitch],
                 }),
-                Status::Invalid => return Err(Invalid::new(row.reason.unwrap_or_default())),
+                Status::Invalid => return Err(Invalid::new(row.reason.unwrap_or_default()).into()),
                 status => self.unsettled.push((frequency, status)),
             }
         }
@@ -238,13 +252,14 @@ impl<'a> Response<'a> {
 }
 
 /// Points to be run, and the rows that came back.
-struct Points {
+struct Points<'a> {
+    interrupted: Interrupt<'a>,
     values: Vec<Vec<f64>>,
     begun: usize,
     rows: Vec<(usize, Row)>,
 }
 
-impl Jobs for Points {
+impl Jobs for Points<'_> {
     fn next(&mut self, _idle: bool) -> Option<Point> {
         let values = self.values.get(self.begun)?.clone();
         self.begun += 1;
@@ -255,5 +270,9 @@ impl Jobs for Points {
         if let Ok(index) = usize::try_from(index) {
             self.rows.push((index, row));
         }
+    }
+
+    fn interrupted(&self) -> bool {
+        (self.interrupted)()
     }
 }

@@ -7,7 +7,7 @@ use crate::measure::spectrum::{Spectrum, SpectrumPeak};
 use crate::modes::Mode;
 use crate::num::InstructionSet;
 use crate::parameter::Invalid;
-use crate::simulate::{ImpulseRequest, Simulator, SolverSettings, Trajectory};
+use crate::simulate::{ImpulseRequest, Interrupt, Simulator, SolverSettings, Trajectory, Unfinished};
 
 /// The most samples of one motion: they are held in memory.
 pub const INTERVALS_MAX: u32 = 5_000_000;
@@ -58,22 +58,24 @@ pub fn stroke_rate(modes: &[Mode; 2], amplitude: f64) -> Result<f64, Invalid> {
 /// Gives a point's stroke an impulse and looks for the frequencies of the motion that follows.
 ///
 /// # Errors
-/// [`Invalid`] if the values are impossible together, the request is, or the motion fails on the way.
+/// [`Unfinished`] if it is interrupted, the values are impossible together, the request is, or the motion fails on the
+/// way.
 pub fn examine(
     simulator: &dyn Simulator,
     set: InstructionSet,
     solver: &SolverSettings,
     values: &[f64],
     request: &FreeRequest,
-) -> Result<FreeMotion, Invalid> {
+    interrupted: Interrupt<'_>,
+) -> Result<FreeMotion, Unfinished> {
     let modes = simulator.modes(values)?;
     let stroke_rate = stroke_rate(&modes, request.amplitude)?;
     let frequency = modes[0].frequency;
     let run = |duration: f64| {
         let intervals = intervals(duration, frequency * f64::from(request.samples_per_cycle))?;
         let impulse = ImpulseRequest { stroke_rate, duration, intervals };
-        let motion = simulator.free_response(set, solver, values, &impulse)?;
-        Ok((duration / f64::from(intervals), motion))
+        let motion = simulator.free_response(set, solver, values, &impulse, interrupted)?;
+        Ok::<_, Unfinished>((duration / f64::from(intervals), motion))
     };
 
     let (interval, motion) = run(f64::from(request.fit_cycles) / frequency)?;
@@ -84,7 +86,7 @@ pub fn examine(
         let mut samples = column(&motion, name)?;
         // The window holds whole intervals: its last sample is the first of the next.
         samples.pop();
-        Ok(Spectrum::of(interval, &samples).peaks(PEAKS))
+        Ok::<_, Invalid>(Spectrum::of(interval, &samples).peaks(PEAKS))
     };
     Ok(FreeMotion { stroke_rate, fit, stroke_peaks: peaks("stroke_deg")?, pitch_peaks: peaks("pitch_deg")? })
 }

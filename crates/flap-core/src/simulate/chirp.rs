@@ -6,13 +6,13 @@
 use core::ops::ControlFlow;
 
 use super::motion::{Sampler, check};
-use super::simulator::{ChirpRequest, ChirpResponse, SolverSettings, Trajectory};
+use super::simulator::{ChirpRequest, ChirpResponse, SolverSettings, Trajectory, Unfinished};
 use crate::measure::cycle::{Signals, Totals, finish};
 use crate::model::{Measure, Model};
 use crate::num::{PerLane, Scalar};
-use crate::ode::Start;
 use crate::ode::ensemble::Observer;
-use crate::ode::solve::solve;
+use crate::ode::solve::solve_until;
+use crate::ode::{Interrupt, Start};
 use crate::parameter::Invalid;
 
 /// Sweeps the drive's frequency, from rest.
@@ -21,7 +21,8 @@ pub(super) fn respond<M, R, const N: usize, const S: usize>(
     solver: &SolverSettings,
     values: &[f64],
     request: &ChirpRequest,
-) -> Result<ChirpResponse, Invalid>
+    interrupted: Interrupt<'_>,
+) -> Result<ChirpResponse, Unfinished>
 where
     M: Model<N, S>,
     R: Scalar,
@@ -31,7 +32,8 @@ where
         return Err(Invalid::new(format!(
             "a chirp from {from} Hz cannot reach {to} Hz at {rate} Hz/s: frequencies are more than zero, and \
              the rate has the sign of the change"
-        )));
+        ))
+        .into());
     }
     let model = &model.variant(values);
     let start = model.start(values)?;
@@ -52,10 +54,11 @@ where
         let cycle = Start { constants, y, span, scale: start.scale };
         let mut totals = Observer::<M, N>::nothing(&observer).map(|one| Totals::<R>::fill((), &one));
         sampler.begin_cycle(span);
-        let outcome = solve::<M, R, N>(
+        let outcome = solve_until::<M, R, N>(
             &model,
             &solver.tolerances(),
             &cycle,
+            interrupted,
             |c, attempt| {
                 R::enter(
                     #[inline(always)]
@@ -70,7 +73,7 @@ where
                 ControlFlow::Break(())
             },
         );
-        check(outcome.ending)?;
+        check(outcome.ending, interrupted)?;
 
         let mut row = vec![time, time + span, 1.0 / span];
         for (signal, cycle) in M::SIGNALS.iter().zip(&finish(&totals.map(|total| total.get(0)), span)) {

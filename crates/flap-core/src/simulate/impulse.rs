@@ -3,11 +3,11 @@
 use core::ops::ControlFlow;
 
 use super::motion::{Sampler, check};
-use super::simulator::{ImpulseRequest, SolverSettings, Trajectory};
+use super::simulator::{ImpulseRequest, SolverSettings, Trajectory, Unfinished};
 use crate::model::Model;
 use crate::num::Scalar;
-use crate::ode::Start;
-use crate::ode::solve::solve;
+use crate::ode::solve::solve_until;
+use crate::ode::{Interrupt, Start};
 use crate::parameter::Invalid;
 
 /// Gives the stroke an impulse and samples the motion that follows.
@@ -16,7 +16,8 @@ pub(super) fn respond<M, R, const N: usize, const S: usize>(
     solver: &SolverSettings,
     values: &[f64],
     request: &ImpulseRequest,
-) -> Result<Trajectory, Invalid>
+    interrupted: Interrupt<'_>,
+) -> Result<Trajectory, Unfinished>
 where
     M: Model<N, S>,
     R: Scalar,
@@ -48,10 +49,11 @@ where
 
     let mut sampler = Sampler::new(per_span);
     let mut ended = 0;
-    let outcome = solve::<M, R, N>(
+    let outcome = solve_until::<M, R, N>(
         &model,
         &solver.tolerances(),
         &start,
+        interrupted,
         |c, attempt| {
             if attempt.t.lane(0) == 0.0 {
                 sampler.begin_cycle(span);
@@ -63,7 +65,7 @@ where
             if ended == spans { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         },
     );
-    check(outcome.ending)?;
+    check(outcome.ending, interrupted)?;
     let mut motion = sampler.finish::<M, N, S>();
     motion.rows.truncate(intervals as usize + 1);
     Ok(motion)

@@ -66,11 +66,14 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Kernel
                 let occupancy = run(simd, model, &Unobserved, &tolerances, &mut marching);
                 marching.lane_use.marching += occupancy;
                 marching.find_and_measure();
-                if marching.resumed.is_empty() {
+                if marching.resumed.is_empty() || marching.jobs.interrupted() {
                     break;
                 }
             }
             Marching { waiting, lane_use, .. } = marching;
+            if jobs.interrupted() {
+                break;
+            }
         }
         jobs.occupied(&lane_use);
     }
@@ -136,18 +139,20 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
             return;
         }
         let tolerances = self.solver.tolerances();
-        let mut varying = Varying::<_, N, K> { pending: std::mem::take(&mut self.near), done: Vec::new() };
+        let pending = std::mem::take(&mut self.near);
+        let mut varying = Varying::<_, N, K> { jobs: &*self.jobs, pending, done: Vec::new() };
         self.lane_use.varying +=
             run(self.simd, &Variation(self.model), &Unobserved, &tolerances, &mut varying);
+        let Varying { pending, done, .. } = varying;
         let mut orbits = Vec::new();
-        for (run, next) in varying.done.drain(..) {
+        for (run, next) in done {
             match (next, row::unmeasured(&run.search)) {
                 (Next::March(y), _) => self.resumed.push((run, y)),
                 (_, Some(row)) => self.jobs.done(run.index, row),
                 (_, None) => orbits.push(run),
             }
         }
-        self.near = varying.pending;
+        self.near = pending;
         let mut measuring =
             Measuring { model: self.model, jobs: &mut *self.jobs, orbits: orbits.into_iter() };
         self.lane_use.measuring += run(self.simd, self.model, &Signals::<S>, &tolerances, &mut measuring);
@@ -194,16 +199,21 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Qu
             self.find_and_measure();
         }
     }
+
+    fn interrupted(&self) -> bool {
+        self.jobs.interrupted()
+    }
 }
 
 /// The queue of the second ensemble.
-struct Varying<C, const N: usize, const K: usize> {
+struct Varying<'a, C, const N: usize, const K: usize> {
+    jobs: &'a dyn Jobs,
     pending: Vec<Paused<C, N>>,
     done: Vec<(Searched<C, N>, Next<N>)>,
 }
 
 impl<M: Ode<N>, const N: usize, const K: usize> Queue<Variation<'_, M, N>, Unobserved, K>
-    for Varying<M::Constants<f64>, N, K>
+    for Varying<'_, M::Constants<f64>, N, K>
 {
     /// The run, and the end of its period.
     type Run = (Searched<M::Constants<f64>, N>, Option<[f64; K]>);
@@ -224,6 +234,10 @@ impl<M: Ode<N>, const N: usize, const K: usize> Queue<Variation<'_, M, N>, Unobs
             Next::Vary(y) => self.pending.push((run, y)),
             next => self.done.push((run, next)),
         }
+    }
+
+    fn interrupted(&self) -> bool {
+        self.jobs.interrupted()
     }
 }
 
@@ -263,5 +277,9 @@ where
         let Measured { run: Searched { index, start, search }, totals } = measured;
         let row = row::measured(&search, self.model, &start.constants, start.span, totals.as_ref(), outcome);
         self.jobs.done(index, row);
+    }
+
+    fn interrupted(&self) -> bool {
+        self.jobs.interrupted()
     }
 }

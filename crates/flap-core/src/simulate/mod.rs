@@ -17,8 +17,10 @@ mod simulator;
 
 pub use simulator::{
     ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, LaneUse, Period, Point, Row,
-    Rows, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest,
+    Rows, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest, Unfinished,
 };
+
+pub use crate::ode::{Interrupt, never};
 
 use crate::drive::Source;
 use crate::model::bimorph::Bimorph;

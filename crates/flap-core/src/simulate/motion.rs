@@ -4,13 +4,13 @@ use core::ops::ControlFlow;
 
 use super::row::unmeasured;
 use super::scalar::search;
-use super::simulator::{SolverSettings, Trajectory, TrajectoryRequest};
+use super::simulator::{SolverSettings, Trajectory, TrajectoryRequest, Unfinished};
 use crate::model::Model;
 use crate::num::Scalar;
-use crate::ode::Ending;
 use crate::ode::dense::interpolate;
-use crate::ode::solve::solve;
+use crate::ode::solve::solve_until;
 use crate::ode::step::Attempt;
+use crate::ode::{Ending, Interrupt};
 use crate::parameter::Invalid;
 
 /// Samples the motion of a point.
@@ -19,7 +19,8 @@ pub(super) fn trajectory<M, R, const N: usize, const K: usize, const S: usize>(
     solver: &SolverSettings,
     values: &[f64],
     request: &TrajectoryRequest,
-) -> Result<Trajectory, Invalid>
+    interrupted: Interrupt<'_>,
+) -> Result<Trajectory, Unfinished>
 where
     M: Model<N, S>,
     R: Scalar,
@@ -27,24 +28,29 @@ where
     let model = &model.variant(values);
     let mut start = model.start(values)?;
     if request.settled {
-        let search = search::<M, R, N, K, S>(model, solver, &start, false);
+        let search = search::<M, R, N, K, S>(model, solver, &start, false, interrupted);
+        if interrupted() {
+            return Err(Unfinished::Interrupted);
+        }
         if let Some(row) = unmeasured(&search) {
             return Err(Invalid::new(format!(
                 "the motion does not settle on an orbit of one drive period (status {}, {} cycles); \
                  sample it from rest instead",
                 row.status.name(),
                 row.cycles
-            )));
+            ))
+            .into());
         }
         start.y = search.orbit().map_or(start.y, |orbit| orbit.y);
     }
 
     let mut sampler = Sampler::new(request.samples_per_cycle);
     let mut ended = 0;
-    let outcome = solve::<M, R, N>(
+    let outcome = solve_until::<M, R, N>(
         model,
         &solver.tolerances(),
         &start,
+        interrupted,
         |c, attempt| {
             if attempt.t.lane(0) == 0.0 {
                 sampler.begin_cycle(start.span);
@@ -56,17 +62,20 @@ where
             if ended == request.cycles { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         },
     );
-    check(outcome.ending)?;
+    check(outcome.ending, interrupted)?;
     Ok(sampler.finish::<M, N, S>())
 }
 
 /// Why a motion did not get as far as requested.
-pub(super) fn check(ending: Ending) -> Result<(), Invalid> {
+pub(super) fn check(ending: Ending, interrupted: Interrupt<'_>) -> Result<(), Unfinished> {
+    if interrupted() {
+        return Err(Unfinished::Interrupted);
+    }
     match ending {
         Ending::Stopped => Ok(()),
-        Ending::Diverged => Err(Invalid::new("the motion diverges")),
+        Ending::Diverged => Err(Invalid::new("the motion diverges").into()),
         Ending::StepLimit => {
-            Err(Invalid::new("the motion needs more than max_steps steps in a drive period"))
+            Err(Invalid::new("the motion needs more than max_steps steps in a drive period").into())
         }
     }
 }

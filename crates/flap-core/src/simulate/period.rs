@@ -6,12 +6,12 @@ use super::motion::check;
 use super::row::measures;
 use super::scalar::cycle;
 use super::search::{begin, varied};
-use super::simulator::{Period, SolverSettings};
+use super::simulator::{Period, SolverSettings, Unfinished};
 use crate::model::Model;
 use crate::num::Scalar;
-use crate::ode::solve::solve;
+use crate::ode::Interrupt;
+use crate::ode::solve::solve_until;
 use crate::ode::variation::{Variation, response};
-use crate::parameter::Invalid;
 
 /// Follows a point from the state `from` for one drive period.
 pub(super) fn from<M, R, const N: usize, const K: usize, const S: usize>(
@@ -19,7 +19,8 @@ pub(super) fn from<M, R, const N: usize, const K: usize, const S: usize>(
     solver: &SolverSettings,
     values: &[f64],
     from: &[f64],
-) -> Result<Period, Invalid>
+    interrupted: Interrupt<'_>,
+) -> Result<Period, Unfinished>
 where
     M: Model<N, S>,
     R: Scalar,
@@ -27,20 +28,21 @@ where
     let model = &model.variant(values);
     let start = begin(model, values, Some(from))?;
     let mut all = [0.0; K];
-    let outcome = solve::<Variation<'_, M, N>, R, K>(
+    let outcome = solve_until::<Variation<'_, M, N>, R, K>(
         &Variation(model),
         &solver.tolerances(),
         &varied(&start, &start.y),
+        interrupted,
         |_, _| {},
         |end| {
             all = *end;
             ControlFlow::Break(())
         },
     );
-    check(outcome.ending)?;
+    check(outcome.ending, interrupted)?;
     let varied = outcome.rhs_evals * (N as u64 + 1);
-    let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start);
-    check(outcome.ending)?;
+    let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start, interrupted);
+    check(outcome.ending, interrupted)?;
     let measures = totals.map(|totals| measures(model, &start.constants, &totals, start.span));
     Ok(Period {
         end: all[..N].to_vec(),

@@ -6,13 +6,14 @@ use super::lanes::{LanesKernel, Sized};
 use super::scalar::Scalars;
 use super::simulator::{
     ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Period, Row, Rows, Simulator,
-    SolverSettings, Trajectory, TrajectoryRequest,
+    SolverSettings, Trajectory, TrajectoryRequest, Unfinished,
 };
 use super::{imposed, row};
 use crate::drive::Samples;
 use crate::model::Model;
 use crate::modes::Mode;
 use crate::num::InstructionSet;
+use crate::ode::Interrupt;
 use crate::parameter::{Invalid, Parameter, Preset};
 
 /// A model with N states, K = N (N + 1) states and responses, and S signals.
@@ -72,8 +73,9 @@ impl<M: Model<N, S> + 'static, const N: usize, const K: usize, const S: usize> S
         solver: &SolverSettings,
         values: &[f64],
         begin: &[f64],
-    ) -> Result<Period, Invalid> {
-        Scalars { model: &self.model, solver, values }.period::<N, K, S>(set, begin)
+        interrupted: Interrupt<'_>,
+    ) -> Result<Period, Unfinished> {
+        Scalars { model: &self.model, solver, values }.period::<N, K, S>(set, begin, interrupted)
     }
 
     fn trajectory(
@@ -82,8 +84,9 @@ impl<M: Model<N, S> + 'static, const N: usize, const K: usize, const S: usize> S
         solver: &SolverSettings,
         values: &[f64],
         request: &TrajectoryRequest,
-    ) -> Result<Trajectory, Invalid> {
-        Scalars { model: &self.model, solver, values }.trajectory::<N, K, S>(set, request)
+        interrupted: Interrupt<'_>,
+    ) -> Result<Trajectory, Unfinished> {
+        Scalars { model: &self.model, solver, values }.trajectory::<N, K, S>(set, request, interrupted)
     }
 
     fn chirp(
@@ -92,8 +95,9 @@ impl<M: Model<N, S> + 'static, const N: usize, const K: usize, const S: usize> S
         solver: &SolverSettings,
         values: &[f64],
         request: &ChirpRequest,
-    ) -> Result<ChirpResponse, Invalid> {
-        Scalars { model: &self.model, solver, values }.chirp::<N, S>(set, request)
+        interrupted: Interrupt<'_>,
+    ) -> Result<ChirpResponse, Unfinished> {
+        Scalars { model: &self.model, solver, values }.chirp::<N, S>(set, request, interrupted)
     }
 
     fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Invalid> {
@@ -115,7 +119,8 @@ impl<M: Model<N, S> + 'static, const N: usize, const K: usize, const S: usize> S
         solver: &SolverSettings,
         values: &[f64],
         request: &ImpulseRequest,
-    ) -> Result<Trajectory, Invalid> {
-        Scalars { model: &self.model, solver, values }.free_response::<N, S>(set, request)
+        interrupted: Interrupt<'_>,
+    ) -> Result<Trajectory, Unfinished> {
+        Scalars { model: &self.model, solver, values }.free_response::<N, S>(set, request, interrupted)
     }
 }

@@ -6,23 +6,24 @@ use super::row;
 use super::search::{Next, Search, begin, varied};
 use super::simulator::{
     ChirpRequest, ChirpResponse, ImpulseRequest, Period, Row, SolverSettings, Trajectory, TrajectoryRequest,
+    Unfinished,
 };
 use super::{chirp, impulse, motion, period};
 use crate::measure::cycle::{Signals, Totals};
 use crate::model::Model;
 use crate::num::{Arithmetic, InstructionSet, PerLane, Scalar, Unfused};
 use crate::ode::ensemble::Observer;
-use crate::ode::solve::solve;
+use crate::ode::solve::solve_until;
 use crate::ode::variation::Variation;
-use crate::ode::{Ending, Outcome, Start};
-use crate::parameter::Invalid;
+use crate::ode::{Ending, Interrupt, Outcome, Start, never};
 
-/// Searches for the orbit of a point; `nearby` if it begins perhaps near that.
+/// Searches for the orbit of a point; `nearby` if it begins perhaps near that. Interrupted, it comes to nothing.
 pub(super) fn search<M, R, const N: usize, const K: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,
     start: &Start<M::Constants<f64>, N>,
     nearby: bool,
+    interrupted: Interrupt<'_>,
 ) -> Search<N>
 where
     M: Model<N, S>,
@@ -35,16 +36,19 @@ where
         next = match next {
             Next::March(y) => {
                 let from = Start { y, ..*start };
-                let outcome = solve::<M, R, N>(model, tolerances, &from, |_, _| {}, |y| search.period_end(y));
+                let period_end = |y: &[f64; N]| search.period_end(y);
+                let outcome =
+                    solve_until::<M, R, N>(model, tolerances, &from, interrupted, |_, _| {}, period_end);
                 search.marched(outcome)
             }
             Next::Vary(y) => {
                 let from = varied(start, &y);
                 let mut end = None;
-                let outcome = solve::<Variation<'_, M, N>, R, K>(
+                let outcome = solve_until::<Variation<'_, M, N>, R, K>(
                     &Variation(model),
                     tolerances,
                     &from,
+                    interrupted,
                     |_, _| {},
                     |all| {
                         end = Some(*all);
@@ -74,13 +78,13 @@ where
         Ok(start) => start,
         Err(error) => return Row::invalid(error),
     };
-    let search = search::<M, R, N, K, S>(model, solver, &start, from.is_some());
+    let search = search::<M, R, N, K, S>(model, solver, &start, from.is_some(), &never);
     if let Some(row) = row::unmeasured(&search) {
         return row;
     }
 
     start.y = search.orbit().map_or(start.y, |orbit| orbit.y);
-    let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start);
+    let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start, &never);
     row::measured(&search, model, &start.constants, start.span, totals.as_ref(), outcome)
 }
 
@@ -89,6 +93,7 @@ pub(super) fn cycle<M, R, const N: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,
     start: &Start<M::Constants<f64>, N>,
+    interrupted: Interrupt<'_>,
 ) -> (Option<[Totals<f64>; S]>, Outcome)
 where
     M: Model<N, S>,
@@ -96,10 +101,11 @@ where
 {
     let observer = Signals::<S>;
     let mut totals = Observer::<M, N>::nothing(&observer).map(|one| Totals::<R>::fill((), &one));
-    let outcome = solve::<M, R, N>(
+    let outcome = solve_until::<M, R, N>(
         model,
         &solver.tolerances(),
         start,
+        interrupted,
         |c, accepted| {
             R::enter(
                 #[inline(always)]
@@ -140,14 +146,19 @@ impl<M> Scalars<'_, M> {
         &self,
         set: InstructionSet,
         request: &TrajectoryRequest,
-    ) -> Result<Trajectory, Invalid>
+        interrupted: Interrupt<'_>,
+    ) -> Result<Trajectory, Unfinished>
     where
         M: Model<N, S>,
     {
         let Scalars { model, solver, values } = *self;
         match set.arithmetic() {
-            Arithmetic::Fused => motion::trajectory::<M, f64, N, K, S>(model, solver, values, request),
-            Arithmetic::Unfused => motion::trajectory::<M, Unfused, N, K, S>(model, solver, values, request),
+            Arithmetic::Fused => {
+                motion::trajectory::<M, f64, N, K, S>(model, solver, values, request, interrupted)
+            }
+            Arithmetic::Unfused => {
+                motion::trajectory::<M, Unfused, N, K, S>(model, solver, values, request, interrupted)
+            }
         }
     }
 
@@ -156,14 +167,17 @@ impl<M> Scalars<'_, M> {
         &self,
         set: InstructionSet,
         begin: &[f64],
-    ) -> Result<Period, Invalid>
+        interrupted: Interrupt<'_>,
+    ) -> Result<Period, Unfinished>
     where
         M: Model<N, S>,
     {
         let Scalars { model, solver, values } = *self;
         match set.arithmetic() {
-            Arithmetic::Fused => period::from::<M, f64, N, K, S>(model, solver, values, begin),
-            Arithmetic::Unfused => period::from::<M, Unfused, N, K, S>(model, solver, values, begin),
+            Arithmetic::Fused => period::from::<M, f64, N, K, S>(model, solver, values, begin, interrupted),
+            Arithmetic::Unfused => {
+                period::from::<M, Unfused, N, K, S>(model, solver, values, begin, interrupted)
+            }
         }
     }
 
@@ -172,14 +186,17 @@ impl<M> Scalars<'_, M> {
         &self,
         set: InstructionSet,
         request: &ChirpRequest,
-    ) -> Result<ChirpResponse, Invalid>
+        interrupted: Interrupt<'_>,
+    ) -> Result<ChirpResponse, Unfinished>
     where
         M: Model<N, S>,
     {
         let Scalars { model, solver, values } = *self;
         match set.arithmetic() {
-            Arithmetic::Fused => chirp::respond::<M, f64, N, S>(model, solver, values, request),
-            Arithmetic::Unfused => chirp::respond::<M, Unfused, N, S>(model, solver, values, request),
+            Arithmetic::Fused => chirp::respond::<M, f64, N, S>(model, solver, values, request, interrupted),
+            Arithmetic::Unfused => {
+                chirp::respond::<M, Unfused, N, S>(model, solver, values, request, interrupted)
+            }
         }
     }
 
@@ -188,14 +205,19 @@ impl<M> Scalars<'_, M> {
         &self,
         set: InstructionSet,
         request: &ImpulseRequest,
-    ) -> Result<Trajectory, Invalid>
+        interrupted: Interrupt<'_>,
+    ) -> Result<Trajectory, Unfinished>
     where
         M: Model<N, S>,
     {
         let Scalars { model, solver, values } = *self;
         match set.arithmetic() {
-            Arithmetic::Fused => impulse::respond::<M, f64, N, S>(model, solver, values, request),
-            Arithmetic::Unfused => impulse::respond::<M, Unfused, N, S>(model, solver, values, request),
+            Arithmetic::Fused => {
+                impulse::respond::<M, f64, N, S>(model, solver, values, request, interrupted)
+            }
+            Arithmetic::Unfused => {
+                impulse::respond::<M, Unfused, N, S>(model, solver, values, request, interrupted)
+            }
         }
     }
 }

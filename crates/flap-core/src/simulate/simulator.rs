@@ -3,8 +3,8 @@
 use crate::drive::Samples;
 use crate::modes::Mode;
 use crate::num::InstructionSet;
-use crate::ode::Tolerances;
 use crate::ode::ensemble::Occupancy;
+use crate::ode::{Interrupt, Tolerances};
 use crate::parameter::{Invalid, Parameter, Preset};
 
 /// What turns design points into rows.
@@ -19,7 +19,7 @@ pub trait Rows: Sync {
     fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs);
 
     /// Runs one point on scalars, in the arithmetic class of `set`, from rest or from the state `begin` (see
-    /// [`Point::begin`]). Gives the same bits as [`Rows::run`].
+    /// [`Point::begin`]). Gives the same bits as [`Rows::run`], which can be interrupted.
     fn run_point(
         &self,
         set: InstructionSet,
@@ -46,38 +46,44 @@ pub trait Simulator: Rows {
     /// Follows one point for one drive period from the state `begin`, whether the motion repeats or not.
     ///
     /// # Errors
-    /// [`Invalid`] if the values are impossible together, `begin` is not a state, or the motion fails on the way.
+    /// [`Unfinished`] if it is interrupted, the values are impossible together, `begin` is not a state, or the motion
+    /// fails on the way.
     fn period(
         &self,
         set: InstructionSet,
         solver: &SolverSettings,
         values: &[f64],
         begin: &[f64],
-    ) -> Result<Period, Invalid>;
+        interrupted: Interrupt<'_>,
+    ) -> Result<Period, Unfinished>;
 
     /// Samples the motion of one point, settled or from rest.
     ///
     /// # Errors
-    /// [`Invalid`] if the values are impossible together, or the motion does not get as far as requested.
+    /// [`Unfinished`] if it is interrupted, the values are impossible together, or the motion does not get as far as
+    /// requested.
     fn trajectory(
         &self,
         set: InstructionSet,
         solver: &SolverSettings,
         values: &[f64],
         request: &TrajectoryRequest,
-    ) -> Result<Trajectory, Invalid>;
+        interrupted: Interrupt<'_>,
+    ) -> Result<Trajectory, Unfinished>;
 
     /// The response of one point to a chirp in place of its drive frequency.
     ///
     /// # Errors
-    /// [`Invalid`] if the values are impossible together, the chirp is, or the motion fails on the way.
+    /// [`Unfinished`] if it is interrupted, the values are impossible together, the chirp is, or the motion fails on the
+    /// way.
     fn chirp(
         &self,
         set: InstructionSet,
         solver: &SolverSettings,
         values: &[f64],
         request: &ChirpRequest,
-    ) -> Result<ChirpResponse, Invalid>;
+        interrupted: Interrupt<'_>,
+    ) -> Result<ChirpResponse, Unfinished>;
 
     /// States and signals along a given motion. What the actuator would do is not a number.
     ///
@@ -97,14 +103,27 @@ pub trait Simulator: Rows {
     /// The free motion of one point after an impulse on the stroke, with the drive held still.
     ///
     /// # Errors
-    /// [`Invalid`] if the values are impossible together, the request is, or the motion fails on the way.
+    /// [`Unfinished`] if it is interrupted, the values are impossible together, the request is, or the motion fails on
+    /// the way.
     fn free_response(
         &self,
         set: InstructionSet,
         solver: &SolverSettings,
         values: &[f64],
         request: &ImpulseRequest,
-    ) -> Result<Trajectory, Invalid>;
+        interrupted: Interrupt<'_>,
+    ) -> Result<Trajectory, Unfinished>;
+}
+
+/// Why a motion was not followed as far as requested.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Unfinished {
+    /// The values or the request are impossible, or the motion fails on the way.
+    #[error(transparent)]
+    Invalid(#[from] Invalid),
+    /// The caller has interrupted it.
+    #[error("interrupted")]
+    Interrupted,
 }
 
 /// A drive period.
@@ -194,6 +213,11 @@ pub trait Jobs {
 
     /// Takes the row of the point with this index.
     fn done(&mut self, index: u64, row: Row);
+
+    /// Whether to end at once. Points that have no row yet get none, and `next` is to give no more. See [`Interrupt`].
+    fn interrupted(&self) -> bool {
+        false
+    }
 
     /// Told at the end how full the lanes were.
     fn occupied(&mut self, lanes: &LaneUse) {

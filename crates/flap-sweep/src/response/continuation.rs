@@ -6,8 +6,7 @@
 //! through the last two.
 
 use flap_core::num::InstructionSet;
-use flap_core::parameter::Invalid;
-use flap_core::simulate::{Period, Point, Row, SolverSettings, Status};
+use flap_core::simulate::{Period, Point, Row, SolverSettings, Status, Unfinished, never};
 use nalgebra::{DMatrix, DVector};
 
 use super::follow::{Comparison, compare, sizes};
@@ -125,9 +124,9 @@ impl Branch<'_> {
     }
 
     /// One drive period from a place.
-    fn period(&self, place: &DVector<f64>) -> Result<Period, Invalid> {
+    fn period(&self, place: &DVector<f64>) -> Result<Period, Unfinished> {
         let values = values(self.plan, self.along, self.design, self.value(place));
-        self.plan.simulator.period(InstructionSet::best(), &self.solver, &values, &self.state(place))
+        self.plan.simulator.period(InstructionSet::best(), &self.solver, &values, &self.state(place), &never)
     }
 
     /// The orbit nearest to `guess` on the plane through it across `direction`, by Newton's iteration.

@@ -1,0 +1,134 @@
+//! Work that ends early: at once, without rows that nobody could trust.
+
+use std::cell::Cell;
+
+use flap_core::num::InstructionSet;
+use flap_core::resonance::{driven, free};
+use flap_core::simulate::{
+    ChirpRequest, ImpulseRequest, Jobs, Point, Row, Simulator, SolverSettings, TrajectoryRequest, Unfinished,
+    never, preset,
+};
+
+use crate::rows::bits;
+
+/// Settings with which no motion ever settles.
+const ENDLESS: SolverSettings = SolverSettings {
+    rtol: 1e-6,
+    atol: 1e-8,
+    settle_tol: 1e-300,
+    max_cycles: 1_000_000_000,
+    max_steps: u32::MAX,
+    newton: false,
+};
+
+/// Points that are interrupted when `until` says so of how often that was asked, and of the rows so far.
+struct Interrupted<F> {
+    points: Vec<Vec<f64>>,
+    next: usize,
+    rows: Vec<(usize, Row)>,
+    asked: Cell<u32>,
+    until: F,
+}
+
+impl<F: Fn(u32, usize) -> bool> Interrupted<F> {
+    fn run(model: &dyn Simulator, solver: &SolverSettings, points: Vec<Vec<f64>>, until: F) -> Self {
+        let mut jobs = Interrupted { points, next: 0, rows: Vec::new(), asked: Cell::new(0), until };
+        model.run(InstructionSet::best(), solver, &mut jobs);
+        jobs
+    }
+}
+
+impl<F: Fn(u32, usize) -> bool> Jobs for Interrupted<F> {
+    fn next(&mut self, _idle: bool) -> Option<Point> {
+        let point = self.points.get(self.next)?.clone();
+        self.next += 1;
+        Some(Point::at_rest(self.next as u64 - 1, point))
+    }
+
+    fn done(&mut self, index: u64, row: Row) {
+        self.rows.push((index as usize, row));
+    }
+
+    fn interrupted(&self) -> bool {
+        self.asked.set(self.asked.get() + 1);
+        (self.until)(self.asked.get(), self.rows.len())
+    }
+}
+
+/// A preset at some drive frequencies (Hz).
+fn points(name: &str, frequencies: impl Iterator<Item = f64>) -> (&'static dyn Simulator, Vec<Vec<f64>>) {
+    let (model, preset) = preset(name).unwrap();
+    let index = model.parameters().iter().position(|parameter| parameter.name == "drive_frequency").unwrap();
+    let values = frequencies.map(|frequency| {
+        let mut values = (preset.values)();
+        values[index] = frequency;
+        values
+    });
+    (model, values.collect())
+}
+
+#[test]
+fn points_that_never_settle_end_without_rows() {
+    for name in ["jafferis2016", "ozaki2018-small", "arabagi2013-75hz"] {
+        let (model, points) = points(name, (80..100).map(f64::from));
+        let jobs = Interrupted::run(model, &ENDLESS, points, |asked, _| asked >= 50);
+        assert!(jobs.rows.is_empty(), "{name}");
+        assert!(jobs.asked.get() < 100, "{name}: asked {} times", jobs.asked.get());
+    }
+}
+
+#[test]
+fn a_drive_period_of_very_many_steps_is_interrupted_halfway() {
+    let (model, points) = points("ozaki2018-small", [1e-3].into_iter());
+    let jobs = Interrupted::run(model, &ENDLESS, points.clone(), |asked, _| asked >= 5);
+    assert!(jobs.rows.is_empty());
+
+    let asked = Cell::new(0);
+    let interrupted = || {
+        asked.set(asked.get() + 1);
+        asked.get() >= 5
+    };
+    let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 10, settled: false };
+    let motion = model.trajectory(InstructionSet::best(), &ENDLESS, &points[0], &request, &interrupted);
+    assert_eq!(motion, Err(Unfinished::Interrupted));
+}
+
+#[test]
+fn rows_before_an_interruption_are_those_without_one() {
+    let solver = SolverSettings::default();
+    let (model, points) = points("ozaki2018-large", (0..2000).map(|i| 95.0 + 0.01 * f64::from(i)));
+    for newton in [true, false] {
+        let solver = SolverSettings { newton, ..solver };
+        let jobs = Interrupted::run(model, &solver, points.clone(), |_, rows| rows >= 300);
+        assert!((300..2000).contains(&jobs.rows.len()), "{} rows", jobs.rows.len());
+        for (index, row) in jobs.rows.iter().step_by(17) {
+            let alone = model.run_point(InstructionSet::best(), &solver, &points[*index], None);
+            assert_eq!(bits(row), bits(&alone), "point {index}");
+        }
+    }
+}
+
+#[test]
+fn motions_of_one_point_end_when_interrupted() {
+    let (model, points) = points("jafferis2016", [100.0].into_iter());
+    let (set, values) = (InstructionSet::best(), &points[0]);
+    let always = || true;
+    let interrupted = Some(Unfinished::Interrupted);
+
+    let settled = TrajectoryRequest { cycles: 1, samples_per_cycle: 10, settled: true };
+    assert_eq!(model.trajectory(set, &ENDLESS, values, &settled, &always).err(), interrupted);
+    let from_rest = TrajectoryRequest { cycles: 1_000_000_000, settled: false, ..settled };
+    assert_eq!(model.trajectory(set, &ENDLESS, values, &from_rest, &always).err(), interrupted);
+    let chirp = ChirpRequest { from: 90.0, to: 110.0, rate: 1e-6, samples_per_cycle: 0 };
+    assert_eq!(model.chirp(set, &ENDLESS, values, &chirp, &always).err(), interrupted);
+    let impulse = ImpulseRequest { stroke_rate: 1.0, duration: 1e6, intervals: 100 };
+    assert_eq!(model.free_response(set, &ENDLESS, values, &impulse, &always).err(), interrupted);
+    assert_eq!(model.period(set, &ENDLESS, values, &[0.0; 4], &always).err(), interrupted);
+    assert!(model.period(set, &ENDLESS, values, &[0.0; 4], &never).is_ok());
+
+    let request =
+        free::FreeRequest { amplitude: 0.1, fit_cycles: 10, spectrum_window: 1e3, samples_per_cycle: 20 };
+    assert_eq!(free::examine(model, set, &ENDLESS, values, &request, &always).err(), interrupted);
+    let search = driven::PeakSearch { from: 90.0, to: 110.0, tolerance: 0.1 };
+    assert_eq!(driven::search(model, set, &ENDLESS, values, &search, &always).err(), interrupted);
+}
