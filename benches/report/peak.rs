@@ -151,7 +151,13 @@ impl Queue<Wing, Unobserved, 4> for Alike<'_> {
         if self.left == 0 {
             (self.mark)();
         }
-        let start = Start { constants: Drive::new(0.1, 120.0), y: [0.0; 4], span: 1.0 / 120.0, scale: SCALE };
+        let start = Start {
+            constants: Drive::new(0.1, 120.0),
+            y: [0.0; 4],
+            span: 1.0 / 120.0,
+            scale: SCALE,
+            tighten: 1.0,
+        };
         Some((self.periods, start))
     }
 

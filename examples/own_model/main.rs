@@ -103,6 +103,7 @@ impl Kernel for Runs<'_> {
             y: [0.0; 4],
             span: 1.0 / frequency,
             scale: SCALE,
+            tighten: 1.0,
         };
         // Most periods are not looked at, which is cheaper; the last ones are.
         let mut settling = Part::new(PERIODS[0], self.points.iter().map(begin).collect());

@@ -44,7 +44,7 @@ fn motions_that_do_not_repeat_every_drive_period_have_no_numbers() {
         ("240", "90", "periodic", "1"),
     ];
     let mut rows = ended.stdout.lines();
-    let header = "point,drive_voltage_pp,drive_frequency,status,stroke_pp_deg,vehicle_lift_mgf,cycles,residual,period,floquet_max,stable,rhs_evals";
+    let header = "point,drive_voltage_pp,drive_frequency,status,stroke_pp_deg,vehicle_lift_mgf,cycles,residual,period,floquet_max,stable,error_estimate,rhs_evals";
     assert_eq!(rows.next(), Some(header));
     for (volts, hertz, status, period) in expected {
         let row = rows.next().unwrap();

@@ -29,7 +29,7 @@ AXIS  PARAMETER         FROM   TO     COUNT  UNIT
 first point, 0: drive_voltage_pp = 100.0 V, drive_frequency = 60.0 Hz
 last point, 29: drive_voltage_pp = 150.0 V, drive_frequency = 200.0 Hz
 
-rtol = 1e-6, atol = 1e-8, settle_tol = 1e-6, max_cycles = 1000, max_steps = 20000, newton = true
+rtol = 1e-6, atol = 1e-8, settle_tol = 1e-6, max_cycles = 1000, max_steps = 20000, accuracy = 0.001, newton = true
 
 "
     );

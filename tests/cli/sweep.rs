@@ -53,7 +53,9 @@ fn selected_columns_only() {
     let header = ended.stdout.lines().next();
     assert_eq!(
         header,
-        Some("point,drive_frequency,status,lift_mean_mn,cycles,residual,period,floquet_max,stable,rhs_evals")
+        Some(
+            "point,drive_frequency,status,lift_mean_mn,cycles,residual,period,floquet_max,stable,error_estimate,rhs_evals"
+        )
     );
 }
 

@@ -182,6 +182,7 @@ fn arenstorf(rtol: f64) -> ([f64; 4], Outcome, u64) {
         y: [0.994, 0.0, 0.0, -2.001_585_106_379_082_5],
         span: 17.065_216_560_157_964,
         scale: [1.0; 4],
+        tighten: 1.0,
     };
     let mut end = [0.0; 4];
     let mut accepted = 0;
@@ -260,7 +261,7 @@ impl Ode<2> for CountedSwitch<'_> {
 fn crossings_are_located_and_counted() {
     let counter = std::sync::atomic::AtomicU64::new(0);
     let span = 3.5 * std::f64::consts::PI;
-    let start = Start { constants: (), y: [2.0, 0.0], span, scale: [1.0; 2] };
+    let start = Start { constants: (), y: [2.0, 0.0], span, scale: [1.0; 2], tighten: 1.0 };
     let mut end = [0.0; 2];
     let outcome = solve::<_, f64, 2>(
         &CountedSwitch(&counter),
@@ -280,7 +281,7 @@ fn crossings_are_located_and_counted() {
 #[test]
 fn a_step_evaluates_the_right_hand_side_six_times() {
     let counter = std::sync::atomic::AtomicU64::new(0);
-    let start = Start { constants: (), y: [3.0], span: 10.0, scale: [1.0] };
+    let start = Start { constants: (), y: [3.0], span: 10.0, scale: [1.0], tighten: 1.0 };
     let mut accepted = 0;
     let outcome = solve::<_, f64, 1>(
         &Counted(&counter),
@@ -297,7 +298,7 @@ fn a_step_evaluates_the_right_hand_side_six_times() {
 /// Spans end exactly on their end: every step ends where the next begins.
 #[test]
 fn spans_are_tiled_without_gaps() {
-    let start = Start { constants: (), y: [1.0], span: 0.7, scale: [1.0] };
+    let start = Start { constants: (), y: [1.0], span: 0.7, scale: [1.0], tighten: 1.0 };
     let expected = std::cell::Cell::new(0.0);
     let mut spans = 0;
     solve::<_, f64, 1>(
@@ -336,7 +337,7 @@ impl Ode<1> for BlowUp {
 fn failures_become_endings() {
     let tolerances = Tolerances { rtol: 1e-6, atol: 1e-8, max_steps: 100_000 };
     let run = |y: f64, tolerances: &Tolerances| {
-        let start = Start { constants: (), y: [y], span: 2.0, scale: [1.0] };
+        let start = Start { constants: (), y: [y], span: 2.0, scale: [1.0], tighten: 1.0 };
         solve::<_, f64, 1>(&BlowUp, tolerances, &start, |_, _| {}, |_| ControlFlow::Break(())).ending
     };
     assert_eq!(run(0.1, &tolerances), Ending::Stopped);

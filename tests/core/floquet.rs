@@ -35,7 +35,13 @@ fn period<M: Model<4, S>, const S: usize>(
     );
     let mut scale = [0.0; 20];
     scale[..4].copy_from_slice(&start.scale);
-    let varied = Start { constants: start.constants, y: initial(&y, &start.scale), span: start.span, scale };
+    let varied = Start {
+        constants: start.constants,
+        y: initial(&y, &start.scale),
+        span: start.span,
+        scale,
+        tighten: 1.0,
+    };
     let mut all = [0.0; 20];
     solve::<Variation<'_, M, 4>, f64, 20>(
         &Variation(model),

@@ -18,6 +18,7 @@ const ENDLESS: SolverSettings = SolverSettings {
     settle_tol: 1e-300,
     max_cycles: 1_000_000_000,
     max_steps: u32::MAX,
+    accuracy: 1e-3,
     newton: false,
 };
 

@@ -9,6 +9,7 @@
     reason = "tests may panic and print, and their numbers are small"
 )]
 
+mod accuracy;
 mod bimorph;
 mod continued;
 mod data;

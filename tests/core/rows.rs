@@ -53,7 +53,8 @@ pub(crate) fn of_points(
 
 /// A row's numbers as bits, so that NaN equals NaN.
 pub(crate) fn bits(row: &Row) -> (Status, Vec<u64>, u32, u32, u64, &Option<String>) {
-    let numbers = [&row.measures[..], &row.state, &[row.residual, row.floquet_max]].concat();
+    let numbers =
+        [&row.measures[..], &row.state, &[row.residual, row.floquet_max, row.error_estimate]].concat();
     let numbers = numbers.iter().map(|number| number.to_bits()).collect();
     (row.status, numbers, row.cycles, row.period, row.rhs_evals, &row.reason)
 }

@@ -9,7 +9,7 @@ import flapwing
 import pytest
 
 PRESET = "ozaki2018-large"
-AFTER_MEASURES = ["cycles", "residual", "period", "floquet_max", "stable", "rhs_evals", "reason"]
+AFTER_MEASURES = ["cycles", "residual", "period", "floquet_max", "stable", "error_estimate", "rhs_evals", "reason"]
 
 
 def measures(row):

@@ -173,8 +173,16 @@ fn solver_settings() {
     assert_eq!(solver("rtol = 1e-6"), default);
     assert_eq!(solver("rtol = 1e-4"), SolverSettings { rtol: 1e-4, atol: 1e-6, ..default });
     assert_eq!(
-        solver("settle_tol = 1e-9\nmax_steps = 7\nmax_cycles = 5\natol = 1\nrtol = 0.01"),
-        SolverSettings { rtol: 0.01, atol: 1.0, settle_tol: 1e-9, max_cycles: 5, max_steps: 7, newton: true }
+        solver("settle_tol = 1e-9\nmax_steps = 7\nmax_cycles = 5\natol = 1\nrtol = 0.01\naccuracy = 0.02"),
+        SolverSettings {
+            rtol: 0.01,
+            atol: 1.0,
+            settle_tol: 1e-9,
+            max_cycles: 5,
+            max_steps: 7,
+            accuracy: 0.02,
+            newton: true
+        }
     );
 }
 

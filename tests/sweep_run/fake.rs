@@ -125,6 +125,7 @@ impl Fake {
             residual: if status == Status::Invalid { f64::NAN } else { 4e-9 },
             period: u32::from(status == Status::Periodic),
             floquet_max: if status == Status::Periodic { 0.5 } else { f64::NAN },
+            error_estimate: if status == Status::Periodic { 2e-5 } else { f64::NAN },
             state: vec![size],
             rhs_evals: 1000,
             reason: (status == Status::Invalid).then(|| format!("a size of {size} m is impossible")),

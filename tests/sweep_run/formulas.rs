@@ -28,7 +28,7 @@ fn rows_of_a_grid_with_formulas_read_like_this() {
     let (text, summary) = csv(&plan_of(Fake::leak(Fault::None, 4), GRID), &options(2, 100));
     assert_eq!(
         text,
-        "point,size,drive_frequency,span,status,lift_mean_mn,power_mean_mw,ratio,strong,cycles,residual,period,floquet_max,stable,rhs_evals\n\
+        "point,size,drive_frequency,span,status,lift_mean_mn,power_mean_mw,ratio,strong,cycles,residual,period,floquet_max,stable,error_estimate,rhs_evals\n\
          1,1.0,90.0,0.0,invalid,,,,,0,,0,,,0\n\
          3,3.0,70.0,2.0,subharmonic,,,,,10,4e-9,0,,,1000\n\
          4,4.0,60.0,3.0,unsettled,,,,,10,4e-9,0,,,1000\n\

@@ -23,7 +23,7 @@ drive_frequency = ["120 Hz"]
     assert!(summary.is_ok());
     assert_eq!(
         text,
-        "point,arms,size,drive_frequency,status,lift_mean_mn,power_mean_mw,cycles,residual,period,floquet_max,stable,rhs_evals\n\
+        "point,arms,size,drive_frequency,status,lift_mean_mn,power_mean_mw,cycles,residual,period,floquet_max,stable,error_estimate,rhs_evals\n\
          0,printed,3e-6,120.0,periodic,1e-6,0.00036,10,4e-9,1,0.5,true,1000\n\
          1,printed,4.0,120.0,unsettled,,,10,4e-9,0,,,1000\n\
          2,printed,7.0,120.0,invalid,,,10,,0,,,1000\n\
@@ -40,7 +40,7 @@ fn selected_columns_come_in_the_order_asked_for() {
     let (text, _) = csv(&plan_of(model, grid), &options(1, 100));
     assert_eq!(
         text,
-        "point,status,power_mean_mw,cycles,residual,period,floquet_max,stable,rhs_evals\n0,periodic,100.0,10,4e-9,1,0.5,true,1000\n"
+        "point,status,power_mean_mw,cycles,residual,period,floquet_max,stable,error_estimate,rhs_evals\n0,periodic,100.0,10,4e-9,1,0.5,true,2e-5,1000\n"
     );
 }
 

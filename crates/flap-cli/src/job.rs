@@ -11,7 +11,7 @@ pub(crate) use flap_sweep::job::Begin;
 use flap_sweep::job::{self, Before, Done, Job, Outcome};
 use flap_sweep::output;
 use flap_sweep::plan::Plan;
-use flap_sweep::run::{self, RunError, RunOptions, Summary};
+use flap_sweep::run::{self, Doubts, RunError, RunOptions, Summary};
 use flap_sweep::session::{self, SessionOptions};
 use flap_sweep::sidecar::{self, Origin, Sidecar};
 use flap_sweep::sink::Sink;
@@ -113,6 +113,7 @@ fn report(done: &Done) {
     if summary.excluded > 0 {
         console::say(&exclusion::text(summary.excluded, &summary.unsatisfied));
     }
+    report_doubts(done);
     let unsettled = summary.counts.of(Status::Unsettled);
     if unsettled > 0 {
         console::say(&format!(
@@ -127,6 +128,33 @@ fn report(done: &Done) {
         console::say(&format!("interrupted: the rows of the first {done} of {points} points are in {place}"));
     } else {
         console::say(&format!("{} rows in {place}", summary.rows));
+    }
+}
+
+/// Tells how many rows are to be read with care, and what helps.
+fn report_doubts(done: &Done) {
+    let Doubts { inaccurate, powerless, at_range_end } = done.summary.doubts;
+    if inaccurate > 0 {
+        let help = match &done.place {
+            Some(place) => {
+                format!("`flap rerun {} --inaccurate --rtol 1e-10` runs them again", place.display())
+            }
+            None => "lower rtol in [solver]".to_owned(),
+        };
+        console::say(&format!(
+            "{inaccurate} rows miss the accuracy of [solver], see their error_estimate: {help}"
+        ));
+    }
+    if powerless > 0 {
+        console::say(&format!(
+            "{powerless} rows have negative mean power: the model's air gives energy to the wing there (docs/model.md)"
+        ));
+    }
+    if at_range_end > 0 {
+        console::say(&format!(
+            "{at_range_end} resonances are at an end of their range (resonance_margin_hz is 0): they are no peaks, \
+             widen the range with from and to in [resonance]"
+        ));
     }
 }
 

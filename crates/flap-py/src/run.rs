@@ -107,6 +107,7 @@ fn row_to_dict<'py>(py: Python<'py>, columns: &[Column], row: &Row) -> PyResult<
     dict.set_item("period", row.period)?;
     dict.set_item("floquet_max", (!row.floquet_max.is_nan()).then_some(row.floquet_max))?;
     dict.set_item("stable", row.stable())?;
+    dict.set_item("error_estimate", (!row.error_estimate.is_nan()).then_some(row.error_estimate))?;
     dict.set_item("rhs_evals", row.rhs_evals)?;
     dict.set_item("reason", row.reason.as_deref())?;
     Ok(dict)

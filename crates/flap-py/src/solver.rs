@@ -8,7 +8,8 @@ use pyo3::types::PyDict;
 use crate::convert;
 
 /// The keywords, in the order of the signature.
-pub(crate) const NAMES: [&str; 6] = ["rtol", "atol", "settle_tol", "max_cycles", "max_steps", "newton"];
+pub(crate) const NAMES: [&str; 7] =
+    ["rtol", "atol", "settle_tol", "max_cycles", "max_steps", "accuracy", "newton"];
 
 /// Looser than this, an error estimate means nothing.
 const LARGEST_RTOL: f64 = 0.1;
@@ -21,6 +22,7 @@ pub(crate) struct Keywords<'py> {
     settle_tol: Option<Bound<'py, PyAny>>,
     max_cycles: Option<Bound<'py, PyAny>>,
     max_steps: Option<Bound<'py, PyAny>>,
+    accuracy: Option<Bound<'py, PyAny>>,
     newton: Option<Bound<'py, PyAny>>,
 }
 
@@ -39,6 +41,7 @@ impl<'py> Keywords<'py> {
                 "settle_tol" => &mut solver.settle_tol,
                 "max_cycles" => &mut solver.max_cycles,
                 "max_steps" => &mut solver.max_steps,
+                "accuracy" => &mut solver.accuracy,
                 "newton" => &mut solver.newton,
                 _ => {
                     others.push((name, value));
@@ -53,8 +56,7 @@ impl<'py> Keywords<'py> {
     /// Puts the settings that are given over those of `settings`.
     pub(crate) fn apply(&self, settings: &mut SolverSettings) -> PyResult<()> {
         if let Some(value) = &self.rtol {
-            settings.rtol = tolerance("rtol", LARGEST_RTOL, value)?;
-            settings.atol = settings.rtol / 100.0;
+            *settings = settings.with_rtol(tolerance("rtol", LARGEST_RTOL, value)?);
         }
         if let Some(value) = &self.atol {
             settings.atol = tolerance("atol", f64::INFINITY, value)?;
@@ -67,6 +69,9 @@ impl<'py> Keywords<'py> {
         }
         if let Some(value) = &self.max_steps {
             settings.max_steps = convert::count("max_steps", value)?;
+        }
+        if let Some(value) = &self.accuracy {
+            settings.accuracy = tolerance("accuracy", f64::INFINITY, value)?;
         }
         if let Some(value) = &self.newton {
             let flag = value.extract::<bool>();

@@ -163,13 +163,14 @@ fn work(
 /// Where rows come from.
 pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> PyResult<Bound<'py, PyDict>> {
     let identity = Identity::of(plan, options);
-    let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, newton } = plan.solver;
+    let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton } = plan.solver;
     let solver = PyDict::new(py);
     solver.set_item("rtol", rtol)?;
     solver.set_item("atol", atol)?;
     solver.set_item("settle_tol", settle_tol)?;
     solver.set_item("max_cycles", max_cycles)?;
     solver.set_item("max_steps", max_steps)?;
+    solver.set_item("accuracy", accuracy)?;
     solver.set_item("newton", newton)?;
     let dict = PyDict::new(py);
     dict.set_item("flap", identity.flap)?;

@@ -17,7 +17,7 @@ use toml::ser::ValueSerializer;
 use xxhash_rust::xxh3::xxh3_64;
 
 use crate::identity::Identity;
-use crate::run::Summary;
+use crate::run::{Doubts, Summary};
 use crate::sidecar::InvalidPoint;
 
 /// Version of the format.
@@ -50,6 +50,7 @@ pub struct Checkpoint {
     rhs_evals: u64,
     statuses: BTreeMap<String, u64>,
     unsatisfied: BTreeMap<String, u64>,
+    doubts: Doubts,
     invalid: Vec<InvalidPoint>,
 }
 
@@ -79,6 +80,7 @@ impl Checkpoint {
             rhs_evals: summary.rhs_evals,
             statuses: statuses.map(|(status, count)| (status.name().to_owned(), count)).collect(),
             unsatisfied: summary.unsatisfied.iter().cloned().collect(),
+            doubts: summary.doubts,
             invalid: summary.invalid.iter().map(invalid).collect(),
         }
     }
@@ -95,6 +97,7 @@ impl Checkpoint {
             counts: Status::ALL.into_iter().map(count).collect(),
             rhs_evals: self.rhs_evals,
             cycles: self.cycles,
+            doubts: self.doubts,
             invalid: self.invalid.iter().map(|invalid| (invalid.point, invalid.reason.clone())).collect(),
         }
     }

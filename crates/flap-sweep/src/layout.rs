@@ -9,7 +9,7 @@ use crate::text;
 
 /// The columns of the rows of a plan:
 /// `point`, the varied parameters, the derived ones, `status`, the measures, then `cycles`, `residual`, `period`,
-/// `floquet_max`, `stable`, `rhs_evals`.
+/// `floquet_max`, `stable`, `error_estimate`, `rhs_evals`.
 #[derive(Debug)]
 pub struct Layout {
     /// The varied parameters, then the derived ones, each with its index in the model's parameter table.
@@ -156,6 +156,11 @@ impl Layout {
                 "factor by which a change of the motion grows or decays per orbit in the end",
             ),
             ("stable", Kind::Flag, "whether motions near the orbit approach it"),
+            (
+                "error_estimate",
+                Kind::Number,
+                "estimated relative error of stroke, pitch, lift and power, the largest; inf if it cannot be estimated",
+            ),
             ("rhs_evals", Kind::Whole, "evaluations of the equations of motion"),
         ] {
             columns.push(Column::new(name, "", kind, doc));
@@ -171,8 +176,8 @@ impl Layout {
     /// One cell per column. What is not known is empty: the measures of a point that is not periodic,
     /// the multiplier and stability of one without an orbit, and the residual of one that completed no period.
     pub fn cells(&self, point: &Point, row: &Row) -> Vec<Cell> {
-        // Two cells before the measures and six behind them, besides the parameters.
-        let mut cells = Vec::with_capacity(8 + self.varied.len() + self.measures.len());
+        // Two cells before the measures and seven behind them, besides the parameters.
+        let mut cells = Vec::with_capacity(9 + self.varied.len() + self.measures.len());
         cells.push(Cell::Whole(point.index));
         cells.extend(
             self.varied.iter().map(|&(index, parameter)| Cell::of_parameter(parameter, point.values[index])),
@@ -190,6 +195,7 @@ impl Layout {
         cells.push(Cell::Whole(row.period.into()));
         cells.push(Cell::Number(row.floquet_max));
         cells.push(Cell::Flag(row.stable()));
+        cells.push(Cell::Number(row.error_estimate));
         cells.push(Cell::Whole(row.rhs_evals));
         cells
     }

@@ -197,6 +197,7 @@ pub fn summary(parts: &[Part], plan: &Plan) -> Summary {
         counts: Status::ALL.into_iter().map(count).collect(),
         rhs_evals: total(|sidecar| sidecar.rhs_evals),
         cycles: total(|sidecar| sidecar.cycles),
+        doubts: sidecars().filter_map(|sidecar| sidecar.doubts).sum(),
         invalid,
     }
 }

@@ -17,7 +17,7 @@ use crate::diagnostic::Diagnostic;
 use crate::layout::Layout;
 use crate::output;
 use crate::plan::{self, Plan};
-use crate::run::{RunOptions, Summary};
+use crate::run::{Doubts, RunOptions, Summary};
 use crate::selection::{self, Selection};
 use crate::{spec, text};
 
@@ -80,6 +80,8 @@ pub struct Sidecar {
     pub rhs_evals: Option<u64>,
     /// Rows by status.
     pub statuses: Option<BTreeMap<String, u64>>,
+    /// Rows to be read with care.
+    pub doubts: Option<Doubts>,
     /// For each condition, how many points do not satisfy it.
     #[serde(default)]
     pub unsatisfied: BTreeMap<String, u64>,
@@ -122,6 +124,8 @@ pub struct Solver {
     pub settle_tol: f64,
     pub max_cycles: u32,
     pub max_steps: u32,
+    #[serde(default = "default_accuracy")]
+    pub accuracy: f64,
     pub newton: bool,
 }
 
@@ -250,6 +254,7 @@ impl Sidecar {
             cycles: None,
             rhs_evals: None,
             statuses: None,
+            doubts: None,
             unsatisfied: BTreeMap::new(),
             solver: Solver::from(&plan.solver),
             rerun,
@@ -280,6 +285,7 @@ impl Sidecar {
         self.rhs_evals = Some(summary.rhs_evals);
         let statuses = summary.counts.iter().map(|(status, count)| (status.name().to_owned(), count));
         self.statuses = Some(statuses.collect());
+        self.doubts = Some(summary.doubts);
         self.unsatisfied = summary.unsatisfied.iter().cloned().collect();
         let invalid =
             |(point, reason): &(u64, String)| InvalidPoint { point: *point, reason: reason.clone() };
@@ -376,22 +382,28 @@ pub(crate) fn grid_hash(text: &str) -> String {
 impl Solver {
     /// Whether a grid file may have these settings.
     fn is_allowed(&self) -> bool {
-        let positive = [self.rtol, self.atol, self.settle_tol].iter().all(|tolerance| *tolerance > 0.0);
+        let positive =
+            [self.rtol, self.atol, self.settle_tol, self.accuracy].iter().all(|tolerance| *tolerance > 0.0);
         positive && self.rtol < spec::LARGEST_RTOL && self.max_cycles > 0 && self.max_steps > 0
     }
 }
 
+/// The accuracy of results whose sidecar does not tell it.
+fn default_accuracy() -> f64 {
+    SolverSettings::default().accuracy
+}
+
 impl From<&SolverSettings> for Solver {
     fn from(settings: &SolverSettings) -> Solver {
-        let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, newton } = *settings;
-        Solver { rtol, atol, settle_tol, max_cycles, max_steps, newton }
+        let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton } = *settings;
+        Solver { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton }
     }
 }
 
 impl From<&Solver> for SolverSettings {
     fn from(solver: &Solver) -> SolverSettings {
-        let Solver { rtol, atol, settle_tol, max_cycles, max_steps, newton } = *solver;
-        SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, newton }
+        let Solver { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton } = *solver;
+        SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton }
     }
 }
 

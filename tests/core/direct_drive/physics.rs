@@ -116,8 +116,13 @@ fn a_wing_in_vacuum_keeps_its_energy() {
         let p = Params { air_density: 0.0, drive_voltage_pp: 0.0, drive_bias: Some(30.0), ..p };
         let constants = Constants::derive(&p).unwrap();
         let total = |y: &[f64; 4]| energy(&constants, y) - constants.gamma * 30.0 * y[0];
-        let start =
-            Start { constants, y: [0.2, 0.5, 30.0, -80.0], span: 0.05, scale: [0.1, 0.3, 70.0, 200.0] };
+        let start = Start {
+            constants,
+            y: [0.2, 0.5, 30.0, -80.0],
+            span: 0.05,
+            scale: [0.1, 0.3, 70.0, 200.0],
+            tighten: 1.0,
+        };
         let tolerances = Tolerances { rtol: 1e-10, atol: 1e-12, max_steps: 100_000 };
         let initial = total(&start.y);
         let mut last = initial;

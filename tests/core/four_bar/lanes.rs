@@ -45,6 +45,7 @@ fn rows_equal_the_scalar_path_bit_for_bit() {
         settle_tol: 1e-4,
         max_cycles: 60,
         max_steps: 500,
+        accuracy: 1e-3,
         newton: true,
     };
     let rows = assert_lanes_equal_scalars(model(), &points(), &solver);

@@ -151,8 +151,13 @@ fn a_wing_in_vacuum_keeps_its_energy() {
             ..p
         };
         let constants = Constants::derive(&p).unwrap();
-        let start =
-            Start { constants, y: [0.3, 0.5, 30.0, -80.0], span: 0.1, scale: [0.3, 0.5, 100.0, 200.0] };
+        let start = Start {
+            constants,
+            y: [0.3, 0.5, 30.0, -80.0],
+            span: 0.1,
+            scale: [0.3, 0.5, 100.0, 200.0],
+            tighten: 1.0,
+        };
         let tolerances = Tolerances { rtol: 1e-10, atol: 1e-12, max_steps: 100_000 };
         let initial = energy(&constants, p.drive_bias, &start.y);
         let mut last = initial;
@@ -195,7 +200,8 @@ fn small_motions_have_the_natural_frequencies() {
         for i in 0..2 {
             y[i] = 1e-7 * shape[i] / shape[0].abs().max(shape[1].abs());
         }
-        let start = Start { constants, y, span: 10.0 / frequency, scale: [1.0, 1.0, 100.0, 100.0] };
+        let start =
+            Start { constants, y, span: 10.0 / frequency, scale: [1.0, 1.0, 100.0, 100.0], tighten: 1.0 };
         let mut end = y;
         solve::<_, f64, 4>(
             &FourBar::default(),

@@ -49,7 +49,7 @@ rtool = 1
   note: presets, with their models: fly (flapper), moth (flapper), flea (hopper)
   help: did you mean `moth`?
 3:1 |rtool| unknown key `rtool` in [solver] (unknown key)
-  note: keys in [solver]: rtol, atol, settle_tol, max_cycles, max_steps, newton
+  note: keys in [solver]: rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton
   help: did you mean `rtol`?
 "#,
     );
@@ -179,7 +179,7 @@ tol = 1
 6:14 |0| `max_cycles` must be a whole number of 1 or more, not 0
 7:13 |5e9| `max_steps` must be a whole number of 1 or more, not 5e9
 8:1 |tol| unknown key `tol` in [solver] (unknown key)
-  note: keys in [solver]: rtol, atol, settle_tol, max_cycles, max_steps, newton
+  note: keys in [solver]: rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton
   help: did you mean `atol`?
 ",
     );
@@ -205,7 +205,7 @@ max_step = 5
   help: write a bare number, such as 1e-6, without quotes
 6:14 |5000000000| `max_cycles` must be at most 4294967295, not 5000000000
 7:1 |max_step| unknown key `max_step` in [solver] (unknown key)
-  note: keys in [solver]: rtol, atol, settle_tol, max_cycles, max_steps, newton
+  note: keys in [solver]: rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton
   help: did you mean `max_steps`?
 "#,
     );
@@ -227,10 +227,10 @@ file = "a"
   note: columns: lift_mean_mn, power_mean_mw, stroke_pp_deg
   help: did you mean `lift_mean_mn`?
 4:25 |"status"| model `flapper` has no column `status` (unknown column)
-  note: every row has these columns, and the varied parameters, without asking: point, status, cycles, residual, period, floquet_max, stable, rhs_evals
+  note: every row has these columns, and the varied parameters, without asking: point, status, cycles, residual, period, floquet_max, stable, error_estimate, rhs_evals
   help: remove `status`: `columns` selects among the measures
 4:35 |"wing_area"| model `flapper` has no column `wing_area` (unknown column)
-  note: every row has these columns, and the varied parameters, without asking: point, status, cycles, residual, period, floquet_max, stable, rhs_evals
+  note: every row has these columns, and the varied parameters, without asking: point, status, cycles, residual, period, floquet_max, stable, error_estimate, rhs_evals
   help: remove `wing_area`: `columns` selects among the measures
 4:64 |3| `columns` must be text in quotes, not a number
 4:67 |"lift_mean_mn"| column `lift_mean_mn` is listed twice (again here)

@@ -121,6 +121,9 @@ fn page(chosen: &Chosen, row: &Row) -> String {
     let _ = write!(page, "\nstatus = {}, cycles = {cycles}, residual = {residual}, ", row.status.name());
     let stable = row.stable().map_or_else(|| "none".to_owned(), |stable| stable.to_string());
     let _ = write!(page, "period = {period}, floquet_max = {multiplier}, stable = {stable}, ");
+    if !row.error_estimate.is_nan() {
+        let _ = write!(page, "error_estimate = {}, ", six_digits(row.error_estimate));
+    }
     let _ = writeln!(page, "rhs_evals = {rhs_evals}");
     if !row.measures.is_empty() {
         let mut table = Table::with_headings(&["column", "value", "unit", "meaning"]);

@@ -1,10 +1,11 @@
 //! Signals over one drive period: means, extrema, first harmonics.
 //!
 //! Means and harmonics are quadratures advanced with the stages of each step: exact to the order of the
-//! integration, not sums over samples. They stand outside the error norm. Extrema, and the positive part of a
-//! signal in steps where it changes sign, come from the parabola through its values at the beginning, middle
-//! and end of the step.
+//! integration, not sums over samples. They stand outside the error norm. Extrema come from the polynomial through a
+//! signal's values at five places of each step; the positive part of a signal, in steps where it changes sign, from
+//! parabolas through three of them each.
 
+use super::course::Course;
 use crate::model::{Measure, Model, Signal, SignalCycle};
 use crate::num::Lanes;
 use crate::ode::dense::interpolate;
@@ -34,8 +35,19 @@ crate::per_lane! {
 }
 
 /// Sums up the S signals of a model along a run.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Signals<const S: usize>;
+#[derive(Clone, Copy, Debug)]
+pub struct Signals<const S: usize> {
+    /// Whether largest and smallest values and positive parts are looked for: they take most of the work. Without it they
+    /// are not numbers that mean anything.
+    pub extrema: bool,
+}
+
+impl<const S: usize> Signals<S> {
+    /// Sums up everything.
+    pub const ALL: Signals<S> = Signals { extrema: true };
+    /// Sums up means and first harmonics.
+    pub const MEANS: Signals<S> = Signals { extrema: false };
+}
 
 impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<S> {
     type Totals<R: Lanes> = [Totals<R>; S];
@@ -84,23 +96,16 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
             }
         }
 
-        let begin = signals(model, c, t, side, &step.y[0], &step.k[0]);
-        let y_middle = interpolate(step, h, zero.lit(0.5));
-        let half = h.mul_add(h.lit(0.5), t);
-        let slope_middle = slope(model, c, &model.input(c, half), side, &y_middle);
-        let middle = signals(model, c, half, side, &y_middle, &slope_middle);
-        let end = signals(model, c, t + h, side, &step.y[6], &step.k[6]);
-        for i in 0..S {
-            let parabola = Parabola::through(begin[i], middle[i], end[i]);
-            let vertex = parabola.vertex();
-            let max = begin[i].max(middle[i]).max(end[i]);
-            let min = begin[i].min(middle[i]).min(end[i]);
-            sums[i].max = max.max(vertex).max(sums[i].max);
-            sums[i].min = min.min(vertex).min(sums[i].min);
-            if needs_positive_part(&M::SIGNALS[i]) {
-                let changes_sign = (max * min).lt(zero);
-                let part = R::select(changes_sign, parabola.positive_mean() * h, positive[i]);
-                sums[i].positive = sums[i].positive + part;
+        if self.extrema {
+            let courses = courses(model, c, attempt);
+            for i in 0..S {
+                sums[i].max = courses[i].max.max(sums[i].max);
+                sums[i].min = courses[i].min.min(sums[i].min);
+                if needs_positive_part(&M::SIGNALS[i]) {
+                    let changes_sign = (courses[i].max * courses[i].min).lt(zero);
+                    let part = R::select(changes_sign, courses[i].positive_mean * h, positive[i]);
+                    sums[i].positive = sums[i].positive + part;
+                }
             }
         }
 
@@ -117,6 +122,52 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
             };
         }
     }
+}
+
+/// What a signal does within a step.
+#[derive(Clone, Copy)]
+struct Within<R> {
+    max: R,
+    min: R,
+    /// Mean of the positive part.
+    positive_mean: R,
+}
+
+/// What the signals do within a step, part by part; see [`Model::parts`].
+#[inline(always)]
+fn courses<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
+    model: &M,
+    c: &M::Constants<R>,
+    attempt: &Attempt<'_, R, N>,
+) -> [Within<R>; S] {
+    let Attempt { t, h, side, step } = *attempt;
+    let between = |theta: f64| {
+        let at = h.mul_add(h.lit(theta), t);
+        let y = interpolate(step, h, h.lit(theta));
+        let dy = slope(model, c, &model.input(c, at), side, &y);
+        signals(model, c, at, side, &y, &dy)
+    };
+    let last = signals(model, c, t + h, side, &step.y[6], &step.k[6]);
+    let mut begin = signals(model, c, t, side, &step.y[0], &step.k[0]);
+    let mut all = begin.map(|value| Within { max: value, min: value, positive_mean: value.lit(0.0) });
+    let parts = model.parts();
+    let share = 1.0 / f64::from(parts);
+    for part in 0..parts {
+        let place = |quarter: f64| (f64::from(part) + quarter) * share;
+        let (first, middle, third) = (between(place(0.25)), between(place(0.5)), between(place(0.75)));
+        let end = if part + 1 == parts { last } else { between(place(1.0)) };
+        for i in 0..S {
+            let course = Course::through([begin[i], first[i], middle[i], third[i], end[i]]);
+            let [min, max] = course.range();
+            all[i].max = max.max(all[i].max);
+            all[i].min = min.min(all[i].min);
+            if needs_positive_part(&M::SIGNALS[i]) {
+                all[i].positive_mean = all[i].positive_mean + course.positive_mean() * share;
+            }
+        }
+        begin = end;
+    }
+    all
 }
 
 /// The signals at time `t`. Called here for the sake of the compiler, see [`slope`].
@@ -137,60 +188,6 @@ fn signals<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
 
 fn needs_positive_part(signal: &Signal) -> bool {
     signal.measures.iter().any(|measure| matches!(measure, Measure::Supply | Measure::Magnitude))
-}
-
-/// A signal within a step: middle + slope x + ½ bend x², with x from −1 to 1.
-#[derive(Clone, Copy)]
-struct Parabola<R> {
-    begin: R,
-    middle: R,
-    end: R,
-    slope: R,
-    bend: R,
-}
-
-impl<R: Lanes> Parabola<R> {
-    #[inline(always)]
-    fn through(begin: R, middle: R, end: R) -> Parabola<R> {
-        Parabola { begin, middle, end, slope: (end - begin) * 0.5, bend: begin + end - middle * 2.0 }
-    }
-
-    /// The value at the vertex if that lies within the step, otherwise the middle value.
-    #[inline(always)]
-    fn vertex(&self) -> R {
-        let inside = self.slope.abs().lt(self.bend.abs());
-        let bend = R::select(inside, self.bend, self.bend.lit(1.0));
-        R::select(inside, self.middle - self.slope * self.slope / bend * 0.5, self.middle)
-    }
-
-    /// The mean over the step of the positive part, for at most one change of sign in each half.
-    #[inline(always)]
-    fn positive_mean(&self) -> R {
-        let (zero, one) = (self.middle.lit(0.0), self.middle.lit(1.0));
-        (self.positive_area(-one, self.begin, zero, self.middle)
-            + self.positive_area(zero, self.middle, one, self.end))
-            * 0.5
-    }
-
-    /// ∫ of the positive part from `x0` to `x1`, where the parabola has the values `f0` and `f1`.
-    #[inline(always)]
-    fn positive_area(&self, x0: R, f0: R, x1: R, f1: R) -> R {
-        let mut root = x0 + f0 / (f0 - f1) * (x1 - x0);
-        for _ in 0..3 {
-            let value = root.mul_add(root.mul_add(self.bend * 0.5, self.slope), self.middle);
-            let slope = root.mul_add(self.bend, self.slope);
-            root = (root - value / slope).max(x0).min(x1);
-        }
-        let zero = root.lit(0.0);
-        let from = R::select(zero.lt(f0), x0, root);
-        let to = R::select(zero.lt(f1), x1, root);
-        self.antiderivative(to) - self.antiderivative(from)
-    }
-
-    #[inline(always)]
-    fn antiderivative(&self, x: R) -> R {
-        x * x.mul_add(x.mul_add(self.bend * (1.0 / 6.0), self.slope * 0.5), self.middle)
-    }
 }
 
 /// The cycle's measures from its totals, for a period of `period` seconds.

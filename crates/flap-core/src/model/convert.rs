@@ -17,3 +17,8 @@ pub(super) fn wrap_degrees(radians: f64) -> f64 {
         degrees
     }
 }
+
+/// Lift over power; not a number where there is no power, or the air gives energy to the wing.
+pub(super) fn efficiency(lift: f64, power: f64) -> f64 {
+    if power > 0.0 { lift / power } else { f64::NAN }
+}

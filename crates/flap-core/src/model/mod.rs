@@ -36,6 +36,9 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + PartialEq + Sized {
     const STATES: [&'static str; N];
     /// What is measured.
     const SIGNALS: [Signal; S];
+    /// The measures whose error stands for a row's: stroke, pitch, lift, power. Each is a position in
+    /// [`Model::SIGNALS`], and what is measured of it.
+    const PRINCIPAL: &'static [(usize, Measure)];
     /// Columns computed from the measured cycle.
     const DERIVED: &'static [Derived];
 
@@ -66,6 +69,13 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + PartialEq + Sized {
         dy: &[R; N],
     ) -> [R; S];
 
+    /// Into how many parts each step is divided to find the largest and smallest values of the signals: more than one where
+    /// signals follow the drive faster than the motion does, whose steps these are.
+    #[inline(always)]
+    fn parts(&self) -> u32 {
+        1
+    }
+
     /// State and signals of a wing whose stroke and pitch are given: value (rad), rate, second derivative. Signals of
     /// the actuator are not numbers.
     fn imposed(&self, c: &Self::Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> ([f64; N], [f64; S]);
@@ -73,7 +83,18 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + PartialEq + Sized {
     /// The model with samples for a waveform.
     fn sampled(&self, samples: Samples) -> Self;
 
-    /// The values of the [`Model::DERIVED`] columns.
+    /// Replaces the means that are small differences of large flows by what they equal on a periodic orbit: the mean
+    /// electrical power by the sum of what is dissipated.
+    ///
+    /// Capacitance, springs and inertia take energy and give it back. In a motion of small losses, or far from
+    /// resonance, the quadrature's error in what they exchange may exceed the mean.
+    fn on_orbit(&self, cycle: &mut [SignalCycle; S]);
+
+    /// How far the mean electrical power by current times voltage is from the one that [`Model::on_orbit`] has put in its
+    /// place, relative to that.
+    fn audit(&self, cycle: &[SignalCycle; S]) -> f64;
+
+    /// The values of the [`Model::DERIVED`] columns for a periodic orbit, after [`Model::on_orbit`].
     fn derived(&self, c: &Self::Constants<f64>, cycle: &[SignalCycle; S]) -> Vec<f64>;
 
     /// Small undamped motions; first the one that an impulse on the stroke is to excite.

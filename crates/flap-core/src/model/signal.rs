@@ -13,8 +13,16 @@ pub struct Signal {
     pub factor: f64,
     /// What it is, to follow words such as "mean of".
     pub doc: &'static str,
-    /// What is measured of it over a drive period.
+    /// What is measured of it over a drive period. A signal without measures serves derived columns alone, and has
+    /// no column in trajectories either.
     pub measures: &'static [Measure],
+}
+
+impl Signal {
+    /// Whether it has columns of its own.
+    pub fn is_shown(&self) -> bool {
+        !self.measures.is_empty()
+    }
 }
 
 /// A column computed from several signals.
@@ -105,6 +113,11 @@ pub struct SignalCycle {
 }
 
 impl SignalCycle {
+    /// How far another way to the mean is from it, relative to it: zero but for the integration's error.
+    pub fn audit(&self, other_way: &SignalCycle) -> f64 {
+        (other_way.mean - self.mean) / self.mean
+    }
+
     /// The measure in SI units.
     pub fn measure(&self, measure: Measure) -> f64 {
         match measure {

@@ -126,12 +126,12 @@ where
 struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> {
     token: R::Token,
     tolerances: Tolerances,
-    rtol: R,
 
     // One of each per lane.
     constants: O::Constants<R>,
     totals: V::Totals<R>,
     span: R,
+    rtol: R,
     atol: [R; N],
     t: R,
     h: R,
@@ -181,10 +181,10 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
         let mut bank = Bank {
             token,
             tolerances: *tolerances,
-            rtol: number.lit(tolerances.rtol),
             constants: O::Constants::<R>::fill(token, &start.constants),
             totals: V::Totals::<R>::fill(token, &observer.nothing()),
             span: number.lit(start.span),
+            rtol: number.lit(tolerances.rtol * start.tighten),
             atol: [number; N],
             t: number,
             h: number.lit(start.span),
@@ -203,7 +203,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
         };
         for i in 0..N {
             bank.step.y[0][i] = number.lit(start.y[i]);
-            bank.atol[i] = number.lit(tolerances.atol * start.scale[i]);
+            bank.atol[i] = number.lit(tolerances.atol * start.tighten * start.scale[i]);
         }
         bank.load(0, run, &start, observer);
         bank
@@ -214,9 +214,10 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
         self.constants.set(lane, &start.constants);
         self.totals.set(lane, &observer.nothing());
         self.span.set_lane(lane, start.span);
+        self.rtol.set_lane(lane, self.tolerances.rtol * start.tighten);
         for i in 0..N {
             self.step.y[0][i].set_lane(lane, start.y[i]);
-            self.atol[i].set_lane(lane, self.tolerances.atol * start.scale[i]);
+            self.atol[i].set_lane(lane, self.tolerances.atol * start.tighten * start.scale[i]);
         }
         self.runs[lane] = Some(Running { run, began: self.steps });
         self.active |= 1 << lane;

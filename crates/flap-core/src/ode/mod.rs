@@ -114,6 +114,8 @@ pub struct Start<C, const N: usize> {
     pub span: f64,
     /// Typical size of each state; absolute tolerances are multiples of it.
     pub scale: [f64; N],
+    /// Factor on both tolerances: 1, or less for a run that is to be integrated more finely than others.
+    pub tighten: f64,
 }
 
 /// Tolerances and limits.
@@ -154,13 +156,15 @@ pub struct Outcome {
     pub attempts: u64,
     /// Evaluations of the right-hand side: six per attempted step, one per switch, and those of the start.
     pub rhs_evals: u64,
+    /// Crossings of the switching surface.
+    pub switches: u64,
 }
 
 impl Outcome {
     pub(crate) fn new<O: Ode<N>, const N: usize>(ending: Ending, attempts: u64, switches: u64) -> Outcome {
         // The side on which a run begins takes one more.
         let start = start::RHS_EVALS + u64::from(O::SWITCHES);
-        Outcome { ending, attempts, rhs_evals: start + 6 * attempts + switches }
+        Outcome { ending, attempts, rhs_evals: start + 6 * attempts + switches, switches }
     }
 }
 

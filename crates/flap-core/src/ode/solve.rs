@@ -68,12 +68,12 @@ fn steps<O: Ode<N>, R: Scalar, const N: usize>(
     let number = |x: f64| R::splat((), x);
     let c = O::Constants::<R>::fill((), &start.constants);
     let span = number(start.span);
-    let rtol = number(tolerances.rtol);
+    let rtol = number(tolerances.rtol * start.tighten);
     let mut y = [span; N];
     let mut atol = [span; N];
     for i in 0..N {
         y[i] = number(start.y[i]);
-        atol[i] = number(tolerances.atol * start.scale[i]);
+        atol[i] = number(tolerances.atol * start.tighten * start.scale[i]);
     }
 
     let mut switching = Switching::begin(ode, &c, &y);

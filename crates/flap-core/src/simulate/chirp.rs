@@ -37,7 +37,7 @@ where
     }
     let model = &model.variant(values);
     let start = model.start(values)?;
-    let observer = Signals::<S>;
+    let observer = Signals::<S>::ALL;
     let mut sampler = Sampler::new(samples_per_cycle);
     let mut rows = Vec::new();
     let (mut frequency, mut time, mut y) = (from, 0.0, start.y);
@@ -51,7 +51,7 @@ where
         let end = square.sqrt();
         let span = 2.0 / (frequency + end);
         let (model, constants) = model.chirped(&start.constants, frequency, rate);
-        let cycle = Start { constants, y, span, scale: start.scale };
+        let cycle = Start { constants, y, span, ..start };
         let mut totals = Observer::<M, N>::nothing(&observer).map(|one| Totals::<R>::fill((), &one));
         sampler.begin_cycle(span);
         let outcome = solve_until::<M, R, N>(

@@ -1,6 +1,6 @@
 //! A motion that is given, stroke and pitch: nothing to integrate, forces to evaluate.
 
-use super::motion::columns;
+use super::motion::{columns, shown};
 use super::simulator::{ImposedMotion, Trajectory};
 use crate::model::Model;
 use crate::parameter::Invalid;
@@ -25,7 +25,7 @@ pub(super) fn follow<M: Model<N, S>, const N: usize, const S: usize>(
         let (y, signals) = model.imposed(&constants, stroke.motion(time), pitch.motion(time));
         let mut row = vec![time];
         row.extend(y);
-        row.extend(signals.iter().zip(&M::SIGNALS).map(|(value, signal)| value * signal.factor));
+        row.extend(shown::<M, N, S>(&signals));
         row
     });
     Ok(Trajectory { columns: columns::<M, N, S>(), rows: rows.collect() })

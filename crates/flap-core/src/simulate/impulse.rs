@@ -44,7 +44,7 @@ where
     )]
     let per_span = (period / interval).round().clamp(1.0, f64::from(intervals)) as u32;
     let span = interval * f64::from(per_span);
-    let start = Start { constants, y, span, scale };
+    let start = Start { constants, y, span, scale, tighten: 1.0 };
     let spans = intervals.div_ceil(per_span);
 
     let mut sampler = Sampler::new(per_span);

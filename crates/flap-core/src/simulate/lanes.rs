@@ -6,10 +6,12 @@
 
 use core::ops::ControlFlow;
 
+use super::accuracy::{Compared, Verdict, judge};
 use super::row;
-use super::search::{Next, Search, begin, varied};
+use super::search::{Next, Search, begin};
 use super::simulator::{Jobs, LaneUse, Point, Row, SolverSettings};
 use crate::measure::cycle::{Signals, Totals};
+use crate::measure::size::Size;
 use crate::model::Model;
 use crate::num::{Kernel, Lanes, Simd, Vector};
 use crate::ode::ensemble::{NewRun, Queue, Unobserved, run};
@@ -63,9 +65,9 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Kernel
             };
             // Runs whose iteration fails at the very end march on.
             loop {
-                let occupancy = run(simd, model, &Unobserved, &tolerances, &mut marching);
+                let occupancy = run(simd, model, &Size, &tolerances, &mut marching);
                 marching.lane_use.marching += occupancy;
-                marching.find_and_measure();
+                marching.find_and_measure_all();
                 if marching.resumed.is_empty() || marching.jobs.interrupted() {
                     break;
                 }
@@ -102,6 +104,8 @@ struct Searched<C, const N: usize> {
     index: u64,
     start: Start<C, N>,
     search: Search<N>,
+    /// The row from an orbit that is being found again, more exactly.
+    last: Option<Row>,
 }
 
 impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Marching<'_, I, M, N, K, S> {
@@ -115,7 +119,9 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
                 point
             } else {
                 // Whoever hands out points may be waiting for rows that wait here. With few of them most lanes would be empty.
-                if idle || self.near.len() >= Vector::<I>::LANES {
+                if idle {
+                    self.find_and_measure_all();
+                } else if self.near.len() >= Vector::<I>::LANES {
                     self.find_and_measure();
                 }
                 // Runs that march on and points put aside are to run before this one waits for more.
@@ -133,7 +139,15 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
         None
     }
 
-    /// Finds the orbits of the runs that are near them, measures those, and hands on their rows.
+    /// Finds the orbits of all runs that are near them, and hands on their rows.
+    fn find_and_measure_all(&mut self) {
+        while !self.near.is_empty() && !self.jobs.interrupted() {
+            self.find_and_measure();
+        }
+    }
+
+    /// Finds the orbits of the runs that are near them, measures those, and hands on their rows. Runs whose rows are not
+    /// accurate enough stay.
     fn find_and_measure(&mut self) {
         if self.near.is_empty() {
             return;
@@ -144,29 +158,66 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
         self.lane_use.varying +=
             run(self.simd, &Variation(self.model), &Unobserved, &tolerances, &mut varying);
         let Varying { pending, done, .. } = varying;
+        if self.jobs.interrupted() {
+            return;
+        }
         let mut orbits = Vec::new();
-        for (run, next) in done {
-            match (next, row::unmeasured(&run.search)) {
+        for (mut run, next) in done {
+            match (next, run.search.orbit()) {
                 (Next::March(y), _) => self.resumed.push((run, y)),
-                (_, Some(row)) => self.jobs.done(run.index, row),
-                (_, None) => orbits.push(run),
+                (_, Some(_)) => orbits.push(run),
+                (_, None) => self.jobs.done(run.index, row::unsettled(&run.search, run.last.take())),
             }
         }
         self.near = pending;
-        let mut measuring =
-            Measuring { model: self.model, jobs: &mut *self.jobs, orbits: orbits.into_iter() };
-        self.lane_use.measuring += run(self.simd, self.model, &Signals::<S>, &tolerances, &mut measuring);
+
+        let mut departing = Departing { jobs: &*self.jobs, orbits: &mut orbits, next: 0, ends: Vec::new() };
+        self.lane_use.measuring += run(self.simd, self.model, &Unobserved, &tolerances, &mut departing);
+        let ends = departing.ends;
+        let mut periods = vec![Compared::new(); orbits.len()];
+        for (signals, is_coarse) in [(Signals::ALL, false), (Signals::MEANS, true)] {
+            let starts = orbits.iter().zip(&ends).enumerate().filter_map(|(position, (run, end))| {
+                let orbit = run.search.orbit()?;
+                let start = if is_coarse {
+                    run.search.coarse(&run.start, &run.search.coarse_orbit(end.as_ref()?)?)
+                } else {
+                    run.search.start(&run.start, &orbit.y)
+                };
+                Some((position, start))
+            });
+            let mut measuring = Measuring {
+                jobs: &*self.jobs,
+                starts: starts.collect::<Vec<_>>().into_iter(),
+                orbits: &mut orbits,
+                periods: &mut periods,
+                is_coarse,
+            };
+            self.lane_use.measuring += run(self.simd, self.model, &signals, &tolerances, &mut measuring);
+        }
+        if self.jobs.interrupted() {
+            return;
+        }
+        for (mut run, periods) in orbits.into_iter().zip(periods) {
+            let Searched { index, start, search, last } = &mut run;
+            match judge(search, self.model, start, &periods, last.take(), self.solver.accuracy) {
+                Verdict::Done(row) => self.jobs.done(*index, row),
+                Verdict::Again(row, y) => {
+                    *last = Some(row);
+                    self.near.push((run, y));
+                }
+            }
+        }
     }
 }
 
-impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Queue<M, Unobserved, N>
+impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Queue<M, Size, N>
     for Marching<'_, I, M, N, K, S>
 {
     type Run = Searched<M::Constants<f64>, N>;
 
     fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, N>> {
         if let Some((run, y)) = self.resumed.pop() {
-            let start = Start { y, ..run.start };
+            let start = run.search.start(&run.start, &y);
             return Some((run, start));
         }
         loop {
@@ -174,28 +225,24 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Qu
             match begin(self.model, &point.values, point.begin.as_deref()) {
                 Ok(start) => {
                     let search = Search::new(&start, self.solver, point.begin.is_some());
-                    return Some((Searched { index: point.index, start, search }, start));
+                    return Some((Searched { index: point.index, start, search, last: None }, start));
                 }
                 Err(error) => self.jobs.done(point.index, Row::invalid(error)),
             }
         }
     }
 
-    fn span_end(&mut self, run: &mut Self::Run, y: &[f64; N], (): &()) -> ControlFlow<()> {
-        run.search.period_end(y)
+    fn span_end(&mut self, run: &mut Self::Run, y: &[f64; N], largest: &[f64; N]) -> ControlFlow<()> {
+        run.search.period_end(y, largest)
     }
 
     fn ended(&mut self, mut run: Self::Run, outcome: Outcome) {
         match run.search.marched(outcome) {
             Next::Vary(y) => self.near.push((run, y)),
             Next::March(y) => self.resumed.push((run, y)),
-            Next::Done => {
-                if let Some(row) = row::unmeasured(&run.search) {
-                    self.jobs.done(run.index, row);
-                }
-            }
+            Next::Done => self.jobs.done(run.index, row::unsettled(&run.search, None)),
         }
-        if self.near.len() == BATCH {
+        if self.near.len() >= BATCH {
             self.find_and_measure();
         }
     }
@@ -220,7 +267,7 @@ impl<M: Ode<N>, const N: usize, const K: usize> Queue<Variation<'_, M, N>, Unobs
 
     fn next(&mut self, _idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, K>> {
         let (run, y) = self.pending.pop()?;
-        let start = varied(&run.start, &y);
+        let start = run.search.responding(&run.start, &y);
         Some(((run, None), start))
     }
 
@@ -241,31 +288,69 @@ impl<M: Ode<N>, const N: usize, const K: usize> Queue<Variation<'_, M, N>, Unobs
     }
 }
 
-/// The queue of the third ensemble.
-struct Measuring<'a, Q, M> {
-    model: &'a M,
-    jobs: &'a mut dyn Jobs,
-    orbits: Q,
+/// The queue of the third ensemble: a period of each orbit with coarser tolerances, which leads away from it.
+struct Departing<'a, C, const N: usize> {
+    jobs: &'a dyn Jobs,
+    orbits: &'a mut [Searched<C, N>],
+    next: usize,
+    /// Ends of the periods, by the position of their orbit.
+    ends: Vec<Option<[f64; N]>>,
 }
 
-/// A run whose cycle is being measured.
-struct Measured<C, const N: usize, const S: usize> {
-    run: Searched<C, N>,
+impl<M: Ode<N>, const N: usize> Queue<M, Unobserved, N> for Departing<'_, M::Constants<f64>, N> {
+    /// The orbit's position.
+    type Run = usize;
+
+    fn next(&mut self, _idle: bool) -> Option<NewRun<usize, M::Constants<f64>, N>> {
+        let run = self.orbits.get(self.next)?;
+        let y = run.search.orbit().map_or(run.start.y, |orbit| orbit.y);
+        self.ends.push(None);
+        self.next += 1;
+        Some((self.next - 1, run.search.coarse(&run.start, &y)))
+    }
+
+    fn span_end(&mut self, position: &mut usize, y: &[f64; N], (): &()) -> ControlFlow<()> {
+        self.ends[*position] = Some(*y);
+        ControlFlow::Break(())
+    }
+
+    fn ended(&mut self, position: usize, outcome: Outcome) {
+        self.orbits[position].search.charge(outcome);
+    }
+
+    fn interrupted(&self) -> bool {
+        self.jobs.interrupted()
+    }
+}
+
+/// The queue of the fourth ensemble: a period of each orbit, or one of the orbit that coarser tolerances have.
+struct Measuring<'a, Q, C, const N: usize, const S: usize> {
+    jobs: &'a dyn Jobs,
+    /// Where the periods begin, each with the position of its orbit.
+    starts: Q,
+    orbits: &'a mut [Searched<C, N>],
+    /// What the periods have shown, by the position of their orbit.
+    periods: &'a mut [Compared<S>],
+    is_coarse: bool,
+}
+
+/// A period that is being measured.
+struct Measured<const S: usize> {
+    position: usize,
     totals: Option<[Totals<f64>; S]>,
 }
 
-impl<M, Q, const N: usize, const S: usize> Queue<M, Signals<S>, N> for Measuring<'_, Q, M>
+impl<M, Q, const N: usize, const S: usize> Queue<M, Signals<S>, N>
+    for Measuring<'_, Q, M::Constants<f64>, N, S>
 where
     M: Model<N, S>,
-    Q: Iterator<Item = Searched<M::Constants<f64>, N>>,
+    Q: Iterator<Item = (usize, Start<M::Constants<f64>, N>)>,
 {
-    type Run = Measured<M::Constants<f64>, N, S>;
+    type Run = Measured<S>;
 
     fn next(&mut self, _idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, N>> {
-        let run = self.orbits.next()?;
-        let y = run.search.orbit().map_or(run.start.y, |orbit| orbit.y);
-        let start = Start { y, ..run.start };
-        Some((Measured { run, totals: None }, start))
+        let (position, start) = self.starts.next()?;
+        Some((Measured { position, totals: None }, start))
     }
 
     fn span_end(&mut self, run: &mut Self::Run, _y: &[f64; N], totals: &[Totals<f64>; S]) -> ControlFlow<()> {
@@ -273,10 +358,14 @@ where
         ControlFlow::Break(())
     }
 
-    fn ended(&mut self, measured: Self::Run, outcome: Outcome) {
-        let Measured { run: Searched { index, start, search }, totals } = measured;
-        let row = row::measured(&search, self.model, &start.constants, start.span, totals.as_ref(), outcome);
-        self.jobs.done(index, row);
+    fn ended(&mut self, Measured { position, totals }: Self::Run, outcome: Outcome) {
+        self.orbits[position].search.charge(outcome);
+        let periods = &mut self.periods[position];
+        if self.is_coarse {
+            periods.coarse = totals;
+        } else {
+            periods.take_fine(totals, outcome);
+        }
     }
 
     fn interrupted(&self) -> bool {

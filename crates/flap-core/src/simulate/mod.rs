@@ -2,6 +2,7 @@
 //!
 //! [`Rows`] and [`Simulator`] hide what differs between models; [`all`] lists them.
 
+mod accuracy;
 mod chirp;
 mod imposed;
 mod impulse;
@@ -13,6 +14,7 @@ mod row;
 mod runner;
 mod scalar;
 mod search;
+mod settle;
 mod simulator;
 
 pub use simulator::{
@@ -29,10 +31,10 @@ use crate::model::four_bar::FourBar;
 use crate::parameter::Preset;
 use runner::Runner;
 
-static BIMORPH: Runner<Bimorph, 4, 20, 14> = Runner::new(Bimorph { source: Source::SINE });
-static DIRECT_DRIVE: Runner<DirectDrive, 4, 20, 9> =
+static BIMORPH: Runner<Bimorph, 4, 20, 15> = Runner::new(Bimorph { source: Source::SINE });
+static DIRECT_DRIVE: Runner<DirectDrive, 4, 20, 10> =
     Runner::new(DirectDrive { source: Source::SINE, flow: FlowDirection::Uniform });
-static FOUR_BAR: Runner<FourBar, 4, 20, 15> = Runner::new(FourBar { source: Source::SINE });
+static FOUR_BAR: Runner<FourBar, 4, 20, 17> = Runner::new(FourBar { source: Source::SINE });
 static ALL: &[&dyn Simulator] = &[&BIMORPH, &DIRECT_DRIVE, &FOUR_BAR];
 
 /// Every model, in the order `flap models` lists them.

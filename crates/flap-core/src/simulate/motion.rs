@@ -2,9 +2,8 @@
 
 use core::ops::ControlFlow;
 
-use super::row::unmeasured;
-use super::scalar::search;
-use super::simulator::{SolverSettings, Trajectory, TrajectoryRequest, Unfinished};
+use super::settle::{Settled, settle};
+use super::simulator::{SolverSettings, Status, Trajectory, TrajectoryRequest, Unfinished};
 use crate::model::Model;
 use crate::num::Scalar;
 use crate::ode::dense::interpolate;
@@ -28,11 +27,11 @@ where
     let model = &model.variant(values);
     let mut start = model.start(values)?;
     if request.settled {
-        let search = search::<M, R, N, K, S>(model, solver, &start, false, interrupted);
+        let Settled { search, row } = settle::<M, R, N, K, S>(model, solver, &start, false, interrupted);
         if interrupted() {
             return Err(Unfinished::Interrupted);
         }
-        if let Some(row) = unmeasured(&search) {
+        let Some(state) = search.state().filter(|_| row.status == Status::Periodic) else {
             return Err(Invalid::new(format!(
                 "the motion does not settle on an orbit of one drive period (status {}, {} cycles); \
                  sample it from rest instead",
@@ -40,8 +39,8 @@ where
                 row.cycles
             ))
             .into());
-        }
-        start.y = search.orbit().map_or(start.y, |orbit| orbit.y);
+        };
+        start = search.start(&start, state);
     }
 
     let mut sampler = Sampler::new(request.samples_per_cycle);
@@ -145,7 +144,7 @@ impl Sampler {
 pub(super) fn columns<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<String> {
     let mut columns = vec!["time_s".to_owned()];
     columns.extend(M::STATES.iter().map(|&name| name.to_owned()));
-    columns.extend(M::SIGNALS.iter().map(|signal| {
+    columns.extend(M::SIGNALS.iter().filter(|signal| signal.is_shown()).map(|signal| {
         if signal.suffix.is_empty() {
             signal.name.to_owned()
         } else {
@@ -172,6 +171,14 @@ where
     let signals = model.signals(c, &input, side, y, &model.rhs(c, &input, side, y));
     let mut row = vec![time];
     row.extend(y.iter().map(|y| y.lane(0)));
-    row.extend(signals.iter().zip(&M::SIGNALS).map(|(value, signal)| value.lane(0) * signal.factor));
+    row.extend(shown::<M, N, S>(&signals.map(|value| value.lane(0))));
     row
+}
+
+/// The signals that have columns, in their units.
+pub(super) fn shown<M: Model<N, S>, const N: usize, const S: usize>(
+    signals: &[f64; S],
+) -> impl Iterator<Item = f64> + '_ {
+    let pairs = signals.iter().zip(&M::SIGNALS).filter(|(_, signal)| signal.is_shown());
+    pairs.map(|(value, signal)| value * signal.factor)
 }

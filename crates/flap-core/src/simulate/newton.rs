@@ -17,7 +17,9 @@ const LINEAR: f64 = 0.3;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Newton<const N: usize> {
     scale: [f64; N],
-    tolerance: f64,
+    /// The residual that is aimed at, and the one that will do if it cannot be reached.
+    goal: f64,
+    enough: f64,
     /// Where the march was when the search began, and a period later.
     march: [[f64; N]; 2],
     /// The beginning of the period that is being integrated.
@@ -32,6 +34,9 @@ pub(super) struct FixedPoint<const N: usize> {
     pub(super) y: [f64; N],
     /// Change of the state over a period, in units of [`Newton::new`]'s scales.
     pub(super) residual: f64,
+    /// Responses of the end of the period to changes of its beginning, in units of [`Newton::new`]'s scales; not
+    /// numbers if they are not known.
+    pub(super) monodromy: [[f64; N]; N],
     /// Largest modulus of the Floquet multipliers.
     pub(super) floquet_max: f64,
 }
@@ -42,7 +47,9 @@ pub(super) enum Step<const N: usize> {
     Again([f64; N]),
     /// An orbit to which the march was on its way.
     Found(FixedPoint<N>),
-    /// No orbit was found, or one that the march does not approach.
+    /// The residual, given here, hardly falls any more, or the linear system cannot be solved.
+    Stuck(f64),
+    /// An orbit that the march does not approach, or a period that cannot be integrated.
     Failed,
 }
 
@@ -50,7 +57,26 @@ impl<const N: usize> Newton<N> {
     /// A search that begins where a march has come to. Changes of a component count in units of its `scale`, in a motion
     /// smaller than its scales relative to the motion's own size.
     pub(super) fn new(y: &[f64; N], scale: &[f64; N], tolerance: f64) -> Newton<N> {
-        Newton { scale: *scale, tolerance, march: [*y; 2], y: *y, iterations: 0, residual: f64::INFINITY }
+        Newton {
+            scale: *scale,
+            goal: tolerance,
+            enough: tolerance,
+            march: [*y; 2],
+            y: *y,
+            iterations: 0,
+            residual: f64::INFINITY,
+        }
+    }
+
+    /// The same search, which aims at the residual `goal`.
+    pub(super) fn aiming_at(self, goal: f64) -> Newton<N> {
+        Newton { goal, ..self }
+    }
+
+    /// The search that goes on from where this one was stuck, on the period map of finer integration. Returns it with
+    /// the state at which it goes on.
+    pub(super) fn resumed(self) -> (Newton<N>, [f64; N]) {
+        (Newton { iterations: 1, residual: f64::INFINITY, ..self }, self.y)
     }
 
     /// Judges a period, given its end with the responses to changes of its beginning.
@@ -63,29 +89,23 @@ impl<const N: usize> Newton<N> {
         let size = self.size(&end).max(self.size(&self.y)).min(1.0);
         let residual = if change == [0.0; N] { 0.0 } else { self.size(&change) / size };
         let monodromy = self.monodromy(all);
-        if residual <= self.tolerance {
-            let point = FixedPoint { y: end, residual, floquet_max: spectral_radius(&monodromy) };
+        let slow = residual > PROGRESS * self.residual || self.iterations == LONGEST;
+        let next = fixed_point(&monodromy, &self.scale, &self.y, &change);
+        if residual <= self.goal || (slow && residual <= self.enough) {
+            let y = next.unwrap_or(end);
+            let point = FixedPoint { y, residual, monodromy, floquet_max: spectral_radius(&monodromy) };
             let approached = point.floquet_max < 1.0 && self.approaches(&point.y, &monodromy);
             return if approached { Step::Found(point) } else { Step::Failed };
         }
-        let slow = residual > PROGRESS * self.residual || self.iterations == LONGEST;
         self.residual = residual;
         self.iterations += 1;
-        let scaled: [f64; N] = core::array::from_fn(|i| change[i] / self.scale[i]);
-        match solve(&identity_minus(&monodromy), &scaled) {
-            Some(step) if !slow => {
-                for i in 0..N {
-                    self.y[i] += step[i] * self.scale[i];
-                }
-                Step::Again(self.y)
+        match next {
+            Some(next) if !slow => {
+                self.y = next;
+                Step::Again(next)
             }
-            _ => Step::Failed,
+            _ => Step::Stuck(residual),
         }
-    }
-
-    /// Largest modulus of the multipliers of a period, given its end.
-    pub(super) fn floquet_max<const K: usize>(&self, all: &[f64; K]) -> f64 {
-        spectral_radius(&self.monodromy(all))
     }
 
     /// Column j: response to a change of component j by its scale, in units of the scales.
@@ -117,13 +137,32 @@ impl<const N: usize> Newton<N> {
             astray = astray.max((after[i] - predicted).abs());
             distance = distance.max(before[i].abs());
         }
-        astray <= LINEAR * distance + self.tolerance
+        astray <= LINEAR * distance + self.enough
     }
 
     /// The largest component in units of the scales.
     fn size(&self, y: &[f64; N]) -> f64 {
         (0..N).fold(0.0, |size, i| (y[i].abs() / self.scale[i]).max(size))
     }
+}
+
+impl<const N: usize> FixedPoint<N> {
+    /// The fixed point of a slightly different map, which takes this one's state to `end`. `None` if it is not near.
+    pub(super) fn of_map(&self, scale: &[f64; N], end: &[f64; N]) -> Option<[f64; N]> {
+        fixed_point(&self.monodromy, scale, &self.y, &difference(end, &self.y))
+    }
+}
+
+/// The fixed point of the linear map that changes `y` by `change`, and small changes of y as the monodromy matrix says.
+fn fixed_point<const N: usize>(
+    monodromy: &[[f64; N]; N],
+    scale: &[f64; N],
+    y: &[f64; N],
+    change: &[f64; N],
+) -> Option<[f64; N]> {
+    let scaled = core::array::from_fn(|i| change[i] / scale[i]);
+    let step = solve(&identity_minus(monodromy), &scaled)?;
+    Some(core::array::from_fn(|i| y[i] + step[i] * scale[i]))
 }
 
 fn difference<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {

@@ -7,6 +7,7 @@ use super::row::measures;
 use super::scalar::cycle;
 use super::search::{begin, varied};
 use super::simulator::{Period, SolverSettings, Unfinished};
+use crate::measure::cycle::Signals;
 use crate::model::Model;
 use crate::num::Scalar;
 use crate::ode::Interrupt;
@@ -31,7 +32,7 @@ where
     let outcome = solve_until::<Variation<'_, M, N>, R, K>(
         &Variation(model),
         &solver.tolerances(),
-        &varied(&start, &start.y),
+        &varied(&start, &start.scale),
         interrupted,
         |_, _| {},
         |end| {
@@ -41,7 +42,7 @@ where
     );
     check(outcome.ending, interrupted)?;
     let varied = outcome.rhs_evals * (N as u64 + 1);
-    let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start, interrupted);
+    let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start, Signals::ALL, interrupted);
     check(outcome.ending, interrupted)?;
     let measures = totals.map(|totals| measures(model, &start.constants, &totals, start.span));
     Ok(Period {

@@ -1,10 +1,11 @@
 //! From an orbit or a failure to a row.
 
+use super::accuracy::{Compared, LEAST, estimate};
 use super::search::Search;
 use super::simulator::{Column, Row, Status};
 use crate::measure::cycle::{Totals, finish};
-use crate::model::Model;
-use crate::ode::{Ending, Outcome};
+use crate::model::{Measure, Model, SignalCycle};
+use crate::ode::{Ending, Start};
 use crate::parameter::Invalid;
 
 /// The columns of a model: its signals' measures, then what is derived from them.
@@ -24,53 +25,80 @@ pub(super) fn columns<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<C
     measured.chain(derived).collect()
 }
 
-/// The measures of a cycle, one per column.
+/// The measures of a periodic cycle, one per column.
 pub(super) fn measures<M: Model<N, S>, const N: usize, const S: usize>(
     model: &M,
     c: &M::Constants<f64>,
     totals: &[Totals<f64>; S],
     period: f64,
 ) -> Vec<f64> {
-    let cycle = finish(totals, period);
+    values(model, c, &on_orbit(model, totals, period))
+}
+
+/// The signals of a periodic cycle.
+fn on_orbit<M: Model<N, S>, const N: usize, const S: usize>(
+    model: &M,
+    totals: &[Totals<f64>; S],
+    period: f64,
+) -> [SignalCycle; S] {
+    let mut cycle = finish(totals, period);
+    model.on_orbit(&mut cycle);
+    cycle
+}
+
+fn values<M: Model<N, S>, const N: usize, const S: usize>(
+    model: &M,
+    c: &M::Constants<f64>,
+    cycle: &[SignalCycle; S],
+) -> Vec<f64> {
     let mut values = Vec::new();
-    for (signal, cycle) in M::SIGNALS.iter().zip(&cycle) {
+    for (signal, cycle) in M::SIGNALS.iter().zip(cycle) {
         values.extend(signal.measures.iter().map(|&measure| cycle.measure(measure) * signal.factor));
     }
-    values.extend(model.derived(c, &cycle));
+    values.extend(model.derived(c, cycle));
     values
 }
 
-/// The row of a point, unless it has an orbit that is to be measured.
-pub(super) fn unmeasured<const N: usize>(search: &Search<N>) -> Option<Row> {
+/// The row of a point whose search has ended without an orbit of one drive period; or the `last` row that it has, if it
+/// was an orbit to be found more exactly.
+pub(super) fn unsettled<const N: usize>(search: &Search<N>, last: Option<Row>) -> Row {
+    if let Some(last) = last {
+        return charged(last, search);
+    }
     let status = match (search.ending(), search.period()) {
-        (Ending::Stopped, _) if search.orbit().is_some() => return None,
         (Ending::Stopped, Some(_)) => Status::Subharmonic,
         (Ending::Stopped, None) => Status::Unsettled,
         (Ending::Diverged, _) => Status::Diverged,
         (Ending::StepLimit, _) => Status::StepLimit,
     };
-    Some(row(search, status))
+    row(search, status)
 }
 
-/// The row of a point after its orbit's cycle has been integrated; its totals, unless that failed.
+/// The row of a point after a period of its orbit, and one with coarser tolerances, have been integrated, and its energy
+/// audit.
 pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
     search: &Search<N>,
     model: &M,
-    c: &M::Constants<f64>,
-    period: f64,
-    totals: Option<&[Totals<f64>; S]>,
-    outcome: Outcome,
-) -> Row {
-    let status = match outcome.ending {
+    start: &Start<M::Constants<f64>, N>,
+    periods: &Compared<S>,
+) -> (Row, f64) {
+    let status = match periods.ending {
         Ending::Stopped => Status::Periodic,
         Ending::Diverged => Status::Diverged,
         Ending::StepLimit => Status::StepLimit,
     };
     let mut row = row(search, status);
-    row.cycles += 1;
-    row.rhs_evals += outcome.rhs_evals;
-    if let Some(totals) = totals {
-        row.measures = measures(model, c, totals, period);
+    let mut audit = f64::NAN;
+    let cycle = |totals: &[Totals<f64>; S]| on_orbit(model, totals, start.span);
+    if let Some(fine) = periods.fine.as_ref().map(cycle) {
+        row.measures = values(model, &start.constants, &fine);
+        let coarse = periods.coarse.as_ref().map(cycle);
+        row.error_estimate =
+            estimate::<M, N, S>(&fine, coarse.as_ref(), periods.slides).max(LEAST * search.rtol());
+        audit = model.audit(&fine);
+        if is_at_rest::<M, N, S>(&fine) {
+            row.floquet_max = f64::NAN;
+        }
     }
     // An infinite measure is a motion that has diverged as far as numbers go. NaN is a ratio of zeros.
     if row.measures.iter().any(|measure| measure.is_infinite()) {
@@ -80,8 +108,21 @@ pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
     if row.status != Status::Periodic {
         row.period = 0;
         row.floquet_max = f64::NAN;
+        row.error_estimate = f64::NAN;
     }
-    row
+    (row, audit)
+}
+
+/// Whether the wing does not move, but for rounding: the first harmonics of its angles are nothing beside the angles.
+fn is_at_rest<M: Model<N, S>, const N: usize, const S: usize>(cycle: &[SignalCycle; S]) -> bool {
+    let mut angles = M::PRINCIPAL.iter().filter(|(_, measure)| *measure == Measure::First);
+    angles
+        .all(|&(signal, first)| cycle[signal].measure(first) <= 1e-12 * cycle[signal].measure(Measure::Peak))
+}
+
+/// A row with all that its point has cost.
+pub(super) fn charged<const N: usize>(row: Row, search: &Search<N>) -> Row {
+    Row { cycles: search.cycles(), rhs_evals: search.rhs_evals(), ..row }
 }
 
 fn row<const N: usize>(search: &Search<N>, status: Status) -> Row {
@@ -93,6 +134,7 @@ fn row<const N: usize>(search: &Search<N>, status: Status) -> Row {
         period: search.period().unwrap_or(0),
         floquet_max: search.floquet_max(),
         state: search.state().map_or_else(Vec::new, |state| state.to_vec()),
+        error_estimate: f64::NAN,
         rhs_evals: search.rhs_evals(),
         reason: None,
     }
@@ -109,6 +151,7 @@ impl Row {
             period: 0,
             floquet_max: f64::NAN,
             state: Vec::new(),
+            error_estimate: f64::NAN,
             rhs_evals: 0,
             reason: Some(error.reason),
         }

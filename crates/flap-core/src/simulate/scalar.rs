@@ -2,8 +2,8 @@
 
 use core::ops::ControlFlow;
 
-use super::row;
-use super::search::{Next, Search, begin, varied};
+use super::search::begin;
+use super::settle::settle;
 use super::simulator::{
     ChirpRequest, ChirpResponse, ImpulseRequest, Period, Row, SolverSettings, Trajectory, TrajectoryRequest,
     Unfinished,
@@ -14,53 +14,7 @@ use crate::model::Model;
 use crate::num::{Arithmetic, InstructionSet, PerLane, Scalar, Unfused};
 use crate::ode::ensemble::Observer;
 use crate::ode::solve::solve_until;
-use crate::ode::variation::Variation;
 use crate::ode::{Ending, Interrupt, Outcome, Start, never};
-
-/// Searches for the orbit of a point; `nearby` if it begins perhaps near that. Interrupted, it comes to nothing.
-pub(super) fn search<M, R, const N: usize, const K: usize, const S: usize>(
-    model: &M,
-    solver: &SolverSettings,
-    start: &Start<M::Constants<f64>, N>,
-    nearby: bool,
-    interrupted: Interrupt<'_>,
-) -> Search<N>
-where
-    M: Model<N, S>,
-    R: Scalar,
-{
-    let tolerances = &solver.tolerances();
-    let mut search = Search::new(start, solver, nearby);
-    let mut next = Next::March(start.y);
-    loop {
-        next = match next {
-            Next::March(y) => {
-                let from = Start { y, ..*start };
-                let period_end = |y: &[f64; N]| search.period_end(y);
-                let outcome =
-                    solve_until::<M, R, N>(model, tolerances, &from, interrupted, |_, _| {}, period_end);
-                search.marched(outcome)
-            }
-            Next::Vary(y) => {
-                let from = varied(start, &y);
-                let mut end = None;
-                let outcome = solve_until::<Variation<'_, M, N>, R, K>(
-                    &Variation(model),
-                    tolerances,
-                    &from,
-                    interrupted,
-                    |_, _| {},
-                    |all| {
-                        end = Some(*all);
-                        ControlFlow::Break(())
-                    },
-                );
-                search.varied(end.as_ref(), outcome)
-            }
-            Next::Done => return search,
-        }
-    }
-}
 
 /// Runs one point.
 fn point<M, R, const N: usize, const K: usize, const S: usize>(
@@ -74,32 +28,25 @@ where
     R: Scalar,
 {
     let model = &model.variant(values);
-    let mut start = match begin(model, values, from) {
-        Ok(start) => start,
-        Err(error) => return Row::invalid(error),
-    };
-    let search = search::<M, R, N, K, S>(model, solver, &start, from.is_some(), &never);
-    if let Some(row) = row::unmeasured(&search) {
-        return row;
+    match begin(model, values, from) {
+        Ok(start) => settle::<M, R, N, K, S>(model, solver, &start, from.is_some(), &never).row,
+        Err(error) => Row::invalid(error),
     }
-
-    start.y = search.orbit().map_or(start.y, |orbit| orbit.y);
-    let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start, &never);
-    row::measured(&search, model, &start.constants, start.span, totals.as_ref(), outcome)
 }
 
-/// The totals of a drive period from where a run begins, unless it fails.
+/// The totals of a drive period from where a run begins, of what `signals` asks for, unless it fails.
 pub(super) fn cycle<M, R, const N: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,
     start: &Start<M::Constants<f64>, N>,
+    signals: Signals<S>,
     interrupted: Interrupt<'_>,
 ) -> (Option<[Totals<f64>; S]>, Outcome)
 where
     M: Model<N, S>,
     R: Scalar,
 {
-    let observer = Signals::<S>;
+    let observer = signals;
     let mut totals = Observer::<M, N>::nothing(&observer).map(|one| Totals::<R>::fill((), &one));
     let outcome = solve_until::<M, R, N>(
         model,

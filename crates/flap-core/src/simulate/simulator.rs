@@ -250,12 +250,21 @@ pub struct SolverSettings {
     pub max_cycles: u32,
     /// Integration steps within one drive period after which a point is given up.
     pub max_steps: u32,
+    /// Largest [`Row::error_estimate`] and energy audit of a row. A point whose row exceeds it is integrated again with
+    /// tighter tolerances, up to a limit.
+    pub accuracy: f64,
     /// Whether Newton's iteration on the period map looks for the orbit to which a motion is on its way. Without it, points
     /// settle by marching alone: to the same orbits, in more periods.
     pub newton: bool,
 }
 
 impl SolverSettings {
+    /// These settings with another relative tolerance, and what follows it by default: `atol`, a hundredth of it, and
+    /// `accuracy`, a thousand times as much but at least 1e-3.
+    pub fn with_rtol(self, rtol: f64) -> SolverSettings {
+        SolverSettings { rtol, atol: rtol / 100.0, accuracy: (1000.0 * rtol).max(1e-3), ..self }
+    }
+
     /// The part that the integrator sees.
     pub(super) fn tolerances(&self) -> Tolerances {
         Tolerances { rtol: self.rtol, atol: self.atol, max_steps: self.max_steps }
@@ -270,6 +279,7 @@ impl Default for SolverSettings {
             settle_tol: 1e-6,
             max_cycles: 1000,
             max_steps: 20_000,
+            accuracy: 1e-3,
             newton: true,
         }
     }
@@ -336,8 +346,12 @@ pub struct Row {
     /// Drive periods per orbit: 1, or more for a subharmonic; 0 if no orbit was found.
     pub period: u32,
     /// Largest modulus of the orbit's Floquet multipliers: a change of the state grows or decays by this factor per
-    /// orbit in the end. NaN without an orbit.
+    /// orbit in the end. NaN without an orbit, and for a wing at rest: forces that go with the square of a speed have
+    /// no linear part there.
     pub floquet_max: f64,
+    /// Estimate of the largest relative error that the integration makes in stroke, pitch, lift and power: see
+    /// `docs/numerics.md`. Infinite if it cannot be estimated, NaN without measures.
+    pub error_estimate: f64,
     /// The state at the end of the last drive period, on the orbit if there is one. Empty if no period was completed.
     pub state: Vec<f64>,
     /// Right-hand sides evaluated by the integrator.
@@ -349,7 +363,12 @@ pub struct Row {
 impl Row {
     /// Whether motions near the orbit approach it. `None` without an orbit.
     pub fn stable(&self) -> Option<bool> {
-        (!self.floquet_max.is_nan()).then_some(self.floquet_max < 1.0)
+        match (self.period, self.floquet_max.is_nan()) {
+            (0, _) => None,
+            // At rest: without drive every motion dies away.
+            (_, true) => Some(true),
+            (_, false) => Some(self.floquet_max < 1.0),
+        }
     }
 }
 

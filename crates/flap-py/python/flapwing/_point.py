@@ -91,6 +91,7 @@ def run(
     settle_tol: Optional[SupportsFloat] = None,
     max_cycles: Optional[SupportsIndex] = None,
     max_steps: Optional[SupportsIndex] = None,
+    accuracy: Optional[SupportsFloat] = None,
     newton: Optional[bool] = None,
     **parameters: Union[SupportsFloat, str],
 ) -> Dict[str, Any]:
@@ -121,6 +122,9 @@ def run(
     max_steps : int, optional
         Integration steps within one drive period after which the point is given up: 1 or more.
         Default 20000.
+    accuracy : float, optional
+        Largest error_estimate and energy audit of a row: more than 0. A point whose row exceeds it is integrated
+        again with tighter tolerances, up to a limit. Default 1e-3, or 1000 rtol if that is more.
     newton : bool, optional
         Whether Newton's iteration looks for the orbit that the motion is on its way to. Without it the motion is
         followed until it settles: to the same orbit, in more periods. Default True.
@@ -151,10 +155,13 @@ def run(
             Drive periods until the motion repeats: 1 if periodic, more if subharmonic, otherwise 0.
         floquet_max : float or None
             Factor by which a change of the motion grows or decays per orbit in the end. None if no orbit was
-            found.
+            found, and for a wing at rest.
         stable : bool or None
-            Whether floquet_max is below 1, so that motions near the orbit approach it. None if no orbit was
-            found.
+            Whether floquet_max is below 1, so that motions near the orbit approach it. True for a wing at rest,
+            None if no orbit was found.
+        error_estimate : float or None
+            Estimate of the largest relative error that the integration makes in stroke, pitch, mean lift and mean
+            power; infinite if it cannot be estimated. None unless the point is periodic.
         rhs_evals : int
             Evaluations of the equations of motion.
         reason : str or None
@@ -168,7 +175,7 @@ def run(
     TypeError
         A value of the wrong type, such as text for a tolerance or a number for an option.
     """
-    solver = {"rtol": rtol, "atol": atol, "settle_tol": settle_tol, "newton": newton}
+    solver = {"rtol": rtol, "atol": atol, "settle_tol": settle_tol, "accuracy": accuracy, "newton": newton}
     steps = {"max_cycles": max_cycles, "max_steps": max_steps}
     return _flapwing.run(preset, {**parameters, **solver, **steps})
 

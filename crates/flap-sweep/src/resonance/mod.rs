@@ -86,6 +86,9 @@ pub struct AtResonance {
 /// The column with the resonance's frequency.
 pub const RESONANCE_HZ: &str = "resonance_hz";
 
+/// The column with the resonance's distance from the nearer end of the range.
+pub const RESONANCE_MARGIN_HZ: &str = "resonance_margin_hz";
+
 impl AtResonance {
     /// The resonances of designs of `model`; `None` if that has no drive frequency or does not measure the objective.
     pub fn new(model: &'static dyn Simulator, range: Range) -> Option<AtResonance> {
@@ -103,7 +106,7 @@ impl AtResonance {
             format!("another peak of the {of}, if it is within 5 % of the largest"),
         );
         add(
-            "resonance_margin_hz",
+            RESONANCE_MARGIN_HZ,
             "Hz",
             "distance of the resonance from the nearer end of the range; zero if the largest value is there"
                 .to_owned(),

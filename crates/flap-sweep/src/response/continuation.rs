@@ -178,6 +178,7 @@ impl Branch<'_> {
             residual: *residual,
             period: 1,
             floquet_max,
+            error_estimate: f64::NAN,
             state: self.state(place),
             rhs_evals: *rhs_evals,
             reason: None,

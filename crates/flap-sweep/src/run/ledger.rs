@@ -4,6 +4,7 @@ use std::io;
 
 use super::Summary;
 use super::finished::Finished;
+use super::summary::Doubtful;
 use crate::plan::Plan;
 use crate::sink::Sink;
 
@@ -12,6 +13,7 @@ pub(super) struct Ledger<'a> {
     plan: &'a Plan,
     sink: &'a mut dyn Sink,
     summary: Summary,
+    doubtful: Doubtful,
 }
 
 impl<'a> Ledger<'a> {
@@ -20,7 +22,7 @@ impl<'a> Ledger<'a> {
         // The header is there from the beginning, however long the first row takes.
         sink.begin()?;
         sink.flush()?;
-        Ok(Ledger { plan, sink, summary: Summary::after(before, plan) })
+        Ok(Ledger { plan, sink, summary: Summary::after(before, plan), doubtful: Doubtful::of(plan) })
     }
 
     /// Points that are done with: the first ones of those selected.
@@ -40,6 +42,7 @@ impl<'a> Ledger<'a> {
                 Finished::Row(row) => {
                     let point = self.plan.selected_point(self.summary.done());
                     self.sink.write(&point, &row)?;
+                    self.doubtful.count(&row, &mut self.summary.doubts);
                     self.summary.add(point.index, row);
                 }
                 Finished::Excluded(unsatisfied) => self.summary.exclude(&unsatisfied),

@@ -21,7 +21,7 @@ use std::thread;
 
 use flap_core::num::InstructionSet;
 pub use parcel::{Parcel, feed, part};
-pub use summary::{Counts, Summary};
+pub use summary::{Counts, Doubts, Summary};
 
 use crate::plan::Plan;
 use crate::sink::Sink;

@@ -36,6 +36,7 @@ pub(super) struct RowFields {
     residual: f64,
     period: u32,
     floquet_max: f64,
+    error_estimate: f64,
     state: Vec<f64>,
     rhs_evals: u64,
     reason: Option<String>,

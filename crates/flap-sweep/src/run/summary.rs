@@ -1,8 +1,12 @@
 //! What a sweep came to.
 
-use flap_core::simulate::{Row, Status};
+use std::iter::Sum;
+
+use flap_core::simulate::{Column, Row, Status};
+use serde::{Deserialize, Serialize};
 
 use crate::plan::Plan;
+use crate::resonance::RESONANCE_MARGIN_HZ;
 
 /// How many points had each status.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,6 +32,27 @@ impl FromIterator<(Status, u64)> for Counts {
     }
 }
 
+/// Rows with measures that are to be read with care.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Doubts {
+    /// Rows whose error estimate exceeds the accuracy that was asked for.
+    pub inaccurate: u64,
+    /// Rows whose mean electrical power is negative: the air gives the wing more energy than it takes.
+    pub powerless: u64,
+    /// Rows whose resonance is at an end of the range in which it was looked for.
+    pub at_range_end: u64,
+}
+
+impl Sum for Doubts {
+    fn sum<I: Iterator<Item = Doubts>>(all: I) -> Doubts {
+        all.fold(Doubts::default(), |sum, one| Doubts {
+            inaccurate: sum.inaccurate + one.inaccurate,
+            powerless: sum.powerless + one.powerless,
+            at_range_end: sum.at_range_end + one.at_range_end,
+        })
+    }
+}
+
 /// What a sweep came to. Counts are over the rows written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
@@ -47,6 +72,8 @@ pub struct Summary {
     pub rhs_evals: u64,
     /// Drive periods integrated in all.
     pub cycles: u64,
+    /// Rows to be read with care.
+    pub doubts: Doubts,
     /// The first few invalid points, each with the reason.
     pub invalid: Vec<(u64, String)>,
 }
@@ -89,5 +116,36 @@ impl Summary {
         self.counts.0[row.status as usize] += 1;
         self.rhs_evals += row.rhs_evals;
         self.cycles += u64::from(row.cycles);
+    }
+}
+
+/// What makes a row of a plan one to be read with care.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Doubtful {
+    accuracy: f64,
+    /// Positions among the measures.
+    power: Option<usize>,
+    margin: Option<usize>,
+}
+
+impl Doubtful {
+    /// For the rows of `plan`.
+    pub(super) fn of(plan: &Plan) -> Doubtful {
+        let columns: &[Column] = plan.rows().columns();
+        let position = |name: &str| columns.iter().position(|column| column.name == name);
+        Doubtful {
+            accuracy: plan.solver.accuracy,
+            power: position("power_mean_mw"),
+            margin: position(RESONANCE_MARGIN_HZ),
+        }
+    }
+
+    /// Counts a row.
+    pub(super) fn count(&self, row: &Row, doubts: &mut Doubts) {
+        let measure =
+            |position: Option<usize>| position.and_then(|position| row.measures.get(position).copied());
+        doubts.inaccurate += u64::from(row.error_estimate > self.accuracy);
+        doubts.powerless += u64::from(measure(self.power).is_some_and(|power| power < 0.0));
+        doubts.at_range_end += u64::from(measure(self.margin) == Some(0.0));
     }
 }

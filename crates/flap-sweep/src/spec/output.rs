@@ -14,8 +14,17 @@ use crate::plan::Output;
 const KEYS: [&str; 2] = ["path", "columns"];
 
 /// Columns that every row has, whatever is selected.
-pub(super) const ALWAYS: [&str; 8] =
-    ["point", "status", "cycles", "residual", "period", "floquet_max", "stable", "rhs_evals"];
+pub(super) const ALWAYS: [&str; 9] = [
+    "point",
+    "status",
+    "cycles",
+    "residual",
+    "period",
+    "floquet_max",
+    "stable",
+    "error_estimate",
+    "rhs_evals",
+];
 
 /// A model, and the names of the columns that rows measure, the user's own included.
 type Measured<'m> = (&'static dyn Simulator, &'m [String]);

@@ -6,7 +6,7 @@ use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
 
-const KEYS: [&str; 6] = ["rtol", "atol", "settle_tol", "max_cycles", "max_steps", "newton"];
+const KEYS: [&str; 7] = ["rtol", "atol", "settle_tol", "max_cycles", "max_steps", "accuracy", "newton"];
 
 /// Looser than this, an error estimate means nothing.
 pub(crate) const LARGEST_RTOL: f64 = 0.1;
@@ -20,8 +20,7 @@ pub(super) fn read(entry: Option<&Entry<'_>>, problems: &mut Problems) -> Solver
     let entries = table::section(entry, problems);
     table::check_keys(&entries, &KEYS, "in [solver]", problems);
     if let Some(rtol) = tolerance(&entries, "rtol", LARGEST_RTOL, problems) {
-        settings.rtol = rtol;
-        settings.atol = rtol / 100.0;
+        settings = settings.with_rtol(rtol);
     }
     if let Some(atol) = tolerance(&entries, "atol", f64::INFINITY, problems) {
         settings.atol = atol;
@@ -34,6 +33,9 @@ pub(super) fn read(entry: Option<&Entry<'_>>, problems: &mut Problems) -> Solver
     }
     if let Some(max_steps) = whole(&entries, "max_steps", problems) {
         settings.max_steps = max_steps;
+    }
+    if let Some(accuracy) = tolerance(&entries, "accuracy", f64::INFINITY, problems) {
+        settings.accuracy = accuracy;
     }
     if let Some(entry) = table::find(&entries, "newton") {
         settings.newton = value::boolean("newton", entry.value, problems).unwrap_or(settings.newton);

@@ -4,11 +4,11 @@ use super::Bimorph;
 use super::constants::Constants;
 use super::rhs::secant_stiffness;
 use crate::model::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
-use crate::model::convert::{DEGREES, GRAVITY, wrap_degrees};
+use crate::model::convert::{DEGREES, GRAVITY, efficiency, wrap_degrees};
 use crate::model::{Derived, Measure, Signal, SignalCycle};
 
 /// Number of signals.
-pub(super) const S: usize = 14;
+pub(super) const S: usize = 15;
 
 /// Share of the largest lift that a vehicle can hover with, the rest being needed for control; section IV.
 const HOVER_SHARE: f64 = 0.8;
@@ -19,7 +19,9 @@ const PITCH: usize = 1;
 const LIFT: usize = 2;
 const POWER: usize = 4;
 const PLATE_POWERS: [usize; 2] = [5, 6];
+const MECHANICAL_POWER: usize = 7;
 const DRAG_POWER: usize = 8;
+const TRANSDUCED_POWER: usize = 14;
 
 const fn signal(
     name: &'static str,
@@ -41,17 +43,21 @@ pub(super) const SIGNALS: [Signal; S] = [
     signal("pitch", ANGLE, "hinge angle of the wing", &[Amplitude, Peak, Mean, Max, Min, First]),
     signal("lift", FORCE, "lift of the wing", &[Mean, Max, Min]),
     signal("drag", FORCE, "drag of the wing along the stroke", &[Mean, Magnitude]),
-    signal("power", POWER_UNIT, "electrical power of both plates, current x voltage", &[Mean]),
+    signal("power", POWER_UNIT, "electrical power of both plates, current x voltage; its mean is that of power_drag", &[Mean]),
     signal("power_plate_1", POWER_UNIT, "electrical power of plate 1", &[Supply]),
     signal("power_plate_2", POWER_UNIT, "electrical power of plate 2", &[Supply]),
-    signal("power_mechanical", POWER_UNIT, "power of the plates' forces at the actuator's tip", &[Mean]),
+    signal("power_mechanical", POWER_UNIT, "power of the plates' forces at the actuator's tip; its mean is that of power_drag", &[Mean]),
     signal("power_drag", POWER_UNIT, "power taken by the drag of the stroke, Eq. (8)", &[Mean]),
     signal("power_rotational", POWER_UNIT, "power taken by the hinge's rotational drag, Eq. (9)", &[Mean]),
     signal("current_1", CURRENT, "current into plate 1", &[Rms, Peak]),
     signal("current_2", CURRENT, "current into plate 2", &[Rms, Peak]),
     signal("force_1", FORCE, "force of plate 1 at the actuator's tip, Eq. (6)", &[Peak]),
     signal("force_2", FORCE, "force of plate 2 at the actuator's tip, Eq. (6)", &[Peak]),
+    signal("power_transduced", POWER_UNIT, "electrical power of both plates without that of charging their capacitance", &[]),
 ];
+
+pub(super) const PRINCIPAL: &[(usize, Measure)] =
+    &[(STROKE, First), (PITCH, First), (LIFT, Mean), (POWER, Mean)];
 
 const fn derived(name: &'static str, unit: &'static str, doc: &'static str) -> Derived {
     Derived { name, unit, doc }
@@ -69,15 +75,27 @@ pub(super) const DERIVED: &[Derived] = &[
     derived("payload_mg", "mg", "80 % of vehicle_lift_mgf, the rest being left for control, less vehicle_mass; Table II"),
     derived("power_supply_mw", "mW", "mean of the positive part of each plate's power, summed: no recovery"),
     derived("power_capacitive_mw", "mW", "C_act V_pp^2 f / 4: the paper's P, per actuator"),
-    derived("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw)"),
+    derived("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw); empty where that is not more than zero"),
     derived("efficiency_capacitive_gf_per_w", "gf/W", "mean lift over power_capacitive_mw: the paper's lift-to-power ratio, in mg/mW too"),
-    derived("energy_audit", "", "(electrical power - power of the stroke's drag) / electrical power, zero but for the integration's error"),
+    derived("energy_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error"),
     derived("strain_mid_max", "", "largest strain of the plates' mid-planes, Eq. (5)"),
     derived("strain_surface_max", "", "largest strain of the plates' outer faces, which Table II quotes"),
     derived("field_max_v_per_um", "V/um", "largest electric field in the plates"),
     derived("mode_stroke_hz", "Hz", "natural frequency of small strokes, without drag"),
     derived("mode_hinge_hz", "Hz", "natural frequency of small hinge angles, without drag"),
 ];
+
+/// ⟨V₁i₁ + V₂i₂⟩ = ⟨(F₁ − F₂) ẋ⟩ = ⟨power of the stroke's drag⟩: (1) has no other loss.
+pub(super) fn on_orbit(cycle: &mut [SignalCycle; S]) {
+    for power in [POWER, MECHANICAL_POWER] {
+        cycle[power].mean = cycle[DRAG_POWER].mean;
+    }
+}
+
+/// By current times voltage against the drag's.
+pub(super) fn audit(cycle: &[SignalCycle; S]) -> f64 {
+    cycle[POWER].audit(&cycle[TRANSDUCED_POWER])
+}
 
 /// The values of [`DERIVED`], for a wave that goes from `low` to `high`.
 pub(super) fn values(c: &Constants<f64>, [low, high]: [f64; 2], cycle: &[SignalCycle; S]) -> Vec<f64> {
@@ -106,9 +124,9 @@ pub(super) fn values(c: &Constants<f64>, [low, high]: [f64; 2], cycle: &[SignalC
         HOVER_SHARE * vehicle_lift - c.vehicle_mass * 1e6,
         supply * 1e3,
         capacitive * 1e3,
-        lift_gf / power,
+        efficiency(lift_gf, power),
         lift_gf / capacitive,
-        (power - cycle[DRAG_POWER].mean) / power,
+        audit(cycle),
         tip_peak * c.strain_per_tip,
         tip_peak * c.strain_per_tip * c.surface_strain_ratio,
         voltage_max * c.field_per_volt * 1e-6,

@@ -14,12 +14,12 @@ pub use actuator::{Actuator, taper_gain};
 pub use constants::Constants;
 pub use params::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
 pub use rhs::{
-    Plate, charges, currents, derivative, drag_coefficient, elastic_force, hinge_drag, lift_and_drag, plate,
-    plate_forces, secant_stiffness, stiffening, tip_drag,
+    Plate, charges, charging_power, currents, derivative, drag_coefficient, elastic_force, hinge_drag,
+    lift_and_drag, plate, plate_forces, secant_stiffness, stiffening, tip_drag,
 };
 
-use super::{Derived, Model, Signal, SignalCycle};
-use crate::drive::{Driven, Samples, Source, StrokeMode, Waveform};
+use super::{Derived, Measure, Model, Signal, SignalCycle};
+use crate::drive::{Driven, Samples, Shape, Source, StrokeMode, Waveform};
 use crate::modes::Mode;
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
@@ -67,6 +67,7 @@ impl Model<4, { columns::S }> for Bimorph {
     const PRESETS: &'static [Preset] = Params::PRESETS;
     const STATES: [&'static str; 4] = ["tip_m", "tip_rate_m_s", "pitch_rad", "pitch_rate_rad_s"];
     const SIGNALS: [Signal; columns::S] = columns::SIGNALS;
+    const PRINCIPAL: &'static [(usize, Measure)] = columns::PRINCIPAL;
     const DERIVED: &'static [Derived] = columns::DERIVED;
 
     fn variant(&self, values: &[f64]) -> Bimorph {
@@ -87,6 +88,7 @@ impl Model<4, { columns::S }> for Bimorph {
             y: [0.0; 4],
             span: 1.0 / params.drive_frequency,
             scale: [tip, tip * rate, 0.3, 0.3 * rate],
+            tighten: 1.0,
         })
     }
 
@@ -134,7 +136,14 @@ impl Model<4, { columns::S }> for Bimorph {
             i_2,
             f_1,
             f_2,
+            power_1 + power_2 - charging_power(c, plates),
         ]
+    }
+
+    /// Currents follow the edges of the force's transition, (6), which the drive crosses in a fraction of a step.
+    #[inline(always)]
+    fn parts(&self) -> u32 {
+        if self.source.shape == Shape::Square { 6 } else { 2 }
     }
 
     fn imposed(
@@ -152,6 +161,14 @@ impl Model<4, { columns::S }> for Bimorph {
 
     fn sampled(&self, samples: Samples) -> Bimorph {
         Bimorph { source: self.source.sampled(samples) }
+    }
+
+    fn on_orbit(&self, cycle: &mut [SignalCycle; columns::S]) {
+        columns::on_orbit(cycle);
+    }
+
+    fn audit(&self, cycle: &[SignalCycle; columns::S]) -> f64 {
+        columns::audit(cycle)
     }
 
     fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; columns::S]) -> Vec<f64> {

@@ -188,6 +188,13 @@ pub fn charges<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R) -> [R; 2
     ]
 }
 
+/// Power that charges the plates' capacitance (W), zero on the mean of a period: C_p (V₁V̇₁ + V₂V̇₂).
+#[inline(always)]
+pub fn charging_power<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2]) -> R {
+    let [v_1, v_2] = [plates[0].voltage, plates[1].voltage];
+    c.c_p * (v_1.value * v_1.rate + v_2.value * v_2.rate)
+}
+
 /// Currents into the two plates (A): the rates of their [`charges`].
 ///
 /// ```text

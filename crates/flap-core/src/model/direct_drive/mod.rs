@@ -15,8 +15,8 @@ pub use params::{AddedMass, CentreOfPressure, FlowDirection, LiftSign, Params};
 pub use rhs::{AddedMassLoad, Aerodynamics, added_mass, aerodynamics, balance, current, lift, mean_velocity};
 
 use super::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
-use super::convert::{DEGREES, GRAVITY, wrap_degrees};
-use super::{Derived, Model, Signal, SignalCycle, on_stroke, on_stroke_rates};
+use super::convert::{DEGREES, GRAVITY, efficiency, wrap_degrees};
+use super::{Derived, Measure, Model, Signal, SignalCycle, on_stroke, on_stroke_rates};
 use crate::drive::{Driven, Samples, Source, Waveform};
 use crate::modes::{Mode, natural_frequencies};
 use crate::num::Lanes;
@@ -79,8 +79,9 @@ const LIFT: usize = 2;
 const POWER: usize = 5;
 const DRAG_POWER: usize = 6;
 const ROTATION_POWER: usize = 7;
+const TRANSDUCED_POWER: usize = 9;
 
-impl Model<4, 9> for DirectDrive {
+impl Model<4, 10> for DirectDrive {
     const NAME: &'static str = "direct-drive";
     const DOC: &'static str =
         "unimorph bolted to the wing, passive pitch, blade-element aerodynamics (Ozaki and Hamaguchi 2018)";
@@ -88,7 +89,7 @@ impl Model<4, 9> for DirectDrive {
     const PRESETS: &'static [Preset] = Params::PRESETS;
     const STATES: [&'static str; 4] = ["stroke_rad", "pitch_rad", "stroke_rate_rad_s", "pitch_rate_rad_s"];
 
-    const SIGNALS: [Signal; 9] = [
+    const SIGNALS: [Signal; 10] = [
         Signal {
             name: "stroke",
             unit: "deg",
@@ -134,7 +135,7 @@ impl Model<4, 9> for DirectDrive {
             unit: "mW",
             suffix: "mw",
             factor: 1e3,
-            doc: "electrical power current x voltage, Eq. (40)",
+            doc: "electrical power current x voltage, Eq. (40); its mean is that of what the air takes",
             measures: &[Mean, Supply],
         },
         Signal {
@@ -161,7 +162,18 @@ impl Model<4, 9> for DirectDrive {
             doc: "current into the actuator, Eq. (39)",
             measures: &[Rms, Peak],
         },
+        Signal {
+            name: "power_transduced",
+            unit: "mW",
+            suffix: "mw",
+            factor: 1e3,
+            doc: "electrical power without that of charging the capacitance and of the constant part of the voltage",
+            measures: &[],
+        },
     ];
+
+    const PRINCIPAL: &'static [(usize, Measure)] =
+        &[(STROKE, First), (PITCH, First), (LIFT, Mean), (POWER, Mean)];
 
     const DERIVED: &'static [Derived] = &[
         Derived {
@@ -178,7 +190,7 @@ impl Model<4, 9> for DirectDrive {
         Derived {
             name: "efficiency_gf_per_w",
             unit: "gf/W",
-            doc: "mean lift over mean electrical power (power_mean_mw)",
+            doc: "mean lift over mean electrical power (power_mean_mw); empty where that is not more than zero",
         },
         Derived {
             name: "power_capacitive_mw",
@@ -188,7 +200,7 @@ impl Model<4, 9> for DirectDrive {
         Derived {
             name: "energy_audit",
             unit: "",
-            doc: "(electrical - aerodynamic power) / electrical power, zero but for the integration's error",
+            doc: "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error",
         },
         Derived {
             name: "strain_surface_max",
@@ -226,6 +238,7 @@ impl Model<4, 9> for DirectDrive {
             y: self.initial_state(&constants),
             span: 1.0 / params.drive_frequency,
             scale: [0.1, 0.3, 0.1 * rate, 0.3 * rate],
+            tighten: 1.0,
         })
     }
 
@@ -249,7 +262,7 @@ impl Model<4, 9> for DirectDrive {
         side: R,
         y: &[R; 4],
         dy: &[R; 4],
-    ) -> [R; 9] {
+    ) -> [R; 10] {
         let prescribed = self.source.prescribes_stroke();
         let (y, dy) = if prescribed { (&on_stroke(drive, y), &on_stroke_rates(drive, dy)) } else { (y, dy) };
         let [phi, psi, phi_dot, psi_dot] = *y;
@@ -268,10 +281,11 @@ impl Model<4, 9> for DirectDrive {
             -(air.stroke_moment * phi_dot + air.pitch_moment * psi_dot),
             -(air.rotation_moment * psi_dot),
             current,
+            (drive.value - c.drive_bias) * (current - c.c_p * drive.rate),
         ]
     }
 
-    fn imposed(&self, c: &Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> ([f64; 4], [f64; 9]) {
+    fn imposed(&self, c: &Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> ([f64; 4], [f64; 10]) {
         let y = [stroke[0], pitch[0], stroke[1], pitch[1]];
         let dy = [stroke[1], pitch[1], stroke[2], pitch[2]];
         let [velocity, _] = mean_velocity(c, &y, &dy);
@@ -285,12 +299,23 @@ impl Model<4, 9> for DirectDrive {
         DirectDrive { source: self.source.sampled(samples), ..self.clone() }
     }
 
-    fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; 9]) -> Vec<f64> {
+    /// ⟨Vj⟩ = −⟨M_tr,y φ̇ + (M_tr,x′ + M_rot) ψ̇⟩: but for the air, everything is given back within a period.
+    fn on_orbit(&self, cycle: &mut [SignalCycle; 10]) {
+        // A prescribed stroke has no electrical power.
+        if !cycle[POWER].mean.is_nan() {
+            cycle[POWER].mean = cycle[DRAG_POWER].mean + cycle[ROTATION_POWER].mean;
+        }
+    }
+
+    fn audit(&self, cycle: &[SignalCycle; 10]) -> f64 {
+        cycle[POWER].audit(&cycle[TRANSDUCED_POWER])
+    }
+
+    fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; 10]) -> Vec<f64> {
         // The drive's sine has the phase −π/2 against the cosine.
         let drive_phase = -core::f64::consts::FRAC_PI_2;
         let lift_gf = cycle[LIFT].mean / GRAVITY * 1e3;
         let power = cycle[POWER].mean;
-        let taken = cycle[DRAG_POWER].mean + cycle[ROTATION_POWER].mean;
         let frequency = c.waveform.rate / (2.0 * core::f64::consts::PI);
         let [low, high] = if self.source.prescribes_stroke() {
             [f64::NAN; 2]
@@ -304,9 +329,9 @@ impl Model<4, 9> for DirectDrive {
             wrap_degrees(drive_phase - cycle[STROKE].phase()),
             wrap_degrees(cycle[STROKE].phase() - cycle[PITCH].phase()),
             lift_gf,
-            lift_gf / power,
+            efficiency(lift_gf, power),
             0.5 * c.c_p * voltage_pp * voltage_pp * frequency * 1e3,
-            (power - taken) / power,
+            self.audit(cycle),
             cycle[STROKE].measure(Peak) * c.strain_per_stroke.abs(),
             field_max * 1e-6,
             mode_1,

@@ -2,10 +2,10 @@
 
 use crate::model::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use crate::model::convert::DEGREES;
-use crate::model::{Derived, Signal};
+use crate::model::{Derived, Measure, Signal};
 
 /// Number of signals.
-pub(super) const S: usize = 15;
+pub(super) const S: usize = 17;
 
 /// Positions in [`SIGNALS`].
 pub(super) const STROKE: usize = 0;
@@ -15,6 +15,8 @@ pub(super) const DRIVE_POWER: usize = 7;
 /// What the drive's power goes into: the four signals that follow it.
 pub(super) const LOSSES: core::ops::Range<usize> = 8..12;
 pub(super) const POWER: usize = 12;
+pub(super) const TRANSDUCED_POWER: usize = 15;
+pub(super) const DRIVING_POWER: usize = 16;
 
 pub(super) const SIGNALS: [Signal; S] = [
     Signal {
@@ -78,7 +80,7 @@ pub(super) const SIGNALS: [Signal; S] = [
         unit: "mW",
         suffix: "mw",
         factor: 1e3,
-        doc: "mechanical power of the actuator on the stroke",
+        doc: "mechanical power of the actuator on the stroke; its mean is the sum of the four that follow",
         measures: &[Mean],
     },
     Signal {
@@ -118,7 +120,7 @@ pub(super) const SIGNALS: [Signal; S] = [
         unit: "mW",
         suffix: "mw",
         factor: 1e3,
-        doc: "electrical power current x voltage (not in the paper)",
+        doc: "electrical power current x voltage (not in the paper); its mean is that of power_drive",
         measures: &[Mean, Supply],
     },
     Signal {
@@ -137,7 +139,26 @@ pub(super) const SIGNALS: [Signal; S] = [
         doc: "displacement of the actuator's tip",
         measures: &[PeakToPeak, Peak],
     },
+    Signal {
+        name: "power_transduced",
+        unit: "mW",
+        suffix: "mw",
+        factor: 1e3,
+        doc: "electrical power without that of charging capacitances and of the constant part of the voltage",
+        measures: &[],
+    },
+    Signal {
+        name: "power_driving",
+        unit: "mW",
+        suffix: "mw",
+        factor: 1e3,
+        doc: "mechanical power of the actuator without that of its stiffness",
+        measures: &[],
+    },
 ];
+
+pub(super) const PRINCIPAL: &[(usize, Measure)] =
+    &[(STROKE, First), (PITCH, First), (LIFT, Mean), (POWER, Mean)];
 
 pub(super) const DERIVED: &[Derived] = &[
     Derived {
@@ -164,12 +185,12 @@ pub(super) const DERIVED: &[Derived] = &[
     Derived {
         name: "energy_audit",
         unit: "",
-        doc: "(drive power - dissipated powers) / drive power, zero but for the integration's error",
+        doc: "(power of the actuator's force - power_drive_mean_mw) / power_drive_mean_mw, zero but for the integration's error",
     },
     Derived {
         name: "electrical_audit",
         unit: "",
-        doc: "(electrical - drive power) / electrical power, zero but for the integration's error",
+        doc: "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error",
     },
     Derived {
         name: "field_max_v_per_um",

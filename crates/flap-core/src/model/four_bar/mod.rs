@@ -18,16 +18,18 @@ pub use aerodynamics::{Aerodynamics, added_mass_lift, aerodynamics, coefficients
 pub use composite::Composite;
 pub use constants::{Actuator, Air, Constants, Drive, MAX_STRIPS, Wing};
 pub use params::{AddedMassSign, Arms, Params, Quadrature};
-pub use rhs::{Transmission, balance, current, force, mass_matrix, tip, transmission};
+pub use rhs::{
+    Transmission, balance, charging_current, current, driving_force, force, mass_matrix, tip, transmission,
+};
 
-use super::convert::{GRAVITY, wrap_degrees};
-use super::{Derived, Model, Signal, SignalCycle, on_stroke, on_stroke_rates};
+use super::convert::{GRAVITY, efficiency, wrap_degrees};
+use super::{Derived, Measure, Model, Signal, SignalCycle, on_stroke, on_stroke_rates};
 use crate::drive::{Driven, Samples, Source, Waveform};
 use crate::modes::{Mode, natural_frequencies};
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
-use columns::{DRIVE_POWER, LIFT, LOSSES, PITCH, POWER, S, STROKE};
+use columns::{DRIVE_POWER, DRIVING_POWER, LIFT, LOSSES, PITCH, POWER, S, STROKE, TRANSDUCED_POWER};
 
 /// The model.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -83,6 +85,7 @@ impl Model<4, S> for FourBar {
     const STATES: [&'static str; 4] = ["stroke_rad", "pitch_rad", "stroke_rate_rad_s", "pitch_rate_rad_s"];
 
     const SIGNALS: [Signal; S] = columns::SIGNALS;
+    const PRINCIPAL: &'static [(usize, Measure)] = columns::PRINCIPAL;
     const DERIVED: &'static [Derived] = columns::DERIVED;
 
     fn variant(&self, values: &[f64]) -> FourBar {
@@ -100,6 +103,7 @@ impl Model<4, S> for FourBar {
             y: self.initial_state(&constants),
             span: 1.0 / params.drive_frequency,
             scale: [0.3, 0.5, 0.3 * rate, 0.5 * rate],
+            tighten: 1.0,
         })
     }
 
@@ -136,6 +140,7 @@ impl Model<4, S> for FourBar {
         } else {
             [force(&c.actuator, drive, links.displacement), current(&c.actuator, drive, slider_rate)]
         };
+        let swing = drive.value - c.drive.bias;
         [
             theta,
             phi,
@@ -152,6 +157,8 @@ impl Model<4, S> for FourBar {
             current * drive.value,
             current,
             tip(&c.actuator, links.displacement, force),
+            swing * (current - charging_current(&c.actuator, drive)),
+            driving_force(&c.actuator, swing) * slider_rate,
         ]
     }
 
@@ -169,16 +176,25 @@ impl Model<4, S> for FourBar {
         FourBar { source: self.source.sampled(samples) }
     }
 
+    /// ⟨Vi⟩ = ⟨F δ̇⟩ = what damping and air take: actuator, springs and inertia give back everything within a period.
+    fn on_orbit(&self, cycle: &mut [SignalCycle; S]) {
+        // A prescribed stroke has no electrical power.
+        if !cycle[POWER].mean.is_nan() {
+            let losses = cycle[LOSSES].iter().map(|loss| loss.mean).sum();
+            cycle[DRIVE_POWER].mean = losses;
+            cycle[POWER].mean = losses;
+        }
+    }
+
+    fn audit(&self, cycle: &[SignalCycle; S]) -> f64 {
+        cycle[DRIVE_POWER].audit(&cycle[DRIVING_POWER])
+    }
+
     fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; S]) -> Vec<f64> {
         // The drive's sine has the phase −π/2 against the cosine.
         let drive_phase = -core::f64::consts::FRAC_PI_2;
         let lift_gf = cycle[LIFT].mean / GRAVITY * 1e3;
         let power = cycle[POWER].mean;
-        let drive_power = cycle[DRIVE_POWER].mean;
-        let mut losses = 0.0;
-        for i in LOSSES {
-            losses += cycle[i].mean;
-        }
         let frequency = c.drive.waveform.rate / (2.0 * core::f64::consts::PI);
         let [low, high] = if self.source.prescribes_stroke() {
             [f64::NAN; 2]
@@ -192,10 +208,10 @@ impl Model<4, S> for FourBar {
             wrap_degrees(drive_phase - cycle[STROKE].phase()),
             wrap_degrees(cycle[STROKE].phase() - cycle[PITCH].phase()),
             lift_gf,
-            lift_gf / power,
+            efficiency(lift_gf, power),
             0.5 * c.actuator.capacitance * voltage_pp * voltage_pp * frequency * 1e3,
-            (drive_power - losses) / drive_power,
-            (power - drive_power) / power,
+            self.audit(cycle),
+            cycle[POWER].audit(&cycle[TRANSDUCED_POWER]),
             field_max * 1e-6,
             mode_1,
             mode_2,

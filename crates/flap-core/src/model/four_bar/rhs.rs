@@ -80,6 +80,22 @@ pub fn current<R: Real>(c: &Actuator<R>, drive: &Driven<R>, slider_rate: R) -> R
     c.capacitance * drive.rate + c.coupling * tip(c, slider_rate, force_rate)
 }
 
+/// The part of the [`current`] that charges capacitances (A), and has no power on the mean of a period.
+///
+/// ```text
+/// (C_b + Γ k_eff γ/k_sc) V̇
+/// ```
+#[inline(always)]
+pub fn charging_current<R: Real>(c: &Actuator<R>, drive: &Driven<R>) -> R {
+    (c.capacitance + c.coupling * c.stiffness * c.deflection * c.series_compliance) * drive.rate
+}
+
+/// The part of the actuator's [`force`] that a change of voltage by `swing` (V) makes (N): k_eff γ swing.
+#[inline(always)]
+pub fn driving_force<R: Real>(c: &Actuator<R>, swing: R) -> R {
+    c.stiffness * c.deflection * swing
+}
+
 /// The mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²), of (13).
 ///
 /// ```text

@@ -1,0 +1,34 @@
+//! The size of a motion: the largest magnitude that each state reaches.
+
+use crate::num::Lanes;
+use crate::ode::Ode;
+use crate::ode::ensemble::Observer;
+use crate::ode::step::Attempt;
+
+/// Keeps the largest magnitude of each of the N states at the ends of the steps of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Size;
+
+impl<O: Ode<N>, const N: usize> Observer<O, N> for Size {
+    type Totals<R: Lanes> = [R; N];
+
+    #[inline(always)]
+    fn nothing(&self) -> [f64; N] {
+        [0.0; N]
+    }
+
+    #[inline(always)]
+    fn add<R: Lanes>(
+        &self,
+        _ode: &O,
+        _c: &O::Constants<R>,
+        attempt: &Attempt<'_, R, N>,
+        accepted: R::Mask,
+        largest: &mut [R; N],
+    ) {
+        let [.., end] = &attempt.step.y;
+        for i in 0..N {
+            largest[i] = R::select(accepted, end[i].abs().max(largest[i]), largest[i]);
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! How far a row is from what exact integration would give.
+//!
+//! An orbit is measured twice: on the orbit that the point's tolerances have, and on the one that tolerances coarser by
+//! [`COARSER`] have. The second is found from the first by one period and the monodromy matrix. The error of the method
+//! goes about as its tolerance, so the difference of the two, divided by that factor, is about the error of the first.
+//!
+//! A row that is not accurate enough is integrated again, from its orbit, with tighter tolerances.
+
+use super::row;
+use super::search::Search;
+use super::simulator::{Row, Status};
+use crate::measure::cycle::Totals;
+use crate::model::{Model, SignalCycle};
+use crate::ode::{Ending, Outcome, Start};
+
+/// How many times coarser the tolerances are with which a row is compared.
+pub(super) const COARSER: f64 = 64.0;
+
+/// The share of the difference between the two that counts as error: more than 1/[`COARSER`], as single differences may
+/// be small by chance.
+const SHARE: f64 = 0.5;
+
+/// The least error that a row is said to have, in units of the relative tolerance: about that of finding extrema between
+/// the ends of steps.
+pub(super) const LEAST: f64 = 5.0;
+
+/// Crossings of the switching surface in a period beyond which the motion slides along the surface: others cross it twice, or
+/// some times more. What a step makes of such a motion does not converge as the method does.
+const MANY_SWITCHES: u64 = 16;
+
+/// A period of the orbit, and one of the orbit that coarser integration has.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Compared<const S: usize> {
+    /// Totals of the orbit's period, unless it failed.
+    pub(super) fine: Option<[Totals<f64>; S]>,
+    /// How it ended.
+    pub(super) ending: Ending,
+    /// Whether it slides along the switching surface.
+    pub(super) slides: bool,
+    /// Totals of the other period, unless that failed.
+    pub(super) coarse: Option<[Totals<f64>; S]>,
+}
+
+impl<const S: usize> Compared<S> {
+    /// Before anything has been integrated.
+    pub(super) fn new() -> Compared<S> {
+        Compared { fine: None, ending: Ending::Stopped, slides: false, coarse: None }
+    }
+
+    /// Takes the totals of the orbit's period, unless it failed.
+    pub(super) fn take_fine(&mut self, totals: Option<[Totals<f64>; S]>, outcome: Outcome) {
+        self.fine = totals;
+        self.ending = outcome.ending;
+        self.slides = outcome.switches > MANY_SWITCHES;
+    }
+}
+
+/// What follows from the periods of an orbit.
+pub(super) enum Verdict<const N: usize> {
+    /// The point has its row.
+    Done(Row),
+    /// The orbit is to be found again, more exactly, from this state; the row is kept in case it cannot be.
+    Again(Row, [f64; N]),
+}
+
+/// Judges the row of an orbit, given the last one of the point if this is not its first.
+pub(super) fn judge<M: Model<N, S>, const N: usize, const S: usize>(
+    search: &mut Search<N>,
+    model: &M,
+    start: &Start<M::Constants<f64>, N>,
+    periods: &Compared<S>,
+    last: Option<Row>,
+    accuracy: f64,
+) -> Verdict<N> {
+    let (row, audit) = row::measured(search, model, start, periods);
+    if row.status != Status::Periodic {
+        return Verdict::Done(last.map_or(row, |last| row::charged(last, search)));
+    }
+    let again =
+        if periods.slides { None } else { search.refine(row.error_estimate.max(audit.abs()), accuracy) };
+    match again {
+        Some(y) => Verdict::Again(row, y),
+        None => Verdict::Done(row),
+    }
+}
+
+/// The largest relative error of the model's principal measures: stroke, pitch, lift, power. Infinite if it cannot be
+/// estimated: the coarser integration failed, or the motion slides along the switching surface.
+pub(super) fn estimate<M: Model<N, S>, const N: usize, const S: usize>(
+    fine: &[SignalCycle; S],
+    coarse: Option<&[SignalCycle; S]>,
+    slides: bool,
+) -> f64 {
+    let Some(coarse) = coarse.filter(|_| !slides) else { return f64::INFINITY };
+    let mut largest = 0.0_f64;
+    for &(signal, measure) in M::PRINCIPAL {
+        let [value, other] = [fine, coarse].map(|cycle| cycle[signal].measure(measure));
+        let difference = (other - value).abs();
+        // A prescribed stroke has no power, and a wing at rest nothing.
+        if difference > 0.0 {
+            largest = largest.max(SHARE * difference / value.abs());
+        }
+    }
+    largest
+}
