@@ -186,6 +186,16 @@ impl Simulator for Fake {
         _: &[f64],
         _: Interrupt<'_>,
     ) -> Result<Period, Unfinished> {
+    fn row(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        _: Interrupt<'_>,
+    ) -> Result<Row, Unfinished> {
+        Ok(self.run_point(set, solver, values, None))
+    }
+
         unreachable!("sweeps do not ask for periods")
     }
 
