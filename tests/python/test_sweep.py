@@ -3,12 +3,8 @@
 import csv
 import math
 import os
-import signal
-import subprocess
-import sys
-import textwrap
+import pickle
 import threading
-import time
 
 import flapwing
 import numpy as np
@@ -181,29 +177,6 @@ def test_an_interrupted_sweep_goes_on_to_the_same_bytes(tmp_path):
     assert len(flapwing.sweep(grid, out=out, resume=True)) == 8000
     flapwing.sweep(grid, out=tmp_path / "whole.csv")
     assert out.read_bytes() == (tmp_path / "whole.csv").read_bytes()
-
-
-@pytest.mark.skipif(os.name != "posix", reason="signals")
-def test_ctrl_c_ends_a_sweep(tmp_path):
-    script = """
-    import sys, flapwing
-    print("begun", flush=True)
-    flapwing.sweep(sys.argv[1], out=sys.argv[2])
-    """
-    out = tmp_path / "rows.csv"
-    grid = QUICK.replace("n = 26", "n = 10000000")
-    process = subprocess.Popen(
-        [sys.executable, "-c", textwrap.dedent(script), grid, out], stdout=subprocess.PIPE, stderr=subprocess.PIPE
-    )
-    process.stdout.readline()
-    while not out.exists() or out.stat().st_size < 10_000:
-        assert process.poll() is None
-        time.sleep(0.01)
-    process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=60)
-    assert b"KeyboardInterrupt" in errors
-    assert process.returncode == -signal.SIGINT
-    assert "interrupted" in (tmp_path / "rows.csv.meta.toml").read_text()
 
 
 def test_other_threads_sweep_at_the_same_time():
