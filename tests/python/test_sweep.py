@@ -1,5 +1,6 @@
 """Sweeps: rows equal to the command's, in memory and in files."""
 
+import copy
 import csv
 import math
 import os
@@ -143,9 +144,41 @@ def test_progress_is_told():
     assert told == sorted(told)
 
 
+def test_progress_ends_with_all_points(tmp_path):
+    told = []
+
+    def tell(done, points):
+        told.append((done, points))
+
+    flapwing.sweep(QUICK, progress=tell)
+    assert told[-1] == (26, 26)
+    told.clear()
+    flapwing.sweep(QUICK, out=tmp_path / "rows.csv", progress=tell)
+    assert told[-1] == (26, 26)
+    told.clear()
+    flapwing.sweep(QUICK, out=tmp_path / "rows.csv", resume=True, progress=tell)
+    assert told == [(26, 26)]
+    told.clear()
+    flapwing.evaluate("ozaki2018-large", {"drive_frequency": [100.0, 105.0]}, progress=tell)
+    assert told[-1] == (2, 2)
+
+
 def test_a_bar_is_shown(capsys):
     flapwing.sweep(QUICK, progress=True)
-    assert "points" in capsys.readouterr().err
+    last = capsys.readouterr().err.rsplit("\r", 1)[-1]
+    assert "100%" in last and "26.0/26.0" in last and "points" in last
+
+
+def test_a_table_of_a_file_can_be_pickled(tmp_path):
+    out = tmp_path / "rows.csv"
+    table = flapwing.sweep(QUICK, out=out)
+    stored = pickle.dumps(table)
+    out.unlink()
+    for copied in (pickle.loads(stored), copy.deepcopy(table)):
+        assert copied.units == table.units and copied.meta == table.meta
+        assert [list(dim) for dim in copied.dims] == [list(dim) for dim in table.dims]
+        for column in table.columns:
+            np.testing.assert_array_equal(copied[column], table[column], strict=True)
 
 
 def test_an_exception_in_progress_ends_the_sweep(tmp_path):
