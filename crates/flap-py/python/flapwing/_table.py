@@ -50,7 +50,10 @@ class _Column(NamedTuple):
 
 
 def _columns(native: Dict[str, Any]) -> Dict[str, _Column]:
-    return {name: _Column(unit, doc, cells, words) for name, unit, doc, cells, words in native["columns"]}
+    told = native.get("units", {})
+    return {
+        name: _Column(told.get(name, unit), doc, cells, words) for name, unit, doc, cells, words in native["columns"]
+    }
 
 
 class Table:
@@ -108,12 +111,12 @@ class Table:
             self._held = _columns(_flapwing.read(self._path))
         return self._held
 
-    def __len__(self) -> int:
-        return next((len(column.cells) for column in self._columns.values()), 0)
-
     def __getstate__(self) -> Dict[str, Any]:
         # A pickle holds the rows: where it is read, the file may be another or none.
         return {"_held": self._columns, "dims": self.dims, "meta": self.meta}
+
+    def __len__(self) -> int:
+        return next((len(column.cells) for column in self._columns.values()), 0)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
