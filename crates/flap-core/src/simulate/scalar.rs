@@ -15,7 +15,7 @@ use crate::num::{Arithmetic, InstructionSet, PerLane, Scalar, Unfused};
 use crate::ode::ensemble::Observer;
 use crate::ode::solve::solve_until;
 use crate::ode::variation::Variation;
-use crate::ode::{Ending, Interrupt, Outcome, Start, never};
+use crate::ode::{Ending, Interrupt, Outcome, Start};
 
 /// Searches for the orbit of a point; `nearby` if it begins perhaps near that. Interrupted, it comes to nothing.
 pub(super) fn search<M, R, const N: usize, const K: usize, const S: usize>(
@@ -62,12 +62,13 @@ where
     }
 }
 
-/// Runs one point.
+/// Runs one point. Interrupted, its row means nothing.
 fn point<M, R, const N: usize, const K: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,
     values: &[f64],
     from: Option<&[f64]>,
+    interrupted: Interrupt<'_>,
 ) -> Row
 where
     M: Model<N, S>,
@@ -78,13 +79,13 @@ where
         Ok(start) => start,
         Err(error) => return Row::invalid(error),
     };
-    let search = search::<M, R, N, K, S>(model, solver, &start, from.is_some(), &never);
+    let search = search::<M, R, N, K, S>(model, solver, &start, from.is_some(), interrupted);
     if let Some(row) = row::unmeasured(&search) {
         return row;
     }
 
     start.y = search.orbit().map_or(start.y, |orbit| orbit.y);
-    let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start, &never);
+    let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start, interrupted);
     row::measured(&search, model, &start.constants, start.span, totals.as_ref(), outcome)
 }
 
@@ -126,18 +127,23 @@ pub(super) struct Scalars<'a, M> {
 }
 
 impl<M> Scalars<'_, M> {
-    /// The point's row, from rest or another state.
+    /// The point's row, from rest or another state; it means nothing if it was interrupted.
     pub(super) fn row<const N: usize, const K: usize, const S: usize>(
         &self,
         set: InstructionSet,
         begin: Option<&[f64]>,
+        interrupted: Interrupt<'_>,
     ) -> Row
     where
         M: Model<N, S>,
     {
         match set.arithmetic() {
-            Arithmetic::Fused => point::<M, f64, N, K, S>(self.model, self.solver, self.values, begin),
-            Arithmetic::Unfused => point::<M, Unfused, N, K, S>(self.model, self.solver, self.values, begin),
+            Arithmetic::Fused => {
+                point::<M, f64, N, K, S>(self.model, self.solver, self.values, begin, interrupted)
+            }
+            Arithmetic::Unfused => {
+                point::<M, Unfused, N, K, S>(self.model, self.solver, self.values, begin, interrupted)
+            }
         }
     }
 
