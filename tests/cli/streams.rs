@@ -1,7 +1,11 @@
 //! Standard streams, closed pipes and signals.
 
 use std::io::{BufRead, BufReader, Read};
+use std::thread;
+use std::time::{Duration, Instant};
 
+#[cfg(unix)]
+use crate::support::start_in_background;
 use crate::support::{Folder, frequencies, send, start, wait, wait_for_rows};
 
 #[test]
@@ -73,5 +77,72 @@ fn a_second_signal_ends_at_once() {
     wait_for_rows(&folder, 1);
     send("INT", &child);
     send("INT", &child);
+    assert_eq!(wait(&mut child), Some(130));
+}
+
+/// Solver settings with which no point ends.
+const ENDLESS: &str = "\n[solver]\nnewton = false\nmax_cycles = 1000000000\nsettle_tol = 1e-300\n";
+
+/// Long after a second, so that busy machines pass.
+const SOON: Duration = Duration::from_secs(5);
+
+/// Commands that would not end, and a second's patience.
+#[test]
+#[cfg(unix)]
+fn signals_end_every_command_within_a_point() {
+    let grid = format!("preset = \"ozaki2018-small\"\n\n[axes]\ndrive_frequency = [90, 100]\n{ENDLESS}");
+    // A motion that never repeats.
+    let design = "jafferis2016 --set hinge_stiffness=0.7486uN*m/rad --set drive_voltage_pp=180 --max-cycles 4294967295";
+    for command in [
+        "sweep --grid grid.toml".to_owned(),
+        "sweep --grid grid.toml --out -".to_owned(),
+        "respond grid.toml --along drive_voltage_pp --from 100 --to 110 --step 1".to_owned(),
+        "check grid.toml".to_owned(),
+        format!("run {design} --set drive_frequency=82"),
+        format!("run {design} --set drive_frequency=82 --trajectory motion.csv"),
+        format!("resonance {design} --from 81 --to 83"),
+    ] {
+        let arguments: Vec<&str> = command.split_whitespace().collect();
+        for signal in ["INT", "TERM"] {
+            let folder = Folder::with_grid(&grid);
+            let mut child = start(&folder, &arguments);
+            thread::sleep(Duration::from_millis(500));
+            assert!(child.try_wait().unwrap().is_none(), "{command} ended by itself");
+            let sent = Instant::now();
+            send(signal, &child);
+            let code = wait(&mut child);
+            assert!(sent.elapsed() < SOON, "{command} took {:?}", sent.elapsed());
+            // Commands that have nothing to put in order end by the signal.
+            assert_eq!(code, command.starts_with("sweep").then_some(130), "{command}");
+        }
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn an_endless_point_does_not_lose_the_rows_before_it() {
+    let axis = "drive_frequency = [90, 92, 100]";
+    let invalid_below_95 = "hinge_stiffness = \"1e-6 * (drive_frequency - 95)\"";
+    let folder = Folder::with_grid(&format!(
+        "preset = \"ozaki2018-small\"\n\n[axes]\n{axis}\n\n[derived]\n{invalid_below_95}\n{ENDLESS}"
+    ));
+    let mut child = start(&folder, &["sweep", "--grid", "grid.toml"]);
+    wait_for_rows(&folder, 2);
+    send("TERM", &child);
+    assert_eq!(wait(&mut child), Some(130));
+    assert_eq!(folder.read("grid.csv").lines().count(), 3);
+}
+
+#[test]
+#[cfg(unix)]
+fn a_sweep_in_the_background_ignores_ctrl_c() {
+    let folder = Folder::with_grid(&frequencies(100_000_000));
+    let mut child = start_in_background(&folder, &["sweep", "--grid", "grid.toml"]);
+    wait_for_rows(&folder, 100);
+    send("INT", &child);
+    let rows = folder.read("grid.csv").lines().count();
+    wait_for_rows(&folder, rows + 1000);
+    assert!(child.try_wait().unwrap().is_none());
+    send("TERM", &child);
     assert_eq!(wait(&mut child), Some(130));
 }

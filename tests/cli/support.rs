@@ -81,16 +81,42 @@ pub(crate) fn quick(points: u64) -> String {
     frequencies(points) + "\n[solver]\nrtol = 1e-3\nsettle_tol = 1e-3\nmax_cycles = 1\n"
 }
 
-/// Starts `flap` and does not wait for it.
+/// Starts `flap` and does not wait for it. It heeds SIGINT, whatever the parent of the tests does.
 pub(crate) fn start(folder: &Folder, arguments: &[&str]) -> Child {
-    process::Command::new(env!("CARGO_BIN_EXE_flap"))
-        .args(arguments)
-        .current_dir(folder.path(""))
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap()
+    let mut command = command(folder, arguments);
+    #[cfg(unix)]
+    set_interrupt(&mut command, libc::SIG_DFL);
+    command.spawn().unwrap()
+}
+
+/// Starts `flap` as shells start jobs in the background: SIGINT is ignored.
+#[cfg(unix)]
+pub(crate) fn start_in_background(folder: &Folder, arguments: &[&str]) -> Child {
+    let mut command = command(folder, arguments);
+    set_interrupt(&mut command, libc::SIG_IGN);
+    command.spawn().unwrap()
+}
+
+fn command(folder: &Folder, arguments: &[&str]) -> process::Command {
+    let mut command = process::Command::new(env!("CARGO_BIN_EXE_flap"));
+    command.args(arguments).current_dir(folder.path(""));
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+/// What SIGINT is to do when the command starts.
+#[cfg(unix)]
+#[expect(unsafe_code, reason = "there is no other way to set it")]
+fn set_interrupt(command: &mut process::Command, action: libc::sighandler_t) {
+    use std::os::unix::process::CommandExt;
+
+    let set = move || {
+        // SAFETY: `signal` may be called between fork and exec, and the action is one of the two that are no function.
+        unsafe { libc::signal(libc::SIGINT, action) };
+        Ok(())
+    };
+    // SAFETY: `set` does nothing else.
+    unsafe { command.pre_exec(set) };
 }
 
 /// The exit code, none if it was killed; fails the test if the command does not end.

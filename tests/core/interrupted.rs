@@ -116,6 +116,11 @@ fn motions_of_one_point_end_when_interrupted() {
     let always = || true;
     let interrupted = Some(Unfinished::Interrupted);
 
+    assert_eq!(model.row(set, &ENDLESS, values, &always).err(), interrupted);
+    let settings = SolverSettings::default();
+    let row = model.row(set, &settings, values, &never).unwrap();
+    assert_eq!(bits(&row), bits(&model.run_point(set, &settings, values, None)));
+
     let settled = TrajectoryRequest { cycles: 1, samples_per_cycle: 10, settled: true };
     assert_eq!(model.trajectory(set, &ENDLESS, values, &settled, &always).err(), interrupted);
     let from_rest = TrajectoryRequest { cycles: 1_000_000_000, settled: false, ..settled };

@@ -54,6 +54,23 @@ def test_options_and_constants():
     assert table.meta["set"] == {"drive_frequency": "105 Hz"}
 
 
+def test_a_parameter_is_a_column_or_a_keyword():
+    for columns in ({"drive_frequency": [100.0]}, {"drive_frequency": 100.0, "hinge_stiffness": [1e-4]}):
+        with pytest.raises(ValueError, match="`drive_frequency` is a column and a keyword: keep one of them"):
+            flapwing.evaluate(PRESET, columns, drive_frequency=110)
+
+
+def test_masked_values_are_refused():
+    masked = np.ma.masked_array([100.0, 105.0, 110.0], mask=[False, True, False])
+    with pytest.raises(ValueError, match="`drive_frequency` has 1 masked of 3 values"):
+        flapwing.evaluate(PRESET, {"drive_frequency": masked})
+    with pytest.raises(ValueError, match="`hinge_stiffness` has 1 masked of 1 values"):
+        flapwing.evaluate(PRESET, {"drive_frequency": [100.0], "hinge_stiffness": np.ma.masked})
+    whole = flapwing.evaluate(PRESET, {"drive_frequency": np.ma.masked_array([100.0, 105.0])})
+    assert whole["drive_frequency"].tolist() == [100, 105]
+    assert len(flapwing.evaluate(PRESET, {"drive_frequency": masked.compressed()})) == 2
+
+
 def test_values_out_of_range_are_rows():
     table = flapwing.evaluate(PRESET, {"drive_frequency": [105, -5, np.nan, np.inf, 0, 106]})
     assert table["status"].tolist() == ["periodic", "invalid", "invalid", "invalid", "invalid", "periodic"]

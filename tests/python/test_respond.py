@@ -1,7 +1,6 @@
 """Responses, trajectories, resonances, and what there is to be set."""
 
 import csv
-import signal
 
 import flapwing
 import numpy as np
@@ -58,15 +57,6 @@ def test_what_cannot_be_followed(arguments, keywords, says):
     with pytest.raises((ValueError, TypeError)) as caught:
         flapwing.respond("ozaki2018-large", *arguments, **keywords)
     assert says in str(caught.value)
-
-
-@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="signals")
-def test_ctrl_c_ends_a_long_curve():
-    """One that would take hours."""
-    signal.signal(signal.SIGALRM, lambda *_: signal.raise_signal(signal.SIGINT))
-    signal.setitimer(signal.ITIMER_REAL, 0.3)
-    with pytest.raises(KeyboardInterrupt):
-        flapwing.respond("jafferis2016", start=60, stop=200, step=0.001)
 
 
 def test_trajectories():

@@ -7,6 +7,7 @@ import polars
 import pyarrow
 import pytest
 from conftest import GRID
+from pyarrow import parquet
 
 
 @pytest.fixture(scope="module")
@@ -117,6 +118,63 @@ def test_a_table_shows_itself(table):
     html = table._repr_html_()
     assert f"{len(table)} rows" in html and "<th>lift_mean_mn (mN)</th>" in html
     assert html.count("<tr>") == 11
+
+
+@pytest.mark.parametrize("compression", ["snappy", "zstd", "none"])
+def test_parquet_that_others_wrote_is_read(table, tmp_path, compression):
+    path = tmp_path / "others.parquet"
+    parquet.write_table(table.to_arrow(), path, compression=compression)
+    found = flapwing.read(path)
+    for name in table.columns:
+        np.testing.assert_array_equal(found[name], table[name], strict=True)
+
+
+def test_parquet_of_pandas_is_read(tmp_path):
+    frame = pandas.DataFrame({
+        "name": ["a", "b"], "count": [1, 2], "small": np.array([-3, 4], np.int32), "half": np.array([0.5, np.nan], np.float32),
+        "ok": [True, False],
+    })
+    frame.to_parquet(tmp_path / "frame.parquet")
+    found = flapwing.read(tmp_path / "frame.parquet")
+    assert found["name"].tolist() == ["a", "b"] and found["count"].tolist() == [1, 2]
+    assert found["small"].tolist() == [-3, 4] and found["half"][0] == 0.5 and np.isnan(found["half"][1])
+    assert found["ok"].tolist() == [True, False]
+
+
+@pytest.mark.parametrize("compression", ["gzip", "brotli", "lz4"])
+def test_other_compressions_are_named(table, tmp_path, compression):
+    path = tmp_path / "others.parquet"
+    parquet.write_table(table.to_arrow(), path, compression=compression)
+    with pytest.raises(ValueError, match=f"(?i)compressed with {compression}.*: flap reads .* Zstandard, Snappy or no"):
+        flapwing.read(path)
+
+
+def test_columns_of_other_kinds_are_named(tmp_path):
+    pandas.DataFrame({"when": pandas.to_datetime(["2020-01-01"])}).to_parquet(tmp_path / "when.parquet")
+    with pytest.raises(ValueError, match="column when cannot be read: cells are whole numbers"):
+        flapwing.read(tmp_path / "when.parquet")
+
+
+def test_parquet_without_its_sidecar_has_units_and_axes(table, tmp_path):
+    path = tmp_path / "rows.parquet"
+    flapwing.sweep(GRID, out=path)
+    (tmp_path / "rows.parquet.meta.toml").unlink()
+    found = flapwing.read(path)
+    assert found.units == table.units and found.docs == table.docs
+    assert found.meta == {key: table.meta[key] for key in found.meta} and found.meta["preset"] == "ozaki2018-large"
+    assert found.to_xarray().sizes == table.to_xarray().sizes
+
+
+def test_parquet_of_a_lost_file_of_points_has_units(tmp_path):
+    points = tmp_path / "points.csv"
+    points.write_text("drive_frequency\n100\n105\n")
+    grid = {"preset": "ozaki2018-large", "sample": {"method": "file", "path": str(points)}}
+    path = tmp_path / "rows.parquet"
+    table = flapwing.sweep(grid, out=path)
+    points.unlink()
+    (tmp_path / "rows.parquet.meta.toml").unlink()
+    found = flapwing.read(path)
+    assert found.units == table.units and found.dims == []
 
 
 def test_files_that_others_wrote_are_read(flap, tmp_path):

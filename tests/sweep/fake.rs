@@ -52,6 +52,16 @@ impl Simulator for Fake {
         self.presets
     }
 
+    fn row(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        _: Interrupt<'_>,
+    ) -> Result<Row, Unfinished> {
+        Ok(self.run_point(set, solver, values, None))
+    }
+
     fn period(
         &self,
         _: InstructionSet,

@@ -18,6 +18,8 @@ pub(crate) enum Fault {
     None,
     Panic(f64),
     Slow(f64, Duration),
+    /// The point runs until it is interrupted.
+    Endless(f64),
     /// The row is never returned.
     Lose(f64),
     /// A row for a point that was never handed out comes along.
@@ -153,6 +155,12 @@ impl Rows for Fake {
             }
             let chosen = random.below(running.len());
             let point = running.swap_remove(chosen);
+            if self.fault == Fault::Endless(point.values[0]) {
+                while !jobs.interrupted() {
+                    std::thread::sleep(Duration::from_millis(1));
+                }
+                return;
+            }
             self.finish(&point, jobs);
         }
     }
@@ -177,6 +185,16 @@ impl Simulator for Fake {
 
     fn presets(&self) -> &'static [Preset] {
         &PRESETS
+    }
+
+    fn row(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        _: Interrupt<'_>,
+    ) -> Result<Row, Unfinished> {
+        Ok(self.run_point(set, solver, values, None))
     }
 
     fn period(

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use flap_core::simulate::Status;
-use flap_sweep::run::{Progress, run};
+use flap_sweep::run::{Progress, RunError, run};
 
 use crate::fake::{Fake, Fault};
 use crate::support::{Watch, csv, flag, must_end, options, plan, plan_of};
@@ -101,6 +101,32 @@ fn a_stopped_sweep_leaves_the_rows_of_the_first_points() {
             assert!(summary.rows > 100);
         });
     }
+}
+
+#[test]
+fn a_stopped_sweep_drops_a_point_that_does_not_end() {
+    for threads in [1, 3] {
+        must_end(move || {
+            let model = Fake::leak(Fault::Endless(300.0), 8);
+            let stop = flag(false);
+            let mut sink = Watch { stop_at: Some((100, stop)), ..Watch::new(model) };
+            let plan = plan(model, 1_000_000_000_000);
+            let summary = run(&plan, &options(threads, 1000), &mut sink, stop, &mut |_| {}).unwrap();
+            sink.assert_prefix();
+            assert!(summary.interrupted);
+            assert!((100..=300).contains(&summary.rows), "{} rows", summary.rows);
+        });
+    }
+}
+
+#[test]
+fn a_point_that_does_not_end_is_dropped_when_rows_cannot_be_written() {
+    must_end(|| {
+        let model = Fake::leak(Fault::Endless(300.0), 8);
+        let mut sink = Watch { full_at: Some(100), ..Watch::new(model) };
+        let ended = run(&plan(model, 1_000_000), &options(2, 1000), &mut sink, flag(false), &mut |_| {});
+        assert!(matches!(ended, Err(RunError::Sink(_))), "{ended:?}");
+    });
 }
 
 #[test]

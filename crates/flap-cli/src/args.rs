@@ -103,8 +103,8 @@ pub(crate) struct SweepArgs {
 }
 
 const SWEEP_HELP: &str = "\
-Rows leave in point order as they are computed. Ctrl-C finishes the points in hand, keeps their rows \
-and exits with 130; a second Ctrl-C exits at once. Beside FILE, FILE.meta.toml says where the rows come \
+Rows leave in point order as they are computed. Ctrl-C and SIGTERM leave the points in hand half a second, \
+keep the rows and exit with 130; a second one exits at once. Beside FILE, FILE.meta.toml says where the rows come \
 from. Until the sweep is complete, FILE.journal says how far they are, so that `flap resume FILE` can go on, \
 whatever ended it.
 

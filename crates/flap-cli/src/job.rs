@@ -3,8 +3,9 @@
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
+#[cfg(unix)]
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
 use flap_core::simulate::Status;
 pub(crate) use flap_sweep::job::Begin;
@@ -15,14 +16,13 @@ use flap_sweep::run::{self, Doubts, RunError, RunOptions, Summary};
 use flap_sweep::session::{self, SessionOptions};
 use flap_sweep::sidecar::{self, Origin, Sidecar};
 use flap_sweep::sink::Sink;
-use signal_hook::consts::{SIGINT, SIGTERM};
-use signal_hook::flag;
 
 use crate::args::WorkArgs;
 use crate::cmd::exclusion;
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::progress::Bar;
+use crate::signals;
 
 /// Runs `plan`, writes its rows to `out`, and tells what it came to. `origin` says where the points of a rerun come from.
 pub(crate) fn run(
@@ -73,23 +73,17 @@ fn complete(all_periodic: bool, work: &WorkArgs) -> Exit {
     if work.strict && !all_periodic { Exit::NotAllPeriodic } else { Exit::Done }
 }
 
-/// Runs the plan with a progress bar; the first signal to end drains the sweep, the second exits at once.
+/// Runs the plan with a progress bar, until a signal asks it to end.
 fn run_with_progress(
     plan: &Plan,
     options: &RunOptions,
     before: Summary,
     sink: &mut dyn Sink,
 ) -> Result<Summary, RunError> {
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
-        // Order matters: the flag is still down when the first signal asks whether to exit. If signals
-        // cannot be caught they end the program at once, and what was written so far is in order.
-        let _ = flag::register_conditional_shutdown(signal, Exit::Interrupted as i32, Arc::clone(&stop));
-        let _ = flag::register(signal, Arc::clone(&stop));
-    }
+    let stop = signals::stop();
     // Caught, the signal that a file would grow too large becomes an error of writing, which can be told.
     #[cfg(unix)]
-    let _ = flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
     let mut bar = Bar::new();
     let outcome = run::resume(plan, options, before, sink, &stop, &mut |progress| {
         bar.show(progress, stop.load(Ordering::Relaxed));

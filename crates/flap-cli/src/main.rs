@@ -8,6 +8,7 @@ mod job;
 #[cfg(feature = "plots")]
 mod plot;
 mod progress;
+mod signals;
 mod table;
 
 use std::process::ExitCode;

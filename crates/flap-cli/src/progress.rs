@@ -38,7 +38,7 @@ impl Bar {
         if stopping && !self.stopping {
             self.stopping = true;
             self.drawn.suspend(|| {
-                console::say("stopping: points in hand are finished first; interrupt again to stop at once");
+                console::say("stopping: points in hand have half a second; interrupt again to stop at once");
             });
         }
     }

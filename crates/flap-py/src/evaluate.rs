@@ -22,6 +22,9 @@ pub(crate) fn evaluate<'py>(
     keywords: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let options = sweep::options(threads)?;
+    if let Some(keywords) = keywords {
+        refuse_twice(columns, keywords)?;
+    }
     let of_model = design::plan_of_model(design, keywords)?;
     let is_model = of_model.is_some();
     let mut plan = match of_model {
@@ -54,6 +57,17 @@ pub(crate) fn evaluate<'py>(
         return Err(PyValueError::new_err("too many points"));
     }
     sweep::into_columns(py, &plan, &options, progress, None)
+}
+
+/// A parameter has one place: a keyword would be lost behind a column.
+fn refuse_twice(columns: &Bound<'_, PyDict>, keywords: &Bound<'_, PyDict>) -> PyResult<()> {
+    for name in keywords.keys() {
+        if columns.contains(&name)? {
+            let message = format!("`{name}` is a column and a keyword: keep one of them");
+            return Err(PyValueError::new_err(message));
+        }
+    }
+    Ok(())
 }
 
 fn is_given(index: usize, given: &[(usize, Vec<f64>)]) -> bool {

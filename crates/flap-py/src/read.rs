@@ -1,5 +1,6 @@
 //! Result files, read back.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
@@ -7,7 +8,7 @@ use csv::StringRecord;
 use flap_core::simulate;
 use flap_sweep::layout::{self, Column, Kind, Layout};
 use flap_sweep::plan::Plan;
-use flap_sweep::results::{Format, Reader};
+use flap_sweep::results::{Format, Reader, Recorded};
 use flap_sweep::run::RunOptions;
 use flap_sweep::sidecar::{self, Sidecar};
 use pyo3::exceptions::PyValueError;
@@ -23,29 +24,45 @@ use crate::{error, grid, sweep};
 #[expect(clippy::needless_pass_by_value, reason = "a path out of Python is an owned one")]
 pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
     let format = Format::of(&path).map_err(|error| PyValueError::new_err(error.to_string()))?;
-    let (columns, recorded) = py.detach(|| read_columns(&path, format))?;
+    let Read { columns, origin, units } = py.detach(|| read_columns(&path, format))?;
     let dict = PyDict::new(py);
     dict.set_item("columns", columns.into_python(py)?)?;
-    if let Some((sidecar, plan)) = recorded {
+    dict.set_item("units", units)?;
+    if let Some(Origin { plan, flap, arithmetic }) = origin {
         let meta = sweep::meta(py, &plan, &RunOptions::default())?;
         // What wrote them may be another version, on another machine.
-        meta.set_item("flap", sidecar.flap)?;
-        meta.set_item("arithmetic", sidecar.arithmetic)?;
+        meta.set_item("flap", flap)?;
+        meta.set_item("arithmetic", arithmetic)?;
         dict.set_item("meta", meta)?;
         dict.set_item("axes", grid::axes(py, &plan)?)?;
     }
     Ok(dict)
 }
 
-/// The cells of a file, and where they come from if that is recorded.
-fn read_columns(path: &Path, format: Format) -> PyResult<(Columns, Option<(Sidecar, Plan)>)> {
+/// What is read.
+struct Read {
+    columns: Columns,
+    /// Where the rows come from, if that is recorded.
+    origin: Option<Origin>,
+    /// Units that the file itself tells of.
+    units: BTreeMap<String, String>,
+}
+
+/// Where rows come from.
+struct Origin {
+    plan: Plan,
+    flap: String,
+    arithmetic: String,
+}
+
+fn read_columns(path: &Path, format: Format) -> PyResult<Read> {
     let place = path.display();
     let unreadable = |error| error::io_error(&format!("cannot read {place}"), &error);
     let open = || File::open(path).and_then(|file| Reader::new(file, format)).map_err(unreadable);
     let mut reader = open()?;
-    let recorded = recorded(path, reader.names());
-    let described = match &recorded {
-        Some((_, plan)) => Layout::of(plan).columns(),
+    let origin = origin(path, &reader);
+    let described = match &origin {
+        Some(origin) => Layout::of(&origin.plan).columns(),
         None => guess(&mut open()?).map_err(unreadable)?,
     };
     let mut columns = Columns::new(described);
@@ -58,14 +75,26 @@ fn read_columns(path: &Path, format: Format) -> PyResult<(Columns, Option<(Sidec
             return Err(PyValueError::new_err(message));
         }
     }
-    Ok((columns, recorded))
+    let units = Recorded::of(reader.entries()).map(|recorded| recorded.units()).unwrap_or_default();
+    Ok(Read { columns, origin, units })
 }
 
-/// The sidecar and its plan, if there is one that tells of these columns.
-fn recorded(path: &Path, names: &[String]) -> Option<(Sidecar, Plan)> {
+/// What the sidecar says, or else the file itself, if it tells of these columns.
+fn origin(path: &Path, reader: &Reader) -> Option<Origin> {
+    let fits = |origin: &Origin| Layout::of(&origin.plan).names().iter().eq(reader.names());
+    beside(path).filter(fits).or_else(|| inside(reader).filter(fits))
+}
+
+fn beside(path: &Path) -> Option<Origin> {
     let sidecar = Sidecar::read(&sidecar::path_of(path)).ok()?;
     let plan = sidecar.plan(simulate::all()).ok()?;
-    Layout::of(&plan).names().iter().eq(names).then_some((sidecar, plan))
+    Some(Origin { plan, flap: sidecar.flap, arithmetic: sidecar.arithmetic })
+}
+
+fn inside(reader: &Reader) -> Option<Origin> {
+    let recorded = Recorded::of(reader.entries())?;
+    let plan = recorded.plan(simulate::all())?;
+    Some(Origin { plan, flap: recorded.flap().to_owned(), arithmetic: recorded.arithmetic().to_owned() })
 }
 
 /// What columns hold as far as their cells tell.

@@ -4,11 +4,12 @@ use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::resonance::driven::{self, PeakSearch};
 use flap_core::resonance::free::{self, FreeRequest};
-use flap_core::simulate::{Unfinished, never};
+use flap_core::simulate::Unfinished;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::run::DesignPoint;
+use crate::watch::interruptible;
 use crate::{convert, error};
 
 /// Samples of a free motion per period of the first mode.
@@ -44,10 +45,10 @@ pub(crate) fn resonance<'py>(
         to: stop.unwrap_or(1.5 * natural[0].max(natural[1])),
         tolerance,
     };
-    let found = py.detach(|| {
-        let free = free::examine(simulator, set, &solver, &values, &request, &never)?;
-        Ok((free, driven::search(simulator, set, &solver, &values, &search, &never)?))
-    });
+    let found = interruptible(py, |interrupted| {
+        let free = free::examine(simulator, set, &solver, &values, &request, interrupted)?;
+        Ok((free, driven::search(simulator, set, &solver, &values, &search, interrupted)?))
+    })?;
     let (free, driven) = found.map_err(|reason: Unfinished| error::unfinished(&reason))?;
 
     let linear = PyDict::new(py);

@@ -1,7 +1,7 @@
 //! One design point at a time.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Column, Row, Simulator, SolverSettings, TrajectoryRequest, never};
+use flap_core::simulate::{Column, Row, Simulator, SolverSettings, TrajectoryRequest};
 use flap_sweep::layout::{self, Cell, Kind};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -9,6 +9,7 @@ use pyo3::types::PyDict;
 
 use crate::columns::Columns;
 use crate::solver::Keywords;
+use crate::watch::interruptible;
 use crate::{convert, error, parameters};
 
 /// The most samples of one trajectory: they are held in memory.
@@ -33,9 +34,10 @@ pub(crate) fn run<'py>(
     preset: &Bound<'py, PyAny>,
     keywords: &Bound<'py, PyDict>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let point = DesignPoint::new(preset, keywords)?;
-    let DesignPoint { simulator, solver, values } = &point;
-    let row = py.detach(|| simulator.run_point(InstructionSet::best(), solver, values, None));
+    let DesignPoint { simulator, solver, values } = DesignPoint::new(preset, keywords)?;
+    let set = InstructionSet::best();
+    let row = interruptible(py, |interrupted| simulator.row(set, &solver, &values, interrupted))?;
+    let row = row.map_err(|reason| error::unfinished(&reason))?;
     row_to_dict(py, simulator.columns(), &row)
 }
 
@@ -59,7 +61,8 @@ pub(crate) fn trajectory<'py>(
     }
     let request = TrajectoryRequest { cycles, samples_per_cycle: samples, settled: !from_rest };
     let set = InstructionSet::best();
-    let motion = py.detach(|| simulator.trajectory(set, &solver, &values, &request, &never));
+    let motion =
+        interruptible(py, |interrupted| simulator.trajectory(set, &solver, &values, &request, interrupted))?;
     let motion = motion.map_err(|reason| error::unfinished(&reason))?;
     let column = |name: &String| layout::Column {
         name: name.clone(),

@@ -86,6 +86,9 @@ pub(crate) fn into_columns<'py>(
     let mut sink = ColumnsSink::new(Layout::of(plan));
     let mut watch = Watch::new(progress);
     let ran = py.detach(|| work(plan, options, Summary::default(), &mut sink, &mut watch, parcels));
+    if ran.is_ok() {
+        watch.done(plan.selected());
+    }
     watch.ended()?;
     let summary = ran.map_err(|error| error::run(&error))?;
     let dict = PyDict::new(py);
@@ -111,6 +114,9 @@ fn into_file<'py>(
         };
         job::run(job, &mut engine, &mut |_| {})
     });
+    if ran.is_ok() {
+        watch.done(job.plan.selected());
+    }
     watch.ended()?;
     let outcome = ran.map_err(|error| error::job(&error))?;
     let dict = PyDict::new(py);

@@ -1,9 +1,11 @@
 //! Long work without the interpreter: looks up now and then for Ctrl-C, and tells how far it is.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use flap_core::simulate::Interrupt;
 use pyo3::prelude::*;
 
 /// How often the interpreter is asked for: often enough for a user, seldom enough for the work.
@@ -26,9 +28,12 @@ impl Watch {
 
     /// Looks up, if it is time. The work is to end when a signal handler or the callback raises an exception.
     pub(crate) fn look(&mut self, done: u64, all: u64) {
-        if self.error.is_some() || self.last.is_some_and(|last| last.elapsed() < INTERVAL) {
-            return;
+        if self.error.is_none() && self.last.is_none_or(|last| last.elapsed() >= INTERVAL) {
+            self.look_now(done, all);
         }
+    }
+
+    fn look_now(&mut self, done: u64, all: u64) {
         let seen = Python::attach(|py| {
             py.check_signals()?;
             self.progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (done, all)).map(drop))
@@ -45,8 +50,33 @@ impl Watch {
         }
     }
 
+    /// Tells that all is done, so that a bar ends where it should, unless an exception ended the work.
+    pub(crate) fn done(&mut self, all: u64) {
+        if self.error.is_none() {
+            self.look_now(all, all);
+        }
+    }
+
     /// The exception that ended the work, if one did.
     pub(crate) fn ended(self) -> PyResult<()> {
         self.error.map_or(Ok(()), Err)
     }
+}
+
+/// Does `work` without the interpreter. The interrupt that it is given comes with Ctrl-C.
+pub(crate) fn interruptible<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(Interrupt<'_>) -> T + Send,
+) -> PyResult<T> {
+    let (done, watch) = py.detach(|| {
+        let watch = RefCell::new(Watch::new(None));
+        let done = work(&|| {
+            let mut watch = watch.borrow_mut();
+            watch.look(0, 0);
+            watch.error.is_some()
+        });
+        (done, watch.into_inner())
+    });
+    watch.ended()?;
+    Ok(done)
 }

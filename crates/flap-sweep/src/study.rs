@@ -35,6 +35,9 @@ pub trait Desk {
 
     /// Takes a study that has ended.
     fn done(&mut self, study: Self::Study);
+
+    /// Whether to end at once, see [`Jobs::interrupted`]. Studies that are open are dropped.
+    fn interrupted(&self) -> bool;
 }
 
 /// Studies that are open at once, as long as none of them has a point to run.
@@ -149,5 +152,9 @@ impl<D: Desk> Jobs for Interleaved<'_, D> {
             Ok(open) => *slot = Some(open),
             Err(ended) => self.desk.done(ended),
         }
+    }
+
+    fn interrupted(&self) -> bool {
+        self.desk.interrupted()
     }
 }

@@ -13,7 +13,7 @@ use crate::drive::Samples;
 use crate::model::Model;
 use crate::modes::Mode;
 use crate::num::InstructionSet;
-use crate::ode::Interrupt;
+use crate::ode::{Interrupt, never};
 use crate::parameter::{Invalid, Parameter, Preset};
 
 /// A model with N states, K = N (N + 1) states and responses, and S signals.
@@ -44,7 +44,7 @@ impl<M: Model<N, S> + 'static, const N: usize, const K: usize, const S: usize> R
         values: &[f64],
         begin: Option<&[f64]>,
     ) -> Row {
-        Scalars { model: &self.model, solver, values }.row::<N, K, S>(set, begin)
+        Scalars { model: &self.model, solver, values }.row::<N, K, S>(set, begin, &never)
     }
 }
 
@@ -65,6 +65,17 @@ impl<M: Model<N, S> + 'static, const N: usize, const K: usize, const S: usize> S
 
     fn presets(&self) -> &'static [Preset] {
         M::PRESETS
+    }
+
+    fn row(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        interrupted: Interrupt<'_>,
+    ) -> Result<Row, Unfinished> {
+        let row = Scalars { model: &self.model, solver, values }.row::<N, K, S>(set, None, interrupted);
+        if interrupted() { Err(Unfinished::Interrupted) } else { Ok(row) }
     }
 
     fn period(

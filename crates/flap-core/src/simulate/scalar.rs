@@ -14,14 +14,15 @@ use crate::model::Model;
 use crate::num::{Arithmetic, InstructionSet, PerLane, Scalar, Unfused};
 use crate::ode::ensemble::Observer;
 use crate::ode::solve::solve_until;
-use crate::ode::{Ending, Interrupt, Outcome, Start, never};
+use crate::ode::{Ending, Interrupt, Outcome, Start};
 
-/// Runs one point.
+/// Runs one point. Interrupted, its row means nothing.
 fn point<M, R, const N: usize, const K: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,
     values: &[f64],
     from: Option<&[f64]>,
+    interrupted: Interrupt<'_>,
 ) -> Row
 where
     M: Model<N, S>,
@@ -29,7 +30,7 @@ where
 {
     let model = &model.variant(values);
     match begin(model, values, from) {
-        Ok(start) => settle::<M, R, N, K, S>(model, solver, &start, from.is_some(), &never).row,
+        Ok(start) => settle::<M, R, N, K, S>(model, solver, &start, from.is_some(), interrupted).row,
         Err(error) => Row::invalid(error),
     }
 }
@@ -73,18 +74,23 @@ pub(super) struct Scalars<'a, M> {
 }
 
 impl<M> Scalars<'_, M> {
-    /// The point's row, from rest or another state.
+    /// The point's row, from rest or another state; it means nothing if it was interrupted.
     pub(super) fn row<const N: usize, const K: usize, const S: usize>(
         &self,
         set: InstructionSet,
         begin: Option<&[f64]>,
+        interrupted: Interrupt<'_>,
     ) -> Row
     where
         M: Model<N, S>,
     {
         match set.arithmetic() {
-            Arithmetic::Fused => point::<M, f64, N, K, S>(self.model, self.solver, self.values, begin),
-            Arithmetic::Unfused => point::<M, Unfused, N, K, S>(self.model, self.solver, self.values, begin),
+            Arithmetic::Fused => {
+                point::<M, f64, N, K, S>(self.model, self.solver, self.values, begin, interrupted)
+            }
+            Arithmetic::Unfused => {
+                point::<M, Unfused, N, K, S>(self.model, self.solver, self.values, begin, interrupted)
+            }
         }
     }
 

@@ -19,7 +19,7 @@ pub trait Rows: Sync {
     fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs);
 
     /// Runs one point on scalars, in the arithmetic class of `set`, from rest or from the state `begin` (see
-    /// [`Point::begin`]). Gives the same bits as [`Rows::run`], which can be interrupted.
+    /// [`Point::begin`]). Gives the same bits as [`Rows::run`].
     fn run_point(
         &self,
         set: InstructionSet,
@@ -42,6 +42,18 @@ pub trait Simulator: Rows {
 
     /// Published parameter sets.
     fn presets(&self) -> &'static [Preset];
+
+    /// Runs one point on scalars from rest, as [`Rows::run_point`] does.
+    ///
+    /// # Errors
+    /// [`Unfinished::Interrupted`]: there is no row then.
+    fn row(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        interrupted: Interrupt<'_>,
+    ) -> Result<Row, Unfinished>;
 
     /// Follows one point for one drive period from the state `begin`, whether the motion repeats or not.
     ///

@@ -39,14 +39,14 @@ def evaluate(
         grid with axes is run for each row of `columns`: designs times frequencies, for instance.
     columns : mapping or DataFrame
         Parameters by name, each with an array of n values in SI units, a list of texts with units or of options, or
-        one value for all points.
+        one value for all points. Of a masked array, nothing may be masked.
     threads : int, optional
         Threads, 1 or more. Default: one per core. Rows do not depend on it.
     progress : bool or function, optional
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
         points in all.
     **keywords : float or str
-        Parameters of all points and solver settings, as for `run`.
+        Parameters of all points and solver settings, as for `run`; none that is a column too.
 
     Returns
     -------
@@ -60,8 +60,8 @@ def evaluate(
     Raises
     ------
     ValueError
-        Unknown preset, parameter, option or unit; columns of different lengths; a parameter that a model needs is
-        missing. GridError if there are mistakes in a grid.
+        Unknown preset, parameter, option or unit; columns of different lengths, or with masked values; a parameter
+        that is a column and a keyword; a parameter that a model needs is missing. GridError if there are mistakes in a grid.
     TypeError
         A value of the wrong type.
 
@@ -75,6 +75,7 @@ def evaluate(
     constants: Dict[str, Any] = {}
     for name in columns.keys():
         values = columns[name]
+        _refuse_masked(name, values)
         if isinstance(values, (str, bytes)) or np.ndim(values) == 0:
             constants[name] = values
         else:
@@ -92,6 +93,18 @@ def evaluate(
     table = Table._of(native if len(native["axes"]) > 1 else {**native, "axes": []})
     table.meta["set"] = dict(keywords)
     return table
+
+
+def _refuse_masked(name: str, values: Any) -> None:
+    """What is masked is not known, and a point needs all its values: below the mask is any number."""
+    if not isinstance(values, np.ma.MaskedArray):
+        return
+    masked = int(np.count_nonzero(values.mask))
+    if masked:
+        raise ValueError(
+            f"`{name}` has {masked} masked of {values.size} values, and a point needs all of them: leave these rows "
+            "out of every column, or give what stands for them with .filled(...)"
+        )
 
 
 def _column(name: str, values: Any) -> Union[np.ndarray[Any, Any], List[Any]]:

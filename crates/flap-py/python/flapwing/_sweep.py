@@ -103,8 +103,9 @@ def read(path: Union[str, "os.PathLike[str]"], /) -> Table:
     ----------
     path : path
         Results of a sweep (``.csv``, ``.csv.zst``, ``.parquet``); or a table in CSV that ``flap respond``, ``flap run
-        --trajectory`` or the like has written. Units, meanings and the axes come from the sidecar beside the
-        results; without one, units come from the names of the columns.
+        --trajectory`` or the like has written; or a table in Parquet that another program has written, with
+        Zstandard, Snappy or no compression. Units, meanings and the axes come from the sidecar beside the results, or
+        out of flap's own Parquet; without either, units come from the names of the columns.
 
     Returns
     -------

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Union, overload
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, NamedTuple, Optional, Union, overload
 
 import numpy as np
 
@@ -50,7 +50,10 @@ class _Column(NamedTuple):
 
 
 def _columns(native: Dict[str, Any]) -> Dict[str, _Column]:
-    return {name: _Column(unit, doc, cells, words) for name, unit, doc, cells, words in native["columns"]}
+    told = native.get("units", {})
+    return {
+        name: _Column(told.get(name, unit), doc, cells, words) for name, unit, doc, cells, words in native["columns"]
+    }
 
 
 class Table:
@@ -77,7 +80,7 @@ class Table:
     dims: List[Dict[str, np.ndarray[Any, Any]]]
     meta: Dict[str, Any]
     _held: Optional[Dict[str, _Column]]
-    _source: Callable[[], Dict[str, _Column]]
+    _path: str
 
     def __init__(self, *_: object) -> None:
         raise TypeError("a Table comes from sweep, evaluate, respond, trajectory or read")
@@ -89,7 +92,7 @@ class Table:
         if path is None:
             return cls._new(_columns(native), native.get("axes", []), meta)
         table = cls._new(None, native["axes"], meta)
-        table._source = lambda: _columns(_flapwing.read(path))
+        table._path = path
         return table
 
     @classmethod
@@ -105,8 +108,12 @@ class Table:
     @property
     def _columns(self) -> Dict[str, _Column]:
         if self._held is None:
-            self._held = self._source()
+            self._held = _columns(_flapwing.read(self._path))
         return self._held
+
+    def __getstate__(self) -> Dict[str, Any]:
+        # A pickle holds the rows: where it is read, the file may be another or none.
+        return {"_held": self._columns, "dims": self.dims, "meta": self.meta}
 
     def __len__(self) -> int:
         return next((len(column.cells) for column in self._columns.values()), 0)

@@ -194,4 +194,8 @@ impl<'a> Desk for Designs<'a> {
         let (index, row) = search.finish();
         self.jobs.done(index, row);
     }
+
+    fn interrupted(&self) -> bool {
+        self.jobs.interrupted()
+    }
 }

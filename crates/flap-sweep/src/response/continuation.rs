@@ -6,7 +6,7 @@
 //! through the last two.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Period, Point, Row, SolverSettings, Status, Unfinished, never};
+use flap_core::simulate::{Interrupt, Period, Point, Row, SolverSettings, Status, Unfinished};
 use nalgebra::{DMatrix, DVector};
 
 use super::follow::{Comparison, compare, sizes};
@@ -30,8 +30,8 @@ const CHANGE: f64 = 1e-3;
 /// `settle_tol`, or a plane may have no orbit on it.
 const FINER: f64 = 1e-2;
 
-/// The unstable orbits of all bistable bands of a curve.
-pub(super) fn unstable(plan: &Plan, along: &Along, curve: &Curve) -> Vec<Step> {
+/// The unstable orbits of all bistable bands of a curve, or some of them if it is interrupted.
+pub(super) fn unstable(plan: &Plan, along: &Along, curve: &Curve, interrupted: Interrupt<'_>) -> Vec<Step> {
     let sizes = sizes(&curve.up, &curve.down);
     let is_bistable = |index: usize| {
         let rows = [&curve.up[index].row, &curve.down[index].row];
@@ -52,7 +52,7 @@ pub(super) fn unstable(plan: &Plan, along: &Along, curve: &Curve) -> Vec<Step> {
         let width = (curve.up[last].value - curve.up[first].value).max(along.tolerance);
         let SolverSettings { rtol, atol, .. } = plan.solver;
         let solver = SolverSettings { rtol: FINER * rtol, atol: FINER * atol, ..plan.solver };
-        let branch = Branch { plan, solver, along, design: &curve.design, sizes: &units, width };
+        let branch = Branch { plan, solver, along, design: &curve.design, sizes: &units, width, interrupted };
         found.extend(branch.turn(&curve.up[last - 1], &curve.up[last]));
     }
     found
@@ -66,6 +66,7 @@ struct Branch<'a> {
     design: &'a Point,
     sizes: &'a [f64],
     width: f64,
+    interrupted: Interrupt<'a>,
 }
 
 /// An orbit on a branch.
@@ -126,7 +127,8 @@ impl Branch<'_> {
     /// One drive period from a place.
     fn period(&self, place: &DVector<f64>) -> Result<Period, Unfinished> {
         let values = values(self.plan, self.along, self.design, self.value(place));
-        self.plan.simulator.period(InstructionSet::best(), &self.solver, &values, &self.state(place), &never)
+        let (set, state) = (InstructionSet::best(), self.state(place));
+        self.plan.simulator.period(set, &self.solver, &values, &state, self.interrupted)
     }
 
     /// The orbit nearest to `guess` on the plane through it across `direction`, by Newton's iteration.

@@ -22,13 +22,13 @@ use std::sync::{Mutex, PoisonError};
 pub use along::{Along, AlongError};
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Invalid, Parameter};
-use flap_core::simulate::{Point, Row, Status};
+use flap_core::simulate::{Interrupt, Point, Row, Status, never};
 pub use table::{Motions, Table};
 pub use verdict::{Band, BandKind, Verdict};
 
 use crate::plan::{self, Plan};
 use crate::run::RunError;
-use crate::study::{self, Desk, Probe, Study};
+use crate::study::{self, Desk};
 use follow::Follow;
 
 /// A motion on a curve.
@@ -116,13 +116,14 @@ pub fn run<E: From<RunError>>(
 pub fn run_one(plan: &Plan, along: &Along, design: Point) -> Curve {
     let mut follow = Follow::new(plan, along, design);
     study::run_one(plan.simulator, InstructionSet::best(), &plan.solver, &mut follow);
-    complete(plan, along, follow.finish())
+    complete(plan, along, follow.finish(), &never)
 }
 
-/// Adds the unstable orbits to a curve, if they are wanted, and the plan's own measures to all of its rows.
-fn complete(plan: &Plan, along: &Along, mut curve: Curve) -> Curve {
+/// Adds the unstable orbits to a curve, if they are wanted, and the plan's own measures to all of its rows. Interrupted, it
+/// leaves orbits out.
+fn complete(plan: &Plan, along: &Along, mut curve: Curve, interrupted: Interrupt<'_>) -> Curve {
     if along.unstable {
-        curve.unstable = continuation::unstable(plan, along, &curve);
+        curve.unstable = continuation::unstable(plan, along, &curve, interrupted);
     }
     let Curve { design, up, down, unstable } = &mut curve;
     for Step { value, row } in up.iter_mut().chain(down).chain(unstable) {
@@ -165,31 +166,15 @@ struct Designs<'a> {
     shared: &'a Mutex<Shared>,
 }
 
-/// A curve on its way, which ends where it is when `stop` is raised.
-struct Stoppable<'a> {
-    follow: Follow<'a>,
-    stop: &'a AtomicBool,
-}
-
-impl Study for Stoppable<'_> {
-    fn probes(&mut self) -> Vec<Probe> {
-        if self.stop.load(Ordering::Relaxed) { Vec::new() } else { self.follow.probes() }
-    }
-
-    fn take(&mut self, rows: Vec<Row>) {
-        self.follow.take(rows);
-    }
-}
-
 impl<'a> Desk for Designs<'a> {
-    type Study = Stoppable<'a>;
+    type Study = Follow<'a>;
 
-    fn next(&mut self, _idle: bool) -> Option<Stoppable<'a>> {
-        let Designs { plan, along, stop, .. } = *self;
+    fn next(&mut self, _idle: bool) -> Option<Follow<'a>> {
+        let Designs { plan, along, .. } = *self;
         loop {
             let index = {
                 let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
-                if shared.next == shared.end || stop.load(Ordering::Relaxed) {
+                if shared.next == shared.end || self.interrupted() {
                     return None;
                 }
                 shared.next += 1;
@@ -197,19 +182,20 @@ impl<'a> Desk for Designs<'a> {
             };
             let design = plan.point(index);
             match judge(plan, along, &design) {
-                plan::Verdict::Runs => {
-                    return Some(Stoppable { follow: Follow::new(plan, along, design), stop });
-                }
+                plan::Verdict::Runs => return Some(Follow::new(plan, along, design)),
                 plan::Verdict::Excluded(_) => {}
                 plan::Verdict::Invalid(reason) => self.put(Curve::impossible(along, design, &reason)),
             }
         }
     }
 
-    fn done(&mut self, Stoppable { follow, stop }: Stoppable<'a>) {
-        if !stop.load(Ordering::Relaxed) {
-            self.put(complete(self.plan, self.along, follow.finish()));
-        }
+    fn done(&mut self, follow: Follow<'a>) {
+        let interrupted = || self.interrupted();
+        self.put(complete(self.plan, self.along, follow.finish(), &interrupted));
+    }
+
+    fn interrupted(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
     }
 }
 

@@ -10,6 +10,7 @@ mod format;
 mod parquet;
 mod provenance;
 mod read;
+mod recorded;
 mod text;
 mod write;
 
@@ -17,5 +18,6 @@ pub use convert::{ConvertError, convert};
 pub use format::{Format, FormatError};
 pub use provenance::Provenance;
 pub use read::Reader;
+pub use recorded::Recorded;
 pub use text::{BLOCK_ROWS, TextRows};
 pub use write::Writer;

@@ -8,7 +8,7 @@ use csv::StringRecord;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
-use parquet::file::metadata::KeyValue;
+use parquet::file::metadata::{ColumnChunkMetaData, KeyValue, ParquetMetaData, RowGroupMetaData};
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
@@ -166,18 +166,27 @@ impl Cells {
     }
 }
 
-/// Reads rows back as the text they were written from.
+/// Reads rows back as the text they were written from; those of other programs, if cells are numbers, flags and text.
 pub(super) struct ParquetReader {
     names: Vec<String>,
+    entries: Vec<(String, String)>,
     rows: RowIter<'static>,
 }
 
 impl ParquetReader {
     pub(super) fn new(file: File) -> io::Result<ParquetReader> {
         let reader = SerializedFileReader::new(file).map_err(io_error)?;
-        let columns = reader.metadata().file_metadata().schema().get_fields();
-        let names = columns.iter().map(|column| column.name().to_owned()).collect();
-        Ok(ParquetReader { names, rows: RowIter::from_file_into(Box::new(reader)) })
+        refuse_compression(reader.metadata())?;
+        let about = reader.metadata().file_metadata();
+        let names = about.schema().get_fields().iter().map(|column| column.name().to_owned()).collect();
+        let entries = about.key_value_metadata().into_iter().flatten();
+        let entries = entries.filter_map(|entry| Some((entry.key.clone(), entry.value.clone()?))).collect();
+        Ok(ParquetReader { names, entries, rows: RowIter::from_file_into(Box::new(reader)) })
+    }
+
+    /// What the file says of itself: keys with their texts.
+    pub(super) fn entries(&self) -> &[(String, String)] {
+        &self.entries
     }
 
     pub(super) fn names(&self) -> Vec<String> {
@@ -191,17 +200,40 @@ impl ParquetReader {
             match field {
                 Field::Null => row.push_field(""),
                 Field::ULong(value) => row.push_field(&value.to_string()),
+                Field::UInt(value) => row.push_field(&value.to_string()),
+                Field::Long(value) => row.push_field(&value.to_string()),
+                Field::Int(value) => row.push_field(&value.to_string()),
                 Field::Double(value) => row.push_field(&text::float(*value)),
+                Field::Float(value) => row.push_field(&text::float(f64::from(*value))),
                 Field::Bool(value) => row.push_field(&value.to_string()),
                 Field::Str(value) => row.push_field(value),
                 _ => {
-                    let message = format!("column {name} is not one that flap writes");
+                    let message = format!(
+                        "column {name} cannot be read: cells are whole numbers and floating-point ones of 32 or 64 bits, \
+                         flags, and text"
+                    );
                     return Err(io::Error::new(io::ErrorKind::InvalidData, message));
                 }
             }
         }
         Ok(true)
     }
+}
+
+/// Refuses what can only be decompressed by libraries that flap does without.
+fn refuse_compression(metadata: &ParquetMetaData) -> io::Result<()> {
+    let columns = metadata.row_groups().iter().flat_map(RowGroupMetaData::columns);
+    let other = columns.map(ColumnChunkMetaData::compression).find(|compression| {
+        !matches!(compression, Compression::UNCOMPRESSED | Compression::SNAPPY | Compression::ZSTD(_))
+    });
+    let Some(other) = other else { return Ok(()) };
+    let name = other.to_string();
+    let name = name.split('(').next().unwrap_or_default();
+    let message = format!(
+        "its columns are compressed with {name}: flap reads Parquet files with Zstandard, Snappy or no compression, so write \
+         it again with one of these"
+    );
+    Err(io::Error::new(io::ErrorKind::InvalidData, message))
 }
 
 /// What the operating system said, or what is wrong with the file.

@@ -47,6 +47,16 @@ impl Reader {
         &self.names
     }
 
+    /// What the file says of where its rows come from, as keys with their texts: see
+    /// [`Provenance`](super::Provenance). Nothing but in Parquet.
+    pub fn entries(&self) -> &[(String, String)] {
+        match &self.rows {
+            Rows::Text(_) => &[],
+            #[cfg(feature = "parquet")]
+            Rows::Parquet(rows) => rows.entries(),
+        }
+    }
+
     /// Reads the next row into `row`; false if there is none left.
     ///
     /// # Errors

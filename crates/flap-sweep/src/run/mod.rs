@@ -86,8 +86,8 @@ pub enum RunError {
 
 /// Runs the selected points of `plan` and writes the rows to `sink` in point order.
 ///
-/// When `stop` is raised, points in hand are finished and written and the sweep ends; the rows written are
-/// those of the first points selected. `progress` is called from this thread, several times a second.
+/// When `stop` is raised, the sweep ends within a second: points in hand have half of it and are dropped then. The rows
+/// written are those of the first points selected. `progress` is called from this thread, several times a second.
 ///
 /// # Errors
 /// [`RunError`] if rows cannot be written or a worker fails. Rows are never left out: those written are

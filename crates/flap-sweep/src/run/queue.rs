@@ -5,11 +5,13 @@
 //! another worker, which therefore does not wait. A worker that ends, by a panic too, says so; one that ends
 //! with points in hand fails the run. The collector waits only while there are workers, and whatever ends the
 //! collector aborts the run for the workers.
+//!
+//! Asked to stop, workers have a moment to finish the points in their hands. What still runs then is dropped.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::RunError;
 use super::finished::Finished;
@@ -17,6 +19,10 @@ use super::window::Window;
 
 /// The collector looks for rows at least this often, which is also how often progress is reported.
 const TURN: Duration = Duration::from_millis(100);
+
+/// How long points in hand may go on after a stop: long enough for ordinary ones, and less than a second with the turns
+/// around it.
+const GRACE: Duration = Duration::from_millis(400);
 
 /// The collector is woken early when this many rows are ready.
 const BATCH: usize = 64;
@@ -26,6 +32,8 @@ const MOST_AT_ONCE: usize = 1024;
 
 pub(super) struct Queue<'a> {
     stop: &'a AtomicBool,
+    /// Points in hand are to be dropped.
+    cancelled: AtomicBool,
     state: Mutex<State>,
     /// Workers wait on this for room in the window, or the end.
     room: Condvar,
@@ -38,6 +46,8 @@ struct State {
     workers: usize,
     /// Nothing more is wanted: no points are handed out, rows are dropped.
     aborted: bool,
+    /// When the stop was first seen.
+    stopped: Option<Instant>,
     failure: Option<RunError>,
 }
 
@@ -51,8 +61,10 @@ pub(super) enum Turn {
 
 impl<'a> Queue<'a> {
     pub(super) fn new(points: Range<u64>, window: usize, workers: usize, stop: &'a AtomicBool) -> Queue<'a> {
-        let state = State { window: Window::new(points, window), workers, aborted: false, failure: None };
-        Queue { stop, state: Mutex::new(state), room: Condvar::new(), rows: Condvar::new() }
+        let window = Window::new(points, window);
+        let state = State { window, workers, aborted: false, stopped: None, failure: None };
+        let cancelled = AtomicBool::new(false);
+        Queue { stop, cancelled, state: Mutex::new(state), room: Condvar::new(), rows: Condvar::new() }
     }
 
     /// Nothing panics while holding the lock and leaves the state halfway, so a poisoned lock is as good.
@@ -109,9 +121,15 @@ impl<'a> Queue<'a> {
         self.rows.notify_one();
     }
 
+    /// Whether points in hand are to be dropped without their rows.
+    pub(super) fn is_cancelled(&self) -> bool {
+        self.cancelled.load(Ordering::Relaxed)
+    }
+
     /// Makes the workers end: no more points, and their rows are dropped.
     pub(super) fn abort(&self) {
         self.lock().aborted = true;
+        self.cancelled.store(true, Ordering::Relaxed);
         self.room.notify_all();
     }
 
@@ -120,6 +138,11 @@ impl<'a> Queue<'a> {
     pub(super) fn turn(&self, batch: &mut Vec<Finished>) -> Turn {
         let mut state = self.lock();
         state.window.mark_written();
+        if self.stop.load(Ordering::Relaxed)
+            && state.stopped.get_or_insert_with(Instant::now).elapsed() >= GRACE
+        {
+            self.cancelled.store(true, Ordering::Relaxed);
+        }
         self.room.notify_all();
         if state.workers > 0 && !state.window.is_worth_taking(BATCH) {
             let waited = self.rows.wait_timeout(state, TURN);

@@ -19,6 +19,7 @@ pub(super) fn work(plan: &Plan, instructions: InstructionSet, queue: &Queue) {
         (Err(panic), _, _) => Err(RunError::Panic(panic_message(&*panic))),
         (Ok(()), Some(fault), _) => Err(RunError::Model(fault)),
         (Ok(()), None, 0) => Ok(()),
+        (Ok(()), None, _) if queue.is_cancelled() => Ok(()),
         (Ok(()), None, lost) => {
             Err(RunError::Model(format!("it returned without the rows of {lost} points")))
         }
@@ -69,6 +70,10 @@ impl Jobs for Source<'_> {
             self.plan.add_own_measures(&self.plan.selected_point(position).values, &mut row.measures);
         }
         self.queue.done(position, Finished::Row(row));
+    }
+
+    fn interrupted(&self) -> bool {
+        self.queue.is_cancelled()
     }
 }
 
