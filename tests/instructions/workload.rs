@@ -110,7 +110,7 @@ const MARCH: SolverSettings = SolverSettings {
     settle_tol: 0.0,
     max_cycles: 1,
     max_steps: 20_000,
-    accuracy: 1e-3,
+    accuracy: f64::INFINITY,
     newton: true,
 };
 

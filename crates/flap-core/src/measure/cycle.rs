@@ -141,12 +141,6 @@ fn courses<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
     attempt: &Attempt<'_, R, N>,
 ) -> [Within<R>; S] {
     let Attempt { t, h, side, step } = *attempt;
-    let between = |theta: f64| {
-        let at = h.mul_add(h.lit(theta), t);
-        let y = interpolate(step, h, h.lit(theta));
-        let dy = slope(model, c, &model.input(c, at), side, &y);
-        signals(model, c, at, side, &y, &dy)
-    };
     let last = signals(model, c, t + h, side, &step.y[6], &step.k[6]);
     let mut begin = signals(model, c, t, side, &step.y[0], &step.k[0]);
     let mut all = begin.map(|value| Within { max: value, min: value, positive_mean: value.lit(0.0) });
@@ -154,8 +148,10 @@ fn courses<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
     let share = 1.0 / f64::from(parts);
     for part in 0..parts {
         let place = |quarter: f64| (f64::from(part) + quarter) * share;
-        let (first, middle, third) = (between(place(0.25)), between(place(0.5)), between(place(0.75)));
-        let end = if part + 1 == parts { last } else { between(place(1.0)) };
+        let first = between(model, c, attempt, place(0.25));
+        let middle = between(model, c, attempt, place(0.5));
+        let third = between(model, c, attempt, place(0.75));
+        let end = if part + 1 == parts { last } else { between(model, c, attempt, place(1.0)) };
         for i in 0..S {
             let course = Course::through([begin[i], first[i], middle[i], third[i], end[i]]);
             let [min, max] = course.range();
@@ -168,6 +164,21 @@ fn courses<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
         begin = end;
     }
     all
+}
+
+/// The signals at the fraction `theta` of a step.
+#[inline(always)]
+fn between<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
+    model: &M,
+    c: &M::Constants<R>,
+    attempt: &Attempt<'_, R, N>,
+    theta: f64,
+) -> [R; S] {
+    let Attempt { t, h, side, step } = *attempt;
+    let at = h.mul_add(h.lit(theta), t);
+    let y = interpolate(step, h, h.lit(theta));
+    let dy = slope(model, c, &model.input(c, at), side, &y);
+    signals(model, c, at, side, &y, &dy)
 }
 
 /// The signals at time `t`. Called here for the sake of the compiler, see [`slope`].
