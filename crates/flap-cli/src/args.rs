@@ -9,6 +9,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum, value_parser};
+use flap_sweep::identity;
 use flap_sweep::selection::Shard;
 use flap_sweep::units;
 #[cfg(feature = "plots")]
@@ -18,10 +19,16 @@ pub(crate) use results::{ConvertArgs, MergeArgs, RerunArgs, ResumeArgs, WorkArgs
 
 /// Sweeps of insect-scale flapping-wing designs: a grid file goes in, one row per design point comes out.
 #[derive(Parser)]
-#[command(name = "flap", version, max_term_width = 100, after_help = EXIT_CODES)]
+#[command(name = "flap", version, long_version = long_version(), max_term_width = 100, after_help = EXIT_CODES)]
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Command,
+}
+
+/// The version with what tells two builds of it apart.
+fn long_version() -> String {
+    let (version, build) = (env!("CARGO_PKG_VERSION"), identity::build());
+    format!("{version}\nbuild {build} (a hash of the sources that decide the bytes of rows)")
 }
 
 #[derive(Subcommand)]

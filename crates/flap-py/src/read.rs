@@ -30,6 +30,7 @@ pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>>
         let meta = sweep::meta(py, &plan, &RunOptions::default())?;
         // What wrote them may be another version, on another machine.
         meta.set_item("flap", sidecar.flap)?;
+        meta.set_item("build", sidecar.build)?;
         meta.set_item("arithmetic", sidecar.arithmetic)?;
         dict.set_item("meta", meta)?;
         dict.set_item("axes", grid::axes(py, &plan)?)?;

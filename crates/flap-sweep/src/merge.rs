@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use csv::StringRecord;
 use flap_core::simulate::Status;
 
-use crate::identity::Identity;
+use crate::identity::{self, Identity};
 use crate::plan::Plan;
 use crate::results::{Format, FormatError, Provenance, Reader, Writer};
 use crate::run::Summary;
@@ -77,10 +77,13 @@ pub fn check(parts: &[Part]) -> Result<(), MergeError> {
         }
     }
     if let Some((first, shard)) = whole {
-        let ours = env!("CARGO_PKG_VERSION");
-        let theirs = &first.sidecar.flap;
-        if theirs != ours {
-            problems.push(format!("the shards are by flap {theirs}, this is flap {ours}"));
+        let (ours, build) = (env!("CARGO_PKG_VERSION"), identity::build());
+        let theirs = &first.sidecar;
+        if theirs.flap != ours {
+            problems.push(format!("the shards are by flap {}, this is flap {ours}", theirs.flap));
+        } else if theirs.build != build {
+            let theirs = if theirs.build.is_empty() { "an unknown build" } else { &theirs.build };
+            problems.push(format!("the shards are by another build of flap {ours}: {theirs}, this is {build}"));
         }
         let missing: Vec<String> = (1..=shard.of())
             .filter(|number| !seen.contains_key(number))

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use toml::Value;
 
 use crate::diagnostic::Diagnostic;
+use crate::identity;
 use crate::layout::Layout;
 use crate::output;
 use crate::plan::{self, Plan};
@@ -46,6 +47,9 @@ pub struct End {
 pub struct Sidecar {
     /// Version of flap.
     pub flap: String,
+    /// Build of flap, as [`identity::build`] gives it; empty if an earlier flap has not recorded it.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub build: String,
     /// How far the sweep is.
     pub state: State,
     /// Why it failed.
@@ -233,6 +237,7 @@ impl Sidecar {
         };
         Sidecar {
             flap: env!("CARGO_PKG_VERSION").to_owned(),
+            build: identity::build().to_owned(),
             state: State::Running,
             error: None,
             model: plan.simulator.name().to_owned(),

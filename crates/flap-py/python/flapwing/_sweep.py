@@ -48,7 +48,7 @@ def sweep(
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
         points in all.
     client : distributed.Client, optional
-        Run the points on the workers of a Dask cluster, which need flapwing of the same version. Rows come in the
+        Run the points on the workers of a Dask cluster, which need the same build of flapwing. Rows come in the
         same order and with the same bytes as on one machine; those of a worker that dies are run again by others.
         What cannot be the same, because a worker's processor rounds differently, is an error.
 
