@@ -7,6 +7,7 @@ mod results;
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 use clap::{Parser, Subcommand, ValueEnum, value_parser};
 use flap_sweep::identity;
@@ -15,7 +16,7 @@ use flap_sweep::units;
 #[cfg(feature = "plots")]
 pub(crate) use plot::{Aim, PictureKind, PlotArgs, Size};
 pub(crate) use respond::RespondArgs;
-pub(crate) use results::{ConvertArgs, MergeArgs, RerunArgs, ResumeArgs, WorkArgs};
+pub(crate) use results::{ConvertArgs, MergeArgs, ReadArgs, RerunArgs, ResumeArgs, VerifyArgs, WorkArgs};
 
 /// Sweeps of insect-scale flapping-wing designs: a grid file goes in, one row per design point comes out.
 #[derive(Parser)]
@@ -26,9 +27,12 @@ pub(crate) struct Args {
 }
 
 /// The version with what tells two builds of it apart.
-fn long_version() -> String {
-    let (version, build) = (env!("CARGO_PKG_VERSION"), identity::build());
-    format!("{version}\nbuild {build} (a hash of the sources that decide the bytes of rows)")
+fn long_version() -> &'static str {
+    static TEXT: LazyLock<String> = LazyLock::new(|| {
+        let (version, build) = (env!("CARGO_PKG_VERSION"), identity::build());
+        format!("{version}\nbuild {build} (a hash of the sources that decide the bytes of rows)")
+    });
+    &TEXT
 }
 
 #[derive(Subcommand)]
@@ -43,6 +47,8 @@ pub(crate) enum Command {
     Merge(MergeArgs),
     /// Write results in another format
     Convert(ConvertArgs),
+    /// Check that results are as they were written
+    Verify(VerifyArgs),
     /// Run one point and print what it measures
     Run(RunArgs),
     /// Follow the response of designs up and down in frequency or another parameter, and find hysteresis
@@ -69,9 +75,9 @@ Results go to stdout, everything else to stderr.
 
 Exit codes:
   0    done
-  1    with --strict: done, but not every point is periodic
+  1    with --strict: done, but not every point is periodic; `verify`: not every file has checksums
   2    the command line or the grid file must be corrected
-  3    reading or writing failed
+  3    reading or writing failed, or results are damaged
   130  interrupted; `flap resume` goes on
   101  a mistake in flap itself";
 

@@ -1,15 +1,15 @@
 //! Result files, read back.
 
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use csv::StringRecord;
 use flap_core::simulate;
+use flap_sweep::integrity::{self, Note, OnDamage, Opened, RowCheck};
 use flap_sweep::layout::{self, Column, Kind, Layout};
 use flap_sweep::plan::Plan;
-use flap_sweep::results::{Format, Reader};
+use flap_sweep::results::Reader;
 use flap_sweep::run::RunOptions;
-use flap_sweep::sidecar::{self, Sidecar};
+use flap_sweep::sidecar::Sidecar;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -19,13 +19,16 @@ use crate::{error, grid, sweep};
 
 /// Reads a result file; see `flapwing.read`.
 #[pyfunction]
-#[pyo3(signature = (path, /))]
+#[pyo3(signature = (path, /, *, ignore_damage=false))]
 #[expect(clippy::needless_pass_by_value, reason = "a path out of Python is an owned one")]
-pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
-    let format = Format::of(&path).map_err(|error| PyValueError::new_err(error.to_string()))?;
-    let (columns, recorded) = py.detach(|| read_columns(&path, format))?;
+pub(crate) fn read(py: Python<'_>, path: PathBuf, ignore_damage: bool) -> PyResult<Bound<'_, PyDict>> {
+    let on_damage = if ignore_damage { OnDamage::Tolerate } else { OnDamage::Refuse };
+    let Contents { columns, recorded, warnings, is_verified } =
+        py.detach(|| read_columns(&path, on_damage))?;
     let dict = PyDict::new(py);
     dict.set_item("columns", columns.into_python(py)?)?;
+    dict.set_item("warnings", warnings)?;
+    dict.set_item("verified", is_verified)?;
     if let Some((sidecar, plan)) = recorded {
         let meta = sweep::meta(py, &plan, &RunOptions::default())?;
         // What wrote them may be another version, on another machine.
@@ -38,33 +41,52 @@ pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>>
     Ok(dict)
 }
 
-/// The cells of a file, and where they come from if that is recorded.
-fn read_columns(path: &Path, format: Format) -> PyResult<(Columns, Option<(Sidecar, Plan)>)> {
+/// What is in a file, and what a user should know of it.
+struct Contents {
+    columns: Columns,
+    /// Where the rows come from, if that is recorded.
+    recorded: Option<(Sidecar, Plan)>,
+    warnings: Vec<String>,
+    /// Whether they are known to be as they were written.
+    is_verified: bool,
+}
+
+fn read_columns(path: &Path, on_damage: OnDamage) -> PyResult<Contents> {
     let place = path.display();
     let unreadable = |error| error::io_error(&format!("cannot read {place}"), &error);
-    let open = || File::open(path).and_then(|file| Reader::new(file, format)).map_err(unreadable);
-    let mut reader = open()?;
-    let recorded = recorded(path, reader.names());
+    let open = || integrity::open(path, on_damage).map_err(|error| error::open(&error));
+    let Opened { mut reader, sidecar, notes } = open()?;
+    let recorded = sidecar.and_then(|sidecar| recorded(sidecar, reader.names()));
     let described = match &recorded {
         Some((_, plan)) => Layout::of(plan).columns(),
-        None => guess(&mut open()?).map_err(unreadable)?,
+        None => guess(&mut open()?.reader).map_err(unreadable)?,
     };
     let mut columns = Columns::new(described);
     let mut row = StringRecord::new();
     let mut line = 1_u64;
+    let mut check = recorded.as_ref().map(|(_, plan)| RowCheck::new(plan, None));
+    if let Some(check) = &mut check {
+        check.allow_gaps();
+    }
     while reader.next(&mut row).map_err(unreadable)? {
         line += 1;
+        let is_none = reader.is_tolerant() && check.as_mut().is_some_and(|check| check.row(&row).is_err());
+        if is_none && reader.leave_out() {
+            continue;
+        }
         if let Err(column) = columns.push_record(row.iter()) {
             let message = format!("{place}, line {line}: a cell of column {column} is not of its kind");
             return Err(PyValueError::new_err(message));
         }
     }
-    Ok((columns, recorded))
+    let is_told = |note: &&Note| !matches!(note, Note::Unverified { .. });
+    let mut warnings: Vec<String> = notes.iter().filter(is_told).map(Note::to_string).collect();
+    warnings.extend(reader.missed().map(|missed| format!("{place}: {missed}")));
+    Ok(Contents { columns, recorded, warnings, is_verified: notes.is_empty() })
 }
 
-/// The sidecar and its plan, if there is one that tells of these columns.
-fn recorded(path: &Path, names: &[String]) -> Option<(Sidecar, Plan)> {
-    let sidecar = Sidecar::read(&sidecar::path_of(path)).ok()?;
+/// The sidecar and its plan, if it tells of these columns.
+fn recorded(sidecar: Sidecar, names: &[String]) -> Option<(Sidecar, Plan)> {
     let plan = sidecar.plan(simulate::all()).ok()?;
     Layout::of(&plan).names().iter().eq(names).then_some((sidecar, plan))
 }

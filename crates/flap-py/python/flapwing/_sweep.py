@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from typing import TYPE_CHECKING, Any, Dict, Optional, SupportsIndex, Union
 
 from . import _flapwing
@@ -96,26 +97,35 @@ def sweep(
     return Table._of(native, None if out is None else os.path.abspath(out))
 
 
-def read(path: Union[str, "os.PathLike[str]"], /) -> Table:
-    """Read results that flap has written.
+def read(path: Union[str, "os.PathLike[str]"], /, *, ignore_damage: bool = False) -> Table:
+    """Read results that flap has written, and check that they are as they were written.
 
     Parameters
     ----------
     path : path
         Results of a sweep (``.csv``, ``.csv.zst``, ``.parquet``); or a table in CSV that ``flap respond``, ``flap run
         --trajectory`` or the like has written. Units, meanings and the axes come from the sidecar beside the
-        results; without one, units come from the names of the columns.
+        results; without one, units come from the names of the columns. Of unfinished results the rows up to the last
+        checkpoint are read, with a warning.
+    ignore_damage : bool, optional
+        Read results that are not as they were written all the same, as far as possible, with a warning.
 
     Returns
     -------
     Table
-        The rows. Numbers have the same bits as when they were written.
+        The rows. Numbers have the same bits as when they were written. ``meta["verified"]`` says whether that could be
+        checked: False for unfinished or damaged results, and where there is no sidecar with checksums.
 
     Raises
     ------
     OSError
         The file cannot be read.
     ValueError
-        It holds something else.
+        It holds something else, or is damaged; the text says where.
     """
-    return Table._of(_flapwing.read(os.fspath(path)))
+    native = _flapwing.read(os.fspath(path), ignore_damage=ignore_damage)
+    for text in native["warnings"]:
+        warnings.warn(text, stacklevel=2)
+    table = Table._of(native)
+    table.meta["verified"] = native["verified"]
+    return table
