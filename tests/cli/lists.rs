@@ -95,5 +95,8 @@ fn help_has_examples_and_exit_codes() {
         assert_eq!(ended.code, 0);
         assert!(ended.stdout.contains(&format!("  flap {command} ")), "{}", ended.stdout);
     }
-    assert_eq!(folder.flap("--version").stdout, format!("flap {}\n", env!("CARGO_PKG_VERSION")));
+    let (version, build) = (env!("CARGO_PKG_VERSION"), flap_sweep::identity::build());
+    assert_eq!(folder.flap("-V").stdout, format!("flap {version}\n"));
+    let long = folder.flap("--version").stdout;
+    assert!(long.starts_with(&format!("flap {version}\nbuild {build} (")), "{long}");
 }

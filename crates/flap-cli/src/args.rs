@@ -7,21 +7,32 @@ mod results;
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 use clap::{Parser, Subcommand, ValueEnum, value_parser};
+use flap_sweep::identity;
 use flap_sweep::selection::Shard;
 use flap_sweep::units;
 #[cfg(feature = "plots")]
 pub(crate) use plot::{Aim, PictureKind, PlotArgs, Size};
 pub(crate) use respond::RespondArgs;
-pub(crate) use results::{ConvertArgs, MergeArgs, RerunArgs, ResumeArgs, WorkArgs};
+pub(crate) use results::{ConvertArgs, MergeArgs, ReadArgs, RerunArgs, ResumeArgs, VerifyArgs, WorkArgs};
 
 /// Sweeps of insect-scale flapping-wing designs: a grid file goes in, one row per design point comes out.
 #[derive(Parser)]
-#[command(name = "flap", version, max_term_width = 100, after_help = EXIT_CODES)]
+#[command(name = "flap", version, long_version = long_version(), max_term_width = 100, after_help = EXIT_CODES)]
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Command,
+}
+
+/// The version with what tells two builds of it apart.
+fn long_version() -> &'static str {
+    static TEXT: LazyLock<String> = LazyLock::new(|| {
+        let (version, build) = (env!("CARGO_PKG_VERSION"), identity::build());
+        format!("{version}\nbuild {build} (a hash of the sources that decide the bytes of rows)")
+    });
+    &TEXT
 }
 
 #[derive(Subcommand)]
@@ -36,6 +47,8 @@ pub(crate) enum Command {
     Merge(MergeArgs),
     /// Write results in another format
     Convert(ConvertArgs),
+    /// Check that results are as they were written
+    Verify(VerifyArgs),
     /// Run one point and print what it measures
     Run(RunArgs),
     /// Follow the response of designs up and down in frequency or another parameter, and find hysteresis
@@ -62,9 +75,9 @@ Results go to stdout, everything else to stderr.
 
 Exit codes:
   0    done
-  1    with --strict: done, but not every point is periodic
+  1    with --strict: done, but not every point is periodic; `verify`: not every file has checksums
   2    the command line or the grid file must be corrected
-  3    reading or writing failed
+  3    reading or writing failed, or results are damaged
   130  interrupted; `flap resume` goes on
   101  a mistake in flap itself";
 

@@ -8,6 +8,7 @@ use anstyle::{AnsiColor, Style};
 use flap_core::parameter::Invalid;
 use flap_core::simulate::Unfinished;
 use flap_sweep::diagnostic::{self, Diagnostic};
+use flap_sweep::integrity::OpenError;
 use flap_sweep::job::JobError;
 use flap_sweep::merge::MergeError;
 use flap_sweep::output::CreateError;
@@ -19,11 +20,16 @@ use flap_sweep::spec::ReadError;
 
 use crate::console;
 
+/// What commands that read results can do about damage.
+pub(crate) const IGNORE_HELP: &str = "--ignore-damage uses it all the same, as far as it can be read";
+
 /// How the program ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Exit {
     Done = 0,
-    NotAllPeriodic = 1,
+    /// `--strict`, and some points are not periodic; or `flap verify`, and some results have no checksums.
+    /// Done, but not all points are periodic, or not all results could be verified.
+    NotAll = 1,
     Usage = 2,
     System = 3,
     Bug = 101,
@@ -56,6 +62,11 @@ impl Failure {
         Failure::System(format!("cannot write {}: {error}", path.display()), Vec::new())
     }
 
+    /// Results that are not as they were written.
+    pub(crate) fn damaged(message: String) -> Failure {
+        Failure::System(message, Vec::new()).help("put a sound copy in its place")
+    }
+
     /// A job whose results are at `out`.
     pub(crate) fn of_job(error: JobError, out: &Path) -> Failure {
         let resumable =
@@ -64,6 +75,11 @@ impl Failure {
             JobError::Format(error) => error.into(),
             JobError::Create(error) => error.into(),
             JobError::Resume { error, changed } => changed.into_iter().fold(error.into(), Failure::help),
+            JobError::Damaged { .. } => {
+                Failure::damaged(error.to_string()).help("`flap sweep --force` computes it anew")
+            }
+            JobError::Sidecar(error) => error.into(),
+            JobError::Read { .. } => Failure::System(error.to_string(), Vec::new()),
             JobError::Write { path, source, .. } => Failure::cannot_write(&path, &source),
             JobError::Run { error, .. } => error.into(),
         };
@@ -167,6 +183,17 @@ impl From<CreateError> for Failure {
     }
 }
 
+impl From<OpenError> for Failure {
+    fn from(error: OpenError) -> Failure {
+        match error {
+            OpenError::Format(error) => error.into(),
+            OpenError::Sidecar(error) => error.into(),
+            OpenError::Read { .. } => Failure::System(error.to_string(), Vec::new()),
+            OpenError::Damaged { .. } => Failure::damaged(error.to_string()).help(IGNORE_HELP),
+        }
+    }
+}
+
 impl From<FormatError> for Failure {
     fn from(error: FormatError) -> Failure {
         Failure::usage(error.to_string()).help(format!("name a file that ends in {}", Format::ENDINGS))
@@ -191,7 +218,6 @@ impl From<MergeError> for Failure {
         let message = error.to_string();
         match error {
             MergeError::Parts(_) => Failure::usage(message),
-            MergeError::Format(error) => error.into(),
             MergeError::Read { .. } | MergeError::Write(_) => Failure::System(message, Vec::new()),
         }
     }
@@ -200,6 +226,7 @@ impl From<MergeError> for Failure {
 impl From<sidecar::ReadError> for Failure {
     fn from(error: sidecar::ReadError) -> Failure {
         match &error {
+            sidecar::ReadError::Damaged { .. } => Failure::damaged(error.to_string()),
             sidecar::ReadError::Io { source, .. } if source.kind() != io::ErrorKind::NotFound => {
                 Failure::System(error.to_string(), Vec::new())
             }

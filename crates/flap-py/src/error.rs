@@ -5,11 +5,13 @@ use std::io;
 use flap_core::parameter::Invalid;
 use flap_core::simulate::Unfinished;
 use flap_sweep::diagnostic;
+use flap_sweep::integrity::OpenError;
 use flap_sweep::job::JobError;
 use flap_sweep::output::CreateError;
 use flap_sweep::results::Format;
 use flap_sweep::run::RunError;
 use flap_sweep::session::ResumeError;
+use flap_sweep::sidecar;
 use flap_sweep::spec::ReadError;
 use pyo3::create_exception;
 use pyo3::exceptions::{
@@ -150,6 +152,10 @@ pub(crate) fn job(error: &JobError) -> PyErr {
         }
         JobError::Create(error) => create(error),
         JobError::Resume { error, changed } => resume(error, changed.as_deref()),
+        JobError::Damaged { .. } | JobError::Sidecar(_) => {
+            PyValueError::new_err(format!("{error}: overwrite=True starts over, or name another file"))
+        }
+        JobError::Read { path, source } => io_error(&format!("cannot read {}", path.display()), source),
         JobError::Write { resumable, .. } => go_on(PyOSError::new_err(error.to_string()), *resumable, py),
         JobError::Run { error, resumable } => go_on(run(error), *resumable, py),
     })
@@ -175,6 +181,20 @@ fn resume(error: &ResumeError, changed: Option<&str>) -> PyErr {
         ResumeError::Format(_) => PyValueError::new_err(message),
         ResumeError::NoJournal { .. } | ResumeError::Changed { .. } | ResumeError::Altered { .. } => {
             PyValueError::new_err(format!("{message}: overwrite=True starts over, or name another file"))
+        }
+    }
+}
+
+/// The exception for results that are not read.
+pub(crate) fn open(error: &OpenError) -> PyErr {
+    match error {
+        OpenError::Read { path, source } => io_error(&format!("cannot read {}", path.display()), source),
+        OpenError::Sidecar(sidecar::ReadError::Io { path, source }) => {
+            io_error(&format!("cannot read {}", path.display()), source)
+        }
+        OpenError::Format(_) => PyValueError::new_err(error.to_string()),
+        OpenError::Sidecar(_) | OpenError::Damaged { .. } => {
+            PyValueError::new_err(format!("{error}: ignore_damage=True reads it all the same"))
         }
     }
 }

@@ -12,6 +12,7 @@ use flap_core::simulate::Status;
 
 use crate::csv_sink::CsvSink;
 use crate::identity::Identity;
+use crate::integrity::{self, Damage};
 use crate::layout::Layout;
 use crate::output::{self, CreateError, Durable};
 use crate::plan::Plan;
@@ -101,6 +102,25 @@ pub enum JobError {
         error: ResumeError,
         /// The first line of the grid file that is another, in words.
         changed: Option<String>,
+    },
+    /// The results are complete, but not as they were written.
+    #[error("{} is damaged: {damage}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// How.
+        damage: Box<Damage>,
+    },
+    /// What lies beside complete results is damaged.
+    #[error(transparent)]
+    Sidecar(sidecar::ReadError),
+    /// Complete results cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
     },
     /// A file beside the results cannot be written, or they cannot be completed.
     #[error("cannot write {}: {source}", path.display())]
@@ -196,17 +216,28 @@ impl Job<'_> {
 
     /// There is nothing to resume: that is well if the rows wanted are all there.
     fn is_complete(&self, error: ResumeError) -> Result<Outcome, JobError> {
-        let sidecar = Sidecar::read(&sidecar::path_of(&self.out));
-        let Some(sidecar) = sidecar.ok().filter(|sidecar| sidecar.state == State::Complete) else {
-            return Err(self.cannot_resume(error));
+        let sidecar = match Sidecar::read(&sidecar::path_of(&self.out)) {
+            Ok(sidecar) if sidecar.state == State::Complete => sidecar,
+            Err(error @ sidecar::ReadError::Damaged { .. }) => return Err(JobError::Sidecar(error)),
+            _ => return Err(self.cannot_resume(error)),
         };
         let own = Identity::of(self.plan, &self.options.run);
         let changes = Identity::recorded(&sidecar).differences(&own);
         if !changes.is_empty() {
             return Err(self.cannot_resume(ResumeError::Changed { path: self.out.clone(), changes }));
         }
+        let format = Format::of(&self.out)?;
+        match integrity::check(&self.out, format, &sidecar) {
+            Ok(None) => {}
+            Ok(Some(damage)) => return Err(self.damaged(damage)),
+            Err(source) => return Err(JobError::Read { path: self.out.clone(), source }),
+        }
         let periodic = sidecar.statuses.as_ref().and_then(|counts| counts.get(Status::Periodic.name()));
         Ok(Outcome::Complete { all_periodic: periodic == sidecar.rows.as_ref() })
+    }
+
+    fn damaged(&self, damage: Damage) -> JobError {
+        JobError::Damaged { path: self.out.clone(), damage: Box::new(damage) }
     }
 
     /// The error, with the first line of the grid file that is another.
@@ -245,6 +276,7 @@ impl Job<'_> {
             Ok(summary) => {
                 let place = Some(session.rows_path(!summary.interrupted));
                 sidecar.finish(&summary, end);
+                sidecar.checksums = (!summary.interrupted).then(|| session.checksums());
                 self.write_sidecar(&sidecar, true)?;
                 if !summary.interrupted {
                     session.forget().map_err(|error| JobError::write(&self.out, error, true))?;

@@ -8,6 +8,7 @@ pub mod diagnostic;
 pub mod expression;
 pub mod formula;
 pub mod identity;
+pub mod integrity;
 pub mod job;
 pub mod journal;
 pub mod layout;

@@ -5,38 +5,51 @@ use std::io;
 use csv::StringRecord;
 use flap_core::simulate::Status;
 
+use crate::integrity::RowCheck;
+use crate::layout::Layout;
+use crate::plan::Plan;
 use crate::results::Reader;
 use crate::selection::MOST_LISTED;
 
-/// The indices of the rows that have one of `statuses`, rising.
+/// The indices of the rows that have one of `statuses`, rising. The results are those of `plan`, of which there are `rows` if
+/// that is known.
 ///
 /// # Errors
-/// What reading says, or that these are not results of a grid with this many points.
-pub fn points(reader: &mut Reader, statuses: &[Status], points: u64) -> io::Result<Vec<u64>> {
+/// What reading says, or that these are not results of the plan.
+pub fn points(
+    reader: &mut Reader,
+    statuses: &[Status],
+    plan: &Plan,
+    rows: Option<u64>,
+) -> io::Result<Vec<u64>> {
     let wrong = |message: String| io::Error::new(io::ErrorKind::InvalidData, message);
-    let column = |name: &str| {
-        let found = reader.names().iter().position(|column| column == name);
-        found.ok_or_else(|| wrong(format!("there is no column {name}")))
-    };
-    let (point, status) = (column("point")?, column("status")?);
+    let names = Layout::of(plan).names();
+    if reader.names() != names {
+        return Err(wrong("its columns are not those of the grid that its sidecar holds".to_owned()));
+    }
+    let status = names.iter().position(|name| name == "status").unwrap_or_default();
+    let mut check = RowCheck::new(plan, rows);
+    if reader.is_tolerant() {
+        check.allow_gaps();
+    }
     let mut row = StringRecord::new();
     let mut list: Vec<u64> = Vec::new();
     while reader.next(&mut row)? {
+        let point = match check.row(&row) {
+            Ok(point) => point,
+            Err(_) if reader.leave_out() => continue,
+            Err(reason) => return Err(wrong(reason)),
+        };
         if !statuses.iter().any(|wanted| row.get(status) == Some(wanted.name())) {
             continue;
         }
-        let index = row.get(point).and_then(|cell| cell.parse().ok());
         if list.len() as u64 == MOST_LISTED {
             return Err(wrong(format!(
                 "more than {MOST_LISTED} points would be run again: change the grid file instead"
             )));
         }
-        match index.filter(|&index| index < points && list.last().is_none_or(|&last| last < index)) {
-            Some(index) => list.push(index),
-            None => {
-                return Err(wrong(format!("point {} is out of order", row.get(point).unwrap_or_default())));
-            }
-        }
+        list.push(point);
     }
+    check.end().map_err(wrong)?;
     Ok(list)
 }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use flap_sweep::integrity::{Note, OnDamage};
 use flap_sweep::merge::{self, Part};
 use flap_sweep::results::Format;
 use flap_sweep::run::RunOptions;
@@ -15,7 +16,8 @@ use crate::job;
 
 pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let format = Format::of(&args.out)?;
-    let parts = args.shards.iter().map(|path| part(path)).collect::<Result<Vec<_>, _>>()?;
+    let on_damage = args.read.on_damage();
+    let parts = args.shards.iter().map(|path| part(path, on_damage)).collect::<Result<Vec<_>, _>>()?;
     merge::check(&parts)?;
     let Some(Part { path, sidecar: first }) = parts.first() else {
         return Err(Failure::usage("name the shards to be merged"));
@@ -23,7 +25,21 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let mut plan = job::plan_of(&sidecar::path_of(path), first)?;
     plan.selection = Selection::All;
 
-    job::make(&args.out, args.force, |target| merge::merge(&parts, &plan, (target, format)))??;
+    let mut readers = Vec::with_capacity(parts.len());
+    let mut is_damaged = false;
+    for part in &parts {
+        let opened = job::open(&part.path, &args.read)?;
+        is_damaged |= opened.notes.iter().any(|note| matches!(note, Note::Damaged { .. }));
+        readers.push(opened.reader);
+    }
+    let mut checksums = None;
+    job::make(&args.out, args.force, |target| {
+        let merged = merge::merge(&parts, &mut readers, &plan, (target, format));
+        merged.map(|written| checksums = Some(written))
+    })??;
+    for (part, reader) in parts.iter().zip(&readers) {
+        job::tell_missed(&part.path, reader);
+    }
 
     let sidecars = || parts.iter().map(|part| &part.sidecar);
     let started = sidecars().map(|sidecar| sidecar.started.clone()).min().unwrap_or_default();
@@ -34,14 +50,14 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let summary = merge::summary(&parts, &plan);
     let finished = sidecars().filter_map(|sidecar| sidecar.finished.clone()).max().unwrap_or_default();
     whole.finish(&summary, End { finished, seconds: sidecars().filter_map(|sidecar| sidecar.seconds).sum() });
+    // Rows that were damaged before are not to be called sound.
+    whole.checksums = checksums.filter(|_| !is_damaged);
     let beside = sidecar::path_of(&args.out);
     whole.write(&beside).map_err(|error| Failure::cannot_write(&beside, &error))?;
     console::say(&format!("{} rows of {} shards in {}", summary.rows, parts.len(), args.out.display()));
     Ok(Exit::Done)
 }
 
-fn part(path: &Path) -> Result<Part, Failure> {
-    let beside = sidecar::path_of(path);
-    let sidecar = Sidecar::read(&beside).map_err(|error| Failure::from(error).help(job::SIDECAR_HELP))?;
-    Ok(Part { path: path.to_owned(), sidecar })
+fn part(path: &Path, on_damage: OnDamage) -> Result<Part, Failure> {
+    Ok(Part { path: path.to_owned(), sidecar: job::read_sidecar(path, on_damage)? })
 }

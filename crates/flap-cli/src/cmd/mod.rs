@@ -18,3 +18,4 @@ pub(crate) mod run;
 mod samples;
 pub(crate) mod sweep;
 pub(crate) mod track;
+pub(crate) mod verify;

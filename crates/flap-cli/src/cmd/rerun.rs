@@ -3,9 +3,8 @@
 use std::fs;
 
 use flap_sweep::rerun;
-use flap_sweep::results::{Format, Reader};
 use flap_sweep::selection::Selection;
-use flap_sweep::sidecar::Origin;
+use flap_sweep::sidecar::{Origin, State};
 
 use crate::args::RerunArgs;
 use crate::cmd::point::set_solver;
@@ -15,11 +14,11 @@ use crate::job::{self, Begin};
 
 pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     let of = args.results.display();
-    let (mut plan, _) = job::recorded(&args.results)?;
+    let (mut source, mut plan, sidecar) = job::open_recorded(&args.results, &args.read)?;
     let unreadable = |error| Failure::System(format!("cannot read {of}: {error}"), Vec::new());
-    let file = job::open(&args.results)?;
-    let mut reader = Reader::new(file, Format::of(&args.results)?).map_err(unreadable)?;
-    let list = rerun::points(&mut reader, &args.status, plan.len()).map_err(unreadable)?;
+    let rows = sidecar.rows.filter(|_| sidecar.state == State::Complete);
+    let list = rerun::points(&mut source.reader, &args.status, &plan, rows).map_err(unreadable)?;
+    job::tell_missed(&args.results, &source.reader);
     let statuses: Vec<String> = args.status.iter().copied().map(|status| status.name().to_owned()).collect();
     if list.is_empty() {
         console::say(&format!("no point in {of} is {}: nothing is left to run", statuses.join(" or ")));

@@ -43,7 +43,8 @@ pub(crate) fn run(args: &PlotArgs) -> Result<Exit, Failure> {
         picture(args, out)?;
     }
     if let Some(html) = &args.html {
-        let bytes = page::page(args, &heading(args))?;
+        // Once is enough to tell what a user should know.
+        let bytes = page::page(args, &heading(args), out.is_none())?;
         write(html, args.force, bytes.as_bytes())?;
         console::say(&format!("a page in {}: open it in a browser", html.display()));
     }
@@ -53,7 +54,7 @@ pub(crate) fn run(args: &PlotArgs) -> Result<Exit, Failure> {
 /// Draws into the file `out`.
 fn picture(args: &PlotArgs, out: &Path) -> Result<(), Failure> {
     let format = format(out)?;
-    let source = Source::open(&args.results)?;
+    let source = Source::open(args, true)?;
     let wishes = Wishes::of(&source, args)?;
     let table = source.read(|column| wishes.wants(column), usize::MAX)?;
     let chosen = wishes.choose(&table, heading(args))?;
