@@ -128,17 +128,17 @@ pub(crate) struct RunArgs {
     #[arg(long, value_enum, default_value_t = Drive::Steady)]
     pub(crate) drive: Drive,
 
-    /// Frequency at which the chirp begins (Hz)
-    #[arg(long, value_name = "HZ", default_value_t = 1.0)]
-    pub(crate) chirp_from: f64,
+    /// Frequency at which the chirp begins (Hz) [default: 1]
+    #[arg(long, value_name = "HZ")]
+    pub(crate) chirp_from: Option<f64>,
 
     /// Frequency at which the chirp ends (Hz) [default: twice the point's drive frequency]
     #[arg(long, value_name = "HZ")]
     pub(crate) chirp_to: Option<f64>,
 
-    /// Rate of change of the chirp's frequency (Hz/s); negative for a falling chirp
-    #[arg(long, value_name = "HZ/S", default_value_t = 15.0, allow_negative_numbers = true)]
-    pub(crate) chirp_rate: f64,
+    /// Rate of change of the chirp's frequency (Hz/s); negative for a falling chirp [default: 15]
+    #[arg(long, value_name = "HZ/S", allow_negative_numbers = true)]
+    pub(crate) chirp_rate: Option<f64>,
 
     /// Write the chirp's rows per cycle to a CSV file instead of stdout
     #[arg(long, value_name = "FILE")]

@@ -7,7 +7,7 @@ use std::path::Path;
 use anstyle::{AnsiColor, Style};
 use flap_core::parameter::Invalid;
 use flap_core::simulate::Unfinished;
-use flap_sweep::diagnostic::{self, Diagnostic};
+use flap_sweep::diagnostic::{self, Mistakes};
 use flap_sweep::job::JobError;
 use flap_sweep::merge::MergeError;
 use flap_sweep::output::CreateError;
@@ -16,6 +16,7 @@ use flap_sweep::run::RunError;
 use flap_sweep::session::ResumeError;
 use flap_sweep::sidecar;
 use flap_sweep::spec::ReadError;
+use flap_sweep::text::shortened;
 
 use crate::console;
 
@@ -36,7 +37,7 @@ pub(crate) enum Failure {
     /// The command line or the grid file must be corrected: what is wrong, and what to do.
     Usage(String, Vec<String>),
     /// The grid file must be corrected.
-    Grid(Vec<Diagnostic>),
+    Grid(Mistakes),
     /// The operating system refused: what, and what to do.
     System(String, Vec<String>),
     /// A mistake in flap itself.
@@ -85,8 +86,8 @@ impl Failure {
                 complain(&message, &help);
                 Exit::Usage
             }
-            Failure::Grid(diagnostics) => {
-                console::say(&diagnostic::render(&diagnostics, true));
+            Failure::Grid(mistakes) => {
+                console::say(&diagnostic::render(&mistakes, true));
                 Exit::Usage
             }
             Failure::System(message, help) => {
@@ -109,7 +110,7 @@ fn complain(message: &str, help: &[String]) {
     for line in help {
         let _ = write!(text, "\n{advice}help{advice:#}: {line}");
     }
-    console::say(&text);
+    console::say(&shortened(&text));
 }
 
 /// Writing to stdout failed.
@@ -137,9 +138,13 @@ impl From<Unfinished> for Failure {
 impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Failure {
         match error {
-            ReadError::Grid(diagnostics) => Failure::Grid(diagnostics),
-            ReadError::Missing { .. } | ReadError::Folder { .. } | ReadError::NotUtf8 { .. } => {
-                Failure::usage(error.to_string())
+            ReadError::Grid(mistakes) => Failure::Grid(mistakes),
+            ReadError::Missing { .. }
+            | ReadError::Folder { .. }
+            | ReadError::NotUtf8 { .. }
+            | ReadError::Results { .. }
+            | ReadError::TooLarge { .. } => {
+                error.help().into_iter().fold(Failure::usage(error.to_string()), Failure::help)
             }
             ReadError::Unreadable { .. } => Failure::System(error.to_string(), Vec::new()),
         }

@@ -143,7 +143,7 @@ pub(crate) fn recorded(results: &Path) -> Result<(Plan, Sidecar), Failure> {
 /// The plan in a sidecar, which was read from `path`.
 pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
     sidecar.plan(flap_core::simulate::all()).map_err(|error| match error {
-        sidecar::PlanError::Grid(diagnostics) => Failure::Grid(diagnostics),
+        sidecar::PlanError::Grid(mistakes) => Failure::Grid(mistakes),
         sidecar::PlanError::Points => {
             Failure::usage(format!("{}: its points are not points of its grid", path.display()))
         }

@@ -95,9 +95,9 @@ impl From<&diagnostic::Diagnostic> for Diagnostic {
 }
 
 /// The exception for mistakes in a grid.
-pub(crate) fn grid(py: Python<'_>, diagnostics: &[diagnostic::Diagnostic]) -> PyErr {
-    let error = GridError::new_err(diagnostic::render(diagnostics, false));
-    let listed: Vec<Diagnostic> = diagnostics.iter().map(Diagnostic::from).collect();
+pub(crate) fn grid(py: Python<'_>, mistakes: &diagnostic::Mistakes) -> PyErr {
+    let error = GridError::new_err(diagnostic::render(mistakes, false));
+    let listed: Vec<Diagnostic> = mistakes.iter().map(Diagnostic::from).collect();
     match error.value(py).setattr("diagnostics", listed) {
         Ok(()) => error,
         Err(error) => error,
@@ -107,10 +107,12 @@ pub(crate) fn grid(py: Python<'_>, diagnostics: &[diagnostic::Diagnostic]) -> Py
 /// The exception for a grid file without a plan.
 pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
     match error {
-        ReadError::Grid(diagnostics) => grid(py, diagnostics),
+        ReadError::Grid(mistakes) => grid(py, mistakes),
         ReadError::Missing { .. } => PyFileNotFoundError::new_err(error.to_string()),
         ReadError::Folder { .. } => PyIsADirectoryError::new_err(error.to_string()),
-        ReadError::NotUtf8 { .. } => PyValueError::new_err(error.to_string()),
+        ReadError::NotUtf8 { .. } | ReadError::Results { .. } | ReadError::TooLarge { .. } => {
+            PyValueError::new_err(error.to_string())
+        }
         ReadError::Unreadable { .. } => PyOSError::new_err(error.to_string()),
     }
 }

@@ -13,7 +13,7 @@ use flap_core::simulate::{Simulator, SolverSettings};
 use serde::{Deserialize, Serialize};
 use toml::Value;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Mistakes;
 use crate::layout::Layout;
 use crate::output;
 use crate::plan::{self, Plan};
@@ -205,7 +205,7 @@ pub enum ReadError {
 #[derive(Debug)]
 pub enum PlanError {
     /// The grid file in it has mistakes for this version of flap.
-    Grid(Vec<Diagnostic>),
+    Grid(Mistakes),
     /// The points in it are not points of the grid.
     Points,
     /// The solver settings in it are not ones that a grid file may have.

@@ -22,6 +22,7 @@ use std::path::{Path, PathBuf};
 use choose::Wishes;
 use chosen::Chosen;
 use columns::{Source, Table};
+use flap_sweep::text::printable;
 use kuva::render::render::Scene;
 
 use crate::args::{PictureKind, PlotArgs, Size};
@@ -74,10 +75,10 @@ fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
     }
 }
 
-/// The heading: the one asked for, or the file's name.
+/// The heading: the one asked for, or the file's name. XML has no place for control characters.
 fn heading(args: &PlotArgs) -> String {
     let name = || args.results.file_name().map(|name| name.to_string_lossy().into_owned());
-    args.title.clone().or_else(name).unwrap_or_default()
+    printable(&args.title.clone().or_else(name).unwrap_or_default())
 }
 
 /// The name of a picture of `results`, in the working directory.

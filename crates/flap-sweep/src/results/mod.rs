@@ -4,6 +4,7 @@
 //! it comes from a model or from a file. So a file converted, or merged from parts, has the bytes of one that was
 //! written at once.
 
+mod bounded;
 mod convert;
 mod format;
 #[cfg(feature = "parquet")]
@@ -13,6 +14,7 @@ mod read;
 mod text;
 mod write;
 
+pub use bounded::Bounded;
 pub use convert::{ConvertError, convert};
 pub use format::{Format, FormatError};
 pub use provenance::Provenance;
