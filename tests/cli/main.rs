@@ -6,12 +6,14 @@ mod documents;
 mod experiments;
 mod formats;
 mod formulas;
+mod inputs;
 mod irregular;
 mod lists;
 mod mistakes;
 #[cfg(feature = "plots")]
 mod plot;
 mod point;
+mod replaced;
 mod rerun;
 mod resonance;
 mod respond;

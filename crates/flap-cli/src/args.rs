@@ -94,7 +94,7 @@ pub(crate) struct SweepArgs {
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
 
-    /// Overwrite an existing file of results
+    /// Replace existing results. They are kept beside the new ones, as in grid.old.csv, until those are complete
     #[arg(short, long)]
     pub(crate) force: bool,
 

@@ -8,10 +8,11 @@ use anstyle::{AnsiColor, Style};
 use flap_core::parameter::Invalid;
 use flap_core::simulate::Unfinished;
 use flap_sweep::diagnostic::{self, Mistakes};
-use flap_sweep::job::JobError;
+use flap_sweep::inputs::Overlap;
+use flap_sweep::job::{self, JobError};
 use flap_sweep::merge::MergeError;
 use flap_sweep::output::CreateError;
-use flap_sweep::results::{Format, FormatError};
+use flap_sweep::results::FormatError;
 use flap_sweep::run::RunError;
 use flap_sweep::session::ResumeError;
 use flap_sweep::sidecar;
@@ -62,13 +63,18 @@ impl Failure {
         let resumable =
             matches!(error, JobError::Write { resumable: true, .. } | JobError::Run { resumable: true, .. });
         let failure = match error {
+            JobError::Overlap(error) => error.into(),
             JobError::Format(error) => error.into(),
             JobError::Create(error) => error.into(),
             JobError::Resume { error, changed } => changed.into_iter().fold(error.into(), Failure::help),
             JobError::Write { path, source, .. } => Failure::cannot_write(&path, &source),
             JobError::Run { error, .. } => error.into(),
         };
-        if resumable { failure.help(format!("`flap resume {}` goes on", out.display())) } else { failure }
+        if !resumable {
+            return failure;
+        }
+        let failure = failure.help(format!("`flap resume {}` goes on", out.display()));
+        job::kept(out).into_iter().fold(failure, |failure, kept| failure.help(still_kept(&kept)))
     }
 
     /// Adds a line on what to do.
@@ -101,6 +107,11 @@ impl Failure {
             Failure::ClosedPipe => Exit::Done,
         }
     }
+}
+
+/// Where earlier results are while new ones are not complete.
+pub(crate) fn still_kept(kept: &Path) -> String {
+    format!("until then, the earlier results are in {}", kept.display())
 }
 
 fn complain(message: &str, help: &[String]) {
@@ -172,9 +183,15 @@ impl From<CreateError> for Failure {
     }
 }
 
+impl From<Overlap> for Failure {
+    fn from(error: Overlap) -> Failure {
+        Failure::usage(error.to_string()).help("inputs are never overwritten: name another file")
+    }
+}
+
 impl From<FormatError> for Failure {
     fn from(error: FormatError) -> Failure {
-        Failure::usage(error.to_string()).help(format!("name a file that ends in {}", Format::ENDINGS))
+        Failure::usage(error.to_string())
     }
 }
 
@@ -197,6 +214,7 @@ impl From<MergeError> for Failure {
         match error {
             MergeError::Parts(_) => Failure::usage(message),
             MergeError::Format(error) => error.into(),
+            MergeError::Write(source) if source.kind() == io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
             MergeError::Read { .. } | MergeError::Write(_) => Failure::System(message, Vec::new()),
         }
     }

@@ -21,7 +21,7 @@ use signal_hook::flag;
 use crate::args::WorkArgs;
 use crate::cmd::exclusion;
 use crate::console;
-use crate::failure::{Exit, Failure};
+use crate::failure::{Exit, Failure, still_kept};
 use crate::progress::Bar;
 
 /// Runs `plan`, writes its rows to `out`, and tells what it came to. `origin` says where the points of a rerun come from.
@@ -63,6 +63,9 @@ fn ended(done: &Done, resumable: Option<&Path>, work: &WorkArgs) -> Exit {
     if done.summary.interrupted {
         if let Some(out) = resumable {
             console::say(&format!("`flap resume {}` goes on", out.display()));
+            if let Some(kept) = job::kept(out) {
+                console::say(&still_kept(&kept));
+            }
         }
         return Exit::Interrupted;
     }
@@ -160,13 +163,22 @@ pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
     })
 }
 
+/// Stdout as a file.
+pub(crate) fn stdout() -> io::Result<File> {
+    #[cfg(unix)]
+    let owned = std::os::fd::AsFd::as_fd(&io::stdout()).try_clone_to_owned();
+    #[cfg(windows)]
+    let owned = std::os::windows::io::AsHandle::as_handle(&io::stdout()).try_clone_to_owned();
+    owned.map(File::from)
+}
+
 /// Opens results to be read.
 pub(crate) fn open(results: &Path) -> Result<File, Failure> {
     File::open(results)
         .map_err(|error| Failure::System(format!("cannot read {}: {error}", results.display()), Vec::new()))
 }
 
-/// Makes a result file from other ones: all of it, or nothing.
+/// Makes a file that was computed before, or from other files: all of it, or nothing. An earlier file stays until then.
 pub(crate) fn make<E: From<io::Error>>(
     results: &Path,
     overwrite: bool,
@@ -174,6 +186,10 @@ pub(crate) fn make<E: From<io::Error>>(
 ) -> Result<Result<(), E>, Failure> {
     // Holds the name while the rows are written beside it.
     let locked = output::create(results, overwrite)?;
+    // A device or a pipe takes what it is given.
+    if !locked.metadata().is_ok_and(|metadata| metadata.is_file()) {
+        return Ok(write(locked));
+    }
     let written = output::replace(results, write);
     if written.is_ok() {
         session::forget(results).map_err(|error| Failure::cannot_write(results, &error))?;

@@ -7,7 +7,6 @@ use flap_core::simulate::Unfinished;
 use flap_sweep::diagnostic;
 use flap_sweep::job::JobError;
 use flap_sweep::output::CreateError;
-use flap_sweep::results::Format;
 use flap_sweep::run::RunError;
 use flap_sweep::session::ResumeError;
 use flap_sweep::spec::ReadError;
@@ -147,9 +146,8 @@ pub(crate) fn job(error: &JobError) -> PyErr {
         error
     };
     Python::attach(|py| match error {
-        JobError::Format(error) => {
-            PyValueError::new_err(format!("{error}: name a file that ends in {}", Format::ENDINGS))
-        }
+        JobError::Format(error) => PyValueError::new_err(error.to_string()),
+        JobError::Overlap(error) => PyValueError::new_err(error.to_string()),
         JobError::Create(error) => create(error),
         JobError::Resume { error, changed } => resume(error, changed.as_deref()),
         JobError::Write { resumable, .. } => go_on(PyOSError::new_err(error.to_string()), *resumable, py),

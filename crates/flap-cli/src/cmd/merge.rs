@@ -2,19 +2,27 @@
 
 use std::path::Path;
 
-use flap_sweep::merge::{self, Part};
+use flap_sweep::inputs::Inputs;
+use flap_sweep::merge::{self, MergeError, Part};
 use flap_sweep::results::Format;
 use flap_sweep::run::RunOptions;
 use flap_sweep::selection::Selection;
 use flap_sweep::sidecar::{self, End, Sidecar, Start};
 
 use crate::args::MergeArgs;
+use crate::cmd::outputs::is_stdout;
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::job;
 
 pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
-    let format = Format::of(&args.out)?;
+    let to_stdout = is_stdout(&args.out);
+    let format = if to_stdout { Format::Csv } else { Format::of(&args.out)? };
+    let mut inputs = Inputs::new();
+    for shard in &args.shards {
+        inputs.add_results("the shard", shard);
+    }
+    inputs.protect_from_results(&args.out)?;
     let parts = args.shards.iter().map(|path| part(path)).collect::<Result<Vec<_>, _>>()?;
     merge::check(&parts)?;
     let Some(Part { path, sidecar: first }) = parts.first() else {
@@ -23,7 +31,11 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let mut plan = job::plan_of(&sidecar::path_of(path), first)?;
     plan.selection = Selection::All;
 
-    job::make(&args.out, args.force, |target| merge::merge(&parts, &plan, (target, format)))??;
+    Inputs::new().add_plan(&plan).protect_from_results(&args.out)?;
+    if to_stdout {
+        merge::merge(&parts, &plan, (job::stdout()?, format))?;
+        return Ok(Exit::Done);
+    }
 
     let sidecars = || parts.iter().map(|part| &part.sidecar);
     let started = sidecars().map(|sidecar| sidecar.started.clone()).min().unwrap_or_default();
@@ -34,8 +46,11 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let summary = merge::summary(&parts, &plan);
     let finished = sidecars().filter_map(|sidecar| sidecar.finished.clone()).max().unwrap_or_default();
     whole.finish(&summary, End { finished, seconds: sidecars().filter_map(|sidecar| sidecar.seconds).sum() });
-    let beside = sidecar::path_of(&args.out);
-    whole.write(&beside).map_err(|error| Failure::cannot_write(&beside, &error))?;
+    job::make(&args.out, args.force, |target| {
+        merge::merge(&parts, &plan, (target, format))?;
+        // Earlier results keep their own until the new rows are complete.
+        Ok::<(), MergeError>(whole.write(&sidecar::path_of(&args.out))?)
+    })??;
     console::say(&format!("{} rows of {} shards in {}", summary.rows, parts.len(), args.out.display()));
     Ok(Exit::Done)
 }

@@ -8,6 +8,7 @@ pub(crate) mod lift;
 pub(crate) mod merge;
 pub(crate) mod models;
 mod motion;
+pub(crate) mod outputs;
 pub(crate) mod params;
 mod point;
 pub(crate) mod rerun;

@@ -6,11 +6,12 @@ use std::io;
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{ChirpRequest, Row, Status, TrajectoryRequest, never};
 use flap_sweep::expression::Kind;
+use flap_sweep::inputs::Inputs;
 use flap_sweep::text;
 
 use super::motion::{write_csv, write_file};
 use super::point::Chosen;
-use super::{impulse, samples};
+use super::{impulse, outputs, samples};
 use crate::args::{Drive, RunArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
@@ -19,6 +20,12 @@ use crate::table::{Table, six_digits};
 pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     let mut chosen = Chosen::new(&args.point, &args.solver)?;
     refuse_strays(args)?;
+    let mut inputs = Inputs::new();
+    inputs.add_plan(&chosen.plan);
+    for record in args.waveform.iter().chain(&args.stroke) {
+        inputs.add("the record", record);
+    }
+    outputs::check_tables(&inputs, [args.trajectory.as_deref(), args.envelope.as_deref()])?;
     samples::apply(&mut chosen, args)?;
     match args.drive {
         Drive::Steady => steady(&chosen, args),
