@@ -371,7 +371,8 @@ pub(crate) struct CheckArgs {
 
 const CHECK_HELP: &str = "\
 Shows what each axis spans, what [where] excludes, the first and the last point, and an estimate of the time, for \
-which it runs up to 32 points for about a second. Up to a million points are counted one by one; of more, a million \
+which it runs up to 32 points for about a second. Lists the parameters that differ from the preset, and warns of those \
+that are more than a hundred times away. Up to a million points are counted one by one; of more, a million \
 are looked at.
 
 Example:

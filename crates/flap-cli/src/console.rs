@@ -2,6 +2,8 @@
 
 use std::io::{self, Write};
 
+use anstyle::{AnsiColor, Style};
+
 /// Writes results to stdout.
 pub(crate) fn results(text: &str) -> io::Result<()> {
     let mut stdout = anstream::stdout().lock();
@@ -12,4 +14,10 @@ pub(crate) fn results(text: &str) -> io::Result<()> {
 /// Tells the user something. Nobody is left to tell if stderr is closed.
 pub(crate) fn say(text: &str) {
     let _ = writeln!(anstream::stderr(), "{text}");
+}
+
+/// Warns the user of what may not have been meant.
+pub(crate) fn warn(text: &str) {
+    let style = Style::new().bold().fg_color(Some(AnsiColor::Yellow.into()));
+    say(&format!("{style}warning{style:#}: {text}"));
 }

@@ -4,6 +4,7 @@
 
 pub mod axis;
 pub mod csv_sink;
+pub mod deviation;
 pub mod diagnostic;
 pub mod expression;
 pub mod formula;

@@ -7,11 +7,11 @@ use flap_core::num::InstructionSet;
 use flap_core::simulate::{ChirpRequest, Row, Status, TrajectoryRequest, never};
 use flap_sweep::expression::Kind;
 use flap_sweep::inputs::Inputs;
-use flap_sweep::text;
+use flap_sweep::{deviation, text};
 
 use super::motion::{write_csv, write_file};
 use super::point::Chosen;
-use super::{impulse, outputs, samples};
+use super::{far, impulse, outputs, samples};
 use crate::args::{Drive, RunArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
@@ -20,6 +20,7 @@ use crate::table::{Table, six_digits};
 pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     let mut chosen = Chosen::new(&args.point, &args.solver)?;
     refuse_strays(args)?;
+    far::warn(&deviation::of_point(&chosen.plan, &chosen.values));
     let mut inputs = Inputs::new();
     inputs.add_plan(&chosen.plan);
     for record in args.waveform.iter().chain(&args.stroke) {

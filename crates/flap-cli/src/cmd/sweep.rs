@@ -7,9 +7,10 @@ use flap_sweep::plan::Plan;
 use flap_sweep::results::Format;
 use flap_sweep::selection::{Selection, Shard};
 use flap_sweep::sidecar::{Origin, Sidecar};
-use flap_sweep::spec;
+use flap_sweep::{deviation, spec};
 
 use crate::args::SweepArgs;
+use crate::cmd::far;
 use crate::failure::{Exit, Failure};
 use crate::job::{self, Begin};
 
@@ -28,6 +29,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
     if let Some(sidecar) = &args.from_sidecar {
         Inputs::new().add("the sidecar", sidecar).protect_from_results(&out)?;
     }
+    far::warn(&deviation::of(&plan));
     let begin = match (args.resume, args.force) {
         (true, _) => Begin::Resume,
         (false, true) => Begin::Overwrite,
