@@ -139,6 +139,18 @@ def test_where_files_go_wrong(tmp_path):
         flapwing.sweep(QUICK.replace("26", "27"), out=tmp_path / "rows.csv", resume=True)
 
 
+def test_inputs_are_not_overwritten(tmp_path):
+    points = tmp_path / "points.csv"
+    points.write_text("drive_frequency\n60\n70\n")
+    grid = tmp_path / "grid.toml"
+    grid.write_text('preset = "ozaki2018-large"\n[sample]\nmethod = "file"\npath = "points.csv"\n')
+    (tmp_path / "link.csv").hardlink_to(grid)
+    for out, what in [(points, "the file of points"), (tmp_path / "link.csv", "the grid file")]:
+        with pytest.raises(ValueError, match=f"would overwrite {what}"):
+            flapwing.sweep(grid, out=out, overwrite=True)
+    assert points.read_text() == "drive_frequency\n60\n70\n"
+
+
 def test_progress_is_told():
     told = []
     table = flapwing.sweep(QUICK, progress=lambda done, points: told.append((done, points)))

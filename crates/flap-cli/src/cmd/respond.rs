@@ -19,7 +19,7 @@ use super::{outputs, point};
 use crate::args::RespondArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
-use crate::job as rows;
+use crate::job::make;
 
 pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     let mut plan = point::plan(&args.what)?;
@@ -76,7 +76,7 @@ fn into_file(
         return write(output::create(path, overwrite)?);
     }
     let mut failure = None;
-    let made = rows::make(path, overwrite, |file| {
+    let made = make(path, overwrite, |file| {
         write(file).map_err(|why| {
             failure = Some(why);
             io::Error::other("the rows are not complete")
