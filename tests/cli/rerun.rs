@@ -96,7 +96,11 @@ fn what_cannot_be_run_again() {
 
     let ended = folder.flap("rerun rows.csv --status unsettled --out rows.csv --force");
     assert_eq!(ended.code, 2);
-    assert!(ended.stderr.contains("rows would overwrite rows.csv"), "{}", ended.stderr);
+    assert!(
+        ended.stderr.contains("writing rows.csv would overwrite the results rows.csv"),
+        "{}",
+        ended.stderr
+    );
 }
 
 /// The file of points is looked for where the grid file was, and must be as it was.

@@ -126,7 +126,7 @@ def test_where_grids_go_wrong():
 def test_where_files_go_wrong(tmp_path):
     with pytest.raises(FileNotFoundError):
         flapwing.sweep(QUICK, out=tmp_path / "no" / "rows.csv")
-    with pytest.raises(ValueError, match="written as .xlsx"):
+    with pytest.raises(ValueError, match="must be .csv, .csv.zst or .parquet"):
         flapwing.sweep(QUICK, out=tmp_path / "rows.xlsx")
     (tmp_path / "other.csv").write_text("something else\n")
     with pytest.raises(ValueError, match="not the result of an interrupted sweep"):
@@ -134,6 +134,18 @@ def test_where_files_go_wrong(tmp_path):
     flapwing.sweep(QUICK, out=tmp_path / "rows.csv")
     with pytest.raises(ValueError, match="the grid file is another; line 3 of the grid was"):
         flapwing.sweep(QUICK.replace("26", "27"), out=tmp_path / "rows.csv", resume=True)
+
+
+def test_inputs_are_not_overwritten(tmp_path):
+    points = tmp_path / "points.csv"
+    points.write_text("drive_frequency\n60\n70\n")
+    grid = tmp_path / "grid.toml"
+    grid.write_text('preset = "ozaki2018-large"\n[sample]\nmethod = "file"\npath = "points.csv"\n')
+    (tmp_path / "link.csv").hardlink_to(grid)
+    for out, what in [(points, "the file of points"), (tmp_path / "link.csv", "the grid file")]:
+        with pytest.raises(ValueError, match=f"would overwrite {what}"):
+            flapwing.sweep(grid, out=out, overwrite=True)
+    assert points.read_text() == "drive_frequency\n60\n70\n"
 
 
 def test_progress_is_told():

@@ -27,7 +27,8 @@ fn often() -> SessionOptions {
 
 fn start(path: &Path, plan: &Plan) -> Session {
     let file = output::create(path, false).unwrap();
-    Session::start(file, (path, Format::of(path).unwrap()), plan, &often(), "2026-01-02".to_owned()).unwrap()
+    Session::start(file, (path, Format::of(path).unwrap()), plan, &often(), ("2026-01-02".to_owned(), false))
+        .unwrap()
 }
 
 /// Runs until `stop_at` rows are written, as if the machine lost its power then.

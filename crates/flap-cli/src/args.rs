@@ -107,7 +107,7 @@ pub(crate) struct SweepArgs {
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
 
-    /// Overwrite an existing file of results
+    /// Replace existing results. They are kept beside the new ones, as in grid.old.csv, until those are complete
     #[arg(short, long)]
     pub(crate) force: bool,
 
@@ -141,17 +141,17 @@ pub(crate) struct RunArgs {
     #[arg(long, value_enum, default_value_t = Drive::Steady)]
     pub(crate) drive: Drive,
 
-    /// Frequency at which the chirp begins (Hz)
-    #[arg(long, value_name = "HZ", default_value_t = 1.0)]
-    pub(crate) chirp_from: f64,
+    /// Frequency at which the chirp begins (Hz) [default: 1]
+    #[arg(long, value_name = "HZ")]
+    pub(crate) chirp_from: Option<f64>,
 
     /// Frequency at which the chirp ends (Hz) [default: twice the point's drive frequency]
     #[arg(long, value_name = "HZ")]
     pub(crate) chirp_to: Option<f64>,
 
-    /// Rate of change of the chirp's frequency (Hz/s); negative for a falling chirp
-    #[arg(long, value_name = "HZ/S", default_value_t = 15.0, allow_negative_numbers = true)]
-    pub(crate) chirp_rate: f64,
+    /// Rate of change of the chirp's frequency (Hz/s); negative for a falling chirp [default: 15]
+    #[arg(long, value_name = "HZ/S", allow_negative_numbers = true)]
+    pub(crate) chirp_rate: Option<f64>,
 
     /// Write the chirp's rows per cycle to a CSV file instead of stdout
     #[arg(long, value_name = "FILE")]
@@ -384,7 +384,8 @@ pub(crate) struct CheckArgs {
 
 const CHECK_HELP: &str = "\
 Shows what each axis spans, what [where] excludes, the first and the last point, and an estimate of the time, for \
-which it runs up to 32 points for about a second. Up to a million points are counted one by one; of more, a million \
+which it runs up to 32 points for about a second. Lists the parameters that differ from the preset, and warns of those \
+that are more than a hundred times away. Up to a million points are counted one by one; of more, a million \
 are looked at.
 
 Example:

@@ -11,7 +11,7 @@ pub(crate) fn results(text: &str) -> io::Result<()> {
     stdout.flush()
 }
 
-/// Tells the user what is not as it should be, and does not stop the work.
+/// Tells the user what is not as it should be or may not have been meant, and does not stop the work.
 pub(crate) fn warn(text: &str) {
     let style = Style::new().bold().fg_color(Some(AnsiColor::BrightYellow.into()));
     say(&format!("{style}warning{style:#}: {text}"));

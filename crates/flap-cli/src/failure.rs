@@ -7,16 +7,18 @@ use std::path::Path;
 use anstyle::{AnsiColor, Style};
 use flap_core::parameter::Invalid;
 use flap_core::simulate::Unfinished;
-use flap_sweep::diagnostic::{self, Diagnostic};
+use flap_sweep::diagnostic::{self, Mistakes};
+use flap_sweep::inputs::Overlap;
 use flap_sweep::integrity::OpenError;
-use flap_sweep::job::JobError;
+use flap_sweep::job::{self, JobError};
 use flap_sweep::merge::MergeError;
 use flap_sweep::output::CreateError;
-use flap_sweep::results::{Format, FormatError};
+use flap_sweep::results::FormatError;
 use flap_sweep::run::RunError;
 use flap_sweep::session::ResumeError;
 use flap_sweep::sidecar;
 use flap_sweep::spec::ReadError;
+use flap_sweep::text::shortened;
 
 use crate::console;
 
@@ -42,7 +44,7 @@ pub(crate) enum Failure {
     /// The command line or the grid file must be corrected: what is wrong, and what to do.
     Usage(String, Vec<String>),
     /// The grid file must be corrected.
-    Grid(Vec<Diagnostic>),
+    Grid(Mistakes),
     /// The operating system refused: what, and what to do.
     System(String, Vec<String>),
     /// A mistake in flap itself.
@@ -72,6 +74,7 @@ impl Failure {
         let resumable =
             matches!(error, JobError::Write { resumable: true, .. } | JobError::Run { resumable: true, .. });
         let failure = match error {
+            JobError::Overlap(error) => error.into(),
             JobError::Format(error) => error.into(),
             JobError::Create(error) => error.into(),
             JobError::Resume { error, changed } => changed.into_iter().fold(error.into(), Failure::help),
@@ -83,7 +86,11 @@ impl Failure {
             JobError::Write { path, source, .. } => Failure::cannot_write(&path, &source),
             JobError::Run { error, .. } => error.into(),
         };
-        if resumable { failure.help(format!("`flap resume {}` goes on", out.display())) } else { failure }
+        if !resumable {
+            return failure;
+        }
+        let failure = failure.help(format!("`flap resume {}` goes on", out.display()));
+        job::kept(out).into_iter().fold(failure, |failure, kept| failure.help(still_kept(&kept)))
     }
 
     /// Adds a line on what to do.
@@ -101,8 +108,8 @@ impl Failure {
                 complain(&message, &help);
                 Exit::Usage
             }
-            Failure::Grid(diagnostics) => {
-                console::say(&diagnostic::render(&diagnostics, true));
+            Failure::Grid(mistakes) => {
+                console::say(&diagnostic::render(&mistakes, true));
                 Exit::Usage
             }
             Failure::System(message, help) => {
@@ -118,6 +125,11 @@ impl Failure {
     }
 }
 
+/// Where earlier results are while new ones are not complete.
+pub(crate) fn still_kept(kept: &Path) -> String {
+    format!("until then, the earlier results are in {}", kept.display())
+}
+
 fn complain(message: &str, help: &[String]) {
     let error = Style::new().bold().fg_color(Some(AnsiColor::BrightRed.into()));
     let advice = Style::new().bold().fg_color(Some(AnsiColor::BrightCyan.into()));
@@ -125,7 +137,7 @@ fn complain(message: &str, help: &[String]) {
     for line in help {
         let _ = write!(text, "\n{advice}help{advice:#}: {line}");
     }
-    console::say(&text);
+    console::say(&shortened(&text));
 }
 
 /// Writing to stdout failed.
@@ -153,9 +165,13 @@ impl From<Unfinished> for Failure {
 impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Failure {
         match error {
-            ReadError::Grid(diagnostics) => Failure::Grid(diagnostics),
-            ReadError::Missing { .. } | ReadError::Folder { .. } | ReadError::NotUtf8 { .. } => {
-                Failure::usage(error.to_string())
+            ReadError::Grid(mistakes) => Failure::Grid(mistakes),
+            ReadError::Missing { .. }
+            | ReadError::Folder { .. }
+            | ReadError::NotUtf8 { .. }
+            | ReadError::Results { .. }
+            | ReadError::TooLarge { .. } => {
+                error.help().into_iter().fold(Failure::usage(error.to_string()), Failure::help)
             }
             ReadError::Unreadable { .. } => Failure::System(error.to_string(), Vec::new()),
         }
@@ -194,9 +210,15 @@ impl From<OpenError> for Failure {
     }
 }
 
+impl From<Overlap> for Failure {
+    fn from(error: Overlap) -> Failure {
+        Failure::usage(error.to_string()).help("inputs are never overwritten: name another file")
+    }
+}
+
 impl From<FormatError> for Failure {
     fn from(error: FormatError) -> Failure {
-        Failure::usage(error.to_string()).help(format!("name a file that ends in {}", Format::ENDINGS))
+        Failure::usage(error.to_string())
     }
 }
 
@@ -218,6 +240,7 @@ impl From<MergeError> for Failure {
         let message = error.to_string();
         match error {
             MergeError::Parts(_) => Failure::usage(message),
+            MergeError::Write(source) if source.kind() == io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
             MergeError::Read { .. } | MergeError::Write(_) => Failure::System(message, Vec::new()),
         }
     }

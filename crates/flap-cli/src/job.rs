@@ -13,7 +13,7 @@ pub(crate) use flap_sweep::job::Begin;
 use flap_sweep::job::{self, Before, Done, Job, Outcome};
 use flap_sweep::output;
 use flap_sweep::plan::Plan;
-use flap_sweep::results::Reader;
+use flap_sweep::results::{Format, Reader};
 use flap_sweep::run::{self, RunError, RunOptions, Summary};
 use flap_sweep::session::{self, SessionOptions};
 use flap_sweep::sidecar::{self, Origin, ReadError, Sidecar};
@@ -22,7 +22,7 @@ use flap_sweep::sink::Sink;
 use crate::args::{ReadArgs, WorkArgs};
 use crate::cmd::exclusion;
 use crate::console;
-use crate::failure::{Exit, Failure, IGNORE_HELP};
+use crate::failure::{Exit, Failure, IGNORE_HELP, still_kept};
 use crate::progress::Bar;
 use crate::signals;
 
@@ -65,6 +65,9 @@ fn ended(done: &Done, resumable: Option<&Path>, work: &WorkArgs) -> Exit {
     if done.summary.interrupted {
         if let Some(out) = resumable {
             console::say(&format!("`flap resume {}` goes on", out.display()));
+            if let Some(kept) = job::kept(out) {
+                console::say(&still_kept(&kept));
+            }
         }
         return Exit::Interrupted;
     }
@@ -151,7 +154,7 @@ pub(crate) fn read_sidecar(results: &Path, on_damage: OnDamage) -> Result<Sideca
 /// The plan in a sidecar, which was read from `path`.
 pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
     sidecar.plan(flap_core::simulate::all()).map_err(|error| match error {
-        sidecar::PlanError::Grid(diagnostics) => Failure::Grid(diagnostics),
+        sidecar::PlanError::Grid(mistakes) => Failure::Grid(mistakes),
         sidecar::PlanError::GridText => {
             let message =
                 format!("{}: the grid in it is not the one that was run: it was edited", path.display());
@@ -174,6 +177,15 @@ pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
     })
 }
 
+/// Stdout as a file.
+pub(crate) fn stdout() -> io::Result<File> {
+    #[cfg(unix)]
+    let owned = std::os::fd::AsFd::as_fd(&io::stdout()).try_clone_to_owned();
+    #[cfg(windows)]
+    let owned = std::os::windows::io::AsHandle::as_handle(&io::stdout()).try_clone_to_owned();
+    owned.map(File::from)
+}
+
 /// Opens results to be read, and tells what a user should know of them.
 pub(crate) fn open(results: &Path, read: &ReadArgs) -> Result<Opened, Failure> {
     let opened = integrity::open(results, read.on_damage())?;
@@ -190,6 +202,7 @@ pub(crate) fn tell(note: &Note) {
 
 /// Opens results that have a sidecar, which tells of what plan they are.
 pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, Plan, Sidecar), Failure> {
+    Format::of(results)?;
     let (plan, sidecar) = recorded(results, read.on_damage())?;
     Ok((open(results, read)?, plan, sidecar))
 }
@@ -201,7 +214,7 @@ pub(crate) fn tell_missed(results: &Path, reader: &Reader) {
     }
 }
 
-/// Makes a result file from other ones: all of it, or nothing.
+/// Makes a file that was computed before, or from other files: all of it, or nothing. An earlier file stays until then.
 pub(crate) fn make<E: From<io::Error>>(
     results: &Path,
     overwrite: bool,
@@ -209,6 +222,10 @@ pub(crate) fn make<E: From<io::Error>>(
 ) -> Result<Result<(), E>, Failure> {
     // Holds the name while the rows are written beside it.
     let locked = output::create(results, overwrite)?;
+    // A device or a pipe takes what it is given.
+    if !locked.metadata().is_ok_and(|metadata| metadata.is_file()) {
+        return Ok(write(locked));
+    }
     let written = output::replace(results, write);
     if written.is_ok() {
         session::forget(results).map_err(|error| Failure::cannot_write(results, &error))?;

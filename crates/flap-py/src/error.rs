@@ -8,7 +8,6 @@ use flap_sweep::diagnostic;
 use flap_sweep::integrity::OpenError;
 use flap_sweep::job::JobError;
 use flap_sweep::output::CreateError;
-use flap_sweep::results::Format;
 use flap_sweep::run::RunError;
 use flap_sweep::session::ResumeError;
 use flap_sweep::sidecar;
@@ -97,9 +96,9 @@ impl From<&diagnostic::Diagnostic> for Diagnostic {
 }
 
 /// The exception for mistakes in a grid.
-pub(crate) fn grid(py: Python<'_>, diagnostics: &[diagnostic::Diagnostic]) -> PyErr {
-    let error = GridError::new_err(diagnostic::render(diagnostics, false));
-    let listed: Vec<Diagnostic> = diagnostics.iter().map(Diagnostic::from).collect();
+pub(crate) fn grid(py: Python<'_>, mistakes: &diagnostic::Mistakes) -> PyErr {
+    let error = GridError::new_err(diagnostic::render(mistakes, false));
+    let listed: Vec<Diagnostic> = mistakes.iter().map(Diagnostic::from).collect();
     match error.value(py).setattr("diagnostics", listed) {
         Ok(()) => error,
         Err(error) => error,
@@ -109,10 +108,12 @@ pub(crate) fn grid(py: Python<'_>, diagnostics: &[diagnostic::Diagnostic]) -> Py
 /// The exception for a grid file without a plan.
 pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
     match error {
-        ReadError::Grid(diagnostics) => grid(py, diagnostics),
+        ReadError::Grid(mistakes) => grid(py, mistakes),
         ReadError::Missing { .. } => PyFileNotFoundError::new_err(error.to_string()),
         ReadError::Folder { .. } => PyIsADirectoryError::new_err(error.to_string()),
-        ReadError::NotUtf8 { .. } => PyValueError::new_err(error.to_string()),
+        ReadError::NotUtf8 { .. } | ReadError::Results { .. } | ReadError::TooLarge { .. } => {
+            PyValueError::new_err(error.to_string())
+        }
         ReadError::Unreadable { .. } => PyOSError::new_err(error.to_string()),
     }
 }
@@ -147,9 +148,8 @@ pub(crate) fn job(error: &JobError) -> PyErr {
         error
     };
     Python::attach(|py| match error {
-        JobError::Format(error) => {
-            PyValueError::new_err(format!("{error}: name a file that ends in {}", Format::ENDINGS))
-        }
+        JobError::Format(error) => PyValueError::new_err(error.to_string()),
+        JobError::Overlap(error) => PyValueError::new_err(error.to_string()),
         JobError::Create(error) => create(error),
         JobError::Resume { error, changed } => resume(error, changed.as_deref()),
         JobError::Damaged { .. } | JobError::Sidecar(_) => {

@@ -31,6 +31,9 @@ pub struct Header {
     pub started: String,
     /// What is run.
     pub identity: Identity,
+    /// Whether earlier results wait beside these until these are complete.
+    #[serde(default)]
+    pub replaces: bool,
 }
 
 /// A place at which a run can be resumed: every line but the first.
@@ -56,7 +59,7 @@ pub struct Checkpoint {
 impl Header {
     /// The first line of a run that starts now.
     pub fn new(started: String, identity: Identity) -> Header {
-        Header { format: FORMAT, started, identity }
+        Header { format: FORMAT, started, identity, replaces: false }
     }
 }
 

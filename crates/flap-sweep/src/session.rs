@@ -96,7 +96,8 @@ pub enum ResumeError {
 }
 
 impl Session {
-    /// Begins to write to `results`, which [`output::create`] opened at `path`. Drops what it holds.
+    /// Begins to write to `results`, which [`output::create`] opened at `path`. Drops what it holds. The journal notes when
+    /// the run started, and whether earlier results wait beside it.
     ///
     /// # Errors
     /// What writing says.
@@ -105,13 +106,14 @@ impl Session {
         (path, format): (&Path, Format),
         plan: &Plan,
         options: &SessionOptions,
-        started: String,
+        (started, replaces): (String, bool),
     ) -> io::Result<Session> {
         let journal_path = journal::path_of(path);
         // An old journal must not outlive the rows it tells of.
         forget(path)?;
         output::empty(&results)?;
-        let header = Header::new(started, Identity::of(plan, &options.run));
+        let mut header = Header::new(started, Identity::of(plan, &options.run));
+        header.replaces = replaces;
         let journal = Journal::create(&journal_path, &header)?;
         let rows_file = match format {
             Format::Parquet => File::create(part_of(path))?,
@@ -303,7 +305,7 @@ fn open(path: &Path) -> io::Result<File> {
     OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)
 }
 
-fn remove_if_there(path: &Path) -> io::Result<()> {
+pub(crate) fn remove_if_there(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
         _ => Ok(()),

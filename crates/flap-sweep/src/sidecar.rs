@@ -15,7 +15,7 @@ use flap_core::simulate::{Simulator, SolverSettings};
 use serde::{Deserialize, Serialize};
 use toml::Value;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Mistakes;
 use crate::identity;
 use crate::layout::Layout;
 use crate::plan::{self, Plan};
@@ -192,7 +192,7 @@ pub struct Grid {
 #[derive(Debug)]
 pub enum PlanError {
     /// The grid file in it has mistakes for this version of flap.
-    Grid(Vec<Diagnostic>),
+    Grid(Mistakes),
     /// The grid file in it is not the one that was run: its hash is another.
     GridText,
     /// The points in it are not points of the grid.

@@ -109,7 +109,7 @@ pub(crate) struct RerunArgs {
     #[command(flatten)]
     pub(crate) work: WorkArgs,
 
-    /// Overwrite an existing file of results
+    /// Replace existing results. They are kept beside the new ones, as in again.old.csv, until those are complete
     #[arg(short, long)]
     pub(crate) force: bool,
 }
@@ -124,7 +124,7 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_help = MERGE_HELP)]
 pub(crate) struct MergeArgs {
-    /// Where to write all rows: .csv, .csv.zst or .parquet
+    /// Where to write all rows: .csv, .csv.zst, .parquet, or `-` for CSV to stdout
     #[arg(value_name = "OUT")]
     pub(crate) out: PathBuf,
 
@@ -156,7 +156,7 @@ pub(crate) struct ConvertArgs {
     #[arg(value_name = "IN")]
     pub(crate) from: PathBuf,
 
-    /// Where to write the same rows: .csv, .csv.zst or .parquet
+    /// Where to write the same rows: .csv, .csv.zst, .parquet, or `-` for CSV to stdout
     #[arg(value_name = "OUT")]
     pub(crate) to: PathBuf,
 
@@ -172,7 +172,8 @@ const CONVERT_HELP: &str = "\
 The result has the bytes of a sweep that wrote OUT. Of unfinished results, the rows up to the last checkpoint are converted.
 
 Example:
-  flap convert sweep.csv sweep.parquet";
+  flap convert sweep.csv sweep.parquet
+  flap convert sweep.parquet - | head";
 
 /// A time from 0 to a day.
 fn interval(text: &str) -> Result<Duration, String> {

@@ -2,20 +2,28 @@
 
 use std::path::Path;
 
+use flap_sweep::inputs::Inputs;
 use flap_sweep::integrity::{Note, OnDamage};
-use flap_sweep::merge::{self, Part};
-use flap_sweep::results::Format;
+use flap_sweep::merge::{self, MergeError, Part};
+use flap_sweep::results::{Format, Reader};
 use flap_sweep::run::RunOptions;
 use flap_sweep::selection::Selection;
 use flap_sweep::sidecar::{self, End, Sidecar, Start};
 
 use crate::args::MergeArgs;
+use crate::cmd::outputs::is_stdout;
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::job;
 
 pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
-    let format = Format::of(&args.out)?;
+    let to_stdout = is_stdout(&args.out);
+    let format = if to_stdout { Format::Csv } else { Format::of(&args.out)? };
+    let mut inputs = Inputs::new();
+    for shard in &args.shards {
+        inputs.add_results("the shard", shard);
+    }
+    inputs.protect_from_results(&args.out)?;
     let on_damage = args.read.on_damage();
     let parts = args.shards.iter().map(|path| part(path, on_damage)).collect::<Result<Vec<_>, _>>()?;
     merge::check(&parts)?;
@@ -25,6 +33,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let mut plan = job::plan_of(&sidecar::path_of(path), first)?;
     plan.selection = Selection::All;
 
+    Inputs::new().add_plan(&plan).protect_from_results(&args.out)?;
     let mut readers = Vec::with_capacity(parts.len());
     let mut is_damaged = false;
     for part in &parts {
@@ -32,13 +41,10 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
         is_damaged |= opened.notes.iter().any(|note| matches!(note, Note::Damaged { .. }));
         readers.push(opened.reader);
     }
-    let mut checksums = None;
-    job::make(&args.out, args.force, |target| {
-        let merged = merge::merge(&parts, &mut readers, &plan, (target, format));
-        merged.map(|written| checksums = Some(written))
-    })??;
-    for (part, reader) in parts.iter().zip(&readers) {
-        job::tell_missed(&part.path, reader);
+    if to_stdout {
+        merge::merge(&parts, &mut readers, &plan, (job::stdout()?, format))?;
+        tell_missed(&parts, &readers);
+        return Ok(Exit::Done);
     }
 
     let sidecars = || parts.iter().map(|part| &part.sidecar);
@@ -50,14 +56,24 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let summary = merge::summary(&parts, &plan);
     let finished = sidecars().filter_map(|sidecar| sidecar.finished.clone()).max().unwrap_or_default();
     whole.finish(&summary, End { finished, seconds: sidecars().filter_map(|sidecar| sidecar.seconds).sum() });
-    // Rows that were damaged before are not to be called sound.
-    whole.checksums = checksums.filter(|_| !is_damaged);
-    let beside = sidecar::path_of(&args.out);
-    whole.write(&beside).map_err(|error| Failure::cannot_write(&beside, &error))?;
+    job::make(&args.out, args.force, |target| {
+        let checksums = merge::merge(&parts, &mut readers, &plan, (target, format))?;
+        // Rows that were damaged before are not to be called sound.
+        whole.checksums = Some(checksums).filter(|_| !is_damaged);
+        // Earlier results keep their own until the new rows are complete.
+        Ok::<(), MergeError>(whole.write(&sidecar::path_of(&args.out))?)
+    })??;
+    tell_missed(&parts, &readers);
     console::say(&format!("{} rows of {} shards in {}", summary.rows, parts.len(), args.out.display()));
     Ok(Exit::Done)
 }
 
 fn part(path: &Path, on_damage: OnDamage) -> Result<Part, Failure> {
     Ok(Part { path: path.to_owned(), sidecar: job::read_sidecar(path, on_damage)? })
+}
+
+fn tell_missed(parts: &[Part], readers: &[Reader]) {
+    for (part, reader) in parts.iter().zip(readers) {
+        job::tell_missed(&part.path, reader);
+    }
 }

@@ -1,7 +1,6 @@
 //! `flap rerun`: points of earlier results again, with other solver settings.
 
-use std::fs;
-
+use flap_sweep::inputs::Inputs;
 use flap_sweep::rerun;
 use flap_sweep::selection::Selection;
 use flap_sweep::sidecar::{Origin, State};
@@ -14,6 +13,7 @@ use crate::job::{self, Begin};
 
 pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     let of = args.results.display();
+    Inputs::new().add_results("the results", &args.results).protect_from_results(&args.out)?;
     let (mut source, mut plan, sidecar) = job::open_recorded(&args.results, &args.read)?;
     let unreadable = |error| Failure::System(format!("cannot read {of}: {error}"), Vec::new());
     let rows = sidecar.rows.filter(|_| sidecar.state == State::Complete);
@@ -28,10 +28,5 @@ pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     set_solver(&mut plan.solver, &args.solver);
     let origin = Some(Origin { of: of.to_string(), statuses });
     let begin = if args.force { Begin::Overwrite } else { Begin::New };
-    if fs::canonicalize(&args.out).is_ok_and(|out| fs::canonicalize(&args.results).is_ok_and(|of| out == of))
-    {
-        let failure = Failure::usage(format!("rows would overwrite {of}, whose points are run again"));
-        return Err(failure.help("name another file with --out"));
-    }
     job::run(&plan, args.out.clone(), begin, &args.work, origin)
 }

@@ -1,6 +1,7 @@
 //! `flap resume`: an interrupted sweep, from its results alone.
 
 use flap_sweep::integrity::OnDamage;
+use flap_sweep::results::Format;
 use flap_sweep::sidecar::State;
 
 use crate::args::ResumeArgs;
@@ -9,6 +10,7 @@ use crate::failure::{Exit, Failure};
 use crate::job::{self, Begin};
 
 pub(crate) fn run(args: &ResumeArgs) -> Result<Exit, Failure> {
+    Format::of(&args.results)?;
     let on_damage = args.read.on_damage();
     let (plan, sidecar) = job::recorded(&args.results, on_damage)?;
     if on_damage == OnDamage::Tolerate && sidecar.state == State::Complete {

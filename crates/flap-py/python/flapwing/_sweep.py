@@ -41,7 +41,8 @@ def sweep(
     resume : bool, optional
         Go on with the unfinished results in `out`, or begin them.
     overwrite : bool, optional
-        Replace the results in `out`. By default a file that holds something is an error.
+        Replace the results in `out`, which are kept beside the new ones until those are complete. By default a file that
+        holds something is an error.
     threads : int, optional
         Threads, 1 or more; with `client`, those of each task. Default: one per core; with `client`, 1. Rows do not
         depend on it.

@@ -4,6 +4,7 @@
 //! it comes from a model or from a file. So a file converted, or merged from parts, has the bytes of one that was
 //! written at once.
 
+mod bounded;
 pub(crate) mod checksum;
 mod convert;
 mod format;
@@ -20,6 +21,7 @@ mod recorded;
 pub(crate) mod text;
 mod write;
 
+pub use bounded::Bounded;
 pub use checksum::{Checksums, FileSum};
 pub use convert::{ConvertError, Converted, convert};
 pub use format::{Format, FormatError};

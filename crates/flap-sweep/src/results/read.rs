@@ -6,7 +6,7 @@ use std::io::{self, Read};
 
 use csv::StringRecord;
 
-use super::{Format, text};
+use super::{Bounded, Format, text};
 use crate::csv_sink::cause;
 
 /// Reads the rows of a result file in their order.
@@ -47,7 +47,7 @@ impl fmt::Display for Missed {
 }
 
 enum Rows {
-    Text(csv::Reader<Box<dyn Read>>),
+    Text(csv::Reader<Bounded<Box<dyn Read>>>),
     #[cfg(feature = "parquet")]
     Parquet(super::parquet::ParquetReader),
 }
@@ -72,7 +72,7 @@ impl Reader {
 
     /// Reads text, plain or compressed.
     pub(crate) fn of_text(source: impl Read + 'static, format: Format) -> io::Result<Reader> {
-        let mut rows = csv::Reader::from_reader(text::decoded(source, format)?);
+        let mut rows = csv::Reader::from_reader(Bounded::new(text::decoded(source, format)?));
         let names = rows.headers().map_err(cause)?.iter().map(str::to_owned).collect();
         Ok(Reader { names, rows: Rows::Text(rows), missed: None })
     }
@@ -135,7 +135,11 @@ impl Reader {
 
     fn read(&mut self, row: &mut StringRecord) -> io::Result<bool> {
         match &mut self.rows {
-            Rows::Text(rows) => rows.read_record(row).map_err(cause),
+            Rows::Text(rows) => {
+                let found = rows.read_record(row).map_err(cause)?;
+                rows.get_mut().begin_line();
+                Ok(found)
+            }
             #[cfg(feature = "parquet")]
             Rows::Parquet(rows) => rows.next(row),
         }

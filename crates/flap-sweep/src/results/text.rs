@@ -20,6 +20,9 @@ pub const BLOCK_ROWS: u32 = 256;
 /// Zstandard's default: higher levels take longer and save little on digits.
 const LEVEL: i32 = 3;
 
+/// The most memory that a compressed file may ask for to be read: 2^27 bytes, which is what the command `zstd` allows.
+const WINDOW_LOG_MAX: u32 = 27;
+
 /// Writes one header line, then one line per row: [`Format::Csv`] as it is, otherwise in frames of [`BLOCK_ROWS`] rows.
 pub struct TextRows {
     lines: Lines<Frames>,
@@ -195,7 +198,9 @@ pub(super) fn decoded<'a>(source: impl Read + 'a, format: Format) -> io::Result<
     let mut source = BufReader::with_capacity(1 << 16, source);
     match format {
         Format::CsvZstd | Format::Parquet if !source.fill_buf()?.is_empty() => {
-            Ok(Box::new(zstd::Decoder::with_buffer(source)?))
+            let mut decoder = zstd::Decoder::with_buffer(source)?;
+            decoder.window_log_max(WINDOW_LOG_MAX)?;
+            Ok(Box::new(decoder))
         }
         // No frame at all is no text at all.
         _ => Ok(Box::new(source)),

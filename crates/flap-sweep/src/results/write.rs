@@ -6,6 +6,7 @@ use std::io;
 use csv::StringRecord;
 
 use super::{Checksums, Format, Provenance, TextRows};
+use crate::output::Durable as _;
 
 /// Writes rows that are text already.
 pub struct Writer(Rows);
@@ -56,7 +57,7 @@ impl Writer {
         match self.0 {
             Rows::Text(mut rows) => {
                 rows.finish()?;
-                rows.file().sync_all()?;
+                rows.file().sync()?;
                 Ok(rows.checksums(None))
             }
             #[cfg(feature = "parquet")]
