@@ -113,6 +113,27 @@ fn tracked_points_become_a_motion() {
     assert!(short.code == 2 && short.stderr.contains("image 1: the lower edge appears"), "{}", short.stderr);
 }
 
+/// Two columns of the time may stand in a file if they agree.
+#[test]
+fn contradictory_columns_are_refused() {
+    let lift = |text: &str| {
+        let folder = folder_with("motion.csv", text);
+        folder.flap("lift ozaki2018-small motion.csv")
+    };
+    let rows = |third: &str| format!("0,0,0,0\n0.001,1,1,2\n0.002,{third},2,4\n0.003,3,3,6\n0.004,4,4,8\n");
+    let headings = "time_s,time_ms,stroke_deg,pitch_deg\n";
+    assert_eq!(lift(&(headings.to_owned() + &rows("2"))).code, 0);
+    let ended = lift(&(headings.to_owned() + &rows("7")));
+    assert_eq!(ended.code, 2);
+    assert_eq!(
+        ended.stderr,
+        "error: motion.csv: columns time_s and time_ms contradict each other in row 3: keep one of them\n"
+    );
+    let ended = lift(&("time_s,pitch_deg,stroke_deg,pitch_deg\n".to_owned() + &rows("2")));
+    assert_eq!(ended.code, 2);
+    assert_eq!(ended.stderr, "error: motion.csv: there are two columns pitch_deg: keep one of them\n");
+}
+
 #[test]
 fn unusable_files_are_named_with_line_and_column() {
     let folder = folder_with("wave.csv", "time_s,wave\n0,0\n1,x\n");

@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use flap_sweep::sidecar::Sidecar;
+
 use crate::support::{Folder, frequencies, quick};
 
 const ENDINGS: [&str; 3] = ["csv", "csv.zst", "parquet"];
@@ -43,8 +45,12 @@ fn converted_files_have_the_bytes_of_written_ones() {
             assert_eq!(ended.stdout, "");
             let bytes = |name: &str| fs::read(folder.path(name)).unwrap();
             assert!(bytes(&format!("{to}.{to}")) == bytes(&format!("out.{to}")), "{from} to {to}");
-            let sidecar = |name: &str| folder.read(&format!("{name}.meta.toml"));
-            assert_eq!(sidecar(&format!("{from}.{from}")), sidecar(&format!("out.{to}")));
+            let sidecar = |name: &str| Sidecar::read(&folder.path(&format!("{name}.meta.toml"))).unwrap();
+            // But for the checksum of the file's bytes, which are those of another format.
+            let (mut before, after) = (sidecar(&format!("{from}.{from}")), sidecar(&format!("out.{to}")));
+            before.checksums.as_mut().unwrap().file = after.checksums.as_ref().unwrap().file.clone();
+            assert_eq!(before, after);
+            assert_eq!(after.checksums, sidecar(&format!("{to}.{to}")).checksums);
         }
     }
     let size = |name: &str| fs::metadata(folder.path(name)).unwrap().len();
@@ -62,6 +68,7 @@ fn compressed_files_are_frames_of_plain_ones() {
     let magic = [0x28, 0xb5, 0x2f, 0xfd];
     let frames = compressed.windows(4).filter(|bytes| *bytes == magic).count();
     assert_eq!(frames, 1 + 3, "a header and three blocks");
+    assert_ne!(compressed[magic.len()] & 4, 0, "a frame ends in its checksum");
     assert_eq!(zstd::decode_all(&compressed[..]).unwrap(), fs::read(folder.path("rows.csv")).unwrap());
 }
 
@@ -158,9 +165,68 @@ fn endings_that_stand_for_no_format() {
     assert_eq!(ended.code, 2);
     assert_eq!(
         ended.stderr,
-        "error: rows.xlsx: rows cannot be written as .xlsx\n\
-         help: name a file that ends in .csv, .csv.zst or .parquet\n"
+        "error: rows.xlsx: the ending of a file's name says its format, and must be .csv, .csv.zst or .parquet\n"
     );
+    assert_eq!(folder.flap("sweep --grid grid.toml --out rows.csv").code, 0);
+    fs::copy(folder.path("rows.csv"), folder.path("rows.tsv")).unwrap();
+    fs::write(folder.path("at.toml"), quick(1) + "[output]\npath = \"rows.json\"\n").unwrap();
+    let rows = ".csv, .csv.zst or .parquet";
+    for (arguments, allowed) in [
+        ("sweep --grid grid.toml --out rows.csv.gz", rows),
+        ("sweep --grid grid.toml --out rows.zst", rows),
+        ("sweep --grid grid.toml --out rows", rows),
+        ("sweep --grid at.toml", rows),
+        ("check at.toml", rows),
+        ("resume rows.tsv", rows),
+        ("rerun rows.csv --status unsettled --out rows.json", rows),
+        ("rerun rows.tsv --status unsettled --out again.csv", rows),
+        ("convert rows.csv rows.tsv", rows),
+        ("convert rows.tsv out.csv", rows),
+        ("merge rows.xlsx rows.csv", rows),
+        ("run ozaki2018-large --trajectory motion.parquet", ".csv"),
+        ("run ozaki2018-large --drive chirp --envelope envelope.tsv", ".csv"),
+        ("respond ozaki2018-large --from 90 --to 100 --step 5 --out rows.parquet", ".csv"),
+        #[cfg(feature = "plots")]
+        ("plot rows.tsv", rows),
+        #[cfg(feature = "plots")]
+        ("plot rows.csv --out picture.pdf", ".svg or .png"),
+        #[cfg(feature = "plots")]
+        ("plot rows.csv --html page.txt", ".html or .htm"),
+    ] {
+        let ended = folder.flap(arguments);
+        assert_eq!(ended.code, 2, "{arguments}: {}", ended.stderr);
+        let told = ended.stderr.lines().next().unwrap();
+        assert!(told.ends_with(allowed), "{arguments}: {told}");
+    }
+}
+
+/// In capital letters, too.
+#[test]
+fn endings_are_those_of_any_system() {
+    let folder = Folder::with_grid(&quick(3));
+    for name in ["A.CSV", "B.CSV.ZST", "C.Parquet"] {
+        assert_eq!(folder.flap(&format!("sweep --grid grid.toml --out {name}")).code, 0);
+        assert_eq!(folder.flap(&format!("convert {name} {name}.csv")).code, 0);
+        assert_eq!(folder.read("A.CSV"), folder.read(&format!("{name}.csv")), "{name}");
+    }
+}
+
+#[test]
+fn rows_are_converted_and_merged_to_stdout() {
+    let folder = Folder::with_grid(&grid());
+    for ending in ENDINGS {
+        assert_eq!(folder.flap(&format!("sweep --grid grid.toml --out rows.{ending}")).code, 0);
+        let ended = folder.flap(&format!("convert rows.{ending} -"));
+        assert_eq!((ended.code, ended.stderr.as_str()), (0, ""));
+        assert!(ended.stdout == folder.read("rows.csv"), "{ending}");
+    }
+    for shard in ["1/2", "2/2"] {
+        assert_eq!(folder.flap(&format!("sweep --grid grid.toml --shard {shard}")).code, 0);
+    }
+    let ended = folder.flap("merge - grid.1of2.csv grid.2of2.csv");
+    assert_eq!((ended.code, ended.stderr.as_str()), (0, ""));
+    assert!(ended.stdout == folder.read("rows.csv"));
+    assert!(!folder.path("-").exists());
 }
 
 #[test]
@@ -174,9 +240,14 @@ fn what_cannot_be_converted() {
 
     let ended = folder.flap("convert rows.csv rows.csv");
     assert_eq!(ended.code, 2, "{}", ended.stderr);
-    assert!(ended.stderr.contains("exists already"), "{}", ended.stderr);
+    assert!(
+        ended.stderr.contains("writing rows.csv would overwrite the results rows.csv"),
+        "{}",
+        ended.stderr
+    );
 
     fs::write(folder.path("rows.csv"), "point,other\n0,1\n").unwrap();
+    folder.rewrite_sidecar("rows.csv", |sidecar| sidecar.checksums = None);
     let ended = folder.flap("convert rows.csv out.parquet");
     assert_eq!(ended.code, 3, "{}", ended.stderr);
     assert!(ended.stderr.contains("its columns are not those of the grid"), "{}", ended.stderr);

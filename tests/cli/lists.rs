@@ -29,6 +29,10 @@ AXIS  PARAMETER         FROM   TO     COUNT  UNIT
 first point, 0: drive_voltage_pp = 100.0 V, drive_frequency = 60.0 Hz
 last point, 29: drive_voltage_pp = 150.0 V, drive_frequency = 200.0 Hz
 
+OTHER THAN THE PRESET  HERE             PRESET  RATIO
+drive_voltage_pp       100 V to 150 V   100 V   1 to 1.5
+drive_frequency        60 Hz to 200 Hz  109 Hz  0.55 to 1.83
+
 rtol = 1e-6, atol = 1e-8, settle_tol = 1e-6, max_cycles = 1000, max_steps = 20000, accuracy = 0.001, newton = true
 
 "
@@ -95,5 +99,8 @@ fn help_has_examples_and_exit_codes() {
         assert_eq!(ended.code, 0);
         assert!(ended.stdout.contains(&format!("  flap {command} ")), "{}", ended.stdout);
     }
-    assert_eq!(folder.flap("--version").stdout, format!("flap {}\n", env!("CARGO_PKG_VERSION")));
+    let (version, build) = (env!("CARGO_PKG_VERSION"), flap_sweep::identity::build());
+    assert_eq!(folder.flap("-V").stdout, format!("flap {version}\n"));
+    let long = folder.flap("--version").stdout;
+    assert!(long.starts_with(&format!("flap {version}\nbuild {build} (")), "{long}");
 }

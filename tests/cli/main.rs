@@ -2,16 +2,20 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
 
+mod damage;
+mod deviations;
 mod documents;
 mod experiments;
 mod formats;
 mod formulas;
+mod inputs;
 mod irregular;
 mod lists;
 mod mistakes;
 #[cfg(feature = "plots")]
 mod plot;
 mod point;
+mod replaced;
 mod rerun;
 mod resonance;
 mod respond;

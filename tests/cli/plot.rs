@@ -276,7 +276,22 @@ fn nothing_is_overwritten_unasked() {
     fs::copy(folder.path("sweep.csv"), folder.path("results.svg")).unwrap();
     for option in ["--out", "--html"] {
         let ended = refused(&folder, &["results.svg", option, "./results.svg", "--force"]);
-        assert!(ended.stderr.contains("is the results themselves"), "{}", ended.stderr);
+        assert!(ended.stderr.contains("would overwrite the results"), "{}", ended.stderr);
+    }
+}
+
+/// XML has no place for control characters, and neither has a page.
+#[test]
+fn control_characters_in_a_title_are_written_out() {
+    let folder = folder();
+    let title = "a\u{1b}[31m <b>\u{1}";
+    let arguments = ["plot", "sweep.csv", "--title", title, "--out", "a.svg", "--html", "a.html"];
+    let ended = folder.flap_with(&arguments);
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    for name in ["a.svg", "a.html"] {
+        let text = folder.read(name);
+        assert!(text.contains("a\\u{1b}[31m &lt;b&gt;\\u{1}"), "{name}");
+        assert!(!text.contains(|letter: char| letter.is_control() && !"\n\r\t".contains(letter)), "{name}");
     }
 }
 

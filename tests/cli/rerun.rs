@@ -84,9 +84,8 @@ fn what_cannot_be_run_again() {
     assert_eq!(ended.stderr, "no point in rows.csv is diverged: nothing is left to run\n");
     assert!(!folder.path("again.csv").exists());
 
-    let edited =
-        folder.read("rows.csv.meta.toml").replace("max_cycles = 6\nmax_steps", "max_cycles = 0\nmax_steps");
-    fs::write(folder.path("edited.meta.toml"), edited).unwrap();
+    fs::copy(folder.path("rows.csv.meta.toml"), folder.path("edited.meta.toml")).unwrap();
+    folder.rewrite_sidecar("edited", |sidecar| sidecar.solver.max_cycles = 0);
     let ended = folder.flap("sweep --from-sidecar edited.meta.toml --out again.csv");
     assert_eq!(ended.code, 2, "{}", ended.stderr);
     assert!(ended.stderr.contains("its solver settings are not ones"), "{}", ended.stderr);
@@ -97,7 +96,11 @@ fn what_cannot_be_run_again() {
 
     let ended = folder.flap("rerun rows.csv --status unsettled --out rows.csv --force");
     assert_eq!(ended.code, 2);
-    assert!(ended.stderr.contains("rows would overwrite rows.csv"), "{}", ended.stderr);
+    assert!(
+        ended.stderr.contains("writing rows.csv would overwrite the results rows.csv"),
+        "{}",
+        ended.stderr
+    );
 }
 
 /// The file of points is looked for where the grid file was, and must be as it was.

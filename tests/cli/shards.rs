@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use flap_sweep::sidecar::State;
+
 use crate::support::{Folder, quick};
 
 /// A folder with all points of a grid in `whole.csv`, and its shards in `grid.1of3.csv` and so on.
@@ -125,16 +127,23 @@ fn shards_that_do_not_hold_what_they_should_are_refused() {
     let short = lines.join("\n") + "\n";
     let foreign = short.clone() + "3," + last.split_once(',').unwrap().1 + "\n";
     for (rows, message) in [
-        (short.as_str(), "it does not have as many rows as its sidecar says"),
-        (foreign.as_str(), "it holds a row that is not of this shard or not in order"),
+        (short.as_str(), "it holds 32 rows, 33 were written"),
+        (foreign.as_str(), "row 33 is of point `3`, which is none of the points that were run"),
+        (&short.replacen("unsettled", "peridoic", 1), "row 1: there is no status `peridoic`"),
         ("a,b\n1,2\n", "its columns are not those of its grid file"),
         ("", "its columns are not those of its grid file"),
     ] {
         let folder = folder(100);
         fs::write(folder.path("grid.2of3.csv"), rows).unwrap();
+        // Checksums would have told before.
+        folder.rewrite_sidecar("grid.2of3.csv", |sidecar| sidecar.checksums = None);
         let ended = folder.flap("merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv");
         assert_eq!(ended.code, 3, "{}", ended.stderr);
-        assert_eq!(ended.stderr, format!("error: cannot read grid.2of3.csv: {message}\n"));
+        assert!(
+            ended.stderr.ends_with(&format!("error: cannot read grid.2of3.csv: {message}\n")),
+            "{}",
+            ended.stderr
+        );
         assert!(!folder.path("merged.csv").exists());
     }
 }
@@ -143,8 +152,7 @@ fn shards_that_do_not_hold_what_they_should_are_refused() {
 #[test]
 fn unfinished_shards_are_refused() {
     let folder = folder(100);
-    let sidecar = folder.read("grid.2of3.csv.meta.toml").replace("\"complete\"", "\"interrupted\"");
-    fs::write(folder.path("grid.2of3.csv.meta.toml"), sidecar).unwrap();
+    folder.rewrite_sidecar("grid.2of3.csv", |sidecar| sidecar.state = State::Interrupted);
     let ended = folder.flap("merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv");
     assert_eq!(ended.code, 2);
     assert_eq!(ended.stderr, "error: grid.2of3.csv is not complete\n");
@@ -158,4 +166,42 @@ fn wrong_shards_are_explained() {
         assert_eq!(ended.code, 2);
         assert!(ended.stderr.contains("expected I/N with I from 1 to N"), "{}", ended.stderr);
     }
+}
+
+/// Shards of one version that were computed by other sources.
+#[test]
+fn shards_of_another_build_are_refused() {
+    let folder = folder(100);
+    let merge = "merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv";
+    let build = flap_sweep::identity::build();
+    folder.rewrite_sidecar("grid.2of3.csv", |sidecar| sidecar.build = "fed0".to_owned());
+    let ended = folder.flap(merge);
+    assert_eq!(ended.code, 2);
+    let message = format!(
+        "error: grid.2of3.csv does not belong to grid.1of3.csv: the rows are by build fed0 of flap {}, not build {build}\n",
+        env!("CARGO_PKG_VERSION")
+    );
+    assert!(ended.stderr.starts_with(&message), "{}", ended.stderr);
+
+    for shard in ["grid.1of3.csv", "grid.3of3.csv"] {
+        folder.rewrite_sidecar(shard, |sidecar| sidecar.build = "fed0".to_owned());
+    }
+    let ended = folder.flap(merge);
+    assert_eq!(ended.code, 2);
+    assert!(ended.stderr.contains("the shards are by another build of flap"), "{}", ended.stderr);
+    assert!(!folder.path("merged.csv").exists());
+}
+
+/// Nor are rows of another build called complete.
+#[test]
+fn results_of_another_build_are_not_gone_on_with() {
+    let folder = folder(10);
+    folder.rewrite_sidecar("whole.csv", |sidecar| sidecar.build = "fed0".to_owned());
+    let ended = folder.flap("sweep --grid grid.toml --out whole.csv --resume");
+    assert_eq!(ended.code, 2);
+    assert!(
+        ended.stderr.contains("whole.csv cannot be resumed: the rows are by build fed0"),
+        "{}",
+        ended.stderr
+    );
 }

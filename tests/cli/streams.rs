@@ -32,7 +32,9 @@ fn a_reader_who_has_seen_enough_is_no_error() {
         assert_eq!(wait(&mut child), Some(0), "{arguments:?}");
         let mut stderr = String::new();
         child.stderr.take().unwrap().read_to_string(&mut stderr).unwrap();
-        assert_eq!(stderr, "", "{arguments:?}");
+        // So many frequencies end far above the preset's.
+        let mut told = stderr.lines().filter(|line| !line.starts_with("warning: drive_frequency"));
+        assert_eq!(told.next(), None, "{arguments:?}");
     }
 }
 

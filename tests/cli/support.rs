@@ -7,6 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use assert_cmd::Command;
+use flap_sweep::sidecar::Sidecar;
 use tempfile::TempDir;
 
 /// A folder with files, in which the command runs.
@@ -37,6 +38,14 @@ impl Folder {
 
     pub(crate) fn read(&self, name: &str) -> String {
         fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    /// Changes the sidecar of results, as if it had been written so.
+    pub(crate) fn rewrite_sidecar(&self, results: &str, change: impl FnOnce(&mut Sidecar)) {
+        let path = self.path(&format!("{results}.meta.toml"));
+        let mut sidecar = Sidecar::read(&path).unwrap();
+        change(&mut sidecar);
+        sidecar.write(&path).unwrap();
     }
 
     /// Names of the files, sorted.

@@ -33,7 +33,7 @@ pub(crate) fn grid(bytes: &[u8]) {
         }
         Err(mistakes) => {
             assert!(!mistakes.is_empty());
-            for mistake in mistakes {
+            for mistake in mistakes.iter() {
                 assert!(text.get(mistake.span.clone()).is_some(), "{mistake}");
             }
         }

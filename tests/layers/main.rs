@@ -1,6 +1,7 @@
 //! The layers of flap-core: each uses only those below it, and none touches the world outside.
 
 mod source;
+mod sources;
 
 use source::source_files;
 

@@ -126,7 +126,7 @@ def test_where_grids_go_wrong():
 def test_where_files_go_wrong(tmp_path):
     with pytest.raises(FileNotFoundError):
         flapwing.sweep(QUICK, out=tmp_path / "no" / "rows.csv")
-    with pytest.raises(ValueError, match="written as .xlsx"):
+    with pytest.raises(ValueError, match="must be .csv, .csv.zst or .parquet"):
         flapwing.sweep(QUICK, out=tmp_path / "rows.xlsx")
     (tmp_path / "other.csv").write_text("something else\n")
     with pytest.raises(ValueError, match="not the result of an interrupted sweep"):
@@ -134,6 +134,18 @@ def test_where_files_go_wrong(tmp_path):
     flapwing.sweep(QUICK, out=tmp_path / "rows.csv")
     with pytest.raises(ValueError, match="the grid file is another; line 3 of the grid was"):
         flapwing.sweep(QUICK.replace("26", "27"), out=tmp_path / "rows.csv", resume=True)
+
+
+def test_inputs_are_not_overwritten(tmp_path):
+    points = tmp_path / "points.csv"
+    points.write_text("drive_frequency\n60\n70\n")
+    grid = tmp_path / "grid.toml"
+    grid.write_text('preset = "ozaki2018-large"\n[sample]\nmethod = "file"\npath = "points.csv"\n')
+    (tmp_path / "link.csv").hardlink_to(grid)
+    for out, what in [(points, "the file of points"), (tmp_path / "link.csv", "the grid file")]:
+        with pytest.raises(ValueError, match=f"would overwrite {what}"):
+            flapwing.sweep(grid, out=out, overwrite=True)
+    assert points.read_text() == "drive_frequency\n60\n70\n"
 
 
 def test_progress_is_told():
@@ -235,3 +247,69 @@ def test_a_forked_process_sweeps_too():
     if child == 0:
         os._exit(0 if len(flapwing.sweep(QUICK, threads=2)) == 26 else 1)
     assert os.waitpid(child, 0)[1] == 0
+
+
+@pytest.mark.parametrize("ending", ["csv", "csv.zst", "parquet"])
+def test_damaged_results_are_refused(tmp_path, ending):
+    path = tmp_path / f"rows.{ending}"
+    table = flapwing.sweep(QUICK, out=path)
+    assert flapwing.read(path).meta["verified"] is True
+    sound = path.read_bytes()
+    path.write_bytes(sound[:100] + bytes([sound[100] ^ 1]) + sound[101:])
+    with pytest.raises(ValueError, match=f"rows.{ending} is damaged: .*ignore_damage=True"):
+        flapwing.read(path)
+    with pytest.raises(ValueError, match="is damaged"):
+        table["lift_mean_mn"]
+    with pytest.raises(ValueError, match="is damaged: .*overwrite=True"):
+        flapwing.sweep(QUICK, out=path, resume=True)
+    path.write_bytes(sound)
+    assert len(table["lift_mean_mn"]) == 26
+
+
+def test_damage_is_ignored_with_a_warning(tmp_path):
+    path = tmp_path / "rows.csv"
+    flapwing.sweep(QUICK, out=path)
+    lines = path.read_text().splitlines(keepends=True)
+    path.write_text("".join(lines[:3] + ["9," + lines[3]] + lines[4:]))
+    with pytest.warns(UserWarning) as warned:
+        table = flapwing.read(path, ignore_damage=True)
+    texts = [str(warning.message) for warning in warned]
+    assert "rows 1 to 26 are not as they were written" in texts[0] and "1 lines are no rows" in texts[1]
+    assert len(table) == 25 and table.meta["verified"] is False
+
+    alone = tmp_path / "alone.csv"
+    alone.write_text("".join(lines))
+    assert flapwing.read(alone).meta["verified"] is False
+
+
+def test_unfinished_results_are_read_with_a_warning(tmp_path):
+    path = tmp_path / "rows.csv"
+
+    def stop(done, _):
+        if done >= 8:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        flapwing.sweep(QUICK.replace("n = 26", "n = 20001"), out=path, threads=1, progress=stop)
+    with pytest.warns(UserWarning, match=r"rows.csv is unfinished: \d+ points are done so far"):
+        table = flapwing.read(path)
+    assert 0 < len(table) < 20001 and table.meta["verified"] is False
+
+
+def test_pages_of_parquet_have_checksums(tmp_path):
+    """Another implementation checks them."""
+    parquet = pytest.importorskip("pyarrow.parquet")
+    path = tmp_path / "rows.parquet"
+    table = flapwing.sweep(QUICK, out=path)
+    sound = path.read_bytes()
+    checked = parquet.read_table(path, page_checksum_verification=True)
+    np.testing.assert_array_equal(checked["lift_mean_mn"].to_numpy(), table["lift_mean_mn"])
+    metadata = parquet.read_metadata(path).row_group(0)
+    # A byte at the end of every column's chunk is one of its last page.
+    for column in range(metadata.num_columns):
+        chunk = metadata.column(column)
+        first = chunk.dictionary_page_offset or chunk.data_page_offset
+        place = first + chunk.total_compressed_size - 2
+        path.write_bytes(sound[:place] + bytes([sound[place] ^ 1]) + sound[place + 1 :])
+        with pytest.raises(OSError, match="CRC|checksum"):
+            parquet.read_table(path, page_checksum_verification=True)

@@ -10,7 +10,7 @@ use flap_core::simulate::{
     ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Interrupt, Jobs, Period, Row, Rows,
     Simulator, SolverSettings, Trajectory, TrajectoryRequest, Unfinished,
 };
-use flap_sweep::diagnostic::Diagnostic;
+use flap_sweep::diagnostic::{Diagnostic, Mistakes};
 use flap_sweep::plan::Plan;
 
 /// A model that is never run.
@@ -172,7 +172,7 @@ pub(crate) fn plan(text: &str) -> Plan {
 }
 
 /// What is wrong with a text that is not.
-pub(crate) fn problems(text: &str) -> Vec<Diagnostic> {
+pub(crate) fn problems(text: &str) -> Mistakes {
     flap_sweep::spec::parse("grid.toml", text, &MODELS)
         .err()
         .unwrap_or_else(|| panic!("no mistake in\n{text}"))

@@ -70,3 +70,60 @@ fn units_of_all_parameters_are_si() {
         }
     }
 }
+
+/// A reader that tries every line of them would take minutes and gigabytes.
+#[test]
+fn results_are_not_grid_files() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let contents: [(&str, &[u8]); 3] = [
+        ("rows.csv", b"point,drive_frequency,status\n0,60.0,periodic\n"),
+        ("rows.csv.zst", &[0x28, 0xb5, 0x2f, 0xfd, 0, 0]),
+        ("rows.parquet", b"PAR1"),
+    ];
+    for (name, bytes) in contents {
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).expect("written");
+        let error = error(&path);
+        assert!(matches!(error, ReadError::Results { .. }), "{error:?}");
+        assert_eq!(error.help(), Some(format!("did you mean `flap plot {}`?", path.display())));
+    }
+}
+
+#[test]
+fn grid_files_have_a_largest_size() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("grid.toml");
+    fs::File::create(&path).and_then(|file| file.set_len(spec::MOST_BYTES + 1)).expect("made");
+    let error = error(&path);
+    assert!(matches!(error, ReadError::TooLarge { .. }), "{error:?}");
+    assert!(error.to_string().ends_with("more than 16 MiB, the most that a grid file may have"), "{error}");
+}
+
+/// Twenty times as many lines take twenty times as long, not four hundred times.
+#[test]
+fn mistakes_without_number_are_counted_in_linear_time() {
+    let count = 300_000_u32;
+    let keys = (0..count).map(|number| format!("key_{number} = 1\n")).collect::<Vec<_>>().concat();
+    let rows =
+        (0..count).map(|number| format!("{number},{number}.5,periodic\n")).collect::<Vec<_>>().concat();
+    let texts = [format!("preset = \"ozaki2018-large\"\n[params]\n{keys}"), rows];
+    for text in texts {
+        let started = std::time::Instant::now();
+        let mistakes = spec::parse("grid.toml", &text, simulate::all()).err().expect("mistakes");
+        assert_eq!(mistakes.len(), 20);
+        assert_eq!(mistakes.count(), count as usize);
+        let shown = flap_sweep::diagnostic::render(&mistakes, false);
+        let end = "\n\nand 299980 more\n\ngrid.toml: 300000 mistakes, nothing was run";
+        assert!(shown.ends_with(end) && shown.len() < 20_000, "{} bytes", shown.len());
+        assert!(started.elapsed().as_secs() < 30, "{:?}", started.elapsed());
+    }
+}
+
+#[test]
+fn names_of_any_length_are_shortened() {
+    let name = "a".repeat(1_000_000);
+    let text = format!("preset = \"ozaki2018-large\"\n[params]\n{name} = 1\n");
+    let mistakes = spec::parse("grid.toml", &text, simulate::all()).err().expect("a mistake");
+    assert!(mistakes[0].message.contains("…(1000002 characters)…"), "{}", mistakes[0].message);
+    assert!(flap_sweep::diagnostic::render(&mistakes, false).len() < 1000);
+}

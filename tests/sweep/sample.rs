@@ -193,5 +193,17 @@ fn mistakes_in_files_of_points_have_a_line_and_a_column() {
         mistakes_of("wing_area,wing_area\n1,2\n"),
         ["points.csv:1:11: `wing_area` has two columns |wing_area| "]
     );
+    for heading in
+        ["hinge_stiffness [uN*m/rad", "hinge_stiffness uN*m/rad]", "hinge_stiffness [a] b", "[m][m]"]
+    {
+        let told = mistakes_of(&format!("wing_area,{heading}\n1,2\n"));
+        assert_eq!(
+            told,
+            [format!(
+                "points.csv:1:11: the brackets in the heading `{heading}` do not enclose a unit |{heading}| \
+                 write the name, then the unit in brackets: `wing_area [mm^2]`"
+            )]
+        );
+    }
     assert_eq!(mistakes_of(&format!("wing_area\n{}", "x\n".repeat(1000))).len(), 10);
 }

@@ -27,7 +27,8 @@ fn often() -> SessionOptions {
 
 fn start(path: &Path, plan: &Plan) -> Session {
     let file = output::create(path, false).unwrap();
-    Session::start(file, (path, Format::of(path).unwrap()), plan, &often(), "2026-01-02".to_owned()).unwrap()
+    Session::start(file, (path, Format::of(path).unwrap()), plan, &often(), ("2026-01-02".to_owned(), false))
+        .unwrap()
 }
 
 /// Runs until `stop_at` rows are written, as if the machine lost its power then.
@@ -240,6 +241,8 @@ fn other_versions_and_machines_do_not_go_on() {
     let ours = Identity::of(&plan, &often().run);
     for (identity, change) in [
         (Identity { flap: "0.0.1".to_owned(), ..ours.clone() }, "the rows are by flap 0.0.1, not "),
+        (Identity { build: "fed0".to_owned(), ..ours.clone() }, "the rows are by build fed0 of flap "),
+        (Identity { build: String::new(), ..ours.clone() }, "the rows are by an unknown build of flap "),
         (Identity { arithmetic: "other".to_owned(), ..ours.clone() }, "the arithmetic is other, not "),
         (Identity { grid: String::new(), ..ours.clone() }, "the grid file is another"),
     ] {

@@ -55,6 +55,12 @@ fn parcels_that_end_early_are_an_interrupted_run() {
     assert_eq!(text.lines().count(), 51);
 }
 
+/// What a worker with other sources of the same version sends.
+fn of_another_build(mut bytes: Vec<u8>) -> Vec<u8> {
+    bytes[0] ^= 1;
+    bytes
+}
+
 #[test]
 fn parcels_that_do_not_fit_are_refused() {
     let whole = plan(Fake::leak(Fault::None, 4), 100);
@@ -64,6 +70,7 @@ fn parcels_that_do_not_fit_are_refused() {
         (vec![bytes(&whole, 0, 10), bytes(&whole, 0, 10)], "points 0 to 10 came where 10 was next"),
         (vec![bytes(&other, 0, 10)], "the grid file is another"),
         (vec![vec![7, 7, 7]], ""),
+        (vec![of_another_build(bytes(&whole, 0, 10))], "another build of flap than this one"),
         (vec![bytes(&whole, 0, 10)[..40].to_vec()], ""),
     ] {
         let (text, summary) = put_together(&whole, parcels);

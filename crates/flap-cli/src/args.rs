@@ -7,21 +7,32 @@ mod results;
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 use clap::{Parser, Subcommand, ValueEnum, value_parser};
+use flap_sweep::identity;
 use flap_sweep::selection::Shard;
 use flap_sweep::units;
 #[cfg(feature = "plots")]
 pub(crate) use plot::{Aim, PictureKind, PlotArgs, Size};
 pub(crate) use respond::RespondArgs;
-pub(crate) use results::{ConvertArgs, MergeArgs, RerunArgs, ResumeArgs, WorkArgs};
+pub(crate) use results::{ConvertArgs, MergeArgs, ReadArgs, RerunArgs, ResumeArgs, VerifyArgs, WorkArgs};
 
 /// Sweeps of insect-scale flapping-wing designs: a grid file goes in, one row per design point comes out.
 #[derive(Parser)]
-#[command(name = "flap", version, max_term_width = 100, after_help = EXIT_CODES)]
+#[command(name = "flap", version, long_version = long_version(), max_term_width = 100, after_help = EXIT_CODES)]
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Command,
+}
+
+/// The version with what tells two builds of it apart.
+fn long_version() -> &'static str {
+    static TEXT: LazyLock<String> = LazyLock::new(|| {
+        let (version, build) = (env!("CARGO_PKG_VERSION"), identity::build());
+        format!("{version}\nbuild {build} (a hash of the sources that decide the bytes of rows)")
+    });
+    &TEXT
 }
 
 #[derive(Subcommand)]
@@ -36,6 +47,8 @@ pub(crate) enum Command {
     Merge(MergeArgs),
     /// Write results in another format
     Convert(ConvertArgs),
+    /// Check that results are as they were written
+    Verify(VerifyArgs),
     /// Run one point and print what it measures
     Run(RunArgs),
     /// Follow the response of designs up and down in frequency or another parameter, and find hysteresis
@@ -62,9 +75,9 @@ Results go to stdout, everything else to stderr.
 
 Exit codes:
   0    done
-  1    with --strict: done, but not every point is periodic
+  1    with --strict: done, but not every point is periodic; `verify`: not every file has checksums
   2    the command line or the grid file must be corrected
-  3    reading or writing failed
+  3    reading or writing failed, or results are damaged
   130  interrupted; `flap resume` goes on
   101  a mistake in flap itself";
 
@@ -94,7 +107,7 @@ pub(crate) struct SweepArgs {
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
 
-    /// Overwrite an existing file of results
+    /// Replace existing results. They are kept beside the new ones, as in grid.old.csv, until those are complete
     #[arg(short, long)]
     pub(crate) force: bool,
 
@@ -128,17 +141,17 @@ pub(crate) struct RunArgs {
     #[arg(long, value_enum, default_value_t = Drive::Steady)]
     pub(crate) drive: Drive,
 
-    /// Frequency at which the chirp begins (Hz)
-    #[arg(long, value_name = "HZ", default_value_t = 1.0)]
-    pub(crate) chirp_from: f64,
+    /// Frequency at which the chirp begins (Hz) [default: 1]
+    #[arg(long, value_name = "HZ")]
+    pub(crate) chirp_from: Option<f64>,
 
     /// Frequency at which the chirp ends (Hz) [default: twice the point's drive frequency]
     #[arg(long, value_name = "HZ")]
     pub(crate) chirp_to: Option<f64>,
 
-    /// Rate of change of the chirp's frequency (Hz/s); negative for a falling chirp
-    #[arg(long, value_name = "HZ/S", default_value_t = 15.0, allow_negative_numbers = true)]
-    pub(crate) chirp_rate: f64,
+    /// Rate of change of the chirp's frequency (Hz/s); negative for a falling chirp [default: 15]
+    #[arg(long, value_name = "HZ/S", allow_negative_numbers = true)]
+    pub(crate) chirp_rate: Option<f64>,
 
     /// Write the chirp's rows per cycle to a CSV file instead of stdout
     #[arg(long, value_name = "FILE")]
@@ -289,6 +302,10 @@ pub(crate) struct SolverArgs {
     #[arg(long, value_name = "TOL", value_parser = tolerance)]
     pub(crate) rtol: Option<f64>,
 
+    /// Largest estimated error of a row; points whose rows exceed it are integrated again more finely
+    #[arg(long, value_name = "ERROR", value_parser = more_than_zero)]
+    pub(crate) accuracy: Option<f64>,
+
     /// Change of the state per drive period below which an orbit counts as settled
     #[arg(long, value_name = "TOL", value_parser = tolerance)]
     pub(crate) settle_tol: Option<f64>,
@@ -371,7 +388,8 @@ pub(crate) struct CheckArgs {
 
 const CHECK_HELP: &str = "\
 Shows what each axis spans, what [where] excludes, the first and the last point, and an estimate of the time, for \
-which it runs up to 32 points for about a second. Up to a million points are counted one by one; of more, a million \
+which it runs up to 32 points for about a second. Lists the parameters that differ from the preset, and warns of those \
+that are more than a hundred times away. Up to a million points are counted one by one; of more, a million \
 are looked at.
 
 Example:
@@ -411,6 +429,12 @@ fn tolerance(text: &str) -> Result<f64, String> {
     } else {
         Err("must be more than 0 and less than 0.1".into())
     }
+}
+
+/// A number more than zero.
+fn more_than_zero(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite());
+    number.ok_or_else(|| "expected a number more than zero, such as 1e-3".to_owned())
 }
 
 /// An angle with its unit, in radians.

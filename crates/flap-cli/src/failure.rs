@@ -7,23 +7,31 @@ use std::path::Path;
 use anstyle::{AnsiColor, Style};
 use flap_core::parameter::Invalid;
 use flap_core::simulate::Unfinished;
-use flap_sweep::diagnostic::{self, Diagnostic};
-use flap_sweep::job::JobError;
+use flap_sweep::diagnostic::{self, Mistakes};
+use flap_sweep::inputs::Overlap;
+use flap_sweep::integrity::OpenError;
+use flap_sweep::job::{self, JobError};
 use flap_sweep::merge::MergeError;
 use flap_sweep::output::CreateError;
-use flap_sweep::results::{Format, FormatError};
+use flap_sweep::results::FormatError;
 use flap_sweep::run::RunError;
 use flap_sweep::session::ResumeError;
 use flap_sweep::sidecar;
 use flap_sweep::spec::ReadError;
+use flap_sweep::text::shortened;
 
 use crate::console;
+
+/// What commands that read results can do about damage.
+pub(crate) const IGNORE_HELP: &str = "--ignore-damage uses it all the same, as far as it can be read";
 
 /// How the program ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Exit {
     Done = 0,
-    NotAllPeriodic = 1,
+    /// `--strict`, and some points are not periodic; or `flap verify`, and some results have no checksums.
+    /// Done, but not all points are periodic, or not all results could be verified.
+    NotAll = 1,
     Usage = 2,
     System = 3,
     Bug = 101,
@@ -36,7 +44,7 @@ pub(crate) enum Failure {
     /// The command line or the grid file must be corrected: what is wrong, and what to do.
     Usage(String, Vec<String>),
     /// The grid file must be corrected.
-    Grid(Vec<Diagnostic>),
+    Grid(Mistakes),
     /// The operating system refused: what, and what to do.
     System(String, Vec<String>),
     /// A mistake in flap itself.
@@ -56,18 +64,33 @@ impl Failure {
         Failure::System(format!("cannot write {}: {error}", path.display()), Vec::new())
     }
 
+    /// Results that are not as they were written.
+    pub(crate) fn damaged(message: String) -> Failure {
+        Failure::System(message, Vec::new()).help("put a sound copy in its place")
+    }
+
     /// A job whose results are at `out`.
     pub(crate) fn of_job(error: JobError, out: &Path) -> Failure {
         let resumable =
             matches!(error, JobError::Write { resumable: true, .. } | JobError::Run { resumable: true, .. });
         let failure = match error {
+            JobError::Overlap(error) => error.into(),
             JobError::Format(error) => error.into(),
             JobError::Create(error) => error.into(),
             JobError::Resume { error, changed } => changed.into_iter().fold(error.into(), Failure::help),
+            JobError::Damaged { .. } => {
+                Failure::damaged(error.to_string()).help("`flap sweep --force` computes it anew")
+            }
+            JobError::Sidecar(error) => error.into(),
+            JobError::Read { .. } => Failure::System(error.to_string(), Vec::new()),
             JobError::Write { path, source, .. } => Failure::cannot_write(&path, &source),
             JobError::Run { error, .. } => error.into(),
         };
-        if resumable { failure.help(format!("`flap resume {}` goes on", out.display())) } else { failure }
+        if !resumable {
+            return failure;
+        }
+        let failure = failure.help(format!("`flap resume {}` goes on", out.display()));
+        job::kept(out).into_iter().fold(failure, |failure, kept| failure.help(still_kept(&kept)))
     }
 
     /// Adds a line on what to do.
@@ -85,8 +108,8 @@ impl Failure {
                 complain(&message, &help);
                 Exit::Usage
             }
-            Failure::Grid(diagnostics) => {
-                console::say(&diagnostic::render(&diagnostics, true));
+            Failure::Grid(mistakes) => {
+                console::say(&diagnostic::render(&mistakes, true));
                 Exit::Usage
             }
             Failure::System(message, help) => {
@@ -102,6 +125,11 @@ impl Failure {
     }
 }
 
+/// Where earlier results are while new ones are not complete.
+pub(crate) fn still_kept(kept: &Path) -> String {
+    format!("until then, the earlier results are in {}", kept.display())
+}
+
 fn complain(message: &str, help: &[String]) {
     let error = Style::new().bold().fg_color(Some(AnsiColor::BrightRed.into()));
     let advice = Style::new().bold().fg_color(Some(AnsiColor::BrightCyan.into()));
@@ -109,7 +137,7 @@ fn complain(message: &str, help: &[String]) {
     for line in help {
         let _ = write!(text, "\n{advice}help{advice:#}: {line}");
     }
-    console::say(&text);
+    console::say(&shortened(&text));
 }
 
 /// Writing to stdout failed.
@@ -137,9 +165,13 @@ impl From<Unfinished> for Failure {
 impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Failure {
         match error {
-            ReadError::Grid(diagnostics) => Failure::Grid(diagnostics),
-            ReadError::Missing { .. } | ReadError::Folder { .. } | ReadError::NotUtf8 { .. } => {
-                Failure::usage(error.to_string())
+            ReadError::Grid(mistakes) => Failure::Grid(mistakes),
+            ReadError::Missing { .. }
+            | ReadError::Folder { .. }
+            | ReadError::NotUtf8 { .. }
+            | ReadError::Results { .. }
+            | ReadError::TooLarge { .. } => {
+                error.help().into_iter().fold(Failure::usage(error.to_string()), Failure::help)
             }
             ReadError::Unreadable { .. } => Failure::System(error.to_string(), Vec::new()),
         }
@@ -167,9 +199,26 @@ impl From<CreateError> for Failure {
     }
 }
 
+impl From<OpenError> for Failure {
+    fn from(error: OpenError) -> Failure {
+        match error {
+            OpenError::Format(error) => error.into(),
+            OpenError::Sidecar(error) => error.into(),
+            OpenError::Read { .. } => Failure::System(error.to_string(), Vec::new()),
+            OpenError::Damaged { .. } => Failure::damaged(error.to_string()).help(IGNORE_HELP),
+        }
+    }
+}
+
+impl From<Overlap> for Failure {
+    fn from(error: Overlap) -> Failure {
+        Failure::usage(error.to_string()).help("inputs are never overwritten: name another file")
+    }
+}
+
 impl From<FormatError> for Failure {
     fn from(error: FormatError) -> Failure {
-        Failure::usage(error.to_string()).help(format!("name a file that ends in {}", Format::ENDINGS))
+        Failure::usage(error.to_string())
     }
 }
 
@@ -191,7 +240,7 @@ impl From<MergeError> for Failure {
         let message = error.to_string();
         match error {
             MergeError::Parts(_) => Failure::usage(message),
-            MergeError::Format(error) => error.into(),
+            MergeError::Write(source) if source.kind() == io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
             MergeError::Read { .. } | MergeError::Write(_) => Failure::System(message, Vec::new()),
         }
     }
@@ -200,6 +249,7 @@ impl From<MergeError> for Failure {
 impl From<sidecar::ReadError> for Failure {
     fn from(error: sidecar::ReadError) -> Failure {
         match &error {
+            sidecar::ReadError::Damaged { .. } => Failure::damaged(error.to_string()),
             sidecar::ReadError::Io { source, .. } if source.kind() != io::ErrorKind::NotFound => {
                 Failure::System(error.to_string(), Vec::new())
             }

@@ -8,19 +8,21 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use flap_core::simulate::Status;
+use flap_sweep::integrity::{self, Note, OnDamage, Opened};
 pub(crate) use flap_sweep::job::Begin;
 use flap_sweep::job::{self, Before, Done, Job, Outcome};
 use flap_sweep::output;
 use flap_sweep::plan::Plan;
+use flap_sweep::results::{Format, Reader};
 use flap_sweep::run::{self, Doubts, RunError, RunOptions, Summary};
 use flap_sweep::session::{self, SessionOptions};
-use flap_sweep::sidecar::{self, Origin, Sidecar};
+use flap_sweep::sidecar::{self, Origin, ReadError, Sidecar};
 use flap_sweep::sink::Sink;
 
-use crate::args::WorkArgs;
+use crate::args::{ReadArgs, WorkArgs};
 use crate::cmd::exclusion;
 use crate::console;
-use crate::failure::{Exit, Failure};
+use crate::failure::{Exit, Failure, IGNORE_HELP, still_kept};
 use crate::progress::Bar;
 use crate::signals;
 
@@ -63,6 +65,9 @@ fn ended(done: &Done, resumable: Option<&Path>, work: &WorkArgs) -> Exit {
     if done.summary.interrupted {
         if let Some(out) = resumable {
             console::say(&format!("`flap resume {}` goes on", out.display()));
+            if let Some(kept) = job::kept(out) {
+                console::say(&still_kept(&kept));
+            }
         }
         return Exit::Interrupted;
     }
@@ -70,7 +75,7 @@ fn ended(done: &Done, resumable: Option<&Path>, work: &WorkArgs) -> Exit {
 }
 
 fn complete(all_periodic: bool, work: &WorkArgs) -> Exit {
-    if work.strict && !all_periodic { Exit::NotAllPeriodic } else { Exit::Done }
+    if work.strict && !all_periodic { Exit::NotAll } else { Exit::Done }
 }
 
 /// Runs the plan with a progress bar, until a signal asks it to end.
@@ -131,7 +136,10 @@ fn report_doubts(done: &Done) {
     if inaccurate > 0 {
         let help = match &done.place {
             Some(place) => {
-                format!("`flap rerun {} --inaccurate --rtol 1e-10` runs them again", place.display())
+                format!(
+                    "`flap rerun {} --inaccurate --rtol 1e-10 --out again.csv` runs them again",
+                    place.display()
+                )
             }
             None => "lower rtol in [solver]".to_owned(),
         };
@@ -156,16 +164,34 @@ fn report_doubts(done: &Done) {
 pub(crate) const SIDECAR_HELP: &str = "the sidecar lies beside the results and tells what grid they are of";
 
 /// The plan of results, from the sidecar beside them.
-pub(crate) fn recorded(results: &Path) -> Result<(Plan, Sidecar), Failure> {
+pub(crate) fn recorded(results: &Path, on_damage: OnDamage) -> Result<(Plan, Sidecar), Failure> {
+    let sidecar = read_sidecar(results, on_damage)?;
+    Ok((plan_of(&sidecar::path_of(results), &sidecar)?, sidecar))
+}
+
+/// The sidecar of results.
+pub(crate) fn read_sidecar(results: &Path, on_damage: OnDamage) -> Result<Sidecar, Failure> {
     let path = sidecar::path_of(results);
-    let sidecar = Sidecar::read(&path).map_err(|error| Failure::from(error).help(SIDECAR_HELP))?;
-    Ok((plan_of(&path, &sidecar)?, sidecar))
+    let sidecar = match Sidecar::read(&path) {
+        Err(ReadError::Damaged { .. }) if on_damage == OnDamage::Tolerate => Sidecar::read_damaged(&path),
+        read => read,
+    };
+    sidecar.map_err(|error| {
+        let help = if matches!(error, ReadError::Damaged { .. }) { IGNORE_HELP } else { SIDECAR_HELP };
+        Failure::from(error).help(help)
+    })
 }
 
 /// The plan in a sidecar, which was read from `path`.
 pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
     sidecar.plan(flap_core::simulate::all()).map_err(|error| match error {
-        sidecar::PlanError::Grid(diagnostics) => Failure::Grid(diagnostics),
+        sidecar::PlanError::Grid(mistakes) => Failure::Grid(mistakes),
+        sidecar::PlanError::GridText => {
+            let message =
+                format!("{}: the grid in it is not the one that was run: it was edited", path.display());
+            Failure::usage(message)
+                .help("sweep an edited grid from a file of its own: flap sweep --grid FILE")
+        }
         sidecar::PlanError::Points => {
             Failure::usage(format!("{}: its points are not points of its grid", path.display()))
         }
@@ -182,13 +208,44 @@ pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
     })
 }
 
-/// Opens results to be read.
-pub(crate) fn open(results: &Path) -> Result<File, Failure> {
-    File::open(results)
-        .map_err(|error| Failure::System(format!("cannot read {}: {error}", results.display()), Vec::new()))
+/// Stdout as a file.
+pub(crate) fn stdout() -> io::Result<File> {
+    #[cfg(unix)]
+    let owned = std::os::fd::AsFd::as_fd(&io::stdout()).try_clone_to_owned();
+    #[cfg(windows)]
+    let owned = std::os::windows::io::AsHandle::as_handle(&io::stdout()).try_clone_to_owned();
+    owned.map(File::from)
 }
 
-/// Makes a result file from other ones: all of it, or nothing.
+/// Opens results to be read, and tells what a user should know of them.
+pub(crate) fn open(results: &Path, read: &ReadArgs) -> Result<Opened, Failure> {
+    let opened = integrity::open(results, read.on_damage())?;
+    for note in &opened.notes {
+        tell(note);
+    }
+    Ok(opened)
+}
+
+/// Tells what a user should know of results.
+pub(crate) fn tell(note: &Note) {
+    console::warn(&note.to_string());
+}
+
+/// Opens results that have a sidecar, which tells of what plan they are.
+pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, Plan, Sidecar), Failure> {
+    Format::of(results)?;
+    let (plan, sidecar) = recorded(results, read.on_damage())?;
+    Ok((open(results, read)?, plan, sidecar))
+}
+
+/// Tells how much of damaged results has been left out.
+pub(crate) fn tell_missed(results: &Path, reader: &Reader) {
+    if let Some(missed) = reader.missed() {
+        console::warn(&format!("{}: {missed}", results.display()));
+    }
+}
+
+/// Makes a file that was computed before, or from other files: all of it, or nothing. An earlier file stays until then.
 pub(crate) fn make<E: From<io::Error>>(
     results: &Path,
     overwrite: bool,
@@ -196,6 +253,10 @@ pub(crate) fn make<E: From<io::Error>>(
 ) -> Result<Result<(), E>, Failure> {
     // Holds the name while the rows are written beside it.
     let locked = output::create(results, overwrite)?;
+    // A device or a pipe takes what it is given.
+    if !locked.metadata().is_ok_and(|metadata| metadata.is_file()) {
+        return Ok(write(locked));
+    }
     let written = output::replace(results, write);
     if written.is_ok() {
         session::forget(results).map_err(|error| Failure::cannot_write(results, &error))?;

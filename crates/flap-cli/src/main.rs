@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Command::Rerun(args) => cmd::rerun::run(&args),
         Command::Merge(args) => cmd::merge::run(&args),
         Command::Convert(args) => cmd::convert::run(&args),
+        Command::Verify(args) => cmd::verify::run(&args),
         Command::Run(args) => cmd::run::run(&args),
         Command::Respond(args) => cmd::respond::run(&args),
         #[cfg(feature = "plots")]

@@ -26,3 +26,6 @@ pub mod piezo;
 pub mod quadrature;
 pub mod resonance;
 pub mod simulate;
+
+/// A hash of the sources of this crate, in hexadecimal digits: builds with the same one compute the same rows.
+pub const SOURCES: &str = env!("FLAP_SOURCES");

@@ -5,11 +5,12 @@ use std::io;
 use flap_core::parameter::Invalid;
 use flap_core::simulate::Unfinished;
 use flap_sweep::diagnostic;
+use flap_sweep::integrity::OpenError;
 use flap_sweep::job::JobError;
 use flap_sweep::output::CreateError;
-use flap_sweep::results::Format;
 use flap_sweep::run::RunError;
 use flap_sweep::session::ResumeError;
+use flap_sweep::sidecar;
 use flap_sweep::spec::ReadError;
 use pyo3::create_exception;
 use pyo3::exceptions::{
@@ -95,9 +96,9 @@ impl From<&diagnostic::Diagnostic> for Diagnostic {
 }
 
 /// The exception for mistakes in a grid.
-pub(crate) fn grid(py: Python<'_>, diagnostics: &[diagnostic::Diagnostic]) -> PyErr {
-    let error = GridError::new_err(diagnostic::render(diagnostics, false));
-    let listed: Vec<Diagnostic> = diagnostics.iter().map(Diagnostic::from).collect();
+pub(crate) fn grid(py: Python<'_>, mistakes: &diagnostic::Mistakes) -> PyErr {
+    let error = GridError::new_err(diagnostic::render(mistakes, false));
+    let listed: Vec<Diagnostic> = mistakes.iter().map(Diagnostic::from).collect();
     match error.value(py).setattr("diagnostics", listed) {
         Ok(()) => error,
         Err(error) => error,
@@ -107,10 +108,12 @@ pub(crate) fn grid(py: Python<'_>, diagnostics: &[diagnostic::Diagnostic]) -> Py
 /// The exception for a grid file without a plan.
 pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
     match error {
-        ReadError::Grid(diagnostics) => grid(py, diagnostics),
+        ReadError::Grid(mistakes) => grid(py, mistakes),
         ReadError::Missing { .. } => PyFileNotFoundError::new_err(error.to_string()),
         ReadError::Folder { .. } => PyIsADirectoryError::new_err(error.to_string()),
-        ReadError::NotUtf8 { .. } => PyValueError::new_err(error.to_string()),
+        ReadError::NotUtf8 { .. } | ReadError::Results { .. } | ReadError::TooLarge { .. } => {
+            PyValueError::new_err(error.to_string())
+        }
         ReadError::Unreadable { .. } => PyOSError::new_err(error.to_string()),
     }
 }
@@ -145,11 +148,14 @@ pub(crate) fn job(error: &JobError) -> PyErr {
         error
     };
     Python::attach(|py| match error {
-        JobError::Format(error) => {
-            PyValueError::new_err(format!("{error}: name a file that ends in {}", Format::ENDINGS))
-        }
+        JobError::Format(error) => PyValueError::new_err(error.to_string()),
+        JobError::Overlap(error) => PyValueError::new_err(error.to_string()),
         JobError::Create(error) => create(error),
         JobError::Resume { error, changed } => resume(error, changed.as_deref()),
+        JobError::Damaged { .. } | JobError::Sidecar(_) => {
+            PyValueError::new_err(format!("{error}: overwrite=True starts over, or name another file"))
+        }
+        JobError::Read { path, source } => io_error(&format!("cannot read {}", path.display()), source),
         JobError::Write { resumable, .. } => go_on(PyOSError::new_err(error.to_string()), *resumable, py),
         JobError::Run { error, resumable } => go_on(run(error), *resumable, py),
     })
@@ -175,6 +181,20 @@ fn resume(error: &ResumeError, changed: Option<&str>) -> PyErr {
         ResumeError::Format(_) => PyValueError::new_err(message),
         ResumeError::NoJournal { .. } | ResumeError::Changed { .. } | ResumeError::Altered { .. } => {
             PyValueError::new_err(format!("{message}: overwrite=True starts over, or name another file"))
+        }
+    }
+}
+
+/// The exception for results that are not read.
+pub(crate) fn open(error: &OpenError) -> PyErr {
+    match error {
+        OpenError::Read { path, source } => io_error(&format!("cannot read {}", path.display()), source),
+        OpenError::Sidecar(sidecar::ReadError::Io { path, source }) => {
+            io_error(&format!("cannot read {}", path.display()), source)
+        }
+        OpenError::Format(_) => PyValueError::new_err(error.to_string()),
+        OpenError::Sidecar(_) | OpenError::Damaged { .. } => {
+            PyValueError::new_err(format!("{error}: ignore_damage=True reads it all the same"))
         }
     }
 }

@@ -1,16 +1,16 @@
 //! Result files, read back.
 
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use csv::StringRecord;
 use flap_core::simulate;
+use flap_sweep::integrity::{self, Note, OnDamage, Opened, RowCheck};
 use flap_sweep::layout::{self, Column, Kind, Layout};
 use flap_sweep::plan::Plan;
-use flap_sweep::results::{Format, Reader, Recorded};
+use flap_sweep::results::{Reader, Recorded};
 use flap_sweep::run::RunOptions;
-use flap_sweep::sidecar::{self, Sidecar};
+use flap_sweep::sidecar::Sidecar;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -20,18 +20,22 @@ use crate::{error, grid, sweep};
 
 /// Reads a result file; see `flapwing.read`.
 #[pyfunction]
-#[pyo3(signature = (path, /))]
+#[pyo3(signature = (path, /, *, ignore_damage=false))]
 #[expect(clippy::needless_pass_by_value, reason = "a path out of Python is an owned one")]
-pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
-    let format = Format::of(&path).map_err(|error| PyValueError::new_err(error.to_string()))?;
-    let Read { columns, origin, units } = py.detach(|| read_columns(&path, format))?;
+pub(crate) fn read(py: Python<'_>, path: PathBuf, ignore_damage: bool) -> PyResult<Bound<'_, PyDict>> {
+    let on_damage = if ignore_damage { OnDamage::Tolerate } else { OnDamage::Refuse };
+    let Contents { columns, origin, units, warnings, is_verified } =
+        py.detach(|| read_columns(&path, on_damage))?;
     let dict = PyDict::new(py);
     dict.set_item("columns", columns.into_python(py)?)?;
     dict.set_item("units", units)?;
-    if let Some(Origin { plan, flap, arithmetic }) = origin {
+    dict.set_item("warnings", warnings)?;
+    dict.set_item("verified", is_verified)?;
+    if let Some(Origin { plan, flap, build, arithmetic }) = origin {
         let meta = sweep::meta(py, &plan, &RunOptions::default())?;
         // What wrote them may be another version, on another machine.
         meta.set_item("flap", flap)?;
+        meta.set_item("build", build)?;
         meta.set_item("arithmetic", arithmetic)?;
         dict.set_item("meta", meta)?;
         dict.set_item("axes", grid::axes(py, &plan)?)?;
@@ -39,62 +43,78 @@ pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>>
     Ok(dict)
 }
 
-/// What is read.
-struct Read {
+/// What is in a file, and what a user should know of it.
+struct Contents {
     columns: Columns,
     /// Where the rows come from, if that is recorded.
     origin: Option<Origin>,
     /// Units that the file itself tells of.
     units: BTreeMap<String, String>,
+    warnings: Vec<String>,
+    /// Whether they are known to be as they were written.
+    is_verified: bool,
 }
 
 /// Where rows come from.
 struct Origin {
     plan: Plan,
     flap: String,
+    build: String,
     arithmetic: String,
 }
 
-fn read_columns(path: &Path, format: Format) -> PyResult<Read> {
+fn read_columns(path: &Path, on_damage: OnDamage) -> PyResult<Contents> {
     let place = path.display();
     let unreadable = |error| error::io_error(&format!("cannot read {place}"), &error);
-    let open = || File::open(path).and_then(|file| Reader::new(file, format)).map_err(unreadable);
-    let mut reader = open()?;
-    let origin = origin(path, &reader);
+    let open = || integrity::open(path, on_damage).map_err(|error| error::open(&error));
+    let Opened { mut reader, sidecar, notes } = open()?;
+    let origin = origin(sidecar, &reader);
     let described = match &origin {
         Some(origin) => Layout::of(&origin.plan).columns(),
-        None => guess(&mut open()?).map_err(unreadable)?,
+        None => guess(&mut open()?.reader).map_err(unreadable)?,
     };
     let mut columns = Columns::new(described);
     let mut row = StringRecord::new();
     let mut line = 1_u64;
+    let mut check = origin.as_ref().map(|origin| RowCheck::new(&origin.plan, None));
+    if let Some(check) = &mut check {
+        check.allow_gaps();
+    }
     while reader.next(&mut row).map_err(unreadable)? {
         line += 1;
+        let is_none = reader.is_tolerant() && check.as_mut().is_some_and(|check| check.row(&row).is_err());
+        if is_none && reader.leave_out() {
+            continue;
+        }
         if let Err(column) = columns.push_record(row.iter()) {
             let message = format!("{place}, line {line}: a cell of column {column} is not of its kind");
             return Err(PyValueError::new_err(message));
         }
     }
     let units = Recorded::of(reader.entries()).map(|recorded| recorded.units()).unwrap_or_default();
-    Ok(Read { columns, origin, units })
+    let is_told = |note: &&Note| !matches!(note, Note::Unverified { .. });
+    let mut warnings: Vec<String> = notes.iter().filter(is_told).map(Note::to_string).collect();
+    warnings.extend(reader.missed().map(|missed| format!("{place}: {missed}")));
+    Ok(Contents { columns, origin, units, warnings, is_verified: notes.is_empty() })
 }
 
 /// What the sidecar says, or else the file itself, if it tells of these columns.
-fn origin(path: &Path, reader: &Reader) -> Option<Origin> {
+fn origin(sidecar: Option<Sidecar>, reader: &Reader) -> Option<Origin> {
     let fits = |origin: &Origin| Layout::of(&origin.plan).names().iter().eq(reader.names());
-    beside(path).filter(fits).or_else(|| inside(reader).filter(fits))
+    sidecar.and_then(beside).filter(fits).or_else(|| inside(reader).filter(fits))
 }
 
-fn beside(path: &Path) -> Option<Origin> {
-    let sidecar = Sidecar::read(&sidecar::path_of(path)).ok()?;
+fn beside(sidecar: Sidecar) -> Option<Origin> {
     let plan = sidecar.plan(simulate::all()).ok()?;
-    Some(Origin { plan, flap: sidecar.flap, arithmetic: sidecar.arithmetic })
+    Some(Origin { plan, flap: sidecar.flap, build: sidecar.build, arithmetic: sidecar.arithmetic })
 }
 
 fn inside(reader: &Reader) -> Option<Origin> {
     let recorded = Recorded::of(reader.entries())?;
     let plan = recorded.plan(simulate::all())?;
-    Some(Origin { plan, flap: recorded.flap().to_owned(), arithmetic: recorded.arithmetic().to_owned() })
+    let [flap, build, arithmetic] =
+        [recorded.flap(), recorded.build(), recorded.arithmetic()].map(str::to_owned);
+    Some(Origin { plan, flap, build, arithmetic })
 }
 
 /// What columns hold as far as their cells tell.

@@ -180,6 +180,7 @@ pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> P
     solver.set_item("newton", newton)?;
     let dict = PyDict::new(py);
     dict.set_item("flap", identity.flap)?;
+    dict.set_item("build", identity.build)?;
     dict.set_item("model", plan.simulator.name())?;
     dict.set_item("preset", plan.preset)?;
     dict.set_item("arithmetic", identity.arithmetic)?;

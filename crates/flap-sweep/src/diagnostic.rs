@@ -2,15 +2,18 @@
 //!
 //! A diagnostic carries the text it is about, so that whoever shows it needs nothing else.
 
+mod mistakes;
 mod render;
 
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
+pub use mistakes::Mistakes;
 pub use render::render;
 
 use crate::plan::Source;
+use crate::text::shortened;
 
 /// One mistake in a grid file.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +32,8 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
     /// What to do.
     pub help: Vec<String>,
+    /// Whether it is counted, and not shown: then it needs no help.
+    pub(crate) is_only_counted: bool,
 }
 
 /// A second place that a diagnostic is about.
@@ -42,21 +47,22 @@ pub struct Related {
 
 impl Diagnostic {
     /// A diagnostic that has only a message, to be filled in with the methods below.
-    pub(crate) fn new(source: Arc<Source>, span: Range<usize>, message: String) -> Diagnostic {
+    pub(crate) fn new(source: Arc<Source>, span: Range<usize>, message: &str) -> Diagnostic {
         Diagnostic {
             source,
-            message,
+            message: shortened(message).into_owned(),
             span,
             label: String::new(),
             related: Vec::new(),
             notes: Vec::new(),
             help: Vec::new(),
+            is_only_counted: false,
         }
     }
 
     /// Sets the words at the span.
     pub(crate) fn label(&mut self, label: impl Into<String>) -> &mut Diagnostic {
-        self.label = label.into();
+        self.label = shortened(&label.into()).into_owned();
         self
     }
 
@@ -68,13 +74,13 @@ impl Diagnostic {
 
     /// Adds a line on what is allowed.
     pub(crate) fn note(&mut self, note: impl Into<String>) -> &mut Diagnostic {
-        self.notes.push(note.into());
+        self.notes.push(shortened(&note.into()).into_owned());
         self
     }
 
     /// Adds a line on what to do.
     pub(crate) fn help(&mut self, help: impl Into<String>) -> &mut Diagnostic {
-        self.help.push(help.into());
+        self.help.push(shortened(&help.into()).into_owned());
         self
     }
 
@@ -84,7 +90,9 @@ impl Diagnostic {
         name: &str,
         names: impl IntoIterator<Item = &'n str>,
     ) -> &mut Diagnostic {
-        if let Some(nearest) = nearest(name, names) {
+        if !self.is_only_counted
+            && let Some(nearest) = nearest(name, names)
+        {
             self.help.push(format!("did you mean `{nearest}`?"));
         }
         self
@@ -124,8 +132,15 @@ pub(crate) fn position(text: &str, byte: usize) -> (usize, usize) {
     (line, column)
 }
 
+/// Longer names than this, in bytes, are no misspelt ones.
+const LONGEST_NAME: usize = 200;
+
 /// The one of `names` that `name` is most likely a misspelling of, if any is close.
 pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+    // The time of a comparison grows with the product of both lengths.
+    if name.len() > LONGEST_NAME {
+        return None;
+    }
     names
         .into_iter()
         .map(|candidate| (strsim::jaro_winkler(&name.to_lowercase(), &candidate.to_lowercase()), candidate))
@@ -155,5 +170,6 @@ mod tests {
         assert_eq!(nearest("drive_voltage", names), Some("drive_voltage_pp"));
         assert_eq!(nearest("WING_AREA", names), Some("wing_area"));
         assert_eq!(nearest("temperature", names), None);
+        assert_eq!(nearest(&"wing_area".repeat(30), names), None);
     }
 }

@@ -1,17 +1,34 @@
 //! What decides the bytes of rows: rows of the same identity may stand in one file.
 
+use std::sync::LazyLock;
+
 use serde::{Deserialize, Serialize};
+use xxhash_rust::xxh3::xxh3_64;
 
 use crate::plan::{Plan, PointsFile};
 use crate::run::RunOptions;
 use crate::selection::{self, Selection};
 use crate::sidecar::{Sidecar, Solver, grid_hash};
 
+/// The build of flap: a hash of the sources that decide the bytes of rows, in hexadecimal digits.
+///
+/// Two builds of one version may compute other rows; two builds of the same sources compute the same ones.
+pub fn build() -> &'static str {
+    static BUILD: LazyLock<String> = LazyLock::new(|| {
+        let sources = [flap_core::SOURCES, env!("FLAP_SOURCES")].join(" ");
+        format!("{:016x}", xxh3_64(sources.as_bytes()))
+    });
+    &BUILD
+}
+
 /// All that decides the bytes of the rows of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Identity {
     /// Version of flap.
     pub flap: String,
+    /// Build of flap, as [`build`] gives it; empty if it was not recorded.
+    #[serde(default)]
+    pub build: String,
     /// Class of arithmetic.
     pub arithmetic: String,
     /// Hash of the grid file's text.
@@ -29,6 +46,7 @@ impl Identity {
     pub fn of(plan: &Plan, options: &RunOptions) -> Identity {
         Identity {
             flap: env!("CARGO_PKG_VERSION").to_owned(),
+            build: build().to_owned(),
             arithmetic: options.instructions.arithmetic().name().to_owned(),
             grid: grid_hash(&plan.source.text),
             points_file: plan.points_file.as_ref().map(PointsFile::hash),
@@ -47,6 +65,7 @@ impl Identity {
         };
         Identity {
             flap: sidecar.flap.clone(),
+            build: sidecar.build.clone(),
             arithmetic: sidecar.arithmetic.clone(),
             grid: grid_hash(&sidecar.grid.text),
             points_file: sidecar.points_file.as_ref().map(|file| file.xxh3.clone()),
@@ -75,6 +94,14 @@ impl Identity {
         compare("the rows are of", &self.selection, &other.selection);
         compare("the rows are by flap", &self.flap, &other.flap);
         compare("the arithmetic is", &self.arithmetic, &other.arithmetic);
+        if self.flap == other.flap && self.build != other.build {
+            let (own, others) = (build_text(&self.build), build_text(&other.build));
+            differences.push(format!("the rows are by {own} of flap {}, not {others}", self.flap));
+        }
         differences
     }
+}
+
+fn build_text(build: &str) -> String {
+    if build.is_empty() { "an unknown build".to_owned() } else { format!("build {build}") }
 }

@@ -12,9 +12,13 @@ use flap_core::simulate::Status;
 
 use crate::csv_sink::CsvSink;
 use crate::identity::Identity;
+use crate::inputs::{Inputs, Overlap};
+use crate::integrity::{self, Damage};
+use crate::journal;
 use crate::layout::Layout;
 use crate::output::{self, CreateError, Durable};
 use crate::plan::Plan;
+use crate::replaced;
 use crate::results::{Format, FormatError};
 use crate::run::{RunError, RunOptions, Summary};
 use crate::session::{ResumeError, Resumed, Session, SessionOptions};
@@ -41,7 +45,7 @@ pub struct Job<'a> {
 pub enum Begin {
     /// They are an error.
     New,
-    /// They are dropped.
+    /// They are kept as [`kept`] says until the new ones are complete, and then dropped.
     Overwrite,
     /// They are gone on with.
     Resume,
@@ -88,6 +92,9 @@ pub struct Before {
 /// Why a job failed.
 #[derive(Debug, thiserror::Error)]
 pub enum JobError {
+    /// The results would overwrite what they are made from.
+    #[error(transparent)]
+    Overlap(#[from] Overlap),
     /// The name stands for no format.
     #[error(transparent)]
     Format(#[from] FormatError),
@@ -101,6 +108,25 @@ pub enum JobError {
         error: ResumeError,
         /// The first line of the grid file that is another, in words.
         changed: Option<String>,
+    },
+    /// The results are complete, but not as they were written.
+    #[error("{} is damaged: {damage}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// How.
+        damage: Box<Damage>,
+    },
+    /// What lies beside complete results is damaged.
+    #[error(transparent)]
+    Sidecar(sidecar::ReadError),
+    /// Complete results cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
     },
     /// A file beside the results cannot be written, or they cannot be completed.
     #[error("cannot write {}: {source}", path.display())]
@@ -133,6 +159,7 @@ impl JobError {
 /// # Errors
 /// [`JobError`]; rows that were written are kept, with what it takes to resume.
 pub fn run(job: &Job<'_>, engine: Engine<'_>, tell: &mut dyn FnMut(Before)) -> Result<Outcome, JobError> {
+    Inputs::new().add_plan(job.plan).protect_from_results(&job.out)?;
     match job.begin {
         Begin::Resume => job.resume(engine, tell),
         Begin::New | Begin::Overwrite => job.start(engine).map(Outcome::Ran),
@@ -156,6 +183,12 @@ pub fn to_stream(
     Ok(Done { summary, rows_before: 0, seconds: start.elapsed().as_secs_f64(), place: None })
 }
 
+/// Where the earlier results are that the unfinished ones at `results` replace: beside them, under a name such as
+/// `rows.old.csv`. `None` if there are none.
+pub fn kept(results: &Path) -> Option<PathBuf> {
+    replaced::kept(results)
+}
+
 impl Job<'_> {
     fn start(&self, engine: Engine<'_>) -> Result<Done, JobError> {
         let format = Format::of(&self.out)?;
@@ -165,17 +198,40 @@ impl Job<'_> {
             let done = to_stream(self.plan, file, &self.options.run, engine)?;
             return Ok(Done { place: Some(self.out.clone()), ..done });
         }
+        let (file, replaces) = self.make_room(file)?;
         let started = time::now();
         let sidecar = self.sidecar(started.clone());
-        self.write_sidecar(&sidecar, false)?;
-        // Earlier rows go only now that nothing stands in the way of new ones.
-        let session = self.session(file, format, started)?;
-        self.work(session, Summary::default(), sidecar, engine)
+        let session = self.write_sidecar(&sidecar, false).and_then(|()| {
+            Session::start(file, (&self.out, format), self.plan, &self.options, (started, replaces))
+                .map_err(|error| JobError::write(&self.out, error, false))
+        });
+        if session.is_err() && replaces {
+            replaced::restore(&self.out);
+        }
+        self.work(session?, Summary::default(), sidecar, engine)
     }
 
-    fn session(&self, file: File, format: Format, started: String) -> Result<Session, JobError> {
-        Session::start(file, (&self.out, format), self.plan, &self.options, started)
-            .map_err(|error| JobError::write(&self.out, error, false))
+    /// Moves earlier results aside that are to be replaced, and gives the file that new ones go to, and whether earlier ones
+    /// wait beside it. `file` is the one that is there.
+    fn make_room(&self, file: File) -> Result<(File, bool), JobError> {
+        let refused = |error| JobError::write(&self.out, error, false);
+        let is_unfinished = journal::path_of(&self.out).exists();
+        let is_empty = file.metadata().map_err(refused)?.len() == 0;
+        if self.begin != Begin::Overwrite || (is_empty && !is_unfinished) {
+            return Ok((file, false));
+        }
+        // These were to replace others, which are the ones to be kept.
+        if replaced::kept(&self.out).is_some() {
+            return Ok((file, true));
+        }
+        replaced::set_aside(&self.out).map_err(refused)?;
+        match output::create(&self.out, false) {
+            Ok(file) => Ok((file, true)),
+            Err(error) => {
+                replaced::restore(&self.out);
+                Err(error.into())
+            }
+        }
     }
 
     fn resume(&self, engine: Engine<'_>, tell: &mut dyn FnMut(Before)) -> Result<Outcome, JobError> {
@@ -196,17 +252,28 @@ impl Job<'_> {
 
     /// There is nothing to resume: that is well if the rows wanted are all there.
     fn is_complete(&self, error: ResumeError) -> Result<Outcome, JobError> {
-        let sidecar = Sidecar::read(&sidecar::path_of(&self.out));
-        let Some(sidecar) = sidecar.ok().filter(|sidecar| sidecar.state == State::Complete) else {
-            return Err(self.cannot_resume(error));
+        let sidecar = match Sidecar::read(&sidecar::path_of(&self.out)) {
+            Ok(sidecar) if sidecar.state == State::Complete => sidecar,
+            Err(error @ sidecar::ReadError::Damaged { .. }) => return Err(JobError::Sidecar(error)),
+            _ => return Err(self.cannot_resume(error)),
         };
         let own = Identity::of(self.plan, &self.options.run);
         let changes = Identity::recorded(&sidecar).differences(&own);
         if !changes.is_empty() {
             return Err(self.cannot_resume(ResumeError::Changed { path: self.out.clone(), changes }));
         }
+        let format = Format::of(&self.out)?;
+        match integrity::check(&self.out, format, &sidecar) {
+            Ok(None) => {}
+            Ok(Some(damage)) => return Err(self.damaged(damage)),
+            Err(source) => return Err(JobError::Read { path: self.out.clone(), source }),
+        }
         let periodic = sidecar.statuses.as_ref().and_then(|counts| counts.get(Status::Periodic.name()));
         Ok(Outcome::Complete { all_periodic: periodic == sidecar.rows.as_ref() })
+    }
+
+    fn damaged(&self, damage: Damage) -> JobError {
+        JobError::Damaged { path: self.out.clone(), damage: Box::new(damage) }
     }
 
     /// The error, with the first line of the grid file that is another.
@@ -245,8 +312,13 @@ impl Job<'_> {
             Ok(summary) => {
                 let place = Some(session.rows_path(!summary.interrupted));
                 sidecar.finish(&summary, end);
+                sidecar.checksums = (!summary.interrupted).then(|| session.checksums());
                 self.write_sidecar(&sidecar, true)?;
                 if !summary.interrupted {
+                    if replaced::kept(&self.out).is_some() {
+                        replaced::remove(&self.out)
+                            .map_err(|error| JobError::write(&self.out, error, true))?;
+                    }
                     session.forget().map_err(|error| JobError::write(&self.out, error, true))?;
                 }
                 Ok(Done { summary, rows_before, seconds: start.elapsed().as_secs_f64(), place })

@@ -14,9 +14,9 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use toml::de::ValueDeserializer;
 use toml::ser::ValueSerializer;
-use xxhash_rust::xxh3::xxh3_64;
 
 use crate::identity::Identity;
+use crate::results::checksum;
 use crate::run::{Doubts, Summary};
 use crate::sidecar::InvalidPoint;
 
@@ -31,6 +31,9 @@ pub struct Header {
     pub started: String,
     /// What is run.
     pub identity: Identity,
+    /// Whether earlier results wait beside these until these are complete.
+    #[serde(default)]
+    pub replaces: bool,
 }
 
 /// A place at which a run can be resumed: every line but the first.
@@ -57,7 +60,7 @@ pub struct Checkpoint {
 impl Header {
     /// The first line of a run that starts now.
     pub fn new(started: String, identity: Identity) -> Header {
-        Header { format: FORMAT, started, identity }
+        Header { format: FORMAT, started, identity, replaces: false }
     }
 }
 
@@ -134,8 +137,7 @@ pub fn parse(text: &[u8]) -> Option<Past> {
 fn read_line<T: DeserializeOwned>(line: &[u8]) -> Option<T> {
     let line = str::from_utf8(line).ok()?.strip_suffix('\n')?;
     let (checksum, contents) = line.split_once(' ')?;
-    let checksum = u64::from_str_radix(checksum, 16).ok()?;
-    if checksum != xxh3_64(contents.as_bytes()) {
+    if checksum != checksum::of_text(contents) {
         return None;
     }
     T::deserialize(ValueDeserializer::parse(contents).ok()?).ok()
@@ -144,7 +146,7 @@ fn read_line<T: DeserializeOwned>(line: &[u8]) -> Option<T> {
 fn line(contents: &impl Serialize) -> io::Result<String> {
     let mut text = String::new();
     contents.serialize(ValueSerializer::new(&mut text)).map_err(io::Error::other)?;
-    Ok(format!("{:016x} {text}\n", xxh3_64(text.as_bytes())))
+    Ok(format!("{} {text}\n", checksum::of_text(&text)))
 }
 
 /// A journal that is being written.

@@ -4,10 +4,13 @@
 
 pub mod axis;
 pub mod csv_sink;
+pub mod deviation;
 pub mod diagnostic;
 pub mod expression;
 pub mod formula;
 pub mod identity;
+pub mod inputs;
+pub mod integrity;
 pub mod job;
 pub mod journal;
 pub mod layout;
@@ -16,6 +19,7 @@ pub mod merge;
 pub mod output;
 pub mod plan;
 pub mod record;
+mod replaced;
 pub mod rerun;
 pub mod resonance;
 pub mod response;

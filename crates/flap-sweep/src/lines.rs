@@ -23,10 +23,7 @@ impl<W: Write> Lines<W> {
 
     /// Writes a line of cells that are text already.
     pub(crate) fn texts<T: AsRef<str>>(&mut self, cells: impl IntoIterator<Item = T>) -> io::Result<()> {
-        for cell in cells {
-            push_word(&mut self.line, cell.as_ref());
-            self.line.push(',');
-        }
+        push_line(&mut self.line, cells);
         self.end()
     }
 
@@ -47,8 +44,7 @@ impl<W: Write> Lines<W> {
 
     /// Writes the line, whose last comma its end replaces.
     fn end(&mut self) -> io::Result<()> {
-        self.line.pop();
-        self.line.push('\n');
+        end_line(&mut self.line);
         let written = self.target.write_all(self.line.as_bytes());
         self.line.clear();
         written
@@ -63,6 +59,28 @@ impl<W: Write> Lines<W> {
     pub(crate) fn target(&self) -> &W {
         self.target.get_ref()
     }
+}
+
+/// Appends the line of cells that are text already, but for its end.
+fn push_line<T: AsRef<str>>(line: &mut String, cells: impl IntoIterator<Item = T>) {
+    for cell in cells {
+        push_word(line, cell.as_ref());
+        line.push(',');
+    }
+}
+
+/// The last comma becomes the end of the line.
+fn end_line(line: &mut String) {
+    line.pop();
+    line.push('\n');
+}
+
+/// Makes `line` the line of these cells, with its end.
+#[cfg(feature = "parquet")]
+pub(crate) fn set_line<T: AsRef<str>>(line: &mut String, cells: impl IntoIterator<Item = T>) {
+    line.clear();
+    push_line(line, cells);
+    end_line(line);
 }
 
 /// Appends a cell, in quotes if it would be read as something else without.

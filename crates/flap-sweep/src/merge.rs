@@ -9,10 +9,11 @@ use std::path::{Path, PathBuf};
 use csv::StringRecord;
 use flap_core::simulate::Status;
 
-use crate::identity::Identity;
+use crate::identity::{self, Identity};
+use crate::integrity::RowCheck;
 use crate::plan::Plan;
-use crate::results::{Format, FormatError, Provenance, Reader, Writer};
-use crate::run::Summary;
+use crate::results::{Checksums, Format, Provenance, Reader, Writer};
+use crate::run::{RunOptions, Summary};
 use crate::selection::{Selection, Shard};
 use crate::sidecar::{Sidecar, State};
 
@@ -31,9 +32,6 @@ pub enum MergeError {
     /// They are not all shards of one sweep, each once: everything that is wrong.
     #[error("{}", .0.join("\n"))]
     Parts(Vec<String>),
-    /// The name of a shard stands for no format.
-    #[error(transparent)]
-    Format(#[from] FormatError),
     /// A shard cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Read {
@@ -77,10 +75,14 @@ pub fn check(parts: &[Part]) -> Result<(), MergeError> {
         }
     }
     if let Some((first, shard)) = whole {
-        let ours = env!("CARGO_PKG_VERSION");
-        let theirs = &first.sidecar.flap;
-        if theirs != ours {
-            problems.push(format!("the shards are by flap {theirs}, this is flap {ours}"));
+        let (ours, build) = (env!("CARGO_PKG_VERSION"), identity::build());
+        let theirs = &first.sidecar;
+        if theirs.flap != ours {
+            problems.push(format!("the shards are by flap {}, this is flap {ours}", theirs.flap));
+        } else if theirs.build != build {
+            let theirs = if theirs.build.is_empty() { "an unknown build" } else { &theirs.build };
+            problems
+                .push(format!("the shards are by another build of flap {ours}: {theirs}, this is {build}"));
         }
         let missing: Vec<String> = (1..=shard.of())
             .filter(|number| !seen.contains_key(number))
@@ -100,18 +102,27 @@ fn whole_of(sidecar: &Sidecar) -> Identity {
     Identity { selection: Selection::All.to_string(), ..Identity::recorded(sidecar) }
 }
 
-/// Writes the rows of `parts`, which [`check`] has passed, to `to` in the order of their points.
+/// Writes the rows of `parts`, which [`check`] has passed, and each of which one of `readers` reads, to `to` in the order of
+/// their points.
 ///
 /// # Errors
-/// If a shard cannot be read or does not hold the rows that its sidecar tells of, or rows cannot be written.
-pub fn merge(parts: &[Part], plan: &Plan, to: (File, Format)) -> Result<(), MergeError> {
-    let Some(first) = parts.first() else { return Ok(()) };
-    let provenance = Provenance::of(plan, &whole_of(&first.sidecar));
+/// If a shard cannot be read or does not hold the rows that its sidecar tells of, or rows cannot be written. Rows that tolerant
+/// readers give and that are none of their shard are left out.
+pub fn merge(
+    parts: &[Part],
+    readers: &mut [Reader],
+    plan: &Plan,
+    to: (File, Format),
+) -> Result<Checksums, MergeError> {
+    let identity = parts
+        .first()
+        .map_or_else(|| Identity::of(plan, &RunOptions::default()), |first| whole_of(&first.sidecar));
+    let provenance = Provenance::of(plan, &identity);
     let mut sources = Vec::with_capacity(parts.len());
     // The next row of every shard, the first point on top.
     let mut next = BinaryHeap::with_capacity(parts.len());
-    for part in parts {
-        let mut source = Source::open(part, &provenance)?;
+    for (part, reader) in parts.iter().zip(readers) {
+        let mut source = Source::new(part, reader, plan, &provenance)?;
         next.extend(source.advance()?.map(|point| Reverse((point, sources.len()))));
         sources.push(source);
     }
@@ -126,19 +137,26 @@ pub fn merge(parts: &[Part], plan: &Plan, to: (File, Format)) -> Result<(), Merg
 
 /// The rows of one shard.
 struct Source<'a> {
-    part: &'a Part,
-    reader: Reader,
+    path: &'a Path,
+    reader: &'a mut Reader,
+    check: RowCheck,
     row: StringRecord,
-    rows: u64,
-    last: Option<u64>,
 }
 
 impl Source<'_> {
-    fn open<'a>(part: &'a Part, provenance: &Provenance) -> Result<Source<'a>, MergeError> {
-        let read = |source| MergeError::Read { path: part.path.clone(), source };
-        let format = Format::of(&part.path)?;
-        let reader = Reader::new(File::open(&part.path).map_err(read)?, format).map_err(read)?;
-        let source = Source { part, reader, row: StringRecord::new(), rows: 0, last: None };
+    fn new<'a>(
+        part: &'a Part,
+        reader: &'a mut Reader,
+        plan: &Plan,
+        provenance: &Provenance,
+    ) -> Result<Source<'a>, MergeError> {
+        let shard = part.sidecar.shard.as_deref().and_then(|shard| shard.parse().ok());
+        let selection = shard.map_or(Selection::All, Selection::Shard);
+        let mut check = RowCheck::of(plan, selection, part.sidecar.rows);
+        if reader.is_tolerant() {
+            check.allow_gaps();
+        }
+        let source = Source { path: &part.path, reader, check, row: StringRecord::new() };
         if !source.reader.names().iter().eq(provenance.columns.iter().map(|column| &column.name)) {
             return Err(source.wrong("its columns are not those of its grid file"));
         }
@@ -147,28 +165,21 @@ impl Source<'_> {
 
     /// Reads the next row, and gives its point.
     fn advance(&mut self) -> Result<Option<u64>, MergeError> {
-        let read = |source| MergeError::Read { path: self.part.path.clone(), source };
-        if !self.reader.next(&mut self.row).map_err(read)? {
-            if Some(self.rows) != self.part.sidecar.rows {
-                return Err(self.wrong("it does not have as many rows as its sidecar says"));
+        let read = |source| MergeError::Read { path: self.path.to_owned(), source };
+        while self.reader.next(&mut self.row).map_err(read)? {
+            match self.check.row(&self.row) {
+                Ok(point) => return Ok(Some(point)),
+                Err(_) if self.reader.leave_out() => {}
+                Err(reason) => return Err(self.wrong(&reason)),
             }
-            return Ok(None);
         }
-        let shard: Option<Shard> = self.part.sidecar.shard.as_deref().and_then(|shard| shard.parse().ok());
-        let point = self.row.get(0).and_then(|cell| cell.parse().ok()).filter(|&point| {
-            self.last.is_none_or(|last| last < point) && shard.is_some_and(|shard| shard.contains(point))
-        });
-        if point.is_none() {
-            return Err(self.wrong("it holds a row that is not of this shard or not in order"));
-        }
-        self.last = point;
-        self.rows += 1;
-        Ok(point)
+        self.check.end().map_err(|reason| self.wrong(&reason))?;
+        Ok(None)
     }
 
     fn wrong(&self, message: &str) -> MergeError {
         let source = io::Error::new(io::ErrorKind::InvalidData, message);
-        MergeError::Read { path: self.part.path.clone(), source }
+        MergeError::Read { path: self.path.to_owned(), source }
     }
 }
 

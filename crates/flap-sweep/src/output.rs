@@ -120,19 +120,27 @@ pub fn check_in_place(file: &File, path: &Path) -> io::Result<()> {
         io::ErrorKind::NotFound => gone(),
         _ => error,
     })?;
-    if is_same(&file.metadata()?, &there) { Ok(()) } else { Err(gone()) }
+    // Elsewhere than on Unix, a file that is open can neither be removed nor replaced.
+    if !cfg!(unix) || is_same((path, &file.metadata()?), (path, &there)) { Ok(()) } else { Err(gone()) }
 }
 
+/// Whether two files are one: by device and inode where there are such numbers, elsewhere by the full path.
 #[cfg(unix)]
-fn is_same(a: &Metadata, b: &Metadata) -> bool {
+pub(crate) fn is_same((_, a): (&Path, &Metadata), (_, b): (&Path, &Metadata)) -> bool {
     use std::os::unix::fs::MetadataExt;
     (a.dev(), a.ino()) == (b.dev(), b.ino())
 }
 
-/// Elsewhere a file that is open can neither be removed nor replaced.
 #[cfg(not(unix))]
-fn is_same(_: &Metadata, _: &Metadata) -> bool {
-    true
+pub(crate) fn is_same((a, _): (&Path, &Metadata), (b, _): (&Path, &Metadata)) -> bool {
+    matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
+}
+
+/// Where the bytes of a file wait until they are complete.
+pub(crate) fn temporary_of(path: &Path) -> PathBuf {
+    let mut temporary = path.as_os_str().to_owned();
+    temporary.push(".tmp");
+    PathBuf::from(temporary)
 }
 
 /// Makes the file at `path`, in place of an earlier one, once `write` has written all of it and it is durable.
@@ -140,9 +148,7 @@ fn is_same(_: &Metadata, _: &Metadata) -> bool {
 /// # Errors
 /// What `write` or the operating system says. Then an earlier file is as it was.
 pub fn replace<E: From<io::Error>>(path: &Path, write: impl FnOnce(File) -> Result<(), E>) -> Result<(), E> {
-    let mut temporary = path.as_os_str().to_owned();
-    temporary.push(".tmp");
-    let temporary = PathBuf::from(temporary);
+    let temporary = temporary_of(path);
     let written = File::create(&temporary).map_err(E::from).and_then(|file| {
         write(file.try_clone()?)?;
         file.sync_all()?;

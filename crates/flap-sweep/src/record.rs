@@ -1,6 +1,11 @@
 //! Measured records: CSV tables of numbers against time.
 
+use std::collections::HashSet;
+use std::fs::File;
 use std::path::Path;
+
+use crate::csv_sink::cause;
+use crate::results::Bounded;
 
 /// A table of numbers, by column.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,12 +29,17 @@ impl Record {
     /// number.
     pub fn read(path: &Path) -> Result<Record, RecordError> {
         let name = path.display().to_string();
-        let fail = |error: csv::Error| RecordError(format!("{name}: {error}"));
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(fail)?;
+        let fail = |error: csv::Error| RecordError(format!("{name}: {}", cause(error)));
+        let file = File::open(path).map_err(|error| RecordError(format!("{name}: {error}")))?;
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(Bounded::new(file));
         let headings: Vec<String> = reader.headers().map_err(fail)?.iter().map(str::to_owned).collect();
+        if let Some(twice) = repeated(&headings) {
+            return Err(RecordError(format!("{name}: there are two columns {twice}: keep one of them")));
+        }
         let mut columns = vec![Vec::new(); headings.len()];
-        for row in reader.records() {
-            let row = row.map_err(fail)?;
+        let mut row = csv::StringRecord::new();
+        while reader.read_record(&mut row).map_err(fail)? {
+            reader.get_mut().begin_line();
             let line = row.position().map_or(0, csv::Position::line);
             for ((cell, heading), column) in row.iter().zip(&headings).zip(&mut columns) {
                 let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
@@ -41,20 +51,17 @@ impl Record {
         Ok(Record { name, headings, columns })
     }
 
-    /// The first column that has one of these headings, multiplied by its factor; `None` if there is none.
-    pub fn find(&self, names: &[(&str, f64)]) -> Option<Vec<f64>> {
-        names.iter().find_map(|(name, factor)| {
-            let index = self.headings.iter().position(|heading| heading == name)?;
-            Some(self.columns[index].iter().map(|number| number * factor).collect())
-        })
-    }
-
-    /// As [`Record::find`], for a column that there must be.
+    /// The column that has one of these headings, multiplied by its factor; the first if there are more that agree.
     ///
     /// # Errors
-    /// If there is none: which headings are expected, and which the file has.
+    /// If there is none: which headings are expected, and which the file has. If there are two that contradict each
+    /// other: in which row.
     pub fn column(&self, names: &[(&str, f64)]) -> Result<Vec<f64>, RecordError> {
-        self.find(names).ok_or_else(|| {
+        let mut found = names.iter().filter_map(|(name, factor)| {
+            let index = self.headings.iter().position(|heading| heading == name)?;
+            Some((*name, self.columns[index].iter().map(|number| number * factor).collect::<Vec<f64>>()))
+        });
+        let (name, column) = found.next().ok_or_else(|| {
             let wanted: Vec<&str> = names.iter().map(|(name, _)| *name).collect();
             RecordError(format!(
                 "{}: there is no column {}; the file has {}",
@@ -62,8 +69,29 @@ impl Record {
                 wanted.join(" or "),
                 self.headings.join(", ")
             ))
-        })
+        })?;
+        for (other, numbers) in found {
+            let largest = column.iter().fold(0.0_f64, |largest, number| largest.max(number.abs()));
+            let differs = |(a, b): (&f64, &f64)| (a - b).abs() > SAME * largest;
+            if let Some(row) = column.iter().zip(&numbers).position(differs) {
+                return Err(RecordError(format!(
+                    "{}: columns {name} and {other} contradict each other in row {}: keep one of them",
+                    self.name,
+                    row + 1
+                )));
+            }
+        }
+        Ok(column)
     }
+}
+
+/// Numbers in two units that differ by less than this share of the largest are the same, rounded.
+const SAME: f64 = 1e-6;
+
+/// The first of the headings that is there twice.
+fn repeated(headings: &[String]) -> Option<&String> {
+    let mut seen = HashSet::new();
+    headings.iter().find(|heading| !heading.is_empty() && !seen.insert(*heading))
 }
 
 /// Headings of times, with their factors to seconds.

@@ -8,21 +8,22 @@
 //! `<results>.part`, compressed text like that of a `.csv.zst` file, and are turned into columns when all are there.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Read, Seek, SeekFrom};
+use std::io::{self, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use flap_core::simulate::{Point, Row};
-use xxhash_rust::xxh3::Xxh3Default;
-
 use crate::identity::Identity;
-use crate::journal::{self, Checkpoint, Header, Journal, Past};
+use crate::integrity::{Intact, last_intact};
+use crate::journal::{self, Checkpoint, Header, Journal};
 use crate::layout::Layout;
 use crate::output::{self, CreateError};
 use crate::plan::Plan;
-use crate::results::{ConvertError, Format, FormatError, Provenance, TextRows, convert};
+use crate::results::{
+    Checksums, ConvertError, FileSum, Format, FormatError, Provenance, Reader, TextRows, convert, text,
+};
 use crate::run::{RunOptions, Summary};
 use crate::sink::Sink;
+use flap_core::simulate::{Point, Row};
 
 /// What a session needs to know besides the plan.
 #[derive(Clone, Copy, Debug)]
@@ -42,6 +43,8 @@ pub struct Session {
     rows: TextRows,
     layout: Layout,
     provenance: Provenance,
+    /// The results, once rows have been turned into columns.
+    columns: Option<FileSum>,
     journal: Journal,
     checkpoint: Duration,
     last_checkpoint: Instant,
@@ -93,7 +96,8 @@ pub enum ResumeError {
 }
 
 impl Session {
-    /// Begins to write to `results`, which [`output::create`] opened at `path`. Drops what it holds.
+    /// Begins to write to `results`, which [`output::create`] opened at `path`. Drops what it holds. The journal notes when
+    /// the run started, and whether earlier results wait beside it.
     ///
     /// # Errors
     /// What writing says.
@@ -102,13 +106,14 @@ impl Session {
         (path, format): (&Path, Format),
         plan: &Plan,
         options: &SessionOptions,
-        started: String,
+        (started, replaces): (String, bool),
     ) -> io::Result<Session> {
         let journal_path = journal::path_of(path);
         // An old journal must not outlive the rows it tells of.
         forget(path)?;
         output::empty(&results)?;
-        let header = Header::new(started, Identity::of(plan, &options.run));
+        let mut header = Header::new(started, Identity::of(plan, &options.run));
+        header.replaces = replaces;
         let journal = Journal::create(&journal_path, &header)?;
         let rows_file = match format {
             Format::Parquet => File::create(part_of(path))?,
@@ -140,15 +145,18 @@ impl Session {
             Format::Csv | Format::CsvZstd => (path.to_owned(), results.try_clone().map_err(refused)?),
         };
         let found = last_intact(&rows_file, &past).map_err(refused)?;
-        let Intact { checkpoint, journal_bytes, hash, lost } =
-            found.ok_or(ResumeError::Altered { path: rows_path })?;
+        let found = found.ok_or_else(|| ResumeError::Altered { path: rows_path.clone() })?;
+        let Intact { checkpoint, journal_bytes, hash, lost } = found;
         let cut = |mut file: &File| {
             file.set_len(checkpoint.bytes)?;
             file.seek(SeekFrom::Start(checkpoint.bytes))
         };
         cut(&rows_file).map_err(refused)?;
         let journal = Journal::after(&journal_path, journal_bytes).map_err(refused)?;
-        let rows = TextRows::after(rows_file, format, hash, checkpoint.bytes).map_err(refused)?;
+        // Summed up anew, checksums are those of a run that was not interrupted.
+        let (text, summed) = text::sum_up(File::open(&rows_path).map_err(refused)?, format);
+        summed.map_err(refused)?;
+        let rows = TextRows::after(rows_file, format, (hash, checkpoint.bytes), text).map_err(refused)?;
         let mut session = Session::new(results, (path, format), rows, plan, options, journal);
         session.seconds_before = checkpoint.seconds;
         Ok(Resumed { session, before: checkpoint.summary(), started: past.header.started, lost })
@@ -170,6 +178,7 @@ impl Session {
             rows,
             layout: Layout::of(plan),
             provenance: Provenance::of(plan, &Identity::of(plan, &options.run)),
+            columns: None,
             journal,
             checkpoint: options.checkpoint,
             last_checkpoint: now,
@@ -202,6 +211,11 @@ impl Session {
         Ok(())
     }
 
+    /// The checksums of complete results.
+    pub fn checksums(&self) -> Checksums {
+        self.rows.checksums(self.columns.clone())
+    }
+
     /// Removes what was there for the case of an interruption. Comes last.
     ///
     /// # Errors
@@ -230,13 +244,18 @@ impl Session {
     fn assemble(&mut self) -> io::Result<()> {
         output::empty(&self.results)?;
         self.results.seek(SeekFrom::Start(0))?;
-        let rows = File::open(part_of(&self.path))?;
+        let part = part_of(&self.path);
+        let mut rows = Reader::new(File::open(&part)?, Format::CsvZstd)?;
         let to = (self.results.try_clone()?, self.format);
-        match convert((rows, Format::CsvZstd), to, &self.provenance) {
-            Ok(_) => Ok(()),
-            Err(ConvertError::Read(source) | ConvertError::Write(source)) => Err(source),
-            Err(error @ ConvertError::Columns) => Err(io::Error::other(error)),
+        let turned = convert(&mut rows, to, &self.provenance, None).map_err(|error| match error {
+            ConvertError::Read(source) | ConvertError::Write(source) => source,
+            error @ (ConvertError::Columns | ConvertError::Rows(_)) => io::Error::other(error),
+        })?;
+        if turned.checksums.text != self.checksums().text {
+            return Err(io::Error::other(format!("the rows in {} are not those written", part.display())));
         }
+        self.columns = turned.checksums.file;
+        Ok(())
     }
 }
 
@@ -266,47 +285,6 @@ impl Sink for Session {
     }
 }
 
-/// The last checkpoint whose rows are there.
-struct Intact {
-    checkpoint: Checkpoint,
-    journal_bytes: u64,
-    hash: Xxh3Default,
-    lost: u64,
-}
-
-/// Finds the last checkpoint up to which `file` is what was written; `None` if it holds something else.
-fn last_intact(mut file: &File, past: &Past) -> io::Result<Option<Intact>> {
-    let mut hash = Xxh3Default::new();
-    let mut intact = Intact {
-        checkpoint: Checkpoint::default(),
-        journal_bytes: past.header_bytes,
-        hash: hash.clone(),
-        lost: past.checkpoints.last().map_or(0, |(checkpoint, _)| checkpoint.rows),
-    };
-    let mut buffer = vec![0; 1 << 16];
-    for (checkpoint, journal_bytes) in &past.checkpoints {
-        let Some(mut missing) = checkpoint.bytes.checked_sub(intact.checkpoint.bytes) else {
-            return Ok(None);
-        };
-        while missing > 0 {
-            let most = usize::try_from(missing).unwrap_or(usize::MAX).min(buffer.len());
-            let count = file.read(&mut buffer[..most])?;
-            if count == 0 {
-                return Ok(Some(intact));
-            }
-            hash.update(&buffer[..count]);
-            missing -= count as u64;
-        }
-        if format!("{:016x}", hash.digest()) != checkpoint.xxh3 {
-            return Ok(None);
-        }
-        let lost = (intact.lost + intact.checkpoint.rows).saturating_sub(checkpoint.rows);
-        let checkpoint = checkpoint.clone();
-        intact = Intact { checkpoint, journal_bytes: *journal_bytes, hash: hash.clone(), lost };
-    }
-    Ok(Some(intact))
-}
-
 /// Removes what an interrupted run of the results at `path` has left beside them.
 ///
 /// # Errors
@@ -327,7 +305,7 @@ fn open(path: &Path) -> io::Result<File> {
     OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)
 }
 
-fn remove_if_there(path: &Path) -> io::Result<()> {
+pub(crate) fn remove_if_there(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
         _ => Ok(()),

@@ -1,22 +1,25 @@
 //! The file beside the results that says where they come from: `<results>.meta.toml`.
 //!
 //! It is written when a sweep starts, with `state = "running"`, and again when it ends. Each time it is replaced
-//! as a whole, so that a reader never sees half of it. It holds all that it takes to run the sweep again.
+//! as a whole, so that a reader never sees half of it. It holds all that it takes to run the sweep again, and to check the
+//! results. Its first line is the checksum of the others.
+
+mod file;
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+pub use file::{ParseError, ReadError};
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Simulator, SolverSettings};
 use serde::{Deserialize, Serialize};
 use toml::Value;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Mistakes;
+use crate::identity;
 use crate::layout::Layout;
-use crate::output;
 use crate::plan::{self, Plan};
+use crate::results::{Checksums, checksum};
 use crate::run::{Doubts, RunOptions, Summary};
 use crate::selection::{self, Selection};
 use crate::{spec, text};
@@ -46,6 +49,9 @@ pub struct End {
 pub struct Sidecar {
     /// Version of flap.
     pub flap: String,
+    /// Build of flap, as [`identity::build`] gives it; empty if an earlier flap has not recorded it.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub build: String,
     /// How far the sweep is.
     pub state: State,
     /// Why it failed.
@@ -99,6 +105,8 @@ pub struct Sidecar {
     pub points_file: Option<PointsFile>,
     /// The grid file.
     pub grid: Grid,
+    /// What complete results hold; `None` before, and of results by an earlier flap.
+    pub checksums: Option<Checksums>,
 }
 
 /// How far a sweep is.
@@ -184,32 +192,13 @@ pub struct Grid {
     pub text: String,
 }
 
-/// Why a file cannot be used as a sidecar.
-#[derive(Debug, thiserror::Error)]
-pub enum ReadError {
-    /// It cannot be read.
-    #[error("{}: cannot be read: {source}", path.display())]
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-    /// It is not a sidecar.
-    #[error("{}: not a sidecar of results: {reason}", path.display())]
-    Format {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        reason: String,
-    },
-}
-
 /// Why a sidecar is not a plan.
 #[derive(Debug)]
 pub enum PlanError {
     /// The grid file in it has mistakes for this version of flap.
-    Grid(Vec<Diagnostic>),
+    Grid(Mistakes),
+    /// The grid file in it is not the one that was run: its hash is another.
+    GridText,
     /// The points in it are not points of the grid.
     Points,
     /// The solver settings in it are not ones that a grid file may have.
@@ -237,6 +226,7 @@ impl Sidecar {
         };
         Sidecar {
             flap: env!("CARGO_PKG_VERSION").to_owned(),
+            build: identity::build().to_owned(),
             state: State::Running,
             error: None,
             model: plan.simulator.name().to_owned(),
@@ -271,6 +261,7 @@ impl Sidecar {
                 xxh3: grid_hash(&plan.source.text),
                 text: plan.source.text.clone(),
             },
+            checksums: None,
         }
     }
 
@@ -305,6 +296,9 @@ impl Sidecar {
     /// # Errors
     /// If it was written by another version whose grid files differ, or edited.
     pub fn plan(&self, models: &[&'static dyn Simulator]) -> Result<Plan, PlanError> {
+        if self.grid.xxh3 != grid_hash(&self.grid.text) {
+            return Err(PlanError::GridText);
+        }
         let mut plan = spec::parse(&self.grid.name, &self.grid.text, models).map_err(PlanError::Grid)?;
         if !self.solver.is_allowed() {
             return Err(PlanError::Solver);
@@ -330,41 +324,6 @@ impl Sidecar {
         let rerun = self.rerun.as_ref()?;
         Some(Origin { of: rerun.of.clone(), statuses: rerun.statuses.clone() })
     }
-
-    /// The text of the file.
-    ///
-    /// # Errors
-    /// If a number has no place in TOML, such as 2^63 points.
-    pub fn text(&self) -> Result<String, toml::ser::Error> {
-        toml::to_string(self)
-    }
-
-    /// Reads the file.
-    ///
-    /// # Errors
-    /// If it cannot be read or is not a sidecar.
-    pub fn read(path: &Path) -> Result<Sidecar, ReadError> {
-        let text =
-            fs::read_to_string(path).map_err(|source| ReadError::Io { path: path.to_owned(), source })?;
-        Sidecar::parse(&text).map_err(|reason| ReadError::Format { path: path.to_owned(), reason })
-    }
-
-    /// Reads the text of the file.
-    ///
-    /// # Errors
-    /// What is wrong with it, in one line.
-    pub fn parse(text: &str) -> Result<Sidecar, String> {
-        toml::from_str(text).map_err(|error| error.message().to_owned())
-    }
-
-    /// Writes the file, in place of an earlier one.
-    ///
-    /// # Errors
-    /// What writing says.
-    pub fn write(&self, path: &Path) -> io::Result<()> {
-        let text = self.text().map_err(io::Error::other)?;
-        output::replace(path, |mut file| file.write_all(text.as_bytes()))
-    }
 }
 
 /// The path of the file that belongs to a result file.
@@ -376,7 +335,7 @@ pub fn path_of(results: &Path) -> PathBuf {
 
 /// The hash of a grid file's text, in hexadecimal digits.
 pub(crate) fn grid_hash(text: &str) -> String {
-    format!("{:016x}", xxhash_rust::xxh3::xxh3_64(text.as_bytes()))
+    checksum::of_text(text)
 }
 
 impl Solver {

@@ -29,13 +29,13 @@ use flap_core::simulate::{Rows, Simulator};
 use toml::de::DeTable;
 
 use crate::axis::Axis;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Mistakes;
 use crate::formula::{Condition, Derived};
 use crate::plan::{Parts, Plan, PointsFile, Source};
 use crate::resonance::AtResonance;
 use formula::Names;
 use problems::Problems;
-pub use read::{ReadError, read};
+pub use read::{MOST_BYTES, ReadError, read};
 pub(crate) use solver::LARGEST_RTOL;
 use table::Entry;
 
@@ -57,14 +57,14 @@ const KEYS: [&str; 11] = [
 /// Checks the grid file `text` and makes its plan. Presets are looked up in `models`; `name` is for messages.
 ///
 /// # Errors
-/// Every mistake found, in the order of the file. A file that is not TOML is reported for that alone.
-pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Result<Plan, Vec<Diagnostic>> {
+/// The mistakes found, in the order of the file. A file that is not TOML is reported for that alone.
+pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Result<Plan, Mistakes> {
     let source = Arc::new(Source { name: name.to_owned(), text: text.to_owned() });
     let mut problems = Problems::new(Arc::clone(&source));
     let (root, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
         syntax::report(&errors, &mut problems);
-        return Err(problems.into_diagnostics());
+        return Err(problems.into_mistakes());
     }
 
     let root = table::entries(root.get_ref());
@@ -75,7 +75,7 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
     // Without a model there are no parameters and columns to check against.
     let Some((simulator, preset)) = chosen else {
         output::read(output_entry, None, &mut problems);
-        return Err(problems.into_diagnostics());
+        return Err(problems.into_mistakes());
     };
     let Points { base, axes, sample_file, resonance, derived, conditions, mut names } =
         read_points(&root, simulator, preset, models, &mut problems);
@@ -85,7 +85,7 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
     let output = output::read(output_entry, Some((simulator, &columns)), &mut problems);
 
     if !problems.is_empty() {
-        return Err(problems.into_diagnostics());
+        return Err(problems.into_mistakes());
     }
     let (axes, spans): (Vec<Axis>, Vec<_>) =
         axes.into_iter().map(|placed| (placed.axis, placed.span)).unzip();
@@ -106,7 +106,7 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
     };
     Plan::new(parts).map_err(|parts| {
         axes::report_too_many_points(&parts.axes, &spans, &mut problems);
-        problems.into_diagnostics()
+        problems.into_mistakes()
     })
 }
 

@@ -1,5 +1,8 @@
 //! Numbers and options as text, the same in result files and on the terminal.
 
+use std::borrow::Cow;
+use std::fmt::Write as _;
+
 use flap_core::parameter::{Kind, Parameter};
 
 /// The shortest decimal text that reads back as the same number.
@@ -55,6 +58,44 @@ pub fn truth(value: f64) -> String {
         return String::new();
     }
     (value != 0.0).to_string()
+}
+
+/// Words longer than this, in characters, are shortened. Paths seldom are.
+const LONGEST_WORD: usize = 300;
+
+/// Characters that are left of a longer word: at its beginning, and at its end.
+const ENDS: [usize; 2] = [60, 20];
+
+/// A message with its longest words shortened: a file may hold names of any length, and a terminal does not.
+pub fn shortened(message: &str) -> Cow<'_, str> {
+    if message.split_whitespace().all(|word| word.len() <= LONGEST_WORD) {
+        return Cow::Borrowed(message);
+    }
+    let mut text = String::new();
+    for piece in message.split_inclusive(char::is_whitespace) {
+        let length = piece.chars().count();
+        if length <= LONGEST_WORD {
+            text.push_str(piece);
+        } else {
+            text.extend(piece.chars().take(ENDS[0]));
+            let _ = write!(text, "…({length} characters)…");
+            text.extend(piece.chars().skip(length - ENDS[1]));
+        }
+    }
+    Cow::Owned(text)
+}
+
+/// A text with its control characters written out, such as `\u{1b}`: neither XML nor a terminal takes them as they are.
+pub fn printable(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for letter in text.chars() {
+        if letter.is_control() {
+            out.extend(letter.escape_default());
+        } else {
+            out.push(letter);
+        }
+    }
+    out
 }
 
 /// The value of a parameter: a number, or the name of the option it chooses.
@@ -169,5 +210,24 @@ mod tests {
             doc: "",
         };
         assert_eq!(value(&span, 1.0), "1.0");
+    }
+
+    #[test]
+    fn long_words_are_shortened_and_others_are_kept() {
+        let long = "a".repeat(1_000_000);
+        let text = shortened(&format!("no parameter `{long}` here")).into_owned();
+        assert!(
+            text.len() < 150 && text.starts_with("no parameter `aaa") && text.ends_with("aaa` here"),
+            "{text}"
+        );
+        let ordinary = "a message\n  of two lines";
+        assert_eq!(shortened(ordinary), ordinary);
+        let wide = "µ".repeat(200);
+        assert_eq!(shortened(&wide), wide, "characters count, not bytes");
+    }
+
+    #[test]
+    fn control_characters_are_written_out() {
+        assert_eq!(printable("a\u{1b}[31mb\0\n µ"), "a\\u{1b}[31mb\\u{0}\\n µ");
     }
 }

@@ -7,6 +7,7 @@
 mod dimension;
 mod error;
 mod number;
+mod prefixed;
 mod table;
 mod unit;
 
@@ -14,6 +15,7 @@ use std::ops::Range;
 
 pub use error::{Problem, UnitError};
 pub(crate) use number::scan;
+pub use prefixed::{meant, prefixed};
 use unit::Unit;
 
 /// The value in SI units of the quantity `text`, which must measure the same as `si_unit`.

@@ -105,7 +105,7 @@ proptest! {
             }
             Err(problems) => {
                 prop_assert!(!problems.is_empty());
-                for problem in problems {
+                for problem in problems.iter() {
                     prop_assert!(text.get(problem.span.clone()).is_some(), "{:?}", problem.span);
                     for related in &problem.related {
                         prop_assert!(text.get(related.span.clone()).is_some(), "{:?}", related.span);

@@ -50,6 +50,21 @@ fn keys_of_samples() {
 }
 
 #[test]
+fn a_sample_has_parameters() {
+    for (method, parameters) in [("sobol", ""), ("latin-hypercube", ""), ("random", "")] {
+        check(
+            &format!(
+                "preset = \"fly\"\n[sample]\nmethod = \"{method}\"\nn = 8\n[sample.parameters]\n{parameters}"
+            ),
+            r#"
+5:9 |parameters| the sample has no parameters (nothing below it)
+  help: list them under [sample.parameters]: wing_area = { from = "50 mm^2", to = "60 mm^2" }
+"#,
+        );
+    }
+}
+
+#[test]
 fn distributions() {
     check(
         r#"

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use super::assignment;
+use super::{ReadArgs, assignment};
 
 #[derive(clap::Args)]
 #[command(after_help = PLOT_HELP)]
@@ -62,6 +62,9 @@ pub(crate) struct PlotArgs {
     /// Width and height of an SVG; a PNG has twice as many pixels each way
     #[arg(long, value_name = "WxH", default_value = "900x560", value_parser = size)]
     pub(crate) size: Size,
+
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
 
     /// Overwrite existing files
     #[arg(short, long)]

@@ -1,4 +1,4 @@
-//! Commands on results: `resume`, `rerun`, `merge`, `convert`.
+//! Commands on results: `resume`, `rerun`, `merge`, `convert`, `verify`.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use flap_core::simulate::Status;
 use flap_sweep::diagnostic::nearest;
+use flap_sweep::integrity::OnDamage;
 
 use super::{SolverArgs, threads, time};
 
@@ -25,6 +26,43 @@ pub(crate) struct WorkArgs {
     pub(crate) checkpoint: Duration,
 }
 
+/// How results are read.
+#[derive(clap::Args)]
+pub(crate) struct ReadArgs {
+    /// Use results all the same if they are not as they were written, as far as they can be read
+    #[arg(long)]
+    ignore_damage: bool,
+}
+
+impl ReadArgs {
+    /// What is done about damage.
+    pub(crate) fn on_damage(&self) -> OnDamage {
+        if self.ignore_damage { OnDamage::Tolerate } else { OnDamage::Refuse }
+    }
+}
+
+#[derive(clap::Args)]
+#[command(after_help = VERIFY_HELP)]
+pub(crate) struct VerifyArgs {
+    /// Results with their sidecars beside them
+    #[arg(value_name = "FILE", required = true)]
+    pub(crate) results: Vec<PathBuf>,
+}
+
+const VERIFY_HELP: &str = "\
+Reads all of each FILE and compares it with the checksums in FILE.meta.toml. Says of each whether it is sound, or where it is \
+damaged; of an unfinished one, whether it is sound as far as its journal goes. Rows are counted from 1, in blocks of 256: \
+of a file with a row too few or too many, those behind it are damaged too.
+
+Exit codes:
+  0    all are sound
+  1    none is damaged, but some could not be verified: there is no sidecar, or it has no checksums
+  2    a name stands for no results
+  3    some are damaged or cannot be read
+
+Example:
+  flap verify results/*.parquet";
+
 #[derive(clap::Args)]
 #[command(after_help = RESUME_HELP)]
 pub(crate) struct ResumeArgs {
@@ -33,12 +71,16 @@ pub(crate) struct ResumeArgs {
     pub(crate) results: PathBuf,
 
     #[command(flatten)]
+    pub(crate) read: ReadArgs,
+
+    #[command(flatten)]
     pub(crate) work: WorkArgs,
 }
 
 const RESUME_HELP: &str = "\
 Goes on after the last row that is safe in FILE, to the same bytes as if nothing had happened. The grid is the one in \
-FILE.meta.toml. Refuses if another version of flap or another kind of machine began the sweep.
+FILE.meta.toml. Refuses if another build of flap or another kind of machine began the sweep, or if complete results are \
+damaged.
 
 Example:
   flap resume results/run1.csv";
@@ -51,8 +93,18 @@ pub(crate) struct RerunArgs {
     pub(crate) results: PathBuf,
 
     /// Which points: those with one of these statuses
-    #[arg(long, value_name = "STATUS,...", required = true, value_delimiter = ',', value_parser = status)]
+    #[arg(
+        long,
+        value_name = "STATUS,...",
+        required_unless_present = "inaccurate",
+        value_delimiter = ',',
+        value_parser = status
+    )]
     pub(crate) status: Vec<Status>,
+
+    /// Those whose `error_estimate` exceeds the accuracy of RESULTS
+    #[arg(long)]
+    pub(crate) inaccurate: bool,
 
     /// Where to write their rows
     #[arg(short, long, value_name = "FILE")]
@@ -62,9 +114,12 @@ pub(crate) struct RerunArgs {
     pub(crate) solver: SolverArgs,
 
     #[command(flatten)]
+    pub(crate) read: ReadArgs,
+
+    #[command(flatten)]
     pub(crate) work: WorkArgs,
 
-    /// Overwrite an existing file of results
+    /// Replace existing results. They are kept beside the new ones, as in again.old.csv, until those are complete
     #[arg(short, long)]
     pub(crate) force: bool,
 }
@@ -74,12 +129,13 @@ The rows keep the indices of their points. Solver settings that are not given ar
 
 Examples:
   flap rerun sweep.csv --status unsettled --max-cycles 10000 --out again.csv
-  flap rerun sweep.csv --status diverged,step_limit --rtol 1e-8 --out again.csv";
+  flap rerun sweep.csv --status diverged,step_limit --rtol 1e-8 --out again.csv
+  flap rerun sweep.csv --inaccurate --rtol 1e-10 --out again.csv";
 
 #[derive(clap::Args)]
 #[command(after_help = MERGE_HELP)]
 pub(crate) struct MergeArgs {
-    /// Where to write all rows: .csv, .csv.zst or .parquet
+    /// Where to write all rows: .csv, .csv.zst, .parquet, or `-` for CSV to stdout
     #[arg(value_name = "OUT")]
     pub(crate) out: PathBuf,
 
@@ -87,14 +143,17 @@ pub(crate) struct MergeArgs {
     #[arg(value_name = "SHARD", required = true)]
     pub(crate) shards: Vec<PathBuf>,
 
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+
     /// Overwrite an existing file of results
     #[arg(short, long)]
     pub(crate) force: bool,
 }
 
 const MERGE_HELP: &str = "\
-The result has the bytes of a sweep on one machine. Refuses if a shard is missing, unfinished, given twice or of another \
-sweep.
+The result has the bytes of a sweep on one machine. Refuses if a shard is missing, unfinished, damaged, given twice or of \
+another sweep.
 
 Example:
   flap sweep --grid grid.toml --shard 1/2
@@ -108,9 +167,12 @@ pub(crate) struct ConvertArgs {
     #[arg(value_name = "IN")]
     pub(crate) from: PathBuf,
 
-    /// Where to write the same rows: .csv, .csv.zst or .parquet
+    /// Where to write the same rows: .csv, .csv.zst, .parquet, or `-` for CSV to stdout
     #[arg(value_name = "OUT")]
     pub(crate) to: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
 
     /// Overwrite an existing file of results
     #[arg(short, long)]
@@ -118,10 +180,11 @@ pub(crate) struct ConvertArgs {
 }
 
 const CONVERT_HELP: &str = "\
-The result has the bytes of a sweep that wrote OUT.
+The result has the bytes of a sweep that wrote OUT. Of unfinished results, the rows up to the last checkpoint are converted.
 
 Example:
-  flap convert sweep.csv sweep.parquet";
+  flap convert sweep.csv sweep.parquet
+  flap convert sweep.parquet - | head";
 
 /// A time from 0 to a day.
 fn interval(text: &str) -> Result<Duration, String> {

@@ -11,9 +11,9 @@ use flap_sweep::axis::Values;
 use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::resonance::Range;
 use flap_sweep::sample::{Distribution, Method};
-use flap_sweep::{spec, survey, text};
+use flap_sweep::{deviation, spec, survey, text};
 
-use super::exclusion;
+use super::{exclusion, far};
 use crate::args::CheckArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
@@ -21,6 +21,7 @@ use crate::table::Table;
 
 pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
     let plan = Arc::new(spec::read(&args.grid)?);
+    far::warn(&deviation::of(&plan));
     console::results(&page(&plan))?;
     Ok(Exit::Done)
 }
@@ -35,6 +36,7 @@ fn page(plan: &Arc<Plan>) -> String {
         page += "\n";
         page += &ends(plan);
     }
+    page += &deviations(plan);
     if let Some(resonance) = &plan.resonance {
         page += "\n";
         page += &at_resonance(resonance.range());
@@ -46,8 +48,12 @@ fn page(plan: &Arc<Plan>) -> String {
     if let Some(path) = &plan.output.path {
         let _ = write!(page, "\nrows go to {}\n", path.display());
     }
-    if let Some(estimate) = estimate::line(plan, runs) {
-        let _ = write!(page, "\n{estimate}\n");
+    let trial = estimate::of(plan, runs);
+    if let Some(invalid) = trial.invalid {
+        let _ = write!(page, "\n{invalid}\n");
+    }
+    if let Some(time) = trial.time {
+        let _ = write!(page, "\n{time}\n");
     }
     page
 }
@@ -70,6 +76,20 @@ fn axes(plan: &Plan) -> String {
         }
     }
     table.text()
+}
+
+/// One line per parameter that does not have the preset's value; nothing if all have.
+fn deviations(plan: &Plan) -> String {
+    let deviations = deviation::of(plan);
+    if deviations.is_empty() {
+        return String::new();
+    }
+    let mut table = Table::with_headings(&["other than the preset", "here", "preset", "ratio"]);
+    for deviation in deviations {
+        let name = deviation.parameter.name.to_owned();
+        table.row([name, deviation.shown(), deviation.preset_shown(), deviation.ratio()]);
+    }
+    "\n".to_owned() + &table.text()
 }
 
 /// The first and the last value of an axis, or what stands for them in a sample.

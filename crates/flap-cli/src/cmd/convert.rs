@@ -1,34 +1,70 @@
 //! `flap convert`: results in another format.
 
+use std::io::ErrorKind;
+
 use flap_sweep::identity::Identity;
-use flap_sweep::results::{ConvertError, Format, Provenance, convert};
-use flap_sweep::sidecar;
+use flap_sweep::inputs::Inputs;
+use flap_sweep::integrity::{Note, RowCheck};
+use flap_sweep::results::{Checksums, ConvertError, Converted, Format, Provenance, convert};
+use flap_sweep::sidecar::{self, Sidecar, State};
 
 use crate::args::ConvertArgs;
+use crate::cmd::outputs::is_stdout;
 use crate::console;
-use crate::failure::{Exit, Failure};
+use crate::failure::{Exit, Failure, IGNORE_HELP};
 use crate::job;
 
 pub(crate) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
-    let (from, to) = (Format::of(&args.from)?, Format::of(&args.to)?);
-    let (plan, sidecar) = job::recorded(&args.from)?;
+    let to_stdout = is_stdout(&args.to);
+    let to = if to_stdout { Format::Csv } else { Format::of(&args.to)? };
+    let mut inputs = Inputs::new();
+    inputs.add_results("the results", &args.from).protect_from_results(&args.to)?;
+    let (mut source, plan, mut sidecar) = job::open_recorded(&args.from, &args.read)?;
+    inputs.add_plan(&plan).protect_from_results(&args.to)?;
+    let is_damaged = source.notes.iter().any(|note| matches!(note, Note::Damaged { .. }));
     let provenance = Provenance::of(&plan, &Identity::recorded(&sidecar));
-    let source = job::open(&args.from)?;
+    let written = sidecar.rows.filter(|_| sidecar.state == State::Complete);
+    let check = Some(RowCheck::new(&plan, written));
+    if to_stdout {
+        convert(&mut source.reader, (job::stdout()?, to), &provenance, check)
+            .map_err(|error| failure(args, &error))?;
+        job::tell_missed(&args.from, &source.reader);
+        return Ok(Exit::Done);
+    }
     let mut rows = 0;
     let made = job::make(&args.to, args.force, |target| {
-        convert((source, from), (target, to), &provenance).map(|converted| rows = converted)
+        let converted = convert(&mut source.reader, (target, to), &provenance, check)?;
+        rows = converted.rows;
+        note(&mut sidecar, converted, is_damaged);
+        // Earlier results keep their own until the new rows are complete.
+        Ok::<(), ConvertError>(sidecar.write(&sidecar::path_of(&args.to))?)
     });
     made?.map_err(|error| failure(args, &error))?;
-    let path = sidecar::path_of(&args.to);
-    sidecar.write(&path).map_err(|error| Failure::cannot_write(&path, &error))?;
+    job::tell_missed(&args.from, &source.reader);
     console::say(&format!("{rows} rows in {}", args.to.display()));
     Ok(Exit::Done)
 }
 
+/// Notes in the sidecar what has been written.
+fn note(sidecar: &mut Sidecar, written: Converted, is_damaged: bool) {
+    if is_damaged {
+        // Damaged rows stay damaged in another format: their checksums are those of the rows that were computed.
+        sidecar.checksums = sidecar.checksums.take().map(|computed| Checksums { file: None, ..computed });
+        return;
+    }
+    sidecar.checksums = Some(written.checksums);
+    sidecar.rows = Some(written.rows);
+}
+
 fn failure(args: &ConvertArgs, error: &ConvertError) -> Failure {
-    let path = match error {
-        ConvertError::Read(_) | ConvertError::Columns => &args.from,
-        ConvertError::Write(_) => &args.to,
-    };
-    Failure::System(format!("{}: {error}", path.display()), Vec::new())
+    match error {
+        ConvertError::Write(source) if source.kind() == ErrorKind::BrokenPipe => Failure::ClosedPipe,
+        ConvertError::Write(_) => Failure::System(format!("{}: {error}", args.to.display()), Vec::new()),
+        ConvertError::Read(_) | ConvertError::Columns => {
+            Failure::System(format!("{}: {error}", args.from.display()), Vec::new())
+        }
+        ConvertError::Rows(_) => {
+            Failure::damaged(format!("{} is damaged: {error}", args.from.display())).help(IGNORE_HELP)
+        }
+    }
 }

@@ -4,11 +4,12 @@ use std::io;
 
 use flap_core::drive::Repeat;
 use flap_core::simulate::{ImposedMotion, Trajectory};
+use flap_sweep::inputs::Inputs;
 use flap_sweep::record;
 
 use super::motion::{write_csv, write_file};
 use super::point::Chosen;
-use super::samples;
+use super::{outputs, samples};
 use crate::args::{LiftArgs, SolverArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
@@ -16,6 +17,9 @@ use crate::table::{Table, six_digits};
 
 pub(crate) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
     let Chosen { plan, values, .. } = Chosen::new(&args.point, &SolverArgs::default())?;
+    let mut inputs = Inputs::new();
+    inputs.add_plan(&plan).add("the motion", &args.motion);
+    outputs::check_tables(&inputs, [args.trajectory.as_deref()])?;
     let repeat = if args.periodic { Repeat::Periodic } else { Repeat::Once };
     let file = samples::read(&args.motion)?;
     let stroke = samples::column(&file, &args.motion, record::STROKE, repeat)?;

@@ -2,20 +2,30 @@
 
 use std::path::Path;
 
-use flap_sweep::merge::{self, Part};
-use flap_sweep::results::Format;
+use flap_sweep::inputs::Inputs;
+use flap_sweep::integrity::{Note, OnDamage};
+use flap_sweep::merge::{self, MergeError, Part};
+use flap_sweep::results::{Format, Reader};
 use flap_sweep::run::RunOptions;
 use flap_sweep::selection::Selection;
 use flap_sweep::sidecar::{self, End, Sidecar, Start};
 
 use crate::args::MergeArgs;
+use crate::cmd::outputs::is_stdout;
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::job;
 
 pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
-    let format = Format::of(&args.out)?;
-    let parts = args.shards.iter().map(|path| part(path)).collect::<Result<Vec<_>, _>>()?;
+    let to_stdout = is_stdout(&args.out);
+    let format = if to_stdout { Format::Csv } else { Format::of(&args.out)? };
+    let mut inputs = Inputs::new();
+    for shard in &args.shards {
+        inputs.add_results("the shard", shard);
+    }
+    inputs.protect_from_results(&args.out)?;
+    let on_damage = args.read.on_damage();
+    let parts = args.shards.iter().map(|path| part(path, on_damage)).collect::<Result<Vec<_>, _>>()?;
     merge::check(&parts)?;
     let Some(Part { path, sidecar: first }) = parts.first() else {
         return Err(Failure::usage("name the shards to be merged"));
@@ -23,7 +33,19 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let mut plan = job::plan_of(&sidecar::path_of(path), first)?;
     plan.selection = Selection::All;
 
-    job::make(&args.out, args.force, |target| merge::merge(&parts, &plan, (target, format)))??;
+    Inputs::new().add_plan(&plan).protect_from_results(&args.out)?;
+    let mut readers = Vec::with_capacity(parts.len());
+    let mut is_damaged = false;
+    for part in &parts {
+        let opened = job::open(&part.path, &args.read)?;
+        is_damaged |= opened.notes.iter().any(|note| matches!(note, Note::Damaged { .. }));
+        readers.push(opened.reader);
+    }
+    if to_stdout {
+        merge::merge(&parts, &mut readers, &plan, (job::stdout()?, format))?;
+        tell_missed(&parts, &readers);
+        return Ok(Exit::Done);
+    }
 
     let sidecars = || parts.iter().map(|part| &part.sidecar);
     let started = sidecars().map(|sidecar| sidecar.started.clone()).min().unwrap_or_default();
@@ -34,14 +56,24 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let summary = merge::summary(&parts, &plan);
     let finished = sidecars().filter_map(|sidecar| sidecar.finished.clone()).max().unwrap_or_default();
     whole.finish(&summary, End { finished, seconds: sidecars().filter_map(|sidecar| sidecar.seconds).sum() });
-    let beside = sidecar::path_of(&args.out);
-    whole.write(&beside).map_err(|error| Failure::cannot_write(&beside, &error))?;
+    job::make(&args.out, args.force, |target| {
+        let checksums = merge::merge(&parts, &mut readers, &plan, (target, format))?;
+        // Rows that were damaged before are not to be called sound.
+        whole.checksums = Some(checksums).filter(|_| !is_damaged);
+        // Earlier results keep their own until the new rows are complete.
+        Ok::<(), MergeError>(whole.write(&sidecar::path_of(&args.out))?)
+    })??;
+    tell_missed(&parts, &readers);
     console::say(&format!("{} rows of {} shards in {}", summary.rows, parts.len(), args.out.display()));
     Ok(Exit::Done)
 }
 
-fn part(path: &Path) -> Result<Part, Failure> {
-    let beside = sidecar::path_of(path);
-    let sidecar = Sidecar::read(&beside).map_err(|error| Failure::from(error).help(job::SIDECAR_HELP))?;
-    Ok(Part { path: path.to_owned(), sidecar })
+fn part(path: &Path, on_damage: OnDamage) -> Result<Part, Failure> {
+    Ok(Part { path: path.to_owned(), sidecar: job::read_sidecar(path, on_damage)? })
+}
+
+fn tell_missed(parts: &[Part], readers: &[Reader]) {
+    for (part, reader) in parts.iter().zip(readers) {
+        job::tell_missed(&part.path, reader);
+    }
 }

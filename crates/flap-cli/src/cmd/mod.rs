@@ -3,11 +3,13 @@
 pub(crate) mod check;
 pub(crate) mod convert;
 pub(crate) mod exclusion;
+pub(crate) mod far;
 mod impulse;
 pub(crate) mod lift;
 pub(crate) mod merge;
 pub(crate) mod models;
 mod motion;
+pub(crate) mod outputs;
 pub(crate) mod params;
 mod point;
 pub(crate) mod rerun;
@@ -18,3 +20,4 @@ pub(crate) mod run;
 mod samples;
 pub(crate) mod sweep;
 pub(crate) mod track;
+pub(crate) mod verify;

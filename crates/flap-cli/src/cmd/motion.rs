@@ -4,15 +4,15 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use flap_core::simulate::Trajectory;
-use flap_sweep::{csv_sink, output, text};
+use flap_sweep::{csv_sink, text};
 
 use crate::failure::Failure;
+use crate::job;
 
-/// Writes to a file, which must not exist unless it may be overwritten.
+/// Writes to a CSV file, which must not exist unless it may be overwritten: all of it, or nothing.
 pub(crate) fn write_file(motion: &Trajectory, path: &Path, overwrite: bool) -> Result<(), Failure> {
-    let refused = |error| Failure::System(format!("cannot write {}: {error}", path.display()), Vec::new());
-    let file = output::create(path, overwrite)?;
-    output::empty(&file).and_then(|()| write_csv(motion, file)).map_err(refused)
+    let written = job::make(path, overwrite, |file| write_csv(motion, file))?;
+    written.map_err(|error: io::Error| Failure::cannot_write(path, &error))
 }
 
 /// Writes one line per row.

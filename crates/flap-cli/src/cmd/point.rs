@@ -120,9 +120,11 @@ pub(super) fn plan(what: &str) -> Result<Plan, Failure> {
 /// Puts the settings of the command line over those of the grid file.
 pub(super) fn set_solver(settings: &mut SolverSettings, args: &SolverArgs) {
     if let Some(rtol) = args.rtol {
-        settings.rtol = rtol;
-        settings.atol = rtol / 100.0;
+        let before = settings.accuracy;
+        *settings = settings.with_rtol(rtol);
+        settings.accuracy = settings.accuracy.max(before);
     }
+    settings.accuracy = args.accuracy.unwrap_or(settings.accuracy);
     settings.settle_tol = args.settle_tol.unwrap_or(settings.settle_tol);
     settings.max_cycles = args.max_cycles.unwrap_or(settings.max_cycles);
 }

@@ -1,11 +1,9 @@
 //! `flap rerun`: points of earlier results again, with other solver settings.
 
-use std::fs;
-
-use flap_sweep::rerun;
-use flap_sweep::results::{Format, Reader};
+use flap_sweep::inputs::Inputs;
+use flap_sweep::rerun::{self, Wanted};
 use flap_sweep::selection::Selection;
-use flap_sweep::sidecar::Origin;
+use flap_sweep::sidecar::{Origin, State};
 
 use crate::args::RerunArgs;
 use crate::cmd::point::set_solver;
@@ -15,12 +13,15 @@ use crate::job::{self, Begin};
 
 pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     let of = args.results.display();
-    let (mut plan, _) = job::recorded(&args.results)?;
+    Inputs::new().add_results("the results", &args.results).protect_from_results(&args.out)?;
+    let (mut source, mut plan, sidecar) = job::open_recorded(&args.results, &args.read)?;
     let unreadable = |error| Failure::System(format!("cannot read {of}: {error}"), Vec::new());
-    let file = job::open(&args.results)?;
-    let mut reader = Reader::new(file, Format::of(&args.results)?).map_err(unreadable)?;
-    let list = rerun::points(&mut reader, &args.status, plan.len()).map_err(unreadable)?;
-    let statuses: Vec<String> = args.status.iter().copied().map(|status| status.name().to_owned()).collect();
+    let rows = sidecar.rows.filter(|_| sidecar.state == State::Complete);
+    let accuracy = args.inaccurate.then_some(plan.solver.accuracy);
+    let wanted = Wanted { statuses: args.status.clone(), accuracy };
+    let list = rerun::points(&mut source.reader, &wanted, &plan, rows).map_err(unreadable)?;
+    job::tell_missed(&args.results, &source.reader);
+    let statuses = wanted.words();
     if list.is_empty() {
         console::say(&format!("no point in {of} is {}: nothing is left to run", statuses.join(" or ")));
         return Ok(Exit::Done);
@@ -29,10 +30,5 @@ pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     set_solver(&mut plan.solver, &args.solver);
     let origin = Some(Origin { of: of.to_string(), statuses });
     let begin = if args.force { Begin::Overwrite } else { Begin::New };
-    if fs::canonicalize(&args.out).is_ok_and(|out| fs::canonicalize(&args.results).is_ok_and(|of| out == of))
-    {
-        let failure = Failure::usage(format!("rows would overwrite {of}, whose points are run again"));
-        return Err(failure.help("name another file with --out"));
-    }
     job::run(&plan, args.out.clone(), begin, &args.work, origin)
 }

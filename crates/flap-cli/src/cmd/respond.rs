@@ -7,19 +7,23 @@ use std::sync::atomic::AtomicBool;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::Point;
+use flap_sweep::inputs::Inputs;
+use flap_sweep::job;
 use flap_sweep::output::{self, Durable};
 use flap_sweep::plan::Plan;
 use flap_sweep::response::{self, Along, AlongError, Curve, Table, Verdict};
 use flap_sweep::run::RunOptions;
 use flap_sweep::text;
 
-use super::point;
+use super::{outputs, point};
 use crate::args::RespondArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
+use crate::job::make;
 
 pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     let mut plan = point::plan(&args.what)?;
+    outputs::check_tables(Inputs::new().add_plan(&plan), [args.out.as_deref()])?;
     point::set_solver(&mut plan.solver, &args.solver);
     if plan.resonance.is_some() {
         let failure = Failure::usage(format!("{} runs each design at its own resonance", args.what));
@@ -42,17 +46,17 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
             finish(table, path)?;
         }
         Some(path) => {
-            let file: File = output::create(path, args.force)?;
-            output::empty(&file).map_err(|error| refused(path, error))?;
-            let mut table = begin(&plan, &along, file, path)?;
             // Conditions may exclude some of the designs.
             let mut curves = 0_u64;
-            response::run(&plan, &along, threads, &never, |curve| {
-                curves += 1;
-                console::results(&(verdicts.line(&curve) + "\n"))?;
-                write(&mut table, &curve, path)
+            into_file(path, args.force, |file| {
+                let mut table = begin(&plan, &along, file, path)?;
+                response::run(&plan, &along, threads, &never, |curve| {
+                    curves += 1;
+                    console::results(&(verdicts.line(&curve) + "\n"))?;
+                    write(&mut table, &curve, path)
+                })?;
+                finish(table, path)
             })?;
-            finish(table, path)?;
             console::say(&format!("{curves} curves in {}", path.display()));
         }
         None => response::run(&plan, &along, threads, &never, |curve| {
@@ -60,6 +64,28 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
         })?,
     }
     Ok(Exit::Done)
+}
+
+/// Hands a file to `write`. New ones show their rows as they come; earlier ones stay until the new rows are complete.
+fn into_file(
+    path: &Path,
+    overwrite: bool,
+    write: impl FnOnce(File) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    if job::is_empty(path) {
+        return write(output::create(path, overwrite)?);
+    }
+    let mut failure = None;
+    let made = make(path, overwrite, |file| {
+        write(file).map_err(|why| {
+            failure = Some(why);
+            io::Error::other("the rows are not complete")
+        })
+    });
+    match failure {
+        Some(failure) => Err(failure),
+        None => made?.map_err(|error| refused(path, error)),
+    }
 }
 
 fn begin<W: Durable>(plan: &Plan, along: &Along, target: W, path: &Path) -> Result<Table<W>, Failure> {

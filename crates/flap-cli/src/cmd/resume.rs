@@ -1,11 +1,24 @@
 //! `flap resume`: an interrupted sweep, from its results alone.
 
+use flap_sweep::integrity::OnDamage;
+use flap_sweep::results::Format;
+use flap_sweep::sidecar::State;
+
 use crate::args::ResumeArgs;
+use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::job::{self, Begin};
 
 pub(crate) fn run(args: &ResumeArgs) -> Result<Exit, Failure> {
-    let (plan, sidecar) = job::recorded(&args.results)?;
+    Format::of(&args.results)?;
+    let on_damage = args.read.on_damage();
+    let (plan, sidecar) = job::recorded(&args.results, on_damage)?;
+    if on_damage == OnDamage::Tolerate && sidecar.state == State::Complete {
+        // Nothing is left to run, whatever the rows have become.
+        job::open(&args.results, &args.read)?;
+        console::say(&format!("{} is complete: nothing is left to run", args.results.display()));
+        return Ok(Exit::Done);
+    }
     let origin = sidecar.origin();
     job::run(&plan, args.results.clone(), Begin::Resume, &args.work, origin)
 }

@@ -6,11 +6,12 @@ use std::io;
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{ChirpRequest, Row, Status, TrajectoryRequest, never};
 use flap_sweep::expression::Kind;
-use flap_sweep::text;
+use flap_sweep::inputs::Inputs;
+use flap_sweep::{deviation, text};
 
 use super::motion::{write_csv, write_file};
 use super::point::Chosen;
-use super::{impulse, samples};
+use super::{far, impulse, outputs, samples};
 use crate::args::{Drive, RunArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
@@ -19,6 +20,13 @@ use crate::table::{Table, six_digits};
 pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     let mut chosen = Chosen::new(&args.point, &args.solver)?;
     refuse_strays(args)?;
+    far::warn(&deviation::of_point(&chosen.plan, &chosen.values));
+    let mut inputs = Inputs::new();
+    inputs.add_plan(&chosen.plan);
+    for record in args.waveform.iter().chain(&args.stroke) {
+        inputs.add("the record", record);
+    }
+    outputs::check_tables(&inputs, [args.trajectory.as_deref(), args.envelope.as_deref()])?;
     samples::apply(&mut chosen, args)?;
     match args.drive {
         Drive::Steady => steady(&chosen, args),
@@ -33,6 +41,9 @@ fn refuse_strays(args: &RunArgs) -> Result<(), Failure> {
         |option: &str, drive: &str| Err(Failure::usage(format!("{option} goes with --drive {drive}")));
     match args.drive {
         Drive::Steady | Drive::Impulse if args.envelope.is_some() => stray("--envelope", "chirp"),
+        Drive::Steady | Drive::Impulse if args.chirp_from.is_some() => stray("--chirp-from", "chirp"),
+        Drive::Steady | Drive::Impulse if args.chirp_to.is_some() => stray("--chirp-to", "chirp"),
+        Drive::Steady | Drive::Impulse if args.chirp_rate.is_some() => stray("--chirp-rate", "chirp"),
         Drive::Steady | Drive::Chirp if args.impulse.is_some() => stray("--impulse", "impulse"),
         Drive::Steady | Drive::Chirp if args.duration.is_some() => stray("--duration", "impulse"),
         Drive::Chirp | Drive::Impulse if args.from_rest => stray("--from-rest", "steady"),
@@ -86,15 +97,22 @@ fn check_length(args: &RunArgs) -> Result<(), Failure> {
     Err(Failure::usage(message))
 }
 
+/// Frequency at which a chirp begins if the command line does not say (Hz).
+const CHIRP_FROM: f64 = 1.0;
+
+/// How fast the frequency of a chirp rises if the command line does not say (Hz/s).
+const CHIRP_RATE: f64 = 15.0;
+
 /// Sweeps the frequency: rows per cycle to stdout or a file, the motion to a file.
 fn chirp(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
     let Chosen { plan, values, .. } = chosen;
     let parameters = plan.parameters();
     let frequency = parameters.iter().position(|parameter| parameter.name == "drive_frequency");
+    let from = args.chirp_from.unwrap_or(CHIRP_FROM);
     let request = ChirpRequest {
-        from: args.chirp_from,
-        to: args.chirp_to.or(frequency.map(|index| 2.0 * values[index])).unwrap_or(args.chirp_from),
-        rate: args.chirp_rate,
+        from,
+        to: args.chirp_to.or(frequency.map(|index| 2.0 * values[index])).unwrap_or(from),
+        rate: args.chirp_rate.unwrap_or(CHIRP_RATE),
         samples_per_cycle: if args.trajectory.is_some() { args.samples } else { 0 },
     };
     let response = plan.simulator.chirp(InstructionSet::best(), &plan.solver, values, &request, &never)?;

@@ -1,14 +1,16 @@
 //! `flap sweep`: every point of a grid file, one row each.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
+use flap_sweep::inputs::Inputs;
 use flap_sweep::plan::Plan;
+use flap_sweep::results::Format;
 use flap_sweep::selection::{Selection, Shard};
 use flap_sweep::sidecar::{Origin, Sidecar};
-use flap_sweep::spec;
+use flap_sweep::{deviation, spec};
 
 use crate::args::SweepArgs;
+use crate::cmd::far;
 use crate::failure::{Exit, Failure};
 use crate::job::{self, Begin};
 
@@ -24,9 +26,10 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
     if out.as_os_str() == "-" && args.resume {
         return Err(Failure::usage("what was written to stdout cannot be resumed"));
     }
-    if let Some(grid) = args.grid.as_ref().or(args.from_sidecar.as_ref()) {
-        refuse_overwriting(&out, grid)?;
+    if let Some(sidecar) = &args.from_sidecar {
+        Inputs::new().add("the sidecar", sidecar).protect_from_results(&out)?;
     }
+    far::warn(&deviation::of(&plan));
     let begin = match (args.resume, args.force) {
         (true, _) => Begin::Resume,
         (false, true) => Begin::Overwrite,
@@ -58,18 +61,8 @@ fn default_path(plan: &Plan, grid: Option<&Path>) -> PathBuf {
 /// The name of a shard's rows: `grid.2of8.csv` for `grid.csv`.
 fn name_of_shard(whole: &Path, shard: Shard) -> PathBuf {
     let name = whole.file_name().unwrap_or_default().to_string_lossy();
-    let endings = [".csv.zst", ".csv", ".parquet", ".zst"];
-    let stem = endings.iter().find_map(|ending| name.strip_suffix(ending)).unwrap_or(&name);
-    let ending = &name[stem.len()..];
+    let (stem, ending) = Format::split_ending(&name);
     whole.with_file_name(format!("{stem}.{}of{}{ending}", shard.number(), shard.of()))
-}
-
-fn refuse_overwriting(out: &Path, grid: &Path) -> Result<(), Failure> {
-    if fs::canonicalize(out).is_ok_and(|out| fs::canonicalize(grid).is_ok_and(|grid| out == grid)) {
-        let message = format!("rows would overwrite the grid file {}", grid.display());
-        return Err(Failure::usage(message).help("name another file with --out"));
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -4,16 +4,18 @@ use std::io;
 
 use flap_core::measure::tracking::{LeadingEdge, pitch_from_projection, rotation_centre};
 use flap_core::simulate::Trajectory;
+use flap_sweep::inputs::Inputs;
 use flap_sweep::record::{self, Record, RecordError};
 
 use super::motion::{write_csv, write_file};
-use super::samples;
+use super::{outputs, samples};
 use crate::args::TrackArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::table::six_digits;
 
 pub(crate) fn run(args: &TrackArgs) -> Result<Exit, Failure> {
+    outputs::check_tables(Inputs::new().add("the points", &args.points), [args.out.as_deref()])?;
     let record = samples::read(&args.points)?;
     let times = record.column(record::TIME)?;
     let roots = points(&record, "root")?;

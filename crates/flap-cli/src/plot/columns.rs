@@ -1,16 +1,18 @@
 //! The columns of a file, as numbers and words.
 
 use std::collections::{BTreeMap, HashMap};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use csv::StringRecord;
 use flap_core::simulate;
 use flap_sweep::diagnostic::nearest;
+use flap_sweep::integrity::{self, Note, Opened};
 use flap_sweep::layout::{self, Layout};
-use flap_sweep::results::{Format, Reader};
+use flap_sweep::results::Reader;
 use flap_sweep::sidecar::{self, Sidecar};
 
 use super::label::Label;
+use crate::args::PlotArgs;
 use crate::failure::Failure;
 use crate::{console, job};
 
@@ -52,19 +54,27 @@ pub(super) const NO_WORD: u32 = u32::MAX;
 pub(super) struct Source {
     reader: Reader,
     units: Units,
-    name: String,
+    path: PathBuf,
+    tells: bool,
 }
 
 impl Source {
-    /// Opens `path` and reads its header.
-    pub(super) fn open(path: &Path) -> Result<Source, Failure> {
-        let format = Format::of(path)?;
-        let name = path.display().to_string();
-        let reader = Reader::new(job::open(path)?, format).map_err(|error| unreadable(&name, &error))?;
+    /// Opens the results and reads their header. Tells the user what to know of them if it `tells`.
+    pub(super) fn open(args: &PlotArgs, tells: bool) -> Result<Source, Failure> {
+        let path = &args.results;
+        let Opened { reader, sidecar, notes } = integrity::open(path, args.read.on_damage())?;
         if reader.names().iter().all(String::is_empty) {
-            return Err(Failure::usage(format!("{name} has no columns")));
+            return Err(Failure::usage(format!("{} has no columns", path.display())));
         }
-        Ok(Source { reader, units: Units::of(path), name })
+        if tells {
+            // Only results of sweeps have sidecars: motions and responses are drawn too.
+            let is_sweep =
+                ["point", "status"].iter().all(|name| reader.names().iter().any(|own| own == name));
+            let is_told = |note: &&Note| is_sweep || !matches!(note, Note::Unverified { .. });
+            notes.iter().filter(is_told).for_each(job::tell);
+        }
+        let units = Units::of(path, sidecar.as_ref());
+        Ok(Source { reader, units, path: path.clone(), tells })
     }
 
     pub(super) fn names(&self) -> &[String] {
@@ -83,14 +93,16 @@ impl Source {
         let mut columns: Vec<Gathered> = (0..names.len()).map(|index| Gathered::new(wanted(index))).collect();
         let mut row = StringRecord::new();
         let (mut rows, mut of, mut stride) = (0, 0, 1);
-        while self.reader.next(&mut row).map_err(|error| unreadable(&self.name, &error))? {
+        let name = self.path.display();
+        let unreadable = |error| Failure::System(format!("cannot read {name}: {error}"), Vec::new());
+        while self.reader.next(&mut row).map_err(unreadable)? {
             if rows == most {
                 columns.iter_mut().for_each(Gathered::halve);
                 rows = rows.div_ceil(2);
                 stride *= 2;
             }
             if rows == MOST_ROWS {
-                let message = format!("{} has more than {MOST_ROWS} rows", self.name);
+                let message = format!("{name} has more than {MOST_ROWS} rows");
                 return Err(Failure::usage(message).help("draw one of its shards, or sweep fewer points"));
             }
             if of % stride == 0 {
@@ -102,7 +114,10 @@ impl Source {
             of += 1;
         }
         if rows == 0 {
-            return Err(Failure::usage(format!("{} has no rows: there is nothing to draw", self.name)));
+            return Err(Failure::usage(format!("{name} has no rows: there is nothing to draw")));
+        }
+        if self.tells {
+            job::tell_missed(&self.path, &self.reader);
         }
         let columns = names.into_iter().zip(columns).map(|(name, gathered)| {
             let unit = self.units.of_column(&name);
@@ -122,10 +137,6 @@ fn find(names: &[String], name: &str) -> Result<usize, Failure> {
         };
         failure.help(format!("the columns are {}", names.join(", ")))
     })
-}
-
-fn unreadable(name: &str, error: &std::io::Error) -> Failure {
-    Failure::System(format!("cannot read {name}: {error}"), Vec::new())
 }
 
 /// A column while it is read.
@@ -234,14 +245,11 @@ struct Units {
 
 impl Units {
     /// The units in the sidecar of `results`, if it has one that this flap understands.
-    fn of(results: &Path) -> Units {
+    fn of(results: &Path, sidecar: Option<&Sidecar>) -> Units {
         let beside = sidecar::path_of(results);
         let mut recorded = BTreeMap::new();
-        if beside.exists() {
-            let plan = Sidecar::read(&beside)
-                .map_err(Failure::from)
-                .and_then(|sidecar| job::plan_of(&beside, &sidecar));
-            match plan {
+        if let Some(sidecar) = sidecar {
+            match job::plan_of(&beside, sidecar) {
                 Ok(plan) => {
                     let columns = Layout::of(&plan).columns();
                     recorded.extend(columns.into_iter().map(|column| (column.name, column.unit.to_owned())));

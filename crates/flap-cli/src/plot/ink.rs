@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use flap_sweep::text::printable;
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::{ColorMap, LinePlot, ScatterPlot};
 use kuva::render::color::Color;
@@ -58,9 +59,9 @@ pub(super) struct Panel {
     pub(super) bar: bool,
 }
 
-/// Dollars begin formulas in the library's labels.
+/// A text for the library's labels, in which dollars begin formulas and control characters would make no XML.
 pub(super) fn plain(text: &str) -> String {
-    text.replace('$', "\\$")
+    printable(text).replace('$', "\\$")
 }
 
 /// How wide a letter is on average, relative to the size of the text.

@@ -22,9 +22,13 @@ use std::path::{Path, PathBuf};
 use choose::Wishes;
 use chosen::Chosen;
 use columns::{Source, Table};
+use flap_sweep::inputs::Inputs;
+use flap_sweep::results::Format;
+use flap_sweep::text::printable;
 use kuva::render::render::Scene;
 
 use crate::args::{PictureKind, PlotArgs, Size};
+use crate::cmd::outputs;
 use crate::failure::{Exit, Failure};
 use crate::{console, job};
 
@@ -34,16 +38,16 @@ pub(crate) fn run(args: &PlotArgs) -> Result<Exit, Failure> {
         (None, Some(_)) => None,
         (None, None) => Some(default_name(&args.results)),
     };
-    for path in out.iter().chain(&args.html) {
-        if is_same(path, &args.results) {
-            return Err(Failure::usage(format!("{} is the results themselves", path.display())));
-        }
-    }
+    let mut inputs = Inputs::new();
+    inputs.add_results("the results", &args.results);
+    outputs::check(&inputs, [out.as_deref(), args.html.as_deref()])?;
+    args.html.iter().try_for_each(|html| require_html(html))?;
     if let Some(out) = &out {
         picture(args, out)?;
     }
     if let Some(html) = &args.html {
-        let bytes = page::page(args, &heading(args))?;
+        // Once is enough to tell what a user should know.
+        let bytes = page::page(args, &heading(args), out.is_none())?;
         write(html, args.force, bytes.as_bytes())?;
         console::say(&format!("a page in {}: open it in a browser", html.display()));
     }
@@ -53,7 +57,7 @@ pub(crate) fn run(args: &PlotArgs) -> Result<Exit, Failure> {
 /// Draws into the file `out`.
 fn picture(args: &PlotArgs, out: &Path) -> Result<(), Failure> {
     let format = format(out)?;
-    let source = Source::open(&args.results)?;
+    let source = Source::open(args, true)?;
     let wishes = Wishes::of(&source, args)?;
     let table = source.read(|column| wishes.wants(column), usize::MAX)?;
     let chosen = wishes.choose(&table, heading(args))?;
@@ -74,23 +78,21 @@ fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
     }
 }
 
-/// The heading: the one asked for, or the file's name.
+/// The heading: the one asked for, or the file's name. XML has no place for control characters.
 fn heading(args: &PlotArgs) -> String {
     let name = || args.results.file_name().map(|name| name.to_string_lossy().into_owned());
-    args.title.clone().or_else(name).unwrap_or_default()
+    printable(&args.title.clone().or_else(name).unwrap_or_default())
 }
 
 /// The name of a picture of `results`, in the working directory.
 fn default_name(results: &Path) -> PathBuf {
     let name = results.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let endings = [".csv.zst", ".csv", ".parquet", ".zst"];
-    let stem = endings.iter().find_map(|ending| name.strip_suffix(ending)).unwrap_or(&name);
+    let (stem, _) = Format::split_ending(&name);
     PathBuf::from(format!("{stem}.svg"))
 }
 
 fn format(out: &Path) -> Result<ink::Format, Failure> {
-    let ending = out.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
-    match ending.as_str() {
+    match ending(out).as_str() {
         "svg" => Ok(ink::Format::Svg),
         "png" => Ok(ink::Format::Png),
         "html" | "htm" => {
@@ -100,8 +102,16 @@ fn format(out: &Path) -> Result<ink::Format, Failure> {
     }
 }
 
-fn is_same(a: &Path, b: &Path) -> bool {
-    a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+fn require_html(html: &Path) -> Result<(), Failure> {
+    match ending(html).as_str() {
+        "html" | "htm" => Ok(()),
+        _ => Err(Failure::usage(format!("{}: pages end in .html or .htm", html.display()))),
+    }
+}
+
+/// The ending of a name in small letters; empty if there is none.
+fn ending(path: &Path) -> String {
+    path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase()
 }
 
 /// Writes all of a file or nothing.

@@ -20,9 +20,9 @@ const MOST_ROWS: usize = 1 << 17;
 /// The most rows whose measures have all their digits; those of more rows have seven.
 const MOST_EXACT: usize = 20_000;
 
-/// The page of results.
-pub(super) fn page(args: &PlotArgs, heading: &str) -> Result<String, Failure> {
-    let source = Source::open(&args.results)?;
+/// The page of results. `tells` says whether a user is told what is wrong with them.
+pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String, Failure> {
+    let source = Source::open(args, tells)?;
     let wishes = Wishes::of(&source, args)?;
     let table = source.read(|_| true, MOST_ROWS)?;
     let start = Start::of(&wishes, &table, args)?;

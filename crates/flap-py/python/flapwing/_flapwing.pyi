@@ -244,7 +244,7 @@ def sweep(
 def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None = None) -> bytes:
     """Runs the points from `begin` to before `end`, and gives their rows as bytes that `sweep` takes as parcels."""
 
-def read(path: str | PathLike[str], /) -> dict[str, Any]:
+def read(path: str | PathLike[str], /, *, ignore_damage: bool = False) -> dict[str, Any]:
     """Reads a result file; see `flapwing.read`."""
 
 def split_unit(name: str, /) -> tuple[str, str]:

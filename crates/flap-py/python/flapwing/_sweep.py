@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from typing import TYPE_CHECKING, Any, Dict, Optional, SupportsIndex, Union
 
 from . import _flapwing
@@ -40,7 +41,8 @@ def sweep(
     resume : bool, optional
         Go on with the unfinished results in `out`, or begin them.
     overwrite : bool, optional
-        Replace the results in `out`. By default a file that holds something is an error.
+        Replace the results in `out`, which are kept beside the new ones until those are complete. By default a file that
+        holds something is an error.
     threads : int, optional
         Threads, 1 or more; with `client`, those of each task. Default: one per core; with `client`, 1. Rows do not
         depend on it.
@@ -48,7 +50,7 @@ def sweep(
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
         points in all.
     client : distributed.Client, optional
-        Run the points on the workers of a Dask cluster, which need flapwing of the same version. Rows come in the
+        Run the points on the workers of a Dask cluster, which need the same build of flapwing. Rows come in the
         same order and with the same bytes as on one machine; those of a worker that dies are run again by others.
         What cannot be the same, because a worker's processor rounds differently, is an error.
 
@@ -96,8 +98,8 @@ def sweep(
     return Table._of(native, None if out is None else os.path.abspath(out))
 
 
-def read(path: Union[str, "os.PathLike[str]"], /) -> Table:
-    """Read results that flap has written.
+def read(path: Union[str, "os.PathLike[str]"], /, *, ignore_damage: bool = False) -> Table:
+    """Read results that flap has written, and check that they are as they were written.
 
     Parameters
     ----------
@@ -105,18 +107,27 @@ def read(path: Union[str, "os.PathLike[str]"], /) -> Table:
         Results of a sweep (``.csv``, ``.csv.zst``, ``.parquet``); or a table in CSV that ``flap respond``, ``flap run
         --trajectory`` or the like has written; or a table in Parquet that another program has written, with
         Zstandard, Snappy or no compression. Units, meanings and the axes come from the sidecar beside the results, or
-        out of flap's own Parquet; without either, units come from the names of the columns.
+        out of flap's own Parquet; without either, units come from the names of the columns. Of unfinished results the
+        rows up to the last checkpoint are read, with a warning.
+    ignore_damage : bool, optional
+        Read results that are not as they were written all the same, as far as possible, with a warning.
 
     Returns
     -------
     Table
-        The rows. Numbers have the same bits as when they were written.
+        The rows. Numbers have the same bits as when they were written. ``meta["verified"]`` says whether that could be
+        checked: False for unfinished or damaged results, and where there is no sidecar with checksums.
 
     Raises
     ------
     OSError
         The file cannot be read.
     ValueError
-        It holds something else.
+        It holds something else, or is damaged; the text says where.
     """
-    return Table._of(_flapwing.read(os.fspath(path)))
+    native = _flapwing.read(os.fspath(path), ignore_damage=ignore_damage)
+    for text in native["warnings"]:
+        warnings.warn(text, stacklevel=2)
+    table = Table._of(native)
+    table.meta["verified"] = native["verified"]
+    return table

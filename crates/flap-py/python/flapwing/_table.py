@@ -72,7 +72,7 @@ class Table:
         The axes of the grid, the last of which varies fastest: for each, the parameters that move together along it
         with their values. Empty if the rows are not those of a grid with axes.
     meta : dict
-        Where the rows come from: `flap` (version), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of
+        Where the rows come from: `flap` (version), `build` (which tells builds of a version apart), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of
         the grid file), and what the call adds: `counts`, rows by status; `excluded` points, which have no row;
         `invalid`, the first few invalid points with the reason; `set`, keywords that stand over the grid.
     """

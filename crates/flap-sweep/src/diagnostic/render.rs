@@ -2,19 +2,21 @@
 
 use annotate_snippets::{AnnotationKind, Element, Group, Level, Renderer, Snippet};
 
-use super::Diagnostic;
+use super::{Diagnostic, Mistakes};
 
-/// The text of all `diagnostics`, with the lines of the grid file that they are about, and with colours if `styled`.
-pub fn render(diagnostics: &[Diagnostic], styled: bool) -> String {
+/// The text of the `mistakes` that are shown, with the lines of the grid file that they are about, and the number of the
+/// others; with colours if `styled`.
+pub fn render(mistakes: &Mistakes, styled: bool) -> String {
     let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
     let text: String =
-        diagnostics.iter().map(|diagnostic| renderer.render(&[group(diagnostic)]) + "\n\n").collect();
-    let name = diagnostics.first().map_or("", |diagnostic| diagnostic.source.name.as_str());
-    let mistakes = match diagnostics.len() {
+        mistakes.iter().map(|diagnostic| renderer.render(&[group(diagnostic)]) + "\n\n").collect();
+    let name = mistakes.first().map_or("", |diagnostic| diagnostic.source.name.as_str());
+    let more = if mistakes.more() > 0 { format!("and {} more\n\n", mistakes.more()) } else { String::new() };
+    let count = match mistakes.count() {
         1 => "1 mistake".to_owned(),
         many => format!("{many} mistakes"),
     };
-    text + name + ": " + &mistakes + ", nothing was run"
+    format!("{text}{more}{name}: {count}, nothing was run")
 }
 
 fn group(diagnostic: &Diagnostic) -> Group<'_> {

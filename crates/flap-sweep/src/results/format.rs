@@ -1,11 +1,12 @@
 //! The formats of result files.
 
+use std::fs;
 use std::path::Path;
 
 /// What a result file is written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// Comma-separated values, the one format for what is not named otherwise: `.csv`.
+    /// Comma-separated values: `.csv`.
     Csv,
     /// The same, compressed with Zstandard: `.csv.zst`.
     CsvZstd,
@@ -13,16 +14,16 @@ pub enum Format {
     Parquet,
 }
 
-/// An ending that stands for a format which cannot be written.
+/// A name that stands for no format.
 #[derive(Debug, thiserror::Error)]
 pub enum FormatError {
-    /// A format that flap does not know.
-    #[error("{name}: rows cannot be written as .{extension}")]
+    /// It ends in something else, or has no ending.
+    #[error("{name}: the ending of a file's name says its format, and must be {allowed}")]
     Unknown {
         /// The file.
         name: String,
-        /// Its ending.
-        extension: String,
+        /// The endings that do.
+        allowed: &'static str,
     },
     /// A format that this build leaves out.
     #[error("{name}: this flap was built without Parquet")]
@@ -37,21 +38,93 @@ impl Format {
     pub const ENDINGS: &str =
         if cfg!(feature = "parquet") { ".csv, .csv.zst or .parquet" } else { ".csv or .csv.zst" };
 
-    /// The format that the name of a file stands for.
+    /// The format that the ending of a file's name stands for, in capital letters or small ones. Devices and pipes are CSV,
+    /// whatever they are called.
     ///
     /// # Errors
-    /// If the ending is one of another well-known format, or of one that this build leaves out.
+    /// If the ending stands for no format, or for one that this build leaves out.
     pub fn of(path: &Path) -> Result<Format, FormatError> {
-        let name = || path.display().to_string();
-        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-        match extension.to_ascii_lowercase().as_str() {
-            "zst" => Ok(Format::CsvZstd),
-            "parquet" if cfg!(feature = "parquet") => Ok(Format::Parquet),
-            "parquet" => Err(FormatError::WithoutParquet { name: name() }),
-            "gz" | "xz" | "bz2" | "zip" | "xlsx" | "json" | "toml" | "arrow" | "feather" => {
-                Err(FormatError::Unknown { name: name(), extension: extension.to_owned() })
+        match Format::named(path) {
+            Some(Format::Parquet) if !cfg!(feature = "parquet") => {
+                Err(FormatError::WithoutParquet { name: path.display().to_string() })
             }
-            _ => Ok(Format::Csv),
+            Some(format) => Ok(format),
+            None if is_stream(path) => Ok(Format::Csv),
+            None => Err(unknown(path, Format::ENDINGS)),
         }
+    }
+
+    /// Checks the name of a table that is written as CSV and in no other format.
+    ///
+    /// # Errors
+    /// If the ending is not `.csv`.
+    pub fn require_csv(path: &Path) -> Result<(), FormatError> {
+        let is_csv = Format::named(path) == Some(Format::Csv) || is_stream(path);
+        if is_csv { Ok(()) } else { Err(unknown(path, ".csv")) }
+    }
+
+    /// The name of a file without the ending that says its format, and that ending.
+    pub fn split_ending(name: &str) -> (&str, &str) {
+        let found = NAMED.iter().find(|(ending, _)| name.to_ascii_lowercase().ends_with(ending));
+        // The endings are ASCII, so that they have as many bytes in the name.
+        name.split_at(name.len() - found.map_or(0, |(ending, _)| ending.len()))
+    }
+
+    fn named(path: &Path) -> Option<Format> {
+        let (_, ending) = Format::split_ending(path.file_name()?.to_str()?);
+        NAMED.iter().find(|(known, _)| ending.eq_ignore_ascii_case(known)).map(|(_, format)| *format)
+    }
+}
+
+/// The endings, and what they stand for.
+const NAMED: [(&str, Format); 3] =
+    [(".csv", Format::Csv), (".csv.zst", Format::CsvZstd), (".parquet", Format::Parquet)];
+
+fn unknown(path: &Path, allowed: &'static str) -> FormatError {
+    FormatError::Unknown { name: path.display().to_string(), allowed }
+}
+
+/// Whether there is something else than a file at `path`, such as a device or a pipe.
+fn is_stream(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|metadata| !metadata.is_file())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn endings_choose_the_format() {
+        let format = |name: &str| Format::of(Path::new(name)).ok();
+        for name in ["a.csv", "A.CSV", "folder.zst/a.b.Csv"] {
+            assert_eq!(format(name), Some(Format::Csv), "{name}");
+        }
+        for name in ["a.csv.zst", "A.CSV.ZST"] {
+            assert_eq!(format(name), Some(Format::CsvZstd), "{name}");
+        }
+        for name in [
+            "a",
+            "a.zst",
+            "a.gz",
+            "a.csv.gz",
+            "a.tsv",
+            "a.xlsx",
+            "a.json",
+            "csv",
+            "a.csvx",
+            "a.csv.meta.toml",
+        ] {
+            let error = Format::of(Path::new(name)).unwrap_err().to_string();
+            let rule = "the ending of a file's name says its format, and must be";
+            assert_eq!(error, format!("{name}: {rule} {}", Format::ENDINGS));
+        }
+        assert!(Format::require_csv(Path::new("a.CSV")).is_ok());
+        assert!(Format::require_csv(Path::new("a.csv.zst")).is_err());
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn devices_are_csv() {
+        assert_eq!(Format::of(Path::new("/dev/null")).ok(), Some(Format::Csv));
     }
 }

@@ -4,20 +4,29 @@
 //! it comes from a model or from a file. So a file converted, or merged from parts, has the bytes of one that was
 //! written at once.
 
+mod bounded;
+pub(crate) mod checksum;
 mod convert;
 mod format;
 #[cfg(feature = "parquet")]
-mod parquet;
+mod guard;
+mod hashed;
+#[cfg(feature = "parquet")]
+mod pages;
+#[cfg(feature = "parquet")]
+pub(crate) mod parquet;
 mod provenance;
 mod read;
 mod recorded;
-mod text;
+pub(crate) mod text;
 mod write;
 
-pub use convert::{ConvertError, convert};
+pub use bounded::Bounded;
+pub use checksum::{Checksums, FileSum};
+pub use convert::{ConvertError, Converted, convert};
 pub use format::{Format, FormatError};
 pub use provenance::Provenance;
-pub use read::Reader;
+pub use read::{Missed, Reader};
 pub use recorded::Recorded;
 pub use text::{BLOCK_ROWS, TextRows};
 pub use write::Writer;

@@ -4,30 +4,39 @@ use std::fs::File;
 use std::io;
 use std::sync::Arc;
 
+use bytes::Bytes;
 use csv::StringRecord;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
-use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::column::writer::{ColumnCloseResult, ColumnWriter, get_column_writer};
+use parquet::data_type::ByteArray;
 use parquet::errors::ParquetError;
 use parquet::file::metadata::{ColumnChunkMetaData, KeyValue, ParquetMetaData, RowGroupMetaData};
-use parquet::file::properties::WriterProperties;
+use parquet::file::properties::{WriterProperties, WriterPropertiesPtr};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::record::Field;
 use parquet::record::reader::RowIter;
-use parquet::schema::types::{ColumnPath, Type};
+use parquet::schema::types::{ColumnDescPtr, ColumnPath, Type};
 
-use super::Provenance;
+use super::checksum::TextDigest;
+use super::guard::guarded;
+use super::hashed::Hashed;
+use super::pages::Pages;
+use super::{Checksums, Provenance};
 use crate::layout::{Column, Kind};
-use crate::text;
+use crate::{lines, text};
 
 /// Rows in one row group: a few megabytes in memory, and long enough to be read fast.
 const GROUP_ROWS: usize = 1 << 15;
 
 /// Writes rows in row groups; an empty cell is null.
 pub(super) struct ParquetRows {
-    writer: SerializedFileWriter<File>,
+    writer: SerializedFileWriter<Hashed>,
     columns: Vec<Cells>,
     rows: usize,
+    text: TextDigest,
+    /// The row as text; kept for its memory.
+    line: String,
 }
 
 /// The cells of one column in the row group that is being filled.
@@ -62,9 +71,12 @@ impl ParquetRows {
             properties = properties.set_column_dictionary_enabled(path, true);
         }
         let schema = Arc::new(schema.map_err(io_error)?);
-        let writer = SerializedFileWriter::new(file, schema, Arc::new(properties.build()));
+        let writer = SerializedFileWriter::new(Hashed::new(file), schema, Arc::new(properties.build()));
+        let (mut text, mut line) = (TextDigest::new(), String::new());
+        lines::set_line(&mut line, columns.iter().map(|column| &column.name));
+        text.update(line.as_bytes());
         let columns = columns.iter().map(Cells::new).collect();
-        Ok(ParquetRows { writer: writer.map_err(io_error)?, columns, rows: 0 })
+        Ok(ParquetRows { writer: writer.map_err(io_error)?, columns, rows: 0, text, line })
     }
 
     pub(super) fn row(&mut self, cells: &StringRecord) -> io::Result<()> {
@@ -75,30 +87,29 @@ impl ParquetRows {
         for (column, cell) in self.columns.iter_mut().zip(cells) {
             column.push(cell)?;
         }
+        lines::set_line(&mut self.line, cells);
+        self.text.update(self.line.as_bytes());
         self.rows += 1;
         if self.rows == GROUP_ROWS { self.write_group() } else { Ok(()) }
     }
 
-    pub(super) fn finish(mut self) -> io::Result<File> {
+    /// Completes the file and makes it durable.
+    pub(super) fn finish(mut self) -> io::Result<Checksums> {
         if self.rows > 0 {
             self.write_group()?;
         }
-        self.writer.into_inner().map_err(io_error)
+        let written = self.writer.into_inner().map_err(io_error)?;
+        written.file.sync_all()?;
+        Ok(self.text.checksums(Some(written.sum())))
     }
 
     fn write_group(&mut self) -> io::Result<()> {
+        let properties = Arc::clone(self.writer.properties());
+        let schema = self.writer.schema_descr().clone();
         let mut group = self.writer.next_row_group().map_err(io_error)?;
-        for column in &mut self.columns {
-            let writer = group.next_column().map_err(io_error)?;
-            let mut writer = writer.ok_or_else(|| io::Error::other("the schema has too few columns"))?;
-            let levels = Some(column.levels.as_slice());
-            let written = match &column.values {
-                Values::Whole(values) => writer.typed::<Int64Type>().write_batch(values, levels, None),
-                Values::Number(values) => writer.typed::<DoubleType>().write_batch(values, levels, None),
-                Values::Flag(values) => writer.typed::<BoolType>().write_batch(values, levels, None),
-                Values::Text(values) => writer.typed::<ByteArrayType>().write_batch(values, levels, None),
-            };
-            written.and_then(|_| writer.close()).map_err(io_error)?;
+        for (column, descriptor) in self.columns.iter_mut().zip(schema.columns()) {
+            let (pages, closed) = column.chunk(descriptor, &properties).map_err(io_error)?;
+            group.append_column(&pages, closed).map_err(io_error)?;
             column.clear();
         }
         group.close().map_err(io_error)?;
@@ -155,6 +166,38 @@ impl Cells {
         Err(io::Error::new(io::ErrorKind::InvalidData, message))
     }
 
+    /// The cells as pages, and what the file is to say of them.
+    fn chunk(
+        &self,
+        descriptor: &ColumnDescPtr,
+        properties: &WriterPropertiesPtr,
+    ) -> Result<(Bytes, ColumnCloseResult), ParquetError> {
+        let mut pages = Vec::new();
+        let writer =
+            get_column_writer(Arc::clone(descriptor), Arc::clone(properties), Box::new(Pages(&mut pages)));
+        let levels = Some(self.levels.as_slice());
+        let closed = match (writer, &self.values) {
+            (ColumnWriter::Int64ColumnWriter(mut writer), Values::Whole(values)) => {
+                writer.write_batch(values, levels, None)?;
+                writer.close()
+            }
+            (ColumnWriter::DoubleColumnWriter(mut writer), Values::Number(values)) => {
+                writer.write_batch(values, levels, None)?;
+                writer.close()
+            }
+            (ColumnWriter::BoolColumnWriter(mut writer), Values::Flag(values)) => {
+                writer.write_batch(values, levels, None)?;
+                writer.close()
+            }
+            (ColumnWriter::ByteArrayColumnWriter(mut writer), Values::Text(values)) => {
+                writer.write_batch(values, levels, None)?;
+                writer.close()
+            }
+            _ => Err(ParquetError::General(format!("column {} is of another type in the schema", self.name))),
+        }?;
+        Ok((Bytes::from(pages), closed))
+    }
+
     fn clear(&mut self) {
         self.levels.clear();
         match &mut self.values {
@@ -175,7 +218,7 @@ pub(super) struct ParquetReader {
 
 impl ParquetReader {
     pub(super) fn new(file: File) -> io::Result<ParquetReader> {
-        let reader = SerializedFileReader::new(file).map_err(io_error)?;
+        let reader = guarded(|| SerializedFileReader::new(file).map_err(io_error))?;
         refuse_compression(reader.metadata())?;
         let about = reader.metadata().file_metadata();
         let names = about.schema().get_fields().iter().map(|column| column.name().to_owned()).collect();
@@ -195,8 +238,10 @@ impl ParquetReader {
 
     pub(super) fn next(&mut self, row: &mut StringRecord) -> io::Result<bool> {
         row.clear();
-        let Some(fields) = self.rows.next() else { return Ok(false) };
-        for (name, field) in fields.map_err(io_error)?.get_column_iter() {
+        let Some(fields) = guarded(|| self.rows.next().transpose().map_err(io_error))? else {
+            return Ok(false);
+        };
+        for (name, field) in fields.get_column_iter() {
             match field {
                 Field::Null => row.push_field(""),
                 Field::ULong(value) => row.push_field(&value.to_string()),
@@ -234,6 +279,23 @@ fn refuse_compression(metadata: &ParquetMetaData) -> io::Result<()> {
          it again with one of these"
     );
     Err(io::Error::new(io::ErrorKind::InvalidData, message))
+}
+
+/// Sums up the text of the rows in a file. What cannot be decoded ends it: then with an error too.
+pub(crate) fn sum_up(file: File) -> (TextDigest, io::Result<()>) {
+    let mut digest = TextDigest::new();
+    let summed = ParquetReader::new(file).and_then(|mut reader| {
+        let mut line = String::new();
+        lines::set_line(&mut line, reader.names());
+        digest.update(line.as_bytes());
+        let mut row = StringRecord::new();
+        while reader.next(&mut row)? {
+            lines::set_line(&mut line, &row);
+            digest.update(line.as_bytes());
+        }
+        Ok(())
+    });
+    (digest, summed)
 }
 
 /// What the operating system said, or what is wrong with the file.

@@ -28,6 +28,7 @@ impl Provenance {
         let units: BTreeMap<&str, &str> = units.map(|column| (column.name.as_str(), column.unit)).collect();
         let mut entries = vec![
             ("flap", identity.flap.clone()),
+            ("flap.build", identity.build.clone()),
             ("flap.model", plan.simulator.name().to_owned()),
             ("flap.preset", plan.preset.to_owned()),
             ("flap.arithmetic", identity.arithmetic.clone()),

@@ -25,6 +25,11 @@ impl<'a> Recorded<'a> {
         self.text("flap")
     }
 
+    /// The build of flap that made the rows; empty if an earlier flap has not recorded it.
+    pub fn build(&self) -> &'a str {
+        self.text("flap.build")
+    }
+
     /// The class of arithmetic of the rows.
     pub fn arithmetic(&self) -> &'a str {
         self.text("flap.arithmetic")

@@ -5,7 +5,8 @@ use std::io;
 
 use csv::StringRecord;
 
-use super::{Format, Provenance, TextRows};
+use super::{Checksums, Format, Provenance, TextRows};
+use crate::output::Durable as _;
 
 /// Writes rows that are text already.
 pub struct Writer(Rows);
@@ -48,18 +49,19 @@ impl Writer {
         }
     }
 
-    /// Completes the file and makes it durable.
+    /// Completes the file, makes it durable, and gives the checksums of what is in it.
     ///
     /// # Errors
     /// What writing says.
-    pub fn finish(self) -> io::Result<()> {
+    pub fn finish(self) -> io::Result<Checksums> {
         match self.0 {
             Rows::Text(mut rows) => {
                 rows.finish()?;
-                rows.file().sync_all()
+                rows.file().sync()?;
+                Ok(rows.checksums(None))
             }
             #[cfg(feature = "parquet")]
-            Rows::Parquet(rows) => rows.finish()?.sync_all(),
+            Rows::Parquet(rows) => rows.finish(),
         }
     }
 }

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::finished::Finished;
 use super::ledger::Ledger;
 use super::{Progress, RunError, RunOptions, Summary, work};
-use crate::identity::Identity;
+use crate::identity::{self, Identity};
 use crate::plan::Plan;
 use crate::sink::Sink;
 
@@ -60,20 +60,30 @@ mod status {
 }
 
 impl Parcel {
-    /// The parcel as bytes, for a process of the same version of flap.
+    /// The parcel as bytes, for a process of the same build of flap: its name comes first, since another build may write
+    /// what follows in another way.
     ///
     /// # Errors
     /// If there is not enough memory for them.
     pub fn to_bytes(&self) -> Result<Vec<u8>, RunError> {
-        postcard::to_allocvec(self).map_err(|error| RunError::Parcel(error.to_string()))
+        let bytes = identity::build().as_bytes().to_vec();
+        postcard::to_extend(self, bytes).map_err(|error| RunError::Parcel(error.to_string()))
     }
 
     /// Reads what [`Parcel::to_bytes`] gave.
     ///
     /// # Errors
-    /// If these are other bytes.
+    /// If these are other bytes, or those of another build of flap.
     pub fn from_bytes(bytes: &[u8]) -> Result<Parcel, RunError> {
-        postcard::from_bytes(bytes).map_err(|error| RunError::Parcel(error.to_string()))
+        let ours = identity::build();
+        match bytes.split_at_checked(ours.len()) {
+            Some((build, parcel)) if build == ours.as_bytes() => {
+                postcard::from_bytes(parcel).map_err(|error| RunError::Parcel(error.to_string()))
+            }
+            _ => Err(RunError::Parcel(format!(
+                "they are by another build of flap than this one ({ours}): install the same one on every worker"
+            ))),
+        }
     }
 
     /// How many points it is of.

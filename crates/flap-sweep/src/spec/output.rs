@@ -10,6 +10,7 @@ use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
 use crate::plan::Output;
+use crate::results::Format;
 
 const KEYS: [&str; 2] = ["path", "columns"];
 
@@ -40,11 +41,20 @@ pub(super) fn read(
     };
     let entries = table::section(entry, problems);
     table::check_keys(&entries, &KEYS, "in [output]", problems);
-    let path = table::find(&entries, "path")
-        .and_then(|entry| value::text("path", entry.value, problems))
-        .map(PathBuf::from);
+    let path = table::find(&entries, "path").and_then(|entry| path_of(entry, problems));
     let columns = table::find(&entries, "columns").zip(model);
     Output { path, columns: columns.map(|(entry, model)| columns_of(model, entry.value, problems)) }
+}
+
+/// The file that rows go to, or `-` for stdout.
+fn path_of(entry: &Entry<'_>, problems: &mut Problems) -> Option<PathBuf> {
+    let path = PathBuf::from(value::text("path", entry.value, problems)?);
+    if path.as_os_str() != "-"
+        && let Err(error) = Format::of(&path)
+    {
+        problems.report(entry.value.span(), error.to_string());
+    }
+    Some(path)
 }
 
 /// The indices of the columns that `value` lists.

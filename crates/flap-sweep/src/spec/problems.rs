@@ -4,18 +4,25 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Mistakes};
 use crate::plan::Source;
+
+/// Diagnostics that are kept. Others are only counted, so that a file with millions of mistakes takes neither time nor memory
+/// for what is not shown.
+const MOST_KEPT: usize = 1000;
 
 /// Collects diagnostics about one file.
 pub(super) struct Problems {
     source: Arc<Source>,
     found: Vec<Diagnostic>,
+    /// The last of those that are only counted.
+    last: Option<Diagnostic>,
+    only_counted: usize,
 }
 
 impl Problems {
     pub(super) fn new(source: Arc<Source>) -> Problems {
-        Problems { source, found: Vec::new() }
+        Problems { source, found: Vec::new(), last: None, only_counted: 0 }
     }
 
     /// The text of the file.
@@ -29,9 +36,7 @@ impl Problems {
 
     /// Adds a diagnostic, and hands it back for labels, notes and help.
     pub(super) fn report(&mut self, span: Range<usize>, message: impl Into<String>) -> &mut Diagnostic {
-        let diagnostic = Diagnostic::new(Arc::clone(&self.source), span, message.into());
-        self.found.push(diagnostic);
-        self.found.last_mut().expect("one was just added")
+        self.add(Diagnostic::new(Arc::clone(&self.source), span, &message.into()))
     }
 
     /// Adds a diagnostic about another file.
@@ -39,9 +44,17 @@ impl Problems {
         &mut self,
         source: &Arc<Source>,
         span: Range<usize>,
-        message: String,
+        message: impl Into<String>,
     ) -> &mut Diagnostic {
-        self.found.push(Diagnostic::new(Arc::clone(source), span, message));
+        self.add(Diagnostic::new(Arc::clone(source), span, &message.into()))
+    }
+
+    fn add(&mut self, diagnostic: Diagnostic) -> &mut Diagnostic {
+        if self.found.len() == MOST_KEPT {
+            self.only_counted += 1;
+            return self.last.insert(Diagnostic { is_only_counted: true, ..diagnostic });
+        }
+        self.found.push(diagnostic);
         self.found.last_mut().expect("one was just added")
     }
 
@@ -51,10 +64,10 @@ impl Problems {
     }
 
     /// Everything reported, in the order of the file, then what is about other files.
-    pub(super) fn into_diagnostics(mut self) -> Vec<Diagnostic> {
+    pub(super) fn into_mistakes(mut self) -> Mistakes {
         let source = Arc::clone(&self.source);
         self.found
             .sort_by_key(|diagnostic| (!Arc::ptr_eq(&diagnostic.source, &source), diagnostic.span.start));
-        self.found
+        Mistakes::new(self.found, self.only_counted)
     }
 }

@@ -60,7 +60,14 @@ pub(super) fn read(entry: Option<&Entry<'_>>, base: &[f64], lookup: &mut Lookup<
         );
         return None;
     };
+    let place = parameters.key_span.clone();
     let parameters = table::section(parameters, lookup.problems);
+    if parameters.is_empty() {
+        lookup.problems.report(place, "the sample has no parameters").label("nothing below it").help(
+            "list them under [sample.parameters]: wing_area = { from = \"50 mm^2\", to = \"60 mm^2\" }",
+        );
+        return None;
+    }
     let found: Vec<_> = parameters
         .iter()
         .filter_map(|entry| lookup.parameter(entry).map(|(index, parameter)| (index, parameter, entry)))

@@ -1,18 +1,19 @@
 //! Files that are not TOML.
 
+use std::collections::HashSet;
+
 use super::problems::Problems;
-use crate::diagnostic::position;
 
 /// Reports what the TOML parser stumbled over: once per line, since one slip makes it stumble repeatedly.
 pub(super) fn report(errors: &[toml::de::Error], problems: &mut Problems) {
-    let mut lines = Vec::new();
+    let newlines: Vec<usize> = problems.text().match_indices('\n').map(|(newline, _)| newline).collect();
+    let mut lines = HashSet::new();
     for error in errors {
         let span = error.span().unwrap_or(0..0);
-        let (line, _) = position(problems.text(), span.start);
-        if lines.contains(&line) {
+        let line = newlines.partition_point(|newline| *newline < span.start);
+        if !lines.insert(line) {
             continue;
         }
-        lines.push(line);
         let text = problems.text().get(span.clone()).unwrap_or_default().to_owned();
         let (message, help) = explain(error.message(), &text);
         let diagnostic = problems.report(span, message);

@@ -6,7 +6,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Jobs, Point, Row};
+use flap_core::simulate::{Jobs, Point, Row, Status};
 use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::run::RunOptions;
 use flap_sweep::survey::spread;
@@ -23,30 +23,57 @@ const LONGEST: Duration = Duration::from_secs(2);
 /// Points that are looked at at most, to find some that are not excluded.
 const MOST_LOOKED_AT: u64 = 100_000;
 
-/// One line: how long a sweep of `points` points of `plan` would take. `None` if there is no point to judge by.
-pub(super) fn line(plan: &Arc<Plan>, points: u64) -> Option<String> {
+/// What a few points tell of a sweep.
+#[derive(Default)]
+pub(super) struct Estimate {
+    /// That every point looked at is invalid, and why the first one is.
+    pub(super) invalid: Option<String>,
+    /// One line: how long the sweep would take. `None` if there is no point to judge by.
+    pub(super) time: Option<String>,
+}
+
+/// Runs a few points of `plan` to judge a sweep of `points` points.
+pub(super) fn of(plan: &Arc<Plan>, points: u64) -> Estimate {
     let started = Instant::now();
     let begun = Arc::new(AtomicU64::new(0));
     let (send, ended) = mpsc::channel();
-    let mut trial = Trial { plan: Arc::clone(plan), started, looked_at: 0, begun: Arc::clone(&begun) };
+    let mut trial = Trial {
+        plan: Arc::clone(plan),
+        started,
+        looked_at: 0,
+        begun: Arc::clone(&begun),
+        valid: 0,
+        invalid: 0,
+        first_reason: None,
+    };
     // A point that takes for ever cannot be stopped: its thread ends with the program.
     thread::spawn(move || {
         let plan = Arc::clone(&trial.plan);
         plan.rows().run(InstructionSet::best(), &plan.solver, &mut trial);
         // Nobody may be waiting any more.
-        let _ = send.send(());
+        let _ = send.send(trial);
     });
-    let is_over = ended.recv_timeout(LONGEST).is_ok();
+    let found = ended.recv_timeout(LONGEST);
     let elapsed = started.elapsed().as_secs_f64();
     let ran = begun.load(Ordering::Relaxed);
+    let is_over = found.is_ok();
+    if let Ok(Trial { valid: 0, invalid, first_reason: Some((index, reason)), .. }) = found {
+        let text = format!(
+            "every point that was looked at is invalid ({invalid} of {}): point {index}: {reason}",
+            plan.len()
+        );
+        return Estimate { invalid: Some(text), time: None };
+    }
     if ran == 0 {
-        return None;
+        return Estimate::default();
     }
     let threads = RunOptions::default().threads.get();
     let seconds = elapsed / ran as f64 * points as f64 / (threads as f64).min(points as f64);
     let bound = if is_over { "" } else { "more than " };
     let time = words(seconds);
-    Some(format!("estimate: {bound}{time} on {threads} threads, judged by {ran} points spread over the grid"))
+    let time =
+        format!("estimate: {bound}{time} on {threads} threads, judged by {ran} points spread over the grid");
+    Estimate { invalid: None, time: Some(time) }
 }
 
 /// Points of a plan, spread over it, until there are enough or it has taken long enough.
@@ -55,6 +82,20 @@ struct Trial {
     started: Instant,
     looked_at: u64,
     begun: Arc<AtomicU64>,
+    /// Points that are not invalid.
+    valid: u64,
+    /// Points that are, and why the first one is.
+    invalid: u64,
+    first_reason: Option<(u64, String)>,
+}
+
+impl Trial {
+    /// Counts the invalid point that was number `number` to be looked at.
+    fn note_invalid(&mut self, number: u64, reason: String) {
+        self.invalid += 1;
+        let index = spread(number, self.plan.len());
+        self.first_reason.get_or_insert((index, reason));
+    }
 }
 
 impl Jobs for Trial {
@@ -67,15 +108,25 @@ impl Jobs for Trial {
             // A small grid may come up with a point twice: each run has a number of its own.
             point.index = self.looked_at;
             self.looked_at += 1;
-            if self.plan.judge(&point.values) == Verdict::Runs {
-                self.begun.fetch_add(1, Ordering::Relaxed);
-                return Some(point);
+            match self.plan.judge(&point.values) {
+                Verdict::Runs => {
+                    self.begun.fetch_add(1, Ordering::Relaxed);
+                    return Some(point);
+                }
+                Verdict::Invalid(invalid) => self.note_invalid(point.index, invalid.reason),
+                Verdict::Excluded(_) => {}
             }
         }
         None
     }
 
-    fn done(&mut self, _index: u64, _row: Row) {}
+    fn done(&mut self, index: u64, row: Row) {
+        if row.status == Status::Invalid {
+            self.note_invalid(index, row.reason.unwrap_or_default());
+        } else {
+            self.valid += 1;
+        }
+    }
 }
 
 /// A time as one would say it.

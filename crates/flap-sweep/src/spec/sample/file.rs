@@ -126,9 +126,11 @@ fn heading<'t>(
     source: &Arc<Source>,
     lookup: &mut Lookup<'_>,
 ) -> Option<Column<'t>> {
-    let (name, unit) = match text.split_once('[') {
-        Some((name, unit)) => (name.trim(), Some(unit.trim_end().trim_end_matches(']').trim())),
-        None => (text, None),
+    let Some((name, unit)) = split_unit(text) else {
+        let message = format!("the brackets in the heading `{text}` do not enclose a unit");
+        let help = "write the name, then the unit in brackets: `wing_area [mm^2]`";
+        lookup.problems.report_in(source, span.clone(), message).help(help);
+        return None;
     };
     let known = lookup.simulator.parameters();
     let Some(index) = known.iter().position(|parameter| parameter.name == name) else {
@@ -149,6 +151,15 @@ fn heading<'t>(
         return None;
     }
     Some(Column { index, parameter, unit })
+}
+
+/// The name in a heading, and the unit in brackets behind it; `None` if the brackets are not a pair at the end.
+fn split_unit(heading: &str) -> Option<(&str, Option<&str>)> {
+    let Some((name, rest)) = heading.split_once('[') else {
+        return (!heading.contains(']')).then_some((heading, None));
+    };
+    let unit = rest.trim_end().strip_suffix(']')?;
+    (!name.contains(']') && !unit.contains(['[', ']'])).then(|| (name.trim(), Some(unit.trim())))
 }
 
 /// The value of a cell, or what is wrong with it and what to do.

@@ -1,0 +1,41 @@
+//! The files that a command writes: none is one that it reads, no two are one.
+
+use std::path::Path;
+
+use flap_sweep::inputs::{Inputs, is_same_target};
+use flap_sweep::results::Format;
+
+use crate::failure::Failure;
+
+/// Whether the name stands for stdout.
+pub(crate) fn is_stdout(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// Checks tables that are to be written as CSV, as [`check`] does, and their endings.
+pub(crate) fn check_tables<'p>(
+    inputs: &Inputs,
+    outputs: impl IntoIterator<Item = Option<&'p Path>>,
+) -> Result<(), Failure> {
+    let outputs: Vec<Option<&Path>> = outputs.into_iter().collect();
+    for output in outputs.iter().flatten().filter(|path| !is_stdout(path)) {
+        Format::require_csv(output)?;
+    }
+    check(inputs, outputs)
+}
+
+/// Checks files that are to be written, before anything is computed.
+pub(crate) fn check<'p>(
+    inputs: &Inputs,
+    outputs: impl IntoIterator<Item = Option<&'p Path>>,
+) -> Result<(), Failure> {
+    let outputs: Vec<&Path> = outputs.into_iter().flatten().filter(|path| !is_stdout(path)).collect();
+    for (number, output) in outputs.iter().enumerate() {
+        inputs.protect(output)?;
+        if outputs[..number].iter().any(|other| is_same_target(other, output)) {
+            let message = format!("{} would be written twice", output.display());
+            return Err(Failure::usage(message).help("name different files"));
+        }
+    }
+    Ok(())
+}

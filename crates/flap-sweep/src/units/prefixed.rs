@@ -1,0 +1,96 @@
+//! Numbers in SI units as people write them: with a prefix.
+
+/// Prefixes, and the powers of ten that they stand for.
+const PREFIXES: [(&str, i32); 9] =
+    [("G", 9), ("M", 6), ("k", 3), ("", 0), ("m", -3), ("u", -6), ("n", -9), ("p", -12), ("f", -15)];
+
+/// `value` in `si_unit`, to six digits and with the prefix that leaves few of them before the point: `17 mm` for 0.017 m.
+/// [`parse_as`](super::parse_as) reads it back.
+pub fn prefixed(value: f64, si_unit: &str) -> String {
+    let (symbol, rest) = split(si_unit);
+    if symbol.is_empty() || symbol == "rad" || value == 0.0 || !value.is_finite() {
+        return format!("{} {si_unit}", digits(value)).trim_end().to_owned();
+    }
+    let power = power(rest);
+    // Prefixes stand before the gram.
+    let (value, symbol) = if symbol == "kg" { (value * 1000_f64.powi(power), "g") } else { (value, symbol) };
+    let least = if power == 1 { 1.0 } else { 0.1 };
+    let fits = |(_, ten): &&(&str, i32)| value.abs() / 10_f64.powi(ten * power) >= least * (1.0 - 1e-9);
+    let (prefix, ten) = PREFIXES.iter().find(fits).unwrap_or(&PREFIXES[PREFIXES.len() - 1]);
+    format!("{} {prefix}{symbol}{rest}", digits(value / 10_f64.powi(ten * power)))
+}
+
+/// What `value` in `si_unit` is if its number was meant in a unit with a prefix, which makes it most like `usual`: 0.017 for
+/// 17 m where 0.0165 m is usual. `None` if no prefix makes it like that.
+pub fn meant(value: f64, usual: f64, si_unit: &str) -> Option<f64> {
+    let (symbol, rest) = split(si_unit);
+    if symbol.is_empty() || symbol == "rad" {
+        return None;
+    }
+    let power = power(rest);
+    let candidates = PREFIXES.iter().map(|(_, ten)| value * 10_f64.powi(ten * power));
+    let distance = |candidate: &f64| (candidate / usual).abs().log10().abs();
+    let nearest = candidates.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    (nearest / usual > 0.0 && distance(&nearest) < 1.0).then_some(nearest)
+}
+
+/// The first symbol of a unit, and what follows it.
+fn split(unit: &str) -> (&str, &str) {
+    unit.split_at(unit.find(|letter: char| !letter.is_alphabetic()).unwrap_or(unit.len()))
+}
+
+/// The power of a symbol before `rest`, such as 2 before `^2`.
+fn power(rest: &str) -> i32 {
+    let digits = rest.strip_prefix('^').and_then(|rest| rest.get(..1));
+    digits.and_then(|digit| digit.parse().ok()).unwrap_or(1)
+}
+
+/// A number to six digits.
+fn digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    if rounded != 0.0 && !(1e-4..1e9).contains(&rounded.abs()) {
+        format!("{rounded:e}")
+    } else {
+        rounded.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parse_as;
+    use super::*;
+
+    #[test]
+    fn prefixes_fit_the_number() {
+        for (value, unit, text) in [
+            (0.017, "m", "17 mm"),
+            (17.0, "m", "17 m"),
+            (54.4e-6, "m^2", "54.4 mm^2"),
+            (1.52e-6, "N*m/rad", "1.52 uN*m/rad"),
+            (2.5e-6, "kg", "2.5 mg"),
+            (1.2, "kg/m^3", "1.2 kg/m^3"),
+            (3.1e-12, "kg*m^2", "3.1 ng*m^2"),
+            (62e9, "Pa", "62 GPa"),
+            (-0.001, "V", "-1 mV"),
+            (0.2, "rad", "0.2 rad"),
+            (0.5, "", "0.5"),
+            (0.0, "m", "0 m"),
+        ] {
+            assert_eq!(prefixed(value, unit), text);
+            let read = parse_as(text, unit).unwrap();
+            assert!((read - value).abs() <= 1e-9 * value.abs(), "{text}: {read}");
+        }
+    }
+
+    #[test]
+    fn a_forgotten_prefix_is_found() {
+        assert_eq!(meant(17.0, 0.0165, "m").map(|meant| prefixed(meant, "m")), Some("17 mm".to_owned()));
+        assert_eq!(
+            meant(54.0, 54.4e-6, "m^2").map(|meant| prefixed(meant, "m^2")),
+            Some("54 mm^2".to_owned())
+        );
+        assert_eq!(meant(2.0, 1.5e-6, "kg").map(|meant| prefixed(meant, "kg")), Some("2 mg".to_owned()));
+        assert_eq!(meant(-17.0, 0.0165, "m"), None);
+        assert_eq!(meant(500.0, 0.5, ""), None);
+    }
+}

@@ -1,0 +1,470 @@
+//! Results that are not as they were written: found, refused, and read all the same if asked.
+
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::Path;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use csv::StringRecord;
+use flap_sweep::identity::Identity;
+use flap_sweep::integrity::{self, OnDamage, Verdict};
+use flap_sweep::job::{self, Begin, Job, Outcome};
+use flap_sweep::plan::Plan;
+use flap_sweep::results::{Format, Provenance, Writer};
+use flap_sweep::run::{RunError, RunOptions, Summary};
+use flap_sweep::session::SessionOptions;
+use flap_sweep::sidecar::{self, Sidecar, State};
+use flap_sweep::sink::Sink;
+
+use crate::support::{Folder, quick, start, wait};
+
+const ENDINGS: [&str; 3] = ["csv", "csv.zst", "parquet"];
+
+/// Corruptions of each file.
+const CORRUPTIONS: usize = 300;
+
+/// Rows of three blocks, the last of which is not full.
+const ROWS: u64 = 700;
+
+/// Finished results in every format.
+fn finished() -> Folder {
+    let folder = Folder::with_grid(&quick(ROWS));
+    for ending in ENDINGS {
+        let ended = folder.flap(&format!("sweep --grid grid.toml --out rows.{ending}"));
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+    }
+    folder
+}
+
+/// The same numbers in every run (xorshift).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, limit: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        usize::try_from(self.0 >> 33).unwrap() % limit
+    }
+}
+
+/// Other bytes than those of the file: what disks, transfers and editors do to it.
+fn corrupted(random: &mut Random, bytes: &[u8]) -> Vec<u8> {
+    let mut other = bytes.to_vec();
+    let at = random.below(bytes.len());
+    match random.below(5) {
+        0 => other[at] ^= 1 << random.below(8),
+        1 => other[at] = other[at].wrapping_add(1 + u8::try_from(random.below(255)).unwrap()),
+        // Nothing at all would be a sweep that has not begun.
+        2 => other.truncate(at.max(1)),
+        3 => {
+            let end = (at + 1 + random.below(64)).min(bytes.len());
+            other.drain(at..end);
+        }
+        _ => {
+            let end = (at + 1 + random.below(64)).min(bytes.len());
+            other[at..end].fill(0);
+        }
+    }
+    other
+}
+
+/// Other rows than those of the text.
+fn edited(random: &mut Random, text: &str) -> String {
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let at = 1 + random.below(lines.len() - 1);
+    match random.below(6) {
+        0 => {
+            lines.remove(at);
+        }
+        1 => {
+            lines.pop();
+        }
+        2 => lines.insert(at, lines[at].clone()),
+        3 => {
+            let other = 1 + random.below(lines.len() - 1);
+            lines.swap(at, other);
+        }
+        4 => {
+            let digits: Vec<usize> =
+                lines[at].match_indices(|c: char| c.is_ascii_digit()).map(|(at, _)| at).collect();
+            let digit = digits[random.below(digits.len())];
+            let now = if &lines[at][digit..=digit] == "7" { "8" } else { "7" };
+            lines[at].replace_range(digit..=digit, now);
+        }
+        _ => lines[at] = lines[at].replace("unsettled", "peridoic"),
+    }
+    lines.join("\n") + "\n"
+}
+
+/// The rows of `text` in a format, sound as far as the format itself can tell.
+fn written(folder: &Folder, format: Format, text: &str, provenance: &Provenance) -> Vec<u8> {
+    match format {
+        Format::Csv => text.as_bytes().to_vec(),
+        Format::CsvZstd => zstd::encode_all(text.as_bytes(), 3).unwrap(),
+        Format::Parquet => {
+            let path = folder.path("edited.parquet");
+            let mut writer = Writer::new(File::create(&path).unwrap(), format, provenance).unwrap();
+            let mut reader = csv::Reader::from_reader(text.as_bytes());
+            let mut row = StringRecord::new();
+            while reader.read_record(&mut row).unwrap() {
+                writer.row(&row).unwrap();
+            }
+            writer.finish().unwrap();
+            fs::read(path).unwrap()
+        }
+    }
+}
+
+fn is_damaged(path: &Path) -> bool {
+    match integrity::verify(path) {
+        Ok(Verdict::Damaged(damage)) => {
+            assert!(!damage.to_string().is_empty());
+            true
+        }
+        Ok(_) => false,
+        Err(_) => true,
+    }
+}
+
+/// Whether `flap resume` would call it complete.
+fn is_complete(path: &Path) -> bool {
+    let sidecar = Sidecar::read(&sidecar::path_of(path)).unwrap();
+    let plan = sidecar.plan(flap_core::simulate::all()).unwrap();
+    let options = SessionOptions { run: RunOptions::default(), checkpoint: Duration::ZERO };
+    let job = Job { plan: &plan, out: path.to_owned(), begin: Begin::Resume, options, origin: None };
+    let mut engine = |_: &Plan, _: &RunOptions, _: Summary, _: &mut dyn Sink| -> Result<Summary, RunError> {
+        unreachable!("there are rows")
+    };
+    matches!(job::run(&job, &mut engine, &mut |_| {}), Ok(Outcome::Complete { .. }))
+}
+
+#[test]
+fn no_corruption_goes_unnoticed() {
+    let folder = finished();
+    let text = folder.read("rows.csv");
+    for ending in ENDINGS {
+        let path = folder.path(&format!("rows.{ending}"));
+        let format = Format::of(&path).unwrap();
+        let sound = fs::read(&path).unwrap();
+        let sidecar = Sidecar::read(&sidecar::path_of(&path)).unwrap();
+        let plan = sidecar.plan(flap_core::simulate::all()).unwrap();
+        let provenance = Provenance::of(&plan, &Identity::recorded(&sidecar));
+        let mut random = Random(0x9E37_79B9_7F4A_7C15);
+        let mut corruptions = 0;
+        while corruptions < CORRUPTIONS {
+            let (kind, bytes) = if random.below(3) == 0 {
+                let rows = edited(&mut random, &text);
+                if rows == text {
+                    continue;
+                }
+                ("edited", written(&folder, format, &rows, &provenance))
+            } else {
+                ("corrupted", corrupted(&mut random, &sound))
+            };
+            if bytes == sound {
+                continue;
+            }
+            corruptions += 1;
+            fs::write(&path, &bytes).unwrap();
+            let what = format!("{ending}: {kind} number {corruptions}");
+            assert!(is_damaged(&path), "verify: {what}");
+            assert!(integrity::open(&path, OnDamage::Refuse).is_err(), "convert: {what}");
+            assert!(!is_complete(&path), "resume: {what}");
+        }
+        fs::write(&path, &sound).unwrap();
+        assert_eq!(integrity::verify(&path).unwrap(), Verdict::Sound { rows: ROWS }, "{ending}");
+        assert!(is_complete(&path));
+    }
+}
+
+#[test]
+fn no_corruption_of_a_sidecar_goes_unnoticed() {
+    let folder = finished();
+    let path = folder.path("rows.csv.meta.toml");
+    let sound = fs::read(&path).unwrap();
+    let mut random = Random(77);
+    let mut corruptions = 0;
+    while corruptions < CORRUPTIONS {
+        let bytes = corrupted(&mut random, &sound);
+        if bytes == sound {
+            continue;
+        }
+        corruptions += 1;
+        fs::write(&path, &bytes).unwrap();
+        assert!(Sidecar::read(&path).is_err(), "number {corruptions}: {}", folder.read("rows.csv.meta.toml"));
+    }
+}
+
+/// What every command says of damage, and what it does if it is to be ignored.
+#[test]
+fn commands_refuse_what_is_damaged() {
+    let folder = finished();
+    assert_eq!(folder.flap("sweep --grid grid.toml --shard 1/2").code, 0);
+    assert_eq!(folder.flap("sweep --grid grid.toml --shard 2/2").code, 0);
+    for ending in ENDINGS {
+        let name = format!("rows.{ending}");
+        let bytes = fs::read(folder.path(&name)).unwrap();
+        let rows = folder.read("rows.csv").replacen(",unsettled,", ",periodic,", 1);
+        let sidecar = Sidecar::read(&folder.path(&format!("{name}.meta.toml"))).unwrap();
+        let plan = sidecar.plan(flap_core::simulate::all()).unwrap();
+        let provenance = Provenance::of(&plan, &Identity::recorded(&sidecar));
+        let edited = written(&folder, Format::of(Path::new(&name)).unwrap(), &rows, &provenance);
+        fs::write(folder.path(&name), edited).unwrap();
+        let told = "rows 1 to 256 are not as they were written";
+
+        let ended = folder.flap(&format!("verify {name} grid.1of2.csv"));
+        assert_eq!(ended.code, 3, "{}", ended.stderr);
+        assert_eq!(ended.stdout, format!("{name}: damaged: {told}\ngrid.1of2.csv: sound, 350 rows\n"));
+        for command in [
+            "resume NAME",
+            "rerun NAME --status periodic --out out.csv",
+            "convert NAME out.csv",
+            "plot NAME --y cycles",
+        ] {
+            let command = command.replace("NAME", &name);
+            let ended = folder.flap(&command);
+            assert_eq!(ended.code, 3, "{command}: {}", ended.stderr);
+            assert!(
+                ended.stderr.starts_with(&format!("error: {name} is damaged: {told}\nhelp: ")),
+                "{}",
+                ended.stderr
+            );
+            assert!(!folder.path("out.csv").exists());
+            let ended = folder.flap(&format!("{command} --ignore-damage"));
+            assert_eq!(ended.code, 0, "{command}: {}", ended.stderr);
+            assert!(
+                ended.stderr.starts_with(&format!("warning: {name} is damaged: {told}\n")),
+                "{}",
+                ended.stderr
+            );
+            for left in ["out.csv", "out.csv.meta.toml", "rows.svg"] {
+                let _ = fs::remove_file(folder.path(left));
+            }
+        }
+        fs::write(folder.path(&name), bytes).unwrap();
+        assert_eq!(folder.flap(&format!("verify {name}")).stdout, format!("{name}: sound, {ROWS} rows\n"));
+    }
+
+    let shard = folder.read("grid.2of2.csv");
+    fs::write(folder.path("grid.2of2.csv"), shard.replacen(",unsettled,", ",periodic,", 1)).unwrap();
+    let merge = "merge merged.csv grid.1of2.csv grid.2of2.csv";
+    let ended = folder.flap(merge);
+    assert_eq!(ended.code, 3, "{}", ended.stderr);
+    assert!(ended.stderr.starts_with("error: grid.2of2.csv is damaged: rows 1 to 256"), "{}", ended.stderr);
+    let ended = folder.flap(&format!("{merge} --ignore-damage"));
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let ended = folder.flap("verify merged.csv");
+    assert_eq!(
+        (ended.code, ended.stdout.as_str()),
+        (1, "merged.csv: could not be verified: its sidecar has no checksums\n")
+    );
+}
+
+/// Damaged rows stay damaged in another format.
+#[test]
+fn conversion_does_not_heal() {
+    let folder = finished();
+    let rows = folder.read("rows.csv");
+    let lines: Vec<&str> = rows.lines().collect();
+    let missing = [&lines[..300], &lines[301..]].concat().join("\n") + "\n";
+    fs::write(folder.path("rows.csv"), missing).unwrap();
+    let told = "rows 257 to 700 are not as they were written; it holds 699 rows, 700 were written";
+    assert_eq!(folder.flap("verify rows.csv").stdout, format!("rows.csv: damaged: {told}\n"));
+    assert_eq!(folder.flap("convert rows.csv out.parquet --ignore-damage").code, 0);
+    let ended = folder.flap("verify out.parquet");
+    assert_eq!((ended.code, ended.stdout), (3, format!("out.parquet: damaged: {told}\n")));
+}
+
+/// A line that is none is left out if damage is ignored.
+#[test]
+fn what_is_no_row_is_left_out() {
+    let folder = finished();
+    let rows = folder.read("rows.csv");
+    let broken = rows.replacen("\n5,", "\n5,7,", 1).replacen("\n6,", "\n9999,", 1);
+    fs::write(folder.path("rows.csv"), broken).unwrap();
+    let ended = folder.flap("convert rows.csv out.csv --ignore-damage");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert!(
+        ended.stderr.contains("warning: rows.csv: 2 lines are no rows, and are left out\n"),
+        "{}",
+        ended.stderr
+    );
+    assert_eq!(folder.read("out.csv").lines().count(), 1 + 698);
+}
+
+/// Rows that no checksum protects are at least those of the grid.
+#[test]
+fn rows_without_checksums_must_be_those_of_the_grid() {
+    let folder = finished();
+    let mut sidecar = Sidecar::read(&folder.path("rows.csv.meta.toml")).unwrap();
+    sidecar.checksums = None;
+    sidecar.write(&folder.path("rows.csv.meta.toml")).unwrap();
+    let ended = folder.flap("verify rows.csv");
+    assert_eq!(
+        (ended.code, ended.stdout.as_str()),
+        (1, "rows.csv: could not be verified: its sidecar has no checksums\n")
+    );
+    let ended = folder.flap("convert rows.csv out.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert!(ended.stderr.starts_with("warning: rows.csv could not be verified: "), "{}", ended.stderr);
+    assert_eq!(folder.flap("verify out.csv").code, 0, "the copy has checksums");
+
+    // Flap wrote no builds before it wrote checksums.
+    folder.rewrite_sidecar("rows.csv", |sidecar| sidecar.build = String::new());
+    let old = folder.read("rows.csv.meta.toml").split_once('\n').unwrap().1.to_owned();
+    fs::write(folder.path("rows.csv.meta.toml"), old).unwrap();
+    assert_eq!(folder.flap("convert rows.csv old.csv").code, 0);
+
+    let rows = folder.read("rows.csv");
+    let lines: Vec<&str> = rows.lines().collect();
+    let (first, second) = (lines[4], lines[5]);
+    let joined = |lines: &[&str]| lines.join("\n") + "\n";
+    let without = |place: usize| joined(&[&lines[..place], &lines[place + 1..]].concat());
+    for (edited, message) in [
+        (rows.replacen("unsettled", "peridoic", 1), "row 1: there is no status `peridoic`"),
+        (without(4), "row 4 is of point 4: the row of point 3 is missing"),
+        (without(700), "it holds 699 rows, 700 were written"),
+        (
+            rows.replacen(first, &format!("{first}\n{first}"), 1),
+            "row 5 is of point 3: it comes twice or out of order",
+        ),
+        (
+            rows.replacen(&format!("{first}\n{second}"), &format!("{second}\n{first}"), 1),
+            "row 4 is of point 4: the row of point 3",
+        ),
+        (
+            rows.clone() + "700" + lines[700].strip_prefix("699").unwrap() + "\n",
+            "row 701 is of point `700`, which is none",
+        ),
+    ] {
+        fs::write(folder.path("rows.csv"), edited).unwrap();
+        let ended = folder.flap("convert rows.csv other.csv");
+        assert_eq!(ended.code, 3, "{}", ended.stderr);
+        assert!(ended.stderr.contains(message), "{message}: {}", ended.stderr);
+        assert!(!folder.path("other.csv").exists());
+    }
+}
+
+#[test]
+fn results_without_a_sidecar_could_not_be_verified() {
+    let folder = finished();
+    fs::remove_file(folder.path("rows.csv.meta.toml")).unwrap();
+    let ended = folder.flap("verify rows.csv");
+    assert_eq!(
+        (ended.code, ended.stdout.as_str()),
+        (1, "rows.csv: could not be verified: there is no sidecar beside it\n")
+    );
+    let ended = folder.flap("plot rows.csv --y cycles");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert!(
+        ended.stderr.contains("warning: rows.csv could not be verified: there is no sidecar"),
+        "{}",
+        ended.stderr
+    );
+    assert_eq!(folder.flap("verify missing.csv").code, 3);
+    assert_eq!(folder.flap("verify").code, 2);
+}
+
+#[test]
+fn an_edited_sidecar_is_noticed() {
+    let folder = finished();
+    let sidecar = folder.read("rows.csv.meta.toml").replace("max_cycles = 1\n", "max_cycles = 2\n");
+    fs::write(folder.path("rows.csv.meta.toml"), sidecar).unwrap();
+    for command in [
+        "resume rows.csv",
+        "convert rows.csv out.csv",
+        "plot rows.csv",
+        "verify rows.csv",
+        "sweep --from-sidecar rows.csv.meta.toml --out out.csv",
+    ] {
+        let ended = folder.flap(command);
+        assert_eq!(ended.code, 3, "{command}: {}", ended.stderr);
+        let told = ended.stderr + &ended.stdout;
+        assert!(told.contains("rows.csv.meta.toml is damaged: its first line is not the checksum"), "{told}");
+    }
+    assert_eq!(folder.flap("plot rows.csv --y cycles --ignore-damage").code, 0);
+
+    // One whose checksum was made anew still has the hash of its grid.
+    let mut edited = Sidecar::read_damaged(&folder.path("rows.csv.meta.toml")).unwrap();
+    edited.grid.text = edited.grid.text.replace("rtol = 1e-3", "rtol = 1e-4");
+    edited.write(&folder.path("rows.csv.meta.toml")).unwrap();
+    let ended = folder.flap("sweep --from-sidecar rows.csv.meta.toml --out out.csv");
+    assert_eq!(ended.code, 2, "{}", ended.stderr);
+    assert!(ended.stderr.contains("the grid in it is not the one that was run"), "{}", ended.stderr);
+    assert!(!folder.path("out.csv").exists());
+}
+
+/// Unfinished results as a killed sweep leaves them: the header, rows up to a checkpoint, and junk.
+fn unfinished(ending: &str) -> Folder {
+    let folder = Folder::with_grid(&quick(100_000_000));
+    let out = format!("rows.{ending}");
+    let mut child = start(&folder, &["sweep", "--grid", "grid.toml", "--out", &out, "--checkpoint", "5 ms"]);
+    let journal = folder.path(&format!("{out}.journal"));
+    let begun = Instant::now();
+    while fs::metadata(&journal).map_or(0, |metadata| metadata.len()) < 1500 {
+        assert!(begun.elapsed() < Duration::from_secs(60), "nothing is written");
+        thread::sleep(Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    wait(&mut child);
+    let rows = if ending == "parquet" { format!("{out}.part") } else { out };
+    let mut file = File::options().append(true).open(folder.path(&rows)).unwrap();
+    file.write_all(b"17,junk").unwrap();
+    folder
+}
+
+#[test]
+fn unfinished_results_say_so_and_are_read_as_far_as_they_are_safe() {
+    for ending in ENDINGS {
+        let folder = unfinished(ending);
+        let name = format!("rows.{ending}");
+        let ended = folder.flap(&format!("verify {name}"));
+        assert_eq!(ended.code, 0, "{}", ended.stdout);
+        let told = ended.stdout.strip_prefix(&format!("{name}: unfinished, sound so far: ")).unwrap();
+        let done: usize = told.strip_suffix(" points are done\n").unwrap().parse().unwrap();
+        assert!(done > 0);
+        let warning =
+            format!("warning: {name} is unfinished: {done} points are done so far, `flap resume` goes on\n");
+        let ended = folder.flap(&format!("plot {name} --y cycles --html page.html"));
+        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        assert!(ended.stderr.starts_with(&warning), "{}", ended.stderr);
+        let ended = folder.flap(&format!("convert {name} out.csv"));
+        assert_eq!((ended.code, ended.stderr), (0, format!("{warning}{done} rows in out.csv\n")));
+        let rows = folder.read("out.csv");
+        assert_eq!(rows.lines().count(), 1 + done);
+        assert!(rows.lines().last().unwrap().starts_with(&format!("{},", done - 1)));
+        let sidecar = Sidecar::read(&folder.path("out.csv.meta.toml")).unwrap();
+        assert_eq!((sidecar.state, sidecar.rows), (State::Running, Some(done as u64)));
+        let ended = folder.flap("plot out.csv --y cycles");
+        assert!(ended.stderr.starts_with("warning: out.csv is unfinished: "), "{}", ended.stderr);
+
+        // Rows that were changed meanwhile are noticed.
+        let path = folder.path(&if ending == "parquet" { format!("{name}.part") } else { name.clone() });
+        let mut bytes = fs::read(&path).unwrap();
+        bytes[700] ^= 1;
+        fs::write(&path, bytes).unwrap();
+        for command in ["verify NAME", "convert NAME other.csv", "plot NAME --y cycles --force"] {
+            let ended = folder.flap(&command.replace("NAME", &name));
+            assert_eq!(ended.code, 3, "{command}: {}", ended.stderr);
+            assert!((ended.stdout + &ended.stderr).contains("it is not as the sweep left it"));
+        }
+    }
+}
+
+/// Rows of a sweep that was never finished, of which the journal was lost.
+#[test]
+fn half_a_row_at_the_end_is_no_row() {
+    let folder = finished();
+    folder.rewrite_sidecar("rows.csv", |sidecar| {
+        sidecar.state = State::Running;
+        sidecar.checksums = None;
+    });
+    let rows = folder.read("rows.csv");
+    fs::write(folder.path("rows.csv"), &rows[..rows.len() - 2]).unwrap();
+    let ended = folder.flap("convert rows.csv out.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert!(ended.stderr.contains("warning: rows.csv is unfinished: "), "{}", ended.stderr);
+    assert_eq!(folder.read("out.csv"), rows[..=rows.trim_end().rfind('\n').unwrap()]);
+}

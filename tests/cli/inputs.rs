@@ -1,0 +1,195 @@
+//! What a command reads is never overwritten, whatever name it goes by, and not with `--force` either.
+
+use std::fmt::Write as _;
+use std::fs;
+
+use crate::support::{Folder, quick};
+
+/// A folder with results, grid file, points and records, and links to each: `hard-NAME` and `soft-NAME`.
+fn folder() -> Folder {
+    let folder = Folder::with_grid(&quick(3));
+    let sample = "preset = \"ozaki2018-large\"\n[sample]\nmethod = \"file\"\npath = \"points.csv\"\n[solver]\nmax_cycles = 1\n";
+    fs::write(folder.path("sample.toml"), sample).unwrap();
+    fs::write(folder.path("points.csv"), "drive_frequency\n60\n70\n").unwrap();
+    let mut motion = "time_s,stroke_deg,pitch_deg,wave\n".to_owned();
+    let mut images = "time_s,root_x,root_y,tip_x,tip_y\n".to_owned();
+    for i in 0..20 {
+        let (time, angle) = (1e-3 * f64::from(i), 0.3 * f64::from(i));
+        let _ = writeln!(motion, "{time},{},{},{}", 10.0 * angle.sin(), 20.0 * angle.cos(), angle.sin());
+        let _ = writeln!(images, "{time},0,0,{},{}", angle.cos(), angle.sin());
+    }
+    fs::write(folder.path("motion.csv"), motion).unwrap();
+    fs::write(folder.path("images.csv"), images).unwrap();
+    assert_eq!(folder.flap("sweep --grid grid.toml --out rows.csv").code, 0);
+    assert_eq!(folder.flap("sweep --grid sample.toml --out sampled.csv").code, 0);
+    for shard in ["1/2", "2/2"] {
+        assert_eq!(folder.flap(&format!("sweep --grid grid.toml --shard {shard}")).code, 0);
+    }
+    for name in [
+        "grid.toml",
+        "points.csv",
+        "motion.csv",
+        "images.csv",
+        "rows.csv",
+        "grid.1of2.csv",
+        "rows.csv.meta.toml",
+    ] {
+        let link = name.replace(".toml", ".csv");
+        fs::hard_link(folder.path(name), folder.path(&format!("hard-{link}"))).unwrap();
+        #[cfg(unix)]
+        std::os::unix::fs::symlink(name, folder.path(&format!("soft-{link}"))).unwrap();
+        #[cfg(not(unix))]
+        fs::hard_link(folder.path(name), folder.path(&format!("soft-{link}"))).unwrap();
+    }
+    // The results `beside.csv` are not there, but their sidecar's name is taken by the grid file.
+    fs::hard_link(folder.path("grid.toml"), folder.path("beside.csv.meta.toml")).unwrap();
+    fs::hard_link(folder.path("rows.csv"), folder.path("shot.svg")).unwrap();
+    fs::hard_link(folder.path("rows.csv"), folder.path("page.html")).unwrap();
+    folder
+}
+
+/// Every file with its bytes.
+fn contents(folder: &Folder) -> Vec<(String, Vec<u8>)> {
+    let read = |name: String| {
+        let bytes = fs::read(folder.path(&name)).unwrap();
+        (name, bytes)
+    };
+    folder.names().into_iter().map(read).collect()
+}
+
+#[test]
+fn no_command_overwrites_what_it_reads() {
+    let folder = folder();
+    let before = contents(&folder);
+    for arguments in [
+        "sweep --force --grid grid.toml --out hard-grid.csv",
+        "sweep --force --grid grid.toml --out ./soft-grid.csv",
+        "sweep --force --grid grid.toml --out beside.csv",
+        "sweep --force --grid sample.toml --out points.csv",
+        "sweep --force --grid sample.toml --out hard-points.csv",
+        "sweep --force --grid sample.toml --out soft-points.csv",
+        "sweep --resume --grid sample.toml --out points.csv",
+        "sweep --force --from-sidecar rows.csv.meta.toml --out rows.csv",
+        "sweep --force --from-sidecar rows.csv.meta.toml --out hard-rows.csv.meta.csv",
+        "sweep --force --from-sidecar sampled.csv.meta.toml --out soft-points.csv",
+        "rerun rows.csv --status unsettled --force --out rows.csv",
+        "rerun rows.csv --status unsettled --force --out hard-rows.csv",
+        "rerun rows.csv --status unsettled --force --out soft-rows.csv.meta.csv",
+        "rerun sampled.csv --status unsettled --force --out points.csv",
+        "merge --force grid.1of2.csv grid.1of2.csv grid.2of2.csv",
+        "merge --force soft-grid.1of2.csv grid.1of2.csv grid.2of2.csv",
+        "convert --force rows.csv rows.csv",
+        "convert --force rows.csv soft-rows.csv",
+        "convert --force sampled.csv hard-points.csv",
+        "run grid.toml --force --trajectory hard-grid.csv",
+        "run sample.toml --force --trajectory points.csv",
+        "run grid.toml --drive chirp --force --envelope soft-grid.csv",
+        "run arabagi2013-75hz --waveform motion.csv --force --trajectory motion.csv",
+        "run arabagi2013-75hz --stroke motion.csv --force --trajectory hard-motion.csv",
+        "run grid.toml --drive impulse --force --trajectory hard-grid.csv",
+        "lift ozaki2018-small motion.csv --force --trajectory motion.csv",
+        "lift ozaki2018-small motion.csv --force --trajectory soft-motion.csv",
+        "track images.csv --force --out images.csv",
+        "track images.csv --force --out hard-images.csv",
+        "respond grid.toml --force --out hard-grid.csv",
+        "respond sample.toml --along drive_voltage_pp --from 50 --to 60 --step 5 --force --out points.csv",
+        #[cfg(feature = "plots")]
+        "plot rows.csv --force --out shot.svg",
+        #[cfg(feature = "plots")]
+        "plot rows.csv --force --html page.html",
+    ] {
+        let ended = folder.flap(arguments);
+        assert_eq!(ended.code, 2, "{arguments}: {}", ended.stderr);
+        assert!(ended.stderr.contains(" would overwrite "), "{arguments}: {}", ended.stderr);
+        assert_eq!(ended.stdout, "", "{arguments}");
+        assert!(contents(&folder) == before, "{arguments}");
+    }
+}
+
+#[test]
+fn two_outputs_are_two_files() {
+    let folder = Folder::with_grid(&quick(3));
+    let run = "run ozaki2018-large --drive chirp --trajectory one.csv --envelope";
+    for name in ["one.csv", "./one.csv"] {
+        let ended = folder.flap(&format!("{run} {name}"));
+        assert_eq!(ended.code, 2, "{}", ended.stderr);
+        assert!(ended.stderr.contains("would be written twice"), "{}", ended.stderr);
+    }
+    assert_eq!(folder.names(), ["grid.toml"]);
+}
+
+#[test]
+fn results_given_as_a_grid_file_are_recognised() {
+    let folder = Folder::with_grid(&quick(3));
+    for ending in ["csv", "csv.zst", "parquet"] {
+        assert_eq!(folder.flap(&format!("sweep --grid grid.toml --out rows.{ending}")).code, 0);
+        let ended = folder.flap(&format!("check rows.{ending}"));
+        assert_eq!(ended.code, 2);
+        assert_eq!(
+            ended.stderr,
+            format!(
+                "error: rows.{ending}: this looks like results, not like a grid file\n\
+                 help: did you mean `flap plot rows.{ending}`?\n"
+            )
+        );
+    }
+    fs::File::create(folder.path("large.toml")).unwrap().set_len(1 << 30).unwrap();
+    let ended = folder.flap("check large.toml");
+    assert_eq!(ended.code, 2);
+    assert!(ended.stderr.contains("more than 16 MiB"), "{}", ended.stderr);
+}
+
+#[test]
+fn no_more_than_twenty_mistakes_are_shown() {
+    let keys = (0..571).map(|number| format!("key_{number} = 1\n")).collect::<Vec<_>>().concat();
+    let folder = Folder::with_grid(&format!("preset = \"ozaki2018-large\"\n[params]\n{keys}"));
+    let ended = folder.flap("check grid.toml");
+    assert_eq!(ended.code, 2);
+    assert_eq!(ended.stderr.matches("error: ").count(), 20);
+    let end = "\n\nand 551 more\n\ngrid.toml: 571 mistakes, nothing was run\n";
+    assert!(ended.stderr.ends_with(end), "{}", ended.stderr);
+}
+
+#[test]
+fn options_of_a_chirp_need_a_chirp() {
+    for (option, value) in [("--chirp-from", "60"), ("--chirp-to", "90"), ("--chirp-rate", "5")] {
+        for drive in ["steady", "impulse"] {
+            let ended = Folder::new().flap(&format!("run ozaki2018-large --drive {drive} {option} {value}"));
+            assert_eq!(ended.code, 2);
+            assert_eq!(ended.stderr, format!("error: {option} goes with --drive chirp\n"));
+        }
+    }
+}
+
+#[test]
+fn a_sample_without_parameters_is_a_mistake() {
+    let grid = "preset = \"ozaki2018-large\"\n[sample]\nmethod = \"sobol\"\nn = 8\n[sample.parameters]\n";
+    let folder = Folder::with_grid(grid);
+    for command in ["check grid.toml", "sweep --grid grid.toml"] {
+        let ended = folder.flap(command);
+        assert_eq!(ended.code, 2, "{}", ended.stderr);
+        assert!(ended.stderr.contains("grid.toml:5:9\n"), "{}", ended.stderr);
+    }
+}
+
+/// Some kilobytes that stand for gigabytes without an end of a line.
+#[test]
+fn a_small_file_does_not_fill_the_memory() {
+    let folder = Folder::with_grid(&quick(3));
+    assert_eq!(folder.flap("sweep --grid grid.toml --out rows.csv.zst").code, 0);
+    let megabyte = zstd::bulk::compress(&vec![b'1'; 1 << 20], 19).unwrap();
+    let mut bomb = zstd::bulk::compress(b"point,status\n", 3).unwrap();
+    for _ in 0..2000 {
+        bomb.extend_from_slice(&megabyte);
+    }
+    assert!(bomb.len() < 1 << 20, "{}", bomb.len());
+    fs::write(folder.path("rows.csv.zst"), bomb).unwrap();
+    for arguments in ["plot rows.csv.zst", "rerun rows.csv.zst --status unsettled --out again.csv"] {
+        if arguments.starts_with("plot") && !cfg!(feature = "plots") {
+            continue;
+        }
+        let ended = folder.flap(arguments);
+        assert_ne!(ended.code, 0, "{arguments}");
+        assert!(ended.stderr.contains("a line is longer than 16 MiB"), "{arguments}: {}", ended.stderr);
+    }
+}

@@ -1,0 +1,133 @@
+//! `--force`: earlier results are kept until the new ones are complete.
+
+use std::fs;
+use std::path::Path;
+
+use crate::support::{Folder, frequencies, quick, send, start, wait, wait_for_rows};
+
+/// Results of three points in `rows.ENDING`, and a grid of very many more.
+fn folder(ending: &str) -> (Folder, Vec<u8>, String) {
+    let folder = Folder::with_grid(&quick(3));
+    assert_eq!(folder.flap(&format!("sweep --grid grid.toml --out rows.{ending}")).code, 0);
+    fs::write(folder.path("grid.toml"), frequencies(100_000)).unwrap();
+    let rows = fs::read(folder.path(&format!("rows.{ending}"))).unwrap();
+    let sidecar = folder.read(&format!("rows.{ending}.meta.toml"));
+    (folder, rows, sidecar)
+}
+
+fn assert_kept(folder: &Folder, ending: &str, rows: &[u8], sidecar: &str) {
+    assert!(fs::read(folder.path(&format!("rows.old.{ending}"))).unwrap() == rows);
+    assert_eq!(folder.read(&format!("rows.old.{ending}.meta.toml")), sidecar);
+}
+
+/// Waits until checkpoints are in the journal, and not those of the journal `before`.
+fn wait_until_begun(folder: &Folder, journal: &Path, before: &str) {
+    let is_another = |text: &str| before.is_empty() || !text.starts_with(before);
+    let begun =
+        || fs::read_to_string(journal).is_ok_and(|text| text.lines().count() > 2 && is_another(&text));
+    for _ in 0..6000 {
+        if begun() {
+            return;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    panic!("no rows are written: {:?}", folder.names());
+}
+
+#[test]
+fn a_killed_force_keeps_the_earlier_results_and_goes_on() {
+    for ending in ["csv", "csv.zst", "parquet"] {
+        let (folder, rows, sidecar) = folder(ending);
+        let out = format!("rows.{ending}");
+        let arguments = ["sweep", "--grid", "grid.toml", "--out", &out, "--force", "--checkpoint", "10 ms"];
+        let mut child = start(&folder, &arguments);
+        let journal = format!("{out}.journal");
+        wait_until_begun(&folder, &folder.path(&journal), "");
+        child.kill().unwrap();
+        wait(&mut child);
+        assert_kept(&folder, ending, &rows, &sidecar);
+
+        // Forced once more: those that were not complete go, the complete ones stay.
+        let before = folder.read(&journal);
+        let mut child = start(&folder, &arguments);
+        wait_until_begun(&folder, &folder.path(&journal), &before);
+        send("INT", &child);
+        assert_eq!(wait(&mut child), Some(130));
+        let mut told = String::new();
+        std::io::Read::read_to_string(&mut child.stderr.take().unwrap(), &mut told).unwrap();
+        let expected = format!("until then, the earlier results are in rows.old.{ending}\n");
+        assert!(told.ends_with(&expected), "{told}");
+        assert_kept(&folder, ending, &rows, &sidecar);
+    }
+}
+
+#[test]
+fn an_interrupted_force_is_resumed_and_then_the_earlier_results_go() {
+    let folder = Folder::with_grid(&quick(3));
+    assert_eq!(folder.flap("sweep --grid grid.toml --out grid.csv").code, 0);
+    fs::write(folder.path("grid.toml"), frequencies(2000)).unwrap();
+    let mut child = start(&folder, &["sweep", "--grid", "grid.toml", "--force", "--checkpoint", "10 ms"]);
+    wait_for_rows(&folder, 20);
+    send("INT", &child);
+    assert_eq!(wait(&mut child), Some(130));
+    assert!(folder.path("grid.old.csv").exists());
+    let ended = folder.flap("resume grid.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert_eq!(folder.names(), ["grid.csv", "grid.csv.meta.toml", "grid.toml"]);
+    assert_eq!(folder.read("grid.csv").lines().count(), 2001);
+}
+
+#[test]
+fn a_completed_force_leaves_nothing_of_the_earlier_results() {
+    let (folder, ..) = folder("csv");
+    fs::write(folder.path("grid.toml"), quick(5)).unwrap();
+    assert_eq!(folder.flap("sweep --grid grid.toml --out rows.csv --force").code, 0);
+    assert_eq!(folder.names(), ["grid.toml", "rows.csv", "rows.csv.meta.toml"]);
+    assert_eq!(folder.read("rows.csv").lines().count(), 6);
+}
+
+/// Somebody else's file of that name is neither overwritten nor removed.
+#[test]
+fn a_file_in_the_way_stays() {
+    let (folder, rows, sidecar) = folder("csv");
+    fs::write(folder.path("grid.toml"), quick(5)).unwrap();
+    fs::write(folder.path("rows.old.csv"), "precious").unwrap();
+    let ended = folder.flap("sweep --grid grid.toml --out rows.csv --force");
+    assert_eq!(ended.code, 3, "{}", ended.stderr);
+    assert!(ended.stderr.contains("rows.old.csv is in the way"), "{}", ended.stderr);
+    assert_eq!(folder.read("rows.old.csv"), "precious");
+    assert!(fs::read(folder.path("rows.csv")).unwrap() == rows);
+    assert_eq!(folder.read("rows.csv.meta.toml"), sidecar);
+    // Nor when results are made anew.
+    assert_eq!(folder.flap("sweep --grid grid.toml --out new.csv").code, 0);
+    assert_eq!(folder.read("rows.old.csv"), "precious");
+}
+
+/// A link stays a link: rows go where it points to.
+#[test]
+#[cfg(unix)]
+fn a_link_to_results_stays_one() {
+    let (folder, ..) = folder("csv");
+    fs::write(folder.path("grid.toml"), quick(5)).unwrap();
+    std::os::unix::fs::symlink("rows.csv", folder.path("link.csv")).unwrap();
+    assert_eq!(folder.flap("sweep --grid grid.toml --out link.csv --force").code, 0);
+    assert!(fs::symlink_metadata(folder.path("link.csv")).unwrap().is_symlink());
+    assert_eq!(folder.read("rows.csv").lines().count(), 6);
+    assert!(!folder.path("rows.old.csv").exists());
+}
+
+/// A disk that is full does not cost the earlier file.
+#[test]
+#[cfg(target_os = "linux")]
+fn what_is_computed_at_once_replaces_an_earlier_file_at_once() {
+    let folder = Folder::new();
+    let motion = "run ozaki2018-large --samples 20000 --trajectory motion.csv";
+    fs::write(folder.path("motion.csv"), "precious").unwrap();
+    let limited = format!("ulimit -f 100; exec {} {motion} --force", env!("CARGO_BIN_EXE_flap"));
+    let mut command = std::process::Command::new("sh");
+    let status = command.args(["-c", &limited]).current_dir(folder.path("")).output().unwrap().status;
+    assert!(!status.success());
+    assert_eq!(folder.read("motion.csv"), "precious");
+    assert_eq!(folder.flap(&format!("{motion} --force")).code, 0);
+    assert!(folder.read("motion.csv").lines().count() > 40_000);
+}
