@@ -3,9 +3,10 @@
 #![cfg(unix)]
 
 use std::fs;
+use std::io::ErrorKind;
 use std::os::unix::fs::{MetadataExt, PermissionsExt, chown};
 use std::os::unix::process::CommandExt;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -30,7 +31,7 @@ fn length(folder: &Folder, name: &str) -> u64 {
 }
 
 /// Waits for `what`; false if the command ends before.
-fn wait_until(child: &mut std::process::Child, mut what: impl FnMut() -> bool) -> bool {
+fn wait_until(child: &mut Child, mut what: impl FnMut() -> bool) -> bool {
     let start = Instant::now();
     while !what() {
         if child.try_wait().unwrap().is_some() {
@@ -166,6 +167,19 @@ fn a_full_disk_loses_nothing() {
 /// Nobody: root may write where it is not permitted.
 const NOBODY: u32 = 65_534;
 
+/// Starts a copy of the command. Another test that starts a process while the copy is made keeps it open for a moment, and what
+/// is open for writing cannot be started.
+fn spawn(mut command: Command) -> Child {
+    loop {
+        match command.spawn() {
+            Err(error) if error.kind() == ErrorKind::ExecutableFileBusy => {
+                thread::sleep(Duration::from_millis(10));
+            }
+            started => return started.unwrap(),
+        }
+    }
+}
+
 #[test]
 fn a_lost_permission_loses_nothing() {
     let folder = folder(POINTS, "csv");
@@ -186,7 +200,7 @@ fn a_lost_permission_loses_nothing() {
         command
     };
     let run = |arguments: &str| {
-        let output = command(arguments).output().unwrap();
+        let output = spawn(command(arguments)).wait_with_output().unwrap();
         (output.status.code(), String::from_utf8(output.stderr).unwrap())
     };
 
@@ -199,7 +213,7 @@ fn a_lost_permission_loses_nothing() {
 
     // In the middle: the files that are open go on, what is beside them cannot be replaced.
     writable(true);
-    let mut child = command("sweep --grid grid.toml --out rows.csv --threads 1").spawn().unwrap();
+    let mut child = spawn(command("sweep --grid grid.toml --out rows.csv --threads 1"));
     assert!(wait_until(&mut child, || length(&folder, "rows.csv") > 10_000));
     writable(false);
     assert_eq!(wait(&mut child), Some(3));

@@ -1,6 +1,7 @@
 //! The hash of the sources that the build scripts make.
 
 #[expect(dead_code, reason = "a build script begins at its main")]
+#[expect(clippy::print_stdout, reason = "a build script talks to cargo so")]
 #[path = "../../crates/flap-core/build.rs"]
 mod build;
 

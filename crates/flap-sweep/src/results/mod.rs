@@ -12,6 +12,8 @@ mod format;
 mod guard;
 mod hashed;
 #[cfg(feature = "parquet")]
+mod limited;
+#[cfg(feature = "parquet")]
 mod pages;
 #[cfg(feature = "parquet")]
 pub(crate) mod parquet;

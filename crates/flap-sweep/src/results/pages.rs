@@ -35,7 +35,7 @@ impl PageWriter for Pages<'_> {
 }
 
 /// The header of a page, with the checksum of the page as it is stored: `PageHeader` of Parquet's Thrift definition.
-fn header(page: &CompressedPage) -> Result<Vec<u8>> {
+pub(super) fn header(page: &CompressedPage) -> Result<Vec<u8>> {
     let size = |size: usize| i32::try_from(size).map_err(|error| ParquetError::General(error.to_string()));
     let values = size(page.num_values() as usize)?;
     let mut header = Struct::default();

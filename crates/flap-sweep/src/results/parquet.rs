@@ -21,6 +21,7 @@ use parquet::schema::types::{ColumnDescPtr, ColumnPath, Type};
 use super::checksum::TextDigest;
 use super::guard::guarded;
 use super::hashed::Hashed;
+use super::limited::Limited;
 use super::pages::Pages;
 use super::{Checksums, Provenance};
 use crate::layout::{Column, Kind};
@@ -218,7 +219,7 @@ pub(super) struct ParquetReader {
 
 impl ParquetReader {
     pub(super) fn new(file: File) -> io::Result<ParquetReader> {
-        let reader = guarded(|| SerializedFileReader::new(file).map_err(io_error))?;
+        let reader = guarded(|| SerializedFileReader::new(Limited(file)).map_err(io_error))?;
         refuse_compression(reader.metadata())?;
         let about = reader.metadata().file_metadata();
         let names = about.schema().get_fields().iter().map(|column| column.name().to_owned()).collect();
