@@ -24,7 +24,7 @@ fn exact() -> SolverSettings {
 }
 
 /// The preset's numbers, each times a factor from 0.2 to 1.8; choices as they are.
-fn designs(model: &dyn Simulator, preset: &Preset) -> Vec<Vec<f64>> {
+pub(crate) fn designs(model: &dyn Simulator, preset: &Preset) -> Vec<Vec<f64>> {
     let mut random = Random(14);
     let mut design = || {
         let mut values = (preset.values)();

@@ -15,6 +15,7 @@ mod continued;
 mod data;
 mod direct_drive;
 mod dormand_prince;
+mod edges;
 mod elementary;
 mod ensemble;
 mod floquet;
