@@ -161,6 +161,7 @@ def test_parquet_without_its_sidecar_has_units_and_axes(table, tmp_path):
     (tmp_path / "rows.parquet.meta.toml").unlink()
     found = flapwing.read(path)
     assert found.units == table.units and found.docs == table.docs
+    assert found.meta.pop("verified") is False
     assert found.meta == {key: table.meta[key] for key in found.meta} and found.meta["preset"] == "ozaki2018-large"
     assert found.to_xarray().sizes == table.to_xarray().sizes
 
