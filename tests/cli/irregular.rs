@@ -59,7 +59,7 @@ fn motions_that_do_not_repeat_every_drive_period_have_no_numbers() {
             assert_eq!([cells[4], cells[5]], ["", ""], "{row}");
         }
         // What came of the run is always said.
-        assert!(number(6) > 10.0 && number(7) > 0.0 && number(11) > 1000.0, "{row}");
+        assert!(number(6) > 10.0 && number(7) > 0.0 && number(12) > 1000.0, "{row}");
     }
     assert_eq!(rows.next(), None);
     assert!(!ended.stdout.contains("NaN") && !ended.stdout.contains("inf"));

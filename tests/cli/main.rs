@@ -5,6 +5,7 @@
 mod damage;
 mod deviations;
 mod documents;
+mod doubts;
 mod experiments;
 mod formats;
 mod formulas;

@@ -171,7 +171,8 @@ fn solver_settings() {
     let default = SolverSettings::default();
     assert_eq!(solver(""), default);
     assert_eq!(solver("rtol = 1e-6"), default);
-    assert_eq!(solver("rtol = 1e-4"), SolverSettings { rtol: 1e-4, atol: 1e-6, ..default });
+    assert_eq!(solver("rtol = 1e-4"), SolverSettings { rtol: 1e-4, atol: 1e-6, accuracy: 0.1, ..default });
+    assert_eq!(solver("rtol = 1e-8").accuracy, default.accuracy);
     assert_eq!(
         solver("settle_tol = 1e-9\nmax_steps = 7\nmax_cycles = 5\natol = 1\nrtol = 0.01\naccuracy = 0.02"),
         SolverSettings {

@@ -29,14 +29,14 @@ fn rows_of_a_grid_with_formulas_read_like_this() {
     assert_eq!(
         text,
         "point,size,drive_frequency,span,status,lift_mean_mn,power_mean_mw,ratio,strong,cycles,residual,period,floquet_max,stable,error_estimate,rhs_evals\n\
-         1,1.0,90.0,0.0,invalid,,,,,0,,0,,,0\n\
-         3,3.0,70.0,2.0,subharmonic,,,,,10,4e-9,0,,,1000\n\
-         4,4.0,60.0,3.0,unsettled,,,,,10,4e-9,0,,,1000\n\
-         5,5.0,50.0,4.0,diverged,,,,,10,4e-9,0,,,1000\n\
-         6,6.0,40.0,5.0,step_limit,,,,,10,4e-9,0,,,1000\n\
-         7,7.0,30.0,6.0,invalid,,,,,10,,0,,,1000\n\
-         8,8.0,20.0,7.0,periodic,2.6666666666666665,160.0,60.0,false,10,4e-9,1,0.5,true,1000\n\
-         9,9.0,10.0,8.0,periodic,3.0,90.0,30.0,true,10,4e-9,1,0.5,true,1000\n"
+         1,1.0,90.0,0.0,invalid,,,,,0,,0,,,,0\n\
+         3,3.0,70.0,2.0,subharmonic,,,,,10,4e-9,0,,,,1000\n\
+         4,4.0,60.0,3.0,unsettled,,,,,10,4e-9,0,,,,1000\n\
+         5,5.0,50.0,4.0,diverged,,,,,10,4e-9,0,,,,1000\n\
+         6,6.0,40.0,5.0,step_limit,,,,,10,4e-9,0,,,,1000\n\
+         7,7.0,30.0,6.0,invalid,,,,,10,,0,,,,1000\n\
+         8,8.0,20.0,7.0,periodic,2.6666666666666665,160.0,60.0,false,10,4e-9,1,0.5,true,2e-5,1000\n\
+         9,9.0,10.0,8.0,periodic,3.0,90.0,30.0,true,10,4e-9,1,0.5,true,2e-5,1000\n"
     );
     let summary = summary.unwrap();
     assert_eq!((summary.points, summary.rows, summary.excluded, summary.done()), (12, 8, 4, 12));

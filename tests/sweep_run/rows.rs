@@ -24,12 +24,12 @@ drive_frequency = ["120 Hz"]
     assert_eq!(
         text,
         "point,arms,size,drive_frequency,status,lift_mean_mn,power_mean_mw,cycles,residual,period,floquet_max,stable,error_estimate,rhs_evals\n\
-         0,printed,3e-6,120.0,periodic,1e-6,0.00036,10,4e-9,1,0.5,true,1000\n\
-         1,printed,4.0,120.0,unsettled,,,10,4e-9,0,,,1000\n\
-         2,printed,7.0,120.0,invalid,,,10,,0,,,1000\n\
-         3,axis,3e-6,120.0,periodic,1e-6,0.00036,10,4e-9,1,0.5,true,1000\n\
-         4,axis,4.0,120.0,unsettled,,,10,4e-9,0,,,1000\n\
-         5,axis,7.0,120.0,invalid,,,10,,0,,,1000\n"
+         0,printed,3e-6,120.0,periodic,1e-6,0.00036,10,4e-9,1,0.5,true,2e-5,1000\n\
+         1,printed,4.0,120.0,unsettled,,,10,4e-9,0,,,,1000\n\
+         2,printed,7.0,120.0,invalid,,,10,,0,,,,1000\n\
+         3,axis,3e-6,120.0,periodic,1e-6,0.00036,10,4e-9,1,0.5,true,2e-5,1000\n\
+         4,axis,4.0,120.0,unsettled,,,10,4e-9,0,,,,1000\n\
+         5,axis,7.0,120.0,invalid,,,10,,0,,,,1000\n"
     );
 }
 

@@ -59,7 +59,7 @@ pub type Engine<'a> =
 #[derive(Debug)]
 pub enum Outcome {
     /// Points were run.
-    Ran(Done),
+    Ran(Box<Done>),
     /// All rows wanted were there already.
     Complete {
         /// Whether all of them are periodic.
@@ -162,7 +162,7 @@ pub fn run(job: &Job<'_>, engine: Engine<'_>, tell: &mut dyn FnMut(Before)) -> R
     Inputs::new().add_plan(job.plan).protect_from_results(&job.out)?;
     match job.begin {
         Begin::Resume => job.resume(engine, tell),
-        Begin::New | Begin::Overwrite => job.start(engine).map(Outcome::Ran),
+        Begin::New | Begin::Overwrite => job.start(engine).map(|done| Outcome::Ran(Box::new(done))),
     }
 }
 
@@ -238,7 +238,7 @@ impl Job<'_> {
         let resumed = match Session::resume(&self.out, self.plan, &self.options) {
             Ok(resumed) => resumed,
             Err(ResumeError::NoJournal { .. }) if is_empty(&self.out) => {
-                return self.start(engine).map(Outcome::Ran);
+                return self.start(engine).map(|done| Outcome::Ran(Box::new(done)));
             }
             Err(error @ ResumeError::NoJournal { .. }) => return self.is_complete(error),
             Err(error) => return Err(self.cannot_resume(error)),
@@ -247,7 +247,7 @@ impl Job<'_> {
         tell(Before { lost, done: before.done() });
         let sidecar = self.sidecar(started);
         self.write_sidecar(&sidecar, false)?;
-        self.work(session, before, sidecar, engine).map(Outcome::Ran)
+        self.work(session, before, sidecar, engine).map(|done| Outcome::Ran(Box::new(done)))
     }
 
     /// There is nothing to resume: that is well if the rows wanted are all there.

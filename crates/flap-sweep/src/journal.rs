@@ -53,6 +53,7 @@ pub struct Checkpoint {
     rhs_evals: u64,
     statuses: BTreeMap<String, u64>,
     unsatisfied: BTreeMap<String, u64>,
+    #[serde(default)]
     doubts: Doubts,
     invalid: Vec<InvalidPoint>,
 }

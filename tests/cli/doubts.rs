@@ -1,0 +1,60 @@
+//! Rows that are to be read with care: what a sweep says of them at its end, and what helps.
+
+use crate::support::Folder;
+
+#[test]
+fn rows_that_miss_the_accuracy_are_counted_and_can_be_run_again() {
+    let grid =
+        "preset = \"ozaki2018-large\"\n[axes]\ndrive_frequency = [100, 110]\n[solver]\naccuracy = 1e-14\n";
+    let folder = Folder::with_grid(grid);
+    let ended = folder.flap("sweep --grid grid.toml --out rows.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let said = "2 rows miss the accuracy of [solver], see their error_estimate: \
+                `flap rerun rows.csv --inaccurate --rtol 1e-10 --out again.csv` runs them again";
+    assert!(ended.stderr.contains(said), "{}", ended.stderr);
+    assert!(folder.read("rows.csv.meta.toml").contains("[doubts]\ninaccurate = 2\n"));
+
+    let again = folder.flap("rerun rows.csv --inaccurate --rtol 1e-8 --accuracy 1e-2 --out again.csv");
+    assert_eq!(again.code, 0, "{}", again.stderr);
+    assert!(again.stderr.contains("2 periodic") && !again.stderr.contains("miss"), "{}", again.stderr);
+    assert_eq!(folder.read("again.csv").lines().count(), 3);
+
+    let none = folder.flap("rerun again.csv --inaccurate --out third.csv");
+    assert!(none.stderr.contains("no point in again.csv is inaccurate"), "{}", none.stderr);
+    let neither = folder.flap("rerun again.csv --out third.csv");
+    assert_eq!(neither.code, 2, "{}", neither.stderr);
+}
+
+#[test]
+fn resonances_at_an_end_of_their_range_are_counted() {
+    let grid = "preset = \"ozaki2018-large\"\n[params]\ndrive_frequency = \"resonance\"\n\
+                [resonance]\nfrom = \"60 Hz\"\nto = \"70 Hz\"\n";
+    let folder = Folder::with_grid(grid);
+    let ended = folder.flap("sweep --grid grid.toml --out rows.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert!(ended.stderr.contains("1 resonances are at an end of their range"), "{}", ended.stderr);
+}
+
+/// A wide wing on a soft hinge, which pitches fast beside its stroke.
+const GAINING: &str = r#"
+preset = "ozaki2018-large"
+
+[params]
+drive_frequency = 131.36334572941365
+wing_length = 0.046815541503120006
+mean_chord = 0.011357436260586174
+hinge_stiffness = 4.083303093082505e-5
+shape_moment_13 = 1.178361517868167
+shape_moment_31 = 0.8137032474454492
+shim_thickness = 7.537287347476463e-5
+drag_max = 5.5167793985664275
+rotation_drag = 3.9433014244420006
+"#;
+
+#[test]
+fn rows_to_which_the_air_gives_energy_are_counted() {
+    let folder = Folder::with_grid(GAINING);
+    let ended = folder.flap("sweep --grid grid.toml --out rows.csv");
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    assert!(ended.stderr.contains("1 rows have negative mean power"), "{}", ended.stderr);
+}
