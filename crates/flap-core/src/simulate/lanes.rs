@@ -1,8 +1,9 @@
 //! Points in SIMD lanes: march each until it is near its orbit, go there by Newton's iteration, measure one cycle.
 //!
-//! Three ensembles share the work. The first marches, and nothing else, which is cheapest per step; runs that have come
+//! Four ensembles share the work. The first marches, and nothing else, which is cheapest per step; runs that have come
 //! near an orbit wait in a buffer, and whenever that is full the second ensemble integrates their periods with responses
-//! to changes, and the third measures the orbits found. A run whose iteration fails marches on.
+//! to changes, the third a period of each orbit with coarser tolerances, and the fourth measures both orbits. A run whose
+//! iteration fails marches on; a run whose row is not accurate enough waits in the buffer again.
 
 use core::ops::ControlFlow;
 
