@@ -41,7 +41,7 @@ def test_keys_and_their_order():
     row = flapwing.run(PRESET)
     keys = list(row)
     assert keys[0] == "status"
-    assert keys[-7:] == AFTER_MEASURES
+    assert keys[-8:] == AFTER_MEASURES
     assert {"stroke_pp_deg", "lift_mean_mn", "power_mean_mw"} <= measures(row).keys()
 
 
