@@ -31,7 +31,9 @@ where
         if interrupted() {
             return Err(Unfinished::Interrupted);
         }
-        let Some(state) = search.state().filter(|_| row.status == Status::Periodic) else {
+        // The row's state, not the search's: a search for a more exact orbit may have failed after it.
+        let orbit = <[f64; N]>::try_from(row.state.as_slice()).ok();
+        let Some(orbit) = orbit.filter(|_| row.status == Status::Periodic) else {
             return Err(Invalid::new(format!(
                 "the motion does not settle on an orbit of one drive period (status {}, {} cycles); \
                  sample it from rest instead",
@@ -40,7 +42,7 @@ where
             ))
             .into());
         };
-        start = search.start(&start, state);
+        start = search.start(&start, &orbit);
     }
 
     let mut sampler = Sampler::new(request.samples_per_cycle);
