@@ -24,7 +24,7 @@ const PACKAGES: [&str; 11] = [
     "zmij",
 ];
 
-/// Where versions are locked: a published package has a file of its own, this repository one for all.
+/// The lock file: a published package has one of its own, this repository one for all.
 const LOCKS: [&str; 2] = ["Cargo.lock", "../../Cargo.lock"];
 
 fn main() -> io::Result<()> {

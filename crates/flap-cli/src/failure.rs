@@ -22,7 +22,7 @@ use flap_sweep::text::shortened;
 
 use crate::console;
 
-/// What commands that read results can do about damage.
+/// The help line of commands that can read damaged results.
 pub(crate) const IGNORE_HELP: &str = "--ignore-damage uses it all the same, as far as it can be read";
 
 /// How the program ends.
@@ -125,7 +125,7 @@ impl Failure {
     }
 }
 
-/// Where earlier results are while new ones are not complete.
+/// The help line that names the earlier results while new ones are not complete.
 pub(crate) fn still_kept(kept: &Path) -> String {
     format!("until then, the earlier results are in {}", kept.display())
 }

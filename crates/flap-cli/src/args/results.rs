@@ -26,7 +26,7 @@ pub(crate) struct WorkArgs {
     pub(crate) checkpoint: Duration,
 }
 
-/// How results are read.
+/// Options of commands that read results.
 #[derive(clap::Args)]
 pub(crate) struct ReadArgs {
     /// Use results all the same if they are not as they were written, as far as they can be read
@@ -35,7 +35,7 @@ pub(crate) struct ReadArgs {
 }
 
 impl ReadArgs {
-    /// What is done about damage.
+    /// The treatment of damage.
     pub(crate) fn on_damage(&self) -> OnDamage {
         if self.ignore_damage { OnDamage::Tolerate } else { OnDamage::Refuse }
     }
@@ -135,7 +135,7 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_help = MERGE_HELP)]
 pub(crate) struct MergeArgs {
-    /// Where to write all rows: .csv, .csv.zst, .parquet, or `-` for CSV to stdout
+    /// File for all rows: .csv, .csv.zst, .parquet, or `-` for CSV to stdout
     #[arg(value_name = "OUT")]
     pub(crate) out: PathBuf,
 
@@ -167,7 +167,7 @@ pub(crate) struct ConvertArgs {
     #[arg(value_name = "IN")]
     pub(crate) from: PathBuf,
 
-    /// Where to write the same rows: .csv, .csv.zst, .parquet, or `-` for CSV to stdout
+    /// File for the same rows: .csv, .csv.zst, .parquet, or `-` for CSV to stdout
     #[arg(value_name = "OUT")]
     pub(crate) to: PathBuf,
 

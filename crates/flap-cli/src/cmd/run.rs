@@ -100,7 +100,7 @@ fn check_length(args: &RunArgs) -> Result<(), Failure> {
 /// Frequency at which a chirp begins if the command line does not say (Hz).
 const CHIRP_FROM: f64 = 1.0;
 
-/// How fast the frequency of a chirp rises if the command line does not say (Hz/s).
+/// The default rate of a chirp's frequency (Hz/s).
 const CHIRP_RATE: f64 = 15.0;
 
 /// Sweeps the frequency: rows per cycle to stdout or a file, the motion to a file.

@@ -18,7 +18,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Exit, Failure> {
     Ok(worst)
 }
 
-/// What to say of a file, and how the command ends if it is the worst.
+/// The message on a file, and the exit code if no other file is worse.
 fn verdict(results: &Path) -> (String, Exit) {
     let name = results.display();
     match integrity::verify(results) {

@@ -65,7 +65,7 @@ impl<R: Lanes> Course<R> {
 /// A signal within one half: middle + slope x + ½ bend x², with x from −1 to 1.
 #[derive(Clone, Copy)]
 struct Parabola<R> {
-    /// Where its middle lies on the whole, whose x goes from −2 to 2.
+    /// The place of its middle on the whole, whose x goes from −2 to 2.
     centre: f64,
     begin: R,
     middle: R,

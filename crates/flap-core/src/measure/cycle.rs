@@ -124,7 +124,7 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
     }
 }
 
-/// What a signal does within a step.
+/// The range of a signal within a step, and its positive part.
 #[derive(Clone, Copy)]
 struct Within<R> {
     max: R,
@@ -133,7 +133,7 @@ struct Within<R> {
     positive_mean: R,
 }
 
-/// What the signals do within a step, part by part; see [`Model::parts`].
+/// Ranges and positive parts of the signals within a step, found part by part; see [`Model::parts`].
 #[inline(always)]
 fn courses<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
     model: &M,

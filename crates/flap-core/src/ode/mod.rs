@@ -114,7 +114,8 @@ pub struct Start<C, const N: usize> {
     pub span: f64,
     /// Typical size of each state; absolute tolerances are multiples of it.
     pub scale: [f64; N],
-    /// Factor on both tolerances: 1, or less for a run that is to be integrated more finely than others.
+    /// Factor on both tolerances: 1 for most runs, less for one that is integrated more finely than others, more for one that
+    /// is integrated more coarsely.
     pub tighten: f64,
 }
 

@@ -1,4 +1,4 @@
-//! How far a row is from what exact integration would give.
+//! The estimate of a row's error, and the decision to integrate it again.
 //!
 //! An orbit is measured twice: on the orbit that the point's tolerances have, and on the one that tolerances coarser by
 //! [`COARSER`] have. The second is found from the first by one period and the monodromy matrix. The error of the method
@@ -24,8 +24,8 @@ const SHARE: f64 = 0.5;
 /// the ends of steps.
 pub(super) const LEAST: f64 = 5.0;
 
-/// Crossings of the switching surface in a period beyond which the motion slides along the surface: others cross it twice, or
-/// some times more. What a step makes of such a motion does not converge as the method does.
+/// Crossings of the switching surface in a period beyond which the motion counts as sliding along the surface: others cross it twice, or
+/// some times more. The error of a sliding motion does not fall as the method's does.
 const MANY_SWITCHES: u64 = 16;
 
 /// A period of the orbit, and one of the orbit that coarser integration has.
@@ -33,7 +33,7 @@ const MANY_SWITCHES: u64 = 16;
 pub(super) struct Compared<const S: usize> {
     /// Totals of the orbit's period, unless it failed.
     pub(super) fine: Option<[Totals<f64>; S]>,
-    /// How it ended.
+    /// The ending of the orbit's period.
     pub(super) ending: Ending,
     /// Whether it slides along the switching surface.
     pub(super) slides: bool,
@@ -55,7 +55,7 @@ impl<const S: usize> Compared<S> {
     }
 }
 
-/// What follows from the periods of an orbit.
+/// The next step for a point whose orbit has been measured.
 pub(super) enum Verdict<const N: usize> {
     /// The point has its row.
     Done(Row),

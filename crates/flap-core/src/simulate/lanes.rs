@@ -327,10 +327,10 @@ impl<M: Ode<N>, const N: usize> Queue<M, Unobserved, N> for Departing<'_, M::Con
 /// The queue of the fourth ensemble: a period of each orbit, or one of the orbit that coarser tolerances have.
 struct Measuring<'a, Q, C, const N: usize, const S: usize> {
     jobs: &'a dyn Jobs,
-    /// Where the periods begin, each with the position of its orbit.
+    /// The beginnings of the periods, each with the position of its orbit.
     starts: Q,
     orbits: &'a mut [Searched<C, N>],
-    /// What the periods have shown, by the position of their orbit.
+    /// The totals of the periods, by the position of their orbit.
     periods: &'a mut [Compared<S>],
     is_coarse: bool,
 }

@@ -34,16 +34,16 @@ const NEGLIGIBLE: f64 = 1e-6;
 const FINEST: f64 = 1e-5;
 const FINEST_RTOL: f64 = 1e-12;
 
-/// By what tolerances are multiplied for a point whose period map jumps too much to find its fixed point.
+/// The factor on the tolerances of a point whose period map jumps too much to find its fixed point.
 const FINER: f64 = 1.0 / 32.0;
 
 /// The residual, in units of `settle_tol`, below which such jumps are what an iteration is stuck in.
 const JUMPS: f64 = 100.0;
 
-/// How often a point is integrated again for the sake of its row's accuracy.
+/// The most times that a point is integrated again for its row's accuracy.
 const REFINEMENTS: u32 = 3;
 
-/// The residual that is not aimed below.
+/// The smallest residual that Newton's iteration aims at.
 const SMALLEST_GOAL: f64 = 1e-10;
 
 /// Where a point's search has come to.
@@ -52,7 +52,7 @@ pub(super) struct Search<const N: usize> {
     strobe: Strobe<N>,
     newton: Newton<N>,
     scale: [f64; N],
-    /// What the integrator's absolute tolerances are multiples of.
+    /// The sizes of the states, of which the integrator's absolute tolerances are multiples.
     size: [f64; N],
     /// The largest magnitude that each state has reached.
     largest: [f64; N],
@@ -61,7 +61,7 @@ pub(super) struct Search<const N: usize> {
     tighten: f64,
     /// The smallest such factor.
     finest: f64,
-    /// How often the point has been integrated again for the sake of accuracy.
+    /// Times that the point has been integrated again for its row's accuracy.
     refinements: u32,
     tolerance: f64,
     max_cycles: u32,
@@ -145,7 +145,7 @@ impl<const N: usize> Search<N> {
         self.strobe.cycles() == SIZED && (0..N).any(|i| size[i] < 0.5 * self.size[i])
     }
 
-    /// What absolute tolerances are to be multiples of: typical sizes, but for states that stay small.
+    /// The sizes of the states in this motion: the typical ones, but for states that stay small.
     fn motion_size(&self) -> [f64; N] {
         let relative: [f64; N] = core::array::from_fn(|i| self.largest[i] / self.scale[i]);
         let overall = relative.iter().fold(0.0_f64, |size, &one| size.max(one));
@@ -214,8 +214,8 @@ impl<const N: usize> Search<N> {
         }
     }
 
-    /// How to find the orbit again, more exactly, whose row may err by `doubt` where `accuracy` is asked for. `None` if the
-    /// row is good enough, or cannot be made better.
+    /// Tightens the tolerances of an orbit whose row may err by `doubt` where `accuracy` is asked for. Returns the state from
+    /// which it is to be found again; `None` if the row is good enough, or cannot be made better.
     pub(super) fn refine(&mut self, doubt: f64, accuracy: f64) -> Option<[f64; N]> {
         let enough = doubt <= accuracy || self.refinements == REFINEMENTS || self.tighten <= self.finest;
         let orbit = self.found.filter(|_| !enough)?;
@@ -234,7 +234,7 @@ impl<const N: usize> Search<N> {
         self.rtol * self.tighten
     }
 
-    /// Adds what a period cost that was integrated once, along the orbit.
+    /// Adds the cost of a period along the orbit, which was integrated without responses.
     pub(super) fn charge(&mut self, outcome: Outcome) {
         self.rhs_evals += outcome.rhs_evals;
         self.periods_measured += 1;
@@ -279,12 +279,12 @@ impl<const N: usize> Search<N> {
         self.found.as_ref().map(|point| &point.y).or(marched)
     }
 
-    /// Where the point's run goes on from `y`, with the tolerances that its motion needs.
+    /// The point's run from `y`, with the tolerances that its motion needs.
     pub(super) fn start<C: Copy>(&self, start: &Start<C, N>, y: &[f64; N]) -> Start<C, N> {
         Start { y: *y, scale: self.size, tighten: self.tighten, ..*start }
     }
 
-    /// Where a period from `y` begins with its responses to changes of `y`.
+    /// The beginning of a period from `y` with its responses to changes of `y`.
     pub(super) fn responding<C: Copy, const K: usize>(
         &self,
         start: &Start<C, N>,
@@ -293,7 +293,7 @@ impl<const N: usize> Search<N> {
         varied(&self.start(start, y), &self.scale)
     }
 
-    /// Where a period begins that is integrated with coarser tolerances, for comparison.
+    /// The beginning of a period that is integrated with coarser tolerances, for comparison.
     pub(super) fn coarse<C: Copy>(&self, start: &Start<C, N>, y: &[f64; N]) -> Start<C, N> {
         Start { tighten: self.tighten * COARSER, ..self.start(start, y) }
     }

@@ -14,7 +14,7 @@ use crate::results::{Format, FormatError, Reader};
 use crate::session;
 use crate::sidecar::{self, ReadError, Sidecar, State};
 
-/// What is done about damage.
+/// The treatment of damage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OnDamage {
     /// Nothing is read.
@@ -27,13 +27,13 @@ pub enum OnDamage {
 pub struct Opened {
     /// Their rows.
     pub reader: Reader,
-    /// What lies beside them, if there is something.
+    /// Their sidecar, if there is one.
     pub sidecar: Option<Sidecar>,
-    /// What a user should know.
+    /// Notes for the user.
     pub notes: Vec<Note>,
 }
 
-/// What a user should know of results before using them.
+/// A note on results for the user.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Note {
     /// They are not as they were written.
@@ -44,7 +44,7 @@ pub enum Note {
         /// How.
         damage: Damage,
     },
-    /// What lies beside them is damaged, or no sidecar that this flap knows.
+    /// Their sidecar is damaged, or of an unknown format.
     #[error("{0}")]
     Sidecar(String),
     /// They are not complete.
@@ -68,10 +68,10 @@ pub enum Note {
 /// Why results cannot be checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unverified {
-    /// Nothing lies beside them.
+    /// They have no sidecar.
     #[error("there is no sidecar beside it")]
     NoSidecar,
-    /// What lies beside them has no checksums.
+    /// Their sidecar has no checksums.
     #[error("its sidecar has no checksums")]
     NoChecksums,
 }
@@ -97,7 +97,7 @@ pub enum OpenError {
         /// Why.
         source: io::Error,
     },
-    /// What lies beside them cannot be read, or is damaged.
+    /// Their sidecar cannot be read, or is damaged.
     #[error(transparent)]
     Sidecar(#[from] ReadError),
     /// They are not as they were written.

@@ -11,7 +11,7 @@ use super::open::{Note, OnDamage, OpenError, Unverified, open};
 use crate::results::{FileSum, Format, text};
 use crate::sidecar::{self, ReadError, Sidecar, State};
 
-/// What a check of results has come to.
+/// The result of a check.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// They are as they were written.
@@ -60,7 +60,7 @@ pub fn verify(path: &Path) -> Result<Verdict, OpenError> {
     Ok(Verdict::Damaged(damage))
 }
 
-/// What is wrong with the complete results at `path`, as far as their sidecar can tell; `None` if nothing is. Reads them once,
+/// Damage of the complete results at `path`, as far as their sidecar can tell; `None` if nothing is. Reads them once,
 /// and a second time if something is wrong.
 ///
 /// # Errors

@@ -23,7 +23,7 @@ const LONGEST: Duration = Duration::from_secs(2);
 /// Points that are looked at at most, to find some that are not excluded.
 const MOST_LOOKED_AT: u64 = 100_000;
 
-/// What a few points tell of a sweep.
+/// The estimates of a sweep from a few of its points.
 #[derive(Default)]
 pub(super) struct Estimate {
     /// That every point looked at is invalid, and why the first one is.
