@@ -1,8 +1,8 @@
 //! The grids that sweeps are measured on.
 
 use flap_core::simulate;
+use flap_sweep::grid;
 use flap_sweep::plan::Plan;
-use flap_sweep::spec;
 
 pub(crate) const PRESETS: [&str; 6] = [
     "jafferis2016",
@@ -30,5 +30,5 @@ pub(crate) fn grid(preset: &str, side: usize) -> Plan {
         axis("drive_voltage_pp", 0.6, 1.0),
         axis("drive_frequency", 0.85, 1.1)
     );
-    spec::parse(preset, &text, simulate::all()).expect("a good grid")
+    grid::parse(preset, &text, simulate::all()).expect("a good grid")
 }

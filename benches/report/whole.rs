@@ -6,12 +6,12 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use flap_sweep::csv_sink::CsvSink;
-use flap_sweep::layout::Layout;
+use flap_sweep::files::csv_sink::CsvSink;
+use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::plan::Plan;
-use flap_sweep::results::{Format, Reader};
+use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{self, RunOptions};
-use flap_sweep::sink::Sink;
+use flap_sweep::table::layout::Layout;
 
 use crate::Effort;
 use crate::grid::grid;

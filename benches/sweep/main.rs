@@ -14,11 +14,11 @@ use criterion::measurement::WallTime;
 use criterion::{
     BatchSize, BenchmarkGroup, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
-use flap_sweep::csv_sink::CsvSink;
-use flap_sweep::layout::Layout;
+use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::plan::Plan;
+use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{self, RunOptions};
-use flap_sweep::sink::Sink;
+use flap_sweep::table::layout::Layout;
 
 use grid::{PRESETS, grid};
 use rows::{Rows, read};

@@ -5,9 +5,9 @@ use std::io::Seek;
 
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{Jobs, Point, Row};
+use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::plan::Plan;
-use flap_sweep::results::{Format, Reader};
-use flap_sweep::sink::Sink;
+use flap_sweep::run::sink::Sink;
 
 /// Rows are written this often, so that there are more of them than it takes time to compute.
 const COPIES: usize = 16;

@@ -7,15 +7,14 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use csv::StringRecord;
-use flap_sweep::identity::Identity;
-use flap_sweep::integrity::{self, OnDamage, Verdict};
-use flap_sweep::job::{self, Begin, Job, Outcome};
+use flap_sweep::files::integrity::{self, OnDamage, Verdict};
+use flap_sweep::files::job::{self, Begin, Job, Outcome};
+use flap_sweep::files::results::{Format, Provenance, Writer};
+use flap_sweep::files::session::SessionOptions;
+use flap_sweep::files::sidecar::{self, Sidecar, State};
 use flap_sweep::plan::Plan;
-use flap_sweep::results::{Format, Provenance, Writer};
+use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{RunError, RunOptions, Summary};
-use flap_sweep::session::SessionOptions;
-use flap_sweep::sidecar::{self, Sidecar, State};
-use flap_sweep::sink::Sink;
 
 use crate::support::{Folder, quick, start, wait};
 
@@ -150,7 +149,7 @@ fn no_corruption_goes_unnoticed() {
         let sound = fs::read(&path).unwrap();
         let sidecar = Sidecar::read(&sidecar::path_of(&path)).unwrap();
         let plan = sidecar.plan(flap_core::simulate::all()).unwrap();
-        let provenance = Provenance::of(&plan, &Identity::recorded(&sidecar));
+        let provenance = Provenance::of(&plan, &sidecar.identity());
         let mut random = Random(0x9E37_79B9_7F4A_7C15);
         let mut corruptions = 0;
         while corruptions < CORRUPTIONS {
@@ -209,7 +208,7 @@ fn commands_refuse_what_is_damaged() {
         let rows = folder.read("rows.csv").replacen(",unsettled,", ",periodic,", 1);
         let sidecar = Sidecar::read(&folder.path(&format!("{name}.meta.toml"))).unwrap();
         let plan = sidecar.plan(flap_core::simulate::all()).unwrap();
-        let provenance = Provenance::of(&plan, &Identity::recorded(&sidecar));
+        let provenance = Provenance::of(&plan, &sidecar.identity());
         let edited = written(&folder, Format::of(Path::new(&name)).unwrap(), &rows, &provenance);
         fs::write(folder.path(&name), edited).unwrap();
         let told = "rows 1 to 256 are not as they were written";

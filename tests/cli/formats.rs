@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use flap_sweep::sidecar::Sidecar;
+use flap_sweep::files::sidecar::Sidecar;
 
 use crate::support::{Folder, frequencies, quick};
 

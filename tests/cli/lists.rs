@@ -99,7 +99,7 @@ fn help_has_examples_and_exit_codes() {
         assert_eq!(ended.code, 0);
         assert!(ended.stdout.contains(&format!("  flap {command} ")), "{}", ended.stdout);
     }
-    let (version, build) = (env!("CARGO_PKG_VERSION"), flap_sweep::identity::build());
+    let (version, build) = (env!("CARGO_PKG_VERSION"), flap_sweep::run::identity::build());
     assert_eq!(folder.flap("-V").stdout, format!("flap {version}\n"));
     let long = folder.flap("--version").stdout;
     assert!(long.starts_with(&format!("flap {version}\nbuild {build} (")), "{long}");

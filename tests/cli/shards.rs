@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use flap_sweep::sidecar::State;
+use flap_sweep::files::sidecar::State;
 
 use crate::support::{Folder, quick};
 
@@ -173,7 +173,7 @@ fn wrong_shards_are_explained() {
 fn shards_of_another_build_are_refused() {
     let folder = folder(100);
     let merge = "merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv";
-    let build = flap_sweep::identity::build();
+    let build = flap_sweep::run::identity::build();
     folder.rewrite_sidecar("grid.2of3.csv", |sidecar| sidecar.build = "fed0".to_owned());
     let ended = folder.flap(merge);
     assert_eq!(ended.code, 2);

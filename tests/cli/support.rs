@@ -7,7 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use assert_cmd::Command;
-use flap_sweep::sidecar::Sidecar;
+use flap_sweep::files::sidecar::Sidecar;
 use tempfile::TempDir;
 
 /// A folder with files, in which the command runs.

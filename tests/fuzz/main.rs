@@ -50,12 +50,12 @@ fn no_input_is_too_odd() {
 fn seeds_are_good() {
     for input in corpus("grid") {
         let text = String::from_utf8(input).expect("text");
-        let parsed = flap_sweep::spec::parse("grid.toml", &text, flap_core::simulate::all());
+        let parsed = flap_sweep::grid::parse("grid.toml", &text, flap_core::simulate::all());
         assert!(parsed.is_ok(), "{text}: {:?}", parsed.err());
     }
     for input in corpus("sidecar") {
         let text = String::from_utf8(input).expect("text");
-        let parsed = flap_sweep::sidecar::Sidecar::parse(&text);
+        let parsed = flap_sweep::files::sidecar::Sidecar::parse(&text);
         assert!(parsed.is_ok(), "{text}: {:?}", parsed.err());
     }
     for input in corpus("journal") {
@@ -67,7 +67,7 @@ fn seeds_are_good() {
                 [format!("{:016x} ", xxhash_rust::xxh3::xxh3_64(line)).as_bytes(), line, b"\n"].concat()
             })
             .collect();
-        let past = flap_sweep::journal::parse(&whole).expect("a first line");
+        let past = flap_sweep::files::journal::parse(&whole).expect("a first line");
         assert_eq!(past.checkpoints.len() + 1, lines);
     }
 }

@@ -1,9 +1,11 @@
 //! What must hold for any input: the bodies of the fuzz targets in `fuzz`, run by an ordinary test too.
 
 use flap_core::simulate::all;
-use flap_sweep::expression::{Expression, Meaning, Scope};
-use flap_sweep::sidecar::Sidecar;
-use flap_sweep::{journal, spec, units};
+use flap_sweep::files::journal;
+use flap_sweep::files::sidecar::Sidecar;
+use flap_sweep::grid;
+use flap_sweep::notation::expression::{Expression, Meaning, Scope};
+use flap_sweep::notation::units;
 use xxhash_rust::xxh3::xxh3_64;
 
 /// A target by its name, which is that of its corpus.
@@ -21,7 +23,7 @@ pub(crate) const TARGETS: [Target; 5] = [
 /// Any text is a plan, whose first and last point can be computed, or a list of mistakes that can be shown.
 pub(crate) fn grid(bytes: &[u8]) {
     let Ok(text) = str::from_utf8(bytes) else { return };
-    match spec::parse("grid.toml", text, all()) {
+    match grid::parse("grid.toml", text, all()) {
         Ok(plan) => {
             for index in [0, plan.len() / 2, plan.len().saturating_sub(1)] {
                 if index < plan.len() {

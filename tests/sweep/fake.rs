@@ -10,7 +10,7 @@ use flap_core::simulate::{
     ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Interrupt, Jobs, Period, Row, Rows,
     Simulator, SolverSettings, Trajectory, TrajectoryRequest, Unfinished,
 };
-use flap_sweep::diagnostic::{Diagnostic, Mistakes};
+use flap_sweep::grid::diagnostic::{Diagnostic, Mistakes};
 use flap_sweep::plan::Plan;
 
 /// A model that is never run.
@@ -167,13 +167,13 @@ pub(crate) fn index(name: &str) -> usize {
 
 /// The plan of a text that is a proper grid file.
 pub(crate) fn plan(text: &str) -> Plan {
-    flap_sweep::spec::parse("grid.toml", text, &MODELS)
+    flap_sweep::grid::parse("grid.toml", text, &MODELS)
         .unwrap_or_else(|problems| panic!("{text}\n{}", report(&problems)))
 }
 
 /// What is wrong with a text that is not.
 pub(crate) fn problems(text: &str) -> Mistakes {
-    flap_sweep::spec::parse("grid.toml", text, &MODELS)
+    flap_sweep::grid::parse("grid.toml", text, &MODELS)
         .err()
         .unwrap_or_else(|| panic!("no mistake in\n{text}"))
 }

@@ -4,11 +4,11 @@ use std::fs;
 use std::path::Path;
 
 use flap_core::simulate;
-use flap_sweep::spec::{self, ReadError};
-use flap_sweep::units;
+use flap_sweep::grid::{self, ReadError};
+use flap_sweep::notation::units;
 
 fn error(path: &Path) -> ReadError {
-    spec::read(path).err().expect("no plan")
+    grid::read(path).err().expect("no plan")
 }
 
 #[test]
@@ -55,7 +55,7 @@ fn presets_of_all_models_are_found() {
     for preset in simulate::all().iter().flat_map(|model| model.presets()) {
         let path = folder.path().join(preset.name);
         fs::write(&path, format!("preset = \"{}\"", preset.name)).expect("written");
-        let plan = spec::read(&path).unwrap_or_else(|error| panic!("{error}"));
+        let plan = grid::read(&path).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!((plan.preset, plan.len()), (preset.name, 1));
     }
 }
@@ -93,7 +93,7 @@ fn results_are_not_grid_files() {
 fn grid_files_have_a_largest_size() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("grid.toml");
-    fs::File::create(&path).and_then(|file| file.set_len(spec::MOST_BYTES + 1)).expect("made");
+    fs::File::create(&path).and_then(|file| file.set_len(grid::MOST_BYTES + 1)).expect("made");
     let error = error(&path);
     assert!(matches!(error, ReadError::TooLarge { .. }), "{error:?}");
     assert!(error.to_string().ends_with("more than 16 MiB, the most that a grid file may have"), "{error}");
@@ -109,10 +109,10 @@ fn mistakes_without_number_are_counted_in_linear_time() {
     let texts = [format!("preset = \"ozaki2018-large\"\n[params]\n{keys}"), rows];
     for text in texts {
         let started = std::time::Instant::now();
-        let mistakes = spec::parse("grid.toml", &text, simulate::all()).err().expect("mistakes");
+        let mistakes = grid::parse("grid.toml", &text, simulate::all()).err().expect("mistakes");
         assert_eq!(mistakes.len(), 20);
         assert_eq!(mistakes.count(), count as usize);
-        let shown = flap_sweep::diagnostic::render(&mistakes, false);
+        let shown = flap_sweep::grid::diagnostic::render(&mistakes, false);
         let end = "\n\nand 299980 more\n\ngrid.toml: 300000 mistakes, nothing was run";
         assert!(shown.ends_with(end) && shown.len() < 20_000, "{} bytes", shown.len());
         assert!(started.elapsed().as_secs() < 30, "{:?}", started.elapsed());
@@ -123,7 +123,7 @@ fn mistakes_without_number_are_counted_in_linear_time() {
 fn names_of_any_length_are_shortened() {
     let name = "a".repeat(1_000_000);
     let text = format!("preset = \"ozaki2018-large\"\n[params]\n{name} = 1\n");
-    let mistakes = spec::parse("grid.toml", &text, simulate::all()).err().expect("a mistake");
+    let mistakes = grid::parse("grid.toml", &text, simulate::all()).err().expect("a mistake");
     assert!(mistakes[0].message.contains("…(1000002 characters)…"), "{}", mistakes[0].message);
-    assert!(flap_sweep::diagnostic::render(&mistakes, false).len() < 1000);
+    assert!(flap_sweep::grid::diagnostic::render(&mistakes, false).len() < 1000);
 }

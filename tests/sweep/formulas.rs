@@ -1,9 +1,9 @@
 //! Derived parameters, conditions and measures of one's own.
 
 use flap_core::parameter::Invalid;
-use flap_sweep::expression::Kind;
-use flap_sweep::layout::Layout;
+use flap_sweep::notation::expression::Kind;
 use flap_sweep::plan::Verdict;
+use flap_sweep::table::layout::Layout;
 
 use crate::fake::{index, plan};
 

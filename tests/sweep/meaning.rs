@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use flap_core::simulate::SolverSettings;
-use flap_sweep::axis::Values;
+use flap_sweep::plan::axis::Values;
 use flap_sweep::plan::{Output, Plan};
 
 use crate::fake::{FLY, index, plan};

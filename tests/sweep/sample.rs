@@ -3,9 +3,9 @@
 use std::fs;
 
 use flap_core::parameter::Invalid;
-use flap_sweep::axis::Values;
+use flap_sweep::plan::axis::Values;
+use flap_sweep::plan::sample::{Distribution, Method};
 use flap_sweep::plan::{Plan, Verdict};
-use flap_sweep::sample::{Distribution, Method};
 
 use crate::fake::{MODELS, index, plan};
 
@@ -117,7 +117,7 @@ fn sampled_values_out_of_range_make_a_point_invalid() {
     for (point, area) in (0..).zip(areas) {
         let reason = format!(
             "`wing_area` comes out as {} m^2, but must be more than zero",
-            flap_sweep::text::float(area)
+            flap_sweep::notation::text::float(area)
         );
         let expected = if area > 0.0 { Verdict::Runs } else { Verdict::Invalid(Invalid::new(reason)) };
         assert_eq!(plan.judge(&plan.point(point).values), expected);
@@ -132,7 +132,7 @@ fn points_come_from_a_file_beside_the_grid() {
     fs::write(folder.path().join("points.csv"), points).expect("a file");
     let name = folder.path().join("grid.toml").display().to_string();
     let grid = "preset = \"fly\"\n[sample]\nmethod = \"file\"\npath = \"points.csv\"\n[axes]\nstroke_offset = [0, 1]\n";
-    let plan = flap_sweep::spec::parse(&name, grid, &MODELS).expect("a proper grid");
+    let plan = flap_sweep::grid::parse(&name, grid, &MODELS).expect("a proper grid");
     assert_eq!(plan.len(), 4);
     let names = ["wing_area", "drive_frequency", "arms", "hinge_stiffness", "stroke_offset"];
     let found: Vec<Vec<f64>> = (0..4)
@@ -152,9 +152,9 @@ fn mistakes_of(points: &str) -> Vec<String> {
     fs::write(folder.path().join("points.csv"), points).expect("a file");
     let name = folder.path().join("grid.toml").display().to_string();
     let grid = "preset = \"fly\"\n[sample]\nmethod = \"file\"\npath = \"points.csv\"\n";
-    let problems = flap_sweep::spec::parse(&name, grid, &MODELS).err().expect("mistakes");
+    let problems = flap_sweep::grid::parse(&name, grid, &MODELS).err().expect("mistakes");
     let place = folder.path().display().to_string() + "/";
-    let line = |problem: &flap_sweep::diagnostic::Diagnostic| {
+    let line = |problem: &flap_sweep::grid::diagnostic::Diagnostic| {
         let part = &problem.source.text[problem.span.clone()];
         format!("{problem} |{part}| {}", problem.help.join("; ")).replace(&place, "")
     };

@@ -3,9 +3,9 @@
 use std::fs;
 
 use flap_core::num::InstructionSet;
-use flap_sweep::output::{CreateError, create, empty};
+use flap_sweep::files::output::{CreateError, create, empty};
+use flap_sweep::files::sidecar::{End, Sidecar, Start, path_of};
 use flap_sweep::run::Summary;
-use flap_sweep::sidecar::{End, Sidecar, Start, path_of};
 
 use crate::fake::{Fake, Fault};
 use crate::support::{csv, options, plan_of};

@@ -6,16 +6,16 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use flap_core::simulate::{Point, Row};
-use flap_sweep::identity::Identity;
-use flap_sweep::journal::{self, Checkpoint, Header, Journal};
-use flap_sweep::output;
+use flap_sweep::files::journal::{self, Checkpoint, Header, Journal};
+use flap_sweep::files::output;
+use flap_sweep::files::results::Format;
+use flap_sweep::files::session::{ResumeError, Resumed, Session, SessionOptions};
+use flap_sweep::grid;
 use flap_sweep::plan::Plan;
-use flap_sweep::results::Format;
+use flap_sweep::plan::selection::{Selection, Shard};
+use flap_sweep::run::identity::Identity;
+use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{self, RunError, Summary};
-use flap_sweep::selection::{Selection, Shard};
-use flap_sweep::session::{ResumeError, Resumed, Session, SessionOptions};
-use flap_sweep::sink::Sink;
-use flap_sweep::spec;
 
 use crate::fake::{Fake, Fault};
 use crate::support::{csv, options, plan, plan_of};
@@ -174,7 +174,7 @@ fn a_changed_file_of_points_is_not_resumed() {
         fs::write(&points, format!("size\n{sizes}\n")).unwrap();
         let grid = "preset = \"fake2020\"\n[sample]\nmethod = \"file\"\npath = \"points.csv\"\n";
         let name = folder.path().join("grid.toml").display().to_string();
-        spec::parse(&name, grid, &[Fake::leak(Fault::None, 8)]).unwrap()
+        grid::parse(&name, grid, &[Fake::leak(Fault::None, 8)]).unwrap()
     };
     let (first, other) = (plan("1\n2\n3"), plan("1\n2\n8"));
     assert_eq!(run_to(&mut start(&path, &first), &first, Summary::default(), 2), None);

@@ -4,10 +4,10 @@ use std::collections::VecDeque;
 use std::sync::atomic::AtomicBool;
 
 use flap_core::num::InstructionSet;
-use flap_sweep::csv_sink::CsvSink;
-use flap_sweep::layout::Layout;
+use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::plan::Plan;
 use flap_sweep::run::{Parcel, RunError, Summary, feed, part};
+use flap_sweep::table::layout::Layout;
 
 use crate::fake::{Fake, Fault};
 use crate::formulas::GRID;

@@ -8,11 +8,11 @@ use std::thread;
 use std::time::Duration;
 
 use flap_core::simulate::{Point, Row};
-use flap_sweep::csv_sink::CsvSink;
-use flap_sweep::layout::Layout;
+use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::plan::Plan;
+use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{RunError, RunOptions, Summary, run};
-use flap_sweep::sink::Sink;
+use flap_sweep::table::layout::Layout;
 
 use crate::fake::Fake;
 
@@ -26,7 +26,7 @@ pub(crate) fn plan(model: &'static Fake, points: u64) -> Plan {
 
 /// The plan of a grid file.
 pub(crate) fn plan_of(model: &'static Fake, grid: &str) -> Plan {
-    flap_sweep::spec::parse("grid.toml", grid, &[model]).expect("a correct grid file")
+    flap_sweep::grid::parse("grid.toml", grid, &[model]).expect("a correct grid file")
 }
 
 pub(crate) fn options(threads: usize, window: usize) -> RunOptions {

@@ -6,8 +6,8 @@ use std::sync::atomic::AtomicBool;
 use flap_core::num::InstructionSet;
 use flap_core::simulate::Status;
 use flap_sweep::plan::Plan;
-use flap_sweep::response::{self, Along, BandKind, Curve, Verdict};
 use flap_sweep::run::RunError;
+use flap_sweep::study::response::{self, Along, BandKind, Curve, Verdict};
 
 use crate::support::{bits, column, parameter, plan};
 

@@ -6,12 +6,12 @@ use flap_sweep::plan::Plan;
 
 /// The plan of a grid file.
 pub(crate) fn plan(grid: &str) -> Plan {
-    flap_sweep::spec::parse("grid.toml", grid, all()).unwrap_or_else(|problems| panic!("{problems:?}"))
+    flap_sweep::grid::parse("grid.toml", grid, all()).unwrap_or_else(|problems| panic!("{problems:?}"))
 }
 
 /// The messages about a grid file with mistakes.
 pub(crate) fn mistakes(grid: &str) -> Vec<String> {
-    let problems = flap_sweep::spec::parse("grid.toml", grid, all()).err().expect("there are mistakes");
+    let problems = flap_sweep::grid::parse("grid.toml", grid, all()).err().expect("there are mistakes");
     problems.iter().map(ToString::to_string).collect()
 }
 

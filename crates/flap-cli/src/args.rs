@@ -10,9 +10,9 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use clap::{Parser, Subcommand, ValueEnum, value_parser};
-use flap_sweep::identity;
-use flap_sweep::selection::Shard;
-use flap_sweep::units;
+use flap_sweep::notation::units;
+use flap_sweep::plan::selection::Shard;
+use flap_sweep::run::identity;
 #[cfg(feature = "plots")]
 pub(crate) use plot::{Aim, PictureKind, PlotArgs, Size};
 pub(crate) use respond::RespondArgs;

@@ -8,16 +8,16 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use flap_core::simulate::Status;
-use flap_sweep::integrity::{self, Note, OnDamage, Opened};
-pub(crate) use flap_sweep::job::Begin;
-use flap_sweep::job::{self, Before, Done, Job, Outcome};
-use flap_sweep::output;
+use flap_sweep::files::integrity::{self, Note, OnDamage, Opened};
+pub(crate) use flap_sweep::files::job::Begin;
+use flap_sweep::files::job::{self, Before, Done, Job, Outcome};
+use flap_sweep::files::output;
+use flap_sweep::files::results::{Format, Reader};
+use flap_sweep::files::session::{self, SessionOptions};
+use flap_sweep::files::sidecar::{self, Origin, ReadError, Sidecar};
 use flap_sweep::plan::Plan;
-use flap_sweep::results::{Format, Reader};
+use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{self, Doubts, RunError, RunOptions, Summary};
-use flap_sweep::session::{self, SessionOptions};
-use flap_sweep::sidecar::{self, Origin, ReadError, Sidecar};
-use flap_sweep::sink::Sink;
 
 use crate::args::{ReadArgs, WorkArgs};
 use crate::cmd::exclusion;

@@ -1,6 +1,6 @@
 //! Text in aligned columns.
 
-use flap_sweep::text;
+use flap_sweep::notation::text;
 
 /// The number to six digits, for cells that are to be read.
 pub(crate) fn six_digits(number: f64) -> String {

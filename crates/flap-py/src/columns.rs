@@ -3,9 +3,9 @@
 use std::io;
 
 use flap_core::simulate::{Point, Row};
-use flap_sweep::layout::{Cell, Column, Kind, Layout};
 use flap_sweep::run::Summary;
-use flap_sweep::sink::Sink;
+use flap_sweep::run::sink::Sink;
+use flap_sweep::table::layout::{Cell, Column, Kind, Layout};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};

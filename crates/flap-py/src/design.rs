@@ -1,8 +1,8 @@
 //! Designs: what `evaluate`, `respond` and `resonance` start from.
 
 use flap_core::simulate;
+
 use flap_sweep::plan::Plan;
-use flap_sweep::spec;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
@@ -47,7 +47,8 @@ pub(crate) fn plan_of_model(
 
 fn of_preset(py: Python<'_>, preset: &str) -> PyResult<Plan> {
     let text = format!("preset = \"{preset}\"\n");
-    spec::parse(preset, &text, simulate::all()).map_err(|diagnostics| error::grid(py, &diagnostics))
+    flap_sweep::grid::parse(preset, &text, simulate::all())
+        .map_err(|diagnostics| error::grid(py, &diagnostics))
 }
 
 /// The text, if it is neither a path nor the text of a grid.

@@ -4,14 +4,14 @@ use std::io;
 
 use flap_core::parameter::Invalid;
 use flap_core::simulate::Unfinished;
-use flap_sweep::diagnostic;
-use flap_sweep::integrity::OpenError;
-use flap_sweep::job::JobError;
-use flap_sweep::output::CreateError;
+use flap_sweep::files::integrity::OpenError;
+use flap_sweep::files::job::JobError;
+use flap_sweep::files::output::CreateError;
+use flap_sweep::files::session::ResumeError;
+use flap_sweep::files::sidecar;
+use flap_sweep::grid::ReadError;
+use flap_sweep::grid::diagnostic;
 use flap_sweep::run::RunError;
-use flap_sweep::session::ResumeError;
-use flap_sweep::sidecar;
-use flap_sweep::spec::ReadError;
 use pyo3::create_exception;
 use pyo3::exceptions::{
     PyFileExistsError, PyFileNotFoundError, PyIsADirectoryError, PyOSError, PyRuntimeError, PyValueError,

@@ -3,9 +3,11 @@
 use std::path::PathBuf;
 
 use flap_core::simulate;
-use flap_sweep::axis::Values;
+use flap_sweep::grid;
+use flap_sweep::notation::text;
 use flap_sweep::plan::Plan;
-use flap_sweep::{spec, survey, text};
+use flap_sweep::plan::axis::Values;
+use flap_sweep::study::survey;
 use numpy::PyArray1;
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
@@ -199,11 +201,11 @@ pub(crate) fn plan(source: &Bound<'_, PyAny>) -> PyResult<Plan> {
             format!("a grid is a path, the text of a grid file, a dictionary or a Grid, not {found}");
         return Err(PyTypeError::new_err(message));
     };
-    spec::read(&path).map_err(|error| error::grid_file(py, &error))
+    grid::read(&path).map_err(|error| error::grid_file(py, &error))
 }
 
 fn parse(py: Python<'_>, name: &str, text: &str) -> PyResult<Plan> {
-    spec::parse(name, text, simulate::all()).map_err(|diagnostics| error::grid(py, &diagnostics))
+    grid::parse(name, text, simulate::all()).map_err(|diagnostics| error::grid(py, &diagnostics))
 }
 
 /// The axes of a plan, see [`Grid::axes`].

@@ -2,7 +2,8 @@
 
 use flap_core::parameter::Kind;
 use flap_core::simulate::{self, Simulator};
-use flap_sweep::{layout, text};
+use flap_sweep::notation::text;
+use flap_sweep::table::layout;
 use pyo3::prelude::*;
 
 use crate::parameters;

@@ -2,8 +2,8 @@
 
 use flap_core::parameter::{Kind, Parameter, Preset, Range};
 use flap_core::simulate::{self, Simulator};
-use flap_sweep::diagnostic::nearest;
-use flap_sweep::units;
+use flap_sweep::notation::nearest;
+use flap_sweep::notation::units;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyString;

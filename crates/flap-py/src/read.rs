@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use csv::StringRecord;
 use flap_core::simulate;
-use flap_sweep::integrity::{self, Note, OnDamage, Opened, RowCheck};
-use flap_sweep::layout::{self, Column, Kind, Layout};
+use flap_sweep::files::integrity::{self, Note, OnDamage, Opened, RowCheck};
+use flap_sweep::files::results::{Reader, Recorded};
+use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::plan::Plan;
-use flap_sweep::results::{Reader, Recorded};
 use flap_sweep::run::RunOptions;
-use flap_sweep::sidecar::Sidecar;
+use flap_sweep::table::layout::{self, Column, Kind, Layout};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

@@ -5,8 +5,8 @@ use std::thread;
 use std::time::Duration;
 
 use flap_core::parameter::Kind;
-use flap_sweep::response::{self, Along, AlongError, Motions, Verdict};
 use flap_sweep::run::RunError;
+use flap_sweep::study::response::{self, Along, AlongError, Motions, Verdict};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

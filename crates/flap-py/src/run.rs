@@ -2,7 +2,7 @@
 
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{Column, Row, Simulator, SolverSettings, TrajectoryRequest};
-use flap_sweep::layout::{self, Cell, Kind};
+use flap_sweep::table::layout::{self, Cell, Kind};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

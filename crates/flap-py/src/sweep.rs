@@ -7,13 +7,13 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use flap_core::simulate::SolverSettings;
-use flap_sweep::identity::Identity;
-use flap_sweep::job::{self, Begin, Job, Outcome};
-use flap_sweep::layout::Layout;
+use flap_sweep::files::job::{self, Begin, Job, Outcome};
+use flap_sweep::files::session::SessionOptions;
 use flap_sweep::plan::Plan;
+use flap_sweep::run::identity::Identity;
+use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{self, Parcel, RunError, RunOptions, Summary};
-use flap_sweep::session::SessionOptions;
-use flap_sweep::sink::Sink;
+use flap_sweep::table::layout::Layout;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};

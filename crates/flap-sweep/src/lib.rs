@@ -1,38 +1,21 @@
 //! Grid files, plans and sweeps.
 //!
-//! The way of the data: grid file → [`spec`] → [`plan::Plan`] → points → [`run`] → rows → [`sink`].
+//! Rooms, each using only those above it:
+//!
+//! - [`notation`]: numbers, units, times and formulas as text
+//! - [`resonance`]: rows of designs that are each run at their own resonance
+//! - [`plan`]: the design space: axes, samples, derived parameters, conditions, selections
+//! - [`table`]: the columns of rows, rows as text, formats of files
+//! - [`grid`]: grid files into plans, with diagnostics
+//! - [`run`]: the parallel runner, which hands rows to sinks in point order
+//! - [`files`]: result files: formats, sidecars, journals, checksums; resumed, merged, run again
+//! - [`study`]: response curves, deviations of parameters, surveys of a plan
 
-pub mod axis;
-pub mod csv_sink;
-pub mod deviation;
-pub mod diagnostic;
-pub mod expression;
-pub mod formula;
-pub mod identity;
-pub mod inputs;
-pub mod integrity;
-pub mod job;
-pub mod journal;
-pub mod layout;
-mod lines;
-pub mod merge;
-pub mod output;
+pub mod files;
+pub mod grid;
+pub mod notation;
 pub mod plan;
-pub mod record;
-mod replaced;
-pub mod rerun;
 pub mod resonance;
-pub mod response;
-pub mod results;
 pub mod run;
-pub mod sample;
-pub mod selection;
-pub mod session;
-pub mod sidecar;
-pub mod sink;
-pub mod spec;
 pub mod study;
-pub mod survey;
-pub mod text;
-pub mod time;
-pub mod units;
+pub mod table;

@@ -84,7 +84,7 @@ proptest! {
             text.splice(start..end, SCRAPS[scrap].chars());
         }
         let text: String = text.into_iter().collect();
-        match flap_sweep::spec::parse("grid.toml", &text, &MODELS) {
+        match flap_sweep::grid::parse("grid.toml", &text, &MODELS) {
             Ok(plan) => {
                 for index in [0, plan.len() / 2, plan.len() - 1] {
                     let values = plan.point(index).values;
@@ -126,6 +126,6 @@ fn deep_nesting_is_refused() {
         format!("[{}a]", deep("a.")),
     ];
     for text in texts {
-        assert!(flap_sweep::spec::parse("grid.toml", &text, &MODELS).is_err());
+        assert!(flap_sweep::grid::parse("grid.toml", &text, &MODELS).is_err());
     }
 }

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use flap_core::simulate::Status;
-use flap_sweep::diagnostic::nearest;
-use flap_sweep::integrity::OnDamage;
+use flap_sweep::files::integrity::OnDamage;
+use flap_sweep::notation::nearest;
 
 use super::{SolverArgs, threads, time};
 

@@ -7,11 +7,14 @@ use std::sync::Arc;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Point, SolverSettings};
-use flap_sweep::axis::Values;
+use flap_sweep::grid;
+use flap_sweep::notation::text;
+use flap_sweep::plan::axis::Values;
+use flap_sweep::plan::sample::{Distribution, Method};
 use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::resonance::Range;
-use flap_sweep::sample::{Distribution, Method};
-use flap_sweep::{deviation, spec, survey, text};
+use flap_sweep::study::deviation;
+use flap_sweep::study::survey;
 
 use super::{exclusion, far};
 use crate::args::CheckArgs;
@@ -20,7 +23,7 @@ use crate::failure::{Exit, Failure};
 use crate::table::Table;
 
 pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
-    let plan = Arc::new(spec::read(&args.grid)?);
+    let plan = Arc::new(grid::read(&args.grid)?);
     far::warn(&deviation::of(&plan));
     console::results(&page(&plan))?;
     Ok(Exit::Done)

@@ -2,11 +2,10 @@
 
 use std::io::ErrorKind;
 
-use flap_sweep::identity::Identity;
-use flap_sweep::inputs::Inputs;
-use flap_sweep::integrity::{Note, RowCheck};
-use flap_sweep::results::{Checksums, ConvertError, Converted, Format, Provenance, convert};
-use flap_sweep::sidecar::{self, Sidecar, State};
+use flap_sweep::files::inputs::Inputs;
+use flap_sweep::files::integrity::{Note, RowCheck};
+use flap_sweep::files::results::{Checksums, ConvertError, Converted, Format, Provenance, convert};
+use flap_sweep::files::sidecar::{self, Sidecar, State};
 
 use crate::args::ConvertArgs;
 use crate::cmd::outputs::is_stdout;
@@ -22,7 +21,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
     let (mut source, plan, mut sidecar) = job::open_recorded(&args.from, &args.read)?;
     inputs.add_plan(&plan).protect_from_results(&args.to)?;
     let is_damaged = source.notes.iter().any(|note| matches!(note, Note::Damaged { .. }));
-    let provenance = Provenance::of(&plan, &Identity::recorded(&sidecar));
+    let provenance = Provenance::of(&plan, &sidecar.identity());
     let written = sidecar.rows.filter(|_| sidecar.state == State::Complete);
     let check = Some(RowCheck::new(&plan, written));
     if to_stdout {

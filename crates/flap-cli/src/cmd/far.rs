@@ -1,6 +1,6 @@
 //! Values far from the preset's, which have seldom been meant.
 
-use flap_sweep::deviation::Deviation;
+use flap_sweep::study::deviation::Deviation;
 
 use crate::console;
 

@@ -4,8 +4,8 @@ use std::io;
 
 use flap_core::drive::Repeat;
 use flap_core::simulate::{ImposedMotion, Trajectory};
-use flap_sweep::inputs::Inputs;
-use flap_sweep::record;
+use flap_sweep::files::inputs::Inputs;
+use flap_sweep::files::record;
 
 use super::motion::{write_csv, write_file};
 use super::point::Chosen;

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use flap_sweep::inputs::Inputs;
-use flap_sweep::integrity::{Note, OnDamage};
-use flap_sweep::merge::{self, MergeError, Part};
-use flap_sweep::results::{Format, Reader};
+use flap_sweep::files::inputs::Inputs;
+use flap_sweep::files::integrity::{Note, OnDamage};
+use flap_sweep::files::merge::{self, MergeError, Part};
+use flap_sweep::files::results::{Format, Reader};
+use flap_sweep::files::sidecar::{self, End, Sidecar, Start};
+use flap_sweep::plan::selection::Selection;
 use flap_sweep::run::RunOptions;
-use flap_sweep::selection::Selection;
-use flap_sweep::sidecar::{self, End, Sidecar, Start};
 
 use crate::args::MergeArgs;
 use crate::cmd::outputs::is_stdout;

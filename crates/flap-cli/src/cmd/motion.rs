@@ -4,7 +4,8 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use flap_core::simulate::Trajectory;
-use flap_sweep::{csv_sink, text};
+use flap_sweep::files::csv_sink;
+use flap_sweep::notation::text;
 
 use crate::failure::Failure;
 use crate::job;

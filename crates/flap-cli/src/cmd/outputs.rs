@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use flap_sweep::inputs::{Inputs, is_same_target};
-use flap_sweep::results::Format;
+use flap_sweep::files::inputs::{Inputs, is_same_target};
+use flap_sweep::files::results::Format;
 
 use crate::failure::Failure;
 

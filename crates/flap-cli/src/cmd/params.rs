@@ -2,8 +2,8 @@
 
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{self, Simulator};
-use flap_sweep::diagnostic::nearest;
-use flap_sweep::text;
+use flap_sweep::notation::nearest;
+use flap_sweep::notation::text;
 
 use crate::args::ParamsArgs;
 use crate::console;

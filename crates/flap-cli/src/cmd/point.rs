@@ -5,10 +5,11 @@ use std::path::Path;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{self, Rows, Simulator, SolverSettings};
-use flap_sweep::diagnostic::nearest;
+use flap_sweep::grid;
+use flap_sweep::notation::nearest;
+use flap_sweep::notation::units;
 use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
-use flap_sweep::{spec, units};
 
 use crate::args::{PointArgs, SolverArgs};
 use crate::console;
@@ -102,12 +103,12 @@ impl Chosen {
 pub(super) fn plan(what: &str) -> Result<Plan, Failure> {
     if simulate::preset(what).is_some() {
         let grid = format!("preset = \"{what}\"\n");
-        return spec::parse(what, &grid, simulate::all()).map_err(Failure::Grid);
+        return grid::parse(what, &grid, simulate::all()).map_err(Failure::Grid);
     }
     let path = Path::new(what);
     let looks_like_a_file = path.extension().is_some() || path.components().count() > 1;
     if looks_like_a_file || path.exists() {
-        return Ok(spec::read(path)?);
+        return Ok(grid::read(path)?);
     }
     let presets = simulate::all().iter().flat_map(|model| model.presets()).map(|preset| preset.name);
     let failure = Failure::usage(format!("there is no preset and no file `{what}`"));

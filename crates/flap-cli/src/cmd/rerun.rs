@@ -1,9 +1,9 @@
 //! `flap rerun`: points of earlier results again, with other solver settings.
 
-use flap_sweep::inputs::Inputs;
-use flap_sweep::rerun::{self, Wanted};
-use flap_sweep::selection::Selection;
-use flap_sweep::sidecar::{Origin, State};
+use flap_sweep::files::inputs::Inputs;
+use flap_sweep::files::rerun::{self, Wanted};
+use flap_sweep::files::sidecar::{Origin, State};
+use flap_sweep::plan::selection::Selection;
 
 use crate::args::RerunArgs;
 use crate::cmd::point::set_solver;

@@ -7,7 +7,8 @@ use flap_core::num::InstructionSet;
 use flap_core::resonance::driven::{self, DrivenPeaks, Gap, PeakSearch};
 use flap_core::resonance::free::{self, FreeMotion, FreeRequest};
 use flap_core::simulate::never;
-use flap_sweep::{csv_sink, text};
+use flap_sweep::files::csv_sink;
+use flap_sweep::notation::text;
 
 use super::point::Chosen;
 use crate::args::{Format, ResonanceArgs};

@@ -7,13 +7,13 @@ use std::sync::atomic::AtomicBool;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::Point;
-use flap_sweep::inputs::Inputs;
-use flap_sweep::job;
-use flap_sweep::output::{self, Durable};
+use flap_sweep::files::inputs::Inputs;
+use flap_sweep::files::job;
+use flap_sweep::files::output::{self, Durable};
+use flap_sweep::notation::text;
 use flap_sweep::plan::Plan;
-use flap_sweep::response::{self, Along, AlongError, Curve, Table, Verdict};
 use flap_sweep::run::RunOptions;
-use flap_sweep::text;
+use flap_sweep::study::response::{self, Along, AlongError, Curve, Table, Verdict};
 
 use super::{outputs, point};
 use crate::args::RespondArgs;

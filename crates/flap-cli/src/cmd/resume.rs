@@ -1,8 +1,8 @@
 //! `flap resume`: an interrupted sweep, from its results alone.
 
-use flap_sweep::integrity::OnDamage;
-use flap_sweep::results::Format;
-use flap_sweep::sidecar::State;
+use flap_sweep::files::integrity::OnDamage;
+use flap_sweep::files::results::Format;
+use flap_sweep::files::sidecar::State;
 
 use crate::args::ResumeArgs;
 use crate::console;

@@ -5,9 +5,10 @@ use std::io;
 
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{ChirpRequest, Row, Status, TrajectoryRequest, never};
-use flap_sweep::expression::Kind;
-use flap_sweep::inputs::Inputs;
-use flap_sweep::{deviation, text};
+use flap_sweep::files::inputs::Inputs;
+use flap_sweep::notation::expression::Kind;
+use flap_sweep::notation::text;
+use flap_sweep::study::deviation;
 
 use super::motion::{write_csv, write_file};
 use super::point::Chosen;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use flap_core::drive::{Repeat, Samples};
-use flap_sweep::record::{self, Record, RecordError};
+use flap_sweep::files::record::{self, Record, RecordError};
 
 use super::point::Chosen;
 use crate::args::RunArgs;

@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use flap_sweep::inputs::Inputs;
+use flap_sweep::files::inputs::Inputs;
+use flap_sweep::files::results::Format;
+use flap_sweep::files::sidecar::{Origin, Sidecar};
+use flap_sweep::grid;
 use flap_sweep::plan::Plan;
-use flap_sweep::results::Format;
-use flap_sweep::selection::{Selection, Shard};
-use flap_sweep::sidecar::{Origin, Sidecar};
-use flap_sweep::{deviation, spec};
+use flap_sweep::plan::selection::{Selection, Shard};
+use flap_sweep::study::deviation;
 
 use crate::args::SweepArgs;
 use crate::cmd::far;
@@ -45,7 +46,7 @@ fn plan(args: &SweepArgs) -> Result<(Plan, Option<Origin>), Failure> {
         return Ok((job::plan_of(path, &sidecar)?, sidecar.origin()));
     }
     let grid = args.grid.as_ref().ok_or_else(|| Failure::usage("name a grid file with --grid"))?;
-    Ok((spec::read(grid)?, None))
+    Ok((grid::read(grid)?, None))
 }
 
 /// Where rows go if the command line does not say.

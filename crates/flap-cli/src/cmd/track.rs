@@ -4,8 +4,8 @@ use std::io;
 
 use flap_core::measure::tracking::{LeadingEdge, pitch_from_projection, rotation_centre};
 use flap_core::simulate::Trajectory;
-use flap_sweep::inputs::Inputs;
-use flap_sweep::record::{self, Record, RecordError};
+use flap_sweep::files::inputs::Inputs;
+use flap_sweep::files::record::{self, Record, RecordError};
 
 use super::motion::{write_csv, write_file};
 use super::{outputs, samples};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use flap_sweep::integrity::{self, Verdict};
+use flap_sweep::files::integrity::{self, Verdict};
 
 use crate::args::VerifyArgs;
 use crate::console;

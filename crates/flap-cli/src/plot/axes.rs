@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use flap_sweep::units;
+use flap_sweep::notation::units;
 
 use super::columns::{Cells, NO_WORD, Table};
 use super::label;
@@ -181,7 +181,7 @@ fn wanted(table: &Table, column: usize, text: &str) -> Result<f64, Failure> {
 fn listed(table: &Table, column: usize, levels: &Levels) -> String {
     const MOST: usize = 12;
     let text = |place: usize| match &levels.values {
-        Values::Numbers(values) => flap_sweep::text::float(values[place]),
+        Values::Numbers(values) => flap_sweep::notation::text::float(values[place]),
         Values::Words(words) => words[place].clone(),
     };
     let many = levels.len();
@@ -235,7 +235,7 @@ pub(super) fn sliced(table: &Table, axes: &[usize], shown: &[usize], mut rows: V
         let middle = levels.len() / 2;
         let name = &table.columns[axis].name;
         let value = match &levels.values {
-            Values::Numbers(values) => flap_sweep::text::float(values[middle]),
+            Values::Numbers(values) => flap_sweep::notation::text::float(values[middle]),
             Values::Words(words) => words[middle].clone(),
         };
         let label = table.label(axis);

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use csv::StringRecord;
 use flap_core::simulate;
-use flap_sweep::diagnostic::nearest;
-use flap_sweep::integrity::{self, Note, Opened};
-use flap_sweep::layout::{self, Layout};
-use flap_sweep::results::Reader;
-use flap_sweep::sidecar::{self, Sidecar};
+use flap_sweep::files::integrity::{self, Note, Opened};
+use flap_sweep::files::results::Reader;
+use flap_sweep::files::sidecar::{self, Sidecar};
+use flap_sweep::notation::nearest;
+use flap_sweep::table::layout::{self, Layout};
 
 use super::label::Label;
 use crate::args::PlotArgs;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use flap_sweep::text::printable;
+use flap_sweep::notation::text::printable;
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::{ColorMap, LinePlot, ScatterPlot};
 use kuva::render::color::Color;

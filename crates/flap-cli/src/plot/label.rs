@@ -1,6 +1,6 @@
 //! What is written at axes: a column's name in words, and its unit.
 
-use flap_sweep::layout;
+use flap_sweep::table::layout;
 
 /// A column's label, and the unit that its numbers are shown in.
 #[derive(Clone, Debug, PartialEq)]

@@ -22,9 +22,9 @@ use std::path::{Path, PathBuf};
 use choose::Wishes;
 use chosen::Chosen;
 use columns::{Source, Table};
-use flap_sweep::inputs::Inputs;
-use flap_sweep::results::Format;
-use flap_sweep::text::printable;
+use flap_sweep::files::inputs::Inputs;
+use flap_sweep::files::results::Format;
+use flap_sweep::notation::text::printable;
 use kuva::render::render::Scene;
 
 use crate::args::{PictureKind, PlotArgs, Size};

@@ -6,14 +6,15 @@
 
 mod maximum;
 mod search;
+pub mod study;
 
 use flap_core::num::InstructionSet;
 use flap_core::parameter::Invalid;
 use flap_core::resonance::driven::has_prescribed_stroke;
 use flap_core::simulate::{Column, Jobs, Point, Row, Rows, Simulator, SolverSettings};
 
-use crate::study::{self, Desk};
 use search::Search;
+use study::Desk;
 
 /// What is to be largest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,7 +10,7 @@ use flap_core::simulate::{Point, Row, Status};
 
 use super::AtResonance;
 use super::maximum::Maximum;
-use crate::study::{Probe, Study};
+use crate::resonance::study::{Probe, Study};
 
 /// Ratio of neighbouring frequencies of the grid, less one. A peak of quality Q is 1/Q wide.
 const SPACING: f64 = 0.02;

@@ -6,7 +6,7 @@ use super::Summary;
 use super::finished::Finished;
 use super::summary::Doubtful;
 use crate::plan::Plan;
-use crate::sink::Sink;
+use crate::run::sink::Sink;
 
 /// Writes what becomes of points, in their order, and counts it.
 pub(super) struct Ledger<'a> {

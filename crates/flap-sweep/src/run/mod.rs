@@ -6,9 +6,11 @@
 
 mod collect;
 mod finished;
+pub mod identity;
 mod ledger;
 mod parcel;
 mod queue;
+pub mod sink;
 mod summary;
 mod window;
 mod worker;
@@ -24,7 +26,7 @@ pub use parcel::{Parcel, feed, part};
 pub use summary::{Counts, Doubts, Summary};
 
 use crate::plan::Plan;
-use crate::sink::Sink;
+use crate::run::sink::Sink;
 use finished::Finished;
 use ledger::Ledger;
 use queue::Queue;

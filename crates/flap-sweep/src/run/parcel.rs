@@ -12,9 +12,9 @@ use serde::{Deserialize, Serialize};
 use super::finished::Finished;
 use super::ledger::Ledger;
 use super::{Progress, RunError, RunOptions, Summary, work};
-use crate::identity::{self, Identity};
 use crate::plan::Plan;
-use crate::sink::Sink;
+use crate::run::identity::{self, Identity};
+use crate::run::sink::Sink;
 
 /// What became of the points of a stretch.
 #[derive(Debug, Serialize, Deserialize)]

@@ -9,7 +9,7 @@ use flap_core::num::InstructionSet;
 use flap_core::simulate::{Jobs, Point, Row, Status};
 use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::run::RunOptions;
-use flap_sweep::survey::spread;
+use flap_sweep::study::survey::spread;
 
 /// Points that are run at most.
 const MOST: u64 = 32;

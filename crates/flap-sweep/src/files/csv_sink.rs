@@ -1,0 +1,67 @@
+//! Rows as comma-separated values.
+
+use std::io;
+
+use flap_core::simulate::{Point, Row};
+
+use crate::files::output::Durable;
+use crate::run::sink::Sink;
+use crate::table::layout::Layout;
+use crate::table::lines::Lines;
+
+/// Writes one plain header line, then one line per row.
+///
+/// Numbers are written as [`crate::notation::text::float`] does, choices by the name of their option;
+/// cells of what is not known are empty.
+pub struct CsvSink<W: Durable> {
+    layout: Layout,
+    lines: Lines<W>,
+}
+
+impl<W: Durable> CsvSink<W> {
+    /// Writes the columns of `layout` to `target`.
+    pub fn new(layout: Layout, target: W) -> CsvSink<W> {
+        CsvSink { layout, lines: Lines::new(target) }
+    }
+
+    /// What has been written to; complete after [`Sink::flush`] or [`Sink::finish`].
+    pub fn target(&self) -> &W {
+        self.lines.target()
+    }
+}
+
+impl<W: Durable> Sink for CsvSink<W> {
+    fn begin(&mut self) -> io::Result<()> {
+        self.lines.texts(self.layout.names())
+    }
+
+    fn write(&mut self, point: &Point, row: &Row) -> io::Result<()> {
+        self.lines.cells(&self.layout.cells(point, row))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.lines.flush()
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        self.lines.flush()?;
+        self.lines.target().sync()
+    }
+}
+
+/// What the operating system said, which the conversion of the csv crate would hide, and a closed pipe with it; or what is
+/// wrong with the table.
+pub fn cause(error: csv::Error) -> io::Error {
+    let wrong = |place: Option<csv::Position>, what: String| {
+        let line = place.map_or_else(String::new, |place| format!("line {}: ", place.line()));
+        io::Error::new(io::ErrorKind::InvalidData, line + &what)
+    };
+    match error.into_kind() {
+        csv::ErrorKind::Io(cause) => cause,
+        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
+            wrong(pos, format!("{len} cells under {expected_len} headings"))
+        }
+        csv::ErrorKind::Utf8 { pos, .. } => wrong(pos, "not UTF-8 text".to_owned()),
+        other => io::Error::other(format!("{other:?}")),
+    }
+}

@@ -1,0 +1,100 @@
+//! What is wrong with a result file, in words.
+
+use std::fmt;
+use std::ops::RangeInclusive;
+
+use crate::files::results::checksum::TextDigest;
+use crate::files::results::{BLOCK_ROWS, Checksums};
+
+/// Ranges that a message lists; of more it says how many.
+const MOST_LISTED: usize = 5;
+
+/// How a file differs from what was written.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[expect(clippy::struct_excessive_bools, reason = "any of them may hold, and each has a sentence of its own")]
+pub struct Damage {
+    /// The checksums themselves cannot be read.
+    pub checksums: bool,
+    /// The header is another.
+    pub header: bool,
+    /// Rows in blocks that are others, counted from 1: at least one in each range, and those after a missing or an added one.
+    pub rows: Vec<RangeInclusive<u64>>,
+    /// How many rows there are and how many were written, if that differs.
+    pub count: Option<(u64, u64)>,
+    /// Why what follows cannot be read.
+    pub unreadable: Option<String>,
+    /// Bytes are others: perhaps only some that rows do not depend on.
+    pub bytes: bool,
+    /// Unfinished rows are not those that the journal tells of.
+    pub altered: bool,
+}
+
+impl Damage {
+    /// Compares the text that was found with what was written, of which `rows` were.
+    pub(super) fn of_text(found: &TextDigest, checksums: &Checksums, rows: Option<u64>) -> Damage {
+        let mut damage = Damage::default();
+        if found.text() == checksums.text {
+            return damage;
+        }
+        let Some(written) = checksums.parts().filter(|_| checksums.block_rows == BLOCK_ROWS) else {
+            return Damage { checksums: true, ..damage };
+        };
+        let found_parts = found.parts();
+        damage.header = found_parts.first() != written.first();
+        let last = rows.unwrap_or(0).max(found.rows());
+        let blocks = written.len().max(found_parts.len());
+        for block in (1..blocks).filter(|&block| found_parts.get(block) != written.get(block)) {
+            let begin = (block as u64 - 1) * u64::from(BLOCK_ROWS) + 1;
+            let end = last.min(begin + u64::from(BLOCK_ROWS) - 1).max(begin);
+            match damage.rows.last_mut() {
+                Some(range) if range.end() + 1 == begin => *range = *range.start()..=end,
+                _ => damage.rows.push(begin..=end),
+            }
+        }
+        damage.count = rows.filter(|&rows| rows != found.rows()).map(|rows| (found.rows(), rows));
+        damage
+    }
+
+    /// Whether nothing is wrong.
+    pub fn is_none(&self) -> bool {
+        *self == Damage::default()
+    }
+}
+
+impl fmt::Display for Damage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut told = Vec::new();
+        if self.checksums {
+            told.push("its checksums cannot be read".to_owned());
+        }
+        if self.header {
+            told.push("its header is not as it was written".to_owned());
+        }
+        if !self.rows.is_empty() {
+            told.push(format!("rows {} are not as they were written", listed(&self.rows)));
+        }
+        if let Some((found, written)) = self.count {
+            told.push(format!("it holds {found} rows, {written} were written"));
+        }
+        if let Some(reason) = &self.unreadable {
+            told.push(format!("what follows cannot be read ({reason})"));
+        }
+        if self.altered {
+            told.push("it is not as the sweep left it".to_owned());
+        }
+        if self.bytes && told.is_empty() {
+            told.push("its rows are as they were written, but other bytes of the file are not".to_owned());
+        }
+        f.write_str(&told.join("; "))
+    }
+}
+
+fn listed(ranges: &[RangeInclusive<u64>]) -> String {
+    let range = |range: &RangeInclusive<u64>| format!("{} to {}", range.start(), range.end());
+    let shown: Vec<String> = ranges.iter().take(MOST_LISTED).map(range).collect();
+    let more = match ranges.len().saturating_sub(MOST_LISTED) {
+        0 => String::new(),
+        more => format!(" and {more} more ranges"),
+    };
+    shown.join(", ") + &more
+}

@@ -1,0 +1,122 @@
+//! The section `[axes]`, and what holds for axes of every kind.
+
+use std::ops::Range;
+
+use flap_core::parameter::Parameter;
+use toml::de::DeValue;
+
+use super::params::Lookup;
+use super::problems::Problems;
+use super::range;
+use super::table::{self, Entry};
+use super::value;
+use crate::plan::Plan;
+use crate::plan::axis::{Axis, Values};
+
+/// An axis and where it stands in the file.
+pub(super) struct Placed {
+    pub(super) axis: Axis,
+    /// The key of the axis, or the header of its `[[zip]]`.
+    pub(super) span: Range<usize>,
+    /// The keys of its parameters, in the order of the axis.
+    pub(super) keys: Vec<Range<usize>>,
+}
+
+/// The axes of the section.
+///
+/// A parameter whose values are wrong still makes an axis, an empty one, so that it takes part in the checks
+/// that follow.
+pub(super) fn read(entry: Option<&Entry<'_>>, lookup: &mut Lookup<'_>) -> Vec<Placed> {
+    let mut axes = Vec::new();
+    for entry in entry.map(|entry| table::section(entry, lookup.problems)).unwrap_or_default() {
+        let Some((index, parameter)) = lookup.parameter(&entry) else {
+            continue;
+        };
+        let values = values(parameter, &entry, lookup.problems);
+        axes.push(Placed {
+            axis: Axis { parameters: vec![(index, values.unwrap_or_else(none))] },
+            span: entry.key_span.clone(),
+            keys: vec![entry.key_span],
+        });
+    }
+    axes
+}
+
+/// What stands for values that could not be read.
+pub(super) fn none() -> Values {
+    Values::List(Vec::new())
+}
+
+/// The values of one parameter along an axis: a list, or a range. `None`, with a report, if there are none.
+pub(super) fn values(parameter: &Parameter, entry: &Entry<'_>, problems: &mut Problems) -> Option<Values> {
+    match entry.value.get_ref() {
+        DeValue::Array(list) if list.is_empty() => {
+            problems
+                .report(entry.value.span(), format!("the axis `{}` has no values", parameter.name))
+                .label("empty list")
+                .help("list at least one value, or remove the axis");
+            None
+        }
+        DeValue::Array(list) => {
+            let read: Vec<Option<f64>> =
+                list.iter().map(|value| value::of_parameter(parameter, value, problems)).collect();
+            read.into_iter().collect::<Option<Vec<f64>>>().map(Values::List)
+        }
+        DeValue::Table(_) => range::read(parameter, entry, problems),
+        other => {
+            let message = format!(
+                "the axis `{}` must be a list or a range, not {}",
+                parameter.name,
+                table::kind(other)
+            );
+            problems
+                .report(entry.value.span(), message)
+                .note("axes look like [1, 2, 5], { from = 1, to = 5, n = 9 } or { from = 1, to = 5, step = 0.5 }")
+                .help(format!("to give `{}` a single value, put it under [params]", parameter.name));
+            None
+        }
+    }
+}
+
+/// Reports parameters that more than one axis varies, and axes that would override `[params]`.
+pub(super) fn report_repeats(axes: &[Placed], set: &[(usize, Range<usize>)], lookup: &mut Lookup<'_>) {
+    let mut seen: Vec<(usize, Range<usize>)> = Vec::new();
+    for placed in axes {
+        for ((parameter, _), key) in placed.axis.parameters.iter().zip(&placed.keys) {
+            let name = lookup.name(*parameter);
+            if let Some((_, first)) = seen.iter().find(|(other, _)| other == parameter) {
+                lookup
+                    .problems
+                    .report(key.clone(), format!("`{name}` is varied by two axes"))
+                    .label("again here")
+                    .related(first.clone(), "first here")
+                    .help("keep one of them");
+            } else if let Some((_, fixed)) = set.iter().find(|(other, _)| other == parameter) {
+                lookup
+                    .problems
+                    .report(key.clone(), format!("`{name}` is set under [params] and varied by an axis"))
+                    .label("the axis would override it")
+                    .related(fixed.clone(), "set here")
+                    .help("keep one of them");
+            }
+            seen.push((*parameter, key.clone()));
+        }
+    }
+}
+
+/// Reports that the axes multiply to more points than a plan can have, at the axis that is one too many.
+pub(super) fn report_too_many_points(axes: &[Axis], spans: &[Range<usize>], problems: &mut Problems) {
+    let mut points = 1_u64;
+    let too_many = axes.iter().position(|axis| {
+        let product = points.checked_mul(axis.len()).filter(|product| *product <= Plan::MAX_POINTS);
+        points = product.unwrap_or(points);
+        product.is_none()
+    });
+    let span = too_many.and_then(|index| spans.get(index)).cloned().unwrap_or(0..0);
+    let sizes: Vec<String> = axes.iter().map(|axis| axis.len().to_string()).collect();
+    problems
+        .report(span, "the axes have more than 2^63 points between them")
+        .label("too many with this axis")
+        .note(format!("points: {}", sizes.join(" × ")))
+        .help("use fewer or shorter axes");
+}

@@ -1,0 +1,157 @@
+//! Expressions in a grid file, and the names that they may use.
+
+use flap_core::parameter::{Kind as ParameterKind, Parameter};
+use flap_core::simulate::Column;
+
+use super::problems::Problems;
+use super::table::{self, Entry};
+use super::value;
+use crate::grid::diagnostic::Diagnostic;
+use crate::notation::expression::{Expression, ExpressionError, Kind, Meaning, Problem, Scope};
+use crate::plan::formula::OwnMeasure;
+
+/// What stands before the name of a parameter for its value in the preset.
+const PRESET: &str = "preset.";
+
+/// What a drive frequency follows that is to be the resonance.
+const RESONANCE: &str = "the resonance of each design, which [measure] has as resonance_hz";
+
+/// The names of parameters, of their values in the preset, and of what rows measure. Values stand in this order: the
+/// parameters, the model's measures, the user's own.
+pub(super) struct Names {
+    pub(super) parameters: &'static [Parameter],
+    /// The values of the preset.
+    pub(super) preset: Vec<f64>,
+    /// Whether each parameter has a value of its own at every point.
+    pub(super) has_value: Vec<bool>,
+    /// What rows measure, but for the user's own.
+    pub(super) columns: Vec<Column>,
+    /// Whether what the model measures may be used: not before a point is run.
+    pub(super) are_measured: bool,
+    /// The user's own measures that may be used.
+    pub(super) own: Vec<OwnMeasure>,
+}
+
+impl Names {
+    fn parameter(&self, name: &str) -> Option<usize> {
+        self.parameters.iter().position(|parameter| parameter.name == name)
+    }
+
+    fn of_parameter(&self, index: usize) -> Meaning {
+        match self.parameters[index].kind {
+            ParameterKind::Choice(options) => Meaning::Choice(index, options),
+            ParameterKind::Following(_, follows) if !self.has_value[index] => Meaning::Unset(follows),
+            ParameterKind::Number(_) if !self.has_value[index] => Meaning::Unset(RESONANCE),
+            ParameterKind::Number(_) | ParameterKind::Following(..) => Meaning::Number(index),
+        }
+    }
+
+    fn of_preset(&self, index: usize) -> Option<Meaning> {
+        match self.parameters[index].kind {
+            ParameterKind::Choice(_) => None,
+            ParameterKind::Following(_, follows) if self.preset[index].is_nan() => {
+                Some(Meaning::Unset(follows))
+            }
+            ParameterKind::Number(_) | ParameterKind::Following(..) => {
+                Some(Meaning::Constant(self.preset[index]))
+            }
+        }
+    }
+
+    fn of_measure(&self, name: &str) -> Option<Meaning> {
+        let first = self.parameters.len();
+        if !self.are_measured {
+            return None;
+        }
+        if let Some(place) = self.columns.iter().position(|column| column.name == name) {
+            return Some(Meaning::Number(first + place));
+        }
+        let place = self.own.iter().position(|own| own.name == name)?;
+        let index = first + self.columns.len() + place;
+        Some(match self.own[place].kind() {
+            Kind::Number => Meaning::Number(index),
+            Kind::Condition => Meaning::Condition(index),
+        })
+    }
+}
+
+impl Scope for Names {
+    fn meaning(&self, name: &str) -> Option<Meaning> {
+        if let Some(name) = name.strip_prefix(PRESET) {
+            return self.parameter(name).and_then(|index| self.of_preset(index));
+        }
+        self.parameter(name).map(|index| self.of_parameter(index)).or_else(|| self.of_measure(name))
+    }
+
+    fn names(&self) -> Vec<String> {
+        let parameters = self.parameters.iter().map(|parameter| parameter.name.to_owned());
+        let preset = (0..self.parameters.len())
+            .filter(|&index| matches!(self.of_preset(index), Some(Meaning::Constant(_))))
+            .map(|index| PRESET.to_owned() + self.parameters[index].name);
+        let columns = self.columns.iter().filter(|_| self.are_measured).map(|column| column.name.clone());
+        let own = self.own.iter().map(|own| own.name.clone());
+        parameters.chain(preset).chain(columns).chain(own).collect()
+    }
+}
+
+/// The expression that `entry` holds, which must be of the kind `wanted` and known before points are run. `None`, with
+/// reports, if it is not.
+pub(super) fn read(
+    entry: &Entry<'_>,
+    names: &Names,
+    wanted: Kind,
+    problems: &mut Problems,
+) -> Option<Expression> {
+    let errors = match check(entry, names, problems) {
+        Ok(Some(expression)) if expression.kind() != wanted => {
+            let length = entry.value.get_ref().as_str().map_or(0, str::len);
+            vec![ExpressionError { span: 0..length, problem: Problem::Mismatch { wanted } }]
+        }
+        Ok(expression) => return expression,
+        Err(errors) => errors,
+    };
+    for error in &errors {
+        let diagnostic = report(entry, error, problems);
+        if let Problem::UnknownName { name, .. } = &error.problem
+            && names.columns.iter().any(|column| column.name == *name)
+        {
+            diagnostic.help.clear();
+            diagnostic.help("rows measure it when points have run: only [measure] can use it");
+        }
+    }
+    None
+}
+
+/// The expression that `entry` holds; `None`, with a report, if it holds something else.
+///
+/// # Errors
+/// What is wrong with the expression, not reported yet.
+pub(super) fn check(
+    entry: &Entry<'_>,
+    names: &Names,
+    problems: &mut Problems,
+) -> Result<Option<Expression>, Vec<ExpressionError>> {
+    if let Some(text) = entry.value.get_ref().as_str() {
+        return Expression::parse(text, names).map(Some);
+    }
+    let found = table::kind(entry.value.get_ref());
+    problems
+        .report(entry.value.span(), format!("`{}` must be an expression in quotes, not {found}", entry.key))
+        .help("expressions look like \"2 * preset.drive_frequency\"");
+    Ok(None)
+}
+
+/// Reports a mistake in the expression of `entry`, at its place in the file.
+pub(super) fn report<'p>(
+    entry: &Entry<'_>,
+    error: &ExpressionError,
+    problems: &'p mut Problems,
+) -> &'p mut Diagnostic {
+    let text = entry.value.get_ref().as_str().unwrap_or_default();
+    let span = value::inside(problems.text(), entry.value.span(), text, &error.span);
+    let diagnostic = problems.report(span, error.message());
+    if let Some(help) = error.help() {
+        diagnostic.help(help);
+    }
+    diagnostic
+}

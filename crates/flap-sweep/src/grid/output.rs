@@ -1,0 +1,111 @@
+//! The section `[output]`: where rows go, and which columns they have.
+
+use std::path::PathBuf;
+
+use flap_core::simulate::Simulator;
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::problems::Problems;
+use super::table::{self, Entry};
+use super::value;
+use crate::plan::Output;
+use crate::table::format::Format;
+
+const KEYS: [&str; 2] = ["path", "columns"];
+
+/// Columns that every row has, whatever is selected.
+pub(super) const ALWAYS: [&str; 9] = [
+    "point",
+    "status",
+    "cycles",
+    "residual",
+    "period",
+    "floquet_max",
+    "stable",
+    "error_estimate",
+    "rhs_evals",
+];
+
+/// A model, and the names of the columns that rows measure, the user's own included.
+type Measured<'m> = (&'static dyn Simulator, &'m [String]);
+
+/// The section; column names are checked only if the model is known.
+pub(super) fn read(
+    entry: Option<&Entry<'_>>,
+    model: Option<Measured<'_>>,
+    problems: &mut Problems,
+) -> Output {
+    let Some(entry) = entry else {
+        return Output::default();
+    };
+    let entries = table::section(entry, problems);
+    table::check_keys(&entries, &KEYS, "in [output]", problems);
+    let path = table::find(&entries, "path").and_then(|entry| path_of(entry, problems));
+    let columns = table::find(&entries, "columns").zip(model);
+    Output { path, columns: columns.map(|(entry, model)| columns_of(model, entry.value, problems)) }
+}
+
+/// The file that rows go to, or `-` for stdout.
+fn path_of(entry: &Entry<'_>, problems: &mut Problems) -> Option<PathBuf> {
+    let path = PathBuf::from(value::text("path", entry.value, problems)?);
+    if path.as_os_str() != "-"
+        && let Err(error) = Format::of(&path)
+    {
+        problems.report(entry.value.span(), error.to_string());
+    }
+    Some(path)
+}
+
+/// The indices of the columns that `value` lists.
+fn columns_of(model: Measured<'_>, value: &Spanned<DeValue<'_>>, problems: &mut Problems) -> Vec<usize> {
+    let list = value.get_ref().as_array().filter(|list| !list.is_empty());
+    let Some(list) = list else {
+        problems
+            .report(value.span(), "`columns` must be a list of column names")
+            .help("remove `columns` to write all columns of the model");
+        return Vec::new();
+    };
+    let mut chosen: Vec<(usize, &Spanned<DeValue<'_>>)> = Vec::new();
+    for item in list {
+        let Some(name) = value::text("columns", item, problems) else {
+            continue;
+        };
+        let Some(index) = model.1.iter().position(|known| known == name) else {
+            report_unknown(model, name, item, problems);
+            continue;
+        };
+        if let Some((_, first)) = chosen.iter().find(|(other, _)| *other == index) {
+            problems
+                .report(item.span(), format!("column `{name}` is listed twice"))
+                .label("again here")
+                .related(first.span(), "first here")
+                .help("keep one of them");
+        }
+        chosen.push((index, item));
+    }
+    chosen.into_iter().map(|(index, _)| index).collect()
+}
+
+fn report_unknown(
+    (model, columns): Measured<'_>,
+    name: &str,
+    item: &Spanned<DeValue<'_>>,
+    problems: &mut Problems,
+) {
+    let varied = model.parameters().iter().any(|parameter| parameter.name == name);
+    let diagnostic = problems
+        .report(item.span(), format!("model `{}` has no column `{name}`", model.name()))
+        .label("unknown column");
+    if ALWAYS.contains(&name) || varied {
+        diagnostic
+            .note(
+                "every row has these columns, and the varied parameters, without asking: ".to_owned()
+                    + &ALWAYS.join(", "),
+            )
+            .help(format!("remove `{name}`: `columns` selects among the measures"));
+    } else {
+        let names = columns.iter().map(String::as_str);
+        diagnostic.note(format!("columns: {}", columns.join(", "))).did_you_mean(name, names);
+    }
+}

@@ -1,0 +1,247 @@
+//! Ranges of values: `{ from = 60, to = 200, n = 15 }` or with `step`, linear or logarithmic.
+
+use flap_core::parameter::{Kind, Parameter};
+use toml::de::DeValue;
+
+use super::problems::Problems;
+use super::table::{self, Entry};
+use super::value;
+use crate::plan::Plan;
+use crate::plan::axis::Values;
+
+const KEYS: [&str; 5] = ["from", "to", "n", "step", "scale"];
+const SCALES: [&str; 2] = ["linear", "log"];
+
+/// A `to` that the steps miss by less than this fraction of a step counts as hit: 0.1 is no binary fraction.
+const HIT: f64 = 1e-9;
+
+/// The two ends, with their entries for messages.
+struct Ends<'e, 't> {
+    from: f64,
+    to: f64,
+    from_entry: &'e Entry<'t>,
+    to_entry: &'e Entry<'t>,
+}
+
+/// How the values between the ends are given, with the entry for messages.
+enum Spacing<'e, 't> {
+    /// Their number.
+    Count(&'e Entry<'t>, u64),
+    /// Their distance.
+    Step(&'e Entry<'t>, f64),
+}
+
+/// The values of a range. `None`, with a report, if it makes no sense.
+pub(super) fn read(parameter: &Parameter, axis: &Entry<'_>, problems: &mut Problems) -> Option<Values> {
+    let DeValue::Table(table) = axis.value.get_ref() else {
+        return None;
+    };
+    if let Kind::Choice(options) = &parameter.kind {
+        problems
+            .report(axis.value.span(), format!("`{}` is a choice and has no ranges", parameter.name))
+            .help(format!("list the options to try, such as {options:?}"));
+        return None;
+    }
+    let entries = table::entries(table);
+    // With a misspelt key, what seems to be missing is not.
+    let complain = table::check_keys(&entries, &KEYS, "in a range", problems);
+    let from = end(parameter, "from", &entries, problems);
+    let to = end(parameter, "to", &entries, problems);
+    let scale = match table::find(&entries, "scale") {
+        Some(entry) => value::option("scale", &SCALES, entry.value, problems),
+        None => Some(0),
+    };
+    let spacing = spacing(parameter, &entries, problems);
+    let missing = missing_keys(&entries);
+    if complain && !missing.is_empty() {
+        problems
+            .report(axis.value.span(), format!("the range of `{}` has no {missing}", parameter.name))
+            .note("ranges look like { from = 1, to = 5, n = 9 } or { from = 1, to = 5, step = 0.5 }");
+    }
+
+    let is_log = scale? == 1;
+    let spacing = spacing?;
+    if let (Spacing::Step(step, _), true) = (&spacing, is_log) {
+        problems
+            .report(step.key_span.clone(), "a logarithmic range takes `n`, not `step`")
+            .help("its values keep a constant ratio, not a constant step: give their number `n`");
+        return None;
+    }
+    let (from, from_entry) = from?;
+    let (to, to_entry) = to?;
+    let ends = Ends { from, to, from_entry, to_entry };
+    match spacing {
+        Spacing::Count(entry, count) => counted(&ends, entry, count, is_log, problems),
+        Spacing::Step(entry, step) => stepped(&ends, entry, step, problems),
+    }
+}
+
+/// `from` or `to`, with its entry.
+fn end<'e, 't>(
+    parameter: &Parameter,
+    key: &str,
+    entries: &'e [Entry<'t>],
+    problems: &mut Problems,
+) -> Option<(f64, &'e Entry<'t>)> {
+    let entry = table::find(entries, key)?;
+    let value = value::of_parameter(parameter, entry.value, problems)?;
+    Some((value, entry))
+}
+
+/// `n` or `step`, with its entry.
+fn spacing<'e, 't>(
+    parameter: &Parameter,
+    entries: &'e [Entry<'t>],
+    problems: &mut Problems,
+) -> Option<Spacing<'e, 't>> {
+    let n = table::find(entries, "n");
+    let step = table::find(entries, "step");
+    if let (Some(n), Some(step)) = (n, step) {
+        problems
+            .report(step.key_span.clone(), "a range takes `n` or `step`, not both")
+            .related(n.key_span.clone(), "`n` is here")
+            .help("remove one of them");
+        return None;
+    }
+    if let Some(entry) = n {
+        let count = value::count("n", Plan::MAX_POINTS, entry.value, problems)?;
+        return Some(Spacing::Count(entry, count));
+    }
+    let entry = step?;
+    let size = value::quantity("step", parameter.unit, entry.value, problems)?;
+    Some(Spacing::Step(entry, size))
+}
+
+/// The keys without which there is no range, in words; empty if all are there.
+fn missing_keys(entries: &[Entry<'_>]) -> String {
+    let has = |key: &str| table::find(entries, key).is_some();
+    let mut missing = Vec::new();
+    if !has("from") {
+        missing.push("`from`");
+    }
+    if !has("to") {
+        missing.push("`to`");
+    }
+    if !has("n") && !has("step") {
+        missing.push("`n` (the number of values) or `step`");
+    }
+    missing.join(", ")
+}
+
+/// `count` values from end to end.
+fn counted(
+    ends: &Ends<'_, '_>,
+    n: &Entry<'_>,
+    count: u64,
+    is_log: bool,
+    problems: &mut Problems,
+) -> Option<Values> {
+    let Ends { from, to, .. } = *ends;
+    if is_log && !log_ends_are_sound(ends, problems) {
+        return None;
+    }
+    if count == 1 && from != to {
+        problems
+            .report(n.value.span(), "a single value cannot be at both `from` and `to`")
+            .related(ends.from_entry.value.span(), "starts here")
+            .related(ends.to_entry.value.span(), "ends here")
+            .help("use `n = 2` or more, or make a list of the one value");
+        return None;
+    }
+    if count > 1 && from == to {
+        problems
+            .report(
+                n.value.span(),
+                format!("`from` and `to` are equal: all {count} values would be the same"),
+            )
+            .help("use `n = 1`, or different ends");
+        return None;
+    }
+    if is_log {
+        return Some(Values::Log { from, to, count });
+    }
+    // The largest number met on the way to a value between the ends.
+    if !((to - from) * count as f64).is_finite() {
+        report_too_wide(ends, problems);
+        return None;
+    }
+    Some(Values::Linear { from, to, count })
+}
+
+fn log_ends_are_sound(ends: &Ends<'_, '_>, problems: &mut Problems) -> bool {
+    for (value, entry) in [(ends.from, ends.from_entry), (ends.to, ends.to_entry)] {
+        if value == 0.0 {
+            problems
+                .report(
+                    entry.value.span(),
+                    format!("a logarithmic range cannot include zero, but `{}` is zero", entry.key),
+                )
+                .help("use a small number of the right sign, or scale = \"linear\"");
+            return false;
+        }
+    }
+    if ends.from.signum() != ends.to.signum() {
+        problems
+            .report(
+                ends.to_entry.value.span(),
+                "a logarithmic range cannot pass through zero: both ends need the same sign",
+            )
+            .related(ends.from_entry.value.span(), "of the other sign")
+            .help("use ends of the same sign, or scale = \"linear\"");
+        return false;
+    }
+    let ratio = ends.to / ends.from;
+    let sound = ratio.is_normal();
+    if !sound {
+        report_too_wide(ends, problems);
+    }
+    sound
+}
+
+fn report_too_wide(ends: &Ends<'_, '_>, problems: &mut Problems) {
+    problems
+        .report(ends.to_entry.value.span(), "the range is too wide for 64-bit floats")
+        .related(ends.from_entry.value.span(), "from here");
+}
+
+/// Values `step` apart.
+fn stepped(ends: &Ends<'_, '_>, entry: &Entry<'_>, step: f64, problems: &mut Problems) -> Option<Values> {
+    let Ends { from, to, .. } = *ends;
+    if step == 0.0 {
+        problems
+            .report(entry.value.span(), "`step` is zero")
+            .help("use a step that leads from `from` to `to`");
+        return None;
+    }
+    let steps = (to - from) / step;
+    if steps < 0.0 {
+        let (direction, sign) = if to > from { ("up", "positive") } else { ("down", "negative") };
+        problems
+            .report(entry.value.span(), "`step` leads away from `to`")
+            .related(ends.from_entry.value.span(), "starts here")
+            .related(ends.to_entry.value.span(), "ends here")
+            .help(format!("the range goes {direction}: make the step {sign}"));
+        return None;
+    }
+    if !(to - from).is_finite() {
+        report_too_wide(ends, problems);
+        return None;
+    }
+    let whole = (steps + HIT).floor();
+    if whole >= Plan::MAX_POINTS as f64 {
+        problems.report(entry.value.span(), "the range has more than 2^63 values").help("use a larger step");
+        return None;
+    }
+    // A float below 2^63 that is whole and not negative.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked just above")]
+    let count = whole as u64 + 1;
+    let hits_end = (steps - whole).abs() <= HIT;
+    if count == 1 {
+        return Some(Values::List(vec![from]));
+    }
+    // Evenly spaced between exact ends, so that the last value is `to` as written.
+    if hits_end && ((to - from) * count as f64).is_finite() {
+        return Some(Values::Linear { from, to, count });
+    }
+    Some(Values::Step { from, step, count })
+}

@@ -1,0 +1,118 @@
+//! The section `[sample]`: points spread over the design space, or listed in a file. They make one axis.
+
+mod distribution;
+mod file;
+
+use std::sync::Arc;
+
+use toml::de::DeInteger;
+
+use super::axes::Placed;
+use super::params::Lookup;
+use super::problems::Problems;
+use super::table::{self, Entry};
+use super::value;
+use crate::plan::PointsFile;
+use crate::plan::axis::{Axis, Values};
+use crate::plan::sample::{Design, Method};
+
+const KEYS: [&str; 4] = ["method", "n", "seed", "parameters"];
+const FILE_KEYS: [&str; 2] = ["method", "path"];
+const METHODS: [&str; 4] = ["sobol", "latin-hypercube", "random", "file"];
+
+/// What a sample is made of.
+pub(super) struct Sample {
+    pub(super) placed: Placed,
+    /// The file that lists its points, if one does.
+    pub(super) file: Option<PointsFile>,
+}
+
+/// The sample of the section. `base` are the values of parameters that are not sampled.
+///
+/// A parameter whose distribution is wrong still takes part, without values, in the checks that follow.
+pub(super) fn read(entry: Option<&Entry<'_>>, base: &[f64], lookup: &mut Lookup<'_>) -> Option<Sample> {
+    let section = entry?;
+    let entries = table::section(section, lookup.problems);
+    let Some(method) = table::find(&entries, "method") else {
+        let methods = METHODS.map(|method| format!("\"{method}\"")).join(", ");
+        lookup
+            .problems
+            .report(section.key_span.clone(), "the sample has no `method`")
+            .note(format!("methods: {methods}"))
+            .help("start with `method = \"sobol\"`, `n`, and the parameters under [sample.parameters]");
+        return None;
+    };
+    let method = match value::option("method", &METHODS, method.value, lookup.problems)? {
+        0 => Method::Sobol,
+        1 => Method::LatinHypercube,
+        2 => Method::Random,
+        _ => {
+            table::check_keys(&entries, &FILE_KEYS, "in a [sample] from a file", lookup.problems);
+            return file::read(section, &entries, lookup);
+        }
+    };
+    table::check_keys(&entries, &KEYS, "in [sample]", lookup.problems);
+    let count = count(section, &entries, lookup.problems);
+    let seed = seed(&entries, lookup.problems);
+    let Some(parameters) = table::find(&entries, "parameters") else {
+        lookup.problems.report(section.key_span.clone(), "the sample has no parameters").help(
+            "list them under [sample.parameters]: wing_area = { from = \"50 mm^2\", to = \"60 mm^2\" }",
+        );
+        return None;
+    };
+    let place = parameters.key_span.clone();
+    let parameters = table::section(parameters, lookup.problems);
+    if parameters.is_empty() {
+        lookup.problems.report(place, "the sample has no parameters").label("nothing below it").help(
+            "list them under [sample.parameters]: wing_area = { from = \"50 mm^2\", to = \"60 mm^2\" }",
+        );
+        return None;
+    }
+    let found: Vec<_> = parameters
+        .iter()
+        .filter_map(|entry| lookup.parameter(entry).map(|(index, parameter)| (index, parameter, entry)))
+        .collect();
+    if let Some((.., entry)) = found.get(Design::MAX_DIMENSIONS) {
+        let most = Design::MAX_DIMENSIONS;
+        lookup.problems.report(entry.key_span.clone(), format!("a sample has at most {most} parameters"));
+        return None;
+    }
+    let design = Arc::new(Design::new(method, seed.unwrap_or(0), count.unwrap_or(1), found.len()));
+    let mut axis = Vec::new();
+    let mut keys = Vec::new();
+    for (dimension, (index, parameter, entry)) in found.into_iter().enumerate() {
+        let distribution = distribution::read(parameter, base[index], entry, lookup.problems);
+        let values = distribution.map_or_else(super::axes::none, |distribution| Values::Sampled {
+            design: Arc::clone(&design),
+            dimension,
+            distribution,
+        });
+        axis.push((index, values));
+        keys.push(entry.key_span.clone());
+    }
+    let placed = Placed { axis: Axis { parameters: axis }, span: section.key_span.clone(), keys };
+    Some(Sample { placed, file: None })
+}
+
+/// The number of points, or `None` with a report.
+fn count(section: &Entry<'_>, entries: &[Entry<'_>], problems: &mut Problems) -> Option<u64> {
+    let Some(entry) = table::find(entries, "n") else {
+        problems
+            .report(section.key_span.clone(), "the sample has no `n`")
+            .help("`n` is the number of points: write `n = 1000`");
+        return None;
+    };
+    value::count("n", Design::MAX_POINTS, entry.value, problems)
+}
+
+/// The seed, if there is one.
+fn seed(entries: &[Entry<'_>], problems: &mut Problems) -> Option<u64> {
+    let value = table::find(entries, "seed")?.value;
+    let integer = value.get_ref().as_integer();
+    let seed = integer
+        .and_then(|integer: &DeInteger<'_>| u64::from_str_radix(integer.as_str(), integer.radix()).ok());
+    if seed.is_none() {
+        problems.report(value.span(), "`seed` must be a whole number from 0 to 2^64 - 1");
+    }
+    seed
+}

@@ -1,0 +1,197 @@
+//! How a sampled parameter is distributed: `{ from, to }`, `{ mean, sd }`, or a list.
+
+use flap_core::parameter::{Kind, Parameter};
+use toml::de::DeValue;
+
+use super::super::problems::Problems;
+use super::super::table::{self, Entry};
+use super::super::{axes, value};
+use crate::plan::axis::Values;
+use crate::plan::sample::Distribution;
+
+const KEYS: [&str; 6] = ["from", "to", "scale", "mean", "sd", "relative_sd"];
+const SCALES: [&str; 2] = ["linear", "log"];
+const NOTE: &str = "distributions look like { from = 1, to = 5 }, { from = 1, to = 5, scale = \"log\" }, \
+                    { mean = 3, sd = 0.1 }, { relative_sd = \"5 %\" } or [1, 2, 5]";
+
+/// The distribution of `parameter`, which is `base` where it is not sampled. `None`, with a report, if it makes no
+/// sense.
+pub(super) fn read(
+    parameter: &Parameter,
+    base: f64,
+    entry: &Entry<'_>,
+    problems: &mut Problems,
+) -> Option<Distribution> {
+    let table = match entry.value.get_ref() {
+        DeValue::Array(_) => {
+            return match axes::values(parameter, entry, problems)? {
+                Values::List(values) => Some(Distribution::Among(values)),
+                _ => None,
+            };
+        }
+        DeValue::Table(table) => table,
+        other => {
+            let message =
+                format!("`{}` must be a distribution or a list, not {}", entry.key, table::kind(other));
+            problems
+                .report(entry.value.span(), message)
+                .note(NOTE)
+                .help(format!("to give `{}` a single value, put it under [params]", entry.key));
+            return None;
+        }
+    };
+    if let Kind::Choice(options) = &parameter.kind {
+        problems
+            .report(entry.value.span(), format!("`{}` is a choice and has no such distribution", entry.key))
+            .help(format!("list the options to choose from at random, such as {options:?}"));
+        return None;
+    }
+    let entries = table::entries(table);
+    if !table::check_keys(&entries, &KEYS, "in a distribution", problems) {
+        return None;
+    }
+    let has = |key: &str| table::find(&entries, key).is_some();
+    if has("mean") || has("sd") || has("relative_sd") {
+        normal(parameter, base, entry, &entries, problems)
+    } else {
+        uniform(parameter, entry, &entries, problems)
+    }
+}
+
+/// The value of an end of the range, if it is given: `Err`, with a report, if it is wrong.
+fn end(
+    parameter: &Parameter,
+    key: &str,
+    entries: &[Entry<'_>],
+    problems: &mut Problems,
+) -> Result<Option<f64>, ()> {
+    match table::find(entries, key) {
+        Some(entry) => value::of_parameter(parameter, entry.value, problems).map(Some).ok_or(()),
+        None => Ok(None),
+    }
+}
+
+fn uniform(
+    parameter: &Parameter,
+    whole: &Entry<'_>,
+    entries: &[Entry<'_>],
+    problems: &mut Problems,
+) -> Option<Distribution> {
+    let from = end(parameter, "from", entries, problems);
+    let to = end(parameter, "to", entries, problems);
+    let scale = match table::find(entries, "scale") {
+        Some(entry) => value::option("scale", &SCALES, entry.value, problems)?,
+        None => 0,
+    };
+    let (Some(from), Some(to)) = (from.ok()?, to.ok()?) else {
+        problems
+            .report(
+                whole.value.span(),
+                format!("the distribution of `{}` has no two ends and no `sd`", whole.key),
+            )
+            .note(NOTE);
+        return None;
+    };
+    if from >= to {
+        problems.report(whole.value.span(), "`from` must be less than `to`");
+        return None;
+    }
+    if scale == 0 {
+        if !(to - from).is_finite() {
+            problems.report(whole.value.span(), "the range is too wide for 64-bit floats");
+            return None;
+        }
+        return Some(Distribution::Uniform { from, to });
+    }
+    if from <= 0.0 && to >= 0.0 {
+        problems.report(
+            whole.value.span(),
+            "a logarithmic scale needs ends that are not zero and have the same sign",
+        );
+        return None;
+    }
+    if !(to / from).is_normal() {
+        problems.report(whole.value.span(), "the range is too wide for 64-bit floats");
+        return None;
+    }
+    Some(Distribution::LogUniform { from, to })
+}
+
+fn normal(
+    parameter: &Parameter,
+    base: f64,
+    whole: &Entry<'_>,
+    entries: &[Entry<'_>],
+    problems: &mut Problems,
+) -> Option<Distribution> {
+    let from = end(parameter, "from", entries, problems);
+    let to = end(parameter, "to", entries, problems);
+    let mean = end(parameter, "mean", entries, problems).ok()?.unwrap_or(base);
+    if let Some(scale) = table::find(entries, "scale") {
+        problems
+            .report(scale.key_span.clone(), "a normal distribution has no `scale`")
+            .help("remove it, or give `from` and `to` alone");
+        return None;
+    }
+    if mean.is_nan() {
+        problems
+            .report(whole.value.span(), format!("`{}` has no value of its own to be the mean", whole.key))
+            .help("give the distribution a `mean`");
+        return None;
+    }
+    let sd = sd(parameter, mean, whole, entries, problems)?;
+    let (from, to) = (from.ok()?.unwrap_or(f64::NEG_INFINITY), to.ok()?.unwrap_or(f64::INFINITY));
+    let distribution = Distribution::Normal { mean, sd, from, to };
+    if from >= to {
+        problems.report(whole.value.span(), "`from` must be less than `to`");
+        return None;
+    }
+    if !distribution.is_possible() {
+        problems
+            .report(whole.value.span(), "nothing of the normal distribution lies between `from` and `to`");
+        return None;
+    }
+    Some(distribution)
+}
+
+/// The standard deviation in the unit of the parameter.
+fn sd(
+    parameter: &Parameter,
+    mean: f64,
+    whole: &Entry<'_>,
+    entries: &[Entry<'_>],
+    problems: &mut Problems,
+) -> Option<f64> {
+    let (entry, unit) = match (table::find(entries, "sd"), table::find(entries, "relative_sd")) {
+        (Some(absolute), None) => (absolute, Some(parameter.unit)),
+        (None, Some(relative)) => (relative, None),
+        (Some(_), Some(relative)) => {
+            problems
+                .report(
+                    relative.key_span.clone(),
+                    "a normal distribution takes `sd` or `relative_sd`, not both",
+                )
+                .help("keep one of them");
+            return None;
+        }
+        (None, None) => {
+            problems
+                .report(whole.value.span(), format!("the distribution of `{}` has no `sd`", whole.key))
+                .note(NOTE);
+            return None;
+        }
+    };
+    let number = value::quantity(entry.key, unit.unwrap_or_default(), entry.value, problems)?;
+    let sd = if unit.is_some() { number } else { number * mean.abs() };
+    if sd > 0.0 && sd.is_finite() {
+        return Some(sd);
+    }
+    let diagnostic = problems.report(
+        entry.value.span(),
+        format!("`{}` must come to more than zero, not {}", entry.key, value::shown(sd)),
+    );
+    if unit.is_none() && mean == 0.0 {
+        diagnostic.help("the mean is zero: give `sd` in the unit of the parameter");
+    }
+    None
+}

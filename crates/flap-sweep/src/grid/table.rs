@@ -1,0 +1,81 @@
+//! TOML tables as lists of entries in the order of the file.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::problems::Problems;
+use crate::grid::diagnostic::Diagnostic;
+
+/// One `key = value`.
+pub(super) struct Entry<'t> {
+    pub(super) key: &'t str,
+    pub(super) key_span: Range<usize>,
+    pub(super) value: &'t Spanned<DeValue<'t>>,
+}
+
+/// The entries of `table` as they stand in the file; the table itself is sorted by key.
+pub(super) fn entries<'t>(table: &'t DeTable<'t>) -> Vec<Entry<'t>> {
+    let mut entries: Vec<Entry<'t>> =
+        table.iter().map(|(key, value)| Entry { key: key.get_ref(), key_span: key.span(), value }).collect();
+    entries.sort_by_key(|entry| entry.key_span.start);
+    entries
+}
+
+/// The entry called `key`.
+pub(super) fn find<'e, 't>(entries: &'e [Entry<'t>], key: &str) -> Option<&'e Entry<'t>> {
+    entries.iter().find(|entry| entry.key == key)
+}
+
+/// What `value` is, for messages.
+pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
+    match value {
+        DeValue::String(_) => "text",
+        DeValue::Integer(_) | DeValue::Float(_) => "a number",
+        DeValue::Boolean(_) => "a boolean",
+        DeValue::Datetime(_) => "a date or time",
+        DeValue::Array(_) => "a list",
+        DeValue::Table(_) => "a table",
+    }
+}
+
+/// The entries of a section such as `[solver]`.
+pub(super) fn section<'t>(entry: &Entry<'t>, problems: &mut Problems) -> Vec<Entry<'t>> {
+    if let DeValue::Table(table) = entry.value.get_ref() {
+        return entries(table);
+    }
+    let key = entry.key;
+    let message = format!("`{key}` must be a table, not {}", kind(entry.value.get_ref()));
+    problems.report(entry.value.span(), message).help(format!("write [{key}] on a line of its own, once"));
+    Vec::new()
+}
+
+/// Reports a key that means nothing in its place.
+pub(super) fn report_unknown_key<'p>(
+    entry: &Entry<'_>,
+    allowed: &[&str],
+    place: &str,
+    problems: &'p mut Problems,
+) -> &'p mut Diagnostic {
+    problems
+        .report(entry.key_span.clone(), format!("unknown key `{}` {place}", entry.key))
+        .label("unknown key")
+        .note(format!("keys {place}: {}", allowed.join(", ")))
+        .did_you_mean(entry.key, allowed.iter().copied())
+}
+
+/// Reports every key that is not among `allowed`. Returns whether there were none.
+pub(super) fn check_keys(
+    entries: &[Entry<'_>],
+    allowed: &[&str],
+    place: &str,
+    problems: &mut Problems,
+) -> bool {
+    let mut known = true;
+    for entry in entries.iter().filter(|entry| !allowed.contains(&entry.key)) {
+        report_unknown_key(entry, allowed, place, problems);
+        known = false;
+    }
+    known
+}

@@ -1,0 +1,207 @@
+//! Single values: of parameters, and of settings.
+
+use std::ops::Range;
+
+use flap_core::parameter::{self, Kind, Parameter};
+use toml::Spanned;
+use toml::de::{DeInteger, DeValue};
+
+use super::problems::Problems;
+use super::table;
+use crate::notation::units::{self, Problem, UnitError};
+
+type Value<'t> = Spanned<DeValue<'t>>;
+
+/// The value of `parameter`: a number in SI units, or the index of an option.
+pub(super) fn of_parameter(parameter: &Parameter, value: &Value<'_>, problems: &mut Problems) -> Option<f64> {
+    match &parameter.kind {
+        Kind::Number(range) | Kind::Following(range, _) => {
+            let number = quantity(parameter.name, parameter.unit, value, problems)?;
+            in_range(parameter, *range, number, value, problems).then_some(number)
+        }
+        Kind::Choice(options) => option(parameter.name, options, value, problems).map(|index| index as f64),
+    }
+}
+
+/// Whether `number` is in the range of `parameter`; reports it otherwise.
+fn in_range(
+    parameter: &Parameter,
+    range: parameter::Range,
+    number: f64,
+    value: &Value<'_>,
+    problems: &mut Problems,
+) -> bool {
+    let inside = range.contains(number);
+    if !inside {
+        let unit = if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
+        let message =
+            format!("`{}` must be {}, not {}{unit}", parameter.name, range.describe(), shown(number));
+        problems.report(value.span(), message);
+    }
+    inside
+}
+
+/// The index of the option that `value` names.
+pub(super) fn option(
+    name: &str,
+    options: &[&str],
+    value: &Value<'_>,
+    problems: &mut Problems,
+) -> Option<usize> {
+    let listed = options.iter().map(|option| format!("\"{option}\"")).collect::<Vec<_>>().join(", ");
+    let Some(text) = value.get_ref().as_str() else {
+        let message = format!("`{name}` is a choice between options, not {}", table::kind(value.get_ref()));
+        problems.report(value.span(), message).note(format!("options: {listed}"));
+        return None;
+    };
+    let index = options.iter().position(|option| *option == text);
+    if index.is_none() {
+        problems
+            .report(value.span(), format!("`{name}` has no option `{text}`"))
+            .label("unknown option")
+            .note(format!("options: {listed}"))
+            .did_you_mean(text, options.iter().copied());
+    }
+    index
+}
+
+/// A number in the SI unit `unit`, bare or as text with a unit.
+pub(super) fn quantity(name: &str, unit: &str, value: &Value<'_>, problems: &mut Problems) -> Option<f64> {
+    let DeValue::String(text) = value.get_ref() else {
+        if let DeValue::Integer(_) | DeValue::Float(_) = value.get_ref() {
+            return number(name, value, problems);
+        }
+        let what = if unit.is_empty() { "a number" } else { "a number or text with a unit" };
+        let message = format!("`{name}` must be {what}, not {}", table::kind(value.get_ref()));
+        let diagnostic = problems.report(value.span(), message);
+        match value.get_ref() {
+            DeValue::Array(_) | DeValue::Table(_) => {
+                diagnostic.help("only an axis under [axes] or [[zip]] takes more than one value")
+            }
+            _ if unit.is_empty() => diagnostic.help("write a bare number"),
+            _ => diagnostic.help(format!("write \"1 {unit}\", or a bare number in {unit}")),
+        };
+        return None;
+    };
+    match units::parse_as(text, unit) {
+        Ok(number) => Some(number),
+        Err(error) => {
+            let span = inside(problems.text(), value.span(), text, &error.span);
+            report_unit_error(name, span, &error, problems);
+            None
+        }
+    }
+}
+
+/// A bare number, for settings that have no unit.
+pub(super) fn number(name: &str, value: &Value<'_>, problems: &mut Problems) -> Option<f64> {
+    let number = match value.get_ref() {
+        DeValue::Integer(integer) => integer_as_float(integer),
+        DeValue::Float(float) => decimal(float.as_str()),
+        other => {
+            let message = format!("`{name}` must be a number, not {}", table::kind(other));
+            problems.report(value.span(), message).help("write a bare number, such as 1e-6, without quotes");
+            return None;
+        }
+    };
+    number.map_err(|error| report_unit_error(name, value.span(), &error, problems)).ok()
+}
+
+/// `true` or `false`.
+pub(super) fn boolean(name: &str, value: &Value<'_>, problems: &mut Problems) -> Option<bool> {
+    let found = value.get_ref().as_bool();
+    if found.is_none() {
+        let message = format!("`{name}` must be true or false, not {}", table::kind(value.get_ref()));
+        problems.report(value.span(), message);
+    }
+    found
+}
+
+/// A whole number from 1 to `most`.
+pub(super) fn count(name: &str, most: u64, value: &Value<'_>, problems: &mut Problems) -> Option<u64> {
+    let found = match value.get_ref() {
+        DeValue::Integer(integer) => match integer_as_float(integer) {
+            Ok(number) if number >= 1.0 => return at_most(name, most, integer, value, problems),
+            _ => integer.to_string(),
+        },
+        DeValue::Float(float) => float.to_string(),
+        other => table::kind(other).to_owned(),
+    };
+    problems.report(value.span(), format!("`{name}` must be a whole number of 1 or more, not {found}"));
+    None
+}
+
+/// The integer, if it is not more than `most`.
+fn at_most(
+    name: &str,
+    most: u64,
+    integer: &DeInteger<'_>,
+    value: &Value<'_>,
+    problems: &mut Problems,
+) -> Option<u64> {
+    let count = u64::from_str_radix(integer.as_str(), integer.radix()).ok().filter(|count| *count <= most);
+    if count.is_none() {
+        problems.report(value.span(), format!("`{name}` must be at most {most}, not {integer}"));
+    }
+    count
+}
+
+/// A number as people write it: `5`, not `5.0`.
+pub(super) fn shown(number: f64) -> String {
+    let text = format!("{number:?}");
+    text.strip_suffix(".0").unwrap_or(&text).to_owned()
+}
+
+/// Text, not empty.
+pub(super) fn text<'t>(name: &str, value: &'t Value<'_>, problems: &mut Problems) -> Option<&'t str> {
+    match value.get_ref().as_str() {
+        Some("") => {
+            problems.report(value.span(), format!("`{name}` is empty"));
+            None
+        }
+        Some(text) => Some(text),
+        None => {
+            let message = format!("`{name}` must be text in quotes, not {}", table::kind(value.get_ref()));
+            problems.report(value.span(), message);
+            None
+        }
+    }
+}
+
+fn report_unit_error(name: &str, span: Range<usize>, error: &UnitError, problems: &mut Problems) {
+    let diagnostic = problems.report(span, error.message(&format!("`{name}`")));
+    if let Some(help) = error.help() {
+        diagnostic.help(help);
+    }
+}
+
+/// The float nearest to a TOML integer of any size.
+fn integer_as_float(integer: &DeInteger<'_>) -> Result<f64, UnitError> {
+    if integer.radix() == 10 {
+        return decimal(integer.as_str());
+    }
+    i128::from_str_radix(integer.as_str(), integer.radix())
+        .map(|whole| whole as f64)
+        .map_err(|_| UnitError { span: 0..0, problem: Problem::TooLarge })
+}
+
+fn decimal(text: &str) -> Result<f64, UnitError> {
+    let (number, length) = units::scan(text)?;
+    number.shifted(0).map_err(|problem| UnitError { span: 0..length, problem })
+}
+
+/// The bytes `part` of the text of a TOML string, as bytes of the file.
+///
+/// If escapes make the text differ from what stands in the file, it is the whole string.
+pub(super) fn inside(file: &str, span: Range<usize>, text: &str, part: &Range<usize>) -> Range<usize> {
+    let raw = file.get(span.clone()).unwrap_or_default();
+    let quotes = ["\"\"\"", "'''", "\"", "'"].into_iter().find(|quotes| raw.starts_with(quotes));
+    let length = quotes.map_or(0, str::len);
+    let body = raw.get(length..raw.len().saturating_sub(length));
+    if body == Some(text) {
+        let start = span.start + length;
+        start + part.start..start + part.end
+    } else {
+        span
+    }
+}

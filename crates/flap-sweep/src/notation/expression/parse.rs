@@ -1,0 +1,319 @@
+//! From text to operations: operator precedence after Pratt, with each operation put down behind its operands.
+
+use std::ops::Range;
+
+use super::error::{ExpressionError, Problem};
+use super::function::{self, Function};
+use super::operation::{Binary, Operation, Unary};
+use super::token::{Token, Tokens};
+use super::{Kind, Meaning, Scope};
+use crate::notation::nearest;
+
+/// Parentheses, functions and operators that may stand within each other. More is a mistake or malice, and would take
+/// more than its share of the machine's stack.
+const MOST_NESTED: usize = 100;
+
+/// How tightly operators bind, from loose to tight.
+mod power {
+    pub(super) const ANY: u8 = 0;
+    pub(super) const OR: u8 = 1;
+    pub(super) const AND: u8 = 2;
+    pub(super) const NOT: u8 = 3;
+    pub(super) const COMPARISON: u8 = 4;
+    pub(super) const SUM: u8 = 5;
+    pub(super) const PRODUCT: u8 = 6;
+    /// `-2^2` is -4.
+    pub(super) const SIGN: u8 = 7;
+    pub(super) const POWER: u8 = 8;
+}
+
+/// Checks `text`. See [`super::Expression::parse`].
+pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<(Kind, Vec<Operation>), Vec<ExpressionError>> {
+    if text.trim().is_empty() {
+        return Err(vec![ExpressionError { span: 0..text.len(), problem: Problem::Empty }]);
+    }
+    let mut parser = Parser {
+        tokens: Tokens::new(text),
+        next: (Token::End, 0..0),
+        scope,
+        operations: Vec::new(),
+        errors: Vec::new(),
+        nested: 0,
+    };
+    let whole = parser.whole();
+    let mut errors = parser.errors;
+    match whole {
+        Ok(operand) if errors.is_empty() => Ok((operand.kind.unwrap_or(Kind::Number), parser.operations)),
+        Ok(_) => Err(errors),
+        Err(error) => {
+            errors.push(error);
+            Err(errors)
+        }
+    }
+}
+
+/// What has been read between two operators.
+struct Operand {
+    /// `None` for what is wrong already, so that one mistake is not reported twice.
+    kind: Option<Kind>,
+    span: Range<usize>,
+}
+
+struct Parser<'a> {
+    tokens: Tokens<'a>,
+    next: (Token<'a>, Range<usize>),
+    scope: &'a dyn Scope,
+    operations: Vec<Operation>,
+    /// Mistakes that leave the rest of the text readable.
+    errors: Vec<ExpressionError>,
+    nested: usize,
+}
+
+impl<'a> Parser<'a> {
+    fn whole(&mut self) -> Result<Operand, ExpressionError> {
+        self.advance()?;
+        let operand = self.operand(power::ANY)?;
+        match self.next.0 {
+            Token::End => Ok(operand),
+            _ => Err(self.expected("an operator")),
+        }
+    }
+
+    /// Takes the next word.
+    fn advance(&mut self) -> Result<(Token<'a>, Range<usize>), ExpressionError> {
+        let next = self.tokens.next()?;
+        Ok(std::mem::replace(&mut self.next, next))
+    }
+
+    fn is_next(&self, sign: &str) -> bool {
+        matches!(self.next.0, Token::Sign(next) if next == sign)
+    }
+
+    /// Takes `sign`, which must be next.
+    fn take(&mut self, sign: &str, expected: &'static str) -> Result<Range<usize>, ExpressionError> {
+        if self.is_next(sign) {
+            return self.advance().map(|(_, span)| span);
+        }
+        match self.next.0 {
+            Token::Number(_) | Token::Name(_) | Token::Text(_) => Err(self.expected("an operator")),
+            Token::Sign(_) | Token::End => Err(self.expected(expected)),
+        }
+    }
+
+    /// An error at the next word.
+    fn expected(&self, what: &'static str) -> ExpressionError {
+        ExpressionError { span: self.next.1.clone(), problem: Problem::Expected(what) }
+    }
+
+    fn note(&mut self, span: Range<usize>, problem: Problem) {
+        self.errors.push(ExpressionError { span, problem });
+    }
+
+    /// Notes if `operand` is not of the kind wanted.
+    fn want(&mut self, wanted: Kind, operand: &Operand) {
+        if operand.kind.is_some_and(|kind| kind != wanted) {
+            self.note(operand.span.clone(), Problem::Mismatch { wanted });
+        }
+    }
+
+    /// Everything from here on that binds more tightly than `least`, or as tightly.
+    fn operand(&mut self, least: u8) -> Result<Operand, ExpressionError> {
+        self.nested += 1;
+        if self.nested > MOST_NESTED {
+            return Err(ExpressionError { span: self.next.1.clone(), problem: Problem::TooDeep });
+        }
+        let mut left = self.prefix()?;
+        let mut is_comparison = false;
+        while let Some((binary, binds)) = infix(&self.next.0)
+            && binds >= least
+        {
+            if binds == power::COMPARISON && is_comparison {
+                return Err(ExpressionError { span: self.next.1.clone(), problem: Problem::Chain });
+            }
+            is_comparison = binds == power::COMPARISON;
+            self.advance()?;
+            // What stands on the left of an equal operator goes first, but for powers.
+            let right = self.operand(if binds == power::POWER { binds } else { binds + 1 })?;
+            left = self.joined(binary, &left, &right);
+        }
+        self.nested -= 1;
+        Ok(left)
+    }
+
+    /// The result of an operator between two operands.
+    fn joined(&mut self, binary: Binary, left: &Operand, right: &Operand) -> Operand {
+        let (wanted, kind) = match binary {
+            Binary::And | Binary::Or => (Kind::Condition, Kind::Condition),
+            Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide | Binary::Power => {
+                (Kind::Number, Kind::Number)
+            }
+            Binary::Less
+            | Binary::LessOrEqual
+            | Binary::Greater
+            | Binary::GreaterOrEqual
+            | Binary::Equal
+            | Binary::NotEqual => (Kind::Number, Kind::Condition),
+        };
+        self.want(wanted, left);
+        self.want(wanted, right);
+        self.operations.push(Operation::Binary(binary));
+        Operand { kind: Some(kind), span: left.span.start..right.span.end }
+    }
+
+    /// A number, a name, something in parentheses, or one of these with an operator before it.
+    fn prefix(&mut self) -> Result<Operand, ExpressionError> {
+        let (token, span) = self.next.clone();
+        match token {
+            Token::Number(number) => {
+                self.advance()?;
+                self.operations.push(Operation::Push(number));
+                Ok(Operand { kind: Some(Kind::Number), span })
+            }
+            Token::Name("not") => self.signed(Some(Unary::Not), power::NOT, Kind::Condition),
+            Token::Sign("-") => self.signed(Some(Unary::Negate), power::SIGN, Kind::Number),
+            Token::Sign("+") => self.signed(None, power::SIGN, Kind::Number),
+            Token::Sign("(") => {
+                self.advance()?;
+                let inner = self.operand(power::ANY)?;
+                let end = self.take(")", "`)`")?.end;
+                Ok(Operand { kind: inner.kind, span: span.start..end })
+            }
+            Token::Name(name) if name != "and" && name != "or" => {
+                self.advance()?;
+                if self.is_next("(") { self.call(name, span) } else { self.named(name, span) }
+            }
+            _ => Err(self.expected("a number, a name or `(`")),
+        }
+    }
+
+    /// An operator with its operand behind it.
+    fn signed(&mut self, unary: Option<Unary>, binds: u8, kind: Kind) -> Result<Operand, ExpressionError> {
+        let (_, sign) = self.advance()?;
+        let operand = self.operand(binds)?;
+        self.want(kind, &operand);
+        self.operations.extend(unary.map(Operation::Unary));
+        Ok(Operand { kind: Some(kind), span: sign.start..operand.span.end })
+    }
+
+    /// What the name that was just read stands for.
+    fn named(&mut self, name: &str, span: Range<usize>) -> Result<Operand, ExpressionError> {
+        let constant = || function::constant(name).map(Meaning::Constant);
+        let (kind, operation) = match self.scope.meaning(name).or_else(constant) {
+            Some(Meaning::Number(place)) => (Kind::Number, Operation::Read(place)),
+            Some(Meaning::Condition(place)) => (Kind::Condition, Operation::Read(place)),
+            Some(Meaning::Constant(value)) => (Kind::Number, Operation::Push(value)),
+            Some(Meaning::Choice(place, options)) => return self.choice(name, span, place, options),
+            Some(Meaning::Unset(follows)) => {
+                self.note(span.clone(), Problem::Unset { name: name.to_owned(), follows });
+                return Ok(Operand { kind: None, span });
+            }
+            None => {
+                let problem = self.unknown(name);
+                self.note(span.clone(), problem);
+                return Ok(Operand { kind: None, span });
+            }
+        };
+        self.operations.push(operation);
+        Ok(Operand { kind: Some(kind), span })
+    }
+
+    fn unknown(&self, name: &str) -> Problem {
+        if function::find(name).is_some() {
+            return Problem::BareFunction(name.to_owned());
+        }
+        let mut known = self.scope.names();
+        known.extend(function::constants().map(str::to_owned));
+        let nearest = nearest(name, known.iter().map(String::as_str)).map(str::to_owned);
+        Problem::UnknownName { name: name.to_owned(), nearest }
+    }
+
+    /// A choice compared with one of its options, which is all that can be done with it.
+    fn choice(
+        &mut self,
+        name: &str,
+        span: Range<usize>,
+        place: usize,
+        options: &'static [&'static str],
+    ) -> Result<Operand, ExpressionError> {
+        let Some((comparison @ (Binary::Equal | Binary::NotEqual), _)) = infix(&self.next.0) else {
+            self.note(span.clone(), Problem::ChoiceAsNumber { name: name.to_owned(), options });
+            return Ok(Operand { kind: None, span });
+        };
+        self.advance()?;
+        let (token, text_span) = self.advance()?;
+        let Token::Text(text) = token else {
+            return Err(ExpressionError {
+                span: text_span,
+                problem: Problem::Expected("the name of an option in quotes"),
+            });
+        };
+        let span = span.start..text_span.end;
+        let Some(index) = options.iter().position(|option| *option == text) else {
+            let (name, option) = (name.to_owned(), text.to_owned());
+            self.note(text_span, Problem::UnknownOption { name, option, options });
+            return Ok(Operand { kind: None, span });
+        };
+        self.operations.push(Operation::Read(place));
+        self.operations.push(Operation::Push(index as f64));
+        self.operations.push(Operation::Binary(comparison));
+        Ok(Operand { kind: Some(Kind::Condition), span })
+    }
+
+    /// The function `name` of the arguments that follow in parentheses.
+    fn call(&mut self, name: &str, span: Range<usize>) -> Result<Operand, ExpressionError> {
+        let Some(function) = function::find(name) else {
+            let problem = Problem::UnknownFunction { name: name.to_owned() };
+            return Err(ExpressionError { span, problem });
+        };
+        self.advance()?;
+        let mut count = 0;
+        while !self.is_next(")") {
+            if count > 0 {
+                self.take(",", "`,` or `)`")?;
+            }
+            let argument = self.operand(power::ANY)?;
+            self.want(Kind::Number, &argument);
+            count += 1;
+            // Two by two, as the arguments come.
+            if let (Function::Many(function), 2..) = (function, count) {
+                self.operations.push(Operation::Apply2(function));
+            }
+        }
+        let span = span.start..self.take(")", "`)`")?.end;
+        let takes = match function {
+            Function::One(one) => {
+                self.operations.push(Operation::Apply(one));
+                (count != 1).then_some("one argument")
+            }
+            Function::Two(two) => {
+                self.operations.push(Operation::Apply2(two));
+                (count != 2).then_some("two arguments")
+            }
+            Function::Many(_) => (count < 2).then_some("two arguments or more"),
+        };
+        if let Some(takes) = takes {
+            self.note(span.clone(), Problem::Arguments { name: name.to_owned(), takes });
+        }
+        Ok(Operand { kind: Some(Kind::Number), span })
+    }
+}
+
+/// The operator between two operands that `token` is, and how tightly it binds.
+fn infix(token: &Token<'_>) -> Option<(Binary, u8)> {
+    Some(match token {
+        Token::Name("or") => (Binary::Or, power::OR),
+        Token::Name("and") => (Binary::And, power::AND),
+        Token::Sign("<") => (Binary::Less, power::COMPARISON),
+        Token::Sign("<=") => (Binary::LessOrEqual, power::COMPARISON),
+        Token::Sign(">") => (Binary::Greater, power::COMPARISON),
+        Token::Sign(">=") => (Binary::GreaterOrEqual, power::COMPARISON),
+        Token::Sign("==") => (Binary::Equal, power::COMPARISON),
+        Token::Sign("!=") => (Binary::NotEqual, power::COMPARISON),
+        Token::Sign("+") => (Binary::Add, power::SUM),
+        Token::Sign("-") => (Binary::Subtract, power::SUM),
+        Token::Sign("*") => (Binary::Multiply, power::PRODUCT),
+        Token::Sign("/") => (Binary::Divide, power::PRODUCT),
+        Token::Sign("^") => (Binary::Power, power::POWER),
+        _ => return None,
+    })
+}

@@ -1,0 +1,9 @@
+//! Numbers, units, times and formulas as text.
+
+pub mod expression;
+mod nearest;
+pub mod text;
+pub mod time;
+pub mod units;
+
+pub use nearest::nearest;

@@ -1,0 +1,239 @@
+//! Numbers and options as text, the same in result files and on the terminal.
+
+use std::borrow::Cow;
+use std::fmt::Write as _;
+
+use flap_core::parameter::{Kind, Parameter};
+use xxhash_rust::xxh3::xxh3_64;
+
+/// The shortest decimal text that reads back as the same number.
+///
+/// Sizes from 1e-4 up to 1e9 are written out (`0.0012`, `100.0`), others with an exponent (`1.52e-6`, `1.43e10`).
+/// There is always a point or an exponent, so that readers which guess column types from the first rows
+/// guess a floating-point column. NaN is the empty text: an empty cell.
+///
+/// ```
+/// assert_eq!(flap_sweep::notation::text::float(120.0), "120.0");
+/// assert_eq!(flap_sweep::notation::text::float(1.52e-6), "1.52e-6");
+/// assert_eq!(flap_sweep::notation::text::float(f64::NAN), "");
+/// ```
+pub fn float(value: f64) -> String {
+    let mut text = String::new();
+    push_float(&mut text, value);
+    text
+}
+
+/// Appends what [`float`] gives to `text`.
+pub(crate) fn push_float(text: &mut String, value: f64) {
+    let size = value.abs();
+    // Elsewhere zmij writes noughts where an exponent should be, or a plus sign in the exponent.
+    let is_size_alike = size < 1e-5 || (1e-4..1e9).contains(&size);
+    // Half-way between two shortest texts zmij takes the even digit and the standard library the upper one. Of the numbers
+    // below 1e9, only some with at most 39 significant bits lie there: the others end in fewer zero bits.
+    if is_size_alike && value.to_bits().trailing_zeros() < 14 {
+        text.push_str(zmij::Buffer::new().format_finite(value));
+    } else {
+        text.push_str(&float_by_standard_library(value));
+    }
+}
+
+/// What [`float`] gives, for all numbers, in several times the time.
+fn float_by_standard_library(value: f64) -> String {
+    if value.is_nan() {
+        return String::new();
+    }
+    let size = value.abs();
+    if size != 0.0 && size.is_finite() && !(1e-4..1e9).contains(&size) {
+        return format!("{value:e}");
+    }
+    let mut text = format!("{value}");
+    if size.is_finite() && !text.contains('.') {
+        text.push_str(".0");
+    }
+    text
+}
+
+/// `true` for 1 and `false` for 0. NaN, what is unknown, is the empty text.
+pub fn truth(value: f64) -> String {
+    if value.is_nan() {
+        return String::new();
+    }
+    (value != 0.0).to_string()
+}
+
+/// Words longer than this, in characters, are shortened. Paths seldom are.
+const LONGEST_WORD: usize = 300;
+
+/// Characters that are left of a longer word: at its beginning, and at its end.
+const ENDS: [usize; 2] = [60, 20];
+
+/// A message with its longest words shortened: a file may hold names of any length, and a terminal does not.
+pub fn shortened(message: &str) -> Cow<'_, str> {
+    if message.split_whitespace().all(|word| word.len() <= LONGEST_WORD) {
+        return Cow::Borrowed(message);
+    }
+    let mut text = String::new();
+    for piece in message.split_inclusive(char::is_whitespace) {
+        let length = piece.chars().count();
+        if length <= LONGEST_WORD {
+            text.push_str(piece);
+        } else {
+            text.extend(piece.chars().take(ENDS[0]));
+            let _ = write!(text, "…({length} characters)…");
+            text.extend(piece.chars().skip(length - ENDS[1]));
+        }
+    }
+    Cow::Owned(text)
+}
+
+/// A text with its control characters written out, such as `\u{1b}`: neither XML nor a terminal takes them as they are.
+pub fn printable(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for letter in text.chars() {
+        if letter.is_control() {
+            out.extend(letter.escape_default());
+        } else {
+            out.push(letter);
+        }
+    }
+    out
+}
+
+/// The value of a parameter: a number, or the name of the option it chooses.
+pub fn value(parameter: &Parameter, value: f64) -> String {
+    match option(parameter, value) {
+        Some(name) => name.to_owned(),
+        None => float(value),
+    }
+}
+
+/// The option that `value` chooses, if the parameter is a choice.
+pub fn option(parameter: &Parameter, value: f64) -> Option<&'static str> {
+    let Kind::Choice(options) = parameter.kind else { return None };
+    // A choice is the index of its option: comparing avoids a cast that could be out of range.
+    (0_u32..).map(f64::from).zip(options).find(|(index, _)| *index == value).map(|(_, name)| *name)
+}
+
+/// XXH3 of a text, of 64 bits, in hexadecimal digits.
+pub(crate) fn hash(text: &str) -> String {
+    format!("{:016x}", xxh3_64(text.as_bytes()))
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Any bits, sizes that rows hold, and numbers with few bits, of which some lie half-way between two texts.
+    fn numbers() -> impl Strategy<Value = f64> {
+        let few_bits = (any::<i64>(), 10..64_u32, -80..40_i32)
+            .prop_map(|(bits, dropped, exponent)| (bits >> dropped) as f64 * f64::from(exponent).exp2());
+        prop_oneof![
+            any::<u64>().prop_map(f64::from_bits),
+            (-1.0..1.0, -7..18_i32).prop_map(|(digits, exponent)| digits * 10_f64.powi(exponent)),
+            few_bits,
+        ]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(100_000))]
+        #[test]
+        fn the_text_is_that_of_the_standard_library(value in numbers()) {
+            prop_assert_eq!(float(value), float_by_standard_library(value));
+        }
+    }
+
+    #[test]
+    fn the_text_is_that_of_the_standard_library_where_sizes_and_bits_end() {
+        let mut numbers =
+            vec![0.0, f64::INFINITY, f64::NAN, 5.960_464_477_539_063e-8, 2_251_799_813_685_248.25];
+        for border in [f64::MIN_POSITIVE, 1e-5, 1e-4, 1e9, 1e16, 1e17, f64::MAX] {
+            numbers.extend([border.next_down(), border, border.next_up()]);
+        }
+        for exponent in 0..2047 {
+            for bits in [0, 1, (1 << 52) - 1].into_iter().chain((0..52).map(|bit| 1 << bit)) {
+                numbers.push(f64::from_bits((exponent << 52) | bits));
+            }
+        }
+        for value in numbers {
+            assert_eq!(float(value), float_by_standard_library(value));
+            assert_eq!(float(-value), float_by_standard_library(-value));
+        }
+    }
+
+    #[test]
+    fn floats_read_back_as_the_same_bits() {
+        for value in [
+            0.0,
+            -0.0,
+            1.0,
+            -2.5,
+            60.300_000_000_000_004,
+            1e-4,
+            9.999_999_999_999_999e-5,
+            1e-12,
+            5e-324,
+            1.234_567_890_123_456_7e15,
+            1e16,
+            f64::MAX,
+            f64::MIN_POSITIVE,
+            0.1 + 0.2,
+        ] {
+            let text = float(value);
+            let back: f64 = text.parse().unwrap();
+            assert_eq!(back.to_bits(), value.to_bits(), "{text}");
+        }
+    }
+
+    #[test]
+    fn floats_always_look_like_floats() {
+        assert_eq!(float(0.0), "0.0");
+        assert_eq!(float(-100.0), "-100.0");
+        assert_eq!(float(0.000_12), "0.00012");
+        assert_eq!(float(0.000_012), "1.2e-5");
+        assert_eq!(float(999_999_999.0), "999999999.0");
+        assert_eq!(float(1e9), "1e9");
+        assert_eq!(float(14.3e9), "1.43e10");
+        assert_eq!(float(f64::INFINITY), "inf");
+    }
+
+    #[test]
+    fn a_choice_is_written_by_name() {
+        let arms = Parameter {
+            name: "arms",
+            unit: "",
+            symbol: "",
+            kind: Kind::Choice(&["printed", "axis"]),
+            doc: "",
+        };
+        assert_eq!(value(&arms, 1.0), "axis");
+        let span = Parameter {
+            name: "span",
+            unit: "m",
+            symbol: "",
+            kind: Kind::Number(flap_core::parameter::Range::Positive),
+            doc: "",
+        };
+        assert_eq!(value(&span, 1.0), "1.0");
+    }
+
+    #[test]
+    fn long_words_are_shortened_and_others_are_kept() {
+        let long = "a".repeat(1_000_000);
+        let text = shortened(&format!("no parameter `{long}` here")).into_owned();
+        assert!(
+            text.len() < 150 && text.starts_with("no parameter `aaa") && text.ends_with("aaa` here"),
+            "{text}"
+        );
+        let ordinary = "a message\n  of two lines";
+        assert_eq!(shortened(ordinary), ordinary);
+        let wide = "µ".repeat(200);
+        assert_eq!(shortened(&wide), wide, "characters count, not bytes");
+    }
+
+    #[test]
+    fn control_characters_are_written_out() {
+        assert_eq!(printable("a\u{1b}[31mb\0\n µ"), "a\\u{1b}[31mb\\u{0}\\n µ");
+    }
+}

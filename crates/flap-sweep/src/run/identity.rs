@@ -1,0 +1,121 @@
+//! What decides the bytes of rows: rows of the same identity may stand in one file.
+
+use std::sync::LazyLock;
+
+use flap_core::simulate::SolverSettings;
+use serde::{Deserialize, Serialize};
+use xxhash_rust::xxh3::xxh3_64;
+
+use crate::notation::text;
+use crate::plan::{Plan, PointsFile};
+use crate::run::RunOptions;
+
+/// The build of flap: a hash of the sources that decide the bytes of rows, in hexadecimal digits.
+///
+/// Two builds of one version may compute other rows; two builds of the same sources compute the same ones.
+pub fn build() -> &'static str {
+    static BUILD: LazyLock<String> = LazyLock::new(|| {
+        let sources = [flap_core::SOURCES, env!("FLAP_SOURCES")].join(" ");
+        format!("{:016x}", xxh3_64(sources.as_bytes()))
+    });
+    &BUILD
+}
+
+/// All that decides the bytes of the rows of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Identity {
+    /// Version of flap.
+    pub flap: String,
+    /// Build of flap, as [`build`] gives it; empty if it was not recorded.
+    #[serde(default)]
+    pub build: String,
+    /// Class of arithmetic.
+    pub arithmetic: String,
+    /// Hash of the grid file's text.
+    pub grid: String,
+    /// Hash of the file that lists the points of the sample, if one does.
+    pub points_file: Option<String>,
+    /// Which points are run, in words.
+    pub selection: String,
+    /// How they are integrated.
+    pub solver: Solver,
+}
+
+impl Identity {
+    /// What a run of `plan` is.
+    pub fn of(plan: &Plan, options: &RunOptions) -> Identity {
+        Identity {
+            flap: env!("CARGO_PKG_VERSION").to_owned(),
+            build: build().to_owned(),
+            arithmetic: options.instructions.arithmetic().name().to_owned(),
+            grid: text::hash(&plan.source.text),
+            points_file: plan.points_file.as_ref().map(PointsFile::hash),
+            selection: plan.selection.to_string(),
+            solver: Solver::from(&plan.solver),
+        }
+    }
+
+    /// What is different in `other`, in words; nothing if the rows are the same.
+    pub fn differences(&self, other: &Identity) -> Vec<String> {
+        let mut differences = Vec::new();
+        if self.grid != other.grid {
+            differences.push("the grid file is another".to_owned());
+        }
+        if self.points_file != other.points_file {
+            differences.push("the file of points is another".to_owned());
+        }
+        if self.solver != other.solver {
+            differences.push("the solver settings are others".to_owned());
+        }
+        let mut compare = |what: &str, own: &str, others: &str| {
+            if own != others {
+                differences.push(format!("{what} {own}, not {others}"));
+            }
+        };
+        compare("the rows are of", &self.selection, &other.selection);
+        compare("the rows are by flap", &self.flap, &other.flap);
+        compare("the arithmetic is", &self.arithmetic, &other.arithmetic);
+        if self.flap == other.flap && self.build != other.build {
+            let (own, others) = (build_text(&self.build), build_text(&other.build));
+            differences.push(format!("the rows are by {own} of flap {}, not {others}", self.flap));
+        }
+        differences
+    }
+}
+
+fn build_text(build: &str) -> String {
+    if build.is_empty() { "an unknown build".to_owned() } else { format!("build {build}") }
+}
+
+/// The solver settings of a run, as files record them; see [`SolverSettings`].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "they are the fields of SolverSettings")]
+pub struct Solver {
+    pub rtol: f64,
+    pub atol: f64,
+    pub settle_tol: f64,
+    pub max_cycles: u32,
+    pub max_steps: u32,
+    #[serde(default = "default_accuracy")]
+    pub accuracy: f64,
+    pub newton: bool,
+}
+
+/// The accuracy of results whose sidecar does not tell it.
+fn default_accuracy() -> f64 {
+    SolverSettings::default().accuracy
+}
+
+impl From<&SolverSettings> for Solver {
+    fn from(settings: &SolverSettings) -> Solver {
+        let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton } = *settings;
+        Solver { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton }
+    }
+}
+
+impl From<&Solver> for SolverSettings {
+    fn from(solver: &Solver) -> SolverSettings {
+        let Solver { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton } = *solver;
+        SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton }
+    }
+}

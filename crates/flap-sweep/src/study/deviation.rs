@@ -1,0 +1,131 @@
+//! What of a plan differs from its preset: where a forgotten prefix shows.
+
+use flap_core::parameter::{Kind, Parameter};
+
+use crate::notation::text;
+use crate::notation::units;
+use crate::plan::Plan;
+use crate::plan::axis::Values;
+use crate::plan::sample::Distribution;
+
+/// A value that is more than this factor away from the preset's has seldom been meant.
+pub const FAR: f64 = 100.0;
+
+/// A parameter that does not have the preset's value, or not only.
+#[derive(Clone, Debug)]
+pub struct Deviation {
+    /// The parameter.
+    pub parameter: &'static Parameter,
+    /// Its value, or the first and the last one.
+    pub values: Vec<f64>,
+    /// The preset's value; NaN if it sets none.
+    pub preset: f64,
+}
+
+/// The parameters that do not have the preset's values, in the order of the model's table.
+pub fn of(plan: &Plan) -> Vec<Deviation> {
+    let mut values: Vec<Vec<f64>> = plan.base.iter().map(|value| vec![*value]).collect();
+    for (parameter, along) in plan.axes.iter().flat_map(|axis| &axis.parameters) {
+        values[*parameter] = ends(along);
+    }
+    for parameter in plan.derived.parameters() {
+        values[parameter] = [0, plan.len() - 1].map(|index| plan.point(index).values[parameter]).to_vec();
+    }
+    compare(plan, values)
+}
+
+/// What of the point with these values differs from the preset.
+pub fn of_point(plan: &Plan, values: &[f64]) -> Vec<Deviation> {
+    compare(plan, values.iter().map(|value| vec![*value]).collect())
+}
+
+fn compare(plan: &Plan, values: Vec<Vec<f64>>) -> Vec<Deviation> {
+    let preset = plan.simulator.presets().iter().find(|preset| preset.name == plan.preset);
+    let preset = preset.map_or_else(|| plan.base.clone(), |preset| (preset.values)());
+    let all = plan.parameters().iter().zip(values).zip(preset);
+    all.map(|((parameter, mut values), preset)| {
+        values.dedup();
+        Deviation { parameter, values, preset }
+    })
+    .filter(|deviation| deviation.values.iter().any(|value| !value.is_nan() && *value != deviation.preset))
+    .collect()
+}
+
+/// The ends of an axis; of a list the smallest and the largest value.
+fn ends(values: &Values) -> Vec<f64> {
+    match values {
+        Values::Sampled { distribution, .. } => match distribution {
+            Distribution::Among(list) => extremes(list),
+            Distribution::Uniform { from, to } | Distribution::LogUniform { from, to } => vec![*from, *to],
+            Distribution::Normal { mean, .. } => vec![*mean],
+        },
+        Values::List(list) | Values::Unchecked(list) => extremes(list),
+        Values::Linear { .. } | Values::Step { .. } | Values::Log { .. } => {
+            vec![values.get(0), values.get(values.len() - 1)]
+        }
+    }
+}
+
+fn extremes(list: &[f64]) -> Vec<f64> {
+    let least = list.iter().copied().fold(f64::INFINITY, f64::min);
+    vec![least, list.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
+}
+
+impl Deviation {
+    /// The value in words, or from where to where it goes.
+    pub fn shown(&self) -> String {
+        let values: Vec<String> = self.values.iter().map(|value| self.text(*value)).collect();
+        values.join(" to ")
+    }
+
+    /// The preset's value in words.
+    pub fn preset_shown(&self) -> String {
+        self.text(self.preset)
+    }
+
+    /// The value over the preset's; empty if that says nothing.
+    pub fn ratio(&self) -> String {
+        let ratios: Vec<String> =
+            self.values.iter().filter_map(|value| self.ratio_of(*value)).map(short).collect();
+        ratios.join(" to ")
+    }
+
+    /// That a value is far from the preset's, and what was probably meant.
+    pub fn warning(&self) -> Option<String> {
+        let far = |value: &&f64| {
+            let size = self.ratio_of(**value).map_or(1.0, f64::abs);
+            size > 0.0 && !(1.0 / FAR..=FAR).contains(&size)
+        };
+        let value = *self.values.iter().find(far)?;
+        let Parameter { name, unit, .. } = self.parameter;
+        let message = format!(
+            "{name} = {} is {} times the preset's {}",
+            self.text(value),
+            short(self.ratio_of(value)?),
+            self.preset_shown()
+        );
+        let meant = units::meant(value, self.preset, unit).map(|meant| self.text(meant));
+        Some(match meant {
+            Some(meant) => format!("{message}; if {meant} was meant, write \"{meant}\""),
+            None => message,
+        })
+    }
+
+    fn ratio_of(&self, value: f64) -> Option<f64> {
+        let is_number = !matches!(self.parameter.kind, Kind::Choice(_));
+        Some(value / self.preset).filter(|ratio| is_number && ratio.is_finite())
+    }
+
+    fn text(&self, value: f64) -> String {
+        match text::option(self.parameter, value) {
+            Some(option) => option.to_owned(),
+            None if value.is_nan() => "not set".to_owned(),
+            None => units::prefixed(value, self.parameter.unit),
+        }
+    }
+}
+
+/// A ratio to three digits.
+fn short(ratio: f64) -> String {
+    units::prefixed(format!("{ratio:.2e}").parse().unwrap_or(ratio), "")
+}

@@ -1,0 +1,105 @@
+//! The parameter that rises and falls, and the values that it takes.
+
+use flap_core::parameter::{Kind, Parameter};
+
+use crate::plan::Plan;
+use crate::plan::axis::Values;
+
+/// The most values that a parameter takes on the way up.
+const MOST_VALUES: f64 = 1e6;
+
+/// The parameter that rises and falls.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Along {
+    /// Its index in the model's parameter table.
+    pub parameter: usize,
+    /// Its values, rising; two or more.
+    pub values: Vec<f64>,
+    /// How closely the ends of bistable bands are located, more than zero.
+    pub tolerance: f64,
+    /// Whether the unstable orbits of bistable bands are looked for.
+    pub unstable: bool,
+}
+
+/// Why a parameter cannot be followed: what is wrong, and what to do.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct AlongError {
+    /// What is wrong, in one line.
+    pub message: String,
+    /// What to do; may be empty.
+    pub help: &'static str,
+}
+
+impl AlongError {
+    fn new(message: String, help: &'static str) -> AlongError {
+        AlongError { message, help }
+    }
+}
+
+impl Along {
+    /// Follows the parameter with this index in steps `[from, to, step]`, or through the values of its axis, which is taken
+    /// out of `plan`. `tolerance` is a sixteenth of the shortest step if not given.
+    ///
+    /// # Errors
+    /// If the parameter is a choice, is varied together with others, or has no axis and no steps, or no values come of them.
+    pub fn new(
+        plan: &mut Plan,
+        parameter: usize,
+        steps: Option<[f64; 3]>,
+        tolerance: Option<f64>,
+        unstable: bool,
+    ) -> Result<Along, AlongError> {
+        let Parameter { name, kind, .. } = &plan.parameters()[parameter];
+        if let Kind::Choice(_) = kind {
+            return Err(AlongError::new(format!("`{name}` is a choice and cannot rise and fall"), ""));
+        }
+        let axis = plan.take_axis(parameter);
+        if plan.varied().any(|varied| varied == parameter) {
+            let message = format!("`{name}` is varied together with other parameters");
+            return Err(AlongError::new(message, "follow a parameter with an axis of its own, or none"));
+        }
+        let values = match (steps, axis) {
+            (Some(steps), _) => self::steps(name, steps)?,
+            (None, Some(axis)) => rising(name, &axis)?,
+            (None, None) => {
+                let help = "give the first value, the last and the step, or a grid file with an axis of its own for the \
+                            parameter";
+                return Err(AlongError::new(format!("how `{name}` rises is not known"), help));
+            }
+        };
+        let shortest = values.windows(2).map(|two| two[1] - two[0]).fold(f64::INFINITY, f64::min);
+        let tolerance = tolerance.unwrap_or(shortest / 16.0);
+        if tolerance > 0.0 {
+            Ok(Along { parameter, values, tolerance, unstable })
+        } else {
+            Err(AlongError::new("the tolerance must be more than zero".to_owned(), ""))
+        }
+    }
+}
+
+fn steps(name: &str, [from, to, step]: [f64; 3]) -> Result<Vec<f64>, AlongError> {
+    // A last step that is short by rounding alone is a step.
+    let whole = ((to - from) / step + 1e-9).floor();
+    if !(step > 0.0 && (1.0..MOST_VALUES).contains(&whole)) {
+        let message = format!("there are no steps of {step} in `{name}` from {from} to {to}");
+        let help = "the first value less than the last by one step or more, up to a million";
+        return Err(AlongError::new(message, help));
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to a million")]
+    let count = whole as u64 + 1;
+    let values = Values::Step { from, step, count };
+    Ok((0..count).map(|i| values.get(i)).collect())
+}
+
+/// The values of an axis by rising value.
+fn rising(name: &str, axis: &Values) -> Result<Vec<f64>, AlongError> {
+    let mut values: Vec<f64> = (0..axis.len()).map(|i| axis.get(i)).collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    if values.len() < 2 {
+        let message = format!("the axis of `{name}` has one value: nothing rises and falls");
+        return Err(AlongError::new(message, ""));
+    }
+    Ok(values)
+}

@@ -1,0 +1,5 @@
+//! Tables of rows: their columns, rows as text, and the formats of their files.
+
+pub mod format;
+pub mod layout;
+pub(crate) mod lines;
