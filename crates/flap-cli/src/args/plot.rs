@@ -4,25 +4,26 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use super::{ReadArgs, assignment};
+use super::options::ReadArgs;
+use super::values::assignment;
 
 #[derive(clap::Args)]
 #[command(after_help = PLOT_HELP)]
 pub(crate) struct PlotArgs {
-    /// Results of `flap sweep`, `rerun` or `merge`, of `flap respond --out`, or a trajectory of `flap run`
+    /// Results of `flap sweep`, `rerun`, `merge` or `respond --out`, or a trajectory of `flap run`
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 
-    /// Where to write the picture; the ending chooses the format: .svg or .png [default: FILE's name with the ending
+    /// File for the picture; the ending chooses the format: .svg or .png [default: FILE's name with the ending
     /// .svg, in the working directory; none with --html]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// Write one page for a browser, in which to choose columns, filter rows and look at them. It needs no network
+    /// File for a page to explore in a browser: choose columns, filter rows, read their values. It needs no network
     #[arg(long, value_name = "FILE")]
     pub(crate) html: Option<PathBuf>,
 
-    /// What to draw [default: what fits the columns of the file]
+    /// Kind of picture [default: the one that fits the columns of the file, see below]
     #[arg(short, long, value_enum)]
     pub(crate) kind: Option<PictureKind>,
 
@@ -38,20 +39,21 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_name = "COLUMN")]
     pub(crate) by: Option<String>,
 
-    /// Column that gives the colour: of the cells of a map, of the points of a Pareto picture
+    /// Column shown as the colour of the cells of a map or of the points of a Pareto picture
     #[arg(long, value_name = "COLUMN")]
     pub(crate) color: Option<String>,
 
-    /// Take the rows with this value alone: a number as in the file, a number with a unit, or a word. May be repeated.
-    /// Of an axis that the picture does not show, the middle value is taken
+    /// Draw only the rows with this value: a number as in the file, a number with a unit, or a word. May be repeated.
+    /// An axis of the sweep that the picture does not show is fixed at its middle value, unless it is named here
     #[arg(long = "where", value_name = "COLUMN=VALUE", value_parser = assignment)]
     pub(crate) filters: Vec<(String, String)>,
 
-    /// Which x is better in a Pareto picture [default: less of power, current, strain and field, more of the rest]
+    /// The better direction of x in a Pareto picture [default: min for power, current, strain, field, drag and force,
+    /// max for other columns]
     #[arg(long, value_enum)]
     pub(crate) x_aim: Option<Aim>,
 
-    /// Which y is better
+    /// The better direction of y in a Pareto picture [default: as for x]
     #[arg(long, value_enum)]
     pub(crate) y_aim: Option<Aim>,
 
@@ -59,7 +61,7 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
 
-    /// Width and height of an SVG; a PNG has twice as many pixels each way
+    /// Width and height of an SVG (pixels); a PNG has twice as many pixels in each direction
     #[arg(long, value_name = "WxH", default_value = "900x560", value_parser = size)]
     pub(crate) size: Size,
 
@@ -71,23 +73,23 @@ pub(crate) struct PlotArgs {
     pub(crate) force: bool,
 }
 
-/// What a picture shows.
+/// The kind of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PictureKind {
     /// A measure over a parameter, one line for each value of another
     Response,
     /// A measure as the colour of cells over two parameters
     Map,
-    /// Two measures of every design, and the designs that no other is better than in both
+    /// Two measures of every design, and the Pareto front: the designs that no other design beats in both
     Pareto,
-    /// Stroke and pitch over time, and their rates over them
+    /// Stroke and pitch over time, and their phase portrait: rates over angles
     Trajectory,
     /// The branches up and down of a response, unstable orbits dashed
     Hysteresis,
 }
 
 impl PictureKind {
-    /// Its name on the command line.
+    /// The name on the command line.
     pub(crate) fn name(self) -> &'static str {
         match self {
             PictureKind::Response => "response",
@@ -99,14 +101,14 @@ impl PictureKind {
     }
 }
 
-/// Which values are better.
+/// The better direction of a measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Aim {
     Max,
     Min,
 }
 
-/// Width and height.
+/// Width and height of a picture (pixels).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Size {
     pub(crate) width: f64,
@@ -114,8 +116,9 @@ pub(crate) struct Size {
 }
 
 const PLOT_HELP: &str = "\
-Without --kind: `hysteresis` for results of `flap respond`, `trajectory` for a motion, `response` for a sweep of one \
-parameter or of the drive frequency and others, `map` for other sweeps of two parameters or more, `pareto` for a sample.
+The default of --kind is `hysteresis` for results of `flap respond`, `trajectory` for a motion, `response` for a sweep of \
+one parameter or of the drive frequency and others, `map` for other sweeps of two or more parameters, `pareto` for a \
+random sample.
 
 Examples:
   flap plot sweep.csv
@@ -125,7 +128,7 @@ Examples:
   flap plot loop.csv --y stroke_pp_deg --out loop.png --size 700x500
   flap plot sweep.parquet --html sweep.html";
 
-/// `WxH` in pixels.
+/// Width and height from `WxH` (pixels), each from 200 to 4000.
 fn size(text: &str) -> Result<Size, String> {
     let number = |text: &str| text.trim().parse::<u16>().ok().filter(|side| (200..=4000).contains(side));
     let sides = text.split_once(['x', 'X', '×']).and_then(|(w, h)| number(w).zip(number(h)));

@@ -3,7 +3,8 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use super::{SolverArgs, assignment, threads};
+use super::options::SolverArgs;
+use super::values::{assignment, threads};
 
 #[derive(clap::Args)]
 #[command(after_help = RESPOND_HELP)]
@@ -16,19 +17,19 @@ pub(crate) struct RespondArgs {
     #[arg(short, long, value_name = "NAME", default_value = "drive_frequency")]
     pub(crate) along: String,
 
-    /// Its first value: a number in SI units, or with a unit [default: the first of the grid file's axis]
+    /// Its first value: a number in SI units, or with a unit [default: the first value of the grid file's axis]
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub(crate) from: Option<String>,
 
-    /// Its last value [default: the last of the grid file's axis]
+    /// Its last value [default: the last value of the grid file's axis]
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub(crate) to: Option<String>,
 
-    /// The step from one value to the next [default: those of the grid file's axis]
+    /// The step from one value to the next [default: the steps of the grid file's axis]
     #[arg(long, value_name = "VALUE")]
     pub(crate) step: Option<String>,
 
-    /// How closely the ends of bistable bands are located [default: a sixteenth of the shortest step]
+    /// Largest error of the ends of bistable bands [default: a sixteenth of the shortest step]
     #[arg(long, value_name = "VALUE")]
     pub(crate) tolerance: Option<String>,
 
@@ -41,7 +42,7 @@ pub(crate) struct RespondArgs {
     #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
 
-    /// Write the motions, a row each, to a CSV file, or to stdout with `-`
+    /// CSV file for the motions, one row each, or `-` for stdout
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
@@ -49,7 +50,7 @@ pub(crate) struct RespondArgs {
     #[arg(short, long)]
     pub(crate) force: bool,
 
-    /// Worker threads; the rows do not depend on it [default: one per core]
+    /// Number of worker threads; it does not change the rows [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<NonZeroUsize>,
 
@@ -58,9 +59,10 @@ pub(crate) struct RespondArgs {
 }
 
 const RESPOND_HELP: &str = "\
-The first point of each way is followed from rest, every other from where its neighbour's motion has ended. Where the \
-way up and the way down come to different motions, the design is bistable: the ends of such bands are located by \
-halving steps. A line per design tells what was found; it goes to stdout, with --out - to stderr.
+The parameter first rises, then falls. The first point of each way starts at rest, every other one from the settled \
+motion of the point before it. Where the way up and the way down settle to different motions, the design is bistable; \
+the ends of such bands are located by halving steps. One line per design summarizes its response; it goes to stdout, \
+with --out - to stderr.
 
 Examples:
   flap respond jafferis2016 --from '60 Hz' --to '200 Hz' --step '1 Hz'

@@ -1,45 +1,11 @@
 //! Commands on results: `resume`, `rerun`, `merge`, `convert`, `verify`.
 
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
-use std::time::Duration;
 
 use flap_core::simulate::Status;
-use flap_sweep::files::integrity::OnDamage;
-use flap_sweep::notation::nearest;
 
-use super::{SolverArgs, threads, time};
-
-/// How the points of a sweep are worked through.
-#[derive(clap::Args)]
-pub(crate) struct WorkArgs {
-    /// Worker threads; the rows do not depend on it [default: one per core]
-    #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
-    pub(crate) threads: Option<NonZeroUsize>,
-
-    /// Exit with 1 if some points are not periodic
-    #[arg(long)]
-    pub(crate) strict: bool,
-
-    /// Time between checkpoints: what a killed sweep computes again
-    #[arg(long, value_name = "TIME", default_value = "1 s", value_parser = interval)]
-    pub(crate) checkpoint: Duration,
-}
-
-/// Options of commands that read results.
-#[derive(clap::Args)]
-pub(crate) struct ReadArgs {
-    /// Use results all the same if they are not as they were written, as far as they can be read
-    #[arg(long)]
-    ignore_damage: bool,
-}
-
-impl ReadArgs {
-    /// The treatment of damage.
-    pub(crate) fn on_damage(&self) -> OnDamage {
-        if self.ignore_damage { OnDamage::Tolerate } else { OnDamage::Refuse }
-    }
-}
+use super::options::{ReadArgs, SolverArgs, WorkArgs};
+use super::values::status;
 
 #[derive(clap::Args)]
 #[command(after_help = VERIFY_HELP)]
@@ -50,15 +16,15 @@ pub(crate) struct VerifyArgs {
 }
 
 const VERIFY_HELP: &str = "\
-Reads all of each FILE and compares it with the checksums in FILE.meta.toml. Says of each whether it is sound, or where it is \
-damaged; of an unfinished one, whether it is sound as far as its journal goes. Rows are counted from 1, in blocks of 256: \
-of a file with a row too few or too many, those behind it are damaged too.
+Compares each FILE with the checksums in FILE.meta.toml and prints one line: the file is sound, or which of its rows are \
+damaged. An unfinished file is compared as far as its journal goes. Rows are counted from 1, in blocks of 256. If a row \
+is missing or added, all rows behind it count as damaged.
 
 Exit codes:
-  0    all are sound
-  1    none is damaged, but some could not be verified: there is no sidecar, or it has no checksums
-  2    a name stands for no results
-  3    some are damaged or cannot be read
+  0    all files are sound
+  1    no file is damaged, but some could not be verified: there is no sidecar, or it has no checksums
+  2    a name has no ending of a result file
+  3    some files are damaged or cannot be read
 
 Example:
   flap verify results/*.parquet";
@@ -78,9 +44,9 @@ pub(crate) struct ResumeArgs {
 }
 
 const RESUME_HELP: &str = "\
-Goes on after the last row that is safe in FILE, to the same bytes as if nothing had happened. The grid is the one in \
-FILE.meta.toml. Refuses if another build of flap or another kind of machine began the sweep, or if complete results are \
-damaged.
+Continues after the last row of FILE that its journal covers. The finished file has the same bytes as that of a sweep without \
+interruption. The grid is the one in FILE.meta.toml. Refuses if another build of flap or another kind of machine began \
+the sweep, or if complete results are damaged.
 
 Example:
   flap resume results/run1.csv";
@@ -92,7 +58,7 @@ pub(crate) struct RerunArgs {
     #[arg(value_name = "RESULTS")]
     pub(crate) results: PathBuf,
 
-    /// Which points: those with one of these statuses
+    /// Run the points with one of these statuses again
     #[arg(
         long,
         value_name = "STATUS,...",
@@ -102,11 +68,11 @@ pub(crate) struct RerunArgs {
     )]
     pub(crate) status: Vec<Status>,
 
-    /// Those whose `error_estimate` exceeds the accuracy of RESULTS
+    /// Run the points whose `error_estimate` exceeds the accuracy of RESULTS again
     #[arg(long)]
     pub(crate) inaccurate: bool,
 
-    /// Where to write their rows
+    /// File for the new rows. The ending chooses the format: .csv, .csv.zst or .parquet
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: PathBuf,
 
@@ -119,13 +85,13 @@ pub(crate) struct RerunArgs {
     #[command(flatten)]
     pub(crate) work: WorkArgs,
 
-    /// Replace existing results. They are kept beside the new ones, as in again.old.csv, until those are complete
+    /// Replace existing results. Until the new ones are complete, the old ones stay beside them, as in again.old.csv
     #[arg(short, long)]
     pub(crate) force: bool,
 }
 
 const RERUN_HELP: &str = "\
-The rows keep the indices of their points. Solver settings that are not given are those of RESULTS.
+The new rows keep the point indices of RESULTS. Solver settings that are not given are those of RESULTS.
 
 Examples:
   flap rerun sweep.csv --status unsettled --max-cycles 10000 --out again.csv
@@ -152,10 +118,10 @@ pub(crate) struct MergeArgs {
 }
 
 const MERGE_HELP: &str = "\
-The result has the bytes of a sweep on one machine. Refuses if a shard is missing, unfinished, damaged, given twice or of \
+OUT has the same bytes as a sweep on one machine. Refuses if a shard is missing, unfinished, damaged, given twice or part of \
 another sweep.
 
-Example:
+Examples:
   flap sweep --grid grid.toml --shard 1/2
   flap sweep --grid grid.toml --shard 2/2
   flap merge grid.csv grid.1of2.csv grid.2of2.csv";
@@ -180,24 +146,9 @@ pub(crate) struct ConvertArgs {
 }
 
 const CONVERT_HELP: &str = "\
-The result has the bytes of a sweep that wrote OUT. Of unfinished results, the rows up to the last checkpoint are converted.
+OUT has the same bytes as a sweep that writes this format. Of unfinished results, the rows up to the last checkpoint are \
+converted.
 
-Example:
+Examples:
   flap convert sweep.csv sweep.parquet
   flap convert sweep.parquet - | head";
-
-/// A time from 0 to a day.
-fn interval(text: &str) -> Result<Duration, String> {
-    let seconds = time(text)?;
-    let allowed = Some(seconds).filter(|seconds| (0.0..=86_400.0).contains(seconds));
-    allowed.map(Duration::from_secs_f64).ok_or_else(|| "must be from 0 s to 86400 s".to_owned())
-}
-
-fn status(text: &str) -> Result<Status, String> {
-    let found = Status::ALL.into_iter().find(|status| status.name() == text);
-    found.ok_or_else(|| {
-        let names = Status::ALL.map(Status::name);
-        let hint = nearest(text, names).map_or_else(String::new, |name| format!("; did you mean `{name}`?"));
-        format!("statuses are {}{hint}", names.join(", "))
-    })
-}

@@ -1,0 +1,77 @@
+//! Groups of options that several commands have.
+
+use std::num::NonZeroUsize;
+use std::time::Duration;
+
+use clap::value_parser;
+use flap_sweep::files::integrity::OnDamage;
+
+use super::values::{assignment, interval, positive, threads, tolerance};
+
+/// The choice of a design point.
+#[derive(clap::Args)]
+pub(crate) struct PointArgs {
+    /// A preset, or a grid file
+    #[arg(value_name = "PRESET|FILE")]
+    pub(crate) what: String,
+
+    /// Index of the point in the grid file, from 0
+    #[arg(short, long, value_name = "I", default_value_t = 0)]
+    pub(crate) point: u64,
+
+    /// Set a parameter: a number in SI units, a number with a unit, or an option. May be repeated
+    #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, String)>,
+}
+
+/// Settings of the solver.
+#[derive(clap::Args, Default)]
+pub(crate) struct SolverArgs {
+    /// Relative tolerance of the integrator; the absolute tolerance becomes a hundredth of it
+    #[arg(long, value_name = "TOL", value_parser = tolerance)]
+    pub(crate) rtol: Option<f64>,
+
+    /// Largest estimated relative error of a row; points whose rows exceed it are integrated again with a smaller
+    /// tolerance
+    #[arg(long, value_name = "ERROR", value_parser = positive)]
+    pub(crate) accuracy: Option<f64>,
+
+    /// Change of the state per drive period below which an orbit counts as settled
+    #[arg(long, value_name = "TOL", value_parser = tolerance)]
+    pub(crate) settle_tol: Option<f64>,
+
+    /// Drive periods after which a point counts as unsettled
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
+    pub(crate) max_cycles: Option<u32>,
+}
+
+/// Settings of a sweep's work: threads and checkpoints.
+#[derive(clap::Args)]
+pub(crate) struct WorkArgs {
+    /// Number of worker threads; it does not change the rows [default: one per core]
+    #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
+    pub(crate) threads: Option<NonZeroUsize>,
+
+    /// Exit with 1 if some points are not periodic
+    #[arg(long)]
+    pub(crate) strict: bool,
+
+    /// Time between checkpoints: the most work that a killed sweep repeats
+    #[arg(long, value_name = "TIME", default_value = "1 s", value_parser = interval)]
+    pub(crate) checkpoint: Duration,
+}
+
+/// Options of commands that read results.
+#[derive(clap::Args)]
+pub(crate) struct ReadArgs {
+    /// Use damaged results all the same, as far as they can be read
+    #[arg(long)]
+    ignore_damage: bool,
+}
+
+impl ReadArgs {
+    /// The treatment of damage.
+    pub(crate) fn on_damage(&self) -> OnDamage {
+        if self.ignore_damage { OnDamage::Tolerate } else { OnDamage::Refuse }
+    }
+}

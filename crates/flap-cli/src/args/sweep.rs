@@ -1,0 +1,72 @@
+//! Commands on grid files: `sweep`, `check`.
+
+use std::path::PathBuf;
+
+use flap_sweep::plan::selection::Shard;
+
+use super::options::WorkArgs;
+
+#[derive(clap::Args)]
+#[command(after_help = SWEEP_HELP)]
+pub(crate) struct SweepArgs {
+    /// The grid file: preset, parameters and axes
+    #[arg(short, long, value_name = "FILE", required_unless_present = "from_sidecar")]
+    pub(crate) grid: Option<PathBuf>,
+
+    /// Repeat the sweep of earlier results, as their sidecar FILE (.meta.toml) describes it
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["grid", "shard"], requires = "out")]
+    pub(crate) from_sidecar: Option<PathBuf>,
+
+    /// File for the rows, or `-` for stdout [default: the output path in the grid file, else the grid
+    /// file's name with the ending .csv, in the working directory]. The ending chooses the format: .csv, .csv.zst or
+    /// .parquet
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+
+    /// Run only part I of N equal parts, so that several machines can share a sweep; `flap merge` joins the parts.
+    /// Without --out, the rows go to a file such as grid.2of8.csv
+    #[arg(long, value_name = "I/N")]
+    pub(crate) shard: Option<Shard>,
+
+    /// Continue the sweep if it was interrupted, start it if there are no results, do nothing if they are complete
+    #[arg(long, conflicts_with = "force")]
+    pub(crate) resume: bool,
+
+    /// Replace existing results. Until the new ones are complete, the old ones stay beside them, as in grid.old.csv
+    #[arg(short, long)]
+    pub(crate) force: bool,
+
+    #[command(flatten)]
+    pub(crate) work: WorkArgs,
+}
+
+const SWEEP_HELP: &str = "\
+Rows are written in the order of the points, as soon as they are computed. Ctrl-C or SIGTERM gives the running points \
+half a second to finish, keeps the rows and exits with 130; a second one exits at once. Beside FILE, \
+FILE.meta.toml (the sidecar) records the origin of the rows. Until the sweep is complete, FILE.journal records its \
+progress, so that `flap resume FILE` can continue it, whatever ended it.
+
+Examples:
+  flap sweep --grid grid.toml
+  flap sweep --grid grid.toml --out results/run1.csv --threads 8
+  flap sweep --grid grid.toml --out run1.parquet --resume
+  flap sweep --grid grid.toml --shard 2/8
+  flap sweep --from-sidecar run1.csv.meta.toml --out again.csv
+  flap sweep --grid grid.toml --out - | head";
+
+#[derive(clap::Args)]
+#[command(after_help = CHECK_HELP)]
+pub(crate) struct CheckArgs {
+    /// The grid file
+    #[arg(value_name = "FILE")]
+    pub(crate) grid: PathBuf,
+}
+
+const CHECK_HELP: &str = "\
+Shows the range of each axis, the number of points that [where] excludes, the first and the last point, and an estimate \
+of the time that the sweep takes. For the estimate, it runs up to 32 points for about a second. Lists the parameters \
+that differ from the preset, and warns of values more than a hundred times larger or smaller. Of a grid of more than a \
+million points, it counts excluded points among a million of them.
+
+Example:
+  flap check grid.toml";

@@ -1,0 +1,76 @@
+//! Values of options: text into numbers, times, assignments.
+//!
+//! Every function returns the message for the user if the text is no such value.
+
+use std::num::NonZeroUsize;
+use std::time::Duration;
+
+use flap_core::simulate::Status;
+use flap_sweep::notation::{nearest, units};
+
+/// A parameter's name and its value from `name=value`, both without surrounding blanks.
+pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as drive_frequency='120 Hz'")?;
+    Ok((name.trim().to_owned(), value.trim().to_owned()))
+}
+
+/// A number of threads from 1 to 1024.
+pub(super) fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    let number = text.parse::<NonZeroUsize>().ok().filter(|number| number.get() <= 1024);
+    number.ok_or_else(|| "expected a whole number from 1 to 1024".to_owned())
+}
+
+/// A finite number greater than 0.
+pub(super) fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|number| number.is_finite() && *number > 0.0);
+    number.ok_or_else(|| "expected a number more than zero".to_owned())
+}
+
+/// A tolerance greater than 0 and less than 0.1; a larger one has no meaning.
+pub(super) fn tolerance(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| "expected a number, such as 1e-6".to_owned())?;
+    if number > 0.0 && number < 0.1 {
+        Ok(number)
+    } else {
+        Err("must be more than 0 and less than 0.1".into())
+    }
+}
+
+/// An angle with its unit, in radians.
+pub(super) fn angle(text: &str) -> Result<f64, String> {
+    quantity(text, "rad", "20 deg")
+}
+
+/// A time with its unit, in seconds.
+pub(super) fn time(text: &str) -> Result<f64, String> {
+    quantity(text, "s", "50 ms")
+}
+
+/// A frequency (Hz), with or without a unit.
+pub(super) fn frequency(text: &str) -> Result<f64, String> {
+    units::parse_as(text, "").or_else(|_| quantity(text, "Hz", "120 Hz"))
+}
+
+/// A number with a unit of the same kind as `si_unit`, in that unit.
+fn quantity(text: &str, si_unit: &str, example: &str) -> Result<f64, String> {
+    units::parse_as(text, si_unit).map_err(|error| {
+        format!("{}: write a number with a unit, such as `{example}`", error.message("the value"))
+    })
+}
+
+/// A time from 0 to a day.
+pub(super) fn interval(text: &str) -> Result<Duration, String> {
+    let seconds = time(text)?;
+    let allowed = Some(seconds).filter(|seconds| (0.0..=86_400.0).contains(seconds));
+    allowed.map(Duration::from_secs_f64).ok_or_else(|| "must be from 0 s to 86400 s".to_owned())
+}
+
+/// The status of that name.
+pub(super) fn status(text: &str) -> Result<Status, String> {
+    let found = Status::ALL.into_iter().find(|status| status.name() == text);
+    found.ok_or_else(|| {
+        let names = Status::ALL.map(Status::name);
+        let hint = nearest(text, names).map_or_else(String::new, |name| format!("; did you mean `{name}`?"));
+        format!("statuses are {}{hint}", names.join(", "))
+    })
+}
