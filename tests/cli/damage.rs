@@ -30,8 +30,7 @@ const ROWS: u64 = 700;
 fn finished() -> Folder {
     let folder = Folder::with_grid(&quick(ROWS));
     for ending in ENDINGS {
-        let ended = folder.flap(&format!("sweep --grid grid.toml --out rows.{ending}"));
-        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        folder.ends(0, &format!("sweep --grid grid.toml --out rows.{ending}"));
     }
     folder
 }
@@ -127,7 +126,7 @@ fn is_damaged(path: &Path) -> bool {
     }
 }
 
-/// Whether `flap resume` would call it complete.
+/// True if `flap resume` calls it complete.
 fn is_complete(path: &Path) -> bool {
     let sidecar = Sidecar::read(&sidecar::path_of(path)).unwrap();
     let plan = sidecar.plan(flap_core::simulate::all()).unwrap();
@@ -196,7 +195,7 @@ fn no_corruption_of_a_sidecar_goes_unnoticed() {
     }
 }
 
-/// What every command says of damage, and what it does if it is to be ignored.
+/// The message of every command about damage, and its work with `--ignore-damage`.
 #[test]
 fn commands_refuse_what_is_damaged() {
     let folder = finished();
@@ -213,8 +212,7 @@ fn commands_refuse_what_is_damaged() {
         fs::write(folder.path(&name), edited).unwrap();
         let told = "rows 1 to 256 are not as they were written";
 
-        let ended = folder.flap(&format!("verify {name} grid.1of2.csv"));
-        assert_eq!(ended.code, 3, "{}", ended.stderr);
+        let ended = folder.ends(3, &format!("verify {name} grid.1of2.csv"));
         assert_eq!(ended.stdout, format!("{name}: damaged: {told}\ngrid.1of2.csv: sound, 350 rows\n"));
         for command in [
             "resume NAME",
@@ -223,16 +221,14 @@ fn commands_refuse_what_is_damaged() {
             "plot NAME --y cycles",
         ] {
             let command = command.replace("NAME", &name);
-            let ended = folder.flap(&command);
-            assert_eq!(ended.code, 3, "{command}: {}", ended.stderr);
+            let ended = folder.ends(3, &command);
             assert!(
                 ended.stderr.starts_with(&format!("error: {name} is damaged: {told}\nhelp: ")),
                 "{}",
                 ended.stderr
             );
             assert!(!folder.path("out.csv").exists());
-            let ended = folder.flap(&format!("{command} --ignore-damage"));
-            assert_eq!(ended.code, 0, "{command}: {}", ended.stderr);
+            let ended = folder.ends(0, &format!("{command} --ignore-damage"));
             assert!(
                 ended.stderr.starts_with(&format!("warning: {name} is damaged: {told}\n")),
                 "{}",
@@ -249,11 +245,9 @@ fn commands_refuse_what_is_damaged() {
     let shard = folder.read("grid.2of2.csv");
     fs::write(folder.path("grid.2of2.csv"), shard.replacen(",unsettled,", ",periodic,", 1)).unwrap();
     let merge = "merge merged.csv grid.1of2.csv grid.2of2.csv";
-    let ended = folder.flap(merge);
-    assert_eq!(ended.code, 3, "{}", ended.stderr);
+    let ended = folder.ends(3, merge);
     assert!(ended.stderr.starts_with("error: grid.2of2.csv is damaged: rows 1 to 256"), "{}", ended.stderr);
-    let ended = folder.flap(&format!("{merge} --ignore-damage"));
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder.ends(0, &format!("{merge} --ignore-damage"));
     let ended = folder.flap("verify merged.csv");
     assert_eq!(
         (ended.code, ended.stdout.as_str()),
@@ -283,13 +277,9 @@ fn what_is_no_row_is_left_out() {
     let rows = folder.read("rows.csv");
     let broken = rows.replacen("\n5,", "\n5,7,", 1).replacen("\n6,", "\n9999,", 1);
     fs::write(folder.path("rows.csv"), broken).unwrap();
-    let ended = folder.flap("convert rows.csv out.csv --ignore-damage");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
-    assert!(
-        ended.stderr.contains("warning: rows.csv: 2 lines are no rows, and are left out\n"),
-        "{}",
-        ended.stderr
-    );
+    folder
+        .ends(0, "convert rows.csv out.csv --ignore-damage")
+        .says("warning: rows.csv: 2 lines are no rows, and are left out\n");
     assert_eq!(folder.read("out.csv").lines().count(), 1 + 698);
 }
 
@@ -305,8 +295,7 @@ fn rows_without_checksums_must_be_those_of_the_grid() {
         (ended.code, ended.stdout.as_str()),
         (1, "rows.csv: could not be verified: its sidecar has no checksums\n")
     );
-    let ended = folder.flap("convert rows.csv out.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let ended = folder.ends(0, "convert rows.csv out.csv");
     assert!(ended.stderr.starts_with("warning: rows.csv could not be verified: "), "{}", ended.stderr);
     assert_eq!(folder.flap("verify out.csv").code, 0, "the copy has checksums");
 
@@ -339,9 +328,7 @@ fn rows_without_checksums_must_be_those_of_the_grid() {
         ),
     ] {
         fs::write(folder.path("rows.csv"), edited).unwrap();
-        let ended = folder.flap("convert rows.csv other.csv");
-        assert_eq!(ended.code, 3, "{}", ended.stderr);
-        assert!(ended.stderr.contains(message), "{message}: {}", ended.stderr);
+        folder.ends(3, "convert rows.csv other.csv").says(message);
         assert!(!folder.path("other.csv").exists());
     }
 }
@@ -355,13 +342,9 @@ fn results_without_a_sidecar_could_not_be_verified() {
         (ended.code, ended.stdout.as_str()),
         (1, "rows.csv: could not be verified: there is no sidecar beside it\n")
     );
-    let ended = folder.flap("plot rows.csv --y cycles");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
-    assert!(
-        ended.stderr.contains("warning: rows.csv could not be verified: there is no sidecar"),
-        "{}",
-        ended.stderr
-    );
+    folder
+        .ends(0, "plot rows.csv --y cycles")
+        .says("warning: rows.csv could not be verified: there is no sidecar");
     assert_eq!(folder.flap("verify missing.csv").code, 3);
     assert_eq!(folder.flap("verify").code, 2);
 }
@@ -378,8 +361,7 @@ fn an_edited_sidecar_is_noticed() {
         "verify rows.csv",
         "sweep --from-sidecar rows.csv.meta.toml --out out.csv",
     ] {
-        let ended = folder.flap(command);
-        assert_eq!(ended.code, 3, "{command}: {}", ended.stderr);
+        let ended = folder.ends(3, command);
         let told = ended.stderr + &ended.stdout;
         assert!(told.contains("rows.csv.meta.toml is damaged: its first line is not the checksum"), "{told}");
     }
@@ -389,9 +371,9 @@ fn an_edited_sidecar_is_noticed() {
     let mut edited = Sidecar::read_damaged(&folder.path("rows.csv.meta.toml")).unwrap();
     edited.grid.text = edited.grid.text.replace("rtol = 1e-3", "rtol = 1e-4");
     edited.write(&folder.path("rows.csv.meta.toml")).unwrap();
-    let ended = folder.flap("sweep --from-sidecar rows.csv.meta.toml --out out.csv");
-    assert_eq!(ended.code, 2, "{}", ended.stderr);
-    assert!(ended.stderr.contains("the grid in it is not the one that was run"), "{}", ended.stderr);
+    folder
+        .ends(2, "sweep --from-sidecar rows.csv.meta.toml --out out.csv")
+        .says("the grid in it is not the one that was run");
     assert!(!folder.path("out.csv").exists());
 }
 
@@ -419,15 +401,13 @@ fn unfinished_results_say_so_and_are_read_as_far_as_they_are_safe() {
     for ending in ENDINGS {
         let folder = unfinished(ending);
         let name = format!("rows.{ending}");
-        let ended = folder.flap(&format!("verify {name}"));
-        assert_eq!(ended.code, 0, "{}", ended.stdout);
+        let ended = folder.ends(0, &format!("verify {name}"));
         let told = ended.stdout.strip_prefix(&format!("{name}: unfinished, sound so far: ")).unwrap();
         let done: usize = told.strip_suffix(" points are done\n").unwrap().parse().unwrap();
         assert!(done > 0);
         let warning =
             format!("warning: {name} is unfinished: {done} points are done so far, `flap resume` goes on\n");
-        let ended = folder.flap(&format!("plot {name} --y cycles --html page.html"));
-        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        let ended = folder.ends(0, &format!("plot {name} --y cycles --html page.html"));
         assert!(ended.stderr.starts_with(&warning), "{}", ended.stderr);
         let ended = folder.flap(&format!("convert {name} out.csv"));
         assert_eq!((ended.code, ended.stderr), (0, format!("{warning}{done} rows in out.csv\n")));
@@ -445,8 +425,7 @@ fn unfinished_results_say_so_and_are_read_as_far_as_they_are_safe() {
         bytes[700] ^= 1;
         fs::write(&path, bytes).unwrap();
         for command in ["verify NAME", "convert NAME other.csv", "plot NAME --y cycles --force"] {
-            let ended = folder.flap(&command.replace("NAME", &name));
-            assert_eq!(ended.code, 3, "{command}: {}", ended.stderr);
+            let ended = folder.ends(3, &command.replace("NAME", &name));
             assert!((ended.stdout + &ended.stderr).contains("it is not as the sweep left it"));
         }
     }
@@ -462,8 +441,6 @@ fn half_a_row_at_the_end_is_no_row() {
     });
     let rows = folder.read("rows.csv");
     fs::write(folder.path("rows.csv"), &rows[..rows.len() - 2]).unwrap();
-    let ended = folder.flap("convert rows.csv out.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
-    assert!(ended.stderr.contains("warning: rows.csv is unfinished: "), "{}", ended.stderr);
+    folder.ends(0, "convert rows.csv out.csv").says("warning: rows.csv is unfinished: ");
     assert_eq!(folder.read("out.csv"), rows[..=rows.trim_end().rfind('\n').unwrap()]);
 }

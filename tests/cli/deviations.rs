@@ -1,4 +1,4 @@
-//! What differs from the preset, and what cannot have been meant.
+//! Values that differ from the preset, and warnings of probable mistakes.
 
 use crate::support::Folder;
 
@@ -20,8 +20,8 @@ drive_frequency = { from = 60, to = 200, n = 15 }
         |line: &[&str]| assert!(lines.iter().any(|found| found == line), "{line:?} in\n{}", ended.stdout);
     has(&["OTHER THAN THE PRESET", "HERE", "PRESET", "RATIO"]);
     has(&["added_mass", "lagrangian", "paper"]);
-    assert!(ended.stdout.contains("2 uN*m/rad"), "{}", ended.stdout);
-    assert!(ended.stdout.contains("60 Hz to 200 Hz"), "{}", ended.stdout);
+    ended.prints("2 uN*m/rad");
+    ended.prints("60 Hz to 200 Hz");
 
     let ended = Folder::with_grid("preset = \"ozaki2018-large\"\n").flap("check grid.toml");
     assert!(!ended.stdout.contains("OTHER THAN"), "{}", ended.stdout);
@@ -39,8 +39,7 @@ fn values_far_from_the_preset_are_warned_of() {
         let grid = "preset = \"ozaki2018-large\"\n".to_owned() + grid + "[solver]\nmax_cycles = 1\n";
         let folder = Folder::with_grid(&grid);
         for command in ["check grid.toml", "sweep --grid grid.toml --out rows.csv --force", "run grid.toml"] {
-            let ended = folder.flap(command);
-            assert_eq!(ended.code, 0, "{}", ended.stderr);
+            let ended = folder.ends(0, command);
             let told = &ended.stderr;
             assert!(
                 told.starts_with("warning: wing_length = 17") && told.contains(" times the preset's "),
@@ -52,7 +51,7 @@ fn values_far_from_the_preset_are_warned_of() {
         }
     }
     let ended = Folder::new().flap("run ozaki2018-large --set wing_length=17 --max-cycles 1");
-    assert!(ended.stderr.contains("if 17 mm was meant"), "{}", ended.stderr);
+    ended.says("if 17 mm was meant");
     let ended = Folder::new().flap("run ozaki2018-large --max-cycles 1");
     assert_eq!(ended.stderr, "");
 }
@@ -60,8 +59,7 @@ fn values_far_from_the_preset_are_warned_of() {
 #[test]
 fn check_says_when_every_point_is_invalid() {
     let grid = "preset = \"ozaki2018-large\"\n[derived]\nwing_length = \"-0.01\"\n[axes]\ndrive_frequency = [60, 70]\n";
-    let ended = Folder::with_grid(grid).flap("check grid.toml");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let ended = Folder::with_grid(grid).ends(0, "check grid.toml");
     let told = "every point that was looked at is invalid";
     assert!(
         ended.stdout.contains(told) && ended.stdout.contains("`wing_length` comes out as -0.01"),

@@ -1,4 +1,4 @@
-//! What the documents show works.
+//! Commands and grids in the documents work.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -32,8 +32,7 @@ fn grids_in_the_documents_are_valid() {
     let mut grids = 0;
     for name in ["README.md", "docs/grid.md"] {
         for block in blocks(&document(name), "toml").iter().filter(|block| block.starts_with("preset")) {
-            let ended = Folder::with_grid(block).flap("check grid.toml");
-            assert_eq!(ended.code, 0, "{name}:\n{block}\n{}", ended.stderr);
+            Folder::with_grid(block).ends(0, "check grid.toml");
             grids += 1;
         }
     }
@@ -54,8 +53,7 @@ fn commands_in_the_documents_work() {
                 let command = command.replace("cargo run --release -- ", "flap ");
                 let Some(arguments) = command.strip_prefix("flap ") else { continue };
                 let words = words(arguments);
-                let ended = folder.flap_with(&words);
-                assert_eq!(ended.code, 0, "{name}: {command}\n{}", ended.stderr);
+                folder.ends_with(0, &words);
                 commands += 1;
             }
         }
@@ -75,10 +73,9 @@ fn examples() -> Vec<(String, PathBuf)> {
     grids
 }
 
-/// How many points the grid at `path` has, in digits. Fails if it is not valid.
+/// The number of points of the grid at `path`, in digits. Fails if the grid is not valid.
 fn points(path: &Path) -> String {
-    let ended = Folder::new().flap_with(&["check", path.to_str().unwrap()]);
-    assert_eq!(ended.code, 0, "{}\n{}", path.display(), ended.stderr);
+    let ended = Folder::new().ends_with(0, &["check", path.to_str().unwrap()]);
     ended.stdout.split(' ').next().unwrap().to_owned()
 }
 
@@ -107,8 +104,7 @@ fn example_grids_run() {
         let last = points(&path).parse::<u64>().unwrap() - 1;
         for point in [0, last] {
             let point = point.to_string();
-            let ended = Folder::new().flap_with(&["run", path.to_str().unwrap(), "--point", &point]);
-            assert_eq!(ended.code, 0, "{name}\n{}", ended.stderr);
+            let ended = Folder::new().ends_with(0, &["run", path.to_str().unwrap(), "--point", &point]);
             assert!(ended.stdout.contains("status = periodic"), "{name}, {point}\n{}", ended.stdout);
         }
     }
@@ -133,8 +129,7 @@ fn the_slurm_example_works() {
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     }
     let shards: Vec<String> = folder.names().into_iter().filter(|name| name.ends_with("of8.csv")).collect();
-    let ended = folder.flap(&format!("merge grid.csv {}", shards.join(" ")));
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder.ends(0, &format!("merge grid.csv {}", shards.join(" ")));
     assert_eq!(folder.read("grid.csv").lines().count(), 51);
 }
 
@@ -147,8 +142,7 @@ fn commands_in_the_results_page_work() {
     for block in blocks(&document("docs/results.md"), "sh") {
         for line in block.lines() {
             let command = line.split('#').next().unwrap().trim();
-            let ended = folder.flap(command.strip_prefix("flap ").unwrap());
-            assert_eq!(ended.code, 0, "{command}\n{}", ended.stderr);
+            folder.ends(0, command.strip_prefix("flap ").unwrap());
             commands += 1;
         }
     }
@@ -169,8 +163,7 @@ fn commands_in_the_page_on_plots_work() {
             let Some(arguments) = line.split('#').next().unwrap().trim().strip_prefix("flap ") else {
                 continue;
             };
-            let ended = folder.flap_with(&words(arguments));
-            assert_eq!(ended.code, 0, "{line}\n{}", ended.stderr);
+            folder.ends_with(0, &words(arguments));
             commands += 1;
         }
     }

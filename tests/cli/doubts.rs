@@ -7,22 +7,18 @@ fn rows_that_miss_the_accuracy_are_counted_and_can_be_run_again() {
     let grid =
         "preset = \"ozaki2018-large\"\n[axes]\ndrive_frequency = [100, 110]\n[solver]\naccuracy = 1e-14\n";
     let folder = Folder::with_grid(grid);
-    let ended = folder.flap("sweep --grid grid.toml --out rows.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
     let said = "2 rows miss the accuracy of [solver], see their error_estimate: \
                 `flap rerun rows.csv --inaccurate --rtol 1e-10 --out again.csv` runs them again";
-    assert!(ended.stderr.contains(said), "{}", ended.stderr);
+    folder.ends(0, "sweep --grid grid.toml --out rows.csv").says(said);
     assert!(folder.read("rows.csv.meta.toml").contains("[doubts]\ninaccurate = 2\n"));
 
-    let again = folder.flap("rerun rows.csv --inaccurate --rtol 1e-8 --accuracy 1e-2 --out again.csv");
-    assert_eq!(again.code, 0, "{}", again.stderr);
+    let again = folder.ends(0, "rerun rows.csv --inaccurate --rtol 1e-8 --accuracy 1e-2 --out again.csv");
     assert!(again.stderr.contains("2 periodic") && !again.stderr.contains("miss"), "{}", again.stderr);
     assert_eq!(folder.read("again.csv").lines().count(), 3);
 
     let none = folder.flap("rerun again.csv --inaccurate --out third.csv");
-    assert!(none.stderr.contains("no point in again.csv is inaccurate"), "{}", none.stderr);
-    let neither = folder.flap("rerun again.csv --out third.csv");
-    assert_eq!(neither.code, 2, "{}", neither.stderr);
+    none.says("no point in again.csv is inaccurate");
+    folder.ends(2, "rerun again.csv --out third.csv");
 }
 
 #[test]
@@ -30,9 +26,7 @@ fn resonances_at_an_end_of_their_range_are_counted() {
     let grid = "preset = \"ozaki2018-large\"\n[params]\ndrive_frequency = \"resonance\"\n\
                 [resonance]\nfrom = \"60 Hz\"\nto = \"70 Hz\"\n";
     let folder = Folder::with_grid(grid);
-    let ended = folder.flap("sweep --grid grid.toml --out rows.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
-    assert!(ended.stderr.contains("1 resonances are at an end of their range"), "{}", ended.stderr);
+    folder.ends(0, "sweep --grid grid.toml --out rows.csv").says("1 resonances are at an end of their range");
 }
 
 /// A wide wing on a soft hinge, which pitches fast beside its stroke.
@@ -54,7 +48,5 @@ rotation_drag = 3.9433014244420006
 #[test]
 fn rows_to_which_the_air_gives_energy_are_counted() {
     let folder = Folder::with_grid(GAINING);
-    let ended = folder.flap("sweep --grid grid.toml --out rows.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
-    assert!(ended.stderr.contains("1 rows have negative mean power"), "{}", ended.stderr);
+    folder.ends(0, "sweep --grid grid.toml --out rows.csv").says("1 rows have negative mean power");
 }

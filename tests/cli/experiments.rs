@@ -34,8 +34,7 @@ fn value(page: &str, name: &str) -> f64 {
 fn a_waveform_from_a_file_drives_like_its_shape() {
     let folder = folder_with("wave.csv", &sine("wave", 1.0));
     let shaped = folder.flap("run arabagi2013-75hz").stdout;
-    let ended = folder.flap("run arabagi2013-75hz --waveform wave.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let ended = folder.ends(0, "run arabagi2013-75hz --waveform wave.csv");
     for column in ["stroke_pp_deg", "lift_mean_mn", "power_mean_mw"] {
         let (file, shape) = (value(&ended.stdout, column), value(&shaped, column));
         assert!((file - shape).abs() < 1e-4 * shape.abs(), "{column}: {file} and {shape}");
@@ -44,25 +43,21 @@ fn a_waveform_from_a_file_drives_like_its_shape() {
     let slow = folder.flap("run arabagi2013-75hz --waveform wave.csv --set drive_frequency=60").stdout;
     assert!((value(&slow, "stroke_pp_deg") - value(&ended.stdout, "stroke_pp_deg")).abs() > 1.0);
 
-    let once = folder.flap("run arabagi2013-75hz --waveform wave.csv --once --trajectory t.csv --samples 50");
-    assert_eq!(once.code, 0, "{}", once.stderr);
+    folder.ends(0, "run arabagi2013-75hz --waveform wave.csv --once --trajectory t.csv --samples 50");
     assert_eq!(folder.read("t.csv").lines().count(), 1 + 51);
 }
 
 #[test]
 fn a_stroke_from_a_file_is_prescribed() {
     let folder = folder_with("stroke.csv", &sine("stroke_deg", 12.0));
-    let ended = folder.flap("run arabagi2013-75hz --stroke stroke.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let ended = folder.ends(0, "run arabagi2013-75hz --stroke stroke.csv");
     let set = ["--set", "stroke_mode=prescribed", "--set", "stroke_amplitude=12 deg"];
     let shaped = folder.flap_with(&[&["run", "arabagi2013-75hz"], &set[..]].concat()).stdout;
     for column in ["stroke_pp_deg", "pitch_pp_deg", "lift_mean_mn"] {
         let (file, shape) = (value(&ended.stdout, column), value(&shaped, column));
         assert!((file - shape).abs() < 1e-4 * shape.abs(), "{column}: {file} and {shape}");
     }
-    let bimorph = folder.flap("run jafferis2016 --stroke stroke.csv");
-    assert_eq!(bimorph.code, 2);
-    assert!(bimorph.stderr.contains("cannot be prescribed"), "{}", bimorph.stderr);
+    folder.ends(2, "run jafferis2016 --stroke stroke.csv").says("cannot be prescribed");
 }
 
 /// Forces along a motion that was simulated are those of the simulation.
@@ -73,8 +68,7 @@ fn lift_of_a_given_motion_is_that_of_the_simulation() {
         let simulated = folder
             .flap(&format!("run {preset} --trajectory motion.csv --cycles 1 --samples 800 --rtol 1e-8"));
         assert_eq!(simulated.code, 0, "{}", simulated.stderr);
-        let ended = folder.flap(&format!("lift {preset} motion.csv --periodic --trajectory forces.csv"));
-        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        let ended = folder.ends(0, &format!("lift {preset} motion.csv --periodic --trajectory forces.csv"));
         let (lift, expected) = (value(&ended.stdout, "lift_mn"), value(&simulated.stdout, "lift_mean_mn"));
         assert!((lift - expected).abs() < 2e-3 * expected, "{preset}: {lift} and {expected}");
         assert!(!ended.stdout.contains("power_mw"), "the voltage is not known:\n{}", ended.stdout);
@@ -96,8 +90,7 @@ fn tracked_points_become_a_motion() {
         let _ = writeln!(points, "{},{a},{b},{c},{d},{e},{f}", 1e-4 * f64::from(i));
     }
     let folder = folder_with("points.csv", &points);
-    let ended = folder.flap("track points.csv --chord 6.5 --out motion.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let ended = folder.ends(0, "track points.csv --chord 6.5 --out motion.csv");
     assert_eq!(ended.stdout, "rotation centre at x = 3.0, y = -1.0\n");
     let motion = folder.read("motion.csv");
     let mut lines = motion.lines();
@@ -139,9 +132,7 @@ fn unusable_files_are_named_with_line_and_column() {
     let folder = folder_with("wave.csv", "time_s,wave\n0,0\n1,x\n");
     let refused = |arguments: &str, text: &str, expected: &str| {
         fs::write(folder.path("file.csv"), text).unwrap();
-        let ended = folder.flap(arguments);
-        assert_eq!(ended.code, 2, "{arguments}: {}", ended.stdout);
-        assert!(ended.stderr.contains(expected), "{arguments}: {}", ended.stderr);
+        folder.ends(2, arguments).says(expected);
     };
     let run = "run ozaki2018-small --waveform file.csv";
     refused(run, "time_s,wave\n0,0\n1,x\n", "file.csv, line 3, column wave: `x` is not a number");

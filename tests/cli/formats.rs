@@ -18,13 +18,11 @@ fn every_format_holds_the_same_rows() {
     let folder =
         Folder::with_grid(&(frequencies(20) + "[[zip]]\nadded_mass = [\"paper\", \"lagrangian\"]\n"));
     for ending in ENDINGS {
-        let ended = folder.flap(&format!("sweep --grid grid.toml --out rows.{ending}"));
-        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        let ended = folder.ends(0, &format!("sweep --grid grid.toml --out rows.{ending}"));
         assert!(ended.stderr.ends_with(&format!("40 rows in rows.{ending}\n")), "{}", ended.stderr);
         let sidecar: toml::Table = folder.read(&format!("rows.{ending}.meta.toml")).parse().unwrap();
         assert_eq!(sidecar["state"].as_str(), Some("complete"));
-        let ended = folder.flap(&format!("convert rows.{ending} from-{ending}.csv"));
-        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        folder.ends(0, &format!("convert rows.{ending} from-{ending}.csv"));
         assert_eq!(folder.read("rows.csv"), folder.read(&format!("from-{ending}.csv")));
     }
     for left in ["rows.csv.journal", "rows.parquet.journal", "rows.parquet.part"] {
@@ -57,7 +55,7 @@ fn converted_files_have_the_bytes_of_written_ones() {
     assert!(size("csv.zst.csv.zst") * 3 < size("csv.csv"), "compressed");
 }
 
-/// What `zstd -d` gives is the CSV file, and it is made of more than one frame.
+/// `zstd -d` gives the CSV file, and the compressed file has more than one frame.
 #[test]
 fn compressed_files_are_frames_of_plain_ones() {
     let folder = Folder::with_grid(&quick(600));
@@ -133,10 +131,8 @@ high = "resonance_hz > 50"
 "#,
     );
     for ending in ENDINGS {
-        let ended = folder.flap(&format!("sweep --grid grid.toml --out rows.{ending} --strict"));
-        assert_eq!(ended.code, 0, "{}", ended.stderr);
-        let ended = folder.flap(&format!("convert rows.{ending} from-{ending}.csv"));
-        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        folder.ends(0, &format!("sweep --grid grid.toml --out rows.{ending} --strict"));
+        folder.ends(0, &format!("convert rows.{ending} from-{ending}.csv"));
         assert_eq!(folder.read("rows.csv"), folder.read(&format!("from-{ending}.csv")));
     }
     let text = folder.read("rows.csv");
@@ -161,8 +157,7 @@ high = "resonance_hz > 50"
 #[test]
 fn endings_that_stand_for_no_format() {
     let folder = Folder::with_grid(&quick(1));
-    let ended = folder.flap("sweep --grid grid.toml --out rows.xlsx");
-    assert_eq!(ended.code, 2);
+    let ended = folder.ends(2, "sweep --grid grid.toml --out rows.xlsx");
     assert_eq!(
         ended.stderr,
         "error: rows.xlsx: the ending of a file's name says its format, and must be .csv, .csv.zst or .parquet\n"
@@ -193,8 +188,7 @@ fn endings_that_stand_for_no_format() {
         #[cfg(feature = "plots")]
         ("plot rows.csv --html page.txt", ".html or .htm"),
     ] {
-        let ended = folder.flap(arguments);
-        assert_eq!(ended.code, 2, "{arguments}: {}", ended.stderr);
+        let ended = folder.ends(2, arguments);
         let told = ended.stderr.lines().next().unwrap();
         assert!(told.ends_with(allowed), "{arguments}: {told}");
     }
@@ -234,22 +228,12 @@ fn what_cannot_be_converted() {
     let folder = Folder::with_grid(&quick(10));
     assert_eq!(folder.flap("sweep --grid grid.toml --out rows.csv").code, 0);
     fs::write(folder.path("alone.csv"), folder.read("rows.csv")).unwrap();
-    let ended = folder.flap("convert alone.csv out.parquet");
-    assert_eq!(ended.code, 2, "{}", ended.stderr);
-    assert!(ended.stderr.contains("alone.csv.meta.toml: cannot be read"), "{}", ended.stderr);
+    folder.ends(2, "convert alone.csv out.parquet").says("alone.csv.meta.toml: cannot be read");
 
-    let ended = folder.flap("convert rows.csv rows.csv");
-    assert_eq!(ended.code, 2, "{}", ended.stderr);
-    assert!(
-        ended.stderr.contains("writing rows.csv would overwrite the results rows.csv"),
-        "{}",
-        ended.stderr
-    );
+    folder.ends(2, "convert rows.csv rows.csv").says("writing rows.csv would overwrite the results rows.csv");
 
     fs::write(folder.path("rows.csv"), "point,other\n0,1\n").unwrap();
     folder.rewrite_sidecar("rows.csv", |sidecar| sidecar.checksums = None);
-    let ended = folder.flap("convert rows.csv out.parquet");
-    assert_eq!(ended.code, 3, "{}", ended.stderr);
-    assert!(ended.stderr.contains("its columns are not those of the grid"), "{}", ended.stderr);
+    folder.ends(3, "convert rows.csv out.parquet").says("its columns are not those of the grid");
     assert!(!folder.path("out.parquet").exists());
 }

@@ -20,13 +20,9 @@ columns = ["lift_mean_mn", "power_mean_mw", "lift_per_power", "strong"]
 #[test]
 fn a_sweep_tells_what_it_left_out() {
     let folder = Folder::with_grid(GRID);
-    let ended = folder.flap("sweep --grid grid.toml --out o.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
-    assert!(
-        ended.stderr.contains("1 point is excluded by [where]; not satisfied: low 1\n"),
-        "{}",
-        ended.stderr
-    );
+    folder
+        .ends(0, "sweep --grid grid.toml --out o.csv")
+        .says("1 point is excluded by [where]; not satisfied: low 1\n");
     let text = folder.read("o.csv");
     let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(
@@ -58,9 +54,8 @@ fn a_sweep_tells_what_it_left_out() {
 #[test]
 fn one_point_shows_its_own_measures() {
     let folder = Folder::with_grid(GRID);
-    let ended = folder.flap("run grid.toml --point 1");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
-    assert!(ended.stdout.contains("\nlift_per_power "), "{}", ended.stdout);
+    let ended = folder.ends(0, "run grid.toml --point 1");
+    ended.prints("\nlift_per_power ");
     assert!(ended.stdout.lines().any(|line| line.starts_with("strong ") && line.contains(" true ")));
     let excluded = folder.flap("run grid.toml --point 4");
     assert_eq!(
@@ -77,9 +72,9 @@ fn derived_parameters_follow_those_that_are_set() {
     };
     assert_eq!(at("--set drive_frequency=105"), at("--point 1"));
     assert_ne!(at("--point 1 --set hinge_stiffness=1e-4"), at("--point 1"));
-    let ended = Folder::with_grid(&GRID.replace("^2", "^2 - 1")).flap("run grid.toml");
-    assert_eq!(ended.code, 2);
-    assert!(ended.stderr.contains("`hinge_stiffness` comes out as -0.99"), "{}", ended.stderr);
+    Folder::with_grid(&GRID.replace("^2", "^2 - 1"))
+        .ends(2, "run grid.toml")
+        .says("`hinge_stiffness` comes out as -0.99");
 }
 
 #[test]
@@ -102,8 +97,7 @@ hinge_stiffness = "preset.hinge_stiffness * drive_frequency / 100"
 low = "drive_frequency < 115"
 other = "drive_frequency > 102"
 "#;
-    let ended = Folder::with_grid(grid).flap("check grid.toml");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let ended = Folder::with_grid(grid).ends(0, "check grid.toml");
     for part in [
         "100 points of bimorph",
         "\naxis 2: Latin hypercube, seed 3\n",
@@ -114,7 +108,7 @@ other = "drive_frequency > 102"
         ", hinge_stiffness = ",
         "\nestimate: ",
     ] {
-        assert!(ended.stdout.contains(part), "{part}\n{}", ended.stdout);
+        ended.prints(part);
     }
     // Too many to count.
     let many = grid.replace("n = 5", "n = 4_000_000_000");

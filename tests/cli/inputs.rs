@@ -1,4 +1,4 @@
-//! What a command reads is never overwritten, whatever name it goes by, and not with `--force` either.
+//! Inputs of a command are never overwritten, whatever their names, even with `--force`.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -98,10 +98,7 @@ fn no_command_overwrites_what_it_reads() {
         #[cfg(feature = "plots")]
         "plot rows.csv --force --html page.html",
     ] {
-        let ended = folder.flap(arguments);
-        assert_eq!(ended.code, 2, "{arguments}: {}", ended.stderr);
-        assert!(ended.stderr.contains(" would overwrite "), "{arguments}: {}", ended.stderr);
-        assert_eq!(ended.stdout, "", "{arguments}");
+        folder.refuses(arguments, " would overwrite ");
         assert!(contents(&folder) == before, "{arguments}");
     }
 }
@@ -111,9 +108,7 @@ fn two_outputs_are_two_files() {
     let folder = Folder::with_grid(&quick(3));
     let run = "run ozaki2018-large --drive chirp --trajectory one.csv --envelope";
     for name in ["one.csv", "./one.csv"] {
-        let ended = folder.flap(&format!("{run} {name}"));
-        assert_eq!(ended.code, 2, "{}", ended.stderr);
-        assert!(ended.stderr.contains("would be written twice"), "{}", ended.stderr);
+        folder.ends(2, &format!("{run} {name}")).says("would be written twice");
     }
     assert_eq!(folder.names(), ["grid.toml"]);
 }
@@ -123,8 +118,7 @@ fn results_given_as_a_grid_file_are_recognised() {
     let folder = Folder::with_grid(&quick(3));
     for ending in ["csv", "csv.zst", "parquet"] {
         assert_eq!(folder.flap(&format!("sweep --grid grid.toml --out rows.{ending}")).code, 0);
-        let ended = folder.flap(&format!("check rows.{ending}"));
-        assert_eq!(ended.code, 2);
+        let ended = folder.ends(2, &format!("check rows.{ending}"));
         assert_eq!(
             ended.stderr,
             format!(
@@ -134,17 +128,14 @@ fn results_given_as_a_grid_file_are_recognised() {
         );
     }
     fs::File::create(folder.path("large.toml")).unwrap().set_len(1 << 30).unwrap();
-    let ended = folder.flap("check large.toml");
-    assert_eq!(ended.code, 2);
-    assert!(ended.stderr.contains("more than 16 MiB"), "{}", ended.stderr);
+    folder.ends(2, "check large.toml").says("more than 16 MiB");
 }
 
 #[test]
 fn no_more_than_twenty_mistakes_are_shown() {
     let keys = (0..571).map(|number| format!("key_{number} = 1\n")).collect::<Vec<_>>().concat();
     let folder = Folder::with_grid(&format!("preset = \"ozaki2018-large\"\n[params]\n{keys}"));
-    let ended = folder.flap("check grid.toml");
-    assert_eq!(ended.code, 2);
+    let ended = folder.ends(2, "check grid.toml");
     assert_eq!(ended.stderr.matches("error: ").count(), 20);
     let end = "\n\nand 551 more\n\ngrid.toml: 571 mistakes, nothing was run\n";
     assert!(ended.stderr.ends_with(end), "{}", ended.stderr);
@@ -154,8 +145,8 @@ fn no_more_than_twenty_mistakes_are_shown() {
 fn options_of_a_chirp_need_a_chirp() {
     for (option, value) in [("--chirp-from", "60"), ("--chirp-to", "90"), ("--chirp-rate", "5")] {
         for drive in ["steady", "impulse"] {
-            let ended = Folder::new().flap(&format!("run ozaki2018-large --drive {drive} {option} {value}"));
-            assert_eq!(ended.code, 2);
+            let ended =
+                Folder::new().ends(2, &format!("run ozaki2018-large --drive {drive} {option} {value}"));
             assert_eq!(ended.stderr, format!("error: {option} goes with --drive chirp\n"));
         }
     }
@@ -166,9 +157,7 @@ fn a_sample_without_parameters_is_a_mistake() {
     let grid = "preset = \"ozaki2018-large\"\n[sample]\nmethod = \"sobol\"\nn = 8\n[sample.parameters]\n";
     let folder = Folder::with_grid(grid);
     for command in ["check grid.toml", "sweep --grid grid.toml"] {
-        let ended = folder.flap(command);
-        assert_eq!(ended.code, 2, "{}", ended.stderr);
-        assert!(ended.stderr.contains("grid.toml:5:9\n"), "{}", ended.stderr);
+        folder.ends(2, command).says("grid.toml:5:9\n");
     }
 }
 
@@ -191,13 +180,13 @@ fn a_small_file_does_not_fill_the_memory() {
         commands.into_iter().filter(|command| cfg!(feature = "plots") || !command.starts_with("plot"));
     for arguments in commands.clone() {
         let ended = folder.flap(&format!("{arguments} --ignore-damage"));
-        assert!(ended.stderr.contains("rows.csv.zst is damaged"), "{arguments}: {}", ended.stderr);
+        ended.says("rows.csv.zst is damaged");
     }
     // As an earlier flap has written it.
     folder.rewrite_sidecar("rows.csv.zst", |sidecar| sidecar.checksums = None);
     for arguments in commands {
         let ended = folder.flap(arguments);
         assert_ne!(ended.code, 0, "{arguments}");
-        assert!(ended.stderr.contains("a line is longer than 16 MiB"), "{arguments}: {}", ended.stderr);
+        ended.says("a line is longer than 16 MiB");
     }
 }

@@ -27,9 +27,8 @@ columns = ["stroke_pp_deg", "vehicle_lift_mgf"]
 #[test]
 fn motions_that_do_not_repeat_every_drive_period_have_no_numbers() {
     let folder = Folder::with_grid(SOFT_HINGE);
-    let ended = folder.flap("sweep --grid grid.toml --out -");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
-    assert!(ended.stderr.contains("5 periodic, 2 subharmonic, 2 unsettled in "), "{}", ended.stderr);
+    let ended = folder.ends(0, "sweep --grid grid.toml --out -");
+    ended.says("5 periodic, 2 subharmonic, 2 unsettled in ");
 
     let expected = [
         // Slow is not irregular: at 160 V motions decay by 3 % a cycle only, but they settle.
@@ -70,7 +69,6 @@ fn strict_counts_subharmonics_too() {
     let grid = "preset = \"jafferis2016\"\n[params]\nhinge_stiffness = 0.7486e-6\ndrive_voltage_pp = 240\n\
                 drive_frequency = 67.5\n[solver]\nsettle_tol = 1e-4\n";
     let folder = Folder::with_grid(grid);
-    let ended = folder.flap("sweep --grid grid.toml --strict");
-    assert_eq!(ended.code, 1, "{}", ended.stderr);
+    folder.ends(1, "sweep --grid grid.toml --strict");
     assert!(folder.read("grid.csv").contains("\n0,subharmonic,,"), "{}", folder.read("grid.csv"));
 }

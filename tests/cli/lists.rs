@@ -13,8 +13,7 @@ drive_voltage_pp = ["100 V", "150 V"]
 drive_frequency = { from = "60 Hz", to = "200 Hz", n = 15 }
 "#;
     let folder = Folder::with_grid(grid);
-    let ended = folder.flap("check grid.toml");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let ended = folder.ends(0, "check grid.toml");
     let (page, estimate) = ended.stdout.split_once("estimate: ").unwrap();
     assert!(estimate.ends_with(" threads, judged by 30 points spread over the grid\n"), "{estimate}");
     assert_eq!(
@@ -51,8 +50,7 @@ fn check_is_instant_for_any_number_of_points() {
     for (grid, points) in [(frequencies(1_000_000), 1_000_000), (many, 1_000_000_000_000_000_000_u64)] {
         let folder = Folder::with_grid(&grid);
         let start = Instant::now();
-        let ended = folder.flap("check grid.toml");
-        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        let ended = folder.ends(0, "check grid.toml");
         assert!(ended.stdout.starts_with(&format!("{points} points of ")), "{}", ended.stdout);
         assert!(start.elapsed() < Duration::from_secs(5));
     }
@@ -60,8 +58,7 @@ fn check_is_instant_for_any_number_of_points() {
 
 #[test]
 fn models_and_presets_are_listed() {
-    let ended = Folder::new().flap("models");
-    assert_eq!(ended.code, 0);
+    let ended = Folder::new().ends(0, "models");
     for name in ["direct-drive", "  ozaki2018-small", "  ozaki2018-large"] {
         assert!(ended.stdout.lines().any(|line| line.starts_with(name)), "{name}: {}", ended.stdout);
     }
@@ -73,10 +70,8 @@ fn models_and_presets_are_listed() {
 #[test]
 fn parameters_are_listed_with_units_and_values() {
     let folder = Folder::new();
-    let model = folder.flap("params direct-drive");
-    assert_eq!(model.code, 0, "{}", model.stderr);
-    let preset = folder.flap("params ozaki2018-large");
-    assert_eq!(preset.code, 0, "{}", preset.stderr);
+    let model = folder.ends(0, "params direct-drive");
+    let preset = folder.ends(0, "params ozaki2018-large");
     let line = |text: &str, name: &str| {
         let found = text.lines().find(|line| line.split_whitespace().next() == Some(name));
         found.unwrap_or_else(|| panic!("{name} is missing in\n{text}")).to_owned()
@@ -95,9 +90,7 @@ fn help_has_examples_and_exit_codes() {
     let folder = Folder::new();
     assert!(folder.flap("--help").stdout.contains("Exit codes:"));
     for command in ["sweep", "run", "check", "params"] {
-        let ended = folder.flap(&format!("{command} --help"));
-        assert_eq!(ended.code, 0);
-        assert!(ended.stdout.contains(&format!("  flap {command} ")), "{}", ended.stdout);
+        folder.ends(0, &format!("{command} --help")).prints(&format!("  flap {command} "));
     }
     let (version, build) = (env!("CARGO_PKG_VERSION"), flap_sweep::run::identity::build());
     assert_eq!(folder.flap("-V").stdout, format!("flap {version}\n"));

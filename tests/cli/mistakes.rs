@@ -15,8 +15,7 @@ hinge_stifness = "1.5 uN*m/rad"
 drive_frequency = { from = "60 Hz", to = "200 mm", n = 15 }
 "#;
     let folder = Folder::with_grid(grid);
-    let ended = folder.flap("check grid.toml");
-    assert_eq!(ended.code, 2);
+    let ended = folder.ends(2, "check grid.toml");
     assert_eq!(ended.stdout, "");
     assert_eq!(
         ended.stderr,
@@ -45,8 +44,7 @@ grid.toml: 2 mistakes, nothing was run
 fn results_are_not_overwritten_unasked() {
     let folder = Folder::with_grid(&frequencies(2));
     fs::write(folder.path("grid.csv"), "precious\n").unwrap();
-    let ended = folder.flap("sweep --grid grid.toml");
-    assert_eq!(ended.code, 2);
+    let ended = folder.ends(2, "sweep --grid grid.toml");
     assert_eq!(
         ended.stderr,
         "error: grid.csv exists already\nhelp: use --force to overwrite it, or name another file\n"
@@ -59,9 +57,7 @@ fn results_are_not_overwritten_unasked() {
 #[test]
 fn the_grid_file_is_not_overwritten_at_all() {
     let folder = Folder::with_grid(&frequencies(2));
-    let ended = folder.flap("sweep --grid grid.toml --out ./grid.toml --force");
-    assert_eq!(ended.code, 2);
-    assert!(ended.stderr.contains("overwrite the grid file"), "{}", ended.stderr);
+    folder.ends(2, "sweep --grid grid.toml --out ./grid.toml --force").says("overwrite the grid file");
     assert_eq!(folder.read("grid.toml"), frequencies(2));
 }
 
@@ -69,8 +65,7 @@ fn the_grid_file_is_not_overwritten_at_all() {
 fn places_that_cannot_be_written() {
     let folder = Folder::with_grid(&frequencies(2));
     for out in ["missing/rows.csv", "."] {
-        let ended = folder.flap(&format!("sweep --grid grid.toml --force --out {out}"));
-        assert_eq!(ended.code, 3);
+        let ended = folder.ends(3, &format!("sweep --grid grid.toml --force --out {out}"));
         assert!(ended.stderr.starts_with(&format!("error: cannot write {out}: ")), "{}", ended.stderr);
         assert_eq!(ended.stdout, "");
     }
@@ -80,8 +75,7 @@ fn places_that_cannot_be_written() {
 #[cfg(target_os = "linux")]
 fn a_full_disk_is_reported() {
     let folder = Folder::with_grid(&frequencies(2));
-    let ended = folder.flap("sweep --grid grid.toml --force --out /dev/full");
-    assert_eq!(ended.code, 3);
+    let ended = folder.ends(3, "sweep --grid grid.toml --force --out /dev/full");
     assert!(ended.stderr.starts_with("error: cannot write rows: "), "{}", ended.stderr);
 }
 
@@ -97,8 +91,7 @@ fn files_that_are_not_grid_files() {
             ("bytes.toml", "error: bytes.toml:1:11: not UTF-8"),
             ("empty.toml", "error: "),
         ] {
-            let ended = folder.flap(&format!("{command}{file}"));
-            assert_eq!(ended.code, 2, "{command}{file}: {}", ended.stderr);
+            let ended = folder.ends(2, &format!("{command}{file}"));
             assert!(ended.stderr.starts_with(message), "{command}{file}: {}", ended.stderr);
             assert_eq!(ended.stdout, "");
         }
@@ -131,8 +124,7 @@ fn wrong_command_lines() {
         "run ozaki2018-large --point 1",
         "run grid.toml --point 2",
     ] {
-        let ended = folder.flap(arguments);
-        assert_eq!(ended.code, 2, "{arguments}");
+        let ended = folder.ends(2, arguments);
         assert_eq!(ended.stdout, "", "{arguments}");
         assert_ne!(ended.stderr, "", "{arguments}");
     }
@@ -149,8 +141,7 @@ fn misspelt_names_are_recognised() {
         ("run ozaki2018-larg", "help: did you mean `ozaki2018-large`?\n"),
         ("run ozaki2018-large --set drive_freqency=100", "help: did you mean `drive_frequency`?\n"),
     ] {
-        let ended = folder.flap(arguments);
-        assert_eq!(ended.code, 2, "{arguments}");
+        let ended = folder.ends(2, arguments);
         assert!(ended.stderr.ends_with(hint), "{arguments}: {}", ended.stderr);
     }
 }
@@ -166,9 +157,7 @@ fn wrong_values_on_the_command_line_say_what_is_allowed() {
         ("drive_frequency=inf", "finite"),
         ("drive_frequency=", "must start with a number"),
     ] {
-        let ended = folder.flap_with(&["run", "ozaki2018-large", "--set", value]);
-        assert_eq!(ended.code, 2, "{value}");
-        assert!(ended.stderr.contains(message), "{value}: {}", ended.stderr);
+        folder.ends_with(2, &["run", "ozaki2018-large", "--set", value]).says(message);
     }
 }
 
@@ -176,8 +165,6 @@ fn wrong_values_on_the_command_line_say_what_is_allowed() {
 fn threads_are_as_many_as_a_machine_could_have() {
     let folder = Folder::with_grid("preset = \"ozaki2018-large\"\n");
     for threads in ["0", "100000", "two"] {
-        let ended = folder.flap(&format!("sweep --grid grid.toml --threads {threads}"));
-        assert_eq!(ended.code, 2);
-        assert!(ended.stderr.contains("from 1 to 1024"), "{}", ended.stderr);
+        folder.ends(2, &format!("sweep --grid grid.toml --threads {threads}")).says("from 1 to 1024");
     }
 }

@@ -10,8 +10,7 @@ fn value<'t>(text: &'t str, name: &str) -> &'t str {
 
 #[test]
 fn a_preset_runs_as_published() {
-    let ended = Folder::new().flap("run ozaki2018-large");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let ended = Folder::new().ends(0, "run ozaki2018-large");
     assert_eq!(ended.stderr, "");
     let mut lines = ended.stdout.lines();
     assert_eq!(lines.next(), Some("direct-drive from ozaki2018-large"));
@@ -52,17 +51,15 @@ fn tolerances_can_be_changed() {
     };
     assert!(evals("--rtol 1e-9") > evals(""));
     assert!(evals("--settle-tol 1e-2") < evals(""));
-    let short = folder.flap("run ozaki2018-large --max-cycles 2");
-    assert_eq!(short.code, 0);
-    assert!(short.stdout.contains("\nstatus = unsettled, cycles = 2, "), "{}", short.stdout);
+    folder.ends(0, "run ozaki2018-large --max-cycles 2").prints("\nstatus = unsettled, cycles = 2, ");
 }
 
 #[test]
 fn a_trajectory_is_sampled() {
     let folder = Folder::new();
-    let ended = folder.flap("run ozaki2018-large --trajectory motion.csv --cycles 3 --samples 20");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
-    assert!(ended.stdout.contains("lift_mean_mn"));
+    folder
+        .ends(0, "run ozaki2018-large --trajectory motion.csv --cycles 3 --samples 20")
+        .prints("lift_mean_mn");
     let motion = folder.read("motion.csv");
     assert!(motion.starts_with("time_s,"), "{motion}");
     assert_eq!(motion.lines().count(), 1 + 3 * 20 + 1);
@@ -71,8 +68,7 @@ fn a_trajectory_is_sampled() {
     assert_eq!(again.code, 2, "it exists");
     let piped = folder.flap("run ozaki2018-large --trajectory - --cycles 3 --samples 20");
     assert_eq!(piped.stdout, motion);
-    let rest = folder.flap("run ozaki2018-large --trajectory - --cycles 3 --samples 20 --from-rest");
-    assert_eq!(rest.code, 0, "{}", rest.stderr);
+    let rest = folder.ends(0, "run ozaki2018-large --trajectory - --cycles 3 --samples 20 --from-rest");
     assert_ne!(rest.stdout, motion);
 }
 
@@ -95,8 +91,8 @@ fn a_chirp_gives_one_row_per_cycle_and_the_motion() {
     assert_eq!(folder.flap(files).code, 2, "existing files are not overwritten unasked");
     assert_eq!(folder.flap(&format!("{files} --force")).code, 0);
 
-    let ended = folder.flap("run ozaki2018-small --drive chirp --chirp-from 200 --chirp-to 100");
-    assert_eq!(ended.code, 2);
-    assert!(ended.stderr.contains("sign of the change"), "{}", ended.stderr);
+    folder
+        .ends(2, "run ozaki2018-small --drive chirp --chirp-from 200 --chirp-to 100")
+        .says("sign of the change");
     assert_eq!(folder.flap("run ozaki2018-small --envelope e.csv").code, 2);
 }

@@ -71,8 +71,7 @@ fn an_interrupted_force_is_resumed_and_then_the_earlier_results_go() {
     send("INT", &child);
     assert_eq!(wait(&mut child), Some(130));
     assert!(folder.path("grid.old.csv").exists());
-    let ended = folder.flap("resume grid.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder.ends(0, "resume grid.csv");
     assert_eq!(folder.names(), ["grid.csv", "grid.csv.meta.toml", "grid.toml"]);
     assert_eq!(folder.read("grid.csv").lines().count(), 2001);
 }
@@ -92,9 +91,7 @@ fn a_file_in_the_way_stays() {
     let (folder, rows, sidecar) = folder("csv");
     fs::write(folder.path("grid.toml"), quick(5)).unwrap();
     fs::write(folder.path("rows.old.csv"), "precious").unwrap();
-    let ended = folder.flap("sweep --grid grid.toml --out rows.csv --force");
-    assert_eq!(ended.code, 3, "{}", ended.stderr);
-    assert!(ended.stderr.contains("rows.old.csv is in the way"), "{}", ended.stderr);
+    folder.ends(3, "sweep --grid grid.toml --out rows.csv --force").says("rows.old.csv is in the way");
     assert_eq!(folder.read("rows.old.csv"), "precious");
     assert!(fs::read(folder.path("rows.csv")).unwrap() == rows);
     assert_eq!(folder.read("rows.csv.meta.toml"), sidecar);

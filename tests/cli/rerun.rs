@@ -22,8 +22,7 @@ columns = ["lift_mean_mn"]
 
 fn unsettled() -> Folder {
     let folder = Folder::with_grid(GRID);
-    let ended = folder.flap("sweep --grid grid.toml --out rows.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder.ends(0, "sweep --grid grid.toml --out rows.csv");
     folder
 }
 
@@ -40,16 +39,13 @@ fn points(folder: &Folder, name: &str) -> Vec<(String, String)> {
 fn a_sidecar_is_enough_to_repeat_a_sweep() {
     let folder = unsettled();
     fs::remove_file(folder.path("grid.toml")).unwrap();
-    let ended = folder.flap("sweep --from-sidecar rows.csv.meta.toml --out again.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder.ends(0, "sweep --from-sidecar rows.csv.meta.toml --out again.csv");
     assert_eq!(folder.read("rows.csv"), folder.read("again.csv"));
 
-    let ended = folder.flap("sweep --from-sidecar rows.csv --out other.csv");
-    assert_eq!(ended.code, 2);
-    assert!(ended.stderr.contains("rows.csv: not a sidecar of results"), "{}", ended.stderr);
-    let ended = folder.flap("sweep --from-sidecar rows.csv.meta.toml");
-    assert_eq!(ended.code, 2);
-    assert!(ended.stderr.contains("--out"), "{}", ended.stderr);
+    folder
+        .ends(2, "sweep --from-sidecar rows.csv --out other.csv")
+        .says("rows.csv: not a sidecar of results");
+    folder.ends(2, "sweep --from-sidecar rows.csv.meta.toml").says("--out");
 }
 
 #[test]
@@ -58,8 +54,7 @@ fn failed_points_are_run_again_with_other_settings() {
     let failed: Vec<(String, String)> =
         points(&folder, "rows.csv").into_iter().filter(|(_, status)| status == "unsettled").collect();
     assert!(!failed.is_empty() && failed.len() < 48, "{}", folder.read("rows.csv"));
-    let ended = folder.flap("rerun rows.csv --status unsettled --max-cycles 500 --out again.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder.ends(0, "rerun rows.csv --status unsettled --max-cycles 500 --out again.csv");
     let again = points(&folder, "again.csv");
     assert!(again.iter().map(|(point, _)| point).eq(failed.iter().map(|(point, _)| point)));
     assert!(again.iter().all(|(_, status)| status == "periodic"), "{again:?}");
@@ -71,36 +66,28 @@ fn failed_points_are_run_again_with_other_settings() {
     assert_eq!(sidecar["rerun"]["statuses"].as_array().unwrap().len(), 1);
 
     // The sidecar of a rerun repeats the rerun.
-    let ended = folder.flap("sweep --from-sidecar again.csv.meta.toml --out third.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder.ends(0, "sweep --from-sidecar again.csv.meta.toml --out third.csv");
     assert_eq!(folder.read("again.csv"), folder.read("third.csv"));
 }
 
 #[test]
 fn what_cannot_be_run_again() {
     let folder = unsettled();
-    let ended = folder.flap("rerun rows.csv --status diverged --out again.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let ended = folder.ends(0, "rerun rows.csv --status diverged --out again.csv");
     assert_eq!(ended.stderr, "no point in rows.csv is diverged: nothing is left to run\n");
     assert!(!folder.path("again.csv").exists());
 
     fs::copy(folder.path("rows.csv.meta.toml"), folder.path("edited.meta.toml")).unwrap();
     folder.rewrite_sidecar("edited", |sidecar| sidecar.solver.max_cycles = 0);
-    let ended = folder.flap("sweep --from-sidecar edited.meta.toml --out again.csv");
-    assert_eq!(ended.code, 2, "{}", ended.stderr);
-    assert!(ended.stderr.contains("its solver settings are not ones"), "{}", ended.stderr);
+    folder
+        .ends(2, "sweep --from-sidecar edited.meta.toml --out again.csv")
+        .says("its solver settings are not ones");
 
-    let ended = folder.flap("rerun rows.csv --status unsetled --out again.csv");
-    assert_eq!(ended.code, 2);
-    assert!(ended.stderr.contains("did you mean `unsettled`?"), "{}", ended.stderr);
+    folder.ends(2, "rerun rows.csv --status unsetled --out again.csv").says("did you mean `unsettled`?");
 
-    let ended = folder.flap("rerun rows.csv --status unsettled --out rows.csv --force");
-    assert_eq!(ended.code, 2);
-    assert!(
-        ended.stderr.contains("writing rows.csv would overwrite the results rows.csv"),
-        "{}",
-        ended.stderr
-    );
+    folder
+        .ends(2, "rerun rows.csv --status unsettled --out rows.csv --force")
+        .says("writing rows.csv would overwrite the results rows.csv");
 }
 
 /// The file of points is looked for where the grid file was, and must be as it was.
@@ -112,15 +99,12 @@ fn a_sweep_of_a_file_of_points_is_repeated_from_its_sidecar() {
     fs::write(folder.path("designs/grid.toml"), grid).unwrap();
     let points = "drive_voltage_pp\n20\n30\n";
     fs::write(folder.path("designs/points.csv"), points).unwrap();
-    let ended = folder.flap("sweep --grid designs/grid.toml --out rows.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder.ends(0, "sweep --grid designs/grid.toml --out rows.csv");
     assert_eq!(folder.read("rows.csv").lines().count(), 7);
     fs::remove_file(folder.path("designs/grid.toml")).unwrap();
-    let ended = folder.flap("sweep --from-sidecar rows.csv.meta.toml --out again.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder.ends(0, "sweep --from-sidecar rows.csv.meta.toml --out again.csv");
     assert_eq!(folder.read("rows.csv"), folder.read("again.csv"));
-    let ended = folder.flap("rerun rows.csv --status unsettled --max-cycles 2 --out rerun.csv");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder.ends(0, "rerun rows.csv --status unsettled --max-cycles 2 --out rerun.csv");
     assert_eq!(folder.flap("resume rerun.csv").stderr, "rerun.csv is complete: nothing is left to run\n");
 
     fs::write(folder.path("designs/points.csv"), points.replace("30", "31")).unwrap();
@@ -130,8 +114,7 @@ fn a_sweep_of_a_file_of_points_is_repeated_from_its_sidecar() {
         "rerun rows.csv --status unsettled --out third.csv",
         "convert rows.csv third.parquet",
     ] {
-        let ended = folder.flap(arguments);
-        assert_eq!(ended.code, 2, "{arguments}: {}", ended.stderr);
+        let ended = folder.ends(2, arguments);
         assert_eq!(
             ended.stderr,
             "error: rows.csv.meta.toml: designs/points.csv no longer holds the points that were run\n\
@@ -140,7 +123,5 @@ fn a_sweep_of_a_file_of_points_is_repeated_from_its_sidecar() {
         );
     }
     fs::remove_file(folder.path("designs/points.csv")).unwrap();
-    let ended = folder.flap("resume rows.csv");
-    assert_eq!(ended.code, 2, "{}", ended.stderr);
-    assert!(ended.stderr.contains("designs/points.csv: "), "{}", ended.stderr);
+    folder.ends(2, "resume rows.csv").says("designs/points.csv: ");
 }

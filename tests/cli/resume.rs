@@ -15,14 +15,13 @@ use crate::support::{Folder, frequencies, quick, send, start, wait, wait_for_row
 /// Points of sweeps that are to last long enough to be killed several times.
 const POINTS: u64 = 60_000;
 
-/// What the tests pass on to see many checkpoints in a short time.
+/// Arguments for many checkpoints in a short time.
 const OFTEN: [&str; 2] = ["--checkpoint", "5 ms"];
 
 /// A folder with a grid and the rows of an uninterrupted sweep in `whole.<ending>`.
 fn folder(points: u64, ending: &str) -> Folder {
     let folder = Folder::with_grid(&quick(points));
-    let ended = folder.flap(&format!("sweep --grid grid.toml --out whole.{ending}"));
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder.ends(0, &format!("sweep --grid grid.toml --out whole.{ending}"));
     folder
 }
 
@@ -43,7 +42,15 @@ fn wait_until(child: &mut Child, mut what: impl FnMut() -> bool) -> bool {
     true
 }
 
-/// The sidecar without what two runs of the same differ in.
+/// Starts a sweep into `out` and waits for its first checkpoints.
+fn begin(folder: &Folder, out: &str) -> Child {
+    let mut child = start(folder, &["sweep", "--grid", "grid.toml", "--out", out, OFTEN[0], OFTEN[1]]);
+    let journal = format!("{out}.journal");
+    assert!(wait_until(&mut child, || length(folder, &journal) > 500));
+    child
+}
+
+/// The sidecar without the entries that differ between two runs of the same sweep.
 fn comparable(folder: &Folder, name: &str) -> toml::Table {
     let mut sidecar: toml::Table = folder.read(&format!("{name}.meta.toml")).parse().unwrap();
     for key in ["checksum", "started", "finished", "seconds", "threads"] {
@@ -89,8 +96,7 @@ fn killed(ending: &str, kills: u32, mut random: u64) {
             wait(&mut child);
         }
     }
-    let ended = folder.flap(&format!("resume {out}"));
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder.ends(0, &format!("resume {out}"));
     assert_same(&folder, ending);
 }
 
@@ -115,30 +121,18 @@ fn an_interrupted_sweep_goes_on() {
     for (signal, ending) in [("INT", "csv"), ("TERM", "csv.zst"), ("INT", "parquet")] {
         let folder = folder(POINTS, ending);
         let out = format!("rows.{ending}");
-        let arguments = ["sweep", "--grid", "grid.toml", "--out", &out, OFTEN[0], OFTEN[1]];
-        let mut child = start(&folder, &arguments);
-        let journal = format!("{out}.journal");
-        assert!(wait_until(&mut child, || length(&folder, &journal) > 500));
+        let mut child = begin(&folder, &out);
         send(signal, &child);
         assert_eq!(wait(&mut child), Some(130), "{ending}");
         let sidecar: toml::Table = folder.read(&format!("{out}.meta.toml")).parse().unwrap();
         assert_eq!(sidecar["state"].as_str(), Some("interrupted"));
 
-        let ended = folder.flap(&format!("sweep --grid grid.toml --out {out}"));
-        assert_eq!(ended.code, 2);
-        assert!(
-            ended.stderr.contains("is the unfinished result of an interrupted sweep"),
-            "{}",
-            ended.stderr
-        );
-        assert!(ended.stderr.contains("`flap sweep --resume`"), "{}", ended.stderr);
-        let ended = folder.flap(&format!("sweep --grid grid.toml --out {out} --resume"));
-        assert_eq!(ended.code, 0, "{}", ended.stderr);
-        assert!(
-            ended.stderr.contains(&format!("of {POINTS} points of {out} are done\n")),
-            "{}",
-            ended.stderr
-        );
+        let ended = folder.ends(2, &format!("sweep --grid grid.toml --out {out}"));
+        ended.says("is the unfinished result of an interrupted sweep");
+        ended.says("`flap sweep --resume`");
+        folder
+            .ends(0, &format!("sweep --grid grid.toml --out {out} --resume"))
+            .says(&format!("of {POINTS} points of {out} are done\n"));
         assert_same(&folder, ending);
     }
 }
@@ -158,8 +152,7 @@ fn a_full_disk_loses_nothing() {
         assert_eq!(limited.status.code(), Some(3), "{stderr}");
         assert!(stderr.starts_with("error: cannot write rows: "), "{stderr}");
         assert!(stderr.ends_with(&format!("help: `flap resume rows.{ending}` goes on\n")), "{stderr}");
-        let ended = folder.flap(&format!("resume rows.{ending}"));
-        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        folder.ends(0, &format!("resume rows.{ending}"));
         assert_same(&folder, ending);
     }
 }
@@ -231,18 +224,13 @@ fn results_removed_meanwhile_are_noticed() {
     for (ending, removed) in [("csv", "rows.csv"), ("parquet", "rows.parquet.part")] {
         let folder = folder(POINTS, ending);
         let out = format!("rows.{ending}");
-        let arguments = ["sweep", "--grid", "grid.toml", "--out", &out, OFTEN[0], OFTEN[1]];
-        let mut child = start(&folder, &arguments);
-        let journal = format!("{out}.journal");
-        assert!(wait_until(&mut child, || length(&folder, &journal) > 500));
+        let mut child = begin(&folder, &out);
         fs::remove_file(folder.path(removed)).unwrap();
         assert_eq!(wait(&mut child), Some(3), "{removed}");
         let stderr = std::io::read_to_string(child.stderr.take().unwrap()).unwrap();
         assert!(stderr.contains(&format!("{removed} was removed or replaced meanwhile")), "{stderr}");
 
-        let ended = folder.flap(&format!("resume {out}"));
-        assert_eq!(ended.code, 0, "{}", ended.stderr);
-        assert!(ended.stderr.contains("rows are no longer in"), "{}", ended.stderr);
+        folder.ends(0, &format!("resume {out}")).says("rows are no longer in");
         assert_same(&folder, ending);
     }
 }
@@ -255,8 +243,7 @@ fn a_running_sweep_is_not_resumed() {
     wait_for_rows(&folder, 1);
     for arguments in ["resume grid.csv", "sweep --grid grid.toml --resume", "sweep --grid grid.toml --force"]
     {
-        let ended = folder.flap(arguments);
-        assert_eq!(ended.code, 3, "{arguments}: {}", ended.stderr);
+        let ended = folder.ends(3, arguments);
         assert!(ended.stderr.ends_with("error: another run is writing to grid.csv\n"), "{}", ended.stderr);
     }
     child.kill().unwrap();
@@ -266,8 +253,7 @@ fn a_running_sweep_is_not_resumed() {
 /// An unfinished sweep of `grid.toml` in `grid.csv`.
 fn unfinished() -> Folder {
     let folder = Folder::with_grid(&quick(100_000_000));
-    let mut child = start(&folder, &["sweep", "--grid", "grid.toml", OFTEN[0], OFTEN[1]]);
-    assert!(wait_until(&mut child, || length(&folder, "grid.csv.journal") > 500));
+    let mut child = begin(&folder, "grid.csv");
     child.kill().unwrap();
     wait(&mut child);
     folder
@@ -279,8 +265,7 @@ fn a_changed_grid_is_not_resumed() {
     let rows = folder.read("grid.csv");
     let grid = folder.read("grid.toml").replace("rtol = 1e-3", "rtol = 1e-4");
     fs::write(folder.path("grid.toml"), grid).unwrap();
-    let ended = folder.flap("sweep --grid grid.toml --resume");
-    assert_eq!(ended.code, 2);
+    let ended = folder.ends(2, "sweep --grid grid.toml --resume");
     let told = "error: grid.csv cannot be resumed: the grid file is another; the solver settings are others\n\
                 help: use `flap sweep --force` to start over, or name another file\n\
                 help: line 7 of the grid was `rtol = 1e-3`, it is `rtol = 1e-4`\n";
@@ -291,10 +276,9 @@ fn a_changed_grid_is_not_resumed() {
 #[test]
 fn another_shard_is_not_resumed() {
     let folder = unfinished();
-    let ended = folder.flap("sweep --grid grid.toml --out grid.csv --shard 2/3 --resume");
-    assert_eq!(ended.code, 2);
+    let ended = folder.ends(2, "sweep --grid grid.toml --out grid.csv --shard 2/3 --resume");
     let message = "grid.csv cannot be resumed: the rows are of all points, not shard 2/3\n";
-    assert!(ended.stderr.contains(message), "{}", ended.stderr);
+    ended.says(message);
 }
 
 #[test]
@@ -302,37 +286,27 @@ fn rows_edited_meanwhile_are_not_resumed() {
     let folder = unfinished();
     let rows = folder.read("grid.csv").replacen("unsettled", "periodic!", 1);
     fs::write(folder.path("grid.csv"), &rows).unwrap();
-    let ended = folder.flap("resume grid.csv");
-    assert_eq!(ended.code, 2);
-    assert!(ended.stderr.contains("it is not as the sweep left it"), "{}", ended.stderr);
+    folder.ends(2, "resume grid.csv").says("it is not as the sweep left it");
     assert_eq!(folder.read("grid.csv"), rows);
 }
 
 #[test]
 fn there_may_be_nothing_to_resume() {
     let folder = Folder::with_grid(&quick(10));
-    let ended = folder.flap("resume grid.csv");
-    assert_eq!(ended.code, 2, "{}", ended.stderr);
-    assert!(ended.stderr.contains("grid.csv.meta.toml: cannot be read"), "{}", ended.stderr);
+    folder.ends(2, "resume grid.csv").says("grid.csv.meta.toml: cannot be read");
 
     // A job script may always say --resume.
-    let ended = folder.flap("sweep --grid grid.toml --resume");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder.ends(0, "sweep --grid grid.toml --resume");
     let rows = folder.read("grid.csv");
-    let ended = folder.flap("sweep --grid grid.toml --resume --strict");
-    assert_eq!(ended.code, 1, "{}", ended.stderr);
+    let ended = folder.ends(1, "sweep --grid grid.toml --resume --strict");
     assert_eq!(ended.stderr, "grid.csv is complete: nothing is left to run\n");
     assert_eq!(folder.read("grid.csv"), rows);
 
     fs::write(folder.path("grid.toml"), quick(11)).unwrap();
-    let ended = folder.flap("sweep --grid grid.toml --resume");
-    assert_eq!(ended.code, 2, "{}", ended.stderr);
-    assert!(ended.stderr.contains("the grid file is another"), "{}", ended.stderr);
+    folder.ends(2, "sweep --grid grid.toml --resume").says("the grid file is another");
 
     fs::write(folder.path("alone.csv"), "precious\n").unwrap();
-    let ended = folder.flap("sweep --grid grid.toml --out alone.csv --resume");
-    assert_eq!(ended.code, 2, "{}", ended.stderr);
-    assert!(ended.stderr.contains("alone.csv has no journal"), "{}", ended.stderr);
+    folder.ends(2, "sweep --grid grid.toml --out alone.csv --resume").says("alone.csv has no journal");
     assert_eq!(folder.read("alone.csv"), "precious\n");
     assert_eq!(folder.flap("sweep --grid grid.toml --out - --resume").code, 2);
 }

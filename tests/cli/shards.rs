@@ -14,8 +14,7 @@ fn folder(points: u64) -> Folder {
 fn folder_of(grid: &str) -> Folder {
     let folder = Folder::with_grid(grid);
     for arguments in ["--out whole.csv", "--shard 1/3", "--shard 2/3", "--shard 3/3"] {
-        let ended = folder.flap(&format!("sweep --grid grid.toml {arguments}"));
-        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        folder.ends(0, &format!("sweep --grid grid.toml {arguments}"));
     }
     folder
 }
@@ -26,8 +25,7 @@ fn merged_shards_are_the_file_of_one_machine() {
         let folder = folder(points);
         for ending in ["csv", "csv.zst", "parquet"] {
             let merged = format!("merged.{ending}");
-            let ended = folder.flap(&format!("merge {merged} grid.3of3.csv grid.1of3.csv grid.2of3.csv"));
-            assert_eq!(ended.code, 0, "{}", ended.stderr);
+            let ended = folder.ends(0, &format!("merge {merged} grid.3of3.csv grid.1of3.csv grid.2of3.csv"));
             assert_eq!(ended.stderr, format!("{points} rows of 3 shards in {merged}\n"));
             assert_eq!(folder.flap(&format!("convert whole.csv one.{ending}")).code, 0);
             let bytes = |name: &str| fs::read(folder.path(name)).unwrap();
@@ -61,8 +59,7 @@ strong = "lift_mean_mn > 1"
     assert!(rows("grid.1of3.csv") + 100 < rows("grid.2of3.csv"));
     for ending in ["csv", "csv.zst", "parquet"] {
         let merged = format!("merged.{ending}");
-        let ended = folder.flap(&format!("merge {merged} grid.2of3.csv grid.1of3.csv grid.3of3.csv"));
-        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        folder.ends(0, &format!("merge {merged} grid.2of3.csv grid.1of3.csv grid.3of3.csv"));
         assert_eq!(folder.flap(&format!("sweep --grid grid.toml --out one.{ending}")).code, 0);
         let bytes = |name: &str| fs::read(folder.path(name)).unwrap();
         assert!(bytes(&merged) == bytes(&format!("one.{ending}")), "{merged}");
@@ -109,13 +106,10 @@ fn shards_that_do_not_belong_together_are_refused() {
         ),
         ("whole.csv", "error: whole.csv is not a shard\n"),
     ] {
-        let ended = folder.flap(&format!("merge merged.csv {shards}"));
-        assert_eq!(ended.code, 2, "{shards}");
+        let ended = folder.ends(2, &format!("merge merged.csv {shards}"));
         assert_eq!(ended.stderr, message, "{shards}");
     }
-    let ended = folder.flap("merge merged.csv missing.csv");
-    assert_eq!(ended.code, 2);
-    assert!(ended.stderr.contains("missing.csv.meta.toml: cannot be read"), "{}", ended.stderr);
+    folder.ends(2, "merge merged.csv missing.csv").says("missing.csv.meta.toml: cannot be read");
     assert!(!folder.path("merged.csv").exists());
 }
 
@@ -137,8 +131,7 @@ fn shards_that_do_not_hold_what_they_should_are_refused() {
         fs::write(folder.path("grid.2of3.csv"), rows).unwrap();
         // Checksums would have told before.
         folder.rewrite_sidecar("grid.2of3.csv", |sidecar| sidecar.checksums = None);
-        let ended = folder.flap("merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv");
-        assert_eq!(ended.code, 3, "{}", ended.stderr);
+        let ended = folder.ends(3, "merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv");
         assert!(
             ended.stderr.ends_with(&format!("error: cannot read grid.2of3.csv: {message}\n")),
             "{}",
@@ -153,8 +146,7 @@ fn shards_that_do_not_hold_what_they_should_are_refused() {
 fn unfinished_shards_are_refused() {
     let folder = folder(100);
     folder.rewrite_sidecar("grid.2of3.csv", |sidecar| sidecar.state = State::Interrupted);
-    let ended = folder.flap("merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv");
-    assert_eq!(ended.code, 2);
+    let ended = folder.ends(2, "merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv");
     assert_eq!(ended.stderr, "error: grid.2of3.csv is not complete\n");
 }
 
@@ -162,9 +154,9 @@ fn unfinished_shards_are_refused() {
 fn wrong_shards_are_explained() {
     let folder = Folder::with_grid(&quick(10));
     for shard in ["0/3", "4/3", "3"] {
-        let ended = folder.flap(&format!("sweep --grid grid.toml --shard {shard}"));
-        assert_eq!(ended.code, 2);
-        assert!(ended.stderr.contains("expected I/N with I from 1 to N"), "{}", ended.stderr);
+        folder
+            .ends(2, &format!("sweep --grid grid.toml --shard {shard}"))
+            .says("expected I/N with I from 1 to N");
     }
 }
 
@@ -175,8 +167,7 @@ fn shards_of_another_build_are_refused() {
     let merge = "merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv";
     let build = flap_sweep::run::identity::build();
     folder.rewrite_sidecar("grid.2of3.csv", |sidecar| sidecar.build = "fed0".to_owned());
-    let ended = folder.flap(merge);
-    assert_eq!(ended.code, 2);
+    let ended = folder.ends(2, merge);
     let message = format!(
         "error: grid.2of3.csv does not belong to grid.1of3.csv: the rows are by build fed0 of flap {}, not build {build}\n",
         env!("CARGO_PKG_VERSION")
@@ -186,9 +177,7 @@ fn shards_of_another_build_are_refused() {
     for shard in ["grid.1of3.csv", "grid.3of3.csv"] {
         folder.rewrite_sidecar(shard, |sidecar| sidecar.build = "fed0".to_owned());
     }
-    let ended = folder.flap(merge);
-    assert_eq!(ended.code, 2);
-    assert!(ended.stderr.contains("the shards are by another build of flap"), "{}", ended.stderr);
+    folder.ends(2, merge).says("the shards are by another build of flap");
     assert!(!folder.path("merged.csv").exists());
 }
 
@@ -197,11 +186,7 @@ fn shards_of_another_build_are_refused() {
 fn results_of_another_build_are_not_gone_on_with() {
     let folder = folder(10);
     folder.rewrite_sidecar("whole.csv", |sidecar| sidecar.build = "fed0".to_owned());
-    let ended = folder.flap("sweep --grid grid.toml --out whole.csv --resume");
-    assert_eq!(ended.code, 2);
-    assert!(
-        ended.stderr.contains("whole.csv cannot be resumed: the rows are by build fed0"),
-        "{}",
-        ended.stderr
-    );
+    folder
+        .ends(2, "sweep --grid grid.toml --out whole.csv --resume")
+        .says("whole.csv cannot be resumed: the rows are by build fed0");
 }

@@ -11,8 +11,7 @@ use crate::support::{Folder, frequencies, send, start, wait, wait_for_rows};
 #[test]
 fn stdout_carries_rows_and_nothing_else() {
     let folder = Folder::with_grid(&frequencies(3));
-    let ended = folder.flap("sweep --grid grid.toml --out -");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let ended = folder.ends(0, "sweep --grid grid.toml --out -");
     assert_eq!(ended.stdout.lines().count(), 4);
     assert!(ended.stdout.starts_with("point,drive_frequency,status,"));
     assert!(ended.stderr.ends_with("3 rows in stdout\n"), "{}", ended.stderr);

@@ -23,8 +23,7 @@ fn rows<const N: usize>(grid: &str, replace: [(&str, &str); N]) -> Vec<BTreeMap<
         text = text.replace(old, new);
     }
     let folder = Folder::with_grid(&text);
-    let ended = folder.flap("sweep --grid grid.toml --out o.csv --strict");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    folder.ends(0, "sweep --grid grid.toml --out o.csv --strict");
     let text = folder.read("o.csv");
     let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
     let names = lines.next().unwrap();

@@ -13,8 +13,10 @@ use tempfile::TempDir;
 /// A folder with files, in which the command runs.
 pub(crate) struct Folder(TempDir);
 
-/// How a command ended.
+/// The end of a command.
 pub(crate) struct Ended {
+    /// The arguments, as they stand in messages of failed tests.
+    arguments: String,
     pub(crate) code: i32,
     pub(crate) stdout: String,
     pub(crate) stderr: String,
@@ -62,6 +64,28 @@ impl Folder {
         self.flap_with(&arguments.split_whitespace().collect::<Vec<_>>())
     }
 
+    /// Runs `flap` with the words of `arguments`; fails the test if it ends with another exit code.
+    #[track_caller]
+    pub(crate) fn ends(&self, code: i32, arguments: &str) -> Ended {
+        self.ends_with(code, &arguments.split_whitespace().collect::<Vec<_>>())
+    }
+
+    /// Runs `flap`; fails the test if it ends with another exit code.
+    #[track_caller]
+    pub(crate) fn ends_with(&self, code: i32, arguments: &[&str]) -> Ended {
+        let ended = self.flap_with(arguments);
+        assert_eq!(ended.code, code, "{}: {}", ended.arguments, ended.stderr);
+        ended
+    }
+
+    /// Fails the test unless `flap` refuses the arguments, with `message` and without results.
+    #[track_caller]
+    pub(crate) fn refuses(&self, arguments: &str, message: &str) {
+        let ended = self.ends(2, arguments);
+        ended.says(message);
+        assert_eq!(ended.stdout, "", "{arguments}");
+    }
+
     /// Runs `flap`.
     pub(crate) fn flap_with(&self, arguments: &[&str]) -> Ended {
         let output = Command::new(env!("CARGO_BIN_EXE_flap"))
@@ -71,10 +95,27 @@ impl Folder {
             .output()
             .unwrap();
         Ended {
+            arguments: arguments.join(" "),
             code: output.status.code().expect("it was not killed"),
             stdout: String::from_utf8(output.stdout).unwrap(),
             stderr: String::from_utf8(output.stderr).unwrap(),
         }
+    }
+}
+
+impl Ended {
+    /// Fails the test if stderr does not contain `text`.
+    #[track_caller]
+    pub(crate) fn says(&self, text: &str) -> &Ended {
+        assert!(self.stderr.contains(text), "{}: {text} is not in\n{}", self.arguments, self.stderr);
+        self
+    }
+
+    /// Fails the test if stdout does not contain `text`.
+    #[track_caller]
+    pub(crate) fn prints(&self, text: &str) -> &Ended {
+        assert!(self.stdout.contains(text), "{}: {text} is not in\n{}", self.arguments, self.stdout);
+        self
     }
 }
 
@@ -113,7 +154,7 @@ fn command(folder: &Folder, arguments: &[&str]) -> process::Command {
     command
 }
 
-/// What SIGINT is to do when the command starts.
+/// Sets the action of SIGINT at the start of the command.
 #[cfg(unix)]
 #[expect(unsafe_code, reason = "there is no other way to set it")]
 fn set_interrupt(command: &mut process::Command, action: libc::sighandler_t) {

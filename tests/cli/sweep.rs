@@ -5,10 +5,9 @@ use crate::support::{Folder, frequencies};
 #[test]
 fn rows_go_to_a_file_named_after_the_grid() {
     let folder = Folder::with_grid(&frequencies(30));
-    let ended = folder.flap("sweep --grid grid.toml");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let ended = folder.ends(0, "sweep --grid grid.toml");
     assert_eq!(ended.stdout, "");
-    assert!(ended.stderr.contains("30 periodic in "), "{}", ended.stderr);
+    ended.says("30 periodic in ");
     assert!(ended.stderr.ends_with("30 rows in grid.csv\n"), "{}", ended.stderr);
     assert_eq!(folder.names(), ["grid.csv", "grid.csv.meta.toml", "grid.toml"]);
 
@@ -39,8 +38,7 @@ fn the_grid_file_may_say_where_rows_go_and_the_command_line_wins() {
 fn the_rows_do_not_depend_on_the_threads() {
     let folder = Folder::with_grid(&frequencies(200));
     for threads in ["1", "2", "3"] {
-        let ended = folder.flap(&format!("sweep --grid grid.toml --threads {threads} --out {threads}.csv"));
-        assert_eq!(ended.code, 0, "{}", ended.stderr);
+        folder.ends(0, &format!("sweep --grid grid.toml --threads {threads} --out {threads}.csv"));
     }
     assert!(folder.read("1.csv") == folder.read("2.csv"));
     assert!(folder.read("1.csv") == folder.read("3.csv"));
@@ -62,9 +60,7 @@ fn selected_columns_only() {
 #[test]
 fn strict_counts_points_that_are_not_periodic() {
     let folder = Folder::with_grid(&(frequencies(2) + "[solver]\nmax_cycles = 2\n"));
-    let ended = folder.flap("sweep --grid grid.toml");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
-    assert!(ended.stderr.contains("2 unsettled in "), "{}", ended.stderr);
+    folder.ends(0, "sweep --grid grid.toml").says("2 unsettled in ");
     assert!(folder.read("grid.csv").contains("unsettled,,"));
     assert_eq!(folder.flap("sweep --grid grid.toml --strict --force").code, 1);
 }
@@ -72,10 +68,9 @@ fn strict_counts_points_that_are_not_periodic() {
 #[test]
 fn a_grid_without_axes_is_one_point() {
     let folder = Folder::with_grid("preset = \"ozaki2018-small\"\n");
-    let ended = folder.flap("sweep -g grid.toml -o -");
-    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let ended = folder.ends(0, "sweep -g grid.toml -o -");
     assert_eq!(ended.stdout.lines().count(), 2);
-    assert!(ended.stdout.contains("\n0,periodic,"), "{}", ended.stdout);
+    ended.prints("\n0,periodic,");
 }
 
 /// `--force` overwrites; it does not destroy results that nothing then replaces.
@@ -85,7 +80,6 @@ fn old_rows_stay_if_new_ones_cannot_be_written() {
     std::fs::write(folder.path("old.csv"), "precious").unwrap();
     // The sidecar cannot be written where a folder has its name.
     std::fs::create_dir(folder.path("old.csv.meta.toml")).unwrap();
-    let ended = folder.flap("sweep --grid grid.toml --out old.csv --force");
-    assert_eq!(ended.code, 3, "{}", ended.stderr);
+    folder.ends(3, "sweep --grid grid.toml --out old.csv --force");
     assert_eq!(folder.read("old.csv"), "precious");
 }
