@@ -1,14 +1,16 @@
-//! Which picture suits a file, and which columns go where.
+//! The choice of a picture that suits a file: its kind and columns.
 
-use super::axes::{self, Axes};
-use super::chosen::Chosen;
-use super::columns::{Source, Table};
+use super::axes::Axes;
+use super::chosen::{Chosen, Columns};
+use super::columns::Table;
 use super::pareto;
+use super::slices::{self, Taken};
+use super::source::Source;
 use crate::args::{Aim, PictureKind, PlotArgs};
 use crate::console;
 use crate::failure::Failure;
 
-/// Measures that are drawn unless others are asked for, and columns that kinds need.
+/// Measures that are drawn by default, and columns that some kinds need.
 const USUAL: [&str; 9] = [
     "lift_mean_mn",
     "power_mean_mw",
@@ -21,7 +23,7 @@ const USUAL: [&str; 9] = [
     "branch",
 ];
 
-/// What the user asked for, as columns of the file.
+/// The wishes of the user, as columns of the file.
 pub(super) struct Wishes<'a> {
     args: &'a PlotArgs,
     names: Vec<String>,
@@ -30,7 +32,7 @@ pub(super) struct Wishes<'a> {
     by: Option<usize>,
     color: Option<usize>,
     filters: Vec<usize>,
-    /// Where the parameters end that lead the columns: at `status`, or at `branch`.
+    /// The end of the leading parameters: the place of `status`, or of `branch`.
     end: usize,
 }
 
@@ -58,7 +60,7 @@ impl<'a> Wishes<'a> {
         self.names.iter().position(|known| known == name)
     }
 
-    /// Whether the cells of a column are needed.
+    /// True if the cells of a column are needed.
     pub(super) fn wants(&self, column: usize) -> bool {
         let asked =
             [self.x, self.y, self.by, self.color].contains(&Some(column)) || self.filters.contains(&column);
@@ -68,9 +70,10 @@ impl<'a> Wishes<'a> {
 
     /// Chooses kind, columns and rows.
     pub(super) fn choose(&self, table: &Table, title: String) -> Result<Chosen, Failure> {
-        let rows = axes::filtered(table, &self.args.filters)?;
+        let rows = slices::filtered(table, &self.args.filters)?;
         let axes = Axes::of(table, self.end);
-        let Shown { kind, x, y, by, color, aims } = self.shown(&axes)?;
+        let columns = self.columns(&axes)?;
+        let Columns { kind, x, y, by, .. } = columns;
         let label = |column: usize| table.label(column);
         let mut notes: Vec<String> = (self.filters.iter().zip(&self.args.filters))
             .map(|(&column, (_, value))| match value.parse() {
@@ -82,9 +85,9 @@ impl<'a> Wishes<'a> {
             rows
         } else {
             let shown: Vec<usize> = [Some(x), Some(y), by].into_iter().flatten().collect();
-            let slice = axes::sliced(table, &axes.columns, &shown, rows);
+            let slice = slices::sliced(table, &axes.columns, &shown, rows);
             for taken in &slice.taken {
-                let axes::Taken { typed, of, .. } = taken;
+                let Taken { typed, of, .. } = taken;
                 console::say(&format!(
                     "drawn is the slice {typed}, the middle of {of} values; --where takes another"
                 ));
@@ -92,31 +95,30 @@ impl<'a> Wishes<'a> {
             notes.extend(slice.taken.into_iter().map(|taken| taken.shown));
             slice.rows
         };
-        Ok(Chosen { kind, x, y, by, color, aims, rows, title, notes })
+        Ok(Chosen { aims: self.aims(&columns), columns, rows, title, notes })
     }
 
     /// Chooses kind and columns.
-    pub(super) fn columns(&self, table: &Table) -> Result<Shown, Failure> {
-        self.shown(&Axes::of(table, self.end))
-    }
-
-    fn shown(&self, axes: &Axes) -> Result<Shown, Failure> {
+    pub(super) fn columns(&self, axes: &Axes) -> Result<Columns, Failure> {
         let kind = match self.args.kind {
             Some(kind) => kind,
             None => self.kind(axes)?,
         };
         self.refuse_strays(kind)?;
-        let Columns { x, y, by, color } = match kind {
-            PictureKind::Response => self.response(axes)?,
-            PictureKind::Map => self.map(axes)?,
-            PictureKind::Pareto => self.pareto()?,
-            PictureKind::Trajectory => self.trajectory()?,
-            PictureKind::Hysteresis => self.hysteresis(axes)?,
-        };
+        match kind {
+            PictureKind::Response => self.response(axes),
+            PictureKind::Map => self.map(axes),
+            PictureKind::Pareto => self.pareto(),
+            PictureKind::Trajectory => self.trajectory(),
+            PictureKind::Hysteresis => self.hysteresis(axes),
+        }
+    }
+
+    /// The better directions of x and y.
+    pub(super) fn aims(&self, columns: &Columns) -> (Aim, Aim) {
         let aim =
             |asked: Option<Aim>, column: usize| asked.unwrap_or_else(|| pareto::aim(&self.names[column]));
-        let aims = (aim(self.args.x_aim, x), aim(self.args.y_aim, y));
-        Ok(Shown { kind, x, y, by, color, aims })
+        (aim(self.args.x_aim, columns.x), aim(self.args.y_aim, columns.y))
     }
 
     /// The column that is asked for as x.
@@ -129,17 +131,17 @@ impl<'a> Wishes<'a> {
         self.y
     }
 
-    /// Where the parameters end that lead the columns.
+    /// The end of the leading parameters among the columns.
     pub(super) fn end(&self) -> usize {
         self.end
     }
 
-    /// The column that says which branch a row of `flap respond` belongs to.
+    /// The column with the branch of each row of `flap respond`.
     pub(super) fn branch(&self) -> Option<usize> {
         self.place("branch")
     }
 
-    /// The kind that suits the file and what is asked for.
+    /// The kind that suits the file and the wishes.
     fn kind(&self, axes: &Axes) -> Result<PictureKind, Failure> {
         let is_parameter = |column: usize| (1..self.end).contains(&column);
         if self.place("branch").is_some() {
@@ -173,7 +175,7 @@ impl<'a> Wishes<'a> {
         })
     }
 
-    /// Refuses options of another kind than the one that is drawn.
+    /// Refuses options that this kind does not have.
     fn refuse_strays(&self, kind: PictureKind) -> Result<(), Failure> {
         use PictureKind::{Hysteresis, Map, Pareto, Response, Trajectory};
         let by = matches!(kind, Response | Hysteresis);
@@ -202,7 +204,7 @@ impl<'a> Wishes<'a> {
         let y = self.y.or_else(|| self.measure("stroke_amplitude_deg"));
         let y = y.ok_or_else(|| self.unclear("y", "the file has no measures"))?;
         let by = self.by.or_else(|| if axes.sampled { None } else { free().find(|&column| column != x) });
-        Ok(Columns { x, y, by, color: None })
+        Ok(Columns { kind: PictureKind::Response, x, y, by, color: None })
     }
 
     fn map(&self, axes: &Axes) -> Result<Columns, Failure> {
@@ -219,7 +221,7 @@ impl<'a> Wishes<'a> {
         let y = y.ok_or_else(|| self.unclear("y", "a map needs two parameters that vary"))?;
         let color = self.color.or_else(|| self.measure("lift_mean_mn"));
         let color = color.ok_or_else(|| self.unclear("color", "the file has no measures"))?;
-        Ok(Columns { x, y, by: None, color: Some(color) })
+        Ok(Columns { kind: PictureKind::Map, x, y, by: None, color: Some(color) })
     }
 
     fn pareto(&self) -> Result<Columns, Failure> {
@@ -227,7 +229,7 @@ impl<'a> Wishes<'a> {
         let x = x.ok_or_else(|| self.unclear("x", "the file has no lift_mean_mn"))?;
         let y = self.y.or_else(|| self.place("power_mean_mw"));
         let y = y.ok_or_else(|| self.unclear("y", "the file has no power_mean_mw"))?;
-        Ok(Columns { x, y, by: None, color: self.color })
+        Ok(Columns { kind: PictureKind::Pareto, x, y, by: None, color: self.color })
     }
 
     fn trajectory(&self) -> Result<Columns, Failure> {
@@ -239,7 +241,7 @@ impl<'a> Wishes<'a> {
             }
         }
         let time = self.place("time_s").unwrap_or(0);
-        Ok(Columns { x: time, y: time, by: None, color: None })
+        Ok(Columns { kind: PictureKind::Trajectory, x: time, y: time, by: None, color: None })
     }
 
     fn hysteresis(&self, axes: &Axes) -> Result<Columns, Failure> {
@@ -251,7 +253,13 @@ impl<'a> Wishes<'a> {
         let x = self.x.unwrap_or(branch + 1);
         let y = self.y.or_else(|| self.measure("stroke_amplitude_deg"));
         let y = y.ok_or_else(|| self.unclear("y", "the file has no measures"))?;
-        Ok(Columns { x, y, by: self.by.or_else(|| axes.columns.first().copied()), color: None })
+        Ok(Columns {
+            kind: PictureKind::Hysteresis,
+            x,
+            y,
+            by: self.by.or_else(|| axes.columns.first().copied()),
+            color: None,
+        })
     }
 
     fn frequency(&self, axes: &Axes) -> Option<usize> {
@@ -271,22 +279,4 @@ impl<'a> Wishes<'a> {
     fn listed(&self) -> String {
         format!("the columns are {}", self.names.join(", "))
     }
-}
-
-/// Kind and columns of a picture.
-pub(super) struct Shown {
-    pub(super) kind: PictureKind,
-    pub(super) x: usize,
-    pub(super) y: usize,
-    pub(super) by: Option<usize>,
-    pub(super) color: Option<usize>,
-    pub(super) aims: (Aim, Aim),
-}
-
-/// Which columns go where.
-struct Columns {
-    x: usize,
-    y: usize,
-    by: Option<usize>,
-    color: Option<usize>,
 }

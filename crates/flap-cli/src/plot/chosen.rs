@@ -1,29 +1,35 @@
-//! What is drawn of a file.
+//! The choice of kind, columns and rows for a picture.
 
 use super::columns::Table;
 use crate::args::{Aim, PictureKind};
 use crate::failure::Failure;
 
-/// Kind, columns and rows of a picture.
-pub(super) struct Chosen {
+/// Kind and columns of a picture.
+pub(super) struct Columns {
     pub(super) kind: PictureKind,
     /// Column of the horizontal axis.
     pub(super) x: usize,
     /// Column of the vertical axis; of a trajectory, that of the time once more.
     pub(super) y: usize,
-    /// One line for each value of this column.
+    /// Column with one line for each of its values.
     pub(super) by: Option<usize>,
+    /// Column shown as colour.
     pub(super) color: Option<usize>,
-    /// Which x and which y are better.
+}
+
+/// All that a picture shows.
+pub(super) struct Chosen {
+    pub(super) columns: Columns,
+    /// The better directions of x and y.
     pub(super) aims: (Aim, Aim),
     pub(super) rows: Vec<usize>,
     pub(super) title: String,
-    /// Which slice it is.
+    /// Filters and slices in words.
     pub(super) notes: Vec<String>,
 }
 
 impl Chosen {
-    /// There is no number to be drawn in `column`.
+    /// The failure of a picture for which `column` has no number.
     pub(super) fn nothing(&self, table: &Table, column: usize) -> Failure {
         let (name, rows) = (&table.columns[column].name, self.rows.len());
         let message = format!("none of {rows} rows has a value of {name}: there is nothing to draw");

@@ -1,25 +1,11 @@
 //! The columns of a file, as numbers and words.
 
-use std::collections::{BTreeMap, HashMap};
-use std::path::{Path, PathBuf};
-
-use csv::StringRecord;
-use flap_core::simulate;
-use flap_sweep::files::integrity::{self, Note, Opened};
-use flap_sweep::files::results::Reader;
-use flap_sweep::files::sidecar::{self, Sidecar};
 use flap_sweep::notation::nearest;
-use flap_sweep::table::layout::{self, Layout};
 
 use super::label::Label;
-use crate::args::PlotArgs;
 use crate::failure::Failure;
-use crate::{console, job};
 
-/// The most rows that are read: their numbers are held in memory.
-const MOST_ROWS: usize = 20_000_000;
-
-/// Columns of a file. Those that nobody asked for have no cells.
+/// Columns of a file. Columns that the picture does not need have no cells.
 pub(super) struct Table {
     pub(super) columns: Vec<Column>,
     /// Rows that are held.
@@ -28,7 +14,7 @@ pub(super) struct Table {
     pub(super) of: usize,
 }
 
-/// One of them.
+/// A column of a file.
 pub(super) struct Column {
     pub(super) name: String,
     /// The unit in words; empty for none.
@@ -36,7 +22,7 @@ pub(super) struct Column {
     pub(super) cells: Cells,
 }
 
-/// What a column holds.
+/// The cells of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Cells {
     /// A number per row; NaN for an empty cell.
@@ -50,168 +36,13 @@ pub(super) enum Cells {
 /// Stands for an empty cell among words.
 pub(super) const NO_WORD: u32 = u32::MAX;
 
-/// The names in a file and what opening it needs.
-pub(super) struct Source {
-    reader: Reader,
-    units: Units,
-    path: PathBuf,
-    tells: bool,
-}
-
-impl Source {
-    /// Opens the results and reads their header. Tells the user what to know of them if it `tells`.
-    pub(super) fn open(args: &PlotArgs, tells: bool) -> Result<Source, Failure> {
-        let path = &args.results;
-        let Opened { reader, sidecar, notes } = integrity::open(path, args.read.on_damage())?;
-        if reader.names().iter().all(String::is_empty) {
-            return Err(Failure::usage(format!("{} has no columns", path.display())));
-        }
-        if tells {
-            // Only results of sweeps have sidecars: motions and responses are drawn too.
-            let is_sweep =
-                ["point", "status"].iter().all(|name| reader.names().iter().any(|own| own == name));
-            let is_told = |note: &&Note| is_sweep || !matches!(note, Note::Unverified { .. });
-            notes.iter().filter(is_told).for_each(job::tell);
-        }
-        let units = Units::of(path, sidecar.as_ref());
-        Ok(Source { reader, units, path: path.clone(), tells })
-    }
-
-    pub(super) fn names(&self) -> &[String] {
-        self.reader.names()
-    }
-
-    /// The position of a column that the user named.
-    pub(super) fn find(&self, name: &str) -> Result<usize, Failure> {
-        find(self.names(), name)
-    }
-
-    /// Reads the rows, and of their cells those of the columns that are `wanted`. Of a file with more rows than `most`, it
-    /// holds every second one, or fourth, and so on.
-    pub(super) fn read(mut self, wanted: impl Fn(usize) -> bool, most: usize) -> Result<Table, Failure> {
-        let names = self.reader.names().to_vec();
-        let mut columns: Vec<Gathered> = (0..names.len()).map(|index| Gathered::new(wanted(index))).collect();
-        let mut row = StringRecord::new();
-        let (mut rows, mut of, mut stride) = (0, 0, 1);
-        let name = self.path.display();
-        let unreadable = |error| Failure::System(format!("cannot read {name}: {error}"), Vec::new());
-        while self.reader.next(&mut row).map_err(unreadable)? {
-            if rows == most {
-                columns.iter_mut().for_each(Gathered::halve);
-                rows = rows.div_ceil(2);
-                stride *= 2;
-            }
-            if rows == MOST_ROWS {
-                let message = format!("{name} has more than {MOST_ROWS} rows");
-                return Err(Failure::usage(message).help("draw one of its shards, or sweep fewer points"));
-            }
-            if of % stride == 0 {
-                for (column, cell) in columns.iter_mut().zip(&row) {
-                    column.push(cell, rows);
-                }
-                rows += 1;
-            }
-            of += 1;
-        }
-        if rows == 0 {
-            return Err(Failure::usage(format!("{name} has no rows: there is nothing to draw")));
-        }
-        if self.tells {
-            job::tell_missed(&self.path, &self.reader);
-        }
-        let columns = names.into_iter().zip(columns).map(|(name, gathered)| {
-            let unit = self.units.of_column(&name);
-            Column { name, unit, cells: gathered.cells }
-        });
-        Ok(Table { columns: columns.collect(), rows, of })
-    }
-}
-
-/// The position of a column that the user named.
-fn find(names: &[String], name: &str) -> Result<usize, Failure> {
-    names.iter().position(|known| known == name).ok_or_else(|| {
-        let failure = Failure::usage(format!("there is no column `{name}`"));
-        let failure = match nearest(name, names.iter().map(String::as_str)) {
-            Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
-            None => failure,
-        };
-        failure.help(format!("the columns are {}", names.join(", ")))
-    })
-}
-
-/// A column while it is read.
-struct Gathered {
-    cells: Cells,
-    codes: HashMap<String, u32>,
-}
-
-impl Gathered {
-    fn new(wanted: bool) -> Gathered {
-        let cells = if wanted { Cells::Numbers(Vec::new()) } else { Cells::Unread };
-        Gathered { cells, codes: HashMap::new() }
-    }
-
-    /// Adds the cell of row number `row`.
-    fn push(&mut self, cell: &str, row: usize) {
-        if let Cells::Numbers(values) = &mut self.cells {
-            match cell.parse() {
-                Ok(value) => values.push(value),
-                Err(_) if cell.is_empty() => values.push(f64::NAN),
-                Err(_) => self.turn_to_words(row),
-            }
-        }
-        if let Cells::Words { codes, words } = &mut self.cells
-            && codes.len() == row
-        {
-            codes.push(code(cell, words, &mut self.codes));
-        }
-    }
-
-    /// Drops every second cell.
-    fn halve(&mut self) {
-        fn every_second<T: Copy>(cells: &mut Vec<T>) {
-            *cells = cells.iter().step_by(2).copied().collect();
-        }
-        match &mut self.cells {
-            Cells::Numbers(values) => every_second(values),
-            Cells::Words { codes, .. } => every_second(codes),
-            Cells::Unread => {}
-        }
-    }
-
-    /// The first `rows` cells were numbers or empty, the next one is a word.
-    fn turn_to_words(&mut self, rows: usize) {
-        let Cells::Numbers(values) = &self.cells else { return };
-        let mut words = Vec::new();
-        let text = |value: &f64| if value.is_nan() { String::new() } else { value.to_string() };
-        let codes: Vec<u32> =
-            values.iter().take(rows).map(|value| code(&text(value), &mut words, &mut self.codes)).collect();
-        self.cells = Cells::Words { codes, words };
-    }
-}
-
-fn code(cell: &str, words: &mut Vec<String>, codes: &mut HashMap<String, u32>) -> u32 {
-    if cell.is_empty() {
-        return NO_WORD;
-    }
-    if let Some(code) = codes.get(cell) {
-        return *code;
-    }
-    // A file with four thousand million different words does not fit into memory.
-    let code = u32::try_from(words.len()).unwrap_or(NO_WORD);
-    words.push(cell.to_owned());
-    codes.insert(cell.to_owned(), code);
-    code
-}
-
 impl Table {
     /// The position of a column that the user named.
     pub(super) fn find(&self, name: &str) -> Result<usize, Failure> {
-        let names: Vec<String> = self.columns.iter().map(|column| column.name.clone()).collect();
-        find(&names, name)
+        find(self.columns.iter().map(|column| column.name.as_str()), name)
     }
 
-    /// The numbers of a column that the user named.
+    /// The numbers of a column.
     pub(super) fn numbers(&self, index: usize) -> Result<&[f64], Failure> {
         let column = &self.columns[index];
         match &column.cells {
@@ -224,7 +55,7 @@ impl Table {
         }
     }
 
-    /// The label of a column with its unit, and what its numbers are multiplied with for that unit.
+    /// The label of a column, in a unit that suits its largest number.
     pub(super) fn label(&self, index: usize) -> Label {
         let column = &self.columns[index];
         let largest = match &column.cells {
@@ -238,102 +69,42 @@ impl Table {
     }
 }
 
-/// Units of columns by name.
-struct Units {
-    recorded: BTreeMap<String, String>,
-}
-
-impl Units {
-    /// The units in the sidecar of `results`, if it has one that this flap understands.
-    fn of(results: &Path, sidecar: Option<&Sidecar>) -> Units {
-        let beside = sidecar::path_of(results);
-        let mut recorded = BTreeMap::new();
-        if let Some(sidecar) = sidecar {
-            match job::plan_of(&beside, sidecar) {
-                Ok(plan) => {
-                    let columns = Layout::of(&plan).columns();
-                    recorded.extend(columns.into_iter().map(|column| (column.name, column.unit.to_owned())));
-                }
-                Err(_) => console::say(&format!(
-                    "{} cannot be used: units are those of the columns' names",
-                    beside.display()
-                )),
-            }
-        }
-        Units { recorded }
-    }
-
-    /// The unit in the sidecar, else of a model's parameter or measure of that name, else what the name ends in.
-    fn of_column(&self, name: &str) -> String {
-        if let Some(unit) = self.recorded.get(name) {
-            return unit.clone();
-        }
-        for model in simulate::all() {
-            if let Some(parameter) = model.parameters().iter().find(|parameter| parameter.name == name) {
-                return parameter.unit.to_owned();
-            }
-            if let Some(column) = model.columns().iter().find(|column| column.name == name) {
-                return column.unit.to_owned();
-            }
-        }
-        layout::split_unit(name).1.to_owned()
-    }
+/// The position of a column that the user named.
+pub(super) fn find<'n>(names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Result<usize, Failure> {
+    names.clone().position(|known| known == name).ok_or_else(|| {
+        let failure = Failure::usage(format!("there is no column `{name}`"));
+        let failure = match nearest(name, names.clone()) {
+            Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
+            None => failure,
+        };
+        failure.help(format!("the columns are {}", names.collect::<Vec<_>>().join(", ")))
+    })
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    fn gathered(cells: &[&str]) -> Cells {
-        let mut column = Gathered::new(true);
-        for (row, cell) in cells.iter().enumerate() {
-            column.push(cell, row);
-        }
-        column.cells
+    /// A table of columns with a first one that counts.
+    pub(in crate::plot) fn table(columns: &[(&str, &[f64])]) -> Table {
+        let rows = columns[0].1.len();
+        let column = |name: &str, values: Vec<f64>| Column {
+            name: name.to_owned(),
+            unit: if name == "f" { "Hz".to_owned() } else { String::new() },
+            cells: Cells::Numbers(values),
+        };
+        let first = column("point", (0..rows).map(|row| row as f64).collect());
+        let rest = columns.iter().map(|(name, values)| column(name, values.to_vec()));
+        Table { columns: std::iter::once(first).chain(rest).collect(), rows, of: rows }
     }
 
-    #[test]
-    fn cells_are_numbers_as_long_as_none_is_a_word() {
-        let Cells::Numbers(values) = gathered(&["1", "", "2.5e-3"]) else { panic!("numbers") };
-        assert_eq!((values[0], values[2]), (1.0, 2.5e-3));
-        assert!(values[1].is_nan());
-    }
-
-    #[test]
-    fn words_have_codes() {
-        let words = gathered(&["", "up", "down", "up"]);
-        let codes = vec![NO_WORD, 0, 1, 0];
-        assert_eq!(words, Cells::Words { codes, words: vec!["up".to_owned(), "down".to_owned()] });
-        assert_eq!(
-            gathered(&["3", "up"]),
-            Cells::Words { codes: vec![0, 1], words: vec!["3".to_owned(), "up".to_owned()] }
-        );
-    }
-
-    #[test]
-    fn halves_keep_the_first() {
-        let mut column = Gathered::new(true);
-        for row in 0..5 {
-            column.push(&row.to_string(), row);
-        }
-        column.halve();
-        assert_eq!(column.cells, Cells::Numbers(vec![0.0, 2.0, 4.0]));
-    }
-
-    #[test]
-    fn cells_that_nobody_wants_are_not_kept() {
-        let mut column = Gathered::new(false);
-        column.push("1", 0);
-        assert_eq!(column.cells, Cells::Unread);
-    }
-
-    #[test]
-    fn units_come_from_the_models_and_from_names() {
-        let units = Units { recorded: BTreeMap::from([("lift_mean_mn".to_owned(), "N".to_owned())]) };
-        assert_eq!(units.of_column("lift_mean_mn"), "N", "the sidecar comes first");
-        assert_eq!(units.of_column("hinge_stiffness"), "N*m/rad");
-        assert_eq!(units.of_column("efficiency_gf_per_w"), "gf/W");
-        assert_eq!(units.of_column("my_own_ms"), "ms");
-        assert_eq!(units.of_column("rhs_evals"), "");
+    /// Two axes, `f` of three values fastest, one that follows `v`, and one that is the same everywhere.
+    pub(in crate::plot) fn grid() -> Table {
+        table(&[
+            ("v", &[1.0, 1.0, 1.0, 2.0, 2.0, 2.0]),
+            ("f", &[10.0, 20.0, 30.0, 10.0, 20.0, 30.0]),
+            ("twice", &[2.0, 2.0, 2.0, 4.0, 4.0, 4.0]),
+            ("same", &[7.0; 6]),
+        ])
     }
 }

@@ -1,6 +1,6 @@
-//! The designs that no other is better than.
+//! The Pareto front.
 
-/// Whether less or more is better: `true` for more.
+/// The better direction: `true` if larger values are better.
 pub(super) type Better = bool;
 
 /// The points that none of the others dominates, by rising first number. A point dominates another if it is at least as

@@ -4,23 +4,24 @@ use kuva::render::render::Scene;
 
 use super::chosen::Chosen;
 use super::columns::{Cells, Table};
-use super::ink::{self, Axis, Look, Panel};
+use super::ink::{self, Look};
+use super::panel::{Axis, Panel};
 use super::response::{family, ordered};
 use super::scale;
 use crate::args::Size;
 use crate::console;
 use crate::failure::Failure;
 
-/// The branches, in the order in which they are drawn, and what the legend calls them.
+/// The branches in the order of drawing, with their names in the legend.
 const BRANCHES: [(&str, &str); 3] = [("up", "rising"), ("down", "falling"), ("unstable", "unstable")];
 
-/// The most curves that can be told apart.
+/// Most curves of a picture: more cannot be distinguished.
 const MOST_CURVES: usize = 10;
 
 /// Draws column `y` over column `x`, a line for each branch.
 pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    let (across, up) = (table.numbers(chosen.x)?, table.numbers(chosen.y)?);
-    let (x, y) = (table.label(chosen.x), table.label(chosen.y));
+    let (across, up) = (table.numbers(chosen.columns.x)?, table.numbers(chosen.columns.y)?);
+    let (x, y) = (table.label(chosen.columns.x), table.label(chosen.columns.y));
     let branch = table.find("branch")?;
     let Cells::Words { codes, words } = &table.columns[branch].cells else {
         return Err(Failure::usage("column `branch` does not say `up`, `down` or `unstable`"));
@@ -43,7 +44,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
                 .filter(|&&row| Some(codes[row] as usize) == code)
                 .map(|&row| (across[row] * x.factor, up[row] * y.factor))
                 .collect();
-            let mut look = if chosen.by.is_some() {
+            let mut look = if chosen.columns.by.is_some() {
                 let name = if named { String::new() } else { curve.name.clone() };
                 Look::new(name, ink::line_colour(place, shown.len(), ordered(table, chosen)))
             } else {
@@ -53,7 +54,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
             look.dashed = kind == 2;
             // The way down often lies on the way up, which must be seen below it.
             look.width = [4.0, 1.8, 1.6][kind];
-            if chosen.by.is_some() {
+            if chosen.columns.by.is_some() {
                 look.width = 1.8;
             }
             let lines = ink::line(&points, &look);
@@ -65,14 +66,14 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let (Some(width), Some(height)) =
         (scale::range(drawn.iter().map(|point| point.0)), scale::range(drawn.iter().map(|point| point.1)))
     else {
-        return Err(chosen.nothing(table, chosen.y));
+        return Err(chosen.nothing(table, chosen.columns.y));
     };
     let mut notes = chosen.notes.clone();
     let missing = drawn.iter().filter(|point| !point.1.is_finite()).count();
     if missing > 0 {
         notes.push(format!("{missing} of {} points without a value", drawn.len()));
     }
-    if chosen.by.is_some() {
+    if chosen.columns.by.is_some() {
         notes.push("dashed: unstable".to_owned());
     }
     let panel = Panel {
@@ -81,7 +82,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         x: Axis { label: x.text(), range: scale::padded(width, 0.02), log: false },
         y: Axis { label: y.text(), range: scale::from_zero(height), log: false },
         plots,
-        legend: Some(chosen.by.map_or_else(String::new, |by| table.label(by).text())),
+        legend: Some(chosen.columns.by.map_or_else(String::new, |by| table.label(by).text())),
         bar: false,
     };
     Ok(panel.scene(size))

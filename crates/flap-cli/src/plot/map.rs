@@ -4,15 +4,17 @@ use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene};
 
-use super::axes::{self, Levels, Values};
-use super::chosen::Chosen;
+use super::bar;
+use super::chosen::{Chosen, Columns};
 use super::columns::Table;
-use super::ink::{self, Axis, Panel};
+use super::ink;
+use super::levels::{Levels, Values};
+use super::panel::{Axis, Panel};
 use super::scale;
 use crate::args::Size;
 use crate::failure::Failure;
 
-/// The most cells that a picture shows: more than it has pixels.
+/// Most cells of a picture: more would exceed its pixels.
 const MOST_CELLS: usize = 500_000;
 
 /// Values over a grid; those of a row of cells lie together, the lowest first.
@@ -24,13 +26,13 @@ struct Grid {
 
 /// Draws column `color` over the columns `x` and `y`.
 pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    let Chosen { x, y, color: Some(color), .. } = *chosen else {
+    let Columns { x, y, color: Some(color), .. } = chosen.columns else {
         return Err(Failure::Bug("a map without a colour".to_owned()));
     };
     let grid = grid(table, chosen, color)?;
     let labels = [table.label(x), table.label(y), table.label(color)];
     let axis = |values: &[f64], label: &super::label::Label| {
-        let log = axes::is_log(values);
+        let log = scale::is_log(values);
         let scaled: Vec<f64> = values.iter().map(|value| value * label.factor).collect();
         let edges = edges(&scaled, log);
         let range = (edges[0], edges[edges.len() - 1]);
@@ -55,16 +57,16 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let mut scene = panel.scene(size);
     scene.add(cells((&x_edges, &y_edges), &values, &frame, bar.range));
     ink::frame_lines(&mut scene, &frame);
-    ink::colour_bar(&mut scene, &frame, &bar, (missing > 0).then_some("no value"));
+    bar::colour_bar(&mut scene, &frame, &bar, (missing > 0).then_some("no value"));
     Ok(scene)
 }
 
 fn grid(table: &Table, chosen: &Chosen, color: usize) -> Result<Grid, Failure> {
-    let names = [chosen.x, chosen.y].map(|column| table.columns[column].name.as_str());
-    let levels = [chosen.x, chosen.y].map(|column| Levels::of(table, column, &chosen.rows));
+    let names = [chosen.columns.x, chosen.columns.y].map(|column| table.columns[column].name.as_str());
+    let levels = [chosen.columns.x, chosen.columns.y].map(|column| Levels::of(table, column, &chosen.rows));
     // Words have no place on an axis.
-    table.numbers(chosen.x)?;
-    table.numbers(chosen.y)?;
+    table.numbers(chosen.columns.x)?;
+    table.numbers(chosen.columns.y)?;
     let colours = table.numbers(color)?;
     let [across, up] = &levels;
     let cells = across.len() * up.len();

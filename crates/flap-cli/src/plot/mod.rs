@@ -1,19 +1,25 @@
 //! `flap plot`: pictures and pages of results.
 
 mod axes;
+mod bar;
 mod choose;
 mod chosen;
 mod columns;
+mod encode;
 mod front;
 mod hysteresis;
 mod ink;
 mod label;
+mod levels;
 mod map;
 mod page;
+mod panel;
 mod pareto;
 mod raster;
 mod response;
 mod scale;
+mod slices;
+mod source;
 mod trajectory;
 
 use std::io::Write;
@@ -21,11 +27,12 @@ use std::path::{Path, PathBuf};
 
 use choose::Wishes;
 use chosen::Chosen;
-use columns::{Source, Table};
+use columns::Table;
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::results::Format;
 use flap_sweep::notation::text::printable;
 use kuva::render::render::Scene;
+use source::Source;
 
 use crate::args::{PictureKind, PlotArgs, Size};
 use crate::cmd::outputs;
@@ -56,20 +63,20 @@ pub(crate) fn run(args: &PlotArgs) -> Result<Exit, Failure> {
 
 /// Draws into the file `out`.
 fn picture(args: &PlotArgs, out: &Path) -> Result<(), Failure> {
-    let format = format(out)?;
+    let format = encode::format(out)?;
     let source = Source::open(args, true)?;
     let wishes = Wishes::of(&source, args)?;
     let table = source.read(|column| wishes.wants(column), usize::MAX)?;
     let chosen = wishes.choose(&table, heading(args))?;
     let scene = draw(&table, &chosen, args.size)?;
-    let bytes = ink::bytes(scene, format).map_err(Failure::Bug)?;
+    let bytes = encode::bytes(scene, format).map_err(Failure::Bug)?;
     write(out, args.force, &bytes)?;
-    console::say(&format!("{} in {}", chosen.kind.name(), out.display()));
+    console::say(&format!("{} in {}", chosen.columns.kind.name(), out.display()));
     Ok(())
 }
 
 fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    match chosen.kind {
+    match chosen.columns.kind {
         PictureKind::Response => response::draw(table, chosen, size),
         PictureKind::Map => map::draw(table, chosen, size),
         PictureKind::Pareto => pareto::draw(table, chosen, size),
@@ -91,30 +98,14 @@ fn default_name(results: &Path) -> PathBuf {
     PathBuf::from(format!("{stem}.svg"))
 }
 
-fn format(out: &Path) -> Result<ink::Format, Failure> {
-    match ending(out).as_str() {
-        "svg" => Ok(ink::Format::Svg),
-        "png" => Ok(ink::Format::Png),
-        "html" | "htm" => {
-            Err(Failure::usage(format!("{} is no picture", out.display())).help("--html writes a page"))
-        }
-        _ => Err(Failure::usage(format!("{}: pictures end in .svg or .png", out.display()))),
-    }
-}
-
 fn require_html(html: &Path) -> Result<(), Failure> {
-    match ending(html).as_str() {
+    match encode::ending(html).as_str() {
         "html" | "htm" => Ok(()),
         _ => Err(Failure::usage(format!("{}: pages end in .html or .htm", html.display()))),
     }
 }
 
-/// The ending of a name in small letters; empty if there is none.
-fn ending(path: &Path) -> String {
-    path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase()
-}
-
-/// Writes all of a file or nothing.
+/// Writes a file, all of it or nothing.
 fn write(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
     let written = job::make(path, force, |mut file| file.write_all(bytes))?;
     written.map_err(|error: std::io::Error| Failure::cannot_write(path, &error))

@@ -1,35 +1,35 @@
-//! Two measures of every design, and the designs that no other is better than in both.
+//! Pareto pictures: two measures of every design, and the designs that no other design beats in both.
 
+use flap_sweep::table::labels::{self, Direction};
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::Scene;
 
+use super::bar;
 use super::chosen::Chosen;
 use super::columns::Table;
 use super::front::front;
-use super::ink::{self, Axis, Look, Panel};
+use super::ink::{self, Look};
+use super::panel::{Axis, Panel};
 use super::scale;
 use crate::args::{Aim, Size};
 use crate::console;
 use crate::failure::Failure;
 
-/// The most points that a picture shows besides the front.
+/// Most points of a picture besides the front.
 const MOST_POINTS: usize = 20_000;
 
-/// How many shades coloured points have.
+/// Number of shades of coloured points.
 const SHADES: usize = 24;
 
-/// What is less, the better: what a design consumes, or what breaks it.
-const LESS: [&str; 6] = ["power", "current", "strain", "field", "drag", "force"];
-
-/// Whether more of a column is better, as far as its name tells.
+/// The better direction of a column by default.
 pub(super) fn aim(name: &str) -> Aim {
-    if LESS.iter().any(|word| name.starts_with(word)) { Aim::Min } else { Aim::Max }
+    if labels::of(name).better == Some(Direction::Smaller) { Aim::Min } else { Aim::Max }
 }
 
 /// Draws column `y` over column `x`, with the front.
 pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    let (across, up) = (table.numbers(chosen.x)?, table.numbers(chosen.y)?);
-    let (x, y) = (table.label(chosen.x), table.label(chosen.y));
+    let (across, up) = (table.numbers(chosen.columns.x)?, table.numbers(chosen.columns.y)?);
+    let (x, y) = (table.label(chosen.columns.x), table.label(chosen.columns.y));
     let rows: Vec<usize> =
         chosen.rows.iter().copied().filter(|&row| across[row].is_finite() && up[row].is_finite()).collect();
     let points: Vec<(f64, f64)> =
@@ -37,7 +37,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let (Some(width), Some(height)) =
         (scale::range(points.iter().map(|point| point.0)), scale::range(points.iter().map(|point| point.1)))
     else {
-        return Err(chosen.nothing(table, chosen.y));
+        return Err(chosen.nothing(table, chosen.columns.y));
     };
     let (x_aim, y_aim) = chosen.aims;
     let best = front(&points, (x_aim == Aim::Max, y_aim == Aim::Max));
@@ -55,7 +55,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         notes.push(format!("{missing} of {} designs without values", chosen.rows.len()));
     }
     let mut plots = Vec::new();
-    let bar = match chosen.color {
+    let bar = match chosen.columns.color {
         None => {
             let plain: Vec<(f64, f64)> = shown.iter().map(|&place| points[place]).collect();
             plots.push(ink::points(&plain, &format!("designs ({})", points.len()), ink::PLAIN, 2.2));
@@ -110,7 +110,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let frame = ComputedLayout::from_layout(&panel.layout(size));
     let mut scene = panel.scene(size);
     if let Some(bar) = &bar {
-        ink::colour_bar(&mut scene, &frame, bar, None);
+        bar::colour_bar(&mut scene, &frame, bar, None);
     }
     Ok(scene)
 }

@@ -6,7 +6,7 @@ use kuva::render::render::{Primitive, Scene};
 /// Pixels per unit of a picture's size.
 const SCALE: u32 = 2;
 
-/// The most pixels that are drawn to be averaged.
+/// Most pixels of a picture that is drawn larger and averaged.
 const MOST_PIXELS: f64 = 1e8;
 
 /// A picture as PNG, with [`SCALE`] times as many pixels each way as it has units.

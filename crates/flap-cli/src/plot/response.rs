@@ -2,29 +2,30 @@
 
 use kuva::render::render::Scene;
 
-use super::axes::{self, Levels, Values};
 use super::chosen::Chosen;
 use super::columns::Table;
-use super::ink::{self, Axis, Look, Panel};
+use super::ink::{self, Look};
+use super::levels::{Levels, Values};
+use super::panel::{Axis, Panel};
 use super::scale;
 use crate::args::Size;
 use crate::console;
 use crate::failure::Failure;
 
-/// The most lines that can be told apart.
+/// Most lines of a picture: more cannot be distinguished.
 const MOST_LINES: usize = 16;
 
-/// The most points that a line is drawn with.
+/// Most points of a line.
 const MOST_POINTS: usize = 4000;
 
 /// Draws column `y` over column `x`.
 pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    let (across, up) = (table.numbers(chosen.x)?, table.numbers(chosen.y)?);
-    let (x, y) = (table.label(chosen.x), table.label(chosen.y));
+    let (across, up) = (table.numbers(chosen.columns.x)?, table.numbers(chosen.columns.y)?);
+    let (x, y) = (table.label(chosen.columns.x), table.label(chosen.columns.y));
     let family = family(table, chosen)?;
     let shown = scale::even(family.len(), MOST_LINES);
     if shown.len() < family.len() {
-        let by = chosen.by.map_or("", |by| table.columns[by].name.as_str());
+        let by = chosen.columns.by.map_or("", |by| table.columns[by].name.as_str());
         let (drawn, all) = (shown.len(), family.len());
         console::say(&format!(
             "{drawn} of the {all} values of {by} are drawn, evenly chosen; --where takes one"
@@ -51,12 +52,12 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         drawn.extend(points);
     }
     let Some(heights) = scale::range(drawn.iter().map(|point| point.1)) else {
-        return Err(chosen.nothing(table, chosen.y));
+        return Err(chosen.nothing(table, chosen.columns.y));
     };
     let mut values: Vec<f64> = drawn.iter().map(|point| point.0).collect();
     values.sort_by(f64::total_cmp);
     values.dedup();
-    let log = axes::is_log(&values);
+    let log = scale::is_log(&values);
     let width = scale::range(values).unwrap_or((0.0, 1.0));
     let mut notes = chosen.notes.clone();
     if missing > 0 {
@@ -74,13 +75,13 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         x: Axis { label: x.text(), range, log },
         y: Axis { label: y.text(), range: scale::from_zero(heights), log: false },
         plots,
-        legend: chosen.by.map(|by| table.label(by).text()),
+        legend: chosen.columns.by.map(|by| table.label(by).text()),
         bar: false,
     };
     Ok(panel.scene(size))
 }
 
-/// Rows that belong on one line.
+/// The rows of one line.
 pub(super) struct Line {
     pub(super) name: String,
     pub(super) rows: Vec<usize>,
@@ -88,7 +89,7 @@ pub(super) struct Line {
 
 /// The chosen rows by the value of the column `by`; all of them if there is none.
 pub(super) fn family(table: &Table, chosen: &Chosen) -> Result<Vec<Line>, Failure> {
-    let Some(by) = chosen.by else {
+    let Some(by) = chosen.columns.by else {
         return Ok(vec![Line { name: String::new(), rows: chosen.rows.clone() }]);
     };
     let levels = Levels::of(table, by, &chosen.rows);
@@ -115,13 +116,13 @@ pub(super) fn family(table: &Table, chosen: &Chosen) -> Result<Vec<Line>, Failur
     Ok(lines)
 }
 
-/// Whether the lines have an order: numbers have.
+/// True if the lines have an order, as numbers have.
 pub(super) fn ordered(table: &Table, chosen: &Chosen) -> bool {
-    chosen.by.is_some_and(|by| table.numbers(by).is_ok())
+    chosen.columns.by.is_some_and(|by| table.numbers(by).is_ok())
 }
 
 fn several(table: &Table, chosen: &Chosen) -> Failure {
-    let name = &table.columns[chosen.x].name;
+    let name = &table.columns[chosen.columns.x].name;
     Failure::usage(format!("several rows of one line have the same {name}")).help(
         "--by draws a line for each value of a column, --where takes one value; --kind pareto draws points",
     )

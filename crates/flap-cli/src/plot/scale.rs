@@ -56,6 +56,16 @@ pub(super) fn tick(value: f64, range: (f64, f64), step: f64) -> String {
     format!("{value:.decimals$}").replace('-', "−")
 }
 
+/// True if an axis is logarithmic: its values have even ratios and span a decade or more.
+pub(super) fn is_log(values: &[f64]) -> bool {
+    let (Some(first), Some(last)) = (values.first(), values.last()) else { return false };
+    if values.len() < 3 || *first <= 0.0 || last / first < 9.99 {
+        return false;
+    }
+    let step = (values[1] / values[0]).ln();
+    values.windows(2).all(|two| ((two[1] / two[0]).ln() - step).abs() < 1e-6 * step)
+}
+
 /// At most about `most` of the points of a line, in their order: of each stretch its ends and its extremes, so that peaks
 /// stay.
 pub(super) fn thinned(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
@@ -135,5 +145,13 @@ mod tests {
         assert_eq!(thinned(&points[..50], 400), points[..50]);
         assert_eq!(even(10, 4), [0, 3, 6, 9]);
         assert_eq!(even(3, 4), [0, 1, 2]);
+    }
+
+    #[test]
+    fn even_ratios_over_a_decade_are_drawn_so() {
+        assert!(is_log(&[1.0, 10.0, 100.0]));
+        assert!(!is_log(&[1.0, 2.0, 4.0]));
+        assert!(!is_log(&[1.0, 20.0, 39.0]));
+        assert!(!is_log(&[0.0, 10.0, 100.0]));
     }
 }

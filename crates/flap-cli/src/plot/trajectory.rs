@@ -1,17 +1,19 @@
 //! Stroke and pitch over time, and their rates over them.
 
+use flap_sweep::table::labels;
 use kuva::render::figure::Figure;
 use kuva::render::render::Scene;
 
 use super::chosen::Chosen;
 use super::columns::Table;
-use super::ink::{self, Axis, Look, Panel};
+use super::ink::{self, Look};
+use super::panel::{Axis, LETTER, Panel};
 use super::scale;
 use crate::args::Size;
 use crate::console;
 use crate::failure::Failure;
 
-/// The most points of one line.
+/// Most points of one line.
 const MOST_POINTS: usize = 8000;
 
 /// The angles, by the beginning of their columns' names.
@@ -19,8 +21,8 @@ const ANGLES: [(&str, &str); 2] = [("stroke", "stroke"), ("pitch", "pitch")];
 
 /// Draws the motion beside its phase portrait.
 pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    let time = table.numbers(chosen.x)?;
-    let label = table.label(chosen.x);
+    let time = table.numbers(chosen.columns.x)?;
+    let label = table.label(chosen.columns.x);
     let (mut over_time, mut portrait) = (Vec::new(), Vec::new());
     let (mut motions, mut loops) = (Vec::new(), Vec::new());
     let mut notes = chosen.notes.clone();
@@ -61,14 +63,16 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         range(&loops, |point| point.0),
         range(&loops, |point| point.1),
     ) else {
-        return Err(chosen.nothing(table, chosen.x));
+        return Err(chosen.nothing(table, chosen.columns.x));
     };
+    let angle = labels::titled("Angle", &labels::printed("deg"));
+    let rate = labels::titled("Rate", &labels::printed("deg/ms"));
     let axis = |label: String, range| Axis { label, range, log: false };
     let left = Panel {
         title: String::new(),
         notes: Vec::new(),
         x: axis(label.text(), scale::padded(span, 0.0)),
-        y: axis("Angle (deg)".to_owned(), scale::padded(angles, 0.05)),
+        y: axis(angle.clone(), scale::padded(angles, 0.05)),
         plots: over_time,
         legend: None,
         bar: false,
@@ -76,8 +80,8 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let right = Panel {
         title: String::new(),
         notes: Vec::new(),
-        x: axis("Angle (deg)".to_owned(), scale::padded(around, 0.05)),
-        y: axis("Rate (deg/ms)".to_owned(), scale::padded(rates, 0.05)),
+        x: axis(angle.clone(), scale::padded(around, 0.05)),
+        y: axis(rate, scale::padded(rates, 0.05)),
         plots: portrait,
         legend: Some(String::new()),
         bar: false,
@@ -92,7 +96,7 @@ fn side_by_side(left: Panel, right: Panel, title: &str, notes: &[String], size: 
     let title =
         std::iter::once(title.to_owned()).chain(notes.iter().cloned()).collect::<Vec<_>>().join(" · ");
     // A long title gets smaller letters, for it has one line.
-    let letters = (size.width / (ink::LETTER * title.chars().count().max(1) as f64)).clamp(9.0, 17.0);
+    let letters = (size.width / (LETTER * title.chars().count().max(1) as f64)).clamp(9.0, 17.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "9 to 17")]
     let letters = letters as u32;
     Figure::new(1, 2)

@@ -27,7 +27,6 @@ const shown = (column, row) => {
   if (column.words) return Number.isNaN(value) ? "none" : column.words[value];
   return short(value * column.factor);
 };
-const title = (column) => (column.unit ? `${column.label} (${column.unit})` : column.label);
 const levelsOf = (column, among) => {
   const seen = new Set();
   for (const row of among) { const value = column.cells[row]; if (!Number.isNaN(value)) seen.add(value); if (seen.size > 5000) break; }
@@ -225,8 +224,8 @@ const frame = (box, rangeX, rangeY, toX, toY, x, y, grid) => {
   pen.strokeRect(box.left + 0.5, box.top + 0.5, box.right - box.left, box.bottom - box.top);
   pen.textAlign = "center"; pen.textBaseline = "alphabetic";
   pen.font = "600 13.5px system-ui, sans-serif";
-  pen.fillText(title(x), (box.left + box.right) / 2, box.bottom + 42);
-  turned(title(y), 16, (box.top + box.bottom) / 2);
+  pen.fillText(x.title, (box.left + box.right) / 2, box.bottom + 42);
+  turned(y.title, 16, (box.top + box.bottom) / 2);
   pen.font = "13px system-ui, sans-serif";
 };
 const rule = (x1, y1, x2, y2) => { pen.beginPath(); pen.moveTo(x1, y1); pen.lineTo(x2, y2); pen.stroke(); };
@@ -307,7 +306,7 @@ const colourBar = (box, width, range, column) => {
   }
   pen.textAlign = "center"; pen.textBaseline = "alphabetic";
   pen.font = "600 13.5px system-ui, sans-serif";
-  turned(title(column), width - 8, (box.top + box.bottom) / 2);
+  turned(column.title, width - 8, (box.top + box.bottom) / 2);
   pen.font = "13px system-ui, sans-serif";
 };
 const legendText = (entries) => {
@@ -350,7 +349,7 @@ const say = (list, without, problem) => {
   if (without) parts.push(`${without} without a value`);
   if (problem) parts.push(problem);
   $("status").textContent = parts.join(" · ");
-  canvas.setAttribute("aria-label", `${state.kind}: ${title(columns[state.y])} over ${title(columns[state.x])}, ${list.length} rows`);
+  canvas.setAttribute("aria-label", `${state.kind}: ${columns[state.y].title} over ${columns[state.x].title}, ${list.length} rows`);
 };
 
 // ---- Rows as a table. ----
@@ -395,7 +394,7 @@ const refresh = (whole = true) => { if (whole) draw(); else point(); tip(); tabl
 
 // ---- Controls. ----
 const option = (value, text) => { const element = document.createElement("option"); element.value = value; element.textContent = text; return element; };
-const fill = (select, list, none) => select.replaceChildren(...(none ? [option("", none)] : []), ...list.map((index) => option(index, title(columns[index]))));
+const fill = (select, list, none) => select.replaceChildren(...(none ? [option("", none)] : []), ...list.map((index) => option(index, columns[index].title)));
 const numbers = columns.map((_, index) => index).filter((index) => !columns[index].words);
 const all = columns.map((_, index) => index);
 fill($("x"), numbers); fill($("y"), numbers); fill($("by"), all, "one line"); fill($("color"), all, "one colour");
@@ -407,7 +406,7 @@ const show = () => {
   $("best").parentElement.hidden = state.kind !== "scatter";
   $("slices").replaceChildren(...axes.map((axis) => {
     const label = document.createElement("label"), select = document.createElement("select"), column = columns[axis.index];
-    label.append(`${title(column)} `, select);
+    label.append(`${column.title} `, select);
     select.append(option("", "all"), ...axis.levels.map((level, place) => option(place, column.words ? column.words[level] : short(level * column.factor))));
     select.dataset.column = column.name;
     select.value = state.slices[axis.index] ?? "";

@@ -1,0 +1,91 @@
+//! The different values of a column.
+
+use std::collections::HashMap;
+
+use flap_sweep::notation::text;
+
+use super::columns::{Cells, NO_WORD, Table};
+use super::label::Label;
+
+/// The different values of a column, and the value of each row.
+pub(super) struct Levels {
+    /// Per row the index of its value.
+    pub(super) codes: Vec<usize>,
+    pub(super) values: Values,
+}
+
+/// Different values: numbers by rising value, words in the order of the file.
+pub(super) enum Values {
+    Numbers(Vec<f64>),
+    Words(Vec<String>),
+}
+
+impl Levels {
+    /// The values of the column in these rows. Empty cells are a value of their own, the last.
+    pub(super) fn of(table: &Table, column: usize, rows: &[usize]) -> Levels {
+        match &table.columns[column].cells {
+            Cells::Numbers(values) => {
+                let mut distinct: Vec<f64> = rows.iter().map(|&row| values[row]).collect();
+                distinct.sort_by(f64::total_cmp);
+                distinct.dedup_by(|a, b| a.to_bits() == b.to_bits());
+                let places: HashMap<u64, usize> =
+                    distinct.iter().enumerate().map(|(place, value)| (value.to_bits(), place)).collect();
+                let codes = rows.iter().map(|&row| places[&values[row].to_bits()]).collect();
+                Levels { codes, values: Values::Numbers(distinct) }
+            }
+            Cells::Words { codes, words } => {
+                let mut present: Vec<u32> = rows.iter().map(|&row| codes[row]).collect();
+                present.sort_unstable();
+                present.dedup();
+                let text = |code: u32| {
+                    let word = if code == NO_WORD { None } else { words.get(code as usize) };
+                    word.map_or_else(|| "none".to_owned(), String::clone)
+                };
+                let places: HashMap<u32, usize> =
+                    present.iter().enumerate().map(|(place, code)| (*code, place)).collect();
+                Levels {
+                    codes: rows.iter().map(|&row| places[&codes[row]]).collect(),
+                    values: Values::Words(present.into_iter().map(text).collect()),
+                }
+            }
+            Cells::Unread => {
+                Levels { codes: vec![0; rows.len()], values: Values::Words(vec![String::new()]) }
+            }
+        }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        match &self.values {
+            Values::Numbers(values) => values.len(),
+            Values::Words(words) => words.len(),
+        }
+    }
+
+    /// Value number `place` as the user types it and as files have it.
+    pub(super) fn typed(&self, place: usize) -> String {
+        match &self.values {
+            Values::Numbers(values) => text::float(values[place]),
+            Values::Words(words) => words[place].clone(),
+        }
+    }
+
+    /// Value number `place` as text, with its unit.
+    pub(super) fn text(&self, place: usize, label: &Label) -> String {
+        match &self.values {
+            Values::Numbers(values) => label.value(values[place]),
+            Values::Words(words) => words[place].clone(),
+        }
+    }
+
+    /// True if the value of each row follows from its value in `other`.
+    pub(super) fn follow(&self, other: &Levels) -> bool {
+        let mut image = vec![usize::MAX; other.len()];
+        self.codes.iter().zip(&other.codes).all(|(&mine, &theirs)| {
+            let first = image[theirs] == usize::MAX;
+            if first {
+                image[theirs] = mine;
+            }
+            image[theirs] == mine
+        })
+    }
+}

@@ -1,0 +1,127 @@
+//! Panels: a pair of axes with its plots, title and legend.
+
+use std::sync::Arc;
+
+use kuva::plot::LinePlot;
+use kuva::render::layout::{Layout, TickFormat};
+use kuva::render::plots::Plot;
+use kuva::render::render::Scene;
+
+use super::ink::plain;
+use super::scale;
+use crate::args::Size;
+
+/// An axis with its label and its range.
+#[derive(Clone)]
+pub(super) struct Axis {
+    pub(super) label: String,
+    pub(super) range: (f64, f64),
+    pub(super) log: bool,
+}
+
+/// A pair of axes with its plots.
+pub(super) struct Panel {
+    pub(super) title: String,
+    /// Smaller text below the title: slices, missing values.
+    pub(super) notes: Vec<String>,
+    pub(super) x: Axis,
+    pub(super) y: Axis,
+    pub(super) plots: Vec<Plot>,
+    /// Heading of the legend, if there is one.
+    pub(super) legend: Option<String>,
+    /// Room on the right for a colour bar.
+    pub(super) bar: bool,
+}
+
+/// The mean width of a letter, relative to the size of the text.
+pub(super) const LETTER: f64 = 0.56;
+
+/// The number of letters of a size that fit into a width.
+fn letters(width: f64, size: f64) -> usize {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a picture is 200 to 4000 wide"
+    )]
+    let letters = (width / (size * LETTER)) as usize;
+    letters
+}
+
+impl Panel {
+    /// The library's description of the panel in a picture of `size`.
+    pub(super) fn layout(&self, size: Size) -> Layout {
+        // Notes are centred over the plot, which is narrower than the picture.
+        let notes_wrap = letters(0.72 * size.width, 12.0);
+        let mut layout = Layout::auto_from_plots(&self.plots)
+            .with_width(size.width)
+            .with_height(size.height)
+            .with_x_label(plain(&self.x.label))
+            .with_y_label(plain(&self.y.label))
+            .with_x_axis_min(self.x.range.0)
+            .with_x_axis_max(self.x.range.1)
+            .with_y_axis_min(self.y.range.0)
+            .with_y_axis_max(self.y.range.1)
+            .with_title_size(17)
+            .with_label_size(14)
+            .with_tick_size(12)
+            .with_body_size(12)
+            .with_legend_box(false);
+        // The library looks at the ranges of the plots too, which may be none.
+        (layout.x_range, layout.y_range) = (self.x.range, self.y.range);
+        (layout.data_x_range, layout.data_y_range) = (Some(self.x.range), Some(self.y.range));
+        "#e4e4e4".clone_into(&mut layout.theme.grid_color);
+        "#444444".clone_into(&mut layout.theme.axis_color);
+        "#444444".clone_into(&mut layout.theme.tick_color);
+        let titles = letters(0.72 * size.width, 17.0);
+        if !self.title.is_empty() {
+            layout = layout.with_title(plain(&self.title)).with_title_wrap(titles);
+        }
+        if !self.notes.is_empty() {
+            let notes = plain(&self.notes.join(" · "));
+            layout = layout.with_subtitle(notes).with_subtitle_size(12).with_subtitle_wrap(notes_wrap);
+        }
+        if let Some(title) = &self.legend {
+            layout = layout.with_legend_wrap(if size.width < 700.0 { 16 } else { 22 });
+            if !title.is_empty() {
+                layout = layout.with_legend_title(plain(title));
+            }
+        }
+        if self.bar {
+            layout.force_margin_right = Some(BAR_MARGIN + if self.legend.is_some() { 10.0 } else { 0.0 });
+        }
+        for (axis, across) in [(&self.x, true), (&self.y, false)] {
+            layout = with_ticks(layout, axis, across, size);
+        }
+        layout
+    }
+
+    /// The panel as a picture of its own.
+    pub(super) fn scene(mut self, size: Size) -> Scene {
+        let layout = self.layout(size);
+        if self.plots.is_empty() {
+            // The library draws no ticks around nothing.
+            let ends = [(self.x.range.0, self.y.range.0), (self.x.range.1, self.y.range.1)];
+            self.plots.push(Plot::Line(LinePlot::new().with_data(ends).with_color("none")));
+        }
+        kuva::render::render::render_multiple(self.plots, layout)
+    }
+}
+
+fn with_ticks(layout: Layout, axis: &Axis, across: bool, size: Size) -> Layout {
+    if axis.log {
+        return if across { layout.with_log_x() } else { layout.with_log_y() };
+    }
+    let range = axis.range;
+    let count =
+        if across { (size.width / 90.0).clamp(4.0, 9.0) } else { (size.height / 65.0).clamp(4.0, 9.0) };
+    let step = scale::step(range, count);
+    let format = TickFormat::Custom(Arc::new(move |value| scale::tick(value, range, step)));
+    if across {
+        layout.with_x_tick_step(step).with_x_tick_format(format)
+    } else {
+        layout.with_y_tick_step(step).with_y_tick_format(format)
+    }
+}
+
+/// The width that a colour bar takes, with its ticks and label.
+pub(super) const BAR_MARGIN: f64 = 118.0;

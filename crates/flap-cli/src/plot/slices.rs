@@ -1,0 +1,136 @@
+//! Choice of rows: filters, and slices through axes that a picture does not show.
+
+use flap_sweep::notation::units;
+
+use super::columns::{Cells, Column, Table};
+use super::levels::Levels;
+use crate::failure::Failure;
+
+/// The rows that have the values of `filters`.
+pub(super) fn filtered(table: &Table, filters: &[(String, String)]) -> Result<Vec<usize>, Failure> {
+    let mut rows: Vec<usize> = (0..table.rows).collect();
+    for (name, text) in filters {
+        let column = table.find(name)?;
+        let kept: Vec<usize> = match &table.columns[column].cells {
+            Cells::Numbers(values) => {
+                let wanted = wanted(table, column, text)?;
+                // Users write fewer digits than files hold.
+                let near = |value: f64| (value - wanted).abs() <= 1e-9 * wanted.abs().max(f64::MIN_POSITIVE);
+                rows.iter().copied().filter(|&row| near(values[row])).collect()
+            }
+            Cells::Words { codes, words } => {
+                let code = words.iter().position(|word| word == text);
+                rows.iter().copied().filter(|&row| Some(codes[row] as usize) == code).collect()
+            }
+            Cells::Unread => return Err(Failure::Bug(format!("column `{name}` was not read"))),
+        };
+        if kept.is_empty() {
+            let message = format!("no row has {name} = {text}");
+            let levels = Levels::of(table, column, &rows);
+            return Err(Failure::usage(message).help(listed(table, column, &levels)));
+        }
+        rows = kept;
+    }
+    Ok(rows)
+}
+
+/// The number in a filter, in the column's unit.
+fn wanted(table: &Table, column: usize, text: &str) -> Result<f64, Failure> {
+    let column = &table.columns[column];
+    let number = text.parse().ok().or_else(|| units::parse_as(text, &column.unit).ok());
+    number.ok_or_else(|| {
+        let message = format!("--where {}={text}: not a number", column.name);
+        match column.unit.as_str() {
+            "" => Failure::usage(message),
+            unit => Failure::usage(message)
+                .help(format!("write a number in {unit}, or with a unit of the same kind")),
+        }
+    })
+}
+
+/// The values of a column, a dozen at most.
+fn listed(table: &Table, column: usize, levels: &Levels) -> String {
+    const MOST: usize = 12;
+    let text = |place| levels.typed(place);
+    let many = levels.len();
+    let shown: Vec<String> = if many <= MOST {
+        (0..many).map(text).collect()
+    } else {
+        (0..MOST / 2).map(text).chain(["…".to_owned()]).chain((many - MOST / 2..many).map(text)).collect()
+    };
+    let Column { name, unit, .. } = &table.columns[column];
+    format!("{name} is {} {unit}", shown.join(", ")).trim_end().to_owned()
+}
+
+/// The rows with one value of each axis that the picture does not show.
+pub(super) struct Slice {
+    pub(super) rows: Vec<usize>,
+    /// The values of those axes.
+    pub(super) taken: Vec<Taken>,
+}
+
+/// The value that was taken of an axis.
+pub(super) struct Taken {
+    /// The value as it is shown: `Drive voltage 70 V`.
+    pub(super) shown: String,
+    /// The value as it is typed: `drive_voltage_pp=70.0`.
+    pub(super) typed: String,
+    /// The number of values of the axis.
+    pub(super) of: usize,
+}
+
+/// Takes the middle value of every axis that is not in `shown`.
+pub(super) fn sliced(table: &Table, axes: &[usize], shown: &[usize], mut rows: Vec<usize>) -> Slice {
+    let mut taken = Vec::new();
+    for &axis in axes.iter().filter(|axis| !shown.contains(axis)) {
+        let levels = Levels::of(table, axis, &rows);
+        if levels.len() < 2 {
+            continue;
+        }
+        let middle = levels.len() / 2;
+        let name = &table.columns[axis].name;
+        let value = levels.typed(middle);
+        let label = table.label(axis);
+        taken.push(Taken {
+            shown: format!("{} {}", label.words, levels.text(middle, &label)),
+            typed: format!("{name}={value}"),
+            of: levels.len(),
+        });
+        rows = rows
+            .into_iter()
+            .zip(&levels.codes)
+            .filter(|(_, code)| **code == middle)
+            .map(|(row, _)| row)
+            .collect();
+    }
+    Slice { rows, taken }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::columns::tests::grid;
+
+    #[test]
+    fn slices_take_the_middle_of_what_is_not_shown() {
+        let table = grid();
+        let slice = sliced(&table, &[1, 2], &[1], (0..6).collect());
+        assert_eq!(slice.rows, [1, 4]);
+        assert_eq!(slice.taken.len(), 1);
+        assert_eq!((slice.taken[0].typed.as_str(), slice.taken[0].of), ("f=20.0", 3));
+        assert_eq!(slice.taken[0].shown, "F 20 Hz");
+        assert!(sliced(&table, &[1, 2], &[2, 1], (0..6).collect()).taken.is_empty());
+    }
+
+    #[test]
+    fn filters_take_numbers_with_and_without_units() {
+        let table = grid();
+        let rows = |name: &str, value: &str| filtered(&table, &[(name.to_owned(), value.to_owned())]);
+        assert_eq!(rows("v", "2").unwrap(), [3, 4, 5]);
+        assert_eq!(rows("f", "0.02 kHz").unwrap(), [1, 4]);
+        assert!(matches!(rows("f", "25"), Err(Failure::Usage(message, help))
+            if message == "no row has f = 25" && help == ["f is 10.0, 20.0, 30.0 Hz"]));
+        assert!(matches!(rows("f", "fast"), Err(Failure::Usage(..))));
+        assert!(matches!(rows("g", "1"), Err(Failure::Usage(..))));
+    }
+}

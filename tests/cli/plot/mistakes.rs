@@ -1,0 +1,98 @@
+//! Refused pictures, files that are not overwritten, and strange titles.
+
+use std::fs;
+
+use super::{HEADER, folder, refused};
+
+#[test]
+fn nothing_is_overwritten_unasked() {
+    let folder = folder();
+    assert_eq!(folder.flap("plot sweep.csv").code, 0);
+    let before = folder.read("sweep.svg");
+    let ended = refused(&folder, &["sweep.csv", "--kind", "map"]);
+    assert!(
+        ended.stderr.contains("sweep.svg exists already") && ended.stderr.contains("--force"),
+        "{}",
+        ended.stderr
+    );
+    assert_eq!(folder.read("sweep.svg"), before);
+    assert_eq!(folder.flap("plot sweep.csv --kind map --force").code, 0);
+    assert_ne!(folder.read("sweep.svg"), before);
+    // Not even with --force: the results.
+    fs::copy(folder.path("sweep.csv"), folder.path("results.svg")).unwrap();
+    for option in ["--out", "--html"] {
+        let ended = refused(&folder, &["results.svg", option, "./results.svg", "--force"]);
+        ended.says("would overwrite the results");
+    }
+}
+
+/// XML has no place for control characters, and neither has a page.
+#[test]
+fn control_characters_in_a_title_are_written_out() {
+    let folder = folder();
+    let title = "a\u{1b}[31m <b>\u{1}";
+    let arguments = ["plot", "sweep.csv", "--title", title, "--out", "a.svg", "--html", "a.html"];
+    folder.ends_with(0, &arguments);
+    for name in ["a.svg", "a.html"] {
+        let text = folder.read(name);
+        assert!(text.contains("a\\u{1b}[31m &lt;b&gt;\\u{1}"), "{name}");
+        assert!(!text.contains(|letter: char| letter.is_control() && !"\n\r\t".contains(letter)), "{name}");
+    }
+}
+
+#[test]
+fn mistakes_are_told() {
+    let folder = folder();
+    fs::write(folder.path("empty.csv"), "").unwrap();
+    fs::write(folder.path("bare.csv"), HEADER).unwrap();
+    fs::write(folder.path("other.csv"), "a,b\n1,2\n").unwrap();
+    fs::write(
+        folder.path("failed.csv"),
+        format!("{HEADER}\n0,60,90,1e-4,diverged,,,,3,\n1,60,91,1e-4,diverged,,,,3,\n"),
+    )
+    .unwrap();
+    let cases: &[(&[&str], &[&str])] = &[
+        (
+            &["sweep.csv", "--y", "lift_men_mn"],
+            &["no column `lift_men_mn`", "did you mean `lift_mean_mn`?", "the columns are point, "],
+        ),
+        (&["sweep.csv", "--where", "drive_voltage_p=60"], &["did you mean `drive_voltage_pp`?"]),
+        (
+            &["sweep.csv", "--where", "drive_voltage_pp=61"],
+            &["no row has drive_voltage_pp = 61", "drive_voltage_pp is 60.0, 80.0, 100.0 V"],
+        ),
+        (&["sweep.csv", "--where", "drive_voltage_pp=61 Hz"], &["not a number", "a number in V"]),
+        (&["sweep.csv", "--y", "status"], &["column `status` holds words, not numbers"]),
+        (
+            &["sweep.csv", "--kind", "map", "--by", "status"],
+            &["--by goes with lines: --kind response or hysteresis, and this picture is a map"],
+        ),
+        (
+            &["sweep.csv", "--kind", "response", "--color", "cycles"],
+            &["--color goes with --kind map or pareto, and this picture is a response"],
+        ),
+        (&["sweep.csv", "--y-aim", "min"], &["--x-aim and --y-aim go with --kind pareto"]),
+        (&["sweep.csv", "--kind", "trajectory"], &["needs a column time_s"]),
+        (&["sweep.csv", "--kind", "hysteresis"], &["needs a column `branch`"]),
+        (&["sweep.csv", "--out", "picture.pdf"], &["pictures end in .svg or .png"]),
+        (&["sweep.csv", "--out", "picture.html"], &["--html writes a page"]),
+        (&["sweep.csv", "--size", "10x10"], &["expected WxH"]),
+        (
+            &["sweep.csv", "--kind", "pie"],
+            &["[possible values: response, map, pareto, trajectory, hysteresis]"],
+        ),
+        (&["empty.csv"], &["empty.csv has no columns"]),
+        (&["bare.csv"], &["bare.csv has no rows"]),
+        (&["other.csv"], &["not clear", "--x and --y", "the columns are a, b"]),
+        (&["failed.csv"], &["none of 2 rows has a value of stroke_amplitude_deg"]),
+        (&["failed.csv", "--kind", "pareto"], &["there is nothing to draw"]),
+    ];
+    for (arguments, wanted) in cases {
+        let ended = refused(&folder, arguments);
+        for text in *wanted {
+            ended.says(text);
+        }
+    }
+    folder.ends(3, "plot missing.csv").says("cannot read missing.csv");
+    folder.ends(3, "plot sweep.csv --out missing/picture.svg");
+}
