@@ -11,13 +11,13 @@ pub(crate) fn results(text: &str) -> io::Result<()> {
     stdout.flush()
 }
 
-/// Tells the user what is not as it should be or may not have been meant, and does not stop the work.
+/// Warns the user of a damage or of a probable mistake. The work goes on.
 pub(crate) fn warn(text: &str) {
     let style = Style::new().bold().fg_color(Some(AnsiColor::BrightYellow.into()));
     say(&format!("{style}warning{style:#}: {text}"));
 }
 
-/// Tells the user something. Nobody is left to tell if stderr is closed.
+/// Prints a line to stderr. If stderr is closed, the line is lost.
 pub(crate) fn say(text: &str) {
     let _ = writeln!(anstream::stderr(), "{text}");
 }

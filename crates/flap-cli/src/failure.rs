@@ -1,4 +1,4 @@
-//! Why a command could not do its work, and how the program ends.
+//! Failures of commands, and exit codes.
 
 use std::fmt::Write as _;
 use std::io;
@@ -25,12 +25,11 @@ use crate::console;
 /// The help line of commands that can read damaged results.
 pub(crate) const IGNORE_HELP: &str = "--ignore-damage uses it all the same, as far as it can be read";
 
-/// How the program ends.
+/// The exit code of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Exit {
     Done = 0,
-    /// `--strict`, and some points are not periodic; or `flap verify`, and some results have no checksums.
-    /// Done, but not all points are periodic, or not all results could be verified.
+    /// Done, but with `--strict` some points are not periodic, or `flap verify` could not verify some results.
     NotAll = 1,
     Usage = 2,
     System = 3,
@@ -38,38 +37,38 @@ pub(crate) enum Exit {
     Interrupted = 130,
 }
 
-/// Why a command could not do its work.
+/// The reason why a command could not do its work.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The command line or the grid file must be corrected: what is wrong, and what to do.
+    /// The command line or the grid file must be corrected: a message and help lines.
     Usage(String, Vec<String>),
-    /// The grid file must be corrected.
+    /// The grid file has mistakes.
     Grid(Mistakes),
-    /// The operating system refused: what, and what to do.
+    /// The operating system refused, or results are damaged: a message and help lines.
     System(String, Vec<String>),
     /// A mistake in flap itself.
     Bug(String),
-    /// Whoever read our output has seen enough. Nothing is wrong.
+    /// The reader of stdout closed it, as `head` does. Nothing is wrong.
     ClosedPipe,
 }
 
 impl Failure {
-    /// Something to be corrected by the user.
+    /// A mistake of the user, with this message.
     pub(crate) fn usage(message: impl Into<String>) -> Failure {
         Failure::Usage(message.into(), Vec::new())
     }
 
-    /// A file that the operating system does not let us write.
+    /// A file that the operating system refuses to write.
     pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
         Failure::System(format!("cannot write {}: {error}", path.display()), Vec::new())
     }
 
-    /// Results that are not as they were written.
+    /// Results that differ from what was written.
     pub(crate) fn damaged(message: String) -> Failure {
         Failure::System(message, Vec::new()).help("put a sound copy in its place")
     }
 
-    /// A job whose results are at `out`.
+    /// The failure of a job with results at `out`.
     pub(crate) fn of_job(error: JobError, out: &Path) -> Failure {
         let resumable =
             matches!(error, JobError::Write { resumable: true, .. } | JobError::Run { resumable: true, .. });
@@ -93,7 +92,7 @@ impl Failure {
         job::kept(out).into_iter().fold(failure, |failure, kept| failure.help(still_kept(&kept)))
     }
 
-    /// Adds a line on what to do.
+    /// Adds a help line.
     pub(crate) fn help(mut self, line: impl Into<String>) -> Failure {
         if let Failure::Usage(_, help) | Failure::System(_, help) = &mut self {
             help.push(line.into());
@@ -101,7 +100,7 @@ impl Failure {
         self
     }
 
-    /// Tells the user.
+    /// Prints the failure to stderr and gives the exit code.
     pub(crate) fn report(self) -> Exit {
         match self {
             Failure::Usage(message, help) => {
@@ -125,7 +124,7 @@ impl Failure {
     }
 }
 
-/// The help line that names the earlier results while new ones are not complete.
+/// The help line that names the earlier results, which are kept until the new ones are complete.
 pub(crate) fn still_kept(kept: &Path) -> String {
     format!("until then, the earlier results are in {}", kept.display())
 }
@@ -140,7 +139,7 @@ fn complain(message: &str, help: &[String]) {
     console::say(&shortened(&text));
 }
 
-/// Writing to stdout failed.
+/// A failed write to stdout.
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Failure {
         match error.kind() {

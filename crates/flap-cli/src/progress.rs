@@ -9,7 +9,7 @@ use crate::console;
 
 const TEMPLATE: &str = "{wide_bar} {human_pos} of {human_len} points, {rate}, {eta} left";
 
-/// Shows how far a sweep is.
+/// The progress bar of a sweep.
 pub(crate) struct Bar {
     drawn: ProgressBar,
     moved: bool,
@@ -17,7 +17,7 @@ pub(crate) struct Bar {
 }
 
 impl Bar {
-    /// Hidden unless stderr is a terminal.
+    /// A bar that is hidden unless stderr is a terminal.
     pub(crate) fn new() -> Bar {
         let style = ProgressStyle::with_template(TEMPLATE)
             .unwrap_or_else(|_| ProgressStyle::default_bar())
@@ -26,12 +26,12 @@ impl Bar {
         Bar { drawn, moved: false, stopping: false }
     }
 
-    /// Moves the bar, and says once that the sweep is stopping.
+    /// Moves the bar. When the sweep begins to stop, prints that once.
     pub(crate) fn show(&mut self, progress: Progress, stopping: bool) {
         self.drawn.set_length(progress.points);
         self.drawn.set_position(progress.finished);
         if !self.moved {
-            // Points of earlier sessions took no time now.
+            // Points of earlier sessions took no time in this one.
             self.moved = true;
             self.drawn.reset_eta();
         }
@@ -43,13 +43,13 @@ impl Bar {
         }
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub(crate) fn clear(&self) {
         self.drawn.finish_and_clear();
     }
 }
 
 fn write_rate(state: &ProgressState, text: &mut dyn Write) {
-    // There is nothing to do about text that cannot be written into memory.
+    // A write into memory does not fail.
     let _ = write!(text, "{:.0} points/s", state.per_sec());
 }

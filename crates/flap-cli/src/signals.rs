@@ -1,4 +1,4 @@
-//! Signals that ask a sweep to end.
+//! Signals that end a sweep.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -10,16 +10,16 @@ use crate::failure::Exit;
 
 /// A flag that the first SIGINT or SIGTERM raises; the second ends the process at once.
 ///
-/// A signal that the parent lets the process ignore stays ignored: shells start jobs in the background so, lest Ctrl-C at the
-/// terminal end them.
+/// A signal that the process ignores from its start stays ignored: shells start background jobs so, to protect them from
+/// Ctrl-C at the terminal.
 pub(crate) fn stop() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
         if is_ignored(signal) {
             continue;
         }
-        // Order matters: the flag is still down when the first signal asks whether to exit. If signals
-        // cannot be caught they end the program at once, and what was written so far is in order.
+        // The order matters: at the first signal, the flag is still down when the shutdown checks it. If signals
+        // cannot be caught, they end the program at once; the rows written so far are complete.
         let _ = flag::register_conditional_shutdown(signal, Exit::Interrupted as i32, Arc::clone(&stop));
         let _ = flag::register(signal, Arc::clone(&stop));
     }
@@ -27,7 +27,7 @@ pub(crate) fn stop() -> Arc<AtomicBool> {
 }
 
 #[cfg(unix)]
-#[expect(unsafe_code, reason = "there is no other way to ask")]
+#[expect(unsafe_code, reason = "the standard library cannot query a signal")]
 fn is_ignored(signal: i32) -> bool {
     // SAFETY: a `sigaction` is integers and pointers, for which zeros are valid. The call only writes to it.
     unsafe {

@@ -2,12 +2,12 @@
 
 use flap_sweep::notation::text;
 
-/// The number to six digits, for cells that are to be read.
+/// The number with six digits, for people to read.
 pub(crate) fn six_digits(number: f64) -> String {
     format!("{number:.5e}").parse().map_or_else(|_| String::new(), text::float)
 }
 
-/// Rows of cells, aligned on the left; a row with fewer cells than others ends early.
+/// Rows of cells, aligned on the left. A row may have fewer cells than others.
 #[derive(Default)]
 pub(crate) struct Table {
     rows: Vec<Vec<String>>,

@@ -1,4 +1,4 @@
-//! `flap check`: what a grid file would run.
+//! `flap check`: the sweep that a grid file describes.
 
 mod estimate;
 
@@ -81,7 +81,7 @@ fn axes(plan: &Plan) -> String {
     table.text()
 }
 
-/// One line per parameter that does not have the preset's value; nothing if all have.
+/// One line per parameter with another value than the preset; empty if there is none.
 fn deviations(plan: &Plan) -> String {
     let deviations = deviation::of(plan);
     if deviations.is_empty() {
@@ -95,7 +95,7 @@ fn deviations(plan: &Plan) -> String {
     "\n".to_owned() + &table.text()
 }
 
-/// The first and the last value of an axis, or what stands for them in a sample.
+/// The first and the last value of an axis, or the distribution of a sample.
 fn span(parameter: &Parameter, values: &Values) -> [String; 2] {
     let show = |value| text::value(parameter, value);
     let Values::Sampled { distribution, .. } = values else {
@@ -121,7 +121,7 @@ fn span(parameter: &Parameter, values: &Values) -> [String; 2] {
     }
 }
 
-/// How the points of a sample are spread, if there is one.
+/// Method and seed of each sample, and the file of the points.
 fn samples(plan: &Plan) -> String {
     let mut text = String::new();
     for (number, axis) in plan.axes.iter().enumerate() {
@@ -140,10 +140,10 @@ fn samples(plan: &Plan) -> String {
     text
 }
 
-/// Points that are looked at one by one to count what conditions exclude.
+/// Most points that are checked one by one to count the excluded ones.
 const MOST_COUNTED: u64 = 1_000_000;
 
-/// What the conditions exclude, and about how many points are left.
+/// A line about excluded points, and the approximate number of the others.
 fn excluded(plan: &Plan) -> (String, u64) {
     if plan.conditions.is_empty() {
         return (String::new(), plan.len());
@@ -160,7 +160,7 @@ fn excluded(plan: &Plan) -> (String, u64) {
     (format!("\nof {looked_at} points spread over the grid, which has too many to count, {line}\n"), runs)
 }
 
-/// The varied and derived parameters of the first and the last point, and why one of them is not run.
+/// The varied and derived parameters of the first and the last point, and whether each is run.
 fn ends(plan: &Plan) -> String {
     let mut text = String::new();
     for (which, index) in [("first", 0), ("last", plan.len() - 1)] {
@@ -183,7 +183,7 @@ fn assignment(parameter: &Parameter, index: usize, point: &Point) -> String {
     text.trim_end().to_owned()
 }
 
-/// Where the drive frequency of each point is looked for.
+/// The search range of the drive frequency.
 fn at_resonance(range: &Range) -> String {
     let Range { of, from, to, tolerance } = range;
     let from =

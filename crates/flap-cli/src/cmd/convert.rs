@@ -44,7 +44,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Notes in the sidecar what has been written.
+/// Records the written rows in the sidecar.
 fn note(sidecar: &mut Sidecar, written: Converted, is_damaged: bool) {
     if is_damaged {
         // Damaged rows stay damaged in another format: their checksums are those of the rows that were computed.

@@ -1,6 +1,6 @@
-//! Points that conditions exclude, in words.
+//! Excluded points in words.
 
-/// How many points are excluded, and how many do not satisfy each condition.
+/// The number of excluded points, and for each condition the number of points that do not satisfy it.
 pub(crate) fn text(excluded: u64, unsatisfied: &[(String, u64)]) -> String {
     let points = if excluded == 1 { "1 point is".to_owned() } else { format!("{excluded} points are") };
     let each: Vec<String> = unsatisfied.iter().map(|(name, count)| format!("{name} {count}")).collect();

@@ -13,10 +13,10 @@ use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::table::{Table, six_digits};
 
-/// The impulse if the command line does not say (rad).
+/// The default impulse (rad).
 const IMPULSE: f64 = core::f64::consts::PI / 9.0;
 
-/// Periods of the first mode that are followed if the command line does not say.
+/// Default duration, in periods of the first mode.
 const CYCLES: f64 = 10.0;
 
 pub(crate) fn run(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
@@ -62,8 +62,7 @@ pub(crate) fn run(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
             write_csv(&motion, io::stdout().lock())?;
         }
         Some(path) => {
-            write_file(&motion, path, args.force)?;
-            console::say(&format!("{} samples in {}", motion.rows.len(), path.display()));
+            write_file(&motion, path, args.force, "samples")?;
             console::results(&page)?;
         }
         None => console::results(&page)?,

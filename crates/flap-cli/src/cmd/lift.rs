@@ -1,4 +1,4 @@
-//! `flap lift`: forces along a motion that is given.
+//! `flap lift`: forces on a wing with a given motion.
 
 use std::io;
 
@@ -33,17 +33,14 @@ pub(crate) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
             write_csv(&forces, io::stdout().lock())?;
             return Ok(Exit::Done);
         }
-        Some(path) => {
-            write_file(&forces, path, args.force)?;
-            console::say(&format!("{} samples in {}", forces.rows.len(), path.display()));
-        }
+        Some(path) => write_file(&forces, path, args.force, "samples")?,
         None => {}
     }
     console::results(&summary(&forces))?;
     Ok(Exit::Done)
 }
 
-/// Takes out what a given motion says nothing about.
+/// Removes the columns that a given motion does not determine.
 fn drop_unknown(forces: &mut Trajectory) {
     let known: Vec<bool> =
         (0..forces.columns.len()).map(|i| forces.rows.iter().any(|row| !row[i].is_nan())).collect();

@@ -1,4 +1,4 @@
-//! `flap merge`: the shards of a sweep into the file that one machine would have written.
+//! `flap merge`: the shards of a sweep joined into one file.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! One module per command, and what they share.
+//! Commands, one module each, and the code that they share.
 
 pub(crate) mod check;
 pub(crate) mod convert;

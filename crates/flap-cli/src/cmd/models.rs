@@ -1,4 +1,4 @@
-//! `flap models`: what there is to run.
+//! `flap models`: the models and their presets.
 
 use flap_core::simulate;
 

@@ -8,15 +8,26 @@ use flap_sweep::files::csv_sink;
 use flap_sweep::notation::text;
 
 use crate::failure::Failure;
-use crate::job;
+use crate::{console, job};
 
-/// Writes to a CSV file, which must not exist unless it may be overwritten: all of it, or nothing.
-pub(crate) fn write_file(motion: &Trajectory, path: &Path, overwrite: bool) -> Result<(), Failure> {
+/// Writes a CSV file, all of it or nothing, and says how many rows it has, such as 400 `samples`.
+///
+/// # Errors
+///
+/// `Usage` if the file exists and `overwrite` is false, `System` if it cannot be written.
+pub(crate) fn write_file(
+    motion: &Trajectory,
+    path: &Path,
+    overwrite: bool,
+    rows: &str,
+) -> Result<(), Failure> {
     let written = job::make(path, overwrite, |file| write_csv(motion, file))?;
-    written.map_err(|error: io::Error| Failure::cannot_write(path, &error))
+    written.map_err(|error: io::Error| Failure::cannot_write(path, &error))?;
+    console::say(&format!("{} {rows} in {}", motion.rows.len(), path.display()));
+    Ok(())
 }
 
-/// Writes one line per row.
+/// Writes a CSV table with one line per row.
 pub(crate) fn write_csv(motion: &Trajectory, target: impl Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(target);
     writer.write_record(&motion.columns).map_err(csv_sink::cause)?;

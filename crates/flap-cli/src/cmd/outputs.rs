@@ -1,4 +1,4 @@
-//! The files that a command writes: none is one that it reads, no two are one.
+//! Output files of a command: each differs from its inputs and from its other outputs.
 
 use std::path::Path;
 
@@ -7,12 +7,16 @@ use flap_sweep::files::results::Format;
 
 use crate::failure::Failure;
 
-/// Whether the name stands for stdout.
+/// True for `-`, the name of stdout.
 pub(crate) fn is_stdout(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// Checks tables that are to be written as CSV, as [`check`] does, and their endings.
+/// Checks the names of CSV tables as [`check`] does, and their endings.
+///
+/// # Errors
+///
+/// `Usage` if a name has the ending of another format, and those of [`check`].
 pub(crate) fn check_tables<'p>(
     inputs: &Inputs,
     outputs: impl IntoIterator<Item = Option<&'p Path>>,
@@ -24,7 +28,11 @@ pub(crate) fn check_tables<'p>(
     check(inputs, outputs)
 }
 
-/// Checks files that are to be written, before anything is computed.
+/// Checks the names of output files before anything is computed.
+///
+/// # Errors
+///
+/// `Usage` if an output is an input or two outputs are the same file.
 pub(crate) fn check<'p>(
     inputs: &Inputs,
     outputs: impl IntoIterator<Item = Option<&'p Path>>,

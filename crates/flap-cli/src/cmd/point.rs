@@ -1,4 +1,4 @@
-//! Which design point a command is about: a preset or a point of a grid file, with parameters set on top.
+//! The design point of a command: a preset or a point of a grid file, with parameters set on top.
 
 use std::path::Path;
 
@@ -15,12 +15,12 @@ use crate::args::{PointArgs, SolverArgs};
 use crate::console;
 use crate::failure::Failure;
 
-/// A design point, and the plan it comes from.
+/// A design point and its plan.
 pub(crate) struct Chosen {
     pub(crate) plan: Plan,
     /// One value per parameter.
     pub(crate) values: Vec<f64>,
-    /// The model with a waveform or stroke from a file, if there is one.
+    /// The model with a waveform or stroke from a file, if the command line names one.
     pub(crate) sampled: Option<Box<dyn Simulator>>,
     index: u64,
 }
@@ -57,7 +57,7 @@ impl Chosen {
         Ok(chosen)
     }
 
-    /// Gives a drive frequency that is to be the resonance its value.
+    /// Searches the resonance if the drive frequency is to be at it.
     fn find_resonance(&mut self) -> Result<(), Failure> {
         let Some(resonance) = &self.plan.resonance else { return Ok(()) };
         let index = find_parameter(self.plan.parameters(), DRIVE_FREQUENCY)?;
@@ -82,7 +82,7 @@ impl Chosen {
         self.sampled.as_deref().unwrap_or(self.plan.simulator)
     }
 
-    /// Sets a parameter if the model has it, and says whether it has.
+    /// Sets a parameter. False if the model has no such parameter.
     pub(crate) fn put(&mut self, name: &str, value: f64) -> bool {
         let index = self.plan.parameters().iter().position(|parameter| parameter.name == name);
         if let Some(index) = index {

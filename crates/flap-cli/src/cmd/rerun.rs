@@ -1,4 +1,4 @@
-//! `flap rerun`: points of earlier results again, with other solver settings.
+//! `flap rerun`: points of earlier results, run again with other solver settings.
 
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::rerun::{self, Wanted};

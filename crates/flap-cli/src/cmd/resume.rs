@@ -14,7 +14,7 @@ pub(crate) fn run(args: &ResumeArgs) -> Result<Exit, Failure> {
     let on_damage = args.read.on_damage();
     let (plan, sidecar) = job::recorded(&args.results, on_damage)?;
     if on_damage == OnDamage::Tolerate && sidecar.state == State::Complete {
-        // Nothing is left to run, whatever the rows have become.
+        // Nothing is left to run, even if rows are damaged.
         job::open(&args.results, &args.read)?;
         console::say(&format!("{} is complete: nothing is left to run", args.results.display()));
         return Ok(Exit::Done);

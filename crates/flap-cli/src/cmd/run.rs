@@ -1,4 +1,4 @@
-//! `flap run`: one point, on the scalar path.
+//! `flap run`: one design point.
 
 use std::fmt::Write as _;
 use std::io;
@@ -36,7 +36,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     }
 }
 
-/// Refuses options of another drive than the one that is run.
+/// Refuses options of another drive.
 fn refuse_strays(args: &RunArgs) -> Result<(), Failure> {
     let stray =
         |option: &str, drive: &str| Err(Failure::usage(format!("{option} goes with --drive {drive}")));
@@ -70,8 +70,7 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
             write_csv(&motion, io::stdout().lock())?;
             return Ok(Exit::Done);
         }
-        write_file(&motion, path, args.force)?;
-        console::say(&format!("{} samples in {}", motion.rows.len(), path.display()));
+        write_file(&motion, path, args.force, "samples")?;
         if args.once {
             return Ok(Exit::Done);
         }
@@ -86,7 +85,7 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// The most samples of one trajectory: they are held in memory.
+/// Most samples of one trajectory: they are held in memory.
 const SAMPLES_MAX: u64 = 5_000_000;
 
 fn check_length(args: &RunArgs) -> Result<(), Failure> {
@@ -98,7 +97,7 @@ fn check_length(args: &RunArgs) -> Result<(), Failure> {
     Err(Failure::usage(message))
 }
 
-/// Frequency at which a chirp begins if the command line does not say (Hz).
+/// The default frequency at which a chirp begins (Hz).
 const CHIRP_FROM: f64 = 1.0;
 
 /// The default rate of a chirp's frequency (Hz/s).
@@ -118,14 +117,10 @@ fn chirp(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
     };
     let response = plan.simulator.chirp(InstructionSet::best(), &plan.solver, values, &request, &never)?;
     if let Some(path) = &args.trajectory {
-        write_file(&response.motion, path, args.force)?;
-        console::say(&format!("{} samples in {}", response.motion.rows.len(), path.display()));
+        write_file(&response.motion, path, args.force, "samples")?;
     }
     match &args.envelope {
-        Some(path) => {
-            write_file(&response.envelope, path, args.force)?;
-            console::say(&format!("{} cycles in {}", response.envelope.rows.len(), path.display()));
-        }
+        Some(path) => write_file(&response.envelope, path, args.force, "cycles")?,
         None => write_csv(&response.envelope, io::stdout().lock())?,
     }
     Ok(Exit::Done)

@@ -9,7 +9,7 @@ use super::point::Chosen;
 use crate::args::RunArgs;
 use crate::failure::Failure;
 
-/// Puts the waveform or the stroke of a file into the point, if the command line names one.
+/// Reads the waveform or the stroke that the command line names, if any, and gives it to the point.
 pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> {
     let repeat = if args.once { Repeat::Once } else { Repeat::Periodic };
     let (path, wave) = match (&args.waveform, &args.stroke) {

@@ -39,7 +39,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
     job::run(&plan, out, begin, &args.work, origin)
 }
 
-/// The plan, and where its points come from if it is that of a rerun.
+/// The plan, and the origin of its points if it is the plan of a rerun.
 fn plan(args: &SweepArgs) -> Result<(Plan, Option<Origin>), Failure> {
     if let Some(path) = &args.from_sidecar {
         let sidecar = Sidecar::read(path)?;
@@ -49,7 +49,7 @@ fn plan(args: &SweepArgs) -> Result<(Plan, Option<Origin>), Failure> {
     Ok((grid::read(grid)?, None))
 }
 
-/// Where rows go if the command line does not say.
+/// The file of the rows by default.
 fn default_path(plan: &Plan, grid: Option<&Path>) -> PathBuf {
     let named_after_grid = || {
         let mut name = grid.and_then(Path::file_stem).unwrap_or_default().to_owned();

@@ -1,4 +1,4 @@
-//! `flap verify`: whether results are as they were written.
+//! `flap verify`: results compared with their recorded checksums.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Exit, Failure> {
     Ok(worst)
 }
 
-/// The message on a file, and the exit code if no other file is worse.
+/// The line about a file, and its exit code.
 fn verdict(results: &Path) -> (String, Exit) {
     let name = results.display();
     match integrity::verify(results) {

@@ -1,4 +1,4 @@
-//! How long a sweep would take, judged by a few of its points.
+//! The estimated time of a sweep, from a run of a few of its points.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, mpsc};
@@ -11,28 +11,28 @@ use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::run::RunOptions;
 use flap_sweep::study::survey::spread;
 
-/// Points that are run at most.
+/// Most points that are run.
 const MOST: u64 = 32;
 
-/// No point is begun after this time.
+/// The time after which no point is started.
 const LONGEST_BEGIN: Duration = Duration::from_secs(1);
 
-/// Points that have not ended after this time are no longer waited for.
+/// The time after which the estimate no longer waits for running points.
 const LONGEST: Duration = Duration::from_secs(2);
 
-/// Points that are looked at at most, to find some that are not excluded.
+/// Most points that are checked to find some that are not excluded.
 const MOST_LOOKED_AT: u64 = 100_000;
 
 /// The estimates of a sweep from a few of its points.
 #[derive(Default)]
 pub(super) struct Estimate {
-    /// That every point looked at is invalid, and why the first one is.
+    /// A message if every checked point is invalid, with the reason of the first one.
     pub(super) invalid: Option<String>,
-    /// One line: how long the sweep would take. `None` if there is no point to judge by.
+    /// One line with the estimated time. `None` if no point was run.
     pub(super) time: Option<String>,
 }
 
-/// Runs a few points of `plan` to judge a sweep of `points` points.
+/// Runs a few points of `plan` to estimate a sweep of `points` points.
 pub(super) fn of(plan: &Arc<Plan>, points: u64) -> Estimate {
     let started = Instant::now();
     let begun = Arc::new(AtomicU64::new(0));
@@ -46,11 +46,11 @@ pub(super) fn of(plan: &Arc<Plan>, points: u64) -> Estimate {
         invalid: 0,
         first_reason: None,
     };
-    // A point that takes for ever cannot be stopped: its thread ends with the program.
+    // A point cannot be stopped: if it never ends, its thread ends with the program.
     thread::spawn(move || {
         let plan = Arc::clone(&trial.plan);
         plan.rows().run(InstructionSet::best(), &plan.solver, &mut trial);
-        // Nobody may be waiting any more.
+        // The receiver may have stopped waiting.
         let _ = send.send(trial);
     });
     let found = ended.recv_timeout(LONGEST);
@@ -76,21 +76,21 @@ pub(super) fn of(plan: &Arc<Plan>, points: u64) -> Estimate {
     Estimate { invalid: None, time: Some(time) }
 }
 
-/// Points of a plan, spread over it, until there are enough or it has taken long enough.
+/// Points spread over a plan, until there are enough or the time is over.
 struct Trial {
     plan: Arc<Plan>,
     started: Instant,
     looked_at: u64,
     begun: Arc<AtomicU64>,
-    /// Points that are not invalid.
+    /// Number of valid points.
     valid: u64,
-    /// Points that are, and why the first one is.
+    /// Number of invalid points; index and reason of the first one follow.
     invalid: u64,
     first_reason: Option<(u64, String)>,
 }
 
 impl Trial {
-    /// Counts the invalid point that was number `number` to be looked at.
+    /// Counts an invalid point, the checked point number `number`.
     fn note_invalid(&mut self, number: u64, reason: String) {
         self.invalid += 1;
         let index = spread(number, self.plan.len());
@@ -105,7 +105,7 @@ impl Jobs for Trial {
             && self.started.elapsed() < LONGEST_BEGIN
         {
             let mut point = self.plan.point(spread(self.looked_at, self.plan.len()));
-            // A small grid may come up with a point twice: each run has a number of its own.
+            // A small grid may give a point twice: each run has its own number.
             point.index = self.looked_at;
             self.looked_at += 1;
             match self.plan.judge(&point.values) {
@@ -129,7 +129,7 @@ impl Jobs for Trial {
     }
 }
 
-/// A time as one would say it.
+/// A time in words.
 fn words(seconds: f64) -> String {
     const UNITS: [(f64, &str); 5] =
         [(31_557_600.0, "years"), (86_400.0, "days"), (3600.0, "hours"), (60.0, "minutes"), (1.0, "seconds")];
