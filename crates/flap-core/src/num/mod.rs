@@ -13,8 +13,8 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx512;
+mod backend;
 pub mod functions;
-mod instruction_set;
 mod lanes;
 mod pair;
 mod per_lane;
@@ -23,7 +23,7 @@ mod register;
 mod simd;
 mod unfused;
 
-pub use instruction_set::{Arithmetic, InstructionSet, Kernel};
+pub use backend::{Arithmetic, Backend, InstructionSet, Kernel, ScalarKernel};
 pub use lanes::{Lanes, Scalar};
 pub use per_lane::PerLane;
 pub use real::Real;
