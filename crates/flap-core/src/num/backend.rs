@@ -158,26 +158,6 @@ impl Backend {
     }
 }
 
-impl Scalar for f64 {
-    /// Enables the fused multiply-add instruction, where `mul_add` would otherwise be a call into the C library
-    /// (which gives the same bits).
-    #[inline(always)]
-    fn enter<T>(work: impl FnOnce() -> T) -> T {
-        #[cfg(target_arch = "x86_64")]
-        if let Some(simd) = Level::new().as_avx2() {
-            return Simd::vectorize(simd, work);
-        }
-        work()
-    }
-}
-
-impl Scalar for Unfused {
-    #[inline(always)]
-    fn enter<T>(work: impl FnOnce() -> T) -> T {
-        work()
-    }
-}
-
 /// Calls `kernel` from a function in which the instructions of `S` are enabled.
 #[inline(always)]
 fn enter<S: Simd, K: Kernel>(simd: S, kernel: K) -> K::Output {

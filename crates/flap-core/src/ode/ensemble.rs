@@ -328,7 +328,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
 
         let proposal = h * verdict.factor;
         // A step cut short by its target says little about the next one.
-        let h_next = R::select(R::and(verdict.accepted, landing), proposal.max(self.h), proposal);
+        let h_next = R::select(verdict.accepted & landing, proposal.max(self.h), proposal);
         let mut crossing =
             Crossing { accepted: verdict.accepted, h: h_next, arrived: R::mask(self.token, 0) };
         if O::SWITCHES {
@@ -344,7 +344,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Bank<R, O, V, 
         if O::SWITCHES && R::bits(crossing.arrived) != 0 {
             self.change_sides(ode, crossing.arrived);
         }
-        let landed = R::bits(R::and(accepted, landing)) & !R::bits(target.lt(self.span));
+        let landed = R::bits(accepted & landing) & !R::bits(target.lt(self.span));
 
         let limit = self.t.lit(f64::from(self.tolerances.max_steps) - 0.5);
         let exhausted = R::bits(limit.lt(self.steps_in_span));
