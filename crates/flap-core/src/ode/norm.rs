@@ -1,4 +1,4 @@
-//! How large an error is, measured against the tolerances.
+//! The size of an error, relative to the tolerances.
 
 use crate::num::Lanes;
 
