@@ -185,7 +185,7 @@ impl Lanes for F64x8 {
 
     #[inline(always)]
     fn apart<T>(self, work: impl FnOnce() -> T) -> T {
-        // A value is proof enough, by what is said at `intrinsic`.
+        // A value is proof enough, see `intrinsic`.
         Avx512(()).vectorize(work)
     }
 

@@ -1,4 +1,4 @@
-//! The backend: what a machine computes with, and the one place that chooses between instructions and arithmetics.
+//! The backend of computations, and the one place that chooses between instructions and arithmetics.
 
 use core::fmt;
 
