@@ -7,7 +7,7 @@
 //! their ends differ as little: otherwise a period's end would jitter by the integration error, and a tight tolerance on
 //! periodic motion would not be met.
 
-use crate::num::Lanes;
+use crate::num::Float;
 use crate::num::functions::{rough_exp2, rough_log2, round};
 
 const SAFETY_LOG2: f64 = -0.152_003_093_445_049_97; // log2 0.9
@@ -30,7 +30,7 @@ pub struct Memory<R> {
     pub level_max: R,
 }
 
-impl<R: Lanes> Memory<R> {
+impl<R: Float> Memory<R> {
     /// The memory of a run that has made no step.
     #[inline(always)]
     pub fn new(like: R) -> Memory<R> {
@@ -40,7 +40,7 @@ impl<R: Lanes> Memory<R> {
 
 /// A decision of the controller.
 #[derive(Clone, Copy)]
-pub struct Verdict<R: Lanes> {
+pub struct Verdict<R: Float> {
     /// The step is accepted.
     pub accepted: R::Mask,
     /// The factor on the step size.
@@ -49,7 +49,7 @@ pub struct Verdict<R: Lanes> {
 
 /// Judges a step by its squared error (see [`super::norm`]) and updates the memory. NaN is rejected.
 #[inline(always)]
-pub fn judge<R: Lanes>(error_squared: R, memory: &mut Memory<R>) -> Verdict<R> {
+pub fn judge<R: Float>(error_squared: R, memory: &mut Memory<R>) -> Verdict<R> {
     let accepted = error_squared.lt(error_squared.lit(1.0));
     // Finite for any error, NaN included: the factor is then the smallest.
     let log2_error = rough_log2(error_squared);

@@ -7,7 +7,7 @@
 
 use super::step::Step;
 use super::{Ode, STRETCH, input, slope};
-use crate::num::Lanes;
+use crate::num::{Lanes, Real};
 
 /// A crossing counts as reached when it is less than this fraction of an ordinary step away. The cubic errs by
 /// far less: this only catches crossings that it could not find.
@@ -104,7 +104,7 @@ pub fn landing_stretch<R: Lanes>(switching: &Switching<R>) -> R {
 
 /// The zero in [0, 1] of the cubic with values `g0`, `g1` of opposite sign and slopes `d0`, `d1` at 0 and 1.
 #[inline(always)]
-fn hermite_root<R: Lanes>(g0: R, d0: R, g1: R, d1: R) -> R {
+fn hermite_root<R: Real>(g0: R, d0: R, g1: R, d1: R) -> R {
     // g0 + d0 θ + b θ² + a θ³
     let a = (g0 - g1) * 2.0 + d0 + d1;
     let b = (g1 - g0) * 3.0 - d0 * 2.0 - d1;
