@@ -4,6 +4,7 @@
 //! the exponential is a Taylor polynomial on |r| ≤ ½ ln 2.
 
 use super::float::{Float, ROUND};
+use super::number::Number;
 
 /// π in three parts. The first two have 33 significant bits, so their products with whole numbers
 /// up to 2^20 are exact.
@@ -166,7 +167,7 @@ pub fn ln_1p<R: Float>(x: R) -> R {
 
 /// The nearest whole number, the even one of two, for |x| up to 2^51.
 #[inline(always)]
-pub fn round<R: Float>(x: R) -> R {
+pub fn round<R: Number>(x: R) -> R {
     (x + ROUND) - ROUND
 }
 
