@@ -137,7 +137,7 @@ impl Observer<Wing, 4> for Measured {
 fn peak<R: Lanes>(attempt: &Attempt<'_, R, 4>, accepted: R::Mask, state: usize, rate: usize, so_far: R) -> R {
     let Attempt { h, step, .. } = *attempt;
     let (begin, end) = (step.y[0][rate], step.y[6][rate]);
-    let turns = R::and(accepted, (begin * end).lt(h.lit(0.0)));
+    let turns = accepted & (begin * end).lt(h.lit(0.0));
     if R::bits(turns) == 0 {
         return so_far;
     }

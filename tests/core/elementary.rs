@@ -1,6 +1,7 @@
 //! Elementary functions against the C library's, and lanes against scalars.
 
-use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, Real, Simd, Unfused, Vector};
+use flap_core::num::functions::{rough_exp2, rough_log2, round};
+use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, Number, Real, Simd, Unfused, Vector};
 
 /// Arguments that cover quadrants, signs, exponents and both sides of rounding boundaries.
 fn arguments(from: f64, to: f64) -> Vec<f64> {
@@ -56,6 +57,51 @@ fn exponential_less_one_and_logarithm_of_one_more_are_accurate_near_zero() {
     assert_eq!((Real::exp_m1(0.0_f64), Real::ln_1p(0.0_f64)), (0.0, 0.0));
     let large = [1e3, 1e15, 1e17, 1e300];
     assert!(large.iter().all(|&x| (Real::ln_1p(x) / f64::ln_1p(x) - 1.0).abs() < 4e-16));
+}
+
+/// Largest of the values, which are numbers.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.inspect(|value| assert!(value.is_finite())).fold(0.0, f64::max)
+}
+
+/// The step-size controller's errors have any magnitude.
+#[test]
+fn rough_logarithm_is_as_accurate_as_documented() {
+    let mantissas = arguments(1.0, 2.0);
+    let numbers = (-1022..=1022).flat_map(|k| mantissas.iter().step_by(97).map(move |m| m * 2.0_f64.powi(k)));
+    let error = |x: f64| {
+        let [fused, unfused] = [rough_log2(x), rough_log2(Unfused(x)).0];
+        (fused - libm::log2(x)).abs().max((unfused - libm::log2(x)).abs())
+    };
+    let worst = largest(numbers.chain(mantissas.iter().copied()).map(error));
+    assert!((8.7e-4..8.8e-4).contains(&worst), "{worst}");
+    for k in -1022..=1023 {
+        let x = 2.0_f64.powi(k);
+        assert_eq!([rough_log2(x), rough_log2(Unfused(x)).0], [f64::from(k); 2], "2^{k}");
+    }
+    assert_eq!(rough_log2(0.0), -1023.0);
+    assert!([f64::NAN, f64::INFINITY].iter().all(|&x| (1024.0..=1025.0).contains(&rough_log2(x))));
+}
+
+#[test]
+fn rough_power_of_two_is_as_accurate_as_documented() {
+    let error = |x: f64| {
+        let [fused, unfused] = [rough_exp2(x), rough_exp2(Unfused(x)).0];
+        (fused / libm::exp2(x) - 1.0).abs().max((unfused / libm::exp2(x) - 1.0).abs())
+    };
+    let worst = largest(arguments(-700.0, 700.0).into_iter().chain(arguments(-3.0, 4.0)).map(error));
+    assert!((1.47e-4..1.48e-4).contains(&worst), "{worst}");
+    for k in -700..=700 {
+        let x = f64::from(k);
+        assert_eq!([rough_exp2(x), rough_exp2(Unfused(x)).0], [2.0_f64.powi(k); 2], "2^{k}");
+    }
+}
+
+#[test]
+fn rounding_is_to_the_nearest_whole_number_and_to_the_even_one_of_two() {
+    for x in arguments(-20.5, 20.5).into_iter().chain([0.5, 1.5, -2.5, 1e15, -1e15]) {
+        assert_eq!(round(x), x.round_ties_even(), "{x}");
+    }
 }
 
 /// The step-size controller relies on it: an error that is not a number must look large.
@@ -138,7 +184,9 @@ impl Kernel for Masks {
             let mask = Vector::<S>::mask(simd, bits);
             assert_eq!(Vector::<S>::bits(mask), bits);
             let even = Vector::<S>::mask(simd, 0x5555 & all);
-            assert_eq!(Vector::<S>::bits(Vector::<S>::and(mask, even)), bits & 0x5555);
+            assert_eq!(Vector::<S>::bits(mask & even), bits & 0x5555);
+            assert_eq!(Vector::<S>::bits(mask | even), bits | (0x5555 & all));
+            assert_eq!(Vector::<S>::bits(!mask), !bits & all);
             let [yes, no] = [1.0, 2.0].map(|c| Vector::<S>::splat(simd, c));
             let chosen = Vector::<S>::select(mask, yes, no);
             for lane in 0..lanes {
@@ -157,9 +205,9 @@ fn masks_hold_one_bit_per_lane() {
 
 #[test]
 fn comparisons_with_nan_are_false() {
-    assert!(!Real::lt(f64::NAN, 1.0) && !Real::lt(1.0, f64::NAN));
-    assert_eq!(Real::min(f64::NAN, 1.0), 1.0);
-    assert_eq!(Real::max(f64::NAN, 1.0), 1.0);
+    assert!(!Number::lt(f64::NAN, 1.0) && !Number::lt(1.0, f64::NAN));
+    assert_eq!(Number::min(f64::NAN, 1.0), 1.0);
+    assert_eq!(Number::max(f64::NAN, 1.0), 1.0);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! A signal between the ends of a step, from its values at five places.
 
-use crate::num::Lanes;
+use crate::num::Real;
 
 /// A signal within a step or a part of it: its values at five equal distances, and the polynomial of fourth degree through them.
 pub(super) struct Course<R> {
@@ -9,7 +9,7 @@ pub(super) struct Course<R> {
     polynomial: [R; 4],
 }
 
-impl<R: Lanes> Course<R> {
+impl<R: Real> Course<R> {
     #[inline(always)]
     pub(super) fn through(values: [R; 5]) -> Course<R> {
         let [f0, f1, f2, f3, f4] = values;
@@ -74,7 +74,7 @@ struct Parabola<R> {
     bend: R,
 }
 
-impl<R: Lanes> Parabola<R> {
+impl<R: Real> Parabola<R> {
     #[inline(always)]
     fn through(centre: f64, begin: R, middle: R, end: R) -> Parabola<R> {
         Parabola { centre, begin, middle, end, slope: (end - begin) * 0.5, bend: begin + end - middle * 2.0 }

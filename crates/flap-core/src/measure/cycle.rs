@@ -10,12 +10,12 @@ use crate::model::{Measure, Model, Signal, SignalCycle};
 use crate::num::Lanes;
 use crate::ode::dense::interpolate;
 use crate::ode::ensemble::Observer;
-use crate::ode::slope;
 use crate::ode::step::Attempt;
 use crate::ode::tableau::{B, C};
+use crate::ode::{input, slope};
 
 crate::per_lane! {
-    /// What has been summed up of one signal so far.
+    /// Sums over one signal so far.
     pub struct Totals<R> {
         /// ∫ s dt.
         pub integral: R,
@@ -37,8 +37,8 @@ crate::per_lane! {
 /// Sums up the S signals of a model along a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Signals<const S: usize> {
-    /// Whether largest and smallest values and positive parts are looked for: they take most of the work. Without it they
-    /// are not numbers that mean anything.
+    /// True to look for largest and smallest values and positive parts, which takes most of the work. If false, they have
+    /// no meaning.
     pub extrema: bool,
 }
 
@@ -79,13 +79,18 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
         let zero = h.lit(0.0);
         let mut sums = *totals;
         let mut positive = [zero; S];
+        let mut begin = [zero; S];
 
         // Quadrature: B has no weight on stages 2 and 7.
         for stage in [0, 2, 3, 4, 5] {
             let at = h.mul_add(h.lit(C[stage]), t);
             let weight = h * B[stage];
             let (sin, cos) = model.drive_phase(c, at).sin_cos();
-            let values = signals(model, c, at, side, &step.y[stage], &step.k[stage]);
+            let u = input(model, c, at);
+            let values = signals(model, c, &u, side, &step.y[stage], &step.k[stage]);
+            if stage == 0 {
+                begin = values;
+            }
             for i in 0..S {
                 let part = values[i] * weight;
                 sums[i].integral = sums[i].integral + part;
@@ -97,7 +102,7 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
         }
 
         if self.extrema {
-            let courses = courses(model, c, attempt);
+            let courses = courses(model, c, attempt, begin);
             for i in 0..S {
                 sums[i].max = courses[i].max.max(sums[i].max);
                 sums[i].min = courses[i].min.min(sums[i].min);
@@ -133,16 +138,17 @@ struct Within<R> {
     positive_mean: R,
 }
 
-/// Ranges and positive parts of the signals within a step, found part by part; see [`Model::parts`].
+/// Ranges and positive parts of the signals within a step, found part by part (see [`Model::parts`]), given the signals
+/// at its beginning.
 #[inline(always)]
 fn courses<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
     model: &M,
     c: &M::Constants<R>,
     attempt: &Attempt<'_, R, N>,
+    mut begin: [R; S],
 ) -> [Within<R>; S] {
     let Attempt { t, h, side, step } = *attempt;
-    let last = signals(model, c, t + h, side, &step.y[6], &step.k[6]);
-    let mut begin = signals(model, c, t, side, &step.y[0], &step.k[0]);
+    let last = signals(model, c, &input(model, c, t + h), side, &step.y[6], &step.k[6]);
     let mut all = begin.map(|value| Within { max: value, min: value, positive_mean: value.lit(0.0) });
     let parts = model.parts();
     let share = 1.0 / f64::from(parts);
@@ -177,23 +183,24 @@ fn between<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
     let Attempt { t, h, side, step } = *attempt;
     let at = h.mul_add(h.lit(theta), t);
     let y = interpolate(step, h, h.lit(theta));
-    let dy = slope(model, c, &model.input(c, at), side, &y);
-    signals(model, c, at, side, &y, &dy)
+    let u = input(model, c, at);
+    let dy = slope(model, c, &u, side, &y);
+    signals(model, c, &u, side, &y, &dy)
 }
 
-/// The signals at time `t`. Called here for the sake of the compiler, see [`slope`].
+/// The signals for the inputs `u`. Called here for the sake of the compiler, see [`slope`].
 #[inline(always)]
 fn signals<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
     model: &M,
     c: &M::Constants<R>,
-    t: R,
+    u: &M::Input<R>,
     side: R,
     y: &[R; N],
     dy: &[R; N],
 ) -> [R; S] {
-    t.apart(
+    side.apart(
         #[inline(always)]
-        || model.signals(c, &model.input(c, t), side, y, dy),
+        || model.signals(c, u, side, y, dy),
     )
 }
 
@@ -204,7 +211,7 @@ fn needs_positive_part(signal: &Signal) -> bool {
 /// The cycle's measures from its totals, for a period of `period` seconds.
 pub fn finish<const S: usize>(totals: &[Totals<f64>; S], period: f64) -> [SignalCycle; S] {
     totals.map(|total| {
-        // What is unknown has no extremes and no positive part: maxima leave out what is not a number.
+        // An unknown signal has no extremes and no positive part: maxima leave out values that are not numbers.
         let known = |value: f64| if total.integral.is_nan() { f64::NAN } else { value };
         SignalCycle {
             mean: total.integral / period,

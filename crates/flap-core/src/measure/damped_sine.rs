@@ -6,7 +6,7 @@ use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::storage::Owned;
 use nalgebra::{DVector, Dyn, OMatrix, U4, Vector4};
 
-/// A damped sine A e^{−λt} sin(2πft + p), and how well it fits.
+/// A damped sine A e^{−λt} sin(2πft + p), and the quality of its fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DampedSine {
     /// Amplitude A at the first sample, positive, in the unit of the samples.
@@ -17,7 +17,7 @@ pub struct DampedSine {
     pub frequency: f64,
     /// Phase p at the first sample (rad), in (−π, π].
     pub phase: f64,
-    /// Root mean square of what the fit leaves over, relative to that of the samples.
+    /// Root mean square of the fit's residual, relative to that of the samples.
     pub relative_rms: f64,
 }
 
@@ -53,7 +53,7 @@ pub fn fit(interval: f64, samples: &[f64]) -> Option<DampedSine> {
     })
 }
 
-/// Where samples cross zero: what a fit begins with.
+/// Zero crossings of samples, from which a fit begins.
 struct Crossings {
     /// Mean distance between crossings, in samples.
     half_period: f64,
@@ -120,7 +120,7 @@ impl Problem {
         [envelope * sin, envelope * cos]
     }
 
-    /// What the fit leaves over, per sample.
+    /// The residual of the fit, per sample.
     fn left_over(&self) -> Vec<f64> {
         let [a, b] = [self.parameters[0], self.parameters[1]];
         let left = |(&time, &sample): (&f64, &f64)| {

@@ -1,9 +1,10 @@
-//! What is measured of a motion, whatever the model.
+//! Measurements of a motion, for any model.
 //!
 //! - [`cycle`]: signals over one drive period: means, extrema, first harmonics
 //! - [`size`]: the largest magnitude of each state
-//! - [`strobe`]: whether the state repeats from period to period
+//! - [`strobe`]: repetition of the state from period to period
 //! - [`damped_sine`], [`spectrum`]: frequencies of a motion that dies away
+//! - [`tracking`]: stroke and pitch from points in images
 
 mod course;
 pub mod cycle;

@@ -60,8 +60,8 @@ impl Spectrum {
 
     /// The highest peaks, at most `count`, the highest first, each refined by the parabola through the bins around it.
     ///
-    /// A window that cuts a motion short surrounds each peak with side lobes and ripples: only what stands out from the
-    /// ground towards each higher peak by more than these can is a peak.
+    /// A window that cuts a motion short surrounds each peak with side lobes and ripples. A top is a peak only if it stands
+    /// out from the ground towards each higher peak by more than these can.
     pub fn peaks(&self, count: usize) -> Vec<SpectrumPeak> {
         let largest = self.amplitudes.iter().fold(0.0_f64, |largest, amplitude| largest.max(*amplitude));
         let tops = self.amplitudes.windows(3).enumerate();
@@ -84,7 +84,8 @@ impl Spectrum {
         peaks.into_iter().map(|(_, peak)| peak).collect()
     }
 
-    /// How far a top stands above the lowest ground on the way to what is higher, in the direction of a higher peak.
+    /// The height of a top above the lowest ground between it and the next higher amplitude, in the direction of a higher
+    /// peak.
     fn height_towards(&self, top: usize, higher: usize) -> f64 {
         let height = self.amplitudes[top];
         let lowest = |ground: &mut dyn Iterator<Item = &f64>| {

@@ -18,7 +18,7 @@ pub struct Strobe<const N: usize> {
     tolerance: f64,
     /// The latest state first; then those 1, 2, … periods ago.
     states: [[f64; N]; LONGEST + 1],
-    /// For how many period ends in a row the state has been what it was 1, 2, … periods ago.
+    /// Numbers of period ends in a row at which the state equalled that of 1, 2, … periods ago.
     repeats: [u32; LONGEST],
     cycles: u32,
 }

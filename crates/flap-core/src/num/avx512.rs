@@ -13,12 +13,12 @@ use core::arch::x86_64::{
     _mm512_ternarylogic_epi64, _mm512_xor_si512,
 };
 use core::mem::transmute;
-use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::functions;
-use super::lanes::{EXPONENT_BITS, Lanes, MANTISSA_BITS, ONE_BITS, ROUND, TWO_52, TWO_52_BITS};
+use super::float::{EXPONENT_BITS, Float, MANTISSA_BITS, ONE_BITS, ROUND, TWO_52, TWO_52_BITS};
+use super::lanes::Lanes;
+use super::number::Number;
+use super::operators::{constants_on_the_right, operator};
 use super::pair::Pair;
-use super::real::Real;
 use super::simd::Simd;
 
 /// Proof that the processor has AVX-512 F, DQ, BW, VL and CD, and FMA.
@@ -97,71 +97,14 @@ impl F64x8 {
     }
 }
 
-impl Add for F64x8 {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, rhs: Self) -> Self {
-        F64x8(intrinsic!(_mm512_add_pd(self.0, rhs.0)))
-    }
-}
+operator!([] F64x8, Add::add, |a, b| F64x8(intrinsic!(_mm512_add_pd(a.0, b.0))));
+operator!([] F64x8, Sub::sub, |a, b| F64x8(intrinsic!(_mm512_sub_pd(a.0, b.0))));
+operator!([] F64x8, Mul::mul, |a, b| F64x8(intrinsic!(_mm512_mul_pd(a.0, b.0))));
+operator!([] F64x8, Div::div, |a, b| F64x8(intrinsic!(_mm512_div_pd(a.0, b.0))));
+operator!([] F64x8, Neg::neg, |a| Self::from_bits(intrinsic!(_mm512_xor_si512(a.to_bits(), Self::all(SIGN_BIT)))));
+constants_on_the_right!([] F64x8);
 
-impl Sub for F64x8 {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, rhs: Self) -> Self {
-        F64x8(intrinsic!(_mm512_sub_pd(self.0, rhs.0)))
-    }
-}
-
-impl Mul for F64x8 {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, rhs: Self) -> Self {
-        F64x8(intrinsic!(_mm512_mul_pd(self.0, rhs.0)))
-    }
-}
-
-impl Div for F64x8 {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, rhs: Self) -> Self {
-        F64x8(intrinsic!(_mm512_div_pd(self.0, rhs.0)))
-    }
-}
-
-impl Neg for F64x8 {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self::from_bits(intrinsic!(_mm512_xor_si512(self.to_bits(), Self::all(SIGN_BIT))))
-    }
-}
-
-impl Add<f64> for F64x8 {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, rhs: f64) -> Self {
-        self + Self::broadcast(rhs)
-    }
-}
-
-impl Sub<f64> for F64x8 {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, rhs: f64) -> Self {
-        self - Self::broadcast(rhs)
-    }
-}
-
-impl Mul<f64> for F64x8 {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, rhs: f64) -> Self {
-        self * Self::broadcast(rhs)
-    }
-}
-
-impl Real for F64x8 {
+impl Number for F64x8 {
     type Mask = __mmask8;
 
     #[inline(always)]
@@ -211,36 +154,6 @@ impl Real for F64x8 {
     fn max(self, other: Self) -> Self {
         F64x8(intrinsic!(_mm512_max_pd(self.0, other.0)))
     }
-
-    #[inline(always)]
-    fn sin(self) -> Self {
-        functions::sin(self)
-    }
-
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        functions::sin_cos(self)
-    }
-
-    #[inline(always)]
-    fn exp(self) -> Self {
-        functions::exp(self)
-    }
-
-    #[inline(always)]
-    fn exp_m1(self) -> Self {
-        functions::exp_m1(self)
-    }
-
-    #[inline(always)]
-    fn ln(self) -> Self {
-        functions::ln(self)
-    }
-
-    #[inline(always)]
-    fn ln_1p(self) -> Self {
-        functions::ln_1p(self)
-    }
 }
 
 impl Lanes for F64x8 {
@@ -272,7 +185,7 @@ impl Lanes for F64x8 {
 
     #[inline(always)]
     fn apart<T>(self, work: impl FnOnce() -> T) -> T {
-        // A value is proof enough, by what is said at `intrinsic`.
+        // A value is proof enough, see `intrinsic`.
         Avx512(()).vectorize(work)
     }
 
@@ -280,12 +193,9 @@ impl Lanes for F64x8 {
     fn bits(mask: __mmask8) -> u64 {
         u64::from(mask)
     }
+}
 
-    #[inline(always)]
-    fn and(a: __mmask8, b: __mmask8) -> __mmask8 {
-        a & b
-    }
-
+impl Float for F64x8 {
     #[inline(always)]
     fn flip_sign_by_lowest_bit(self, selector: Self) -> Self {
         let sign = intrinsic!(_mm512_slli_epi64::<63>(selector.to_bits()));

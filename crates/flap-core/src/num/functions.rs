@@ -3,7 +3,8 @@
 //! Sine and cosine are minimax polynomials, the logarithm is that of FreeBSD's msun (`e_log.c`; Sun Microsystems, 1993),
 //! the exponential is a Taylor polynomial on |r| ≤ ½ ln 2.
 
-use super::lanes::{Lanes, ROUND};
+use super::float::{Float, ROUND};
+use super::number::Number;
 
 /// π in three parts. The first two have 33 significant bits, so their products with whole numbers
 /// up to 2^20 are exact.
@@ -35,7 +36,7 @@ const COS: [f64; 7] = [
 /// c₀ + c₁ x + c₂ x² + …, given x²: by Horner's rule in x², over pairs of coefficients. It takes as many operations as the
 /// rule in x, and half of their waiting for each other.
 #[inline(always)]
-fn polynomial<R: Lanes, const N: usize>(x: R, square: R, c: &[f64; N]) -> R {
+fn polynomial<R: Float, const N: usize>(x: R, square: R, c: &[f64; N]) -> R {
     let pair = |i: usize| {
         let low = x.lit(c[i]);
         if i + 1 < N { x.mul_add(x.lit(c[i + 1]), low) } else { low }
@@ -49,10 +50,10 @@ fn polynomial<R: Lanes, const N: usize>(x: R, square: R, c: &[f64; N]) -> R {
     sum
 }
 
-/// Half turns and what is left of an angle: a number whose lowest bit says whether the half turns are odd, and r with
+/// The half turns of an angle and the rest: a number whose lowest bit is set if the half turns are odd, and r with
 /// |r| ≤ π/2.
 #[inline(always)]
-fn half_turns<R: Lanes>(x: R) -> (R, R) {
+fn half_turns<R: Float>(x: R) -> (R, R) {
     let rounded = x.mul_add(x.lit(core::f64::consts::FRAC_1_PI), x.lit(ROUND));
     let k = rounded - ROUND;
     let mut r = k.mul_add(k.lit(-PI[0]), x);
@@ -63,7 +64,7 @@ fn half_turns<R: Lanes>(x: R) -> (R, R) {
 
 /// Sine of `x` (rad), for |x| up to 10^6.
 #[inline(always)]
-pub fn sin<R: Lanes>(x: R) -> R {
+pub fn sin<R: Float>(x: R) -> R {
     let (odd, r) = half_turns(x);
     let z = r * r;
     (z * r).mul_add(polynomial(z, z * z, &SIN), r).flip_sign_by_lowest_bit(odd)
@@ -71,7 +72,7 @@ pub fn sin<R: Lanes>(x: R) -> R {
 
 /// Sine and cosine of `x` (rad), for |x| up to 10^6.
 #[inline(always)]
-pub fn sin_cos<R: Lanes>(x: R) -> (R, R) {
+pub fn sin_cos<R: Float>(x: R) -> (R, R) {
     let (odd, r) = half_turns(x);
     let z = r * r;
     let zz = z * z;
@@ -102,7 +103,7 @@ const EXP: [f64; 13] = [
 
 /// A whole number k and r with x = k ln 2 + r, |r| ≤ ½ ln 2.
 #[inline(always)]
-fn reduce<R: Lanes>(x: R) -> (R, R) {
+fn reduce<R: Float>(x: R) -> (R, R) {
     let k = x.mul_add(x.lit(core::f64::consts::LOG2_E), x.lit(ROUND)) - ROUND;
     let mut r = k.mul_add(k.lit(-LN_2[0]), x);
     r = k.mul_add(k.lit(-LN_2[1]), r);
@@ -111,14 +112,14 @@ fn reduce<R: Lanes>(x: R) -> (R, R) {
 
 /// e^x for |x| up to 700.
 #[inline(always)]
-pub fn exp<R: Lanes>(x: R) -> R {
+pub fn exp<R: Float>(x: R) -> R {
     let (k, r) = reduce(x);
     polynomial(r, r * r, &EXP).mul_add(r, r.lit(1.0)).times_power_of_two(k)
 }
 
 /// e^x − 1 for |x| up to 700, accurate for small x too.
 #[inline(always)]
-pub fn exp_m1<R: Lanes>(x: R) -> R {
+pub fn exp_m1<R: Float>(x: R) -> R {
     let (k, r) = reduce(x);
     let power = r.lit(1.0).times_power_of_two(k);
     // 2^k (e^r − 1) + (2^k − 1)
@@ -138,7 +139,7 @@ const LN: [f64; 7] = [
 
 /// Natural logarithm of a normal positive number. Finite (about 710) for NaN and infinity.
 #[inline(always)]
-pub fn ln<R: Lanes>(x: R) -> R {
+pub fn ln<R: Float>(x: R) -> R {
     let (e, m) = x.exponent_and_mantissa();
     // m to [√½, √2), so that f = m − 1 is small and the two parts of the sum do not cancel.
     let large = m.lit(core::f64::consts::SQRT_2).lt(m);
@@ -157,9 +158,35 @@ pub fn ln<R: Lanes>(x: R) -> R {
 
 /// ln(1 + x) for x > −1 with 1 + x a normal number, accurate for small x too.
 #[inline(always)]
-pub fn ln_1p<R: Lanes>(x: R) -> R {
+pub fn ln_1p<R: Float>(x: R) -> R {
     let sum = x + 1.0;
-    // What rounding the sum has lost. Far from 1 the logarithm does not notice.
+    // The rounding error of the sum. Far from 1 it does not change the logarithm.
     let lost = x - (sum - 1.0);
     ln(sum) + R::select(sum.lt(sum.lit(2.0)), lost, lost.lit(0.0))
+}
+
+/// The nearest whole number, the even one of two, for |x| up to 2^51.
+#[inline(always)]
+pub fn round<R: Number>(x: R) -> R {
+    (x + ROUND) - ROUND
+}
+
+/// log2 of a normal positive number, exact for powers of two; errors stay below 8.8·10^-4. 1024 or more for NaN and
+/// infinity, −1023 for 0.
+#[inline(always)]
+pub fn rough_log2<R: Float>(x: R) -> R {
+    let (exponent, mantissa) = x.exponent_and_mantissa();
+    let f = mantissa - 1.0;
+    // Minimax, and 1 at f = 1.
+    let slope = f.mul_add(f.lit(0.159_219_181_177_909_34), f.lit(-0.582_084_010_769_231_8));
+    slope.mul_add(f, f.lit(1.422_864_829_591_322_4)).mul_add(f, exponent)
+}
+
+/// 2^x for |x| up to 700, exact for whole numbers; relative errors stay below 1.48·10^-4.
+#[inline(always)]
+pub fn rough_exp2<R: Float>(x: R) -> R {
+    let k = round(x);
+    let r = x - k;
+    let slope = r.mul_add(r.lit(0.055_977_122_005_913_864), r.lit(0.242_223_863_477_723_57));
+    slope.mul_add(r, r.lit(0.693_112_519_163_185)).mul_add(r, r.lit(1.0)).times_power_of_two(k)
 }

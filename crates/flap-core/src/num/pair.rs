@@ -3,11 +3,12 @@
 //! A right-hand side is a long chain of dependent operations. A second, independent chain fills the processor's waiting
 //! time.
 
-use core::ops::{Add, Div, Mul, Neg, Sub};
+use core::ops::{BitAnd, BitOr, Not};
 
-use super::functions;
+use super::float::Float;
 use super::lanes::Lanes;
-use super::real::Real;
+use super::number::Number;
+use super::operators::{constants_on_the_right, operator};
 
 /// Two groups of lanes that go side by side.
 #[derive(Clone, Copy, Debug)]
@@ -16,78 +17,25 @@ pub struct Pair<L> {
     hi: L,
 }
 
-/// Which lanes of a [`Pair`] a comparison holds for.
+/// The mask of a [`Pair`].
 #[derive(Clone, Copy)]
 pub struct PairMask<M> {
     lo: M,
     hi: M,
 }
 
-impl<L: Lanes> Add for Pair<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, rhs: Self) -> Self {
-        Pair { lo: self.lo + rhs.lo, hi: self.hi + rhs.hi }
-    }
-}
+operator!([L: Lanes] Pair<L>, Add::add, |a, b| Pair { lo: a.lo + b.lo, hi: a.hi + b.hi });
+operator!([L: Lanes] Pair<L>, Sub::sub, |a, b| Pair { lo: a.lo - b.lo, hi: a.hi - b.hi });
+operator!([L: Lanes] Pair<L>, Mul::mul, |a, b| Pair { lo: a.lo * b.lo, hi: a.hi * b.hi });
+operator!([L: Lanes] Pair<L>, Div::div, |a, b| Pair { lo: a.lo / b.lo, hi: a.hi / b.hi });
+operator!([L: Lanes] Pair<L>, Neg::neg, |a| Pair { lo: -a.lo, hi: -a.hi });
+constants_on_the_right!([L: Lanes] Pair<L>);
 
-impl<L: Lanes> Sub for Pair<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, rhs: Self) -> Self {
-        Pair { lo: self.lo - rhs.lo, hi: self.hi - rhs.hi }
-    }
-}
+operator!([M: BitAnd<Output = M>] PairMask<M>, BitAnd::bitand, |a, b| PairMask { lo: a.lo & b.lo, hi: a.hi & b.hi });
+operator!([M: BitOr<Output = M>] PairMask<M>, BitOr::bitor, |a, b| PairMask { lo: a.lo | b.lo, hi: a.hi | b.hi });
+operator!([M: Not<Output = M>] PairMask<M>, Not::not, |a| PairMask { lo: !a.lo, hi: !a.hi });
 
-impl<L: Lanes> Mul for Pair<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, rhs: Self) -> Self {
-        Pair { lo: self.lo * rhs.lo, hi: self.hi * rhs.hi }
-    }
-}
-
-impl<L: Lanes> Div for Pair<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, rhs: Self) -> Self {
-        Pair { lo: self.lo / rhs.lo, hi: self.hi / rhs.hi }
-    }
-}
-
-impl<L: Lanes> Neg for Pair<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Pair { lo: -self.lo, hi: -self.hi }
-    }
-}
-
-impl<L: Lanes> Add<f64> for Pair<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, rhs: f64) -> Self {
-        Pair { lo: self.lo + rhs, hi: self.hi + rhs }
-    }
-}
-
-impl<L: Lanes> Sub<f64> for Pair<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, rhs: f64) -> Self {
-        Pair { lo: self.lo - rhs, hi: self.hi - rhs }
-    }
-}
-
-impl<L: Lanes> Mul<f64> for Pair<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, rhs: f64) -> Self {
-        Pair { lo: self.lo * rhs, hi: self.hi * rhs }
-    }
-}
-
-impl<L: Lanes> Real for Pair<L> {
+impl<L: Lanes> Number for Pair<L> {
     type Mask = PairMask<L::Mask>;
 
     #[inline(always)]
@@ -134,36 +82,6 @@ impl<L: Lanes> Real for Pair<L> {
     fn max(self, other: Self) -> Self {
         Pair { lo: self.lo.max(other.lo), hi: self.hi.max(other.hi) }
     }
-
-    #[inline(always)]
-    fn sin(self) -> Self {
-        functions::sin(self)
-    }
-
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        functions::sin_cos(self)
-    }
-
-    #[inline(always)]
-    fn exp(self) -> Self {
-        functions::exp(self)
-    }
-
-    #[inline(always)]
-    fn exp_m1(self) -> Self {
-        functions::exp_m1(self)
-    }
-
-    #[inline(always)]
-    fn ln(self) -> Self {
-        functions::ln(self)
-    }
-
-    #[inline(always)]
-    fn ln_1p(self) -> Self {
-        functions::ln_1p(self)
-    }
 }
 
 impl<L: Lanes> Lanes for Pair<L> {
@@ -205,12 +123,9 @@ impl<L: Lanes> Lanes for Pair<L> {
     fn bits(mask: Self::Mask) -> u64 {
         L::bits(mask.lo) | (L::bits(mask.hi) << L::LANES)
     }
+}
 
-    #[inline(always)]
-    fn and(a: Self::Mask, b: Self::Mask) -> Self::Mask {
-        PairMask { lo: L::and(a.lo, b.lo), hi: L::and(a.hi, b.hi) }
-    }
-
+impl<L: Lanes> Float for Pair<L> {
     #[inline(always)]
     fn flip_sign_by_lowest_bit(self, selector: Self) -> Self {
         Pair {

@@ -19,7 +19,7 @@ pub trait PerLane<R: Lanes>: Copy {
     /// One lane's set.
     fn get(&self, lane: usize) -> Self::One;
 
-    /// Whether no number of a set is infinite or NaN.
+    /// True if no number of a set is infinite or NaN.
     fn is_finite(one: &Self::One) -> bool;
 }
 

@@ -1,46 +1,11 @@
-//! What a model may do with a number.
+//! The numbers of models' equations.
 
-use core::ops::{Add, Div, Mul, Neg, Sub};
+use super::float::Float;
+use super::functions;
+use super::number::Number;
 
-/// A real number, or one real number per SIMD lane.
-///
-/// Model code is written with the ordinary operators; literals go on the right (`x * 0.5 + 1.0`).
-/// Comparisons give a mask, and [`Real::select`] takes the place of `if`.
-pub trait Real:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-    + Add<f64, Output = Self>
-    + Sub<f64, Output = Self>
-    + Mul<f64, Output = Self>
-{
-    /// The truth of a comparison, lane by lane.
-    type Mask: Copy;
-
-    /// The constant `c`, of the same kind as `self`.
-    fn lit(self, c: f64) -> Self;
-
-    /// `self * a + b`, rounded once where the processor can (see [`super::Arithmetic`]).
-    fn mul_add(self, a: Self, b: Self) -> Self;
-
-    /// Absolute value.
-    fn abs(self) -> Self;
-
-    /// Square root.
-    fn sqrt(self) -> Self;
-
-    /// The magnitude of `self` with the sign of `sign`.
-    fn copysign(self, sign: Self) -> Self;
-
-    /// Whether `self < other`; false if either is NaN.
-    fn lt(self, other: Self) -> Self::Mask;
-
-    /// `yes` where `mask` holds, `no` elsewhere.
-    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
-
+/// A real number, or one real number per SIMD lane: all that a model's equations ask for.
+pub trait Real: Number {
     /// Sine of an angle in radians, for |x| up to 10^6; errors stay below 10^-15.
     fn sin(self) -> Self;
 
@@ -58,16 +23,36 @@ pub trait Real:
 
     /// ln(1 + x) for x > −1, accurate for small x too.
     fn ln_1p(self) -> Self;
+}
 
-    /// The smaller of two numbers; `other` if either is NaN.
+impl<F: Float> Real for F {
     #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Self::select(self.lt(other), self, other)
+    fn sin(self) -> F {
+        functions::sin(self)
     }
 
-    /// The larger of two numbers; `other` if either is NaN.
     #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Self::select(other.lt(self), self, other)
+    fn sin_cos(self) -> (F, F) {
+        functions::sin_cos(self)
+    }
+
+    #[inline(always)]
+    fn exp(self) -> F {
+        functions::exp(self)
+    }
+
+    #[inline(always)]
+    fn exp_m1(self) -> F {
+        functions::exp_m1(self)
+    }
+
+    #[inline(always)]
+    fn ln(self) -> F {
+        functions::ln(self)
+    }
+
+    #[inline(always)]
+    fn ln_1p(self) -> F {
+        functions::ln_1p(self)
     }
 }

@@ -1,20 +1,15 @@
 //! One SIMD register of `f64`, of the sets of instructions that `fearless_simd` knows.
 
-use core::ops::{Add, Div, Mul, Neg, Sub};
-
 use fearless_simd::{Bytes, ExtractToken, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask};
 
-use super::functions;
-use super::lanes::{EXPONENT_BITS, Lanes, MANTISSA_BITS, ONE_BITS, ROUND, TWO_52, TWO_52_BITS};
-use super::real::Real;
+use super::float::{EXPONENT_BITS, Float, MANTISSA_BITS, ONE_BITS, ROUND, TWO_52, TWO_52_BITS};
+use super::lanes::Lanes;
+use super::number::Number;
+use super::operators::{constants_on_the_right, operator};
 
 /// 4 lanes with AVX2, 2 with SSE2 and NEON.
 #[derive(Clone, Copy, Debug)]
 pub struct Register<S: Simd>(S::f64s);
-
-/// Which lanes of a [`Register`] a comparison holds for.
-#[derive(Clone, Copy)]
-pub struct RegisterMask<S: Simd>(S::mask64s);
 
 impl<S: Simd> Register<S> {
     #[inline(always)]
@@ -28,72 +23,15 @@ impl<S: Simd> Register<S> {
     }
 }
 
-impl<S: Simd> Add for Register<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, rhs: Self) -> Self {
-        Register(self.0 + rhs.0)
-    }
-}
+operator!([S: Simd] Register<S>, Add::add, |a, b| Register(a.0 + b.0));
+operator!([S: Simd] Register<S>, Sub::sub, |a, b| Register(a.0 - b.0));
+operator!([S: Simd] Register<S>, Mul::mul, |a, b| Register(a.0 * b.0));
+operator!([S: Simd] Register<S>, Div::div, |a, b| Register(a.0 / b.0));
+operator!([S: Simd] Register<S>, Neg::neg, |a| Register(-a.0));
+constants_on_the_right!([S: Simd] Register<S>);
 
-impl<S: Simd> Sub for Register<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, rhs: Self) -> Self {
-        Register(self.0 - rhs.0)
-    }
-}
-
-impl<S: Simd> Mul for Register<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, rhs: Self) -> Self {
-        Register(self.0 * rhs.0)
-    }
-}
-
-impl<S: Simd> Div for Register<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, rhs: Self) -> Self {
-        Register(self.0 / rhs.0)
-    }
-}
-
-impl<S: Simd> Neg for Register<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Register(-self.0)
-    }
-}
-
-impl<S: Simd> Add<f64> for Register<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, rhs: f64) -> Self {
-        Register(self.0 + rhs)
-    }
-}
-
-impl<S: Simd> Sub<f64> for Register<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, rhs: f64) -> Self {
-        Register(self.0 - rhs)
-    }
-}
-
-impl<S: Simd> Mul<f64> for Register<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, rhs: f64) -> Self {
-        Register(self.0 * rhs)
-    }
-}
-
-impl<S: Simd> Real for Register<S> {
-    type Mask = RegisterMask<S>;
+impl<S: Simd> Number for Register<S> {
+    type Mask = S::mask64s;
 
     #[inline(always)]
     fn lit(self, c: f64) -> Self {
@@ -121,13 +59,13 @@ impl<S: Simd> Real for Register<S> {
     }
 
     #[inline(always)]
-    fn lt(self, other: Self) -> RegisterMask<S> {
-        RegisterMask(self.0.simd_lt(other.0))
+    fn lt(self, other: Self) -> S::mask64s {
+        self.0.simd_lt(other.0)
     }
 
     #[inline(always)]
-    fn select(mask: RegisterMask<S>, yes: Self, no: Self) -> Self {
-        Register(mask.0.select(yes.0, no.0))
+    fn select(mask: S::mask64s, yes: Self, no: Self) -> Self {
+        Register(mask.select(yes.0, no.0))
     }
 
     #[cfg(target_arch = "x86_64")]
@@ -141,36 +79,6 @@ impl<S: Simd> Real for Register<S> {
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         Register(self.0.max(other.0))
-    }
-
-    #[inline(always)]
-    fn sin(self) -> Self {
-        functions::sin(self)
-    }
-
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        functions::sin_cos(self)
-    }
-
-    #[inline(always)]
-    fn exp(self) -> Self {
-        functions::exp(self)
-    }
-
-    #[inline(always)]
-    fn exp_m1(self) -> Self {
-        functions::exp_m1(self)
-    }
-
-    #[inline(always)]
-    fn ln(self) -> Self {
-        functions::ln(self)
-    }
-
-    #[inline(always)]
-    fn ln_1p(self) -> Self {
-        functions::ln_1p(self)
     }
 }
 
@@ -194,8 +102,8 @@ impl<S: Simd> Lanes for Register<S> {
     }
 
     #[inline(always)]
-    fn mask(token: S, bits: u64) -> RegisterMask<S> {
-        RegisterMask(S::mask64s::from_bitmask(token, bits))
+    fn mask(token: S, bits: u64) -> S::mask64s {
+        S::mask64s::from_bitmask(token, bits)
     }
 
     #[inline(always)]
@@ -204,15 +112,12 @@ impl<S: Simd> Lanes for Register<S> {
     }
 
     #[inline(always)]
-    fn bits(mask: RegisterMask<S>) -> u64 {
-        mask.0.to_bitmask()
+    fn bits(mask: S::mask64s) -> u64 {
+        mask.to_bitmask()
     }
+}
 
-    #[inline(always)]
-    fn and(a: RegisterMask<S>, b: RegisterMask<S>) -> RegisterMask<S> {
-        RegisterMask(a.0 & b.0)
-    }
-
+impl<S: Simd> Float for Register<S> {
     #[inline(always)]
     fn flip_sign_by_lowest_bit(self, selector: Self) -> Self {
         Self::from_bits(self.to_bits() ^ (selector.to_bits() << 63))

@@ -2,7 +2,7 @@
 
 use super::step::Step;
 use super::tableau::D;
-use crate::num::Lanes;
+use crate::num::Real;
 
 /// The state at `t + theta h` with `theta` in [0, 1]; Hairer I, section II.6.
 ///
@@ -10,7 +10,7 @@ use crate::num::Lanes;
 /// y(θ) = y₀ + θ (Δy + (1 − θ) (b + θ (Δy − h k₇ − b + (1 − θ) h Σ dᵢ kᵢ)))   with b = h k₁ − Δy
 /// ```
 #[inline(always)]
-pub fn interpolate<R: Lanes, const N: usize>(step: &Step<R, N>, h: R, theta: R) -> [R; N] {
+pub fn interpolate<R: Real, const N: usize>(step: &Step<R, N>, h: R, theta: R) -> [R; N] {
     let rest = -theta + 1.0;
     let mut out = step.y[0];
     for i in 0..N {

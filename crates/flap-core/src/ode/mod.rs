@@ -2,15 +2,15 @@
 //!
 //! - [`tableau`]: the coefficients, checked when the crate is compiled
 //! - [`step`]: one step: stages, new state, error estimate; no policy
-//! - [`norm`], [`controller`], [`start`]: how large the error is, what follows from it, how to begin
+//! - [`norm`], [`controller`], [`start`]: the size of the error, the next step size, the first one
 //! - [`switch`]: right-hand sides that jump where a function changes sign
-//! - [`variation`]: a run with its response to small changes of where it begins
+//! - [`variation`]: a run with its response to small changes of its initial state
 //! - [`dense`]: the solution between the ends of a step
 //! - [`solve`]: one run on scalars, written to be read; the oracle of the ensemble
 //! - [`ensemble`]: many runs in lanes, each with its own time, step size and constants
 //!
 //! Time runs from 0 to the end of a *span*, usually one drive period, and every span ends exactly on a step.
-//! At its end the caller looks at the state and says whether to go on with another span. An equation whose
+//! At its end the caller looks at the state and decides to stop or to go on with another span. An equation whose
 //! inputs repeat with the span therefore sees no growing times.
 //!
 //! Equations of one's own are an [`Ode`]: `examples/jafferis_fig2_3` brings three of them to their settled motions,
@@ -31,20 +31,20 @@ use crate::num::{Lanes, PerLane};
 
 /// A system of N first-order ordinary differential equations, ẏ = f(c, u(c, t), y).
 ///
-/// `c` are constants, which may differ from run to run; `u` is what depends on time alone, so that it is
-/// evaluated once where stages share a time. Both functions are called in the innermost loop: they must not
+/// `c` are constants, which may differ from run to run; `u` are inputs that depend on time alone, evaluated once where
+/// stages share a time. Both functions are called in the innermost loop: they must not
 /// allocate or panic, and every function they call must be `#[inline(always)]`.
 pub trait Ode<const N: usize>: Sync {
-    /// What does not change during a run.
+    /// Constants of a run.
     type Constants<R: Lanes>: PerLane<R, One = Self::Constants<f64>>;
 
-    /// What depends on time alone: the drive.
+    /// Inputs that depend on time alone: the drive.
     type Input<R: Lanes>: Copy;
 
-    /// Whether the right-hand side jumps where [`Ode::switch`] changes sign.
+    /// True if the right-hand side jumps where [`Ode::switch`] changes sign.
     const SWITCHES: bool = false;
 
-    /// How many of the components, the first ones, choose the step size.
+    /// Number of components, counted from the first, whose errors choose the step size.
     const CONTROLLED: usize = N;
 
     /// The inputs at time `t` (s).
@@ -76,7 +76,7 @@ pub trait Ode<const N: usize>: Sync {
     }
 }
 
-/// The inputs [`Ode::input`] at time `t`. Integrators call it here, for the sake of [`slope`]'s reason.
+/// The inputs [`Ode::input`] at time `t`. Integrators call it here, for the same reason as [`slope`].
 #[inline(always)]
 pub(crate) fn input<O: Ode<N>, R: Lanes, const N: usize>(ode: &O, c: &O::Constants<R>, t: R) -> O::Input<R> {
     t.apart(
@@ -103,7 +103,7 @@ pub(crate) fn slope<O: Ode<N>, R: Lanes, const N: usize>(
     )
 }
 
-/// Where a run begins.
+/// The beginning of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Start<C, const N: usize> {
     /// The run's constants.
@@ -130,7 +130,7 @@ pub struct Tolerances {
     pub max_steps: u32,
 }
 
-/// Why a run ended.
+/// The reason for which a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
     /// The caller stopped it, at the end of a span or by an [`Interrupt`].
@@ -142,16 +142,16 @@ pub enum Ending {
 }
 
 impl Ending {
-    /// How a run failed whose last step had this squared error.
+    /// The ending of a run that failed in a step with this squared error.
     pub(crate) fn of_failure(error_squared: f64) -> Ending {
         if error_squared.is_finite() { Ending::StepLimit } else { Ending::Diverged }
     }
 }
 
-/// How a run ended and what it cost.
+/// The ending of a run and its cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Outcome {
-    /// Why it ended.
+    /// The reason for which it ended.
     pub ending: Ending,
     /// Attempted steps, rejected ones included.
     pub attempts: u64,
@@ -169,8 +169,8 @@ impl Outcome {
     }
 }
 
-/// Whether a run is to end before it is done: asked at the end of each span, and every some thousand steps within
-/// one. Once it has said yes it must not say no.
+/// A question to the caller: true to end a run before it is done. It is asked at the end of each span, and every few
+/// thousand steps within one. Once true, it must stay true.
 pub type Interrupt<'a> = &'a dyn Fn() -> bool;
 
 /// An [`Interrupt`] that never comes.
@@ -178,7 +178,7 @@ pub fn never() -> bool {
     false
 }
 
-/// Steps within a span after which an interrupt is asked: some milliseconds of work.
+/// Steps within a span between two questions to an [`Interrupt`]: a few milliseconds of work.
 pub(crate) const UNASKED: u32 = 4096;
 
 /// The smallest step, as a fraction of the span, before a run counts as stuck.

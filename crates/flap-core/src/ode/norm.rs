@@ -1,6 +1,6 @@
-//! How large an error is, measured against the tolerances.
+//! The size of an error, relative to the tolerances.
 
-use crate::num::Lanes;
+use crate::num::Real;
 
 /// The mean square of error over tolerance, Hairer I Eq. (II.4.11) without the root: a step is good below 1.
 ///
@@ -10,7 +10,7 @@ use crate::num::Lanes;
 /// 1/N Σᵢ (eᵢ / (atolᵢ + rtol max(|yᵢ|, |yᵢ new|)))²
 /// ```
 #[inline(always)]
-pub fn error_squared<R: Lanes, const N: usize>(
+pub fn error_squared<R: Real, const N: usize>(
     error: &[R; N],
     y: &[R; N],
     y_new: &[R; N],

@@ -25,7 +25,7 @@ pub fn solve<O: Ode<N>, R: Scalar, const N: usize>(
     solve_until::<O, R, N>(ode, tolerances, start, &never, on_step, at_span_end)
 }
 
-/// [`solve`], which also ends when `interrupted` says so. It then ends as if stopped: the caller asks, too.
+/// [`solve`], which also ends when `interrupted` is true. It then ends as if stopped; the caller asks `interrupted`, too.
 pub fn solve_until<O: Ode<N>, R: Scalar, const N: usize>(
     ode: &O,
     tolerances: &Tolerances,
@@ -37,7 +37,7 @@ pub fn solve_until<O: Ode<N>, R: Scalar, const N: usize>(
     march::<O, R, N>(ode, tolerances, start, interrupted, &mut on_step, &mut at_span_end)
 }
 
-/// What sees the accepted steps.
+/// The callback that sees the accepted steps.
 type OnStep<'a, O, R, const N: usize> = dyn FnMut(&<O as Ode<N>>::Constants<R>, &Attempt<'_, R, N>) + 'a;
 
 /// [`solve`], compiled once per system of equations: the callbacks are not part of it.

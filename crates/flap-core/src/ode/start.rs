@@ -1,5 +1,6 @@
 //! The first slope and the first step size.
 
+use super::norm::error_squared;
 use super::{Ode, input, slope};
 use crate::num::Lanes;
 
@@ -8,8 +9,8 @@ pub const RHS_EVALS: u64 = 2;
 
 /// The slope at time 0 and a starting step size, by the algorithm of Hairer I, section II.4.
 ///
-/// Where the state or its slope is too small to judge by (at rest, say), the trial step is a
-/// ten-thousandth of the span.
+/// The trial step is a ten-thousandth of the span where the state or its slope is too small to judge by, for example at
+/// rest.
 #[inline(always)]
 pub fn first_step<O: Ode<N>, R: Lanes, const N: usize>(
     ode: &O,
@@ -59,15 +60,10 @@ fn weighted_norm<R: Lanes, const N: usize>(
     rtol: R,
     count: usize,
 ) -> R {
-    let mut sum = rtol.lit(0.0);
-    for i in 0..count {
-        let ratio = x[i] / rtol.mul_add(y[i].abs(), atol[i]);
-        sum = ratio.mul_add(ratio, sum);
-    }
-    (sum * (1.0 / count as f64)).sqrt()
+    error_squared(x, y, y, atol, rtol, count).sqrt()
 }
 
-/// The step size with which the next span begins, given that of the last and what the controller proposes.
+/// The step size with which the next span begins, given that of the last and the one that the controller proposes.
 ///
 /// Spans of a periodic motion should be integrated alike, step by step: then the state at their ends converges
 /// as the motion does, where otherwise it would jitter with the integration error. So the old size stays, and

@@ -4,7 +4,7 @@ use super::Ode;
 use super::tableau::{A, C, E, STAGES};
 use crate::num::Lanes;
 
-/// A step: where it begins, and what an attempt finds.
+/// A step: its beginning, and the results of an attempt.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<R, const N: usize> {
     /// State at each stage: the old state first, the new one last.
@@ -15,7 +15,7 @@ pub struct Step<R, const N: usize> {
     pub error: [R; N],
 }
 
-/// An attempted step and where it is.
+/// An attempted step and its place in time.
 #[derive(Clone, Copy, Debug)]
 pub struct Attempt<'a, R, const N: usize> {
     /// Time within the span at which the step begins (s).
@@ -39,13 +39,13 @@ impl<R: Lanes, const N: usize> Step<R, N> {
     /// sides.
     #[inline(always)]
     pub fn attempt<O: Ode<N>>(&mut self, ode: &O, c: &O::Constants<R>, t: R, h: R, side: R) {
-        let mut u = ode.input(c, t);
+        let mut u = ode.input(c, h.mul_add(h.lit(C[1]), t));
         // A loop, so that the right-hand side is compiled once: six copies of it take the compiler minutes, and are no
         // faster.
         for stage in 1..STAGES {
             let y = combine(&self.y[0], h, &self.k, &A[stage], stage);
             // Stages 6 and 7 are both at the end of the step and share its inputs.
-            if C[stage] != C[stage - 1] {
+            if stage > 1 && C[stage] != C[stage - 1] {
                 u = ode.input(c, h.mul_add(h.lit(C[stage]), t));
             }
             self.k[stage] = ode.rhs(c, &u, side, &y);
@@ -55,7 +55,7 @@ impl<R: Lanes, const N: usize> Step<R, N> {
         self.error = combine(&zero, h, &self.k, &E, STAGES);
     }
 
-    /// Goes on from where the attempt has come to, in the lanes in which it was `accepted`.
+    /// Moves the beginning to the end of the attempt, in the lanes in which it was `accepted`.
     #[inline(always)]
     pub fn advance(&mut self, accepted: R::Mask) {
         for i in 0..N {

@@ -7,33 +7,33 @@
 
 use super::step::Step;
 use super::{Ode, STRETCH, input, slope};
-use crate::num::Lanes;
+use crate::num::{Lanes, Real};
 
 /// A crossing counts as reached when it is less than this fraction of an ordinary step away. The cubic errs by
-/// far less: this only catches crossings it could not find.
+/// far less: this only catches crossings that it could not find.
 const REACHED: f64 = 1e-2;
 
-/// What a run remembers of its switching surface.
-#[derive(Clone, Copy, Debug)]
-pub struct Switching<R> {
+/// The position of a run relative to its switching surface, remembered from step to step.
+#[derive(Clone, Copy)]
+pub struct Switching<R: Lanes> {
     /// The side of the surface on which the right-hand side is evaluated: +1 or −1.
     pub side: R,
     /// The switching function and its rate at the beginning of the step.
     pub value: [R; 2],
-    /// 1 while a step is being taken again up to a crossing, else 0.
-    pub heading: R,
+    /// The step is being taken again, up to a crossing.
+    pub heading: R::Mask,
     /// The step size to go on with after the crossing.
     pub resume: R,
 }
 
-/// What the surface makes of an attempted step.
+/// The judgement of an attempted step with regard to the surface.
 #[derive(Clone, Copy)]
 pub struct Crossing<R: Lanes> {
-    /// Whether the step is accepted all the same.
+    /// The step is accepted all the same.
     pub accepted: R::Mask,
     /// The step size to go on with.
     pub h: R,
-    /// Whether the step ends on the surface, where the side has changed: the first slope is to be renewed.
+    /// The step ends on the surface, where the side has changed: the first slope is to be renewed.
     pub arrived: R::Mask,
 }
 
@@ -42,7 +42,7 @@ impl<R: Lanes> Switching<R> {
     #[inline(always)]
     pub fn new(like: R) -> Switching<R> {
         let zero = like.lit(0.0);
-        Switching { side: like.lit(1.0), value: [zero; 2], heading: zero, resume: zero }
+        Switching { side: like.lit(1.0), value: [zero; 2], heading: zero.lt(zero), resume: zero }
     }
 
     /// Chooses the side at the beginning of a run; on the surface, that to which the motion goes.
@@ -50,9 +50,10 @@ impl<R: Lanes> Switching<R> {
     pub fn begin<O: Ode<N>, const N: usize>(ode: &O, c: &O::Constants<R>, y: &[R; N]) -> Switching<R> {
         let mut memory = Switching::new(y[0]);
         if O::SWITCHES {
-            let k = slope(ode, c, &input(ode, c, memory.heading), memory.side, y);
+            let zero = y[0].lit(0.0);
+            let k = slope(ode, c, &input(ode, c, zero), memory.side, y);
             let [value, rate] = ode.switch(c, y, &k);
-            let off_surface = memory.heading.lt(value.abs());
+            let off_surface = zero.lt(value.abs());
             memory.side = memory.side.copysign(R::select(off_surface, value, rate));
         }
         memory
@@ -70,49 +71,40 @@ impl<R: Lanes> Switching<R> {
         h_next: R,
     ) -> Crossing<R> {
         let zero = h.lit(0.0);
-        let one = h.lit(1.0);
         let [begin, begin_rate] = self.value;
         let [end, end_rate] = ode.switch(c, &tried.y[6], &tried.k[6]);
-        let is_one = |flag: R| zero.lt(flag);
-        let both = |a: R, b: R| is_one(a * b);
-        let flag = |mask: R::Mask| R::select(mask, one, zero);
 
-        let accepted = flag(accepted);
-        let outside = flag((end * self.side).lt(zero));
-        let began_inside = flag(zero.lt(begin * self.side));
-        let fresh = one - self.heading;
+        let outside = (end * self.side).lt(zero);
+        let began_inside = zero.lt(begin * self.side);
         // A step that leaves its side is taken again, up to the surface.
-        let leaves = accepted * outside * began_inside * fresh;
+        let leaves = accepted & outside & began_inside & !self.heading;
         let theta = hermite_root(begin, begin_rate * h, end, end_rate * h);
         // Arrived: on the way to the surface and there, or on the wrong side from the beginning.
-        let near = flag((end * self.side).lt(end_rate.abs() * self.resume * REACHED));
-        let stray = outside * (one - began_inside) * fresh;
-        let kept = accepted * (one - leaves);
-        let arrived = kept * (self.heading * near).max(stray);
+        let near = (end * self.side).lt(end_rate.abs() * self.resume * REACHED);
+        let stray = outside & !began_inside & !self.heading;
+        let kept = accepted & !leaves;
+        let arrived = kept & ((self.heading & near) | stray);
 
-        let resumed = R::select(both(kept, self.heading), h_next.max(self.resume), h_next);
-        let crossing = Crossing {
-            accepted: is_one(kept),
-            h: R::select(is_one(leaves), theta * h, resumed),
-            arrived: is_one(arrived),
-        };
-        self.resume = R::select(is_one(leaves), h_next, self.resume);
+        let resumed = R::select(kept & self.heading, h_next.max(self.resume), h_next);
+        let crossing = Crossing { accepted: kept, h: R::select(leaves, theta * h, resumed), arrived };
+        self.resume = R::select(leaves, h_next, self.resume);
         self.heading = leaves;
-        self.side = R::select(is_one(arrived), -self.side, self.side);
-        self.value = [R::select(is_one(kept), end, begin), R::select(is_one(kept), end_rate, begin_rate)];
+        self.side = R::select(arrived, -self.side, self.side);
+        self.value = [R::select(kept, end, begin), R::select(kept, end_rate, begin_rate)];
         crossing
     }
 }
 
-/// How far a step may be stretched to land on the end of its span: not at all on the way to a crossing.
+/// The factor by which a step may be stretched to land on the end of its span: 1 on the way to a crossing.
 #[inline(always)]
 pub fn landing_stretch<R: Lanes>(switching: &Switching<R>) -> R {
-    -switching.heading * (STRETCH - 1.0) + STRETCH
+    let one = switching.side.lit(1.0);
+    R::select(switching.heading, one, one.lit(STRETCH))
 }
 
 /// The zero in [0, 1] of the cubic with values `g0`, `g1` of opposite sign and slopes `d0`, `d1` at 0 and 1.
 #[inline(always)]
-fn hermite_root<R: Lanes>(g0: R, d0: R, g1: R, d1: R) -> R {
+fn hermite_root<R: Real>(g0: R, d0: R, g1: R, d1: R) -> R {
     // g0 + d0 θ + b θ² + a θ³
     let a = (g0 - g1) * 2.0 + d0 + d1;
     let b = (g1 - g0) * 3.0 - d0 * 2.0 - d1;

@@ -10,7 +10,7 @@ const SMALL: f64 = 1e-7;
 /// N states and N responses to changes of them, each of N components: K = N (N + 1) in all.
 ///
 /// Step sizes are chosen for the states alone, so that these take the very values that they have without the
-/// responses; the responses are the derivative of what the integrator does. Where the right-hand side jumps, they
+/// responses; the responses are the derivatives of the states that the integrator computes. Where the right-hand side jumps, they
 /// jump too, as a changed motion reaches the surface earlier or later.
 #[derive(Clone, Copy, Debug)]
 pub struct Variation<'a, O, const N: usize>(pub &'a O);
@@ -26,7 +26,7 @@ pub fn initial<const N: usize, const K: usize>(y: &[f64; N], scale: &[f64; N]) -
     all
 }
 
-/// What has become of the change of one component by its scale.
+/// The response to a change of one component by its scale.
 pub fn response<const N: usize, const K: usize>(all: &[f64; K], component: usize) -> [f64; N] {
     core::array::from_fn(|i| all[(component + 1) * N + i])
 }

@@ -16,7 +16,7 @@ const FINER: u32 = 16;
 /// Peaks looked for.
 const PEAKS: usize = 2;
 
-/// Where to look for peaks, and how closely.
+/// The range and the precision of a search for peaks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PeakSearch {
     /// Lowest drive frequency (Hz).
@@ -38,7 +38,7 @@ pub struct DrivenPeak {
     pub pitch_pp: f64,
 }
 
-/// What a search has found.
+/// The result of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrivenPeaks {
     /// The peaks, the highest first; at most two.
@@ -47,7 +47,7 @@ pub struct DrivenPeaks {
     pub larger_at: Option<f64>,
     /// Points run.
     pub points: usize,
-    /// Where the motion did not become periodic, by rising frequency.
+    /// Frequencies at which the motion did not become periodic, rising.
     pub gaps: Vec<Gap>,
 }
 
@@ -58,9 +58,9 @@ pub struct Gap {
     pub from: f64,
     /// Highest of them (Hz).
     pub to: f64,
-    /// How many there are.
+    /// Number of points among them.
     pub points: usize,
-    /// What became of the motion at all of them.
+    /// The status of all these points.
     pub status: Status,
 }
 
@@ -119,7 +119,7 @@ pub fn search(
     Ok(response.finish(tops))
 }
 
-/// Whether the stroke of a point is prescribed, and so the same at every frequency.
+/// True if the stroke of a point is prescribed, and so the same at every frequency.
 pub fn has_prescribed_stroke(parameters: &[Parameter], values: &[f64]) -> bool {
     parameters.iter().zip(values).any(|(parameter, &value)| {
         let Kind::Choice(options) = parameter.kind else { return false };
@@ -139,7 +139,7 @@ struct Response<'a> {
     pitch: usize,
     /// Periodic points, by rising frequency.
     settled: Vec<DrivenPeak>,
-    /// The others, by rising frequency, and what became of them.
+    /// The other points, by rising frequency, with their statuses.
     unsettled: Vec<(f64, Status)>,
 }
 
@@ -220,7 +220,7 @@ impl<'a> Response<'a> {
         near.fold(*top, |highest, &one| if one.stroke_pp > highest.stroke_pp { one } else { highest })
     }
 
-    /// Where the motion did not become periodic.
+    /// Frequencies at which the motion did not become periodic, rising.
     fn gaps(&self) -> Vec<Gap> {
         let settled_between = |from: f64, to: f64| {
             self.settled.iter().any(|point| point.frequency > from && point.frequency < to)
@@ -251,7 +251,7 @@ impl<'a> Response<'a> {
     }
 }
 
-/// Points to be run, and the rows that came back.
+/// Points to be run, and their rows.
 struct Points<'a> {
     interrupted: Interrupt<'a>,
     values: Vec<Vec<f64>>,

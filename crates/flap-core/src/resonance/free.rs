@@ -15,7 +15,7 @@ pub const INTERVALS_MAX: u32 = 5_000_000;
 /// Peaks looked for in a spectrum.
 const PEAKS: usize = 2;
 
-/// What is asked of a free motion.
+/// Settings of an examination of the free motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeRequest {
     /// The impulse, as the amplitude (rad) to be reached by a stroke of the first mode alone, undamped.
@@ -91,7 +91,7 @@ pub fn examine(
     Ok(FreeMotion { stroke_rate, fit, stroke_peaks: peaks("stroke_deg")?, pitch_peaks: peaks("pitch_deg")? })
 }
 
-/// Into how many intervals a motion of `duration` (s) is cut, for at least `rate` samples per second.
+/// The number of intervals into which a motion of `duration` (s) is cut, for at least `rate` samples per second.
 ///
 /// # Errors
 /// [`Invalid`] if there is nothing to cut, or it gives too many.

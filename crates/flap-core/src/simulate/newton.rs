@@ -7,10 +7,11 @@ use crate::ode::variation::response;
 /// Iterations after which a search is given up: where it converges at all, it takes two to four.
 const LONGEST: u32 = 8;
 
-/// How much the residual must fall from one iteration to the next.
+/// The factor by which the residual must at least fall from one iteration to the next.
 const PROGRESS: f64 = 0.5;
 
-/// How far the march may be from where the orbit's linear map predicts it, relative to its distance from the orbit.
+/// The largest distance between the march and the prediction of the orbit's linear map, relative to the distance between
+/// march and orbit.
 const LINEAR: f64 = 0.3;
 
 /// The search for the fixed point of the map from the state at the beginning of a period to that at its end.
@@ -20,7 +21,7 @@ pub(super) struct Newton<const N: usize> {
     /// The residual that is aimed at, and the one that will do if it cannot be reached.
     goal: f64,
     enough: f64,
-    /// Where the march was when the search began, and a period later.
+    /// The state of the march when the search began, and a period later.
     march: [[f64; N]; 2],
     /// The beginning of the period that is being integrated.
     y: [f64; N],
@@ -41,7 +42,7 @@ pub(super) struct FixedPoint<const N: usize> {
     pub(super) floquet_max: f64,
 }
 
-/// What a period has shown.
+/// The result of a period.
 pub(super) enum Step<const N: usize> {
     /// To be integrated from this state.
     Again([f64; N]),
@@ -120,8 +121,8 @@ impl<const N: usize> Newton<N> {
         monodromy
     }
 
-    /// Whether the period of the march with which the search began went towards the orbit through `y` as the orbit's
-    /// linear map says. Then the march was near the orbit and, if that is stable, goes there.
+    /// True if the march, in the period with which the search began, moved towards the orbit through `y` as the orbit's
+    /// linear map predicts. Then the march was near the orbit and, if that is stable, goes there.
     fn approaches(&self, y: &[f64; N], monodromy: &[[f64; N]; N]) -> bool {
         let [before, after] = self.march.map(|march| {
             let distance = difference(&march, y);
@@ -169,12 +170,12 @@ fn difference<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
     core::array::from_fn(|i| a[i] - b[i])
 }
 
-/// What nothing becomes of.
+/// The identity matrix.
 pub(super) fn identity<const N: usize>() -> [[f64; N]; N] {
     core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j))))
 }
 
-/// What becomes of a change in `first`, and of the result in `second`.
+/// The product `second * first`.
 pub(super) fn product<const N: usize>(second: &[[f64; N]; N], first: &[[f64; N]; N]) -> [[f64; N]; N] {
     core::array::from_fn(|i| core::array::from_fn(|j| (0..N).map(|k| second[i][k] * first[k][j]).sum()))
 }

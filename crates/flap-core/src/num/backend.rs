@@ -1,4 +1,4 @@
-//! Which instructions this machine has, and how code is run with them.
+//! The backend of computations, and the one place that chooses between instructions and arithmetics.
 
 use core::fmt;
 
@@ -12,7 +12,7 @@ use fearless_simd::{Avx2, Sse2};
 use super::avx512::Avx512;
 use super::{Scalar, Simd, Unfused};
 
-/// Whether `mul_add` rounds once or twice. Results are equal to the last bit within a class.
+/// The rounding of `mul_add`: once or twice. Results are equal to the last bit within a class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arithmetic {
     /// Fused multiply-add: AVX2, AVX-512, NEON.
@@ -31,19 +31,36 @@ impl Arithmetic {
     }
 }
 
-/// A set of SIMD instructions that this machine has.
+/// Computing hardware of this machine: its processor with one set of SIMD instructions.
+///
+/// Whoever starts a computation asks for a backend once, with [`Backend::best`] or [`Backend::by_name`], and hands it on.
+/// Work that is generic over numbers then runs on its lanes ([`Backend::dispatch`]) or on its scalars
+/// ([`Backend::dispatch_scalar`]), with the same bits from both.
 #[derive(Clone, Copy, Debug)]
-pub struct InstructionSet(Proof);
+pub struct Backend(Proof);
+
+/// The earlier name of [`Backend`].
+pub type InstructionSet = Backend;
 
 /// Work that is generic over SIMD instructions.
 pub trait Kernel {
-    /// What the work results in.
+    /// The result of the work.
     type Output;
 
     /// Does the work with the instructions of `S`. Mark implementations `#[inline(always)]`.
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
+/// Work on one number at a time, generic over its arithmetic.
+pub trait ScalarKernel {
+    /// The result of the work.
+    type Output;
+
+    /// Does the work with the scalar `R`: `f64` or [`Unfused`].
+    fn run<R: Scalar>(self) -> Self::Output;
+}
+
+/// Proof that the processor has the instructions of a backend.
 #[derive(Clone, Copy, Debug)]
 enum Proof {
     #[cfg(target_arch = "x86_64")]
@@ -58,14 +75,14 @@ enum Proof {
     Other(Level),
 }
 
-impl InstructionSet {
-    /// The best this machine has.
-    pub fn best() -> InstructionSet {
+impl Backend {
+    /// The fastest of this machine.
+    pub fn best() -> Backend {
         Self::available().swap_remove(0)
     }
 
-    /// All that this machine has, best first.
-    pub fn available() -> Vec<InstructionSet> {
+    /// All backends of this machine, the fastest first.
+    pub fn available() -> Vec<Backend> {
         let level = Level::new();
         #[cfg(target_arch = "x86_64")]
         let proofs = [
@@ -77,12 +94,12 @@ impl InstructionSet {
         let proofs = [level.as_neon().map(Proof::Neon)];
         #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
         let proofs = [Some(Proof::Other(level))];
-        proofs.into_iter().flatten().map(InstructionSet).collect()
+        proofs.into_iter().flatten().map(Backend).collect()
     }
 
-    /// The available set with this [name](InstructionSet::name).
-    pub fn by_name(name: &str) -> Option<InstructionSet> {
-        Self::available().into_iter().find(|set| set.name() == name)
+    /// The available backend with this [name](Backend::name).
+    pub fn by_name(name: &str) -> Option<Backend> {
+        Self::available().into_iter().find(|backend| backend.name() == name)
     }
 
     /// The name in the provenance of a run: `avx512`, `avx2`, `sse2` or `neon`.
@@ -103,13 +120,27 @@ impl InstructionSet {
 
     /// The class of its arithmetic.
     pub fn arithmetic(self) -> Arithmetic {
-        match self.name() {
-            "avx512" | "avx2" | "neon" => Arithmetic::Fused,
-            _ => Arithmetic::Unfused,
+        match self.0 {
+            #[cfg(target_arch = "x86_64")]
+            Proof::Avx512(_) | Proof::Avx2(_) => Arithmetic::Fused,
+            #[cfg(target_arch = "x86_64")]
+            Proof::Sse2(_) => Arithmetic::Unfused,
+            #[cfg(target_arch = "aarch64")]
+            Proof::Neon(_) => Arithmetic::Fused,
+            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            Proof::Other(_) => Arithmetic::Unfused,
         }
     }
 
-    /// Runs `kernel` compiled for these instructions.
+    /// Runs `kernel` on scalars of this backend's arithmetic.
+    pub fn dispatch_scalar<K: ScalarKernel>(self, kernel: K) -> K::Output {
+        match self.arithmetic() {
+            Arithmetic::Fused => kernel.run::<f64>(),
+            Arithmetic::Unfused => kernel.run::<Unfused>(),
+        }
+    }
+
+    /// Runs `kernel` on SIMD lanes, compiled for this backend's instructions.
     #[inline]
     pub fn dispatch<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
@@ -127,26 +158,6 @@ impl InstructionSet {
     }
 }
 
-impl Scalar for f64 {
-    /// Enables the fused multiply-add instruction, where `mul_add` would otherwise be a call into the C library
-    /// (which gives the same bits).
-    #[inline(always)]
-    fn enter<T>(work: impl FnOnce() -> T) -> T {
-        #[cfg(target_arch = "x86_64")]
-        if let Some(simd) = Level::new().as_avx2() {
-            return Simd::vectorize(simd, work);
-        }
-        work()
-    }
-}
-
-impl Scalar for Unfused {
-    #[inline(always)]
-    fn enter<T>(work: impl FnOnce() -> T) -> T {
-        work()
-    }
-}
-
 /// Calls `kernel` from a function in which the instructions of `S` are enabled.
 #[inline(always)]
 fn enter<S: Simd, K: Kernel>(simd: S, kernel: K) -> K::Output {
@@ -156,7 +167,7 @@ fn enter<S: Simd, K: Kernel>(simd: S, kernel: K) -> K::Output {
     )
 }
 
-impl fmt::Display for InstructionSet {
+impl fmt::Display for Backend {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }

@@ -1,0 +1,136 @@
+//! One number at a time.
+
+use super::float::{EXPONENT_BITS, Float, MANTISSA_BITS, ONE_BITS, ROUND, TWO_52, TWO_52_BITS};
+use super::lanes::Lanes;
+use super::number::Number;
+
+/// One number at a time: `f64`, or [`Unfused`](super::Unfused) for machines without fused multiply-add.
+pub trait Scalar: Lanes<Token = (), Mask = bool> {
+    /// The scalar with this value.
+    fn new(value: f64) -> Self;
+
+    /// The value.
+    fn value(self) -> f64;
+
+    /// Does the work with the instructions that this arithmetic is fast on. Results do not depend on it.
+    fn enter<T>(work: impl FnOnce() -> T) -> T;
+}
+
+impl<R: Scalar> Lanes for R {
+    const LANES: usize = 1;
+    type Token = ();
+
+    #[inline(always)]
+    fn splat((): (), c: f64) -> R {
+        R::new(c)
+    }
+
+    #[inline(always)]
+    fn lane(self, _lane: usize) -> f64 {
+        self.value()
+    }
+
+    #[inline(always)]
+    fn set_lane(&mut self, _lane: usize, value: f64) {
+        *self = R::new(value);
+    }
+
+    #[inline(always)]
+    fn mask((): (), bits: u64) -> bool {
+        bits & 1 != 0
+    }
+
+    #[inline(always)]
+    fn bits(mask: bool) -> u64 {
+        u64::from(mask)
+    }
+
+    #[inline(always)]
+    fn apart<T>(self, work: impl FnOnce() -> T) -> T {
+        work()
+    }
+}
+
+/// The scalar of [`super::Arithmetic::Fused`]: its `mul_add` rounds once.
+impl Scalar for f64 {
+    #[inline(always)]
+    fn new(value: f64) -> f64 {
+        value
+    }
+
+    #[inline(always)]
+    fn value(self) -> f64 {
+        self
+    }
+
+    /// Enables the fused multiply-add instruction, where `mul_add` would otherwise be a call into the C library
+    /// (which gives the same bits).
+    #[inline(always)]
+    fn enter<T>(work: impl FnOnce() -> T) -> T {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(simd) = fearless_simd::Level::new().as_avx2() {
+            return fearless_simd::Simd::vectorize(simd, work);
+        }
+        work()
+    }
+}
+
+impl Number for f64 {
+    type Mask = bool;
+
+    #[inline(always)]
+    fn lit(self, c: f64) -> f64 {
+        c
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: f64, b: f64) -> f64 {
+        f64::mul_add(self, a, b)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> f64 {
+        f64::abs(self)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> f64 {
+        f64::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn copysign(self, sign: f64) -> f64 {
+        f64::copysign(self, sign)
+    }
+
+    #[inline(always)]
+    fn lt(self, other: f64) -> bool {
+        self < other
+    }
+
+    #[inline(always)]
+    fn select(mask: bool, yes: f64, no: f64) -> f64 {
+        if mask { yes } else { no }
+    }
+}
+
+impl Float for f64 {
+    #[inline(always)]
+    fn flip_sign_by_lowest_bit(self, selector: f64) -> f64 {
+        f64::from_bits(self.to_bits() ^ (selector.to_bits() << 63))
+    }
+
+    #[inline(always)]
+    fn exponent_and_mantissa(self) -> (f64, f64) {
+        let bits = self.to_bits();
+        let mantissa = f64::from_bits((bits & MANTISSA_BITS) | ONE_BITS);
+        // The exponent field as a whole number: its bits below those of 2^52.
+        let exponent = f64::from_bits(((bits & EXPONENT_BITS) >> 52) | TWO_52_BITS) - (TWO_52 + 1023.0);
+        (exponent, mantissa)
+    }
+
+    #[inline(always)]
+    fn times_power_of_two(self, k: f64) -> f64 {
+        f64::from_bits(self.to_bits().wrapping_add((k + ROUND).to_bits() << 52))
+    }
+}

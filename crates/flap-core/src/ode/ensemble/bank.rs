@@ -1,0 +1,228 @@
+//! The numbers in an ensemble's lanes, and a step of all of them.
+
+use super::observer::Observer;
+use crate::num::{Lanes, PerLane};
+use crate::ode::controller::{Memory, judge};
+use crate::ode::norm::error_squared;
+use crate::ode::start::{first_step, span_step};
+use crate::ode::step::{Attempt, Step};
+use crate::ode::switch::{Crossing, Switching, landing_stretch};
+use crate::ode::{Ending, MIN_STEP, Ode, Start, Tolerances, input, slope};
+
+/// The numbers of the runs in lanes.
+pub(super) struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> {
+    token: R::Token,
+    tolerances: Tolerances,
+
+    // One of each per lane.
+    constants: O::Constants<R>,
+    totals: V::Totals<R>,
+    span: R,
+    rtol: R,
+    atol: [R; N],
+    t: R,
+    h: R,
+    /// The step size with which a span begins.
+    h_begin: R,
+    step: Step<R, N>,
+    memory: Memory<R>,
+    switching: Switching<R>,
+    steps_in_span: R,
+    switches: R,
+    error: R,
+}
+
+/// Lanes to which something has happened in a step, one bit each.
+pub(super) struct Events {
+    /// Lanes at the end of their span.
+    pub(super) landed: u64,
+    /// Lanes whose run has failed.
+    pub(super) failed: u64,
+}
+
+impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
+    /// A bank with the same run in every lane, so that idle ones compute nothing odd.
+    #[inline(always)]
+    pub(super) fn new(
+        token: R::Token,
+        observer: &V,
+        tolerances: &Tolerances,
+        start: &Start<O::Constants<f64>, N>,
+    ) -> Self {
+        let number = R::splat(token, 0.0);
+        let mut bank = Bank {
+            token,
+            tolerances: *tolerances,
+            constants: O::Constants::<R>::fill(token, &start.constants),
+            totals: V::Totals::<R>::fill(token, &observer.nothing()),
+            span: number.lit(start.span),
+            rtol: number.lit(tolerances.rtol * start.tighten),
+            atol: [number; N],
+            t: number,
+            h: number.lit(start.span),
+            h_begin: number.lit(start.span),
+            step: Step::new([number; N], [number; N]),
+            memory: Memory::new(number),
+            switching: Switching::new(number),
+            steps_in_span: number,
+            switches: number,
+            error: number,
+        };
+        for i in 0..N {
+            bank.step.y[0][i] = number.lit(start.y[i]);
+            bank.atol[i] = number.lit(tolerances.atol * start.tighten * start.scale[i]);
+        }
+        bank
+    }
+
+    /// Puts a run into a lane.
+    pub(super) fn load(&mut self, lane: usize, start: &Start<O::Constants<f64>, N>, observer: &V) {
+        self.constants.set(lane, &start.constants);
+        self.totals.set(lane, &observer.nothing());
+        self.span.set_lane(lane, start.span);
+        self.rtol.set_lane(lane, self.tolerances.rtol * start.tighten);
+        for i in 0..N {
+            self.step.y[0][i].set_lane(lane, start.y[i]);
+            self.atol[i].set_lane(lane, self.tolerances.atol * start.tighten * start.scale[i]);
+        }
+    }
+
+    /// Finds first slope and step size in the `fresh` lanes, one bit each. The others compute along and keep theirs.
+    #[inline(always)]
+    pub(super) fn begin(&mut self, ode: &O, fresh: u64) {
+        let fresh = R::mask(self.token, fresh);
+        let switching = Switching::begin(ode, &self.constants, &self.step.y[0]);
+        let (k1, h) = first_step(
+            ode,
+            &self.constants,
+            switching.side,
+            &self.step.y[0],
+            self.span,
+            &self.atol,
+            self.rtol,
+        );
+        let value = ode.switch(&self.constants, &self.step.y[0], &k1);
+        let zero = self.t.lit(0.0);
+        let memory = Memory::new(zero);
+        for i in 0..N {
+            self.step.k[0][i] = R::select(fresh, k1[i], self.step.k[0][i]);
+        }
+        self.h = R::select(fresh, h, self.h);
+        self.h_begin = R::select(fresh, h, self.h_begin);
+        self.t = R::select(fresh, zero, self.t);
+        self.steps_in_span = R::select(fresh, zero, self.steps_in_span);
+        self.memory.log2_error = R::select(fresh, memory.log2_error, self.memory.log2_error);
+        self.memory.level_max = R::select(fresh, memory.level_max, self.memory.level_max);
+        if O::SWITCHES {
+            self.switching.side = R::select(fresh, switching.side, self.switching.side);
+            self.switching.heading = self.switching.heading & !fresh;
+            self.switching.value = [
+                R::select(fresh, value[0], self.switching.value[0]),
+                R::select(fresh, value[1], self.switching.value[1]),
+            ];
+            self.switches = R::select(fresh, zero, self.switches);
+        }
+    }
+
+    /// Makes a lane ready for the next span.
+    pub(super) fn begin_span(&mut self, lane: usize) {
+        let h = span_step(self.h_begin.lane(lane), self.h.lane(lane));
+        let memory = Memory::new(0.0);
+        self.t.set_lane(lane, 0.0);
+        self.steps_in_span.set_lane(lane, 0.0);
+        self.h.set_lane(lane, h);
+        self.h_begin.set_lane(lane, h);
+        self.memory.log2_error.set_lane(lane, memory.log2_error);
+        self.memory.level_max.set_lane(lane, memory.level_max);
+    }
+
+    /// Attempts one step in every lane.
+    #[inline(always)]
+    pub(super) fn advance(&mut self, ode: &O, observer: &V) -> Events {
+        let target = ode.next_break(&self.constants, self.t).min(self.span);
+        let remaining = target - self.t;
+        let landing = remaining.lt(self.h * landing_stretch(&self.switching));
+        let h = R::select(landing, remaining, self.h);
+
+        let side = self.switching.side;
+        self.step.attempt(ode, &self.constants, self.t, h, side);
+        let Step { y: [y, .., y_new], error, .. } = &self.step;
+        self.error = error_squared(error, y, y_new, &self.atol, self.rtol, O::CONTROLLED);
+        let verdict = judge(self.error, &mut self.memory);
+        self.steps_in_span = self.steps_in_span + 1.0;
+
+        let proposal = h * verdict.factor;
+        // A step cut short by its target says little about the next one.
+        let h_next = R::select(verdict.accepted & landing, proposal.max(self.h), proposal);
+        let mut crossing =
+            Crossing { accepted: verdict.accepted, h: h_next, arrived: R::mask(self.token, 0) };
+        if O::SWITCHES {
+            crossing = self.switching.judge(ode, &self.constants, &self.step, h, verdict.accepted, h_next);
+        }
+        self.h = crossing.h;
+        let accepted = crossing.accepted;
+        let attempt = Attempt { t: self.t, h, side, step: &self.step };
+        observer.add(ode, &self.constants, &attempt, accepted, &mut self.totals);
+        let t = R::select(landing, target, self.t + h);
+        self.t = R::select(accepted, t, self.t);
+        self.step.advance(accepted);
+        if O::SWITCHES && R::bits(crossing.arrived) != 0 {
+            self.change_sides(ode, crossing.arrived);
+        }
+        let landed = R::bits(accepted & landing) & !R::bits(target.lt(self.span));
+
+        let limit = self.t.lit(f64::from(self.tolerances.max_steps) - 0.5);
+        let exhausted = R::bits(limit.lt(self.steps_in_span));
+        let stuck = R::bits(self.h.lt(self.span * MIN_STEP));
+        Events { landed, failed: exhausted | stuck }
+    }
+
+    /// Renews the first slope in the lanes that have arrived at their switching surface.
+    #[inline(always)]
+    fn change_sides(&mut self, ode: &O, arrived: R::Mask) {
+        let u = input(ode, &self.constants, self.t);
+        let Step { y: [y, ..], k: [k1, ..], .. } = &mut self.step;
+        let crossed = ode.crossed(&self.constants, &u, self.switching.side, y);
+        for i in 0..N {
+            y[i] = R::select(arrived, crossed[i], y[i]);
+        }
+        let slope = slope(ode, &self.constants, &u, self.switching.side, y);
+        for i in 0..N {
+            k1[i] = R::select(arrived, slope[i], k1[i]);
+        }
+        let value = ode.switch(&self.constants, y, k1);
+        for i in 0..2 {
+            self.switching.value[i] = R::select(arrived, value[i], self.switching.value[i]);
+        }
+        self.switches = R::select(arrived, self.switches + 1.0, self.switches);
+    }
+
+    /// The state of one lane.
+    pub(super) fn state(&self, lane: usize) -> [f64; N] {
+        let mut y = [0.0; N];
+        for i in 0..N {
+            y[i] = self.step.y[0][i].lane(lane);
+        }
+        y
+    }
+
+    /// The totals of one lane.
+    pub(super) fn totals(&self, lane: usize) -> V::Totals<f64> {
+        self.totals.get(lane)
+    }
+
+    /// The ending of a run that has failed in its last step.
+    pub(super) fn failure(&self, lane: usize) -> Ending {
+        Ending::of_failure(self.error.lane(lane))
+    }
+
+    /// Crossings of the switching surface in one lane.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a count: whole, positive and small"
+    )]
+    pub(super) fn switches(&self, lane: usize) -> u64 {
+        self.switches.lane(lane) as u64
+    }
+}

@@ -1,0 +1,176 @@
+//! The schedule of an ensemble: it fills lanes from the queue, steps, and takes runs that have ended out of their lanes.
+
+use core::ops::AddAssign;
+
+use super::bank::{Bank, Events};
+use super::observer::Observer;
+use super::queue::{NewRun, Queue};
+use crate::num::{Lanes, Simd, Vector};
+use crate::ode::{Ending, Ode, Outcome, Start, Tolerances, UNASKED};
+
+/// Use of the lanes: the steps that served a run, and all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Occupancy {
+    /// Steps attempted in lanes with a run.
+    pub used: u64,
+    /// Steps attempted in all lanes.
+    pub room: u64,
+}
+
+impl AddAssign for Occupancy {
+    fn add_assign(&mut self, more: Occupancy) {
+        self.used += more.used;
+        self.room += more.room;
+    }
+}
+
+/// Integrates the runs of `queue` until it has no more or is interrupted. Returns the use of the lanes.
+pub fn run<S, O, V, Q, const N: usize>(
+    simd: S,
+    ode: &O,
+    observer: &V,
+    tolerances: &Tolerances,
+    queue: &mut Q,
+) -> Occupancy
+where
+    S: Simd,
+    O: Ode<N>,
+    V: Observer<O, N>,
+    Q: Queue<O, V, N>,
+{
+    let Some(first) = queue.next(true) else { return Occupancy::default() };
+    // The callbacks of a queue may call this again: enter a function with these instructions enabled.
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            Schedule::<Vector<S>, O, V, Q::Run, N>::new(simd, observer, tolerances, first)
+                .drive(ode, observer, queue)
+        },
+    )
+}
+
+/// The lanes, and the run in each of them.
+struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> {
+    bank: Bank<R, O, V, N>,
+    /// The run in each lane; `None` in a lane that waits for work.
+    runs: Vec<Option<Running<Run>>>,
+    /// Vector steps made.
+    steps: u64,
+    /// Steps that the runs which have ended took.
+    used: u64,
+    /// Lanes with a run, one bit each.
+    active: u64,
+    /// Lanes whose run has not begun, one bit each.
+    fresh: u64,
+}
+
+struct Running<Run> {
+    run: Run,
+    /// Vector steps made when it began.
+    began: u64,
+}
+
+impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Schedule<R, O, V, Run, N> {
+    /// A schedule with one run, in lane 0.
+    #[inline(always)]
+    fn new(
+        token: R::Token,
+        observer: &V,
+        tolerances: &Tolerances,
+        (run, start): NewRun<Run, O::Constants<f64>, N>,
+    ) -> Self {
+        let mut schedule = Schedule {
+            bank: Bank::new(token, observer, tolerances, &start),
+            runs: (0..R::LANES).map(|_| None).collect(),
+            steps: 0,
+            used: 0,
+            active: 0,
+            fresh: 0,
+        };
+        schedule.load(0, run, &start, observer);
+        schedule
+    }
+
+    /// Puts a run into a lane.
+    fn load(&mut self, lane: usize, run: Run, start: &Start<O::Constants<f64>, N>, observer: &V) {
+        self.bank.load(lane, start, observer);
+        self.runs[lane] = Some(Running { run, began: self.steps });
+        self.active |= 1 << lane;
+        self.fresh |= 1 << lane;
+    }
+
+    /// Runs the queue empty.
+    #[inline(always)]
+    fn drive<Q: Queue<O, V, N, Run = Run>>(mut self, ode: &O, observer: &V, queue: &mut Q) -> Occupancy {
+        loop {
+            self.refill(observer, queue);
+            if self.active == 0 || queue.interrupted() {
+                return Occupancy { used: self.used, room: self.steps * R::LANES as u64 };
+            }
+            if self.fresh != 0 {
+                self.bank.begin(ode, self.fresh);
+                self.fresh = 0;
+            }
+            let mut unasked = UNASKED;
+            let events = loop {
+                let events = self.advance(ode, observer);
+                unasked -= 1;
+                if events.landed | events.failed != 0 || unasked == 0 {
+                    break events;
+                }
+            };
+            self.settle(&events, queue);
+        }
+    }
+
+    /// Fills the lanes that wait, as far as there are runs.
+    fn refill<Q: Queue<O, V, N, Run = Run>>(&mut self, observer: &V, queue: &mut Q) {
+        for lane in 0..R::LANES {
+            if self.active & (1 << lane) != 0 {
+                continue;
+            }
+            match queue.next(self.active == 0) {
+                Some((run, start)) => self.load(lane, run, &start, observer),
+                None => return,
+            }
+        }
+    }
+
+    /// Asks the queue about the lanes that have landed, and gives up those that have failed.
+    fn settle<Q: Queue<O, V, N, Run = Run>>(&mut self, events: &Events, queue: &mut Q) {
+        for lane in 0..R::LANES {
+            let bit = 1 << lane;
+            if (events.landed | events.failed) & bit == 0 {
+                continue;
+            }
+            let Some(running) = &mut self.runs[lane] else { continue };
+            let ending = if events.failed & bit != 0 {
+                Some(self.bank.failure(lane))
+            } else {
+                let (y, totals) = (self.bank.state(lane), self.bank.totals(lane));
+                let verdict = queue.span_end(&mut running.run, &y, &totals);
+                verdict.is_break().then_some(Ending::Stopped)
+            };
+            match ending {
+                None => self.bank.begin_span(lane),
+                Some(ending) => {
+                    self.active &= !bit;
+                    if let Some(Running { run, began }) = self.runs[lane].take() {
+                        let steps = self.steps - began;
+                        self.used += steps;
+                        queue.ended(run, Outcome::new::<O, N>(ending, steps, self.bank.switches(lane)));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Attempts one step in every lane.
+    #[inline(always)]
+    fn advance(&mut self, ode: &O, observer: &V) -> Events {
+        let Events { landed, failed } = self.bank.advance(ode, observer);
+        self.steps += 1;
+        let landed = landed & self.active;
+        Events { landed, failed: failed & self.active & !landed }
+    }
+}
