@@ -131,7 +131,7 @@ fn given_moments_are_not_used_with_blade_elements() {
     assert_eq!(constants, Constants { blades: constants.blades, ..uniform });
     let negative = Params { chord_legendre_1: 1.2, ..blade };
     let error = Constants::derive(&negative).unwrap_err();
-    assert!(error.reason.contains("the chord is negative"), "{}", error.reason);
+    assert!(error.to_string().contains("the chord is negative"), "{error}");
 }
 
 #[test]
@@ -150,9 +150,9 @@ fn following_parameters_follow_until_they_are_set() {
 fn impossible_inertias_are_refused() {
     let p = Params::ozaki2018_small();
     let error = Constants::derive(&Params { wing_inertia_product: 1e-9, ..p.clone() }).unwrap_err();
-    assert!(error.reason.contains("not positive definite"), "{}", error.reason);
+    assert!(error.to_string().contains("not positive definite"), "{error}");
     let error = Constants::derive(&Params { wing_length: 1e200, ..p }).unwrap_err();
-    assert!(error.reason.contains("not finite"), "{}", error.reason);
+    assert!(error.to_string().contains("not finite"), "{error}");
 }
 
 #[test]

@@ -3,30 +3,15 @@
 use super::samples::Samples;
 use super::waveform::{Shape, Wave, Waveform};
 use crate::num::{Lanes, Real};
-use crate::parameter::{Invalid, Slot};
+use crate::parameter::Invalid;
 
-/// What the drive moves.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum StrokeMode {
-    /// The voltage: the stroke follows from the equations of motion.
-    #[default]
-    Free,
-    /// The stroke itself, which follows the waveform whatever that takes; the pitch answers.
-    Prescribed,
-}
-
-impl StrokeMode {
-    /// Names of the options, in the order of their values.
-    pub const NAMES: &'static [&'static str] = &["free", "prescribed"];
-}
-
-impl Slot for StrokeMode {
-    fn from_value(value: f64) -> StrokeMode {
-        if value == 1.0 { StrokeMode::Prescribed } else { StrokeMode::Free }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// What the drive moves.
+    pub enum StrokeMode {
+        /// The voltage: the stroke follows from the equations of motion.
+        Free = "free",
+        /// The stroke itself, which follows the waveform whatever that takes; the pitch answers.
+        Prescribed = "prescribed",
     }
 }
 
@@ -79,14 +64,16 @@ impl Source {
             return Ok(());
         }
         if self.prescribes_stroke() {
-            return Err(Invalid::new(
+            return Err(Invalid::together(
+                &["stroke_mode", "drive_shape"],
                 "stroke_mode is \"prescribed\": a square wave is no motion of a wing, choose another drive_shape",
             ));
         }
         if rise > 0.5 {
-            return Err(Invalid::new(format!(
-                "drive_rise is {rise}; a square wave rises in at most 0.5 of its period"
-            )));
+            return Err(Invalid::together(
+                &["drive_rise", "drive_shape"],
+                format!("drive_rise is {rise}; a square wave rises in at most 0.5 of its period"),
+            ));
         }
         Ok(())
     }

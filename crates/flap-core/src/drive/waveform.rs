@@ -25,16 +25,13 @@ impl Shape {
 }
 
 impl Slot for Shape {
-    fn from_value(value: f64) -> Shape {
-        match value {
-            1.0 => Shape::Harmonics,
-            2.0 => Shape::Square,
-            _ => Shape::Sine,
-        }
+    fn take(values: &mut impl Iterator<Item = f64>) -> Shape {
+        let shapes = [Shape::Sine, Shape::Harmonics, Shape::Square];
+        values.next().and_then(|value| crate::parameter::option(&shapes, value)).unwrap_or_default()
     }
 
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+    fn put(&self, values: &mut Vec<f64>) {
+        values.push(f64::from(*self as u8));
     }
 }
 

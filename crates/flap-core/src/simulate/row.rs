@@ -153,7 +153,7 @@ impl Row {
             state: Vec::new(),
             error_estimate: f64::NAN,
             rhs_evals: 0,
-            reason: Some(error.reason),
+            reason: Some(error.to_string()),
         }
     }
 }

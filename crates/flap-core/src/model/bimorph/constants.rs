@@ -121,7 +121,8 @@ impl Constants<f64> {
         let steepest = (p.stress_field.abs() + field_max) * p.stress_steepness;
         let z_0 = p.modulus_steepness * p.modulus_strain;
         if steepest.max(z_0.abs()) > EXPONENT_MAX {
-            return Err(Invalid::new(
+            return Err(Invalid::together(
+                &["stress_steepness", "stress_field", "modulus_steepness", "modulus_strain"],
                 "a transition is too steep: stress_steepness times field, or modulus_steepness times \
                  modulus_strain, exceeds 600",
             ));
@@ -194,7 +195,7 @@ impl Constants<f64> {
         if <Constants<f64> as PerLane<f64>>::is_finite(&constants) {
             Ok(constants)
         } else {
-            Err(Invalid::new("a derived constant is not finite: the parameters are too large or too small"))
+            Err(Invalid::NotFinite)
         }
     }
 }

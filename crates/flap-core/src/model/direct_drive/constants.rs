@@ -212,9 +212,7 @@ impl Constants<f64> {
 
     fn checked(self) -> Result<Constants<f64>, Invalid> {
         if !<Constants<f64> as PerLane<f64>>::is_finite(&self) {
-            return Err(Invalid::new(
-                "a derived constant is not finite: the parameters are too large or too small",
-            ));
+            return Err(Invalid::NotFinite);
         }
         // The determinant is linear in cos²ψ: positive everywhere if it is at both ends.
         let pitch = self.m22 + self.a22;
@@ -224,7 +222,8 @@ impl Constants<f64> {
         if upright > 0.0 && flat > 0.0 {
             Ok(self)
         } else {
-            Err(Invalid::new(
+            Err(Invalid::together(
+                &["mass_centre_chord", "wing_inertia_product", "wing_inertia_span", "wing_mass"],
                 "the mass matrix is not positive definite: the wing's inertias do not go together \
                  (mass_centre_chord and wing_inertia_product against wing_inertia_span and wing_mass)",
             ))

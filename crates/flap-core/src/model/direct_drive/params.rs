@@ -3,8 +3,8 @@
 use crate::drive::{Shape, StrokeMode, Waveform};
 use crate::linkage::TorsionHinge;
 use crate::parameter::Kind::{Choice, Following, Number};
+use crate::parameter::Preset;
 use crate::parameter::Range::{Any, NonNegative, Positive};
-use crate::parameter::{Preset, Slot};
 
 crate::parameters! {
     /// Parameters of the direct-drive model, in SI units. Symbols as in Ozaki and Hamaguchi 2018, Table A1.
@@ -58,7 +58,7 @@ crate::parameters! {
         hinge_stiffness: f64 = ("N*m/rad", "k_w", Number(Positive)),
 
         /// Direction of flow that the translational forces follow: that of the wing's mean velocity, one for the whole wing as in the paper, or that of each blade element's own velocity. With "blade" the shape moments, rotation_moment and midspan_chord are computed from the chord shape, and what is given for them is not used.
-        flow_direction: FlowDirection = ("", "", Choice(&["uniform", "blade"])),
+        flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)),
         /// Chord shape: coefficient of the Legendre polynomial P_1(2r/R - 1) in chord / mean_chord, whose constant term is 1; not in the paper: fitted to its shape moments. Only for flow_direction = "blade".
         chord_legendre_1: f64 = ("", "a_1", Number(Any)),
         /// Chord shape: coefficient of the Legendre polynomial P_2; not in the paper.
@@ -125,94 +125,53 @@ crate::parameters! {
         pressure_offset: f64 = ("", "0.05", Number(Any)),
 
         /// Which attack angle moves the centre of pressure: relative to the motion, folded to at most 90 deg, or as printed (which breaks mirror symmetry).
-        centre_of_pressure: CentreOfPressure = ("", "", Choice(&["directional", "folded", "literal"])),
+        centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)),
         /// Moments of the added mass: as in the paper, or with the gyroscopic terms of the Lagrangian form.
-        added_mass: AddedMass = ("", "", Choice(&["paper", "lagrangian"])),
+        added_mass: AddedMass = ("", "", Choice(AddedMass::NAMES)),
         /// Sign of the added-mass part of lift, Eq. (35): corrected, or as printed.
-        lift_sign: LiftSign = ("", "", Choice(&["corrected", "printed"])),
+        lift_sign: LiftSign = ("", "", Choice(LiftSign::NAMES)),
     }
 }
 
-/// Which way the air flows over the wing while it reverses.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum FlowDirection {
-    /// One way for the whole wing: that of its mean velocity. The paper's.
-    #[default]
-    Uniform,
-    /// Over each blade element by its own velocity.
-    Blade,
-}
-
-impl Slot for FlowDirection {
-    fn from_value(value: f64) -> Self {
-        if value == 1.0 { FlowDirection::Blade } else { FlowDirection::Uniform }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Which way the air flows over the wing while it reverses.
+    pub enum FlowDirection {
+        /// One way for the whole wing: that of its mean velocity. The paper's.
+        Uniform = "uniform",
+        /// Over each blade element by its own velocity.
+        Blade = "blade",
     }
 }
 
-/// Readings of Eq. (24): which attack angle the centre of pressure depends on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CentreOfPressure {
-    /// |π/2 − σψ| with σ the sign of the wing's velocity: the attack angle relative to the motion.
-    Directional,
-    /// π/2 − |ψ|: never above 90°.
-    Folded,
-    /// |π/2 − ψ|: as printed. Breaks the mirror symmetry of the two half strokes.
-    Literal,
-}
-
-impl Slot for CentreOfPressure {
-    fn from_value(value: f64) -> Self {
-        match value {
-            1.0 => CentreOfPressure::Folded,
-            2.0 => CentreOfPressure::Literal,
-            _ => CentreOfPressure::Directional,
-        }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Readings of Eq. (24): which attack angle the centre of pressure depends on.
+    pub enum CentreOfPressure {
+        /// |π/2 − σψ| with σ the sign of the wing's velocity: the attack angle relative to the motion.
+        Directional = "directional",
+        /// π/2 − |ψ|: never above 90°.
+        Folded = "folded",
+        /// |π/2 − ψ|: as printed. Breaks the mirror symmetry of the two half strokes.
+        Literal = "literal",
     }
 }
 
-/// Forms of the added-mass moments (28)–(30).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AddedMass {
-    /// As in the paper.
-    Paper,
-    /// With the gyroscopic terms that a Lagrangian gives; they do no work.
-    Lagrangian,
-}
-
-impl Slot for AddedMass {
-    fn from_value(value: f64) -> Self {
-        if value == 1.0 { AddedMass::Lagrangian } else { AddedMass::Paper }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Forms of the added-mass moments (28)–(30).
+    pub enum AddedMass {
+        /// As in the paper.
+        Paper = "paper",
+        /// With the gyroscopic terms that a Lagrangian gives; they do no work.
+        Lagrangian = "lagrangian",
     }
 }
 
-/// Readings of Eq. (35): the sign of F_am sin ψ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LiftSign {
-    /// F_tr − F_am sin ψ.
-    Corrected,
-    /// F_tr + F_am sin ψ.
-    Printed,
-}
-
-impl Slot for LiftSign {
-    fn from_value(value: f64) -> Self {
-        if value == 1.0 { LiftSign::Printed } else { LiftSign::Corrected }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Readings of Eq. (35): the sign of F_am sin ψ.
+    pub enum LiftSign {
+        /// F_tr − F_am sin ψ.
+        Corrected = "corrected",
+        /// F_tr + F_am sin ψ.
+        Printed = "printed",
     }
 }
 

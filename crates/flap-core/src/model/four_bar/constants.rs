@@ -5,7 +5,7 @@
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use super::params::{AddedMassSign, Arms, Params, Quadrature};
+use super::params::{AddedMassSign, Arms, MAX_STRIPS, Params, Quadrature, STRIPS};
 use crate::aero::{Cut, Strips, sum};
 use crate::drive::Waveform;
 use crate::linkage::{FourBar, LinkInertias, LinkLengths, SliderCrank};
@@ -13,9 +13,6 @@ use crate::num::PerLane;
 use crate::parameter::Invalid;
 use crate::piezo::{Layer, TipResponse, Unimorph};
 use crate::quadrature::{gauss_legendre, midpoints};
-
-/// The largest number of strips.
-pub const MAX_STRIPS: usize = 64;
 
 crate::per_lane! {
     /// The drive voltage (V), or the prescribed stroke (rad).
@@ -166,9 +163,7 @@ impl Constants<f64> {
 
     fn checked(self) -> Result<Constants<f64>, Invalid> {
         if !<Constants<f64> as PerLane<f64>>::is_finite(&self) {
-            return Err(Invalid::new(
-                "a derived constant is not finite: the parameters are too large or too small",
-            ));
+            return Err(Invalid::NotFinite);
         }
         // Linear in cos²φ, so positive everywhere if it is at both ends; the links add at least link 3's inertia.
         let Wing { upright, j_sin, j_cos, coupling, j_pitch, .. } = self.wing;
@@ -176,7 +171,8 @@ impl Constants<f64> {
         if (least + j_cos) * j_pitch > coupling * coupling && (least + j_sin) * j_pitch > 0.0 {
             Ok(self)
         } else {
-            Err(Invalid::new(
+            Err(Invalid::together(
+                &["wing_inertia_product", "mass_centre_depth", "wing_inertia_span", "wing_mass"],
                 "the mass matrix is not positive definite: the wing's inertias do not go together \
                  (wing_inertia_product and mass_centre_depth against wing_inertia_span and wing_mass)",
             ))
@@ -186,18 +182,13 @@ impl Constants<f64> {
 
 /// Cuts the wing into strips.
 fn cut(p: &Params) -> Result<Vec<Cut>, Invalid> {
+    Invalid::unless_within("strips", p.strips, STRIPS)?;
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "checked to be a small whole number"
     )]
     let count = p.strips as usize;
-    if count as f64 != p.strips || !(1..=MAX_STRIPS).contains(&count) {
-        return Err(Invalid::new(format!(
-            "strips is {}: not a whole number from 1 to {MAX_STRIPS}",
-            p.strips
-        )));
-    }
     let nodes = match p.quadrature {
         Quadrature::Gauss => gauss_legendre(count),
         Quadrature::Midpoint => midpoints(count),
@@ -211,10 +202,13 @@ fn cut(p: &Params) -> Result<Vec<Cut>, Invalid> {
         })
         .collect();
     match cuts.iter().find(|cut| cut.chord < 0.0) {
-        Some(cut) => Err(Invalid::new(format!(
-            "the chord is negative {} m from the stroke axis: chord_term_0 to chord_term_4 do not describe a wing",
-            cut.radius
-        ))),
+        Some(cut) => Err(Invalid::together(
+            &["chord_term_0", "chord_term_1", "chord_term_2", "chord_term_3", "chord_term_4"],
+            format!(
+                "the chord is negative {} m from the stroke axis: chord_term_0 to chord_term_4 do not describe a wing",
+                cut.radius
+            ),
+        )),
         None => Ok(cuts),
     }
 }
@@ -242,6 +236,9 @@ fn actuator(p: &Params) -> Actuator<f64> {
     }
 }
 
+/// The parameters that decide whether the four-bar can be assembled.
+const LINKS: [&str; 5] = ["ground_link", "input_link", "coupler_link", "output_link", "neutral_angle"];
+
 /// The four-bar in its neutral position.
 fn four_bar(p: &Params) -> Result<FourBar<f64>, Invalid> {
     let lengths = LinkLengths {
@@ -251,7 +248,8 @@ fn four_bar(p: &Params) -> Result<FourBar<f64>, Invalid> {
         output: p.output_link,
     };
     let Some(neutral) = p.neutral_angle.or_else(|| lengths.stationary_angle()) else {
-        return Err(Invalid::new(
+        return Err(Invalid::together(
+            &LINKS,
             "the four-bar has no largest transmission between 30 and 80 deg: set neutral_angle",
         ));
     };
@@ -259,10 +257,13 @@ fn four_bar(p: &Params) -> Result<FourBar<f64>, Invalid> {
     if <FourBar<f64> as PerLane<f64>>::is_finite(&four_bar) {
         Ok(four_bar)
     } else {
-        Err(Invalid::new(format!(
-            "the four-bar cannot be assembled with its output link at {neutral} rad: \
-             ground_link, input_link, coupler_link and output_link do not go together"
-        )))
+        Err(Invalid::together(
+            &LINKS,
+            format!(
+                "the four-bar cannot be assembled with its output link at {neutral} rad: \
+                 ground_link, input_link, coupler_link and output_link do not go together"
+            ),
+        ))
     }
 }
 

@@ -16,8 +16,8 @@ mod rhs;
 
 pub use aerodynamics::{Aerodynamics, added_mass_lift, aerodynamics, coefficients, side_of};
 pub use composite::Composite;
-pub use constants::{Actuator, Air, Constants, Drive, MAX_STRIPS, Wing};
-pub use params::{AddedMassSign, Arms, Params, Quadrature};
+pub use constants::{Actuator, Air, Constants, Drive, Wing};
+pub use params::{AddedMassSign, Arms, MAX_STRIPS, Params, Quadrature};
 pub use rhs::{
     Transmission, balance, charging_current, current, driving_force, force, mass_matrix, tip, transmission,
 };

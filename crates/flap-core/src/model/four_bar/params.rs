@@ -6,7 +6,7 @@
 use crate::drive::{Shape, StrokeMode, Waveform};
 use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
-use crate::parameter::{Preset, Slot};
+use crate::parameter::{Preset, Range};
 
 crate::parameters! {
     /// Parameters of the four-bar model, in SI units. Symbols as in Arabagi, Hines and Sitti 2013 where it has any.
@@ -152,72 +152,53 @@ crate::parameters! {
         pressure_offset: f64 = ("", "0.05", Number(Any)),
 
         /// Chordwise arms of Eqs. (8) and (17): as printed, as if the rotation axis were the leading edge; or from the rotation axis.
-        arms: Arms = ("", "", Choice(&["printed", "axis"])),
+        arms: Arms = ("", "", Choice(Arms::NAMES)),
         /// Sign of the pitch acceleration's part of the added-mass lift, Eq. (7): corrected, or as printed.
-        am_sign: AddedMassSign = ("", "", Choice(&["corrected", "printed"])),
+        am_sign: AddedMassSign = ("", "", Choice(AddedMassSign::NAMES)),
         /// How the wing is cut into strips: at Gauss-Legendre nodes, or into equal widths taken at their middles.
-        quadrature: Quadrature = ("", "", Choice(&["gauss", "midpoint"])),
+        quadrature: Quadrature = ("", "", Choice(Quadrature::NAMES)),
         /// Number of strips, a whole number from 1 to 64.
-        strips: f64 = ("", "N", Number(Positive)),
+        strips: f64 = ("", "N", Number(STRIPS)),
     }
 }
 
-/// Readings of the chordwise arms of (8) and (17).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Arms {
-    /// The mid-chord is c/2, the centre of pressure d_cp c from the rotation axis.
-    Printed,
-    /// Both are measured from the leading edge, and the rotation axis is χc behind it.
-    Axis,
-}
-
-impl Slot for Arms {
-    fn from_value(value: f64) -> Self {
-        if value == 1.0 { Arms::Axis } else { Arms::Printed }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Readings of the chordwise arms of (8) and (17).
+    pub enum Arms {
+        /// The mid-chord is c/2, the centre of pressure d_cp c from the rotation axis.
+        Printed = "printed",
+        /// Both are measured from the leading edge, and the rotation axis is χc behind it.
+        Axis = "axis",
     }
 }
 
-/// Readings of the second term of (7).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AddedMassSign {
-    /// φ̈ (c/2 − z_RA): the acceleration of the mid-chord.
-    Corrected,
-    /// φ̈ (z_RA − c/2).
-    Printed,
-}
-
-impl Slot for AddedMassSign {
-    fn from_value(value: f64) -> Self {
-        if value == 1.0 { AddedMassSign::Printed } else { AddedMassSign::Corrected }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Readings of the second term of (7).
+    pub enum AddedMassSign {
+        /// φ̈ (c/2 − z_RA): the acceleration of the mid-chord.
+        Corrected = "corrected",
+        /// φ̈ (z_RA − c/2).
+        Printed = "printed",
     }
 }
 
-/// How the wing is cut into strips.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quadrature {
-    /// Strips at the nodes of the Gauss-Legendre rule: 8 of them are closer to the integral than 256 equal ones.
-    Gauss,
-    /// Strips of equal width.
-    Midpoint,
-}
-
-impl Slot for Quadrature {
-    fn from_value(value: f64) -> Self {
-        if value == 1.0 { Quadrature::Midpoint } else { Quadrature::Gauss }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// How the wing is cut into strips.
+    pub enum Quadrature {
+        /// Strips at the nodes of the Gauss-Legendre rule: 8 of them are closer to the integral than 256 equal ones.
+        Gauss = "gauss",
+        /// Strips of equal width.
+        Midpoint = "midpoint",
     }
 }
+
+/// The numbers of strips that are possible.
+pub(super) const STRIPS: Range = Range::Whole(1, MOST_STRIPS);
+
+const MOST_STRIPS: u32 = 64;
+
+/// The largest number of strips.
+pub const MAX_STRIPS: usize = MOST_STRIPS as usize;
 
 /// The permittivity of free space (F/m), to the digits used for the presets.
 const EPSILON_0: f64 = 8.854_187_812_8e-12;
