@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use flap_core::drive::Driven;
-use flap_core::model::Model;
+use flap_core::drive::Wave;
+use flap_core::model::Motions;
 use flap_core::model::bimorph::{self, Bimorph, plate};
 use flap_core::model::direct_drive::DirectDrive;
 use flap_core::model::four_bar::FourBar;
@@ -30,7 +30,7 @@ fn assert_near(actual: f64, expected: f64, distance: f64, what: &str) {
 }
 
 /// The state after an impulse, and the derivative at rest with the drive held still.
-fn released<M: Model<4, S>, const S: usize>(
+fn released<M: Motions<4, S>, const S: usize>(
     model: &M,
     values: &[f64],
 ) -> (M::Constants<f64>, [f64; 4], [f64; 4]) {
@@ -48,7 +48,7 @@ fn an_impulse_moves_the_pitch_as_a_drive_does() {
     for model in all() {
         for preset in model.presets() {
             let values = (preset.values)();
-            let volts = |value| Driven::with_rate(value, 0.0);
+            let volts = |value| Wave::with_rate(value, 0.0);
             let (y, rest, driven) = match model.name() {
                 "direct-drive" => {
                     let (c, y, rest) = released(&DirectDrive::default(), &values);

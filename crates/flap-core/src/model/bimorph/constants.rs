@@ -1,4 +1,4 @@
-//! What does not change along a trajectory of the bimorph model, computed once per point.
+//! Constants of the bimorph model, computed once per point.
 //!
 //! Jafferis, Graule and Wood 2016; numbers in parentheses are the paper's equations, with the corrections
 //! listed in `docs/model-bimorph.md`. Powers of constants that the equations of motion need together are
@@ -6,17 +6,16 @@
 
 use super::actuator::Actuator;
 use super::params::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
-use crate::drive::{Shape, Waveform};
+use crate::drive::{DriveConstants, Shape};
 use crate::num::PerLane;
 use crate::parameter::Invalid;
 
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// Half of the drive voltage peak to peak (V).
-        pub half_voltage: R,
-        /// Shape of the drive voltage over time.
-        pub waveform: Waveform<R>,
+        /// The drive: half of the drive voltage peak to peak as constant part and as amplitude, of opposite sign for the
+        /// two plates.
+        pub drive: DriveConstants<R>,
 
         /// Field per voltage (1/m): 1/t_pzt.
         pub field_per_volt: R,
@@ -112,8 +111,8 @@ impl Constants<f64> {
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let actuator = Actuator::new(p)?;
         // Harmonics swing beyond 0 and V_pp.
-        let harmonics = if p.drive_shape == Shape::Harmonics {
-            p.drive_second_harmonic.abs() + p.drive_third_harmonic.abs()
+        let harmonics = if p.waveform.drive_shape == Shape::Harmonics {
+            p.waveform.drive_second_harmonic.abs() + p.waveform.drive_third_harmonic.abs()
         } else {
             0.0
         };
@@ -145,8 +144,7 @@ impl Constants<f64> {
 
         let one_if = |yes: bool| if yes { 1.0 } else { 0.0 };
         let constants = Constants {
-            half_voltage: 0.5 * p.drive_voltage_pp,
-            waveform: p.waveform(),
+            drive: p.drive(),
 
             field_per_volt: 1.0 / p.piezo_thickness,
             f_min: p.piezo_stress_min,

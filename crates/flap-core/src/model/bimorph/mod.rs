@@ -18,18 +18,19 @@ pub use rhs::{
     lift_and_drag, plate, plate_forces, secant_stiffness, stiffening, tip_drag,
 };
 
-use super::{Derived, Measure, Model, Signal, SignalCycle};
-use crate::drive::{Driven, Samples, Shape, Source, StrokeMode, Waveform};
+use super::motions::Imposed;
+use super::{Derived, Description, EnergyBalance, Model, Motions, Signal};
+use crate::drive::{Drive, DriveConstants, Shape, StrokeMode, Wave, Waveform};
 use crate::modes::Mode;
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
-use crate::parameter::{Invalid, Parameter, Preset};
+use crate::parameter::Invalid;
 
 /// The model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bimorph {
-    /// What generates the drive voltage.
-    pub source: Source,
+    /// The drive voltage.
+    pub drive: Drive,
 }
 
 impl Ode<4> for Bimorph {
@@ -43,14 +44,14 @@ impl Ode<4> for Bimorph {
     /// ```
     #[inline(always)]
     fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> [Plate<R>; 2] {
-        let half = c.half_voltage;
-        let wave = self.source.at(&c.waveform, t);
-        [plate(c, wave.drive(half, -half)), plate(c, wave.drive(half, half))]
+        let DriveConstants { bias, amplitude, .. } = c.drive;
+        let wave = self.drive.wave(&c.drive, t);
+        [plate(c, wave.scaled(bias, -amplitude)), plate(c, wave.scaled(bias, amplitude))]
     }
 
     #[inline(always)]
     fn next_break<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
-        self.source.next_break(&c.waveform, t)
+        self.drive.next_break(&c.drive, t)
     }
 
     #[inline(always)]
@@ -60,48 +61,37 @@ impl Ode<4> for Bimorph {
 }
 
 impl Model<4, { columns::S }> for Bimorph {
-    const NAME: &'static str = "bimorph";
-    const DOC: &'static str =
-        "bimorph on a transmission, passive hinge, lumped quasi-steady aerodynamics (Jafferis et al. 2016)";
-    const PARAMETERS: &'static [Parameter] = Params::TABLE;
-    const PRESETS: &'static [Preset] = Params::PRESETS;
+    const DESCRIPTION: Description = Description {
+        name: "bimorph",
+        doc: "bimorph on a transmission, passive hinge, lumped quasi-steady aerodynamics (Jafferis et al. 2016)",
+        parameters: Params::TABLE,
+        presets: Params::PRESETS,
+    };
     const STATES: [&'static str; 4] = ["tip_m", "tip_rate_m_s", "pitch_rad", "pitch_rate_rad_s"];
     const SIGNALS: [Signal; columns::S] = columns::SIGNALS;
-    const PRINCIPAL: &'static [(usize, Measure)] = columns::PRINCIPAL;
-    const DERIVED: &'static [Derived] = columns::DERIVED;
+    const DERIVED: &'static [Derived<Bimorph, Constants<f64>, { columns::S }>] = columns::DERIVED;
+    const ENERGY: Option<EnergyBalance> = Some(columns::ENERGY);
 
     fn variant(&self, values: &[f64]) -> Bimorph {
-        let params = Params::from_values(values);
-        Bimorph { source: self.source.of_point(params.drive_shape, StrokeMode::Free) }
+        let Params { waveform, .. } = Params::from_values(values);
+        Bimorph { drive: self.drive.of_point(waveform.drive_shape, StrokeMode::Free) }
     }
 
     /// Starts at rest. The scales are those of the direct-drive model, so that tolerances and residuals mean the
     /// same: strokes of 0.1 rad, hinge angles of 0.3 rad, times the drive's angular frequency for the rates.
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
-        self.source.check(params.drive_rise)?;
+        self.drive.check(&params.waveform)?;
         let constants = Constants::derive(&params)?;
-        let rate = constants.waveform.rate;
+        let DriveConstants { rate, .. } = constants.drive;
         let tip = 0.1 / params.transmission_ratio;
-        Ok(Start {
-            constants,
-            y: [0.0; 4],
-            span: 1.0 / params.drive_frequency,
-            scale: [tip, tip * rate, 0.3, 0.3 * rate],
-            tighten: 1.0,
-        })
-    }
-
-    fn chirped(&self, c: &Constants<f64>, frequency: f64, rate: f64) -> (Bimorph, Constants<f64>) {
-        (
-            Bimorph { source: self.source.chirped() },
-            Constants { waveform: Waveform::chirp(frequency, rate), ..*c },
-        )
+        let scale = [tip, tip * rate, 0.3, 0.3 * rate];
+        Ok(Start { constants, y: [0.0; 4], span: constants.drive.period(), scale, tighten: 1.0 })
     }
 
     #[inline(always)]
-    fn drive_phase<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
-        c.waveform.phase(t)
+    fn drive<R: Lanes>(c: &Constants<R>) -> &DriveConstants<R> {
+        &c.drive
     }
 
     #[inline(always)]
@@ -143,48 +133,37 @@ impl Model<4, { columns::S }> for Bimorph {
     /// Currents follow the edges of the force's transition, (6), which the drive crosses in a fraction of a step.
     #[inline(always)]
     fn parts(&self) -> u32 {
-        if self.source.shape == Shape::Square { 6 } else { 2 }
+        if self.drive.waveform == Waveform::Shape(Shape::Square) { 6 } else { 2 }
+    }
+}
+
+impl Motions<4, { columns::S }> for Bimorph {
+    fn drive_mut(&mut self) -> &mut Drive {
+        &mut self.drive
     }
 
-    fn imposed(
-        &self,
-        c: &Constants<f64>,
-        stroke: [f64; 3],
-        pitch: [f64; 3],
-    ) -> ([f64; 4], [f64; columns::S]) {
-        let [x, x_dot, x_ddot] = stroke.map(|stroke| stroke / c.ratio);
-        let y = [x, x_dot, pitch[0], pitch[1]];
-        let dy = [x_dot, x_ddot, pitch[1], pitch[2]];
-        let unknown = plate(c, Driven::with_rate(f64::NAN, f64::NAN));
-        (y, self.signals(c, &[unknown; 2], 1.0, &y, &dy))
+    fn drive_constants_mut(c: &mut Constants<f64>) -> &mut DriveConstants<f64> {
+        &mut c.drive
     }
 
-    fn sampled(&self, samples: Samples) -> Bimorph {
-        Bimorph { source: self.source.sampled(samples) }
+    fn modes(c: &Constants<f64>) -> [Mode; 2] {
+        Mode::pair(["mode_stroke", "mode_hinge"], Bimorph::linear_modes(c))
     }
 
-    fn on_orbit(&self, cycle: &mut [SignalCycle; columns::S]) {
-        columns::on_orbit(cycle);
+    /// ½V_pp on both plates.
+    fn rest_voltage(c: &Constants<f64>) -> f64 {
+        c.drive.bias
     }
 
-    fn audit(&self, cycle: &[SignalCycle; columns::S]) -> f64 {
-        columns::audit(cycle)
-    }
-
-    fn derived(&self, c: &Constants<f64>, cycle: &[SignalCycle; columns::S]) -> Vec<f64> {
-        columns::values(c, self.source.range(&c.waveform), cycle)
-    }
-
-    fn modes(&self, c: &Constants<f64>) -> [Mode; 2] {
-        let [stroke, hinge] = Bimorph::linear_modes(c);
-        [Mode { name: "mode_stroke", frequency: stroke }, Mode { name: "mode_hinge", frequency: hinge }]
-    }
-
-    /// With ½V_pp on both plates: ψ̇ = I_xz T ẋ/I_xx, by (2).
-    fn released(&self, c: &Constants<f64>, stroke_rate: f64) -> (Bimorph, Constants<f64>, [f64; 4]) {
+    /// ψ̇ = I_xz T ẋ/I_xx, by (2).
+    fn struck(c: &Constants<f64>, stroke_rate: f64) -> [f64; 4] {
         let tip_rate = stroke_rate / c.ratio;
-        let waveform = Waveform { rate: 0.0, ..c.waveform };
-        let state = [0.0, tip_rate, 0.0, c.coupling * tip_rate * c.inverse_i_xx];
-        (Bimorph { source: Source::SINE }, Constants { waveform, ..*c }, state)
+        [0.0, tip_rate, 0.0, c.coupling * tip_rate * c.inverse_i_xx]
+    }
+
+    fn placed(c: &Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<[Plate<f64>; 2], 4> {
+        let [x, x_dot, x_ddot] = stroke.map(|stroke| stroke / c.ratio);
+        let unknown = plate(c, Wave::with_rate(f64::NAN, f64::NAN));
+        ([x, x_dot, pitch[0], pitch[1]], [x_dot, x_ddot, pitch[1], pitch[2]], [unknown; 2])
     }
 }

@@ -1,6 +1,6 @@
 //! Parameters of the bimorph model and their published values.
 
-use crate::drive::{Shape, Waveform};
+use crate::drive::{DriveConstants, WaveformParameters};
 use crate::parameter::Kind::{Choice, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
 use crate::parameter::{Preset, Range};
@@ -12,18 +12,8 @@ crate::parameters! {
         drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)),
         /// Drive frequency. The paper sweeps it at 15 Hz/s.
         drive_frequency: f64 = ("Hz", "f", Number(Positive)),
-        /// Shape of the drive voltage over a period: a sine, a sine with second and third harmonic, or a square wave with finite rise time.
-        drive_shape: Shape = ("", "", Choice(Shape::NAMES)),
-        /// Amplitude of the second harmonic relative to the first. Only for drive_shape = "harmonics".
-        drive_second_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase of the second harmonic, by which it leads the sine of twice the drive's phase.
-        drive_second_phase: f64 = ("rad", "", Number(Any)),
-        /// Amplitude of the third harmonic relative to the first. Only for drive_shape = "harmonics".
-        drive_third_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase of the third harmonic, by which it leads the sine of three times the drive's phase.
-        drive_third_phase: f64 = ("rad", "", Number(Any)),
-        /// Rise and fall time of the square wave, as a fraction of the period, up to 0.5. Only for drive_shape = "square".
-        drive_rise: f64 = ("", "", Number(Positive)),
+        /// Parameters of the waveform.
+        waveform: WaveformParameters = (flatten),
 
         /// Transmission ratio: stroke angle per displacement of the actuator's tip.
         transmission_ratio: f64 = ("rad/m", "T", Number(Positive)),
@@ -180,12 +170,7 @@ impl Params {
         Params {
             drive_voltage_pp: 200.0,
             drive_frequency: 120.0,
-            drive_shape: Shape::Sine,
-            drive_second_harmonic: 0.0,
-            drive_second_phase: 0.0,
-            drive_third_harmonic: 0.0,
-            drive_third_phase: 0.0,
-            drive_rise: 0.05,
+            waveform: WaveformParameters::SINE,
             transmission_ratio: 3333.0,
             transmission_stiffness: 197.7,
             wing_length: 17e-3,
@@ -247,14 +232,10 @@ impl Params {
         }
     }
 
-    /// The drive's waveform.
-    pub(super) fn waveform(&self) -> Waveform<f64> {
-        Waveform::new(
-            self.drive_frequency,
-            [self.drive_second_harmonic, self.drive_third_harmonic],
-            [self.drive_second_phase, self.drive_third_phase],
-            self.drive_rise,
-        )
+    /// The drive.
+    pub(super) fn drive(&self) -> DriveConstants<f64> {
+        let half = 0.5 * self.drive_voltage_pp;
+        DriveConstants::new(self.drive_frequency, &self.waveform, [half, half])
     }
 
     /// These parameters with the transmission ratio scaled by `ratio` and the stiffnesses of transmission and

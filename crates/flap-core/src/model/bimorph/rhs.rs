@@ -9,14 +9,14 @@
 use core::f64::consts::FRAC_2_PI;
 
 use super::constants::{Constants, EXPONENT_MAX};
-use crate::drive::Driven;
+use crate::drive::Wave;
 use crate::num::Real;
 
 /// What depends on the voltage of a plate alone: its force g at zero strain and how that changes with voltage.
 #[derive(Clone, Copy, Debug)]
 pub struct Plate<R> {
     /// Voltage across the plate and its rate.
-    pub voltage: Driven<R>,
+    pub voltage: Wave<R>,
     /// Force at zero strain g (N), (6).
     pub force: R,
     /// dg/dV (N/V).
@@ -33,7 +33,7 @@ pub struct Plate<R> {
 ///
 /// As printed, A has 2 f_min.
 #[inline(always)]
-pub fn plate<R: Real>(c: &Constants<R>, voltage: Driven<R>) -> Plate<R> {
+pub fn plate<R: Real>(c: &Constants<R>, voltage: Wave<R>) -> Plate<R> {
     let field = voltage.value * c.field_per_volt;
     let one = field.lit(1.0);
     let s = one / ((c.a_3 * (c.field_0 - field)).exp() + 1.0);

@@ -1,4 +1,4 @@
-//! What does not change along a trajectory of the direct-drive model, computed once per point.
+//! Constants of the direct-drive model, computed once per point.
 //!
 //! Ozaki and Hamaguchi 2018; numbers in parentheses are the paper's equations. Powers of constants that the
 //! equations of motion need together are multiplied out here.
@@ -8,7 +8,7 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use super::chord::{BLADES, blades};
 use super::params::{AddedMass, CentreOfPressure, FlowDirection, LiftSign, Params};
 use crate::aero::Strips;
-use crate::drive::Waveform;
+use crate::drive::DriveConstants;
 use crate::num::PerLane;
 use crate::parameter::Invalid;
 use crate::piezo::{Laminate, Layer};
@@ -16,12 +16,8 @@ use crate::piezo::{Laminate, Layer};
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// Constant part of the drive voltage (V), or zero where the stroke is prescribed.
-        pub drive_bias: R,
-        /// Amplitude of the drive voltage (V), or of the prescribed stroke (rad).
-        pub drive_amplitude: R,
-        /// Shape of the drive voltage over time.
-        pub waveform: Waveform<R>,
+        /// The drive voltage, or the prescribed stroke.
+        pub drive: DriveConstants<R>,
 
         /// Stroke stiffness k_φ (N·m/rad), (11).
         pub k_phi: R,
@@ -153,12 +149,9 @@ impl Constants<f64> {
         let aspect = 0.5 * r / c;
         let k_lift = FRAC_PI_2 * (r / c) / (1.0 + (aspect * aspect + 1.0).sqrt());
 
-        let [drive_bias, drive_amplitude] = p.drive();
         let one_if = |yes: bool| if yes { 1.0 } else { 0.0 };
         let constants = Constants {
-            drive_bias,
-            drive_amplitude,
-            waveform: p.waveform(),
+            drive: p.drive(),
 
             k_phi: 0.5 * s_a * widths / l_a,
             k_w: p.hinge_stiffness,

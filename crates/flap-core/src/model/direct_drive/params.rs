@@ -1,6 +1,6 @@
 //! Parameters of the direct-drive model and their published values.
 
-use crate::drive::{Shape, StrokeMode, Waveform};
+use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
 use crate::linkage::TorsionHinge;
 use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Preset;
@@ -15,22 +15,10 @@ crate::parameters! {
         drive_bias: Option<f64> = ("V", "V_0", Following(Any, "half of drive_voltage_pp")),
         /// Drive frequency.
         drive_frequency: f64 = ("Hz", "f", Number(Positive)),
-        /// Shape of the drive voltage over a period: a sine, a sine with second and third harmonic, or a square wave with finite rise time.
-        drive_shape: Shape = ("", "", Choice(Shape::NAMES)),
-        /// Amplitude of the second harmonic relative to the first. Only for drive_shape = "harmonics".
-        drive_second_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase of the second harmonic, by which it leads the sine of twice the drive's phase.
-        drive_second_phase: f64 = ("rad", "", Number(Any)),
-        /// Amplitude of the third harmonic relative to the first. Only for drive_shape = "harmonics".
-        drive_third_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase of the third harmonic, by which it leads the sine of three times the drive's phase.
-        drive_third_phase: f64 = ("rad", "", Number(Any)),
-        /// Rise and fall time of the square wave, as a fraction of the period, up to 0.5. Only for drive_shape = "square".
-        drive_rise: f64 = ("", "", Number(Positive)),
-        /// Whether the actuator drives the stroke, or the stroke is prescribed: stroke_amplitude times the drive's waveform, whatever that takes. The pitch is free in both.
-        stroke_mode: StrokeMode = ("", "", Choice(StrokeMode::NAMES)),
-        /// Amplitude of the prescribed stroke. Only for stroke_mode = "prescribed".
-        stroke_amplitude: f64 = ("rad", "", Number(NonNegative)),
+        /// Parameters of the waveform.
+        waveform: WaveformParameters = (flatten),
+        /// Parameters of a prescribed stroke.
+        stroke: StrokeParameters = (flatten),
 
         /// Wing length, from the wing's root to its tip.
         wing_length: f64 = ("m", "R", Number(Positive)),
@@ -209,14 +197,8 @@ impl Params {
             drive_voltage_pp: 60.0,
             drive_bias: None,
             drive_frequency: 209.0,
-            drive_shape: Shape::Sine,
-            drive_second_harmonic: 0.0,
-            drive_second_phase: 0.0,
-            drive_third_harmonic: 0.0,
-            drive_third_phase: 0.0,
-            drive_rise: 0.05,
-            stroke_mode: StrokeMode::Free,
-            stroke_amplitude: 10.0_f64.to_radians(),
+            waveform: WaveformParameters::SINE,
+            stroke: StrokeParameters::FREE,
             wing_length: 17.0e-3,
             mean_chord: 6.51e-3,
             wing_offset: None,
@@ -307,16 +289,6 @@ impl Params {
         self.wing_offset.unwrap_or(0.5 * self.actuator_length)
     }
 
-    /// Constant part and amplitude of what is driven: the voltage (V), or the prescribed stroke (rad).
-    pub(super) fn drive(&self) -> [f64; 2] {
-        match self.stroke_mode {
-            StrokeMode::Free => {
-                [self.drive_bias.unwrap_or(0.5 * self.drive_voltage_pp), 0.5 * self.drive_voltage_pp]
-            }
-            StrokeMode::Prescribed => [0.0, self.stroke_amplitude],
-        }
-    }
-
     /// A hypothesis: Table A1 with its columns of k_w swapped, which cannot be proved from the text.
     pub fn ozaki2018_small_kw_swapped() -> Params {
         Params { hinge_stiffness: Params::ozaki2018_large().hinge_stiffness, ..Params::ozaki2018_small() }
@@ -327,14 +299,11 @@ impl Params {
         Params { hinge_stiffness: Params::ozaki2018_small().hinge_stiffness, ..Params::ozaki2018_large() }
     }
 
-    /// The drive's waveform.
-    pub(super) fn waveform(&self) -> Waveform<f64> {
-        Waveform::new(
-            self.drive_frequency,
-            [self.drive_second_harmonic, self.drive_third_harmonic],
-            [self.drive_second_phase, self.drive_third_phase],
-            self.drive_rise,
-        )
+    /// The drive.
+    pub(super) fn drive(&self) -> DriveConstants<f64> {
+        let half = 0.5 * self.drive_voltage_pp;
+        let levels = self.stroke.levels([self.drive_bias.unwrap_or(half), half]);
+        DriveConstants::new(self.drive_frequency, &self.waveform, levels)
     }
 
     /// These parameters with the stiffness of a hinge of torsional beams, Eq. (41).

@@ -9,7 +9,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use super::constants::Constants;
 use super::params::FlowDirection;
-use crate::drive::Driven;
+use crate::drive::Wave;
 use crate::model::Balance;
 use crate::num::Real;
 
@@ -217,6 +217,6 @@ pub fn lift<R: Real>(c: &Constants<R>, air: &Aerodynamics<R>, added: &AddedMassL
 
 /// Current into the actuator j_A (A), (39) with the reciprocal coupling: C_p V̇ + Γ φ̇.
 #[inline(always)]
-pub fn current<R: Real>(c: &Constants<R>, drive: &Driven<R>, phi_dot: R) -> R {
+pub fn current<R: Real>(c: &Constants<R>, drive: &Wave<R>, phi_dot: R) -> R {
     c.c_p * drive.rate + c.gamma * phi_dot
 }

@@ -1,4 +1,4 @@
-//! What does not change along a trajectory of the four-bar model, computed once per point.
+//! Constants of the four-bar model, computed once per point.
 //!
 //! Arabagi, Hines and Sitti 2013; numbers in parentheses are the paper's equations, those in brackets are missing
 //! from print and rebuilt (see `docs/model-four-bar.md`).
@@ -7,24 +7,12 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::params::{AddedMassSign, Arms, MAX_STRIPS, Params, Quadrature, STRIPS};
 use crate::aero::{Cut, Strips, sum};
-use crate::drive::Waveform;
+use crate::drive::DriveConstants;
 use crate::linkage::{FourBar, LinkInertias, LinkLengths, SliderCrank};
 use crate::num::PerLane;
 use crate::parameter::Invalid;
 use crate::piezo::{Layer, TipResponse, Unimorph};
 use crate::quadrature::{gauss_legendre, midpoints};
-
-crate::per_lane! {
-    /// The drive voltage (V), or the prescribed stroke (rad).
-    pub struct Drive<R> {
-        /// Constant part.
-        pub bias: R,
-        /// Amplitude.
-        pub amplitude: R,
-        /// Shape over time.
-        pub waveform: Waveform<R>,
-    }
-}
 
 crate::per_lane! {
     /// The actuator in series with a spring.
@@ -120,8 +108,8 @@ crate::per_lane! {
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// The drive voltage.
-        pub drive: Drive<R>,
+        /// The drive voltage, or the prescribed stroke.
+        pub drive: DriveConstants<R>,
         /// Actuator and series spring.
         pub actuator: Actuator<R>,
         /// From tip displacement to the four-bar's input link.
@@ -147,9 +135,8 @@ impl Constants<f64> {
     /// allowed, the mass matrix is not positive definite for every position, or a constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let cuts = cut(p)?;
-        let [bias, amplitude] = p.drive();
         let constants = Constants {
-            drive: Drive { bias, amplitude, waveform: p.waveform() },
+            drive: p.drive(),
             actuator: actuator(p),
             slider_crank: SliderCrank { crank: p.crank_radius, rod: p.connecting_rod },
             four_bar: four_bar(p)?,

@@ -3,7 +3,7 @@
 //! The paper gives the links of one four-bar, voltages, frequencies, the hinges' stiffness and damping, the series
 //! stiffness, C_rot and the position of the rotation axis. Everything else is assumed, and says so.
 
-use crate::drive::{Shape, StrokeMode, Waveform};
+use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
 use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
 use crate::parameter::{Preset, Range};
@@ -17,22 +17,10 @@ crate::parameters! {
         drive_bias: f64 = ("V", "V_dc", Number(Any)),
         /// Drive frequency.
         drive_frequency: f64 = ("Hz", "f", Number(Positive)),
-        /// Shape of the drive voltage over a period: a sine, a sine with second and third harmonic, or a square wave with finite rise time.
-        drive_shape: Shape = ("", "", Choice(Shape::NAMES)),
-        /// Amplitude of the second harmonic relative to the first. Only for drive_shape = "harmonics".
-        drive_second_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase of the second harmonic, by which it leads the sine of twice the drive's phase.
-        drive_second_phase: f64 = ("rad", "", Number(Any)),
-        /// Amplitude of the third harmonic relative to the first. Only for drive_shape = "harmonics".
-        drive_third_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase of the third harmonic, by which it leads the sine of three times the drive's phase.
-        drive_third_phase: f64 = ("rad", "", Number(Any)),
-        /// Rise and fall time of the square wave, as a fraction of the period, up to 0.5. Only for drive_shape = "square".
-        drive_rise: f64 = ("", "", Number(Positive)),
-        /// Whether the actuator drives the stroke, or the stroke is prescribed: stroke_amplitude times the drive's waveform, whatever that takes. The pitch is free in both.
-        stroke_mode: StrokeMode = ("", "", Choice(StrokeMode::NAMES)),
-        /// Amplitude of the prescribed stroke. Only for stroke_mode = "prescribed".
-        stroke_amplitude: f64 = ("rad", "", Number(NonNegative)),
+        /// Parameters of the waveform.
+        waveform: WaveformParameters = (flatten),
+        /// Parameters of a prescribed stroke.
+        stroke: StrokeParameters = (flatten),
         /// Voltage at which the mechanism stands unloaded at zero stroke; assumed: not in the paper.
         rest_voltage: Option<f64> = ("V", "V_ref", Following(Any, "drive_bias")),
 
@@ -228,14 +216,8 @@ impl Params {
             drive_voltage_pp: 150.0,
             drive_bias: 50.0,
             drive_frequency: 75.0,
-            drive_shape: Shape::Sine,
-            drive_second_harmonic: 0.0,
-            drive_second_phase: 0.0,
-            drive_third_harmonic: 0.0,
-            drive_third_phase: 0.0,
-            drive_rise: 0.05,
-            stroke_mode: StrokeMode::Free,
-            stroke_amplitude: 10.0_f64.to_radians(),
+            waveform: WaveformParameters::SINE,
+            stroke: StrokeParameters::FREE,
             rest_voltage: None,
             actuator_length: 16e-3,
             actuator_width: 18e-3,
@@ -331,21 +313,9 @@ impl Params {
         self.root_chord * terms.iter().fold(0.0, |sum, term| sum * x + term)
     }
 
-    /// Constant part and amplitude of what is driven: the voltage (V), or the prescribed stroke (rad).
-    pub(super) fn drive(&self) -> [f64; 2] {
-        match self.stroke_mode {
-            StrokeMode::Free => [self.drive_bias, 0.5 * self.drive_voltage_pp],
-            StrokeMode::Prescribed => [0.0, self.stroke_amplitude],
-        }
-    }
-
-    /// The drive's waveform.
-    pub(super) fn waveform(&self) -> Waveform<f64> {
-        Waveform::new(
-            self.drive_frequency,
-            [self.drive_second_harmonic, self.drive_third_harmonic],
-            [self.drive_second_phase, self.drive_third_phase],
-            self.drive_rise,
-        )
+    /// The drive.
+    pub(super) fn drive(&self) -> DriveConstants<f64> {
+        let levels = self.stroke.levels([self.drive_bias, 0.5 * self.drive_voltage_pp]);
+        DriveConstants::new(self.drive_frequency, &self.waveform, levels)
     }
 }
