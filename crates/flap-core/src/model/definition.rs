@@ -33,6 +33,18 @@ pub struct Derived<M, C, const S: usize> {
     pub value: fn(&M, &C, &[SignalCycle; S]) -> f64,
 }
 
+impl<M, C, const S: usize> Derived<M, C, S> {
+    /// A column with this name, unit, meaning and value.
+    pub const fn new(
+        name: &'static str,
+        unit: &'static str,
+        doc: &'static str,
+        value: fn(&M, &C, &[SignalCycle; S]) -> f64,
+    ) -> Derived<M, C, S> {
+        Derived { name, unit, doc, value }
+    }
+}
+
 /// A periodically driven model with N states, of which S signals are measured over a drive period.
 pub trait Model<const N: usize, const S: usize>: Ode<N> + Clone + PartialEq + 'static {
     /// Name, meaning and parameters.
@@ -46,8 +58,8 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + Clone + PartialEq + 's
     /// The balance of energy over an orbit, if rows are to be held to it.
     const ENERGY: Option<EnergyBalance> = None;
 
-    /// The model for a point: what its equations do differently for all lanes alike, such as the shape of the
-    /// drive. Points of equal variants share lanes.
+    /// The model for a point: choices on which its equations branch, in all lanes alike, such as the shape of the drive.
+    /// Points of equal variants share lanes.
     fn variant(&self, values: &[f64]) -> Self {
         let _ = values;
         self.clone()
@@ -56,7 +68,8 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + Clone + PartialEq + 's
     /// The run of a point, given one value per parameter: constants, initial state, drive period, scales.
     ///
     /// # Errors
-    /// [`Invalid`] if the parameters are impossible.
+    /// [`Invalid`] if a parameter is out of its range, parameters are impossible together, or a derived constant is not
+    /// finite.
     fn start(&self, values: &[f64]) -> Result<Start<Self::Constants<f64>, N>, Invalid>;
 
     /// The drive of a point, to whose phase the signals' harmonics refer.

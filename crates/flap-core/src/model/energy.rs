@@ -3,10 +3,10 @@
 use super::signal::SignalCycle;
 
 /// The balance of energy over a periodic orbit: the mean of a power is the sum of the means of the losses, since capacitance,
-/// springs and inertia give back within a period what they take.
+/// springs and inertia give back all energy within a period.
 ///
-/// In a motion of small losses, or far from resonance, the error of the quadrature of what they exchange may exceed the mean of
-/// the power; the losses have no such part. All numbers are positions in [`Model::SIGNALS`](super::Model::SIGNALS).
+/// In a motion of small losses, or far from resonance, the quadrature's error in that exchange may exceed the mean of the
+/// power; the losses have no such part. All numbers are positions in [`Model::SIGNALS`](super::Model::SIGNALS).
 #[derive(Clone, Copy, Debug)]
 pub struct EnergyBalance {
     /// The powers.

@@ -5,7 +5,7 @@
 //! - a parameter struct with its table ([`crate::parameters!`]) and the published presets,
 //! - constants derived from the parameters once per point ([`crate::per_lane!`]),
 //! - equations of motion ([`crate::ode::Ode`]) and the signals to be measured ([`Model`]), written once for scalars and lanes,
-//! - if single motions of it are followed, what those need besides ([`Motions`]).
+//! - for single motions, the states and drives with which they begin ([`Motions`]).
 
 pub mod bimorph;
 mod definition;

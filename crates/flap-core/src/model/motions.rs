@@ -24,8 +24,8 @@ pub trait Motions<const N: usize, const S: usize>: Model<N, S> {
     /// The state in that position right after a torque impulse on the stroke that gives it `stroke_rate` (rad/s).
     fn struck(c: &Self::Constants<f64>, stroke_rate: f64) -> [f64; N];
 
-    /// The states of a wing whose stroke and pitch are given: value (rad), rate, second derivative. What the inputs
-    /// would do to the actuator is not a number.
+    /// The states of a wing whose stroke and pitch are given: value (rad), rate, second derivative. Inputs of the
+    /// actuator are not numbers.
     fn placed(c: &Self::Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Self::Input<f64>, N>;
 
     /// The model with another drive.

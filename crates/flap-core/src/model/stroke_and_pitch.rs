@@ -41,8 +41,8 @@ impl<R: Real> Balance<R> {
 
     /// The derivative of the state `y` where the stroke is prescribed: pitch from the second equation.
     ///
-    /// The stroke's own states follow it; what they have strayed from it by integration errors is forgotten at the
-    /// rate `forgetting` (1/s), so that it cannot add up.
+    /// The stroke's own states follow it; their deviation from it by integration errors decays at the rate `forgetting`
+    /// (1/s), so that it cannot add up.
     #[inline(always)]
     pub fn prescribed(&self, y: &[R; 4], stroke: &Wave<R>, forgetting: R) -> [R; 4] {
         let [_, m12, m22] = self.mass;

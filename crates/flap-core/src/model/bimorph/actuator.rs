@@ -1,4 +1,4 @@
-//! The actuator as a beam: what equations (3), (5) and (6) make of its shape and layers.
+//! The actuator as a beam: the factors of equations (3), (5) and (6) that follow from its shape and layers.
 
 use super::params::{Params, WIDTH_RATIOS};
 use crate::parameter::Invalid;

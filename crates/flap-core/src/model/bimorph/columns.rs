@@ -50,49 +50,44 @@ pub(super) const ENERGY: EnergyBalance = EnergyBalance {
 };
 
 type Column = Derived<Bimorph, Constants<f64>, S>;
-type Value = fn(&Bimorph, &Constants<f64>, &[SignalCycle; S]) -> f64;
-
-const fn derived(name: &'static str, unit: &'static str, doc: &'static str, value: Value) -> Column {
-    Column { name, unit, doc, value }
-}
 
 #[rustfmt::skip]
 pub(super) const DERIVED: &[Column] = &[
-    derived("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the drive -sin(wt), the sense of F_1 - F_2, in (-180, 180]",
+    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the drive -sin(wt), the sense of F_1 - F_2, in (-180, 180]",
         |_, _, cycle| lag_degrees(cycle[STROKE].phase(), DRIVE_PHASE)),
-    derived("pitch_lag_deg", "deg", "phase by which the first harmonic of the hinge angle lags that of the stroke, in (-180, 180]",
+    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the hinge angle lags that of the stroke, in (-180, 180]",
         |_, _, cycle| lag_degrees(cycle[PITCH].phase(), cycle[STROKE].phase())),
-    derived("stroke_pp_deg_per_v", "deg/V", "stroke_pp_deg over drive_voltage_pp, the ordinate of Fig. 4a and 5",
+    Column::new("stroke_pp_deg_per_v", "deg/V", "stroke_pp_deg over drive_voltage_pp, the ordinate of Fig. 4a and 5",
         |_, c, cycle| cycle[STROKE].measure(PeakToPeak) * DEGREES / (2.0 * c.drive.amplitude)),
-    derived("tip_pp_um", "um", "displacement of the actuator's tip, largest minus smallest",
+    Column::new("tip_pp_um", "um", "displacement of the actuator's tip, largest minus smallest",
         |_, c, cycle| cycle[STROKE].measure(PeakToPeak) / c.ratio * 1e6),
-    derived("tip_peak_um", "um", "largest displacement of the actuator's tip from rest",
+    Column::new("tip_peak_um", "um", "largest displacement of the actuator's tip from rest",
         |_, c, cycle| tip_peak(c, cycle) * 1e6),
-    derived("lift_mean_gf", "gf", "mean lift of the wing in grams-force",
+    Column::new("lift_mean_gf", "gf", "mean lift of the wing in grams-force",
         |_, _, cycle| grams_force(cycle[LIFT].mean)),
-    derived("vehicle_lift_mgf", "mgf", "mean lift of a vehicle's two wings in milligrams-force",
+    Column::new("vehicle_lift_mgf", "mgf", "mean lift of a vehicle's two wings in milligrams-force",
         |_, _, cycle| vehicle_lift(cycle)),
-    derived("payload_mg", "mg", "80 % of vehicle_lift_mgf, the rest being left for control, less vehicle_mass; Table II",
+    Column::new("payload_mg", "mg", "80 % of vehicle_lift_mgf, the rest being left for control, less vehicle_mass; Table II",
         |_, c, cycle| HOVER_SHARE * vehicle_lift(cycle) - c.vehicle_mass * 1e6),
-    derived("power_supply_mw", "mW", "mean of the positive part of each plate's power, summed: no recovery",
+    Column::new("power_supply_mw", "mW", "mean of the positive part of each plate's power, summed: no recovery",
         |_, _, cycle| PLATE_POWERS.iter().map(|&plate| cycle[plate].measure(Supply)).sum::<f64>() * 1e3),
-    derived("power_capacitive_mw", "mW", "C_act V_pp^2 f / 4: the paper's P, per actuator",
+    Column::new("power_capacitive_mw", "mW", "C_act V_pp^2 f / 4: the paper's P, per actuator",
         |model, c, _| capacitive_power(model, c) * 1e3),
-    derived("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw); empty where that is not more than zero",
+    Column::new("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw); empty where that is not more than zero",
         |_, _, cycle| efficiency(grams_force(cycle[LIFT].mean), cycle[POWER].mean)),
-    derived("efficiency_capacitive_gf_per_w", "gf/W", "mean lift over power_capacitive_mw: the paper's lift-to-power ratio, in mg/mW too",
+    Column::new("efficiency_capacitive_gf_per_w", "gf/W", "mean lift over power_capacitive_mw: the paper's lift-to-power ratio, in mg/mW too",
         |model, c, cycle| grams_force(cycle[LIFT].mean) / capacitive_power(model, c)),
-    derived("energy_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error",
+    Column::new("energy_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error",
         |_, _, cycle| ENERGY.audit(cycle)),
-    derived("strain_mid_max", "", "largest strain of the plates' mid-planes, Eq. (5)",
+    Column::new("strain_mid_max", "", "largest strain of the plates' mid-planes, Eq. (5)",
         |_, c, cycle| tip_peak(c, cycle) * c.strain_per_tip),
-    derived("strain_surface_max", "", "largest strain of the plates' outer faces, which Table II quotes",
+    Column::new("strain_surface_max", "", "largest strain of the plates' outer faces, which Table II quotes",
         |_, c, cycle| tip_peak(c, cycle) * c.strain_per_tip * c.surface_strain_ratio),
-    derived("field_max_v_per_um", "V/um", "largest electric field in the plates",
+    Column::new("field_max_v_per_um", "V/um", "largest electric field in the plates",
         |model, c, _| voltage_max(model, c) * c.field_per_volt * 1e-6),
-    derived("mode_stroke_hz", "Hz", "natural frequency of small strokes, without drag",
+    Column::new("mode_stroke_hz", "Hz", "natural frequency of small strokes, without drag",
         |_, c, _| Bimorph::linear_modes(c)[0]),
-    derived("mode_hinge_hz", "Hz", "natural frequency of small hinge angles, without drag",
+    Column::new("mode_hinge_hz", "Hz", "natural frequency of small hinge angles, without drag",
         |_, c, _| Bimorph::linear_modes(c)[1]),
 ];
 

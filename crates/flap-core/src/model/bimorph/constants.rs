@@ -1,4 +1,4 @@
-//! Constants of the bimorph model, computed once per point.
+//! Constants of the bimorph model, which do not change along a trajectory; computed once per point.
 //!
 //! Jafferis, Graule and Wood 2016; numbers in parentheses are the paper's equations, with the corrections
 //! listed in `docs/model-bimorph.md`. Powers of constants that the equations of motion need together are
@@ -21,7 +21,7 @@ crate::per_lane! {
         pub field_per_volt: R,
         /// Piezoelectric stress per field at small fields f_31,min (N/(V·m)), (6).
         pub f_min: R,
-        /// What the transition takes from its end (N/(V·m)): f_31,min; twice that if (6) is read as printed.
+        /// Stress per field that the transition subtracts at its end (N/(V·m)): f_31,min; twice that if (6) is read as printed.
         pub f_taken: R,
         /// Piezoelectric stress per field at the transition's end f_31,max (N/(V·m)), (6).
         pub f_max: R,
@@ -44,7 +44,7 @@ crate::per_lane! {
         pub f_stiff: R,
         /// Strain over the width of the modulus' transition, per displacement a₁ s_ε (1/m), (4).
         pub u_per_tip: R,
-        /// How far the modulus' transition has come at zero strain σ(a₁ε₀), (4).
+        /// Progress of the modulus' transition at zero strain σ(a₁ε₀), from 0 to 1, (4).
         pub sigma_0: R,
         /// Stiffness of the transmission K_t (N/m).
         pub k_t: R,
@@ -70,7 +70,7 @@ crate::per_lane! {
         pub hinge_torque: R,
         /// Chordwise centre of pressure for ψ = 90°, in mean widths, (11).
         pub p_min: R,
-        /// What it moves by from there to ψ = 0, (11).
+        /// Its shift from there to ψ = 0, in mean widths, (11).
         pub p_swing: R,
         /// 1 if the centre of pressure follows |ψ|, else 0.
         pub attack_folded: R,

@@ -116,7 +116,7 @@ crate::parameters! {
 }
 
 crate::choice! {
-    /// Readings of Eq. (6): what the exponential of the field multiplies.
+    /// Readings of Eq. (6), by the term that the exponential of the field multiplies.
     pub enum FieldTransition {
         /// f_min + (f_max (1 − a₄ℰ) − f_min) σ: from f_min to f_max, as the text says.
         Corrected = "corrected",
@@ -138,7 +138,7 @@ crate::choice! {
 }
 
 crate::choice! {
-    /// Whether the actuator stiffens with strain.
+    /// Stiffness of the actuator against strain.
     pub enum ActuatorStiffness {
         /// Eq. (3) with the modulus (4).
         StrainDependent = "strain-dependent",

@@ -4,7 +4,7 @@ use super::DirectDrive;
 use super::constants::Constants;
 use crate::model::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use crate::model::readings::{SINE_PHASE, charging, efficiency, grams_force, lag_degrees};
-use crate::model::{Derived, EnergyBalance, Signal, SignalCycle, Unit, position};
+use crate::model::{Derived, EnergyBalance, Signal, Unit, position};
 
 /// Number of signals.
 pub(super) const S: usize = 10;
@@ -39,32 +39,27 @@ pub(super) const ENERGY: EnergyBalance = EnergyBalance {
 };
 
 type Column = Derived<DirectDrive, Constants<f64>, S>;
-type Value = fn(&DirectDrive, &Constants<f64>, &[SignalCycle; S]) -> f64;
-
-const fn derived(name: &'static str, unit: &'static str, doc: &'static str, value: Value) -> Column {
-    Column { name, unit, doc, value }
-}
 
 #[rustfmt::skip]
 pub(super) const DERIVED: &[Column] = &[
-    derived("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags that of the drive voltage, in (-180, 180]",
+    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags that of the drive voltage, in (-180, 180]",
         |_, _, cycle| lag_degrees(cycle[STROKE].phase(), SINE_PHASE)),
-    derived("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags that of the stroke, in (-180, 180]",
+    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags that of the stroke, in (-180, 180]",
         |_, _, cycle| lag_degrees(cycle[PITCH].phase(), cycle[STROKE].phase())),
-    derived("lift_mean_gf", "gf", "mean lift in grams-force",
+    Column::new("lift_mean_gf", "gf", "mean lift in grams-force",
         |_, _, cycle| grams_force(cycle[LIFT].mean)),
-    derived("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw); empty where that is not more than zero",
+    Column::new("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw); empty where that is not more than zero",
         |_, _, cycle| efficiency(grams_force(cycle[LIFT].mean), cycle[POWER].mean)),
-    derived("power_capacitive_mw", "mW", "C V_pp^2 f / 2, the power of charging the actuator's capacitance without recovery",
+    Column::new("power_capacitive_mw", "mW", "C V_pp^2 f / 2, the power of charging the actuator's capacitance without recovery",
         |model, c, _| charging(c.c_p, model.drive.voltage_range(&c.drive), c.drive.frequency()) * 1e3),
-    derived("energy_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error",
+    Column::new("energy_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error",
         |_, _, cycle| ENERGY.audit(cycle)),
-    derived("strain_surface_max", "", "largest strain of the piezoelectric layer's outer face, from the bending of the actuator",
+    Column::new("strain_surface_max", "", "largest strain of the piezoelectric layer's outer face, from the bending of the actuator",
         |_, c, cycle| cycle[STROKE].measure(Peak) * c.strain_per_stroke.abs()),
-    derived("field_max_v_per_um", "V/um", "largest electric field in the piezoelectric layer",
+    Column::new("field_max_v_per_um", "V/um", "largest electric field in the piezoelectric layer",
         |model, c, _| model.drive.largest_voltage(&c.drive) / c.piezo_thickness * 1e-6),
-    derived("mode_1_hz", "Hz", "lower natural frequency of small motions in still air, without aerodynamic damping",
+    Column::new("mode_1_hz", "Hz", "lower natural frequency of small motions in still air, without aerodynamic damping",
         |_, c, _| DirectDrive::linear_modes(c)[0]),
-    derived("mode_2_hz", "Hz", "upper natural frequency of small motions",
+    Column::new("mode_2_hz", "Hz", "upper natural frequency of small motions",
         |_, c, _| DirectDrive::linear_modes(c)[1]),
 ];

@@ -1,4 +1,4 @@
-//! Constants of the direct-drive model, computed once per point.
+//! Constants of the direct-drive model, which do not change along a trajectory; computed once per point.
 //!
 //! Ozaki and Hamaguchi 2018; numbers in parentheses are the paper's equations. Powers of constants that the
 //! equations of motion need together are multiplied out here.

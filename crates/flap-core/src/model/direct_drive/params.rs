@@ -122,9 +122,9 @@ crate::parameters! {
 }
 
 crate::choice! {
-    /// Which way the air flows over the wing while it reverses.
+    /// Directions of the air's flow over a wing that reverses.
     pub enum FlowDirection {
-        /// One way for the whole wing: that of its mean velocity. The paper's.
+        /// One direction for the whole wing: that of its mean velocity. The paper's.
         Uniform = "uniform",
         /// Over each blade element by its own velocity.
         Blade = "blade",

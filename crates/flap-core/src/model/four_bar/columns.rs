@@ -4,7 +4,7 @@ use super::FourBar;
 use super::constants::Constants;
 use crate::model::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use crate::model::readings::{SINE_PHASE, charging, efficiency, grams_force, lag_degrees};
-use crate::model::{Derived, EnergyBalance, Signal, SignalCycle, Unit, position};
+use crate::model::{Derived, EnergyBalance, Signal, Unit, position};
 
 /// Number of signals.
 pub(super) const S: usize = 17;
@@ -51,34 +51,29 @@ pub(super) const ENERGY: EnergyBalance = EnergyBalance {
 };
 
 type Column = Derived<FourBar, Constants<f64>, S>;
-type Value = fn(&FourBar, &Constants<f64>, &[SignalCycle; S]) -> f64;
-
-const fn derived(name: &'static str, unit: &'static str, doc: &'static str, value: Value) -> Column {
-    Column { name, unit, doc, value }
-}
 
 #[rustfmt::skip]
 pub(super) const DERIVED: &[Column] = &[
-    derived("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags that of the drive voltage, in (-180, 180]",
+    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags that of the drive voltage, in (-180, 180]",
         |_, _, cycle| lag_degrees(cycle[STROKE].phase(), SINE_PHASE)),
-    derived("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags that of the stroke, in (-180, 180]: the paper's phase shift",
+    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags that of the stroke, in (-180, 180]: the paper's phase shift",
         |_, _, cycle| lag_degrees(cycle[PITCH].phase(), cycle[STROKE].phase())),
-    derived("lift_mean_gf", "gf", "mean lift in grams-force",
+    Column::new("lift_mean_gf", "gf", "mean lift in grams-force",
         |_, _, cycle| grams_force(cycle[LIFT].mean)),
-    derived("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw)",
+    Column::new("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw)",
         |_, _, cycle| efficiency(grams_force(cycle[LIFT].mean), cycle[POWER].mean)),
-    derived("power_capacitive_mw", "mW", "C V_pp^2 f / 2, the power of charging the blocked actuator's capacitance without recovery",
+    Column::new("power_capacitive_mw", "mW", "C V_pp^2 f / 2, the power of charging the blocked actuator's capacitance without recovery",
         |model, c, _| {
             charging(c.actuator.capacitance, model.drive.voltage_range(&c.drive), c.drive.frequency()) * 1e3
         }),
-    derived("energy_audit", "", "(power of the actuator's force - power_drive_mean_mw) / power_drive_mean_mw, zero but for the integration's error",
+    Column::new("energy_audit", "", "(power of the actuator's force - power_drive_mean_mw) / power_drive_mean_mw, zero but for the integration's error",
         |_, _, cycle| ENERGY.audit(cycle)),
-    derived("electrical_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error",
+    Column::new("electrical_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error",
         |_, _, cycle| cycle[POWER].audit(&cycle[TRANSDUCED_POWER])),
-    derived("field_max_v_per_um", "V/um", "largest electric field in the piezoelectric layer",
+    Column::new("field_max_v_per_um", "V/um", "largest electric field in the piezoelectric layer",
         |model, c, _| model.drive.largest_voltage(&c.drive) / c.actuator.piezo_thickness * 1e-6),
-    derived("mode_1_hz", "Hz", "lower natural frequency of small undamped motions, with the added mass of still air",
+    Column::new("mode_1_hz", "Hz", "lower natural frequency of small undamped motions, with the added mass of still air",
         |_, c, _| FourBar::linear_modes(c)[0]),
-    derived("mode_2_hz", "Hz", "upper natural frequency of small undamped motions",
+    Column::new("mode_2_hz", "Hz", "upper natural frequency of small undamped motions",
         |_, c, _| FourBar::linear_modes(c)[1]),
 ];

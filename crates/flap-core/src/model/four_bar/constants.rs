@@ -1,4 +1,4 @@
-//! Constants of the four-bar model, computed once per point.
+//! Constants of the four-bar model, which do not change along a trajectory; computed once per point.
 //!
 //! Arabagi, Hines and Sitti 2013; numbers in parentheses are the paper's equations, those in brackets are missing
 //! from print and rebuilt (see `docs/model-four-bar.md`).
@@ -41,9 +41,9 @@ crate::per_lane! {
     pub struct Wing<R> {
         /// m R² (kg·m²).
         pub upright: R,
-        /// m β² + J_yy: what sin²φ adds to the stroke's inertia (kg·m²).
+        /// m β² + J_yy: the part of the stroke's inertia that goes with sin²φ (kg·m²).
         pub j_sin: R,
-        /// J_zz: what cos²φ adds to the stroke's inertia (kg·m²).
+        /// J_zz: the part of the stroke's inertia that goes with cos²φ (kg·m²).
         pub j_cos: R,
         /// Coupling of stroke and pitch P = m R β + J_xz (kg·m²).
         pub coupling: R,

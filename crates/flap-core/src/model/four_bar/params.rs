@@ -171,7 +171,7 @@ crate::choice! {
 }
 
 crate::choice! {
-    /// How the wing is cut into strips.
+    /// Rules by which the wing is cut into strips.
     pub enum Quadrature {
         /// Strips at the nodes of the Gauss-Legendre rule: 8 of them are closer to the integral than 256 equal ones.
         Gauss = "gauss",
