@@ -47,7 +47,16 @@ impl Invalid {
         Invalid::Together { parameters, reason: reason.into() }
     }
 
-    /// `OutOfRange` unless the range contains the value.
+    /// The error in words.
+    pub fn into_reason(self) -> String {
+        match self {
+            Invalid::Request { reason } => reason,
+            Invalid::Together { reason, .. } => reason.into_owned(),
+            Invalid::OutOfRange { .. } | Invalid::NotFinite => self.to_string(),
+        }
+    }
+
+    /// Refuses a value that its range does not contain.
     ///
     /// # Errors
     /// [`Invalid::OutOfRange`] if the range does not contain the value.

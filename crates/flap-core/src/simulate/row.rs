@@ -154,7 +154,7 @@ impl Row {
             state: Vec::new(),
             error_estimate: f64::NAN,
             rhs_evals: 0,
-            reason: Some(error.to_string()),
+            reason: Some(error.into_reason()),
         }
     }
 }
