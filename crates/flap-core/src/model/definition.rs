@@ -85,8 +85,8 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + Clone + PartialEq + 's
         dy: &[R; N],
     ) -> [R; S];
 
-    /// Number of parts into which each step is divided to find the largest and smallest values of the signals: more than one
-    /// where signals follow the drive faster than the motion does, whose steps these are.
+    /// Number of parts into which each step is divided to find the largest and smallest values of the signals. More than one
+    /// if signals change faster than the motion, which chooses the steps.
     #[inline(always)]
     fn parts(&self) -> u32 {
         1

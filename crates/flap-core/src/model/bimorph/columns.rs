@@ -1,8 +1,7 @@
 //! Signals of the bimorph model, and the columns computed from them.
 
-use super::Bimorph;
 use super::constants::Constants;
-use super::rhs::secant_stiffness;
+use super::dynamics::Bimorph;
 use crate::model::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use crate::model::readings::{efficiency, grams_force, lag_degrees};
 use crate::model::units::DEGREES;
@@ -115,19 +114,4 @@ fn capacitive_power(model: &Bimorph, c: &Constants<f64>) -> f64 {
 fn voltage_max(model: &Bimorph, c: &Constants<f64>) -> f64 {
     let [low, high] = model.drive.range(&c.drive);
     c.drive.amplitude * (1.0 + high.max(-low))
-}
-
-impl Bimorph {
-    /// Natural frequencies (Hz) of small motions without drag: of the stroke and of the hinge.
-    ///
-    /// (1) contains no reaction of the hinge, so each is that of its own oscillator:
-    ///
-    /// ```text
-    /// √((K_act(0) + K_t)/m_e)/2π     √(κ_wh/I_xx)/2π
-    /// ```
-    pub fn linear_modes(c: &Constants<f64>) -> [f64; 2] {
-        let stiffness = secant_stiffness(c, 0.0) + c.k_t;
-        [stiffness * c.inverse_m_e, c.kappa_wh * c.inverse_i_xx]
-            .map(|square| square.sqrt() / (2.0 * core::f64::consts::PI))
-    }
 }

@@ -1,7 +1,7 @@
 //! Signals of the direct-drive model, and the columns computed from them.
 
-use super::DirectDrive;
 use super::constants::Constants;
+use super::dynamics::DirectDrive;
 use crate::model::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use crate::model::readings::{SINE_PHASE, charging, efficiency, grams_force, lag_degrees};
 use crate::model::{Derived, EnergyBalance, Signal, Unit, position};
