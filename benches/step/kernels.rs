@@ -4,7 +4,7 @@ use core::hint::black_box;
 use core::time::Duration;
 use std::time::Instant;
 
-use flap_core::drive::Source;
+use flap_core::drive::Drive;
 use flap_core::model::Model;
 use flap_core::model::bimorph::Bimorph;
 use flap_core::model::direct_drive::{DirectDrive, FlowDirection};
@@ -15,10 +15,10 @@ use flap_core::ode::norm::error_squared;
 use flap_core::ode::step::Step;
 use flap_core::simulate::preset;
 
-const BIMORPH: Bimorph = Bimorph { source: Source::SINE };
-const DIRECT_DRIVE: DirectDrive = DirectDrive { source: Source::SINE, flow: FlowDirection::Uniform };
-const DIRECT_DRIVE_BLADES: DirectDrive = DirectDrive { source: Source::SINE, flow: FlowDirection::Blade };
-const FOUR_BAR: FourBar = FourBar { source: Source::SINE };
+const BIMORPH: Bimorph = Bimorph { drive: Drive::SINE };
+const DIRECT_DRIVE: DirectDrive = DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform };
+const DIRECT_DRIVE_BLADES: DirectDrive = DirectDrive { drive: Drive::SINE, flow: FlowDirection::Blade };
+const FOUR_BAR: FourBar = FourBar { drive: Drive::SINE };
 
 /// Function values per iteration.
 pub(crate) const VALUES: usize = 1024;

@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 use std::hint::black_box;
 
-use flap_core::drive::Source;
+use flap_core::drive::Drive;
 use flap_core::model::Model;
 use flap_core::model::direct_drive::{Constants, DirectDrive, FlowDirection};
 use flap_core::num::{InstructionSet, Kernel, Lanes, PerLane, Simd, Vector};
@@ -14,7 +14,7 @@ use flap_core::simulate::{Jobs, Point, Row, SolverSettings, preset};
 
 use crate::counting::allocations;
 
-pub(crate) const MODEL: DirectDrive = DirectDrive { source: Source::SINE, flow: FlowDirection::Uniform };
+pub(crate) const MODEL: DirectDrive = DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform };
 pub(crate) const TOLERANCES: Tolerances = Tolerances { rtol: 1e-4, atol: 1e-6, max_steps: 20_000 };
 
 fn values() -> Vec<f64> {

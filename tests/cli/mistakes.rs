@@ -40,6 +40,24 @@ grid.toml: 2 mistakes, nothing was run
     );
 }
 
+/// Bounds and whole numbers of a table are known before anything is run.
+#[test]
+fn values_outside_their_bounds_are_found_by_check() {
+    for (preset, line, message) in [
+        ("jafferis2016", "actuator_width_ratio = 2", "`actuator_width_ratio` must be between 0 and 2, not 2"),
+        ("arabagi2013-75hz", "strips = 7.5", "`strips` must be a whole number from 1 to 64, not 7.5"),
+    ] {
+        let folder = Folder::with_grid(&format!("preset = \"{preset}\"\n[params]\n{line}\n"));
+        let ended = folder.flap("check grid.toml");
+        assert_eq!(ended.code, 2);
+        assert!(
+            ended.stderr.starts_with(&format!("error: {message}\n --> grid.toml:3:")),
+            "{}",
+            ended.stderr
+        );
+    }
+}
+
 #[test]
 fn results_are_not_overwritten_unasked() {
     let folder = Folder::with_grid(&frequencies(2));

@@ -1,6 +1,6 @@
 //! Lanes against scalars: same rows to the last bit, whatever runs beside a point.
 
-use flap_core::drive::Shape;
+use flap_core::drive::{Shape, WaveformParameters};
 use flap_core::model::direct_drive::{FlowDirection, Params};
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{Simulator, SolverSettings, Status, by_name};
@@ -29,7 +29,7 @@ fn mixed_points() -> Vec<Vec<f64>> {
             5 => Params { drive_voltage_pp: 1e160, ..large },
             7 => Params { pressure_offset: -3.0, rotation_drag: 0.0, ..large },
             8 => Params { air_density: 1e-4, ..large },
-            9 => Params { drive_shape: Shape::Square, ..large },
+            9 => Params { waveform: WaveformParameters::new(Shape::Square), ..large },
             0 | 2 | 4 => small,
             _ => large,
         });

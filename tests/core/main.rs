@@ -24,6 +24,7 @@ mod frequencies;
 mod interrupted;
 mod jafferis_figures;
 mod orbits;
+mod parameters;
 mod resonance;
 mod robustness;
 mod rows;

@@ -83,7 +83,7 @@ fn a_periodic_spline_is_smooth_at_the_seam() {
 #[test]
 fn impossible_records_are_refused() {
     let reason =
-        |times: &[f64], values: &[f64], repeat| Samples::new(times, values, repeat).unwrap_err().reason;
+        |times: &[f64], values: &[f64], repeat| Samples::new(times, values, repeat).unwrap_err().to_string();
     assert!(reason(&[0.0, 1.0], &[1.0, 2.0], Repeat::Once).contains("too few"));
     assert!(reason(&[0.0, 1.0, 1.0, 2.0], &[0.0; 4], Repeat::Once).contains("sample 3"));
     assert!(reason(&[0.0, 1.0, f64::NAN, 2.0], &[0.0; 4], Repeat::Once).contains("sample 3"));

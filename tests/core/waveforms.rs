@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use flap_core::drive::{Shape, Wave, Waveform};
+use flap_core::drive::{Drive, DriveConstants, Shape, StrokeMode, Wave, Waveform, WaveformParameters};
 use flap_core::model::direct_drive::Params;
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{ChirpRequest, ChirpResponse, SolverSettings, Status, Unfinished, by_name, never};
@@ -10,26 +10,42 @@ use flap_core::simulate::{ChirpRequest, ChirpResponse, SolverSettings, Status, U
 const FREQUENCY: f64 = 50.0;
 const PERIOD: f64 = 1.0 / FREQUENCY;
 
-fn waveform() -> Waveform<f64> {
-    Waveform::new(FREQUENCY, [0.3, -0.2], [0.7, -1.1], 0.1)
+/// A wave of unit amplitude.
+fn constants() -> DriveConstants<f64> {
+    let waveform = WaveformParameters {
+        drive_second_harmonic: 0.3,
+        drive_second_phase: 0.7,
+        drive_third_harmonic: -0.2,
+        drive_third_phase: -1.1,
+        drive_rise: 0.1,
+        ..WaveformParameters::new(Shape::Harmonics)
+    };
+    DriveConstants::new(FREQUENCY, &waveform, [0.0, 1.0])
+}
+
+fn wave(waveform: Waveform, t: f64) -> Wave<f64> {
+    let constants =
+        if waveform == Waveform::Chirp { constants().chirped(FREQUENCY, 300.0) } else { constants() };
+    Drive { waveform, stroke: StrokeMode::Free }.at(&constants, t)
 }
 
 fn at(shape: Shape, t: f64) -> Wave<f64> {
-    let waveform = if shape == Shape::Chirp { Waveform::chirp(FREQUENCY, 300.0) } else { waveform() };
-    waveform.at(shape, t)
+    wave(Waveform::Shape(shape), t)
 }
 
 #[test]
 fn rates_are_derivatives() {
-    for shape in [Shape::Sine, Shape::Harmonics, Shape::Square, Shape::Chirp] {
+    let shapes = Shape::ALL.iter().map(|&shape| Waveform::Shape(shape));
+    for waveform in shapes.chain([Waveform::Chirp]) {
+        let at = |t| wave(waveform.clone(), t);
         for i in 1..400 {
             let t = PERIOD * f64::from(i) / 400.3;
             let dt = 1e-8;
-            let difference = (at(shape, t + dt).value - at(shape, t - dt).value) / (2.0 * dt);
-            let rate = at(shape, t).rate;
+            let difference = (at(t + dt).value - at(t - dt).value) / (2.0 * dt);
+            let rate = at(t).rate;
             assert!(
                 (difference - rate).abs() < 1e-4 * 2.0 * PI * FREQUENCY,
-                "{shape:?} at {t}: {rate}, {difference}"
+                "{waveform:?} at {t}: {rate}, {difference}"
             );
         }
     }
@@ -67,7 +83,12 @@ fn power_balances_for_every_shape() {
     let audit = model.columns().iter().position(|column| column.name == "energy_audit").unwrap();
     for drive_shape in [Shape::Sine, Shape::Harmonics, Shape::Square] {
         for (p, bound) in [(Params::ozaki2018_small(), 1e-5), (Params::ozaki2018_large(), 1e-4)] {
-            let p = Params { drive_shape, drive_second_harmonic: 0.3, drive_second_phase: 0.5, ..p };
+            let waveform = WaveformParameters {
+                drive_second_harmonic: 0.3,
+                drive_second_phase: 0.5,
+                ..WaveformParameters::new(drive_shape)
+            };
+            let p = Params { waveform, ..p };
             let row =
                 model.run_point(InstructionSet::best(), &SolverSettings::default(), &p.to_values(), None);
             assert_eq!(row.status, Status::Periodic, "{drive_shape:?}");
@@ -86,9 +107,11 @@ fn harmonics_count_in_field_and_capacitive_power() {
     };
     // 50 V + 50 V (sin θ + ½ cos 2θ): from −25 to 87.5 V on 100 µm.
     let p = Params {
-        drive_shape: Shape::Harmonics,
-        drive_second_harmonic: 0.5,
-        drive_second_phase: PI / 2.0,
+        waveform: WaveformParameters {
+            drive_second_harmonic: 0.5,
+            drive_second_phase: PI / 2.0,
+            ..WaveformParameters::new(Shape::Harmonics)
+        },
         ..Params::ozaki2018_large()
     };
     assert!((measure(&p, "field_max_v_per_um") - 0.875).abs() < 1e-5);
@@ -107,18 +130,27 @@ fn the_shape_of_the_drive_reaches_the_wing() {
     };
     let p = Params::ozaki2018_small;
     let sine = amplitude(p());
-    assert!(amplitude(Params { drive_shape: Shape::Square, ..p() }) > 1.1 * sine);
+    assert!(amplitude(Params { waveform: WaveformParameters::new(Shape::Square), ..p() }) > 1.1 * sine);
     // Harmonics of no amplitude are a sine.
-    let none = amplitude(Params { drive_shape: Shape::Harmonics, ..p() });
+    let none = amplitude(Params { waveform: WaveformParameters::new(Shape::Harmonics), ..p() });
     assert!((none / sine - 1.0).abs() < 1e-9);
-    let third = amplitude(Params { drive_shape: Shape::Harmonics, drive_third_harmonic: 0.5, ..p() });
+    let third = amplitude(Params {
+        waveform: WaveformParameters {
+            drive_third_harmonic: 0.5,
+            ..WaveformParameters::new(Shape::Harmonics)
+        },
+        ..p()
+    });
     assert!((third / sine - 1.0).abs() > 1e-3, "{third} against {sine}");
 }
 
 #[test]
 fn a_square_wave_must_have_time_to_be_flat() {
     let model = by_name("direct-drive").unwrap();
-    let p = Params { drive_shape: Shape::Square, drive_rise: 0.6, ..Params::ozaki2018_small() };
+    let p = Params {
+        waveform: WaveformParameters { drive_rise: 0.6, ..WaveformParameters::new(Shape::Square) },
+        ..Params::ozaki2018_small()
+    };
     let row = model.run_point(InstructionSet::best(), &SolverSettings::default(), &p.to_values(), None);
     assert_eq!(row.status, Status::Invalid);
     assert!(row.reason.unwrap().contains("drive_rise"));

@@ -38,7 +38,7 @@ const LAYERS: &[(&str, &[&str])] = &[
 ];
 
 /// Macros that layers define; their names stand at the root of the crate.
-const MACROS: &[(&str, &str)] = &[("per_lane", "num"), ("parameters", "parameter")];
+const MACROS: &[(&str, &str)] = &[("per_lane", "num"), ("parameters", "parameter"), ("choice", "parameter")];
 
 /// What prints, opens, spawns or reads the clock.
 const FORBIDDEN: &[&str] = &[

@@ -231,7 +231,7 @@ impl Simulator for Fake {
     }
 
     fn imposed(&self, _values: &[f64], _motion: &ImposedMotion) -> Result<Trajectory, Invalid> {
-        Err(Invalid { reason: "it does not move".to_owned() })
+        Err(Invalid::new("it does not move"))
     }
 
     fn with_samples(&self, _samples: Samples) -> Box<dyn Simulator> {
@@ -239,7 +239,7 @@ impl Simulator for Fake {
     }
 
     fn modes(&self, _values: &[f64]) -> Result<[Mode; 2], Invalid> {
-        Err(Invalid { reason: "it does not move".to_owned() })
+        Err(Invalid::new("it does not move"))
     }
 
     fn free_response(

@@ -11,11 +11,18 @@ pub struct Mode {
     pub frequency: f64,
 }
 
+impl Mode {
+    /// Two modes, given their names and natural frequencies (Hz).
+    pub fn pair(names: [&'static str; 2], frequencies: [f64; 2]) -> [Mode; 2] {
+        core::array::from_fn(|i| Mode { name: names[i], frequency: frequencies[i] })
+    }
+}
+
 /// Natural frequencies (Hz), the lower first, of M q̈ + diag(K) q = 0.
 ///
-/// `mass` must be symmetric and positive definite, the two entries of `stiffness` positive; otherwise NaN.
-pub fn natural_frequencies(mass: [[f64; 2]; 2], stiffness: [f64; 2]) -> [f64; 2] {
-    let Some(cholesky) = Matrix2::from(mass).cholesky() else { return [f64::NAN; 2] };
+/// `mass` [M₁₁, M₁₂, M₂₂] must be positive definite, the two entries of `stiffness` positive; otherwise NaN.
+pub fn natural_frequencies([m11, m12, m22]: [f64; 3], stiffness: [f64; 2]) -> [f64; 2] {
+    let Some(cholesky) = Matrix2::new(m11, m12, m12, m22).cholesky() else { return [f64::NAN; 2] };
     // M = L Lᵀ turns the problem into an ordinary symmetric one, L⁻¹ K L⁻ᵀ.
     let Some(inverse) = cholesky.l().try_inverse() else { return [f64::NAN; 2] };
     let squares = (inverse * Matrix2::from_diagonal(&Vector2::from(stiffness)) * inverse.transpose())

@@ -5,9 +5,9 @@ use core::f64::consts::PI;
 /// A node in [0, 1] and its weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
-    /// Where the function is taken.
+    /// Place at which the function is taken.
     pub x: f64,
-    /// With what weight. The weights of a rule add up to 1.
+    /// Weight of the value there. The weights of a rule add up to 1.
     pub weight: f64,
 }
 

@@ -26,7 +26,7 @@ pub(crate) fn params(name: &Bound<'_, PyAny>) -> PyResult<Vec<Listed>> {
     let (model, values) = find(name)?;
     let listed = model.parameters().iter().zip(values).map(|(parameter, value)| {
         let (allowed, options) = match parameter.kind {
-            Kind::Number(range) => (range.describe().to_owned(), Vec::new()),
+            Kind::Number(range) => (range.describe(), Vec::new()),
             Kind::Following(range, follows) => {
                 (format!("{}; if not set, {follows}", range.describe()), Vec::new())
             }

@@ -1,6 +1,6 @@
 //! Rotation alone: the stroke is prescribed, Figs. 8 and 10.
 
-use flap_core::drive::StrokeMode;
+use flap_core::drive::StrokeParameters;
 use flap_core::model::four_bar::{Arms, Params};
 
 use super::{System, bench, system_30, system_75};
@@ -18,8 +18,7 @@ pub(super) fn claims() -> Vec<Claim> {
 /// A sinusoidal stroke of `amplitude` (deg) prescribed.
 fn alone(system: &System, drive_frequency: f64, amplitude: f64, arms: Arms) -> Settled {
     let params = Params {
-        stroke_mode: StrokeMode::Prescribed,
-        stroke_amplitude: amplitude.to_radians(),
+        stroke: StrokeParameters::prescribed(amplitude.to_radians()),
         drive_frequency,
         arms,
         ..system.params.clone()

@@ -1,6 +1,6 @@
 //! Forces, accelerations, charges and currents against reference vectors, on scalars and lanes.
 
-use flap_core::drive::Driven;
+use flap_core::drive::Wave;
 use flap_core::model::bimorph::{
     Bimorph, Constants, Plate, charges, currents, lift_and_drag, plate, plate_forces, secant_stiffness,
 };
@@ -13,7 +13,7 @@ use crate::data::{Record, assert_close, table};
 const TOLERANCE: f64 = 1e-11;
 
 struct Case {
-    voltages: [Driven<f64>; 2],
+    voltages: [Wave<f64>; 2],
     y: [f64; 4],
     record: Record,
 }
@@ -27,14 +27,14 @@ fn cases() -> Vec<Case> {
         .into_iter()
         .map(|record| Case {
             voltages: [("V1_V", "dV1_V_per_s"), ("V2_V", "dV2_V_per_s")]
-                .map(|(value, rate)| Driven::with_rate(record.number(value), record.number(rate))),
+                .map(|(value, rate)| Wave::with_rate(record.number(value), record.number(rate))),
             y: ["x_m", "v_m_per_s", "psi_rad", "psidot_rad_per_s"].map(|column| record.number(column)),
             record,
         })
         .collect()
 }
 
-fn plates<R: Lanes>(c: &Constants<R>, voltages: &[Driven<R>; 2]) -> [Plate<R>; 2] {
+fn plates<R: Lanes>(c: &Constants<R>, voltages: &[Wave<R>; 2]) -> [Plate<R>; 2] {
     [plate(c, voltages[0]), plate(c, voltages[1])]
 }
 
@@ -90,7 +90,7 @@ fn derivatives_of_force_and_charge_are_their_rates() {
     let c = constants();
     for Case { voltages, y, record } in cases() {
         for voltage in voltages {
-            let at = |dv: f64| plate(&c, Driven { value: voltage.value + dv, ..voltage });
+            let at = |dv: f64| plate(&c, Wave { value: voltage.value + dv, ..voltage });
             let (low, mid, high) = (at(-1e-3), at(0.0), at(1e-3));
             let per_volt = (high.force - low.force) / 2e-3;
             let bend = (high.force_per_volt - low.force_per_volt) / 2e-3;
@@ -98,7 +98,7 @@ fn derivatives_of_force_and_charge_are_their_rates() {
             assert!((bend - mid.force_bend).abs() < 1e-7 * mid.force_per_volt, "{}", record.name);
         }
         let at = |dt: f64| {
-            let moved = voltages.map(|v| Driven { value: v.value + dt * v.rate, ..v });
+            let moved = voltages.map(|v| Wave { value: v.value + dt * v.rate, ..v });
             charges(&c, &plates(&c, &moved), y[0] + dt * y[1])
         };
         let currents = currents(&c, &plates(&c, &voltages), y[0], y[1]);
@@ -137,7 +137,7 @@ impl Kernel for RhsOnLanes {
         let mut derivatives = Vec::new();
         for group in cases.chunks(Vector::<S>::LANES) {
             let zero = Vector::<S>::splat(simd, 0.0);
-            let mut voltages = [Driven::with_rate(zero, zero); 2];
+            let mut voltages = [Wave::with_rate(zero, zero); 2];
             let mut y = [zero; 4];
             for (lane, case) in group.iter().enumerate() {
                 for i in 0..2 {
@@ -157,7 +157,7 @@ impl Kernel for RhsOnLanes {
 
 fn unfused(case: &Case) -> [f64; 4] {
     let c = Constants::<Unfused>::fill((), &constants());
-    let voltages = case.voltages.map(|v| Driven::with_rate(Unfused(v.value), Unfused(v.rate)));
+    let voltages = case.voltages.map(|v| Wave::with_rate(Unfused(v.value), Unfused(v.rate)));
     Bimorph::default().rhs(&c, &plates(&c, &voltages), Unfused(1.0), &case.y.map(Unfused)).map(|d| d.0)
 }
 
@@ -216,11 +216,10 @@ fn sign_of_the_velocity_directs_the_attack_angle() {
 /// Harmonics swing beyond 0 and V_pp; the columns of field and capacitive power follow.
 #[test]
 fn harmonics_widen_the_voltages() {
-    use flap_core::drive::Shape;
+    use flap_core::drive::{Shape, WaveformParameters};
     use flap_core::model::bimorph::Params;
     let third = |h: f64| Params {
-        drive_shape: Shape::Harmonics,
-        drive_third_harmonic: h,
+        waveform: WaveformParameters { drive_third_harmonic: h, ..WaveformParameters::new(Shape::Harmonics) },
         drive_voltage_pp: 100.0,
         ..params("T1")
     };

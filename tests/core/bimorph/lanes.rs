@@ -1,6 +1,6 @@
 //! Rows from lanes against rows from scalars.
 
-use flap_core::drive::Shape;
+use flap_core::drive::{Shape, WaveformParameters};
 use flap_core::model::bimorph::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
 use flap_core::simulate::{SolverSettings, Status};
 
@@ -24,8 +24,14 @@ fn points() -> Vec<Vec<f64>> {
                 3 => Params { centre_of_pressure: CentreOfPressure::Directional, ..p },
                 5 => Params { centre_of_pressure: CentreOfPressure::Literal, ..p },
                 7 => Params { actuator_stiffness: ActuatorStiffness::Constant, ..p },
-                4 => Params { drive_shape: Shape::Square, ..p },
-                6 => Params { drive_shape: Shape::Harmonics, drive_third_harmonic: -0.2, ..p },
+                4 => Params { waveform: WaveformParameters::new(Shape::Square), ..p },
+                6 => Params {
+                    waveform: WaveformParameters {
+                        drive_third_harmonic: -0.2,
+                        ..WaveformParameters::new(Shape::Harmonics)
+                    },
+                    ..p
+                },
                 8 => Params { actuator_width_ratio: 2.5, ..p },
                 9 => Params { wing_inertia_product: 1e-3, ..p },
                 _ => p,

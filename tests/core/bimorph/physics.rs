@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use flap_core::drive::Driven;
+use flap_core::drive::Wave;
 use flap_core::model::Model;
 use flap_core::model::bimorph::{
     Bimorph, CentreOfPressure, Constants, Params, Plate, currents, elastic_force, lift_and_drag, plate,
@@ -77,8 +77,8 @@ fn any_params() -> impl Strategy<Value = Params> {
     )
 }
 
-fn any_voltages() -> impl Strategy<Value = [Driven<f64>; 2]> {
-    let voltage = || (0.0..300.0, -1e5..1e5).prop_map(|(value, rate)| Driven::with_rate(value, rate));
+fn any_voltages() -> impl Strategy<Value = [Wave<f64>; 2]> {
+    let voltage = || (0.0..300.0, -1e5..1e5).prop_map(|(value, rate)| Wave::with_rate(value, rate));
     [voltage(), voltage()]
 }
 
@@ -96,7 +96,7 @@ proptest! {
 
         let at = |dt: f64| {
             let y: [f64; 4] = std::array::from_fn(|i| y[i] + dt * dy[i]);
-            let plates = v.map(|v| plate(&c, Driven { value: v.value + dt * v.rate, ..v }));
+            let plates = v.map(|v| plate(&c, Wave { value: v.value + dt * v.rate, ..v }));
             electric_energy(&c, &plates, y[0]) + tip_energy(&c, &y)
         };
         let dt = 1e-8;
@@ -130,7 +130,7 @@ proptest! {
 fn the_literal_reading_breaks_the_mirror_symmetry() {
     let p = Params { centre_of_pressure: CentreOfPressure::Literal, ..params("T1") };
     let c = Constants::derive(&p).unwrap();
-    let plates = [plate(&c, Driven::with_rate(100.0, 0.0)); 2];
+    let plates = [plate(&c, Wave::with_rate(100.0, 0.0)); 2];
     let y = [0.0, 0.2, 1.0, 0.0];
     let [dy, mirrored] = [1.0, -1.0].map(|m| Bimorph::default().rhs(&c, &plates, 1.0, &y.map(|y| m * y)));
     assert!((dy[3] + mirrored[3]).abs() > 0.05 * dy[3].abs());
@@ -161,7 +161,7 @@ fn model_scale(values: &[f64]) -> [f64; 4] {
 
 /// Where the tip rests under constant voltages: K(x) x = F₁ − F₂.
 pub(super) fn static_tip(c: &Constants<f64>, voltages: [f64; 2]) -> f64 {
-    let plates = voltages.map(|value| plate(c, Driven::with_rate(value, 0.0)));
+    let plates = voltages.map(|value| plate(c, Wave::with_rate(value, 0.0)));
     let (mut low, mut high) = (-2e-3, 2e-3);
     for _ in 0..80 {
         let x = 0.5 * (low + high);

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use flap_core::model::Model;
+use flap_core::model::Motions;
 use flap_core::model::bimorph::{Bimorph, Constants, Params};
 use flap_core::num::InstructionSet;
 use flap_core::ode::Start;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use flap_core::drive::Driven;
+use flap_core::drive::Wave;
 use flap_core::model::direct_drive::{
     Constants, DirectDrive, FlowDirection, Params, added_mass, aerodynamics, current, lift, mean_velocity,
 };
@@ -20,7 +20,7 @@ const TOLERANCE: f64 = 1e-11;
 struct Case {
     model: DirectDrive,
     constants: Constants<f64>,
-    drive: Driven<f64>,
+    drive: Wave<f64>,
     side: f64,
     y: [f64; 4],
     record: Record,
@@ -38,7 +38,7 @@ fn cases_with(flow: FlowDirection) -> Vec<Case> {
                 ..params(record.text("type"))
             })
             .unwrap(),
-            drive: Driven::with_rate(record.number("V_V"), record.number("Vdot_V_s")),
+            drive: Wave::with_rate(record.number("V_V"), record.number("Vdot_V_s")),
             side: record.number("ubar_m_s").signum(),
             y: ["phi", "psi", "phidot", "psidot"].map(|column| record.number(column)),
             record,
@@ -150,7 +150,7 @@ impl Kernel for RhsOnLanes {
         for group in cases.chunks(Vector::<S>::LANES) {
             let zero = Vector::<S>::splat(simd, 0.0);
             let mut c = Constants::<Vector<S>>::fill(simd, &group[0].constants);
-            let mut drive = Driven::with_rate(zero, zero);
+            let mut drive = Wave::with_rate(zero, zero);
             let mut side = zero;
             let mut y = [zero; 4];
             for (lane, case) in group.iter().enumerate() {
@@ -171,7 +171,7 @@ impl Kernel for RhsOnLanes {
 /// The derivative of a case in the arithmetic class `R`, in which `number` writes a number.
 fn derivative<R: Scalar>(case: &Case, number: fn(f64) -> R) -> [f64; 4] {
     let c = Constants::<R>::fill((), &case.constants);
-    let drive = Driven::with_rate(number(case.drive.value), number(case.drive.rate));
+    let drive = Wave::with_rate(number(case.drive.value), number(case.drive.rate));
     case.model.rhs(&c, &drive, number(case.side), &case.y.map(number)).map(|d| d.lane(0))
 }
 

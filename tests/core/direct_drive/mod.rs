@@ -8,7 +8,6 @@ mod physics;
 mod steady;
 
 use flap_core::model::direct_drive::{CentreOfPressure, FlowDirection, Params};
-use flap_core::parameter::Slot;
 
 /// Whichever way the air flows.
 const FLOWS: [FlowDirection; 2] = [FlowDirection::Uniform, FlowDirection::Blade];
@@ -27,5 +26,5 @@ fn centre_of_pressure(name: &str) -> CentreOfPressure {
     let options = ["directional", "folded", "literal"];
     let index =
         options.iter().position(|&option| option == name).unwrap_or_else(|| panic!("no reading {name}"));
-    CentreOfPressure::from_value(index as f64)
+    CentreOfPressure::ALL[index]
 }

@@ -1,6 +1,6 @@
 //! Symmetries and conservation laws.
 
-use flap_core::drive::Driven;
+use flap_core::drive::Wave;
 use flap_core::model::direct_drive::{
     AddedMass, CentreOfPressure, Constants, DirectDrive, FlowDirection, Params, added_mass, aerodynamics,
     current, lift,
@@ -61,7 +61,7 @@ proptest! {
         let c = Constants::derive(&p).unwrap();
         let side = if up { 1.0 } else { -1.0 };
         let model = model(&p);
-        let dy = model.rhs(&c, &Driven::with_rate(volts, 0.0), side, &y);
+        let dy = model.rhs(&c, &Wave::with_rate(volts, 0.0), side, &y);
         let (sin, cos) = Real::sin_cos(y[1]);
         let air = aerodynamics(&c, model.flow, side, &y, sin, cos);
         let work = c.gamma * volts * y[2]
@@ -84,14 +84,14 @@ proptest! {
         let model = model(&p);
         let c = Constants::derive(&Params { centre_of_pressure: reading, ..p }).unwrap();
         let [dy, mirrored] = [1.0, -1.0].map(|m| {
-            model.rhs(&c, &Driven::with_rate(m * volts, 0.0), m, &y.map(|y| m * y))
+            model.rhs(&c, &Wave::with_rate(m * volts, 0.0), m, &y.map(|y| m * y))
         });
         prop_assert_eq!(dy, mirrored.map(|d| -d));
         let [plus, minus] = [(1.0, dy), (-1.0, mirrored)].map(|(m, dy)| {
             let y = y.map(|y| m * y);
             let (sin, cos) = Real::sin_cos(y[1]);
             let added = added_mass(&c, sin, cos, &dy);
-            let drive = Driven::with_rate(m * volts, m * 1e4);
+            let drive = Wave::with_rate(m * volts, m * 1e4);
             [lift(&c, &aerodynamics(&c, model.flow, m, &y, sin, cos), &added, sin), current(&c, &drive, y[2]) * drive.value]
         });
         prop_assert_eq!(plus, minus);
@@ -104,8 +104,8 @@ fn the_literal_reading_breaks_the_mirror_symmetry() {
     let p = Params { centre_of_pressure: CentreOfPressure::Literal, ..Params::ozaki2018_large() };
     let c = Constants::derive(&p).unwrap();
     let y = [0.1, 0.7, 100.0, 50.0];
-    let [dy, mirrored] = [1.0, -1.0]
-        .map(|m| DirectDrive::default().rhs(&c, &Driven::with_rate(0.0, 0.0), m, &y.map(|y| m * y)));
+    let [dy, mirrored] =
+        [1.0, -1.0].map(|m| DirectDrive::default().rhs(&c, &Wave::with_rate(0.0, 0.0), m, &y.map(|y| m * y)));
     assert!((dy[3] + mirrored[3]).abs() > 0.1 * dy[3].abs());
 }
 

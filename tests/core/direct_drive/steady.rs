@@ -133,7 +133,7 @@ fn mean_stroke_is_the_static_one() {
     for record in table(STEADY) {
         let p = operating_point(&record);
         let c = flap_core::model::direct_drive::Constants::derive(&p).unwrap();
-        let expected = (c.gamma * c.drive_bias / c.k_phi).to_degrees();
+        let expected = (c.gamma * c.drive.bias / c.k_phi).to_degrees();
         assert_close(measure(&run(&p, 1e-8, 1e-9), "stroke_mean_deg"), expected, 1e-7, &record.name);
     }
 }

@@ -150,7 +150,7 @@ fn impossible_parameters_are_refused() {
         (Params { strips: 7.5, ..p.clone() }, "whole number from 1 to 64"),
     ] {
         let error = Constants::derive(&changed).unwrap_err();
-        assert!(error.reason.contains(reason), "{}", error.reason);
+        assert!(error.to_string().contains(reason), "{error}");
     }
     assert!(Constants::derive(&Params { strips: MAX_STRIPS as f64, ..p }).is_ok());
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use flap_core::drive::Driven;
+use flap_core::drive::Wave;
 use flap_core::model::four_bar::{
     Arms, Constants, FourBar, Params, Quadrature, added_mass_lift, aerodynamics, force, mass_matrix, side_of,
     transmission,
@@ -15,7 +15,7 @@ use crate::data::{Record, table};
 
 struct Case {
     constants: Constants<f64>,
-    drive: Driven<f64>,
+    drive: Wave<f64>,
     side: f64,
     y: [f64; 4],
     record: Record,
@@ -95,7 +95,7 @@ impl Kernel for RhsOnLanes {
         for group in cases.chunks(Vector::<S>::LANES) {
             let zero = Vector::<S>::splat(simd, 0.0);
             let mut c = Constants::<Vector<S>>::fill(simd, &group[0].constants);
-            let mut drive = Driven::with_rate(zero, zero);
+            let mut drive = Wave::with_rate(zero, zero);
             let mut side = zero;
             let mut y = [zero; 4];
             for (lane, case) in group.iter().enumerate() {
@@ -149,7 +149,7 @@ fn every_lane_equals_the_scalar_bit_for_bit() {
 /// The derivative in the arithmetic of processors without fused multiply-add.
 fn unfused(case: &Case) -> [f64; 4] {
     let c = Constants::<Unfused>::fill((), &case.constants);
-    let drive = Driven::with_rate(Unfused(case.drive.value), Unfused(case.drive.rate));
+    let drive = Wave::with_rate(Unfused(case.drive.value), Unfused(case.drive.rate));
     FourBar::default().rhs(&c, &drive, Unfused(case.side), &case.y.map(Unfused)).map(|d| d.0)
 }
 
@@ -251,7 +251,7 @@ fn rate_of_the_side_is_its_derivative() {
 #[test]
 fn equations_go_on_smoothly_past_the_vertical() {
     let c = Constants::derive(&params("sys75")).unwrap();
-    let drive = Driven::with_rate(80.0, 0.0);
+    let drive = Wave::with_rate(80.0, 0.0);
     let y = [0.1, 0.0, 80.0, -100.0];
     let [up, down] = [1.0, -1.0].map(|side| FourBar::default().rhs(&c, &drive, side, &y));
     assert_eq!(up, down);

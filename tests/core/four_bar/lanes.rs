@@ -1,6 +1,6 @@
 //! Rows from lanes against rows from scalars.
 
-use flap_core::drive::{Shape, StrokeMode};
+use flap_core::drive::{Shape, StrokeParameters, WaveformParameters};
 use flap_core::model::four_bar::{AddedMassSign, Arms, Params, Quadrature};
 use flap_core::simulate::{SolverSettings, Status};
 
@@ -25,9 +25,15 @@ fn points() -> Vec<Vec<f64>> {
                 1 => Params { arms: Arms::Axis, ..p },
                 2 => Params { am_sign: AddedMassSign::Printed, ..p },
                 3 => Params { quadrature: Quadrature::Midpoint, strips: 64.0, ..p },
-                4 => Params { drive_shape: Shape::Square, ..p },
-                5 => Params { drive_shape: Shape::Harmonics, drive_third_harmonic: -0.2, ..p },
-                6 => Params { stroke_mode: StrokeMode::Prescribed, stroke_amplitude: 0.01 * k, ..p },
+                4 => Params { waveform: WaveformParameters::new(Shape::Square), ..p },
+                5 => Params {
+                    waveform: WaveformParameters {
+                        drive_third_harmonic: -0.2,
+                        ..WaveformParameters::new(Shape::Harmonics)
+                    },
+                    ..p
+                },
+                6 => Params { stroke: StrokeParameters::prescribed(0.01 * k), ..p },
                 7 => Params { output_link: 0.03, ..p },
                 8 => Params { wing_inertia_product: 1e-8, ..p },
                 _ => p,

@@ -1,6 +1,6 @@
 //! Symmetries and conservation laws.
 
-use flap_core::drive::Driven;
+use flap_core::drive::Wave;
 use flap_core::model::four_bar::{
     Arms, Constants, FourBar, Params, added_mass_lift, aerodynamics, current, force, mass_matrix, side_of,
     tip, transmission,
@@ -54,7 +54,7 @@ proptest! {
     fn energy_changes_by_dissipation_alone(p in any_params(), y in any_state(), volts in -100.0..100.0) {
         let c = Constants::derive(&p).unwrap();
         let side = side(&y);
-        let dy = FourBar::default().rhs(&c, &Driven::with_rate(volts, 0.0), side, &y);
+        let dy = FourBar::default().rhs(&c, &Wave::with_rate(volts, 0.0), side, &y);
         let (sin, cos) = Real::sin_cos(y[1]);
         let air = aerodynamics(&c, side, &y, sin, cos);
         let work = (air.stroke_moment + air.rotation_stroke_moment - c.wing.stroke_damping * y[2]) * y[2]
@@ -111,10 +111,10 @@ proptest! {
     #[test]
     fn the_actuator_loses_nothing(p in any_params(), theta in -1.0..1.0, theta_dot in -200.0..200.0, value in -100.0..100.0, rate in -1e5..1e5) {
         let c = Constants::derive(&p).unwrap();
-        let drive = Driven::with_rate(value, rate);
+        let drive = Wave::with_rate(value, rate);
         let links = transmission(&c, theta);
         let force_at = |theta: f64, value: f64| {
-            force(&c.actuator, &Driven::with_rate(value, 0.0), transmission(&c, theta).displacement)
+            force(&c.actuator, &Wave::with_rate(value, 0.0), transmission(&c, theta).displacement)
         };
         // Tip stiffness k_a from 1/k_eff = 1/k_a + 1/k_sc; the tip is bent by δ_a − γ(V − V_ref) against it.
         let soft = 1.0 / c.actuator.stiffness - c.actuator.series_compliance;

@@ -1,6 +1,6 @@
 //! Passive pitch of a wing whose stroke is prescribed, against reference orbits.
 
-use flap_core::drive::{Shape, StrokeMode};
+use flap_core::drive::{Shape, StrokeParameters, WaveformParameters};
 use flap_core::model::four_bar::Params;
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{SolverSettings, Status, TrajectoryRequest, never};
@@ -12,8 +12,7 @@ use crate::data::{Record, assert_close, table};
 fn operating_point(record: &Record) -> Params {
     assert_eq!(record.text("quad"), "gauss");
     Params {
-        stroke_mode: StrokeMode::Prescribed,
-        stroke_amplitude: record.number("Theta_rad"),
+        stroke: StrokeParameters::prescribed(record.number("Theta_rad")),
         drive_frequency: record.number("f_Hz"),
         hinge_stiffness: record.number("krot_Nm"),
         hinge_damping: record.number("d_Nms"),
@@ -75,7 +74,8 @@ fn the_orbit_begins_where_the_reference_does() {
 /// What the actuator would do is not known, and says so.
 #[test]
 fn the_actuator_of_a_prescribed_stroke_is_unknown() {
-    let p = Params { stroke_mode: StrokeMode::Prescribed, ..Params::arabagi2013_75hz() };
+    let p =
+        Params { stroke: StrokeParameters::prescribed(10.0_f64.to_radians()), ..Params::arabagi2013_75hz() };
     let row = run(&p, 1e-6, 1e-5);
     for column in [
         "power_mean_mw",
@@ -93,8 +93,15 @@ fn the_actuator_of_a_prescribed_stroke_is_unknown() {
 
 #[test]
 fn a_stroke_may_have_harmonics_but_no_jumps() {
-    let p = Params { stroke_mode: StrokeMode::Prescribed, ..Params::arabagi2013_75hz() };
-    let harmonic = Params { drive_shape: Shape::Harmonics, drive_third_harmonic: 0.1, ..p.clone() };
+    let p =
+        Params { stroke: StrokeParameters::prescribed(10.0_f64.to_radians()), ..Params::arabagi2013_75hz() };
+    let harmonic = Params {
+        waveform: WaveformParameters {
+            drive_third_harmonic: 0.1,
+            ..WaveformParameters::new(Shape::Harmonics)
+        },
+        ..p.clone()
+    };
     let row = run(&harmonic, 1e-8, 1e-7);
     assert_eq!(row.status, Status::Periodic);
     // θ = Θ (sin + 0.1 sin 3): its first harmonic is Θ, its extremes are 0.9 Θ at 90° and 1.0062 Θ beside it.
@@ -102,7 +109,7 @@ fn a_stroke_may_have_harmonics_but_no_jumps() {
     let samples = (0..100_000).map(|i| f64::from(i) * 1e-5 * std::f64::consts::TAU);
     let peak = samples.map(|x| x.sin() + 0.1 * (3.0 * x).sin()).fold(0.0, f64::max);
     assert_close(measure(&row, "stroke_amplitude_deg"), 10.0 * peak, 1e-5, "peak");
-    let square = run(&Params { drive_shape: Shape::Square, ..p }, 1e-6, 1e-5);
+    let square = run(&Params { waveform: WaveformParameters::new(Shape::Square), ..p }, 1e-6, 1e-5);
     assert_eq!(square.status, Status::Invalid);
     assert!(square.reason.unwrap().contains("stroke_mode"));
 }

@@ -47,7 +47,7 @@ fn parameters(model: &dyn Simulator) -> String {
 
 fn cells(parameter: &Parameter) -> [String; 5] {
     let allowed = match parameter.kind {
-        Kind::Number(range) => range.describe().to_owned(),
+        Kind::Number(range) => range.describe(),
         Kind::Following(range, follows) => format!("{}; if not set, {follows}", range.describe()),
         Kind::Choice(options) => options.join(" | "),
     };

@@ -2,7 +2,7 @@
 
 use crate::num::{Lanes, PerLane, Real};
 
-/// Where a strip is and what it measures (m).
+/// Position and size of a strip (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cut {
     /// Distance from the stroke axis r.
@@ -34,8 +34,8 @@ crate::per_lane! {
 
 /// The strips of a wing, of which there are at most `MAX`.
 ///
-/// All lanes run through as many strips as the one that has the most. What a lane has too many weighs nothing:
-/// it adds zeros, which change no bit of its sums.
+/// All lanes run through as many strips as the one that has the most. A strip that a lane does not have weighs nothing:
+/// it adds zeros, which change no bit of the sums.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strips<R, const MAX: usize> {
     count: usize,

@@ -1,42 +1,17 @@
-//! What drives a wing over time: voltages, or the stroke itself.
+//! The drive of a wing: a voltage that follows a waveform, or the stroke itself.
+//!
+//! A model has a [`Drive`], common to the lanes of an ensemble, and [`DriveConstants`] of each point. Its parameter table
+//! contains [`WaveformParameters`], and [`StrokeParameters`] if its stroke can be prescribed.
 
+mod constants;
+mod parameters;
 mod samples;
-mod source;
-mod waveform;
+mod spline;
+mod variant;
+mod wave;
 
-pub use samples::{Repeat, Samples};
-pub use source::{Source, StrokeMode};
-pub use waveform::{Shape, Wave, Waveform};
-
-use crate::num::Real;
-
-/// A driven quantity with its rates of change: a voltage (V), or a prescribed stroke (rad).
-#[derive(Clone, Copy, Debug)]
-pub struct Driven<R> {
-    /// Value.
-    pub value: R,
-    /// Rate of change (1/s).
-    pub rate: R,
-    /// Rate of change of that (1/s²).
-    pub bend: R,
-}
-
-impl<R: Real> Driven<R> {
-    /// A quantity whose second derivative does not matter, such as a voltage.
-    #[inline(always)]
-    pub fn with_rate(value: R, rate: R) -> Driven<R> {
-        Driven { value, rate, bend: value.lit(0.0) }
-    }
-}
-
-impl<R: Real> Wave<R> {
-    /// The quantity `bias + amplitude · wave`.
-    #[inline(always)]
-    pub fn drive(&self, bias: R, amplitude: R) -> Driven<R> {
-        Driven {
-            value: amplitude.mul_add(self.value, bias),
-            rate: amplitude * self.rate,
-            bend: amplitude * self.bend,
-        }
-    }
-}
+pub use constants::DriveConstants;
+pub use parameters::{Shape, StrokeMode, StrokeParameters, WaveformParameters};
+pub use samples::{Repeat, Samples, SamplesError};
+pub use variant::{Drive, Waveform};
+pub use wave::Wave;

@@ -2,19 +2,56 @@
 
 use std::sync::Arc;
 
+use super::spline::{bends, periodic_bends};
 use crate::num::Lanes;
-use crate::parameter::Invalid;
 
 /// The fewest samples of a record.
 const FEWEST: usize = 4;
 
-/// How a record goes on after its last sample.
+/// Continuation of a record after its last sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Repeat {
     /// It begins again: the last sample is the first of the next period.
     Periodic,
     /// It ends.
     Once,
+}
+
+/// Samples that are no record.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SamplesError {
+    /// A record has at least four samples.
+    #[error("{count} samples are too few: a record has at least {FEWEST}")]
+    TooFew {
+        /// Number of samples.
+        count: usize,
+    },
+    /// A time or a value is infinite or not a number.
+    #[error("sample {sample} is not a number")]
+    NotANumber {
+        /// Number of the sample, from 1.
+        sample: usize,
+    },
+    /// Times do not increase.
+    #[error("times do not increase: sample {sample} is at {time} s, the one before at {before} s")]
+    TimesNotIncreasing {
+        /// Number of the later sample, from 1.
+        sample: usize,
+        /// Its time (s).
+        time: f64,
+        /// Time of the sample before it (s).
+        before: f64,
+    },
+    /// A periodic record does not end with the value that it begins with.
+    #[error(
+        "a periodic record ends with the value that it begins with: this one begins with {first} and ends with {last}"
+    )]
+    NotClosed {
+        /// First value.
+        first: f64,
+        /// Last value.
+        last: f64,
+    },
 }
 
 /// A record of samples over a time, as a smooth function of the phase from 0 (first sample) to 1 (last sample).
@@ -44,22 +81,20 @@ impl Samples {
     /// Joins samples at increasing `times` (s).
     ///
     /// # Errors
-    /// If there are fewer than four, a number is not finite, times do not increase, or a periodic record does not end
-    /// with the value that it begins with (within a thousandth of its range; then it is taken to).
-    pub fn new(times: &[f64], values: &[f64], repeat: Repeat) -> Result<Samples, Invalid> {
+    /// `TooFew` if there are fewer than four samples, `NotANumber` if a number is not finite, `TimesNotIncreasing` if times
+    /// do not increase, `NotClosed` if a periodic record does not end with the value that it begins with (within a
+    /// thousandth of its range; then it is taken to).
+    pub fn new(times: &[f64], values: &[f64], repeat: Repeat) -> Result<Samples, SamplesError> {
         let count = times.len().min(values.len());
         if count < FEWEST {
-            return Err(Invalid::new(format!("{count} samples are too few: a record has at least {FEWEST}")));
+            return Err(SamplesError::TooFew { count });
         }
         if let Some(i) = (0..count).find(|&i| !(times[i].is_finite() && values[i].is_finite())) {
-            return Err(Invalid::new(format!("sample {} is not a number", i + 1)));
+            return Err(SamplesError::NotANumber { sample: i + 1 });
         }
         if let Some(i) = (1..count).find(|&i| times[i] <= times[i - 1]) {
             let (time, before) = (times[i], times[i - 1]);
-            return Err(Invalid::new(format!(
-                "times do not increase: sample {} is at {time} s, the one before at {before} s",
-                i + 1
-            )));
+            return Err(SamplesError::TimesNotIncreasing { sample: i + 1, time, before });
         }
         let duration = times[count - 1] - times[0];
         let phases: Vec<f64> = times[..count].iter().map(|time| (time - times[0]) / duration).collect();
@@ -102,8 +137,7 @@ impl Samples {
 
     /// The smallest and largest sample.
     pub(super) fn range(&self) -> [f64; 2] {
-        let values = self.0.values.iter();
-        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &v| [low.min(v), high.max(v)])
+        range(&self.0.values)
     }
 }
 
@@ -128,87 +162,16 @@ impl Record {
     }
 }
 
-fn check_closed(values: &[f64]) -> Result<(), Invalid> {
-    let [low, high] =
-        values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &v| [low.min(v), high.max(v)]);
+/// The smallest and largest of some values.
+fn range(values: &[f64]) -> [f64; 2] {
+    values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &v| [low.min(v), high.max(v)])
+}
+
+fn check_closed(values: &[f64]) -> Result<(), SamplesError> {
+    let [low, high] = range(values);
     let (first, last) = (values[0], values[values.len() - 1]);
     if (last - first).abs() <= 1e-3 * (high - low) {
         return Ok(());
     }
-    Err(Invalid::new(format!(
-        "a periodic record ends with the value that it begins with: this one begins with {first} and ends with {last}"
-    )))
-}
-
-/// The equations of a spline for its second derivatives: lower, middle and upper diagonal, right-hand side, for the
-/// samples between the ends.
-fn equations(x: &[f64], y: &[f64]) -> [Vec<f64>; 4] {
-    let mut rows: [Vec<f64>; 4] = Default::default();
-    for i in 1..x.len() - 1 {
-        let (before, after) = (x[i] - x[i - 1], x[i + 1] - x[i]);
-        rows[0].push(before / 6.0);
-        rows[1].push((before + after) / 3.0);
-        rows[2].push(after / 6.0);
-        rows[3].push((y[i + 1] - y[i]) / after - (y[i] - y[i - 1]) / before);
-    }
-    rows
-}
-
-/// Second derivatives of the spline whose third derivative is continuous at the samples next to the ends
-/// ("not-a-knot"): the ends go on as the record does.
-fn bends(x: &[f64], y: &[f64]) -> Vec<f64> {
-    let [lower, mut middle, upper, right] = equations(x, y);
-    let n = middle.len();
-    // The ends' second derivatives, extrapolated from the two samples next to them, are put into the equations.
-    let (first, second) = (x[1] - x[0], x[2] - x[1]);
-    let (last, before) = (x[n + 1] - x[n], x[n] - x[n - 1]);
-    let (start, end) = (first / second, last / before);
-    let (mut lower_in, mut upper_in) = (lower.clone(), upper.clone());
-    middle[0] += lower[0] * (1.0 + start);
-    upper_in[0] -= lower[0] * start;
-    middle[n - 1] += upper[n - 1] * (1.0 + end);
-    lower_in[n - 1] -= upper[n - 1] * end;
-    let inner = tridiagonal(&lower_in, &middle, &upper_in, &right);
-    let mut bends = vec![inner[0] + start * (inner[0] - inner[1])];
-    bends.extend(&inner);
-    bends.push(inner[n - 1] + end * (inner[n - 1] - inner[n - 2]));
-    bends
-}
-
-/// Second derivatives of the periodic spline, whose first and last sample are the same.
-fn periodic_bends(x: &[f64], y: &[f64]) -> Vec<f64> {
-    let [lower, middle, upper, right] = equations(x, y);
-    let n = middle.len();
-    let (first, last) = (x[1] - x[0], x[n + 1] - x[n]);
-    let slope = (y[1] - y[0]) / first - (y[n + 1] - y[n]) / last;
-    // The unknown at the seam, s, enters the equations of its neighbours: bends = plain + s · unit.
-    let mut coupling = vec![0.0; n];
-    coupling[0] -= lower[0];
-    coupling[n - 1] -= upper[n - 1];
-    let plain = tridiagonal(&lower, &middle, &upper, &right);
-    let unit = tridiagonal(&lower, &middle, &upper, &coupling);
-    let seam = (slope - first / 6.0 * plain[0] - last / 6.0 * plain[n - 1])
-        / ((first + last) / 3.0 + first / 6.0 * unit[0] + last / 6.0 * unit[n - 1]);
-    let mut bends = vec![seam];
-    bends.extend(plain.iter().zip(&unit).map(|(plain, unit)| plain + seam * unit));
-    bends.push(seam);
-    bends
-}
-
-/// Solves a tridiagonal system (Thomas algorithm). `lower[0]` and the last of `upper` are not used.
-fn tridiagonal(lower: &[f64], middle: &[f64], upper: &[f64], right: &[f64]) -> Vec<f64> {
-    let n = middle.len();
-    let mut factor = vec![0.0; n];
-    let mut solution = vec![0.0; n];
-    let mut pivot = middle[0];
-    solution[0] = right[0] / pivot;
-    for i in 1..n {
-        factor[i] = upper[i - 1] / pivot;
-        pivot = middle[i] - lower[i] * factor[i];
-        solution[i] = (right[i] - lower[i] * solution[i - 1]) / pivot;
-    }
-    for i in (0..n - 1).rev() {
-        solution[i] -= factor[i + 1] * solution[i + 1];
-    }
-    solution
+    Err(SamplesError::NotClosed { first, last })
 }

@@ -108,7 +108,7 @@ impl<R: Real> FourBar<R> {
     /// θ₂′ = w×(B′ − A′) / L₂²     θ₂″ = w×(B″ − A″) / L₂²
     /// ```
     ///
-    /// Where the links cannot be assembled, Q and all that follows is NaN.
+    /// If the links cannot be assembled, Q and all that follows is NaN.
     #[inline(always)]
     pub fn motion(&self, theta: R) -> FourBarMotion<R> {
         let (sin, cos) = (self.neutral + theta).sin_cos();

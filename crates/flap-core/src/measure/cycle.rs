@@ -85,7 +85,7 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
         for stage in [0, 2, 3, 4, 5] {
             let at = h.mul_add(h.lit(C[stage]), t);
             let weight = h * B[stage];
-            let (sin, cos) = model.drive_phase(c, at).sin_cos();
+            let (sin, cos) = M::drive(c).phase(at).sin_cos();
             let u = input(model, c, at);
             let values = signals(model, c, &u, side, &step.y[stage], &step.k[stage]);
             if stage == 0 {

@@ -1,42 +1,71 @@
-//! What is measured of a model, and which columns come of it.
+//! Signals of a model, and their measures over a drive period.
+
+use super::units::Unit;
 
 /// A quantity followed along the motion.
 #[derive(Debug)]
 pub struct Signal {
     /// Name, the first part of its column names.
     pub name: &'static str,
-    /// Unit of its columns in words, such as `mN`.
-    pub unit: &'static str,
-    /// The unit as the last part of column names, such as `mn`.
-    pub suffix: &'static str,
-    /// Factor from SI to `unit`.
-    pub factor: f64,
-    /// What it is, to follow words such as "mean of".
+    /// Unit of its columns.
+    pub unit: Unit,
+    /// Meaning, to follow words such as "mean of".
     pub doc: &'static str,
-    /// What is measured of it over a drive period. A signal without measures serves derived columns alone, and has
-    /// no column in trajectories either.
+    /// Its measures over a drive period. A signal without measures serves derived columns alone, and has no column in
+    /// trajectories either.
     pub measures: &'static [Measure],
+    /// The measure whose error stands for that of a row, if there is one: of stroke, pitch, lift and power.
+    pub principal: Option<Measure>,
 }
 
 impl Signal {
-    /// Whether it has columns of its own.
+    /// A signal of which all `measures` are taken over a drive period.
+    pub const fn new(
+        name: &'static str,
+        unit: Unit,
+        doc: &'static str,
+        measures: &'static [Measure],
+    ) -> Signal {
+        Signal { name, unit, doc, measures, principal: None }
+    }
+
+    /// The same signal, one of whose measures stands for the error of a row.
+    #[must_use]
+    pub const fn principal(self, measure: Measure) -> Signal {
+        Signal { principal: Some(measure), ..self }
+    }
+
+    /// True if it has columns of its own.
     pub fn is_shown(&self) -> bool {
         !self.measures.is_empty()
     }
 }
 
-/// A column computed from several signals.
-#[derive(Debug)]
-pub struct Derived {
-    /// Column name.
-    pub name: &'static str,
-    /// Unit in words.
-    pub unit: &'static str,
-    /// One line of meaning.
-    pub doc: &'static str,
+/// The position of the signal called `name`.
+///
+/// # Panics
+/// If there is none: for constants, where that does not compile.
+pub const fn position(signals: &[Signal], name: &str) -> usize {
+    let mut position = 0;
+    while position < signals.len() {
+        if is_same(signals[position].name, name) {
+            return position;
+        }
+        position += 1;
+    }
+    panic!("no signal has this name")
 }
 
-/// What is measured of a signal over one drive period.
+const fn is_same(one: &str, other: &str) -> bool {
+    let (one, other) = (one.as_bytes(), other.as_bytes());
+    let mut i = 0;
+    while i < one.len() && i < other.len() && one[i] == other[i] {
+        i += 1;
+    }
+    i == one.len() && i == other.len()
+}
+
+/// A measure of a signal over one drive period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// Half of largest minus smallest value.
@@ -113,9 +142,9 @@ pub struct SignalCycle {
 }
 
 impl SignalCycle {
-    /// How far another way to the mean is from it, relative to it: zero but for the integration's error.
-    pub fn audit(&self, other_way: &SignalCycle) -> f64 {
-        (other_way.mean - self.mean) / self.mean
+    /// The relative difference of another signal's mean from this one's.
+    pub fn audit(&self, other: &SignalCycle) -> f64 {
+        (other.mean - self.mean) / self.mean
     }
 
     /// The measure in SI units.

@@ -1,4 +1,4 @@
-//! Piezoelectric actuators: what the models share.
+//! Components of piezoelectric actuators: laminates and unimorphs.
 
 mod laminate;
 mod unimorph;

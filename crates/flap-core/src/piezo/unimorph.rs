@@ -19,7 +19,7 @@ pub struct Unimorph {
     pub permittivity: f64,
 }
 
-/// How the tip of a [`Unimorph`] answers to force and voltage: δ = γV − F/k_a.
+/// The response of the tip of a [`Unimorph`] to force and voltage: δ = γV − F/k_a.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TipResponse {
     /// Stiffness of the tip k_a (N/m).

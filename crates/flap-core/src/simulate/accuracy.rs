@@ -93,8 +93,9 @@ pub(super) fn estimate<M: Model<N, S>, const N: usize, const S: usize>(
 ) -> f64 {
     let Some(coarse) = coarse.filter(|_| !slides) else { return f64::INFINITY };
     let mut largest = 0.0_f64;
-    for &(signal, measure) in M::PRINCIPAL {
-        let [value, other] = [fine, coarse].map(|cycle| cycle[signal].measure(measure));
+    for (i, signal) in M::SIGNALS.iter().enumerate() {
+        let Some(measure) = signal.principal else { continue };
+        let [value, other] = [fine, coarse].map(|cycle| cycle[i].measure(measure));
         let difference = (other - value).abs();
         // A prescribed stroke has no power, and a wing at rest nothing.
         if difference > 0.0 {

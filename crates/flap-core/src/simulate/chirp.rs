@@ -8,7 +8,7 @@ use core::ops::ControlFlow;
 use super::motion::{Sampler, check};
 use super::simulator::{ChirpRequest, ChirpResponse, SolverSettings, Trajectory, Unfinished};
 use crate::measure::cycle::{Signals, Totals, finish};
-use crate::model::{Measure, Model};
+use crate::model::{Measure, Model, Motions};
 use crate::num::{PerLane, Scalar};
 use crate::ode::ensemble::Observer;
 use crate::ode::solve::solve_until;
@@ -24,7 +24,7 @@ pub(super) fn respond<M, R, const N: usize, const S: usize>(
     interrupted: Interrupt<'_>,
 ) -> Result<ChirpResponse, Unfinished>
 where
-    M: Model<N, S>,
+    M: Motions<N, S>,
     R: Scalar,
 {
     let ChirpRequest { from, to, rate, samples_per_cycle } = *request;
@@ -77,7 +77,7 @@ where
 
         let mut row = vec![time, time + span, 1.0 / span];
         for (signal, cycle) in M::SIGNALS.iter().zip(&finish(&totals.map(|total| total.get(0)), span)) {
-            row.extend(measures(signal.measures).map(|measure| cycle.measure(measure) * signal.factor));
+            row.extend(measures(signal.measures).map(|measure| cycle.measure(measure) * signal.unit.factor));
         }
         rows.push(row);
         time += span;
@@ -97,7 +97,7 @@ fn columns<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<String> {
     for signal in M::SIGNALS {
         columns.extend(
             measures(signal.measures)
-                .map(|measure| format!("{}_{}_{}", signal.name, measure.name(), signal.suffix)),
+                .map(|measure| format!("{}_{}_{}", signal.name, measure.name(), signal.unit.suffix)),
         );
     }
     columns

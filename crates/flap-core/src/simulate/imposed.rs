@@ -2,11 +2,11 @@
 
 use super::motion::{columns, shown};
 use super::simulator::{ImposedMotion, Trajectory};
-use crate::model::Model;
+use crate::model::Motions;
 use crate::parameter::Invalid;
 
 /// States and signals along a given motion, at equal distances from its first sample to its last.
-pub(super) fn follow<M: Model<N, S>, const N: usize, const S: usize>(
+pub(super) fn follow<M: Motions<N, S>, const N: usize, const S: usize>(
     model: &M,
     values: &[f64],
     motion: &ImposedMotion,

@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 
 use super::motion::{Sampler, check};
 use super::simulator::{ImpulseRequest, SolverSettings, Trajectory, Unfinished};
-use crate::model::Model;
+use crate::model::Motions;
 use crate::num::Scalar;
 use crate::ode::solve::solve_until;
 use crate::ode::{Interrupt, Start};
@@ -19,14 +19,14 @@ pub(super) fn respond<M, R, const N: usize, const S: usize>(
     interrupted: Interrupt<'_>,
 ) -> Result<Trajectory, Unfinished>
 where
-    M: Model<N, S>,
+    M: Motions<N, S>,
     R: Scalar,
 {
     let ImpulseRequest { stroke_rate, duration, intervals } = *request;
     refuse_nonsense(request)?;
     let driven = model.variant(values);
     let Start { constants, mut scale, .. } = driven.start(values)?;
-    let period = 1.0 / driven.modes(&constants)[0].frequency;
+    let period = 1.0 / M::modes(&constants)[0].frequency;
     let (model, constants, y) = driven.released(&constants, stroke_rate);
 
     // Absolute tolerances shrink with a small motion, so that it is as exact as a large one.

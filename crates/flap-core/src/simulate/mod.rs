@@ -24,17 +24,17 @@ pub use simulator::{
 
 pub use crate::ode::{Interrupt, never};
 
-use crate::drive::Source;
+use crate::drive::Drive;
 use crate::model::bimorph::Bimorph;
 use crate::model::direct_drive::{DirectDrive, FlowDirection};
 use crate::model::four_bar::FourBar;
 use crate::parameter::Preset;
 use runner::Runner;
 
-static BIMORPH: Runner<Bimorph, 4, 20, 15> = Runner::new(Bimorph { source: Source::SINE });
+static BIMORPH: Runner<Bimorph, 4, 20, 15> = Runner::new(Bimorph { drive: Drive::SINE });
 static DIRECT_DRIVE: Runner<DirectDrive, 4, 20, 10> =
-    Runner::new(DirectDrive { source: Source::SINE, flow: FlowDirection::Uniform });
-static FOUR_BAR: Runner<FourBar, 4, 20, 17> = Runner::new(FourBar { source: Source::SINE });
+    Runner::new(DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform });
+static FOUR_BAR: Runner<FourBar, 4, 20, 17> = Runner::new(FourBar { drive: Drive::SINE });
 static ALL: &[&dyn Simulator] = &[&BIMORPH, &DIRECT_DRIVE, &FOUR_BAR];
 
 /// Every model, in the order `flap models` lists them.

@@ -147,10 +147,10 @@ pub(super) fn columns<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<S
     let mut columns = vec!["time_s".to_owned()];
     columns.extend(M::STATES.iter().map(|&name| name.to_owned()));
     columns.extend(M::SIGNALS.iter().filter(|signal| signal.is_shown()).map(|signal| {
-        if signal.suffix.is_empty() {
+        if signal.unit.suffix.is_empty() {
             signal.name.to_owned()
         } else {
-            format!("{}_{}", signal.name, signal.suffix)
+            format!("{}_{}", signal.name, signal.unit.suffix)
         }
     }));
     columns
@@ -182,5 +182,5 @@ pub(super) fn shown<M: Model<N, S>, const N: usize, const S: usize>(
     signals: &[f64; S],
 ) -> impl Iterator<Item = f64> + '_ {
     let pairs = signals.iter().zip(&M::SIGNALS).filter(|(_, signal)| signal.is_shown());
-    pairs.map(|(value, signal)| value * signal.factor)
+    pairs.map(|(value, signal)| value * signal.unit.factor)
 }

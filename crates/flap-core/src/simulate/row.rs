@@ -12,8 +12,8 @@ use crate::parameter::Invalid;
 pub(super) fn columns<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<Column> {
     let measured = M::SIGNALS.into_iter().flat_map(|signal| {
         signal.measures.iter().map(move |measure| Column {
-            name: format!("{}_{}_{}", signal.name, measure.name(), signal.suffix),
-            unit: signal.unit,
+            name: format!("{}_{}_{}", signal.name, measure.name(), signal.unit.suffix),
+            unit: signal.unit.name,
             doc: format!("{} {}", measure.describe(), signal.doc),
         })
     });
@@ -32,17 +32,18 @@ pub(super) fn measures<M: Model<N, S>, const N: usize, const S: usize>(
     totals: &[Totals<f64>; S],
     period: f64,
 ) -> Vec<f64> {
-    values(model, c, &on_orbit(model, totals, period))
+    values(model, c, &on_orbit::<M, N, S>(totals, period))
 }
 
 /// The signals of a periodic cycle.
 fn on_orbit<M: Model<N, S>, const N: usize, const S: usize>(
-    model: &M,
     totals: &[Totals<f64>; S],
     period: f64,
 ) -> [SignalCycle; S] {
     let mut cycle = finish(totals, period);
-    model.on_orbit(&mut cycle);
+    if let Some(energy) = M::ENERGY {
+        energy.close(&mut cycle);
+    }
     cycle
 }
 
@@ -53,9 +54,9 @@ fn values<M: Model<N, S>, const N: usize, const S: usize>(
 ) -> Vec<f64> {
     let mut values = Vec::new();
     for (signal, cycle) in M::SIGNALS.iter().zip(cycle) {
-        values.extend(signal.measures.iter().map(|&measure| cycle.measure(measure) * signal.factor));
+        values.extend(signal.measures.iter().map(|&measure| cycle.measure(measure) * signal.unit.factor));
     }
-    values.extend(model.derived(c, cycle));
+    values.extend(M::DERIVED.iter().map(|derived| (derived.value)(model, c, cycle)));
     values
 }
 
@@ -89,13 +90,13 @@ pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
     };
     let mut row = row(search, status);
     let mut audit = f64::NAN;
-    let cycle = |totals: &[Totals<f64>; S]| on_orbit(model, totals, start.span);
+    let cycle = |totals: &[Totals<f64>; S]| on_orbit::<M, N, S>(totals, start.span);
     if let Some(fine) = periods.fine.as_ref().map(cycle) {
         row.measures = values(model, &start.constants, &fine);
         let coarse = periods.coarse.as_ref().map(cycle);
         row.error_estimate =
             estimate::<M, N, S>(&fine, coarse.as_ref(), periods.slides).max(LEAST * search.rtol());
-        audit = model.audit(&fine);
+        audit = M::ENERGY.map_or(0.0, |energy| energy.audit(&fine));
         if is_at_rest::<M, N, S>(&fine) {
             row.floquet_max = f64::NAN;
         }
@@ -115,9 +116,9 @@ pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
 
 /// Whether the wing does not move, but for rounding: the first harmonics of its angles are nothing beside the angles.
 fn is_at_rest<M: Model<N, S>, const N: usize, const S: usize>(cycle: &[SignalCycle; S]) -> bool {
-    let mut angles = M::PRINCIPAL.iter().filter(|(_, measure)| *measure == Measure::First);
-    angles
-        .all(|&(signal, first)| cycle[signal].measure(first) <= 1e-12 * cycle[signal].measure(Measure::Peak))
+    let mut angles =
+        M::SIGNALS.iter().zip(cycle).filter(|(signal, _)| signal.principal == Some(Measure::First));
+    angles.all(|(_, angle)| angle.measure(Measure::First) <= 1e-12 * angle.measure(Measure::Peak))
 }
 
 /// A row with all that its point has cost.
@@ -153,7 +154,7 @@ impl Row {
             state: Vec::new(),
             error_estimate: f64::NAN,
             rhs_evals: 0,
-            reason: Some(error.reason),
+            reason: Some(error.into_reason()),
         }
     }
 }

@@ -10,7 +10,7 @@ use super::simulator::{
 };
 use super::{imposed, row};
 use crate::drive::Samples;
-use crate::model::Model;
+use crate::model::{Model, Motions};
 use crate::modes::Mode;
 use crate::num::InstructionSet;
 use crate::ode::{Interrupt, never};
@@ -28,7 +28,7 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Runner<M, N
     }
 }
 
-impl<M: Model<N, S> + 'static, const N: usize, const K: usize, const S: usize> Rows for Runner<M, N, K, S> {
+impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Rows for Runner<M, N, K, S> {
     fn columns(&self) -> &[Column] {
         self.columns.get_or_init(row::columns::<M, N, S>)
     }
@@ -48,23 +48,21 @@ impl<M: Model<N, S> + 'static, const N: usize, const K: usize, const S: usize> R
     }
 }
 
-impl<M: Model<N, S> + 'static, const N: usize, const K: usize, const S: usize> Simulator
-    for Runner<M, N, K, S>
-{
+impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Simulator for Runner<M, N, K, S> {
     fn name(&self) -> &'static str {
-        M::NAME
+        M::DESCRIPTION.name
     }
 
     fn doc(&self) -> &'static str {
-        M::DOC
+        M::DESCRIPTION.doc
     }
 
     fn parameters(&self) -> &'static [Parameter] {
-        M::PARAMETERS
+        M::DESCRIPTION.parameters
     }
 
     fn presets(&self) -> &'static [Preset] {
-        M::PRESETS
+        M::DESCRIPTION.presets
     }
 
     fn row(
@@ -121,7 +119,7 @@ impl<M: Model<N, S> + 'static, const N: usize, const K: usize, const S: usize> S
 
     fn modes(&self, values: &[f64]) -> Result<[Mode; 2], Invalid> {
         let model = self.model.variant(values);
-        Ok(model.modes(&model.start(values)?.constants))
+        Ok(M::modes(&model.start(values)?.constants))
     }
 
     fn free_response(

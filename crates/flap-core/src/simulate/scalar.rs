@@ -10,7 +10,7 @@ use super::simulator::{
 };
 use super::{chirp, impulse, motion, period};
 use crate::measure::cycle::{Signals, Totals};
-use crate::model::Model;
+use crate::model::{Model, Motions};
 use crate::num::{Arithmetic, InstructionSet, PerLane, Scalar, Unfused};
 use crate::ode::ensemble::Observer;
 use crate::ode::solve::solve_until;
@@ -142,7 +142,7 @@ impl<M> Scalars<'_, M> {
         interrupted: Interrupt<'_>,
     ) -> Result<ChirpResponse, Unfinished>
     where
-        M: Model<N, S>,
+        M: Motions<N, S>,
     {
         let Scalars { model, solver, values } = *self;
         match set.arithmetic() {
@@ -161,7 +161,7 @@ impl<M> Scalars<'_, M> {
         interrupted: Interrupt<'_>,
     ) -> Result<Trajectory, Unfinished>
     where
-        M: Model<N, S>,
+        M: Motions<N, S>,
     {
         let Scalars { model, solver, values } = *self;
         match set.arithmetic() {

@@ -128,7 +128,7 @@ pub trait Simulator: Rows {
 }
 
 /// Why a motion was not followed as far as requested.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unfinished {
     /// The values or the request are impossible, or the motion fails on the way.
     #[error(transparent)]

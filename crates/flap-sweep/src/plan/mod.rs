@@ -76,7 +76,7 @@ impl PointsFile {
 }
 
 /// Whether a point is run.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
     /// It is run.
     Runs,

@@ -113,7 +113,7 @@ impl Jobs for Trial {
                     self.begun.fetch_add(1, Ordering::Relaxed);
                     return Some(point);
                 }
-                Verdict::Invalid(invalid) => self.note_invalid(point.index, invalid.reason),
+                Verdict::Invalid(invalid) => self.note_invalid(point.index, invalid.into_reason()),
                 Verdict::Excluded(_) => {}
             }
         }

@@ -1,6 +1,6 @@
-//! The actuator as a beam: what equations (3), (5) and (6) make of its shape and layers.
+//! The actuator as a beam: the factors of equations (3), (5) and (6) that follow from its shape and layers.
 
-use super::params::Params;
+use super::params::{Params, WIDTH_RATIOS};
 use crate::parameter::Invalid;
 
 /// A cantilever of two piezoelectric plates on a carbon-fibre layer, tapered in width, with a rigid extension.
@@ -34,7 +34,7 @@ impl Actuator {
     /// The actuator of a point.
     ///
     /// # Errors
-    /// If the width ratio is not between 0 and 2: the other end would have no width.
+    /// `OutOfRange` if the width ratio is not between 0 and 2: one end would have no width.
     pub fn new(p: &Params) -> Result<Actuator, Invalid> {
         let gain = taper_gain(p.actuator_width_ratio, p.actuator_extension_ratio)?;
         let length = p.actuator_length;
@@ -68,11 +68,9 @@ impl Actuator {
 /// The closed form cancels like 1/δ³, so up to |δ| = ½ the integrand is expanded in powers of δz.
 ///
 /// # Errors
-/// If the width ratio is not between 0 and 2: one end would have no width.
+/// `OutOfRange` if the width ratio is not between 0 and 2: one end would have no width.
 pub fn taper_gain(width_ratio: f64, extension_ratio: f64) -> Result<f64, Invalid> {
-    if !(width_ratio > 0.0 && width_ratio < 2.0) {
-        return Err(Invalid::new("actuator_width_ratio must be between 0 and 2: both ends need a width"));
-    }
+    Invalid::unless_within("actuator_width_ratio", width_ratio, WIDTH_RATIOS)?;
     let gain = if (width_ratio - 1.0).abs() < 0.5 {
         series_gain(width_ratio - 1.0, 1.0 + 2.0 * extension_ratio)
     } else {

@@ -1,11 +1,11 @@
-//! What is measured of the bimorph model, and the columns that come of it.
+//! Signals of the bimorph model, and the columns computed from them.
 
-use super::Bimorph;
 use super::constants::Constants;
-use super::rhs::secant_stiffness;
+use super::dynamics::Bimorph;
 use crate::model::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
-use crate::model::convert::{DEGREES, GRAVITY, efficiency, wrap_degrees};
-use crate::model::{Derived, Measure, Signal, SignalCycle};
+use crate::model::readings::{efficiency, grams_force, lag_degrees};
+use crate::model::units::DEGREES;
+use crate::model::{Derived, EnergyBalance, Signal, SignalCycle, Unit, position};
 
 /// Number of signals.
 pub(super) const S: usize = 15;
@@ -13,139 +13,105 @@ pub(super) const S: usize = 15;
 /// Share of the largest lift that a vehicle can hover with, the rest being needed for control; section IV.
 const HOVER_SHARE: f64 = 0.8;
 
-/// Positions in [`SIGNALS`].
-const STROKE: usize = 0;
-const PITCH: usize = 1;
-const LIFT: usize = 2;
-const POWER: usize = 4;
-const PLATE_POWERS: [usize; 2] = [5, 6];
-const MECHANICAL_POWER: usize = 7;
-const DRAG_POWER: usize = 8;
-const TRANSDUCED_POWER: usize = 14;
-
-const fn signal(
-    name: &'static str,
-    (unit, suffix, factor): (&'static str, &'static str, f64),
-    doc: &'static str,
-    measures: &'static [Measure],
-) -> Signal {
-    Signal { name, unit, suffix, factor, doc, measures }
-}
-
-const ANGLE: (&str, &str, f64) = ("deg", "deg", DEGREES);
-const FORCE: (&str, &str, f64) = ("mN", "mn", 1e3);
-const POWER_UNIT: (&str, &str, f64) = ("mW", "mw", 1e3);
-const CURRENT: (&str, &str, f64) = ("mA", "ma", 1e3);
+const STROKE: usize = position(&SIGNALS, "stroke");
+const PITCH: usize = position(&SIGNALS, "pitch");
+const LIFT: usize = position(&SIGNALS, "lift");
+const POWER: usize = position(&SIGNALS, "power");
+const PLATE_POWERS: [usize; 2] = [position(&SIGNALS, "power_plate_1"), position(&SIGNALS, "power_plate_2")];
+const MECHANICAL_POWER: usize = position(&SIGNALS, "power_mechanical");
+const DRAG_POWER: usize = position(&SIGNALS, "power_drag");
+const TRANSDUCED_POWER: usize = position(&SIGNALS, "power_transduced");
 
 #[rustfmt::skip]
 pub(super) const SIGNALS: [Signal; S] = [
-    signal("stroke", ANGLE, "stroke angle", &[Amplitude, PeakToPeak, Mean, Max, Min, First]),
-    signal("pitch", ANGLE, "hinge angle of the wing", &[Amplitude, Peak, Mean, Max, Min, First]),
-    signal("lift", FORCE, "lift of the wing", &[Mean, Max, Min]),
-    signal("drag", FORCE, "drag of the wing along the stroke", &[Mean, Magnitude]),
-    signal("power", POWER_UNIT, "electrical power of both plates, current x voltage; its mean is that of power_drag", &[Mean]),
-    signal("power_plate_1", POWER_UNIT, "electrical power of plate 1", &[Supply]),
-    signal("power_plate_2", POWER_UNIT, "electrical power of plate 2", &[Supply]),
-    signal("power_mechanical", POWER_UNIT, "power of the plates' forces at the actuator's tip; its mean is that of power_drag", &[Mean]),
-    signal("power_drag", POWER_UNIT, "power taken by the drag of the stroke, Eq. (8)", &[Mean]),
-    signal("power_rotational", POWER_UNIT, "power taken by the hinge's rotational drag, Eq. (9)", &[Mean]),
-    signal("current_1", CURRENT, "current into plate 1", &[Rms, Peak]),
-    signal("current_2", CURRENT, "current into plate 2", &[Rms, Peak]),
-    signal("force_1", FORCE, "force of plate 1 at the actuator's tip, Eq. (6)", &[Peak]),
-    signal("force_2", FORCE, "force of plate 2 at the actuator's tip, Eq. (6)", &[Peak]),
-    signal("power_transduced", POWER_UNIT, "electrical power of both plates without that of charging their capacitance", &[]),
-];
-
-pub(super) const PRINCIPAL: &[(usize, Measure)] =
-    &[(STROKE, First), (PITCH, First), (LIFT, Mean), (POWER, Mean)];
-
-const fn derived(name: &'static str, unit: &'static str, doc: &'static str) -> Derived {
-    Derived { name, unit, doc }
-}
-
-#[rustfmt::skip]
-pub(super) const DERIVED: &[Derived] = &[
-    derived("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the drive -sin(wt), the sense of F_1 - F_2, in (-180, 180]"),
-    derived("pitch_lag_deg", "deg", "phase by which the first harmonic of the hinge angle lags that of the stroke, in (-180, 180]"),
-    derived("stroke_pp_deg_per_v", "deg/V", "stroke_pp_deg over drive_voltage_pp, the ordinate of Fig. 4a and 5"),
-    derived("tip_pp_um", "um", "displacement of the actuator's tip, largest minus smallest"),
-    derived("tip_peak_um", "um", "largest displacement of the actuator's tip from rest"),
-    derived("lift_mean_gf", "gf", "mean lift of the wing in grams-force"),
-    derived("vehicle_lift_mgf", "mgf", "mean lift of a vehicle's two wings in milligrams-force"),
-    derived("payload_mg", "mg", "80 % of vehicle_lift_mgf, the rest being left for control, less vehicle_mass; Table II"),
-    derived("power_supply_mw", "mW", "mean of the positive part of each plate's power, summed: no recovery"),
-    derived("power_capacitive_mw", "mW", "C_act V_pp^2 f / 4: the paper's P, per actuator"),
-    derived("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw); empty where that is not more than zero"),
-    derived("efficiency_capacitive_gf_per_w", "gf/W", "mean lift over power_capacitive_mw: the paper's lift-to-power ratio, in mg/mW too"),
-    derived("energy_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error"),
-    derived("strain_mid_max", "", "largest strain of the plates' mid-planes, Eq. (5)"),
-    derived("strain_surface_max", "", "largest strain of the plates' outer faces, which Table II quotes"),
-    derived("field_max_v_per_um", "V/um", "largest electric field in the plates"),
-    derived("mode_stroke_hz", "Hz", "natural frequency of small strokes, without drag"),
-    derived("mode_hinge_hz", "Hz", "natural frequency of small hinge angles, without drag"),
+    Signal::new("stroke", Unit::DEG, "stroke angle", &[Amplitude, PeakToPeak, Mean, Max, Min, First]).principal(First),
+    Signal::new("pitch", Unit::DEG, "hinge angle of the wing", &[Amplitude, Peak, Mean, Max, Min, First]).principal(First),
+    Signal::new("lift", Unit::MN, "lift of the wing", &[Mean, Max, Min]).principal(Mean),
+    Signal::new("drag", Unit::MN, "drag of the wing along the stroke", &[Mean, Magnitude]),
+    Signal::new("power", Unit::MW, "electrical power of both plates, current x voltage; its mean is that of power_drag", &[Mean]).principal(Mean),
+    Signal::new("power_plate_1", Unit::MW, "electrical power of plate 1", &[Supply]),
+    Signal::new("power_plate_2", Unit::MW, "electrical power of plate 2", &[Supply]),
+    Signal::new("power_mechanical", Unit::MW, "power of the plates' forces at the actuator's tip; its mean is that of power_drag", &[Mean]),
+    Signal::new("power_drag", Unit::MW, "power taken by the drag of the stroke, Eq. (8)", &[Mean]),
+    Signal::new("power_rotational", Unit::MW, "power taken by the hinge's rotational drag, Eq. (9)", &[Mean]),
+    Signal::new("current_1", Unit::MA, "current into plate 1", &[Rms, Peak]),
+    Signal::new("current_2", Unit::MA, "current into plate 2", &[Rms, Peak]),
+    Signal::new("force_1", Unit::MN, "force of plate 1 at the actuator's tip, Eq. (6)", &[Peak]),
+    Signal::new("force_2", Unit::MN, "force of plate 2 at the actuator's tip, Eq. (6)", &[Peak]),
+    Signal::new("power_transduced", Unit::MW, "electrical power of both plates without that of charging their capacitance", &[]),
 ];
 
 /// ⟨V₁i₁ + V₂i₂⟩ = ⟨(F₁ − F₂) ẋ⟩ = ⟨power of the stroke's drag⟩: (1) has no other loss.
-pub(super) fn on_orbit(cycle: &mut [SignalCycle; S]) {
-    for power in [POWER, MECHANICAL_POWER] {
-        cycle[power].mean = cycle[DRAG_POWER].mean;
-    }
+pub(super) const ENERGY: EnergyBalance = EnergyBalance {
+    powers: &[POWER, MECHANICAL_POWER],
+    losses: &[DRAG_POWER],
+    audit: [POWER, TRANSDUCED_POWER],
+};
+
+type Column = Derived<Bimorph, Constants<f64>, S>;
+
+#[rustfmt::skip]
+pub(super) const DERIVED: &[Column] = &[
+    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the drive -sin(wt), the sense of F_1 - F_2, in (-180, 180]",
+        |_, _, cycle| lag_degrees(cycle[STROKE].phase(), DRIVE_PHASE)),
+    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the hinge angle lags that of the stroke, in (-180, 180]",
+        |_, _, cycle| lag_degrees(cycle[PITCH].phase(), cycle[STROKE].phase())),
+    Column::new("stroke_pp_deg_per_v", "deg/V", "stroke_pp_deg over drive_voltage_pp, the ordinate of Fig. 4a and 5",
+        |_, c, cycle| cycle[STROKE].measure(PeakToPeak) * DEGREES / (2.0 * c.drive.amplitude)),
+    Column::new("tip_pp_um", "um", "displacement of the actuator's tip, largest minus smallest",
+        |_, c, cycle| cycle[STROKE].measure(PeakToPeak) / c.ratio * 1e6),
+    Column::new("tip_peak_um", "um", "largest displacement of the actuator's tip from rest",
+        |_, c, cycle| tip_peak(c, cycle) * 1e6),
+    Column::new("lift_mean_gf", "gf", "mean lift of the wing in grams-force",
+        |_, _, cycle| grams_force(cycle[LIFT].mean)),
+    Column::new("vehicle_lift_mgf", "mgf", "mean lift of a vehicle's two wings in milligrams-force",
+        |_, _, cycle| vehicle_lift(cycle)),
+    Column::new("payload_mg", "mg", "80 % of vehicle_lift_mgf, the rest being left for control, less vehicle_mass; Table II",
+        |_, c, cycle| HOVER_SHARE * vehicle_lift(cycle) - c.vehicle_mass * 1e6),
+    Column::new("power_supply_mw", "mW", "mean of the positive part of each plate's power, summed: no recovery",
+        |_, _, cycle| PLATE_POWERS.iter().map(|&plate| cycle[plate].measure(Supply)).sum::<f64>() * 1e3),
+    Column::new("power_capacitive_mw", "mW", "C_act V_pp^2 f / 4: the paper's P, per actuator",
+        |model, c, _| capacitive_power(model, c) * 1e3),
+    Column::new("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw); empty where that is not more than zero",
+        |_, _, cycle| efficiency(grams_force(cycle[LIFT].mean), cycle[POWER].mean)),
+    Column::new("efficiency_capacitive_gf_per_w", "gf/W", "mean lift over power_capacitive_mw: the paper's lift-to-power ratio, in mg/mW too",
+        |model, c, cycle| grams_force(cycle[LIFT].mean) / capacitive_power(model, c)),
+    Column::new("energy_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error",
+        |_, _, cycle| ENERGY.audit(cycle)),
+    Column::new("strain_mid_max", "", "largest strain of the plates' mid-planes, Eq. (5)",
+        |_, c, cycle| tip_peak(c, cycle) * c.strain_per_tip),
+    Column::new("strain_surface_max", "", "largest strain of the plates' outer faces, which Table II quotes",
+        |_, c, cycle| tip_peak(c, cycle) * c.strain_per_tip * c.surface_strain_ratio),
+    Column::new("field_max_v_per_um", "V/um", "largest electric field in the plates",
+        |model, c, _| voltage_max(model, c) * c.field_per_volt * 1e-6),
+    Column::new("mode_stroke_hz", "Hz", "natural frequency of small strokes, without drag",
+        |_, c, _| Bimorph::linear_modes(c)[0]),
+    Column::new("mode_hinge_hz", "Hz", "natural frequency of small hinge angles, without drag",
+        |_, c, _| Bimorph::linear_modes(c)[1]),
+];
+
+/// Phase of the drive (rad): F₁ − F₂ goes as −sin ωt, which has the phase π/2 against the cosine.
+const DRIVE_PHASE: f64 = core::f64::consts::FRAC_PI_2;
+
+/// Largest displacement of the actuator's tip (m).
+fn tip_peak(c: &Constants<f64>, cycle: &[SignalCycle; S]) -> f64 {
+    cycle[STROKE].measure(Peak) / c.ratio
 }
 
-/// By current times voltage against the drag's.
-pub(super) fn audit(cycle: &[SignalCycle; S]) -> f64 {
-    cycle[POWER].audit(&cycle[TRANSDUCED_POWER])
+/// Mean lift of two wings in milligrams-force.
+fn vehicle_lift(cycle: &[SignalCycle; S]) -> f64 {
+    2e3 * grams_force(cycle[LIFT].mean)
 }
 
-/// The values of [`DERIVED`], for a wave that goes from `low` to `high`.
-pub(super) fn values(c: &Constants<f64>, [low, high]: [f64; 2], cycle: &[SignalCycle; S]) -> Vec<f64> {
-    // F₁ − F₂ goes as −sin ωt, which has the phase π/2 against the cosine.
-    let drive_phase = core::f64::consts::FRAC_PI_2;
-    let stroke = &cycle[STROKE];
-    // The plates see ½V_pp (1 ± wave).
-    let voltage_pp = c.half_voltage * (high - low);
-    let voltage_max = c.half_voltage * (1.0 + high.max(-low));
-    let tip_peak = stroke.measure(Peak) / c.ratio;
-    let stroke_pp = stroke.measure(PeakToPeak);
-    let lift_gf = cycle[LIFT].mean / GRAVITY * 1e3;
-    let vehicle_lift = 2e3 * lift_gf;
-    let power = cycle[POWER].mean;
-    let supply: f64 = PLATE_POWERS.iter().map(|&plate| cycle[plate].measure(Supply)).sum();
-    let capacitive = c.c_p * voltage_pp * voltage_pp * c.waveform.rate / (2.0 * core::f64::consts::PI);
-    let [mode_stroke, mode_hinge] = Bimorph::linear_modes(c);
-    vec![
-        wrap_degrees(drive_phase - stroke.phase()),
-        wrap_degrees(stroke.phase() - cycle[PITCH].phase()),
-        stroke_pp * DEGREES / (2.0 * c.half_voltage),
-        stroke_pp / c.ratio * 1e6,
-        tip_peak * 1e6,
-        lift_gf,
-        vehicle_lift,
-        HOVER_SHARE * vehicle_lift - c.vehicle_mass * 1e6,
-        supply * 1e3,
-        capacitive * 1e3,
-        efficiency(lift_gf, power),
-        lift_gf / capacitive,
-        audit(cycle),
-        tip_peak * c.strain_per_tip,
-        tip_peak * c.strain_per_tip * c.surface_strain_ratio,
-        voltage_max * c.field_per_volt * 1e-6,
-        mode_stroke,
-        mode_hinge,
-    ]
+/// Power (W) of charging two plates, which see ½V_pp (1 ± wave).
+fn capacitive_power(model: &Bimorph, c: &Constants<f64>) -> f64 {
+    let [low, high] = model.drive.range(&c.drive);
+    let voltage_pp = c.drive.amplitude * (high - low);
+    c.c_p * voltage_pp * voltage_pp * c.drive.rate / (2.0 * core::f64::consts::PI)
 }
 
-impl Bimorph {
-    /// Natural frequencies (Hz) of small motions without drag: of the stroke and of the hinge.
-    ///
-    /// (1) contains no reaction of the hinge, so each is that of its own oscillator:
-    ///
-    /// ```text
-    /// √((K_act(0) + K_t)/m_e)/2π     √(κ_wh/I_xx)/2π
-    /// ```
-    pub fn linear_modes(c: &Constants<f64>) -> [f64; 2] {
-        let stiffness = secant_stiffness(c, 0.0) + c.k_t;
-        [stiffness * c.inverse_m_e, c.kappa_wh * c.inverse_i_xx]
-            .map(|square| square.sqrt() / (2.0 * core::f64::consts::PI))
-    }
+/// Largest voltage (V) on a plate.
+fn voltage_max(model: &Bimorph, c: &Constants<f64>) -> f64 {
+    let [low, high] = model.drive.range(&c.drive);
+    c.drive.amplitude * (1.0 + high.max(-low))
 }

@@ -1,4 +1,4 @@
-//! What does not change along a trajectory of the bimorph model, computed once per point.
+//! Constants of the bimorph model, which do not change along a trajectory; computed once per point.
 //!
 //! Jafferis, Graule and Wood 2016; numbers in parentheses are the paper's equations, with the corrections
 //! listed in `docs/model-bimorph.md`. Powers of constants that the equations of motion need together are
@@ -6,23 +6,22 @@
 
 use super::actuator::Actuator;
 use super::params::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
-use crate::drive::{Shape, Waveform};
+use crate::drive::{DriveConstants, Shape};
 use crate::num::PerLane;
 use crate::parameter::Invalid;
 
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// Half of the drive voltage peak to peak (V).
-        pub half_voltage: R,
-        /// Shape of the drive voltage over time.
-        pub waveform: Waveform<R>,
+        /// The drive: half of the drive voltage peak to peak as constant part and as amplitude, of opposite sign for the
+        /// two plates.
+        pub drive: DriveConstants<R>,
 
         /// Field per voltage (1/m): 1/t_pzt.
         pub field_per_volt: R,
         /// Piezoelectric stress per field at small fields f_31,min (N/(V·m)), (6).
         pub f_min: R,
-        /// What the transition takes from its end (N/(V·m)): f_31,min; twice that if (6) is read as printed.
+        /// Stress per field that the transition subtracts at its end (N/(V·m)): f_31,min; twice that if (6) is read as printed.
         pub f_taken: R,
         /// Piezoelectric stress per field at the transition's end f_31,max (N/(V·m)), (6).
         pub f_max: R,
@@ -45,7 +44,7 @@ crate::per_lane! {
         pub f_stiff: R,
         /// Strain over the width of the modulus' transition, per displacement a₁ s_ε (1/m), (4).
         pub u_per_tip: R,
-        /// How far the modulus' transition has come at zero strain σ(a₁ε₀), (4).
+        /// Progress of the modulus' transition at zero strain σ(a₁ε₀), from 0 to 1, (4).
         pub sigma_0: R,
         /// Stiffness of the transmission K_t (N/m).
         pub k_t: R,
@@ -71,7 +70,7 @@ crate::per_lane! {
         pub hinge_torque: R,
         /// Chordwise centre of pressure for ψ = 90°, in mean widths, (11).
         pub p_min: R,
-        /// What it moves by from there to ψ = 0, (11).
+        /// Its shift from there to ψ = 0, in mean widths, (11).
         pub p_swing: R,
         /// 1 if the centre of pressure follows |ψ|, else 0.
         pub attack_folded: R,
@@ -112,8 +111,8 @@ impl Constants<f64> {
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let actuator = Actuator::new(p)?;
         // Harmonics swing beyond 0 and V_pp.
-        let harmonics = if p.drive_shape == Shape::Harmonics {
-            p.drive_second_harmonic.abs() + p.drive_third_harmonic.abs()
+        let harmonics = if p.waveform.drive_shape == Shape::Harmonics {
+            p.waveform.drive_second_harmonic.abs() + p.waveform.drive_third_harmonic.abs()
         } else {
             0.0
         };
@@ -121,7 +120,8 @@ impl Constants<f64> {
         let steepest = (p.stress_field.abs() + field_max) * p.stress_steepness;
         let z_0 = p.modulus_steepness * p.modulus_strain;
         if steepest.max(z_0.abs()) > EXPONENT_MAX {
-            return Err(Invalid::new(
+            return Err(Invalid::together(
+                &["stress_steepness", "stress_field", "modulus_steepness", "modulus_strain"],
                 "a transition is too steep: stress_steepness times field, or modulus_steepness times \
                  modulus_strain, exceeds 600",
             ));
@@ -144,8 +144,7 @@ impl Constants<f64> {
 
         let one_if = |yes: bool| if yes { 1.0 } else { 0.0 };
         let constants = Constants {
-            half_voltage: 0.5 * p.drive_voltage_pp,
-            waveform: p.waveform(),
+            drive: p.drive(),
 
             field_per_volt: 1.0 / p.piezo_thickness,
             f_min: p.piezo_stress_min,
@@ -194,7 +193,7 @@ impl Constants<f64> {
         if <Constants<f64> as PerLane<f64>>::is_finite(&constants) {
             Ok(constants)
         } else {
-            Err(Invalid::new("a derived constant is not finite: the parameters are too large or too small"))
+            Err(Invalid::NotFinite)
         }
     }
 }

@@ -1,9 +1,9 @@
 //! Parameters of the bimorph model and their published values.
 
-use crate::drive::{Shape, Waveform};
+use crate::drive::{DriveConstants, WaveformParameters};
 use crate::parameter::Kind::{Choice, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
-use crate::parameter::{Preset, Slot};
+use crate::parameter::{Preset, Range};
 
 crate::parameters! {
     /// Parameters of the bimorph model, in SI units. Symbols as in Jafferis, Graule and Wood 2016, Table I.
@@ -12,18 +12,8 @@ crate::parameters! {
         drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)),
         /// Drive frequency. The paper sweeps it at 15 Hz/s.
         drive_frequency: f64 = ("Hz", "f", Number(Positive)),
-        /// Shape of the drive voltage over a period: a sine, a sine with second and third harmonic, or a square wave with finite rise time.
-        drive_shape: Shape = ("", "", Choice(Shape::NAMES)),
-        /// Amplitude of the second harmonic relative to the first. Only for drive_shape = "harmonics".
-        drive_second_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase of the second harmonic, by which it leads the sine of twice the drive's phase.
-        drive_second_phase: f64 = ("rad", "", Number(Any)),
-        /// Amplitude of the third harmonic relative to the first. Only for drive_shape = "harmonics".
-        drive_third_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase of the third harmonic, by which it leads the sine of three times the drive's phase.
-        drive_third_phase: f64 = ("rad", "", Number(Any)),
-        /// Rise and fall time of the square wave, as a fraction of the period, up to 0.5. Only for drive_shape = "square".
-        drive_rise: f64 = ("", "", Number(Positive)),
+        /// Parameters of the waveform.
+        waveform: WaveformParameters = (flatten),
 
         /// Transmission ratio: stroke angle per displacement of the actuator's tip.
         transmission_ratio: f64 = ("rad/m", "T", Number(Positive)),
@@ -73,7 +63,7 @@ crate::parameters! {
         /// Mean width of the actuator.
         actuator_width: f64 = ("m", "w_n", Number(Positive)),
         /// Width of the actuator at its base over its mean width, between 0 and 2.
-        actuator_width_ratio: f64 = ("", "w_r", Number(Positive)),
+        actuator_width_ratio: f64 = ("", "w_r", Number(WIDTH_RATIOS)),
         /// Length of the actuator's rigid extension over actuator_length.
         actuator_extension_ratio: f64 = ("", "l_r", Number(NonNegative)),
         /// Mass of the actuator as felt at its tip. Not in the paper's equations, which leave out about 7 mg.
@@ -117,76 +107,48 @@ crate::parameters! {
         vehicle_mass: f64 = ("kg", "M_f", Number(NonNegative)),
 
         /// Transition of the piezoelectric stress with field, Eq. (6): corrected, or as printed (which halves the force).
-        field_transition: FieldTransition = ("", "", Choice(&["corrected", "printed"])),
+        field_transition: FieldTransition = ("", "", Choice(FieldTransition::NAMES)),
         /// Which attack angle moves the chordwise centre of pressure, Eq. (11): folded to at most 90 deg, relative to the motion, or as printed (which breaks mirror symmetry).
-        centre_of_pressure: CentreOfPressure = ("", "", Choice(&["folded", "directional", "literal"])),
+        centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)),
         /// Stiffness of the actuator: growing with strain, Eq. (4), or constant at its value for none.
-        actuator_stiffness: ActuatorStiffness = ("", "", Choice(&["strain-dependent", "constant"])),
+        actuator_stiffness: ActuatorStiffness = ("", "", Choice(ActuatorStiffness::NAMES)),
     }
 }
 
-/// Readings of Eq. (6): what the exponential of the field multiplies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FieldTransition {
-    /// f_min + (f_max (1 − a₄ℰ) − f_min) σ: from f_min to f_max, as the text says.
-    Corrected,
-    /// (f_min + (f_max (1 − a₄ℰ) − f_min) eᶻ)/(1 + eᶻ): as printed, never near f_max.
-    Printed,
-}
-
-impl Slot for FieldTransition {
-    fn from_value(value: f64) -> Self {
-        if value == 1.0 { FieldTransition::Printed } else { FieldTransition::Corrected }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Readings of Eq. (6), by the term that the exponential of the field multiplies.
+    pub enum FieldTransition {
+        /// f_min + (f_max (1 − a₄ℰ) − f_min) σ: from f_min to f_max, as the text says.
+        Corrected = "corrected",
+        /// (f_min + (f_max (1 − a₄ℰ) − f_min) eᶻ)/(1 + eᶻ): as printed, never near f_max.
+        Printed = "printed",
     }
 }
 
-/// Readings of Eq. (11): which hinge angle the centre of pressure depends on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CentreOfPressure {
-    /// |ψ|: the attack angle is never above 90°.
-    Folded,
-    /// ψ sign(ẋ): the attack angle relative to the motion.
-    Directional,
-    /// ψ: as printed. Breaks the mirror symmetry of the two half strokes.
-    Literal,
-}
-
-impl Slot for CentreOfPressure {
-    fn from_value(value: f64) -> Self {
-        match value {
-            1.0 => CentreOfPressure::Directional,
-            2.0 => CentreOfPressure::Literal,
-            _ => CentreOfPressure::Folded,
-        }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Readings of Eq. (11): which hinge angle the centre of pressure depends on.
+    pub enum CentreOfPressure {
+        /// |ψ|: the attack angle is never above 90°.
+        Folded = "folded",
+        /// ψ sign(ẋ): the attack angle relative to the motion.
+        Directional = "directional",
+        /// ψ: as printed. Breaks the mirror symmetry of the two half strokes.
+        Literal = "literal",
     }
 }
 
-/// Whether the actuator stiffens with strain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ActuatorStiffness {
-    /// Eq. (3) with the modulus (4).
-    StrainDependent,
-    /// Eq. (3) with the modulus (4) at zero strain.
-    Constant,
-}
-
-impl Slot for ActuatorStiffness {
-    fn from_value(value: f64) -> Self {
-        if value == 1.0 { ActuatorStiffness::Constant } else { ActuatorStiffness::StrainDependent }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Stiffness of the actuator against strain.
+    pub enum ActuatorStiffness {
+        /// Eq. (3) with the modulus (4).
+        StrainDependent = "strain-dependent",
+        /// Eq. (3) with the modulus (4) at zero strain.
+        Constant = "constant",
     }
 }
+
+/// The width ratios of an actuator that has a width at both ends.
+pub(super) const WIDTH_RATIOS: Range = Range::Between(0.0, 2.0);
 
 impl Params {
     /// The published presets.
@@ -208,12 +170,7 @@ impl Params {
         Params {
             drive_voltage_pp: 200.0,
             drive_frequency: 120.0,
-            drive_shape: Shape::Sine,
-            drive_second_harmonic: 0.0,
-            drive_second_phase: 0.0,
-            drive_third_harmonic: 0.0,
-            drive_third_phase: 0.0,
-            drive_rise: 0.05,
+            waveform: WaveformParameters::SINE,
             transmission_ratio: 3333.0,
             transmission_stiffness: 197.7,
             wing_length: 17e-3,
@@ -275,14 +232,10 @@ impl Params {
         }
     }
 
-    /// The drive's waveform.
-    pub(super) fn waveform(&self) -> Waveform<f64> {
-        Waveform::new(
-            self.drive_frequency,
-            [self.drive_second_harmonic, self.drive_third_harmonic],
-            [self.drive_second_phase, self.drive_third_phase],
-            self.drive_rise,
-        )
+    /// The drive.
+    pub(super) fn drive(&self) -> DriveConstants<f64> {
+        let half = 0.5 * self.drive_voltage_pp;
+        DriveConstants::new(self.drive_frequency, &self.waveform, [half, half])
     }
 
     /// These parameters with the transmission ratio scaled by `ratio` and the stiffnesses of transmission and

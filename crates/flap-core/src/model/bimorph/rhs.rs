@@ -9,14 +9,14 @@
 use core::f64::consts::FRAC_2_PI;
 
 use super::constants::{Constants, EXPONENT_MAX};
-use crate::drive::Driven;
+use crate::drive::Wave;
 use crate::num::Real;
 
-/// What depends on the voltage of a plate alone: its force g at zero strain and how that changes with voltage.
+/// A plate under a voltage: its force g at zero strain, and the derivatives of that with respect to the voltage.
 #[derive(Clone, Copy, Debug)]
 pub struct Plate<R> {
     /// Voltage across the plate and its rate.
-    pub voltage: Driven<R>,
+    pub voltage: Wave<R>,
     /// Force at zero strain g (N), (6).
     pub force: R,
     /// dg/dV (N/V).
@@ -33,7 +33,7 @@ pub struct Plate<R> {
 ///
 /// As printed, A has 2 f_min.
 #[inline(always)]
-pub fn plate<R: Real>(c: &Constants<R>, voltage: Driven<R>) -> Plate<R> {
+pub fn plate<R: Real>(c: &Constants<R>, voltage: Wave<R>) -> Plate<R> {
     let field = voltage.value * c.field_per_volt;
     let one = field.lit(1.0);
     let s = one / ((c.a_3 * (c.field_0 - field)).exp() + 1.0);
@@ -65,7 +65,7 @@ pub fn plate_forces<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R) -> 
     [plates[0].force - plates[0].force * change, plates[1].force + plates[1].force * change]
 }
 
-/// How much the compressed plate has stiffened: L = ln((1 + e^(z₀+u))/(1 + e^z₀)) with u = a₁ s_ε |x|, (4).
+/// Stiffening of the compressed plate: L = ln((1 + e^(z₀+u))/(1 + e^z₀)) with u = a₁ s_ε |x|, (4).
 ///
 /// ```text
 /// L = ln(1 + σ₀ (eᵘ − 1))     σ₀ = σ(z₀)     z₀ = a₁ε₀
@@ -166,7 +166,7 @@ pub fn derivative<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], y: &[R; 4])
 /// L = ½ρA_w r̂₂²R²T² ẋ|ẋ| b_L sin 2ψ     D = ½ρA_w r̂₂²R²T² ẋ|ẋ| (b₁ + b₂ cos 2ψ)
 /// ```
 ///
-/// Drag opposes the stroke: its work R_cp T ẋ D is what the actuator loses to the air.
+/// Drag opposes the stroke: its work R_cp T ẋ D is the actuator's loss to the air.
 #[inline(always)]
 pub fn lift_and_drag<R: Real>(c: &Constants<R>, x_dot: R, sin_2psi: R, cos_2psi: R) -> [R; 2] {
     let force = c.force * x_dot.abs() * x_dot;

@@ -52,11 +52,14 @@ pub(super) fn blades(p: &Params) -> Result<Strips<f64, BLADES>, Invalid> {
         FlowDirection::Blade => cut(p),
     };
     match cuts.iter().find(|cut| cut.chord < 0.0) {
-        Some(cut) => Err(Invalid::new(format!(
-            "the chord is negative {} m from the stroke axis: chord_legendre_1 to chord_legendre_3 do not describe a \
-             wing",
-            cut.radius
-        ))),
+        Some(cut) => Err(Invalid::together(
+            &["chord_legendre_1", "chord_legendre_2", "chord_legendre_3"],
+            format!(
+                "the chord is negative {} m from the stroke axis: chord_legendre_1 to chord_legendre_3 do not describe \
+                 a wing",
+                cut.radius
+            ),
+        )),
         None => Ok(Strips::new(&cuts, p.air_density, -0.5)),
     }
 }

@@ -1,4 +1,4 @@
-//! What does not change along a trajectory of the direct-drive model, computed once per point.
+//! Constants of the direct-drive model, which do not change along a trajectory; computed once per point.
 //!
 //! Ozaki and Hamaguchi 2018; numbers in parentheses are the paper's equations. Powers of constants that the
 //! equations of motion need together are multiplied out here.
@@ -8,7 +8,7 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use super::chord::{BLADES, blades};
 use super::params::{AddedMass, CentreOfPressure, FlowDirection, LiftSign, Params};
 use crate::aero::Strips;
-use crate::drive::Waveform;
+use crate::drive::DriveConstants;
 use crate::num::PerLane;
 use crate::parameter::Invalid;
 use crate::piezo::{Laminate, Layer};
@@ -16,12 +16,8 @@ use crate::piezo::{Laminate, Layer};
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// Constant part of the drive voltage (V), or zero where the stroke is prescribed.
-        pub drive_bias: R,
-        /// Amplitude of the drive voltage (V), or of the prescribed stroke (rad).
-        pub drive_amplitude: R,
-        /// Shape of the drive voltage over time.
-        pub waveform: Waveform<R>,
+        /// The drive voltage, or the prescribed stroke.
+        pub drive: DriveConstants<R>,
 
         /// Stroke stiffness k_φ (N·m/rad), (11).
         pub k_phi: R,
@@ -153,12 +149,9 @@ impl Constants<f64> {
         let aspect = 0.5 * r / c;
         let k_lift = FRAC_PI_2 * (r / c) / (1.0 + (aspect * aspect + 1.0).sqrt());
 
-        let [drive_bias, drive_amplitude] = p.drive();
         let one_if = |yes: bool| if yes { 1.0 } else { 0.0 };
         let constants = Constants {
-            drive_bias,
-            drive_amplitude,
-            waveform: p.waveform(),
+            drive: p.drive(),
 
             k_phi: 0.5 * s_a * widths / l_a,
             k_w: p.hinge_stiffness,
@@ -212,9 +205,7 @@ impl Constants<f64> {
 
     fn checked(self) -> Result<Constants<f64>, Invalid> {
         if !<Constants<f64> as PerLane<f64>>::is_finite(&self) {
-            return Err(Invalid::new(
-                "a derived constant is not finite: the parameters are too large or too small",
-            ));
+            return Err(Invalid::NotFinite);
         }
         // The determinant is linear in cos²ψ: positive everywhere if it is at both ends.
         let pitch = self.m22 + self.a22;
@@ -224,7 +215,8 @@ impl Constants<f64> {
         if upright > 0.0 && flat > 0.0 {
             Ok(self)
         } else {
-            Err(Invalid::new(
+            Err(Invalid::together(
+                &["mass_centre_chord", "wing_inertia_product", "wing_inertia_span", "wing_mass"],
                 "the mass matrix is not positive definite: the wing's inertias do not go together \
                  (mass_centre_chord and wing_inertia_product against wing_inertia_span and wing_mass)",
             ))

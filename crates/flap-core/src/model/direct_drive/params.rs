@@ -1,10 +1,10 @@
 //! Parameters of the direct-drive model and their published values.
 
-use crate::drive::{Shape, StrokeMode, Waveform};
+use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
 use crate::linkage::TorsionHinge;
 use crate::parameter::Kind::{Choice, Following, Number};
+use crate::parameter::Preset;
 use crate::parameter::Range::{Any, NonNegative, Positive};
-use crate::parameter::{Preset, Slot};
 
 crate::parameters! {
     /// Parameters of the direct-drive model, in SI units. Symbols as in Ozaki and Hamaguchi 2018, Table A1.
@@ -15,22 +15,10 @@ crate::parameters! {
         drive_bias: Option<f64> = ("V", "V_0", Following(Any, "half of drive_voltage_pp")),
         /// Drive frequency.
         drive_frequency: f64 = ("Hz", "f", Number(Positive)),
-        /// Shape of the drive voltage over a period: a sine, a sine with second and third harmonic, or a square wave with finite rise time.
-        drive_shape: Shape = ("", "", Choice(Shape::NAMES)),
-        /// Amplitude of the second harmonic relative to the first. Only for drive_shape = "harmonics".
-        drive_second_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase of the second harmonic, by which it leads the sine of twice the drive's phase.
-        drive_second_phase: f64 = ("rad", "", Number(Any)),
-        /// Amplitude of the third harmonic relative to the first. Only for drive_shape = "harmonics".
-        drive_third_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase of the third harmonic, by which it leads the sine of three times the drive's phase.
-        drive_third_phase: f64 = ("rad", "", Number(Any)),
-        /// Rise and fall time of the square wave, as a fraction of the period, up to 0.5. Only for drive_shape = "square".
-        drive_rise: f64 = ("", "", Number(Positive)),
-        /// Whether the actuator drives the stroke, or the stroke is prescribed: stroke_amplitude times the drive's waveform, whatever that takes. The pitch is free in both.
-        stroke_mode: StrokeMode = ("", "", Choice(StrokeMode::NAMES)),
-        /// Amplitude of the prescribed stroke. Only for stroke_mode = "prescribed".
-        stroke_amplitude: f64 = ("rad", "", Number(NonNegative)),
+        /// Parameters of the waveform.
+        waveform: WaveformParameters = (flatten),
+        /// Parameters of a prescribed stroke.
+        stroke: StrokeParameters = (flatten),
 
         /// Wing length, from the wing's root to its tip.
         wing_length: f64 = ("m", "R", Number(Positive)),
@@ -58,7 +46,7 @@ crate::parameters! {
         hinge_stiffness: f64 = ("N*m/rad", "k_w", Number(Positive)),
 
         /// Direction of flow that the translational forces follow: that of the wing's mean velocity, one for the whole wing as in the paper, or that of each blade element's own velocity. With "blade" the shape moments, rotation_moment and midspan_chord are computed from the chord shape, and what is given for them is not used.
-        flow_direction: FlowDirection = ("", "", Choice(&["uniform", "blade"])),
+        flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)),
         /// Chord shape: coefficient of the Legendre polynomial P_1(2r/R - 1) in chord / mean_chord, whose constant term is 1; not in the paper: fitted to its shape moments. Only for flow_direction = "blade".
         chord_legendre_1: f64 = ("", "a_1", Number(Any)),
         /// Chord shape: coefficient of the Legendre polynomial P_2; not in the paper.
@@ -125,94 +113,53 @@ crate::parameters! {
         pressure_offset: f64 = ("", "0.05", Number(Any)),
 
         /// Which attack angle moves the centre of pressure: relative to the motion, folded to at most 90 deg, or as printed (which breaks mirror symmetry).
-        centre_of_pressure: CentreOfPressure = ("", "", Choice(&["directional", "folded", "literal"])),
+        centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)),
         /// Moments of the added mass: as in the paper, or with the gyroscopic terms of the Lagrangian form.
-        added_mass: AddedMass = ("", "", Choice(&["paper", "lagrangian"])),
+        added_mass: AddedMass = ("", "", Choice(AddedMass::NAMES)),
         /// Sign of the added-mass part of lift, Eq. (35): corrected, or as printed.
-        lift_sign: LiftSign = ("", "", Choice(&["corrected", "printed"])),
+        lift_sign: LiftSign = ("", "", Choice(LiftSign::NAMES)),
     }
 }
 
-/// Which way the air flows over the wing while it reverses.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum FlowDirection {
-    /// One way for the whole wing: that of its mean velocity. The paper's.
-    #[default]
-    Uniform,
-    /// Over each blade element by its own velocity.
-    Blade,
-}
-
-impl Slot for FlowDirection {
-    fn from_value(value: f64) -> Self {
-        if value == 1.0 { FlowDirection::Blade } else { FlowDirection::Uniform }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Directions of the air's flow over a wing that reverses.
+    pub enum FlowDirection {
+        /// One direction for the whole wing: that of its mean velocity. The paper's.
+        Uniform = "uniform",
+        /// Over each blade element by its own velocity.
+        Blade = "blade",
     }
 }
 
-/// Readings of Eq. (24): which attack angle the centre of pressure depends on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CentreOfPressure {
-    /// |π/2 − σψ| with σ the sign of the wing's velocity: the attack angle relative to the motion.
-    Directional,
-    /// π/2 − |ψ|: never above 90°.
-    Folded,
-    /// |π/2 − ψ|: as printed. Breaks the mirror symmetry of the two half strokes.
-    Literal,
-}
-
-impl Slot for CentreOfPressure {
-    fn from_value(value: f64) -> Self {
-        match value {
-            1.0 => CentreOfPressure::Folded,
-            2.0 => CentreOfPressure::Literal,
-            _ => CentreOfPressure::Directional,
-        }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Readings of Eq. (24): which attack angle the centre of pressure depends on.
+    pub enum CentreOfPressure {
+        /// |π/2 − σψ| with σ the sign of the wing's velocity: the attack angle relative to the motion.
+        Directional = "directional",
+        /// π/2 − |ψ|: never above 90°.
+        Folded = "folded",
+        /// |π/2 − ψ|: as printed. Breaks the mirror symmetry of the two half strokes.
+        Literal = "literal",
     }
 }
 
-/// Forms of the added-mass moments (28)–(30).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AddedMass {
-    /// As in the paper.
-    Paper,
-    /// With the gyroscopic terms that a Lagrangian gives; they do no work.
-    Lagrangian,
-}
-
-impl Slot for AddedMass {
-    fn from_value(value: f64) -> Self {
-        if value == 1.0 { AddedMass::Lagrangian } else { AddedMass::Paper }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Forms of the added-mass moments (28)–(30).
+    pub enum AddedMass {
+        /// As in the paper.
+        Paper = "paper",
+        /// With the gyroscopic terms that a Lagrangian gives; they do no work.
+        Lagrangian = "lagrangian",
     }
 }
 
-/// Readings of Eq. (35): the sign of F_am sin ψ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LiftSign {
-    /// F_tr − F_am sin ψ.
-    Corrected,
-    /// F_tr + F_am sin ψ.
-    Printed,
-}
-
-impl Slot for LiftSign {
-    fn from_value(value: f64) -> Self {
-        if value == 1.0 { LiftSign::Printed } else { LiftSign::Corrected }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Readings of Eq. (35): the sign of F_am sin ψ.
+    pub enum LiftSign {
+        /// F_tr − F_am sin ψ.
+        Corrected = "corrected",
+        /// F_tr + F_am sin ψ.
+        Printed = "printed",
     }
 }
 
@@ -250,14 +197,8 @@ impl Params {
             drive_voltage_pp: 60.0,
             drive_bias: None,
             drive_frequency: 209.0,
-            drive_shape: Shape::Sine,
-            drive_second_harmonic: 0.0,
-            drive_second_phase: 0.0,
-            drive_third_harmonic: 0.0,
-            drive_third_phase: 0.0,
-            drive_rise: 0.05,
-            stroke_mode: StrokeMode::Free,
-            stroke_amplitude: 10.0_f64.to_radians(),
+            waveform: WaveformParameters::SINE,
+            stroke: StrokeParameters::FREE,
             wing_length: 17.0e-3,
             mean_chord: 6.51e-3,
             wing_offset: None,
@@ -348,16 +289,6 @@ impl Params {
         self.wing_offset.unwrap_or(0.5 * self.actuator_length)
     }
 
-    /// Constant part and amplitude of what is driven: the voltage (V), or the prescribed stroke (rad).
-    pub(super) fn drive(&self) -> [f64; 2] {
-        match self.stroke_mode {
-            StrokeMode::Free => {
-                [self.drive_bias.unwrap_or(0.5 * self.drive_voltage_pp), 0.5 * self.drive_voltage_pp]
-            }
-            StrokeMode::Prescribed => [0.0, self.stroke_amplitude],
-        }
-    }
-
     /// A hypothesis: Table A1 with its columns of k_w swapped, which cannot be proved from the text.
     pub fn ozaki2018_small_kw_swapped() -> Params {
         Params { hinge_stiffness: Params::ozaki2018_large().hinge_stiffness, ..Params::ozaki2018_small() }
@@ -368,14 +299,11 @@ impl Params {
         Params { hinge_stiffness: Params::ozaki2018_small().hinge_stiffness, ..Params::ozaki2018_large() }
     }
 
-    /// The drive's waveform.
-    pub(super) fn waveform(&self) -> Waveform<f64> {
-        Waveform::new(
-            self.drive_frequency,
-            [self.drive_second_harmonic, self.drive_third_harmonic],
-            [self.drive_second_phase, self.drive_third_phase],
-            self.drive_rise,
-        )
+    /// The drive.
+    pub(super) fn drive(&self) -> DriveConstants<f64> {
+        let half = 0.5 * self.drive_voltage_pp;
+        let levels = self.stroke.levels([self.drive_bias.unwrap_or(half), half]);
+        DriveConstants::new(self.drive_frequency, &self.waveform, levels)
     }
 
     /// These parameters with the stiffness of a hinge of torsional beams, Eq. (41).

@@ -9,7 +9,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use super::constants::Constants;
 use super::params::FlowDirection;
-use crate::drive::Driven;
+use crate::drive::Wave;
 use crate::model::Balance;
 use crate::num::Real;
 
@@ -36,7 +36,7 @@ pub struct Aerodynamics<R> {
 /// F_Lift = C_L ∫ q dr     M_y = −C_D ∫ q X dr     M_x′ = C_N ∫ q c d_cp dr     q = ½ρ c u|u|
 /// ```
 ///
-/// Whose direction u|u| and d_cp follow is what `flow` says. `side` is σ, the
+/// `flow` says whose direction u|u| and d_cp follow. `side` is σ, the
 /// sign of the wing's [`mean_velocity`].
 #[inline(always)]
 pub fn aerodynamics<R: Real>(
@@ -105,7 +105,7 @@ fn uniform_flow<R: Real>(c: &Constants<R>, side: R, psi: R, phi_dot: R, w: R) ->
 /// ∫ q c d_cp dr = ½ (d_cp(+) + d_cp(−)) ∫ q c dr + ½ (d_cp(+) − d_cp(−)) ∫ |q| c dr     ∫ |q| c dr = ½ρA_w c̄ B_X
 /// ```
 ///
-/// Where an element's velocity changes its direction it is zero: nothing jumps, and there is no `side`.
+/// An element's velocity is zero where it changes its direction: nothing jumps, and there is no `side`.
 #[inline(always)]
 fn blade_flow<R: Real>(c: &Constants<R>, psi: R, phi_dot: R, w: R) -> Pressure<R> {
     let sums = c.blades.sums(phi_dot, w);
@@ -217,6 +217,6 @@ pub fn lift<R: Real>(c: &Constants<R>, air: &Aerodynamics<R>, added: &AddedMassL
 
 /// Current into the actuator j_A (A), (39) with the reciprocal coupling: C_p V̇ + Γ φ̇.
 #[inline(always)]
-pub fn current<R: Real>(c: &Constants<R>, drive: &Driven<R>, phi_dot: R) -> R {
+pub fn current<R: Real>(c: &Constants<R>, drive: &Wave<R>, phi_dot: R) -> R {
     c.c_p * drive.rate + c.gamma * phi_dot
 }

@@ -8,7 +8,7 @@ use core::f64::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI};
 use super::constants::{Air, Constants};
 use crate::num::Real;
 
-/// What translation and rotation of the wing bring about.
+/// Forces and moments of the air on a wing that translates and rotates.
 #[derive(Clone, Copy, Debug)]
 pub struct Aerodynamics<R> {
     /// Translational lift L_t (N), (5).
@@ -43,7 +43,7 @@ struct Attitude<R> {
 /// ```
 ///
 /// k is such that φ_m lies within π/2 of σπ/4. So both angles go on smoothly where tan φ changes its sign, as long as
-/// `side` stays what it was.
+/// `side` does not change.
 #[inline(always)]
 fn attitude<R: Real>(side: R, phi: R) -> Attitude<R> {
     let k = nearest((phi - side * FRAC_PI_4) * FRAC_1_PI);

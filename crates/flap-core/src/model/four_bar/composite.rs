@@ -3,7 +3,7 @@
 use super::params::Params;
 use crate::quadrature::gauss_legendre;
 
-/// What a wing is made of. Lines and surfaces without thickness, on the planform of the parameters.
+/// The materials of a wing: lines and surfaces without thickness, on the planform of the parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Composite {
     /// Mass per area of the membrane, which covers the whole planform (kg/m²).

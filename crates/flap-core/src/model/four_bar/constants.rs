@@ -1,33 +1,18 @@
-//! What does not change along a trajectory of the four-bar model, computed once per point.
+//! Constants of the four-bar model, which do not change along a trajectory; computed once per point.
 //!
 //! Arabagi, Hines and Sitti 2013; numbers in parentheses are the paper's equations, those in brackets are missing
 //! from print and rebuilt (see `docs/model-four-bar.md`).
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use super::params::{AddedMassSign, Arms, Params, Quadrature};
+use super::params::{AddedMassSign, Arms, MAX_STRIPS, Params, Quadrature, STRIPS};
 use crate::aero::{Cut, Strips, sum};
-use crate::drive::Waveform;
+use crate::drive::DriveConstants;
 use crate::linkage::{FourBar, LinkInertias, LinkLengths, SliderCrank};
 use crate::num::PerLane;
 use crate::parameter::Invalid;
 use crate::piezo::{Layer, TipResponse, Unimorph};
 use crate::quadrature::{gauss_legendre, midpoints};
-
-/// The largest number of strips.
-pub const MAX_STRIPS: usize = 64;
-
-crate::per_lane! {
-    /// The drive voltage (V), or the prescribed stroke (rad).
-    pub struct Drive<R> {
-        /// Constant part.
-        pub bias: R,
-        /// Amplitude.
-        pub amplitude: R,
-        /// Shape over time.
-        pub waveform: Waveform<R>,
-    }
-}
 
 crate::per_lane! {
     /// The actuator in series with a spring.
@@ -56,9 +41,9 @@ crate::per_lane! {
     pub struct Wing<R> {
         /// m R² (kg·m²).
         pub upright: R,
-        /// m β² + J_yy: what sin²φ adds to the stroke's inertia (kg·m²).
+        /// m β² + J_yy: the part of the stroke's inertia that goes with sin²φ (kg·m²).
         pub j_sin: R,
-        /// J_zz: what cos²φ adds to the stroke's inertia (kg·m²).
+        /// J_zz: the part of the stroke's inertia that goes with cos²φ (kg·m²).
         pub j_cos: R,
         /// Coupling of stroke and pitch P = m R β + J_xz (kg·m²).
         pub coupling: R,
@@ -123,8 +108,8 @@ crate::per_lane! {
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// The drive voltage.
-        pub drive: Drive<R>,
+        /// The drive voltage, or the prescribed stroke.
+        pub drive: DriveConstants<R>,
         /// Actuator and series spring.
         pub actuator: Actuator<R>,
         /// From tip displacement to the four-bar's input link.
@@ -150,9 +135,8 @@ impl Constants<f64> {
     /// allowed, the mass matrix is not positive definite for every position, or a constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let cuts = cut(p)?;
-        let [bias, amplitude] = p.drive();
         let constants = Constants {
-            drive: Drive { bias, amplitude, waveform: p.waveform() },
+            drive: p.drive(),
             actuator: actuator(p),
             slider_crank: SliderCrank { crank: p.crank_radius, rod: p.connecting_rod },
             four_bar: four_bar(p)?,
@@ -166,9 +150,7 @@ impl Constants<f64> {
 
     fn checked(self) -> Result<Constants<f64>, Invalid> {
         if !<Constants<f64> as PerLane<f64>>::is_finite(&self) {
-            return Err(Invalid::new(
-                "a derived constant is not finite: the parameters are too large or too small",
-            ));
+            return Err(Invalid::NotFinite);
         }
         // Linear in cos²φ, so positive everywhere if it is at both ends; the links add at least link 3's inertia.
         let Wing { upright, j_sin, j_cos, coupling, j_pitch, .. } = self.wing;
@@ -176,7 +158,8 @@ impl Constants<f64> {
         if (least + j_cos) * j_pitch > coupling * coupling && (least + j_sin) * j_pitch > 0.0 {
             Ok(self)
         } else {
-            Err(Invalid::new(
+            Err(Invalid::together(
+                &["wing_inertia_product", "mass_centre_depth", "wing_inertia_span", "wing_mass"],
                 "the mass matrix is not positive definite: the wing's inertias do not go together \
                  (wing_inertia_product and mass_centre_depth against wing_inertia_span and wing_mass)",
             ))
@@ -186,18 +169,13 @@ impl Constants<f64> {
 
 /// Cuts the wing into strips.
 fn cut(p: &Params) -> Result<Vec<Cut>, Invalid> {
+    Invalid::unless_within("strips", p.strips, STRIPS)?;
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "checked to be a small whole number"
     )]
     let count = p.strips as usize;
-    if count as f64 != p.strips || !(1..=MAX_STRIPS).contains(&count) {
-        return Err(Invalid::new(format!(
-            "strips is {}: not a whole number from 1 to {MAX_STRIPS}",
-            p.strips
-        )));
-    }
     let nodes = match p.quadrature {
         Quadrature::Gauss => gauss_legendre(count),
         Quadrature::Midpoint => midpoints(count),
@@ -211,10 +189,13 @@ fn cut(p: &Params) -> Result<Vec<Cut>, Invalid> {
         })
         .collect();
     match cuts.iter().find(|cut| cut.chord < 0.0) {
-        Some(cut) => Err(Invalid::new(format!(
-            "the chord is negative {} m from the stroke axis: chord_term_0 to chord_term_4 do not describe a wing",
-            cut.radius
-        ))),
+        Some(cut) => Err(Invalid::together(
+            &["chord_term_0", "chord_term_1", "chord_term_2", "chord_term_3", "chord_term_4"],
+            format!(
+                "the chord is negative {} m from the stroke axis: chord_term_0 to chord_term_4 do not describe a wing",
+                cut.radius
+            ),
+        )),
         None => Ok(cuts),
     }
 }
@@ -242,6 +223,9 @@ fn actuator(p: &Params) -> Actuator<f64> {
     }
 }
 
+/// The parameters that decide whether the four-bar can be assembled.
+const LINKS: [&str; 5] = ["ground_link", "input_link", "coupler_link", "output_link", "neutral_angle"];
+
 /// The four-bar in its neutral position.
 fn four_bar(p: &Params) -> Result<FourBar<f64>, Invalid> {
     let lengths = LinkLengths {
@@ -251,7 +235,8 @@ fn four_bar(p: &Params) -> Result<FourBar<f64>, Invalid> {
         output: p.output_link,
     };
     let Some(neutral) = p.neutral_angle.or_else(|| lengths.stationary_angle()) else {
-        return Err(Invalid::new(
+        return Err(Invalid::together(
+            &LINKS,
             "the four-bar has no largest transmission between 30 and 80 deg: set neutral_angle",
         ));
     };
@@ -259,10 +244,13 @@ fn four_bar(p: &Params) -> Result<FourBar<f64>, Invalid> {
     if <FourBar<f64> as PerLane<f64>>::is_finite(&four_bar) {
         Ok(four_bar)
     } else {
-        Err(Invalid::new(format!(
-            "the four-bar cannot be assembled with its output link at {neutral} rad: \
-             ground_link, input_link, coupler_link and output_link do not go together"
-        )))
+        Err(Invalid::together(
+            &LINKS,
+            format!(
+                "the four-bar cannot be assembled with its output link at {neutral} rad: \
+                 ground_link, input_link, coupler_link and output_link do not go together"
+            ),
+        ))
     }
 }
 

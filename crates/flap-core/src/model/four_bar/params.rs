@@ -3,10 +3,10 @@
 //! The paper gives the links of one four-bar, voltages, frequencies, the hinges' stiffness and damping, the series
 //! stiffness, C_rot and the position of the rotation axis. Everything else is assumed, and says so.
 
-use crate::drive::{Shape, StrokeMode, Waveform};
+use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
 use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
-use crate::parameter::{Preset, Slot};
+use crate::parameter::{Preset, Range};
 
 crate::parameters! {
     /// Parameters of the four-bar model, in SI units. Symbols as in Arabagi, Hines and Sitti 2013 where it has any.
@@ -17,22 +17,10 @@ crate::parameters! {
         drive_bias: f64 = ("V", "V_dc", Number(Any)),
         /// Drive frequency.
         drive_frequency: f64 = ("Hz", "f", Number(Positive)),
-        /// Shape of the drive voltage over a period: a sine, a sine with second and third harmonic, or a square wave with finite rise time.
-        drive_shape: Shape = ("", "", Choice(Shape::NAMES)),
-        /// Amplitude of the second harmonic relative to the first. Only for drive_shape = "harmonics".
-        drive_second_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase of the second harmonic, by which it leads the sine of twice the drive's phase.
-        drive_second_phase: f64 = ("rad", "", Number(Any)),
-        /// Amplitude of the third harmonic relative to the first. Only for drive_shape = "harmonics".
-        drive_third_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase of the third harmonic, by which it leads the sine of three times the drive's phase.
-        drive_third_phase: f64 = ("rad", "", Number(Any)),
-        /// Rise and fall time of the square wave, as a fraction of the period, up to 0.5. Only for drive_shape = "square".
-        drive_rise: f64 = ("", "", Number(Positive)),
-        /// Whether the actuator drives the stroke, or the stroke is prescribed: stroke_amplitude times the drive's waveform, whatever that takes. The pitch is free in both.
-        stroke_mode: StrokeMode = ("", "", Choice(StrokeMode::NAMES)),
-        /// Amplitude of the prescribed stroke. Only for stroke_mode = "prescribed".
-        stroke_amplitude: f64 = ("rad", "", Number(NonNegative)),
+        /// Parameters of the waveform.
+        waveform: WaveformParameters = (flatten),
+        /// Parameters of a prescribed stroke.
+        stroke: StrokeParameters = (flatten),
         /// Voltage at which the mechanism stands unloaded at zero stroke; assumed: not in the paper.
         rest_voltage: Option<f64> = ("V", "V_ref", Following(Any, "drive_bias")),
 
@@ -152,72 +140,53 @@ crate::parameters! {
         pressure_offset: f64 = ("", "0.05", Number(Any)),
 
         /// Chordwise arms of Eqs. (8) and (17): as printed, as if the rotation axis were the leading edge; or from the rotation axis.
-        arms: Arms = ("", "", Choice(&["printed", "axis"])),
+        arms: Arms = ("", "", Choice(Arms::NAMES)),
         /// Sign of the pitch acceleration's part of the added-mass lift, Eq. (7): corrected, or as printed.
-        am_sign: AddedMassSign = ("", "", Choice(&["corrected", "printed"])),
+        am_sign: AddedMassSign = ("", "", Choice(AddedMassSign::NAMES)),
         /// How the wing is cut into strips: at Gauss-Legendre nodes, or into equal widths taken at their middles.
-        quadrature: Quadrature = ("", "", Choice(&["gauss", "midpoint"])),
+        quadrature: Quadrature = ("", "", Choice(Quadrature::NAMES)),
         /// Number of strips, a whole number from 1 to 64.
-        strips: f64 = ("", "N", Number(Positive)),
+        strips: f64 = ("", "N", Number(STRIPS)),
     }
 }
 
-/// Readings of the chordwise arms of (8) and (17).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Arms {
-    /// The mid-chord is c/2, the centre of pressure d_cp c from the rotation axis.
-    Printed,
-    /// Both are measured from the leading edge, and the rotation axis is χc behind it.
-    Axis,
-}
-
-impl Slot for Arms {
-    fn from_value(value: f64) -> Self {
-        if value == 1.0 { Arms::Axis } else { Arms::Printed }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Readings of the chordwise arms of (8) and (17).
+    pub enum Arms {
+        /// The mid-chord is c/2, the centre of pressure d_cp c from the rotation axis.
+        Printed = "printed",
+        /// Both are measured from the leading edge, and the rotation axis is χc behind it.
+        Axis = "axis",
     }
 }
 
-/// Readings of the second term of (7).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AddedMassSign {
-    /// φ̈ (c/2 − z_RA): the acceleration of the mid-chord.
-    Corrected,
-    /// φ̈ (z_RA − c/2).
-    Printed,
-}
-
-impl Slot for AddedMassSign {
-    fn from_value(value: f64) -> Self {
-        if value == 1.0 { AddedMassSign::Printed } else { AddedMassSign::Corrected }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Readings of the second term of (7).
+    pub enum AddedMassSign {
+        /// φ̈ (c/2 − z_RA): the acceleration of the mid-chord.
+        Corrected = "corrected",
+        /// φ̈ (z_RA − c/2).
+        Printed = "printed",
     }
 }
 
-/// How the wing is cut into strips.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quadrature {
-    /// Strips at the nodes of the Gauss-Legendre rule: 8 of them are closer to the integral than 256 equal ones.
-    Gauss,
-    /// Strips of equal width.
-    Midpoint,
-}
-
-impl Slot for Quadrature {
-    fn from_value(value: f64) -> Self {
-        if value == 1.0 { Quadrature::Midpoint } else { Quadrature::Gauss }
-    }
-
-    fn to_value(&self) -> f64 {
-        f64::from(*self as u8)
+crate::choice! {
+    /// Rules by which the wing is cut into strips.
+    pub enum Quadrature {
+        /// Strips at the nodes of the Gauss-Legendre rule: 8 of them are closer to the integral than 256 equal ones.
+        Gauss = "gauss",
+        /// Strips of equal width.
+        Midpoint = "midpoint",
     }
 }
+
+/// The numbers of strips that are possible.
+pub(super) const STRIPS: Range = Range::Whole(1, MOST_STRIPS);
+
+const MOST_STRIPS: u32 = 64;
+
+/// The largest number of strips.
+pub const MAX_STRIPS: usize = MOST_STRIPS as usize;
 
 /// The permittivity of free space (F/m), to the digits used for the presets.
 const EPSILON_0: f64 = 8.854_187_812_8e-12;
@@ -247,14 +216,8 @@ impl Params {
             drive_voltage_pp: 150.0,
             drive_bias: 50.0,
             drive_frequency: 75.0,
-            drive_shape: Shape::Sine,
-            drive_second_harmonic: 0.0,
-            drive_second_phase: 0.0,
-            drive_third_harmonic: 0.0,
-            drive_third_phase: 0.0,
-            drive_rise: 0.05,
-            stroke_mode: StrokeMode::Free,
-            stroke_amplitude: 10.0_f64.to_radians(),
+            waveform: WaveformParameters::SINE,
+            stroke: StrokeParameters::FREE,
             rest_voltage: None,
             actuator_length: 16e-3,
             actuator_width: 18e-3,
@@ -350,21 +313,9 @@ impl Params {
         self.root_chord * terms.iter().fold(0.0, |sum, term| sum * x + term)
     }
 
-    /// Constant part and amplitude of what is driven: the voltage (V), or the prescribed stroke (rad).
-    pub(super) fn drive(&self) -> [f64; 2] {
-        match self.stroke_mode {
-            StrokeMode::Free => [self.drive_bias, 0.5 * self.drive_voltage_pp],
-            StrokeMode::Prescribed => [0.0, self.stroke_amplitude],
-        }
-    }
-
-    /// The drive's waveform.
-    pub(super) fn waveform(&self) -> Waveform<f64> {
-        Waveform::new(
-            self.drive_frequency,
-            [self.drive_second_harmonic, self.drive_third_harmonic],
-            [self.drive_second_phase, self.drive_third_phase],
-            self.drive_rise,
-        )
+    /// The drive.
+    pub(super) fn drive(&self) -> DriveConstants<f64> {
+        let levels = self.stroke.levels([self.drive_bias, 0.5 * self.drive_voltage_pp]);
+        DriveConstants::new(self.drive_frequency, &self.waveform, levels)
     }
 }

@@ -6,7 +6,7 @@
 
 use super::aerodynamics::aerodynamics;
 use super::constants::{Actuator, Constants};
-use crate::drive::Driven;
+use crate::drive::Wave;
 use crate::model::Balance;
 use crate::num::Real;
 
@@ -55,7 +55,7 @@ pub fn transmission<R: Real>(c: &Constants<R>, theta: R) -> Transmission<R> {
 /// F = k_eff (γ (V − V_ref) − δ)
 /// ```
 #[inline(always)]
-pub fn force<R: Real>(c: &Actuator<R>, drive: &Driven<R>, displacement: R) -> R {
+pub fn force<R: Real>(c: &Actuator<R>, drive: &Wave<R>, displacement: R) -> R {
     c.stiffness * (c.deflection * (drive.value - c.rest_voltage) - displacement)
 }
 
@@ -75,7 +75,7 @@ pub fn tip<R: Real>(c: &Actuator<R>, displacement: R, force: R) -> R {
 /// i = C_b V̇ + Γ δ̇_a     δ̇_a = δ′θ̇ + k_eff (γV̇ − δ′θ̇)/k_sc
 /// ```
 #[inline(always)]
-pub fn current<R: Real>(c: &Actuator<R>, drive: &Driven<R>, slider_rate: R) -> R {
+pub fn current<R: Real>(c: &Actuator<R>, drive: &Wave<R>, slider_rate: R) -> R {
     let force_rate = c.stiffness * (c.deflection * drive.rate - slider_rate);
     c.capacitance * drive.rate + c.coupling * tip(c, slider_rate, force_rate)
 }
@@ -86,7 +86,7 @@ pub fn current<R: Real>(c: &Actuator<R>, drive: &Driven<R>, slider_rate: R) -> R
 /// (C_b + Γ k_eff γ/k_sc) V̇
 /// ```
 #[inline(always)]
-pub fn charging_current<R: Real>(c: &Actuator<R>, drive: &Driven<R>) -> R {
+pub fn charging_current<R: Real>(c: &Actuator<R>, drive: &Wave<R>) -> R {
     (c.capacitance + c.coupling * c.stiffness * c.deflection * c.series_compliance) * drive.rate
 }
 

@@ -1,0 +1,170 @@
+//! The drive of a point, and the waveforms. All begin to rise through zero (but for harmonics) at the beginning of a period.
+
+use core::f64::consts::PI;
+
+use super::parameters::{Shape, WaveformParameters};
+use super::wave::Wave;
+use crate::num::Real;
+
+crate::per_lane! {
+    /// Constants of a point's drive.
+    pub struct DriveConstants<R> {
+        /// Constant part of the voltage (V); zero where the stroke is prescribed.
+        pub bias: R,
+        /// Amplitude of the voltage (V), or of the prescribed stroke (rad).
+        pub amplitude: R,
+        /// Angular frequency (rad/s); of a chirp, at the beginning.
+        pub rate: R,
+        /// Rate of change of the angular frequency (rad/s²), zero but for a chirp.
+        pub growth: R,
+        /// Second harmonic: factors of sin 2θ and cos 2θ.
+        pub second: [R; 2],
+        /// Third harmonic: factors of sin 3θ and cos 3θ.
+        pub third: [R; 2],
+        /// Half of the period (s).
+        pub half_period: R,
+        /// Square wave: half of the rise time (s).
+        pub half_rise: R,
+        /// Smallest and largest value of the waveform over a period.
+        pub range: [R; 2],
+    }
+}
+
+impl DriveConstants<f64> {
+    /// A drive of `frequency` (Hz) with this constant part and amplitude, of a voltage (V) or a prescribed stroke (rad).
+    pub fn new(
+        frequency: f64,
+        waveform: &WaveformParameters,
+        [bias, amplitude]: [f64; 2],
+    ) -> DriveConstants<f64> {
+        let p = waveform;
+        let harmonic = |amplitude: f64, phase: f64| {
+            let (sin, cos) = Real::sin_cos(phase % (2.0 * PI));
+            [amplitude * cos, amplitude * sin]
+        };
+        let mut constants = DriveConstants {
+            bias,
+            amplitude,
+            rate: 2.0 * PI * frequency,
+            growth: 0.0,
+            second: harmonic(p.drive_second_harmonic, p.drive_second_phase),
+            third: harmonic(p.drive_third_harmonic, p.drive_third_phase),
+            half_period: 0.5 / frequency,
+            half_rise: 0.5 * p.drive_rise / frequency,
+            range: [-1.0, 1.0],
+        };
+        if p.drive_shape == Shape::Harmonics {
+            constants.range = constants.range_of_harmonics();
+        }
+        constants
+    }
+
+    /// A sine in place of the waveform, which begins at `frequency` (Hz) and changes by `rate` (Hz/s).
+    #[must_use]
+    pub fn chirped(&self, frequency: f64, rate: f64) -> DriveConstants<f64> {
+        let levels = [self.bias, self.amplitude];
+        let sine = DriveConstants::new(frequency, &WaveformParameters::SINE, levels);
+        DriveConstants { growth: 2.0 * PI * rate, ..sine }
+    }
+
+    /// A voltage (V) that stays as it is.
+    #[must_use]
+    pub fn still(&self, voltage: f64) -> DriveConstants<f64> {
+        DriveConstants { bias: voltage, amplitude: 0.0, rate: 0.0, ..*self }
+    }
+
+    /// Length of a period (s).
+    pub fn period(&self) -> f64 {
+        2.0 * self.half_period
+    }
+
+    /// Frequency (Hz).
+    pub fn frequency(&self) -> f64 {
+        self.rate / (2.0 * PI)
+    }
+
+    fn range_of_harmonics(&self) -> [f64; 2] {
+        // Sampled finely enough for five digits: between samples a third harmonic moves by 1e-5 of its size.
+        let values = (0..2000).map(|i| self.harmonics(self.period() * f64::from(i) / 2000.0).value);
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+    }
+}
+
+impl<R: Real> DriveConstants<R> {
+    /// The phase θ (rad) at time `t` (s).
+    #[inline(always)]
+    pub fn phase(&self, t: R) -> R {
+        (self.growth * t).mul_add(t.lit(0.5), self.rate) * t
+    }
+
+    #[inline(always)]
+    pub(super) fn sine(&self, t: R) -> Wave<R> {
+        let (sin, cos) = (self.rate * t).sin_cos();
+        Wave { value: sin, rate: self.rate * cos, bend: -(self.rate * self.rate * sin) }
+    }
+
+    #[inline(always)]
+    pub(super) fn chirp(&self, t: R) -> Wave<R> {
+        let (sin, cos) = self.phase(t).sin_cos();
+        let rate = self.growth * t + self.rate;
+        Wave { value: sin, rate: rate * cos, bend: self.growth * cos - rate * rate * sin }
+    }
+
+    #[inline(always)]
+    pub(super) fn harmonics(&self, t: R) -> Wave<R> {
+        let (sin, cos) = (self.rate * t).sin_cos();
+        let (sin_2, cos_2) = (sin * cos * 2.0, cos * cos * 2.0 - 1.0);
+        let (sin_3, cos_3) = (sin_2 * cos + cos_2 * sin, cos_2 * cos - sin_2 * sin);
+        let [a_2, b_2] = self.second;
+        let [a_3, b_3] = self.third;
+        Wave {
+            value: sin + a_2 * sin_2 + b_2 * cos_2 + a_3 * sin_3 + b_3 * cos_3,
+            rate: self.rate * (cos + (a_2 * cos_2 - b_2 * sin_2) * 2.0 + (a_3 * cos_3 - b_3 * sin_3) * 3.0),
+            bend: -(self.rate
+                * self.rate
+                * (sin + (a_2 * sin_2 + b_2 * cos_2) * 4.0 + (a_3 * sin_3 + b_3 * cos_3) * 9.0)),
+        }
+    }
+
+    /// Edges at 0, at half the period and at its end, each a sine from −90° to 90°.
+    #[inline(always)]
+    pub(super) fn square(&self, t: R) -> Wave<R> {
+        let zero = t.lit(0.0);
+        let one = t.lit(1.0);
+        let from_middle = t - self.half_period;
+        let first_half = from_middle.lt(zero);
+        let level = R::select(first_half, one, -one);
+        // Distance to the nearest edge, and the sign with which it changes over time.
+        let to_outer = self.half_period - from_middle.abs();
+        let to_middle = from_middle.abs();
+        let outer_nearer = to_outer.lt(to_middle);
+        let distance = R::select(outer_nearer, to_outer, to_middle);
+        let away = R::select(outer_nearer, level, -level);
+
+        let on_edge = distance.lt(self.half_rise);
+        let slope = one / self.half_rise * (0.5 * PI);
+        let (sin, cos) = (R::select(on_edge, distance, zero) * slope).sin_cos();
+        Wave {
+            value: R::select(on_edge, level * sin, level),
+            rate: R::select(on_edge, level * away * cos * slope, zero),
+            bend: R::select(on_edge, -(level * sin * slope * slope), zero),
+        }
+    }
+
+    /// The next time after `t` at which a derivative of the square wave jumps: its edges begin and end there. Infinite if
+    /// there is none.
+    #[inline(always)]
+    pub(super) fn next_edge(&self, t: R) -> R {
+        let period = self.half_period * 2.0;
+        let mut next = t.lit(f64::INFINITY);
+        for edge in [
+            period - self.half_rise,
+            self.half_period + self.half_rise,
+            self.half_period - self.half_rise,
+            self.half_rise,
+        ] {
+            next = R::select(t.lt(edge), edge, next);
+        }
+        next
+    }
+}

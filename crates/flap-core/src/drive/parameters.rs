@@ -1,0 +1,90 @@
+//! Parameters of the drive, as parts of a model's table.
+
+use crate::parameter::Kind::{Choice, Number};
+use crate::parameter::Range::{Any, NonNegative, Positive};
+
+crate::choice! {
+    /// Periodic shapes of a waveform.
+    pub enum Shape {
+        /// sin θ.
+        Sine = "sine",
+        /// sin θ + h₂ sin(2θ + p₂) + h₃ sin(3θ + p₃).
+        Harmonics = "harmonics",
+        /// ±1, with edges of a half sine wave.
+        Square = "square",
+    }
+}
+
+crate::choice! {
+    /// The quantity that the drive sets.
+    pub enum StrokeMode {
+        /// The voltage: the stroke follows from the equations of motion.
+        Free = "free",
+        /// The stroke itself, which follows the waveform whatever that takes; the pitch answers.
+        Prescribed = "prescribed",
+    }
+}
+
+crate::parameters! {
+    /// Parameters of the waveform.
+    pub struct WaveformParameters {
+        /// Shape of the drive voltage over a period: a sine, a sine with second and third harmonic, or a square wave with finite rise time.
+        drive_shape: Shape = ("", "", Choice(Shape::NAMES)),
+        /// Amplitude of the second harmonic relative to the first. Only for drive_shape = "harmonics".
+        drive_second_harmonic: f64 = ("", "", Number(Any)),
+        /// Phase of the second harmonic, by which it leads the sine of twice the drive's phase.
+        drive_second_phase: f64 = ("rad", "", Number(Any)),
+        /// Amplitude of the third harmonic relative to the first. Only for drive_shape = "harmonics".
+        drive_third_harmonic: f64 = ("", "", Number(Any)),
+        /// Phase of the third harmonic, by which it leads the sine of three times the drive's phase.
+        drive_third_phase: f64 = ("rad", "", Number(Any)),
+        /// Rise and fall time of the square wave, as a fraction of the period, up to 0.5. Only for drive_shape = "square".
+        drive_rise: f64 = ("", "", Number(Positive)),
+    }
+}
+
+impl WaveformParameters {
+    /// A sine.
+    pub const SINE: WaveformParameters = WaveformParameters::new(Shape::Sine);
+
+    /// A waveform without harmonics, whose edges take a twentieth of the period.
+    pub const fn new(drive_shape: Shape) -> WaveformParameters {
+        WaveformParameters {
+            drive_shape,
+            drive_second_harmonic: 0.0,
+            drive_second_phase: 0.0,
+            drive_third_harmonic: 0.0,
+            drive_third_phase: 0.0,
+            drive_rise: 0.05,
+        }
+    }
+}
+
+crate::parameters! {
+    /// Parameters of a stroke that can be prescribed.
+    pub struct StrokeParameters {
+        /// Whether the actuator drives the stroke, or the stroke is prescribed: stroke_amplitude times the drive's waveform, whatever that takes. The pitch is free in both.
+        stroke_mode: StrokeMode = ("", "", Choice(StrokeMode::NAMES)),
+        /// Amplitude of the prescribed stroke. Only for stroke_mode = "prescribed".
+        stroke_amplitude: f64 = ("rad", "", Number(NonNegative)),
+    }
+}
+
+impl StrokeParameters {
+    /// A stroke that is driven; if it is to be prescribed, by 10°.
+    pub const FREE: StrokeParameters =
+        StrokeParameters { stroke_mode: StrokeMode::Free, stroke_amplitude: 10.0_f64.to_radians() };
+
+    /// A prescribed stroke of this amplitude (rad).
+    pub const fn prescribed(stroke_amplitude: f64) -> StrokeParameters {
+        StrokeParameters { stroke_mode: StrokeMode::Prescribed, stroke_amplitude }
+    }
+
+    /// Constant part and amplitude of the quantity that the drive sets: of the `voltage` (V), or of the prescribed stroke (rad).
+    pub fn levels(&self, voltage: [f64; 2]) -> [f64; 2] {
+        match self.stroke_mode {
+            StrokeMode::Free => voltage,
+            StrokeMode::Prescribed => [0.0, self.stroke_amplitude],
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Rows and single motions of the bimorph model.
+
+use super::columns::{self, S};
+use super::constants::Constants;
+use super::dynamics::Bimorph;
+use super::params::Params;
+use super::rhs::{
+    Plate, charging_power, currents, double_angle, lift_and_drag, plate, plate_forces, tip_drag,
+};
+use crate::drive::{Drive, DriveConstants, Shape, StrokeMode, Wave, Waveform};
+use crate::model::{Derived, Description, EnergyBalance, Imposed, Model, Motions, Signal};
+use crate::modes::Mode;
+use crate::num::Lanes;
+use crate::ode::Start;
+use crate::parameter::Invalid;
+
+impl Model<4, S> for Bimorph {
+    const DESCRIPTION: Description = Description {
+        name: "bimorph",
+        doc: "bimorph on a transmission, passive hinge, lumped quasi-steady aerodynamics (Jafferis et al. 2016)",
+        parameters: Params::TABLE,
+        presets: Params::PRESETS,
+    };
+    const STATES: [&'static str; 4] = ["tip_m", "tip_rate_m_s", "pitch_rad", "pitch_rate_rad_s"];
+    const SIGNALS: [Signal; S] = columns::SIGNALS;
+    const DERIVED: &'static [Derived<Bimorph, Constants<f64>, S>] = columns::DERIVED;
+    const ENERGY: Option<EnergyBalance> = Some(columns::ENERGY);
+
+    fn variant(&self, values: &[f64]) -> Bimorph {
+        let Params { waveform, .. } = Params::from_values(values);
+        Bimorph { drive: self.drive.of_point(waveform.drive_shape, StrokeMode::Free) }
+    }
+
+    /// Starts at rest. The scales are those of the direct-drive model, so that tolerances and residuals mean the
+    /// same: strokes of 0.1 rad, hinge angles of 0.3 rad, times the drive's angular frequency for the rates.
+    fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
+        let params = Params::from_values(values);
+        self.drive.check(&params.waveform)?;
+        let constants = Constants::derive(&params)?;
+        let DriveConstants { rate, .. } = constants.drive;
+        let tip = 0.1 / params.transmission_ratio;
+        let scale = [tip, tip * rate, 0.3, 0.3 * rate];
+        Ok(Start { constants, y: [0.0; 4], span: constants.drive.period(), scale, tighten: 1.0 })
+    }
+
+    #[inline(always)]
+    fn drive<R: Lanes>(c: &Constants<R>) -> &DriveConstants<R> {
+        &c.drive
+    }
+
+    #[inline(always)]
+    fn signals<R: Lanes>(
+        &self,
+        c: &Constants<R>,
+        plates: &[Plate<R>; 2],
+        _side: R,
+        y: &[R; 4],
+        _dy: &[R; 4],
+    ) -> [R; S] {
+        let [x, x_dot, psi, psi_dot] = *y;
+        let (sin, cos) = psi.sin_cos();
+        let (sin_2psi, cos_2psi) = double_angle(sin, cos);
+        let [lift, drag] = lift_and_drag(c, x_dot, sin_2psi, cos_2psi);
+        let [f_1, f_2] = plate_forces(c, plates, x);
+        let [i_1, i_2] = currents(c, plates, x, x_dot);
+        let power_1 = plates[0].voltage.value * i_1;
+        let power_2 = plates[1].voltage.value * i_2;
+        [
+            c.ratio * x,
+            psi,
+            lift,
+            drag,
+            power_1 + power_2,
+            power_1,
+            power_2,
+            (f_1 - f_2) * x_dot,
+            tip_drag(c, cos_2psi) * x_dot * x_dot * x_dot.abs(),
+            c.c_c * psi_dot * psi_dot * psi_dot.abs(),
+            i_1,
+            i_2,
+            f_1,
+            f_2,
+            power_1 + power_2 - charging_power(c, plates),
+        ]
+    }
+
+    /// Currents follow the edges of the force's transition, (6), which the drive crosses in a fraction of a step.
+    #[inline(always)]
+    fn parts(&self) -> u32 {
+        if self.drive.waveform == Waveform::Shape(Shape::Square) { 6 } else { 2 }
+    }
+}
+
+impl Motions<4, S> for Bimorph {
+    fn drive_mut(&mut self) -> &mut Drive {
+        &mut self.drive
+    }
+
+    fn drive_constants_mut(c: &mut Constants<f64>) -> &mut DriveConstants<f64> {
+        &mut c.drive
+    }
+
+    fn modes(c: &Constants<f64>) -> [Mode; 2] {
+        Mode::pair(["mode_stroke", "mode_hinge"], Bimorph::linear_modes(c))
+    }
+
+    /// ½V_pp on both plates.
+    fn rest_voltage(c: &Constants<f64>) -> f64 {
+        c.drive.bias
+    }
+
+    /// ψ̇ = I_xz T ẋ/I_xx, by (2).
+    fn struck(c: &Constants<f64>, stroke_rate: f64) -> [f64; 4] {
+        let tip_rate = stroke_rate / c.ratio;
+        [0.0, tip_rate, 0.0, c.coupling * tip_rate * c.inverse_i_xx]
+    }
+
+    fn placed(c: &Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<[Plate<f64>; 2], 4> {
+        let [x, x_dot, x_ddot] = stroke.map(|stroke| stroke / c.ratio);
+        let unknown = plate(c, Wave::with_rate(f64::NAN, f64::NAN));
+        ([x, x_dot, pitch[0], pitch[1]], [x_dot, x_ddot, pitch[1], pitch[2]], [unknown; 2])
+    }
+}

@@ -1,0 +1,56 @@
+//! The bimorph model as a system of differential equations.
+
+use super::constants::Constants;
+use super::rhs::{Plate, derivative, plate, secant_stiffness};
+use crate::drive::{Drive, DriveConstants};
+use crate::num::Lanes;
+use crate::ode::Ode;
+
+/// The model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Bimorph {
+    /// The drive voltage.
+    pub drive: Drive,
+}
+
+impl Ode<4> for Bimorph {
+    type Constants<R: Lanes> = Constants<R>;
+    type Input<R: Lanes> = [Plate<R>; 2];
+
+    /// The two plates at time `t`, driven in antiphase, (7).
+    ///
+    /// ```text
+    /// V₁ = ½V_pp (1 − sin ωt)     V₂ = ½V_pp (1 + sin ωt)
+    /// ```
+    #[inline(always)]
+    fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> [Plate<R>; 2] {
+        let DriveConstants { bias, amplitude, .. } = c.drive;
+        let wave = self.drive.wave(&c.drive, t);
+        [plate(c, wave.scaled(bias, -amplitude)), plate(c, wave.scaled(bias, amplitude))]
+    }
+
+    #[inline(always)]
+    fn next_break<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
+        self.drive.next_break(&c.drive, t)
+    }
+
+    #[inline(always)]
+    fn rhs<R: Lanes>(&self, c: &Constants<R>, plates: &[Plate<R>; 2], _side: R, y: &[R; 4]) -> [R; 4] {
+        derivative(c, plates, y)
+    }
+}
+
+impl Bimorph {
+    /// Natural frequencies (Hz) of small motions without drag: of the stroke and of the hinge.
+    ///
+    /// (1) contains no reaction of the hinge, so each is that of its own oscillator:
+    ///
+    /// ```text
+    /// √((K_act(0) + K_t)/m_e)/2π     √(κ_wh/I_xx)/2π
+    /// ```
+    pub fn linear_modes(c: &Constants<f64>) -> [f64; 2] {
+        let stiffness = secant_stiffness(c, 0.0) + c.k_t;
+        [stiffness * c.inverse_m_e, c.kappa_wh * c.inverse_i_xx]
+            .map(|square| square.sqrt() / (2.0 * core::f64::consts::PI))
+    }
+}

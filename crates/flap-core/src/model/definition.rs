@@ -1,0 +1,94 @@
+//! The definition of a model: all that rows of a sweep need.
+
+use super::energy::EnergyBalance;
+use super::signal::{Signal, SignalCycle};
+use crate::drive::DriveConstants;
+use crate::num::Lanes;
+use crate::ode::{Ode, Start};
+use crate::parameter::{Invalid, Parameter, Preset};
+
+/// Name, meaning and parameters of a model.
+#[derive(Clone, Copy, Debug)]
+pub struct Description {
+    /// Name in grid files, such as `direct-drive`.
+    pub name: &'static str,
+    /// One line: the mechanism, and the paper.
+    pub doc: &'static str,
+    /// The parameter table.
+    pub parameters: &'static [Parameter],
+    /// The published parameter sets.
+    pub presets: &'static [Preset],
+}
+
+/// A column computed from the signals of a periodic orbit of the model `M` with constants `C`.
+#[derive(Debug)]
+pub struct Derived<M, C, const S: usize> {
+    /// Column name.
+    pub name: &'static str,
+    /// Unit in words.
+    pub unit: &'static str,
+    /// Meaning in one line.
+    pub doc: &'static str,
+    /// The value in `unit`, from the model, the point's constants and the signals over the orbit's drive period.
+    pub value: fn(&M, &C, &[SignalCycle; S]) -> f64,
+}
+
+impl<M, C, const S: usize> Derived<M, C, S> {
+    /// A column with this name, unit, meaning and value.
+    pub const fn new(
+        name: &'static str,
+        unit: &'static str,
+        doc: &'static str,
+        value: fn(&M, &C, &[SignalCycle; S]) -> f64,
+    ) -> Derived<M, C, S> {
+        Derived { name, unit, doc, value }
+    }
+}
+
+/// A periodically driven model with N states, of which S signals are measured over a drive period.
+pub trait Model<const N: usize, const S: usize>: Ode<N> + Clone + PartialEq + 'static {
+    /// Name, meaning and parameters.
+    const DESCRIPTION: Description;
+    /// Names of the states with their units, as trajectory columns.
+    const STATES: [&'static str; N];
+    /// The measured signals.
+    const SIGNALS: [Signal; S];
+    /// Columns computed from the signals.
+    const DERIVED: &'static [Derived<Self, Self::Constants<f64>, S>];
+    /// The balance of energy over an orbit, if rows are to be held to it.
+    const ENERGY: Option<EnergyBalance> = None;
+
+    /// The model for a point: choices on which its equations branch, in all lanes alike, such as the shape of the drive.
+    /// Points of equal variants share lanes.
+    fn variant(&self, values: &[f64]) -> Self {
+        let _ = values;
+        self.clone()
+    }
+
+    /// The run of a point, given one value per parameter: constants, initial state, drive period, scales.
+    ///
+    /// # Errors
+    /// [`Invalid`] if a parameter is out of its range, parameters are impossible together, or a derived constant is not
+    /// finite.
+    fn start(&self, values: &[f64]) -> Result<Start<Self::Constants<f64>, N>, Invalid>;
+
+    /// The drive of a point, to whose phase the signals' harmonics refer.
+    fn drive<R: Lanes>(c: &Self::Constants<R>) -> &DriveConstants<R>;
+
+    /// The signals at a state `y` with derivative `dy`, on one `side` of the switching surface, in SI units.
+    fn signals<R: Lanes>(
+        &self,
+        c: &Self::Constants<R>,
+        u: &Self::Input<R>,
+        side: R,
+        y: &[R; N],
+        dy: &[R; N],
+    ) -> [R; S];
+
+    /// Number of parts into which each step is divided to find the largest and smallest values of the signals. More than one
+    /// if signals change faster than the motion, which chooses the steps.
+    #[inline(always)]
+    fn parts(&self) -> u32 {
+        1
+    }
+}

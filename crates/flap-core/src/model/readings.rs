@@ -1,0 +1,34 @@
+//! Readings that several models have.
+
+use super::units::{DEGREES, GRAVITY};
+
+/// Phase of a sine against the cosine (rad).
+pub(super) const SINE_PHASE: f64 = -core::f64::consts::FRAC_PI_2;
+
+/// The angle (deg) by which one phase (rad) lags another, in (−180, 180].
+pub(super) fn lag_degrees(of: f64, behind: f64) -> f64 {
+    let degrees = (behind - of) * DEGREES;
+    if degrees > 180.0 {
+        degrees - 360.0
+    } else if degrees <= -180.0 {
+        degrees + 360.0
+    } else {
+        degrees
+    }
+}
+
+/// A force (N) in grams-force.
+pub(super) fn grams_force(force: f64) -> f64 {
+    force / GRAVITY * 1e3
+}
+
+/// Lift over power; not a number where there is no power, or the air gives energy to the wing.
+pub(super) fn efficiency(lift: f64, power: f64) -> f64 {
+    if power > 0.0 { lift / power } else { f64::NAN }
+}
+
+/// Power (W) of charging a capacitance (F) at a frequency (Hz) to a voltage (V) from another, without recovery.
+pub(super) fn charging(capacitance: f64, [low, high]: [f64; 2], frequency: f64) -> f64 {
+    let voltage_pp = high - low;
+    0.5 * capacitance * voltage_pp * voltage_pp * frequency
+}

@@ -1,0 +1,98 @@
+//! Models with the states `[stroke, pitch, stroke rate, pitch rate]`, whose stroke can be prescribed.
+//!
+//! Stroke and pitch are coupled by a mass matrix. Where the stroke is free, the equations of motion are solved for both;
+//! where it is prescribed, for the pitch alone.
+
+use super::motions::Imposed;
+use crate::drive::{Drive, DriveConstants, Wave};
+use crate::num::Real;
+use crate::ode::Start;
+
+/// Names of the states with their units, as trajectory columns.
+pub(super) const NAMES: [&str; 4] = ["stroke_rad", "pitch_rad", "stroke_rate_rad_s", "pitch_rate_rad_s"];
+
+/// Mass matrix and generalised forces at a state `[stroke, pitch, stroke rate, pitch rate]`, without the drive.
+///
+/// ```text
+/// ⎡M₁₁ M₁₂⎤ ⎡stroke acceleration⎤ = ⎡Q₁ + drive moment⎤
+/// ⎣M₁₂ M₂₂⎦ ⎣pitch acceleration ⎦   ⎣Q₂               ⎦
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Balance<R> {
+    /// M₁₁, M₁₂, M₂₂ (kg·m²).
+    pub mass: [R; 3],
+    /// Q₁: moment about the stroke axis (N·m).
+    pub stroke_moment: R,
+    /// Q₂: moment about the pitch axis (N·m).
+    pub pitch_moment: R,
+}
+
+impl<R: Real> Balance<R> {
+    /// The derivative of the state `y` under a moment of the drive about the stroke axis (N·m).
+    #[inline(always)]
+    pub fn driven(&self, y: &[R; 4], drive_moment: R) -> [R; 4] {
+        let [m11, m12, m22] = self.mass;
+        let (q1, q2) = (self.stroke_moment + drive_moment, self.pitch_moment);
+        let inverse_determinant = q1.lit(1.0) / (m11 * m22 - m12 * m12);
+        let stroke = (m22 * q1 - m12 * q2) * inverse_determinant;
+        let pitch = (m11 * q2 - m12 * q1) * inverse_determinant;
+        [y[2], y[3], stroke, pitch]
+    }
+
+    /// The derivative of the state `y` where the stroke is prescribed: pitch from the second equation.
+    ///
+    /// The stroke's own states follow it; their deviation from it by integration errors decays at the rate `forgetting`
+    /// (1/s), so that it cannot add up.
+    #[inline(always)]
+    pub fn prescribed(&self, y: &[R; 4], stroke: &Wave<R>, forgetting: R) -> [R; 4] {
+        let [_, m12, m22] = self.mass;
+        [
+            (stroke.value - y[0]).mul_add(forgetting, stroke.rate),
+            y[3],
+            (stroke.rate - y[2]).mul_add(forgetting, stroke.bend),
+            (self.pitch_moment - m12 * stroke.bend) / m22,
+        ]
+    }
+}
+
+/// The state `y`, with the stroke of the drive in place of its own where that is prescribed.
+#[inline(always)]
+pub(super) fn state<R: Real>(drive: &Drive, wave: &Wave<R>, y: &[R; 4]) -> [R; 4] {
+    if drive.prescribes_stroke() { [wave.value, y[1], wave.rate, y[3]] } else { *y }
+}
+
+/// The derivative `dy` of a state, with that of the stroke of the drive in place of its own where that is prescribed.
+#[inline(always)]
+pub(super) fn slope<R: Real>(drive: &Drive, wave: &Wave<R>, dy: &[R; 4]) -> [R; 4] {
+    if drive.prescribes_stroke() { [wave.rate, dy[1], wave.bend, dy[3]] } else { *dy }
+}
+
+/// The run of a point that begins at rest, on the stroke of the drive where that is prescribed. `sizes` are typical
+/// amplitudes of stroke and pitch (rad).
+pub(super) fn start<C>(
+    drive: &Drive,
+    drive_constants: &DriveConstants<f64>,
+    constants: C,
+    sizes: [f64; 2],
+) -> Start<C, 4> {
+    let [stroke, pitch] = sizes;
+    let rate = drive_constants.rate;
+    Start {
+        constants,
+        y: state(drive, &drive.at(drive_constants, 0.0), &[0.0; 4]),
+        span: drive_constants.period(),
+        scale: [stroke, pitch, stroke * rate, pitch * rate],
+        tighten: 1.0,
+    }
+}
+
+/// State, derivative and drive of a wing whose stroke and pitch are given: value (rad), rate, second derivative.
+pub(super) fn placed(stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Wave<f64>, 4> {
+    ([stroke[0], pitch[0], stroke[1], pitch[1]], [stroke[1], pitch[1], stroke[2], pitch[2]], stroke.into())
+}
+
+/// The state at rest right after an impulse that gives the stroke a rate (rad/s), for a mass matrix
+/// [M₁₁, M₁₂, M₂₂] (kg·m²): `pitch rate = −(M₁₂/M₂₂) stroke rate`.
+pub(super) fn struck([_, m12, m22]: [f64; 3], stroke_rate: f64) -> [f64; 4] {
+    [0.0, 0.0, stroke_rate, -(m12 / m22) * stroke_rate]
+}

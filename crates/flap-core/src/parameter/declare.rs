@@ -1,0 +1,182 @@
+//! Declarations of parameter structs and of named options, from which their tables follow.
+
+use super::table::Parameter;
+
+/// The number of rows of some tables together.
+#[doc(hidden)]
+pub const fn rows(tables: &[&[Parameter]]) -> usize {
+    let (mut count, mut table) = (0, 0);
+    while table < tables.len() {
+        count += tables[table].len();
+        table += 1;
+    }
+    count
+}
+
+/// The rows of some tables in one; `N` is [`rows`] of them, at least one.
+#[doc(hidden)]
+pub const fn joined<const N: usize>(tables: &[&[Parameter]]) -> [Parameter; N] {
+    let mut all = [tables[0][0]; N];
+    let (mut count, mut table) = (0, 0);
+    while table < tables.len() {
+        let mut row = 0;
+        while row < tables[table].len() {
+            all[count] = tables[table][row];
+            count += 1;
+            row += 1;
+        }
+        table += 1;
+    }
+    all
+}
+
+/// The option whose position is `value`.
+#[doc(hidden)]
+pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
+    let mut numbered = (0_u32..).map(f64::from).zip(options);
+    numbered.find(|(position, _)| *position == value).map(|(_, &option)| option)
+}
+
+/// Declares a model's parameter struct and, from the same lines, its table.
+///
+/// Each line gives the field's documentation, name and type (`f64`; `Option<f64>` for a number that follows
+/// others until it is set; an enum declared by [`choice!`](crate::choice)), then SI unit, symbol and
+/// [`Kind`](crate::parameter::Kind). A field of the type of another such struct has `(flatten)` in their place: its rows
+/// stand in the table where the field stands.
+///
+/// The struct gets `TABLE`, `from_values` and `to_values`; the table's order is that of the fields.
+///
+/// ```
+/// use flap_core::parameter::Kind::{Choice, Number};
+/// use flap_core::parameter::Range::{Positive, Whole};
+///
+/// flap_core::choice! {
+///     /// Materials of a beam.
+///     pub enum Material {
+///         /// Carbon fibre.
+///         Carbon = "carbon",
+///         /// Steel.
+///         Steel = "steel",
+///     }
+/// }
+///
+/// flap_core::parameters! {
+///     /// A beam.
+///     pub struct Beam {
+///         /// Length.
+///         length: f64 = ("m", "L", Number(Positive)),
+///         /// Material.
+///         material: Material = ("", "", Choice(Material::NAMES)),
+///     }
+/// }
+///
+/// flap_core::parameters! {
+///     /// Beams in a row.
+///     pub struct Row {
+///         /// Number of beams.
+///         beams: f64 = ("", "n", Number(Whole(1, 9))),
+///         /// One of them.
+///         beam: Beam = (flatten),
+///     }
+/// }
+///
+/// let names: Vec<&str> = Row::TABLE.iter().map(|row| row.name).collect();
+/// assert_eq!(names, ["beams", "length", "material"]);
+/// let row = Row::from_values(&[3.0, 0.1, 1.0]);
+/// assert_eq!(row.beam.material, Material::Steel);
+/// assert_eq!(row.to_values(), [3.0, 0.1, 1.0]);
+/// ```
+#[macro_export]
+macro_rules! parameters {
+    ($(#[$meta:meta])* pub struct $Name:ident {
+        $($(#[doc = $doc:literal])+ $field:ident: $type:ty = ($($row:tt)+),)*
+    }) => {
+        $(#[$meta])*
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct $Name {
+            $($(#[doc = $doc])+ pub $field: $type,)*
+        }
+
+        impl $Name {
+            /// The parameter table, in the order of the fields.
+            pub const TABLE: &'static [$crate::parameter::Parameter] = {
+                const TABLES: &[&[$crate::parameter::Parameter]] =
+                    &[$($crate::parameters!(@table $type, $field, [$($doc),+], $($row)+),)*];
+                &$crate::parameter::joined::<{ $crate::parameter::rows(TABLES) }>(TABLES)
+            };
+
+            /// The parameters of a point, given one value per table entry.
+            pub fn from_values(values: &[f64]) -> $Name {
+                $crate::parameter::Slot::take(&mut values.iter().copied())
+            }
+
+            /// One value per table entry.
+            pub fn to_values(&self) -> Vec<f64> {
+                let mut values = Vec::new();
+                $crate::parameter::Slot::put(self, &mut values);
+                values
+            }
+        }
+
+        impl $crate::parameter::Slot for $Name {
+            fn take(values: &mut impl Iterator<Item = f64>) -> $Name {
+                $Name { $($field: $crate::parameter::Slot::take(values),)* }
+            }
+
+            fn put(&self, values: &mut Vec<f64>) {
+                $($crate::parameter::Slot::put(&self.$field, values);)*
+            }
+        }
+    };
+    (@table $type:ty, $field:ident, $docs:tt, flatten) => {
+        <$type>::TABLE
+    };
+    (@table $type:ty, $field:ident, [$($doc:literal),+], $unit:literal, $symbol:literal, $kind:expr) => {
+        &[$crate::parameter::Parameter {
+            name: stringify!($field),
+            unit: $unit,
+            symbol: $symbol,
+            kind: $kind,
+            doc: concat!($($doc),+).trim_ascii_start(),
+        }]
+    };
+}
+
+/// Declares an enum of named options, which a parameter of the kind [`Choice`](crate::parameter::Kind::Choice) takes.
+///
+/// Each option has its documentation and its name in grid files. The value of an option in a point is its position; the first
+/// option is the default. The enum gets `ALL`, the options, and `NAMES`, their names.
+#[macro_export]
+macro_rules! choice {
+    ($(#[$meta:meta])* pub enum $Name:ident {
+        $(#[$first_meta:meta])* $First:ident = $first:literal,
+        $($(#[$option_meta:meta])* $Option:ident = $option:literal,)*
+    }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub enum $Name {
+            $(#[$first_meta])*
+            #[default]
+            $First,
+            $($(#[$option_meta])* $Option,)*
+        }
+
+        impl $Name {
+            /// The options, in the order of their values.
+            pub const ALL: &'static [$Name] = &[$Name::$First, $($Name::$Option,)*];
+            /// Names of the options, in the order of their values.
+            pub const NAMES: &'static [&'static str] = &[$first, $($option,)*];
+        }
+
+        impl $crate::parameter::Slot for $Name {
+            fn take(values: &mut impl Iterator<Item = f64>) -> $Name {
+                let value = values.next().and_then(|value| $crate::parameter::option($Name::ALL, value));
+                value.unwrap_or_default()
+            }
+
+            fn put(&self, values: &mut Vec<f64>) {
+                values.push(f64::from(*self as u8));
+            }
+        }
+    };
+}

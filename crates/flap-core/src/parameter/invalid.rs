@@ -1,0 +1,66 @@
+//! The error of parameters that are impossible.
+
+use std::borrow::Cow;
+
+use super::range::Range;
+
+/// Parameters that are impossible, or a request that is.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Invalid {
+    /// A value that the parameter's range excludes.
+    #[error("{parameter} is {value}: not {}", allowed.describe())]
+    OutOfRange {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// Its value, in SI units.
+        value: f64,
+        /// The range.
+        allowed: Range,
+    },
+    /// Parameters that are each within their range, but impossible together.
+    #[error("{reason}")]
+    Together {
+        /// Names of the parameters.
+        parameters: &'static [&'static str],
+        /// The contradiction, in words that name the parameters.
+        reason: Cow<'static, str>,
+    },
+    /// A constant that follows from the parameters is infinite or not a number.
+    #[error("a derived constant is not finite: the parameters are too large or too small")]
+    NotFinite,
+    /// A request that cannot be met.
+    #[error("{reason}")]
+    Request {
+        /// The reason in words.
+        reason: String,
+    },
+}
+
+impl Invalid {
+    /// A request that cannot be met, for this reason.
+    pub fn new(reason: impl Into<String>) -> Invalid {
+        Invalid::Request { reason: reason.into() }
+    }
+
+    /// Parameters that are impossible together, for this reason.
+    pub fn together(parameters: &'static [&'static str], reason: impl Into<Cow<'static, str>>) -> Invalid {
+        Invalid::Together { parameters, reason: reason.into() }
+    }
+
+    /// The error in words.
+    pub fn into_reason(self) -> String {
+        match self {
+            Invalid::Request { reason } => reason,
+            Invalid::Together { reason, .. } => reason.into_owned(),
+            Invalid::OutOfRange { .. } | Invalid::NotFinite => self.to_string(),
+        }
+    }
+
+    /// Refuses a value that its range does not contain.
+    ///
+    /// # Errors
+    /// [`Invalid::OutOfRange`] if the range does not contain the value.
+    pub fn unless_within(parameter: &'static str, value: f64, allowed: Range) -> Result<(), Invalid> {
+        if allowed.contains(value) { Ok(()) } else { Err(Invalid::OutOfRange { parameter, value, allowed }) }
+    }
+}

@@ -1,0 +1,17 @@
+//! Tables of parameters: names, units, meanings and ranges.
+//!
+//! A point of a design space is one `f64` per parameter, in the order of the model's table:
+//! a number in SI units; the index of an option for a choice; NaN for a number that is not set
+//! and follows others (see [`Kind::Following`]). User input never contains NaN, so it marks nothing else.
+
+mod declare;
+mod invalid;
+mod range;
+mod slot;
+mod table;
+
+pub use declare::{joined, option, rows};
+pub use invalid::Invalid;
+pub use range::Range;
+pub use slot::Slot;
+pub use table::{Kind, Parameter, Preset};
