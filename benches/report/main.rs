@@ -11,7 +11,7 @@
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[path = "../../tests/instructions/counter.rs"]
 mod counter;
-#[path = "../../examples/own_model/equations.rs"]
+#[path = "../../examples/own_equations/equations.rs"]
 #[allow(dead_code, unreachable_pub, missing_docs, reason = "an example, of which the equations are used")]
 mod equations;
 

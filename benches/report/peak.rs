@@ -21,7 +21,7 @@ const TOLERANCES: Tolerances = Tolerances { rtol: 1e-6, atol: 1e-7, max_steps: 1
 
 pub(crate) fn print(effort: Effort) {
     println!(
-        "## Share of the peak\n\nThe equations of `examples/own_model` at rtol 1e-6, marched in full lanes. Instructions \
+        "## Share of the peak\n\nThe equations of `examples/own_equations` at rtol 1e-6, marched in full lanes. Instructions \
                     are counted by single steps, and named by a disassembly; *arithmetic* are those that add, multiply, fuse \
                     both, divide or compare vectors of doubles. The peak is a loop of fused multiplications and additions in ten \
                     independent registers, run in turn. Per right-hand side and vector of two registers, steps included:\n\n\

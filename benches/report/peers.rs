@@ -9,7 +9,7 @@ use crate::spread::Spread;
 
 pub(crate) fn print(files: &[PathBuf]) {
     println!(
-        "## Beside other solvers\n\nThe equations of `examples/own_model`, the same points for all, in turn on one core: \
+        "## Beside other solvers\n\nThe equations of `examples/own_equations`, the same points for all, in turn on one core: \
          see [benches/peers](../benches/peers/README.md).\n"
     );
     if files.is_empty() {

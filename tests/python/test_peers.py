@@ -22,7 +22,7 @@ def paths(monkeypatch):
 
 def known(rows):
     """Rows of the reference for the example: id, force, frequency, then measures."""
-    with (REPOSITORY / "tests/data/own_model.csv").open(newline="", encoding="utf-8") as file:
+    with (REPOSITORY / "tests/data/own_equations.csv").open(newline="", encoding="utf-8") as file:
         return [[float(cell) for cell in row] for row in list(csv.reader(file))[1 : 1 + rows]]
 
 

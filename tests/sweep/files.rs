@@ -8,7 +8,7 @@ use flap_sweep::grid::{self, ReadError};
 use flap_sweep::notation::units;
 
 fn error(path: &Path) -> ReadError {
-    grid::read(path).err().expect("no plan")
+    grid::read(path, simulate::all()).err().expect("no plan")
 }
 
 #[test]
@@ -55,7 +55,7 @@ fn presets_of_all_models_are_found() {
     for preset in simulate::all().iter().flat_map(|model| model.presets()) {
         let path = folder.path().join(preset.name);
         fs::write(&path, format!("preset = \"{}\"", preset.name)).expect("written");
-        let plan = grid::read(&path).unwrap_or_else(|error| panic!("{error}"));
+        let plan = grid::read(&path, simulate::all()).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!((plan.preset, plan.len()), (preset.name, 1));
     }
 }

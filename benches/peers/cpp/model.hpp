@@ -1,5 +1,5 @@
 // The reference equations: a bimorph of Jafferis, Graule and Wood (2016) with constant stiffness and a sinusoidal force,
-// as in examples/own_model. States are in units of their typical sizes, so that one absolute tolerance serves all.
+// as in examples/own_equations. States are in units of their typical sizes, so that one absolute tolerance serves all.
 #pragma once
 
 #include <array>

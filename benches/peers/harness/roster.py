@@ -45,8 +45,8 @@ PEERS_IN_TURN: Tuple[Peer, ...] = (
     BASE,
     Peer(
         "flap",
-        "examples/own_model, DP5(4) in lanes",
-        Cargo(REPOSITORY, ("-p", "flap-core", "--example", "own_model"), TARGET / "release" / "examples" / "own_model"),
+        "examples/own_equations, DP5(4) in lanes",
+        Cargo(REPOSITORY, ("-p", "flap-core", "--example", "own_equations"), TARGET / "release" / "examples" / "own_equations"),
         samples=False,
     ),
     Peer(

@@ -23,6 +23,7 @@ use crate::args::{ReadArgs, WorkArgs};
 use crate::cmd::exclusion;
 use crate::console;
 use crate::failure::{Exit, Failure, IGNORE_HELP, still_kept};
+use crate::models;
 use crate::progress::Bar;
 use crate::signals;
 
@@ -184,7 +185,7 @@ pub(crate) fn read_sidecar(results: &Path, on_damage: OnDamage) -> Result<Sideca
 
 /// The plan in a sidecar, which was read from `path`.
 pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
-    sidecar.plan(flap_core::simulate::all()).map_err(|error| match error {
+    sidecar.plan(models::all()).map_err(|error| match error {
         sidecar::PlanError::Grid(mistakes) => Failure::Grid(mistakes),
         sidecar::PlanError::GridText => {
             let message =

@@ -201,7 +201,7 @@ pub(crate) fn plan(source: &Bound<'_, PyAny>) -> PyResult<Plan> {
             format!("a grid is a path, the text of a grid file, a dictionary or a Grid, not {found}");
         return Err(PyTypeError::new_err(message));
     };
-    grid::read(&path).map_err(|error| error::grid_file(py, &error))
+    grid::read(&path, simulate::all()).map_err(|error| error::grid_file(py, &error))
 }
 
 fn parse(py: Python<'_>, name: &str, text: &str) -> PyResult<Plan> {

@@ -19,11 +19,12 @@ use flap_sweep::study::survey;
 use super::{exclusion, far};
 use crate::args::CheckArgs;
 use crate::console;
+use crate::models;
 use crate::failure::{Exit, Failure};
 use crate::table::Table;
 
 pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
-    let plan = Arc::new(grid::read(&args.grid)?);
+    let plan = Arc::new(grid::read(&args.grid, models::all())?);
     far::warn(&deviation::of(&plan));
     console::results(&page(&plan))?;
     Ok(Exit::Done)

@@ -1,20 +1,21 @@
 //! `flap params`: the parameters and the output columns of a model.
 
 use flap_core::parameter::{Kind, Parameter};
-use flap_core::simulate::{self, Simulator};
+use flap_core::simulate::Simulator;
 use flap_sweep::notation::nearest;
 use flap_sweep::notation::text;
 
 use crate::args::ParamsArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
+use crate::models;
 use crate::table::Table;
 
 pub(crate) fn run(args: &ParamsArgs) -> Result<Exit, Failure> {
-    let page = if let Some((model, preset)) = simulate::preset(&args.what) {
+    let page = if let Some((model, preset)) = models::preset(&args.what) {
         let head = format!("{}: {}\nmodel {}: {}\n", preset.name, preset.doc, model.name(), model.doc());
         head + "\n" + &values(model, &(preset.values)()) + "\n" + &columns(model)
-    } else if let Some(model) = simulate::by_name(&args.what) {
+    } else if let Some(model) = models::by_name(&args.what) {
         let presets: Vec<&str> = model.presets().iter().map(|preset| preset.name).collect();
         let head = format!("{}: {}\npresets: {}\n", model.name(), model.doc(), presets.join(", "));
         head + "\n" + &parameters(model) + "\n" + &columns(model)
@@ -64,10 +65,9 @@ fn columns(model: &dyn Simulator) -> String {
 }
 
 fn unknown(name: &str) -> Failure {
-    let models = simulate::all().iter().map(|model| model.name());
-    let presets = simulate::all().iter().flat_map(|model| model.presets()).map(|preset| preset.name);
+    let names = models::all().iter().map(|model| model.name()).chain(models::presets());
     let failure = Failure::usage(format!("there is no model or preset `{name}`"));
-    match nearest(name, models.chain(presets)) {
+    match nearest(name, names) {
         Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
         None => failure.help("`flap models` lists models and presets"),
     }

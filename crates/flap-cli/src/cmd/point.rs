@@ -4,7 +4,7 @@ use std::path::Path;
 
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Kind, Parameter};
-use flap_core::simulate::{self, Rows, Simulator, SolverSettings};
+use flap_core::simulate::{Rows, Simulator, SolverSettings};
 use flap_sweep::grid;
 use flap_sweep::notation::nearest;
 use flap_sweep::notation::units;
@@ -14,6 +14,7 @@ use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
 use crate::args::{PointArgs, SolverArgs};
 use crate::console;
 use crate::failure::Failure;
+use crate::models;
 
 /// A design point and its plan.
 pub(crate) struct Chosen {
@@ -101,18 +102,17 @@ impl Chosen {
 
 /// The plan of a preset or a grid file.
 pub(super) fn plan(what: &str) -> Result<Plan, Failure> {
-    if simulate::preset(what).is_some() {
+    if models::preset(what).is_some() {
         let grid = format!("preset = \"{what}\"\n");
-        return grid::parse(what, &grid, simulate::all()).map_err(Failure::Grid);
+        return grid::parse(what, &grid, models::all()).map_err(Failure::Grid);
     }
     let path = Path::new(what);
     let looks_like_a_file = path.extension().is_some() || path.components().count() > 1;
     if looks_like_a_file || path.exists() {
-        return Ok(grid::read(path)?);
+        return Ok(grid::read(path, models::all())?);
     }
-    let presets = simulate::all().iter().flat_map(|model| model.presets()).map(|preset| preset.name);
     let failure = Failure::usage(format!("there is no preset and no file `{what}`"));
-    Err(match nearest(what, presets) {
+    Err(match nearest(what, models::presets()) {
         Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
         None => failure.help("`flap models` lists models and presets"),
     })

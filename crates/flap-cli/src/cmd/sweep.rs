@@ -12,6 +12,7 @@ use flap_sweep::study::deviation;
 
 use crate::args::SweepArgs;
 use crate::cmd::far;
+use crate::models;
 use crate::failure::{Exit, Failure};
 use crate::job::{self, Begin};
 
@@ -46,7 +47,7 @@ fn plan(args: &SweepArgs) -> Result<(Plan, Option<Origin>), Failure> {
         return Ok((job::plan_of(path, &sidecar)?, sidecar.origin()));
     }
     let grid = args.grid.as_ref().ok_or_else(|| Failure::usage("name a grid file with --grid"))?;
-    Ok((grid::read(grid)?, None))
+    Ok((grid::read(grid, models::all())?, None))
 }
 
 /// The file of the rows by default.

@@ -14,7 +14,7 @@
 //! inputs repeat with the span therefore sees no growing times.
 //!
 //! Equations of one's own are an [`Ode`]: `examples/jafferis_fig2_3` brings three of them to their settled motions,
-//! `examples/own_model` runs thousands of points in lanes.
+//! `examples/own_equations` runs thousands of points in lanes.
 
 pub mod controller;
 pub mod dense;

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use flap_core::simulate;
+use flap_core::simulate::Simulator;
 
 use crate::grid::diagnostic::{Mistakes, position};
 use crate::plan::Plan;
@@ -94,7 +94,7 @@ fn one_per_line(mistakes: &Mistakes) -> String {
 ///
 /// # Errors
 /// If the file cannot be read, or there are mistakes in it.
-pub fn read(path: &Path) -> Result<Plan, ReadError> {
+pub fn read(path: &Path, models: &[&'static dyn Simulator]) -> Result<Plan, ReadError> {
     let bytes = bytes(path).map_err(|cause| {
         let path = path.to_owned();
         match cause.kind() {
@@ -117,7 +117,7 @@ pub fn read(path: &Path) -> Result<Plan, ReadError> {
         let (line, column) = position(&before, byte);
         ReadError::NotUtf8 { path: path.to_owned(), byte, line, column }
     })?;
-    super::parse(&path.display().to_string(), &text, simulate::all()).map_err(ReadError::Grid)
+    super::parse(&path.display().to_string(), &text, models).map_err(ReadError::Grid)
 }
 
 /// The beginning of a file: all of it, unless it is too large.

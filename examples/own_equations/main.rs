@@ -1,7 +1,7 @@
 //! Equations of one's own in flap's integrator: thousands of runs in SIMD lanes.
 //!
 //! ```sh
-//! cargo run --release -p flap-core --example own_model -- POINTS.csv RTOL OUT.csv [SET]
+//! cargo run --release -p flap-core --example own_equations -- POINTS.csv RTOL OUT.csv [SET]
 //! ```
 //!
 //! POINTS.csv has the columns `id,F0,f`: number, amplitude of the force (N) and frequency (Hz). Each point is run for 40
@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     /// Numbers of a long-double solver at a tolerance of 1e-12, with 2,048 samples per period: see tests/data.
-    const REFERENCE: &str = include_str!("../../tests/data/own_model.csv");
+    const REFERENCE: &str = include_str!("../../tests/data/own_equations.csv");
 
     #[test]
     fn runs_come_to_what_another_solver_finds() {

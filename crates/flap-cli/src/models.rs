@@ -1,0 +1,36 @@
+//! The models that this command knows.
+
+use std::sync::OnceLock;
+
+use flap_core::parameter::Preset;
+use flap_core::simulate::{self, Simulator};
+
+static MODELS: OnceLock<Vec<&'static dyn Simulator>> = OnceLock::new();
+
+/// Sets the models. Later calls change nothing.
+pub(crate) fn set(models: Vec<&'static dyn Simulator>) {
+    MODELS.get_or_init(|| models);
+}
+
+/// All models, in the order of `flap models`.
+pub(crate) fn all() -> &'static [&'static dyn Simulator] {
+    MODELS.get().map_or(simulate::all(), Vec::as_slice)
+}
+
+/// The model called `name`.
+pub(crate) fn by_name(name: &str) -> Option<&'static dyn Simulator> {
+    all().iter().copied().find(|model| model.name() == name)
+}
+
+/// The preset called `name`, with its model.
+pub(crate) fn preset(name: &str) -> Option<(&'static dyn Simulator, &'static Preset)> {
+    all().iter().find_map(|model| {
+        let preset = model.presets().iter().find(|preset| preset.name == name)?;
+        Some((*model, preset))
+    })
+}
+
+/// The names of all presets.
+pub(crate) fn presets() -> impl Iterator<Item = &'static str> {
+    all().iter().flat_map(|model| model.presets()).map(|preset| preset.name)
+}

@@ -1,0 +1,18 @@
+//! The `flap` command with one more model: the motor-driven wing of `motor_wing`.
+//!
+//! ```sh
+//! cargo run --release -p own-model -- sweep --grid examples/own_model/grid.toml --out own.csv
+//! ```
+
+mod motor_wing;
+
+use std::process::ExitCode;
+
+use flap_core::simulate::{Models, Runner};
+
+/// The wing with its three states, their 3 + 9 responses to changes, and its signals.
+static MOTOR_WING: Runner<motor_wing::MotorWing, 3, 12, { motor_wing::S }> = Runner::new(motor_wing::MotorWing);
+
+fn main() -> ExitCode {
+    flap_cli::run(Models::and(&[&MOTOR_WING]))
+}

@@ -1,0 +1,219 @@
+//! A wing on the shaft of a motor, against a spring: flap angle, its rate, and the motor's current. Its pitch follows the
+//! speed of the flap.
+//!
+//! Park and Abolfathi, "Direct Drive Design and Operational Performance Analysis of an Insect-Sized Flapping-Wing Micro
+//! Air Vehicle" (2024), as told by the facts of its public repository, saatvikbasil/UCL-MicroFlapping.
+//!
+//! ```text
+//! L_a di/dt = V sin ωt − R_a i − K_b β̇
+//! J β̈ = K_t i − b_m β̇ − K β − (I₃ C_D + I₄) β̇|β̇|
+//! ```
+
+mod columns;
+mod params;
+
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+use flap_core::drive::{Drive, DriveConstants, Wave, WaveformParameters};
+use flap_core::model::{Derived, Description, EnergyBalance, Model, Signal};
+use flap_core::num::{Lanes, PerLane, Real};
+use flap_core::ode::{Ode, Start};
+use flap_core::parameter::Invalid;
+
+pub(crate) use columns::S;
+pub(crate) use params::Params;
+
+/// The model. All its points share one equation, so it has no choices of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct MotorWing;
+
+flap_core::per_lane! {
+    /// Constants of a point: one set per lane.
+    pub struct Constants<R> {
+        /// Drive voltage.
+        pub drive: DriveConstants<R>,
+        /// R_a (Ω).
+        pub resistance: R,
+        /// 1/L_a (1/H).
+        pub inverse_inductance: R,
+        /// K_b (V·s/rad).
+        pub back_emf: R,
+        /// K_t (N·m/A).
+        pub torque: R,
+        /// b_m (N·m·s/rad).
+        pub bearing_damping: R,
+        /// K (N·m/rad).
+        pub stiffness: R,
+        /// J (kg·m²).
+        pub inertia: R,
+        /// I₂ (kg·m): lift per lift coefficient and squared rate.
+        pub lift_moment: R,
+        /// I₃ (kg·m²): drag torque per drag coefficient and squared rate.
+        pub drag_moment: R,
+        /// I₄ (kg·m²): torque on the rotating chord per squared rate.
+        pub rotation_moment: R,
+        /// C_α (s): loss of attack angle per rate.
+        pub attack_slope: R,
+    }
+}
+
+/// Moments of the wing's shape about the motor's axis, for a chord c(r) that is a quarter of an ellipse.
+struct WingShape {
+    /// ∫ r² c dr (m⁴).
+    r2_c: f64,
+    /// ∫ r³ c dr (m⁵).
+    r3_c: f64,
+    /// ∫ c⁴ dr (m⁵).
+    c4: f64,
+    /// ∫ r² c² dr (m⁵).
+    r2_c2: f64,
+}
+
+impl WingShape {
+    /// A wing from radius `root` (m) on, with chord `chord` (m) there: c = chord √(1 − x²) at r = root + x · length.
+    fn new(root: f64, length: f64, chord: f64) -> WingShape {
+        // ∫ xⁿ √(1 − x²) dx from 0 to 1.
+        let [m0, m1, m2, m3] = [FRAC_PI_4, 1.0 / 3.0, PI / 16.0, 2.0 / 15.0];
+        let (a, b) = (root, length);
+        WingShape {
+            r2_c: chord * b * (a * a * m0 + 2.0 * a * b * m1 + b * b * m2),
+            r3_c: chord * b * (a * a * a * m0 + 3.0 * a * a * b * m1 + 3.0 * a * b * b * m2 + b * b * b * m3),
+            c4: chord.powi(4) * b * (8.0 / 15.0),
+            r2_c2: chord * chord * b * (a * a * (2.0 / 3.0) + a * b * 0.5 + b * b * (2.0 / 15.0)),
+        }
+    }
+}
+
+impl Constants<f64> {
+    fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
+        let root = 0.5 * p.base_length;
+        let chord = p.root_chord.unwrap_or(p.wing_length / 3.0);
+        let shape = WingShape::new(root, p.wing_length, chord);
+
+        // J_w: base, leading edge and root spar of carbon, and the membrane at its radius of gyration.
+        let (base, spar) = (p.base_width * p.base_height, p.spar_section);
+        let membrane_radius = shape.r3_c / shape.r2_c;
+        let membrane = p.membrane_density * p.membrane_thickness * FRAC_PI_4 * chord * p.wing_length;
+        let wing_inertia = p.spar_density * base * p.base_length.powi(3) / 3.0
+            + p.spar_density * spar * p.wing_length * (p.wing_length + root).powi(2) / 3.0
+            + p.spar_density * spar * chord * root.powi(2) / 3.0
+            + membrane * membrane_radius.powi(2);
+        let added_inertia = FRAC_PI_4 * p.air_density * shape.r2_c2;
+        let inertia = p.rotor_inertia + wing_inertia + added_inertia;
+
+        let drive = DriveConstants::new(p.drive_frequency, &WaveformParameters::SINE, [0.0, p.drive_voltage]);
+        let constants = Constants {
+            resistance: p.resistance,
+            inverse_inductance: 1.0 / p.inductance,
+            back_emf: p.back_emf_constant.unwrap_or(p.torque_constant),
+            torque: p.torque_constant,
+            bearing_damping: p.bearing_damping,
+            stiffness: p.spring_stiffness.unwrap_or(inertia * drive.rate * drive.rate),
+            inertia,
+            lift_moment: 0.5 * p.air_density * shape.r2_c,
+            drag_moment: 0.5 * p.air_density * shape.r3_c,
+            rotation_moment: 5.0 * 0.5 * p.air_density * shape.c4 / 8.0,
+            attack_slope: p.attack_slope,
+            drive,
+        };
+        if PerLane::<f64>::is_finite(&constants) { Ok(constants) } else { Err(Invalid::NotFinite) }
+    }
+}
+
+impl<R: Real> Constants<R> {
+    /// The attack angle (rad) at a flap rate: a right angle at rest, and no less than half of one.
+    #[inline(always)]
+    fn attack(&self, rate: R) -> R {
+        let falling = self.attack_slope.mul_add(-rate.abs(), rate.lit(FRAC_PI_2));
+        falling.max(rate.lit(FRAC_PI_4))
+    }
+
+    /// The lift (N) at a flap rate.
+    #[inline(always)]
+    fn lift(&self, rate: R) -> R {
+        let angle = self.attack(rate) * 2.13 + (-0.1257);
+        let coefficient = angle.sin() * 1.58 + 0.225;
+        self.lift_moment * coefficient * rate * rate
+    }
+
+    /// The torque of the air (N·m), against the motion.
+    #[inline(always)]
+    fn air_torque(&self, rate: R) -> R {
+        let angle = self.attack(rate) * 2.04 + (-0.1714);
+        let coefficient = angle.sin_cos().1 * -1.55 + 1.92;
+        self.drag_moment.mul_add(coefficient, self.rotation_moment) * rate * rate.abs()
+    }
+}
+
+impl Ode<3> for MotorWing {
+    type Constants<R: Lanes> = Constants<R>;
+    type Input<R: Lanes> = Wave<R>;
+
+    #[inline(always)]
+    fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> Wave<R> {
+        Drive::SINE.at(&c.drive, t)
+    }
+
+    #[inline(always)]
+    fn rhs<R: Lanes>(&self, c: &Constants<R>, voltage: &Wave<R>, _side: R, y: &[R; 3]) -> [R; 3] {
+        let [flap, rate, current] = *y;
+        let torque = c.torque * current
+            - c.bearing_damping * rate
+            - c.stiffness * flap
+            - c.air_torque(rate);
+        let driving = voltage.value - c.resistance * current - c.back_emf * rate;
+        [rate, torque / c.inertia, driving * c.inverse_inductance]
+    }
+}
+
+impl Model<3, S> for MotorWing {
+    const DESCRIPTION: Description = Description {
+        name: "motor-wing",
+        doc: "wing on the shaft of a motor, pitch by speed (Park and Abolfathi 2024)",
+        parameters: Params::TABLE,
+        presets: Params::PRESETS,
+    };
+    const STATES: [&'static str; 3] = ["stroke_rad", "stroke_rate_rad_s", "current_a"];
+    const SIGNALS: [Signal; S] = columns::SIGNALS;
+    const DERIVED: &'static [Derived<MotorWing, Constants<f64>, S>] = columns::DERIVED;
+    const ENERGY: Option<EnergyBalance> = Some(columns::ENERGY);
+
+    fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 3>, Invalid> {
+        let params = Params::from_values(values);
+        let constants = Constants::derive(&params)?;
+        let drive = constants.drive;
+        // Typical sizes of flap angle (rad), rate (rad/s) and current (A).
+        let scale = [0.5, 0.5 * drive.rate, 0.1];
+        Ok(Start { constants, y: [0.0; 3], span: drive.period(), scale, tighten: 1.0 })
+    }
+
+    #[inline(always)]
+    fn drive<R: Lanes>(c: &Constants<R>) -> &DriveConstants<R> {
+        &c.drive
+    }
+
+    #[inline(always)]
+    fn signals<R: Lanes>(
+        &self,
+        c: &Constants<R>,
+        voltage: &Wave<R>,
+        _side: R,
+        y: &[R; 3],
+        _dy: &[R; 3],
+    ) -> [R; S] {
+        let [flap, rate, current] = *y;
+        let power = voltage.value * current;
+        [
+            flap,
+            c.lift(rate),
+            power,
+            c.air_torque(rate) * rate,
+            c.resistance * current * current,
+            c.bearing_damping * rate * rate,
+            // The motor's conversion is lossless only if its two constants are one.
+            (c.back_emf - c.torque) * current * rate,
+            current,
+            power,
+        ]
+    }
+}
