@@ -1,7 +1,9 @@
 //! Design points, settled on lanes, and their responses to a parameter that is swept.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Jobs, Point, Row, Simulator, SolverSettings, Status, by_name};
+use flap_core::simulate::{
+    Experiments, Jobs, Motions, Point, Row, Simulator, SolverSettings, Status, by_name,
+};
 
 /// A model with the settings its points are run with.
 pub(crate) struct Bench {
@@ -33,6 +35,16 @@ impl Bench {
             ..SolverSettings::default()
         };
         Bench { model, solver }
+    }
+
+    /// Motions of the model's points.
+    pub(crate) fn motions(&self) -> &'static dyn Motions {
+        self.model.motions().expect("models of the papers have single motions")
+    }
+
+    /// Experiments on the model's points.
+    pub(crate) fn experiments(&self) -> &'static dyn Experiments {
+        self.model.experiments().expect("models of the papers know experiments")
     }
 
     /// The points with these parameter values, each settled.
