@@ -2,7 +2,7 @@
 
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{
-    Experiments, Jobs, Motions, Point, Row, Simulator, SolverSettings, Status, by_name,
+    Experiments, Motions, Point, Simulator, SolverSettings, Status, by_name, never, run_list,
 };
 
 /// A model with the settings its points are run with.
@@ -49,12 +49,11 @@ impl Bench {
 
     /// The points with these parameter values, each settled.
     pub(crate) fn settle(&self, points: Vec<Vec<f64>>) -> Vec<Settled> {
-        let mut list = List { rows: vec![None; points.len()], points: points.into_iter(), next: 0 };
-        self.model.run(InstructionSet::best(), &self.solver, &mut list);
-        list.rows
+        let points = points.into_iter().map(|values| Point::at_rest(0, values)).collect();
+        let rows = run_list(self.model, InstructionSet::best(), &self.solver, points, &never);
+        rows.expect("every point has a row")
             .into_iter()
             .map(|row| {
-                let row = row.expect("every point has a row");
                 assert!(
                     row.status == Status::Periodic,
                     "a point of {} does not settle: {row:?}",
@@ -108,24 +107,5 @@ impl Response {
         let values = self.column(column);
         let tops = values.windows(3).filter(|three| three[1].1 > three[0].1 && three[1].1 > three[2].1);
         tops.map(|three| three[1].0).collect()
-    }
-}
-
-/// Points given in order; rows kept by index.
-struct List {
-    points: std::vec::IntoIter<Vec<f64>>,
-    next: u64,
-    rows: Vec<Option<Row>>,
-}
-
-impl Jobs for List {
-    fn next(&mut self, _idle: bool) -> Option<Point> {
-        let values = self.points.next()?;
-        self.next += 1;
-        Some(Point::at_rest(self.next - 1, values))
-    }
-
-    fn done(&mut self, index: u64, row: Row) {
-        self.rows[usize::try_from(index).expect("it is the index of a point")] = Some(row);
     }
 }

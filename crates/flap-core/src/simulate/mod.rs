@@ -14,6 +14,7 @@ mod imposed;
 mod impulse;
 mod jobs;
 mod lanes;
+mod list;
 mod march;
 mod newton;
 mod orbit_row;
@@ -35,6 +36,7 @@ mod trajectory;
 pub use column::Column;
 pub use error::{RequestError, Unfinished};
 pub use jobs::{Jobs, LaneUse, Point};
+pub use list::run_list;
 pub use request::{
     ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, Trajectory, TrajectoryRequest,
 };
