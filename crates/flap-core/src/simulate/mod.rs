@@ -41,7 +41,7 @@ pub use request::{
     ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, Trajectory, TrajectoryRequest,
 };
 pub use row::Row;
-pub use settings::SolverSettings;
+pub use settings::{Setting, SettingKind, SolverSettings};
 pub use simulator::{Experiments, Motions, Rows, Simulator};
 pub use status::Status;
 
