@@ -1,7 +1,7 @@
 //! Design points in, rows out: models as sweeps, the command line and Python see them.
 //!
 //! A [`Simulator`] is the face of a model for sweeps; [`Motions`] and [`Experiments`] are its faces for single motions.
-//! [`all`] lists the models of this crate.
+//! [`Runner`] gives them to a [`Model`](crate::model::Model). [`all`] lists the models of this crate.
 
 mod accuracy;
 mod begin;
@@ -41,6 +41,7 @@ pub use request::{
     ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, Trajectory, TrajectoryRequest,
 };
 pub use row::Row;
+pub use runner::Runner;
 pub use settings::{Setting, SettingKind, SolverSettings};
 pub use simulator::{Experiments, Motions, Rows, Simulator};
 pub use status::Status;
@@ -52,7 +53,6 @@ use crate::model::bimorph::Bimorph;
 use crate::model::direct_drive::{DirectDrive, FlowDirection};
 use crate::model::four_bar::FourBar;
 use crate::parameter::Preset;
-use runner::Runner;
 
 static BIMORPH: Runner<Bimorph, 4, 20, 15> = Runner::with_experiments(Bimorph { drive: Drive::SINE });
 static DIRECT_DRIVE: Runner<DirectDrive, 4, 20, 10> =

@@ -23,8 +23,123 @@ use crate::num::InstructionSet;
 use crate::ode::{Interrupt, never};
 use crate::parameter::{Parameter, Preset};
 
-/// A model with N states, K = N (N + 1) states and responses to their changes, and S signals.
-pub(super) struct Runner<M, const N: usize, const K: usize, const S: usize> {
+/// A model behind the object-safe faces: all that a sweep needs of a model of one's own.
+///
+/// The model has N states, K = N (N + 1) states and responses to their changes, and S signals. K cannot be computed from N
+/// in a type; [`Runner::new`] does not compile with another.
+///
+/// A driven oscillator, with the drive at its resonance:
+///
+/// ```
+/// use flap_core::drive::{DriveConstants, WaveformParameters};
+/// use flap_core::model::{Derived, Description, Measure, Model, Signal, Unit};
+/// use flap_core::num::{InstructionSet, Lanes};
+/// use flap_core::ode::{Ode, Start};
+/// use flap_core::parameter::Kind::Number;
+/// use flap_core::parameter::Range::Positive;
+/// use flap_core::parameter::{Invalid, Preset};
+/// use flap_core::simulate::{Rows, Runner, Simulator, SolverSettings, Status};
+///
+/// flap_core::parameters! {
+///     /// Parameters of an oscillator.
+///     pub struct Params {
+///         /// Torque per inertia.
+///         drive_strength: f64 = ("rad/s^2", "", Number(Positive)),
+///         /// Drive frequency.
+///         drive_frequency: f64 = ("Hz", "f", Number(Positive)),
+///         /// Natural frequency.
+///         natural_frequency: f64 = ("Hz", "", Number(Positive)),
+///         /// Decay rate of free oscillations.
+///         decay: f64 = ("1/s", "", Number(Positive)),
+///     }
+/// }
+///
+/// flap_core::per_lane! {
+///     /// Constants of a point.
+///     pub struct Constants<R> {
+///         /// The torque per inertia.
+///         pub drive: DriveConstants<R>,
+///         /// Stiffness per inertia (1/s²).
+///         pub stiffness: R,
+///         /// Damping per inertia (1/s).
+///         pub damping: R,
+///     }
+/// }
+///
+/// #[derive(Clone, PartialEq)]
+/// struct Oscillator;
+///
+/// impl Ode<2> for Oscillator {
+///     type Constants<R: Lanes> = Constants<R>;
+///     type Input<R: Lanes> = R;
+///
+///     #[inline(always)]
+///     fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
+///         c.drive.amplitude * c.drive.phase(t).sin()
+///     }
+///
+///     #[inline(always)]
+///     fn rhs<R: Lanes>(&self, c: &Constants<R>, torque: &R, _side: R, y: &[R; 2]) -> [R; 2] {
+///         [y[1], *torque - c.stiffness * y[0] - c.damping * y[1]]
+///     }
+/// }
+///
+/// impl Model<2, 1> for Oscillator {
+///     const DESCRIPTION: Description = Description {
+///         name: "oscillator",
+///         doc: "a wing on a spring",
+///         parameters: Params::TABLE,
+///         presets: &[Preset { name: "example", doc: "", values: || EXAMPLE.to_values() }],
+///     };
+///     const STATES: [&'static str; 2] = ["stroke_rad", "stroke_rate_rad_s"];
+///     const SIGNALS: [Signal; 1] =
+///         [Signal::new("stroke", Unit::DEG, "stroke angle", &[Measure::Amplitude]).principal(Measure::Amplitude)];
+///     const DERIVED: &'static [Derived<Self, Constants<f64>, 1>] = &[];
+///
+///     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 2>, Invalid> {
+///         let params = Params::from_values(values);
+///         let strength = [0.0, params.drive_strength];
+///         let drive = DriveConstants::new(params.drive_frequency, &WaveformParameters::SINE, strength);
+///         let natural = std::f64::consts::TAU * params.natural_frequency;
+///         let constants = Constants { drive, stiffness: natural * natural, damping: 2.0 * params.decay };
+///         let (y, scale) = ([0.0; 2], [0.1, 0.1 * drive.rate]);
+///         Ok(Start { constants, y, span: drive.period(), scale, tighten: 1.0 })
+///     }
+///
+///     fn drive<R: Lanes>(c: &Constants<R>) -> &DriveConstants<R> {
+///         &c.drive
+///     }
+///
+///     #[inline(always)]
+///     fn signals<R: Lanes>(
+///         &self,
+///         _c: &Constants<R>,
+///         _torque: &R,
+///         _side: R,
+///         y: &[R; 2],
+///         _dy: &[R; 2],
+///     ) -> [R; 1] {
+///         [y[0]]
+///     }
+/// }
+///
+/// const EXAMPLE: Params = Params {
+///     drive_strength: 1e3,
+///     drive_frequency: 100.0,
+///     natural_frequency: 100.0,
+///     decay: 20.0,
+/// };
+///
+/// static OSCILLATOR: Runner<Oscillator, 2, 6, 1> = Runner::new(Oscillator);
+///
+/// let model: &'static dyn Simulator = &OSCILLATOR;
+/// let row = model.run_point(InstructionSet::best(), &SolverSettings::DEFAULT, &EXAMPLE.to_values(), None);
+/// assert_eq!(row.status, Status::Periodic);
+/// // At resonance the amplitude is that of the torque over damping times angular frequency.
+/// let exact = (1e3 / (40.0 * std::f64::consts::TAU * 100.0_f64)).to_degrees();
+/// assert!((row.measures[0] / exact - 1.0).abs() < 1e-4);
+/// ```
+pub struct Runner<M, const N: usize, const K: usize, const S: usize> {
     model: M,
     columns: OnceLock<Vec<Column>>,
     experiments: fn(&Self) -> Option<&dyn Experiments>,
@@ -32,7 +147,7 @@ pub(super) struct Runner<M, const N: usize, const K: usize, const S: usize> {
 
 impl<M: model::Motions<N, S>, const N: usize, const K: usize, const S: usize> Runner<M, N, K, S> {
     /// The faces of a model that knows experiments too. Does not compile unless K is N (N + 1).
-    pub(super) const fn with_experiments(model: M) -> Self {
+    pub const fn with_experiments(model: M) -> Self {
         const { Self::CHECKED }
         Runner { model, columns: OnceLock::new(), experiments: |runner| Some(runner) }
     }
@@ -43,7 +158,7 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Runner<M, N
     const CHECKED: () = assert!(K == N * (N + 1), "K counts states and responses: it is N (N + 1)");
 
     /// The faces of a model: rows and motions. Does not compile unless K is N (N + 1).
-    pub(super) const fn new(model: M) -> Self {
+    pub const fn new(model: M) -> Self {
         const { Self::CHECKED }
         Runner { model, columns: OnceLock::new(), experiments: |_| None }
     }
