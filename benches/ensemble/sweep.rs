@@ -1,7 +1,7 @@
 //! The sweep: voltage and frequency of the large actuator of Ozaki and Hamaguchi.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Jobs, Point, Row, Simulator, SolverSettings, preset};
+use flap_core::simulate::{Point, Simulator, SolverSettings, never, preset, run_list};
 
 const VOLTAGES: usize = 16;
 const FREQUENCIES: usize = 32;
@@ -36,9 +36,9 @@ impl Sweep {
 
     /// Runs it in lanes. Returns the right-hand sides evaluated.
     pub(crate) fn lanes(&self, set: InstructionSet) -> u64 {
-        let mut jobs = All { points: &self.points, next: 0, rhs_evals: 0 };
-        self.simulator.run(set, &SolverSettings::default(), &mut jobs);
-        jobs.rhs_evals
+        let points = self.points.iter().map(|values| Point::at_rest(0, values.clone())).collect();
+        let rows = run_list(self.simulator, set, &SolverSettings::default(), points, &never);
+        rows.expect("every point has a row").iter().map(|row| row.rhs_evals).sum()
     }
 
     /// Runs it point by point on scalars of the set's arithmetic class. Returns the right-hand sides evaluated.
@@ -53,22 +53,4 @@ pub(crate) fn scalar_sets() -> Vec<InstructionSet> {
     let mut sets = InstructionSet::available();
     sets.dedup_by_key(|set| set.arithmetic());
     sets
-}
-
-struct All<'a> {
-    points: &'a [Vec<f64>],
-    next: usize,
-    rhs_evals: u64,
-}
-
-impl Jobs for All<'_> {
-    fn next(&mut self, _idle: bool) -> Option<Point> {
-        let values = self.points.get(self.next)?.clone();
-        self.next += 1;
-        Some(Point::at_rest(self.next as u64 - 1, values))
-    }
-
-    fn done(&mut self, _index: u64, row: Row) {
-        self.rhs_evals += row.rhs_evals;
-    }
 }

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Seek;
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Jobs, Point, Row};
+use flap_core::simulate::{Point, Row, never, run_list};
 use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::plan::Plan;
 use flap_sweep::run::sink::Sink;
@@ -18,9 +18,9 @@ pub(crate) struct Rows(Vec<(Point, Row)>);
 impl Rows {
     /// Runs all points on this thread.
     pub(crate) fn of(plan: &Plan) -> Rows {
-        let mut listed = Listed { plan, next: 0, rows: Vec::new() };
-        plan.simulator.run(InstructionSet::best(), &plan.solver, &mut listed);
-        Rows(listed.rows)
+        let points: Vec<Point> = (0..plan.len()).map(|index| plan.point(index)).collect();
+        let rows = run_list(plan.simulator, InstructionSet::best(), &plan.solver, points.clone(), &never);
+        Rows(points.into_iter().zip(rows.expect("every point has a row")).collect())
     }
 
     /// How many [`Rows::write`] writes.
@@ -49,23 +49,4 @@ pub(crate) fn read(mut file: &File) -> usize {
         numbers += row.iter().filter(|cell| cell.parse::<f64>().is_ok()).count();
     }
     numbers
-}
-
-/// Hands out the points of a plan and keeps their rows as they come.
-struct Listed<'a> {
-    plan: &'a Plan,
-    next: u64,
-    rows: Vec<(Point, Row)>,
-}
-
-impl Jobs for Listed<'_> {
-    fn next(&mut self, _idle: bool) -> Option<Point> {
-        let index = self.next;
-        self.next += 1;
-        (index < self.plan.len()).then(|| self.plan.point(index))
-    }
-
-    fn done(&mut self, index: u64, row: Row) {
-        self.rows.push((self.plan.point(index), row));
-    }
 }

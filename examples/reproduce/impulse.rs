@@ -21,13 +21,14 @@ impl Bench {
     /// The damped sine through the first `cycles` periods after an impulse by which the first mode alone, undamped, would
     /// reach `amplitude` (rad).
     pub(crate) fn swing(&self, values: &[f64], amplitude: f64, cycles: u32) -> Swing {
-        let modes = self.model.modes(values).expect("published parameters are possible");
+        let modes = self.experiments().modes(values).expect("published parameters are possible");
         let request = ImpulseRequest {
             stroke_rate: stroke_rate(&modes, amplitude).expect("the first mode swings"),
             duration: f64::from(cycles) / modes[0].frequency,
             intervals: intervals(f64::from(cycles), f64::from(SAMPLES)).expect("it is a short motion"),
         };
-        let motion = self.model.free_response(InstructionSet::best(), &self.solver, values, &request, &never);
+        let motion =
+            self.experiments().free_response(InstructionSet::best(), &self.solver, values, &request, &never);
         let motion = motion.expect("the motion does not fail");
         let stroke = motion.columns.iter().position(|column| column == "stroke_deg").expect("it is a state");
         let stroke: Vec<f64> = motion.rows.iter().map(|row| row[stroke]).collect();
@@ -40,7 +41,7 @@ impl Bench {
     pub(crate) fn spectra(&self, values: &[f64], amplitude: f64) -> FreeMotion {
         let request =
             FreeRequest { amplitude, fit_cycles: 4, spectrum_window: 1.0, samples_per_cycle: SAMPLES };
-        examine(self.model, InstructionSet::best(), &self.solver, values, &request, &never)
+        examine(self.experiments(), InstructionSet::best(), &self.solver, values, &request, &never)
             .expect("the motion does not fail")
     }
 }

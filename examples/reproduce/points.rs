@@ -1,7 +1,9 @@
 //! Design points, settled on lanes, and their responses to a parameter that is swept.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Jobs, Point, Row, Simulator, SolverSettings, Status, by_name};
+use flap_core::simulate::{
+    Experiments, Motions, Point, Simulator, SolverSettings, Status, by_name, never, run_list,
+};
 
 /// A model with the settings its points are run with.
 pub(crate) struct Bench {
@@ -35,14 +37,23 @@ impl Bench {
         Bench { model, solver }
     }
 
+    /// Motions of the model's points.
+    pub(crate) fn motions(&self) -> &'static dyn Motions {
+        self.model.motions().expect("models of the papers have single motions")
+    }
+
+    /// Experiments on the model's points.
+    pub(crate) fn experiments(&self) -> &'static dyn Experiments {
+        self.model.experiments().expect("models of the papers know experiments")
+    }
+
     /// The points with these parameter values, each settled.
     pub(crate) fn settle(&self, points: Vec<Vec<f64>>) -> Vec<Settled> {
-        let mut list = List { rows: vec![None; points.len()], points: points.into_iter(), next: 0 };
-        self.model.run(InstructionSet::best(), &self.solver, &mut list);
-        list.rows
+        let points = points.into_iter().map(|values| Point::at_rest(0, values)).collect();
+        let rows = run_list(self.model, InstructionSet::best(), &self.solver, points, &never);
+        rows.expect("every point has a row")
             .into_iter()
             .map(|row| {
-                let row = row.expect("every point has a row");
                 assert!(
                     row.status == Status::Periodic,
                     "a point of {} does not settle: {row:?}",
@@ -96,24 +107,5 @@ impl Response {
         let values = self.column(column);
         let tops = values.windows(3).filter(|three| three[1].1 > three[0].1 && three[1].1 > three[2].1);
         tops.map(|three| three[1].0).collect()
-    }
-}
-
-/// Points given in order; rows kept by index.
-struct List {
-    points: std::vec::IntoIter<Vec<f64>>,
-    next: u64,
-    rows: Vec<Option<Row>>,
-}
-
-impl Jobs for List {
-    fn next(&mut self, _idle: bool) -> Option<Point> {
-        let values = self.points.next()?;
-        self.next += 1;
-        Some(Point::at_rest(self.next - 1, values))
-    }
-
-    fn done(&mut self, index: u64, row: Row) {
-        self.rows[usize::try_from(index).expect("it is the index of a point")] = Some(row);
     }
 }

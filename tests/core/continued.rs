@@ -55,7 +55,13 @@ fn what_is_no_state_is_refused() {
             let row = model.run_point(InstructionSet::best(), &SOLVER, values, Some(begin));
             assert_eq!(row.status, Status::Invalid);
             assert!(row.reason.unwrap().contains("a state is 4 finite numbers"));
-            assert!(model.period(InstructionSet::best(), &SOLVER, values, begin, &never).is_err());
+            assert!(
+                model
+                    .motions()
+                    .unwrap()
+                    .period(InstructionSet::best(), &SOLVER, values, begin, &never)
+                    .is_err()
+            );
         }
     }
 }
@@ -64,7 +70,8 @@ fn what_is_no_state_is_refused() {
 fn follow(model: &dyn Simulator, values: &[f64], begin: &[f64], periods: u32) -> (Vec<f64>, DMatrix<f64>) {
     let (mut state, mut product) = (begin.to_vec(), DMatrix::identity(4, 4));
     for _ in 0..periods {
-        let period = model.period(InstructionSet::best(), &SOLVER, values, &state, &never).unwrap();
+        let period =
+            model.motions().unwrap().period(InstructionSet::best(), &SOLVER, values, &state, &never).unwrap();
         product = DMatrix::from_fn(4, 4, |i, j| period.responses[j][i]) * product;
         state = period.end;
     }
@@ -76,7 +83,11 @@ fn a_period_is_what_rows_are_made_of() {
     for &model in all() {
         for values in presets(model) {
             let row = model.run_point(InstructionSet::best(), &SOLVER, &values, None);
-            let period = model.period(InstructionSet::best(), &SOLVER, &values, &row.state, &never).unwrap();
+            let period = model
+                .motions()
+                .unwrap()
+                .period(InstructionSet::best(), &SOLVER, &values, &row.state, &never)
+                .unwrap();
             // Efficiencies without power are not numbers.
             let bits = |measures: &[f64]| -> Vec<u64> { measures.iter().map(|m| m.to_bits()).collect() };
             assert_eq!(bits(&period.measures), bits(&row.measures));
@@ -95,8 +106,9 @@ fn responses_are_derivatives() {
         let values = &presets(model)[0];
         let begin = model.run_point(InstructionSet::best(), &SOLVER, values, None).state;
         let exact = SolverSettings { rtol: 1e-11, atol: 1e-13, ..SOLVER };
-        let period =
-            |begin: &[f64]| model.period(InstructionSet::best(), &exact, values, begin, &never).unwrap();
+        let period = |begin: &[f64]| {
+            model.motions().unwrap().period(InstructionSet::best(), &exact, values, begin, &never).unwrap()
+        };
         let middle = period(&begin);
         for j in 0..4 {
             let change = 1e-5 * middle.scale[j];
@@ -129,7 +141,12 @@ fn subharmonic_orbits_close_and_decay_by_their_multipliers() {
     assert!(subharmonic().count() > 0, "one of the designs has such an orbit");
     for (row, values) in subharmonic() {
         let (end, product) = follow(model, values, &row.state, row.period);
-        let scale = model.period(InstructionSet::best(), &SOLVER, values, &row.state, &never).unwrap().scale;
+        let scale = model
+            .motions()
+            .unwrap()
+            .period(InstructionSet::best(), &SOLVER, values, &row.state, &never)
+            .unwrap()
+            .scale;
         for i in 0..4 {
             assert!((end[i] - row.state[i]).abs() < 1e-4 * scale[i], "{end:?} {row:?}");
         }

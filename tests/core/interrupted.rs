@@ -90,7 +90,8 @@ fn a_drive_period_of_very_many_steps_is_interrupted_halfway() {
         asked.get() >= 5
     };
     let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 10, settled: false };
-    let motion = model.trajectory(InstructionSet::best(), &ENDLESS, &points[0], &request, &interrupted);
+    let motions = model.motions().unwrap();
+    let motion = motions.trajectory(InstructionSet::best(), &ENDLESS, &points[0], &request, &interrupted);
     assert_eq!(motion, Err(Unfinished::Interrupted));
 }
 
@@ -121,20 +122,21 @@ fn motions_of_one_point_end_when_interrupted() {
     let row = model.row(set, &settings, values, &never).unwrap();
     assert_eq!(bits(&row), bits(&model.run_point(set, &settings, values, None)));
 
+    let (motions, experiments) = (model.motions().unwrap(), model.experiments().unwrap());
     let settled = TrajectoryRequest { cycles: 1, samples_per_cycle: 10, settled: true };
-    assert_eq!(model.trajectory(set, &ENDLESS, values, &settled, &always).err(), interrupted);
+    assert_eq!(motions.trajectory(set, &ENDLESS, values, &settled, &always).err(), interrupted);
     let from_rest = TrajectoryRequest { cycles: 1_000_000_000, settled: false, ..settled };
-    assert_eq!(model.trajectory(set, &ENDLESS, values, &from_rest, &always).err(), interrupted);
+    assert_eq!(motions.trajectory(set, &ENDLESS, values, &from_rest, &always).err(), interrupted);
     let chirp = ChirpRequest { from: 90.0, to: 110.0, rate: 1e-6, samples_per_cycle: 0 };
-    assert_eq!(model.chirp(set, &ENDLESS, values, &chirp, &always).err(), interrupted);
+    assert_eq!(experiments.chirp(set, &ENDLESS, values, &chirp, &always).err(), interrupted);
     let impulse = ImpulseRequest { stroke_rate: 1.0, duration: 1e6, intervals: 100 };
-    assert_eq!(model.free_response(set, &ENDLESS, values, &impulse, &always).err(), interrupted);
-    assert_eq!(model.period(set, &ENDLESS, values, &[0.0; 4], &always).err(), interrupted);
-    assert!(model.period(set, &ENDLESS, values, &[0.0; 4], &never).is_ok());
+    assert_eq!(experiments.free_response(set, &ENDLESS, values, &impulse, &always).err(), interrupted);
+    assert_eq!(motions.period(set, &ENDLESS, values, &[0.0; 4], &always).err(), interrupted);
+    assert!(motions.period(set, &ENDLESS, values, &[0.0; 4], &never).is_ok());
 
     let request =
         free::FreeRequest { amplitude: 0.1, fit_cycles: 10, spectrum_window: 1e3, samples_per_cycle: 20 };
-    assert_eq!(free::examine(model, set, &ENDLESS, values, &request, &always).err(), interrupted);
+    assert_eq!(free::examine(experiments, set, &ENDLESS, values, &request, &always).err(), interrupted);
     let search = driven::PeakSearch { from: 90.0, to: 110.0, tolerance: 0.1 };
     assert_eq!(driven::search(model, set, &ENDLESS, values, &search, &always).err(), interrupted);
 }

@@ -92,8 +92,11 @@ fn impulses_that_mean_nothing_are_refused() {
         (ImpulseRequest { intervals: 0, ..good }, "in 0 intervals"),
     ] {
         let solver = SolverSettings::default();
-        let refused =
-            model.free_response(InstructionSet::best(), &solver, &values, &request, &never).unwrap_err();
+        let refused = model
+            .experiments()
+            .unwrap()
+            .free_response(InstructionSet::best(), &solver, &values, &request, &never)
+            .unwrap_err();
         assert!(refused.to_string().contains(reason), "{refused}");
     }
 }
@@ -132,7 +135,12 @@ fn a_free_motion_does_not_depend_on_how_it_is_sampled() {
     let solver = SolverSettings { rtol: 1e-9, atol: 1e-11, ..SolverSettings::default() };
     let run = |intervals| {
         let request = ImpulseRequest { stroke_rate: 200.0, duration: 0.05, intervals };
-        model.free_response(InstructionSet::best(), &solver, &values, &request, &never).unwrap().rows
+        model
+            .experiments()
+            .unwrap()
+            .free_response(InstructionSet::best(), &solver, &values, &request, &never)
+            .unwrap()
+            .rows
     };
     let (coarse, fine) = (run(7), run(7 * 131));
     assert_eq!(coarse.len(), 8);
@@ -153,8 +161,15 @@ fn free(name: &str, degrees: f64, spectrum_window: f64) -> FreeMotion {
         spectrum_window,
         samples_per_cycle: 200,
     };
-    examine(model, InstructionSet::best(), &SolverSettings::default(), &values(name, &[]), &request, &never)
-        .unwrap()
+    examine(
+        model.experiments().unwrap(),
+        InstructionSet::best(),
+        &SolverSettings::default(),
+        &values(name, &[]),
+        &request,
+        &never,
+    )
+    .unwrap()
 }
 
 fn driven(name: &str, set: &[(&str, f64)], from: f64, to: f64) -> DrivenPeaks {

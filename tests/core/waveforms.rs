@@ -160,7 +160,13 @@ fn chirp(from: f64, to: f64, rate: f64) -> Result<ChirpResponse, Unfinished> {
     let request = ChirpRequest { from, to, rate, samples_per_cycle: 20 };
     let solver = SolverSettings { rtol: 1e-8, atol: 1e-10, ..SolverSettings::default() };
     let values = Params::ozaki2018_small().to_values();
-    by_name("direct-drive").unwrap().chirp(InstructionSet::best(), &solver, &values, &request, &never)
+    by_name("direct-drive").unwrap().experiments().unwrap().chirp(
+        InstructionSet::best(),
+        &solver,
+        &values,
+        &request,
+        &never,
+    )
 }
 
 #[test]

@@ -2,14 +2,9 @@
 
 use std::sync::LazyLock;
 
-use flap_core::drive::Samples;
-use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
-use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
-use flap_core::simulate::{
-    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Interrupt, Jobs, Period, Row, Rows,
-    Simulator, SolverSettings, Trajectory, TrajectoryRequest, Unfinished,
-};
+use flap_core::parameter::{Kind, Parameter, Preset, Range};
+use flap_core::simulate::{Column, Jobs, Row, Rows, Simulator, SolverSettings};
 use flap_sweep::grid::diagnostic::{Diagnostic, Mistakes};
 use flap_sweep::plan::Plan;
 
@@ -50,72 +45,6 @@ impl Simulator for Fake {
 
     fn presets(&self) -> &'static [Preset] {
         self.presets
-    }
-
-    fn row(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        _: Interrupt<'_>,
-    ) -> Result<Row, Unfinished> {
-        Ok(self.run_point(set, solver, values, None))
-    }
-
-    fn period(
-        &self,
-        _: InstructionSet,
-        _: &SolverSettings,
-        _: &[f64],
-        _: &[f64],
-        _: Interrupt<'_>,
-    ) -> Result<Period, Unfinished> {
-        unreachable!("sweeps do not ask for periods")
-    }
-
-    fn trajectory(
-        &self,
-        _: InstructionSet,
-        _: &SolverSettings,
-        _: &[f64],
-        _: &TrajectoryRequest,
-        _: Interrupt<'_>,
-    ) -> Result<Trajectory, Unfinished> {
-        unimplemented!("grid files are checked without running anything")
-    }
-
-    fn chirp(
-        &self,
-        _: InstructionSet,
-        _: &SolverSettings,
-        _: &[f64],
-        _: &ChirpRequest,
-        _: Interrupt<'_>,
-    ) -> Result<ChirpResponse, Unfinished> {
-        unimplemented!("grid files are checked without running anything")
-    }
-
-    fn imposed(&self, _: &[f64], _: &ImposedMotion) -> Result<Trajectory, Invalid> {
-        unimplemented!("grid files are checked without running anything")
-    }
-
-    fn with_samples(&self, _: Samples) -> Box<dyn Simulator> {
-        unimplemented!("grid files are checked without running anything")
-    }
-
-    fn modes(&self, _: &[f64]) -> Result<[Mode; 2], Invalid> {
-        unimplemented!("grid files are checked without running anything")
-    }
-
-    fn free_response(
-        &self,
-        _: InstructionSet,
-        _: &SolverSettings,
-        _: &[f64],
-        _: &ImpulseRequest,
-        _: Interrupt<'_>,
-    ) -> Result<Trajectory, Unfinished> {
-        unimplemented!("grid files are checked without running anything")
     }
 }
 

@@ -3,14 +3,9 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-use flap_core::drive::Samples;
-use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
-use flap_core::parameter::{Invalid, Kind, Parameter, Preset, Range};
-use flap_core::simulate::{
-    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Interrupt, Jobs, Period, Point, Row,
-    Rows, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest, Unfinished,
-};
+use flap_core::parameter::{Kind, Parameter, Preset, Range};
+use flap_core::simulate::{Column, Jobs, Point, Row, Rows, Simulator, SolverSettings, Status};
 
 /// What goes wrong, and at which value of `size`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -185,72 +180,6 @@ impl Simulator for Fake {
 
     fn presets(&self) -> &'static [Preset] {
         &PRESETS
-    }
-
-    fn row(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        _: Interrupt<'_>,
-    ) -> Result<Row, Unfinished> {
-        Ok(self.run_point(set, solver, values, None))
-    }
-
-    fn period(
-        &self,
-        _: InstructionSet,
-        _: &SolverSettings,
-        _: &[f64],
-        _: &[f64],
-        _: Interrupt<'_>,
-    ) -> Result<Period, Unfinished> {
-        unreachable!("sweeps do not ask for periods")
-    }
-
-    fn trajectory(
-        &self,
-        _set: InstructionSet,
-        _solver: &SolverSettings,
-        _values: &[f64],
-        _request: &TrajectoryRequest,
-        _interrupted: Interrupt<'_>,
-    ) -> Result<Trajectory, Unfinished> {
-        Err(Invalid::new("it does not move").into())
-    }
-
-    fn chirp(
-        &self,
-        _set: InstructionSet,
-        _solver: &SolverSettings,
-        _values: &[f64],
-        _request: &ChirpRequest,
-        _interrupted: Interrupt<'_>,
-    ) -> Result<ChirpResponse, Unfinished> {
-        Err(Invalid::new("it does not move").into())
-    }
-
-    fn imposed(&self, _values: &[f64], _motion: &ImposedMotion) -> Result<Trajectory, Invalid> {
-        Err(Invalid::new("it does not move"))
-    }
-
-    fn with_samples(&self, _samples: Samples) -> Box<dyn Simulator> {
-        unimplemented!("it has no drive")
-    }
-
-    fn modes(&self, _values: &[f64]) -> Result<[Mode; 2], Invalid> {
-        Err(Invalid::new("it does not move"))
-    }
-
-    fn free_response(
-        &self,
-        _set: InstructionSet,
-        _solver: &SolverSettings,
-        _values: &[f64],
-        _request: &ImpulseRequest,
-        _interrupted: Interrupt<'_>,
-    ) -> Result<Trajectory, Unfinished> {
-        Err(Invalid::new("it does not move").into())
     }
 }
 

@@ -2,7 +2,6 @@
 
 use std::io;
 
-use flap_core::parameter::Invalid;
 use flap_core::simulate::Unfinished;
 use flap_sweep::files::integrity::OpenError;
 use flap_sweep::files::job::JobError;
@@ -116,10 +115,6 @@ pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
         }
         ReadError::Unreadable { .. } => PyOSError::new_err(error.to_string()),
     }
-}
-
-pub(crate) fn invalid(invalid: &Invalid) -> PyErr {
-    PyValueError::new_err(invalid.to_string())
 }
 
 pub(crate) fn unfinished(unfinished: &Unfinished) -> PyErr {

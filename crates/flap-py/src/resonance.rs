@@ -38,7 +38,8 @@ pub(crate) fn resonance<'py>(
         samples_per_cycle: SAMPLES,
     };
     let set = InstructionSet::best();
-    let modes = simulator.modes(&values).map_err(|reason| error::invalid(&reason))?;
+    let experiments = simulator.experiments().map_err(|reason| error::unfinished(&reason))?;
+    let modes = experiments.modes(&values).map_err(|reason| error::unfinished(&reason))?;
     let natural = modes.map(|Mode { frequency, .. }| frequency);
     let search = PeakSearch {
         from: start.unwrap_or(0.5 * natural[0].min(natural[1])),
@@ -46,7 +47,7 @@ pub(crate) fn resonance<'py>(
         tolerance,
     };
     let found = interruptible(py, |interrupted| {
-        let free = free::examine(simulator, set, &solver, &values, &request, interrupted)?;
+        let free = free::examine(experiments, set, &solver, &values, &request, interrupted)?;
         Ok((free, driven::search(simulator, set, &solver, &values, &search, interrupted)?))
     })?;
     let (free, driven) = found.map_err(|reason: Unfinished| error::unfinished(&reason))?;

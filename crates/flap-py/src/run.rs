@@ -61,8 +61,9 @@ pub(crate) fn trajectory<'py>(
     }
     let request = TrajectoryRequest { cycles, samples_per_cycle: samples, settled: !from_rest };
     let set = InstructionSet::best();
-    let motion =
-        interruptible(py, |interrupted| simulator.trajectory(set, &solver, &values, &request, interrupted))?;
+    let motion = interruptible(py, |interrupted| {
+        simulator.motions()?.trajectory(set, &solver, &values, &request, interrupted)
+    })?;
     let motion = motion.map_err(|reason| error::unfinished(&reason))?;
     let column = |name: &String| layout::Column {
         name: name.clone(),

@@ -8,11 +8,13 @@ mod motor_wing;
 
 use std::process::ExitCode;
 
-use flap_core::simulate::{Models, Runner};
+use flap_core::simulate::{self, Runner, Simulator};
 
 /// The wing with its three states, their 3 + 9 responses to changes, and its signals.
-static MOTOR_WING: Runner<motor_wing::MotorWing, 3, 12, { motor_wing::S }> = Runner::new(motor_wing::MotorWing);
+static MOTOR_WING: Runner<motor_wing::MotorWing, 3, 12, { motor_wing::S }> =
+    Runner::new(motor_wing::MotorWing);
 
 fn main() -> ExitCode {
-    flap_cli::run(Models::and(&[&MOTOR_WING]))
+    let own: &[&'static dyn Simulator] = &[&MOTOR_WING];
+    flap_cli::run([simulate::all(), own].concat())
 }

@@ -157,10 +157,7 @@ impl Ode<3> for MotorWing {
     #[inline(always)]
     fn rhs<R: Lanes>(&self, c: &Constants<R>, voltage: &Wave<R>, _side: R, y: &[R; 3]) -> [R; 3] {
         let [flap, rate, current] = *y;
-        let torque = c.torque * current
-            - c.bearing_damping * rate
-            - c.stiffness * flap
-            - c.air_torque(rate);
+        let torque = c.torque * current - c.bearing_damping * rate - c.stiffness * flap - c.air_torque(rate);
         let driving = voltage.value - c.resistance * current - c.back_emf * rate;
         [rate, torque / c.inertia, driving * c.inverse_inductance]
     }

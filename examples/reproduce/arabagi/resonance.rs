@@ -46,7 +46,8 @@ pub(super) fn claims() -> Vec<Claim> {
 /// The 75 Hz system after an impulse.
 pub(super) fn small_motions() -> Vec<Claim> {
     let values = system_75().params.to_values();
-    let modes = bench().model.modes(&values).expect("the preset is possible").map(|mode| mode.frequency);
+    let modes =
+        bench().experiments().modes(&values).expect("the preset is possible").map(|mode| mode.frequency);
     let FreeMotion { stroke_peaks, pitch_peaks, .. } = bench().spectra(&values, 0.5_f64.to_radians());
     let [stroke, pitch] = [stroke_peaks, pitch_peaks].map(|peaks| {
         let mut peaks: Vec<f64> = peaks.iter().map(|peak| peak.frequency).collect();

@@ -36,7 +36,7 @@ fn largest_rate(p: &Params) -> f64 {
     let bench = bench();
     let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 400, settled: true };
     let motion =
-        bench.model.trajectory(InstructionSet::best(), &bench.solver, &p.to_values(), &request, &never);
+        bench.motions().trajectory(InstructionSet::best(), &bench.solver, &p.to_values(), &request, &never);
     let motion = motion.expect("the motion settles");
     let rate = motion.columns.iter().position(|column| column == "stroke_rate_rad_s").expect("it is a state");
     motion.rows.iter().map(|row| row[rate].abs()).fold(0.0, f64::max)

@@ -88,7 +88,7 @@ fn fitted(actuator: &Type, impulse: f64, window: u32) -> f64 {
 
 /// Frequency of small motions (Hz).
 fn mode(actuator: &Type) -> f64 {
-    let modes = bench().model.modes(&actuator.params.to_values());
+    let modes = bench().experiments().modes(&actuator.params.to_values());
     modes.expect("published parameters are possible")[0].frequency
 }
 

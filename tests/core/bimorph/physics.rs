@@ -144,7 +144,11 @@ fn settled_motions_are_antisymmetric() {
         let solver =
             SolverSettings { rtol: 1e-9, atol: 1e-11, settle_tol: 1e-6, ..SolverSettings::default() };
         let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 100, settled: true };
-        let motion = model().trajectory(InstructionSet::best(), &solver, &values, &request, &never).unwrap();
+        let motion = model()
+            .motions()
+            .unwrap()
+            .trajectory(InstructionSet::best(), &solver, &values, &request, &never)
+            .unwrap();
         let scale = model_scale(&values);
         for k in 0..50 {
             for i in 0..4 {

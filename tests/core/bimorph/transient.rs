@@ -81,7 +81,11 @@ fn the_envelope_of_the_frequency_sweep_equals_the_reference() {
     let p = Params { drive_voltage_pp: 160.0, ..params("T1") };
     let solver = SolverSettings { rtol: 1e-7, atol: 1e-9, ..SolverSettings::default() };
     let request = ChirpRequest { from: 1.0, to: 1.0 + 15.0 * end, rate: 15.0, samples_per_cycle: 0 };
-    let response = model().chirp(InstructionSet::best(), &solver, &p.to_values(), &request, &never).unwrap();
+    let response = model()
+        .experiments()
+        .unwrap()
+        .chirp(InstructionSet::best(), &solver, &p.to_values(), &request, &never)
+        .unwrap();
     let Trajectory { columns, rows } = response.envelope;
     let column = |name| columns.iter().position(|column| column == name).unwrap();
     let [stroke, pitch] = [column("stroke_pp_deg"), column("pitch_peak_deg")];

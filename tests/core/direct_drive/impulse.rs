@@ -27,7 +27,11 @@ fn released(record: &Record) -> (Vec<Vec<f64>>, DampedSine) {
     let request = ImpulseRequest { stroke_rate: record.number("phidot0"), duration, intervals };
     let values = type_of(record).to_values();
     let model = by_name("direct-drive").unwrap();
-    let motion = model.free_response(InstructionSet::best(), &solver, &values, &request, &never).unwrap();
+    let motion = model
+        .experiments()
+        .unwrap()
+        .free_response(InstructionSet::best(), &solver, &values, &request, &never)
+        .unwrap();
     assert_eq!(motion.rows.len(), intervals as usize + 1);
     let stroke: Vec<f64> = motion.rows.iter().map(|row| row[1]).collect();
     let fit = fit(duration / f64::from(intervals), &stroke);

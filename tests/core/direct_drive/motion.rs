@@ -23,7 +23,8 @@ fn lift_of_a_filmed_motion_equals_the_reference() {
     let record = |name: &str| Samples::new(&times, &column(name), Repeat::Once).unwrap();
     let intervals = u32::try_from(times.len() - 1).unwrap();
     let motion = ImposedMotion { stroke: record("phi_rad"), pitch: record("psi_rad"), samples: intervals };
-    let lift = model().imposed(&Params::ozaki2018_small().to_values(), &motion).unwrap();
+    let lift =
+        model().experiments().unwrap().imposed(&Params::ozaki2018_small().to_values(), &motion).unwrap();
 
     let at = |name: &str| lift.columns.iter().position(|column| column == name).unwrap();
     let peak = |values: &[f64]| values.iter().fold(0.0_f64, |peak, value| peak.max(value.abs()));
@@ -54,7 +55,8 @@ fn a_recorded_sine_drives_like_a_sine() {
     let frequency = 109.0;
     let times: Vec<f64> = (0..=400).map(|i| f64::from(i) / (400.0 * frequency)).collect();
     let wave: Vec<f64> = times.iter().map(|t| (TAU * frequency * t).sin()).collect();
-    let sampled = model().with_samples(Samples::new(&times, &wave, Repeat::Periodic).unwrap());
+    let sampled =
+        model().experiments().unwrap().with_samples(Samples::new(&times, &wave, Repeat::Periodic).unwrap());
     let values = Params::ozaki2018_large().to_values();
     let set = InstructionSet::best();
     let row = sampled.run_point(set, &settings(), &values, None);

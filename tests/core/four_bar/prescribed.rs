@@ -59,7 +59,11 @@ fn the_orbit_begins_where_the_reference_does() {
     let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 8, settled: true };
     for record in table("four-bar/rotation_only.csv") {
         let values = operating_point(&record).to_values();
-        let motion = model().trajectory(InstructionSet::best(), &solver, &values, &request, &never).unwrap();
+        let motion = model()
+            .motions()
+            .unwrap()
+            .trajectory(InstructionSet::best(), &solver, &values, &request, &never)
+            .unwrap();
         let [_, stroke, pitch, stroke_rate, pitch_rate] = [0, 1, 2, 3, 4].map(|i| motion.rows[0][i]);
         assert!(stroke.abs() < 1e-6, "{stroke}");
         let speed = record.number("Theta_rad") * std::f64::consts::TAU * record.number("f_Hz");

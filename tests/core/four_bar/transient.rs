@@ -12,7 +12,11 @@ fn five_cycles_from_rest_equal_the_reference() {
     let solver = SolverSettings { rtol: 1e-9, atol: 1e-11, ..SolverSettings::default() };
     let request = TrajectoryRequest { cycles: 5, samples_per_cycle: 10, settled: false };
     let values = params("sys75").to_values();
-    let motion = model().trajectory(InstructionSet::best(), &solver, &values, &request, &never).unwrap();
+    let motion = model()
+        .motions()
+        .unwrap()
+        .trajectory(InstructionSet::best(), &solver, &values, &request, &never)
+        .unwrap();
     let reference = table("four-bar/transient_sys75.csv");
     assert_eq!(motion.rows.len(), reference.len());
     let mut largest = 0.0_f64;

@@ -19,8 +19,8 @@ use flap_sweep::study::survey;
 use super::{exclusion, far};
 use crate::args::CheckArgs;
 use crate::console;
-use crate::models;
 use crate::failure::{Exit, Failure};
+use crate::models;
 use crate::table::Table;
 
 pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {

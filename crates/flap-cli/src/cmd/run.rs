@@ -65,7 +65,7 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
             samples_per_cycle: args.samples,
             settled: !args.from_rest && !args.once,
         };
-        let motion = chosen.simulator().trajectory(set, &plan.solver, values, &request, &never)?;
+        let motion = chosen.simulator().motions()?.trajectory(set, &plan.solver, values, &request, &never)?;
         if path.as_os_str() == "-" {
             write_csv(&motion, io::stdout().lock())?;
             return Ok(Exit::Done);
@@ -115,7 +115,13 @@ fn chirp(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
         rate: args.chirp_rate.unwrap_or(CHIRP_RATE),
         samples_per_cycle: if args.trajectory.is_some() { args.samples } else { 0 },
     };
-    let response = plan.simulator.chirp(InstructionSet::best(), &plan.solver, values, &request, &never)?;
+    let response = plan.simulator.experiments()?.chirp(
+        InstructionSet::best(),
+        &plan.solver,
+        values,
+        &request,
+        &never,
+    )?;
     if let Some(path) = &args.trajectory {
         write_file(&response.motion, path, args.force, "samples")?;
     }

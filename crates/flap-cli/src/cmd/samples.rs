@@ -29,7 +29,7 @@ pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> 
             format!("the stroke of the model {} cannot be prescribed", chosen.plan.simulator.name());
         return Err(Failure::usage(message).help("models with a parameter stroke_mode can"));
     }
-    chosen.sampled = Some(chosen.plan.simulator.with_samples(samples));
+    chosen.sampled = Some(chosen.plan.simulator.experiments()?.with_samples(samples));
     Ok(())
 }
 

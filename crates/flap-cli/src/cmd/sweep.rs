@@ -12,9 +12,9 @@ use flap_sweep::study::deviation;
 
 use crate::args::SweepArgs;
 use crate::cmd::far;
-use crate::models;
 use crate::failure::{Exit, Failure};
 use crate::job::{self, Begin};
+use crate::models;
 
 pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
     let (mut plan, origin) = plan(args)?;

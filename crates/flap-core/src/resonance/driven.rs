@@ -5,7 +5,7 @@
 
 use crate::num::InstructionSet;
 use crate::parameter::{Invalid, Kind, Parameter};
-use crate::simulate::{Interrupt, Jobs, Point, Row, Simulator, SolverSettings, Status, Unfinished};
+use crate::simulate::{Interrupt, Point, Simulator, SolverSettings, Status, Unfinished, run_list};
 
 /// Intervals of the first grid.
 const COARSE: u32 = 160;
@@ -98,7 +98,7 @@ pub fn search(
     }
     let mut response = Response::new(simulator, values, interrupted)?;
     let mut spacing = (to - from) / f64::from(COARSE);
-    response.add(set, solver, (0..=COARSE).map(|i| from + spacing * f64::from(i)))?;
+    response.add(set, solver, (0..=COARSE).map(|i| from + spacing * f64::from(i)).collect())?;
     let mut tops = response.peaks();
     tops.truncate(PEAKS);
     // The parts of a step of the grid that a double cannot tell apart would refine for ever.
@@ -108,8 +108,7 @@ pub fn search(
             let (begin, middle) = (top.frequency - spacing, FINER / 2);
             (1..FINER).filter(move |&i| i != middle).map(move |i| begin + finer * f64::from(i))
         };
-        let frequencies: Vec<f64> = tops.iter().flat_map(inside).collect();
-        response.add(set, solver, frequencies.into_iter())?;
+        response.add(set, solver, tops.iter().flat_map(inside).collect())?;
         for top in &mut tops {
             *top = response.highest_within(top, spacing);
         }
@@ -173,21 +172,15 @@ impl<'a> Response<'a> {
         &mut self,
         set: InstructionSet,
         solver: &SolverSettings,
-        frequencies: impl Iterator<Item = f64>,
+        frequencies: Vec<f64>,
     ) -> Result<(), Unfinished> {
-        let points = frequencies.map(|frequency| {
+        let points = frequencies.iter().map(|&frequency| {
             let mut values = self.values.to_vec();
             values[self.frequency] = frequency;
-            values
+            Point::at_rest(0, values)
         });
-        let interrupted = self.interrupted;
-        let mut points = Points { values: points.collect(), interrupted, begun: 0, rows: Vec::new() };
-        self.simulator.run(set, solver, &mut points);
-        if interrupted() {
-            return Err(Unfinished::Interrupted);
-        }
-        for (index, row) in points.rows {
-            let frequency = points.values[index][self.frequency];
+        let rows = run_list(self.simulator, set, solver, points.collect(), self.interrupted)?;
+        for (frequency, row) in frequencies.into_iter().zip(rows) {
             match row.status {
                 Status::Periodic => self.settled.push(DrivenPeak {
                     frequency,
@@ -248,31 +241,5 @@ impl<'a> Response<'a> {
             points: self.settled.len() + self.unsettled.len(),
             gaps: self.gaps(),
         }
-    }
-}
-
-/// Points to be run, and their rows.
-struct Points<'a> {
-    interrupted: Interrupt<'a>,
-    values: Vec<Vec<f64>>,
-    begun: usize,
-    rows: Vec<(usize, Row)>,
-}
-
-impl Jobs for Points<'_> {
-    fn next(&mut self, _idle: bool) -> Option<Point> {
-        let values = self.values.get(self.begun)?.clone();
-        self.begun += 1;
-        Some(Point::at_rest(self.begun as u64 - 1, values))
-    }
-
-    fn done(&mut self, index: u64, row: Row) {
-        if let Ok(index) = usize::try_from(index) {
-            self.rows.push((index, row));
-        }
-    }
-
-    fn interrupted(&self) -> bool {
-        (self.interrupted)()
     }
 }

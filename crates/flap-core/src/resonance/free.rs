@@ -7,7 +7,7 @@ use crate::measure::spectrum::{Spectrum, SpectrumPeak};
 use crate::modes::Mode;
 use crate::num::InstructionSet;
 use crate::parameter::Invalid;
-use crate::simulate::{ImpulseRequest, Interrupt, Simulator, SolverSettings, Trajectory, Unfinished};
+use crate::simulate::{Experiments, ImpulseRequest, Interrupt, SolverSettings, Trajectory, Unfinished};
 
 /// The most samples of one motion: they are held in memory.
 pub const INTERVALS_MAX: u32 = 5_000_000;
@@ -61,20 +61,20 @@ pub fn stroke_rate(modes: &[Mode; 2], amplitude: f64) -> Result<f64, Invalid> {
 /// [`Unfinished`] if it is interrupted, the values are impossible together, the request is, or the motion fails on the
 /// way.
 pub fn examine(
-    simulator: &dyn Simulator,
+    model: &dyn Experiments,
     set: InstructionSet,
     solver: &SolverSettings,
     values: &[f64],
     request: &FreeRequest,
     interrupted: Interrupt<'_>,
 ) -> Result<FreeMotion, Unfinished> {
-    let modes = simulator.modes(values)?;
+    let modes = model.modes(values)?;
     let stroke_rate = stroke_rate(&modes, request.amplitude)?;
     let frequency = modes[0].frequency;
     let run = |duration: f64| {
         let intervals = intervals(duration, frequency * f64::from(request.samples_per_cycle))?;
         let impulse = ImpulseRequest { stroke_rate, duration, intervals };
-        let motion = simulator.free_response(set, solver, values, &impulse, interrupted)?;
+        let motion = model.free_response(set, solver, values, &impulse, interrupted)?;
         Ok::<_, Unfinished>((duration / f64::from(intervals), motion))
     };
 

@@ -1,6 +1,6 @@
 //! The resonances of a design point, by the ways in which papers look for them.
 //!
-//! - the natural frequencies of small undamped motions: [`Simulator::modes`](crate::simulate::Simulator::modes)
+//! - the natural frequencies of small undamped motions: [`Experiments::modes`](crate::simulate::Experiments::modes)
 //! - [`free`]: the motion after an impulse: a damped sine fitted to it, the peaks of its spectrum
 //! - [`driven`]: the drive frequency at which the settled stroke is largest
 //!

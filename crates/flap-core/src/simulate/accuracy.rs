@@ -1,59 +1,13 @@
-//! The estimate of a row's error, and the decision to integrate it again.
-//!
-//! An orbit is measured twice: on the orbit that the point's tolerances have, and on the one that tolerances coarser by
-//! [`COARSER`] have. The second is found from the first by one period and the monodromy matrix. The error of the method
-//! goes about as its tolerance, so the difference of the two, divided by that factor, is about the error of the first.
-//!
-//! A row that is not accurate enough is integrated again, from its orbit, with tighter tolerances.
+//! The decision to integrate a point again: a row that is not accurate enough is integrated again from its orbit, with
+//! tighter tolerances.
 
-use super::row;
+use super::estimate::Compared;
+use super::orbit_row;
+use super::row::Row;
 use super::search::Search;
-use super::simulator::{Row, Status};
-use crate::measure::cycle::Totals;
-use crate::model::{Model, SignalCycle};
-use crate::ode::{Ending, Outcome, Start};
-
-/// How many times coarser the tolerances are with which a row is compared.
-pub(super) const COARSER: f64 = 64.0;
-
-/// The share of the difference between the two that counts as error: more than 1/[`COARSER`], as single differences may
-/// be small by chance.
-const SHARE: f64 = 0.5;
-
-/// The least error that a row is said to have, in units of the relative tolerance: about that of finding extrema between
-/// the ends of steps.
-pub(super) const LEAST: f64 = 5.0;
-
-/// Crossings of the switching surface in a period beyond which the motion counts as sliding along the surface: others cross it twice, or
-/// some times more. The error of a sliding motion does not fall as the method's does.
-const MANY_SWITCHES: u64 = 16;
-
-/// A period of the orbit, and one of the orbit that coarser integration has.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Compared<const S: usize> {
-    /// Totals of the orbit's period, unless it failed.
-    pub(super) fine: Option<[Totals<f64>; S]>,
-    /// The ending of the orbit's period.
-    pub(super) ending: Ending,
-    /// Whether it slides along the switching surface.
-    pub(super) slides: bool,
-    /// Totals of the other period, unless that failed.
-    pub(super) coarse: Option<[Totals<f64>; S]>,
-}
-
-impl<const S: usize> Compared<S> {
-    /// Before anything has been integrated.
-    pub(super) fn new() -> Compared<S> {
-        Compared { fine: None, ending: Ending::Stopped, slides: false, coarse: None }
-    }
-
-    /// Takes the totals of the orbit's period, unless it failed.
-    pub(super) fn take_fine(&mut self, totals: Option<[Totals<f64>; S]>, outcome: Outcome) {
-        self.fine = totals;
-        self.ending = outcome.ending;
-        self.slides = outcome.switches > MANY_SWITCHES;
-    }
-}
+use super::status::Status;
+use crate::model::Model;
+use crate::ode::Start;
 
 /// The next step for a point whose orbit has been measured.
 pub(super) enum Verdict<const N: usize> {
@@ -72,9 +26,9 @@ pub(super) fn judge<M: Model<N, S>, const N: usize, const S: usize>(
     last: Option<Row>,
     accuracy: f64,
 ) -> Verdict<N> {
-    let (row, audit) = row::measured(search, model, start, periods);
+    let (row, audit) = orbit_row::measured(search, model, start, periods);
     if row.status != Status::Periodic {
-        return Verdict::Done(last.map_or(row, |last| row::charged(last, search)));
+        return Verdict::Done(last.map_or(row, |last| orbit_row::charged(last, search)));
     }
     let again =
         if periods.slides { None } else { search.refine(row.error_estimate.max(audit.abs()), accuracy) };
@@ -82,25 +36,4 @@ pub(super) fn judge<M: Model<N, S>, const N: usize, const S: usize>(
         Some(y) => Verdict::Again(row, y),
         None => Verdict::Done(row),
     }
-}
-
-/// The largest relative error of the model's principal measures: stroke, pitch, lift, power. Infinite if it cannot be
-/// estimated: the coarser integration failed, or the motion slides along the switching surface.
-pub(super) fn estimate<M: Model<N, S>, const N: usize, const S: usize>(
-    fine: &[SignalCycle; S],
-    coarse: Option<&[SignalCycle; S]>,
-    slides: bool,
-) -> f64 {
-    let Some(coarse) = coarse.filter(|_| !slides) else { return f64::INFINITY };
-    let mut largest = 0.0_f64;
-    for (i, signal) in M::SIGNALS.iter().enumerate() {
-        let Some(measure) = signal.principal else { continue };
-        let [value, other] = [fine, coarse].map(|cycle| cycle[i].measure(measure));
-        let difference = (other - value).abs();
-        // A prescribed stroke has no power, and a wing at rest nothing.
-        if difference > 0.0 {
-            largest = largest.max(SHARE * difference / value.abs());
-        }
-    }
-    largest
 }

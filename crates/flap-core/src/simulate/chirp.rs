@@ -5,86 +5,81 @@
 
 use core::ops::ControlFlow;
 
-use super::motion::{Sampler, check};
-use super::simulator::{ChirpRequest, ChirpResponse, SolverSettings, Trajectory, Unfinished};
+use super::error::{RequestError, Unfinished};
+use super::request::{ChirpRequest, ChirpResponse, Trajectory};
+use super::sampler::Sampler;
+use super::single::{Question, Single};
 use crate::measure::cycle::{Signals, Totals, finish};
 use crate::model::{Measure, Model, Motions};
 use crate::num::{PerLane, Scalar};
+use crate::ode::Start;
 use crate::ode::ensemble::Observer;
 use crate::ode::solve::solve_until;
-use crate::ode::{Interrupt, Start};
-use crate::parameter::Invalid;
 
-/// Sweeps the drive's frequency, from rest.
-pub(super) fn respond<M, R, const N: usize, const S: usize>(
-    model: &M,
-    solver: &SolverSettings,
-    values: &[f64],
-    request: &ChirpRequest,
-    interrupted: Interrupt<'_>,
-) -> Result<ChirpResponse, Unfinished>
-where
-    M: Motions<N, S>,
-    R: Scalar,
+/// The chirp begins at rest.
+impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Question<M, N, K, S>
+    for &ChirpRequest
 {
-    let ChirpRequest { from, to, rate, samples_per_cycle } = *request;
-    if !(from > 0.0 && to > 0.0 && (to - from) * rate > 0.0) {
-        return Err(Invalid::new(format!(
-            "a chirp from {from} Hz cannot reach {to} Hz at {rate} Hz/s: frequencies are more than zero, and \
-             the rate has the sign of the change"
-        ))
-        .into());
-    }
-    let model = &model.variant(values);
-    let start = model.start(values)?;
-    let observer = Signals::<S>::ALL;
-    let mut sampler = Sampler::new(samples_per_cycle);
-    let mut rows = Vec::new();
-    let (mut frequency, mut time, mut y) = (from, 0.0, start.y);
-    // The frequency at the end is rounded: a chirp that has arrived but for that is over.
-    while (to - frequency) * rate > 1e-9 * to * rate.abs() {
-        // One cycle: f T + r T²/2 = 1, ending with the frequency f + r T = √(f² + 2r).
-        let square = frequency * frequency + 2.0 * rate;
-        if square <= 0.0 {
-            break;
-        }
-        let end = square.sqrt();
-        let span = 2.0 / (frequency + end);
-        let (model, constants) = model.chirped(&start.constants, frequency, rate);
-        let cycle = Start { constants, y, span, ..start };
-        let mut totals = Observer::<M, N>::nothing(&observer).map(|one| Totals::<R>::fill((), &one));
-        sampler.begin_cycle(span);
-        let outcome = solve_until::<M, R, N>(
-            &model,
-            &solver.tolerances(),
-            &cycle,
-            interrupted,
-            |c, attempt| {
-                R::enter(
-                    #[inline(always)]
-                    || observer.add(&model, c, attempt, true, &mut totals),
-                );
-                if samples_per_cycle > 0 {
-                    sampler.step(&model, c, attempt);
-                }
-            },
-            |end| {
-                y = *end;
-                ControlFlow::Break(())
-            },
-        );
-        check(outcome.ending, interrupted)?;
+    type Answer = Result<ChirpResponse, Unfinished>;
 
-        let mut row = vec![time, time + span, 1.0 / span];
-        for (signal, cycle) in M::SIGNALS.iter().zip(&finish(&totals.map(|total| total.get(0)), span)) {
-            row.extend(measures(signal.measures).map(|measure| cycle.measure(measure) * signal.unit.factor));
+    fn answer<R: Scalar>(self, point: &Single<'_, M>) -> Result<ChirpResponse, Unfinished> {
+        let Single { model, solver, values, interrupted } = *point;
+        let ChirpRequest { from, to, rate, samples_per_cycle } = *self;
+        if !(from > 0.0 && to > 0.0 && (to - from) * rate > 0.0) {
+            return Err(RequestError::Chirp { from, to, rate }.into());
         }
-        rows.push(row);
-        time += span;
-        frequency = end;
+        let start = model.start(values)?;
+        let observer = Signals::<S>::ALL;
+        let mut sampler = Sampler::new(samples_per_cycle);
+        let mut rows = Vec::new();
+        let (mut frequency, mut time, mut y) = (from, 0.0, start.y);
+        // The frequency at the end is rounded: a chirp that has arrived but for that is over.
+        while (to - frequency) * rate > 1e-9 * to * rate.abs() {
+            // One cycle: f T + r T²/2 = 1, ending with the frequency f + r T = √(f² + 2r).
+            let square = frequency * frequency + 2.0 * rate;
+            if square <= 0.0 {
+                break;
+            }
+            let end = square.sqrt();
+            let span = 2.0 / (frequency + end);
+            let (model, constants) = model.chirped(&start.constants, frequency, rate);
+            let cycle = Start { constants, y, span, ..start };
+            let mut totals = Observer::<M, N>::nothing(&observer).map(|one| Totals::<R>::fill((), &one));
+            sampler.begin_cycle(span);
+            let outcome = solve_until::<M, R, N>(
+                &model,
+                &solver.tolerances(),
+                &cycle,
+                interrupted,
+                |c, attempt| {
+                    R::enter(
+                        #[inline(always)]
+                        || observer.add(&model, c, attempt, true, &mut totals),
+                    );
+                    if samples_per_cycle > 0 {
+                        sampler.step(&model, c, attempt);
+                    }
+                },
+                |end| {
+                    y = *end;
+                    ControlFlow::Break(())
+                },
+            );
+            Unfinished::check(outcome.ending, interrupted)?;
+
+            let mut row = vec![time, time + span, 1.0 / span];
+            for (signal, cycle) in M::SIGNALS.iter().zip(&finish(&totals.map(|total| total.get(0)), span)) {
+                row.extend(
+                    measures(signal.measures).map(|measure| cycle.measure(measure) * signal.unit.factor),
+                );
+            }
+            rows.push(row);
+            time += span;
+            frequency = end;
+        }
+        let envelope = Trajectory { columns: columns::<M, N, S>(), rows };
+        Ok(ChirpResponse { envelope, motion: sampler.finish::<M, N, S>() })
     }
-    let envelope = Trajectory { columns: columns::<M, N, S>(), rows };
-    Ok(ChirpResponse { envelope, motion: sampler.finish::<M, N, S>() })
 }
 
 /// The measures that mean something in a cycle that is not periodic.
@@ -92,6 +87,7 @@ fn measures(of_signal: &[Measure]) -> impl Iterator<Item = Measure> + '_ {
     of_signal.iter().copied().filter(|&measure| measure != Measure::First)
 }
 
+/// Names of the envelope's columns.
 fn columns<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<String> {
     let mut columns = ["begin_s", "end_s", "frequency_hz"].map(str::to_owned).to_vec();
     for signal in M::SIGNALS {

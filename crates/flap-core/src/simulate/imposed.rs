@@ -1,22 +1,20 @@
 //! A motion that is given, stroke and pitch: nothing to integrate, forces to evaluate.
 
-use super::motion::{columns, shown};
-use super::simulator::{ImposedMotion, Trajectory};
+use super::error::{RequestError, Unfinished};
+use super::request::{ImposedMotion, Trajectory};
+use super::sampler::{columns, shown};
 use crate::model::Motions;
-use crate::parameter::Invalid;
 
 /// States and signals along a given motion, at equal distances from its first sample to its last.
 pub(super) fn follow<M: Motions<N, S>, const N: usize, const S: usize>(
     model: &M,
     values: &[f64],
     motion: &ImposedMotion,
-) -> Result<Trajectory, Invalid> {
+) -> Result<Trajectory, Unfinished> {
     let ImposedMotion { stroke, pitch, samples } = motion;
     let (duration, other) = (stroke.duration(), pitch.duration());
     if (duration - other).abs() > 1e-9 * duration {
-        return Err(Invalid::new(format!(
-            "stroke and pitch do not last equally long: {duration} s and {other} s"
-        )));
+        return Err(RequestError::Durations { stroke: duration, pitch: other }.into());
     }
     let model = &model.variant(values);
     let constants = model.start(values)?.constants;

@@ -1,87 +1,58 @@
 //! The free motion after an impulse on the stroke.
 
-use core::ops::ControlFlow;
-
-use super::motion::{Sampler, check};
-use super::simulator::{ImpulseRequest, SolverSettings, Trajectory, Unfinished};
+use super::error::{RequestError, Unfinished};
+use super::request::{ImpulseRequest, Trajectory};
+use super::sampler::sampled;
+use super::single::{Question, Single};
 use crate::model::Motions;
 use crate::num::Scalar;
-use crate::ode::solve::solve_until;
-use crate::ode::{Interrupt, Start};
-use crate::parameter::Invalid;
+use crate::ode::Start;
 
-/// Gives the stroke an impulse and samples the motion that follows.
-pub(super) fn respond<M, R, const N: usize, const S: usize>(
-    model: &M,
-    solver: &SolverSettings,
-    values: &[f64],
-    request: &ImpulseRequest,
-    interrupted: Interrupt<'_>,
-) -> Result<Trajectory, Unfinished>
-where
-    M: Motions<N, S>,
-    R: Scalar,
+/// The drive is held still.
+impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Question<M, N, K, S>
+    for &ImpulseRequest
 {
-    let ImpulseRequest { stroke_rate, duration, intervals } = *request;
-    refuse_nonsense(request)?;
-    let driven = model.variant(values);
-    let Start { constants, mut scale, .. } = driven.start(values)?;
-    let period = 1.0 / M::modes(&constants)[0].frequency;
-    let (model, constants, y) = driven.released(&constants, stroke_rate);
+    type Answer = Result<Trajectory, Unfinished>;
 
-    // Absolute tolerances shrink with a small motion, so that it is as exact as a large one.
-    let largest = y.iter().zip(&scale).fold(0.0_f64, |largest, (y, scale)| largest.max(y.abs() / scale));
-    for scale in &mut scale {
-        *scale *= largest.min(1.0);
+    fn answer<R: Scalar>(self, point: &Single<'_, M>) -> Result<Trajectory, Unfinished> {
+        let Single { model, solver, values, interrupted } = *point;
+        let ImpulseRequest { stroke_rate, duration, intervals } = *self;
+        refuse_nonsense(self)?;
+        let Start { constants, mut scale, .. } = model.start(values)?;
+        let period = 1.0 / M::modes(&constants)[0].frequency;
+        let (model, constants, y) = model.released(&constants, stroke_rate);
+
+        // Absolute tolerances shrink with a small motion, so that it is as exact as a large one.
+        let largest = y.iter().zip(&scale).fold(0.0_f64, |largest, (y, scale)| largest.max(y.abs() / scale));
+        for scale in &mut scale {
+            *scale *= largest.min(1.0);
+        }
+
+        // A span is about a period and a whole number of intervals. The last may reach beyond the duration.
+        let interval = duration / f64::from(intervals);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "within the range of intervals"
+        )]
+        let per_span = (period / interval).round().clamp(1.0, f64::from(intervals)) as u32;
+        let span = interval * f64::from(per_span);
+        let start = Start { constants, y, span, scale, tighten: 1.0 };
+        let spans = intervals.div_ceil(per_span);
+        let mut motion = sampled::<M, R, N, S>(&model, solver, &start, spans, per_span, interrupted)?;
+        motion.rows.truncate(intervals as usize + 1);
+        Ok(motion)
     }
-
-    // A span is about a period and a whole number of intervals. The last may reach beyond the duration.
-    let interval = duration / f64::from(intervals);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "within the range of intervals"
-    )]
-    let per_span = (period / interval).round().clamp(1.0, f64::from(intervals)) as u32;
-    let span = interval * f64::from(per_span);
-    let start = Start { constants, y, span, scale, tighten: 1.0 };
-    let spans = intervals.div_ceil(per_span);
-
-    let mut sampler = Sampler::new(per_span);
-    let mut ended = 0;
-    let outcome = solve_until::<M, R, N>(
-        &model,
-        &solver.tolerances(),
-        &start,
-        interrupted,
-        |c, attempt| {
-            if attempt.t.lane(0) == 0.0 {
-                sampler.begin_cycle(span);
-            }
-            sampler.step(&model, c, attempt);
-        },
-        |_| {
-            ended += 1;
-            if ended == spans { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        },
-    );
-    check(outcome.ending, interrupted)?;
-    let mut motion = sampler.finish::<M, N, S>();
-    motion.rows.truncate(intervals as usize + 1);
-    Ok(motion)
 }
 
-fn refuse_nonsense(request: &ImpulseRequest) -> Result<(), Invalid> {
+/// Checks that there is an impulse, and a motion to sample.
+fn refuse_nonsense(request: &ImpulseRequest) -> Result<(), RequestError> {
     let ImpulseRequest { stroke_rate, duration, intervals } = *request;
     if !(stroke_rate.is_finite() && stroke_rate != 0.0) {
-        return Err(Invalid::new(format!(
-            "an impulse cannot give the stroke a rate of {stroke_rate} rad/s: any finite number but zero"
-        )));
+        return Err(RequestError::StrokeRate(stroke_rate));
     }
     if !(duration.is_finite() && duration > 0.0) || intervals == 0 {
-        return Err(Invalid::new(format!(
-            "a motion cannot be sampled over {duration} s in {intervals} intervals: both are more than zero"
-        )));
+        return Err(RequestError::Sampling { duration, intervals });
     }
     Ok(())
 }

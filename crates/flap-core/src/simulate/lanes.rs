@@ -7,17 +7,22 @@
 
 use core::ops::ControlFlow;
 
-use super::accuracy::{Compared, Verdict, judge};
-use super::row;
-use super::search::{Next, Search, begin};
-use super::simulator::{Jobs, LaneUse, Point, Row, SolverSettings};
-use crate::measure::cycle::{Signals, Totals};
+use super::accuracy::{Verdict, judge};
+use super::begin::begin;
+use super::estimate::Compared;
+use super::jobs::{Jobs, LaneUse, Point};
+use super::orbit_row;
+use super::queues::{Paused, PeriodEnd, Periods, Searched, Varying};
+use super::row::Row;
+use super::search::{Next, Search};
+use super::settings::SolverSettings;
+use crate::measure::cycle::Signals;
 use crate::measure::size::Size;
 use crate::model::Model;
 use crate::num::{Kernel, Lanes, Simd, Vector};
-use crate::ode::ensemble::{NewRun, Queue, Unobserved, run};
+use crate::ode::ensemble::{NewRun, Observer, Queue, Unobserved, run};
 use crate::ode::variation::Variation;
-use crate::ode::{Ode, Outcome, Start};
+use crate::ode::{Outcome, Start};
 
 /// Runs near their orbits that go on together: many times the lanes, some of which are empty while the last runs end.
 const BATCH: usize = 256;
@@ -26,24 +31,19 @@ const BATCH: usize = 256;
 /// are lanes, so that lanes are seldom empty.
 const ASIDE: usize = 512;
 
-/// The points of `jobs` on SIMD lanes.
-pub(super) struct LanesKernel<'a, M> {
+/// The points of `jobs` on SIMD lanes, for a model with N states, K = N (N + 1) states and responses, and S signals.
+pub(super) struct LanesKernel<'a, M, const N: usize, const K: usize, const S: usize> {
     pub(super) model: &'a M,
     pub(super) solver: &'a SolverSettings,
     pub(super) jobs: &'a mut dyn Jobs,
 }
 
-/// [`LanesKernel`] with the sizes of its model.
-pub(super) struct Sized<W, const N: usize, const K: usize, const S: usize>(pub(super) W);
-
-impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Kernel
-    for Sized<LanesKernel<'_, M>, N, K, S>
-{
+impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Kernel for LanesKernel<'_, M, N, K, S> {
     type Output = ();
 
     #[inline(always)]
     fn run<I: Simd>(self, simd: I) {
-        let LanesKernel { model, solver, jobs } = self.0;
+        let LanesKernel { model, solver, jobs } = self;
         let tolerances = solver.tolerances();
         let mut waiting: Vec<(M, Point)> = Vec::new();
         let mut lane_use = LaneUse::default();
@@ -82,7 +82,7 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Kernel
     }
 }
 
-/// The queue of the first ensemble.
+/// The queue of the first ensemble: points that march.
 struct Marching<'a, I, M: Model<N, S>, const N: usize, const K: usize, const S: usize> {
     simd: I,
     model: &'a M,
@@ -95,18 +95,6 @@ struct Marching<'a, I, M: Model<N, S>, const N: usize, const K: usize, const S: 
     /// Runs whose iteration has failed, and the state from which they march on.
     resumed: Vec<Paused<M::Constants<f64>, N>>,
     lane_use: LaneUse,
-}
-
-/// A run that is in no lane, and the state from which it goes on.
-type Paused<C, const N: usize> = (Searched<C, N>, [f64; N]);
-
-/// A run on its way to its orbit.
-struct Searched<C, const N: usize> {
-    index: u64,
-    start: Start<C, N>,
-    search: Search<N>,
-    /// The row from an orbit that is being found again, more exactly.
-    last: Option<Row>,
 }
 
 impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Marching<'_, I, M, N, K, S> {
@@ -153,54 +141,14 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
         if self.near.is_empty() {
             return;
         }
-        let tolerances = self.solver.tolerances();
-        let pending = std::mem::take(&mut self.near);
-        let mut varying = Varying::<_, N, K> { jobs: &*self.jobs, pending, done: Vec::new() };
-        self.lane_use.varying +=
-            run(self.simd, &Variation(self.model), &Unobserved, &tolerances, &mut varying);
-        let Varying { pending, done, .. } = varying;
+        let mut orbits = self.find();
+        let compared = self.measure(&mut orbits);
         if self.jobs.interrupted() {
             return;
         }
-        let mut orbits = Vec::new();
-        for (mut run, next) in done {
-            match (next, run.search.orbit()) {
-                (Next::March(y), _) => self.resumed.push((run, y)),
-                (_, Some(_)) => orbits.push(run),
-                (_, None) => self.jobs.done(run.index, row::unsettled(&run.search, run.last.take())),
-            }
-        }
-        self.near = pending;
-
-        let mut departing = Departing { jobs: &*self.jobs, orbits: &mut orbits, next: 0, ends: Vec::new() };
-        self.lane_use.measuring += run(self.simd, self.model, &Unobserved, &tolerances, &mut departing);
-        let ends = departing.ends;
-        let mut periods = vec![Compared::new(); orbits.len()];
-        for (signals, is_coarse) in [(Signals::ALL, false), (Signals::MEANS, true)] {
-            let starts = orbits.iter().zip(&ends).enumerate().filter_map(|(position, (run, end))| {
-                let orbit = run.search.orbit()?;
-                let start = if is_coarse {
-                    run.search.coarse(&run.start, &run.search.coarse_orbit(end.as_ref()?)?)
-                } else {
-                    run.search.start(&run.start, &orbit.y)
-                };
-                Some((position, start))
-            });
-            let mut measuring = Measuring {
-                jobs: &*self.jobs,
-                starts: starts.collect::<Vec<_>>().into_iter(),
-                orbits: &mut orbits,
-                periods: &mut periods,
-                is_coarse,
-            };
-            self.lane_use.measuring += run(self.simd, self.model, &signals, &tolerances, &mut measuring);
-        }
-        if self.jobs.interrupted() {
-            return;
-        }
-        for (mut run, periods) in orbits.into_iter().zip(periods) {
+        for (mut run, compared) in orbits.into_iter().zip(compared) {
             let Searched { index, start, search, last } = &mut run;
-            match judge(search, self.model, start, &periods, last.take(), self.solver.accuracy) {
+            match judge(search, self.model, start, &compared, last.take(), self.solver.accuracy) {
                 Verdict::Done(row) => self.jobs.done(*index, row),
                 Verdict::Again(row, y) => {
                     *last = Some(row);
@@ -208,6 +156,73 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
                 }
             }
         }
+    }
+
+    /// Runs Newton's iteration of the runs that are near their orbits, and returns those that have found them. Others
+    /// march on, or have their rows. Interrupted, none has found its orbit.
+    fn find(&mut self) -> Vec<Searched<M::Constants<f64>, N>> {
+        let pending = std::mem::take(&mut self.near);
+        let mut varying = Varying::<_, N, K> { jobs: &*self.jobs, pending, done: Vec::new() };
+        let ode = Variation(self.model);
+        self.lane_use.varying += run(self.simd, &ode, &Unobserved, &self.solver.tolerances(), &mut varying);
+        let Varying { pending, done, .. } = varying;
+        self.near = pending;
+        let mut orbits = Vec::new();
+        if self.jobs.interrupted() {
+            return orbits;
+        }
+        for (mut run, next) in done {
+            match (next, run.search.orbit()) {
+                (Next::March(y), _) => self.resumed.push((run, y)),
+                (_, Some(_)) => orbits.push(run),
+                (_, None) => self.jobs.done(run.index, orbit_row::unsettled(&run.search, run.last.take())),
+            }
+        }
+        orbits
+    }
+
+    /// Integrates a period of each orbit, and one of the orbit that coarser tolerances have.
+    fn measure(&mut self, orbits: &mut [Searched<M::Constants<f64>, N>]) -> Vec<Compared<S>> {
+        let start =
+            |run: &Searched<_, N>| Some(run.search.precision().coarse(&run.start, &run.search.orbit()?.y));
+        let departing = orbits.iter().map(start).collect();
+        let mut ends = vec![None; orbits.len()];
+        for PeriodEnd { position, end, outcome } in self.periods(&Unobserved, departing) {
+            orbits[position].search.charge(outcome);
+            ends[position] = end.map(|(y, ())| y);
+        }
+
+        let mut compared = vec![Compared::new(); orbits.len()];
+        let start =
+            |run: &Searched<_, N>| Some(run.search.precision().start(&run.start, &run.search.orbit()?.y));
+        let fine = orbits.iter().map(start).collect();
+        for PeriodEnd { position, end, outcome } in self.periods(&Signals::ALL, fine) {
+            orbits[position].search.charge(outcome);
+            compared[position].take_fine(end.map(|(_, totals)| totals), outcome);
+        }
+
+        let start = |(run, end): (&Searched<_, N>, &Option<[f64; N]>)| {
+            let y = run.search.coarse_orbit(end.as_ref()?)?;
+            Some(run.search.precision().coarse(&run.start, &y))
+        };
+        let coarse = orbits.iter().zip(&ends).map(start).collect();
+        for PeriodEnd { position, end, outcome } in self.periods(&Signals::MEANS, coarse) {
+            orbits[position].search.charge(outcome);
+            compared[position].coarse = end.map(|(_, totals)| totals);
+        }
+        compared
+    }
+
+    /// Integrates a period from each start, as far as there are any, and observes it.
+    fn periods<V: Observer<M, N>>(
+        &mut self,
+        observer: &V,
+        starts: Vec<Option<Start<M::Constants<f64>, N>>>,
+    ) -> Vec<PeriodEnd<V::Totals<f64>, N>> {
+        let mut queue = Periods::new(&*self.jobs, starts);
+        self.lane_use.measuring +=
+            run(self.simd, self.model, observer, &self.solver.tolerances(), &mut queue);
+        queue.ended
     }
 }
 
@@ -218,7 +233,7 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Qu
 
     fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, N>> {
         if let Some((run, y)) = self.resumed.pop() {
-            let start = run.search.start(&run.start, &y);
+            let start = run.search.precision().start(&run.start, &y);
             return Some((run, start));
         }
         loop {
@@ -241,131 +256,10 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Qu
         match run.search.marched(outcome) {
             Next::Vary(y) => self.near.push((run, y)),
             Next::March(y) => self.resumed.push((run, y)),
-            Next::Done => self.jobs.done(run.index, row::unsettled(&run.search, None)),
+            Next::Done => self.jobs.done(run.index, orbit_row::unsettled(&run.search, None)),
         }
         if self.near.len() >= BATCH {
             self.find_and_measure();
-        }
-    }
-
-    fn interrupted(&self) -> bool {
-        self.jobs.interrupted()
-    }
-}
-
-/// The queue of the second ensemble.
-struct Varying<'a, C, const N: usize, const K: usize> {
-    jobs: &'a dyn Jobs,
-    pending: Vec<Paused<C, N>>,
-    done: Vec<(Searched<C, N>, Next<N>)>,
-}
-
-impl<M: Ode<N>, const N: usize, const K: usize> Queue<Variation<'_, M, N>, Unobserved, K>
-    for Varying<'_, M::Constants<f64>, N, K>
-{
-    /// The run, and the end of its period.
-    type Run = (Searched<M::Constants<f64>, N>, Option<[f64; K]>);
-
-    fn next(&mut self, _idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, K>> {
-        let (run, y) = self.pending.pop()?;
-        let start = run.search.responding(&run.start, &y);
-        Some(((run, None), start))
-    }
-
-    fn span_end(&mut self, (_, end): &mut Self::Run, all: &[f64; K], (): &()) -> ControlFlow<()> {
-        *end = Some(*all);
-        ControlFlow::Break(())
-    }
-
-    fn ended(&mut self, (mut run, end): Self::Run, outcome: Outcome) {
-        match run.search.varied(end.as_ref(), outcome) {
-            Next::Vary(y) => self.pending.push((run, y)),
-            next => self.done.push((run, next)),
-        }
-    }
-
-    fn interrupted(&self) -> bool {
-        self.jobs.interrupted()
-    }
-}
-
-/// The queue of the third ensemble: a period of each orbit with coarser tolerances, which leads away from it.
-struct Departing<'a, C, const N: usize> {
-    jobs: &'a dyn Jobs,
-    orbits: &'a mut [Searched<C, N>],
-    next: usize,
-    /// Ends of the periods, by the position of their orbit.
-    ends: Vec<Option<[f64; N]>>,
-}
-
-impl<M: Ode<N>, const N: usize> Queue<M, Unobserved, N> for Departing<'_, M::Constants<f64>, N> {
-    /// The orbit's position.
-    type Run = usize;
-
-    fn next(&mut self, _idle: bool) -> Option<NewRun<usize, M::Constants<f64>, N>> {
-        let run = self.orbits.get(self.next)?;
-        let y = run.search.orbit().map_or(run.start.y, |orbit| orbit.y);
-        self.ends.push(None);
-        self.next += 1;
-        Some((self.next - 1, run.search.coarse(&run.start, &y)))
-    }
-
-    fn span_end(&mut self, position: &mut usize, y: &[f64; N], (): &()) -> ControlFlow<()> {
-        self.ends[*position] = Some(*y);
-        ControlFlow::Break(())
-    }
-
-    fn ended(&mut self, position: usize, outcome: Outcome) {
-        self.orbits[position].search.charge(outcome);
-    }
-
-    fn interrupted(&self) -> bool {
-        self.jobs.interrupted()
-    }
-}
-
-/// The queue of the fourth ensemble: a period of each orbit, or one of the orbit that coarser tolerances have.
-struct Measuring<'a, Q, C, const N: usize, const S: usize> {
-    jobs: &'a dyn Jobs,
-    /// The beginnings of the periods, each with the position of its orbit.
-    starts: Q,
-    orbits: &'a mut [Searched<C, N>],
-    /// The totals of the periods, by the position of their orbit.
-    periods: &'a mut [Compared<S>],
-    is_coarse: bool,
-}
-
-/// A period that is being measured.
-struct Measured<const S: usize> {
-    position: usize,
-    totals: Option<[Totals<f64>; S]>,
-}
-
-impl<M, Q, const N: usize, const S: usize> Queue<M, Signals<S>, N>
-    for Measuring<'_, Q, M::Constants<f64>, N, S>
-where
-    M: Model<N, S>,
-    Q: Iterator<Item = (usize, Start<M::Constants<f64>, N>)>,
-{
-    type Run = Measured<S>;
-
-    fn next(&mut self, _idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, N>> {
-        let (position, start) = self.starts.next()?;
-        Some((Measured { position, totals: None }, start))
-    }
-
-    fn span_end(&mut self, run: &mut Self::Run, _y: &[f64; N], totals: &[Totals<f64>; S]) -> ControlFlow<()> {
-        run.totals = Some(*totals);
-        ControlFlow::Break(())
-    }
-
-    fn ended(&mut self, Measured { position, totals }: Self::Run, outcome: Outcome) {
-        self.orbits[position].search.charge(outcome);
-        let periods = &mut self.periods[position];
-        if self.is_coarse {
-            periods.coarse = totals;
-        } else {
-            periods.take_fine(totals, outcome);
         }
     }
 

@@ -1,26 +1,50 @@
 //! Design points in, rows out: models as sweeps, the command line and Python see them.
 //!
-//! [`Rows`] and [`Simulator`] hide what differs between models; [`all`] lists them.
+//! A [`Simulator`] is the face of a model for sweeps; [`Motions`] and [`Experiments`] are its faces for single motions.
+//! [`Runner`] gives them to a [`Model`](crate::model::Model). [`all`] lists the models of this crate.
 
 mod accuracy;
+mod begin;
 mod chirp;
+mod column;
+mod cycle;
+mod error;
+mod estimate;
 mod imposed;
 mod impulse;
+mod jobs;
 mod lanes;
-mod motion;
+mod list;
+mod march;
 mod newton;
+mod orbit_row;
 mod period;
+mod precision;
+mod queues;
+mod request;
 mod row;
 mod runner;
-mod scalar;
+mod sampler;
 mod search;
+mod settings;
 mod settle;
 mod simulator;
+mod single;
+mod status;
+mod trajectory;
 
-pub use simulator::{
-    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, LaneUse, Period, Point, Row,
-    Rows, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest, Unfinished,
+pub use column::Column;
+pub use error::{RequestError, Unfinished};
+pub use jobs::{Jobs, LaneUse, Point};
+pub use list::run_list;
+pub use request::{
+    ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, Trajectory, TrajectoryRequest,
 };
+pub use row::Row;
+pub use runner::Runner;
+pub use settings::{Setting, SettingKind, SolverSettings};
+pub use simulator::{Experiments, Motions, Rows, Simulator};
+pub use status::Status;
 
 pub use crate::ode::{Interrupt, never};
 
@@ -29,12 +53,11 @@ use crate::model::bimorph::Bimorph;
 use crate::model::direct_drive::{DirectDrive, FlowDirection};
 use crate::model::four_bar::FourBar;
 use crate::parameter::Preset;
-use runner::Runner;
 
-static BIMORPH: Runner<Bimorph, 4, 20, 15> = Runner::new(Bimorph { drive: Drive::SINE });
+static BIMORPH: Runner<Bimorph, 4, 20, 15> = Runner::with_experiments(Bimorph { drive: Drive::SINE });
 static DIRECT_DRIVE: Runner<DirectDrive, 4, 20, 10> =
-    Runner::new(DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform });
-static FOUR_BAR: Runner<FourBar, 4, 20, 17> = Runner::new(FourBar { drive: Drive::SINE });
+    Runner::with_experiments(DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform });
+static FOUR_BAR: Runner<FourBar, 4, 20, 17> = Runner::with_experiments(FourBar { drive: Drive::SINE });
 static ALL: &[&dyn Simulator] = &[&BIMORPH, &DIRECT_DRIVE, &FOUR_BAR];
 
 /// Every model, in the order `flap models` lists them.

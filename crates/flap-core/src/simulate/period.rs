@@ -1,57 +1,41 @@
 //! One drive period from a state, whether it repeats or not.
 
-use core::ops::ControlFlow;
-
-use super::motion::check;
-use super::row::measures;
-use super::scalar::cycle;
-use super::search::{begin, varied};
-use super::simulator::{Period, SolverSettings, Unfinished};
+use super::begin::{begin, varied};
+use super::cycle::{cycle, end_of_period};
+use super::error::Unfinished;
+use super::orbit_row::measures;
+use super::request::Period;
+use super::single::{Question, Single};
 use crate::measure::cycle::Signals;
 use crate::model::Model;
 use crate::num::Scalar;
-use crate::ode::Interrupt;
-use crate::ode::solve::solve_until;
 use crate::ode::variation::{Variation, response};
 
-/// Follows a point from the state `from` for one drive period.
-pub(super) fn from<M, R, const N: usize, const K: usize, const S: usize>(
-    model: &M,
-    solver: &SolverSettings,
-    values: &[f64],
-    from: &[f64],
-    interrupted: Interrupt<'_>,
-) -> Result<Period, Unfinished>
-where
-    M: Model<N, S>,
-    R: Scalar,
-{
-    let model = &model.variant(values);
-    let start = begin(model, values, Some(from))?;
-    let mut all = [0.0; K];
-    let outcome = solve_until::<Variation<'_, M, N>, R, K>(
-        &Variation(model),
-        &solver.tolerances(),
-        &varied(&start, &start.scale),
-        interrupted,
-        |_, _| {},
-        |end| {
-            all = *end;
-            ControlFlow::Break(())
-        },
-    );
-    check(outcome.ending, interrupted)?;
-    let varied = outcome.rhs_evals * (N as u64 + 1);
-    let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start, Signals::ALL, interrupted);
-    check(outcome.ending, interrupted)?;
-    let measures = totals.map(|totals| measures(model, &start.constants, &totals, start.span));
-    Ok(Period {
-        end: all[..N].to_vec(),
-        responses: (0..N)
-            .map(|j| response::<N, K>(&all, j).map(|change| change / start.scale[j]).to_vec())
-            .collect(),
-        scale: start.scale.to_vec(),
-        measures: measures.unwrap_or_default(),
-        rhs_evals: varied + outcome.rhs_evals,
-    })
+/// The period that begins at this state.
+pub(super) struct PeriodFrom<'a>(pub(super) &'a [f64]);
+
+impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M, N, K, S> for PeriodFrom<'_> {
+    type Answer = Result<Period, Unfinished>;
+
+    fn answer<R: Scalar>(self, point: &Single<'_, M>) -> Result<Period, Unfinished> {
+        let Single { model, solver, values, interrupted } = *point;
+        let start = begin(model, values, Some(self.0))?;
+        let from = varied(&start, &start.scale);
+        let (all, outcome) = end_of_period::<_, R, K>(&Variation(model), solver, &from, interrupted);
+        Unfinished::check(outcome.ending, interrupted)?;
+        let all = all.ok_or(Unfinished::Interrupted)?;
+        let varied = outcome.rhs_evals * (N as u64 + 1);
+        let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start, Signals::ALL, interrupted);
+        Unfinished::check(outcome.ending, interrupted)?;
+        let measures = totals.map(|totals| measures(model, &start.constants, &totals, start.span));
+        Ok(Period {
+            end: all[..N].to_vec(),
+            responses: (0..N)
+                .map(|j| response::<N, K>(&all, j).map(|change| change / start.scale[j]).to_vec())
+                .collect(),
+            scale: start.scale.to_vec(),
+            measures: measures.unwrap_or_default(),
+            rhs_evals: varied + outcome.rhs_evals,
+        })
+    }
 }

@@ -1,160 +1,67 @@
-//! From an orbit or a failure to a row.
+//! Rows: results of points.
 
-use super::accuracy::{Compared, LEAST, estimate};
-use super::search::Search;
-use super::simulator::{Column, Row, Status};
-use crate::measure::cycle::{Totals, finish};
-use crate::model::{Measure, Model, SignalCycle};
-use crate::ode::{Ending, Start};
-use crate::parameter::Invalid;
+use core::fmt::Display;
 
-/// The columns of a model: its signals' measures, then what is derived from them.
-pub(super) fn columns<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<Column> {
-    let measured = M::SIGNALS.into_iter().flat_map(|signal| {
-        signal.measures.iter().map(move |measure| Column {
-            name: format!("{}_{}_{}", signal.name, measure.name(), signal.unit.suffix),
-            unit: signal.unit.name,
-            doc: format!("{} {}", measure.describe(), signal.doc),
-        })
-    });
-    let derived = M::DERIVED.iter().map(|derived| Column {
-        name: derived.name.to_owned(),
-        unit: derived.unit,
-        doc: derived.doc.to_owned(),
-    });
-    measured.chain(derived).collect()
-}
+use super::status::Status;
 
-/// The measures of a periodic cycle, one per column.
-pub(super) fn measures<M: Model<N, S>, const N: usize, const S: usize>(
-    model: &M,
-    c: &M::Constants<f64>,
-    totals: &[Totals<f64>; S],
-    period: f64,
-) -> Vec<f64> {
-    values(model, c, &on_orbit::<M, N, S>(totals, period))
-}
-
-/// The signals of a periodic cycle.
-fn on_orbit<M: Model<N, S>, const N: usize, const S: usize>(
-    totals: &[Totals<f64>; S],
-    period: f64,
-) -> [SignalCycle; S] {
-    let mut cycle = finish(totals, period);
-    if let Some(energy) = M::ENERGY {
-        energy.close(&mut cycle);
-    }
-    cycle
-}
-
-fn values<M: Model<N, S>, const N: usize, const S: usize>(
-    model: &M,
-    c: &M::Constants<f64>,
-    cycle: &[SignalCycle; S],
-) -> Vec<f64> {
-    let mut values = Vec::new();
-    for (signal, cycle) in M::SIGNALS.iter().zip(cycle) {
-        values.extend(signal.measures.iter().map(|&measure| cycle.measure(measure) * signal.unit.factor));
-    }
-    values.extend(M::DERIVED.iter().map(|derived| (derived.value)(model, c, cycle)));
-    values
-}
-
-/// The row of a point whose search has ended without an orbit of one drive period; or the `last` row that it has, if it
-/// was an orbit to be found more exactly.
-pub(super) fn unsettled<const N: usize>(search: &Search<N>, last: Option<Row>) -> Row {
-    if let Some(last) = last {
-        return charged(last, search);
-    }
-    let status = match (search.ending(), search.period()) {
-        (Ending::Stopped, Some(_)) => Status::Subharmonic,
-        (Ending::Stopped, None) => Status::Unsettled,
-        (Ending::Diverged, _) => Status::Diverged,
-        (Ending::StepLimit, _) => Status::StepLimit,
-    };
-    row(search, status)
-}
-
-/// The row of a point after a period of its orbit, and one with coarser tolerances, have been integrated, and its energy
-/// audit.
-pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
-    search: &Search<N>,
-    model: &M,
-    start: &Start<M::Constants<f64>, N>,
-    periods: &Compared<S>,
-) -> (Row, f64) {
-    let status = match periods.ending {
-        Ending::Stopped => Status::Periodic,
-        Ending::Diverged => Status::Diverged,
-        Ending::StepLimit => Status::StepLimit,
-    };
-    let mut row = row(search, status);
-    let mut audit = f64::NAN;
-    let cycle = |totals: &[Totals<f64>; S]| on_orbit::<M, N, S>(totals, start.span);
-    if let Some(fine) = periods.fine.as_ref().map(cycle) {
-        row.measures = values(model, &start.constants, &fine);
-        let coarse = periods.coarse.as_ref().map(cycle);
-        row.error_estimate =
-            estimate::<M, N, S>(&fine, coarse.as_ref(), periods.slides).max(LEAST * search.rtol());
-        audit = M::ENERGY.map_or(0.0, |energy| energy.audit(&fine));
-        if is_at_rest::<M, N, S>(&fine) {
-            row.floquet_max = f64::NAN;
-        }
-    }
-    // An infinite measure is a motion that has diverged as far as numbers go. NaN is a ratio of zeros.
-    if row.measures.iter().any(|measure| measure.is_infinite()) {
-        row.status = Status::Diverged;
-        row.measures.clear();
-    }
-    if row.status != Status::Periodic {
-        row.period = 0;
-        row.floquet_max = f64::NAN;
-        row.error_estimate = f64::NAN;
-    }
-    (row, audit)
-}
-
-/// Whether the wing does not move, but for rounding: the first harmonics of its angles are nothing beside the angles.
-fn is_at_rest<M: Model<N, S>, const N: usize, const S: usize>(cycle: &[SignalCycle; S]) -> bool {
-    let mut angles =
-        M::SIGNALS.iter().zip(cycle).filter(|(signal, _)| signal.principal == Some(Measure::First));
-    angles.all(|(_, angle)| angle.measure(Measure::First) <= 1e-12 * angle.measure(Measure::Peak))
-}
-
-/// A row with all that its point has cost.
-pub(super) fn charged<const N: usize>(row: Row, search: &Search<N>) -> Row {
-    Row { cycles: search.cycles(), rhs_evals: search.rhs_evals(), ..row }
-}
-
-fn row<const N: usize>(search: &Search<N>, status: Status) -> Row {
-    Row {
-        status,
-        measures: Vec::new(),
-        cycles: search.cycles(),
-        residual: search.residual(),
-        period: search.period().unwrap_or(0),
-        floquet_max: search.floquet_max(),
-        state: search.state().map_or_else(Vec::new, |state| state.to_vec()),
-        error_estimate: f64::NAN,
-        rhs_evals: search.rhs_evals(),
-        reason: None,
-    }
+/// Result of one point's run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The result in one word.
+    pub status: Status,
+    /// One value per column of the model if the point is on an orbit of one drive period, otherwise empty.
+    pub measures: Vec<f64>,
+    /// Drive periods integrated, measuring included.
+    pub cycles: u32,
+    /// Change of the strobed state over the last orbit period, in units of each state's typical size.
+    /// NaN if no period was completed.
+    pub residual: f64,
+    /// Drive periods per orbit: 1, or more for a subharmonic; 0 if no orbit was found.
+    pub period: u32,
+    /// Largest modulus of the orbit's Floquet multipliers: a change of the state grows or decays by this factor per
+    /// orbit in the end. NaN without an orbit, and for a wing at rest: forces that go with the square of a speed have
+    /// no linear part there.
+    pub floquet_max: f64,
+    /// Estimate of the largest relative error that the integration makes in stroke, pitch, lift and power: see
+    /// `docs/numerics.md`. Infinite if it cannot be estimated, NaN without measures.
+    pub error_estimate: f64,
+    /// The state at the end of the last drive period, on the orbit if there is one. Empty if no period was completed.
+    pub state: Vec<f64>,
+    /// Right-hand sides evaluated by the integrator.
+    pub rhs_evals: u64,
+    /// The reason why the parameters are invalid.
+    pub reason: Option<String>,
 }
 
 impl Row {
-    /// The row of a point whose parameters are impossible together.
-    pub fn invalid(error: Invalid) -> Row {
+    /// A row that says nothing but its status: no period has been completed.
+    pub(super) fn empty(status: Status) -> Row {
         Row {
-            status: Status::Invalid,
+            status,
             measures: Vec::new(),
             cycles: 0,
             residual: f64::NAN,
             period: 0,
             floquet_max: f64::NAN,
-            state: Vec::new(),
             error_estimate: f64::NAN,
+            state: Vec::new(),
             rhs_evals: 0,
-            reason: Some(error.into_reason()),
+            reason: None,
+        }
+    }
+
+    /// The row of a point whose parameters are impossible together, with the reason.
+    pub fn invalid(reason: impl Display) -> Row {
+        Row { reason: Some(reason.to_string()), ..Row::empty(Status::Invalid) }
+    }
+
+    /// True if motions near the orbit approach it; `None` without an orbit.
+    pub fn stable(&self) -> Option<bool> {
+        match (self.period, self.floquet_max.is_nan()) {
+            (0, _) => None,
+            // At rest: without drive every motion dies away.
+            (_, true) => Some(true),
+            (_, false) => Some(self.floquet_max < 1.0),
         }
     }
 }

@@ -1,40 +1,189 @@
-//! A model behind the object-safe [`Simulator`].
+//! A model behind the object-safe faces [`Simulator`], [`Motions`] and [`Experiments`].
 
 use std::sync::OnceLock;
 
-use super::lanes::{LanesKernel, Sized};
-use super::scalar::Scalars;
-use super::simulator::{
-    ChirpRequest, ChirpResponse, Column, ImposedMotion, ImpulseRequest, Jobs, Period, Row, Rows, Simulator,
-    SolverSettings, Trajectory, TrajectoryRequest, Unfinished,
+use super::column::{Column, columns};
+use super::error::Unfinished;
+use super::imposed;
+use super::jobs::Jobs;
+use super::lanes::LanesKernel;
+use super::period::PeriodFrom;
+use super::request::{
+    ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, Trajectory, TrajectoryRequest,
 };
-use super::{imposed, row};
+use super::row::Row;
+use super::settings::SolverSettings;
+use super::settle::RowFrom;
+use super::simulator::{Experiments, Motions, Rows, Simulator};
+use super::single::{Question, Single};
 use crate::drive::Samples;
-use crate::model::{Model, Motions};
+use crate::model::{self, Model};
 use crate::modes::Mode;
 use crate::num::InstructionSet;
 use crate::ode::{Interrupt, never};
-use crate::parameter::{Invalid, Parameter, Preset};
+use crate::parameter::{Parameter, Preset};
 
-/// A model with N states, K = N (N + 1) states and responses, and S signals.
-pub(super) struct Runner<M, const N: usize, const K: usize, const S: usize> {
+/// A model behind the object-safe faces: all that a sweep needs of a model of one's own.
+///
+/// The model has N states, K = N (N + 1) states and responses to their changes, and S signals. K cannot be computed from N
+/// in a type; [`Runner::new`] does not compile with another.
+///
+/// A driven oscillator, with the drive at its resonance:
+///
+/// ```
+/// use flap_core::drive::{DriveConstants, WaveformParameters};
+/// use flap_core::model::{Derived, Description, Measure, Model, Signal, Unit};
+/// use flap_core::num::{InstructionSet, Lanes};
+/// use flap_core::ode::{Ode, Start};
+/// use flap_core::parameter::Kind::Number;
+/// use flap_core::parameter::Range::Positive;
+/// use flap_core::parameter::{Invalid, Preset};
+/// use flap_core::simulate::{Rows, Runner, Simulator, SolverSettings, Status};
+///
+/// flap_core::parameters! {
+///     /// Parameters of an oscillator.
+///     pub struct Params {
+///         /// Torque per inertia.
+///         drive_strength: f64 = ("rad/s^2", "", Number(Positive)),
+///         /// Drive frequency.
+///         drive_frequency: f64 = ("Hz", "f", Number(Positive)),
+///         /// Natural frequency.
+///         natural_frequency: f64 = ("Hz", "", Number(Positive)),
+///         /// Decay rate of free oscillations.
+///         decay: f64 = ("1/s", "", Number(Positive)),
+///     }
+/// }
+///
+/// flap_core::per_lane! {
+///     /// Constants of a point.
+///     pub struct Constants<R> {
+///         /// The torque per inertia.
+///         pub drive: DriveConstants<R>,
+///         /// Stiffness per inertia (1/s²).
+///         pub stiffness: R,
+///         /// Damping per inertia (1/s).
+///         pub damping: R,
+///     }
+/// }
+///
+/// #[derive(Clone, PartialEq)]
+/// struct Oscillator;
+///
+/// impl Ode<2> for Oscillator {
+///     type Constants<R: Lanes> = Constants<R>;
+///     type Input<R: Lanes> = R;
+///
+///     #[inline(always)]
+///     fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
+///         c.drive.amplitude * c.drive.phase(t).sin()
+///     }
+///
+///     #[inline(always)]
+///     fn rhs<R: Lanes>(&self, c: &Constants<R>, torque: &R, _side: R, y: &[R; 2]) -> [R; 2] {
+///         [y[1], *torque - c.stiffness * y[0] - c.damping * y[1]]
+///     }
+/// }
+///
+/// impl Model<2, 1> for Oscillator {
+///     const DESCRIPTION: Description = Description {
+///         name: "oscillator",
+///         doc: "a wing on a spring",
+///         parameters: Params::TABLE,
+///         presets: &[Preset { name: "example", doc: "", values: || EXAMPLE.to_values() }],
+///     };
+///     const STATES: [&'static str; 2] = ["stroke_rad", "stroke_rate_rad_s"];
+///     const SIGNALS: [Signal; 1] =
+///         [Signal::new("stroke", Unit::DEG, "stroke angle", &[Measure::Amplitude]).principal(Measure::Amplitude)];
+///     const DERIVED: &'static [Derived<Self, Constants<f64>, 1>] = &[];
+///
+///     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 2>, Invalid> {
+///         let params = Params::from_values(values);
+///         let strength = [0.0, params.drive_strength];
+///         let drive = DriveConstants::new(params.drive_frequency, &WaveformParameters::SINE, strength);
+///         let natural = std::f64::consts::TAU * params.natural_frequency;
+///         let constants = Constants { drive, stiffness: natural * natural, damping: 2.0 * params.decay };
+///         let (y, scale) = ([0.0; 2], [0.1, 0.1 * drive.rate]);
+///         Ok(Start { constants, y, span: drive.period(), scale, tighten: 1.0 })
+///     }
+///
+///     fn drive<R: Lanes>(c: &Constants<R>) -> &DriveConstants<R> {
+///         &c.drive
+///     }
+///
+///     #[inline(always)]
+///     fn signals<R: Lanes>(
+///         &self,
+///         _c: &Constants<R>,
+///         _torque: &R,
+///         _side: R,
+///         y: &[R; 2],
+///         _dy: &[R; 2],
+///     ) -> [R; 1] {
+///         [y[0]]
+///     }
+/// }
+///
+/// const EXAMPLE: Params = Params {
+///     drive_strength: 1e3,
+///     drive_frequency: 100.0,
+///     natural_frequency: 100.0,
+///     decay: 20.0,
+/// };
+///
+/// static OSCILLATOR: Runner<Oscillator, 2, 6, 1> = Runner::new(Oscillator);
+///
+/// let model: &'static dyn Simulator = &OSCILLATOR;
+/// let row = model.run_point(InstructionSet::best(), &SolverSettings::DEFAULT, &EXAMPLE.to_values(), None);
+/// assert_eq!(row.status, Status::Periodic);
+/// // At resonance the amplitude is that of the torque over damping times angular frequency.
+/// let exact = (1e3 / (40.0 * std::f64::consts::TAU * 100.0_f64)).to_degrees();
+/// assert!((row.measures[0] / exact - 1.0).abs() < 1e-4);
+/// ```
+pub struct Runner<M, const N: usize, const K: usize, const S: usize> {
     model: M,
     columns: OnceLock<Vec<Column>>,
+    experiments: fn(&Self) -> Option<&dyn Experiments>,
+}
+
+impl<M: model::Motions<N, S>, const N: usize, const K: usize, const S: usize> Runner<M, N, K, S> {
+    /// The faces of a model that knows experiments too. Does not compile unless K is N (N + 1).
+    pub const fn with_experiments(model: M) -> Self {
+        const { Self::CHECKED }
+        Runner { model, columns: OnceLock::new(), experiments: |runner| Some(runner) }
+    }
 }
 
 impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Runner<M, N, K, S> {
-    pub(super) const fn new(model: M) -> Self {
-        Runner { model, columns: OnceLock::new() }
+    /// Compiles if K is right.
+    const CHECKED: () = assert!(K == N * (N + 1), "K counts states and responses: it is N (N + 1)");
+
+    /// The faces of a model: rows and motions. Does not compile unless K is N (N + 1).
+    pub const fn new(model: M) -> Self {
+        const { Self::CHECKED }
+        Runner { model, columns: OnceLock::new(), experiments: |_| None }
+    }
+
+    /// The answer to a question about one point, on scalars.
+    fn ask<Q: Question<M, N, K, S>>(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        question: Q,
+        interrupted: Interrupt<'_>,
+    ) -> Q::Answer {
+        let model = &self.model.variant(values);
+        Single { model, solver, values, interrupted }.ask(set, question)
     }
 }
 
 impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Rows for Runner<M, N, K, S> {
     fn columns(&self) -> &[Column] {
-        self.columns.get_or_init(row::columns::<M, N, S>)
+        self.columns.get_or_init(columns::<M, N, S>)
     }
 
     fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs) {
-        set.dispatch(Sized::<_, N, K, S>(LanesKernel { model: &self.model, solver, jobs }));
+        set.dispatch(LanesKernel::<M, N, K, S> { model: &self.model, solver, jobs });
     }
 
     fn run_point(
@@ -44,11 +193,11 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Rows for Ru
         values: &[f64],
         begin: Option<&[f64]>,
     ) -> Row {
-        Scalars { model: &self.model, solver, values }.row::<N, K, S>(set, begin, &never)
+        self.ask(set, solver, values, RowFrom(begin), &never)
     }
 }
 
-impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Simulator for Runner<M, N, K, S> {
+impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Simulator for Runner<M, N, K, S> {
     fn name(&self) -> &'static str {
         M::DESCRIPTION.name
     }
@@ -72,10 +221,20 @@ impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Simulator
         values: &[f64],
         interrupted: Interrupt<'_>,
     ) -> Result<Row, Unfinished> {
-        let row = Scalars { model: &self.model, solver, values }.row::<N, K, S>(set, None, interrupted);
+        let row = self.ask(set, solver, values, RowFrom(None), interrupted);
         if interrupted() { Err(Unfinished::Interrupted) } else { Ok(row) }
     }
 
+    fn motions(&self) -> Result<&dyn Motions, Unfinished> {
+        Ok(self)
+    }
+
+    fn experiments(&self) -> Result<&dyn Experiments, Unfinished> {
+        (self.experiments)(self).ok_or(Unfinished::NoExperiments { model: self.name() })
+    }
+}
+
+impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Motions for Runner<M, N, K, S> {
     fn period(
         &self,
         set: InstructionSet,
@@ -84,7 +243,7 @@ impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Simulator
         begin: &[f64],
         interrupted: Interrupt<'_>,
     ) -> Result<Period, Unfinished> {
-        Scalars { model: &self.model, solver, values }.period::<N, K, S>(set, begin, interrupted)
+        self.ask(set, solver, values, PeriodFrom(begin), interrupted)
     }
 
     fn trajectory(
@@ -95,9 +254,13 @@ impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Simulator
         request: &TrajectoryRequest,
         interrupted: Interrupt<'_>,
     ) -> Result<Trajectory, Unfinished> {
-        Scalars { model: &self.model, solver, values }.trajectory::<N, K, S>(set, request, interrupted)
+        self.ask(set, solver, values, request, interrupted)
     }
+}
 
+impl<M: model::Motions<N, S>, const N: usize, const K: usize, const S: usize> Experiments
+    for Runner<M, N, K, S>
+{
     fn chirp(
         &self,
         set: InstructionSet,
@@ -106,20 +269,7 @@ impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Simulator
         request: &ChirpRequest,
         interrupted: Interrupt<'_>,
     ) -> Result<ChirpResponse, Unfinished> {
-        Scalars { model: &self.model, solver, values }.chirp::<N, S>(set, request, interrupted)
-    }
-
-    fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Invalid> {
-        imposed::follow::<M, N, S>(&self.model, values, motion)
-    }
-
-    fn with_samples(&self, samples: Samples) -> Box<dyn Simulator> {
-        Box::new(Runner::<M, N, K, S>::new(self.model.sampled(samples)))
-    }
-
-    fn modes(&self, values: &[f64]) -> Result<[Mode; 2], Invalid> {
-        let model = self.model.variant(values);
-        Ok(M::modes(&model.start(values)?.constants))
+        self.ask(set, solver, values, request, interrupted)
     }
 
     fn free_response(
@@ -130,6 +280,19 @@ impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Simulator
         request: &ImpulseRequest,
         interrupted: Interrupt<'_>,
     ) -> Result<Trajectory, Unfinished> {
-        Scalars { model: &self.model, solver, values }.free_response::<N, S>(set, request, interrupted)
+        self.ask(set, solver, values, request, interrupted)
+    }
+
+    fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Unfinished> {
+        imposed::follow(&self.model, values, motion)
+    }
+
+    fn modes(&self, values: &[f64]) -> Result<[Mode; 2], Unfinished> {
+        let model = self.model.variant(values);
+        Ok(M::modes(&model.start(values)?.constants))
+    }
+
+    fn with_samples(&self, samples: Samples) -> Box<dyn Simulator> {
+        Box::new(Runner::<M, N, K, S>::with_experiments(self.model.sampled(samples)))
     }
 }

@@ -11,7 +11,7 @@ pub mod study;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::Invalid;
 use flap_core::resonance::driven::has_prescribed_stroke;
-use flap_core::simulate::{Column, Jobs, Point, Row, Rows, Simulator, SolverSettings};
+use flap_core::simulate::{Column, Jobs, Point, Row, Rows, Simulator, SolverSettings, Unfinished};
 
 use search::Search;
 use study::Desk;
@@ -127,12 +127,13 @@ impl AtResonance {
     }
 
     /// The frequencies (Hz) between which the resonance of a design is looked for.
-    fn ends(&self, values: &[f64]) -> Result<[f64; 2], Invalid> {
+    fn ends(&self, values: &[f64]) -> Result<[f64; 2], Unfinished> {
         let Range { of, from, to, .. } = self.range;
         if of == Objective::Stroke && has_prescribed_stroke(self.model.parameters(), values) {
             return Err(Invalid::new(
                 "stroke_mode is \"prescribed\": such a stroke is the same at every frequency, and has no resonance",
-            ));
+            )
+            .into());
         }
         let [from, to] = match (from, to) {
             (Some(from), Some(to)) => [from, to],
@@ -140,7 +141,7 @@ impl AtResonance {
                 let mut values = values.to_vec();
                 // Small motions do not depend on it, but it must be there.
                 values[self.frequency] = from.or(to).unwrap_or(1.0);
-                let natural = self.model.modes(&values)?.map(|mode| mode.frequency);
+                let natural = self.model.experiments()?.modes(&values)?.map(|mode| mode.frequency);
                 let lowest = 0.5 * natural[0].min(natural[1]);
                 let highest = 1.5 * natural[0].max(natural[1]);
                 [from.unwrap_or(lowest), to.unwrap_or(highest)]
@@ -151,7 +152,8 @@ impl AtResonance {
         }
         Err(Invalid::new(format!(
             "there are no drive frequencies from {from} to {to} Hz to look for a resonance"
-        )))
+        ))
+        .into())
     }
 }
 

@@ -5,8 +5,7 @@
 //! it is not what the search has seen there, the design has more than one orbit, and the peaks are located again with all
 //! probes from rest.
 
-use flap_core::parameter::Invalid;
-use flap_core::simulate::{Point, Row, Status};
+use flap_core::simulate::{Point, Row, Status, Unfinished};
 
 use super::AtResonance;
 use super::maximum::Maximum;
@@ -33,7 +32,7 @@ pub(super) struct Search<'a> {
     at: &'a AtResonance,
     point: Point,
     /// Lowest and highest frequency (Hz), or why there is no search.
-    ends: Result<[f64; 2], Invalid>,
+    ends: Result<[f64; 2], Unfinished>,
     stage: Stage,
     /// Everything that was run.
     seen: Vec<Seen>,
@@ -86,8 +85,8 @@ impl<'a> Search<'a> {
         let index = self.point.index;
         let mut row = match (self.row, &self.ends) {
             (Some(row), _) => row,
-            (None, Err(error)) => Row::invalid(error.clone()),
-            (None, Ok(_)) => Row::invalid(Invalid::new("the search for its resonance was cut short")),
+            (None, Err(error)) => Row::invalid(error),
+            (None, Ok(_)) => Row::invalid("the search for its resonance was cut short"),
         };
         if let (Stage::Done { tops }, Ok([from, to]), Status::Periodic) =
             (&self.stage, &self.ends, row.status)

@@ -128,7 +128,7 @@ impl Branch<'_> {
     fn period(&self, place: &DVector<f64>) -> Result<Period, Unfinished> {
         let values = values(self.plan, self.along, self.design, self.value(place));
         let (set, state) = (InstructionSet::best(), self.state(place));
-        self.plan.simulator.period(set, &self.solver, &values, &state, self.interrupted)
+        self.plan.simulator.motions()?.period(set, &self.solver, &values, &state, self.interrupted)
     }
 
     /// The orbit nearest to `guess` on the plane through it across `direction`, by Newton's iteration.

@@ -1,56 +1,36 @@
-//! The motion of one point over time, sampled.
+//! Samples of a motion at equal distances in time, as rows of a [`Trajectory`].
 
 use core::ops::ControlFlow;
 
-use super::settle::{Settled, settle};
-use super::simulator::{SolverSettings, Status, Trajectory, TrajectoryRequest, Unfinished};
+use super::error::Unfinished;
+use super::request::Trajectory;
+use super::settings::SolverSettings;
 use crate::model::Model;
 use crate::num::Scalar;
 use crate::ode::dense::interpolate;
 use crate::ode::solve::solve_until;
 use crate::ode::step::Attempt;
-use crate::ode::{Ending, Interrupt};
-use crate::parameter::Invalid;
+use crate::ode::{Interrupt, Start};
 
-/// Samples the motion of a point.
-pub(super) fn trajectory<M, R, const N: usize, const K: usize, const S: usize>(
+/// Follows the run from `start` for `spans` spans, each sampled at equal distances.
+pub(super) fn sampled<M, R, const N: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,
-    values: &[f64],
-    request: &TrajectoryRequest,
+    start: &Start<M::Constants<f64>, N>,
+    spans: u32,
+    samples_per_span: u32,
     interrupted: Interrupt<'_>,
 ) -> Result<Trajectory, Unfinished>
 where
     M: Model<N, S>,
     R: Scalar,
 {
-    let model = &model.variant(values);
-    let mut start = model.start(values)?;
-    if request.settled {
-        let Settled { search, row } = settle::<M, R, N, K, S>(model, solver, &start, false, interrupted);
-        if interrupted() {
-            return Err(Unfinished::Interrupted);
-        }
-        // The row's state, not the search's: a search for a more exact orbit may have failed after it.
-        let orbit = <[f64; N]>::try_from(row.state.as_slice()).ok();
-        let Some(orbit) = orbit.filter(|_| row.status == Status::Periodic) else {
-            return Err(Invalid::new(format!(
-                "the motion does not settle on an orbit of one drive period (status {}, {} cycles); \
-                 sample it from rest instead",
-                row.status.name(),
-                row.cycles
-            ))
-            .into());
-        };
-        start = search.start(&start, &orbit);
-    }
-
-    let mut sampler = Sampler::new(request.samples_per_cycle);
+    let mut sampler = Sampler::new(samples_per_span);
     let mut ended = 0;
     let outcome = solve_until::<M, R, N>(
         model,
         &solver.tolerances(),
-        &start,
+        start,
         interrupted,
         |c, attempt| {
             if attempt.t.lane(0) == 0.0 {
@@ -60,25 +40,11 @@ where
         },
         |_| {
             ended += 1;
-            if ended == request.cycles { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if ended == spans { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         },
     );
-    check(outcome.ending, interrupted)?;
+    Unfinished::check(outcome.ending, interrupted)?;
     Ok(sampler.finish::<M, N, S>())
-}
-
-/// Why a motion did not get as far as requested.
-pub(super) fn check(ending: Ending, interrupted: Interrupt<'_>) -> Result<(), Unfinished> {
-    if interrupted() {
-        return Err(Unfinished::Interrupted);
-    }
-    match ending {
-        Ending::Stopped => Ok(()),
-        Ending::Diverged => Err(Invalid::new("the motion diverges").into()),
-        Ending::StepLimit => {
-            Err(Invalid::new("the motion needs more than max_steps steps in a drive period").into())
-        }
-    }
 }
 
 /// Samples a motion cycle by cycle, each at equal distances.
@@ -95,6 +61,7 @@ pub(super) struct Sampler {
 }
 
 impl Sampler {
+    /// A sampler that has seen nothing; it takes no samples if `samples_per_cycle` is 0.
     pub(super) fn new(samples_per_cycle: u32) -> Sampler {
         Sampler { samples_per_cycle, began: 0.0, span: 0.0, next: 0, rows: Vec::new(), last: None }
     }

@@ -1,0 +1,63 @@
+//! One drive period on scalars: its end, or totals of the signals along it.
+
+use core::ops::ControlFlow;
+
+use super::settings::SolverSettings;
+use crate::measure::cycle::{Signals, Totals};
+use crate::model::Model;
+use crate::num::{PerLane, Scalar};
+use crate::ode::ensemble::Observer;
+use crate::ode::solve::solve_until;
+use crate::ode::{Ending, Interrupt, Ode, Outcome, Start};
+
+/// The totals of a drive period from `start`, of what `signals` asks for, unless it fails.
+pub(super) fn cycle<M, R, const N: usize, const S: usize>(
+    model: &M,
+    solver: &SolverSettings,
+    start: &Start<M::Constants<f64>, N>,
+    signals: Signals<S>,
+    interrupted: Interrupt<'_>,
+) -> (Option<[Totals<f64>; S]>, Outcome)
+where
+    M: Model<N, S>,
+    R: Scalar,
+{
+    let mut totals = Observer::<M, N>::nothing(&signals).map(|one| Totals::<R>::fill((), &one));
+    let outcome = solve_until::<M, R, N>(
+        model,
+        &solver.tolerances(),
+        start,
+        interrupted,
+        |c, accepted| {
+            R::enter(
+                #[inline(always)]
+                || signals.add(model, c, accepted, true, &mut totals),
+            );
+        },
+        |_| ControlFlow::Break(()),
+    );
+    let totals = totals.map(|total| total.get(0));
+    ((outcome.ending == Ending::Stopped).then_some(totals), outcome)
+}
+
+/// The state at the end of a drive period from `start`, unless the period fails or is interrupted.
+pub(super) fn end_of_period<O: Ode<N>, R: Scalar, const N: usize>(
+    ode: &O,
+    solver: &SolverSettings,
+    start: &Start<O::Constants<f64>, N>,
+    interrupted: Interrupt<'_>,
+) -> (Option<[f64; N]>, Outcome) {
+    let mut end = None;
+    let outcome = solve_until::<O, R, N>(
+        ode,
+        &solver.tolerances(),
+        start,
+        interrupted,
+        |_, _| {},
+        |y| {
+            end = Some(*y);
+            ControlFlow::Break(())
+        },
+    );
+    (end, outcome)
+}

@@ -1,0 +1,71 @@
+//! The estimate of a row's error.
+//!
+//! An orbit is measured twice: on the orbit that the point's tolerances have, and on the one that tolerances coarser by
+//! [`COARSER`] have. The second is found from the first by one period and the monodromy matrix. The error of the method
+//! goes about as its tolerance, so the difference of the two, divided by that factor, is about the error of the first.
+//!
+//! [`COARSER`]: super::precision::COARSER
+
+use crate::measure::cycle::Totals;
+use crate::model::{Model, SignalCycle};
+use crate::ode::{Ending, Outcome};
+
+/// The share of the difference between the two that counts as error: more than the factor between the tolerances, as
+/// single differences may be small by chance.
+const SHARE: f64 = 0.5;
+
+/// The least error that a row is said to have, in units of the relative tolerance: about that of finding extrema between
+/// the ends of steps.
+pub(super) const LEAST: f64 = 5.0;
+
+/// Crossings of the switching surface in a period beyond which the motion counts as sliding along the surface: others
+/// cross it twice, or some times more. The error of a sliding motion does not fall as the method's does.
+const MANY_SWITCHES: u64 = 16;
+
+/// A period of the orbit, and one of the orbit that coarser integration has.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Compared<const S: usize> {
+    /// Totals of the orbit's period, unless it failed.
+    pub(super) fine: Option<[Totals<f64>; S]>,
+    /// The ending of the orbit's period.
+    pub(super) ending: Ending,
+    /// The orbit slides along the switching surface.
+    pub(super) slides: bool,
+    /// Totals of the other period, unless that failed.
+    pub(super) coarse: Option<[Totals<f64>; S]>,
+}
+
+impl<const S: usize> Compared<S> {
+    /// Before anything has been integrated.
+    pub(super) fn new() -> Compared<S> {
+        Compared { fine: None, ending: Ending::Stopped, slides: false, coarse: None }
+    }
+
+    /// Takes the totals of the orbit's period, unless it failed.
+    pub(super) fn take_fine(&mut self, totals: Option<[Totals<f64>; S]>, outcome: Outcome) {
+        self.fine = totals;
+        self.ending = outcome.ending;
+        self.slides = outcome.switches > MANY_SWITCHES;
+    }
+}
+
+/// The largest relative error of the model's principal measures: stroke, pitch, lift, power. Infinite if it cannot be
+/// estimated: the coarser integration failed, or the motion slides along the switching surface.
+pub(super) fn estimate<M: Model<N, S>, const N: usize, const S: usize>(
+    fine: &[SignalCycle; S],
+    coarse: Option<&[SignalCycle; S]>,
+    slides: bool,
+) -> f64 {
+    let Some(coarse) = coarse.filter(|_| !slides) else { return f64::INFINITY };
+    let mut largest = 0.0_f64;
+    for (i, signal) in M::SIGNALS.iter().enumerate() {
+        let Some(measure) = signal.principal else { continue };
+        let [value, other] = [fine, coarse].map(|cycle| cycle[i].measure(measure));
+        let difference = (other - value).abs();
+        // A prescribed stroke has no power, and a wing at rest nothing.
+        if difference > 0.0 {
+            largest = largest.max(SHARE * difference / value.abs());
+        }
+    }
+    largest
+}

@@ -1,0 +1,124 @@
+//! Rows from the ends of searches.
+
+use super::estimate::{Compared, LEAST, estimate};
+use super::row::Row;
+use super::search::Search;
+use super::status::Status;
+use crate::measure::cycle::{Totals, finish};
+use crate::model::{Measure, Model, SignalCycle};
+use crate::ode::{Ending, Start};
+
+/// The measures of a periodic cycle, one per column.
+pub(super) fn measures<M: Model<N, S>, const N: usize, const S: usize>(
+    model: &M,
+    c: &M::Constants<f64>,
+    totals: &[Totals<f64>; S],
+    period: f64,
+) -> Vec<f64> {
+    values(model, c, &on_orbit::<M, N, S>(totals, period))
+}
+
+/// The signals of a periodic cycle.
+fn on_orbit<M: Model<N, S>, const N: usize, const S: usize>(
+    totals: &[Totals<f64>; S],
+    period: f64,
+) -> [SignalCycle; S] {
+    let mut cycle = finish(totals, period);
+    if let Some(energy) = M::ENERGY {
+        energy.close(&mut cycle);
+    }
+    cycle
+}
+
+/// The values of the columns, from the signals of a periodic cycle.
+fn values<M: Model<N, S>, const N: usize, const S: usize>(
+    model: &M,
+    c: &M::Constants<f64>,
+    cycle: &[SignalCycle; S],
+) -> Vec<f64> {
+    let mut values = Vec::new();
+    for (signal, cycle) in M::SIGNALS.iter().zip(cycle) {
+        values.extend(signal.measures.iter().map(|&measure| cycle.measure(measure) * signal.unit.factor));
+    }
+    values.extend(M::DERIVED.iter().map(|derived| (derived.value)(model, c, cycle)));
+    values
+}
+
+/// The row of a point whose search has ended without an orbit of one drive period; or the `last` row that it has, if it
+/// was an orbit to be found more exactly.
+pub(super) fn unsettled<const N: usize>(search: &Search<N>, last: Option<Row>) -> Row {
+    if let Some(last) = last {
+        return charged(last, search);
+    }
+    let status = match (search.ending(), search.period()) {
+        (Ending::Stopped, Some(_)) => Status::Subharmonic,
+        (Ending::Stopped, None) => Status::Unsettled,
+        (Ending::Diverged, _) => Status::Diverged,
+        (Ending::StepLimit, _) => Status::StepLimit,
+    };
+    row(search, status)
+}
+
+/// The row of a point after a period of its orbit, and one with coarser tolerances, have been integrated, and its energy
+/// audit.
+pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
+    search: &Search<N>,
+    model: &M,
+    start: &Start<M::Constants<f64>, N>,
+    periods: &Compared<S>,
+) -> (Row, f64) {
+    let status = match periods.ending {
+        Ending::Stopped => Status::Periodic,
+        Ending::Diverged => Status::Diverged,
+        Ending::StepLimit => Status::StepLimit,
+    };
+    let mut row = row(search, status);
+    let mut audit = f64::NAN;
+    let cycle = |totals: &[Totals<f64>; S]| on_orbit::<M, N, S>(totals, start.span);
+    if let Some(fine) = periods.fine.as_ref().map(cycle) {
+        row.measures = values(model, &start.constants, &fine);
+        let coarse = periods.coarse.as_ref().map(cycle);
+        row.error_estimate = estimate::<M, N, S>(&fine, coarse.as_ref(), periods.slides)
+            .max(LEAST * search.precision().rtol());
+        audit = M::ENERGY.map_or(0.0, |energy| energy.audit(&fine));
+        if is_at_rest::<M, N, S>(&fine) {
+            row.floquet_max = f64::NAN;
+        }
+    }
+    // An infinite measure is a motion that has diverged as far as numbers go. NaN is a ratio of zeros.
+    if row.measures.iter().any(|measure| measure.is_infinite()) {
+        row.status = Status::Diverged;
+        row.measures.clear();
+    }
+    if row.status != Status::Periodic {
+        row.period = 0;
+        row.floquet_max = f64::NAN;
+        row.error_estimate = f64::NAN;
+    }
+    (row, audit)
+}
+
+/// True if the wing does not move, but for rounding: the first harmonics of its angles are nothing beside the angles.
+fn is_at_rest<M: Model<N, S>, const N: usize, const S: usize>(cycle: &[SignalCycle; S]) -> bool {
+    let mut angles =
+        M::SIGNALS.iter().zip(cycle).filter(|(signal, _)| signal.principal == Some(Measure::First));
+    angles.all(|(_, angle)| angle.measure(Measure::First) <= 1e-12 * angle.measure(Measure::Peak))
+}
+
+/// A row with all that its point has cost.
+pub(super) fn charged<const N: usize>(row: Row, search: &Search<N>) -> Row {
+    Row { cycles: search.cycles(), rhs_evals: search.rhs_evals(), ..row }
+}
+
+/// The row of a search without measures.
+fn row<const N: usize>(search: &Search<N>, status: Status) -> Row {
+    Row {
+        cycles: search.cycles(),
+        residual: search.residual(),
+        period: search.period().unwrap_or(0),
+        floquet_max: search.floquet_max(),
+        state: search.state().map_or_else(Vec::new, |state| state.to_vec()),
+        rhs_evals: search.rhs_evals(),
+        ..Row::empty(status)
+    }
+}

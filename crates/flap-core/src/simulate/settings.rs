@@ -1,0 +1,172 @@
+//! Settings of the integrator and of the search for orbits, with their defaults and allowed values.
+
+use crate::ode::Tolerances;
+
+/// Settings of the integrator, and the conditions under which a point counts as settled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolverSettings {
+    /// Relative tolerance of the integrator, per step and component.
+    pub rtol: f64,
+    /// Absolute tolerance, in units of each state's typical size in the model.
+    pub atol: f64,
+    /// A point is settled when its state, strobed once per drive period, changes by less than this
+    /// (in units of each state's typical size).
+    pub settle_tol: f64,
+    /// Drive periods after which a point counts as unsettled.
+    pub max_cycles: u32,
+    /// Integration steps within one drive period after which a point is given up.
+    pub max_steps: u32,
+    /// Largest [`error_estimate`](super::Row::error_estimate) and energy audit of a row. A point whose row exceeds it is
+    /// integrated again with tighter tolerances, up to a limit.
+    pub accuracy: f64,
+    /// Newton's iteration on the period map looks for the orbit to which a motion is on its way. Without it, points
+    /// settle by marching alone: to the same orbits, in more periods.
+    pub newton: bool,
+}
+
+impl SolverSettings {
+    /// The defaults.
+    pub const DEFAULT: SolverSettings = SolverSettings {
+        rtol: 1e-6,
+        atol: 1e-8,
+        settle_tol: 1e-6,
+        max_cycles: 1000,
+        max_steps: 20_000,
+        accuracy: 1e-3,
+        newton: true,
+    };
+
+    /// The settings by name. Grid files, the command line and Python accept these names.
+    ///
+    /// A reader that applies values in this order needs no other rule: `rtol` comes first and moves the settings that
+    /// follow it.
+    pub const TABLE: &'static [Setting] = &[
+        Setting {
+            name: "rtol",
+            kind: SettingKind::Number {
+                below: 0.1,
+                get: |settings| settings.rtol,
+                set: |settings, rtol| *settings = settings.with_rtol(rtol),
+            },
+            follows: None,
+            doc: "relative error per integration step",
+        },
+        Setting {
+            name: "atol",
+            kind: SettingKind::Number {
+                below: f64::INFINITY,
+                get: |settings| settings.atol,
+                set: |settings, atol| settings.atol = atol,
+            },
+            follows: Some("rtol / 100"),
+            doc: "absolute error per integration step, in units of each state's typical size",
+        },
+        Setting {
+            name: "settle_tol",
+            kind: SettingKind::Number {
+                below: f64::INFINITY,
+                get: |settings| settings.settle_tol,
+                set: |settings, settle_tol| settings.settle_tol = settle_tol,
+            },
+            follows: None,
+            doc: "change of the state per drive period, in units of each state's typical size, below which a motion \
+                  has settled",
+        },
+        Setting {
+            name: "max_cycles",
+            kind: SettingKind::Count {
+                get: |settings| settings.max_cycles,
+                set: |settings, max_cycles| settings.max_cycles = max_cycles,
+            },
+            follows: None,
+            doc: "drive periods marched after which a motion counts as unsettled",
+        },
+        Setting {
+            name: "max_steps",
+            kind: SettingKind::Count {
+                get: |settings| settings.max_steps,
+                set: |settings, max_steps| settings.max_steps = max_steps,
+            },
+            follows: None,
+            doc: "integration steps in one drive period after which a point is given up",
+        },
+        Setting {
+            name: "accuracy",
+            kind: SettingKind::Number {
+                below: f64::INFINITY,
+                get: |settings| settings.accuracy,
+                set: |settings, accuracy| settings.accuracy = accuracy,
+            },
+            follows: Some("1000 rtol, but at least 1e-3"),
+            doc: "largest error_estimate and energy audit of a row; a point whose row exceeds it is integrated again \
+                  with tighter tolerances",
+        },
+        Setting {
+            name: "newton",
+            kind: SettingKind::Flag {
+                get: |settings| settings.newton,
+                set: |settings, newton| settings.newton = newton,
+            },
+            follows: None,
+            doc: "Newton's iteration looks for orbits; without it points settle by marching alone",
+        },
+    ];
+
+    /// These settings with another relative tolerance, and with the settings that follow it by default: `atol`, a
+    /// hundredth of it, and `accuracy`, a thousand times as much but at least 1e-3.
+    pub fn with_rtol(self, rtol: f64) -> SolverSettings {
+        SolverSettings { rtol, atol: rtol / 100.0, accuracy: (1000.0 * rtol).max(1e-3), ..self }
+    }
+
+    /// The tolerances and limits of the integrator.
+    pub(super) fn tolerances(&self) -> Tolerances {
+        Tolerances { rtol: self.rtol, atol: self.atol, max_steps: self.max_steps }
+    }
+}
+
+impl Default for SolverSettings {
+    fn default() -> Self {
+        SolverSettings::DEFAULT
+    }
+}
+
+/// One of the [`SolverSettings`]. Its default is its value in [`SolverSettings::DEFAULT`].
+#[derive(Clone, Copy, Debug)]
+pub struct Setting {
+    /// Name in grid files, on the command line and in Python.
+    pub name: &'static str,
+    /// Values that it takes, and access to it.
+    pub kind: SettingKind,
+    /// In words: the default where another setting is given that this one follows.
+    pub follows: Option<&'static str>,
+    /// One line of meaning.
+    pub doc: &'static str,
+}
+
+/// Values that a setting takes, with the functions that read and write it.
+#[derive(Clone, Copy, Debug)]
+pub enum SettingKind {
+    /// A number more than zero and less than `below`.
+    Number {
+        /// The limit; infinite where any finite number more than zero is allowed.
+        below: f64,
+        /// Reads the setting.
+        get: fn(&SolverSettings) -> f64,
+        /// Writes the setting, and the settings that follow it.
+        set: fn(&mut SolverSettings, f64),
+    },
+    /// A whole number from 1 on.
+    Count {
+        /// Reads the setting.
+        get: fn(&SolverSettings) -> u32,
+        /// Writes the setting.
+        set: fn(&mut SolverSettings, u32),
+    },
+    /// True or false.
+    Flag {
+        /// Reads the setting.
+        get: fn(&SolverSettings) -> bool,
+        /// Writes the setting.
+        set: fn(&mut SolverSettings, bool),
+    },
+}

@@ -1,0 +1,34 @@
+//! The motion of one point over time, sampled.
+
+use super::error::Unfinished;
+use super::request::{Trajectory, TrajectoryRequest};
+use super::sampler::sampled;
+use super::settle::{Settled, settle};
+use super::single::{Question, Single};
+use super::status::Status;
+use crate::model::Model;
+use crate::num::Scalar;
+
+impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M, N, K, S>
+    for &TrajectoryRequest
+{
+    type Answer = Result<Trajectory, Unfinished>;
+
+    fn answer<R: Scalar>(self, point: &Single<'_, M>) -> Result<Trajectory, Unfinished> {
+        let Single { model, solver, values, interrupted } = *point;
+        let mut start = model.start(values)?;
+        if self.settled {
+            let Settled { search, row } = settle::<M, R, N, K, S>(model, solver, &start, false, interrupted);
+            if interrupted() {
+                return Err(Unfinished::Interrupted);
+            }
+            // The row's state, not the search's: a search for a more exact orbit may have failed after it.
+            let orbit = <[f64; N]>::try_from(row.state.as_slice()).ok();
+            let Some(orbit) = orbit.filter(|_| row.status == Status::Periodic) else {
+                return Err(Unfinished::NotPeriodic { status: row.status, cycles: row.cycles });
+            };
+            start = search.precision().start(&start, &orbit);
+        }
+        sampled::<M, R, N, S>(model, solver, &start, self.cycles, self.samples_per_cycle, interrupted)
+    }
+}
