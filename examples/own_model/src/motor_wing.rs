@@ -116,7 +116,11 @@ impl Constants<f64> {
             attack_slope: p.attack_slope,
             drive,
         };
-        if PerLane::<f64>::is_finite(&constants) { Ok(constants) } else { Err(Invalid::NotFinite) }
+        if <Constants<f64> as PerLane<f64>>::is_finite(&constants) {
+            Ok(constants)
+        } else {
+            Err(Invalid::NotFinite)
+        }
     }
 }
 
