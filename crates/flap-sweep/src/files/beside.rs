@@ -1,0 +1,34 @@
+//! Names of the files that lie beside a result file.
+
+use std::path::{Path, PathBuf};
+
+/// The path of the sidecar: `<results>.meta.toml`.
+pub fn sidecar_of(results: &Path) -> PathBuf {
+    with_ending(results, ".meta.toml")
+}
+
+/// The path of the journal: `<results>.journal`.
+pub fn journal_of(results: &Path) -> PathBuf {
+    with_ending(results, ".journal")
+}
+
+/// The path of the rows of a Parquet file that is not complete yet: `<results>.part`.
+pub fn part_of(results: &Path) -> PathBuf {
+    with_ending(results, ".part")
+}
+
+/// All of these.
+pub(crate) fn all_of(results: &Path) -> [PathBuf; 3] {
+    [sidecar_of(results), journal_of(results), part_of(results)]
+}
+
+/// The path of a file's bytes until they are complete: `<file>.tmp`.
+pub(crate) fn temporary_of(path: &Path) -> PathBuf {
+    with_ending(path, ".tmp")
+}
+
+fn with_ending(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
+    PathBuf::from(name)
+}
