@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::table::format::Format;
+
 /// The path of the sidecar: `<results>.meta.toml`.
 pub fn sidecar_of(results: &Path) -> PathBuf {
     with_ending(results, ".meta.toml")
@@ -17,7 +19,15 @@ pub fn part_of(results: &Path) -> PathBuf {
     with_ending(results, ".part")
 }
 
-/// All of these.
+/// The path of the rows before the results are complete: those of a Parquet file wait in [`part_of`].
+pub fn rows_of(results: &Path, format: Format) -> PathBuf {
+    match format {
+        Format::Parquet => part_of(results),
+        Format::Csv | Format::CsvZstd => results.to_owned(),
+    }
+}
+
+/// The sidecar, the journal and the rows that wait.
 pub(crate) fn all_of(results: &Path) -> [PathBuf; 3] {
     [sidecar_of(results), journal_of(results), part_of(results)]
 }

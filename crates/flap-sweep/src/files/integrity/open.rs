@@ -8,7 +8,7 @@ use memchr::memrchr;
 
 use super::check::check;
 use super::{Damage, Note, OnDamage, OpenError, Unverified};
-use crate::files::beside::{journal_of, part_of, sidecar_of};
+use crate::files::beside::{journal_of, rows_of, sidecar_of};
 use crate::files::journal::{self, Past, last_intact};
 use crate::files::results::{Format, Reader};
 use crate::files::sidecar::{ReadError, Sidecar, State};
@@ -114,8 +114,7 @@ fn unfinished(
     notes: &mut Vec<Note>,
 ) -> Result<Reader, OpenError> {
     let unreadable = |source| OpenError::Read { path: path.to_owned(), source };
-    // Rows of a Parquet file wait as text.
-    let rows = if format == Format::Parquet { part_of(path) } else { path.to_owned() };
+    let rows = rows_of(path, format);
     let open = || File::open(&rows).map_err(unreadable);
     let intact = last_intact(&open()?, past).map_err(unreadable)?;
     let done = intact.as_ref().map(|intact| intact.checkpoint.summary().done());

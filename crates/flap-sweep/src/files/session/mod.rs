@@ -8,11 +8,9 @@
 //! compressed text like that of a `.csv.zst` file, and are turned into columns when all are there.
 
 mod assemble;
-mod options;
 mod resume;
 mod start;
 mod writing;
 
-pub use options::SessionOptions;
 pub use resume::{ResumeError, Resumed};
-pub use writing::Session;
+pub use writing::{Session, SessionOptions};

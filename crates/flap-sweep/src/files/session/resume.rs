@@ -5,7 +5,7 @@ use std::io::{Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use super::{Session, SessionOptions};
-use crate::files::beside::{journal_of, part_of};
+use crate::files::beside::{journal_of, rows_of};
 use crate::files::journal::{self, Intact, Journal, last_intact};
 use crate::files::output::{self, CreateError};
 use crate::files::results::{Format, FormatError, TextRows, text_sum};
@@ -77,10 +77,12 @@ impl Session {
             return Err(ResumeError::Changed { path: path.to_owned(), changes });
         }
 
-        let (rows_path, rows_file) = match format {
-            Format::Parquet => (part_of(path), output::open_or_make(&part_of(path)).map_err(refused)?),
-            Format::Csv | Format::CsvZstd => (path.to_owned(), results.try_clone().map_err(refused)?),
+        let rows_path = rows_of(path, format);
+        let rows_file = match format {
+            Format::Parquet => output::open_or_make(&rows_path),
+            Format::Csv | Format::CsvZstd => results.try_clone(),
         };
+        let rows_file = rows_file.map_err(refused)?;
         let found = last_intact(&rows_file, &past).map_err(refused)?;
         let found = found.ok_or_else(|| ResumeError::Altered { path: rows_path.clone() })?;
         let Intact { checkpoint, journal_bytes, hash, lost } = found;

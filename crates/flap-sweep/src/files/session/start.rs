@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 
 use super::{Session, SessionOptions};
-use crate::files::beside::{journal_of, part_of};
+use crate::files::beside::{journal_of, rows_of};
 use crate::files::journal::{Header, Journal};
 use crate::files::results::{Format, TextRows};
 use crate::files::{disk, output};
@@ -32,7 +32,7 @@ impl Session {
         header.replaces = replaces;
         let journal = Journal::create(&journal_of(path), &header)?;
         let rows_file = match format {
-            Format::Parquet => File::create(part_of(path))?,
+            Format::Parquet => File::create(rows_of(path, format))?,
             Format::Csv | Format::CsvZstd => results.try_clone()?,
         };
         disk::sync_folder(path);

@@ -7,17 +7,25 @@ use std::time::{Duration, Instant};
 
 use flap_core::simulate::{Point, Row};
 
-use super::SessionOptions;
 use super::assemble::assemble;
-use crate::files::beside::part_of;
+use crate::files::beside::rows_of;
 use crate::files::journal::{Checkpoint, Journal};
 use crate::files::results::{Checksums, FileSum, Format, Provenance, TextRows};
 use crate::files::{disk, output};
 use crate::plan::Plan;
-use crate::run::Summary;
 use crate::run::identity::Identity;
 use crate::run::sink::Sink;
+use crate::run::{RunOptions, Summary};
 use crate::table::layout::Layout;
+
+/// Options of a session.
+#[derive(Clone, Copy, Debug)]
+pub struct SessionOptions {
+    /// Options of the run.
+    pub run: RunOptions,
+    /// Time between checkpoints, each of which waits for the disk twice. A run that is killed loses the rows of this time.
+    pub checkpoint: Duration,
+}
 
 /// Writes the rows of a plan to a file such that the run can be resumed.
 pub struct Session {
@@ -76,7 +84,7 @@ impl Session {
 
     /// The file that holds the rows: not the results themselves before a Parquet file is complete.
     pub fn rows_path(&self, complete: bool) -> PathBuf {
-        if self.format == Format::Parquet && !complete { part_of(&self.path) } else { self.path.clone() }
+        if complete { self.path.clone() } else { rows_of(&self.path, self.format) }
     }
 
     /// Adds the last checkpoint, after [`Sink::finish`]; completes the results if the run came to its end.
@@ -93,7 +101,7 @@ impl Session {
             self.results.seek(SeekFrom::Start(0))?;
             let results = self.results.try_clone()?;
             let text = self.checksums().text;
-            self.columns = assemble(&part_of(&self.path), results, &self.provenance, &text)?.file;
+            self.columns = assemble(&self.rows_path(false), results, &self.provenance, &text)?.file;
         }
         Ok(())
     }
@@ -117,9 +125,7 @@ impl Session {
     fn note(&mut self, so_far: &Summary) -> io::Result<()> {
         self.rows.flush()?;
         disk::check_in_place(&self.results, &self.path)?;
-        if self.format == Format::Parquet {
-            disk::check_in_place(self.rows.file(), &part_of(&self.path))?;
-        }
+        disk::check_in_place(self.rows.file(), &self.rows_path(false))?;
         self.rows.file().sync_data()?;
         let extent = self.rows.extent();
         self.journal.add(&Checkpoint::new(so_far, extent.bytes, extent.digest, self.seconds()))?;
