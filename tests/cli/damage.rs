@@ -7,11 +7,12 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use csv::StringRecord;
+use flap_sweep::files::beside::sidecar_of;
 use flap_sweep::files::integrity::{self, OnDamage, Verdict};
 use flap_sweep::files::job::{self, Begin, Job, Outcome};
 use flap_sweep::files::results::{Format, Provenance, Writer};
 use flap_sweep::files::session::SessionOptions;
-use flap_sweep::files::sidecar::{self, Sidecar, State};
+use flap_sweep::files::sidecar::{Sidecar, State};
 use flap_sweep::plan::Plan;
 use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{RunError, RunOptions, Summary};
@@ -128,7 +129,7 @@ fn is_damaged(path: &Path) -> bool {
 
 /// True if `flap resume` calls it complete.
 fn is_complete(path: &Path) -> bool {
-    let sidecar = Sidecar::read(&sidecar::path_of(path)).unwrap();
+    let sidecar = Sidecar::read(&sidecar_of(path)).unwrap();
     let plan = sidecar.plan(flap_core::simulate::all()).unwrap();
     let options = SessionOptions { run: RunOptions::default(), checkpoint: Duration::ZERO };
     let job = Job { plan: &plan, out: path.to_owned(), begin: Begin::Resume, options, origin: None };
@@ -146,7 +147,7 @@ fn no_corruption_goes_unnoticed() {
         let path = folder.path(&format!("rows.{ending}"));
         let format = Format::of(&path).unwrap();
         let sound = fs::read(&path).unwrap();
-        let sidecar = Sidecar::read(&sidecar::path_of(&path)).unwrap();
+        let sidecar = Sidecar::read(&sidecar_of(&path)).unwrap();
         let plan = sidecar.plan(flap_core::simulate::all()).unwrap();
         let provenance = Provenance::of(&plan, &sidecar.identity());
         let mut random = Random(0x9E37_79B9_7F4A_7C15);

@@ -124,8 +124,8 @@ fn shards_that_do_not_hold_what_they_should_are_refused() {
         (short.as_str(), "it holds 32 rows, 33 were written"),
         (foreign.as_str(), "row 33 is of point `3`, which is none of the points that were run"),
         (&short.replacen("unsettled", "peridoic", 1), "row 1: there is no status `peridoic`"),
-        ("a,b\n1,2\n", "its columns are not those of its grid file"),
-        ("", "its columns are not those of its grid file"),
+        ("a,b\n1,2\n", "its columns are not those of the grid that its sidecar holds"),
+        ("", "its columns are not those of the grid that its sidecar holds"),
     ] {
         let folder = folder(100);
         fs::write(folder.path("grid.2of3.csv"), rows).unwrap();

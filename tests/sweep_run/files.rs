@@ -3,8 +3,10 @@
 use std::fs;
 
 use flap_core::num::InstructionSet;
-use flap_sweep::files::output::{CreateError, create, empty};
-use flap_sweep::files::sidecar::{End, Sidecar, Start, path_of};
+use flap_sweep::files::beside::sidecar_of;
+use flap_sweep::files::disk::empty;
+use flap_sweep::files::output::{CreateError, create};
+use flap_sweep::files::sidecar::{End, Sidecar, Start};
 use flap_sweep::run::Summary;
 
 use crate::fake::{Fake, Fault};
@@ -67,7 +69,7 @@ fn the_sidecar_tells_where_rows_come_from() {
     let started = "2026-01-02T03:04:05Z".to_owned();
     let mut sidecar = Sidecar::new(&plan, Start { started, options: options(2, 10), rerun: None });
     let directory = tempfile::tempdir().unwrap();
-    let path = path_of(&directory.path().join("rows.csv"));
+    let path = sidecar_of(&directory.path().join("rows.csv"));
     assert!(path.ends_with("rows.csv.meta.toml"));
 
     let read = || fs::read_to_string(&path).unwrap().parse::<toml::Table>().unwrap();

@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use flap_core::simulate::{Point, Row};
+use flap_sweep::files::beside::journal_of;
 use flap_sweep::files::journal::{self, Checkpoint, Header, Journal};
 use flap_sweep::files::output;
 use flap_sweep::files::results::Format;
@@ -193,12 +194,12 @@ fn a_torn_last_line_is_dropped() {
     let path = folder.path().join("rows.csv");
     let plan = plan(Fake::leak(Fault::None, 8), 1000);
     run_to(&mut start(&path, &plan), &plan, Summary::default(), 300);
-    let whole = fs::read(journal::path_of(&path)).unwrap();
+    let whole = fs::read(journal_of(&path)).unwrap();
     let lines: Vec<&[u8]> = whole.split_inclusive(|&byte| byte == b'\n').collect();
     let last = lines[lines.len() - 1];
     for kept in [0, 1, 17, last.len() / 2, last.len() - 1] {
         let torn = [&whole[..whole.len() - last.len()], &last[..kept]].concat();
-        fs::write(journal::path_of(&path), &torn).unwrap();
+        fs::write(journal_of(&path), &torn).unwrap();
         let resumed = Session::resume(&path, &plan, &often()).unwrap();
         assert_eq!(resumed.before.done(), 299, "{kept} bytes of the last line");
     }
@@ -246,7 +247,7 @@ fn other_versions_and_machines_do_not_go_on() {
         (Identity { arithmetic: "other".to_owned(), ..ours.clone() }, "the arithmetic is other, not "),
         (Identity { grid: String::new(), ..ours.clone() }, "the grid file is another"),
     ] {
-        Journal::create(&journal::path_of(&path), &Header::new(String::new(), identity)).unwrap();
+        Journal::create(&journal_of(&path), &Header::new(String::new(), identity)).unwrap();
         match Session::resume(&path, &plan, &often()).map(|_| ()) {
             Err(error @ ResumeError::Changed { .. }) => {
                 assert!(error.to_string().contains(change), "{error}");

@@ -77,11 +77,10 @@ impl Failure {
             JobError::Format(error) => error.into(),
             JobError::Create(error) => error.into(),
             JobError::Resume { error, changed } => changed.into_iter().fold(error.into(), Failure::help),
-            JobError::Damaged { .. } => {
+            JobError::Open(OpenError::Damaged { .. }) => {
                 Failure::damaged(error.to_string()).help("`flap sweep --force` computes it anew")
             }
-            JobError::Sidecar(error) => error.into(),
-            JobError::Read { .. } => Failure::System(error.to_string(), Vec::new()),
+            JobError::Open(error) => error.into(),
             JobError::Write { path, source, .. } => Failure::cannot_write(&path, &source),
             JobError::Run { error, .. } => error.into(),
         };

@@ -1,6 +1,8 @@
-//! Physics and numerics of flap.
+#![doc = include_str!("../README.md")]
 //!
-//! Layers, each using only those above it:
+//! # Layers
+//!
+//! Each layer uses only those above it:
 //!
 //! - [`num`]: the numbers that models and integrators compute with, scalars or SIMD lanes
 //! - [`ode`]: Dormand-Prince 5(4), for one run or for many in lanes
@@ -10,8 +12,6 @@
 //! - [`measure`]: what is measured of a motion, whatever the model
 //! - [`simulate`]: design points in, rows out
 //! - [`resonance`]: the resonances of a design point
-//!
-//! This crate prints nothing, opens no file, spawns no thread and reads no clock.
 
 pub mod aero;
 pub mod drive;

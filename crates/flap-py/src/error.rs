@@ -147,10 +147,12 @@ pub(crate) fn job(error: &JobError) -> PyErr {
         JobError::Overlap(error) => PyValueError::new_err(error.to_string()),
         JobError::Create(error) => create(error),
         JobError::Resume { error, changed } => resume(error, changed.as_deref()),
-        JobError::Damaged { .. } | JobError::Sidecar(_) => {
+        JobError::Open(OpenError::Read { path, source }) => {
+            io_error(&format!("cannot read {}", path.display()), source)
+        }
+        JobError::Open(_) => {
             PyValueError::new_err(format!("{error}: overwrite=True starts over, or name another file"))
         }
-        JobError::Read { path, source } => io_error(&format!("cannot read {}", path.display()), source),
         JobError::Write { resumable, .. } => go_on(PyOSError::new_err(error.to_string()), *resumable, py),
         JobError::Run { error, resumable } => go_on(run(error), *resumable, py),
     })

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use csv::StringRecord;
 use flap_core::simulate;
-use flap_sweep::files::integrity::{self, Note, OnDamage, Opened, RowCheck};
-use flap_sweep::files::results::{Reader, Recorded};
+use flap_sweep::files::integrity::{self, Note, OnDamage, Opened};
+use flap_sweep::files::results::{Reader, Recorded, RowCheck};
 use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::plan::Plan;
 use flap_sweep::run::RunOptions;

@@ -1,6 +1,8 @@
-//! Grid files, plans and sweeps.
+#![doc = include_str!("../README.md")]
 //!
-//! Rooms, each using only those above it:
+//! # Rooms
+//!
+//! Each room uses only those above it:
 //!
 //! - [`notation`]: numbers, units, times and formulas as text
 //! - [`resonance`]: rows of designs that are each run at their own resonance

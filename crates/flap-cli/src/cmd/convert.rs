@@ -2,10 +2,11 @@
 
 use std::io::ErrorKind;
 
+use flap_sweep::files::beside::sidecar_of;
 use flap_sweep::files::inputs::Inputs;
-use flap_sweep::files::integrity::{Note, RowCheck};
-use flap_sweep::files::results::{Checksums, ConvertError, Converted, Format, Provenance, convert};
-use flap_sweep::files::sidecar::{self, Sidecar, State};
+use flap_sweep::files::integrity::Note;
+use flap_sweep::files::results::{Checksums, ConvertError, Converted, Format, Provenance, RowCheck, convert};
+use flap_sweep::files::sidecar::{Sidecar, State};
 
 use crate::args::ConvertArgs;
 use crate::cmd::outputs::is_stdout;
@@ -23,7 +24,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
     let is_damaged = source.notes.iter().any(|note| matches!(note, Note::Damaged { .. }));
     let provenance = Provenance::of(&plan, &sidecar.identity());
     let written = sidecar.rows.filter(|_| sidecar.state == State::Complete);
-    let check = Some(RowCheck::new(&plan, written));
+    let check = RowCheck::new(&plan, written);
     if to_stdout {
         convert(&mut source.reader, (job::stdout()?, to), &provenance, check)
             .map_err(|error| failure(args, &error))?;
@@ -36,7 +37,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
         rows = converted.rows;
         note(&mut sidecar, converted, is_damaged);
         // Earlier results keep their own until the new rows are complete.
-        Ok::<(), ConvertError>(sidecar.write(&sidecar::path_of(&args.to))?)
+        Ok::<(), ConvertError>(sidecar.write(&sidecar_of(&args.to))?)
     });
     made?.map_err(|error| failure(args, &error))?;
     job::tell_missed(&args.from, &source.reader);
@@ -59,7 +60,7 @@ fn failure(args: &ConvertArgs, error: &ConvertError) -> Failure {
     match error {
         ConvertError::Write(source) if source.kind() == ErrorKind::BrokenPipe => Failure::ClosedPipe,
         ConvertError::Write(_) => Failure::System(format!("{}: {error}", args.to.display()), Vec::new()),
-        ConvertError::Read(_) | ConvertError::Columns => {
+        ConvertError::Read(_) | ConvertError::Columns(_) => {
             Failure::System(format!("{}: {error}", args.from.display()), Vec::new())
         }
         ConvertError::Rows(_) => {

@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
+use flap_sweep::files::beside::sidecar_of;
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::integrity::{Note, OnDamage};
 use flap_sweep::files::merge::{self, MergeError, Part};
 use flap_sweep::files::results::{Format, Reader};
-use flap_sweep::files::sidecar::{self, End, Sidecar, Start};
+use flap_sweep::files::sidecar::{End, Sidecar, Start};
 use flap_sweep::plan::selection::Selection;
 use flap_sweep::run::RunOptions;
 
@@ -30,7 +31,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let Some(Part { path, sidecar: first }) = parts.first() else {
         return Err(Failure::usage("name the shards to be merged"));
     };
-    let mut plan = job::plan_of(&sidecar::path_of(path), first)?;
+    let mut plan = job::plan_of(&sidecar_of(path), first)?;
     plan.selection = Selection::All;
 
     Inputs::new().add_plan(&plan).protect_from_results(&args.out)?;
@@ -61,7 +62,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
         // Rows that were damaged before are not to be called sound.
         whole.checksums = Some(checksums).filter(|_| !is_damaged);
         // Earlier results keep their own until the new rows are complete.
-        Ok::<(), MergeError>(whole.write(&sidecar::path_of(&args.out))?)
+        Ok::<(), MergeError>(whole.write(&sidecar_of(&args.out))?)
     })??;
     tell_missed(&parts, &readers);
     console::say(&format!("{} rows of {} shards in {}", summary.rows, parts.len(), args.out.display()));

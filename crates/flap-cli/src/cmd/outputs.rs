@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use flap_sweep::files::inputs::{Inputs, is_same_target};
+use flap_sweep::files::disk::is_same_target;
+use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::results::Format;
 
 use crate::failure::Failure;

@@ -7,9 +7,9 @@ use std::sync::atomic::AtomicBool;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::Point;
+use flap_sweep::files::disk::{self, Durable};
 use flap_sweep::files::inputs::Inputs;
-use flap_sweep::files::job;
-use flap_sweep::files::output::{self, Durable};
+use flap_sweep::files::output;
 use flap_sweep::notation::text;
 use flap_sweep::plan::Plan;
 use flap_sweep::run::RunOptions;
@@ -72,7 +72,7 @@ fn into_file(
     overwrite: bool,
     write: impl FnOnce(File) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    if job::is_empty(path) {
+    if disk::is_empty(path) {
         return write(output::create(path, overwrite)?);
     }
     let mut failure = None;

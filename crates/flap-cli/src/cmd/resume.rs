@@ -19,6 +19,6 @@ pub(crate) fn run(args: &ResumeArgs) -> Result<Exit, Failure> {
         console::say(&format!("{} is complete: nothing is left to run", args.results.display()));
         return Ok(Exit::Done);
     }
-    let origin = sidecar.origin();
+    let origin = sidecar.origin().cloned();
     job::run(&plan, args.results.clone(), Begin::Resume, &args.work, origin)
 }

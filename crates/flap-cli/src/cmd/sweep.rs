@@ -44,7 +44,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
 fn plan(args: &SweepArgs) -> Result<(Plan, Option<Origin>), Failure> {
     if let Some(path) = &args.from_sidecar {
         let sidecar = Sidecar::read(path)?;
-        return Ok((job::plan_of(path, &sidecar)?, sidecar.origin()));
+        return Ok((job::plan_of(path, &sidecar)?, sidecar.origin().cloned()));
     }
     let grid = args.grid.as_ref().ok_or_else(|| Failure::usage("name a grid file with --grid"))?;
     Ok((grid::read(grid, models::all())?, None))

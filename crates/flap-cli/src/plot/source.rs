@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use csv::StringRecord;
 use flap_sweep::files::integrity::{self, Note, Opened};
 use flap_sweep::files::results::Reader;
-use flap_sweep::files::sidecar::{self, Sidecar};
+use flap_sweep::files::beside::sidecar_of;
+use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::table::labels;
 use flap_sweep::table::layout::Layout;
 
@@ -168,7 +169,7 @@ struct Units {
 impl Units {
     /// The units in the sidecar of `results`, if it has one that this flap understands.
     fn of(results: &Path, sidecar: Option<&Sidecar>) -> Units {
-        let beside = sidecar::path_of(results);
+        let beside = sidecar_of(results);
         let mut recorded = BTreeMap::new();
         if let Some(sidecar) = sidecar {
             match job::plan_of(&beside, sidecar) {

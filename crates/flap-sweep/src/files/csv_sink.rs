@@ -4,15 +4,15 @@ use std::io;
 
 use flap_core::simulate::{Point, Row};
 
-use crate::files::output::Durable;
+use crate::files::disk::Durable;
 use crate::run::sink::Sink;
 use crate::table::layout::Layout;
 use crate::table::lines::Lines;
 
 /// Writes one plain header line, then one line per row.
 ///
-/// Numbers are written as [`crate::notation::text::float`] does, choices by the name of their option;
-/// cells of what is not known are empty.
+/// Numbers are written as [`crate::notation::text::float`] does, choices by the name of their option. The cell of an unknown
+/// value is empty.
 pub struct CsvSink<W: Durable> {
     layout: Layout,
     lines: Lines<W>,
@@ -24,7 +24,7 @@ impl<W: Durable> CsvSink<W> {
         CsvSink { layout, lines: Lines::new(target) }
     }
 
-    /// What has been written to; complete after [`Sink::flush`] or [`Sink::finish`].
+    /// The target; all rows are in it after [`Sink::flush`] or [`Sink::finish`].
     pub fn target(&self) -> &W {
         self.lines.target()
     }
@@ -49,8 +49,8 @@ impl<W: Durable> Sink for CsvSink<W> {
     }
 }
 
-/// What the operating system said, which the conversion of the csv crate would hide, and a closed pipe with it; or what is
-/// wrong with the table.
+/// The error of the operating system, such as a closed pipe, which the csv crate's own conversion would hide; or
+/// [`io::ErrorKind::InvalidData`] with the mistake in the table.
 pub fn cause(error: csv::Error) -> io::Error {
     let wrong = |place: Option<csv::Position>, what: String| {
         let line = place.map_or_else(String::new, |place| format!("line {}: ", place.line()));

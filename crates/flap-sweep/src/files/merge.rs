@@ -6,12 +6,9 @@ use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use csv::StringRecord;
-use flap_core::simulate::Status;
-
-use crate::files::integrity::RowCheck;
-use crate::files::results::{Checksums, Format, Provenance, Reader, Writer};
+use crate::files::results::{Checked, Checksums, Format, Provenance, Reader, RowCheck, RowsError, Writer};
 use crate::files::sidecar::{Sidecar, State};
+use crate::files::tallies;
 use crate::plan::Plan;
 use crate::plan::selection::{Selection, Shard};
 use crate::run::identity::{self, Identity};
@@ -22,14 +19,21 @@ use crate::run::{RunOptions, Summary};
 pub struct Part {
     /// The result file.
     pub path: PathBuf,
-    /// What lies beside it.
+    /// Its sidecar.
     pub sidecar: Sidecar,
 }
 
-/// Why shards cannot be merged.
+impl Part {
+    /// The shard that its sidecar names.
+    fn shard(&self) -> Option<Shard> {
+        self.sidecar.shard.as_deref()?.parse().ok()
+    }
+}
+
+/// Shards that cannot be merged.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
-    /// They are not all shards of one sweep, each once: everything that is wrong.
+    /// They are not all shards of one sweep, each once. A line for each mistake.
     #[error("{}", .0.join("\n"))]
     Parts(Vec<String>),
     /// A shard cannot be read.
@@ -37,8 +41,8 @@ pub enum MergeError {
     Read {
         /// The shard.
         path: PathBuf,
-        /// Why.
-        source: io::Error,
+        /// The reason.
+        source: RowsError,
     },
     /// The rows cannot be written.
     #[error("cannot write rows: {0}")]
@@ -48,7 +52,7 @@ pub enum MergeError {
 /// Checks that `parts` are the complete shards of one sweep by this version, each of them once.
 ///
 /// # Errors
-/// [`MergeError::Parts`] with all that is wrong.
+/// [`MergeError::Parts`] with all mistakes.
 pub fn check(parts: &[Part]) -> Result<(), MergeError> {
     let mut problems = Vec::new();
     let mut seen: BTreeMap<u64, &Path> = BTreeMap::new();
@@ -58,8 +62,7 @@ pub fn check(parts: &[Part]) -> Result<(), MergeError> {
         if part.sidecar.state != State::Complete {
             problems.push(format!("{path} is not complete"));
         }
-        let shard: Option<Shard> = part.sidecar.shard.as_deref().and_then(|shard| shard.parse().ok());
-        let Some(shard) = shard else {
+        let Some(shard) = part.shard() else {
             problems.push(format!("{path} is not a shard"));
             continue;
         };
@@ -97,17 +100,17 @@ pub fn check(parts: &[Part]) -> Result<(), MergeError> {
     if problems.is_empty() { Ok(()) } else { Err(MergeError::Parts(problems)) }
 }
 
-/// What the rows are that the shard is a part of.
+/// The identity of the rows of all shards together.
 fn whole_of(sidecar: &Sidecar) -> Identity {
     Identity { selection: Selection::All.to_string(), ..sidecar.identity() }
 }
 
-/// Writes the rows of `parts`, which [`check`] has passed, and each of which one of `readers` reads, to `to` in the order of
-/// their points.
+/// Writes the rows of `parts` to `to` in the order of their points. [`check`] has passed the parts; `readers` read them, in the
+/// same order. Rows of tolerant readers that do not belong to their shard are left out.
 ///
 /// # Errors
-/// If a shard cannot be read or does not hold the rows that its sidecar tells of, or rows cannot be written. Rows that tolerant
-/// readers give and that are none of their shard are left out.
+/// - [`MergeError::Read`] if a shard cannot be read, or does not hold the rows that its sidecar records
+/// - [`MergeError::Write`] if rows cannot be written
 pub fn merge(
     parts: &[Part],
     readers: &mut [Reader],
@@ -117,19 +120,18 @@ pub fn merge(
     let identity = parts
         .first()
         .map_or_else(|| Identity::of(plan, &RunOptions::default()), |first| whole_of(&first.sidecar));
-    let provenance = Provenance::of(plan, &identity);
     let mut sources = Vec::with_capacity(parts.len());
     // The next row of every shard, the first point on top.
     let mut next = BinaryHeap::with_capacity(parts.len());
     for (part, reader) in parts.iter().zip(readers) {
-        let mut source = Source::new(part, reader, plan, &provenance)?;
+        let mut source = Source::new(part, reader, plan)?;
         next.extend(source.advance()?.map(|point| Reverse((point, sources.len()))));
         sources.push(source);
     }
-    let mut writer = Writer::new(to.0, to.1, &provenance)?;
+    let mut writer = Writer::new(to.0, to.1, &Provenance::of(plan, &identity))?;
     while let Some(Reverse((_, number))) = next.pop() {
         let source = &mut sources[number];
-        writer.row(&source.row)?;
+        writer.row(source.rows.row())?;
         next.extend(source.advance()?.map(|point| Reverse((point, number))));
     }
     Ok(writer.finish()?)
@@ -138,65 +140,34 @@ pub fn merge(
 /// The rows of one shard.
 struct Source<'a> {
     path: &'a Path,
-    reader: &'a mut Reader,
-    check: RowCheck,
-    row: StringRecord,
+    rows: Checked<'a>,
 }
 
 impl Source<'_> {
-    fn new<'a>(
-        part: &'a Part,
-        reader: &'a mut Reader,
-        plan: &Plan,
-        provenance: &Provenance,
-    ) -> Result<Source<'a>, MergeError> {
-        let shard = part.sidecar.shard.as_deref().and_then(|shard| shard.parse().ok());
-        let selection = shard.map_or(Selection::All, Selection::Shard);
-        let mut check = RowCheck::of(plan, selection, part.sidecar.rows);
-        if reader.is_tolerant() {
-            check.allow_gaps();
-        }
-        let source = Source { path: &part.path, reader, check, row: StringRecord::new() };
-        if !source.reader.names().iter().eq(provenance.columns.iter().map(|column| &column.name)) {
-            return Err(source.wrong("its columns are not those of its grid file"));
-        }
-        Ok(source)
+    fn new<'a>(part: &'a Part, reader: &'a mut Reader, plan: &Plan) -> Result<Source<'a>, MergeError> {
+        let selection = part.shard().map_or(Selection::All, Selection::Shard);
+        let check = RowCheck::of(plan, selection, part.sidecar.rows);
+        let rows = Checked::new(reader, check)
+            .map_err(|source| MergeError::Read { path: part.path.clone(), source })?;
+        Ok(Source { path: &part.path, rows })
     }
 
     /// Reads the next row, and gives its point.
     fn advance(&mut self) -> Result<Option<u64>, MergeError> {
-        let read = |source| MergeError::Read { path: self.path.to_owned(), source };
-        while self.reader.next(&mut self.row).map_err(read)? {
-            match self.check.row(&self.row) {
-                Ok(point) => return Ok(Some(point)),
-                Err(_) if self.reader.leave_out() => {}
-                Err(reason) => return Err(self.wrong(&reason)),
-            }
-        }
-        self.check.end().map_err(|reason| self.wrong(&reason))?;
-        Ok(None)
-    }
-
-    fn wrong(&self, message: &str) -> MergeError {
-        let source = io::Error::new(io::ErrorKind::InvalidData, message);
-        MergeError::Read { path: self.path.to_owned(), source }
+        self.rows.next().map_err(|source| MergeError::Read { path: self.path.to_owned(), source })
     }
 }
 
-/// What the shards came to together.
+/// The summary of all shards together.
 pub fn summary(parts: &[Part], plan: &Plan) -> Summary {
     let sidecars = || parts.iter().map(|part| &part.sidecar);
     let total = |number: fn(&Sidecar) -> Option<u64>| sidecars().filter_map(number).sum();
-    let count = |status: Status| {
-        let of_shard = |sidecar: &Sidecar| sidecar.statuses.as_ref()?.get(status.name()).copied();
-        (status, sidecars().filter_map(of_shard).sum())
-    };
     let unsatisfied = |name: &str| {
         let counts = sidecars().filter_map(|sidecar| sidecar.unsatisfied.get(name));
         (name.to_owned(), counts.sum())
     };
     let invalid = sidecars().flat_map(|sidecar| &sidecar.invalid);
-    let mut invalid: Vec<_> = invalid.map(|invalid| (invalid.point, invalid.reason.clone())).collect();
+    let mut invalid: Vec<(u64, String)> = invalid.map(From::from).collect();
     invalid.sort_unstable();
     invalid.truncate(Summary::MOST_REASONS);
     Summary {
@@ -205,7 +176,7 @@ pub fn summary(parts: &[Part], plan: &Plan) -> Summary {
         excluded: total(|sidecar| sidecar.excluded),
         unsatisfied: plan.conditions.iter().map(|condition| unsatisfied(&condition.name)).collect(),
         interrupted: false,
-        counts: Status::ALL.into_iter().map(count).collect(),
+        counts: tallies::total(sidecars().filter_map(|sidecar| sidecar.statuses.as_ref())),
         rhs_evals: total(|sidecar| sidecar.rhs_evals),
         cycles: total(|sidecar| sidecar.cycles),
         doubts: sidecars().filter_map(|sidecar| sidecar.doubts).sum(),

@@ -1,6 +1,12 @@
-//! Result files: their formats, and the files beside them that say how they were made and how far they are.
+//! Result files: their formats, and the files beside them that record their origin and the progress of a run.
+//!
+//! From the bottom up: `beside` names the files and `disk` writes them; [`results`] are rows in files; [`journal`] and
+//! [`sidecar`] are the files beside them; `output` opens a result file, a [`session`] writes it, [`integrity`] checks it, and
+//! a [`job`] runs a plan from beginning to end.
 
+pub mod beside;
 pub mod csv_sink;
+pub mod disk;
 pub mod inputs;
 pub mod integrity;
 pub mod job;
@@ -13,3 +19,4 @@ pub mod rerun;
 pub mod results;
 pub mod session;
 pub mod sidecar;
+mod tallies;

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 use std::fs::File;
+use std::io;
 use std::path::Path;
 
 use crate::files::csv_sink::cause;
@@ -10,31 +11,83 @@ use crate::files::results::Bounded;
 /// A table of numbers, by column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// The file, for messages.
+    /// The name of the file, for messages.
     name: String,
     headings: Vec<String>,
     columns: Vec<Vec<f64>>,
 }
 
-/// Why a record cannot be used: the file, the line and the column where that helps, and what is expected.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0}")]
-pub struct RecordError(String);
+/// A record that cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordError {
+    /// The file cannot be read, or is not a table.
+    #[error("{name}: {source}")]
+    Read {
+        /// The file.
+        name: String,
+        /// The reason.
+        source: io::Error,
+    },
+    /// Two columns have the same heading.
+    #[error("{name}: there are two columns {heading}: keep one of them")]
+    Twice {
+        /// The file.
+        name: String,
+        /// The heading.
+        heading: String,
+    },
+    /// A cell is not a finite number.
+    #[error("{name}, line {line}, column {heading}: `{cell}` is not a number")]
+    Cell {
+        /// The file.
+        name: String,
+        /// Number of the line, from 1.
+        line: u64,
+        /// The heading of the column.
+        heading: String,
+        /// The cell.
+        cell: String,
+    },
+    /// No column has one of the headings wanted.
+    #[error("{name}: there is no column {}; the file has {}", wanted.join(" or "), headings.join(", "))]
+    Missing {
+        /// The file.
+        name: String,
+        /// The headings wanted.
+        wanted: Vec<String>,
+        /// The headings in the file.
+        headings: Vec<String>,
+    },
+    /// Two columns of the same quantity differ.
+    #[error("{name}: columns {first} and {second} contradict each other in row {row}: keep one of them")]
+    Contradiction {
+        /// The file.
+        name: String,
+        /// The heading of one column.
+        first: String,
+        /// The heading of the other one.
+        second: String,
+        /// Number of the row, from 1.
+        row: usize,
+    },
+}
 
 impl Record {
-    /// Reads a CSV file with a line of headings. Blanks around headings and numbers do not count.
+    /// Reads a CSV file with a line of headings. Blanks around headings and numbers are ignored.
     ///
     /// # Errors
-    /// If the file cannot be read, a line has another number of cells than the headings, or a cell is not a finite
-    /// number.
+    /// - [`RecordError::Read`] if the file cannot be read, or a line has more or fewer cells than there are headings
+    /// - [`RecordError::Twice`] if two columns have the same heading
+    /// - [`RecordError::Cell`] if a cell is not a finite number
     pub fn read(path: &Path) -> Result<Record, RecordError> {
         let name = path.display().to_string();
-        let fail = |error: csv::Error| RecordError(format!("{name}: {}", cause(error)));
-        let file = File::open(path).map_err(|error| RecordError(format!("{name}: {error}")))?;
+        let unreadable = |source: io::Error| RecordError::Read { name: name.clone(), source };
+        let fail = |error: csv::Error| unreadable(cause(error));
+        let file = File::open(path).map_err(unreadable)?;
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(Bounded::new(file));
         let headings: Vec<String> = reader.headers().map_err(fail)?.iter().map(str::to_owned).collect();
         if let Some(twice) = repeated(&headings) {
-            return Err(RecordError(format!("{name}: there are two columns {twice}: keep one of them")));
+            return Err(RecordError::Twice { heading: twice.clone(), name });
         }
         let mut columns = vec![Vec::new(); headings.len()];
         let mut row = csv::StringRecord::new();
@@ -43,8 +96,11 @@ impl Record {
             let line = row.position().map_or(0, csv::Position::line);
             for ((cell, heading), column) in row.iter().zip(&headings).zip(&mut columns) {
                 let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
-                column.push(number.ok_or_else(|| {
-                    RecordError(format!("{name}, line {line}, column {heading}: `{cell}` is not a number"))
+                column.push(number.ok_or_else(|| RecordError::Cell {
+                    name: name.clone(),
+                    line,
+                    heading: heading.clone(),
+                    cell: cell.to_owned(),
                 })?);
             }
         }
@@ -54,38 +110,35 @@ impl Record {
     /// The column that has one of these headings, multiplied by its factor; the first if there are more that agree.
     ///
     /// # Errors
-    /// If there is none: which headings are expected, and which the file has. If there are two that contradict each
-    /// other: in which row.
+    /// - [`RecordError::Missing`] if there is none
+    /// - [`RecordError::Contradiction`] if there are two that differ
     pub fn column(&self, names: &[(&str, f64)]) -> Result<Vec<f64>, RecordError> {
         let mut found = names.iter().filter_map(|(name, factor)| {
             let index = self.headings.iter().position(|heading| heading == name)?;
             Some((*name, self.columns[index].iter().map(|number| number * factor).collect::<Vec<f64>>()))
         });
-        let (name, column) = found.next().ok_or_else(|| {
-            let wanted: Vec<&str> = names.iter().map(|(name, _)| *name).collect();
-            RecordError(format!(
-                "{}: there is no column {}; the file has {}",
-                self.name,
-                wanted.join(" or "),
-                self.headings.join(", ")
-            ))
+        let (first, column) = found.next().ok_or_else(|| RecordError::Missing {
+            name: self.name.clone(),
+            wanted: names.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            headings: self.headings.clone(),
         })?;
-        for (other, numbers) in found {
+        for (second, numbers) in found {
             let largest = column.iter().fold(0.0_f64, |largest, number| largest.max(number.abs()));
             let differs = |(a, b): (&f64, &f64)| (a - b).abs() > SAME * largest;
             if let Some(row) = column.iter().zip(&numbers).position(differs) {
-                return Err(RecordError(format!(
-                    "{}: columns {name} and {other} contradict each other in row {}: keep one of them",
-                    self.name,
-                    row + 1
-                )));
+                return Err(RecordError::Contradiction {
+                    name: self.name.clone(),
+                    first: first.to_owned(),
+                    second: second.to_owned(),
+                    row: row + 1,
+                });
             }
         }
         Ok(column)
     }
 }
 
-/// Numbers in two units that differ by less than this share of the largest are the same, rounded.
+/// Largest difference of the same number in two units, as a share of the column's largest number.
 const SAME: f64 = 1e-6;
 
 /// The first of the headings that is there twice.

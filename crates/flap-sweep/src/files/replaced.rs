@@ -1,27 +1,31 @@
-//! Results that are replaced: they wait beside the new ones until those are complete.
+//! Results that are to be replaced: they are kept beside the new ones until those are complete.
 //!
-//! `rows.csv` becomes `rows.old.csv`, and what lies beside it keeps lying beside it. The journal of the new results says that
-//! it was done, so that only what flap has moved is ever removed.
+//! `rows.csv` becomes `rows.old.csv`, and the files beside it are renamed with it. The journal of the new results records
+//! this, so that only files which flap has renamed are ever removed.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::files::beside;
+use crate::files::disk;
 use crate::files::journal;
 use crate::files::results::Format;
-use crate::files::session;
-use crate::files::sidecar;
 
-/// Where the results that those at `results` replace wait; `None` if there are none.
-pub(crate) fn kept(results: &Path) -> Option<PathBuf> {
-    let past = journal::read(&journal::path_of(results)).ok()??;
+/// The file of the earlier results that the unfinished ones at `results` replace, such as `rows.old.csv`. `None` if there is
+/// none.
+pub fn kept(results: &Path) -> Option<PathBuf> {
+    let past = journal::read(&beside::journal_of(results)).ok()??;
     Some(aside(&target(results))).filter(|kept| past.header.replaces && kept.exists())
 }
 
-/// Moves the results at `results` aside, with what lies beside them.
+/// Moves the results at `results` aside, with the files beside them.
 ///
 /// # Errors
-/// If something is in the way, or the operating system refuses. Then all is where it was.
+/// - [`io::ErrorKind::AlreadyExists`] if a file of the new name is in the way
+/// - the error of the operating system if a file cannot be renamed
+///
+/// All files then have their old names.
 pub(crate) fn set_aside(results: &Path) -> io::Result<()> {
     let moves = moves(results);
     for (_, to) in &moves {
@@ -39,10 +43,10 @@ pub(crate) fn set_aside(results: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Moves earlier results back, in place of new ones that nothing was written to.
+/// Moves earlier results back, in place of new ones without rows.
 pub(crate) fn restore(results: &Path) {
     for (from, to) in moves(results) {
-        // A name that cannot be moved stays where the documentation says.
+        // A file that cannot be renamed keeps the name that the documentation gives.
         if to.exists() {
             let _ = rename(&to, &from);
         } else {
@@ -54,30 +58,30 @@ pub(crate) fn restore(results: &Path) {
 /// Removes the earlier results.
 ///
 /// # Errors
-/// What the operating system says.
+/// The error of the operating system if a file cannot be removed.
 pub(crate) fn remove(results: &Path) -> io::Result<()> {
     for (_, to) in moves(results) {
-        session::remove_if_there(&to)?;
+        disk::remove_if_there(&to)?;
     }
     Ok(())
 }
 
-/// The files that are moved, and where to: the rows last.
-fn moves(results: &Path) -> [(PathBuf, PathBuf); 4] {
-    let beside = |of: fn(&Path) -> PathBuf| (of(results), of(&aside(results)));
+/// The old and new names of the files that are moved, the rows last.
+fn moves(results: &Path) -> Vec<(PathBuf, PathBuf)> {
     let rows = target(results);
-    let aside = aside(&rows);
-    [beside(sidecar::path_of), beside(journal::path_of), beside(session::part_of), (rows, aside)]
+    let kept = aside(&rows);
+    let beside = beside::all_of(results).into_iter().zip(beside::all_of(&aside(results)));
+    beside.chain([(rows, kept)]).collect()
 }
 
-/// `rows.old.csv` for `rows.csv`.
+/// The new name: `rows.old.csv` for `rows.csv`.
 fn aside(results: &Path) -> PathBuf {
     let name = results.file_name().unwrap_or_default().to_string_lossy();
     let (stem, ending) = Format::split_ending(&name);
     results.with_file_name(format!("{stem}.old{ending}"))
 }
 
-/// The file that the name stands for: a link stays a link.
+/// The file that is moved: the target of a link, so that the link itself stays.
 fn target(results: &Path) -> PathBuf {
     let is_link = fs::symlink_metadata(results).is_ok_and(|metadata| metadata.is_symlink());
     let target = is_link.then(|| fs::canonicalize(results).ok()).flatten();

@@ -116,7 +116,12 @@ pub fn option(parameter: &Parameter, value: f64) -> Option<&'static str> {
 
 /// XXH3 of a text, of 64 bits, in hexadecimal digits.
 pub(crate) fn hash(text: &str) -> String {
-    format!("{:016x}", xxh3_64(text.as_bytes()))
+    digits(xxh3_64(text.as_bytes()))
+}
+
+/// A hash of 64 bits in hexadecimal digits.
+pub(crate) fn digits(hash: u64) -> String {
+    format!("{hash:016x}")
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use xxhash_rust::xxh3::xxh3_64;
 use crate::notation::text;
 use crate::plan::{Plan, PointsFile};
 use crate::run::RunOptions;
+use crate::run::solver::SolverFields;
 
 /// The build of flap: a hash of the sources that decide the bytes of rows, in hexadecimal digits.
 ///
@@ -37,8 +38,9 @@ pub struct Identity {
     pub points_file: Option<String>,
     /// Which points are run, in words.
     pub selection: String,
-    /// How they are integrated.
-    pub solver: Solver,
+    /// Solver settings.
+    #[serde(with = "SolverFields")]
+    pub solver: SolverSettings,
 }
 
 impl Identity {
@@ -51,7 +53,7 @@ impl Identity {
             grid: text::hash(&plan.source.text),
             points_file: plan.points_file.as_ref().map(PointsFile::hash),
             selection: plan.selection.to_string(),
-            solver: Solver::from(&plan.solver),
+            solver: plan.solver,
         }
     }
 
@@ -85,37 +87,4 @@ impl Identity {
 
 fn build_text(build: &str) -> String {
     if build.is_empty() { "an unknown build".to_owned() } else { format!("build {build}") }
-}
-
-/// The solver settings of a run, as files record them; see [`SolverSettings`].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "they are the fields of SolverSettings")]
-pub struct Solver {
-    pub rtol: f64,
-    pub atol: f64,
-    pub settle_tol: f64,
-    pub max_cycles: u32,
-    pub max_steps: u32,
-    #[serde(default = "default_accuracy")]
-    pub accuracy: f64,
-    pub newton: bool,
-}
-
-/// The accuracy of results whose sidecar does not tell it.
-fn default_accuracy() -> f64 {
-    SolverSettings::default().accuracy
-}
-
-impl From<&SolverSettings> for Solver {
-    fn from(settings: &SolverSettings) -> Solver {
-        let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton } = *settings;
-        Solver { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton }
-    }
-}
-
-impl From<&Solver> for SolverSettings {
-    fn from(solver: &Solver) -> SolverSettings {
-        let Solver { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton } = *solver;
-        SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton }
-    }
 }

@@ -11,6 +11,7 @@ mod ledger;
 mod parcel;
 mod queue;
 pub mod sink;
+pub(crate) mod solver;
 mod summary;
 mod window;
 mod worker;

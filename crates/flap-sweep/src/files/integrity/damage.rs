@@ -1,36 +1,45 @@
-//! What is wrong with a result file, in words.
+//! The damage of a result file, in words.
 
 use std::fmt;
 use std::ops::RangeInclusive;
 
-use crate::files::results::checksum::TextDigest;
-use crate::files::results::{BLOCK_ROWS, Checksums};
+use crate::files::results::{BLOCK_ROWS, Checksums, TextDigest};
 
-/// Ranges that a message lists; of more it says how many.
+/// The treatment of damage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OnDamage {
+    /// Damaged results are not read.
+    Refuse,
+    /// Rows that can be read are read, and a [`Note`](super::Note) tells of the damage.
+    Tolerate,
+}
+
+/// Most ranges that a message lists; it counts the others.
 const MOST_LISTED: usize = 5;
 
-/// How a file differs from what was written.
+/// The differences of a file from the one that was written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "any of them may hold, and each has a sentence of its own")]
 pub struct Damage {
     /// The checksums themselves cannot be read.
     pub checksums: bool,
-    /// The header is another.
+    /// The header has changed.
     pub header: bool,
-    /// Rows in blocks that are others, counted from 1: at least one in each range, and those after a missing or an added one.
+    /// Ranges of rows, counted from 1, in blocks that have changed: at least one row in each, and all rows behind a missing or
+    /// an added one.
     pub rows: Vec<RangeInclusive<u64>>,
-    /// How many rows there are and how many were written, if that differs.
+    /// Number of rows in the file and number of rows that were written, if they differ.
     pub count: Option<(u64, u64)>,
-    /// Why what follows cannot be read.
+    /// Reason why the rest of the file cannot be read.
     pub unreadable: Option<String>,
-    /// Bytes are others: perhaps only some that rows do not depend on.
+    /// Bytes have changed, perhaps only some that rows do not depend on.
     pub bytes: bool,
-    /// Unfinished rows are not those that the journal tells of.
+    /// Unfinished rows are not those that the journal records.
     pub altered: bool,
 }
 
 impl Damage {
-    /// Compares the text that was found with what was written, of which `rows` were.
+    /// The damage of the text that was found, compared with the `checksums` of the `rows` that were written.
     pub(super) fn of_text(found: &TextDigest, checksums: &Checksums, rows: Option<u64>) -> Damage {
         let mut damage = Damage::default();
         if found.text() == checksums.text {
@@ -55,7 +64,7 @@ impl Damage {
         damage
     }
 
-    /// Whether nothing is wrong.
+    /// True if there is no damage.
     pub fn is_none(&self) -> bool {
         *self == Damage::default()
     }

@@ -1,27 +1,20 @@
-//! Results to be read: checked, and as far as they are complete.
+//! Results opened for reading: checked, up to the last row that is safe.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use memchr::memrchr;
 
-use super::damage::Damage;
-use super::unfinished::last_intact;
-use super::verify;
-use crate::files::journal::{self, Past};
-use crate::files::results::{Format, FormatError, Reader};
-use crate::files::session;
-use crate::files::sidecar::{self, ReadError, Sidecar, State};
+use super::check::check;
+use super::{Damage, Note, OnDamage, OpenError, Unverified};
+use crate::files::beside::{journal_of, rows_of, sidecar_of};
+use crate::files::journal::{self, Past, last_intact};
+use crate::files::results::{Format, Reader};
+use crate::files::sidecar::{ReadError, Sidecar, State};
 
-/// The treatment of damage.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OnDamage {
-    /// Nothing is read.
-    Refuse,
-    /// What can be read is read, and a [`Note`] tells of it.
-    Tolerate,
-}
+/// Longest row of a result file (bytes).
+const LONGEST_ROW: u64 = 1 << 20;
 
 /// Results that can be read.
 pub struct Opened {
@@ -33,98 +26,28 @@ pub struct Opened {
     pub notes: Vec<Note>,
 }
 
-/// A note on results for the user.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Note {
-    /// They are not as they were written.
-    #[error("{} is damaged: {damage}", path.display())]
-    Damaged {
-        /// The file.
-        path: PathBuf,
-        /// How.
-        damage: Damage,
-    },
-    /// Their sidecar is damaged, or of an unknown format.
-    #[error("{0}")]
-    Sidecar(String),
-    /// They are not complete.
-    #[error("{} is unfinished: {}", path.display(), so_far(*done))]
-    Unfinished {
-        /// The file.
-        path: PathBuf,
-        /// Points whose rows are read or that are excluded, if that is known.
-        done: Option<u64>,
-    },
-    /// They cannot be checked.
-    #[error("{} could not be verified: {why}", path.display())]
-    Unverified {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        why: Unverified,
-    },
-}
-
-/// Why results cannot be checked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Unverified {
-    /// They have no sidecar.
-    #[error("there is no sidecar beside it")]
-    NoSidecar,
-    /// Their sidecar has no checksums.
-    #[error("its sidecar has no checksums")]
-    NoChecksums,
-}
-
-fn so_far(done: Option<u64>) -> String {
-    match done {
-        Some(done) => format!("{done} points are done so far, `flap resume` goes on"),
-        None => "there are fewer rows than points to be run".to_owned(),
-    }
-}
-
-/// Why results cannot be read.
-#[derive(Debug, thiserror::Error)]
-pub enum OpenError {
-    /// The name stands for no format.
-    #[error(transparent)]
-    Format(#[from] FormatError),
-    /// The operating system refuses, or they are something else.
-    #[error("cannot read {}: {source}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-    /// Their sidecar cannot be read, or is damaged.
-    #[error(transparent)]
-    Sidecar(#[from] ReadError),
-    /// They are not as they were written.
-    #[error("{} is damaged: {damage}", path.display())]
-    Damaged {
-        /// The file.
-        path: PathBuf,
-        /// How.
-        damage: Box<Damage>,
-    },
-}
-
-/// Opens the results at `path`. Of unfinished ones the rows up to the last checkpoint are read.
+/// Opens the results at `path`. Unfinished results end at their last checkpoint.
 ///
 /// # Errors
-/// If they cannot be read, or are damaged and that is not tolerated.
+/// - [`OpenError::Format`] if the name stands for no format
+/// - [`OpenError::Read`] if the file cannot be read
+/// - [`OpenError::Sidecar`] if the sidecar cannot be read, or is damaged and that is not tolerated
+/// - [`OpenError::Damaged`] if the results are damaged and that is not tolerated
 pub fn open(path: &Path, on_damage: OnDamage) -> Result<Opened, OpenError> {
     let format = Format::of(path)?;
     let mut notes = Vec::new();
     let sidecar = beside(path, on_damage, &mut notes)?;
     let unreadable = |source| OpenError::Read { path: path.to_owned(), source };
     let is_complete = sidecar.as_ref().is_some_and(|sidecar| sidecar.state == State::Complete);
-    let past = if is_complete { None } else { journal::read(&journal::path_of(path)).map_err(unreadable)? };
+    let past = if is_complete { None } else { journal::read(&journal_of(path)).map_err(unreadable)? };
     let mut reader = match (past, &sidecar) {
         (Some(past), _) => unfinished(path, format, &past, on_damage, &mut notes)?,
         (None, Some(sidecar)) => {
-            checked(path, format, sidecar, on_damage, &mut notes)?;
+            notes.extend(match &sidecar.checksums {
+                None => Some(Note::Unverified { path: path.to_owned(), why: Unverified::NoChecksums }),
+                Some(_) => check(path, format, sidecar, on_damage)?
+                    .map(|damage| Note::Damaged { path: path.to_owned(), damage }),
+            });
             let file = File::open(path).map_err(unreadable)?;
             if is_complete {
                 Reader::new(file, format).map_err(unreadable)?
@@ -146,9 +69,9 @@ pub fn open(path: &Path, on_damage: OnDamage) -> Result<Opened, OpenError> {
     Ok(Opened { reader, sidecar, notes })
 }
 
-/// The sidecar of the results at `path`; `None` if there is none, or a damaged one that is no use.
+/// The sidecar of the results at `path`; `None` if there is none, or it cannot be used.
 fn beside(path: &Path, on_damage: OnDamage, notes: &mut Vec<Note>) -> Result<Option<Sidecar>, OpenError> {
-    let beside = sidecar::path_of(path);
+    let beside = sidecar_of(path);
     match Sidecar::read(&beside) {
         Ok(sidecar) => Ok(Some(sidecar)),
         Err(ReadError::Io { source, .. }) if source.kind() == io::ErrorKind::NotFound => Ok(None),
@@ -156,7 +79,7 @@ fn beside(path: &Path, on_damage: OnDamage, notes: &mut Vec<Note>) -> Result<Opt
             notes.push(Note::Sidecar(error.to_string()));
             Ok(Sidecar::read_damaged(&beside).ok())
         }
-        // Perhaps by another version, or of another program.
+        // The file may be one of another version, or of another program.
         Err(error @ ReadError::Format { .. }) => {
             notes.push(Note::Sidecar(error.to_string()));
             Ok(None)
@@ -165,31 +88,7 @@ fn beside(path: &Path, on_damage: OnDamage, notes: &mut Vec<Note>) -> Result<Opt
     }
 }
 
-/// Compares results with the checksums in their sidecar.
-fn checked(
-    path: &Path,
-    format: Format,
-    sidecar: &Sidecar,
-    on_damage: OnDamage,
-    notes: &mut Vec<Note>,
-) -> Result<(), OpenError> {
-    let path = path.to_owned();
-    if sidecar.checksums.is_none() {
-        notes.push(Note::Unverified { path, why: Unverified::NoChecksums });
-        return Ok(());
-    }
-    match verify::check(&path, format, sidecar) {
-        Ok(None) => Ok(()),
-        Ok(Some(damage)) if on_damage == OnDamage::Tolerate => {
-            notes.push(Note::Damaged { path, damage });
-            Ok(())
-        }
-        Ok(Some(damage)) => Err(OpenError::Damaged { path, damage: Box::new(damage) }),
-        Err(source) => Err(OpenError::Read { path, source }),
-    }
-}
-
-/// The rows of results that have lost their journal: the last one may be half of one.
+/// The whole rows of results that have lost their journal: the last line may be half a row.
 fn whole_rows(mut file: File, format: Format) -> io::Result<Reader> {
     if format != Format::Csv {
         let mut reader = Reader::new(file, format)?;
@@ -197,8 +96,7 @@ fn whole_rows(mut file: File, format: Format) -> io::Result<Reader> {
         return Ok(reader);
     }
     let bytes = file.metadata()?.len();
-    // No row is longer.
-    let begin = bytes.saturating_sub(1 << 20);
+    let begin = bytes.saturating_sub(LONGEST_ROW);
     file.seek(SeekFrom::Start(begin))?;
     let mut end = Vec::new();
     file.read_to_end(&mut end)?;
@@ -207,7 +105,7 @@ fn whole_rows(mut file: File, format: Format) -> io::Result<Reader> {
     Reader::of_text(file.take(begin + last), format)
 }
 
-/// The rows up to the last checkpoint.
+/// The rows of unfinished results, up to the last checkpoint.
 fn unfinished(
     path: &Path,
     format: Format,
@@ -216,8 +114,7 @@ fn unfinished(
     notes: &mut Vec<Note>,
 ) -> Result<Reader, OpenError> {
     let unreadable = |source| OpenError::Read { path: path.to_owned(), source };
-    // Rows of a Parquet file wait as text.
-    let rows = if format == Format::Parquet { session::part_of(path) } else { path.to_owned() };
+    let rows = rows_of(path, format);
     let open = || File::open(&rows).map_err(unreadable);
     let intact = last_intact(&open()?, past).map_err(unreadable)?;
     let done = intact.as_ref().map(|intact| intact.checkpoint.summary().done());

@@ -1,13 +1,12 @@
-//! Files whose lines have an end.
+//! Files of lines, each of limited length.
 
 use std::io::{self, Read};
 
-/// The most bytes that a line may have, or lines without a row in them: 16 MiB. A line of results has some hundred bytes,
-/// and one of ten thousand columns has less than 1 MiB.
+/// Longest line, or lines without a row in them: 16 MiB. A line of results has some hundred bytes, and one of ten thousand
+/// columns has less than 1 MiB.
 const LONGEST_LINE: usize = 16 << 20;
 
-/// Reads from `R`, and refuses to go on in a line that is too long. A few bytes of a compressed file can stand for any length
-/// of one.
+/// A reader that fails within a line that is too long: a few bytes of a compressed file can stand for a line of any length.
 pub struct Bounded<R> {
     source: R,
     since_line: usize,
@@ -19,7 +18,7 @@ impl<R: Read> Bounded<R> {
         Bounded { source, since_line: 0 }
     }
 
-    /// Says that a line was read to its end.
+    /// Begins a new line: the one before was read to its end.
     pub fn begin_line(&mut self) {
         self.since_line = 0;
     }
@@ -30,7 +29,7 @@ impl<R: Read> Read for Bounded<R> {
         if self.since_line > LONGEST_LINE {
             let message =
                 format!("a line is longer than {} MiB: this is no table of numbers", LONGEST_LINE >> 20);
-            // Of no kind that readers of damaged lines pass over: nothing behind it can be read.
+            // The kind of this error is one that readers of damaged lines do not skip: nothing behind it can be read.
             return Err(io::Error::other(message));
         }
         let count = self.source.read(buffer)?;

@@ -1,41 +1,60 @@
 //! Checksums of rows, by which damage is noticed and found.
 //!
-//! They are of the rows as text, which is the same in every format: a file converted keeps them. Lines are counted from the
-//! first one of the file, so neither threads nor interruptions change a checksum.
+//! They are computed from the rows as text, which is the same in every format: a converted file keeps them. Lines are
+//! counted from the first one of the file, so neither threads nor interruptions change a checksum.
 
 use std::fmt::Write as _;
+use std::io::{self, Read, Write};
 
 use memchr::memchr;
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::Xxh3Default;
 
-use super::BLOCK_ROWS;
+use crate::notation::text::digits;
 
-/// Checksums in one line of text: a sidecar of ten million rows has 3,300 such lines, a ten-thousandth of the rows.
+/// Rows in one block, which has a checksum, and is a frame in compressed files. Blocks begin at the same rows for any number
+/// of threads, and in a resumed run, so that the bytes do not depend on them.
+///
+/// Rows in a frame that is not complete are lost if the process is killed. More of them would hardly make files smaller.
+pub const BLOCK_ROWS: u32 = 256;
+
+/// Number of checksums in one line of text: a sidecar of ten million rows has 3,300 such lines, a ten-thousandth of the rows.
 const PER_LINE: usize = 12;
 
-/// Checksums of all that a result file holds.
+/// Checksums of a result file: of its rows as text, and of its bytes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Checksums {
     /// XXH3 of the header and all rows as lines of CSV, in hexadecimal digits.
     pub text: String,
     /// The lower half of the XXH3 of the header.
     pub header: String,
-    /// Rows in each block but the last.
+    /// Number of rows in each block but the last.
     pub block_rows: u32,
-    /// The lower half of the XXH3 of every block of rows: enough to find damage that `text` has told of.
+    /// The lower half of the XXH3 of every block of rows: enough to find damage that `text` reveals.
     pub blocks: String,
-    /// The file's own bytes; `None` if it was not made by writing sound rows.
+    /// Checksum of the file's own bytes; `None` if the file was not made by writing sound rows.
     pub file: Option<FileSum>,
 }
 
 /// A checksum of a file's bytes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileSum {
-    /// How many there are.
+    /// Number of bytes.
     pub bytes: u64,
     /// Their XXH3, in hexadecimal digits.
     pub xxh3: String,
+}
+
+impl FileSum {
+    /// The checksum of all that can be read from `source`.
+    ///
+    /// # Errors
+    /// The error of `source`.
+    pub(crate) fn of(mut source: impl Read) -> io::Result<FileSum> {
+        let mut hash = Xxh3Default::new();
+        let bytes = io::copy(&mut source, &mut hash)?;
+        Ok(FileSum { bytes, xxh3: digits(hash.digest()) })
+    }
 }
 
 impl Checksums {
@@ -46,15 +65,15 @@ impl Checksums {
     }
 }
 
-/// Takes the text of a file in any pieces, and sums it up.
+/// Takes the text of a file in pieces of any size, and computes its checksums.
 #[derive(Clone)]
 pub(crate) struct TextDigest {
     whole: Xxh3Default,
     block: Xxh3Default,
-    /// Whether there is something in `block`.
+    /// True if `block` has taken bytes.
     is_begun: bool,
     lines: u64,
-    /// That of the header, then those of blocks.
+    /// The checksum of the header, then those of blocks.
     parts: Vec<u32>,
 }
 
@@ -91,17 +110,17 @@ impl TextDigest {
         }
     }
 
-    /// Lines after the header, the last one even if it does not end.
+    /// Number of lines after the header that end.
     pub(crate) fn rows(&self) -> u64 {
         self.lines.saturating_sub(1)
     }
 
     /// The checksum of all the text.
     pub(crate) fn text(&self) -> String {
-        format!("{:016x}", self.whole.digest())
+        digits(self.whole.digest())
     }
 
-    /// The checksums of the header and of blocks, the last one as far as it goes.
+    /// The checksums of the header and of blocks. The last block may have fewer rows than others.
     pub(crate) fn parts(&self) -> Vec<u32> {
         let mut parts = self.parts.clone();
         if self.is_begun {
@@ -110,7 +129,7 @@ impl TextDigest {
         parts
     }
 
-    /// What a sidecar says of the text, which lies in `file`.
+    /// The checksums that a sidecar records, with that of the `file` which holds the text.
     pub(crate) fn checksums(&self, file: Option<FileSum>) -> Checksums {
         let parts = self.parts();
         let header = parts.first().map_or_else(String::new, |part| format!("{part:08x}"));
@@ -124,6 +143,17 @@ impl TextDigest {
             let _ = write!(blocks, "{between}{part:08x}");
         }
         Checksums { text: self.text(), header, block_rows: BLOCK_ROWS, blocks, file }
+    }
+}
+
+impl Write for TextDigest {
+    fn write(&mut self, text: &[u8]) -> io::Result<usize> {
+        self.update(text);
+        Ok(text.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
     }
 }
 

@@ -1,4 +1,4 @@
-//! A file, with the checksum of what is written to it.
+//! A file, with the checksum of the bytes written to it.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -6,8 +6,9 @@ use std::io::{self, Write};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use super::FileSum;
+use crate::notation::text::digits;
 
-/// Writes to a file from its beginning or its end.
+/// A file that is written from its beginning or its end, with the checksum of its bytes.
 pub(super) struct Hashed {
     pub(super) file: File,
     hash: Xxh3Default,
@@ -20,24 +21,24 @@ impl Hashed {
         Hashed::after(file, Xxh3Default::new(), 0)
     }
 
-    /// Goes on after the `bytes` in `file` whose hash is `hash`.
+    /// A file that holds `bytes` bytes already, whose hash is `hash`.
     pub(super) fn after(file: File, hash: Xxh3Default, bytes: u64) -> Hashed {
         Hashed { file, hash, bytes }
     }
 
-    /// Bytes in the file.
+    /// Number of bytes in the file.
     pub(super) fn bytes(&self) -> u64 {
         self.bytes
     }
 
-    /// Their hash.
+    /// XXH3 of these bytes.
     pub(super) fn digest(&self) -> u64 {
         self.hash.digest()
     }
 
-    /// Both, as sidecars have them.
+    /// Both, in the form that sidecars record.
     pub(super) fn sum(&self) -> FileSum {
-        FileSum { bytes: self.bytes, xxh3: format!("{:016x}", self.digest()) }
+        FileSum { bytes: self.bytes, xxh3: digits(self.digest()) }
     }
 }
 

@@ -1,33 +1,37 @@
 //! Result files: their formats, and rows as text into them and out of them.
 //!
-//! Rows are the same text in every format: a cell is what [`Layout::cells`](crate::table::layout::Layout::cells) writes, whether
-//! it comes from a model or from a file. So a file converted, or merged from parts, has the bytes of one that was
-//! written at once.
+//! Rows are the same text in every format: a cell is the text that [`Layout::cells`](crate::table::layout::Layout::cells)
+//! gives, whether it comes from a model or from a file. So a file that is converted, or merged from parts, has the bytes of
+//! one that was written at once.
 
 mod bounded;
-pub(crate) mod checksum;
+mod checked;
+mod checksum;
 mod convert;
-#[cfg(feature = "parquet")]
-mod guard;
 mod hashed;
 #[cfg(feature = "parquet")]
-mod limited;
-#[cfg(feature = "parquet")]
-mod pages;
-#[cfg(feature = "parquet")]
-pub(crate) mod parquet;
+mod parquet;
 mod provenance;
 mod read;
 mod recorded;
-pub(crate) mod text;
+mod row_check;
+mod sum_up;
+mod text;
 mod write;
 
 pub use crate::table::format::{Format, FormatError};
 pub use bounded::Bounded;
-pub use checksum::{Checksums, FileSum};
+pub(crate) use checked::Checked;
+pub use checked::RowsError;
+pub(crate) use checksum::TextDigest;
+pub use checksum::{BLOCK_ROWS, Checksums, FileSum};
 pub use convert::{ConvertError, Converted, convert};
 pub use provenance::Provenance;
+pub(crate) use provenance::parameters;
 pub use read::{Missed, Reader};
 pub use recorded::Recorded;
-pub use text::{BLOCK_ROWS, TextRows};
+pub use row_check::{RowCheck, RowError};
+pub(crate) use sum_up::sum_up;
+pub use text::TextRows;
+pub(crate) use text::text_sum;
 pub use write::Writer;

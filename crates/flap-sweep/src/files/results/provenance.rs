@@ -1,16 +1,18 @@
-//! Where rows come from, as far as it decides them: what Parquet files carry inside.
+//! The origin of rows, as far as it decides them: the metadata that Parquet files carry.
 
 use std::collections::BTreeMap;
 
+use flap_core::parameter::Parameter;
 use serde::Serialize;
+use toml::Value;
 
-use crate::files::sidecar;
+use crate::notation::text;
 use crate::plan::Plan;
 use crate::run::identity::Identity;
-use crate::run::identity::Solver;
+use crate::run::solver::SolverTable;
 use crate::table::layout::{Column, Layout};
 
-/// The columns of a file and where its rows come from.
+/// The columns of a file and the origin of its rows.
 ///
 /// Nothing in it depends on when, where or on how many threads a plan is run, so that equal rows are equal files.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,7 +24,7 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// Where the rows of `plan` come from; `identity` says by which version and arithmetic.
+    /// The origin of the rows of `plan`; `identity` gives the version and the arithmetic.
     pub fn of(plan: &Plan, identity: &Identity) -> Provenance {
         let columns = Layout::of(plan).columns();
         let units = columns.iter().filter(|column| !column.unit.is_empty());
@@ -33,9 +35,9 @@ impl Provenance {
             ("flap.model", plan.simulator.name().to_owned()),
             ("flap.preset", plan.preset.to_owned()),
             ("flap.arithmetic", identity.arithmetic.clone()),
-            ("flap.solver", text(&Solver::from(&plan.solver))),
-            ("flap.parameters", text(&sidecar::parameters(plan))),
-            ("flap.units", text(&units)),
+            ("flap.solver", toml_text(&SolverTable(plan.solver))),
+            ("flap.parameters", toml_text(&parameters(plan))),
+            ("flap.units", toml_text(&units)),
             ("flap.grid", plan.source.text.clone()),
         ];
         entries.extend(plan.points_file.as_ref().map(|file| ("flap.points_file", file.hash())));
@@ -44,7 +46,17 @@ impl Provenance {
     }
 }
 
+/// The parameters before the axes are applied, without those that follow others.
+pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
+    let value = |parameter: &Parameter, value: f64| match text::option(parameter, value) {
+        Some(option) => Value::String(option.to_owned()),
+        None => Value::Float(value),
+    };
+    let set = plan.parameters().iter().zip(&plan.base).filter(|(_, base)| !base.is_nan());
+    set.map(|(parameter, &base)| (parameter.name.to_owned(), value(parameter, base))).collect()
+}
+
 /// `value` as TOML. Names, numbers and words always have a text.
-fn text(value: &impl Serialize) -> String {
+fn toml_text(value: &impl Serialize) -> String {
     toml::to_string(value).unwrap_or_default()
 }

@@ -16,23 +16,22 @@ pub struct Reader {
     missed: Option<Missed>,
 }
 
-/// What a tolerant reader did not give.
+/// The rows that a tolerant reader left out.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Missed {
-    /// Rows that are none.
+    /// Number of lines that are no rows.
     pub rows: u64,
-    /// Why those after the last one cannot be read.
+    /// Reason why nothing behind the last row can be read.
     pub rest: Option<String>,
 }
 
 impl Missed {
-    /// Whether everything was given.
+    /// True if nothing was left out.
     pub fn is_none(&self) -> bool {
         *self == Missed::default()
     }
 }
 
-/// What is missing, in words.
 impl fmt::Display for Missed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.rows > 0 {
@@ -56,7 +55,9 @@ impl Reader {
     /// Reads from the beginning of `file`.
     ///
     /// # Errors
-    /// What reading says, or that the file is not of this format.
+    /// - [`io::ErrorKind::InvalidData`] if the file is not of this format
+    /// - [`io::ErrorKind::Other`] if flap was built without Parquet
+    /// - the error of the operating system if the file cannot be read
     pub fn new(file: File, format: Format) -> io::Result<Reader> {
         match format {
             Format::Csv | Format::CsvZstd => Reader::of_text(file, format),
@@ -77,22 +78,22 @@ impl Reader {
         Ok(Reader { names, rows: Rows::Text(rows), missed: None })
     }
 
-    /// From now on leaves out what cannot be read, instead of giving an error.
+    /// Makes the reader tolerant: from now on it leaves out rows that cannot be read, instead of giving an error.
     pub(crate) fn tolerate(&mut self) {
         self.missed = Some(Missed::default());
     }
 
-    /// Whether what cannot be read is left out.
+    /// True if rows that cannot be read are left out.
     pub fn is_tolerant(&self) -> bool {
         self.missed.is_some()
     }
 
-    /// What has been left out, if something was.
+    /// The rows that were left out, if there are any.
     pub fn missed(&self) -> Option<&Missed> {
         self.missed.as_ref().filter(|missed| !missed.is_none())
     }
 
-    /// Counts the last row among those left out, if the reader is tolerant; false if it is not.
+    /// Counts the last row among those left out, and returns true; false if the reader is not tolerant.
     pub fn leave_out(&mut self) -> bool {
         self.missed.as_mut().map(|missed| missed.rows += 1).is_some()
     }
@@ -102,8 +103,8 @@ impl Reader {
         &self.names
     }
 
-    /// What the file says of where its rows come from, as keys with their texts: see
-    /// [`Provenance`](super::Provenance). Nothing but in Parquet.
+    /// The metadata of a Parquet file, as keys with their texts: see [`Provenance`](super::Provenance). Empty for other
+    /// formats.
     pub fn entries(&self) -> &[(String, String)] {
         match &self.rows {
             Rows::Text(_) => &[],
@@ -115,12 +116,13 @@ impl Reader {
     /// Reads the next row into `row`; false if there is none left.
     ///
     /// # Errors
-    /// What reading says, or that the row does not fit the header.
+    /// - [`io::ErrorKind::InvalidData`] if the row does not fit the header, or is damaged
+    /// - the error of the operating system if the file cannot be read
     pub fn next(&mut self, row: &mut StringRecord) -> io::Result<bool> {
         loop {
             match (self.read(row), &mut self.missed) {
                 (Err(error), Some(missed)) if error.raw_os_error().is_none() => {
-                    // A line is wrong alone; what is wrong with a frame or a page hides those behind it.
+                    // A damaged line is alone; a damaged frame or page hides the lines behind it.
                     if matches!(self.rows, Rows::Text(_)) && error.kind() == io::ErrorKind::InvalidData {
                         missed.rows += 1;
                     } else {

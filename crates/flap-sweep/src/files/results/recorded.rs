@@ -1,19 +1,19 @@
-//! What a Parquet file says of itself, read back.
+//! The metadata of a Parquet file, read back.
 
 use std::collections::BTreeMap;
 
-use flap_core::simulate::{Simulator, SolverSettings};
+use flap_core::simulate::Simulator;
 
 use crate::grid;
 use crate::plan::{self, Plan};
-use crate::run::identity::Solver;
+use crate::run::solver::SolverTable;
 
 /// The entries that [`Provenance`](super::Provenance) writes, by their keys.
 #[derive(Clone, Debug)]
 pub struct Recorded<'a>(BTreeMap<&'a str, &'a str>);
 
 impl<'a> Recorded<'a> {
-    /// What `entries` say, if flap has written them.
+    /// The entries of a file, if flap has written them.
     pub fn of(entries: &'a [(String, String)]) -> Option<Recorded<'a>> {
         let entries: BTreeMap<&str, &str> =
             entries.iter().map(|(key, text)| (key.as_str(), text.as_str())).collect();
@@ -25,7 +25,7 @@ impl<'a> Recorded<'a> {
         self.text("flap")
     }
 
-    /// The build of flap that made the rows; empty if an earlier flap has not recorded it.
+    /// The build of flap that made the rows; empty in files of early versions.
     pub fn build(&self) -> &'a str {
         self.text("flap.build")
     }
@@ -40,12 +40,12 @@ impl<'a> Recorded<'a> {
         toml::from_str(self.text("flap.units")).unwrap_or_default()
     }
 
-    /// The plan whose rows these are, whether all of its points are here or some; none if it was written by another version
-    /// whose grid files differ, or a file of points is not where it was.
+    /// The plan of these rows, which may be only some of its points. `None` if the grid file is of another version of flap, or
+    /// a file of points has moved or changed.
     pub fn plan(&self, models: &[&'static dyn Simulator]) -> Option<Plan> {
         let mut plan = grid::parse("grid", self.text("flap.grid"), models).ok()?;
-        let solver: Solver = toml::from_str(self.text("flap.solver")).ok()?;
-        plan.solver = SolverSettings::from(&solver);
+        let SolverTable(solver) = toml::from_str(self.text("flap.solver")).ok()?;
+        plan.solver = solver;
         let points = plan.points_file.as_ref().map(plan::PointsFile::hash);
         (points.as_deref() == self.0.get("flap.points_file").copied()).then_some(plan)
     }

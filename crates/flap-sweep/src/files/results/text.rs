@@ -5,36 +5,31 @@ use std::io::{self, BufRead, BufReader, Read, Write};
 
 use xxhash_rust::xxh3::Xxh3Default;
 
-use super::checksum::TextDigest;
+use super::checksum::{BLOCK_ROWS, TextDigest};
 use super::hashed::Hashed;
 use super::{Checksums, FileSum, Format};
 use crate::table::layout::Cell;
 use crate::table::lines::Lines;
 
-/// Rows in one compressed frame. Frames begin at these rows whatever the threads do and wherever a run was resumed, so
-/// that the bytes do not depend on it.
-///
-/// Rows in a frame that is not complete are lost if the process is killed. More of them would hardly make files smaller.
-pub const BLOCK_ROWS: u32 = 256;
-
-/// Zstandard's default: higher levels take longer and save little on digits.
+/// Compression level, Zstandard's default: higher ones take longer and save little on digits.
 const LEVEL: i32 = 3;
 
-/// The most memory that a compressed file may ask for to be read: 2^27 bytes, which is what the command `zstd` allows.
+/// Binary logarithm of the memory that reading a compressed file may take (bytes): the limit of the command `zstd`.
 const WINDOW_LOG_MAX: u32 = 27;
 
-/// Writes one header line, then one line per row: [`Format::Csv`] as it is, otherwise in frames of [`BLOCK_ROWS`] rows.
+/// Writes one header line, then one line per row: [`Format::Csv`] as plain text, other formats in compressed frames of
+/// [`BLOCK_ROWS`] rows.
 pub struct TextRows {
     lines: Lines<Frames>,
     rows_in_block: u32,
 }
 
-/// How much of a file is written, and what that is.
+/// The part of a file that is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Extent {
-    /// Bytes from the beginning of the file.
+    /// Number of bytes from the beginning of the file.
     pub(crate) bytes: u64,
-    /// Their XXH3.
+    /// XXH3 of these bytes.
     pub(crate) digest: u64,
 }
 
@@ -42,13 +37,13 @@ impl TextRows {
     /// Writes to `file`, which is empty.
     ///
     /// # Errors
-    /// If there is no memory for the compressor.
+    /// [`io::ErrorKind::Other`] if there is no memory for the compressor.
     pub fn new(file: File, format: Format) -> io::Result<TextRows> {
         TextRows::on(Hashed::new(file), format, TextDigest::new())
     }
 
-    /// Goes on after the `bytes` in `file` whose hash is `hash`, and whose rows are `text`. They end where a row ends, and a
-    /// frame.
+    /// Continues behind the `bytes` in `file` whose hash is `hash`, and whose rows are `text`. These bytes end where a row and
+    /// a frame end.
     pub(crate) fn after(
         file: File,
         format: Format,
@@ -70,7 +65,7 @@ impl TextRows {
     /// Writes the header, which is a frame of its own.
     ///
     /// # Errors
-    /// What writing says.
+    /// The error of the operating system if the file cannot be written.
     pub fn header<T: AsRef<str>>(&mut self, names: impl IntoIterator<Item = T>) -> io::Result<()> {
         self.lines.texts(names)?;
         self.lines.flush()
@@ -79,7 +74,7 @@ impl TextRows {
     /// Writes a row.
     ///
     /// # Errors
-    /// What writing says.
+    /// The error of the operating system if the file cannot be written.
     pub fn row<T: AsRef<str>>(&mut self, cells: impl IntoIterator<Item = T>) -> io::Result<()> {
         self.lines.texts(cells)?;
         self.end_row()
@@ -88,7 +83,7 @@ impl TextRows {
     /// Writes a row whose cells are not text yet.
     ///
     /// # Errors
-    /// What writing says.
+    /// The error of the operating system if the file cannot be written.
     pub(crate) fn cells(&mut self, cells: &[Cell]) -> io::Result<()> {
         self.lines.cells(cells)?;
         self.end_row()
@@ -103,35 +98,35 @@ impl TextRows {
         Ok(())
     }
 
-    /// Hands rows to the operating system as far as that does not change the bytes: all of them, unless compressed.
+    /// Hands rows to the operating system, except in compressed files, where that would change the bytes.
     ///
     /// # Errors
-    /// What writing says.
+    /// The error of the operating system if the file cannot be written.
     pub fn flush(&mut self) -> io::Result<()> {
         if self.is_compressed() { Ok(()) } else { self.lines.flush() }
     }
 
-    /// Ends the file here, be it within a frame.
+    /// Ends the file here, even within a frame.
     ///
     /// # Errors
-    /// What writing says.
+    /// The error of the operating system if the file cannot be written.
     pub fn finish(&mut self) -> io::Result<()> {
         self.lines.flush()
     }
 
-    /// Whether a run that is resumed here yields the bytes of one that was not interrupted.
+    /// True if a run that is resumed here yields the bytes of one that was not interrupted.
     pub(crate) fn may_be_cut(&self) -> bool {
         !self.is_compressed() || self.rows_in_block == 0
     }
 
-    /// What has been written; complete after [`TextRows::flush`] where the file may be cut.
+    /// The part of the file that is written; all rows are in it after [`TextRows::flush`] where the file may be cut.
     pub(crate) fn extent(&self) -> Extent {
         let frames = self.lines.target();
         Extent { bytes: frames.file.bytes(), digest: frames.file.digest() }
     }
 
-    /// The checksums of what has been written; complete after [`TextRows::finish`]. They are of the rows and of the file they
-    /// were written to, or of `file`, which they have been turned into.
+    /// The checksums of all rows after [`TextRows::finish`], with that of the file they were written to, or `file` if they
+    /// have been converted into another one.
     pub(crate) fn checksums(&self, file: Option<FileSum>) -> Checksums {
         let frames = self.lines.target();
         frames.text.checksums(file.or_else(|| Some(frames.file.sum())))
@@ -147,16 +142,16 @@ impl TextRows {
     }
 }
 
-/// A file that text goes into, as it is or as one compressed frame from each flush to the next.
+/// A file of text, plain or with one compressed frame from each flush to the next.
 struct Frames {
     file: Hashed,
     compressor: Option<zstd::bulk::Compressor<'static>>,
     frame: Vec<u8>,
-    /// Of what has been written, before it is compressed.
+    /// Digest of the text before it is compressed.
     text: TextDigest,
 }
 
-/// Makes frames that end in a checksum, so that any reader notices damage.
+/// A compressor whose frames end in a checksum, so that any reader notices damage.
 fn compressor() -> io::Result<zstd::bulk::Compressor<'static>> {
     let mut compressor = zstd::bulk::Compressor::new(LEVEL)?;
     compressor.include_checksum(true)?;
@@ -186,11 +181,12 @@ impl Write for Frames {
     }
 }
 
-/// Sums up the text of rows in `source`, which is not Parquet. What cannot be decompressed ends it: then with an error too.
-pub(crate) fn sum_up(source: impl Read, format: Format) -> (TextDigest, io::Result<()>) {
+/// The digest of the text of rows in `source`, which is not Parquet; with an error if that ends where it cannot be
+/// decompressed.
+pub(crate) fn text_sum(source: impl Read, format: Format) -> (TextDigest, io::Result<()>) {
     let mut digest = TextDigest::new();
-    let summed = decoded(source, format).and_then(|text| feed(text, &mut digest));
-    (digest, summed)
+    let summed = decoded(source, format).and_then(|mut text| io::copy(&mut text, &mut digest));
+    (digest, summed.map(|_| ()))
 }
 
 /// The text of rows in `source`, which is not Parquet.
@@ -202,19 +198,7 @@ pub(super) fn decoded<'a>(source: impl Read + 'a, format: Format) -> io::Result<
             decoder.window_log_max(WINDOW_LOG_MAX)?;
             Ok(Box::new(decoder))
         }
-        // No frame at all is no text at all.
+        // A file without frames is a text without characters.
         _ => Ok(Box::new(source)),
-    }
-}
-
-fn feed(mut source: impl Read, digest: &mut TextDigest) -> io::Result<()> {
-    let mut buffer = vec![0; 1 << 16];
-    loop {
-        match source.read(&mut buffer) {
-            Ok(0) => return Ok(()),
-            Ok(count) => digest.update(&buffer[..count]),
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-            Err(error) => return Err(error),
-        }
     }
 }

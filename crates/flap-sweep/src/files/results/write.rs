@@ -6,9 +6,9 @@ use std::io;
 use csv::StringRecord;
 
 use super::{Checksums, Format, Provenance, TextRows};
-use crate::files::output::Durable as _;
+use crate::files::disk::Durable as _;
 
-/// Writes rows that are text already.
+/// A file of any format that takes rows as text.
 pub struct Writer(Rows);
 
 enum Rows {
@@ -21,7 +21,7 @@ impl Writer {
     /// Begins an empty file.
     ///
     /// # Errors
-    /// What writing says.
+    /// The error of the operating system if the file cannot be written.
     pub fn new(file: File, format: Format, provenance: &Provenance) -> io::Result<Writer> {
         match format {
             #[cfg(feature = "parquet")]
@@ -40,7 +40,8 @@ impl Writer {
     /// Writes a row.
     ///
     /// # Errors
-    /// What writing says, or that a cell does not fit its column.
+    /// - [`io::ErrorKind::InvalidData`] if a cell does not fit its column
+    /// - the error of the operating system if the file cannot be written
     pub fn row(&mut self, cells: &StringRecord) -> io::Result<()> {
         match &mut self.0 {
             Rows::Text(rows) => rows.row(cells),
@@ -49,10 +50,10 @@ impl Writer {
         }
     }
 
-    /// Completes the file, makes it durable, and gives the checksums of what is in it.
+    /// Completes the file, makes it durable, and gives its checksums.
     ///
     /// # Errors
-    /// What writing says.
+    /// The error of the operating system if the file cannot be written.
     pub fn finish(self) -> io::Result<Checksums> {
         match self.0 {
             Rows::Text(mut rows) => {

@@ -5,13 +5,13 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::Sidecar;
-use crate::files::output;
+use crate::files::disk;
 use crate::notation::text;
 
-/// How the first line begins, which is also TOML: other readers need not know it.
+/// The beginning of the first line, which is also TOML: other readers need not know it.
 const CHECKSUM: &str = "checksum = \"";
 
-/// Why a file cannot be used as a sidecar.
+/// A file that cannot be used as a sidecar.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// It cannot be read.
@@ -19,7 +19,7 @@ pub enum ReadError {
     Io {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// It is not a sidecar.
@@ -27,26 +27,26 @@ pub enum ReadError {
     Format {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The mistake in it.
         reason: String,
     },
-    /// It is not as flap wrote it.
+    /// It has changed since flap wrote it.
     #[error("{} is damaged: {reason}", path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What tells.
-        reason: String,
+        /// The sign of the change.
+        reason: &'static str,
     },
 }
 
-/// Why a text is not that of a sidecar.
+/// A text that is not one of a sidecar.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ParseError {
     /// It never was one.
     #[error("{0}")]
     Format(String),
-    /// It is not as it was written.
+    /// It has changed since it was written.
     #[error("{0}")]
     Damaged(&'static str),
 }
@@ -55,7 +55,7 @@ impl Sidecar {
     /// The text of the file.
     ///
     /// # Errors
-    /// If a number has no place in TOML, such as 2^63 points.
+    /// [`toml::ser::Error`] if TOML cannot hold a number, such as 2^63 points.
     pub fn text(&self) -> Result<String, toml::ser::Error> {
         let contents = toml::to_string(self)?;
         Ok(format!("{CHECKSUM}{}\"\n{contents}", text::hash(&contents)))
@@ -64,15 +64,18 @@ impl Sidecar {
     /// Reads the file.
     ///
     /// # Errors
-    /// If it cannot be read, is not a sidecar, or is not as it was written.
+    /// - [`ReadError::Io`] if it cannot be read
+    /// - [`ReadError::Format`] if it is not a sidecar
+    /// - [`ReadError::Damaged`] if it does not match its checksum
     pub fn read(path: &Path) -> Result<Sidecar, ReadError> {
         Sidecar::read_as(path, Sidecar::parse)
     }
 
-    /// Reads the file whether or not it is as it was written.
+    /// Reads the file, damaged or not.
     ///
     /// # Errors
-    /// If it cannot be read or is not a sidecar.
+    /// - [`ReadError::Io`] if it cannot be read
+    /// - [`ReadError::Format`] if it is not a sidecar
     pub fn read_damaged(path: &Path) -> Result<Sidecar, ReadError> {
         Sidecar::read_as(path, Sidecar::parse_damaged)
     }
@@ -85,14 +88,15 @@ impl Sidecar {
         let bytes = fs::read(path()).map_err(|source| ReadError::Io { path: path(), source })?;
         parse(&String::from_utf8_lossy(&bytes)).map_err(|error| match error {
             ParseError::Format(reason) => ReadError::Format { path: path(), reason },
-            ParseError::Damaged(reason) => ReadError::Damaged { path: path(), reason: reason.to_owned() },
+            ParseError::Damaged(reason) => ReadError::Damaged { path: path(), reason },
         })
     }
 
     /// Reads the text of the file.
     ///
     /// # Errors
-    /// What is wrong with it, in one line.
+    /// - [`ParseError::Format`] if it is not the text of a sidecar
+    /// - [`ParseError::Damaged`] if it does not match its checksum
     pub fn parse(text: &str) -> Result<Sidecar, ParseError> {
         if let Some((checksum, contents)) =
             text.strip_prefix(CHECKSUM).and_then(|rest| rest.split_once("\"\n"))
@@ -103,7 +107,7 @@ impl Sidecar {
             return Sidecar::parse_damaged(contents);
         }
         let sidecar = Sidecar::parse_damaged(text)?;
-        // Those without a checksum are by a flap that recorded no builds either.
+        // Versions that wrote no checksum recorded no builds either.
         if sidecar.build.is_empty() && sidecar.checksums.is_none() {
             Ok(sidecar)
         } else {
@@ -111,7 +115,7 @@ impl Sidecar {
         }
     }
 
-    /// Reads the text of the file, whatever its checksum is.
+    /// Reads the text of the file without its checksum line, or with one that is ignored.
     fn parse_damaged(text: &str) -> Result<Sidecar, ParseError> {
         toml::from_str(text).map_err(|error| ParseError::Format(error.message().to_owned()))
     }
@@ -119,9 +123,9 @@ impl Sidecar {
     /// Writes the file, in place of an earlier one.
     ///
     /// # Errors
-    /// What writing says.
+    /// The error of the operating system if it cannot be written.
     pub fn write(&self, path: &Path) -> io::Result<()> {
         let text = self.text().map_err(io::Error::other)?;
-        output::replace(path, |mut file| file.write_all(text.as_bytes()))
+        disk::replace(path, |mut file| file.write_all(text.as_bytes()))
     }
 }

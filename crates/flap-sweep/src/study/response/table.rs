@@ -5,7 +5,7 @@ use std::io;
 use flap_core::parameter::Parameter;
 
 use super::{Along, Curve, Step, parameter};
-use crate::files::output::Durable;
+use crate::files::disk::Durable;
 use crate::plan::Plan;
 use crate::table::layout::{Cell, Column, Kind, Layout};
 use crate::table::lines::Lines;

@@ -1,4 +1,4 @@
-//! Parquet files whose pages have a size.
+//! Parquet files with pages of limited size.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -7,14 +7,13 @@ use bytes::Bytes;
 use parquet::errors::{ParquetError, Result};
 use parquet::file::reader::{ChunkReader, Length};
 
-/// The most bytes that a page may have when it is decompressed: 256 MiB. Other programs write pages of about 1 MiB, and flap's
-/// own have less.
+/// Largest size of a decompressed page: 256 MiB. Other programs write pages of about 1 MiB, and those of flap are smaller.
 const LARGEST_PAGE: u64 = 256 << 20;
 
-/// How a field that is a whole number and follows the one before begins, in Thrift's compact protocol.
+/// First byte of a field that is a whole number and follows the one before, in Thrift's compact protocol.
 const NEXT_NUMBER: u8 = 0x15;
 
-/// Reads a file, and refuses pages that declare too many bytes. A few compressed bytes can stand for any number of others.
+/// A file whose pages are refused if they declare too many bytes: a few compressed bytes can stand for any number of others.
 pub(super) struct Limited(pub(super) File);
 
 impl Length for Limited {
@@ -26,8 +25,7 @@ impl Length for Limited {
 impl ChunkReader for Limited {
     type T = BufReader<File>;
 
-    // Where the parquet crate reads on from a place, there is the header of a page, or the end of the file, which does not look
-    // like one.
+    // The parquet crate calls this at the header of a page, or at the end of the file, which does not look like a header.
     fn get_read(&self, start: u64) -> Result<BufReader<File>> {
         let mut source = self.0.get_read(start)?;
         match declared(source.fill_buf()?) {
@@ -45,8 +43,8 @@ impl ChunkReader for Limited {
     }
 }
 
-/// The bytes that a page has when it is decompressed, as its header says in its second field. `None` if it is no header; what
-/// is wrong then, the parquet crate finds.
+/// The size of a page when it is decompressed: the second field of its header. `None` if the bytes are no header; the parquet
+/// crate then reports the mistake.
 fn declared(header: &[u8]) -> Option<u64> {
     let (_, rest) = number(header)?;
     let (size, _) = number(rest)?;
@@ -54,7 +52,7 @@ fn declared(header: &[u8]) -> Option<u64> {
     (size & 1 == 0).then_some(size >> 1)
 }
 
-/// A field that is a whole number, with what follows.
+/// A field that is a whole number, and the bytes behind it.
 fn number(bytes: &[u8]) -> Option<(u64, &[u8])> {
     let (&kind, bytes) = bytes.split_first()?;
     let length = bytes.iter().take(5).position(|byte| byte & 0x80 == 0)? + 1;

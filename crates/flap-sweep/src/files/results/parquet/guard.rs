@@ -1,4 +1,4 @@
-//! Decoders that panic on bytes which they do not expect.
+//! Panics of a decoder on unexpected bytes as errors.
 
 use std::cell::Cell;
 use std::io;
@@ -9,8 +9,8 @@ thread_local! {
     static IS_GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs `decode` on a file that may be damaged. What it panics with becomes an error, and is not printed. What it worked on is
-/// not to be used after that.
+/// Runs `decode` on a file that may be damaged. A panic becomes an error and is not printed. After one, the reader that `decode`
+/// used must not be used again.
 pub(super) fn guarded<T>(decode: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
     static QUIET: Once = Once::new();
     QUIET.call_once(|| {

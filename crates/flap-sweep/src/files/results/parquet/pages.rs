@@ -1,4 +1,4 @@
-//! Pages of Parquet files with their checksums, which the parquet crate checks and does not write yet.
+//! Pages of Parquet files with their checksums, which the parquet crate (60) checks but does not write.
 
 use parquet::basic::PageType;
 use parquet::column::page::{CompressedPage, Page, PageWriteSpec, PageWriter};

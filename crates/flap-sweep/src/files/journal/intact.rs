@@ -1,24 +1,25 @@
-//! How much of unfinished results is as the journal says.
+//! The part of unfinished results that is unchanged since its checkpoint.
 
 use std::fs::File;
 use std::io::{self, Read};
 
 use xxhash_rust::xxh3::Xxh3Default;
 
-use crate::files::journal::{Checkpoint, Past};
+use super::{Checkpoint, Past};
+use crate::notation::text;
 
-/// The last checkpoint whose rows are there.
+/// The last checkpoint whose rows are in the file.
 pub(crate) struct Intact {
     pub(crate) checkpoint: Checkpoint,
-    /// Bytes of the journal up to it.
+    /// Bytes of the journal up to the checkpoint.
     pub(crate) journal_bytes: u64,
-    /// Of the rows up to it.
+    /// Hash of the rows up to the checkpoint.
     pub(crate) hash: Xxh3Default,
-    /// Rows that later checkpoints tell of.
+    /// Number of rows behind it that later checkpoints count.
     pub(crate) lost: u64,
 }
 
-/// Finds the last checkpoint up to which `file` is what was written; `None` if it holds something else.
+/// Finds the last checkpoint up to which `file` holds the bytes that were written. `None` if it holds other bytes.
 pub(crate) fn last_intact(mut file: &File, past: &Past) -> io::Result<Option<Intact>> {
     let mut hash = Xxh3Default::new();
     let mut intact = Intact {
@@ -27,21 +28,14 @@ pub(crate) fn last_intact(mut file: &File, past: &Past) -> io::Result<Option<Int
         hash: hash.clone(),
         lost: past.checkpoints.last().map_or(0, |(checkpoint, _)| checkpoint.rows),
     };
-    let mut buffer = vec![0; 1 << 16];
     for (checkpoint, journal_bytes) in &past.checkpoints {
-        let Some(mut missing) = checkpoint.bytes.checked_sub(intact.checkpoint.bytes) else {
+        let Some(missing) = checkpoint.bytes.checked_sub(intact.checkpoint.bytes) else {
             return Ok(None);
         };
-        while missing > 0 {
-            let most = usize::try_from(missing).unwrap_or(usize::MAX).min(buffer.len());
-            let count = file.read(&mut buffer[..most])?;
-            if count == 0 {
-                return Ok(Some(intact));
-            }
-            hash.update(&buffer[..count]);
-            missing -= count as u64;
+        if io::copy(&mut file.by_ref().take(missing), &mut hash)? < missing {
+            return Ok(Some(intact));
         }
-        if format!("{:016x}", hash.digest()) != checkpoint.xxh3 {
+        if text::digits(hash.digest()) != checkpoint.xxh3 {
             return Ok(None);
         }
         let lost = (intact.lost + intact.checkpoint.rows).saturating_sub(checkpoint.rows);

@@ -1,0 +1,11 @@
+//! Work that commands share: running a plan into a file, opening results, and making files.
+
+mod make;
+mod open;
+mod report;
+mod run;
+
+pub(crate) use flap_sweep::files::job::Begin;
+pub(crate) use make::{make, stdout};
+pub(crate) use open::{open, open_recorded, plan_of, read_sidecar, recorded, tell, tell_missed};
+pub(crate) use run::run;

@@ -1,0 +1,81 @@
+//! Results that commands read, and the plans in their sidecars.
+
+use std::path::Path;
+
+use flap_sweep::files::beside::sidecar_of;
+use flap_sweep::files::integrity::{self, Note, OnDamage, Opened};
+use flap_sweep::files::results::{Format, Reader};
+use flap_sweep::files::sidecar::{PlanError, ReadError, Sidecar};
+use flap_sweep::plan::Plan;
+
+use crate::args::ReadArgs;
+use crate::console;
+use crate::failure::{Failure, IGNORE_HELP};
+use crate::models;
+
+/// The help line for results without a sidecar.
+const SIDECAR_HELP: &str = "the sidecar lies beside the results and tells what grid they are of";
+
+/// The plan of results, from the sidecar beside them.
+pub(crate) fn recorded(results: &Path, on_damage: OnDamage) -> Result<(Plan, Sidecar), Failure> {
+    let sidecar = read_sidecar(results, on_damage)?;
+    Ok((plan_of(&sidecar_of(results), &sidecar)?, sidecar))
+}
+
+/// The sidecar of results.
+pub(crate) fn read_sidecar(results: &Path, on_damage: OnDamage) -> Result<Sidecar, Failure> {
+    let path = sidecar_of(results);
+    let sidecar = match Sidecar::read(&path) {
+        Err(ReadError::Damaged { .. }) if on_damage == OnDamage::Tolerate => Sidecar::read_damaged(&path),
+        read => read,
+    };
+    sidecar.map_err(|error| {
+        let help = if matches!(error, ReadError::Damaged { .. }) { IGNORE_HELP } else { SIDECAR_HELP };
+        Failure::from(error).help(help)
+    })
+}
+
+/// The plan in a sidecar, which was read from `path`.
+pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
+    sidecar.plan(models::all()).map_err(|error| {
+        let failure = Failure::usage(format!("{}: {error}", path.display()));
+        match error {
+            PlanError::Grid(mistakes) => Failure::Grid(mistakes),
+            PlanError::GridText => {
+                failure.help("sweep an edited grid from a file of its own: flap sweep --grid FILE")
+            }
+            PlanError::PointsFile { .. } => {
+                failure.help("put the file of points back as it was, or sweep its grid file anew")
+            }
+            PlanError::Points | PlanError::Solver => failure,
+        }
+    })
+}
+
+/// Opens results for reading, and tells the user the notes on them.
+pub(crate) fn open(results: &Path, read: &ReadArgs) -> Result<Opened, Failure> {
+    let opened = integrity::open(results, read.on_damage())?;
+    for note in &opened.notes {
+        tell(note);
+    }
+    Ok(opened)
+}
+
+/// Tells the user a note on results.
+pub(crate) fn tell(note: &Note) {
+    console::warn(&note.to_string());
+}
+
+/// Opens results that have a sidecar, with the plan in it.
+pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, Plan, Sidecar), Failure> {
+    Format::of(results)?;
+    let (plan, sidecar) = recorded(results, read.on_damage())?;
+    Ok((open(results, read)?, plan, sidecar))
+}
+
+/// Tells the user which rows of damaged results were left out.
+pub(crate) fn tell_missed(results: &Path, reader: &Reader) {
+    if let Some(missed) = reader.missed() {
+        console::warn(&format!("{}: {missed}", results.display()));
+    }
+}

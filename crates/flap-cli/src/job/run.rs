@@ -1,0 +1,95 @@
+//! The rows of a plan into a file or to stdout: the work that `sweep`, `resume` and `rerun` share.
+
+use std::io;
+use std::path::{Path, PathBuf};
+#[cfg(unix)]
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+use flap_core::simulate::Status;
+use flap_sweep::files::job::{self, Before, Begin, Done, Job, Outcome};
+use flap_sweep::files::session::SessionOptions;
+use flap_sweep::files::sidecar::Origin;
+use flap_sweep::plan::Plan;
+use flap_sweep::run::sink::Sink;
+use flap_sweep::run::{self, RunError, RunOptions, Summary};
+
+use super::report::report;
+use crate::args::WorkArgs;
+use crate::console;
+use crate::failure::{Exit, Failure, still_kept};
+use crate::progress::Bar;
+use crate::signals;
+
+/// Runs `plan`, writes its rows to `out`, and reports. `origin` names the earlier results that the points of a rerun are taken
+/// from.
+pub(crate) fn run(
+    plan: &Plan,
+    out: PathBuf,
+    begin: Begin,
+    work: &WorkArgs,
+    origin: Option<Origin>,
+) -> Result<Exit, Failure> {
+    let mut options = RunOptions::default();
+    if let Some(threads) = work.threads {
+        options.threads = threads;
+    }
+    if out.as_os_str() == "-" {
+        let done = job::to_stream(plan, io::stdout(), &options, &mut run_with_progress)?;
+        return Ok(ended(&done, None, work));
+    }
+    let options = SessionOptions { run: options, checkpoint: work.checkpoint };
+    let job = Job { plan, out, begin, options, origin };
+    let (place, points) = (job.out.display(), job.plan.selected());
+    let outcome = job::run(&job, &mut run_with_progress, &mut |Before { lost, done }| {
+        if lost > 0 {
+            console::say(&format!("{lost} rows are no longer in {place}: they are computed again"));
+        }
+        console::say(&format!("{done} of {points} points of {place} are done"));
+    });
+    match outcome.map_err(|error| Failure::of_job(error, &job.out))? {
+        Outcome::Ran(done) => Ok(ended(&done, Some(&job.out), work)),
+        Outcome::Complete { all_periodic } => {
+            console::say(&format!("{place} is complete: nothing is left to run"));
+            Ok(complete(all_periodic, work))
+        }
+    }
+}
+
+/// Reports a job that ran, and gives the exit code.
+fn ended(done: &Done, resumable: Option<&Path>, work: &WorkArgs) -> Exit {
+    report(done);
+    if done.summary.interrupted {
+        if let Some(out) = resumable {
+            console::say(&format!("`flap resume {}` goes on", out.display()));
+            if let Some(kept) = job::kept(out) {
+                console::say(&still_kept(&kept));
+            }
+        }
+        return Exit::Interrupted;
+    }
+    complete(done.summary.counts.of(Status::Periodic) == done.summary.rows, work)
+}
+
+fn complete(all_periodic: bool, work: &WorkArgs) -> Exit {
+    if work.strict && !all_periodic { Exit::NotAll } else { Exit::Done }
+}
+
+/// Runs the plan with a progress bar, until a signal asks it to end.
+fn run_with_progress(
+    plan: &Plan,
+    options: &RunOptions,
+    before: Summary,
+    sink: &mut dyn Sink,
+) -> Result<Summary, RunError> {
+    let stop = signals::stop();
+    // Once caught, the signal that a file would grow too large becomes an error of writing, which can be reported.
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+    let mut bar = Bar::new();
+    let outcome = run::resume(plan, options, before, sink, &stop, &mut |progress| {
+        bar.show(progress, stop.load(Ordering::Relaxed));
+    });
+    bar.clear();
+    outcome
+}

@@ -1,0 +1,44 @@
+//! Names of the files that lie beside a result file.
+
+use std::path::{Path, PathBuf};
+
+use crate::table::format::Format;
+
+/// The path of the sidecar: `<results>.meta.toml`.
+pub fn sidecar_of(results: &Path) -> PathBuf {
+    with_ending(results, ".meta.toml")
+}
+
+/// The path of the journal: `<results>.journal`.
+pub fn journal_of(results: &Path) -> PathBuf {
+    with_ending(results, ".journal")
+}
+
+/// The path of the rows of a Parquet file that is not complete yet: `<results>.part`.
+pub fn part_of(results: &Path) -> PathBuf {
+    with_ending(results, ".part")
+}
+
+/// The path of the rows before the results are complete: those of a Parquet file wait in [`part_of`].
+pub fn rows_of(results: &Path, format: Format) -> PathBuf {
+    match format {
+        Format::Parquet => part_of(results),
+        Format::Csv | Format::CsvZstd => results.to_owned(),
+    }
+}
+
+/// The sidecar, the journal and the rows that wait.
+pub(crate) fn all_of(results: &Path) -> [PathBuf; 3] {
+    [sidecar_of(results), journal_of(results), part_of(results)]
+}
+
+/// The path of a file's bytes until they are complete: `<file>.tmp`.
+pub(crate) fn temporary_of(path: &Path) -> PathBuf {
+    with_ending(path, ".tmp")
+}
+
+fn with_ending(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
+    PathBuf::from(name)
+}

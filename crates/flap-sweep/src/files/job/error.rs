@@ -1,0 +1,60 @@
+//! Reasons why a job failed.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::files::inputs::Overlap;
+use crate::files::integrity::OpenError;
+use crate::files::output::CreateError;
+use crate::files::results::FormatError;
+use crate::files::session::ResumeError;
+use crate::run::RunError;
+
+/// Reason why a job failed.
+#[derive(Debug, thiserror::Error)]
+pub enum JobError {
+    /// The results would overwrite a file that they are made from.
+    #[error(transparent)]
+    Overlap(#[from] Overlap),
+    /// The name stands for no format.
+    #[error(transparent)]
+    Format(#[from] FormatError),
+    /// The results cannot be made.
+    #[error(transparent)]
+    Create(#[from] CreateError),
+    /// The run cannot be resumed.
+    #[error("{error}")]
+    Resume {
+        /// The reason.
+        error: ResumeError,
+        /// The first line of the grid file that has changed, in words.
+        changed: Option<String>,
+    },
+    /// The results are complete, but they or their sidecar are damaged or cannot be read.
+    #[error(transparent)]
+    Open(OpenError),
+    /// A file beside the results cannot be written, or they cannot be completed.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The error of the operating system.
+        source: io::Error,
+        /// True if the run can be resumed.
+        resumable: bool,
+    },
+    /// The run failed.
+    #[error("{error}")]
+    Run {
+        /// The reason.
+        error: RunError,
+        /// True if the run can be resumed: if its rows went into a file.
+        resumable: bool,
+    },
+}
+
+impl JobError {
+    pub(super) fn write(path: &Path, source: io::Error, resumable: bool) -> JobError {
+        JobError::Write { path: path.to_owned(), source, resumable }
+    }
+}

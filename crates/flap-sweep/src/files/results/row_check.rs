@@ -1,0 +1,192 @@
+//! A check that rows are those of a plan: each in its place, with cells that fit their columns.
+
+use csv::StringRecord;
+use flap_core::simulate::Status;
+
+use crate::plan::Plan;
+use crate::plan::selection::Selection;
+use crate::table::layout::{Column, Kind, Layout};
+
+/// A check of rows in their order.
+pub struct RowCheck {
+    columns: Vec<Column>,
+    status: usize,
+    selection: Selection,
+    points: u64,
+    /// Number of rows that were written; `None` if it is not known.
+    rows: Option<u64>,
+    /// First position among the selected points that the next row may have.
+    next: u64,
+    seen: u64,
+    /// True if no point may be left out.
+    is_dense: bool,
+}
+
+/// A row that is not the next one of the plan. Rows are counted from 1.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum RowError {
+    /// It has another number of cells than there are columns.
+    #[error("row {row} has {cells} cells, not {columns}")]
+    Width {
+        /// Number of the row.
+        row: u64,
+        /// Number of its cells.
+        cells: usize,
+        /// Number of columns.
+        columns: usize,
+    },
+    /// A cell does not fit its column.
+    #[error("row {row}: `{cell}` does not belong into column {column}")]
+    Cell {
+        /// Number of the row.
+        row: u64,
+        /// The cell.
+        cell: String,
+        /// Name of the column.
+        column: String,
+    },
+    /// There is no such status.
+    #[error("row {row}: there is no status `{status}`")]
+    Status {
+        /// Number of the row.
+        row: u64,
+        /// The cell of the status.
+        status: String,
+    },
+    /// The plan does not select the point.
+    #[error("row {row} is of point `{point}`, which is none of the points that were run")]
+    Point {
+        /// Number of the row.
+        row: u64,
+        /// The cell of the point.
+        point: String,
+    },
+    /// The point is not behind that of the row before.
+    #[error("row {row} is of point {point}: it comes twice or out of order")]
+    Order {
+        /// Number of the row.
+        row: u64,
+        /// Index of the point.
+        point: u64,
+    },
+    /// A point between this row and the one before has no row.
+    #[error("row {row} is of point {point}: the row of point {missing} is missing")]
+    Gap {
+        /// Number of the row.
+        row: u64,
+        /// Index of its point.
+        point: u64,
+        /// Index of the point without a row.
+        missing: u64,
+    },
+    /// The file has another number of rows than were written.
+    #[error("it holds {found} rows, {written} were written")]
+    Count {
+        /// Number of rows in the file.
+        found: u64,
+        /// Number of rows that were written.
+        written: u64,
+    },
+}
+
+impl RowCheck {
+    /// A check of the rows of `plan`; `rows` is the number of rows that were written, if it is known.
+    pub fn new(plan: &Plan, rows: Option<u64>) -> RowCheck {
+        RowCheck::of(plan, plan.selection.clone(), rows)
+    }
+
+    /// A check of the rows of other points than `plan` selects.
+    pub fn of(plan: &Plan, selection: Selection, rows: Option<u64>) -> RowCheck {
+        let columns = Layout::of(plan).columns();
+        let status = columns.iter().position(|column| column.name == "status").unwrap_or(0);
+        RowCheck {
+            columns,
+            status,
+            selection,
+            points: plan.len(),
+            rows,
+            next: 0,
+            seen: 0,
+            is_dense: plan.conditions.is_empty(),
+        }
+    }
+
+    /// True if the plan's columns have these names.
+    pub(crate) fn has_columns(&self, names: &[String]) -> bool {
+        names.iter().eq(self.columns.iter().map(|column| &column.name))
+    }
+
+    /// Allows missing rows from now on: for a reader that leaves out rows which it cannot read.
+    pub fn allow_gaps(&mut self) {
+        self.is_dense = false;
+        self.rows = None;
+    }
+
+    /// The point of the next row.
+    ///
+    /// # Errors
+    /// [`RowError`] if it is not the next row of the plan.
+    pub fn row(&mut self, cells: &StringRecord) -> Result<u64, RowError> {
+        let row = self.seen + 1;
+        let columns = self.columns.len();
+        if cells.len() != columns {
+            return Err(RowError::Width { row, cells: cells.len(), columns });
+        }
+        for (column, cell) in self.columns.iter().zip(cells) {
+            if !cell.is_empty() && !is_of_kind(cell, column.kind) {
+                let (cell, column) = (cell.to_owned(), column.name.clone());
+                return Err(RowError::Cell { row, cell, column });
+            }
+        }
+        let status = cells.get(self.status).unwrap_or_default();
+        if !Status::ALL.iter().any(|known| known.name() == status) {
+            return Err(RowError::Status { row, status: status.to_owned() });
+        }
+        let cell = cells.get(0).unwrap_or_default();
+        let place = cell.parse().ok().and_then(|point| Some((point, self.position(point)?)));
+        let Some((point, position)) = place else {
+            return Err(RowError::Point { row, point: cell.to_owned() });
+        };
+        if position < self.next {
+            return Err(RowError::Order { row, point });
+        }
+        if self.is_dense && position > self.next {
+            return Err(RowError::Gap { row, point, missing: self.selection.index(self.next) });
+        }
+        self.next = position + 1;
+        self.seen += 1;
+        Ok(point)
+    }
+
+    /// Checks at the end that no row is missing.
+    ///
+    /// # Errors
+    /// [`RowError::Count`] if there were more or fewer rows than were written.
+    pub fn end(&self) -> Result<(), RowError> {
+        match self.rows {
+            Some(written) if written != self.seen => Err(RowError::Count { found: self.seen, written }),
+            _ => Ok(()),
+        }
+    }
+
+    /// The position of a point among those selected.
+    fn position(&self, point: u64) -> Option<u64> {
+        if point >= self.points {
+            return None;
+        }
+        match &self.selection {
+            Selection::All => Some(point),
+            Selection::Shard(shard) => shard.contains(point).then(|| point / shard.of()),
+            Selection::Listed(list) => list.binary_search(&point).ok().map(|position| position as u64),
+        }
+    }
+}
+
+fn is_of_kind(cell: &str, kind: Kind) -> bool {
+    match kind {
+        Kind::Whole => cell.parse::<u64>().is_ok(),
+        Kind::Number => cell.parse::<f64>().is_ok(),
+        Kind::Flag => cell.parse::<bool>().is_ok(),
+        Kind::Text => true,
+    }
+}
