@@ -97,7 +97,7 @@ def hysteresis() -> Axes:
 
 
 def tornado() -> Axes:
-    """What changes the lift of the large direct drive."""
+    """Sensitivities of the lift of the large direct drive."""
     return plot.tornado("ozaki2018-large", "lift_mean_mn", top=10)
 
 

@@ -38,4 +38,10 @@ def test_examples_in_docstrings(name):
 
 def test_everything_has_a_docstring():
     for name in plot.__all__:
-        assert getattr(plot, name).__doc__
+        text = getattr(plot, name).__doc__
+        assert text and "%(" not in text, "a paragraph is missing"
+
+
+@pytest.mark.parametrize("function", [plot.heatmap, plot.hysteresis, plot.pareto, plot.response])
+def test_help_explains_slices(function):
+    assert "\n    where, **slices\n        Columns and the value that rows must have," in function.__doc__

@@ -41,13 +41,13 @@ class Diagnostic:
     file : str
         The grid file, or ``"<grid>"``.
     line, column : int
-        Where the mistake is, from 1; columns count characters.
+        The place of the mistake, from 1; columns count characters.
     start, end : int
-        The same in bytes of the text in UTF-8.
+        The same place in bytes of the text in UTF-8: first, and behind the last.
     message : str
-        What is wrong.
+        The mistake.
     notes, help : list of str
-        What is allowed, and what to do.
+        The allowed values, and ways to mend the mistake.
     """
 
     def __new__(
@@ -168,7 +168,7 @@ def params(name: str, /) -> list[tuple[str, float | str | None, str, str, str, s
     """The parameters of a preset or a model; see `flapwing.params`."""
 
 def measures(name: str, /) -> list[tuple[str, str, str]]:
-    """What rows of a preset or a model measure: names, each with unit and meaning; see `flapwing.measures`."""
+    """The measures of a preset or a model: names, each with unit and meaning; see `flapwing.measures`."""
 
 def run(preset: str, keywords: dict[str, Any], /) -> dict[str, Any]:
     """Runs one point; see `flapwing.run`."""
