@@ -1,4 +1,4 @@
-//! What goes wrong, as Python exceptions.
+//! Errors as Python exceptions.
 
 use std::io;
 
@@ -32,14 +32,14 @@ create_exception!(
 /// file : str
 ///     The grid file, or ``"<grid>"``.
 /// line, column : int
-///     Where the mistake is, from 1; columns count characters.
+///     The place of the mistake, from 1; columns count characters.
 /// start, end : int
-///     The same in bytes of the text in UTF-8.
+///     The same place in bytes of the text in UTF-8: first, and behind the last.
 /// message : str
-///     What is wrong.
+///     The mistake.
 /// notes, help : list of str
-///     What is allowed, and what to do.
-#[pyclass(frozen, get_all, module = "flapwing")]
+///     The allowed values, and ways to mend the mistake.
+#[pyclass(frozen, get_all, new = "from_fields", module = "flapwing")]
 pub(crate) struct Diagnostic {
     file: String,
     line: usize,
@@ -53,23 +53,7 @@ pub(crate) struct Diagnostic {
 
 #[pymethods]
 impl Diagnostic {
-    #[new]
-    #[pyo3(signature = (file, line, column, start, end, message, notes, help, /))]
-    #[expect(clippy::too_many_arguments, reason = "one per attribute")]
-    fn new(
-        file: String,
-        line: usize,
-        column: usize,
-        start: usize,
-        end: usize,
-        message: String,
-        notes: Vec<String>,
-        help: Vec<String>,
-    ) -> Diagnostic {
-        Diagnostic { file, line, column, start, end, message, notes, help }
-    }
-
-    /// What it is pickled as: errors travel between the processes of a cluster.
+    /// The arguments from which `pickle` makes it again: errors travel between the processes of a cluster.
     fn __getnewargs__(&self) -> (&str, usize, usize, usize, usize, &str, Vec<String>, Vec<String>) {
         let Diagnostic { file, line, column, start, end, message, notes, help } = self;
         (file, *line, *column, *start, *end, message, notes.clone(), help.clone())
@@ -95,7 +79,7 @@ impl From<&diagnostic::Diagnostic> for Diagnostic {
     }
 }
 
-/// The exception for mistakes in a grid.
+/// `GridError` for mistakes in a grid, with its list of diagnostics.
 pub(crate) fn grid(py: Python<'_>, mistakes: &diagnostic::Mistakes) -> PyErr {
     let error = GridError::new_err(diagnostic::render(mistakes, false));
     let listed: Vec<Diagnostic> = mistakes.iter().map(Diagnostic::from).collect();
@@ -118,14 +102,17 @@ pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
     }
 }
 
+/// `ValueError` for parameters that are impossible together.
 pub(crate) fn invalid(invalid: &Invalid) -> PyErr {
     PyValueError::new_err(invalid.to_string())
 }
 
+/// `ValueError` for a motion that could not be followed to its end.
 pub(crate) fn unfinished(unfinished: &Unfinished) -> PyErr {
     PyValueError::new_err(unfinished.to_string())
 }
 
+/// The exception for a run of points that ended early.
 pub(crate) fn run(error: &RunError) -> PyErr {
     match error {
         RunError::Sink(_) => PyOSError::new_err(error.to_string()),
@@ -141,11 +128,7 @@ pub(crate) fn run(error: &RunError) -> PyErr {
 /// The exception for results that were not written, or not completed.
 pub(crate) fn job(error: &JobError) -> PyErr {
     let go_on = |error: PyErr, resumable: bool, py: Python<'_>| {
-        if resumable {
-            // Notes on exceptions are as old as Python 3.11.
-            let _ = error.value(py).call_method1("add_note", ("the same call with resume=True goes on",));
-        }
-        error
+        if resumable { noted(py, error, "the same call with resume=True goes on") } else { error }
     };
     Python::attach(|py| match error {
         JobError::Format(error) => PyValueError::new_err(error.to_string()),
@@ -159,6 +142,11 @@ pub(crate) fn job(error: &JobError) -> PyErr {
         JobError::Write { resumable, .. } => go_on(PyOSError::new_err(error.to_string()), *resumable, py),
         JobError::Run { error, resumable } => go_on(run(error), *resumable, py),
     })
+}
+
+/// The exception with a note.
+fn noted(py: Python<'_>, error: PyErr, note: &str) -> PyErr {
+    error.add_note(py, note).err().unwrap_or(error)
 }
 
 fn create(error: &CreateError) -> PyErr {
@@ -199,7 +187,7 @@ pub(crate) fn open(error: &OpenError) -> PyErr {
     }
 }
 
-/// The exception that Python itself raises for what the operating system says.
+/// The exception that Python itself raises for an error of the operating system.
 pub(crate) fn io_error(what: &str, error: &io::Error) -> PyErr {
     let message = format!("{what}: {error}");
     match error.kind() {

@@ -60,7 +60,6 @@ class Diagnostic:
         message: str,
         notes: list[str],
         help: list[str],
-        /,
     ) -> Diagnostic: ...
     def __getnewargs__(self) -> tuple[str, int, int, int, int, str, list[str], list[str]]: ...
     @property
@@ -93,8 +92,8 @@ class Grid:
     Parameters
     ----------
     source : path, str, dict or Grid
-        A grid file by its path; the text of one (a str with a line break or ``=``); or what such a file says as a
-        dictionary of dictionaries.
+        A grid file by its path; the text of one (a str with a line break or ``=``); or its entries as a dictionary
+        of dictionaries.
 
     Raises
     ------
@@ -144,8 +143,8 @@ class Grid:
         """The parameters that differ from point to point: those of the axes, then the derived ones."""
 
     def exclusions(self) -> dict[str, Any]:
-        """Counts what the conditions of ``[where]`` leave out, among all points or, if there are more than a million, among a
-        million spread over the grid.
+        """Counts the points that the conditions of ``[where]`` exclude: among all points or, if there are more than a million,
+        among a million spread over the grid.
 
         Returns
         -------
