@@ -9,6 +9,7 @@ mod cluster;
 mod columns;
 mod convert;
 mod design;
+mod diagnostic;
 mod error;
 mod evaluate;
 mod grid;
@@ -29,7 +30,9 @@ mod _flapwing {
     #[pymodule_export]
     use crate::cluster::part;
     #[pymodule_export]
-    use crate::error::{Diagnostic, GridError};
+    use crate::diagnostic::Diagnostic;
+    #[pymodule_export]
+    use crate::error::GridError;
     #[pymodule_export]
     use crate::evaluate::evaluate;
     #[pymodule_export]
