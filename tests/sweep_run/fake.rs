@@ -12,7 +12,7 @@ use flap_core::simulate::{
     Rows, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest, Unfinished,
 };
 
-/// What goes wrong, and at which value of `size`.
+/// A fault of the model, and the value of `size` at which it happens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Fault {
     None,

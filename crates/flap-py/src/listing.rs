@@ -1,4 +1,4 @@
-//! What there is: parameters and measures.
+//! Lists of parameters and measures.
 
 use flap_core::parameter::Kind;
 use flap_core::simulate::{self, Simulator};
@@ -42,7 +42,7 @@ pub(crate) fn params(name: &Bound<'_, PyAny>) -> PyResult<Vec<Listed>> {
     Ok(listed.collect())
 }
 
-/// What rows of a preset or a model measure: names, each with unit and meaning; see `flapwing.measures`.
+/// The measures of a preset or a model: names, each with unit and meaning; see `flapwing.measures`.
 #[pyfunction]
 #[pyo3(signature = (name, /))]
 pub(crate) fn measures(name: &Bound<'_, PyAny>) -> PyResult<Vec<(String, &'static str, String)>> {

@@ -26,7 +26,7 @@ def part(name: str, text: str, begin: int, end: int, threads: SupportsIndex | No
 
 
 class Parcels:
-    """Hands out stretches of a grid to a cluster, and gives what comes back in order."""
+    """Stretches of a grid, computed by a cluster; their rows come in the order of the points."""
 
     def __init__(self, grid: Grid, client: Client, threads: SupportsIndex | None) -> None:
         self._client = client

@@ -88,7 +88,7 @@ class Table:
 
     @classmethod
     def _of(cls, native: dict[str, Any], path: str | None = None) -> Table:
-        """The table of what the native part gives; with a path, its columns are read when they are asked for."""
+        """A table of native results; with a path, its columns are read from there when first used."""
         meta = {**native.get("meta", {}), **native.get("summary", {})}
         if path is None:
             return cls._new(_columns(native), native.get("axes", []), meta)
@@ -153,7 +153,7 @@ class Table:
 
     @property
     def units(self) -> dict[str, str]:
-        """The unit of each column, ``""`` for what has none."""
+        """The unit of each column, ``""`` for none."""
         return {name: column.unit for name, column in self._columns.items()}
 
     @property
@@ -193,7 +193,7 @@ class Table:
         return frame
 
     def to_polars(self) -> polars.DataFrame:
-        """The table as a polars DataFrame, through Arrow; what is not known is null."""
+        """The table as a polars DataFrame, through Arrow; unknown values are null."""
         import polars
 
         frame = polars.from_arrow(self.to_arrow())
@@ -201,7 +201,7 @@ class Table:
         return frame
 
     def to_arrow(self) -> pyarrow.Table:
-        """The table as an Arrow table: numbers share memory with the table, what is not known is null.
+        """The table as an Arrow table: numbers share memory with the table, unknown values are null.
 
         Units and meanings are in the metadata of the fields.
         """

@@ -162,7 +162,7 @@ def _in_ratio(values: np.ndarray) -> bool:
 
 
 def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
-    """The parameters along the axes, those that are not named chosen from what is left."""
+    """The parameters along x and y: those named, else axes of the grid."""
     for name in (x, y):
         if name is not None:
             data[name]

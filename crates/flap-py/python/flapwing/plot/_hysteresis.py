@@ -129,7 +129,7 @@ class _Way:
 
 
 def _one_design(data: Data) -> None:
-    """Refuses rows of several designs, and tells which there are."""
+    """Raises ValueError, with the parameters of the designs, if there are several."""
     if "curve" not in data:
         return
     curves = distinct(data["curve"])

@@ -73,7 +73,7 @@ def figure_of(ax: Axes) -> Figure:
 
 
 def colour_bar(ax: Axes | list[Axes], mappable: Any, **options: Any) -> Any:
-    """The colour bar of what is drawn, beside axes."""
+    """A colour bar beside axes, for a map or points in colours."""
     first = ax[0] if isinstance(ax, list) else ax
     bar = figure_of(first).colorbar(mappable, ax=ax, **options)
     bar.ax.grid(False)

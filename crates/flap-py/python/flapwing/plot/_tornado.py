@@ -52,7 +52,7 @@ def sensitivities(
     change: float = 0.05,
     **fixed: Any,
 ) -> list[Sensitivity]:
-    """Change each parameter of a design by a little, down and up, and see what it does to a measure.
+    """Change each parameter of a design by a little, down and up, and compute the change of a measure.
 
     Two points are run for each parameter, and one for the design. All other parameters stay as they are, except those
     that follow the one that is changed, such as the bias that follows the voltage.

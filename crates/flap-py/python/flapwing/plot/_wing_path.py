@@ -22,7 +22,7 @@ _PAST, _APART = 9, 1.0 / 36.0
 
 
 class WingPath(FuncAnimation):
-    """An animation that is saved in the format that the file's name says, and shows itself in notebooks."""
+    """An animation, saved in the format that the file's name ends in, and shown by notebooks."""
 
     def __init__(self, scene: _Scene) -> None:
         self._scene = scene
