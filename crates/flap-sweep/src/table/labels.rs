@@ -1,0 +1,329 @@
+//! Labels of columns: names in words, printed units, and the better direction of a measure.
+
+use std::f64::consts::PI;
+
+use flap_core::simulate;
+
+use super::layout;
+
+/// The label of a column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Label {
+    /// The name in words, without the unit: `Lift, mean`.
+    pub words: String,
+    /// The unit as it is printed: `N·m/rad`, `°`; empty for none.
+    pub unit: String,
+    /// The better direction of a measure; `None` for columns that are neither a benefit nor a cost.
+    pub better: Option<Direction>,
+}
+
+/// The better direction of a measure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// A benefit, such as lift.
+    Larger,
+    /// A cost, such as power.
+    Smaller,
+}
+
+impl Label {
+    /// Words and unit: `Lift, mean (mN)`.
+    pub fn text(&self) -> String {
+        titled(&self.words, &self.unit)
+    }
+}
+
+/// The label of a column, with the unit that [`unit_of`] finds for its name.
+///
+/// ```
+/// use flap_sweep::table::labels::{self, Direction};
+///
+/// let label = labels::of("power_drag_mean_mw");
+/// assert_eq!(label.text(), "Drag power, mean (mW)");
+/// assert_eq!(label.better, Some(Direction::Smaller));
+/// ```
+pub fn of(column: &str) -> Label {
+    with_unit(column, unit_of(column))
+}
+
+/// The label of a column whose values have `unit`, written as in tables of parameters: `N*m/rad`; empty for none.
+pub fn with_unit(column: &str, unit: &str) -> Label {
+    Label { words: words(column, unit), unit: printed(unit), better: better(column) }
+}
+
+/// The unit of a column: that of the parameter or measure with this name in any model, else the ending of the name; empty
+/// for none.
+pub fn unit_of(column: &str) -> &'static str {
+    let of_model = simulate::all().iter().find_map(|model| {
+        let parameter = model.parameters().iter().find(|parameter| parameter.name == column);
+        let measure = || model.columns().iter().find(|measure| measure.name == column);
+        parameter.map(|parameter| parameter.unit).or_else(|| measure().map(|measure| measure.unit))
+    });
+    of_model.unwrap_or_else(|| layout::split_unit(column).1)
+}
+
+/// Words, and the printed unit in parentheses if there is one.
+pub fn titled(words: &str, unit: &str) -> String {
+    if unit.is_empty() { words.to_owned() } else { format!("{words} ({unit})") }
+}
+
+/// First words of names of measures that are benefits or costs.
+const BETTER: [(&str, Direction); 8] = [
+    ("lift", Direction::Larger),
+    ("efficiency", Direction::Larger),
+    ("power", Direction::Smaller),
+    ("current", Direction::Smaller),
+    ("strain", Direction::Smaller),
+    ("field", Direction::Smaller),
+    ("drag", Direction::Smaller),
+    ("force", Direction::Smaller),
+];
+
+/// The better direction of a column, by the first word of its name.
+fn better(column: &str) -> Option<Direction> {
+    let first = column.split('_').next()?;
+    BETTER.iter().find(|(word, _)| *word == first).map(|(_, direction)| *direction)
+}
+
+/// Words of names that stand behind a comma in a label.
+const QUALIFIERS: [(&str, &str); 13] = [
+    ("mean", "mean"),
+    ("max", "largest"),
+    ("min", "smallest"),
+    ("peak", "peak"),
+    ("pp", "peak to peak"),
+    ("rms", "rms"),
+    ("amplitude", "amplitude"),
+    ("first", "first harmonic"),
+    ("supply", "supply"),
+    ("magnitude", "mean magnitude"),
+    ("lag", "lag"),
+    ("second", "second"),
+    ("margin", "margin"),
+];
+
+/// Nouns that names of measures put before their adjectives: `power_drag_mean_mw` is a drag power.
+const NOUNS: [&str; 8] = ["lift", "drag", "power", "current", "force", "efficiency", "strain", "field"];
+
+/// Parameters whose last word belongs to the noun.
+const WHOLE: [&str; 3] = ["drag_max", "drag_min", "lift_max"];
+
+fn qualifier(word: &str) -> Option<&'static str> {
+    QUALIFIERS.iter().find(|(known, _)| *known == word).map(|(_, text)| *text)
+}
+
+/// A column's name in words, without its unit.
+fn words(name: &str, unit: &str) -> String {
+    let (shortened, known) = layout::split_unit(name);
+    // A parameter such as `air_density` has a unit that its name does not contain.
+    let is_shortened = !known.is_empty() && (unit.is_empty() || unit == known);
+    let stem = if is_shortened { shortened } else { name };
+    let parts: Vec<&str> = stem.split('_').filter(|part| !part.is_empty()).collect();
+    if parts.is_empty() {
+        return String::new();
+    }
+    let is_whole = parts[0] == "mode" || WHOLE.contains(&name);
+    let first_behind = parts.iter().skip(1).position(|part| qualifier(part).is_some()).map(|place| place + 1);
+    let (noun, behind) = parts.split_at(first_behind.filter(|_| !is_whole).unwrap_or(parts.len()));
+
+    let mut noun = noun.to_vec();
+    let is_measure = is_shortened || noun[0] == "strain";
+    let has_adjective = |noun: &[&str]| {
+        noun.len() > 1 && noun[1] != "audit" && !noun[1].starts_with(|letter: char| letter.is_ascii_digit())
+    };
+    if is_measure && NOUNS.contains(&noun[0]) && has_adjective(&noun) {
+        noun.rotate_left(1);
+    }
+    let said: Vec<&str> = behind.iter().map(|part| qualifier(part).unwrap_or(part)).collect();
+    let separator = if behind.iter().all(|part| qualifier(part).is_some()) { ", " } else { " " };
+    let mut text = capitalized(&noun.join(" "));
+    if !said.is_empty() {
+        text += ", ";
+        text += &said.join(separator);
+    }
+    text
+}
+
+fn capitalized(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
+}
+
+/// A unit as it is printed: `uN*m/rad` is `µN·m/rad`, `mm^2` is `mm²`, `deg` is `°`.
+pub fn printed(unit: &str) -> String {
+    let mut text = String::new();
+    let mut rest = unit;
+    while let Some(first) = rest.chars().next() {
+        let is_word = first.is_alphabetic();
+        let end = if is_word {
+            rest.find(|letter: char| !letter.is_alphabetic()).unwrap_or(rest.len())
+        } else {
+            first.len_utf8()
+        };
+        let (token, behind) = rest.split_at(end);
+        rest = behind;
+        match token {
+            "deg" => text.push('°'),
+            "*" => text.push('·'),
+            "^" => {
+                let digits = rest.find(|letter: char| letter != '-' && !letter.is_ascii_digit());
+                let (exponent, behind) = rest.split_at(digits.unwrap_or(rest.len()));
+                text.extend(exponent.chars().map(superscript));
+                rest = behind;
+            }
+            _ => match token.strip_prefix('u').filter(|symbol| !symbol.is_empty()) {
+                Some(symbol) => text.extend(["µ", symbol]),
+                None => text += token,
+            },
+        }
+    }
+    text
+}
+
+fn superscript(digit: char) -> char {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    digit.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize])
+}
+
+/// A unit in which values are easy to read, and the factor from the original unit to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scale {
+    /// The number by which values are multiplied.
+    pub factor: f64,
+    /// The unit after that, as it is printed.
+    pub unit: String,
+}
+
+/// Prefixes of units, each with its power of ten.
+const PREFIXES: [(&str, i32); 8] =
+    [("G", 9), ("M", 6), ("k", 3), ("", 0), ("m", -3), ("µ", -6), ("n", -9), ("p", -12)];
+
+/// Units that take a prefix. Units of measures, such as mN, have theirs already.
+const SYMBOLS: [&str; 13] = ["m", "s", "N", "Pa", "V", "F", "kg", "Hz", "W", "A", "J", "Ohm", "C"];
+
+/// The scale for values in `unit` of which `largest` is the largest magnitude: with the prefix that brings it to between 1
+/// and 1000. Values from 0.1 to 10 000 keep their unit; radians become degrees.
+pub fn scale(unit: &str, largest: f64) -> Scale {
+    let scale = |factor: f64, unit: &str| Scale { factor, unit: unit.to_owned() };
+    match unit {
+        "rad" => return scale(180.0 / PI, "°"),
+        "rad/s" => return scale(0.18 / PI, "°/ms"),
+        _ => {}
+    }
+    let symbol_end = unit.find(|letter: char| !letter.is_ascii_alphabetic()).unwrap_or(unit.len());
+    let (symbol, rest) = unit.split_at(symbol_end);
+    let is_readable = largest == 0.0 || !largest.is_finite() || (0.1..1e4).contains(&largest);
+    if is_readable || !SYMBOLS.contains(&symbol) {
+        return scale(1.0, &printed(unit));
+    }
+    if unit == "kg*m^2" {
+        return if largest < 1e-9 { scale(1e12, "mg·mm²") } else { scale(1e9, "g·mm²") };
+    }
+    // The exponent of the symbol: its prefix is raised to it too.
+    let digits = rest.strip_prefix('^').unwrap_or("");
+    let digits = &digits[..digits.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(digits.len())];
+    let power = digits.parse().unwrap_or(1);
+    let (symbol, base) = if symbol == "kg" { ("g", 3) } else { (symbol, 0) };
+    let size = largest.log10() + f64::from(base) + 1e-9;
+    let fits = PREFIXES.iter().find(|(_, ten)| size >= f64::from(ten * power));
+    let (prefix, ten) = fits.unwrap_or(&PREFIXES[PREFIXES.len() - 1]);
+    Scale { factor: power_of_ten(base - ten * power), unit: format!("{prefix}{symbol}{}", printed(rest)) }
+}
+
+/// The number nearest to 10^`exponent`, for exponents from -22 to 22.
+fn power_of_ten(exponent: i32) -> f64 {
+    if exponent < 0 { 1.0 / 10_f64.powi(-exponent) } else { 10_f64.powi(exponent) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_are_words_with_units() {
+        for (name, unit, text) in [
+            ("lift_mean_mn", "mN", "Lift, mean (mN)"),
+            ("lift_max_mn", "mN", "Lift, largest (mN)"),
+            ("stroke_pp_deg", "deg", "Stroke, peak to peak (°)"),
+            ("stroke_pp_deg_per_v", "deg/V", "Stroke, peak to peak (°/V)"),
+            ("stroke_first_lag_deg", "deg", "Stroke, first harmonic, lag (°)"),
+            ("drive_voltage_pp", "V", "Drive voltage, peak to peak (V)"),
+            ("efficiency_gf_per_w", "gf/W", "Efficiency (gf/W)"),
+            ("efficiency_capacitive_gf_per_w", "gf/W", "Capacitive efficiency (gf/W)"),
+            ("power_plate_1_supply_mw", "mW", "Plate 1 power, supply (mW)"),
+            ("power_translational_mean_mw", "mW", "Translational power, mean (mW)"),
+            ("lift_added_mass_mean_mn", "mN", "Added mass lift, mean (mN)"),
+            ("current_1_rms_ma", "mA", "Current 1, rms (mA)"),
+            ("field_max_v_per_um", "V/um", "Field, largest (V/µm)"),
+            ("strain_surface_max", "", "Surface strain, largest"),
+            ("resonance_second_hz", "Hz", "Resonance, second (Hz)"),
+            ("air_density", "kg/m^3", "Air density (kg/m³)"),
+            ("energy_audit", "", "Energy audit"),
+            ("drag_max", "", "Drag max"),
+            ("force_factor", "", "Force factor"),
+            ("lift_slope", "", "Lift slope"),
+            ("mode_1_hz", "Hz", "Mode 1 (Hz)"),
+            ("mean", "", "Mean"),
+            ("_", "", ""),
+            ("", "", ""),
+        ] {
+            assert_eq!(with_unit(name, unit).text(), text, "{name}");
+        }
+    }
+
+    #[test]
+    fn units_are_those_of_models_and_of_endings() {
+        assert_eq!(of("hinge_stiffness").text(), "Hinge stiffness (N·m/rad)");
+        assert_eq!(of("lift_mean_mn").text(), "Lift, mean (mN)");
+        assert_eq!(of("my_own_ms").text(), "My own (ms)");
+        assert_eq!(of("rhs_evals").text(), "Rhs evals");
+    }
+
+    #[test]
+    fn benefits_and_costs_have_directions() {
+        assert_eq!(of("lift_mean_mn").better, Some(Direction::Larger));
+        assert_eq!(of("power_mean_mw").better, Some(Direction::Smaller));
+        assert_eq!(of("drive_frequency").better, None);
+        assert_eq!(of("").better, None);
+    }
+
+    #[test]
+    fn units_are_printed_as_in_books() {
+        for (unit, text) in [
+            ("uN*m/rad", "µN·m/rad"),
+            ("V/um", "V/µm"),
+            ("m^-12", "m⁻¹²"),
+            ("m^4", "m⁴"),
+            ("u", "u"),
+            ("", ""),
+        ] {
+            assert_eq!(printed(unit), text);
+        }
+    }
+
+    #[test]
+    fn small_and_large_values_have_prefixes() {
+        for (value, unit, shown, text) in [
+            (8.64e-5, "N*m/rad", 86.4, "µN·m/rad"),
+            (1.4972e-6, "N*m/rad", 1.4972, "µN·m/rad"),
+            (0.0324, "m", 32.4, "mm"),
+            (5.459e-5, "m^2", 54.59, "mm²"),
+            (5.11e-11, "kg*m^2", 51.1, "mg·mm²"),
+            (8e-5, "kg", 80.0, "mg"),
+            (6.2e10, "Pa", 62.0, "GPa"),
+            (3.2e-10, "m/V", 320.0, "pm/V"),
+            (1e-15, "F", 1e-3, "pF"),
+            (0.02, "s", 20.0, "ms"),
+            (197.7, "N/m", 197.7, "N/m"),
+            (120.0, "Hz", 120.0, "Hz"),
+            (PI / 6.0, "rad", 30.0, "°"),
+            (0.0, "m", 0.0, "m"),
+            (0.5, "", 0.5, ""),
+            (1e-3, "mN", 1e-3, "mN"),
+        ] {
+            let scale = scale(unit, value);
+            assert!((value * scale.factor - shown).abs() <= 1e-12 * shown, "{value} {unit}");
+            assert_eq!(scale.unit, text, "{value} {unit}");
+        }
+    }
+}
