@@ -14,6 +14,7 @@ mod error;
 mod evaluate;
 mod grid;
 mod grid_text;
+mod labels;
 mod listing;
 mod parameters;
 mod read;
@@ -38,7 +39,9 @@ mod _flapwing {
     #[pymodule_export]
     use crate::grid::Grid;
     #[pymodule_export]
-    use crate::listing::{measures, params, split_unit};
+    use crate::labels::{printed, scale, split_unit, unit_of, words};
+    #[pymodule_export]
+    use crate::listing::{measures, params};
     #[pymodule_export]
     use crate::read::read;
     #[pymodule_export]

@@ -66,6 +66,6 @@ def test_every_column_of_every_model_has_a_label_without_underscores():
     ],
 )
 def test_si_values_are_shown_in_readable_units(value, unit, shown):
-    factor, text = _labels.scale([value], unit)
+    factor, text = _labels.readable([value], unit)
     assert text == shown[1]
     assert value * factor == pytest.approx(shown[0], rel=1e-12)

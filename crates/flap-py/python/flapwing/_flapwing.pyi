@@ -13,13 +13,17 @@ __all__ = [
     "params",
     "part",
     "presets",
+    "printed",
     "read",
     "resonance",
     "respond",
     "run",
+    "scale",
     "split_unit",
     "sweep",
     "trajectory",
+    "unit_of",
+    "words",
 ]
 
 __version__: str
@@ -245,6 +249,20 @@ def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None =
 
 def read(path: str | PathLike[str], /, *, ignore_damage: bool = False) -> dict[str, Any]:
     """Reads a result file; see `flapwing.read`."""
+
+def words(name: str, unit: str, /) -> str:
+    """A column's name in words, without its unit: `lift_mean_mn` is "Lift, mean"."""
+
+def printed(unit: str, /) -> str:
+    """A unit as it is printed: `uN*m/rad` is "µN·m/rad", `mm^2` is "mm²", `deg` is "°"."""
+
+def scale(unit: str, largest: float, /) -> tuple[float, str]:
+    """The factor to a readable unit, and that unit as it is printed, for values in `unit` of which `largest` is the largest."""
+
+def unit_of(name: str, /) -> str:
+    """The unit of a column: that of the parameter or measure with this name in any model, else the ending of the name; empty
+    for none.
+    """
 
 def split_unit(name: str, /) -> tuple[str, str]:
     """A column's name without the unit that it ends in, and that unit; empty if there is none."""

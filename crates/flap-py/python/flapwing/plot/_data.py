@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import os
-from functools import lru_cache
 from typing import Any, Iterable, Mapping, Sequence
 
 import numpy as np
@@ -76,12 +75,11 @@ class Data:
         return Data({name: column[mask] for name, column in self.columns.items()}, self.units, self.dims, self.meta)
 
     def unit(self, name: str) -> str:
-        """The unit of a column, as flap writes it; parameters in a file without a sidecar have none of their own."""
-        if self.units.get(name):
-            return self.units[name]
-        if "model" not in self.meta and name in _parameter_units():
-            return _parameter_units()[name]
-        return _labels.unit_of(name, self.units)
+        """The unit of a column, as flap writes it."""
+        known = self.units.get(name)
+        # Parameters in a file without a sidecar come without units.
+        is_known = known is not None and (known != "" or "model" in self.meta)
+        return str(known) if is_known else _labels.unit_of(name)
 
     def measured(self) -> np.ndarray:
         """A mask, True for rows with measures."""
@@ -195,7 +193,7 @@ class Shown:
         self.name = name
         self.text = is_text(data[name])
         unit = data.unit(name)
-        self.factor, self.unit = (1.0, "") if self.text else _labels.scale(data[name], unit)
+        self.factor, self.unit = (1.0, "") if self.text else _labels.readable(data[name], unit)
         self.words = _labels.words(name, unit)
         self.label = _labels.titled(self.words, self.unit)
         self.values = data[name] if self.text else data[name].astype(float) * self.factor
@@ -263,16 +261,3 @@ def unknown(what: str, name: str, known: Iterable[str]) -> str:
     near = difflib.get_close_matches(str(name), names, n=1, cutoff=0.6)
     hint = f" Did you mean `{near[0]}`?" if near else ""
     return f"there is no {what} `{name}`.{hint} There are: {', '.join(names)}"
-
-
-@lru_cache(maxsize=1)
-def _parameter_units() -> dict[str, str]:
-    """Units of all models' parameters, for columns that come without units."""
-    import flapwing
-
-    units: dict[str, str] = {}
-    for preset in flapwing.presets():
-        for name, parameter in flapwing.params(preset).items():
-            if parameter.unit:
-                units.setdefault(name, parameter.unit)
-    return units

@@ -174,7 +174,7 @@ def tornado(
         ax.set_yticks(places, labels=[_named(each) for each in shown])
         ax.tick_params(axis="y", length=0)
         ax.set_ylim(len(shown) - 0.4, -0.6)
-        unit = _labels.pretty(shown[0].measure_unit)
+        unit = _labels.printed(shown[0].measure_unit)
         words = _labels.words(shown[0].measure, shown[0].measure_unit)
         ax.set_xlabel(
             f"Change of {words[:1].lower() + words[1:]} (% of {_labels.number(base)} {unit})".replace(" )", ")")
@@ -235,7 +235,7 @@ def _number(value: float | str | None) -> float:
 
 def _named(each: Sensitivity) -> str:
     """A parameter with its value in the design."""
-    factor, unit = _labels.scale([each.value], each.unit)
+    factor, unit = _labels.readable([each.value], each.unit)
     value = f"{_labels.number(each.value * factor)} {unit}".strip()
     return f"{_labels.words(each.parameter, each.unit)}, {value}"
 

@@ -162,7 +162,7 @@ class _Cycle:
         self.stroke, self.pitch = np.interp(times, t, stroke), np.interp(times, t, pitch)
         self.lift = None if lift is None else np.interp(times, t, data.numbers(lift))
         self.lift_words = "" if lift is None else data.shown(lift).words
-        self.lift_unit = "" if lift is None else _labels.pretty(data.unit(lift))
+        self.lift_unit = "" if lift is None else _labels.printed(data.unit(lift))
 
 
 class _Scene:
