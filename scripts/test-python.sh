@@ -5,7 +5,10 @@
 #
 # Cargo's dev profile is used, whose compiled dependencies `cargo test` shares; with --release, the profile of
 # published wheels. The environment is kept in target/python; it is made anew when tests/python/requirements.txt
-# or the interpreter changes, and only then does pip fetch anything. PYTHON names an interpreter other than python3.
+# or the interpreter changes, and only then does pip fetch anything.
+#
+# The interpreter is that of the oldest Python that the wheel claims to serve, where there is one, else python3. PYTHON
+# names another.
 set -euo pipefail
 
 die() {
@@ -27,11 +30,14 @@ if [[ ${1-} == --release ]]; then
     shift
 fi
 
-python=${PYTHON:-python3}
-command -v "$python" >/dev/null || die "$python is not installed: Python 3.11 or later is needed"
+floor=$(sed -n 's/^requires-python = ">=\(.*\)"$/\1/p' crates/flap-py/pyproject.toml)
+python=${PYTHON:-python$floor}
+[[ -n ${PYTHON-} ]] || "$python" -c 'import ensurepip, venv' 2>/dev/null || python=python3
+command -v "$python" >/dev/null || die "$python is not installed: Python $floor or later is needed"
 version=$("$python" -c 'import sys; print(sys.version)') || die "$python does not run"
-"$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' ||
-    die "$python is ${version%% *}: the tests need Python 3.11 or later"
+"$python" -c "import sys; sys.exit(sys.version_info < (${floor/./, }))" ||
+    die "$python is ${version%% *}: the tests need Python $floor or later"
+printf 'Testing with Python %s; the oldest that the wheel serves is %s.\n' "${version%% *}" "$floor"
 "$python" -c 'import ensurepip, venv' 2>/dev/null ||
     die "$python lacks its venv module: on Debian and Ubuntu, install python3-venv"
 command -v cargo >/dev/null || die "cargo is not installed: building the wheel needs a Rust toolchain"

@@ -57,7 +57,7 @@ HEAD = """\
 
 
 class Count(NamedTuple):
-    """What a sweep took."""
+    """The instructions of a sweep."""
 
     instructions: int
     rhs_evals: int

@@ -1,4 +1,4 @@
-//! Which instructions a piece of work executes: counted by single steps, named by `objdump`.
+//! The instructions that a piece of work executes: counted by single steps, named by `objdump`.
 
 use std::collections::HashMap;
 use std::io;
@@ -28,7 +28,7 @@ impl Executed {
         self.fused + self.simple + self.divisions
     }
 
-    /// What the child executes that is given this work.
+    /// The instructions of a child process that does this work.
     pub(crate) fn of(work: &str) -> io::Result<Executed> {
         let mut times: HashMap<u64, u64> = HashMap::new();
         let mut base = None;
@@ -67,7 +67,7 @@ impl Executed {
     }
 }
 
-/// Where the program has been loaded.
+/// The address at which the program has been loaded.
 fn program_base(child: i32) -> io::Result<u64> {
     let maps = std::fs::read_to_string(format!("/proc/{child}/maps"))?;
     let first = maps.split('-').next().unwrap_or_default();

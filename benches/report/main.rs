@@ -4,7 +4,7 @@
 //! just bench-report
 //! ```
 //!
-//! What is compared is run in turn, so that whatever else the machine does slows all alike; numbers are medians, with the least
+//! Compared programs run in turn, so that other work on the machine slows all alike; numbers are medians, with the least
 //! and the most. Without the arguments of a bench it is only tried out, on few points.
 #![expect(clippy::print_stdout, reason = "a bench reports")]
 
@@ -28,7 +28,7 @@ mod whole;
 
 use std::path::PathBuf;
 
-/// How much is measured.
+/// The amount of work that is measured.
 #[derive(Clone, Copy)]
 struct Effort {
     /// Rounds of each comparison.

@@ -1,4 +1,4 @@
-//! How close the hot loop comes to what the processor can do: executed arithmetic of vectors against fused multiplications
+//! The share of the processor's peak that the hot loop reaches: executed arithmetic of vectors against fused multiplications
 //! and additions that do nothing else, in the same run.
 
 use core::hint::black_box;

@@ -55,7 +55,7 @@ pub(crate) fn run<'a>(plan: &'a Plan, solver: &SolverSettings) -> Listed<'a> {
     listed
 }
 
-/// How full lanes were: in the three ensembles, and in all.
+/// The share of lanes in use: in the three ensembles, and in all.
 pub(crate) fn lanes_full(lane_use: &LaneUse) -> String {
     let share = |lanes: Occupancy| format!("{:.1} %", 100.0 * lanes.used as f64 / lanes.room.max(1) as f64);
     let LaneUse { marching, varying, measuring } = *lane_use;

@@ -23,7 +23,7 @@ const FOUR_BAR: FourBar = FourBar { drive: Drive::SINE };
 /// Function values per iteration.
 pub(crate) const VALUES: usize = 1024;
 
-/// What is timed.
+/// A piece of work that is timed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Work {
     /// Sines and cosines of [`VALUES`] numbers.
@@ -68,7 +68,7 @@ impl Work {
         }
     }
 
-    /// Whether it is an elementary function of [`VALUES`] numbers.
+    /// True for an elementary function of [`VALUES`] numbers.
     pub(crate) fn is_function(self) -> bool {
         matches!(self, Work::SinCos | Work::Exp | Work::Ln)
     }

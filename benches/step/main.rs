@@ -1,4 +1,4 @@
-//! What a run is made of: elementary functions, right-hand side of each model, step; on scalars and in lanes.
+//! The parts of a run: elementary functions, right-hand side of each model, step; on scalars and in lanes.
 //!
 //! Rates are per lane: one element is one function value, right-hand side or step of one lane.
 

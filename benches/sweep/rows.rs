@@ -23,7 +23,7 @@ impl Rows {
         Rows(points.into_iter().zip(rows.expect("every point has a row")).collect())
     }
 
-    /// How many [`Rows::write`] writes.
+    /// The number of rows that [`Rows::write`] writes.
     pub(crate) fn len(&self) -> u64 {
         (COPIES * self.0.len()) as u64
     }

@@ -1,4 +1,4 @@
-"""How is a sweep spread over the processes of a cluster, and is the result the same?
+"""A sweep spread over the processes of a cluster, with the same result as on one machine.
 
 Starts a small Dask cluster on this machine, sweeps on it into one file, and compares that with a sweep without a
 cluster: the same bytes. A worker that dies does no harm; others run its points again. A sweep that is interrupted goes

@@ -1,4 +1,4 @@
-"""Which hinge, wing inertia and drag make the model stroke as measured over frequency?
+"""A fit of hinge, wing inertia and drag to a stroke that was measured over frequency.
 
 Fits parameters of the bimorph of Jafferis et al. to a frequency response by nonlinear least squares, and says how
 well the data determine them. The data are a table in CSV with the column `frequency_hz` and one or more columns named
@@ -58,7 +58,7 @@ class Response:
         self.voltage = voltage
 
     def model(self, logs):
-        """What the model says, for many parameter sets at once: rows of `logs` in, rows of readings out.
+        """The response of the model, for many parameter sets at once: rows of `logs` in, rows of readings out.
 
         Readings are nan where the motion is not periodic.
         """

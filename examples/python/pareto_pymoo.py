@@ -1,4 +1,4 @@
-"""How much lift is to be had for how much power, if the actuator must not be strained too far?
+"""The trade-off of lift and power, with a limit on the strain of the actuator.
 
 NSGA-II looks for designs of the bimorph of Jafferis et al. that no other design beats in both lift and power: the
 Pareto front. It varies voltage and frequency of the drive, the transmission and the hinge, keeps to limits on the

@@ -4,7 +4,7 @@
     python examples/python/pictures.py             # into docs/pictures
     python examples/python/pictures.py elsewhere
 
-Each function makes one picture of what it computes itself; copy the one that you need.
+Each function makes one picture of what it computes itself, or of a `softened` bimorph; copy what you need.
 """
 
 from __future__ import annotations
@@ -25,19 +25,22 @@ from matplotlib.figure import Figure
 REPOSITORY = Path(__file__).parents[2]
 
 
-def response() -> Axes:
-    """Frequency responses of the bimorph with a softened hinge; from 180 V on some motions are not periodic."""
-    table = flapwing.sweep(
+def softened(volts: dict[str, str], highest: str, where: dict[str, str] | None = None) -> flapwing.Table:
+    """A sweep of the bimorph with a softened hinge: over voltages, and over frequencies from 60 Hz to the highest."""
+    return flapwing.sweep(
         {
             "preset": "jafferis2016",
             "params": {"hinge_stiffness": "0.7486 uN*m/rad"},
-            "axes": {
-                "drive_voltage_pp": {"from": "80 V", "to": "240 V", "step": "40 V"},
-                "drive_frequency": {"from": "60 Hz", "to": "160 Hz", "step": "1 Hz"},
-            },
+            "axes": {"drive_voltage_pp": volts, "drive_frequency": {"from": "60 Hz", "to": highest, "step": "1 Hz"}},
+            "where": where or {},
         }
     )
-    return plot.response(table, "vehicle_lift_mgf")
+
+
+def response() -> Axes:
+    """Frequency responses of the bimorph with a softened hinge; from 180 V on some motions are not periodic."""
+    volts = {"from": "80 V", "to": "240 V", "step": "40 V"}
+    return plot.response(softened(volts, "160 Hz"), "vehicle_lift_mgf")
 
 
 def measures() -> Figure:
@@ -53,18 +56,9 @@ def heatmap(large: flapwing.Table) -> Axes:
 
 def gaps() -> Axes:
     """Lift of the bimorph with a softened hinge: some motions are not periodic, and some designs are not run."""
-    table = flapwing.sweep(
-        {
-            "preset": "jafferis2016",
-            "params": {"hinge_stiffness": "0.7486 uN*m/rad"},
-            "axes": {
-                "drive_voltage_pp": {"from": "160 V", "to": "280 V", "step": "20 V"},
-                "drive_frequency": {"from": "60 Hz", "to": "140 Hz", "step": "1 Hz"},
-            },
-            "where": {"within_the_amplifier": "drive_voltage_pp * drive_frequency < 34000"},
-        }
-    )
-    return plot.heatmap(table, "vehicle_lift_mgf")
+    volts = {"from": "160 V", "to": "280 V", "step": "20 V"}
+    amplifier = {"within_the_amplifier": "drive_voltage_pp * drive_frequency < 34000"}
+    return plot.heatmap(softened(volts, "140 Hz", amplifier), "vehicle_lift_mgf")
 
 
 def pareto(large: flapwing.Table) -> Axes:
@@ -97,7 +91,7 @@ def hysteresis() -> Axes:
 
 
 def tornado() -> Axes:
-    """What changes the lift of the large direct drive."""
+    """Sensitivities of the lift of the large direct drive."""
     return plot.tornado("ozaki2018-large", "lift_mean_mn", top=10)
 
 

@@ -1,6 +1,6 @@
-"""Which parameters decide lift and power, when each is known to 10 % only?
+"""Sobol' indices of lift and power, for parameters that are known to 10 % only.
 
-Sobol' indices say what share of a result's variance comes from each parameter: the first-order index S1 from it alone,
+They are the shares of a result's variance that come from each parameter: the first-order index S1 from it alone,
 the total index ST from it and all its interactions with others. First-order indices add up to at most 1; what is
 missing are interactions. A parameter whose ST is near 0 may as well be fixed.
 
@@ -26,7 +26,7 @@ import numpy as np
 from SALib.analyze import sobol as sobol_analyze
 from SALib.sample import sobol as sobol_sample
 
-# What is uncertain in each design: things that are hard to measure or to make.
+# The uncertain parameters of each design: they are hard to measure or to make.
 UNCERTAIN = {
     "ozaki2018-large": [
         "hinge_stiffness",

@@ -91,7 +91,7 @@ def main():
 
 
 def step(atlas, dimension):
-    """How many rows or columns of the map to go on, so that at most eight are printed."""
+    """The stride along an axis of the map at which at most eight values are printed."""
     return -(-list(atlas["lift_mean_mn"].shape)[dimension] // 8)
 
 

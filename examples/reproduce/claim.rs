@@ -1,4 +1,4 @@
-//! What a paper says, what flap computes, and the verdict that follows from the two.
+//! Claims: the statement of a paper, the number that flap computes, and the verdict that follows from the two.
 //!
 //! Verdicts are rules applied to numbers; none is written by hand.
 
@@ -6,16 +6,16 @@
 pub(crate) struct Claim {
     /// Section, figure or table of the paper.
     pub(crate) place: &'static str,
-    /// What the paper says.
+    /// The statement of the paper.
     pub(crate) statement: String,
     /// The paper's number or words.
     pub(crate) published: String,
-    /// What flap computes.
+    /// The number that flap computes.
     pub(crate) computed: String,
     pub(crate) verdict: Verdict,
 }
 
-/// What becomes of a claim.
+/// The outcome of a claim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Verdict {
     /// The computed number is the published one to its rounding, or the statement holds.

@@ -83,7 +83,7 @@ pub(crate) fn steps(from: f64, to: f64, step: f64) -> Vec<f64> {
 }
 
 impl Settled {
-    /// What was measured in `column`.
+    /// The measure in `column`.
     pub(crate) fn get(&self, column: &str) -> f64 {
         let index = self.model.columns().iter().position(|one| one.name == column);
         self.measures[index.unwrap_or_else(|| panic!("{} has no column {column}", self.model.name()))]
@@ -96,13 +96,13 @@ impl Response {
         self.points.iter().map(|(x, point)| (*x, point.get(column))).collect()
     }
 
-    /// Where a column is largest: the point and what it responds to.
+    /// The point at which a column is largest, and its value along the axis.
     pub(crate) fn peak(&self, column: &str) -> (f64, &Settled) {
         let largest = self.points.iter().max_by(|a, b| a.1.get(column).total_cmp(&b.1.get(column)));
         largest.map(|(x, point)| (*x, point)).expect("a response has points")
     }
 
-    /// Where a column is larger than at both neighbours.
+    /// The points at which a column is larger than at both neighbours.
     pub(crate) fn humps(&self, column: &str) -> Vec<f64> {
         let values = self.column(column);
         let tops = values.windows(3).filter(|three| three[1].1 > three[0].1 && three[1].1 > three[2].1);

@@ -5,7 +5,7 @@ use crate::claim::{Claim, Verdict};
 /// A paper, and the groups of its claims.
 pub(crate) struct Paper {
     pub(crate) title: &'static str,
-    /// What the reader must know of all that follows.
+    /// Notes for the reader on all that follows.
     pub(crate) preface: &'static str,
     pub(crate) groups: &'static [Group],
 }
@@ -13,9 +13,9 @@ pub(crate) struct Paper {
 /// Claims that are computed together.
 pub(crate) struct Group {
     pub(crate) title: &'static str,
-    /// What the reader must know; may be empty.
+    /// Notes for the reader; may be empty.
     pub(crate) preface: &'static str,
-    /// Whether it is quick to compute.
+    /// True if it is quick to compute.
     pub(crate) quick: bool,
     pub(crate) claims: fn() -> Vec<Claim>,
 }
@@ -50,7 +50,7 @@ pub(crate) fn paragraph(text: &str) -> String {
     lines.join("\n") + "\n\n"
 }
 
-/// How many claims of each paper have which verdict.
+/// The number of claims of each paper by verdict.
 pub(crate) fn summary(papers: &[(&Paper, Vec<Verdict>)]) -> String {
     let mut lines = vec![
         "| paper | rows | met | met within a share | not reproduced | cannot be checked |".to_owned(),

@@ -1,4 +1,4 @@
-//! What rows say of their own error, on designs far from the published ones.
+//! Error estimates of rows, on designs far from the published ones.
 
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Kind, Preset};
@@ -11,7 +11,7 @@ use crate::rows;
 const DRAWN: usize = 2000;
 const COMPARED: usize = 300;
 
-/// What `error_estimate` stands for.
+/// The measures whose errors `error_estimate` bounds.
 const PRINCIPAL: [&str; 4] = ["stroke_amplitude_deg", "pitch_amplitude_deg", "lift_mean_mn", "power_mean_mw"];
 
 /// Few points settle after a hundred periods of marching: the rest would only take time.

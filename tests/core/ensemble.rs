@@ -6,7 +6,7 @@ use flap_core::num::InstructionSet;
 use flap_core::simulate::{Simulator, SolverSettings, Status, by_name};
 use proptest::prelude::*;
 
-use crate::rows::{self, bits};
+use crate::rows::{self, QUICK, bits};
 
 fn model() -> &'static dyn Simulator {
     by_name("direct-drive").unwrap()
@@ -36,16 +36,6 @@ fn mixed_points() -> Vec<Vec<f64>> {
     }
     points.iter().map(Params::to_values).collect()
 }
-
-const QUICK: SolverSettings = SolverSettings {
-    rtol: 1e-5,
-    atol: 1e-7,
-    settle_tol: 1e-5,
-    max_cycles: 60,
-    max_steps: 500,
-    accuracy: 1e-3,
-    newton: true,
-};
 
 #[test]
 fn rows_equal_the_scalar_path_bit_for_bit() {

@@ -1,16 +1,14 @@
 //! Responses to changes of the initial state, against Floquet multipliers of reference orbits.
 
-use std::ops::ControlFlow;
-
 use flap_core::model::Model;
 use flap_core::model::bimorph::{self, Bimorph};
 use flap_core::model::direct_drive::{self, DirectDrive};
-use flap_core::ode::solve::solve;
 use flap_core::ode::variation::{Variation, initial, response};
 use flap_core::ode::{Start, Tolerances};
 use nalgebra::Matrix4;
 
-use crate::data::{assert_close, table};
+use crate::data::{Record, assert_close, table};
+use crate::span;
 
 const TOLERANCES: Tolerances = Tolerances { rtol: 1e-8, atol: 1e-10, max_steps: 20_000 };
 
@@ -22,17 +20,7 @@ fn period<M: Model<4, S>, const S: usize>(
 ) -> ([f64; 4], [f64; 20], [f64; 4]) {
     let model = &model.variant(values);
     let start = Start { y, ..model.start(values).unwrap() };
-    let mut alone = [0.0; 4];
-    solve::<M, f64, 4>(
-        model,
-        &TOLERANCES,
-        &start,
-        |_, _| {},
-        |y| {
-            alone = *y;
-            ControlFlow::Break(())
-        },
-    );
+    let alone = span::end(model, &TOLERANCES, &start);
     let mut scale = [0.0; 20];
     scale[..4].copy_from_slice(&start.scale);
     let varied = Start {
@@ -42,17 +30,7 @@ fn period<M: Model<4, S>, const S: usize>(
         scale,
         tighten: 1.0,
     };
-    let mut all = [0.0; 20];
-    solve::<Variation<'_, M, 4>, f64, 20>(
-        &Variation(model),
-        &TOLERANCES,
-        &varied,
-        |_, _| {},
-        |y| {
-            all = *y;
-            ControlFlow::Break(())
-        },
-    );
+    let all = span::end(&Variation(model), &TOLERANCES, &varied);
     (alone, all, start.scale)
 }
 
@@ -60,6 +38,20 @@ fn period<M: Model<4, S>, const S: usize>(
 fn largest_multiplier(all: &[f64; 20], scale: &[f64; 4]) -> f64 {
     let monodromy = Matrix4::from_fn(|i, j| response::<4, 20>(all, j)[i] / scale[i]);
     monodromy.complex_eigenvalues().iter().fold(0.0, |largest, multiplier| multiplier.norm().max(largest))
+}
+
+/// Compares the largest multiplier of the orbit through the states in `states` with the column `multiplier`.
+fn check<M: Model<4, S>, const S: usize>(
+    model: &M,
+    values: &[f64],
+    record: &Record,
+    states: [&str; 4],
+    multiplier: &str,
+) {
+    let y = states.map(|column| record.number(column));
+    let (alone, all, scale) = period(model, values, y);
+    assert_eq!(alone, all[..4], "the responses change nothing");
+    assert_close(largest_multiplier(&all, &scale), record.number(multiplier), 1e-4, &record.name);
 }
 
 #[test]
@@ -74,10 +66,8 @@ fn multipliers_of_direct_drive_orbits_equal_the_reference() {
             drive_frequency: record.number("f_Hz"),
             ..p
         };
-        let y = ["x_phi0", "x_psi0", "x_phidot0", "x_psidot0"].map(|column| record.number(column));
-        let (alone, all, scale) = period(&DirectDrive::default(), &p.to_values(), y);
-        assert_eq!(alone, all[..4], "the responses change nothing");
-        assert_close(largest_multiplier(&all, &scale), record.number("floquet_max"), 1e-4, &record.name);
+        let states = ["x_phi0", "x_psi0", "x_phidot0", "x_psidot0"];
+        check(&DirectDrive::default(), &p.to_values(), &record, states, "floquet_max");
     }
 }
 
@@ -95,9 +85,7 @@ fn multipliers_of_bimorph_orbits_equal_the_reference() {
             drive_frequency: record.number("f_Hz"),
             ..p
         };
-        let y = ["x0_m", "v0_m_per_s", "psi0_rad", "psidot0_rad_per_s"].map(|column| record.number(column));
-        let (alone, all, scale) = period(&Bimorph::default(), &p.to_values(), y);
-        assert_eq!(alone, all[..4], "the responses change nothing");
-        assert_close(largest_multiplier(&all, &scale), record.number("floquet_abs_max"), 1e-4, &record.name);
+        let states = ["x0_m", "v0_m_per_s", "psi0_rad", "psidot0_rad_per_s"];
+        check(&Bimorph::default(), &p.to_values(), &record, states, "floquet_abs_max");
     }
 }

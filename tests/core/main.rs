@@ -29,6 +29,7 @@ mod resonance;
 mod robustness;
 mod rows;
 mod samples;
+mod span;
 mod strobe;
 mod tracking;
 mod waveforms;

@@ -3,6 +3,17 @@
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{Jobs, Point, Row, Simulator, SolverSettings, Status};
 
+/// Settings for many points: coarse, and with little patience for motions that do not settle.
+pub(crate) const QUICK: SolverSettings = SolverSettings {
+    rtol: 1e-5,
+    atol: 1e-7,
+    settle_tol: 1e-5,
+    max_cycles: 60,
+    max_steps: 500,
+    accuracy: 1e-3,
+    newton: true,
+};
+
 /// Points given in order; rows kept by index.
 struct Listed<'a> {
     points: &'a [Point],

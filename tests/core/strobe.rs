@@ -1,4 +1,4 @@
-//! When a run counts as periodic.
+//! The rules by which a run counts as periodic.
 
 use flap_core::measure::strobe::Strobe;
 
@@ -16,7 +16,7 @@ fn a_decaying_transient_settles_when_it_changes_less_than_the_tolerance() {
     assert_eq!(settle(|n| 1.0 + 0.5_f64.powi(n as i32)), Some((1, 21)));
 }
 
-/// What counts in a small motion is its change relative to itself.
+/// A small motion is judged by its change relative to itself.
 #[test]
 fn a_small_motion_takes_as_long_to_settle_as_a_large_one() {
     let settled = settle(|n| 1e-6 * (1.0 + 0.5_f64.powi(n as i32)));

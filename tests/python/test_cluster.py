@@ -7,7 +7,7 @@ import threading
 import flapwing
 import numpy as np
 import pytest
-from conftest import GRID
+from grids import GRID
 
 distributed = pytest.importorskip("distributed")
 

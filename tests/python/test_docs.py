@@ -1,4 +1,4 @@
-"""What docstrings and pages show is what happens."""
+"""Examples in docstrings and pages give the results that they show."""
 
 import doctest
 import importlib
@@ -43,7 +43,7 @@ def test_python_in_the_pages_runs(page, least, tmp_path, monkeypatch):
     for example in (REPOSITORY / "examples").glob("*.toml"):
         (tmp_path / "examples" / example.name).write_bytes(example.read_bytes())
     if page == "README.md":
-        # What the page's first command makes.
+        # Made by the page's first command.
         flapwing.sweep("examples/ozaki_large.toml", out="ozaki_large.csv")
     text = (REPOSITORY / page).read_text(encoding="utf-8")
     blocks = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)

@@ -1,4 +1,4 @@
-"""What `run` refuses, and what it says about it."""
+"""Calls that `run` refuses, and its messages."""
 
 import inspect
 import math

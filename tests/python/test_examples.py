@@ -14,12 +14,12 @@ import pytest
 
 EXAMPLES = Path(__file__).parents[2] / "examples/python"
 SCRIPTS = ["dask_cluster", "fit_bimorph", "pareto_pymoo", "sobol_indices", "xarray_map"]
-ELSEWHERE = ["pictures"]  # in test_plot.py
+ELSEWHERE = ["pictures"]  # in plot/test_page.py
 NOTEBOOK = "first_steps.ipynb"
 
 
 def run(name, *arguments, code=0):
-    """What a script prints. Warnings are errors, those of other libraries and of Dask's workers too."""
+    """The output of a script. Warnings are errors, those of other libraries and of Dask's workers too."""
     command = [sys.executable, "-W", "error", EXAMPLES / f"{name}.py", *arguments]
     ended = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, timeout=300)
     assert ended.returncode == code, ended.stderr
@@ -65,7 +65,7 @@ def test_sobol_indices_are_shares_of_a_variance(sobol):
             assert 0 <= total <= 1
         assert 0.4 < sum(row[0] for row in table.values()) < 1.05
         assert sum(row[2] for row in table.values()) > 0.95
-        # What detunes the wing matters most; the total indices are in order.
+        # Parameters that detune the wing matter most; the total indices are in order.
         assert next(iter(table)) == "shim_thickness"
         totals = [row[2] for row in table.values()]
         assert totals == sorted(totals, reverse=True)

@@ -7,7 +7,7 @@ from pathlib import Path
 import flapwing
 import numpy as np
 import pytest
-from conftest import GRID
+from grids import GRID
 
 DICT = {
     "preset": "ozaki2018-large",

@@ -1,4 +1,4 @@
-"""What `run` gives."""
+"""Results of `run`."""
 
 import threading
 import time

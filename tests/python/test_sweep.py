@@ -10,7 +10,7 @@ import threading
 import flapwing
 import numpy as np
 import pytest
-from conftest import GRID
+from grids import GRID
 
 QUICK = 'preset = "ozaki2018-large"\n[axes]\ndrive_frequency = { from = 95, to = 120, n = 26 }\n'
 

@@ -6,7 +6,7 @@ import pandas
 import polars
 import pyarrow
 import pytest
-from conftest import GRID
+from grids import GRID
 from pyarrow import parquet
 
 

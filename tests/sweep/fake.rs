@@ -58,7 +58,7 @@ static COLUMNS: LazyLock<Vec<Column>> = LazyLock::new(|| {
         .to_vec()
 });
 
-/// What `preset = "fly"` gives, in the order of the parameters.
+/// The values of `preset = "fly"`, in the order of the parameters.
 pub(crate) const FLY: [f64; 8] = [150.0, 100.0, 5e-5, 1e-6, 0.0, 0.5, 0.0, f64::NAN];
 
 static FLAPPER: Fake = Fake {
@@ -100,7 +100,7 @@ pub(crate) fn plan(text: &str) -> Plan {
         .unwrap_or_else(|problems| panic!("{text}\n{}", report(&problems)))
 }
 
-/// What is wrong with a text that is not.
+/// The messages about a text with mistakes.
 pub(crate) fn problems(text: &str) -> Mistakes {
     flap_sweep::grid::parse("grid.toml", text, &MODELS)
         .err()

@@ -1,4 +1,4 @@
-//! What proper grid files mean.
+//! The plans of grid files without mistakes.
 
 use std::path::PathBuf;
 

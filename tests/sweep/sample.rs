@@ -146,7 +146,7 @@ fn points_come_from_a_file_beside_the_grid() {
     assert_eq!(file.path, folder.path().join("points.csv"));
 }
 
-/// What is said about a file of points: places are in that file.
+/// Messages about a file of points: places are in that file.
 fn mistakes_of(points: &str) -> Vec<String> {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("points.csv"), points).expect("a file");

@@ -7,7 +7,7 @@ use flap_core::num::InstructionSet;
 use flap_core::parameter::{Kind, Parameter, Preset, Range};
 use flap_core::simulate::{Column, Jobs, Point, Row, Rows, Simulator, SolverSettings, Status};
 
-/// What goes wrong, and at which value of `size`.
+/// A fault of the model, and the value of `size` at which it happens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Fault {
     None,

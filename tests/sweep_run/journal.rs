@@ -187,7 +187,7 @@ fn a_changed_file_of_points_is_not_resumed() {
     assert_eq!(run_to(&mut session, &first, before, u64::MAX).unwrap().rows, 3);
 }
 
-/// What a crash may leave behind the last whole line does no harm.
+/// Text that a crash may leave behind the last whole line does no harm.
 #[test]
 fn a_torn_last_line_is_dropped() {
     let folder = tempfile::tempdir().unwrap();

@@ -13,7 +13,7 @@ use crate::fake::{Fake, Fault};
 use crate::formulas::GRID;
 use crate::support::{csv, options, plan, plan_of};
 
-/// What a worker sends for these points.
+/// The parcel of a worker for these points.
 fn bytes(plan: &Plan, from: u64, to: u64) -> Vec<u8> {
     let stop = AtomicBool::new(false);
     part(plan, &options(2, 10), from..to, &stop, &mut |_| {}).unwrap().to_bytes().unwrap()
@@ -55,7 +55,7 @@ fn parcels_that_end_early_are_an_interrupted_run() {
     assert_eq!(text.lines().count(), 51);
 }
 
-/// What a worker with other sources of the same version sends.
+/// The parcel of a worker with other sources of the same version.
 fn of_another_build(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes[0] ^= 1;
     bytes

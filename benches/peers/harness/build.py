@@ -1,4 +1,4 @@
-"""How peers are built: what they need is made below target/peers, and what cannot be made is said."""
+"""The builds of peers: below target/peers, with a message for each that cannot be built."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import List, Optional, Sequence, Tuple
+from typing import Sequence
 
 PEERS = Path(__file__).resolve().parents[1]
 REPOSITORY = PEERS.parents[1]
@@ -26,7 +26,7 @@ class Unavailable(Exception):
         self.remedy = remedy
 
 
-def run(command: Sequence[object], remedy: str, cwd: Optional[Path] = None) -> None:
+def run(command: Sequence[object], remedy: str, cwd: Path | None = None) -> None:
     """Runs a command of a build."""
     ended = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, cwd=cwd)
     if ended.returncode != 0:
@@ -40,10 +40,10 @@ class Cpp:
     """A program in C++."""
 
     source: str
-    flags: Tuple[str, ...]
+    flags: tuple[str, ...]
     remedy: str
 
-    def build(self) -> List[str]:
+    def build(self) -> list[str]:
         compiler = os.environ.get("CXX", "g++")
         if shutil.which(compiler) is None:
             raise Unavailable(f"there is no {compiler}", self.remedy)
@@ -66,10 +66,10 @@ class Cargo:
     """A program in Rust: below which folder, with which arguments of cargo, and where cargo puts it."""
 
     folder: Path
-    arguments: Tuple[str, ...]
+    arguments: tuple[str, ...]
     program: Path
 
-    def build(self) -> List[str]:
+    def build(self) -> list[str]:
         remedy = "install Rust by rustup, and let cargo reach crates.io"
         if shutil.which("cargo") is None:
             raise Unavailable("there is no cargo", remedy)
@@ -82,9 +82,9 @@ class Python:
     """A script, with packages in a virtual environment that the scripts share."""
 
     script: str
-    packages: Tuple[str, ...]
+    packages: tuple[str, ...]
 
-    def build(self) -> List[str]:
+    def build(self) -> list[str]:
         environment = WORK / "venv"
         python = environment / "bin" / "python"
         if not python.exists():

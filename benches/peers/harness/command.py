@@ -10,7 +10,7 @@ import re
 import sys
 import time
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Pattern, Sequence, Set
+from typing import Any, Pattern, Sequence, Set
 
 from . import measure, points, report
 from .build import WORK, Unavailable
@@ -22,12 +22,12 @@ from .roster import BASE, PEERS_IN_TURN, REFERENCE, Peer
 MOST_REFERENCES = 256
 
 
-def main(arguments: Optional[Sequence[str]] = None) -> None:
+def main(arguments: Sequence[str] | None = None) -> None:
     options = parse(arguments)
     WORK.mkdir(parents=True, exist_ok=True)
     sweep = points.grid(options.points)
 
-    skipped: List[Dict[str, str]] = []
+    skipped: list[dict[str, str]] = []
     timings = []
     for peer in chosen(options.only):
         say(f"building {peer.name}")
@@ -61,7 +61,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> None:
     show(rows, skipped, setting, options.json)
 
 
-def known(sweep: Sequence[points.Point], skipped: List[Dict[str, str]]) -> Dict[bool, Dict[int, points.Measures]]:
+def known(sweep: Sequence[points.Point], skipped: list[dict[str, str]]) -> dict[bool, dict[int, points.Measures]]:
     """The reference: what a peer that samples should find, and what one that does not."""
     say("computing the reference")
     try:
@@ -75,7 +75,7 @@ def known(sweep: Sequence[points.Point], skipped: List[Dict[str, str]]) -> Dict[
     return {True: {}, False: {}}
 
 
-def compared(timings: Sequence[Timing], truth: Dict[bool, Dict[int, points.Measures]]) -> List[report.Row]:
+def compared(timings: Sequence[Timing], truth: dict[bool, dict[int, points.Measures]]) -> list[report.Row]:
     """The lines of the report."""
     base = next((timing.speeds for timing in timings if timing.peer is BASE), [])
     return [
@@ -89,7 +89,7 @@ def compared(timings: Sequence[Timing], truth: Dict[bool, Dict[int, points.Measu
     ]
 
 
-def show(rows: Sequence[report.Row], skipped: Sequence[Dict[str, str]], setting: Dict[str, Any], path: Path) -> None:
+def show(rows: Sequence[report.Row], skipped: Sequence[dict[str, str]], setting: dict[str, Any], path: Path) -> None:
     """Prints the table and writes the JSON."""
     base = next((row.integration for row in rows if row.timing.peer is BASE), None)
     load = "{:.1f} – {:.1f}".format(*setting["load"])
@@ -113,12 +113,12 @@ def say(text: str) -> None:
     print(text, file=sys.stderr)
 
 
-def chosen(only: Pattern[str]) -> List[Peer]:
+def chosen(only: Pattern[str]) -> list[Peer]:
     """The peers that take part: the base always does."""
     return [peer for peer in PEERS_IN_TURN if peer is BASE or only.search(peer.name)]
 
 
-def parse(arguments: Optional[Sequence[str]]) -> argparse.Namespace:
+def parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="just peers", description="Runs flap and other solvers on the same points, in turn, on one core."
     )
@@ -170,7 +170,7 @@ def load() -> float:
 
 
 def processor() -> str:
-    """What the processor is called."""
+    """The name of the processor."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     except OSError:

@@ -1,11 +1,10 @@
-"""How far a peer's answers are off."""
+"""The errors of a peer's answers."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 from statistics import median
-from typing import Dict, Optional
 
 from .points import Measures
 
@@ -20,7 +19,7 @@ class Deviation:
     missing: int
 
 
-def deviation(found: Dict[int, Measures], known: Dict[int, Measures], points: int) -> Optional[Deviation]:
+def deviation(found: dict[int, Measures], known: dict[int, Measures], points: int) -> Deviation | None:
     """Compares the answers for `points` points with those that are known. Lift is measured by its size, or that of a
     typical point where it is smaller; none if nothing can be compared."""
     if not known:

@@ -7,7 +7,7 @@ import os
 import subprocess
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Callable, Dict, List, Optional, Sequence
+from typing import Callable, Sequence
 
 from . import points as tables
 from .build import WORK
@@ -27,16 +27,16 @@ class Failed(Exception):
 
 @dataclass
 class Timing:
-    """What came of a peer."""
+    """The result of a peer."""
 
     peer: Peer
-    command: List[str]
+    command: list[str]
     points: int
     #: Points per second of CPU time, round by round.
-    speeds: List[float] = field(default_factory=list)
-    rhs_per_point: Optional[float] = None
-    found: Dict[int, Measures] = field(default_factory=dict)
-    failure: Optional[str] = None
+    speeds: list[float] = field(default_factory=list)
+    rhs_per_point: float | None = None
+    found: dict[int, Measures] = field(default_factory=dict)
+    failure: str | None = None
 
 
 def in_turn(
@@ -73,7 +73,7 @@ def once(timing: Timing, points: Sequence[Point], rtol: float) -> None:
 
 
 def output(command: Sequence[str]) -> str:
-    """What a command prints."""
+    """The output of a command."""
     try:
         ended = subprocess.run(
             command, capture_output=True, text=True, check=False, timeout=TIMEOUT, env={**os.environ, **ONE_THREAD}

@@ -7,7 +7,7 @@ import math
 import random
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Sequence, Tuple
+from typing import Sequence
 
 #: Amplitude of the force (N) and drive frequency (Hz), from and to.
 FORCE = (0.02, 0.2)
@@ -17,7 +17,7 @@ FREQUENCY = (60.0, 180.0)
 COLUMNS = ("max_x", "max_psi", "lift")
 
 #: max |x| (m), max |ψ| (rad), mean lift (N).
-Measures = Tuple[float, ...]
+Measures = tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Point:
     frequency: float
 
 
-def grid(count: int) -> List[Point]:
+def grid(count: int) -> list[Point]:
     """So many points of a grid of force and frequency, shuffled: the first few are spread over it, too."""
     forces = math.isqrt(count)
     frequencies = -(-count // forces)
@@ -39,7 +39,7 @@ def grid(count: int) -> List[Point]:
     return points[:count]
 
 
-def spread(low: float, high: float, count: int) -> List[float]:
+def spread(low: float, high: float, count: int) -> list[float]:
     """Numbers at equal distances."""
     return [low + (high - low) * i / max(1, count - 1) for i in range(count)]
 
@@ -52,7 +52,7 @@ def write(points: Sequence[Point], path: Path) -> None:
         writer.writerows([point.id, repr(point.force), repr(point.frequency)] for point in points)
 
 
-def read(path: Path, prefix: str = "") -> Dict[int, Measures]:
+def read(path: Path, prefix: str = "") -> dict[int, Measures]:
     """The measures in a table, by point."""
     with path.open(newline="", encoding="utf-8") as file:
         return {int(row["id"]): tuple(float(row[prefix + name]) for name in COLUMNS) for row in csv.DictReader(file)}

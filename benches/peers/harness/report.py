@@ -1,10 +1,10 @@
-"""What came out, as a table and as JSON."""
+"""The results, as a table and as JSON."""
 
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 from statistics import median
-from typing import Any, Dict, Iterable, List, Optional, Sequence
+from typing import Any, Iterable, Sequence
 
 from .compare import Deviation
 from .measure import Timing
@@ -19,14 +19,14 @@ class Row:
 
     timing: Timing
     #: Speed over that of the base, round by round.
-    ratios: List[float]
+    ratios: list[float]
     #: From the true values.
-    deviation: Optional[Deviation]
+    deviation: Deviation | None
     #: From what exact integration gives by the peer's own samples.
-    integration: Optional[Deviation]
+    integration: Deviation | None
 
-    def remarks(self, base: Optional[Deviation], of: int) -> List[str]:
-        """What a reader must know about the line."""
+    def remarks(self, base: Deviation | None, of: int) -> list[str]:
+        """Notes on the line for its reader."""
         remarks = []
         if not self.timing.peer.adaptive:
             remarks.append("fixed step, no error control")
@@ -46,7 +46,7 @@ HEADINGS = [
 ]
 
 
-def table(rows: Sequence[Row], base: Optional[Deviation], of: int) -> str:
+def table(rows: Sequence[Row], base: Deviation | None, of: int) -> str:
     """The table, fastest first."""
     lines = [*HEADINGS]
     for row in sorted(rows, key=lambda row: -median(row.timing.speeds)):
@@ -78,11 +78,11 @@ def number(value: float) -> str:
     return f"{value:,.0f}" if value >= 100.0 else f"{value:.3g}"
 
 
-def errors(found: Optional[Deviation]) -> str:
+def errors(found: Deviation | None) -> str:
     return "–" if found is None else f"{found.median:.1e}, {found.largest:.1e}"
 
 
-def record(row: Row, base: Optional[Deviation], of: int) -> Dict[str, Any]:
+def record(row: Row, base: Deviation | None, of: int) -> dict[str, Any]:
     """A line as JSON."""
     return {
         "name": row.timing.peer.name,
@@ -98,7 +98,7 @@ def record(row: Row, base: Optional[Deviation], of: int) -> Dict[str, Any]:
     }
 
 
-def summary(values: Iterable[float]) -> Optional[Dict[str, Any]]:
+def summary(values: Iterable[float]) -> dict[str, Any] | None:
     """Round by round, and what the table says of it."""
     rounds = list(values)
     return {"median": median(rounds), "min": min(rounds), "max": max(rounds), "rounds": rounds} if rounds else None

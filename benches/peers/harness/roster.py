@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import List, Optional, Protocol, Tuple
+from typing import Protocol
 
 from .build import PEERS, REPOSITORY, TARGET, WORK, Cargo, Cpp, Python, processor_flag
 
@@ -12,9 +12,9 @@ NUMPY = "numpy==2.4.6"
 
 
 class Builder(Protocol):
-    """What can be built into a command."""
+    """A peer that can be built into a command."""
 
-    def build(self) -> List[str]: ...
+    def build(self) -> list[str]: ...
 
 
 @dataclass(frozen=True)
@@ -24,15 +24,15 @@ class Peer:
     name: str
     what: str
     builder: Builder
-    #: Whether it measures by 64 samples a period, as users of libraries do; else it finds peaks and means exactly.
+    #: True if it measures by 64 samples a period, as users of libraries do; else it finds peaks and means exactly.
     samples: bool = True
-    #: Whether it chooses its steps by the error.
+    #: True if it chooses its steps by the error.
     adaptive: bool = True
     #: Points that it gets at most, so that slow peers end.
-    most_points: Optional[int] = None
+    most_points: int | None = None
 
 
-#: What the others are compared with, and what tells how far all of them are off.
+#: The peer that the others are compared with, and the one that gives the errors of all.
 BASE = Peer(
     "boost",
     "Boost.Odeint (C++), DP5(4), dense output",
@@ -41,7 +41,7 @@ BASE = Peer(
 )
 REFERENCE = Cpp("reference.cpp", ("-O2",), BOOST)
 
-PEERS_IN_TURN: Tuple[Peer, ...] = (
+PEERS_IN_TURN: tuple[Peer, ...] = (
     BASE,
     Peer(
         "flap",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Tuple
+from typing import Any
 
 import model
 import numba
@@ -48,7 +48,7 @@ def run(address: int, force: Array, frequency: Array, rtol: float, at: Array, sa
     return True
 
 
-def solve(force: Array, frequency: Array, rtol: float) -> Tuple[Array, None]:
+def solve(force: Array, frequency: Array, rtol: float) -> tuple[Array, None]:
     at = np.stack([times(each) for each in frequency])
     samples = np.empty((*at.shape, 4))
     if not run(address, force, frequency, rtol, at, samples):

@@ -6,7 +6,7 @@ Magnitudes have kinks, where a Taylor series means nothing: their arguments are 
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, List, Tuple
+from typing import Any, Callable
 
 import heyoka
 import model
@@ -16,7 +16,7 @@ from sweep import Array, sweep
 
 #: Periods after the start, where all magnitudes have a kink, at which integration begins, on the motion's tangent.
 TANGENT = 1e-5
-#: How long an event is not looked for after it has been found (s). The time that heyoka would choose by itself is so
+#: The time for which an event is ignored after it has been found (s). The time that heyoka would choose by itself is so
 #: long that of two crossings of π/2 in short succession it overlooks the second.
 COOLDOWN = 1e-9
 
@@ -26,7 +26,7 @@ class Kinks:
 
     def __init__(self, first: int) -> None:
         self.first = first
-        self.events: List[Any] = []
+        self.events: list[Any] = []
 
     def magnitude(self, of: Any) -> Any:
         sign = self.first + len(self.events)
@@ -73,10 +73,10 @@ def begin(system: Any, force: Array, frequency: Array) -> Array:
     return time
 
 
-def solver() -> Callable[[Array, Array, float], Tuple[Array, None]]:
+def solver() -> Callable[[Array, Array, float], tuple[Array, None]]:
     compiled = {}
 
-    def solve(force: Array, frequency: Array, rtol: float) -> Tuple[Array, None]:
+    def solve(force: Array, frequency: Array, rtol: float) -> tuple[Array, None]:
         system = compiled.get(rtol)
         if system is None:
             system = compiled[rtol] = integrator(rtol)

@@ -1,4 +1,4 @@
-"""What is measured of a motion: from equally spaced samples, as users of the libraries do."""
+"""Measures of a motion from equally spaced samples, as users of the libraries take them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 
 def times(frequency: Any, per_period: int = model.SAMPLES_PER_PERIOD) -> NDArray[np.float64]:
-    """When samples are due (s): the measured periods, with both ends."""
+    """The times of the samples (s): the measured periods, with both ends."""
     begin = model.PERIODS - model.MEASURED
     return (begin + np.arange(model.MEASURED * per_period + 1) / per_period) / frequency
 

@@ -7,7 +7,7 @@ States are in units of their typical sizes (`SCALE`), so that one absolute toler
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Tuple
+from typing import Any, Callable
 
 PERIODS = 40  # from rest
 MEASURED = 5  # the last of them
@@ -35,10 +35,10 @@ HINGE_DRAG = 0.5 * 1.2 * 54.59e-6 * 0.753e-3 * 0.43**2 * 4.5e-3**2 * 4.25
 Function = Callable[[Any], Any]
 
 
-def equations(sin: Function, cos: Function, magnitude: Function) -> Callable[..., Tuple[Any, Any, Any, Any]]:
+def equations(sin: Function, cos: Function, magnitude: Function) -> Callable[..., tuple[Any, Any, Any, Any]]:
     """The right-hand side for whatever these functions take: numbers, or the symbols of a compiler."""
 
-    def rates(force: Any, x: Any, v: Any, psi: Any, w: Any) -> Tuple[Any, Any, Any, Any]:
+    def rates(force: Any, x: Any, v: Any, psi: Any, w: Any) -> tuple[Any, Any, Any, Any]:
         v = v * SCALE[1]
         w = w * SCALE[3]
         sine, cosine = sin(psi), cos(psi)

@@ -6,7 +6,7 @@ Nothing watches the error. Time is in periods, so that sines of the drive come f
 from __future__ import annotations
 
 import math
-from typing import Any, Tuple
+from typing import Any
 
 import model
 import numba
@@ -49,7 +49,7 @@ def run(force: Array, frequency: Array, steps: int, drive: Array, samples: Array
             y = step(force[point], 1.0 / frequency[point], 1.0 / steps, drive[phase : phase + 3], *y)
 
 
-def solve(force: Array, frequency: Array, rtol: float) -> Tuple[Array, float]:
+def solve(force: Array, frequency: Array, rtol: float) -> tuple[Array, float]:
     # As many steps as keep the error about that of an adaptive solver at this tolerance: 128 per period at 1e-6.
     steps = SAMPLES_PER_PERIOD * math.ceil(2.0 * (1e-6 / rtol) ** 0.25 - 1e-9)
     drive = np.sin(math.pi * np.arange(2 * steps + 1) / steps)

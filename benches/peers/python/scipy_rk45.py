@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Tuple
+from typing import Any
 
 import model
 import numpy as np
@@ -14,7 +14,7 @@ from sweep import Array, sweep
 rates = model.equations(math.sin, math.cos, abs)
 
 
-def rhs(t: float, y: Any, force: float, omega: float) -> Tuple[float, float, float, float]:
+def rhs(t: float, y: Any, force: float, omega: float) -> tuple[float, float, float, float]:
     return rates(force * math.sin(omega * t), *y)
 
 
@@ -32,7 +32,7 @@ def motion(force: float, frequency: float, rtol: float, at: Array) -> Any:
     )
 
 
-def solve(force: Array, frequency: Array, rtol: float) -> Tuple[Array, float]:
+def solve(force: Array, frequency: Array, rtol: float) -> tuple[Array, float]:
     runs = [motion(*point, rtol, times(point[1])) for point in zip(force.tolist(), frequency.tolist())]
     return measures(np.stack([run.y.T for run in runs])), sum(run.nfev for run in runs)
 

@@ -6,7 +6,7 @@ import csv
 import json
 import sys
 import time
-from typing import Callable, Optional, Tuple
+from typing import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 #: Forces (N), frequencies (Hz) and tolerance to measures by point, and how often the right-hand side was evaluated in
 #: all, where that is known.
-Solve = Callable[[Array, Array, float], Tuple[Array, Optional[float]]]
+Solve = Callable[[Array, Array, float], tuple[Array, float | None]]
 
 
 def sweep(solve: Solve) -> None:

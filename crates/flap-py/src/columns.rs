@@ -8,7 +8,7 @@ use flap_sweep::run::sink::Sink;
 use flap_sweep::table::layout::{Cell, Column, Kind, Layout};
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{IntoPyDict, PyDict, PyList};
 
 /// A table in memory.
 pub(crate) struct Columns {
@@ -19,7 +19,7 @@ pub(crate) struct Columns {
 enum Data {
     Whole(Vec<u64>),
     Number(Vec<f64>),
-    /// 1 for true, 0 for false, -1 for what is not known.
+    /// 1 for true, 0 for false, -1 for unknown.
     Flag(Vec<i8>),
     /// Places among the words that occur.
     Text(Vec<u32>, Vec<String>),
@@ -101,7 +101,7 @@ impl Columns {
     }
 
     /// A list of tuples: name, unit, meaning, and an array; with the words that it points to, for a column of text.
-    /// Arrays of flags hold 1, 0, and -1 for what is not known.
+    /// Arrays of flags hold 1, 0, and -1 for unknown.
     pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyList>> {
         let list = PyList::empty(py);
         for (Column { name, unit, doc, .. }, data) in self.columns {
@@ -151,21 +151,15 @@ impl Sink for ColumnsSink {
     }
 }
 
-/// What a sweep came to, as a dictionary.
+/// The summary of a finished sweep, as a dictionary.
 pub(crate) fn summary<'py>(py: Python<'py>, summary: &Summary) -> PyResult<Bound<'py, PyDict>> {
-    let counts = PyDict::new(py);
-    for (status, count) in summary.counts.iter().filter(|(_, count)| *count > 0) {
-        counts.set_item(status.name(), count)?;
-    }
-    let unsatisfied = PyDict::new(py);
-    for (condition, count) in &summary.unsatisfied {
-        unsatisfied.set_item(condition, count)?;
-    }
+    let counts = summary.counts.iter().filter(|(_, count)| *count > 0);
+    let counts = counts.map(|(status, count)| (status.name(), count));
     let dict = PyDict::new(py);
     dict.set_item("rows", summary.rows)?;
-    dict.set_item("counts", counts)?;
+    dict.set_item("counts", counts.into_py_dict(py)?)?;
     dict.set_item("excluded", summary.excluded)?;
-    dict.set_item("unsatisfied", unsatisfied)?;
+    dict.set_item("unsatisfied", (&summary.unsatisfied).into_py_dict(py)?)?;
     dict.set_item("cycles", summary.cycles)?;
     dict.set_item("rhs_evals", summary.rhs_evals)?;
     dict.set_item("invalid", summary.invalid.clone())?;

@@ -1,4 +1,4 @@
-//! Numbers out of Python objects, and messages for what is not one.
+//! Numbers out of Python objects, and the errors for objects that are no numbers.
 
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -6,7 +6,8 @@ use pyo3::types::PyBool;
 
 /// A finite number, of any type that Python's `float` takes except text and truth values.
 ///
-/// `wanted` says what `name` is, for the message if `value` is of another type.
+/// `TypeError` if `value` is of another type: the message says that `name` must be `wanted`. `ValueError` if the number is
+/// infinite, not a number, or too large.
 pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     if value.is_instance_of::<PyBool>() {
         return Err(wrong_type(name, wanted, value));
@@ -27,7 +28,7 @@ pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyRe
     }
 }
 
-/// A whole number from 1 to the largest `u32`.
+/// A whole number from 1 to the largest `u32`. `TypeError` for another type, `ValueError` for another number.
 pub(crate) fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
     let wanted = "a whole number";
     if value.is_instance_of::<PyBool>() {
@@ -49,7 +50,7 @@ pub(crate) fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
     Ok(count)
 }
 
-/// The error for a value that is not of the type wanted.
+/// The `TypeError` for a value that is not of the type wanted.
 pub(crate) fn wrong_type(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyErr {
     match value.get_type().name() {
         Ok(found) => PyTypeError::new_err(format!("`{name}` must be {wanted}, not {found}")),

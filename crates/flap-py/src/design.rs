@@ -1,7 +1,6 @@
-//! Designs: what `evaluate`, `respond` and `resonance` start from.
+//! Designs: the first argument of `evaluate` and `respond`.
 
 use flap_core::simulate;
-
 use flap_sweep::plan::Plan;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -51,7 +50,7 @@ fn of_preset(py: Python<'_>, preset: &str) -> PyResult<Plan> {
         .map_err(|diagnostics| error::grid(py, &diagnostics))
 }
 
-/// The text, if it is neither a path nor the text of a grid.
+/// The name of a preset or a model; `None` if `design` is a path, the text of a grid, or no text.
 fn name(design: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     let Ok(text) = design.cast::<PyString>() else { return Ok(None) };
     let text = text.to_cow()?;

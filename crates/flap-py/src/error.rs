@@ -1,4 +1,4 @@
-//! What goes wrong, as Python exceptions.
+//! Errors as Python exceptions.
 
 use std::io;
 
@@ -17,6 +17,8 @@ use pyo3::exceptions::{
 };
 use pyo3::prelude::*;
 
+use crate::diagnostic::Diagnostic;
+
 create_exception!(
     flapwing,
     GridError,
@@ -24,77 +26,7 @@ create_exception!(
     "A grid with mistakes.\n\nThe text shows every mistake with its lines; `diagnostics` lists them."
 );
 
-/// One mistake in a grid.
-///
-/// Attributes
-/// ----------
-/// file : str
-///     The grid file, or ``"<grid>"``.
-/// line, column : int
-///     Where the mistake is, from 1; columns count characters.
-/// start, end : int
-///     The same in bytes of the text in UTF-8.
-/// message : str
-///     What is wrong.
-/// notes, help : list of str
-///     What is allowed, and what to do.
-#[pyclass(frozen, get_all, module = "flapwing")]
-pub(crate) struct Diagnostic {
-    file: String,
-    line: usize,
-    column: usize,
-    start: usize,
-    end: usize,
-    message: String,
-    notes: Vec<String>,
-    help: Vec<String>,
-}
-
-#[pymethods]
-impl Diagnostic {
-    #[new]
-    #[pyo3(signature = (file, line, column, start, end, message, notes, help, /))]
-    #[expect(clippy::too_many_arguments, reason = "one per attribute")]
-    fn new(
-        file: String,
-        line: usize,
-        column: usize,
-        start: usize,
-        end: usize,
-        message: String,
-        notes: Vec<String>,
-        help: Vec<String>,
-    ) -> Diagnostic {
-        Diagnostic { file, line, column, start, end, message, notes, help }
-    }
-
-    /// What it is pickled as: errors travel between the processes of a cluster.
-    fn __getnewargs__(&self) -> (&str, usize, usize, usize, usize, &str, Vec<String>, Vec<String>) {
-        let Diagnostic { file, line, column, start, end, message, notes, help } = self;
-        (file, *line, *column, *start, *end, message, notes.clone(), help.clone())
-    }
-
-    fn __repr__(&self) -> String {
-        format!("{}:{}:{}: {}", self.file, self.line, self.column, self.message)
-    }
-}
-
-impl From<&diagnostic::Diagnostic> for Diagnostic {
-    fn from(diagnostic: &diagnostic::Diagnostic) -> Diagnostic {
-        Diagnostic {
-            file: diagnostic.source.name.clone(),
-            line: diagnostic.line(),
-            column: diagnostic.column(),
-            start: diagnostic.span.start,
-            end: diagnostic.span.end,
-            message: diagnostic.message.clone(),
-            notes: diagnostic.notes.clone(),
-            help: diagnostic.help.clone(),
-        }
-    }
-}
-
-/// The exception for mistakes in a grid.
+/// `GridError` for mistakes in a grid, with its list of diagnostics.
 pub(crate) fn grid(py: Python<'_>, mistakes: &diagnostic::Mistakes) -> PyErr {
     let error = GridError::new_err(diagnostic::render(mistakes, false));
     let listed: Vec<Diagnostic> = mistakes.iter().map(Diagnostic::from).collect();
@@ -117,10 +49,12 @@ pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
     }
 }
 
+/// `ValueError` for a motion that could not be followed to its end.
 pub(crate) fn unfinished(unfinished: &Unfinished) -> PyErr {
     PyValueError::new_err(unfinished.to_string())
 }
 
+/// The exception for a run of points that ended early.
 pub(crate) fn run(error: &RunError) -> PyErr {
     match error {
         RunError::Sink(_) => PyOSError::new_err(error.to_string()),
@@ -136,11 +70,7 @@ pub(crate) fn run(error: &RunError) -> PyErr {
 /// The exception for results that were not written, or not completed.
 pub(crate) fn job(error: &JobError) -> PyErr {
     let go_on = |error: PyErr, resumable: bool, py: Python<'_>| {
-        if resumable {
-            // Notes on exceptions are as old as Python 3.11.
-            let _ = error.value(py).call_method1("add_note", ("the same call with resume=True goes on",));
-        }
-        error
+        if resumable { noted(py, error, "the same call with resume=True goes on") } else { error }
     };
     Python::attach(|py| match error {
         JobError::Format(error) => PyValueError::new_err(error.to_string()),
@@ -156,6 +86,11 @@ pub(crate) fn job(error: &JobError) -> PyErr {
         JobError::Write { resumable, .. } => go_on(PyOSError::new_err(error.to_string()), *resumable, py),
         JobError::Run { error, resumable } => go_on(run(error), *resumable, py),
     })
+}
+
+/// The exception with a note.
+fn noted(py: Python<'_>, error: PyErr, note: &str) -> PyErr {
+    error.add_note(py, note).err().unwrap_or(error)
 }
 
 fn create(error: &CreateError) -> PyErr {
@@ -196,7 +131,7 @@ pub(crate) fn open(error: &OpenError) -> PyErr {
     }
 }
 
-/// The exception that Python itself raises for what the operating system says.
+/// The exception that Python itself raises for an error of the operating system.
 pub(crate) fn io_error(what: &str, error: &io::Error) -> PyErr {
     let message = format!("{what}: {error}");
     match error.kind() {

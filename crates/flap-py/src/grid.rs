@@ -11,11 +11,11 @@ use flap_sweep::study::survey;
 use numpy::PyArray1;
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList, PySlice, PyString};
+use pyo3::types::{IntoPyDict, PyDict, PyList, PySlice, PyString};
 
 use crate::{error, grid_text};
 
-/// The most points that are looked at to count what conditions leave out.
+/// The largest number of points of which `Grid.exclusions` evaluates the conditions.
 const LOOKED_AT: u64 = 1_000_000;
 
 /// A design space: a checked grid file.
@@ -29,8 +29,8 @@ const LOOKED_AT: u64 = 1_000_000;
 /// Parameters
 /// ----------
 /// source : path, str, dict or Grid
-///     A grid file by its path; the text of one (a str with a line break or ``=``); or what such a file says as a
-///     dictionary of dictionaries.
+///     A grid file by its path; the text of one (a str with a line break or ``=``); or its entries as a dictionary
+///     of dictionaries.
 ///
 /// Raises
 /// ------
@@ -97,7 +97,7 @@ impl Grid {
         Ok(Grid { plan: parse(py, name, text)? })
     }
 
-    /// What it is pickled as.
+    /// The function and the arguments from which `pickle` makes the grid again.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, String))> {
         let source = &slf.get().plan.source;
         Ok((slf.get_type().getattr("_named")?, (source.name.clone(), source.text.clone())))
@@ -141,8 +141,8 @@ impl Grid {
         varied.map(|index| self.plan.parameters()[index].name).collect()
     }
 
-    /// Counts what the conditions of ``[where]`` leave out, among all points or, if there are more than a million, among a
-    /// million spread over the grid.
+    /// Counts the points that the conditions of ``[where]`` exclude: among all points or, if there are more than a million,
+    /// among a million spread over the grid.
     ///
     /// Returns
     /// -------
@@ -151,14 +151,10 @@ impl Grid {
     ///     number of points that do not satisfy it.
     fn exclusions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let found = py.detach(|| survey::exclusions(&self.plan, LOOKED_AT));
-        let unsatisfied = PyDict::new(py);
-        for (condition, count) in found.unsatisfied {
-            unsatisfied.set_item(condition, count)?;
-        }
         let dict = PyDict::new(py);
         dict.set_item("looked_at", found.looked_at)?;
         dict.set_item("excluded", found.excluded)?;
-        dict.set_item("unsatisfied", unsatisfied)?;
+        dict.set_item("unsatisfied", found.unsatisfied.into_py_dict(py)?)?;
         Ok(dict)
     }
 }
@@ -170,7 +166,7 @@ impl Grid {
         for (parameter, value) in self.plan.parameters().iter().zip(values) {
             match text::option(parameter, value) {
                 Some(option) => dict.set_item(parameter.name, option)?,
-                // What follows others, or is to be found, has no value of its own.
+                // A parameter that follows others, or is the resonance, has no value of its own.
                 None if value.is_nan() => {}
                 None => dict.set_item(parameter.name, value)?,
             }

@@ -1,4 +1,4 @@
-//! A dictionary as the text of a grid file, so that what is wrong with it can be shown.
+//! A dictionary as the text of a grid file, so that messages can show the lines of its mistakes.
 //!
 //! Tables keep the order of the dictionary: the last axis varies fastest.
 
@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyList, PyString, PyTuple};
 use toml::Value;
 
-/// The text of a grid file that says what `grid` says.
+/// The text of a grid file with the entries of `grid`. `TypeError` for a key or a value that no grid file has.
 pub(crate) fn write(grid: &Bound<'_, PyDict>) -> PyResult<String> {
     let (mut head, mut tables) = (Vec::new(), Vec::new());
     for (key, value) in grid {

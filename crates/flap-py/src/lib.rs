@@ -9,10 +9,12 @@ mod cluster;
 mod columns;
 mod convert;
 mod design;
+mod diagnostic;
 mod error;
 mod evaluate;
 mod grid;
 mod grid_text;
+mod labels;
 mod listing;
 mod parameters;
 mod read;
@@ -29,13 +31,17 @@ mod _flapwing {
     #[pymodule_export]
     use crate::cluster::part;
     #[pymodule_export]
-    use crate::error::{Diagnostic, GridError};
+    use crate::diagnostic::Diagnostic;
+    #[pymodule_export]
+    use crate::error::GridError;
     #[pymodule_export]
     use crate::evaluate::evaluate;
     #[pymodule_export]
     use crate::grid::Grid;
     #[pymodule_export]
-    use crate::listing::{measures, params, split_unit};
+    use crate::labels::{printed, scale, split_unit, unit_of, words};
+    #[pymodule_export]
+    use crate::listing::{measures, params};
     #[pymodule_export]
     use crate::read::read;
     #[pymodule_export]

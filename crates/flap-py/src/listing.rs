@@ -1,9 +1,8 @@
-//! What there is: parameters and measures.
+//! Lists of parameters and measures.
 
 use flap_core::parameter::Kind;
 use flap_core::simulate::{self, Simulator};
 use flap_sweep::notation::text;
-use flap_sweep::table::layout;
 use pyo3::prelude::*;
 
 use crate::parameters;
@@ -42,19 +41,12 @@ pub(crate) fn params(name: &Bound<'_, PyAny>) -> PyResult<Vec<Listed>> {
     Ok(listed.collect())
 }
 
-/// What rows of a preset or a model measure: names, each with unit and meaning; see `flapwing.measures`.
+/// The measures of a preset or a model: names, each with unit and meaning; see `flapwing.measures`.
 #[pyfunction]
 #[pyo3(signature = (name, /))]
 pub(crate) fn measures(name: &Bound<'_, PyAny>) -> PyResult<Vec<(String, &'static str, String)>> {
     let (model, _) = find(name)?;
     Ok(model.columns().iter().map(|column| (column.name.clone(), column.unit, column.doc.clone())).collect())
-}
-
-/// A column's name without the unit that it ends in, and that unit; empty if there is none.
-#[pyfunction]
-#[pyo3(signature = (name, /))]
-pub(crate) fn split_unit(name: &str) -> (&str, &'static str) {
-    layout::split_unit(name)
 }
 
 /// The model of a preset with its values, or a model with none.

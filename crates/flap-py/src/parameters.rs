@@ -1,4 +1,4 @@
-//! A preset's parameters, with keywords on top.
+//! Parameters from Python: their names, and values out of keywords.
 
 use flap_core::parameter::{Kind, Parameter, Preset, Range};
 use flap_core::simulate::{self, Simulator};
@@ -44,7 +44,7 @@ pub(crate) fn apply(simulator: &dyn Simulator, values: &mut [f64], keywords: &[K
     Ok(())
 }
 
-/// What a design point holds for `parameter`: a number in SI units, or the index of an option.
+/// The value of `parameter` in a design point: a number in SI units, or the index of an option.
 pub(crate) fn value_of(parameter: &Parameter, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     match &parameter.kind {
         Kind::Number(range) | Kind::Following(range, _) => quantity(parameter, *range, value),
@@ -97,7 +97,7 @@ fn unknown_parameter(simulator: &dyn Simulator, name: &str) -> PyErr {
     ))
 }
 
-/// The one of `names` that `name` resembles, as part of a message; empty if it resembles none.
+/// The name among `names` that is nearest to `name`, as part of a message; empty if none is near.
 fn did_you_mean(name: &str, names: &[&str]) -> String {
     let nearest = nearest(name, names.iter().copied());
     nearest.map_or_else(String::new, |nearest| format!(", did you mean `{nearest}`?"))

@@ -43,19 +43,19 @@ pub(crate) fn read(py: Python<'_>, path: PathBuf, ignore_damage: bool) -> PyResu
     Ok(dict)
 }
 
-/// What is in a file, and what a user should know of it.
+/// The contents of a result file, with warnings for its user.
 struct Contents {
     columns: Columns,
-    /// Where the rows come from, if that is recorded.
+    /// The origin of the rows, if it is recorded.
     origin: Option<Origin>,
-    /// Units that the file itself tells of.
+    /// Units recorded in the file itself.
     units: BTreeMap<String, String>,
     warnings: Vec<String>,
-    /// Whether they are known to be as they were written.
+    /// True if checksums show that the rows are as they were written.
     is_verified: bool,
 }
 
-/// Where rows come from.
+/// The plan of the rows, and the program that wrote them.
 struct Origin {
     plan: Plan,
     flap: String,
@@ -98,7 +98,7 @@ fn read_columns(path: &Path, on_damage: OnDamage) -> PyResult<Contents> {
     Ok(Contents { columns, origin, units, warnings, is_verified: notes.is_empty() })
 }
 
-/// What the sidecar says, or else the file itself, if it tells of these columns.
+/// The origin in the sidecar, or else in the file itself, provided that its columns are those of the file.
 fn origin(sidecar: Option<Sidecar>, reader: &Reader) -> Option<Origin> {
     let fits = |origin: &Origin| Layout::of(&origin.plan).names().iter().eq(reader.names());
     sidecar.and_then(beside).filter(fits).or_else(|| inside(reader).filter(fits))
@@ -117,7 +117,7 @@ fn inside(reader: &Reader) -> Option<Origin> {
     Some(Origin { plan, flap, build, arithmetic })
 }
 
-/// What columns hold as far as their cells tell.
+/// The columns of a file without an origin: the kind of each is guessed from its cells.
 fn guess(reader: &mut Reader) -> std::io::Result<Vec<Column>> {
     let mut kinds: Vec<Option<Kind>> = vec![None; reader.names().len()];
     let mut row = StringRecord::new();

@@ -1,4 +1,4 @@
-//! The resonances of one point, by every way of looking for them.
+//! The resonances of one point: linear, after an impulse, and driven.
 
 use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
@@ -6,7 +6,7 @@ use flap_core::resonance::driven::{self, PeakSearch};
 use flap_core::resonance::free::{self, FreeRequest};
 use flap_core::simulate::Unfinished;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{IntoPyDict, PyDict, PyList};
 
 use crate::run::DesignPoint;
 use crate::watch::interruptible;
@@ -52,10 +52,7 @@ pub(crate) fn resonance<'py>(
     })?;
     let (free, driven) = found.map_err(|reason: Unfinished| error::unfinished(&reason))?;
 
-    let linear = PyDict::new(py);
-    for Mode { name, frequency } in modes {
-        linear.set_item(name, frequency)?;
-    }
+    let linear = modes.map(|Mode { name, frequency }| (name, frequency)).into_py_dict(py)?;
     let fit = free.fit.map(|fit| {
         let dict = PyDict::new(py);
         dict.set_item("frequency_hz", fit.frequency)?;

@@ -15,10 +15,10 @@ use crate::columns::Columns;
 use crate::watch::Watch;
 use crate::{design, error, parameters, sweep};
 
-/// How often the end of the work is looked for.
+/// The interval between looks at Ctrl-C and at the end of the work.
 const LOOK: Duration = Duration::from_millis(2);
 
-/// The column that says how far the stroke swings.
+/// The column of the stroke amplitude.
 const STROKE: &str = "stroke_amplitude_deg";
 
 /// Follows responses; see `flapwing.respond`.

@@ -7,75 +7,50 @@ use pyo3::types::PyDict;
 
 use crate::convert;
 
-/// The keywords, in the order of the signature.
+/// The names of the settings, in the order of the signature of `flapwing.run`.
 pub(crate) const NAMES: [&str; 7] =
     ["rtol", "atol", "settle_tol", "max_cycles", "max_steps", "accuracy", "newton"];
 
-/// Looser than this, an error estimate means nothing.
+/// The bound of rtol: above it, error estimates mean nothing.
 const LARGEST_RTOL: f64 = 0.1;
 
-/// The solver settings that a call gives.
-#[derive(Default)]
-pub(crate) struct Keywords<'py> {
-    rtol: Option<Bound<'py, PyAny>>,
-    atol: Option<Bound<'py, PyAny>>,
-    settle_tol: Option<Bound<'py, PyAny>>,
-    max_cycles: Option<Bound<'py, PyAny>>,
-    max_steps: Option<Bound<'py, PyAny>>,
-    accuracy: Option<Bound<'py, PyAny>>,
-    newton: Option<Bound<'py, PyAny>>,
-}
+/// The solver settings of a call: those of [`NAMES`] that it gives.
+pub(crate) struct Keywords<'py>(Vec<Keyword<'py>>);
 
 impl<'py> Keywords<'py> {
-    /// Takes the solver settings out of `keywords`, and gives those that are left.
+    /// Splits keywords into solver settings and others. A setting that is None counts as not given.
     pub(crate) fn take(
         keywords: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<(Keywords<'py>, Vec<Keyword<'py>>)> {
-        let mut solver = Keywords::default();
-        let mut others = Vec::new();
+        let (mut settings, mut others) = (Vec::new(), Vec::new());
         for (name, value) in keywords.into_iter().flatten() {
             let name: String = name.extract()?;
-            let setting = match name.as_str() {
-                "rtol" => &mut solver.rtol,
-                "atol" => &mut solver.atol,
-                "settle_tol" => &mut solver.settle_tol,
-                "max_cycles" => &mut solver.max_cycles,
-                "max_steps" => &mut solver.max_steps,
-                "accuracy" => &mut solver.accuracy,
-                "newton" => &mut solver.newton,
-                _ => {
-                    others.push((name, value));
-                    continue;
-                }
-            };
-            *setting = Some(value).filter(|value| !value.is_none());
+            if !NAMES.contains(&name.as_str()) {
+                others.push((name, value));
+            } else if !value.is_none() {
+                settings.push((name, value));
+            }
         }
-        Ok((solver, others))
+        Ok((Keywords(settings), others))
     }
 
-    /// Puts the settings that are given over those of `settings`.
+    /// Replaces those of `settings` that the call gives. `TypeError` or `ValueError` for a value that a setting cannot have.
     pub(crate) fn apply(&self, settings: &mut SolverSettings) -> PyResult<()> {
-        if let Some(value) = &self.rtol {
-            *settings = settings.with_rtol(tolerance("rtol", LARGEST_RTOL, value)?);
-        }
-        if let Some(value) = &self.atol {
-            settings.atol = tolerance("atol", f64::INFINITY, value)?;
-        }
-        if let Some(value) = &self.settle_tol {
-            settings.settle_tol = tolerance("settle_tol", f64::INFINITY, value)?;
-        }
-        if let Some(value) = &self.max_cycles {
-            settings.max_cycles = convert::count("max_cycles", value)?;
-        }
-        if let Some(value) = &self.max_steps {
-            settings.max_steps = convert::count("max_steps", value)?;
-        }
-        if let Some(value) = &self.accuracy {
-            settings.accuracy = tolerance("accuracy", f64::INFINITY, value)?;
-        }
-        if let Some(value) = &self.newton {
-            let flag = value.extract::<bool>();
-            settings.newton = flag.map_err(|_| convert::wrong_type("newton", "True or False", value))?;
+        // In the order of `NAMES`: rtol decides the default of atol.
+        for name in NAMES {
+            let Some((_, value)) = self.0.iter().find(|(given, _)| given == name) else { continue };
+            match name {
+                "rtol" => *settings = settings.with_rtol(tolerance(name, LARGEST_RTOL, value)?),
+                "atol" => settings.atol = tolerance(name, f64::INFINITY, value)?,
+                "settle_tol" => settings.settle_tol = tolerance(name, f64::INFINITY, value)?,
+                "max_cycles" => settings.max_cycles = convert::count(name, value)?,
+                "max_steps" => settings.max_steps = convert::count(name, value)?,
+                "accuracy" => settings.accuracy = tolerance(name, f64::INFINITY, value)?,
+                _ => {
+                    let flag = value.extract::<bool>();
+                    settings.newton = flag.map_err(|_| convert::wrong_type(name, "True or False", value))?;
+                }
+            }
         }
         Ok(())
     }
@@ -84,7 +59,7 @@ impl<'py> Keywords<'py> {
 /// A keyword that is no solver setting.
 pub(crate) type Keyword<'py> = (String, Bound<'py, PyAny>);
 
-/// A number more than zero and less than `limit`.
+/// A number more than zero and less than `limit`, else `ValueError`; `TypeError` if it is no number.
 fn tolerance(name: &str, limit: f64, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let number = convert::number(name, "a number", value)?;
     if number > 0.0 && number < limit {

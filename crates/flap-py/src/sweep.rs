@@ -65,7 +65,7 @@ pub(crate) fn sweep<'py>(
     }
 }
 
-/// How points are run, on so many threads or all.
+/// The options of a run: as many threads as given, or one per core.
 pub(crate) fn options(threads: Option<&Bound<'_, PyAny>>) -> PyResult<RunOptions> {
     let mut options = RunOptions::default();
     if let Some(threads) = threads {
@@ -130,7 +130,7 @@ fn into_file<'py>(
     Ok(dict)
 }
 
-/// Makes the rows: here, or of parcels.
+/// Runs the points here, or takes their rows from parcels.
 fn work(
     plan: &Plan,
     options: &RunOptions,
@@ -166,7 +166,7 @@ fn work(
     })
 }
 
-/// Where rows come from.
+/// The origin of rows, as a dictionary: versions, model, solver settings, and the text of the grid.
 pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> PyResult<Bound<'py, PyDict>> {
     let identity = Identity::of(plan, options);
     let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton } = plan.solver;

@@ -1,4 +1,4 @@
-//! Long work without the interpreter: looks up now and then for Ctrl-C, and tells how far it is.
+//! Long work without the interpreter, which looks for Ctrl-C and reports progress now and then.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -8,14 +8,14 @@ use std::time::{Duration, Instant};
 use flap_core::simulate::Interrupt;
 use pyo3::prelude::*;
 
-/// How often the interpreter is asked for: often enough for a user, seldom enough for the work.
+/// The interval between looks at the interpreter: short for a user, long for the work.
 const INTERVAL: Duration = Duration::from_millis(50);
 
-/// Keeps an eye on the interpreter while something runs without it.
+/// A watch on the interpreter while work runs without it.
 pub(crate) struct Watch {
-    /// Called with how much is done and how much there is in all.
+    /// A callback, called with the number of points done and of points in all.
     progress: Option<Py<PyAny>>,
-    /// Raised when the work is to end.
+    /// Set when the work is to end.
     pub(crate) stop: Arc<AtomicBool>,
     last: Option<Instant>,
     error: Option<PyErr>,
@@ -26,7 +26,8 @@ impl Watch {
         Watch { progress, stop: Arc::default(), last: None, error: None }
     }
 
-    /// Looks up, if it is time. The work is to end when a signal handler or the callback raises an exception.
+    /// Looks for signals and reports progress, if [`INTERVAL`] has passed. An exception of a signal handler or of the
+    /// callback ends the work.
     pub(crate) fn look(&mut self, done: u64, all: u64) {
         if self.error.is_none() && self.last.is_none_or(|last| last.elapsed() >= INTERVAL) {
             self.look_now(done, all);
@@ -42,7 +43,7 @@ impl Watch {
         self.note(seen);
     }
 
-    /// Ends the work if there was an exception.
+    /// Keeps an exception and ends the work, if `seen` is one.
     pub(crate) fn note(&mut self, seen: PyResult<()>) {
         if let Err(error) = seen {
             self.error.get_or_insert(error);
@@ -50,20 +51,20 @@ impl Watch {
         }
     }
 
-    /// Tells that all is done, so that a bar ends where it should, unless an exception ended the work.
+    /// Reports that all points are done, so that a bar is full at the end, unless an exception ended the work.
     pub(crate) fn done(&mut self, all: u64) {
         if self.error.is_none() {
             self.look_now(all, all);
         }
     }
 
-    /// The exception that ended the work, if one did.
+    /// `Err` with the exception that ended the work, if one did.
     pub(crate) fn ended(self) -> PyResult<()> {
         self.error.map_or(Ok(()), Err)
     }
 }
 
-/// Does `work` without the interpreter. The interrupt that it is given comes with Ctrl-C.
+/// Does `work` without the interpreter; Ctrl-C interrupts it. `Err` with the exception of the signal handler.
 pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(Interrupt<'_>) -> T + Send,

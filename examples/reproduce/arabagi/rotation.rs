@@ -31,7 +31,7 @@ fn split(point: &Settled) -> [f64; 2] {
     ["lift_translational_mean_mn", "lift_added_mass_mean_mn"].map(|part| point.get(part))
 }
 
-/// How far the pitch is behind the stroke at 95 Hz.
+/// The phase lag of the pitch behind the stroke at 95 Hz.
 fn lags() -> Vec<Claim> {
     let lag = |amplitude: f64, arms: Arms| alone(&system_75(), 95.0, amplitude, arms).get("pitch_lag_deg");
     let [small, large] = [7.5, 12.5].map(|amplitude| lag(amplitude, Arms::Printed));
@@ -88,7 +88,7 @@ fn parts() -> Vec<Claim> {
     largest
 }
 
-/// How much more the translation lifts in the full simulation.
+/// The ratio of translational lift in the full simulation to that of a prescribed stroke.
 fn growth() -> Claim {
     let system = system_75();
     let full = bench().point(system.params.to_values());

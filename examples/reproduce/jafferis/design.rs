@@ -1,4 +1,4 @@
-//! What follows from Table I without integrating a motion.
+//! Claims that follow from Table I without integrating a motion.
 
 use flap_core::model::bimorph::{Actuator, Bimorph, Constants, Params, drag_coefficient, secant_stiffness};
 

@@ -98,7 +98,7 @@ fn small_peaks() -> Vec<Claim> {
         .into()
 }
 
-/// What a lower transmission ratio does, III-A.
+/// The effect of a lower transmission ratio, III-A.
 fn scaling(families: &Families) -> Vec<Claim> {
     let [t_1, t_2, t_3] = families;
     let mut claims = Vec::new();

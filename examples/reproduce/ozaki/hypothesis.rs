@@ -1,4 +1,4 @@
-//! What Table A1 might have been.
+//! A guess at Table A1 as it was meant.
 
 use flap_core::model::direct_drive::Params;
 

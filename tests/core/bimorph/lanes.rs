@@ -2,10 +2,10 @@
 
 use flap_core::drive::{Shape, WaveformParameters};
 use flap_core::model::bimorph::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
-use flap_core::simulate::{SolverSettings, Status};
+use flap_core::simulate::Status;
 
 use super::model;
-use crate::rows::assert_lanes_equal_scalars;
+use crate::rows::{QUICK, assert_lanes_equal_scalars};
 
 /// Designs, drives and readings in a fixed odd order; every tenth is impossible or blows up.
 fn points() -> Vec<Vec<f64>> {
@@ -43,16 +43,7 @@ fn points() -> Vec<Vec<f64>> {
 
 #[test]
 fn rows_equal_the_scalar_path_bit_for_bit() {
-    let solver = SolverSettings {
-        rtol: 1e-5,
-        atol: 1e-7,
-        settle_tol: 1e-5,
-        max_cycles: 60,
-        max_steps: 500,
-        accuracy: 1e-3,
-        newton: true,
-    };
-    let rows = assert_lanes_equal_scalars(model(), &points(), &solver);
+    let rows = assert_lanes_equal_scalars(model(), &points(), &QUICK);
     for row in &rows {
         assert!(row.measures.iter().all(|m| m.is_finite()), "{row:?}");
     }

@@ -38,8 +38,8 @@ fn driven(p: &Params, record: &Record) -> Params {
 
 /// The settled row of a point.
 ///
-/// Where a wing's velocities change sign the equations have kinks, which make step sizes, and with them the
-/// state at the ends of cycles, jitter with the integration error. Asked for the tightest of these tolerances
+/// The equations have kinks at which a wing's velocities change sign. They make step sizes, and with them the state at the
+/// ends of cycles, jitter with the integration error. Asked for the tightest of these tolerances
 /// that the jitter lets it meet, a point is as settled as it can be.
 fn settled(params: &Params, rtol: f64) -> Row {
     let mut last = None;

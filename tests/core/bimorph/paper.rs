@@ -201,7 +201,7 @@ fn largest_strokes(p: &Params) -> [f64; 2] {
     responses(p, [160.0, 200.0], 90, 140).map(|response| peak(&response, "stroke_pp_deg").1)
 }
 
-/// What the misprints and what is assumed do to the largest stroke.
+/// The effect of misprints and assumptions on the largest stroke.
 #[test]
 fn sizes_of_what_was_decided() {
     let p = || params("T1");

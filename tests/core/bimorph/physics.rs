@@ -1,7 +1,5 @@
 //! Symmetries, limits and conservation laws.
 
-use std::ops::ControlFlow;
-
 use flap_core::drive::Wave;
 use flap_core::model::Model;
 use flap_core::model::bimorph::{
@@ -9,7 +7,6 @@ use flap_core::model::bimorph::{
     plate_forces, tip_drag,
 };
 use flap_core::num::{InstructionSet, Real};
-use flap_core::ode::solve::solve;
 use flap_core::ode::{Ode, Start};
 use flap_core::simulate::{SolverSettings, TrajectoryRequest, never};
 use proptest::prelude::*;
@@ -17,6 +14,7 @@ use proptest::prelude::*;
 use super::orbit::{cycle, tolerances};
 use super::{model, params};
 use crate::data::assert_close;
+use crate::span;
 
 /// Elastic energy of actuator and transmission (J), by Simpson's rule.
 fn elastic_energy(c: &Constants<f64>, x: f64) -> f64 {
@@ -163,7 +161,7 @@ fn model_scale(values: &[f64]) -> [f64; 4] {
     Bimorph::default().start(values).unwrap().scale
 }
 
-/// Where the tip rests under constant voltages: K(x) x = F₁ − F₂.
+/// The place at which the tip rests under constant voltages: K(x) x = F₁ − F₂.
 pub(super) fn static_tip(c: &Constants<f64>, voltages: [f64; 2]) -> f64 {
     let plates = voltages.map(|value| plate(c, Wave::with_rate(value, 0.0)));
     let (mut low, mut high) = (-2e-3, 2e-3);
@@ -205,17 +203,7 @@ fn a_tip_in_vacuum_keeps_its_energy() {
             ..Bimorph::default().start(&p.to_values()).unwrap()
         };
         let initial = tip_energy(&c, &start.y);
-        let mut last = start.y;
-        solve::<_, f64, 4>(
-            &Bimorph::default(),
-            &tolerances(1e-10),
-            &start,
-            |_, _| {},
-            |y| {
-                last = *y;
-                ControlFlow::Break(())
-            },
-        );
+        let last = span::end(&Bimorph::default(), &tolerances(1e-10), &start);
         assert!(last != start.y, "nothing moved");
         assert_close(tip_energy(&c, &last), initial, 1e-8, set);
     }
@@ -231,17 +219,7 @@ fn small_motions_repeat_with_their_natural_frequencies() {
         for (frequency, y) in [(modes[0], [1e-8, 0.0, 0.0, 0.0]), (modes[1], [0.0, 0.0, 1e-3, 0.0])] {
             let start =
                 Start { y, span: 1.0 / frequency, ..Bimorph::default().start(&p.to_values()).unwrap() };
-            let mut end = y;
-            solve::<_, f64, 4>(
-                &Bimorph::default(),
-                &tolerances(1e-11),
-                &start,
-                |_, _| {},
-                |y| {
-                    end = *y;
-                    ControlFlow::Break(())
-                },
-            );
+            let end = span::end(&Bimorph::default(), &tolerances(1e-11), &start);
             let i = if y[0] > 0.0 { 0 } else { 2 };
             assert_close(end[i], y[i], 1e-6, set);
             assert!(end[i + 1].abs() < 1e-4 * y[i] * frequency, "{set}: {end:?}");

@@ -91,7 +91,7 @@ fn rtol_1e_6_gives_the_reference_to_3e_4() {
     compare(1e-6, 3e-4);
 }
 
-/// What goes into the plates is what their forces do, and what the stroke's drag takes.
+/// The electrical power into the plates is the power of their forces, and is lost to the stroke's drag.
 #[test]
 fn electrical_power_is_mechanical_power_is_what_the_drag_takes() {
     let mut worst = 0.0_f64;

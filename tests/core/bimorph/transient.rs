@@ -1,17 +1,15 @@
 //! Motions from rest against reference end states.
 
-use std::ops::ControlFlow;
-
 use flap_core::model::Motions;
 use flap_core::model::bimorph::{Bimorph, Constants, Params};
 use flap_core::num::InstructionSet;
 use flap_core::ode::Start;
-use flap_core::ode::solve::solve;
 use flap_core::simulate::{ChirpRequest, SolverSettings, Trajectory, never};
 
 use super::orbit::{distance, march, tolerances};
 use super::{driven, model, params};
 use crate::data::{Record, assert_close, table};
+use crate::span;
 
 fn end_state(record: &Record) -> [f64; 4] {
     ["x_m", "v_m_per_s", "psi_rad", "psidot_rad_per_s"].map(|column| record.number(column))
@@ -57,17 +55,7 @@ fn the_frequency_sweep_of_eq_7_equals_the_reference() {
         scale: [3e-5, 0.025, 0.3, 250.0],
         tighten: 1.0,
     };
-    let mut end = [0.0; 4];
-    solve::<_, f64, 4>(
-        &model,
-        &tolerances(1e-10),
-        &start,
-        |_, _| {},
-        |y| {
-            end = *y;
-            ControlFlow::Break(())
-        },
-    );
+    let end = span::end(&model, &tolerances(1e-10), &start);
     let error = distance(&end, &end_state(record));
     println!("chirp: {error:.1e}");
     assert!(error < 1e-6, "{error:e}");

@@ -6,8 +6,10 @@ use flap_core::model::direct_drive::{
     current, lift,
 };
 use flap_core::num::Real;
-use flap_core::ode::{Ode, Start, Tolerances, solve::solve};
+use flap_core::ode::{Ode, Start, Tolerances};
 use proptest::prelude::*;
+
+use crate::span;
 
 /// Kinetic energy of structure and added mass plus elastic energy (J).
 fn energy(c: &Constants<f64>, y: &[f64; 4]) -> f64 {
@@ -125,17 +127,7 @@ fn a_wing_in_vacuum_keeps_its_energy() {
         };
         let tolerances = Tolerances { rtol: 1e-10, atol: 1e-12, max_steps: 100_000 };
         let initial = total(&start.y);
-        let mut last = initial;
-        solve::<_, f64, 4>(
-            &DirectDrive::default(),
-            &tolerances,
-            &start,
-            |_, _| {},
-            |y| {
-                last = total(y);
-                std::ops::ControlFlow::Break(())
-            },
-        );
+        let last = total(&span::end(&DirectDrive::default(), &tolerances, &start));
         assert!(last != initial, "nothing moved");
         assert!((last / initial - 1.0).abs() < 1e-7, "{initial} → {last}");
     }

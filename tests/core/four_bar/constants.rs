@@ -20,7 +20,7 @@ fn unimorph(p: &Params) -> Unimorph {
     }
 }
 
-/// What the reference gives for the two systems, to its printed digits.
+/// The numbers of the reference for the two systems, to its printed digits.
 #[test]
 fn equal_the_reference_to_the_printed_digits() {
     let [p75, p30] = [params("sys75"), params("sys30")];

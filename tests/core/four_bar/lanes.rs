@@ -5,7 +5,7 @@ use flap_core::model::four_bar::{AddedMassSign, Arms, Params, Quadrature};
 use flap_core::simulate::{SolverSettings, Status};
 
 use super::steady::model;
-use crate::rows::assert_lanes_equal_scalars;
+use crate::rows::{QUICK, assert_lanes_equal_scalars};
 
 /// Designs, drives and readings in a fixed odd order; wings of different numbers of strips side by side; some are
 /// impossible or blow up.
@@ -45,15 +45,7 @@ fn points() -> Vec<Vec<f64>> {
 
 #[test]
 fn rows_equal_the_scalar_path_bit_for_bit() {
-    let solver = SolverSettings {
-        rtol: 1e-5,
-        atol: 1e-7,
-        settle_tol: 1e-4,
-        max_cycles: 60,
-        max_steps: 500,
-        accuracy: 1e-3,
-        newton: true,
-    };
+    let solver = SolverSettings { settle_tol: 1e-4, ..QUICK };
     let rows = assert_lanes_equal_scalars(model(), &points(), &solver);
     let count = |status| rows.iter().filter(|row| row.status == status).count();
     assert!(count(Status::Periodic) > 55, "{} periodic", count(Status::Periodic));

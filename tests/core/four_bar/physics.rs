@@ -6,8 +6,10 @@ use flap_core::model::four_bar::{
     tip, transmission,
 };
 use flap_core::num::Real;
-use flap_core::ode::{Ode, Start, Tolerances, solve::solve};
+use flap_core::ode::{Ode, Start, Tolerances};
 use proptest::prelude::*;
+
+use crate::span;
 
 /// Kinetic energy plus that of hinge, actuator and series spring, less the work of a constant voltage (J).
 fn energy(c: &Constants<f64>, volts: f64, y: &[f64; 4]) -> f64 {
@@ -160,17 +162,7 @@ fn a_wing_in_vacuum_keeps_its_energy() {
         };
         let tolerances = Tolerances { rtol: 1e-10, atol: 1e-12, max_steps: 100_000 };
         let initial = energy(&constants, p.drive_bias, &start.y);
-        let mut last = initial;
-        solve::<_, f64, 4>(
-            &FourBar::default(),
-            &tolerances,
-            &start,
-            |_, _| {},
-            |y| {
-                last = energy(&constants, p.drive_bias, y);
-                std::ops::ControlFlow::Break(())
-            },
-        );
+        let last = energy(&constants, p.drive_bias, &span::end(&FourBar::default(), &tolerances, &start));
         assert!(last != initial, "nothing moved");
         assert!((last / initial - 1.0).abs() < 1e-7, "{initial} → {last}");
     }
@@ -202,17 +194,7 @@ fn small_motions_have_the_natural_frequencies() {
         }
         let start =
             Start { constants, y, span: 10.0 / frequency, scale: [1.0, 1.0, 100.0, 100.0], tighten: 1.0 };
-        let mut end = y;
-        solve::<_, f64, 4>(
-            &FourBar::default(),
-            &tolerances,
-            &start,
-            |_, _| {},
-            |y| {
-                end = *y;
-                std::ops::ControlFlow::Break(())
-            },
-        );
+        let end = span::end(&FourBar::default(), &tolerances, &start);
         for i in 0..2 {
             assert!((end[i] / y[i] - 1.0).abs() < 1e-4, "{frequency} Hz: {y:?} → {end:?}");
         }

@@ -75,7 +75,7 @@ fn the_orbit_begins_where_the_reference_does() {
     }
 }
 
-/// What the actuator would do is not known, and says so.
+/// Measures of the actuator are not known under a prescribed stroke.
 #[test]
 fn the_actuator_of_a_prescribed_stroke_is_unknown() {
     let p =

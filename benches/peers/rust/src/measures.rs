@@ -1,4 +1,4 @@
-//! What is measured of a motion: from equally spaced samples, as users of the libraries do.
+//! Measures of a motion from equally spaced samples, as users of the libraries take them.
 
 use crate::model::{LIFT, PRESSURE, SCALE};
 

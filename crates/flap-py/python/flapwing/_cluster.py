@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections import deque
-from typing import TYPE_CHECKING, Any, Deque, Optional, SupportsIndex, Tuple
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from . import _flapwing
 from ._flapwing import Grid
@@ -20,22 +20,22 @@ TASKS_PER_THREAD = 4
 RETRIES = 5
 
 
-def part(name: str, text: str, begin: int, end: int, threads: Optional[SupportsIndex]) -> bytes:
-    """What a worker runs."""
+def part(name: str, text: str, begin: int, end: int, threads: SupportsIndex | None) -> bytes:
+    """The task of a worker: the rows of a stretch of points, as bytes."""
     return _flapwing.part(Grid._named(name, text), begin, end, threads=threads)
 
 
 class Parcels:
-    """Hands out stretches of a grid to a cluster, and gives what comes back in order."""
+    """Stretches of a grid, computed by a cluster; their rows come in the order of the points."""
 
-    def __init__(self, grid: Grid, client: Client, threads: Optional[SupportsIndex]) -> None:
+    def __init__(self, grid: Grid, client: Client, threads: SupportsIndex | None) -> None:
         self._client = client
         # Workers look for files that the grid names where this process does.
         self._grid = (os.path.abspath(grid.name), grid.text)
         self._points = len(grid)
         self._threads = 1 if threads is None else threads
-        self._under_way: Deque[Tuple[int, Future[Any]]] = deque()
-        self._submitted: Optional[int] = None
+        self._under_way: deque[tuple[int, Future[Any]]] = deque()
+        self._submitted: int | None = None
         # Every worker gets some of a small grid.
         workers = max(1, sum(client.nthreads().values()))
         self._size = max(1, min(TASK_POINTS, -(-self._points // (TASKS_PER_THREAD * workers))))
@@ -45,11 +45,11 @@ class Parcels:
         return self
 
     def __exit__(self, *_: object) -> None:
-        # What nobody waits for need not run.
+        # Nobody waits for these results.
         self._client.cancel([future for _, future in self._under_way], force=True)
         self._under_way.clear()
 
-    def next(self, done: int) -> Optional[bytes]:
+    def next(self, done: int) -> bytes | None:
         """The parcel that begins after the points that are done."""
         if self._submitted is None:
             self._submitted = done

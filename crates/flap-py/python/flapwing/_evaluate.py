@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, SupportsFloat, SupportsIndex, Union
+from typing import TYPE_CHECKING, Any, Mapping, SupportsFloat, SupportsIndex
 
 import numpy as np
 
@@ -18,12 +18,12 @@ __all__ = ["evaluate"]
 
 def evaluate(
     design: Any,
-    columns: Union[Mapping[str, Any], "pandas.DataFrame"],
+    columns: Mapping[str, Any] | pandas.DataFrame,
     /,
     *,
-    threads: Optional[SupportsIndex] = None,
+    threads: SupportsIndex | None = None,
     progress: Progress = False,
-    **keywords: Union[SupportsFloat, str],
+    **keywords: SupportsFloat | str,
 ) -> Table:
     """Run a batch of design points, given as columns of parameters.
 
@@ -34,7 +34,7 @@ def evaluate(
     Parameters
     ----------
     design : str, path, dict or Grid
-        What points have in common: a preset; a model, whose parameters all have to be given then; or a grid (see
+        The base of all points: a preset; a model, whose parameters all have to be given then; or a grid (see
         `Grid`), whose ``[derived]``, ``[where]``, ``[measure]``, ``[solver]`` and ``[output]`` hold for every point. A
         grid with axes is run for each row of `columns`: designs times frequencies, for instance.
     columns : mapping or DataFrame
@@ -71,8 +71,8 @@ def evaluate(
     >>> rows["lift_mean_mn"].round(2)
     array([2.79, 3.84, 4.73])
     """
-    given: Dict[str, Any] = {}
-    constants: Dict[str, Any] = {}
+    given: dict[str, Any] = {}
+    constants: dict[str, Any] = {}
     for name in columns.keys():
         values = columns[name]
         _refuse_masked(name, values)
@@ -96,7 +96,7 @@ def evaluate(
 
 
 def _refuse_masked(name: str, values: Any) -> None:
-    """What is masked is not known, and a point needs all its values: below the mask is any number."""
+    """Refuses masked values: a point needs all its values, and the number below a mask means nothing."""
     if not isinstance(values, np.ma.MaskedArray):
         return
     masked = int(np.count_nonzero(values.mask))
@@ -107,7 +107,7 @@ def _refuse_masked(name: str, values: Any) -> None:
         )
 
 
-def _column(name: str, values: Any) -> Union[np.ndarray[Any, Any], List[Any]]:
+def _column(name: str, values: Any) -> np.ndarray[Any, Any] | list[Any]:
     """An array of float64, or a list of whatever else there is."""
     if isinstance(values, (list, tuple)) and any(isinstance(value, str) for value in values):
         # NumPy would make text of the numbers among them.
@@ -117,7 +117,7 @@ def _column(name: str, values: Any) -> Union[np.ndarray[Any, Any], List[Any]]:
         raise ValueError(f"`{name}` must be one value or have one dimension, not {array.ndim}")
     if array.dtype.kind in "fiu":
         return np.ascontiguousarray(array, dtype=np.float64)
-    listed: List[Any] = array.tolist()
+    listed: list[Any] = array.tolist()
     return listed
 
 

@@ -13,13 +13,17 @@ __all__ = [
     "params",
     "part",
     "presets",
+    "printed",
     "read",
     "resonance",
     "respond",
     "run",
+    "scale",
     "split_unit",
     "sweep",
     "trajectory",
+    "unit_of",
+    "words",
 ]
 
 __version__: str
@@ -41,13 +45,13 @@ class Diagnostic:
     file : str
         The grid file, or ``"<grid>"``.
     line, column : int
-        Where the mistake is, from 1; columns count characters.
+        The place of the mistake, from 1; columns count characters.
     start, end : int
-        The same in bytes of the text in UTF-8.
+        The same place in bytes of the text in UTF-8: first, and behind the last.
     message : str
-        What is wrong.
+        The mistake.
     notes, help : list of str
-        What is allowed, and what to do.
+        The allowed values, and ways to mend the mistake.
     """
 
     def __new__(
@@ -60,7 +64,6 @@ class Diagnostic:
         message: str,
         notes: list[str],
         help: list[str],
-        /,
     ) -> Diagnostic: ...
     def __getnewargs__(self) -> tuple[str, int, int, int, int, str, list[str], list[str]]: ...
     @property
@@ -93,8 +96,8 @@ class Grid:
     Parameters
     ----------
     source : path, str, dict or Grid
-        A grid file by its path; the text of one (a str with a line break or ``=``); or what such a file says as a
-        dictionary of dictionaries.
+        A grid file by its path; the text of one (a str with a line break or ``=``); or its entries as a dictionary
+        of dictionaries.
 
     Raises
     ------
@@ -144,8 +147,8 @@ class Grid:
         """The parameters that differ from point to point: those of the axes, then the derived ones."""
 
     def exclusions(self) -> dict[str, Any]:
-        """Counts what the conditions of ``[where]`` leave out, among all points or, if there are more than a million, among a
-        million spread over the grid.
+        """Counts the points that the conditions of ``[where]`` exclude: among all points or, if there are more than a million,
+        among a million spread over the grid.
 
         Returns
         -------
@@ -168,7 +171,7 @@ def params(name: str, /) -> list[tuple[str, float | str | None, str, str, str, s
     """The parameters of a preset or a model; see `flapwing.params`."""
 
 def measures(name: str, /) -> list[tuple[str, str, str]]:
-    """What rows of a preset or a model measure: names, each with unit and meaning; see `flapwing.measures`."""
+    """The measures of a preset or a model: names, each with unit and meaning; see `flapwing.measures`."""
 
 def run(preset: str, keywords: dict[str, Any], /) -> dict[str, Any]:
     """Runs one point; see `flapwing.run`."""
@@ -246,6 +249,20 @@ def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None =
 
 def read(path: str | PathLike[str], /, *, ignore_damage: bool = False) -> dict[str, Any]:
     """Reads a result file; see `flapwing.read`."""
+
+def words(name: str, unit: str, /) -> str:
+    """A column's name in words, without its unit: `lift_mean_mn` is "Lift, mean"."""
+
+def printed(unit: str, /) -> str:
+    """A unit as it is printed: `uN*m/rad` is "µN·m/rad", `mm^2` is "mm²", `deg` is "°"."""
+
+def scale(unit: str, largest: float, /) -> tuple[float, str]:
+    """The factor to a readable unit, and that unit as it is printed, for values in `unit` of which `largest` is the largest."""
+
+def unit_of(name: str, /) -> str:
+    """The unit of a column: that of the parameter or measure with this name in any model, else the ending of the name; empty
+    for none.
+    """
 
 def split_unit(name: str, /) -> tuple[str, str]:
     """A column's name without the unit that it ends in, and that unit; empty if there is none."""

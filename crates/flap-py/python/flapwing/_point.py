@@ -1,8 +1,8 @@
-"""One design point at a time, and what there is to be set and measured."""
+"""Single design points, and lists of parameters and measures."""
 
 from __future__ import annotations
 
-from typing import Any, Dict, NamedTuple, Optional, SupportsFloat, SupportsIndex, Tuple, Union
+from typing import Any, NamedTuple, SupportsFloat, SupportsIndex
 
 from . import _flapwing
 from ._table import Table
@@ -16,20 +16,20 @@ class Parameter(NamedTuple):
     #: Name in grids, on the command line and as a keyword.
     name: str
     #: Value in the preset, in SI units, or the name of an option. None if it is not set and follows others.
-    value: Union[float, str, None]
+    value: float | str | None
     #: SI unit; ``""`` for pure numbers and options.
     unit: str
     #: Symbol in the paper; ``""`` if it has none.
     symbol: str
     #: One line of meaning, with its source.
     doc: str
-    #: Which values it takes, in words.
+    #: The allowed values, in words.
     allowed: str
     #: Its options, if it is a choice; else empty.
-    options: Tuple[str, ...]
+    options: tuple[str, ...]
 
 
-def params(name: str, /) -> Dict[str, Parameter]:
+def params(name: str, /) -> dict[str, Parameter]:
     """The parameters of a preset, with their values, or of a model, without.
 
     Parameters
@@ -56,13 +56,13 @@ def params(name: str, /) -> Dict[str, Parameter]:
     return {parameter.name: parameter for parameter in listed}
 
 
-def measures(name: str, /) -> Dict[str, Tuple[str, str]]:
-    """What rows of a preset or a model measure: the unit and the meaning of each column.
+def measures(name: str, /) -> dict[str, tuple[str, str]]:
+    """The measures in rows of a preset or a model: the unit and the meaning of each column.
 
     Parameters
     ----------
     name : str
-        A preset or a model.
+        As for `params`.
 
     Returns
     -------
@@ -72,7 +72,7 @@ def measures(name: str, /) -> Dict[str, Tuple[str, str]]:
     Raises
     ------
     ValueError
-        There is no such preset or model.
+        As for `params`.
 
     Examples
     --------
@@ -86,15 +86,15 @@ def run(
     preset: str,
     /,
     *,
-    rtol: Optional[SupportsFloat] = None,
-    atol: Optional[SupportsFloat] = None,
-    settle_tol: Optional[SupportsFloat] = None,
-    max_cycles: Optional[SupportsIndex] = None,
-    max_steps: Optional[SupportsIndex] = None,
-    accuracy: Optional[SupportsFloat] = None,
-    newton: Optional[bool] = None,
-    **parameters: Union[SupportsFloat, str],
-) -> Dict[str, Any]:
+    rtol: SupportsFloat | None = None,
+    atol: SupportsFloat | None = None,
+    settle_tol: SupportsFloat | None = None,
+    max_cycles: SupportsIndex | None = None,
+    max_steps: SupportsIndex | None = None,
+    accuracy: SupportsFloat | None = None,
+    newton: bool | None = None,
+    **parameters: SupportsFloat | str,
+) -> dict[str, Any]:
     """Run one design point until its motion repeats with the drive, then measure one drive period.
 
     The preset's parameters hold except those given as keywords::
@@ -126,8 +126,8 @@ def run(
         Largest error_estimate and energy audit of a row: more than 0. A point whose row exceeds it is integrated
         again with tighter tolerances, up to a limit. Default 1e-3, or 1000 rtol if that is more.
     newton : bool, optional
-        Whether Newton's iteration looks for the orbit that the motion is on its way to. Without it the motion is
-        followed until it settles: to the same orbit, in more periods. Default True.
+        Newton's iteration finds the orbit that the motion approaches. If False, the motion is followed until it
+        settles: to the same orbit, in more periods. Default True.
     **parameters : float or str
         Parameters of the model by name: a number in SI units, text with a unit such as
         ``"1.5 uN*m/rad"``, or the name of an option where there are options to choose from.
@@ -157,7 +157,7 @@ def run(
             Factor by which a change of the motion grows or decays per orbit in the end. None if no orbit was
             found, and for a wing at rest.
         stable : bool or None
-            Whether floquet_max is below 1, so that motions near the orbit approach it. True for a wing at rest,
+            True if floquet_max is below 1, so that motions near the orbit approach it, and for a wing at rest.
             None if no orbit was found.
         error_estimate : float or None
             Estimate of the largest relative error that the integration makes in stroke, pitch, mean lift and mean
@@ -165,7 +165,7 @@ def run(
         rhs_evals : int
             Evaluations of the equations of motion.
         reason : str or None
-            Why the point is invalid; None if it is not.
+            The cause if the point is invalid, else None.
 
     Raises
     ------
@@ -187,7 +187,7 @@ def trajectory(
     cycles: SupportsIndex = 2,
     samples: SupportsIndex = 200,
     from_rest: bool = False,
-    **keywords: Union[SupportsFloat, str],
+    **keywords: SupportsFloat | str,
 ) -> Table:
     """The motion of one design point, sampled at equal times.
 
@@ -232,25 +232,25 @@ def resonance(
     preset: str,
     /,
     *,
-    start: Optional[float] = None,
-    stop: Optional[float] = None,
+    start: float | None = None,
+    stop: float | None = None,
     tolerance: float = 0.05,
     impulse: float = 20.0,
     fit_cycles: SupportsIndex = 4,
     spectrum_window: float = 1.0,
-    **keywords: Union[SupportsFloat, str],
-) -> Dict[str, Any]:
-    """The resonances of one design point, by every way of looking for them.
+    **keywords: SupportsFloat | str,
+) -> dict[str, Any]:
+    """The resonances of one design point: of small motions, after an impulse, and under the drive.
 
     Parameters
     ----------
     preset : str
         One of `presets()`.
     start, stop : float, optional
-        Lowest and highest drive frequency (Hz) at which the settled stroke is looked at. Default: half of the lower
+        Lowest and highest drive frequency (Hz) of the search for peaks of the settled stroke. Default: half of the lower
         natural frequency to one and a half times the upper one.
     tolerance : float, optional
-        How closely the peaks of the settled stroke are located (Hz). Default 0.05.
+        Largest error of the peaks' frequencies (Hz). Default 0.05.
     impulse : float, optional
         Impulse on the resting stroke, as the amplitude (deg) that the first mode alone would reach without damping.
         Default 20.
@@ -268,7 +268,7 @@ def resonance(
             Small undamped motions: frequency (Hz) by name of the mode.
         impulse_fit : dict or None
             The damped sine through the stroke after the impulse: `frequency_hz`, `decay_1_s` (1/s) and
-            `relative_rms`, what it leaves over. None if none fits.
+            `relative_rms`, the rms of the rest over that of the stroke. None if none fits.
         stroke_spectrum_hz, pitch_spectrum_hz : list of float
             Highest peaks of the spectra after the impulse (Hz).
         driven : list of dict

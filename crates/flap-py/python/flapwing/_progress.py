@@ -1,17 +1,17 @@
-"""How far a sweep is."""
+"""Progress of long work: a bar, or a function of the user."""
 
 from __future__ import annotations
 
 from contextlib import contextmanager
-from typing import Callable, Iterator, Optional, Union
+from typing import Callable, Iterator
 
-#: What may be given as ``progress``.
-Progress = Union[bool, Callable[[int, int], object]]
+#: The type of the argument ``progress``.
+Progress = bool | Callable[[int, int], object]
 
 
 @contextmanager
-def shown(progress: Progress) -> Iterator[Optional[Callable[[int, int], object]]]:
-    """What to call with the number of points done and of points in all."""
+def shown(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
+    """The function to call with the numbers of points done and of points in all; None for no progress."""
     if not progress:
         yield None
     elif callable(progress):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional, SupportsFloat, SupportsIndex, Union
+from typing import Any, SupportsFloat, SupportsIndex
 
 from . import _flapwing
 from ._table import Table
@@ -15,13 +15,13 @@ def respond(
     along: str = "drive_frequency",
     /,
     *,
-    start: Union[SupportsFloat, str, None] = None,
-    stop: Union[SupportsFloat, str, None] = None,
-    step: Union[SupportsFloat, str, None] = None,
-    tolerance: Union[SupportsFloat, str, None] = None,
+    start: SupportsFloat | str | None = None,
+    stop: SupportsFloat | str | None = None,
+    step: SupportsFloat | str | None = None,
+    tolerance: SupportsFloat | str | None = None,
     unstable: bool = False,
-    threads: Optional[SupportsIndex] = None,
-    **keywords: Union[SupportsFloat, str],
+    threads: SupportsIndex | None = None,
+    **keywords: SupportsFloat | str,
 ) -> Table:
     """Follow the motions of designs as a parameter rises and falls, and find hysteresis.
 
@@ -39,7 +39,7 @@ def respond(
         Its first and last value and the step between them: in SI units, or with a unit. Default: the values of the
         grid's axis.
     tolerance : float or str, optional
-        How closely the ends of bistable bands are located. Default: a sixteenth of the shortest step.
+        Largest error of the ends of bistable bands. Default: a sixteenth of the shortest step.
     unstable : bool, optional
         Continue the branches around the ends of bistable bands: adds the unstable orbits between them.
     threads : int, optional
@@ -51,8 +51,8 @@ def respond(
     -------
     Table
         A row per motion: `curve` (number of the design), its parameters, `branch` (``"up"``, ``"down"`` or
-        ``"unstable"``), the parameter that is followed, and the columns of a sweep. ``meta["verdicts"]`` tells in a
-        line for each design what was found, ``meta["along"]`` what was followed.
+        ``"unstable"``), the parameter that is followed, and the columns of a sweep. ``meta["verdicts"]`` has a
+        line for each design with what was found, ``meta["along"]`` the parameter that was followed.
 
     Raises
     ------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import TYPE_CHECKING, Any, Dict, Optional, SupportsIndex, Union
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from . import _flapwing
 from ._flapwing import Grid
@@ -21,12 +21,12 @@ def sweep(
     grid: Any,
     /,
     *,
-    out: Union[str, "os.PathLike[str]", None] = None,
+    out: str | os.PathLike[str] | None = None,
     resume: bool = False,
     overwrite: bool = False,
-    threads: Optional[SupportsIndex] = None,
+    threads: SupportsIndex | None = None,
     progress: Progress = False,
-    client: Optional["Client"] = None,
+    client: Client | None = None,
 ) -> Table:
     """Run every point of a grid.
 
@@ -52,7 +52,7 @@ def sweep(
     client : distributed.Client, optional
         Run the points on the workers of a Dask cluster, which need the same build of flapwing. Rows come in the
         same order and with the same bytes as on one machine; those of a worker that dies are run again by others.
-        What cannot be the same, because a worker's processor rounds differently, is an error.
+        A worker whose processor rounds differently, so that rows could differ, is an error.
 
     Returns
     -------
@@ -86,7 +86,7 @@ def sweep(
     (6, {'periodic': 6})
     """
     checked = grid if isinstance(grid, Grid) else Grid(grid)
-    given: Dict[str, Any] = {"out": out, "resume": resume, "overwrite": overwrite}
+    given: dict[str, Any] = {"out": out, "resume": resume, "overwrite": overwrite}
     with shown(progress) as show:
         if client is None:
             native = _flapwing.sweep(checked, threads=threads, progress=show, **given)
@@ -98,7 +98,7 @@ def sweep(
     return Table._of(native, None if out is None else os.path.abspath(out))
 
 
-def read(path: Union[str, "os.PathLike[str]"], /, *, ignore_damage: bool = False) -> Table:
+def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Table:
     """Read results that flap has written, and check that they are as they were written.
 
     Parameters

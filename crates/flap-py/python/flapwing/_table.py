@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, NamedTuple, Optional, Union, overload
+from typing import TYPE_CHECKING, Any, Iterator, NamedTuple, overload
 
 import numpy as np
 
@@ -30,7 +30,7 @@ class _Column(NamedTuple):
     doc: str
     #: float64 and uint64 as they are; int8 for flags (1, 0, -1 for unknown); uint32 places among `words` for text.
     cells: np.ndarray[Any, Any]
-    words: Optional[List[str]]
+    words: list[str] | None
 
     def values(self) -> np.ndarray[Any, Any]:
         if self.words is not None:
@@ -41,7 +41,7 @@ class _Column(NamedTuple):
         return self.cells
 
     def known(self) -> np.ndarray[Any, Any]:
-        """Which cells hold something."""
+        """A mask, True for cells that hold a value."""
         if self.words is None and self.cells.dtype == np.int8:
             return np.greater_equal(self.cells, 0)
         if self.cells.dtype == np.float64:
@@ -49,7 +49,7 @@ class _Column(NamedTuple):
         return np.ones(len(self.cells), dtype=np.bool_)
 
 
-def _columns(native: Dict[str, Any]) -> Dict[str, _Column]:
+def _columns(native: dict[str, Any]) -> dict[str, _Column]:
     told = native.get("units", {})
     return {
         name: _Column(told.get(name, unit), doc, cells, words) for name, unit, doc, cells, words in native["columns"]
@@ -72,22 +72,23 @@ class Table:
         The axes of the grid, the last of which varies fastest: for each, the parameters that move together along it
         with their values. Empty if the rows are not those of a grid with axes.
     meta : dict
-        Where the rows come from: `flap` (version), `build` (which tells builds of a version apart), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of
-        the grid file), and what the call adds: `counts`, rows by status; `excluded` points, which have no row;
-        `invalid`, the first few invalid points with the reason; `set`, keywords that stand over the grid.
+        The origin of the rows: `flap` (version), `build` (which tells builds of a version apart), `model`, `preset`,
+        `solver`, `arithmetic` and `grid` (the text of the grid file). The call adds `counts`, rows by status;
+        `excluded` points, which have no row; `invalid`, the first few invalid points with the reason; `set`, keywords
+        that replace values of the grid.
     """
 
-    dims: List[Dict[str, np.ndarray[Any, Any]]]
-    meta: Dict[str, Any]
-    _held: Optional[Dict[str, _Column]]
+    dims: list[dict[str, np.ndarray[Any, Any]]]
+    meta: dict[str, Any]
+    _held: dict[str, _Column] | None
     _path: str
 
     def __init__(self, *_: object) -> None:
         raise TypeError("a Table comes from sweep, evaluate, respond, trajectory or read")
 
     @classmethod
-    def _of(cls, native: Dict[str, Any], path: Optional[str] = None) -> Table:
-        """The table of what the native part gives; with a path, its columns are read when they are asked for."""
+    def _of(cls, native: dict[str, Any], path: str | None = None) -> Table:
+        """A table of native results; with a path, its columns are read from there when first used."""
         meta = {**native.get("meta", {}), **native.get("summary", {})}
         if path is None:
             return cls._new(_columns(native), native.get("axes", []), meta)
@@ -97,7 +98,7 @@ class Table:
 
     @classmethod
     def _new(
-        cls, columns: Optional[Dict[str, _Column]], dims: List[Dict[str, Any]], meta: Dict[str, Any]
+        cls, columns: dict[str, _Column] | None, dims: list[dict[str, Any]], meta: dict[str, Any]
     ) -> Table:
         table = object.__new__(cls)
         table._held = columns
@@ -106,12 +107,12 @@ class Table:
         return table
 
     @property
-    def _columns(self) -> Dict[str, _Column]:
+    def _columns(self) -> dict[str, _Column]:
         if self._held is None:
             self._held = _columns(_flapwing.read(self._path))
         return self._held
 
-    def __getstate__(self) -> Dict[str, Any]:
+    def __getstate__(self) -> dict[str, Any]:
         # A pickle holds the rows: where it is read, the file may be another or none.
         return {"_held": self._columns, "dims": self.dims, "meta": self.meta}
 
@@ -127,7 +128,7 @@ class Table:
     @overload
     def __getitem__(self, key: str) -> np.ndarray[Any, Any]: ...
     @overload
-    def __getitem__(self, key: Union[slice, np.ndarray[Any, Any], List[int], List[bool]]) -> Table: ...
+    def __getitem__(self, key: slice | np.ndarray[Any, Any] | list[int] | list[bool]) -> Table: ...
     def __getitem__(self, key: Any) -> Any:
         if isinstance(key, str):
             try:
@@ -141,28 +142,28 @@ class Table:
         columns = {name: column._replace(cells=column.cells[key]) for name, column in self._columns.items()}
         return self._new(columns, self.dims, self.meta)
 
-    def keys(self) -> List[str]:
+    def keys(self) -> list[str]:
         """The names of the columns, so that ``dict(table)`` has all of them."""
         return list(self._columns)
 
     @property
-    def columns(self) -> List[str]:
+    def columns(self) -> list[str]:
         """The names of the columns, from left to right."""
         return list(self._columns)
 
     @property
-    def units(self) -> Dict[str, str]:
-        """The unit of each column, ``""`` for what has none."""
+    def units(self) -> dict[str, str]:
+        """The unit of each column, ``""`` for none."""
         return {name: column.unit for name, column in self._columns.items()}
 
     @property
-    def docs(self) -> Dict[str, str]:
+    def docs(self) -> dict[str, str]:
         """The meaning of each column in a line; ``""`` if it is not known."""
         return {name: column.doc for name, column in self._columns.items()}
 
     @property
-    def counts(self) -> Dict[str, int]:
-        """How many rows have each status, for statuses that occur."""
+    def counts(self) -> dict[str, int]:
+        """The number of rows with each status, for statuses that occur."""
         if "status" not in self:
             return {}
         statuses, counts = np.unique(self["status"], return_counts=True)
@@ -192,7 +193,7 @@ class Table:
         return frame
 
     def to_polars(self) -> polars.DataFrame:
-        """The table as a polars DataFrame, through Arrow; what is not known is null."""
+        """The table as a polars DataFrame, through Arrow; unknown values are null."""
         import polars
 
         frame = polars.from_arrow(self.to_arrow())
@@ -200,7 +201,7 @@ class Table:
         return frame
 
     def to_arrow(self) -> pyarrow.Table:
-        """The table as an Arrow table: numbers share memory with the table, what is not known is null.
+        """The table as an Arrow table: numbers share memory with the table, unknown values are null.
 
         Units and meanings are in the metadata of the fields.
         """
@@ -243,7 +244,7 @@ class Table:
             whole[places] = values
             return whole.reshape(shape)
 
-        def about(name: str) -> Dict[str, str]:
+        def about(name: str) -> dict[str, str]:
             column = self._columns.get(name)
             if column is None:
                 return {}

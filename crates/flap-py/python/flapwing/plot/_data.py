@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import os
-from functools import lru_cache
 from typing import Any, Iterable, Mapping, Sequence
 
 import numpy as np
@@ -76,15 +75,14 @@ class Data:
         return Data({name: column[mask] for name, column in self.columns.items()}, self.units, self.dims, self.meta)
 
     def unit(self, name: str) -> str:
-        """The unit of a column, as flap writes it; parameters in a file without a sidecar have none of their own."""
-        if self.units.get(name):
-            return self.units[name]
-        if "model" not in self.meta and name in _parameter_units():
-            return _parameter_units()[name]
-        return _labels.unit_of(name, self.units)
+        """The unit of a column, as flap writes it."""
+        known = self.units.get(name)
+        # Parameters in a file without a sidecar come without units.
+        is_known = known is not None and (known != "" or "model" in self.meta)
+        return str(known) if is_known else _labels.unit_of(name)
 
     def measured(self) -> np.ndarray:
-        """Which rows have measures."""
+        """A mask, True for rows with measures."""
         if "status" not in self.columns:
             return np.ones(len(self), dtype=bool)
         return np.isin(self.columns["status"].astype(str), MEASURED)
@@ -125,7 +123,7 @@ class Data:
         return distinct((whole if [name] in self.dims else self)[name])
 
     def on_a_grid(self, name: str) -> bool:
-        """Whether a parameter has an axis; those of a ``[sample]`` are scattered."""
+        """True if a parameter has an axis; those of a ``[sample]`` are scattered."""
         return not any(name in dim for dim in self.dims if dim[0] not in self.columns)
 
     def groups(self, names: Sequence[str]) -> np.ndarray:
@@ -159,7 +157,7 @@ class Data:
         return data
 
     def one_row_for(self, names: Sequence[str]) -> None:
-        """Refuses if rows agree in all of these columns: another axis is left."""
+        """Raises ValueError if rows agree in all of these columns: another axis is left."""
         if len(np.unique(self.groups(names))) == len(self):
             return
         shown = [self.axis(name) for name in names]
@@ -169,7 +167,7 @@ class Data:
         raise ValueError(self.left_over(left))
 
     def left_over(self, left: Iterable[str]) -> str:
-        """What to say of axes that a picture has no place for."""
+        """The error message for axes that a picture has no place for."""
         lines = [f"  {self.described(name)}: {listed(distinct(self[name]))}" for name in left]
         first = lines[0].strip().split(" ")[0].rstrip(":")
         value = distinct(self[first])[0]
@@ -189,13 +187,13 @@ class Data:
 
 
 class Shown:
-    """How a column is drawn: the factor to a readable unit, and what is written beside it."""
+    """A column as it is drawn: the factor to a readable unit, and the label."""
 
     def __init__(self, data: Data, name: str) -> None:
         self.name = name
         self.text = is_text(data[name])
         unit = data.unit(name)
-        self.factor, self.unit = (1.0, "") if self.text else _labels.scale(data[name], unit)
+        self.factor, self.unit = (1.0, "") if self.text else _labels.readable(data[name], unit)
         self.words = _labels.words(name, unit)
         self.label = _labels.titled(self.words, self.unit)
         self.values = data[name] if self.text else data[name].astype(float) * self.factor
@@ -217,7 +215,7 @@ def _column(values: Any) -> np.ndarray:
 
 
 def is_text(column: np.ndarray) -> bool:
-    """Whether a column holds words."""
+    """True if a column holds words."""
     return column.dtype.kind in "OUST"
 
 
@@ -231,8 +229,20 @@ def distinct(column: np.ndarray) -> np.ndarray:
     return values[~np.isnan(values)] if values.dtype.kind == "f" else values
 
 
+def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
+    """The edges of cells around rising values: halfway between neighbours, and as far out at the ends."""
+    places = np.log(values) if log else np.asarray(values, dtype=float)
+    if len(places) == 1:
+        half = 0.05 if log else 0.05 * abs(places[0]) or 0.5
+        ends = places[0] + half * np.array([-1.0, 1.0])
+    else:
+        middle = 0.5 * (places[1:] + places[:-1])
+        ends = np.concatenate([[2 * places[0] - middle[0]], middle, [2 * places[-1] - middle[-1]]])
+    return np.exp(ends) if log else ends
+
+
 def scattered(name: str) -> ValueError:
-    """What to raise if a parameter without an axis is to be one."""
+    """The error for a parameter that has no axis, and is asked for as one."""
     return ValueError(f"`{name}` is sampled, so that its values are not on an axis; plot.pareto draws such designs")
 
 
@@ -246,21 +256,8 @@ def listed(values: Sequence[Any] | np.ndarray) -> str:
 
 
 def unknown(what: str, name: str, known: Iterable[str]) -> str:
-    """An error's words for a name that there is not, with the nearest that there is."""
+    """The error message for an unknown name, with the nearest known one."""
     names = list(known)
     near = difflib.get_close_matches(str(name), names, n=1, cutoff=0.6)
     hint = f" Did you mean `{near[0]}`?" if near else ""
     return f"there is no {what} `{name}`.{hint} There are: {', '.join(names)}"
-
-
-@lru_cache(maxsize=1)
-def _parameter_units() -> dict[str, str]:
-    """Units of all models' parameters, for columns that come without units."""
-    import flapwing
-
-    units: dict[str, str] = {}
-    for preset in flapwing.presets():
-        for name, parameter in flapwing.params(preset).items():
-            if parameter.unit:
-                units.setdefault(name, parameter.unit)
-    return units

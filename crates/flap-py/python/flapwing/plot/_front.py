@@ -1,4 +1,4 @@
-"""Which points no other point beats."""
+"""The Pareto front of points."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 
 def non_dominated(costs: Any) -> np.ndarray:
-    """Which points are not dominated, where smaller is better in every column.
+    """Mark the points that are not dominated, where smaller is better in every column.
 
     A point is dominated if another is nowhere larger and somewhere smaller. Equal points do not dominate each other.
 

@@ -11,7 +11,8 @@ from matplotlib.colors import to_rgba
 from matplotlib.patches import Patch
 
 from . import _style
-from ._data import Data, Shown, distinct, scattered
+from ._data import Data, Shown, distinct, edges, scattered
+from ._docs import completed
 
 # Statuses without measures, and the greys of their cells.
 _GREYS = {
@@ -24,6 +25,7 @@ _GREYS = {
 _UNDEFINED, _NO_ROW = "no value", "no row"
 
 
+@completed
 def heatmap(
     table: Any,
     value: str,
@@ -59,14 +61,8 @@ def heatmap(
         A colour map of matplotlib.
     vmin, vmax : float, optional
         The ends of the colours, in the unit of the colour bar; by default those of the values.
-    where, **slices
-        Columns and the value that rows must have: the slice of a grid with more axes.
-    ax : matplotlib Axes, optional
-        Where to draw; by default in a new figure.
-
-    Returns
-    -------
-    matplotlib Axes
+    %(where)s
+    %(axes)s
 
     Raises
     ------
@@ -107,22 +103,15 @@ def heatmap(
         mesh = ax.pcolormesh(
             across.edges, up.edges, np.ma.masked_invalid(values), cmap=cmap, vmin=vmin, vmax=vmax, rasterized=True
         )
-        bar = _style.figure_of(ax).colorbar(mesh, ax=ax, label=shown.label, pad=0.02)
-        bar.ax.grid(False)
+        _style.colour_bar(ax, mesh, label=shown.label, pad=0.02)
         legend = []
         for name, mask in _missing(data, rows, values).items():
             legend.append(_fill(ax, across.edges, up.edges, mask, name))
         across.finish(ax, "x")
         up.finish(ax, "y")
         if legend:
-            ax.legend(
-                handles=legend,
-                loc="lower left",
-                bbox_to_anchor=(0.0, 1.005),
-                ncols=3,
-                borderaxespad=0.2,
-                handlelength=1.6,
-                handleheight=1.1,
+            _style.legend_above(
+                ax, 1.005, handles=legend, ncols=3, borderaxespad=0.2, handlelength=1.6, handleheight=1.1
             )
     return ax
 
@@ -164,20 +153,8 @@ class _Axis:
         (ax.set_xlim if which == "x" else ax.set_ylim)(self.edges[0], self.edges[-1])
 
 
-def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
-    """The edges of cells around rising values: halfway between neighbours, and as far out at the ends."""
-    places = np.log(values) if log else np.asarray(values, dtype=float)
-    if len(places) == 1:
-        half = 0.05 if log else 0.05 * abs(places[0]) or 0.5
-        ends = places[0] + half * np.array([-1.0, 1.0])
-    else:
-        middle = 0.5 * (places[1:] + places[:-1])
-        ends = np.concatenate([[2 * places[0] - middle[0]], middle, [2 * places[-1] - middle[-1]]])
-    return np.exp(ends) if log else ends
-
-
 def _in_ratio(values: np.ndarray) -> bool:
-    """Whether three or more values are in constant ratio."""
+    """True for three or more values in constant ratio."""
     if len(values) < 3 or values[0] <= 0:
         return False
     ratios = values[1:] / values[:-1]
@@ -185,7 +162,7 @@ def _in_ratio(values: np.ndarray) -> bool:
 
 
 def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
-    """The parameters along the axes, those that are not named chosen from what is left."""
+    """The parameters along x and y: those named, else axes of the grid."""
     for name in (x, y):
         if name is not None:
             data[name]
@@ -208,7 +185,7 @@ def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
 
 
 def _missing(data: Data, rows: np.ndarray, values: np.ndarray) -> dict[str, np.ndarray]:
-    """Which cells have no value, by reason."""
+    """Masks of the cells without a value, by reason."""
     empty = ~np.isfinite(values)
     reasons: dict[str, np.ndarray] = {}
     if "status" in data:

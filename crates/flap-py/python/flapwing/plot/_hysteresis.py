@@ -9,11 +9,13 @@ from matplotlib.axes import Axes
 
 from . import _style
 from ._data import Data, Shown, distinct, listed
+from ._docs import completed
 
 # Ways that differ by less than this share of the measure's range have come to the same motion.
 _SAME = 0.01
 
 
+@completed
 def hysteresis(
     table: Any,
     y: str = "stroke_pp_deg",
@@ -37,15 +39,9 @@ def hysteresis(
     along : str, optional
         The parameter that is followed; by default the column behind ``branch``.
     curve : int, optional
-        Which design, if there are several: its number in the column ``curve``.
-    where, **slices
-        Columns and the value that rows must have, to choose the design by its parameters.
-    ax : matplotlib Axes, optional
-        Where to draw; by default in a new figure.
-
-    Returns
-    -------
-    matplotlib Axes
+        The number of the design in the column ``curve``, if there are several.
+    %(where)s
+    %(axes)s
 
     Raises
     ------
@@ -113,7 +109,7 @@ def hysteresis(
         ax.set_xlabel(x.label)
         ax.set_ylabel(shown.label)
         ax.margins(x=0.02, y=0.08)
-        ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.1)
+        _style.legend_above(ax, ncols=2, borderaxespad=0.1)
     return ax
 
 
@@ -124,7 +120,7 @@ class _Way:
         self.x, self.y = x, y
 
     def jumps(self, common: np.ndarray, differ: np.ndarray) -> list[int]:
-        """After which rows this way leaves the motion that the other way has not: where they become the same again."""
+        """The rows after which this way jumps to the motion of the other: the ways differ there, and behind it no more."""
         different = dict(zip(common.tolist(), differ.tolist()))
         flags = [different.get(value, False) for value in self.x.tolist()]
         return [
@@ -133,7 +129,7 @@ class _Way:
 
 
 def _one_design(data: Data) -> None:
-    """Refuses rows of several designs, and tells which there are."""
+    """Raises ValueError, with the parameters of the designs, if there are several."""
     if "curve" not in data:
         return
     curves = distinct(data["curve"])
@@ -210,14 +206,6 @@ def _mark(ax: Axes, data: Data, x: Shown, branches: np.ndarray) -> None:
     for place, (name, colour) in enumerate((("up", _style.VERMILLION), ("down", _style.BLUE))):
         mask = without & (branches == name)
         if mask.any():
-            ax.plot(
-                x.values[mask],
-                np.full(int(mask.sum()), 0.985 - 0.025 * place),
-                linestyle="none",
-                marker="|",
-                markersize=5,
-                color=colour,
-                transform=ax.get_xaxis_transform(),
-                label="_" if shown else "no periodic motion",
-            )
+            label = "_" if shown else "no periodic motion"
+            _style.marks(ax, x.values[mask], 0.985 - 0.025 * place, markersize=5, color=colour, label=label)
             shown = True

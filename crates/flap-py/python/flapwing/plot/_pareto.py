@@ -9,9 +9,11 @@ from matplotlib.axes import Axes
 
 from . import _style
 from ._data import Data, distinct
+from ._docs import completed
 from ._front import non_dominated
 
 
+@completed
 def pareto(
     table: Any,
     *,
@@ -38,14 +40,8 @@ def pareto(
         A column for the points' colours: numbers with a colour bar, words with a legend.
     cmap : str
         A colour map of matplotlib, for numbers.
-    where, **slices
-        Columns and the value that rows must have.
-    ax : matplotlib Axes, optional
-        Where to draw; by default in a new figure.
-
-    Returns
-    -------
-    matplotlib Axes
+    %(where)s
+    %(axes)s
 
     Raises
     ------
@@ -100,7 +96,7 @@ def pareto(
             label(f"{shown.label}, {'less' if which in smaller else 'more'} is better")
         handles, _ = ax.get_legend_handles_labels()
         # Above the axes: no corner is free of points for certain.
-        ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, borderaxespad=0.2)
+        _style.legend_above(ax, handles=handles, ncols=4, borderaxespad=0.2)
         if len(objectives) > 2:
             others = [name for name in objectives if name not in names]
             said = ", ".join(f"{data.shown(name).words} ({'less' if name in smaller else 'more'})" for name in others)
@@ -125,8 +121,7 @@ def _points(ax: Axes, data: Data, x: np.ndarray, y: np.ndarray, color: str | Non
     shown = data.shown(color)
     if not shown.text:
         points = ax.scatter(x, y, c=shown.values, cmap=cmap, **look)
-        bar = _style.figure_of(ax).colorbar(points, ax=ax, label=shown.label, pad=0.02)
-        bar.ax.grid(False)
+        bar = _style.colour_bar(ax, points, label=shown.label, pad=0.02)
         if bar.solids is not None:
             bar.solids.set_alpha(1.0)
         return

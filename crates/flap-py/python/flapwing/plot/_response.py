@@ -12,12 +12,14 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from . import _style
-from ._data import Data, Shown, distinct, scattered, unknown
+from ._data import Data, Shown, distinct, edges, scattered, unknown
+from ._docs import completed
 
-# What is drawn if nothing is said: the first of these that there is.
+# The measures drawn by default: the first of these that the table has.
 _USUAL = ("stroke_pp_deg", "stroke_amplitude_deg", "lift_mean_mn", "lift_mean_gf", "vehicle_lift_mgf")
 
 
+@completed
 def response(
     table: Any,
     y: str | Sequence[str] | None = None,
@@ -30,7 +32,7 @@ def response(
 ) -> Axes | Figure:
     """Draw measures over one parameter, with a line for each value of another: a family of frequency responses.
 
-    Where rows are not periodic a line has a gap, and a mark in its colour above the picture tells where that is.
+    Rows that are not periodic are gaps in a line, with marks in its colour above the picture.
 
     Parameters
     ----------
@@ -42,12 +44,9 @@ def response(
         The parameter along the horizontal axis; by default ``drive_frequency``, else the grid's last axis.
     by : str, optional
         The parameter that has a line for each value; by default the axis that is left, if one is.
-    where : mapping, optional
-        Columns and the value that rows must have, a number in SI units or a word: the slice of a grid with more axes.
+    %(where)s
     ax : matplotlib Axes, optional
-        Where to draw, if `y` is one measure; by default in a new figure.
-    **slices
-        The same as `where`, as keywords: ``drive_voltage_pp=100``.
+        Axes to draw in, if `y` is one measure; by default those of a new figure.
 
     Returns
     -------
@@ -63,12 +62,11 @@ def response(
     --------
     >>> import numpy as np
     >>> table = {
-    ...     "drive_voltage_pp": np.array([100.0, 100.0, 200.0, 200.0]),
     ...     "drive_frequency": np.array([90.0, 100.0, 90.0, 100.0]),
-    ...     "status": np.array(["periodic"] * 4),
+    ...     "drive_voltage_pp": np.array([100.0, 100.0, 200.0, 200.0]),
     ...     "stroke_pp_deg": np.array([20.0, 40.0, 35.0, 60.0]),
     ... }
-    >>> ax = response(table)
+    >>> ax = response(table, by="drive_voltage_pp")
     >>> [line.get_ydata().tolist() for line in ax.lines]
     [[20.0, 40.0], [35.0, 60.0]]
     """
@@ -156,16 +154,14 @@ class _Family:
             return
         step = min(0.022, 0.16 / len(lines))
         for place, (rows, colour) in enumerate(lines):
-            ax.plot(
+            _style.marks(
+                ax,
                 self.x.values[rows],
-                np.full(len(rows), 1.02 + place * step),
-                linestyle="none",
-                marker="|",
+                1.02 + place * step,
                 markersize=4.5,
                 markeredgewidth=1.1,
                 color=colour,
                 clip_on=False,
-                transform=ax.get_xaxis_transform(),
                 label="_not periodic",
             )
         statuses = self.data["status"].astype(str)[np.concatenate([rows for rows, _ in lines])]
@@ -202,15 +198,12 @@ class _Family:
             )
             return
         numbers = self.values.astype(float) * self.by.factor
-        middle = 0.5 * (numbers[1:] + numbers[:-1])
-        edges = np.concatenate([[2 * numbers[0] - middle[0]], middle, [2 * numbers[-1] - middle[-1]]])
         colours = ListedColormap(self.colours)
-        mappable = ScalarMappable(BoundaryNorm(edges, colours.N), colours)
-        bar = _style.figure_of(axes[0]).colorbar(mappable, ax=axes, label=self.by.label, spacing="proportional")
+        mappable = ScalarMappable(BoundaryNorm(edges(numbers), colours.N), colours)
+        bar = _style.colour_bar(axes, mappable, label=self.by.label, spacing="proportional")
         shown = numbers[:: -(-len(numbers) // 12)]
         bar.set_ticks(list(shown), labels=[f"{number:.4g}" for number in shown])
         bar.minorticks_off()
-        bar.ax.grid(False)
 
 
 def _usual(data: Data) -> str:
@@ -243,7 +236,7 @@ def _family(data: Data, x: str) -> str | None:
 
 
 def _alone(ys: np.ndarray) -> np.ndarray:
-    """Which values have no neighbour, so that no line would show them."""
+    """A mask, True for values without a neighbour, which no line would show."""
     there = np.isfinite(ys)
     before = np.concatenate([[False], there[:-1]])
     after = np.concatenate([there[1:], [False]])

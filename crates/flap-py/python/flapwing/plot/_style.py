@@ -1,4 +1,4 @@
-"""How pictures look. Settings hold while a picture is made and are then as they were."""
+"""The look of pictures. Settings hold while a picture is made and are then as they were."""
 
 from __future__ import annotations
 
@@ -70,6 +70,25 @@ def figure_of(ax: Axes) -> Figure:
     while not isinstance(figure, Figure):  # a part of a figure
         figure = figure.figure
     return figure
+
+
+def colour_bar(ax: Axes | list[Axes], mappable: Any, **options: Any) -> Any:
+    """A colour bar beside axes, for a map or points in colours."""
+    first = ax[0] if isinstance(ax, list) else ax
+    bar = figure_of(first).colorbar(mappable, ax=ax, **options)
+    bar.ax.grid(False)
+    return bar
+
+
+def legend_above(ax: Axes, height: float = 1.0, **options: Any) -> None:
+    """A legend above axes, from their left edge; `height` is in heights of the axes."""
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, height), **options)
+
+
+def marks(ax: Axes, x: np.ndarray, height: float, **options: Any) -> None:
+    """Strokes at values of x, all at one height in heights of the axes."""
+    heights = np.full(len(x), height)
+    ax.plot(x, heights, linestyle="none", marker="|", transform=ax.get_xaxis_transform(), **options)
 
 
 def shades(values: Sequence[Any] | np.ndarray, text: bool) -> list[Any]:

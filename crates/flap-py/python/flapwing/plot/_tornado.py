@@ -1,4 +1,4 @@
-"""How much a measure changes with each parameter."""
+"""Changes of a measure with each parameter."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ from matplotlib.axes import Axes
 
 from . import _labels, _style
 from ._data import unknown
+from ._docs import completed
 
 
 class Sensitivity(NamedTuple):
-    """What a change of one parameter does to a measure; numbers are in SI units, and in the measure's own."""
+    """The change of a measure with one parameter; numbers are in SI units, and in the measure's own."""
 
     parameter: str
     """The parameter's name."""
@@ -51,7 +52,7 @@ def sensitivities(
     change: float = 0.05,
     **fixed: Any,
 ) -> list[Sensitivity]:
-    """Change each parameter of a design by a little, down and up, and see what it does to a measure.
+    """Change each parameter of a design by a little, down and up, and compute the change of a measure.
 
     Two points are run for each parameter, and one for the design. All other parameters stay as they are, except those
     that follow the one that is changed, such as the bias that follows the voltage.
@@ -86,7 +87,7 @@ def sensitivities(
 
     known = flapwing.params(design)
     ranges = _ranges(known, parameters, change, fixed)
-    # What is both given and changed has its number from the row of the design itself.
+    # A parameter that is both given and changed has its number from the row of the design itself.
     both = {name: value for name, value in fixed.items() if name in ranges}
     others = {name: value for name, value in fixed.items() if name not in ranges}
     free = (name for name, each in known.items() if isinstance(each.value, float) and name not in fixed)
@@ -114,6 +115,7 @@ def sensitivities(
     return sorted(found, key=lambda each: (-each.swing, each.parameter))
 
 
+@completed
 def tornado(
     design: str | Sequence[Sensitivity],
     measure: str | None = None,
@@ -133,13 +135,8 @@ def tornado(
     measure, parameters, change, **fixed
         As for `sensitivities`.
     top : int
-        How many parameters are drawn at most.
-    ax : matplotlib Axes, optional
-        Where to draw; by default in a new figure.
-
-    Returns
-    -------
-    matplotlib Axes
+        The largest number of parameters that are drawn.
+    %(axes)s
         The horizontal axis is the change of the measure in percent of the design's own.
 
     Raises
@@ -167,7 +164,7 @@ def tornado(
         ax = _style.axes_of(ax, 6.8, 1.5 + 0.32 * len(shown))
         ax.grid(False, axis="y")
         less, more = _names_of_changes(shown)
-        # Where both changes go the same way, the shorter bar lies on the longer one and is thinner.
+        # If both changes go the same way, the shorter bar lies on the longer one and is thinner.
         within = np.where(low * high > 0, np.sign(np.abs(low) - np.abs(high)), 0.0)
         for ends, thin, colour, name in ((low, within < 0, _style.BLUE, less), (high, within > 0, _style.ORANGE, more)):
             bars = ax.barh(places, ends, height=np.where(thin, 0.28, 0.62), color=colour, label=name)
@@ -177,7 +174,7 @@ def tornado(
         ax.set_yticks(places, labels=[_named(each) for each in shown])
         ax.tick_params(axis="y", length=0)
         ax.set_ylim(len(shown) - 0.4, -0.6)
-        unit = _labels.pretty(shown[0].measure_unit)
+        unit = _labels.printed(shown[0].measure_unit)
         words = _labels.words(shown[0].measure, shown[0].measure_unit)
         ax.set_xlabel(
             f"Change of {words[:1].lower() + words[1:]} (% of {_labels.number(base)} {unit})".replace(" )", ")")
@@ -195,13 +192,8 @@ def tornado(
                     color=_style.DARK,
                 )
         left = f"; {len(found) - len(shown)} smaller ones not shown" if len(found) > len(shown) else ""
-        ax.legend(
-            loc="lower left",
-            bbox_to_anchor=(0.0, 1.0),
-            ncols=2,
-            borderaxespad=0.1,
-            title=f"each parameter alone{left}",
-            alignment="left",
+        _style.legend_above(
+            ax, ncols=2, borderaxespad=0.1, title=f"each parameter alone{left}", alignment="left"
         )
     return ax
 
@@ -243,13 +235,13 @@ def _number(value: float | str | None) -> float:
 
 def _named(each: Sensitivity) -> str:
     """A parameter with its value in the design."""
-    factor, unit = _labels.scale([each.value], each.unit)
+    factor, unit = _labels.readable([each.value], each.unit)
     value = f"{_labels.number(each.value * factor)} {unit}".strip()
     return f"{_labels.words(each.parameter, each.unit)}, {value}"
 
 
 def _names_of_changes(shown: Sequence[Sensitivity]) -> tuple[str, str]:
-    """What the two changes are called: by their size if all have the same."""
+    """The names of the two changes: their size, if it is the same for all parameters."""
     sizes = {
         round(abs(end - each.value) / abs(each.value), 9)
         for each in shown

@@ -36,7 +36,7 @@ def trajectory(
     time : str
         The column of the time.
     ax : matplotlib Axes, optional
-        Where to draw signals of one unit, without a portrait.
+        Axes to draw signals of one unit in, without a portrait.
 
     Returns
     -------
@@ -88,7 +88,7 @@ def trajectory(
                 each.set_ylabel(data.shown(members[0]).label)
             else:
                 each.set_ylabel(_labels.titled(_common([data.shown(name).words for name in members]), unit))
-                each.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.1)
+                _style.legend_above(each, ncols=3, borderaxespad=0.1)
             each.margins(x=0.0)
         over_time[-1].set_xlabel(x.label)
         for each, name in zip(beside, portraits):
@@ -130,7 +130,7 @@ def _rate(data: Data, name: str, t: np.ndarray) -> tuple[np.ndarray, str]:
 
 
 def _common(words: list[str]) -> str:
-    """What several signals have in common: their last words, else all of them."""
+    """A label for several signals: the last word that they share, or the words of all."""
     if len(words) <= 2:
         return ", ".join([words[0], *(word[:1].lower() + word[1:] for word in words[1:])])
     last = {word.split(",")[0].split(" ")[-1].lower() for word in words}

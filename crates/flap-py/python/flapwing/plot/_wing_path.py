@@ -22,7 +22,7 @@ _PAST, _APART = 9, 1.0 / 36.0
 
 
 class WingPath(FuncAnimation):
-    """An animation that is saved in the format that the file's name says, and shows itself in notebooks."""
+    """An animation, saved in the format that the file's name ends in, and shown by notebooks."""
 
     def __init__(self, scene: _Scene) -> None:
         self._scene = scene
@@ -107,7 +107,7 @@ def wing_path(
         1 if a positive pitch has the trailing edge lag a wing that moves to positive stroke, -1 if it leads; by
         default as the model of the table has it.
     ax : matplotlib Axes, optional
-        Where to draw the wing, without the curves below.
+        Axes to draw the wing in, without the curves below.
 
     Returns
     -------
@@ -162,11 +162,11 @@ class _Cycle:
         self.stroke, self.pitch = np.interp(times, t, stroke), np.interp(times, t, pitch)
         self.lift = None if lift is None else np.interp(times, t, data.numbers(lift))
         self.lift_words = "" if lift is None else data.shown(lift).words
-        self.lift_unit = "" if lift is None else _labels.pretty(data.unit(lift))
+        self.lift_unit = "" if lift is None else _labels.printed(data.unit(lift))
 
 
 class _Scene:
-    """What is drawn once, and what every frame moves."""
+    """The parts of the picture: those drawn once, and those that every frame moves."""
 
     def __init__(self, cycle: _Cycle, sign: int, radius: float, ax: Axes | None) -> None:
         self.cycle = cycle
@@ -259,7 +259,7 @@ class _Scene:
 
 
 def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
-    """How long it takes until the end of a motion repeats what was before (s)."""
+    """The time after which the motion repeats, found at its end (s)."""
     n = len(t)
     states = np.column_stack([stroke, pitch])
     size = np.ptp(states, axis=0)
@@ -280,7 +280,7 @@ def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
 
 
 def _pitch_sign(data: Data) -> int:
-    """Whether the trailing edge lags (1) or leads (-1) at a positive pitch: the four-bar's paper has it lead."""
+    """1 if the trailing edge lags at a positive pitch, -1 if it leads, as in the four-bar's paper."""
     model = data.meta.get("model")
     if model is not None:
         return -1 if model == "four-bar" else 1

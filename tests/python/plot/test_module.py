@@ -1,0 +1,47 @@
+"""`flapwing.plot` as a module: its imports and docstrings."""
+
+import doctest
+import importlib
+import subprocess
+import sys
+import textwrap
+
+import pytest
+from flapwing import plot
+
+
+def test_importing_flapwing_does_not_import_matplotlib():
+    code = "import sys, flapwing; sys.exit('matplotlib' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_without_matplotlib_the_error_says_what_to_install():
+    code = textwrap.dedent("""
+        import sys
+        sys.modules["matplotlib"] = None
+        try:
+            import flapwing.plot
+        except ImportError as error:
+            assert "[plot]" in str(error) and "matplotlib>=3.7" in str(error), error
+        else:
+            sys.exit("imported")
+    """)
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+@pytest.mark.parametrize("name", ["", "._front", "._heatmap", "._labels", "._pareto", "._response", "._trajectory"])
+def test_examples_in_docstrings(name):
+    module = importlib.import_module(f"flapwing.plot{name}")
+    result = doctest.testmod(module)
+    assert result.attempted > 0 and result.failed == 0
+
+
+def test_everything_has_a_docstring():
+    for name in plot.__all__:
+        text = getattr(plot, name).__doc__
+        assert text and "%(" not in text, "a paragraph is missing"
+
+
+@pytest.mark.parametrize("function", [plot.heatmap, plot.hysteresis, plot.pareto, plot.response])
+def test_help_explains_slices(function):
+    assert "\n    where, **slices\n        Columns and the value that rows must have," in function.__doc__

@@ -1,0 +1,71 @@
+"""Animations of a wing."""
+
+import flapwing
+import numpy as np
+import pytest
+from figures import message
+from flapwing import plot
+from numpy.testing import assert_allclose
+from PIL import Image
+
+
+def test_wing_path_is_saved_as_gif(motion, tmp_path):
+    path = tmp_path / "cycle.gif"
+    plot.wing_path(motion, frames=6).save(path, dpi=40)
+    with Image.open(path) as image:
+        assert image.n_frames == 6
+        assert image.format == "GIF" and image.info["loop"] == 0
+        assert image.convert("RGB").getpixel((0, 0)) == (255, 255, 255)
+
+
+def test_wing_path_is_saved_as_a_page(motion, tmp_path):
+    path = tmp_path / "cycle.html"
+    plot.wing_path(motion, frames=2).save(path, dpi=40)
+    page = path.read_text(encoding="utf-8")
+    assert page.count("data:image/png;base64") == 2
+
+
+@pytest.mark.parametrize("preset", ["jafferis2016", "ozaki2018-large", "arabagi2013-75hz"])
+def test_the_trailing_edge_lags_in_every_model(preset):
+    animation = plot.wing_path(flapwing.trajectory(preset, samples=100), frames=20)
+    scene = animation._scene
+    chord = np.hypot(*(scene.leading - scene.trailing).T)
+    assert_allclose(chord, 1.0)
+    assert_allclose(scene.leading[:, 0], 3.0 * np.radians(scene.cycle.stroke))
+    rate = np.roll(scene.leading[:, 0], -1) - np.roll(scene.leading[:, 0], 1)
+    behind = scene.leading[:, 0] - scene.trailing[:, 0]
+    assert np.sum(behind * rate) > 0.5 * np.linalg.norm(behind) * np.linalg.norm(rate)
+    animation._draw_was_started = True  # never shown
+
+
+def test_every_frame_is_where_the_wing_is(motion):
+    animation = plot.wing_path(motion, frames=10, pitch_sign=-1)
+    scene = animation._scene
+    assert scene.cycle.seconds == pytest.approx(1 / 109, rel=1e-6)
+    once = motion["time_s"] >= motion["time_s"][-1] - 1.0001 / 109
+    assert_allclose(
+        scene.cycle.stroke, np.interp(scene.cycle.phase / 109, motion["time_s"], motion["stroke_deg"]), atol=1e-3
+    )
+    assert once.sum() == 201
+    for frame in (0, 7):
+        scene.draw(frame)
+        assert_allclose(scene.edge.get_xydata()[0], scene.leading[frame])
+        assert_allclose(scene.chord.get_xydata(), [scene.leading[frame], scene.trailing[frame]])
+        assert scene.now.get_xdata()[0] == frame / 10
+    animation._draw_was_started = True
+
+
+def test_the_cycle_is_found_after_a_start_from_rest():
+    table = flapwing.trajectory("ozaki2018-large", cycles=40, samples=50, from_rest=True)
+    animation = plot.wing_path(table, frames=4)
+    assert animation._scene.cycle.seconds == pytest.approx(1 / 109, rel=1e-6)
+    animation._draw_was_started = True
+
+
+def test_wing_path_mistakes(motion):
+    half = motion[:100]
+    assert "does not repeat" in message(ValueError, plot.wing_path, half)
+    assert "less than one cycle" in message(ValueError, plot.wing_path, half, frequency=109)
+    assert "two frames" in message(ValueError, plot.wing_path, motion, frames=1)
+    assert "1 or -1" in message(ValueError, plot.wing_path, motion, pitch_sign=2)
+    assert "Did you mean `lift_mn`?" in message(ValueError, plot.wing_path, motion, lift="lift_m")
