@@ -5,7 +5,7 @@ use core::hint::black_box;
 use core::ops::ControlFlow;
 use std::time::Instant;
 
-use flap_core::num::{InstructionSet, Kernel, Lanes, Real, Simd, Vector};
+use flap_core::num::{InstructionSet, Kernel, Lanes, Number, Simd, Vector};
 use flap_core::ode::ensemble::{NewRun, Queue, Unobserved, run};
 use flap_core::ode::{Outcome, Start, Tolerances};
 

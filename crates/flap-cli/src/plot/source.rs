@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
 use csv::StringRecord;
+use flap_sweep::files::beside::sidecar_of;
 use flap_sweep::files::integrity::{self, Note, Opened};
 use flap_sweep::files::results::Reader;
-use flap_sweep::files::beside::sidecar_of;
 use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::table::labels;
 use flap_sweep::table::layout::Layout;

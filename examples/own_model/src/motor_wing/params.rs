@@ -54,7 +54,7 @@ flap_core::parameters! {
 
 impl Params {
     /// The published operating points.
-    pub const PRESETS: &'static [Preset] = &[
+    pub(super) const PRESETS: &'static [Preset] = &[
         Preset {
             name: "park2024-5v",
             doc: "operating point at 5 V and 23.89 Hz (Park and Abolfathi 2024)",
