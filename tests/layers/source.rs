@@ -1,4 +1,4 @@
-//! The source files of flap-core and the paths in them.
+//! The source files of the crates.
 
 use std::fs;
 use std::path::Path;
@@ -7,19 +7,34 @@ use std::path::Path;
 pub(crate) struct SourceFile {
     /// Path below `src`.
     pub(crate) path: String,
-    /// The first part of its path: the layer it belongs to, or `lib`.
-    pub(crate) layer: String,
-    /// How many modules up the root of the crate is.
-    depth: usize,
-    text: String,
+    pub(crate) text: String,
 }
 
-/// All source files of flap-core.
-pub(crate) fn source_files() -> Vec<SourceFile> {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+impl SourceFile {
+    /// The modules that lead to it from the root of its crate: `["run", "queue"]` for `run/queue.rs`, `["run"]` for
+    /// `run/mod.rs`, none for `lib.rs`.
+    pub(crate) fn module(&self) -> Vec<String> {
+        let stem = self.path.trim_end_matches(".rs");
+        let mut modules: Vec<String> = stem.split('/').map(str::to_owned).collect();
+        if ["mod", "lib", "main"].contains(&modules[modules.len() - 1].as_str()) {
+            modules.pop();
+        }
+        modules
+    }
+
+    /// The lines with their numbers, without comments.
+    pub(crate) fn code(&self) -> impl Iterator<Item = (usize, &str)> {
+        self.text.lines().enumerate().map(|(i, line)| (i + 1, line.split("//").next().unwrap_or("")))
+    }
+}
+
+/// All source files of a crate.
+pub(crate) fn source_files(name: &str) -> Vec<SourceFile> {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name).join("src");
     let mut files = Vec::new();
     collect(&source, &source, &mut files);
-    assert!(files.len() > 20, "flap-core has more than {} source files", files.len());
+    assert!(files.len() > 10, "{name} has more than {} source files", files.len());
+    files.sort_by(|one, other| one.path.cmp(&other.path));
     files
 }
 
@@ -30,42 +45,8 @@ fn collect(source: &Path, folder: &Path, files: &mut Vec<SourceFile>) {
             collect(source, &path, files);
         } else if path.extension().is_some_and(|extension| extension == "rs") {
             let text = fs::read_to_string(&path).expect("the file can be read");
-            files.push(SourceFile::new(path.strip_prefix(source).expect("it is below src"), text));
+            let below = path.strip_prefix(source).expect("it is below src");
+            files.push(SourceFile { path: below.to_string_lossy().replace('\\', "/"), text });
         }
     }
-}
-
-impl SourceFile {
-    fn new(path: &Path, text: String) -> SourceFile {
-        let mut modules: Vec<String> =
-            path.with_extension("").iter().map(|part| part.to_string_lossy().into_owned()).collect();
-        let layer = modules[0].clone();
-        modules.retain(|module| module != "mod" && module != "lib");
-        SourceFile { path: path.display().to_string(), layer, depth: modules.len(), text }
-    }
-
-    /// The lines with their numbers, without comments.
-    pub(crate) fn code(&self) -> impl Iterator<Item = (usize, &str)> {
-        self.text.lines().enumerate().map(|(i, line)| (i + 1, line.split("//").next().unwrap_or("")))
-    }
-
-    /// What is used from the root of the crate, with line numbers: the names after `crate::`, and those after
-    /// as many `super::` as lead there.
-    pub(crate) fn used_from_root(&self) -> Vec<(usize, String)> {
-        let root = "super::".repeat(self.depth);
-        let mut used = Vec::new();
-        for (line, code) in self.code() {
-            let from_crate = code.split("crate::").skip(1);
-            // Further in, `super` may be that of a module within the file.
-            let from_super = code.split(&root).skip(1).filter(|_| self.depth > 0 && !code.starts_with(' '));
-            used.extend(from_crate.chain(from_super).map(|rest| (line, first_name(rest))));
-        }
-        used
-    }
-}
-
-/// The name with which a path begins; `{` if it is a list.
-fn first_name(path: &str) -> String {
-    let name: String = path.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
-    if name.is_empty() { path.chars().take(1).collect() } else { name }
 }

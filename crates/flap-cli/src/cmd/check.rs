@@ -16,10 +16,11 @@ use flap_sweep::resonance::Range;
 use flap_sweep::study::deviation;
 use flap_sweep::study::survey;
 
-use super::{exclusion, far};
+use super::far;
 use crate::args::CheckArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
+use crate::job::exclusion;
 use crate::models;
 use crate::table::Table;
 

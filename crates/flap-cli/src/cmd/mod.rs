@@ -2,7 +2,6 @@
 
 pub(crate) mod check;
 pub(crate) mod convert;
-pub(crate) mod exclusion;
 pub(crate) mod far;
 mod impulse;
 pub(crate) mod lift;

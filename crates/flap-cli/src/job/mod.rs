@@ -1,5 +1,6 @@
 //! Work that commands share: running a plan into a file, opening results, and making files.
 
+pub(crate) mod exclusion;
 mod make;
 mod open;
 mod report;

@@ -6,7 +6,7 @@ use flap_core::simulate::Status;
 use flap_sweep::files::job::Done;
 use flap_sweep::run::Doubts;
 
-use crate::cmd::exclusion;
+use super::exclusion;
 use crate::console;
 
 /// Tells the user the summary of the rows and their file.

@@ -1,0 +1,37 @@
+//! The beginning of a run, its tolerances and its limits.
+
+/// The beginning of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Start<C, const N: usize> {
+    /// The run's constants.
+    pub constants: C,
+    /// The initial state.
+    pub y: [f64; N],
+    /// Length of a span (s).
+    pub span: f64,
+    /// Typical size of each state; absolute tolerances are multiples of it.
+    pub scale: [f64; N],
+    /// Factor on both tolerances: 1 for most runs, less for one that is integrated more finely than others, more for one that
+    /// is integrated more coarsely.
+    pub tighten: f64,
+}
+
+/// Tolerances and limits.
+#[derive(Clone, Copy, Debug)]
+pub struct Tolerances {
+    /// Relative tolerance.
+    pub rtol: f64,
+    /// Absolute tolerance, in units of [`Start::scale`].
+    pub atol: f64,
+    /// Attempted steps within one span after which a run is given up.
+    pub max_steps: u32,
+}
+
+/// Steps within a span between two questions to an [`Interrupt`]: a few milliseconds of work.
+pub(crate) const UNASKED: u32 = 4096;
+
+/// The smallest step, as a fraction of the span, before a run counts as stuck.
+pub(crate) const MIN_STEP: f64 = 1e-14;
+
+/// A step this close to the end of the span is stretched to land on it.
+pub(crate) const STRETCH: f64 = 1.01;

@@ -1,0 +1,80 @@
+//! Which file of a crate uses which.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use petgraph::algo::tarjan_scc;
+use petgraph::graphmap::DiGraphMap;
+
+use crate::names::{Names, Path};
+use crate::source::SourceFile;
+
+/// The files of a crate with what each uses.
+pub(crate) struct House {
+    /// The path of each file, by its module.
+    files: BTreeMap<Path, String>,
+    names: BTreeMap<Path, Names>,
+    /// The modules that export macros, by the macro's name.
+    macros: BTreeMap<String, Path>,
+}
+
+impl House {
+    pub(crate) fn new(files: &[SourceFile]) -> House {
+        let names: BTreeMap<Path, Names> =
+            files.iter().map(|file| (file.module(), Names::of(file))).collect();
+        let macros = names
+            .iter()
+            .flat_map(|(module, names)| names.macros.iter().map(|name| (name.clone(), module.clone())));
+        House {
+            macros: macros.collect(),
+            files: files.iter().map(|file| (file.module(), file.path.clone())).collect(),
+            names,
+        }
+    }
+
+    /// The module of the file that defines a path: the deepest on its way, or where a name on it is handed on from.
+    fn definer(&self, path: &Path) -> Path {
+        let mut path = path.clone();
+        // As often as a name can be handed on.
+        for _ in 0..10 {
+            let depth = (0..=path.len()).rev().find(|&depth| self.files.contains_key(&path[..depth]));
+            let depth = depth.expect("the root of the crate is a file");
+            let (module, rest) = path.split_at(depth);
+            let known = rest.first().and_then(|name| {
+                let macros = self.macros.get(name).filter(|_| module.is_empty());
+                self.names[module].handed_on.get(name).or(macros).map(|known| (known, name))
+            });
+            match known {
+                Some((known, name)) if self.macros.get(name) == Some(known) => return known.clone(),
+                // A macro that its own file hands on.
+                Some((known, _)) if *known == path => return module.to_vec(),
+                Some((known, _)) => path = [known, &rest[1..]].concat(),
+                None => return module.to_vec(),
+            }
+        }
+        panic!("{} is handed on in a circle", path.join("::"));
+    }
+
+    /// Each pair of a file and another that it uses, as paths below `src`.
+    pub(crate) fn arrows(&self) -> BTreeSet<(&str, &str)> {
+        let mut arrows = BTreeSet::new();
+        for (module, names) in &self.names {
+            for path in &names.used {
+                let used = self.definer(path);
+                // Names that are not the crate's lead to the module itself, or to the root.
+                if used != *module && !used.is_empty() {
+                    arrows.insert((&*self.files[module], &*self.files[&used]));
+                }
+            }
+        }
+        arrows
+    }
+
+    /// The circles: files each of which uses all others, through others or not.
+    pub(crate) fn circles(&self) -> Vec<Vec<&str>> {
+        let graph: DiGraphMap<&str, ()> = self.arrows().into_iter().collect();
+        let mut circles: Vec<Vec<&str>> =
+            tarjan_scc(&graph).into_iter().filter(|files| files.len() > 1).collect();
+        circles.iter_mut().for_each(|files| files.sort_unstable());
+        circles
+    }
+}
