@@ -52,7 +52,7 @@ pub(crate) fn print(effort: Effort) {
 fn sweep(plan: &Plan, threads: usize) -> f64 {
     let threads = NonZeroUsize::new(threads).expect("at least one");
     let options = RunOptions { threads, ..RunOptions::default() };
-    let mut sink = CsvSink::new(Layout::of(plan), tempfile::tempfile().expect("a temporary file"));
+    let mut sink = CsvSink::new(Layout::of(plan).names(), tempfile::tempfile().expect("a temporary file"));
     let begin = Instant::now();
     run::run(plan, &options, &mut sink, &AtomicBool::new(false), &mut |_| ()).expect("a sweep");
     begin.elapsed().as_secs_f64()
@@ -62,11 +62,12 @@ fn sweep(plan: &Plan, threads: usize) -> f64 {
 fn file(plan: &Plan, listed: &Listed<'_>) -> io::Result<(f64, f64)> {
     let mut file: File = tempfile::tempfile()?;
     let begin = Instant::now();
-    let mut sink = CsvSink::new(Layout::of(plan), file.try_clone()?);
+    let layout = Layout::of(plan);
+    let mut sink = CsvSink::new(layout.names(), file.try_clone()?);
     sink.begin()?;
     // Rows are in the order in which they were done, which makes no difference to the time.
     for (index, row) in (0..).zip(&listed.rows) {
-        sink.write(&plan.point(index), row)?;
+        sink.write(&layout.cells(&plan.point(index), row))?;
     }
     sink.flush()?;
     let written = begin.elapsed().as_secs_f64();

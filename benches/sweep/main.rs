@@ -40,7 +40,7 @@ fn presets(criterion: &mut Criterion) {
 /// A whole sweep on one thread, its rows into memory.
 fn sweep(plan: &Plan) -> usize {
     let options = RunOptions { threads: NonZeroUsize::MIN, ..RunOptions::default() };
-    let mut sink = CsvSink::new(Layout::of(plan), Vec::new());
+    let mut sink = CsvSink::new(Layout::of(plan).names(), Vec::new());
     run::run(plan, &options, &mut sink, &AtomicBool::new(false), &mut |_| ()).expect("a sweep");
     sink.target().len()
 }
@@ -51,10 +51,10 @@ fn files(criterion: &mut Criterion) {
     let mut group = group(criterion, "csv");
     group.throughput(Throughput::Elements(rows.len()));
     group.bench_function("write", |bench| {
-        let empty = || CsvSink::new(Layout::of(&plan), Vec::with_capacity(1 << 20));
+        let empty = || CsvSink::new(Layout::of(&plan).names(), Vec::with_capacity(1 << 20));
         bench.iter_batched_ref(empty, |sink| rows.write(sink), BatchSize::LargeInput);
     });
-    let mut sink = CsvSink::new(Layout::of(&plan), tempfile::tempfile().expect("a temporary file"));
+    let mut sink = CsvSink::new(Layout::of(&plan).names(), tempfile::tempfile().expect("a temporary file"));
     sink.begin().expect("a header");
     rows.write(&mut sink);
     group.bench_function("read", |bench| bench.iter(|| read(sink.target())));

@@ -8,31 +8,36 @@ use flap_core::simulate::{Point, Row, never, run_list};
 use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::plan::Plan;
 use flap_sweep::run::sink::Sink;
+use flap_sweep::table::layout::Layout;
 
 /// Rows are written this often, so that there are more of them than it takes time to compute.
 const COPIES: usize = 16;
 
 /// The rows of all points of a plan.
-pub(crate) struct Rows(Vec<(Point, Row)>);
+pub(crate) struct Rows {
+    layout: Layout,
+    rows: Vec<(Point, Row)>,
+}
 
 impl Rows {
     /// Runs all points on this thread.
     pub(crate) fn of(plan: &Plan) -> Rows {
         let points: Vec<Point> = (0..plan.len()).map(|index| plan.point(index)).collect();
         let rows = run_list(plan.simulator, InstructionSet::best(), &plan.solver, points.clone(), &never);
-        Rows(points.into_iter().zip(rows.expect("every point has a row")).collect())
+        let rows = points.into_iter().zip(rows.expect("every point has a row")).collect();
+        Rows { layout: Layout::of(plan), rows }
     }
 
     /// The number of rows that [`Rows::write`] writes.
     pub(crate) fn len(&self) -> u64 {
-        (COPIES * self.0.len()) as u64
+        (COPIES * self.rows.len()) as u64
     }
 
     /// Writes all of them, several times.
     pub(crate) fn write(&self, sink: &mut dyn Sink) {
         for _ in 0..COPIES {
-            for (point, row) in &self.0 {
-                sink.write(point, row).expect("room for a row");
+            for (point, row) in &self.rows {
+                sink.write(&self.layout.cells(point, row)).expect("room for a row");
             }
         }
         sink.flush().expect("room for rows");

@@ -180,7 +180,7 @@ fn endings_that_stand_for_no_format() {
         ("merge rows.xlsx rows.csv", rows),
         ("run ozaki2018-large --trajectory motion.parquet", ".csv"),
         ("run ozaki2018-large --drive chirp --envelope envelope.tsv", ".csv"),
-        ("respond ozaki2018-large --from 90 --to 100 --step 5 --out rows.parquet", ".csv"),
+        ("respond ozaki2018-large --from 90 --to 100 --step 5 --out rows.tsv", rows),
         #[cfg(feature = "plots")]
         ("plot rows.tsv", rows),
         #[cfg(feature = "plots")]

@@ -1,6 +1,8 @@
 //! `flap respond`, and designs at their own resonances.
 
 use crate::support::Folder;
+#[cfg(unix)]
+use crate::support::{send, start, wait};
 
 const SOFT: &str = "\
 preset = \"jafferis2016\"
@@ -44,6 +46,81 @@ fn a_line_per_design_says_where_it_is_bistable() {
     let piped = folder.flap("respond grid.toml --out - --threads 1");
     assert_eq!(piped.stdout, text);
     assert_eq!(piped.stderr.lines().collect::<Vec<_>>(), lines);
+}
+
+/// Many designs with short curves.
+#[cfg(unix)]
+const MANY: &str = "\
+preset = \"ozaki2018-large\"
+[axes]
+hinge_stiffness = { from = \"60 uN*m/rad\", to = \"160 uN*m/rad\", n = 5000 }
+drive_frequency = [100, 110]
+[solver]
+newton = false
+max_cycles = 20
+";
+
+#[test]
+#[cfg(unix)]
+fn an_interrupted_response_goes_on() {
+    let folder = Folder::with_grid(MANY);
+    assert_eq!(folder.flap("respond grid.toml --out whole.csv").code, 0);
+    let whole = folder.read("whole.csv");
+    for (name, signal) in [("curves.csv", "INT"), ("curves.csv.zst", "TERM"), ("curves.parquet", "INT")] {
+        let mut child = start(&folder, &["respond", "grid.toml", "--out", name, "--checkpoint", "20 ms"]);
+        // A line for each curve, which somebody must read.
+        let mut lines = child.stdout.take().unwrap();
+        std::thread::spawn(move || std::io::copy(&mut lines, &mut std::io::sink()));
+        let rows = if name.ends_with("parquet") { format!("{name}.part") } else { name.to_owned() };
+        let begun = std::time::Instant::now();
+        while std::fs::metadata(folder.path(&rows)).map_or(0, |file| file.len()) < 10_000 {
+            assert!(begun.elapsed().as_secs() < 60, "no rows");
+            std::thread::sleep(std::time::Duration::from_millis(2));
+        }
+        send(signal, &child);
+        assert_eq!(wait(&mut child), Some(130), "{name}");
+        if name == "curves.csv" {
+            let text = folder.read(name);
+            assert!(whole.starts_with(&text) && text.len() < whole.len(), "the first curves");
+            let curve = |line: Option<&str>| line.and_then(|line| line.split(',').next()).map(str::to_owned);
+            let next = whole[text.len()..].lines().next();
+            assert_ne!(curve(text.lines().last()), curve(next), "each with all of its rows");
+        }
+        let verified = folder.flap(&format!("verify {name}"));
+        assert!(verified.stdout.contains("unfinished, sound so far"), "{}", verified.stdout);
+        let again = folder.flap(&format!("respond grid.toml --out {name}"));
+        assert_eq!(again.code, 2, "protected");
+        assert!(again.stderr.contains("is the unfinished result"), "{}", again.stderr);
+
+        let resumed = folder.flap(&format!("resume {name}"));
+        assert_eq!(resumed.code, 0, "{}", resumed.stderr);
+        assert!(resumed.stderr.contains(&format!("5000 curves in {name}")), "{}", resumed.stderr);
+        let rows = whole.lines().count() - 1;
+        assert_eq!(folder.flap(&format!("verify {name}")).stdout, format!("{name}: sound, {rows} rows\n"));
+        assert_eq!(folder.flap(&format!("convert {name} -")).stdout, whole, "{name}");
+        let complete = folder.flap(&format!("respond grid.toml --out {name} --resume"));
+        assert!(complete.stderr.contains("is complete: nothing is left to run"), "{}", complete.stderr);
+    }
+}
+
+#[test]
+fn options_are_those_of_the_sidecar() {
+    let folder = Folder::new();
+    let respond = "respond ozaki2018-large --from 100 --to 110 --step 5 --set drive_voltage_pp=70 \
+                   --set lift_sign=printed --rtol 1e-5 --out rows.csv";
+    assert_eq!(folder.flap(respond).code, 0);
+    let rows = folder.read("rows.csv");
+    let again = folder.flap("sweep --from-sidecar rows.csv.meta.toml --out again.csv");
+    assert_eq!(again.code, 0, "{}", again.stderr);
+    assert_eq!(folder.read("again.csv"), rows);
+    let others = folder.flap(&format!("{respond} --set drive_frequency=3"));
+    assert_eq!(others.code, 2, "{}", others.stderr);
+    let others = folder.flap(&format!("{} --resume", respond.replace("=70", "=71")));
+    assert_eq!(others.code, 2, "{}", others.stderr);
+    assert!(others.stderr.contains("the parameter that is followed"), "{}", others.stderr);
+    let rerun = folder.flap("rerun rows.csv --status periodic --out rerun.csv");
+    assert_eq!(rerun.code, 2);
+    assert!(rerun.stderr.contains("holds curves"), "{}", rerun.stderr);
 }
 
 #[test]

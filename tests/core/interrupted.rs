@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use flap_core::num::InstructionSet;
-use flap_core::resonance::{driven, free};
+use flap_core::resonance::free;
 use flap_core::simulate::{
     ChirpRequest, ImpulseRequest, Jobs, Point, Row, Simulator, SolverSettings, TrajectoryRequest, Unfinished,
     never, preset,
@@ -137,6 +137,4 @@ fn motions_of_one_point_end_when_interrupted() {
     let request =
         free::FreeRequest { amplitude: 0.1, fit_cycles: 10, spectrum_window: 1e3, samples_per_cycle: 20 };
     assert_eq!(free::examine(experiments, set, &ENDLESS, values, &request, &always).err(), interrupted);
-    let search = driven::PeakSearch { from: 90.0, to: 110.0, tolerance: 0.1 };
-    assert_eq!(driven::search(model, set, &ENDLESS, values, &search, &always).err(), interrupted);
 }

@@ -10,9 +10,8 @@ use flap_core::model::four_bar::FourBar;
 use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::ode::Ode;
-use flap_core::resonance::driven::{DrivenPeaks, PeakSearch, search};
 use flap_core::resonance::free::{FreeMotion, FreeRequest, examine, intervals, stroke_rate};
-use flap_core::simulate::{ImpulseRequest, SolverSettings, Status, all, by_name, never, preset};
+use flap_core::simulate::{ImpulseRequest, SolverSettings, all, by_name, never, preset};
 
 /// The values of a preset with some of them set.
 fn values(name: &str, set: &[(&str, f64)]) -> Vec<f64> {
@@ -172,16 +171,6 @@ fn free(name: &str, degrees: f64, spectrum_window: f64) -> FreeMotion {
     .unwrap()
 }
 
-fn driven(name: &str, set: &[(&str, f64)], from: f64, to: f64) -> DrivenPeaks {
-    let (model, _) = preset(name).unwrap();
-    let range = PeakSearch { from, to, tolerance: 0.05 };
-    let found =
-        search(model, InstructionSet::best(), &SolverSettings::default(), &values(name, set), &range, &never);
-    let found = found.unwrap();
-    println!("{name} {set:?}: {found:?}");
-    found
-}
-
 /// Arabagi et al., Fig. 12: 78 and 129 Hz. The reference, with bins of 0.125 Hz: 77.75 and 129.62 Hz in the stroke,
 /// 78.25 and 128.25 Hz in the pitch, with a stroke of at most 1.3 deg peak to peak.
 #[test]
@@ -195,63 +184,4 @@ fn the_spectrum_of_the_four_bar_after_an_impulse() {
     // A bin: the reference does not state its impulse, on which the pitch depends more.
     assert_near(pitch[0], 78.25, 0.125, "pitch, lower peak");
     assert_near(pitch[1], 128.25, 0.125, "pitch, upper peak");
-}
-
-#[test]
-fn driven_peaks_are_where_the_reference_has_them() {
-    for (name, volts, [from, to], expected) in [
-        ("ozaki2018-small", 30.0, [150.0, 250.0], 196.1),
-        ("ozaki2018-large", 50.0, [60.0, 160.0], 110.7),
-        ("jafferis2016", 160.0, [60.0, 260.0], 128.0),
-    ] {
-        let volts = if name.starts_with("ozaki") { 2.0 * volts } else { volts };
-        let found = driven(name, &[("drive_voltage_pp", volts)], from, to);
-        assert_near(found.peaks[0].frequency, expected, 0.5, name);
-        assert_eq!(found.larger_at, None);
-    }
-    let found = driven("arabagi2013-75hz", &[], 39.0, 194.0);
-    assert_near(found.peaks[0].frequency, 75.0, 0.5, "first peak");
-    assert_near(found.peaks[0].stroke_pp, 35.5, 0.05, "its stroke");
-    assert_near(found.peaks[1].frequency, 116.0, 0.5, "second peak");
-    assert_near(found.peaks[1].stroke_pp, 24.3, 0.05, "its stroke");
-    let found = driven("arabagi2013-30hz", &[], 15.0, 80.0);
-    assert_near(found.peaks[0].frequency, 30.0, 0.5, "only peak");
-    assert_eq!(found.peaks.len(), 1);
-}
-
-#[test]
-fn motions_that_do_not_settle_are_named() {
-    // A soft hinge, which flutters: at 240 V there is no motion of the drive's period from 64.5 to 80 Hz.
-    let (model, _) = preset("jafferis2016").unwrap();
-    let values = values("jafferis2016", &[("hinge_stiffness", 0.7486e-6), ("drive_voltage_pp", 240.0)]);
-    let range = PeakSearch { from: 55.0, to: 95.0, tolerance: 0.5 };
-    let solver = SolverSettings { max_cycles: 100, settle_tol: 1e-4, ..SolverSettings::default() };
-    let found = search(model, InstructionSet::best(), &solver, &values, &range, &never).unwrap();
-    let unsettled: usize = found.gaps.iter().map(|gap| gap.points).sum();
-    println!("{found:?}");
-    assert!(unsettled > 0 && unsettled < found.points, "{found:?}");
-    assert!(found.gaps.iter().any(|gap| gap.status == Status::Unsettled));
-    for gap in &found.gaps {
-        assert_ne!(gap.status, Status::Periodic);
-        assert!(gap.from <= gap.to && gap.from >= 60.0 && gap.to <= 85.0, "{gap:?}");
-    }
-}
-
-#[test]
-fn searches_that_mean_nothing_are_refused() {
-    let (model, _) = preset("ozaki2018-large").unwrap();
-    let values = values("ozaki2018-large", &[]);
-    let good = PeakSearch { from: 100.0, to: 120.0, tolerance: 0.5 };
-    for range in [
-        PeakSearch { from: 0.0, ..good },
-        PeakSearch { to: 100.0, ..good },
-        PeakSearch { to: f64::INFINITY, ..good },
-        PeakSearch { from: f64::NAN, ..good },
-        PeakSearch { tolerance: 0.0, ..good },
-        PeakSearch { tolerance: f64::NAN, ..good },
-    ] {
-        let refused =
-            search(model, InstructionSet::best(), &SolverSettings::default(), &values, &range, &never);
-        assert!(refused.is_err(), "{range:?}");
-    }
 }

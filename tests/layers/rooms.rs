@@ -24,7 +24,7 @@ const CRATES: &[(&str, &[&str])] = &[
             "lib",
         ],
     ),
-    ("flap-sweep", &["notation", "resonance", "plan", "table", "grid", "run", "files", "study", "lib"]),
+    ("flap-sweep", &["notation", "resonance", "plan", "table", "grid", "run", "study", "files", "lib"]),
     (
         "flap-cli",
         &[

@@ -25,7 +25,11 @@ def test_rows_are_those_of_the_command(flap, tmp_path):
         rows = list(csv.DictReader(file))
     assert list(rows[0]) == table.columns
     assert [row["branch"] for row in rows] == table["branch"].tolist()
+    read = flapwing.read(out)
+    assert read.columns == table.columns and read.meta["along"] == "drive_frequency"
+    assert read.dims == table.dims
     for name in ["drive_frequency", "stroke_pp_deg", "floquet_max"]:
+        np.testing.assert_array_equal(read[name], table[name])
         np.testing.assert_array_equal([float(row[name] or "nan") for row in rows], table[name])
 
 

@@ -5,7 +5,6 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use flap_core::simulate::{Point, Row};
 use flap_sweep::files::beside::journal_of;
 use flap_sweep::files::journal::{self, Checkpoint, Header, Journal};
 use flap_sweep::files::output;
@@ -17,6 +16,7 @@ use flap_sweep::plan::selection::{Selection, Shard};
 use flap_sweep::run::identity::Identity;
 use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{self, RunError, Summary};
+use flap_sweep::table::layout::Cell;
 
 use crate::fake::{Fake, Fault};
 use crate::support::{csv, options, plan, plan_of};
@@ -56,8 +56,8 @@ impl Sink for Crash<'_> {
         self.session.begin()
     }
 
-    fn write(&mut self, point: &Point, row: &Row) -> std::io::Result<()> {
-        self.session.write(point, row)
+    fn write(&mut self, cells: &[Cell]) -> std::io::Result<()> {
+        self.session.write(cells)
     }
 
     fn done(&mut self, so_far: &Summary) -> std::io::Result<()> {

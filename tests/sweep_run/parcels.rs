@@ -22,7 +22,7 @@ fn bytes(plan: &Plan, from: u64, to: u64) -> Vec<u8> {
 /// The text that comes of parcels, with what they come to.
 fn put_together(plan: &Plan, parcels: Vec<Vec<u8>>) -> (String, Result<Summary, RunError>) {
     let mut parcels = VecDeque::from(parcels);
-    let mut sink = CsvSink::new(Layout::of(plan), Vec::new());
+    let mut sink = CsvSink::new(Layout::of(plan).names(), Vec::new());
     let mut next = |_| parcels.pop_front().map(|bytes| Parcel::from_bytes(&bytes)).transpose();
     let summary = feed(plan, &options(1, 1), Summary::default(), &mut sink, &mut next);
     (String::from_utf8(sink.target().clone()).unwrap(), summary)

@@ -7,12 +7,11 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
 
-use flap_core::simulate::{Point, Row};
 use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::plan::Plan;
 use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{RunError, RunOptions, Summary, run};
-use flap_sweep::table::layout::Layout;
+use flap_sweep::table::layout::{Cell, Layout};
 
 use crate::fake::Fake;
 
@@ -48,7 +47,7 @@ pub(crate) fn must_end<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'sta
 
 /// Runs to the end, and gives the CSV text with the summary.
 pub(crate) fn csv(plan: &Plan, options: &RunOptions) -> (String, Result<Summary, RunError>) {
-    let mut sink = CsvSink::new(Layout::of(plan), Vec::new());
+    let mut sink = CsvSink::new(Layout::of(plan).names(), Vec::new());
     let summary = run(plan, options, &mut sink, &AtomicBool::new(false), &mut |_| {});
     (String::from_utf8(sink.target().clone()).unwrap(), summary)
 }
@@ -81,19 +80,19 @@ impl Sink for Watch {
         Ok(())
     }
 
-    fn write(&mut self, point: &Point, row: &Row) -> io::Result<()> {
-        assert!(
-            row.measures.is_empty() || row.measures[0] == point.values[0] / 3.0,
-            "the row of another point"
-        );
-        assert!(self.panic_at != Some(point.index), "the sink panics");
-        if self.full_at == Some(point.index) {
+    fn write(&mut self, cells: &[Cell]) -> io::Result<()> {
+        let [Cell::Whole(index), Cell::Number(size), _, Cell::Number(lift), ..] = *cells else {
+            panic!("other columns: {cells:?}");
+        };
+        assert!(lift.is_nan() || lift == size / 3.0, "the row of another point");
+        assert!(self.panic_at != Some(index), "the sink panics");
+        if self.full_at == Some(index) {
             return Err(io::Error::from(io::ErrorKind::StorageFull));
         }
-        self.indices.push(point.index);
+        self.indices.push(index);
         self.model.written.fetch_add(1, Ordering::SeqCst);
-        if let Some((index, stop)) = self.stop_at
-            && index == point.index
+        if let Some((at, stop)) = self.stop_at
+            && at == index
         {
             stop.store(true, Ordering::SeqCst);
         }

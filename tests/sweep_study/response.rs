@@ -5,9 +5,11 @@ use std::sync::atomic::AtomicBool;
 
 use flap_core::num::InstructionSet;
 use flap_core::simulate::Status;
-use flap_sweep::plan::Plan;
-use flap_sweep::run::RunError;
-use flap_sweep::study::response::{self, Along, BandKind, Curve, Verdict};
+use flap_sweep::files::csv_sink::CsvSink;
+use flap_sweep::plan::{Along, Plan};
+use flap_sweep::run::{RunOptions, Summary};
+use flap_sweep::study::response::{BandKind, Curve, Responses, Step, Verdict};
+use flap_sweep::table::layout::Layout;
 
 use crate::support::{bits, column, parameter, plan};
 
@@ -28,20 +30,31 @@ fn along(plan: &Plan, range: [u32; 2], tolerance: f64) -> Along {
     Along { parameter: parameter(plan, "drive_frequency"), values, tolerance, unstable: false }
 }
 
-fn follow(plan: &Plan, along: &Along, threads: usize) -> Vec<Curve> {
+/// The curves of a plan, which must come in order.
+fn follow(plan: &mut Plan, along: &Along, threads: usize) -> Vec<Curve> {
     let mut curves = Vec::new();
-    let threads = NonZeroUsize::new(threads).expect("at least one");
-    response::run(plan, along, threads, &AtomicBool::new(false), |curve| {
-        curves.push(curve);
-        Ok::<(), RunError>(())
-    })
-    .expect("threads");
+    plan.followed = Some(along.clone());
+    let options =
+        RunOptions { threads: NonZeroUsize::new(threads).expect("at least one"), ..RunOptions::default() };
+    let mut sink = CsvSink::new(Layout::of(plan).names(), Vec::new());
+    let mut keep = |curve: &Curve| {
+        curves.push(curve.clone());
+        Ok(())
+    };
+    let responses = Responses::of(plan).expect("a parameter is followed");
+    let never = AtomicBool::new(false);
+    let ran = responses.run(&options, Summary::default(), &mut sink, &never, &mut |_| {}, &mut keep);
+    let summary = ran.expect("threads");
     assert!((0..).zip(&curves).all(|(index, curve)| curve.design.index == index), "in order");
+    let rows: usize = curves.iter().map(|curve| curve.rows(&Layout::of(plan)).count()).sum();
+    let lines = sink.target().split(|&byte| byte == b'\n').count() - 1;
+    assert_eq!((summary.rows, lines), (rows as u64, rows + 1));
+    assert_eq!((summary.ran, summary.interrupted), (plan.len(), false));
     curves
 }
 
 fn verdict(plan: &Plan, along: &Along, curve: &Curve) -> Verdict {
-    Verdict::new(curve, response::parameter(plan, along), column(plan.rows(), "stroke_amplitude_deg"))
+    Verdict::new(curve, along.parameter(plan), column(plan.rows(), "stroke_amplitude_deg"))
 }
 
 /// The bands that an independent solver found, stepping 1 Hz: physics of the bimorph with a soft hinge.
@@ -59,9 +72,9 @@ const BISTABLE: [(u32, Option<[f64; 2]>); 9] = [
 
 #[test]
 fn a_soft_hinge_is_bistable_where_the_reference_is() {
-    let plan = bimorph(true, &BISTABLE.map(|(volts, _)| volts));
+    let mut plan = bimorph(true, &BISTABLE.map(|(volts, _)| volts));
     let along = along(&plan, [114, 145], 0.1);
-    for (curve, (volts, band)) in follow(&plan, &along, 2).iter().zip(BISTABLE) {
+    for (curve, (volts, band)) in follow(&mut plan, &along, 2).iter().zip(BISTABLE) {
         let verdict = verdict(&plan, &along, curve);
         println!("{volts} V: {verdict}");
         let bands: Vec<_> = verdict.bistable().collect();
@@ -89,11 +102,11 @@ const BRANCHES: [(u32, f64, &str, f64, f64); 3] = [
 
 #[test]
 fn both_branches_are_those_of_the_reference() {
-    let plan = bimorph(true, &BRANCHES.map(|(volts, ..)| volts));
+    let mut plan = bimorph(true, &BRANCHES.map(|(volts, ..)| volts));
     let along = along(&plan, [114, 145], 0.5);
     let [stroke, lift] = ["stroke_pp_deg", "lift_mean_gf"].map(|name| column(plan.rows(), name));
     for (curve, (volts, frequency, branch, degrees, milligrams)) in
-        follow(&plan, &along, 2).iter().zip(BRANCHES)
+        follow(&mut plan, &along, 2).iter().zip(BRANCHES)
     {
         let steps = |way: &str| if way == "up" { &curve.up } else { &curve.down };
         let at = |way| steps(way).iter().find(|step| step.value == frequency).expect("a whole frequency");
@@ -109,9 +122,9 @@ fn both_branches_are_those_of_the_reference() {
 
 #[test]
 fn the_published_hinge_shows_no_hysteresis() {
-    let plan = bimorph(false, &[40, 80, 120, 160, 200, 240, 300]);
+    let mut plan = bimorph(false, &[40, 80, 120, 160, 200, 240, 300]);
     let along = along(&plan, [60, 200], 0.5);
-    for curve in follow(&plan, &along, 2) {
+    for curve in follow(&mut plan, &along, 2) {
         let verdict = verdict(&plan, &along, &curve);
         assert!(verdict.bands.is_empty() && verdict.difference < 0.05, "{:?}: {verdict}", curve.design.index);
     }
@@ -119,9 +132,9 @@ fn the_published_hinge_shows_no_hysteresis() {
 
 #[test]
 fn motions_that_do_not_repeat_are_reported_as_such() {
-    let plan = bimorph(true, &[180]);
+    let mut plan = bimorph(true, &[180]);
     let along = along(&plan, [78, 88], 0.5);
-    let curves = follow(&plan, &along, 1);
+    let curves = follow(&mut plan, &along, 1);
     let verdict = verdict(&plan, &along, &curves[0]);
     let irregular = verdict.bands.iter().find(|band| matches!(band.kind, BandKind::Irregular { .. }));
     let [from, to] = irregular.expect("between 81 and 84 Hz").range;
@@ -131,11 +144,11 @@ fn motions_that_do_not_repeat_are_reported_as_such() {
 
 #[test]
 fn curves_depend_on_their_design_alone() {
-    let plan = bimorph(true, &[100, 160, 200]);
+    let mut plan = bimorph(true, &[100, 160, 200]);
     let along = along(&plan, [118, 132], 0.1);
-    let together = follow(&plan, &along, 2);
-    for (curve, other) in together.iter().zip(follow(&plan, &along, 1)) {
-        let alone = response::run_one(&plan, &along, plan.point(curve.design.index));
+    let together = follow(&mut plan, &along, 2);
+    for (curve, other) in together.iter().zip(follow(&mut plan, &along, 1)) {
+        let alone = Responses::of(&plan).unwrap().curve(plan.point(curve.design.index));
         for (way, (one, two)) in
             [(&curve.up, (&alone.up, &other.up)), (&curve.down, (&alone.down, &other.down))]
         {
@@ -153,9 +166,9 @@ fn curves_depend_on_their_design_alone() {
 
 #[test]
 fn the_ends_of_a_band_are_located_as_closely_as_asked() {
-    let plan = bimorph(true, &[160]);
+    let mut plan = bimorph(true, &[160]);
     let along = along(&plan, [118, 132], 0.01);
-    let curve = &follow(&plan, &along, 1)[0];
+    let curve = &follow(&mut plan, &along, 1)[0];
     let values: Vec<f64> = curve.up.iter().map(|step| step.value).collect();
     assert_eq!(values, curve.down.iter().map(|step| step.value).collect::<Vec<f64>>());
     assert!(values.windows(2).all(|two| two[0] < two[1]), "rising, each once");
@@ -170,19 +183,19 @@ fn the_ends_of_a_band_are_located_as_closely_as_asked() {
 
 #[test]
 fn what_is_impossible_has_a_verdict_too() {
-    let plan = plan("preset = \"arabagi2013-75hz\"\n[axes]\nground_link = [\"1 m\"]\n");
+    let mut plan = plan("preset = \"arabagi2013-75hz\"\n[axes]\nground_link = [\"1 m\"]\n");
     let along = along(&plan, [70, 80], 0.1);
-    let curve = &follow(&plan, &along, 1)[0];
+    let curve = &follow(&mut plan, &along, 1)[0];
     assert!(verdict(&plan, &along, curve).to_string().starts_with("no response: "), "{:?}", curve.up[0].row);
 }
 
 /// The branches turn round at the ends of the band, and what joins them is unstable: a motion near it goes to one or the other.
 #[test]
 fn unstable_orbits_join_the_branches() {
-    let plan = bimorph(true, &[100, 160, 280]);
+    let mut plan = bimorph(true, &[100, 160, 280]);
     let along = Along { unstable: true, ..along(&plan, [114, 145], 0.1) };
     let stroke = column(plan.rows(), "stroke_pp_deg");
-    for curve in follow(&plan, &along, 2) {
+    for curve in follow(&mut plan, &along, 2) {
         let verdict = verdict(&plan, &along, &curve);
         let [from, to] = verdict.bistable().next().unwrap().range;
         let values = || curve.unstable.iter().map(|step| step.value);
@@ -198,7 +211,7 @@ fn unstable_orbits_join_the_branches() {
         }
 
         // Between the strokes of the branches everywhere.
-        let stroke_at = |steps: &[response::Step], value: f64| {
+        let stroke_at = |steps: &[Step], value: f64| {
             // Right at its end a motion may take too long to settle.
             let periodic = steps.iter().filter(|step| step.row.status == Status::Periodic);
             let strokes: Vec<[f64; 2]> =
@@ -229,19 +242,22 @@ fn unstable_orbits_join_the_branches() {
 
 #[test]
 fn a_curve_that_is_stopped_is_not_handed_on() {
-    let plan = bimorph(false, &[100, 200]);
+    let mut plan = bimorph(false, &[100, 200]);
     // A hundred thousand steps, which would take minutes.
     let values = (0..100_000).map(|i| 60.0 + 0.001 * f64::from(i)).collect();
-    let along = Along { values, ..along(&plan, [60, 61], 1e-3) };
+    plan.followed = Some(Along { values, ..along(&plan, [60, 61], 1e-3) });
     let stop = AtomicBool::new(false);
-    std::thread::scope(|scope| {
-        scope.spawn(|| {
-            std::thread::sleep(std::time::Duration::from_millis(100));
-            stop.store(true, std::sync::atomic::Ordering::Relaxed);
-        });
-        let two = NonZeroUsize::new(2).unwrap();
-        let outcome: Result<(), RunError> =
-            response::run(&plan, &along, two, &stop, |curve| panic!("{} steps", curve.up.len()));
-        outcome.unwrap();
-    });
+    let responses = Responses::of(&plan).unwrap();
+    let options = RunOptions { threads: NonZeroUsize::new(2).unwrap(), ..RunOptions::default() };
+    let mut sink = CsvSink::new(Layout::of(&plan).names(), Vec::new());
+    let mut tell = |curve: &Curve| panic!("{} steps", curve.up.len());
+    // The collector reports for the first time after a turn.
+    let mut progress = |_| stop.store(true, std::sync::atomic::Ordering::Relaxed);
+    let begun = std::time::Instant::now();
+    let summary =
+        responses.run(&options, Summary::default(), &mut sink, &stop, &mut progress, &mut tell).unwrap();
+    assert!(begun.elapsed().as_secs() < 5, "{:?}", begun.elapsed());
+    assert_eq!((summary.done(), summary.points, summary.rows), (0, 2, 0));
+    assert!(summary.interrupted);
+    assert_eq!(sink.target().split(|&byte| byte == b'\n').count() - 1, 1, "the header alone");
 }

@@ -7,23 +7,25 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use crate::console;
 
-const TEMPLATE: &str = "{wide_bar} {human_pos} of {human_len} points, {rate}, {eta} left";
-
-/// The progress bar of a sweep.
+/// The progress of a run.
 pub(crate) struct Bar {
     drawn: ProgressBar,
+    /// The units of the run, such as "points".
+    units: &'static str,
     moved: bool,
     stopping: bool,
 }
 
 impl Bar {
-    /// A bar that is hidden unless stderr is a terminal.
-    pub(crate) fn new() -> Bar {
-        let style = ProgressStyle::with_template(TEMPLATE)
+    /// A bar that counts `units`, such as "points". Hidden unless stderr is a terminal.
+    pub(crate) fn new(units: &'static str) -> Bar {
+        let template =
+            format!("{{wide_bar}} {{human_pos}} of {{human_len}} {units}, {{rate}} {units}/s, {{eta}} left");
+        let style = ProgressStyle::with_template(&template)
             .unwrap_or_else(|_| ProgressStyle::default_bar())
             .with_key("rate", write_rate);
         let drawn = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr()).with_style(style);
-        Bar { drawn, moved: false, stopping: false }
+        Bar { drawn, units, moved: false, stopping: false }
     }
 
     /// Moves the bar. When the sweep begins to stop, prints that once.
@@ -37,10 +39,18 @@ impl Bar {
         }
         if stopping && !self.stopping {
             self.stopping = true;
-            self.drawn.suspend(|| {
-                console::say("stopping: points in hand have half a second; interrupt again to stop at once");
+            let units = self.units;
+            self.aside(|| {
+                console::say(&format!(
+                    "stopping: {units} in hand have half a second; interrupt again to stop at once"
+                ));
             });
         }
+    }
+
+    /// Writes something while the bar is hidden.
+    pub(crate) fn aside<T>(&self, write: impl FnOnce() -> T) -> T {
+        self.drawn.suspend(write)
     }
 
     /// Removes the bar.
@@ -51,5 +61,5 @@ impl Bar {
 
 fn write_rate(state: &ProgressState, text: &mut dyn Write) {
     // A write into memory does not fail.
-    let _ = write!(text, "{:.0} points/s", state.per_sec());
+    let _ = write!(text, "{:.0}", state.per_sec());
 }

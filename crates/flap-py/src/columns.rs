@@ -2,10 +2,9 @@
 
 use std::io;
 
-use flap_core::simulate::{Point, Row};
 use flap_sweep::run::Summary;
 use flap_sweep::run::sink::Sink;
-use flap_sweep::table::layout::{Cell, Column, Kind, Layout};
+use flap_sweep::table::layout::{Cell, Column, Kind};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList};
@@ -69,9 +68,9 @@ impl Columns {
     }
 
     /// Adds a row of one cell per column.
-    pub(crate) fn push(&mut self, cells: Vec<Cell>) {
+    pub(crate) fn push(&mut self, cells: &[Cell]) {
         for ((_, data), cell) in self.columns.iter_mut().zip(cells) {
-            data.push(cell);
+            data.push(*cell);
         }
     }
 
@@ -120,25 +119,13 @@ impl Columns {
     }
 }
 
-/// Rows of a sweep into columns.
-pub(crate) struct ColumnsSink {
-    pub(crate) columns: Columns,
-    layout: Layout,
-}
-
-impl ColumnsSink {
-    pub(crate) fn new(layout: Layout) -> ColumnsSink {
-        ColumnsSink { columns: Columns::new(layout.columns()), layout }
-    }
-}
-
-impl Sink for ColumnsSink {
+impl Sink for Columns {
     fn begin(&mut self) -> io::Result<()> {
         Ok(())
     }
 
-    fn write(&mut self, point: &Point, row: &Row) -> io::Result<()> {
-        self.columns.push(self.layout.cells(point, row));
+    fn write(&mut self, cells: &[Cell]) -> io::Result<()> {
+        self.push(cells);
         Ok(())
     }
 

@@ -38,7 +38,10 @@ pub(crate) fn read(py: Python<'_>, path: PathBuf, ignore_damage: bool) -> PyResu
         meta.set_item("build", build)?;
         meta.set_item("arithmetic", arithmetic)?;
         dict.set_item("meta", meta)?;
-        dict.set_item("axes", grid::axes(py, &plan)?)?;
+        // The rows of curves are no grid.
+        if plan.followed.is_none() {
+            dict.set_item("axes", grid::axes(py, &plan)?)?;
+        }
     }
     Ok(dict)
 }

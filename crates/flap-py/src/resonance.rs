@@ -2,9 +2,9 @@
 
 use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
-use flap_core::resonance::driven::{self, PeakSearch};
 use flap_core::resonance::free::{self, FreeRequest};
 use flap_core::simulate::Unfinished;
+use flap_sweep::resonance::driven::{self, PeakSearch};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList};
 
@@ -40,12 +40,7 @@ pub(crate) fn resonance<'py>(
     let set = InstructionSet::best();
     let experiments = simulator.experiments().map_err(|reason| error::unfinished(&reason))?;
     let modes = experiments.modes(&values).map_err(|reason| error::unfinished(&reason))?;
-    let natural = modes.map(|Mode { frequency, .. }| frequency);
-    let search = PeakSearch {
-        from: start.unwrap_or(0.5 * natural[0].min(natural[1])),
-        to: stop.unwrap_or(1.5 * natural[0].max(natural[1])),
-        tolerance,
-    };
+    let search = PeakSearch { from: start, to: stop, tolerance };
     let found = interruptible(py, |interrupted| {
         let free = free::examine(experiments, set, &solver, &values, &request, interrupted)?;
         Ok((free, driven::search(simulator, set, &solver, &values, &search, interrupted)?))

@@ -1,12 +1,12 @@
 //! Responses up and down.
 
 use std::sync::Arc;
-use std::thread;
-use std::time::Duration;
 
 use flap_core::parameter::Kind;
-use flap_sweep::run::RunError;
-use flap_sweep::study::response::{self, Along, AlongError, Motions, Verdict};
+use flap_sweep::plan::Along;
+use flap_sweep::run::{Progress, Summary};
+use flap_sweep::study::response::{AlongError, Curve, Responses, Verdict};
+use flap_sweep::table::layout::Layout;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -14,9 +14,6 @@ use pyo3::types::PyDict;
 use crate::columns::Columns;
 use crate::watch::Watch;
 use crate::{design, error, parameters, sweep};
-
-/// The interval between looks at Ctrl-C and at the end of the work.
-const LOOK: Duration = Duration::from_millis(2);
 
 /// The column of the stroke amplitude.
 const STROKE: &str = "stroke_amplitude_deg";
@@ -66,36 +63,25 @@ pub(crate) fn respond<'py>(
         PyValueError::new_err(if help.is_empty() { message } else { format!("{message}: {help}") })
     })?;
 
-    let motions = Motions::of(&plan, &along);
+    plan.followed = Some(along);
+    let responses = Responses::of(&plan).ok_or_else(|| PyValueError::new_err("no parameter is followed"))?;
     let stroke = plan.rows().columns().iter().position(|column| column.name == STROKE);
     let stroke = stroke.ok_or_else(|| PyValueError::new_err("the model measures no stroke"))?;
-    let mut columns = Columns::new(motions.columns());
+    let mut columns = Columns::new(Layout::of(&plan).columns());
     let mut verdicts = Vec::new();
     let mut watch = Watch::new(None);
-    let raised = Arc::clone(&watch.stop);
-    let ran: Result<(), RunError> = py.detach(|| {
-        thread::scope(|scope| {
-            let follow = scope.spawn(|| {
-                response::run(&plan, &along, options.threads, &raised, |curve| {
-                    let verdict = Verdict::new(&curve, parameter, stroke);
-                    verdicts.push(verdict.to_string());
-                    for cells in motions.rows(&curve) {
-                        columns.push(cells);
-                    }
-                    Ok(())
-                })
-            });
-            while !follow.is_finished() {
-                watch.look(0, 0);
-                thread::park_timeout(LOOK);
-            }
-            follow.join().unwrap_or_else(|_| Err(RunError::Panic("while following a response".to_owned())))
-        })
+    let stop = Arc::clone(&watch.stop);
+    let ran = py.detach(|| {
+        let mut look = |progress: Progress| watch.look(progress.finished, progress.points);
+        let mut tell = |curve: &Curve| {
+            verdicts.push(Verdict::new(curve, parameter, stroke).to_string());
+            Ok(())
+        };
+        responses.run(&options, Summary::default(), &mut columns, &stop, &mut look, &mut tell)
     });
     watch.ended()?;
     ran.map_err(|error| error::run(&error))?;
     let meta = sweep::meta(py, &plan, &options)?;
-    meta.set_item("along", parameter.name)?;
     meta.set_item("verdicts", verdicts)?;
     let dict = PyDict::new(py);
     dict.set_item("columns", columns.into_python(py)?)?;

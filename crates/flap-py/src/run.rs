@@ -73,7 +73,7 @@ pub(crate) fn trajectory<'py>(
     };
     let mut columns = Columns::new(motion.columns.iter().map(column).collect());
     for row in motion.rows {
-        columns.push(row.into_iter().map(Cell::Number).collect());
+        columns.push(&row.into_iter().map(Cell::Number).collect::<Vec<_>>());
     }
     let dict = PyDict::new(py);
     dict.set_item("columns", columns.into_python(py)?)?;

@@ -18,7 +18,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
-use crate::columns::{self, ColumnsSink};
+use crate::columns::{self, Columns};
 use crate::grid::{self, Grid};
 use crate::watch::Watch;
 use crate::{convert, error};
@@ -83,7 +83,7 @@ pub(crate) fn into_columns<'py>(
     progress: Option<Py<PyAny>>,
     parcels: Option<&Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let mut sink = ColumnsSink::new(Layout::of(plan));
+    let mut sink = Columns::new(Layout::of(plan).columns());
     let mut watch = Watch::new(progress);
     let ran = py.detach(|| work(plan, options, Summary::default(), &mut sink, &mut watch, parcels));
     if ran.is_ok() {
@@ -92,7 +92,7 @@ pub(crate) fn into_columns<'py>(
     watch.ended()?;
     let summary = ran.map_err(|error| error::run(&error))?;
     let dict = PyDict::new(py);
-    dict.set_item("columns", sink.columns.into_python(py)?)?;
+    dict.set_item("columns", sink.into_python(py)?)?;
     dict.set_item("summary", columns::summary(py, &summary)?)?;
     dict.set_item("axes", grid::axes(py, plan)?)?;
     dict.set_item("meta", meta(py, plan, options)?)?;
@@ -186,5 +186,8 @@ pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> P
     dict.set_item("arithmetic", identity.arithmetic)?;
     dict.set_item("solver", solver)?;
     dict.set_item("grid", &plan.source.text)?;
+    if let Some(along) = &plan.followed {
+        dict.set_item("along", plan.parameters()[along.parameter].name)?;
+    }
     Ok(dict)
 }

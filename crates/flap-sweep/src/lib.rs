@@ -10,8 +10,8 @@
 //! - [`table`]: the columns of rows, rows as text, formats of files
 //! - [`grid`]: grid files into plans, with diagnostics
 //! - [`run`]: the parallel runner, which hands rows to sinks in point order
-//! - [`files`]: result files: formats, sidecars, journals, checksums; resumed, merged, run again
 //! - [`study`]: response curves, deviations of parameters, surveys of a plan
+//! - [`files`]: result files: formats, sidecars, journals, checksums; resumed, merged, run again
 
 pub mod files;
 pub mod grid;

@@ -1,10 +1,9 @@
 //! `flap respond`.
 
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use super::options::SolverArgs;
-use super::values::{assignment, threads};
+use super::options::{SolverArgs, WorkArgs};
+use super::values::assignment;
 
 #[derive(clap::Args)]
 #[command(after_help = RESPOND_HELP)]
@@ -42,17 +41,21 @@ pub(crate) struct RespondArgs {
     #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
 
-    /// CSV file for the motions, one row each, or `-` for stdout
+    /// Write the motions, a row each, to a file, or to stdout with `-`. The ending chooses the format: .csv, .csv.zst or
+    /// .parquet
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// Overwrite an existing file
+    /// Go on if the run was interrupted; start it if there are no results, do nothing if they are complete
+    #[arg(long, requires = "out", conflicts_with = "force")]
+    pub(crate) resume: bool,
+
+    /// Replace existing results. They are kept beside the new ones, as in response.old.csv, until those are complete
     #[arg(short, long)]
     pub(crate) force: bool,
 
-    /// Number of worker threads; it does not change the rows [default: one per core]
-    #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
-    pub(crate) threads: Option<NonZeroUsize>,
+    #[command(flatten)]
+    pub(crate) work: WorkArgs,
 
     #[command(flatten)]
     pub(crate) solver: SolverArgs,
@@ -63,6 +66,11 @@ The parameter first rises, then falls. The first point of each way starts at res
 motion of the point before it. Where the way up and the way down settle to different motions, the design is bistable; \
 the ends of such bands are located by halving steps. One line per design summarizes its response; it goes to stdout, \
 with --out - to stderr.
+
+Rows leave in the order of the designs, a whole curve at a time. Ctrl-C and SIGTERM leave the curves in hand half a \
+second, keep the rows and exit with 130; a second one exits at once. Beside FILE, FILE.meta.toml records the command's \
+options. Until all curves are there, FILE.journal records the progress, so that `flap resume FILE` can go on, whatever \
+ended it.
 
 Examples:
   flap respond jafferis2016 --from '60 Hz' --to '200 Hz' --step '1 Hz'

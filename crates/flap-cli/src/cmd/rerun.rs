@@ -15,6 +15,10 @@ pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     let of = args.results.display();
     Inputs::new().add_results("the results", &args.results).protect_from_results(&args.out)?;
     let (mut source, mut plan, sidecar) = job::open_recorded(&args.results, &args.read)?;
+    if plan.followed.is_some() {
+        let failure = Failure::usage(format!("{of} holds curves, whose motions depend on their neighbours"));
+        return Err(failure.help("`flap respond` with other solver settings follows them again"));
+    }
     let unreadable = |error| Failure::System(format!("cannot read {of}: {error}"), Vec::new());
     let rows = sidecar.rows.filter(|_| sidecar.state == State::Complete);
     let accuracy = args.inaccurate.then_some(plan.solver.accuracy);

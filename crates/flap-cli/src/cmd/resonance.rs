@@ -4,11 +4,11 @@ use std::io;
 
 use flap_core::measure::spectrum::SpectrumPeak;
 use flap_core::num::InstructionSet;
-use flap_core::resonance::driven::{self, DrivenPeaks, Gap, PeakSearch};
 use flap_core::resonance::free::{self, FreeMotion, FreeRequest};
 use flap_core::simulate::never;
 use flap_sweep::files::csv_sink;
 use flap_sweep::notation::text;
+use flap_sweep::resonance::driven::{self, DrivenPeaks, Gap, PeakSearch};
 
 use super::point::Chosen;
 use crate::args::{Format, ResonanceArgs};
@@ -31,18 +31,13 @@ pub(crate) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
     let (simulator, set) = (plan.simulator, InstructionSet::best());
     let experiments = simulator.experiments()?;
     let modes = experiments.modes(values)?;
-    let natural = modes.map(|mode| mode.frequency);
     let request = FreeRequest {
         amplitude: args.impulse,
         fit_cycles: args.window_cycles,
         spectrum_window: args.spectrum_window,
         samples_per_cycle: SAMPLES,
     };
-    let search = PeakSearch {
-        from: args.from.unwrap_or(0.5 * natural[0].min(natural[1])),
-        to: args.to.unwrap_or(1.5 * natural[0].max(natural[1])),
-        tolerance: args.tolerance,
-    };
+    let search = PeakSearch { from: args.from, to: args.to, tolerance: args.tolerance };
     let free = free::examine(experiments, set, &plan.solver, values, &request, &never)?;
     let driven = driven::search(simulator, set, &plan.solver, values, &search, &never)?;
 
@@ -57,7 +52,7 @@ pub(crate) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
         Format::Csv => write_lines(&lines)?,
     }
     comment_on_free(&free, args);
-    comment_on_driven(&driven, &search);
+    comment_on_driven(&driven);
     Ok(Exit::Done)
 }
 
@@ -187,8 +182,7 @@ fn comment_on_free(free: &FreeMotion, args: &ResonanceArgs) {
     }
 }
 
-fn comment_on_driven(driven: &DrivenPeaks, search: &PeakSearch) {
-    let PeakSearch { from, to, .. } = *search;
+fn comment_on_driven(driven: &DrivenPeaks) {
     if let Some(frequency) = driven.larger_at {
         console::say(&format!(
             "the settled stroke is larger at the end of the range, {} Hz, than at any peak within: search further \
@@ -196,7 +190,8 @@ fn comment_on_driven(driven: &DrivenPeaks, search: &PeakSearch) {
             text::float(frequency)
         ));
     } else if driven.peaks.is_empty() {
-        let range = format!("{} to {} Hz", six_digits(from), six_digits(to));
+        let [from, to] = driven.range.map(six_digits);
+        let range = format!("{from} to {to} Hz");
         console::say(&format!("the settled stroke has no peak at drive frequencies from {range}"));
     }
     if let [first, second] = driven.peaks[..]

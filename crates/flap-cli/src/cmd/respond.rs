@@ -1,29 +1,22 @@
 //! `flap respond`: the motions of designs as a parameter rises and falls.
 
-use std::fs::File;
 use std::io;
-use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
-use flap_core::parameter::Parameter;
-use flap_core::simulate::Point;
-use flap_sweep::files::disk::{self, Durable};
-use flap_sweep::files::inputs::Inputs;
-use flap_sweep::files::output;
-use flap_sweep::notation::text;
-use flap_sweep::plan::Plan;
-use flap_sweep::run::RunOptions;
-use flap_sweep::study::response::{self, Along, AlongError, Curve, Table, Verdict};
+use flap_sweep::plan::{Along, Plan};
+use flap_sweep::run::sink::Sink;
+use flap_sweep::run::{RunOptions, Summary};
+use flap_sweep::study::response::AlongError;
+use flap_sweep::table::layout::Cell;
 
-use super::{outputs, point};
+use super::outputs::is_stdout;
+use super::point;
 use crate::args::RespondArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
-use crate::job::make;
+use crate::job::{self, Begin, Lines, Verdicts};
 
 pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     let mut plan = point::plan(&args.what)?;
-    outputs::check_tables(Inputs::new().add_plan(&plan), [args.out.as_deref()])?;
     point::set_solver(&mut plan.solver, &args.solver);
     if plan.resonance.is_some() {
         let failure = Failure::usage(format!("{} runs each design at its own resonance", args.what));
@@ -33,78 +26,51 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     for (name, value) in &args.set {
         set(&mut plan, &along, name, value)?;
     }
-    let never = AtomicBool::new(false);
-    let threads = args.threads.unwrap_or(RunOptions::default().threads);
-    let verdicts = Verdicts::new(&plan, &along)?;
-    match args.out.as_deref() {
-        Some(path) if path.as_os_str() == "-" => {
-            let mut table = begin(&plan, &along, io::stdout(), path)?;
-            response::run(&plan, &along, threads, &never, |curve| {
-                console::say(&verdicts.line(&curve));
-                write(&mut table, &curve, path)
-            })?;
-            finish(table, path)?;
+    plan.followed = Some(along);
+    if Verdicts::of(&plan).is_none() {
+        return Err(Failure::usage(format!("the model {} measures no stroke", plan.simulator.name())));
+    }
+    match &args.out {
+        Some(out) if args.resume && is_stdout(out) => {
+            Err(Failure::usage("what was written to stdout cannot be resumed"))
         }
-        Some(path) => {
-            // Conditions may exclude some of the designs.
-            let mut curves = 0_u64;
-            into_file(path, args.force, |file| {
-                let mut table = begin(&plan, &along, file, path)?;
-                response::run(&plan, &along, threads, &never, |curve| {
-                    curves += 1;
-                    console::results(&(verdicts.line(&curve) + "\n"))?;
-                    write(&mut table, &curve, path)
-                })?;
-                finish(table, path)
-            })?;
-            console::say(&format!("{curves} curves in {}", path.display()));
-        }
-        None => response::run(&plan, &along, threads, &never, |curve| {
-            console::results(&(verdicts.line(&curve) + "\n")).map_err(Failure::from)
-        })?,
-    }
-    Ok(Exit::Done)
-}
-
-/// Hands a file to `write`. New ones show their rows as they come; earlier ones stay until the new rows are complete.
-fn into_file(
-    path: &Path,
-    overwrite: bool,
-    write: impl FnOnce(File) -> Result<(), Failure>,
-) -> Result<(), Failure> {
-    if disk::is_empty(path) {
-        return write(output::create(path, overwrite)?);
-    }
-    let mut failure = None;
-    let made = make(path, overwrite, |file| {
-        write(file).map_err(|why| {
-            failure = Some(why);
-            io::Error::other("the rows are not complete")
-        })
-    });
-    match failure {
-        Some(failure) => Err(failure),
-        None => made?.map_err(|error| refused(path, error)),
+        Some(out) => job::run(&plan, out.clone(), Begin::of(args.resume, args.force), &args.work, None),
+        None => lines_alone(&plan, args),
     }
 }
 
-fn begin<W: Durable>(plan: &Plan, along: &Along, target: W, path: &Path) -> Result<Table<W>, Failure> {
-    Table::begin(plan, along, target).map_err(|error| refused(path, error))
-}
-
-fn write<W: Durable>(table: &mut Table<W>, curve: &Curve, path: &Path) -> Result<(), Failure> {
-    table.write(curve).map_err(|error| refused(path, error))
-}
-
-fn finish<W: Durable>(table: Table<W>, path: &Path) -> Result<(), Failure> {
-    table.finish().map_err(|error| refused(path, error))
-}
-
-fn refused(path: &Path, error: io::Error) -> Failure {
-    if path.as_os_str() == "-" {
-        return error.into();
+/// Prints the line of each curve, and writes no rows.
+fn lines_alone(plan: &Plan, args: &RespondArgs) -> Result<Exit, Failure> {
+    let default = RunOptions::default();
+    let options = RunOptions { threads: args.work.threads.unwrap_or(default.threads), ..default };
+    let summary = job::work(plan, &options, Summary::default(), &mut Nowhere, Lines::Stdout)?;
+    if summary.interrupted {
+        let (done, designs) = (summary.done(), summary.points);
+        console::say(&format!("interrupted: {done} of {designs} designs are done"));
+        return Ok(Exit::Interrupted);
     }
-    Failure::System(format!("cannot write {}: {error}", path.display()), Vec::new())
+    Ok(job::complete(&summary, &args.work))
+}
+
+/// A sink that drops rows.
+struct Nowhere;
+
+impl Sink for Nowhere {
+    fn begin(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn write(&mut self, _cells: &[Cell]) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        Ok(())
+    }
 }
 
 /// The parameter that rises and falls, and its values: those of the command line, or of the grid's axis.
@@ -138,42 +104,4 @@ fn set(plan: &mut Plan, along: &Along, name: &str, value: &str) -> Result<(), Fa
     }
     plan.base[index] = point::value(&plan.parameters()[index], "--set", value)?;
     Ok(())
-}
-
-/// Makes the line of each curve.
-struct Verdicts<'a> {
-    plan: &'a Plan,
-    parameter: &'static Parameter,
-    /// Index of the stroke's amplitude among the measures.
-    stroke: usize,
-}
-
-impl<'a> Verdicts<'a> {
-    fn new(plan: &'a Plan, along: &Along) -> Result<Verdicts<'a>, Failure> {
-        let stroke = plan
-            .rows()
-            .columns()
-            .iter()
-            .position(|column| column.name == "stroke_amplitude_deg")
-            .ok_or_else(|| {
-                Failure::usage(format!("the model {} measures no stroke", plan.simulator.name()))
-            })?;
-        Ok(Verdicts { plan, parameter: response::parameter(plan, along), stroke })
-    }
-
-    fn line(&self, curve: &Curve) -> String {
-        let verdict = Verdict::new(curve, self.parameter, self.stroke);
-        let design = self.design(&curve.design);
-        if design.is_empty() { verdict.to_string() } else { format!("{design}: {verdict}") }
-    }
-
-    /// What a design has that others do not.
-    fn design(&self, design: &Point) -> String {
-        let assignment = |index: usize| {
-            let parameter = &self.plan.parameters()[index];
-            let value = text::value(parameter, design.values[index]);
-            format!("{} = {value} {}", parameter.name, parameter.unit).trim_end().to_owned()
-        };
-        self.plan.varied().map(assignment).collect::<Vec<_>>().join(", ")
-    }
 }

@@ -5,8 +5,10 @@ mod make;
 mod open;
 mod report;
 mod run;
+mod verdicts;
 
 pub(crate) use flap_sweep::files::job::Begin;
 pub(crate) use make::{make, stdout};
 pub(crate) use open::{open, open_recorded, plan_of, read_sidecar, recorded, tell, tell_missed};
-pub(crate) use run::run;
+pub(crate) use run::{Lines, complete, run, work};
+pub(crate) use verdicts::Verdicts;

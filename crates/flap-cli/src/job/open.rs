@@ -47,7 +47,7 @@ pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
             PlanError::PointsFile { .. } => {
                 failure.help("put the file of points back as it was, or sweep its grid file anew")
             }
-            PlanError::Points | PlanError::Solver => failure,
+            PlanError::Points | PlanError::Parameters | PlanError::Solver => failure,
         }
     })
 }

@@ -71,3 +71,23 @@ fn report_doubts(done: &Done) {
         ));
     }
 }
+
+/// Tells the user the number of curves and their file.
+pub(super) fn report_curves(done: &Done) {
+    let Done { summary, place, .. } = done;
+    let curves = summary.ran;
+    match place {
+        Some(place) if !summary.interrupted => {
+            console::say(&format!("{curves} curves in {}", place.display()));
+        }
+        // Rows on stdout speak for themselves.
+        None if !summary.interrupted => {}
+        place => {
+            let place = place.as_ref().map_or("stdout".to_owned(), |place| place.display().to_string());
+            let (done, designs) = (summary.done(), summary.points);
+            console::say(&format!(
+                "interrupted: the rows of the first {done} of {designs} designs are in {place}"
+            ));
+        }
+    }
+}

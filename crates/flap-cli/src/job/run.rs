@@ -1,5 +1,6 @@
 //! The rows of a plan into a file or to stdout: the work that `sweep`, `resume` and `rerun` share.
 
+use std::cell::RefCell;
 use std::io;
 use std::path::{Path, PathBuf};
 #[cfg(unix)]
@@ -13,8 +14,10 @@ use flap_sweep::files::sidecar::Origin;
 use flap_sweep::plan::Plan;
 use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{self, RunError, RunOptions, Summary};
+use flap_sweep::study::response::{Curve, Responses};
 
-use super::report::report;
+use super::report::{report, report_curves};
+use super::verdicts::Verdicts;
 use crate::args::WorkArgs;
 use crate::console;
 use crate::failure::{Exit, Failure, still_kept};
@@ -35,30 +38,40 @@ pub(crate) fn run(
         options.threads = threads;
     }
     if out.as_os_str() == "-" {
-        let done = job::to_stream(plan, io::stdout(), &options, &mut run_with_progress)?;
-        return Ok(ended(&done, None, work));
+        let mut engine = |plan: &Plan, options: &RunOptions, before: Summary, sink: &mut dyn Sink| {
+            self::work(plan, options, before, sink, Lines::Stderr)
+        };
+        let done = job::to_stream(plan, io::stdout(), &options, &mut engine)?;
+        return Ok(ended(plan, &done, None, work));
     }
     let options = SessionOptions { run: options, checkpoint: work.checkpoint };
     let job = Job { plan, out, begin, options, origin };
     let (place, points) = (job.out.display(), job.plan.selected());
-    let outcome = job::run(&job, &mut run_with_progress, &mut |Before { lost, done }| {
+    let mut engine = |plan: &Plan, options: &RunOptions, before: Summary, sink: &mut dyn Sink| {
+        self::work(plan, options, before, sink, Lines::Stdout)
+    };
+    let outcome = job::run(&job, &mut engine, &mut |Before { lost, done }| {
         if lost > 0 {
             console::say(&format!("{lost} rows are no longer in {place}: they are computed again"));
         }
         console::say(&format!("{done} of {points} points of {place} are done"));
     });
     match outcome.map_err(|error| Failure::of_job(error, &job.out))? {
-        Outcome::Ran(done) => Ok(ended(&done, Some(&job.out), work)),
+        Outcome::Ran(done) => Ok(ended(plan, &done, Some(&job.out), work)),
         Outcome::Complete { all_periodic } => {
             console::say(&format!("{place} is complete: nothing is left to run"));
-            Ok(complete(all_periodic, work))
+            Ok(exit(all_periodic, work))
         }
     }
 }
 
 /// Reports a job that ran, and gives the exit code.
-fn ended(done: &Done, resumable: Option<&Path>, work: &WorkArgs) -> Exit {
-    report(done);
+fn ended(plan: &Plan, done: &Done, resumable: Option<&Path>, work: &WorkArgs) -> Exit {
+    if plan.followed.is_some() {
+        report_curves(done);
+    } else {
+        report(done);
+    }
     if done.summary.interrupted {
         if let Some(out) = resumable {
             console::say(&format!("`flap resume {}` goes on", out.display()));
@@ -68,28 +81,60 @@ fn ended(done: &Done, resumable: Option<&Path>, work: &WorkArgs) -> Exit {
         }
         return Exit::Interrupted;
     }
-    complete(done.summary.counts.of(Status::Periodic) == done.summary.rows, work)
+    complete(&done.summary, work)
 }
 
-fn complete(all_periodic: bool, work: &WorkArgs) -> Exit {
+/// The exit code of a run to the end.
+pub(crate) fn complete(summary: &Summary, work: &WorkArgs) -> Exit {
+    exit(summary.counts.of(Status::Periodic) == summary.rows, work)
+}
+
+fn exit(all_periodic: bool, work: &WorkArgs) -> Exit {
     if work.strict && !all_periodic { Exit::NotAll } else { Exit::Done }
 }
 
-/// Runs the plan with a progress bar, until a signal asks it to end.
-fn run_with_progress(
+/// The stream for the lines of curves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Lines {
+    /// They are results.
+    Stdout,
+    /// Rows are on stdout.
+    Stderr,
+}
+
+/// Runs the plan with a progress bar, until a signal asks it to end. Where a parameter is followed, a line for each curve goes
+/// to `lines`.
+pub(crate) fn work(
     plan: &Plan,
     options: &RunOptions,
     before: Summary,
     sink: &mut dyn Sink,
+    lines: Lines,
 ) -> Result<Summary, RunError> {
     let stop = signals::stop();
     // Once caught, the signal that a file would grow too large becomes an error of writing, which can be reported.
     #[cfg(unix)]
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
-    let mut bar = Bar::new();
-    let outcome = run::resume(plan, options, before, sink, &stop, &mut |progress| {
-        bar.show(progress, stop.load(Ordering::Relaxed));
-    });
-    bar.clear();
+    let responses = Responses::of(plan);
+    let bar = RefCell::new(Bar::new(if responses.is_some() { "curves" } else { "points" }));
+    let mut progress = |progress| bar.borrow_mut().show(progress, stop.load(Ordering::Relaxed));
+    let outcome = match responses {
+        None => run::resume(plan, options, before, sink, &stop, &mut progress),
+        Some(responses) => {
+            let verdicts = Verdicts::of(plan);
+            let mut tell = |curve: &Curve| {
+                let line = verdicts.as_ref().map(|verdicts| verdicts.line(curve) + "\n").unwrap_or_default();
+                bar.borrow().aside(|| match lines {
+                    Lines::Stdout => console::results(&line),
+                    Lines::Stderr => {
+                        console::say(line.trim_end());
+                        Ok(())
+                    }
+                })
+            };
+            responses.run(options, before, sink, &stop, &mut progress, &mut tell)
+        }
+    };
+    bar.borrow().clear();
     outcome
 }

@@ -2,11 +2,9 @@
 
 use std::io;
 
-use flap_core::simulate::{Point, Row};
-
 use crate::files::disk::Durable;
 use crate::run::sink::Sink;
-use crate::table::layout::Layout;
+use crate::table::layout::Cell;
 use crate::table::lines::Lines;
 
 /// Writes one plain header line, then one line per row.
@@ -14,14 +12,14 @@ use crate::table::lines::Lines;
 /// Numbers are written as [`crate::notation::text::float`] does, choices by the name of their option. The cell of an unknown
 /// value is empty.
 pub struct CsvSink<W: Durable> {
-    layout: Layout,
+    names: Vec<String>,
     lines: Lines<W>,
 }
 
 impl<W: Durable> CsvSink<W> {
-    /// Writes the columns of `layout` to `target`.
-    pub fn new(layout: Layout, target: W) -> CsvSink<W> {
-        CsvSink { layout, lines: Lines::new(target) }
+    /// Writes rows under the columns `names` to `target`.
+    pub fn new(names: Vec<String>, target: W) -> CsvSink<W> {
+        CsvSink { names, lines: Lines::new(target) }
     }
 
     /// The target; all rows are in it after [`Sink::flush`] or [`Sink::finish`].
@@ -32,11 +30,11 @@ impl<W: Durable> CsvSink<W> {
 
 impl<W: Durable> Sink for CsvSink<W> {
     fn begin(&mut self) -> io::Result<()> {
-        self.lines.texts(self.layout.names())
+        self.lines.texts(&self.names)
     }
 
-    fn write(&mut self, point: &Point, row: &Row) -> io::Result<()> {
-        self.lines.cells(&self.layout.cells(point, row))
+    fn write(&mut self, cells: &[Cell]) -> io::Result<()> {
+        self.lines.cells(cells)
     }
 
     fn flush(&mut self) -> io::Result<()> {

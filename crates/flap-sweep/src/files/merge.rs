@@ -172,6 +172,9 @@ pub fn summary(parts: &[Part], plan: &Plan) -> Summary {
     invalid.truncate(Summary::MOST_REASONS);
     Summary {
         points: plan.len(),
+        // A row for each.
+        ran: total(|sidecar| sidecar.rows),
+        begun: 0,
         rows: total(|sidecar| sidecar.rows),
         excluded: total(|sidecar| sidecar.excluded),
         unsatisfied: plan.conditions.iter().map(|condition| unsatisfied(&condition.name)).collect(),

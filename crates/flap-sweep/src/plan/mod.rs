@@ -2,6 +2,7 @@
 //!
 //! A plan is never materialised: [`Plan::point`] computes any point in constant time.
 
+mod along;
 pub mod axis;
 pub mod formula;
 pub mod sample;
@@ -17,6 +18,7 @@ use crate::plan::axis::{Axis, Values};
 use crate::plan::formula::{Condition, Derived, OwnMeasure};
 use crate::plan::selection::Selection;
 use crate::resonance::AtResonance;
+pub use along::Along;
 
 /// A design space that has passed every check. Made by [`crate::grid`] only.
 pub struct Plan {
@@ -47,6 +49,8 @@ pub struct Plan {
     pub source: Source,
     /// Which of the points are run.
     pub selection: Selection,
+    /// The parameter that rises and falls, if each point is a design with a curve of rows.
+    pub followed: Option<Along>,
     points: u64,
 }
 
@@ -149,6 +153,7 @@ impl Plan {
                     output,
                     source,
                     selection,
+                    followed: None,
                     points,
                 })
             }

@@ -32,7 +32,8 @@ impl Maximum {
         self.best[0]
     }
 
-    /// Where the function is to be evaluated next; `None` if the best point is within the tolerance of the maximum.
+    /// The place at which the function is to be evaluated next; `None` if the best point is within the tolerance of the
+    /// maximum.
     pub(super) fn next(&mut self) -> Option<f64> {
         let [a, b] = self.bounds;
         let x = self.best[0][0];

@@ -5,11 +5,12 @@
 //! it is not what the search has seen there, the design has more than one orbit, and the peaks are located again with all
 //! probes from rest.
 
+use flap_core::parameter::Invalid;
 use flap_core::simulate::{Point, Row, Status, Unfinished};
 
-use super::AtResonance;
 use super::maximum::Maximum;
-use crate::resonance::study::{Probe, Study};
+use super::study::{Probe, Study};
+use super::target::Target;
 
 /// Ratio of neighbouring frequencies of the grid, less one. A peak of quality Q is 1/Q wide.
 const SPACING: f64 = 0.02;
@@ -17,11 +18,27 @@ const SPACING: f64 = 0.02;
 /// Fewest and most intervals of the grid.
 const INTERVALS: [f64; 2] = [8.0, 500.0];
 
-/// Peaks that are located, and how far below the highest their parabolas' tops may be.
+/// Most peaks that are located.
 const MOST_TOPS: usize = 4;
-const CONTENDER: f64 = 0.15;
 
-/// A second peak is told of if it is this close to the highest, as a share of that.
+/// The peaks that a search locates, and those that it runs from rest in the end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Peaks {
+    /// Largest distance of the top of a peak's parabola below that of the highest, as a share of that.
+    contender: f64,
+    /// Number of peaks that are run from rest, the highest first.
+    from_rest: usize,
+}
+
+impl Peaks {
+    /// The highest peak, and others that may turn out to be higher.
+    pub(super) const HIGHEST: Peaks = Peaks { contender: 0.15, from_rest: 1 };
+
+    /// All peaks.
+    pub(super) const ALL: Peaks = Peaks { contender: 1.0, from_rest: MOST_TOPS };
+}
+
+/// Largest distance of a second peak below the highest, as a share of that, at which rows name it.
 const SECOND: f64 = 0.05;
 
 /// Two values this close are of the same orbit, as a share of them.
@@ -29,21 +46,23 @@ const SAME: f64 = 1e-3;
 
 /// A design whose resonance is being looked for.
 pub(super) struct Search<'a> {
-    at: &'a AtResonance,
+    target: &'a Target,
     point: Point,
-    /// Lowest and highest frequency (Hz), or why there is no search.
+    peaks: Peaks,
+    /// Lowest and highest frequency (Hz), or the reason for which there is no search.
     ends: Result<[f64; 2], Unfinished>,
     stage: Stage,
-    /// Everything that was run.
+    /// All points that were run.
     seen: Vec<Seen>,
-    /// Where the latest probes are (Hz).
+    /// Frequencies of the latest probes (Hz).
     asked: Vec<f64>,
     cycles: u32,
     rhs_evals: u64,
-    row: Option<Row>,
+    /// The rows of the peaks that were run from rest; that of some other point if there is no peak.
+    rows: Vec<Row>,
 }
 
-/// What is being done.
+/// The stage of a search.
 enum Stage {
     /// Running the grid.
     Grid,
@@ -51,39 +70,51 @@ enum Stage {
     Tops { tops: Vec<Maximum>, asking: Vec<usize>, from_rest: bool },
     /// Running the highest of these, `[frequency, value]` each, from rest.
     Last { tops: Vec<[f64; 2]>, from_rest: bool },
-    /// Nothing.
+    /// The search has ended.
     Done { tops: Vec<[f64; 2]> },
 }
 
 /// A point that was run.
-struct Seen {
-    frequency: f64,
-    /// What is to be largest; minus infinity if the motion is not periodic.
+pub(super) struct Seen {
+    pub(super) frequency: f64,
+    /// The quantity that is to be largest; minus infinity if the motion is not periodic.
     value: f64,
     /// The state on its orbit, unless the motion is not periodic.
     state: Option<Vec<f64>>,
+    pub(super) status: Status,
+}
+
+/// The result of a search.
+pub(super) struct Found {
+    /// Lowest and highest frequency of the range (Hz).
+    pub(super) ends: [f64; 2],
+    /// The peaks that were run from rest, `[frequency, value]` each, with their rows.
+    pub(super) peaks: Vec<([f64; 2], Row)>,
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(at: &'a AtResonance, point: Point) -> Search<'a> {
-        let ends = at.ends(&point.values);
+    /// A search for peaks of `target` at the design `point`, whose drive frequency does not matter.
+    pub(super) fn new(target: &'a Target, point: Point, peaks: Peaks) -> Search<'a> {
+        let ends = target.ends(&point.values);
         Search {
-            at,
+            target,
             point,
+            peaks,
             ends,
             stage: Stage::Grid,
             seen: Vec::new(),
             asked: Vec::new(),
             cycles: 0,
             rhs_evals: 0,
-            row: None,
+            rows: Vec::new(),
         }
     }
 
     /// The design's index and its row.
-    pub(super) fn finish(self) -> (u64, Row) {
+    pub(super) fn into_row(mut self) -> (u64, Row) {
         let index = self.point.index;
-        let mut row = match (self.row, &self.ends) {
+        let first = (!self.rows.is_empty()).then(|| self.rows.swap_remove(0));
+        let mut row = match (first, &self.ends) {
             (Some(row), _) => row,
             (None, Err(error)) => Row::invalid(error),
             (None, Ok(_)) => Row::invalid("the search for its resonance was cut short"),
@@ -98,7 +129,7 @@ impl<'a> Search<'a> {
             row.measures.extend([
                 frequency,
                 second.map_or(f64::NAN, |top| top[0]),
-                if margin <= self.at.range.tolerance { 0.0 } else { margin },
+                if margin <= self.target.range.tolerance { 0.0 } else { margin },
                 self.seen.len() as f64,
                 gaps as f64,
             ]);
@@ -108,9 +139,27 @@ impl<'a> Search<'a> {
         (index, row)
     }
 
+    /// The range of the search (Hz), the peaks that were run from rest as `[frequency, value]` with their rows, and all points
+    /// that were run.
+    ///
+    /// # Errors
+    /// [`Unfinished::Invalid`] if there is no range or the design is impossible, [`Unfinished::NoExperiments`] if the model
+    /// has no natural frequencies to make a range of.
+    pub(super) fn into_peaks(self) -> Result<(Found, Vec<Seen>), Unfinished> {
+        let ends = self.ends?;
+        let peaks = match self.stage {
+            Stage::Done { tops } if !tops.is_empty() => tops.into_iter().zip(self.rows).collect(),
+            _ => match self.rows.into_iter().find_map(|row| row.reason) {
+                Some(reason) => return Err(Invalid::new(reason).into()),
+                None => Vec::new(),
+            },
+        };
+        Ok((Found { ends, peaks }, self.seen))
+    }
+
     fn probe(&self, frequency: f64, begin: Option<Vec<f64>>) -> Probe {
         let mut values = self.point.values.clone();
-        values[self.at.frequency] = frequency;
+        values[self.target.frequency] = frequency;
         Probe { values, begin }
     }
 
@@ -122,9 +171,10 @@ impl<'a> Search<'a> {
     }
 
     fn note(&mut self, frequency: f64, row: &Row) {
-        let value = row.measures.get(self.at.objective).copied().filter(|value| value.is_finite());
+        let value = row.measures.get(self.target.objective).copied().filter(|value| value.is_finite());
         let state = (row.status == Status::Periodic).then(|| row.state.clone());
-        self.seen.push(Seen { frequency, value: value.unwrap_or(f64::NEG_INFINITY), state });
+        let value = value.unwrap_or(f64::NEG_INFINITY);
+        self.seen.push(Seen { frequency, value, state, status: row.status });
         self.cycles = self.cycles.saturating_add(row.cycles);
         self.rhs_evals += row.rhs_evals;
     }
@@ -143,10 +193,10 @@ impl<'a> Search<'a> {
             }
         }
         tops.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let least = tops.first().map_or(0.0, |(highest, _)| highest - CONTENDER * highest.abs());
+        let least = tops.first().map_or(0.0, |(highest, _)| highest - self.peaks.contender * highest.abs());
         tops.retain(|(height, _)| *height >= least);
         tops.truncate(MOST_TOPS);
-        tops.into_iter().map(|(_, points)| Maximum::new(points, self.at.range.tolerance)).collect()
+        tops.into_iter().map(|(_, points)| Maximum::new(points, self.target.range.tolerance)).collect()
     }
 
     /// Locates peaks, or goes on to the last point if they all are.
@@ -163,7 +213,7 @@ impl<'a> Search<'a> {
         }
         let mut tops: Vec<[f64; 2]> = tops.iter().map(Maximum::best).collect();
         tops.sort_by(|a, b| b[1].total_cmp(&a[1]));
-        self.asked = tops.first().map(|top| top[0]).into_iter().collect();
+        self.asked = tops.iter().take(self.peaks.from_rest).map(|top| top[0]).collect();
         Stage::Last { tops, from_rest }
     }
 
@@ -174,8 +224,8 @@ impl<'a> Search<'a> {
             Stage::Grid => {
                 let tops = self.tops(asked.len());
                 if tops.is_empty() {
-                    // No motion is periodic, and this row says what became of one of them.
-                    self.row = rows.into_iter().next();
+                    // No motion is periodic: this row tells the status of one of them.
+                    self.rows = rows.into_iter().take(1).collect();
                     return Stage::Done { tops: Vec::new() };
                 }
                 self.locate(tops, false)
@@ -188,14 +238,17 @@ impl<'a> Search<'a> {
                 self.locate(tops, from_rest)
             }
             Stage::Last { mut tops, from_rest } => {
-                let (expected, found) = (tops[0][1], self.seen.last().map_or(f64::NAN, |seen| seen.value));
-                let same = (found - expected).abs() <= SAME * expected.abs();
-                if !same && !from_rest {
+                let answers = &self.seen[self.seen.len() - asked.len()..];
+                let is_same =
+                    |(top, found): (&[f64; 2], &Seen)| (found.value - top[1]).abs() <= SAME * top[1].abs();
+                if !tops.iter().zip(answers).all(is_same) && !from_rest {
                     let tops = self.tops(self.grid().len());
                     return self.locate(tops, true);
                 }
-                tops[0][1] = found;
-                self.row = rows.into_iter().next();
+                for (top, found) in tops.iter_mut().zip(answers) {
+                    top[1] = found.value;
+                }
+                self.rows = rows;
                 Stage::Done { tops }
             }
             done @ Stage::Done { .. } => done,

@@ -1,7 +1,7 @@
-//! Studies: points of which each is chosen by what earlier ones have shown.
+//! Studies: points of which each is chosen by the rows of earlier ones.
 //!
-//! A study knows no threads and no lanes. Many are open at once, so that the lanes are full though each study waits for
-//! its own rows.
+//! A study knows no threads and no lanes. Many studies are open at once, so that the lanes are full while each study waits
+//! for its own rows.
 
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{Jobs, Point, Row, Rows, SolverSettings};
@@ -24,7 +24,7 @@ pub struct Probe {
     pub begin: Option<Vec<f64>>,
 }
 
-/// Where studies come from and where they go when they have ended.
+/// The source of studies, which takes them back when they have ended.
 pub trait Desk {
     /// The kind of study.
     type Study: Study;
@@ -36,7 +36,7 @@ pub trait Desk {
     /// Takes a study that has ended.
     fn done(&mut self, study: Self::Study);
 
-    /// Whether to end at once, see [`Jobs::interrupted`]. Studies that are open are dropped.
+    /// True if the work is to end at once, see [`Jobs::interrupted`]. Studies that are open are dropped.
     fn interrupted(&self) -> bool;
 }
 

@@ -1,4 +1,4 @@
-//! What decides the bytes of rows: rows of the same identity may stand in one file.
+//! The identity of rows: all that decides their bytes. Rows of the same identity may stand in one file.
 
 use std::sync::LazyLock;
 
@@ -6,10 +6,10 @@ use flap_core::simulate::SolverSettings;
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
+use super::options::RunOptions;
+use super::solver::SolverFields;
 use crate::notation::text;
-use crate::plan::{Plan, PointsFile};
-use crate::run::RunOptions;
-use crate::run::solver::SolverFields;
+use crate::plan::{Along, Plan, PointsFile};
 
 /// The build of flap: a hash of the sources that decide the bytes of rows, in hexadecimal digits.
 ///
@@ -36,15 +36,19 @@ pub struct Identity {
     pub grid: String,
     /// Hash of the file that lists the points of the sample, if one does.
     pub points_file: Option<String>,
-    /// Which points are run, in words.
+    /// The selection of points that are run, in words.
     pub selection: String,
+    /// The parameter that is followed, in words with a hash of its values and of the parameters of all designs; `None` if the
+    /// rows are those of points.
+    #[serde(default)]
+    pub followed: Option<String>,
     /// Solver settings.
     #[serde(with = "SolverFields")]
     pub solver: SolverSettings,
 }
 
 impl Identity {
-    /// What a run of `plan` is.
+    /// The identity of the rows of `plan`.
     pub fn of(plan: &Plan, options: &RunOptions) -> Identity {
         Identity {
             flap: env!("CARGO_PKG_VERSION").to_owned(),
@@ -53,11 +57,12 @@ impl Identity {
             grid: text::hash(&plan.source.text),
             points_file: plan.points_file.as_ref().map(PointsFile::hash),
             selection: plan.selection.to_string(),
+            followed: plan.followed.as_ref().map(|along| followed(plan, along)),
             solver: plan.solver,
         }
     }
 
-    /// What is different in `other`, in words; nothing if the rows are the same.
+    /// The differences of `other`, in words; none if the rows are the same.
     pub fn differences(&self, other: &Identity) -> Vec<String> {
         let mut differences = Vec::new();
         if self.grid != other.grid {
@@ -68,6 +73,11 @@ impl Identity {
         }
         if self.solver != other.solver {
             differences.push("the solver settings are others".to_owned());
+        }
+        if self.followed != other.followed {
+            differences.push(
+                "the parameter that is followed, its values or those of the designs are others".to_owned(),
+            );
         }
         let mut compare = |what: &str, own: &str, others: &str| {
             if own != others {
@@ -83,6 +93,16 @@ impl Identity {
         }
         differences
     }
+}
+
+/// The parameter that is followed, in words. The command line may set parameters that the grid file does not, so that the
+/// hash is of those too.
+fn followed(plan: &Plan, along: &Along) -> String {
+    let numbers = along.values.iter().chain([&along.tolerance]).chain(&plan.base);
+    let mut bytes: Vec<u8> = numbers.flat_map(|number| number.to_le_bytes()).collect();
+    bytes.push(u8::from(along.unstable));
+    let name = plan.parameters()[along.parameter].name;
+    format!("{name}, {} values ({:016x})", along.values.len(), xxh3_64(&bytes))
 }
 
 fn build_text(build: &str) -> String {

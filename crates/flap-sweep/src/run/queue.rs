@@ -1,78 +1,83 @@
-//! What the workers and the collector share: points to run, rows to write, and when to give up.
+//! The queue between workers and collector: units to run, outcomes to write, and the end of the run.
 //!
-//! Nobody waits for ever. A worker waits only while it has no point in hand and the window is full. Then the row
-//! that is written next is either here, and the collector takes it and makes room, or its point is in the hands of
+//! Nobody waits for ever. A worker waits only while it has no unit in hand and the window is full. Then the outcome
+//! that is written next is either here, and the collector takes it and makes room, or its unit is in the hands of
 //! another worker, which therefore does not wait. A worker that ends, by a panic too, says so; one that ends
-//! with points in hand fails the run. The collector waits only while there are workers, and whatever ends the
+//! with units in hand fails the run. The collector waits only while there are workers, and whatever ends the
 //! collector aborts the run for the workers.
 //!
-//! Asked to stop, workers have a moment to finish the points in their hands. What still runs then is dropped.
+//! Asked to stop, workers have a moment to finish the units in their hands. Units that still run then are dropped.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::RunError;
-use super::finished::Finished;
+use super::error::RunError;
 use super::window::Window;
 
-/// The collector looks for rows at least this often, which is also how often progress is reported.
+/// Longest time between two looks of the collector for outcomes, and between two reports of progress.
 const TURN: Duration = Duration::from_millis(100);
 
-/// How long points in hand may go on after a stop: long enough for ordinary ones, and less than a second with the turns
-/// around it.
+/// Time for units in hand after a stop: long enough for ordinary ones, and less than a second with the turns around it.
 const GRACE: Duration = Duration::from_millis(400);
 
-/// The collector is woken early when this many rows are ready.
+/// The collector is woken early when this many outcomes are ready.
 const BATCH: usize = 64;
 
-/// The collector takes at most this many rows at once, so that room is made in time.
+/// The collector takes at most this many outcomes at once, so that room is made in time.
 const MOST_AT_ONCE: usize = 1024;
 
-pub(super) struct Queue<'a> {
+/// Units to run and their outcomes.
+pub(super) struct Queue<'a, T> {
     stop: &'a AtomicBool,
-    /// Points in hand are to be dropped.
+    /// Units in hand are to be dropped.
     cancelled: AtomicBool,
-    state: Mutex<State>,
+    state: Mutex<State<T>>,
     /// Workers wait on this for room in the window, or the end.
     room: Condvar,
-    /// The collector waits on this for rows, or the end of the workers.
-    rows: Condvar,
+    /// The collector waits on this for outcomes, or the end of the workers.
+    outcomes: Condvar,
 }
 
-struct State {
-    window: Window,
+struct State<T> {
+    window: Window<T>,
     workers: usize,
-    /// Nothing more is wanted: no points are handed out, rows are dropped.
+    /// Nothing more is wanted: no units are handed out, outcomes are dropped.
     aborted: bool,
-    /// When the stop was first seen.
+    /// The time at which the stop was first seen.
     stopped: Option<Instant>,
     failure: Option<RunError>,
 }
 
-/// What the collector finds when it looks for rows.
+/// The result of a look of the collector.
 pub(super) enum Turn {
-    /// Rows to write, or none for now. The number is how many points have run.
-    Rows(u64),
-    /// All workers have ended and every row that could be written was taken.
+    /// Outcomes to write, or none for now, with the number of units that have run.
+    Outcomes(u64),
+    /// All workers have ended and every outcome that could be written was taken.
     End,
 }
 
-impl<'a> Queue<'a> {
-    pub(super) fn new(points: Range<u64>, window: usize, workers: usize, stop: &'a AtomicBool) -> Queue<'a> {
-        let window = Window::new(points, window);
+impl<'a, T> Queue<'a, T> {
+    /// The queue of `units`, of which at most `window` are run ahead of the last one written.
+    pub(super) fn new(
+        units: Range<u64>,
+        window: usize,
+        workers: usize,
+        stop: &'a AtomicBool,
+    ) -> Queue<'a, T> {
+        let window = Window::new(units, window);
         let state = State { window, workers, aborted: false, stopped: None, failure: None };
         let cancelled = AtomicBool::new(false);
-        Queue { stop, cancelled, state: Mutex::new(state), room: Condvar::new(), rows: Condvar::new() }
+        Queue { stop, cancelled, state: Mutex::new(state), room: Condvar::new(), outcomes: Condvar::new() }
     }
 
     /// Nothing panics while holding the lock and leaves the state halfway, so a poisoned lock is as good.
-    fn lock(&self) -> MutexGuard<'_, State> {
+    fn lock(&self) -> MutexGuard<'_, State<T>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The next point to run. Waits for room if `may_wait`; otherwise a full window is `None` too.
+    /// The next unit to run. Waits for room if `may_wait`; otherwise a full window is `None` too.
     pub(super) fn next(&self, may_wait: bool) -> Option<u64> {
         let mut state = self.lock();
         loop {
@@ -91,21 +96,21 @@ impl<'a> Queue<'a> {
         }
     }
 
-    /// Takes what became of a point.
-    pub(super) fn done(&self, index: u64, finished: Finished) {
+    /// Takes the outcome of a unit.
+    pub(super) fn done(&self, index: u64, outcome: T) {
         let mut state = self.lock();
         if state.aborted {
             return;
         }
-        if !state.window.insert(index, finished) {
+        if !state.window.insert(index, outcome) {
             state.fail(RunError::Model(format!("it returned a row for point {index}, which is not running")));
         }
         self.wake_collector(&state);
     }
 
-    fn wake_collector(&self, state: &State) {
+    fn wake_collector(&self, state: &State<T>) {
         if state.window.is_worth_taking(BATCH) {
-            self.rows.notify_one();
+            self.outcomes.notify_one();
         }
     }
 
@@ -118,24 +123,24 @@ impl<'a> Queue<'a> {
         }
         drop(state);
         self.room.notify_all();
-        self.rows.notify_one();
+        self.outcomes.notify_one();
     }
 
-    /// Whether points in hand are to be dropped without their rows.
+    /// True if units in hand are to be dropped without their outcomes.
     pub(super) fn is_cancelled(&self) -> bool {
         self.cancelled.load(Ordering::Relaxed)
     }
 
-    /// Makes the workers end: no more points, and their rows are dropped.
+    /// Makes the workers end: no more units, and their outcomes are dropped.
     pub(super) fn abort(&self) {
         self.lock().aborted = true;
         self.cancelled.store(true, Ordering::Relaxed);
         self.room.notify_all();
     }
 
-    /// Tells that the rows of the last turn are written, and waits for more, not longer than one turn.
+    /// Notes that the outcomes of the last turn are written, and waits for more, not longer than one turn.
     /// `batch` must be empty.
-    pub(super) fn turn(&self, batch: &mut Vec<Finished>) -> Turn {
+    pub(super) fn turn(&self, batch: &mut Vec<T>) -> Turn {
         let mut state = self.lock();
         state.window.mark_written();
         if self.stop.load(Ordering::Relaxed)
@@ -145,24 +150,24 @@ impl<'a> Queue<'a> {
         }
         self.room.notify_all();
         if state.workers > 0 && !state.window.is_worth_taking(BATCH) {
-            let waited = self.rows.wait_timeout(state, TURN);
+            let waited = self.outcomes.wait_timeout(state, TURN);
             state = waited.unwrap_or_else(PoisonError::into_inner).0;
         }
         state.window.take(batch, MOST_AT_ONCE);
         if batch.is_empty() && state.workers == 0 {
             return Turn::End;
         }
-        Turn::Rows(state.window.finished())
+        Turn::Outcomes(state.window.finished())
     }
 
-    /// What went wrong in the workers.
+    /// The first failure of a worker.
     pub(super) fn into_failure(self) -> Option<RunError> {
         self.state.into_inner().unwrap_or_else(PoisonError::into_inner).failure
     }
 }
 
-impl State {
-    /// Whether no more points are handed out.
+impl<T> State<T> {
+    /// True if no more units are handed out.
     fn ends(&self, stop: &AtomicBool) -> bool {
         self.aborted || self.failure.is_some() || self.window.is_exhausted() || stop.load(Ordering::Relaxed)
     }

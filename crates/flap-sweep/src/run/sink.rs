@@ -1,46 +1,46 @@
-//! Where rows go.
+//! The sinks of rows.
 
 use std::io;
 
-use flap_core::simulate::{Point, Row};
+use super::summary::Summary;
+use crate::table::layout::Cell;
 
-use crate::run::Summary;
-
-/// Takes the rows of a sweep in point order.
+/// Takes the rows of a run in order.
 ///
 /// Calls come as `begin`, then any number of `write`, `done` and `flush`, then `finish`; nothing comes after an error.
 pub trait Sink {
-    /// Writes what stands before the rows.
+    /// Writes the header.
     ///
     /// # Errors
-    /// What writing says.
+    /// If it cannot be written.
     fn begin(&mut self) -> io::Result<()>;
 
-    /// Takes the next row.
+    /// Takes the next row: one cell per column.
     ///
     /// # Errors
-    /// What writing says.
-    fn write(&mut self, point: &Point, row: &Row) -> io::Result<()>;
+    /// If it cannot be written.
+    fn write(&mut self, cells: &[Cell]) -> io::Result<()>;
 
-    /// Told after every point what the run has come to, so that it can be resumed after it.
+    /// Takes the summary of all rows so far, after every row and every excluded point, so that the run can be resumed
+    /// there.
     ///
     /// # Errors
-    /// What noting it says.
+    /// If it cannot be noted.
     fn done(&mut self, so_far: &Summary) -> io::Result<()> {
         let _ = so_far;
         Ok(())
     }
 
-    /// Hands what has been written to the operating system, so that a killed process loses little.
-    /// Called after every batch of rows, several times a second.
+    /// Hands the rows so far to the operating system, so that a killed process loses little. Called after every batch of
+    /// rows, several times a second.
     ///
     /// # Errors
-    /// What writing says.
+    /// If the rows cannot be written.
     fn flush(&mut self) -> io::Result<()>;
 
     /// Completes the output and makes it durable.
     ///
     /// # Errors
-    /// What writing says.
+    /// If the rows cannot be written.
     fn finish(&mut self) -> io::Result<()>;
 }

@@ -1,4 +1,4 @@
-//! What a sweep came to.
+//! The summary of a run.
 
 use std::iter::Sum;
 
@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 use crate::plan::Plan;
 use crate::resonance::RESONANCE_MARGIN_HZ;
 
-/// How many points had each status.
+/// The number of rows with each status.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts([u64; Status::ALL.len()]);
 
 impl Counts {
-    /// Points with this status.
+    /// Rows with this status.
     pub fn of(&self, status: Status) -> u64 {
         self.0[status as usize]
     }
@@ -53,18 +53,22 @@ impl Sum for Doubts {
     }
 }
 
-/// What a sweep came to. Counts are over the rows written.
+/// The summary of a run, so far or finished. Counts are over the rows written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
-    /// Points that are run in all.
+    /// Points that are run in all; of a response, designs.
     pub points: u64,
+    /// Points all of whose rows are written.
+    pub ran: u64,
+    /// Rows written of the point after those that are done with: the first ones of a response's curve.
+    pub begun: u64,
     /// Rows written: those of the first points selected, but for excluded ones.
     pub rows: u64,
     /// Points among them that were excluded, and have no row.
     pub excluded: u64,
-    /// The conditions of the plan, with how many of these points do not satisfy them.
+    /// The conditions of the plan, each with the number of these points that do not satisfy it.
     pub unsatisfied: Vec<(String, u64)>,
-    /// Whether the sweep was stopped before the last point.
+    /// True if the run was stopped before the last point.
     pub interrupted: bool,
     /// Rows by status.
     pub counts: Counts,
@@ -82,19 +86,19 @@ impl Summary {
     /// Reasons kept in [`Summary::invalid`].
     pub const MOST_REASONS: usize = 5;
 
-    /// What `before` came to, as the beginning of what `plan` comes to.
+    /// The summary `before` as the beginning of that of `plan`.
     pub(super) fn after(before: Summary, plan: &Plan) -> Summary {
         let counted = |name: &str| before.unsatisfied.iter().find(|(known, _)| known == name);
         let unsatisfied = plan.conditions.iter().map(|condition| {
             let count = counted(&condition.name).map_or(0, |(_, count)| *count);
             (condition.name.clone(), count)
         });
-        Summary { points: plan.selected(), unsatisfied: unsatisfied.collect(), interrupted: false, ..before }
+        Summary { unsatisfied: unsatisfied.collect(), interrupted: false, ..before }
     }
 
     /// Points that are done with: the first ones of those selected.
     pub fn done(&self) -> u64 {
-        self.rows + self.excluded
+        self.ran + self.excluded
     }
 
     /// Notes a point that does not satisfy the conditions with these numbers.
@@ -106,11 +110,11 @@ impl Summary {
     }
 
     /// Adds the written row of the point with this index in the plan.
-    pub(super) fn add(&mut self, index: u64, row: Row) {
-        if let (Status::Invalid, Some(reason)) = (row.status, row.reason)
+    pub(super) fn add(&mut self, index: u64, row: &Row) {
+        if let (Status::Invalid, Some(reason)) = (row.status, &row.reason)
             && self.invalid.len() < Summary::MOST_REASONS
         {
-            self.invalid.push((index, reason));
+            self.invalid.push((index, reason.clone()));
         }
         self.rows += 1;
         self.counts.0[row.status as usize] += 1;
@@ -119,7 +123,7 @@ impl Summary {
     }
 }
 
-/// What makes a row of a plan one to be read with care.
+/// The limits beyond which a row of a plan is to be read with care.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Doubtful {
     accuracy: f64,

@@ -1,4 +1,4 @@
-//! What of a plan differs from its preset: where a forgotten prefix shows.
+//! Deviations of a plan from its preset, which show a forgotten prefix.
 
 use flap_core::parameter::{Kind, Parameter};
 
@@ -8,7 +8,7 @@ use crate::plan::Plan;
 use crate::plan::axis::Values;
 use crate::plan::sample::Distribution;
 
-/// A value that is more than this factor away from the preset's has seldom been meant.
+/// Factor from the preset's value beyond which a value is probably a mistake.
 pub const FAR: f64 = 100.0;
 
 /// A parameter that does not have the preset's value, or not only.
@@ -34,7 +34,7 @@ pub fn of(plan: &Plan) -> Vec<Deviation> {
     compare(plan, values)
 }
 
-/// What of the point with these values differs from the preset.
+/// The parameters of the point with these values that do not have the preset's, in the order of the model's table.
 pub fn of_point(plan: &Plan, values: &[f64]) -> Vec<Deviation> {
     compare(plan, values.iter().map(|value| vec![*value]).collect())
 }
@@ -72,7 +72,7 @@ fn extremes(list: &[f64]) -> Vec<f64> {
 }
 
 impl Deviation {
-    /// The value in words, or from where to where it goes.
+    /// The value in words, or the first and the last one.
     pub fn shown(&self) -> String {
         let values: Vec<String> = self.values.iter().map(|value| self.text(*value)).collect();
         values.join(" to ")
@@ -83,14 +83,14 @@ impl Deviation {
         self.text(self.preset)
     }
 
-    /// The value over the preset's; empty if that says nothing.
+    /// The value over the preset's; empty if that is not a finite number.
     pub fn ratio(&self) -> String {
         let ratios: Vec<String> =
             self.values.iter().filter_map(|value| self.ratio_of(*value)).map(short).collect();
         ratios.join(" to ")
     }
 
-    /// That a value is far from the preset's, and what was probably meant.
+    /// A warning that a value is far from the preset's, with the value that was probably meant.
     pub fn warning(&self) -> Option<String> {
         let far = |value: &&f64| {
             let size = self.ratio_of(**value).map_or(1.0, f64::abs);

@@ -1,20 +1,20 @@
-//! A look at a plan without running it: which points its conditions leave out, and points spread over it.
+//! A survey of a plan without running it: points that its conditions exclude, and points spread over it.
 
 use crate::plan::{Plan, Verdict};
 
-/// What the conditions of a plan leave out.
+/// The points that the conditions of a plan exclude, counted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exclusions {
     /// Points that were looked at: all of the plan, or some that are spread over it.
     pub looked_at: u64,
     /// Points among them that are excluded.
     pub excluded: u64,
-    /// The conditions, with how many of these points do not satisfy them.
+    /// The conditions, each with the number of these points that do not satisfy it.
     pub unsatisfied: Vec<(String, u64)>,
 }
 
-/// Counts what the conditions of `plan` leave out, among all of its points or, if there are more than `most`, among so
-/// many that are spread over it.
+/// Counts the points that the conditions of `plan` exclude, among all of its points or, if there are more than `most`, among
+/// so many that are spread over it.
 pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
     let names = plan.conditions.iter().map(|condition| (condition.name.clone(), 0));
     let mut found = Exclusions { looked_at: plan.len().min(most), excluded: 0, unsatisfied: names.collect() };

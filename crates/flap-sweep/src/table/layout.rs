@@ -10,13 +10,20 @@ use crate::plan::Plan;
 /// The columns of the rows of a plan:
 /// `point`, the varied parameters, the derived ones, `status`, the measures, then `cycles`, `residual`, `period`,
 /// `floquet_max`, `stable`, `error_estimate`, `rhs_evals`.
+///
+/// Where a parameter is followed, the first column is `curve`, and before `status` stand `branch` and that parameter.
 #[derive(Debug)]
 pub struct Layout {
     /// The varied parameters, then the derived ones, each with its index in the model's parameter table.
     pub varied: Vec<(usize, &'static Parameter)>,
+    /// The parameter that is followed, if one is.
+    pub followed: Option<&'static Parameter>,
     /// The selected measures.
     pub measures: Vec<Measure>,
 }
+
+/// The place of a motion on a curve: its branch, and the value of the parameter that is followed.
+pub type Place = (&'static str, f64);
 
 /// A measured column of a result file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -126,14 +133,23 @@ impl Layout {
             Some(chosen) => chosen.iter().map(|&index| all[index].clone()).collect(),
             None => all,
         };
-        Layout { varied, measures }
+        let followed = plan.followed.as_ref().map(|along| &parameters[along.parameter]);
+        Layout { varied, followed, measures }
     }
 
     /// The columns, from left to right.
     pub fn columns(&self) -> Vec<Column> {
-        let mut columns =
-            vec![Column::new("point", "", Kind::Whole, "index of the point in the grid, from 0")];
+        let (first, doc) = match self.followed {
+            Some(_) => ("curve", "index of the design in the grid, from 0"),
+            None => ("point", "index of the point in the grid, from 0"),
+        };
+        let mut columns = vec![Column::new(first, "", Kind::Whole, doc)];
         columns.extend(self.varied.iter().map(|(_, parameter)| Column::of_parameter(parameter)));
+        if let Some(parameter) = self.followed {
+            let branch = "the way that the motion is on: up, down, or unstable between the two";
+            columns.push(Column::new("branch", "", Kind::Text, branch));
+            columns.push(Column::of_parameter(parameter));
+        }
         columns.push(Column::new("status", "", Kind::Text, "what became of the point"));
         columns.extend(self.measures.iter().map(|measure| {
             let kind = match measure.kind {
@@ -176,12 +192,20 @@ impl Layout {
     /// One cell per column. What is not known is empty: the measures of a point that is not periodic,
     /// the multiplier and stability of one without an orbit, and the residual of one that completed no period.
     pub fn cells(&self, point: &Point, row: &Row) -> Vec<Cell> {
-        // Two cells before the measures and seven behind them, besides the parameters.
-        let mut cells = Vec::with_capacity(9 + self.varied.len() + self.measures.len());
+        self.cells_at(point, None, row)
+    }
+
+    /// The cells of a motion on a curve of the design `point`, as [`Layout::cells`] gives those of a point.
+    pub fn cells_at(&self, point: &Point, place: Option<Place>, row: &Row) -> Vec<Cell> {
+        // Up to four cells before the measures and seven behind them, besides the parameters.
+        let mut cells = Vec::with_capacity(11 + self.varied.len() + self.measures.len());
         cells.push(Cell::Whole(point.index));
         cells.extend(
             self.varied.iter().map(|&(index, parameter)| Cell::of_parameter(parameter, point.values[index])),
         );
+        if let Some((branch, value)) = place {
+            cells.extend([Cell::Text(branch), Cell::Number(value)]);
+        }
         cells.push(Cell::Text(row.status.name()));
         cells.extend(self.measures.iter().map(|measure| {
             let value = measure.value(&row.measures);

@@ -41,6 +41,17 @@ pub enum Begin {
     Resume,
 }
 
+impl Begin {
+    /// The treatment that the options `resume` and `overwrite` ask for, of which at most one is given.
+    pub fn of(resume: bool, overwrite: bool) -> Begin {
+        match (resume, overwrite) {
+            (true, _) => Begin::Resume,
+            (false, true) => Begin::Overwrite,
+            (false, false) => Begin::New,
+        }
+    }
+}
+
 /// Runs the job. `tell` is called if it continues earlier work.
 ///
 /// # Errors

@@ -24,7 +24,7 @@ pub fn to_stream(
     options: &RunOptions,
     engine: Engine<'_>,
 ) -> Result<Done, JobError> {
-    let mut sink = CsvSink::new(Layout::of(plan), stream);
+    let mut sink = CsvSink::new(Layout::of(plan).names(), stream);
     let start = Instant::now();
     let summary = engine(plan, options, Summary::default(), &mut sink)
         .map_err(|error| JobError::Run { error, resumable: false })?;

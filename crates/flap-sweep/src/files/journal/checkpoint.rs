@@ -42,6 +42,11 @@ impl Header {
 pub struct Checkpoint {
     /// Number of rows written.
     pub rows: u64,
+    /// Number of points all of whose rows are written; `None` in journals of early versions, which wrote one row per point.
+    ran: Option<u64>,
+    /// Number of rows written of the point after those that are done with.
+    #[serde(default)]
+    begun: u64,
     /// Number of points that conditions exclude.
     excluded: u64,
     /// Bytes of the file that holds the rows.
@@ -72,6 +77,8 @@ impl Checkpoint {
             .map(|(point, reason)| InvalidPoint { point: *point, reason: reason.replace(['\n', '\r'], " ") });
         Checkpoint {
             rows: summary.rows,
+            ran: Some(summary.ran),
+            begun: summary.begun,
             excluded: summary.excluded,
             bytes,
             xxh3: text::digits(digest),
@@ -89,6 +96,8 @@ impl Checkpoint {
     pub fn summary(&self) -> Summary {
         Summary {
             points: 0,
+            ran: self.ran.unwrap_or(self.rows),
+            begun: self.begun,
             rows: self.rows,
             excluded: self.excluded,
             unsatisfied: self.unsatisfied.clone().into_iter().collect(),

@@ -41,6 +41,7 @@ impl Provenance {
             ("flap.grid", plan.source.text.clone()),
         ];
         entries.extend(plan.points_file.as_ref().map(|file| ("flap.points_file", file.hash())));
+        entries.extend(identity.followed.clone().map(|followed| ("flap.followed", followed)));
         let entries = entries.into_iter().map(|(key, text)| (key.to_owned(), text)).collect();
         Provenance { columns, entries }
     }

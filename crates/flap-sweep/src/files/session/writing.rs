@@ -5,8 +5,6 @@ use std::io::{self, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use flap_core::simulate::{Point, Row};
-
 use super::assemble::assemble;
 use crate::files::beside::rows_of;
 use crate::files::journal::{Checkpoint, Journal};
@@ -16,7 +14,7 @@ use crate::plan::Plan;
 use crate::run::identity::Identity;
 use crate::run::sink::Sink;
 use crate::run::{RunOptions, Summary};
-use crate::table::layout::Layout;
+use crate::table::layout::Cell;
 
 /// Options of a session.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +32,6 @@ pub struct Session {
     /// Locked for as long as the session lasts.
     results: File,
     rows: TextRows,
-    layout: Layout,
     provenance: Provenance,
     /// Checksum of a Parquet file, once rows have been turned into columns.
     columns: Option<FileSum>,
@@ -61,7 +58,6 @@ impl Session {
             format,
             results,
             rows,
-            layout: Layout::of(plan),
             provenance: Provenance::of(plan, &Identity::of(plan, &options.run)),
             columns: None,
             journal,
@@ -136,11 +132,12 @@ impl Session {
 
 impl Sink for Session {
     fn begin(&mut self) -> io::Result<()> {
-        if self.rows.extent().bytes == 0 { self.rows.header(self.layout.names()) } else { Ok(()) }
+        let names = self.provenance.columns.iter().map(|column| &column.name);
+        if self.rows.extent().bytes == 0 { self.rows.header(names) } else { Ok(()) }
     }
 
-    fn write(&mut self, point: &Point, row: &Row) -> io::Result<()> {
-        self.rows.cells(&self.layout.cells(point, row))
+    fn write(&mut self, cells: &[Cell]) -> io::Result<()> {
+        self.rows.cells(cells)
     }
 
     fn done(&mut self, so_far: &Summary) -> io::Result<()> {

@@ -66,6 +66,9 @@ pub struct Sidecar {
     pub solver: SolverSettings,
     /// The points of a rerun.
     pub rerun: Option<Rerun>,
+    /// The parameter that is followed, if the points are designs with a curve of rows each.
+    #[serde(default)]
+    pub followed: Option<Followed>,
     /// The parameters before the axes are applied, without those that follow others.
     pub(super) parameters: BTreeMap<String, Value>,
     /// The parameters that are varied.
@@ -114,6 +117,21 @@ pub struct Rerun {
     pub origin: Origin,
     /// The indices of the points, such as `3,17,20-31`.
     pub points: String,
+}
+
+/// The parameter that rises and falls in a response, see [`Along`](crate::plan::Along).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Followed {
+    /// Its name.
+    pub parameter: String,
+    /// Its values, rising.
+    pub values: Vec<f64>,
+    /// Largest error of the ends of bistable bands.
+    pub tolerance: f64,
+    /// True if the unstable orbits of bistable bands are looked for.
+    pub unstable: bool,
+    /// The text of [`Identity::followed`].
+    pub identity: String,
 }
 
 /// A column and its unit.
@@ -165,6 +183,7 @@ impl Sidecar {
             grid: text::hash(&self.grid.text),
             points_file: self.points_file.as_ref().map(|file| file.xxh3.clone()),
             selection,
+            followed: self.followed.as_ref().map(|followed| followed.identity.clone()),
             solver: self.solver,
         }
     }

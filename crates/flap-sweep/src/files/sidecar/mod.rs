@@ -9,7 +9,7 @@ mod file;
 mod plan;
 mod written;
 
-pub use contents::{Grid, Origin, PointsFile, Rerun, Sidecar, State};
+pub use contents::{Followed, Grid, Origin, PointsFile, Rerun, Sidecar, State};
 pub use file::{ParseError, ReadError};
 pub use plan::PlanError;
 pub use written::{End, Start};

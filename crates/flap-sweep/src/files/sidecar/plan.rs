@@ -1,13 +1,15 @@
 //! The plan that a sidecar records.
 
+use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{Simulator, SolverSettings};
+use toml::Value;
 
-use super::Sidecar;
+use super::{Followed, Sidecar};
 use crate::grid;
 use crate::grid::diagnostic::Mistakes;
 use crate::notation::text;
 use crate::plan::selection::{self, Selection};
-use crate::plan::{self, Plan};
+use crate::plan::{self, Along, Plan};
 
 /// A sidecar without a plan.
 #[derive(Debug, thiserror::Error)]
@@ -30,6 +32,9 @@ pub enum PlanError {
         /// The file, if the sidecar names one.
         path: Option<String>,
     },
+    /// The model has no parameter or no option of a name in it.
+    #[error("its parameters are not those of its model")]
+    Parameters,
 }
 
 impl Sidecar {
@@ -40,6 +45,7 @@ impl Sidecar {
     /// - [`PlanError::Grid`] if it has mistakes: it is of another version of flap
     /// - [`PlanError::Solver`] if the solver settings are outside the limits of a grid file
     /// - [`PlanError::PointsFile`] if the file of points has changed
+    /// - [`PlanError::Parameters`] if the model of a response has no parameter or no option of a name in it
     /// - [`PlanError::Points`] if the points that were run are not points of the grid
     pub fn plan(&self, models: &[&'static dyn Simulator]) -> Result<Plan, PlanError> {
         if self.grid.xxh3 != text::hash(&self.grid.text) {
@@ -55,6 +61,9 @@ impl Sidecar {
         {
             return Err(PlanError::PointsFile { path: points_file.map(|file| file.path.clone()) });
         }
+        if let Some(followed) = &self.followed {
+            plan.followed = Some(self.follow(followed, &mut plan).ok_or(PlanError::Parameters)?);
+        }
         if let Some(shard) = &self.shard {
             plan.selection = Selection::Shard(shard.parse().map_err(|_| PlanError::Points)?);
         }
@@ -63,6 +72,31 @@ impl Sidecar {
             plan.selection = Selection::Listed(list);
         }
         Ok(plan)
+    }
+
+    /// The parameter that is followed. Its axis is taken out of `plan`, which gets the parameters of the command line.
+    fn follow(&self, followed: &Followed, plan: &mut Plan) -> Option<Along> {
+        let parameters = plan.parameters();
+        let place = |name: &str| parameters.iter().position(|parameter| parameter.name == name);
+        let parameter = place(&followed.parameter)?;
+        for (name, value) in &self.parameters {
+            let index = place(name)?;
+            plan.base[index] = number(&parameters[index], value)?;
+        }
+        plan.take_axis(parameter);
+        let Followed { values, tolerance, unstable, .. } = followed.clone();
+        Some(Along { parameter, values, tolerance, unstable })
+    }
+}
+
+/// The value of a parameter in a sidecar: a number, or the name of an option.
+fn number(parameter: &Parameter, value: &Value) -> Option<f64> {
+    match (value, &parameter.kind) {
+        (Value::Float(number), _) => Some(*number),
+        (Value::String(option), Kind::Choice(options)) => {
+            (0_u32..).zip(*options).find(|(_, known)| *known == option).map(|(index, _)| f64::from(index))
+        }
+        _ => None,
     }
 }
 

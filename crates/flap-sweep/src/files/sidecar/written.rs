@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use super::contents::Unit;
-use super::{Grid, Origin, PointsFile, Rerun, Sidecar, State};
+use super::{Followed, Grid, Origin, PointsFile, Rerun, Sidecar, State};
 use crate::files::results::parameters;
 use crate::files::tallies;
 use crate::notation::text;
-use crate::plan::Plan;
 use crate::plan::selection::{self, Selection};
-use crate::run::identity;
+use crate::plan::{Along, Plan};
+use crate::run::identity::{self, Identity};
 use crate::run::{RunOptions, Summary};
 use crate::table::layout::Layout;
 
@@ -71,6 +71,7 @@ impl Sidecar {
             unsatisfied: BTreeMap::new(),
             solver: plan.solver,
             rerun,
+            followed: followed(plan, &start.options),
             parameters: parameters(plan),
             varied: layout.varied.iter().map(|(_, p)| Unit::new(p.name, p.unit)).collect(),
             columns: layout.measures.iter().map(|m| Unit::new(&m.name, m.unit)).collect(),
@@ -110,4 +111,12 @@ impl Sidecar {
         self.finished = Some(end.finished);
         self.seconds = Some(end.seconds);
     }
+}
+
+/// The parameter that a plan follows.
+fn followed(plan: &Plan, options: &RunOptions) -> Option<Followed> {
+    let Along { parameter, values, tolerance, unstable } = plan.followed.clone()?;
+    let parameter = plan.parameters()[parameter].name.to_owned();
+    let identity = Identity::of(plan, options).followed?;
+    Some(Followed { parameter, values, tolerance, unstable, identity })
 }

@@ -1,33 +1,21 @@
 //! The parameter that rises and falls, and the values that it takes.
 
 use flap_core::parameter::{Kind, Parameter};
+use flap_core::simulate::Point;
 
-use crate::plan::Plan;
 use crate::plan::axis::Values;
+use crate::plan::{Along, Plan, Verdict};
 
 /// The most values that a parameter takes on the way up.
 const MOST_VALUES: f64 = 1e6;
 
-/// The parameter that rises and falls.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Along {
-    /// Its index in the model's parameter table.
-    pub parameter: usize,
-    /// Its values, rising; two or more.
-    pub values: Vec<f64>,
-    /// How closely the ends of bistable bands are located, more than zero.
-    pub tolerance: f64,
-    /// Whether the unstable orbits of bistable bands are looked for.
-    pub unstable: bool,
-}
-
-/// Why a parameter cannot be followed: what is wrong, and what to do.
+/// A parameter that cannot be followed: the mistake, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct AlongError {
-    /// What is wrong, in one line.
+    /// The mistake, in one line.
     pub message: String,
-    /// What to do; may be empty.
+    /// Advice; may be empty.
     pub help: &'static str,
 }
 
@@ -42,7 +30,7 @@ impl Along {
     /// out of `plan`. `tolerance` is a sixteenth of the shortest step if not given.
     ///
     /// # Errors
-    /// If the parameter is a choice, is varied together with others, or has no axis and no steps, or no values come of them.
+    /// [`AlongError`] if the parameter is a choice, is varied together with others, or has no axis and no steps, or no values come of them.
     pub fn new(
         plan: &mut Plan,
         parameter: usize,
@@ -74,6 +62,30 @@ impl Along {
             Ok(Along { parameter, values, tolerance, unstable })
         } else {
             Err(AlongError::new("the tolerance must be more than zero".to_owned(), ""))
+        }
+    }
+
+    /// The parameter, in the table of the plan's model.
+    pub fn parameter(&self, plan: &Plan) -> &'static Parameter {
+        &plan.parameters()[self.parameter]
+    }
+
+    /// One value per parameter of the model, for a design where the followed parameter has come to `value`.
+    pub(super) fn values_at(&self, plan: &Plan, design: &Point, value: f64) -> Vec<f64> {
+        let mut values = design.values.clone();
+        values[self.parameter] = value;
+        plan.derived.fill(&mut values, &[]);
+        values
+    }
+
+    /// The verdict on a design: it is followed if it runs anywhere on its curve.
+    pub(super) fn judge(&self, plan: &Plan, design: &Point) -> Verdict {
+        let mut verdicts = self.values.iter().map(|&value| plan.judge(&self.values_at(plan, design, value)));
+        let first = verdicts.next().unwrap_or(Verdict::Runs);
+        if first == Verdict::Runs || verdicts.any(|verdict| verdict == Verdict::Runs) {
+            Verdict::Runs
+        } else {
+            first
         }
     }
 }

@@ -9,9 +9,9 @@ use flap_core::num::InstructionSet;
 use flap_core::simulate::{Interrupt, Period, Point, Row, SolverSettings, Status, Unfinished};
 use nalgebra::{DMatrix, DVector};
 
-use super::follow::{Comparison, compare, sizes};
-use super::{Along, Curve, Step, values};
-use crate::plan::Plan;
+use super::compare::{Comparison, compare, sizes};
+use super::curve::{Curve, Step};
+use crate::plan::{Along, Plan};
 
 /// First, shortest and longest distance between orbits: 1 is the band's width, and the largest of a state component.
 const STEPS: [f64; 3] = [0.01, 1e-5, 0.03];
@@ -26,12 +26,18 @@ const QUICK: usize = 3;
 /// Change of the parameter, as a share of the band's width, by which the derivative is taken.
 const CHANGE: f64 = 1e-3;
 
-/// How much finer periods are integrated than elsewhere: what they end at must change smoothly along the branch, far below
-/// `settle_tol`, or a plane may have no orbit on it.
+/// Tolerances of the integration of periods, as a share of those elsewhere. The ends of periods must change smoothly along
+/// the branch, far below `settle_tol`, or a plane may have no orbit on it.
 const FINER: f64 = 1e-2;
 
 /// The unstable orbits of all bistable bands of a curve, or some of them if it is interrupted.
-pub(super) fn unstable(plan: &Plan, along: &Along, curve: &Curve, interrupted: Interrupt<'_>) -> Vec<Step> {
+pub(super) fn unstable(
+    plan: &Plan,
+    along: &Along,
+    curve: &Curve,
+    set: InstructionSet,
+    interrupted: Interrupt<'_>,
+) -> Vec<Step> {
     let sizes = sizes(&curve.up, &curve.down);
     let is_bistable = |index: usize| {
         let rows = [&curve.up[index].row, &curve.down[index].row];
@@ -40,7 +46,7 @@ pub(super) fn unstable(plan: &Plan, along: &Along, curve: &Curve, interrupted: I
     };
     let mut found = Vec::new();
     let mut units = sizes.clone();
-    // What never moves has no size of its own.
+    // A component that never moves has no size of its own.
     units.iter_mut().filter(|size| **size == 0.0).for_each(|size| *size = 1.0);
     for last in 1..curve.up.len() {
         let ends_here = is_bistable(last) && (last + 1 == curve.up.len() || !is_bistable(last + 1));
@@ -52,7 +58,8 @@ pub(super) fn unstable(plan: &Plan, along: &Along, curve: &Curve, interrupted: I
         let width = (curve.up[last].value - curve.up[first].value).max(along.tolerance);
         let SolverSettings { rtol, atol, .. } = plan.solver;
         let solver = SolverSettings { rtol: FINER * rtol, atol: FINER * atol, ..plan.solver };
-        let branch = Branch { plan, solver, along, design: &curve.design, sizes: &units, width, interrupted };
+        let design = &curve.design;
+        let branch = Branch { plan, set, solver, along, design, sizes: &units, width, interrupted };
         found.extend(branch.turn(&curve.up[last - 1], &curve.up[last]));
     }
     found
@@ -61,6 +68,7 @@ pub(super) fn unstable(plan: &Plan, along: &Along, curve: &Curve, interrupted: I
 /// A branch of orbits as points of a space: the state in units of its sizes, then the parameter in widths of the band.
 struct Branch<'a> {
     plan: &'a Plan,
+    set: InstructionSet,
     solver: SolverSettings,
     along: &'a Along,
     design: &'a Point,
@@ -126,9 +134,9 @@ impl Branch<'_> {
 
     /// One drive period from a place.
     fn period(&self, place: &DVector<f64>) -> Result<Period, Unfinished> {
-        let values = values(self.plan, self.along, self.design, self.value(place));
-        let (set, state) = (InstructionSet::best(), self.state(place));
-        self.plan.simulator.motions()?.period(set, &self.solver, &values, &state, self.interrupted)
+        let values = self.along.values_at(self.plan, self.design, self.value(place));
+        let state = self.state(place);
+        self.plan.simulator.motions()?.period(self.set, &self.solver, &values, &state, self.interrupted)
     }
 
     /// The orbit nearest to `guess` on the plane through it across `direction`, by Newton's iteration.

@@ -5,13 +5,10 @@
 
 use flap_core::simulate::{Point, Row, Status};
 
-use super::{Along, Curve, Step, values};
-use crate::plan::Plan;
+use super::compare::{Comparison, compare, sizes};
+use super::curve::{Curve, Step};
+use crate::plan::{Along, Plan};
 use crate::resonance::study::{Probe, Study};
-
-/// Periodic motions are different if a component of the state at the beginning of a period differs by more than this, as a
-/// share of the largest that the component is anywhere on the curve.
-const DIFFERENT: f64 = 1e-2;
 
 /// A curve that is being followed.
 pub(super) struct Follow<'a> {
@@ -24,35 +21,24 @@ pub(super) struct Follow<'a> {
     stage: Stage,
 }
 
-/// What is being done.
+/// The stage of the work.
 enum Stage {
     /// Going up and down.
     Steps,
     /// Halving steps with an end of a bistable band in them.
     Edges(Vec<Edge>),
-    /// Nothing.
+    /// The curve is complete.
     Done,
 }
 
 /// A step at one end of which the two ways have come to the same motion, and at the other not.
 #[derive(Clone, Debug)]
 struct Edge {
-    /// Its ends, with the motion of the way up at the lower one, and that of the way down at the upper one.
+    /// The ends of the step, with the motion of the way up at the lower one, and that of the way down at the upper one.
     low: Step,
     high: Step,
-    /// Whether the motions are the same at the lower end.
+    /// True if the motions are the same at the lower end.
     same_below: bool,
-}
-
-/// How two motions at the same drive compare.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Comparison {
-    /// The same orbit.
-    Same,
-    /// Two orbits, or an orbit and a motion that is not periodic with the drive.
-    Different,
-    /// Neither is periodic with the drive.
-    Irregular,
 }
 
 impl<'a> Follow<'a> {
@@ -69,7 +55,7 @@ impl<'a> Follow<'a> {
 
     /// The point at `value`, begun where the motion of `from` has ended.
     fn probe(&self, value: f64, from: Option<&Step>) -> Probe {
-        let values = values(self.plan, self.along, &self.design, value);
+        let values = self.along.values_at(self.plan, &self.design, value);
         let begin = from.and_then(|step| match step.row.status {
             Status::Periodic | Status::Unstable | Status::Subharmonic | Status::Unsettled => {
                 Some(step.row.state.clone())
@@ -102,7 +88,7 @@ impl<'a> Follow<'a> {
         (0..compared.len().saturating_sub(1)).filter_map(edge).collect()
     }
 
-    /// Those of `edges` that are not short enough, or the end.
+    /// The stage for those of `edges` that are not short enough; the last one if there are none.
     fn halve(&self, edges: Vec<Edge>) -> Stage {
         let long = |edge: &Edge| {
             let middle = edge.middle();
@@ -174,30 +160,5 @@ impl Study for Follow<'_> {
             }
             Stage::Done => {}
         }
-    }
-}
-
-/// How large the components of the state are on a curve.
-pub(super) fn sizes(up: &[Step], down: &[Step]) -> Vec<f64> {
-    let mut sizes: Vec<f64> = Vec::new();
-    for step in up.iter().chain(down).filter(|step| step.row.status == Status::Periodic) {
-        sizes.resize(sizes.len().max(step.row.state.len()), 0.0);
-        for (size, y) in sizes.iter_mut().zip(&step.row.state) {
-            *size = size.max(y.abs());
-        }
-    }
-    sizes
-}
-
-/// Compares two motions at the same drive, given how large the components of the state are.
-pub(super) fn compare(up: &Row, down: &Row, sizes: &[f64]) -> Comparison {
-    match (up.status, down.status) {
-        (Status::Periodic, Status::Periodic) => {
-            let pairs = up.state.iter().zip(&down.state).zip(sizes);
-            let same = pairs.into_iter().all(|((up, down), size)| (up - down).abs() <= DIFFERENT * size);
-            if same { Comparison::Same } else { Comparison::Different }
-        }
-        (Status::Periodic, _) | (_, Status::Periodic) => Comparison::Different,
-        _ => Comparison::Irregular,
     }
 }

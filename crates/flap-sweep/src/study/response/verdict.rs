@@ -1,14 +1,14 @@
-//! What a curve shows, in a line.
+//! The verdict on a curve, in a line.
 
 use std::fmt;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Row, Status};
 
-use super::Curve;
-use super::follow::{Comparison, compare, sizes};
+use super::compare::{Comparison, compare, sizes};
+use super::curve::Curve;
 
-/// What a curve shows.
+/// The verdict on a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// First and last value of the parameter.
@@ -17,9 +17,9 @@ pub struct Verdict {
     pub unit: &'static str,
     /// Largest difference of the stroke (deg, peak to peak) between the two ways where they have the same motion.
     pub difference: f64,
-    /// Where they have not, or where motions are not periodic with the drive, by rising value.
+    /// The values at which they have not, or at which motions are not periodic with the drive, by rising value.
     pub bands: Vec<Band>,
-    /// Why the design has no response.
+    /// The reason for which the design has no response.
     pub invalid: Option<String>,
 }
 
@@ -28,11 +28,11 @@ pub struct Verdict {
 pub struct Band {
     /// First and last of them.
     pub range: [f64; 2],
-    /// What is there.
+    /// The kind of motions there.
     pub kind: BandKind,
 }
 
-/// What there is where a curve is not a single orbit.
+/// The kind of motions at values where a curve is not a single orbit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BandKind {
     /// Two motions: on the way up, and on the way down.
@@ -43,7 +43,7 @@ pub enum BandKind {
     },
     /// Motions that are not periodic with the drive.
     Irregular {
-        /// What they are, each kind once: status, and length in drive periods.
+        /// The motions, each kind once: status, and length in drive periods.
         what: Vec<(Status, u32)>,
     },
 }
@@ -140,7 +140,7 @@ impl fmt::Display for Verdict {
                     write!(f, "bistable {place}, jump of {} deg", digits(*jump))?;
                 }
                 BandKind::Bistable { jump: None } => {
-                    write!(f, "of one drive period on one way alone {place}")?;
+                    write!(f, "bistable {place}, one motion not of one drive period")?;
                 }
                 BandKind::Irregular { what } => {
                     let what: Vec<String> = what.iter().map(|&kind| describe(kind)).collect();

@@ -1,0 +1,163 @@
+//! The drive frequencies at which the settled stroke of one design is largest.
+
+use flap_core::num::InstructionSet;
+use flap_core::parameter::Invalid;
+use flap_core::simulate::{Interrupt, Point, Row, Simulator, SolverSettings, Status, Unfinished};
+
+use super::range::{Objective, Range};
+use super::search::{Found, Peaks, Search, Seen};
+use super::study::{self, Desk};
+use super::target::{Target, has_prescribed_stroke};
+
+/// Most peaks that are reported.
+const PEAKS: usize = 2;
+
+/// The range of a search for peaks, and its accuracy.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PeakSearch {
+    /// Lowest drive frequency (Hz); half of the lower natural frequency if `None`.
+    pub from: Option<f64>,
+    /// Highest drive frequency (Hz); one and a half times the upper natural frequency if `None`.
+    pub to: Option<f64>,
+    /// Largest error of a peak's frequency (Hz), more than zero.
+    pub tolerance: f64,
+}
+
+/// A frequency at which the stroke is larger than on either side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrivenPeak {
+    /// Drive frequency (Hz).
+    pub frequency: f64,
+    /// Stroke, peak to peak (deg).
+    pub stroke_pp: f64,
+    /// Pitch, peak to peak (deg).
+    pub pitch_pp: f64,
+}
+
+/// The result of a search.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrivenPeaks {
+    /// Lowest and highest frequency of the range (Hz).
+    pub range: [f64; 2],
+    /// The peaks between its ends, the highest first; at most two.
+    pub peaks: Vec<DrivenPeak>,
+    /// The end of the range (Hz) at which the stroke is larger than at any peak, if it is.
+    pub larger_at: Option<f64>,
+    /// Points run.
+    pub points: usize,
+    /// The frequencies at which the motion did not become periodic, rising.
+    pub gaps: Vec<Gap>,
+}
+
+/// Neighbouring drive frequencies at which the motion did not become periodic.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// Lowest of them (Hz).
+    pub from: f64,
+    /// Highest of them (Hz).
+    pub to: f64,
+    /// Number of them.
+    pub points: usize,
+    /// The status of the motion at all of them.
+    pub status: Status,
+}
+
+/// Looks for the drive frequencies at which the stroke of a point is largest. Stroke and pitch of a peak are those of the
+/// motion from rest.
+///
+/// # Errors
+/// [`Unfinished::Interrupted`], or [`Unfinished::Invalid`] if the values are impossible together or the search is.
+pub fn search(
+    model: &'static dyn Simulator,
+    set: InstructionSet,
+    solver: &SolverSettings,
+    values: &[f64],
+    search: &PeakSearch,
+    interrupted: Interrupt<'_>,
+) -> Result<DrivenPeaks, Unfinished> {
+    let PeakSearch { from, to, tolerance } = *search;
+    if tolerance.is_nan() || tolerance <= 0.0 {
+        let message = format!("a peak cannot be found to {tolerance} Hz, only to more than zero");
+        return Err(Invalid::new(message).into());
+    }
+    if has_prescribed_stroke(model.parameters(), values) {
+        let message =
+            "stroke_mode is \"prescribed\": such a stroke is the same at every frequency, set it to free";
+        return Err(Invalid::new(message).into());
+    }
+    let range = Range { of: Objective::Stroke, from, to, tolerance };
+    let target = Target::new(model, range)
+        .ok_or_else(|| Invalid::new("the model has no drive frequency or measures no stroke"))?;
+    let pitch = model.columns().iter().position(|column| column.name == "pitch_amplitude_deg");
+    let pitch = pitch.ok_or_else(|| Invalid::new("the model measures no pitch"))?;
+    let design = Search::new(&target, Point::at_rest(0, values.to_vec()), Peaks::ALL);
+    let mut one = One { waiting: Some(design), ended: None, interrupted };
+    study::run_all(model, set, solver, &mut one);
+    // A search that is interrupted never ends.
+    let (found, seen) = one.ended.ok_or(Unfinished::Interrupted)?.into_peaks()?;
+    Ok(peaks(&found, &seen, tolerance, [target.objective, pitch]))
+}
+
+/// A single search.
+struct One<'a> {
+    waiting: Option<Search<'a>>,
+    ended: Option<Search<'a>>,
+    interrupted: Interrupt<'a>,
+}
+
+impl<'a> Desk for One<'a> {
+    type Study = Search<'a>;
+
+    fn next(&mut self, _idle: bool) -> Option<Search<'a>> {
+        self.waiting.take()
+    }
+
+    fn done(&mut self, search: Search<'a>) {
+        self.ended = Some(search);
+    }
+
+    fn interrupted(&self) -> bool {
+        (self.interrupted)()
+    }
+}
+
+/// The peaks that were found, given the indices of the amplitudes of stroke and pitch among the measures.
+fn peaks(found: &Found, seen: &[Seen], tolerance: f64, amplitudes: [usize; 2]) -> DrivenPeaks {
+    let [from, to] = found.ends;
+    let mut tops: Vec<DrivenPeak> =
+        found.peaks.iter().filter_map(|([frequency, _], row)| peak(*frequency, row, amplitudes)).collect();
+    tops.sort_by(|one, other| other.stroke_pp.total_cmp(&one.stroke_pp));
+    let end_of =
+        |top: &DrivenPeak| [from, to].into_iter().find(|end| (top.frequency - end).abs() <= tolerance);
+    let larger_at = tops.first().and_then(end_of);
+    tops.retain(|top| end_of(top).is_none());
+    tops.truncate(PEAKS);
+    DrivenPeaks { range: found.ends, peaks: tops, larger_at, points: seen.len(), gaps: gaps(seen) }
+}
+
+/// The peak at which the motion of `row` is; `None` if that is not periodic.
+fn peak(frequency: f64, row: &Row, amplitudes: [usize; 2]) -> Option<DrivenPeak> {
+    let [stroke, pitch] = amplitudes.map(|index| row.measures.get(index).map(|amplitude| 2.0 * amplitude));
+    Some(DrivenPeak { frequency, stroke_pp: stroke?, pitch_pp: pitch? })
+}
+
+/// The frequencies at which the motion did not become periodic.
+fn gaps(seen: &[Seen]) -> Vec<Gap> {
+    let mut seen: Vec<(f64, Status)> = seen.iter().map(|seen| (seen.frequency, seen.status)).collect();
+    seen.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let mut gaps: Vec<Gap> = Vec::new();
+    let mut open = false;
+    for (frequency, status) in seen {
+        let gap = gaps.last_mut().filter(|gap| open && gap.status == status);
+        open = status != Status::Periodic;
+        match gap {
+            Some(gap) => {
+                gap.to = frequency;
+                gap.points += 1;
+            }
+            None if open => gaps.push(Gap { from: frequency, to: frequency, points: 1, status }),
+            None => {}
+        }
+    }
+    gaps
+}

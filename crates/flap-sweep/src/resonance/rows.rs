@@ -1,0 +1,106 @@
+//! Rows of designs that are each run at their own resonance.
+
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{Column, Jobs, Point, Row, Rows, Simulator, SolverSettings};
+
+use super::range::Range;
+use super::search::{Peaks, Search};
+use super::study::{self, Desk};
+use super::target::Target;
+
+/// A model whose rows are those of each design at its own resonance: the drive frequency of a point does not matter.
+///
+/// A row is the one that the model gives at [`RESONANCE_HZ`], but for `cycles` and `rhs_evals`, which count the whole
+/// search. Its measures are the model's, and behind them those of the resonance.
+pub struct AtResonance {
+    target: Target,
+    columns: Vec<Column>,
+}
+
+/// The column with the resonance's frequency.
+pub const RESONANCE_HZ: &str = "resonance_hz";
+
+/// The column with the resonance's distance from the nearer end of the range.
+pub const RESONANCE_MARGIN_HZ: &str = "resonance_margin_hz";
+
+impl AtResonance {
+    /// The resonances of designs of `model`; `None` if that has no drive frequency or does not measure the objective.
+    pub fn new(model: &'static dyn Simulator, range: Range) -> Option<AtResonance> {
+        let target = Target::new(model, range)?;
+        let mut columns = model.columns().to_vec();
+        let of = range.of.name();
+        let mut add = |name: &str, unit, doc: String| {
+            columns.push(Column { name: name.to_owned(), unit, doc });
+        };
+        add(RESONANCE_HZ, "Hz", format!("drive frequency at which the {of} is largest"));
+        add(
+            "resonance_second_hz",
+            "Hz",
+            format!("another peak of the {of}, if it is within 5 % of the largest"),
+        );
+        add(
+            RESONANCE_MARGIN_HZ,
+            "Hz",
+            "distance of the resonance from the nearer end of the range; zero if the largest value is there"
+                .to_owned(),
+        );
+        add("resonance_points", "", "points run in the search".to_owned());
+        add(
+            "resonance_gaps",
+            "",
+            "those whose motion did not become periodic: a larger peak may hide there".to_owned(),
+        );
+        Some(AtResonance { target, columns })
+    }
+
+    /// The range in which resonances are looked for.
+    pub fn range(&self) -> &Range {
+        &self.target.range
+    }
+}
+
+impl Rows for AtResonance {
+    fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs) {
+        study::run_all(self.target.model, set, solver, &mut Designs { at: self, jobs });
+    }
+
+    /// A resonance is looked for from rest: `begin` does not matter.
+    fn run_point(
+        &self,
+        set: InstructionSet,
+        solver: &SolverSettings,
+        values: &[f64],
+        _begin: Option<&[f64]>,
+    ) -> Row {
+        let mut search = Search::new(&self.target, Point::at_rest(0, values.to_vec()), Peaks::HIGHEST);
+        study::run_one(self.target.model, set, solver, &mut search);
+        search.into_row().1
+    }
+}
+
+/// Designs on their way from the jobs of a sweep to their rows.
+struct Designs<'a> {
+    at: &'a AtResonance,
+    jobs: &'a mut dyn Jobs,
+}
+
+impl<'a> Desk for Designs<'a> {
+    type Study = Search<'a>;
+
+    fn next(&mut self, idle: bool) -> Option<Search<'a>> {
+        Some(Search::new(&self.at.target, self.jobs.next(idle)?, Peaks::HIGHEST))
+    }
+
+    fn done(&mut self, search: Search<'a>) {
+        let (index, row) = search.into_row();
+        self.jobs.done(index, row);
+    }
+
+    fn interrupted(&self) -> bool {
+        self.jobs.interrupted()
+    }
+}

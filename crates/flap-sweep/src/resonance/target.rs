@@ -1,0 +1,66 @@
+//! The target of a search: a quantity of a model over its drive frequency.
+
+use flap_core::parameter::{Invalid, Kind, Parameter};
+use flap_core::simulate::{Simulator, Unfinished};
+
+use super::range::{Objective, Range};
+
+/// The parameter that is searched for.
+pub const DRIVE_FREQUENCY: &str = "drive_frequency";
+
+/// The quantity of a model that a search makes largest, and the range of the search.
+pub(super) struct Target {
+    pub(super) model: &'static dyn Simulator,
+    pub(super) range: Range,
+    /// Index of the drive frequency among the parameters.
+    pub(super) frequency: usize,
+    /// Index of the quantity among the columns.
+    pub(super) objective: usize,
+}
+
+impl Target {
+    /// The target for designs of `model`; `None` if that has no drive frequency or does not measure the objective.
+    pub(super) fn new(model: &'static dyn Simulator, range: Range) -> Option<Target> {
+        let frequency = model.parameters().iter().position(|parameter| parameter.name == DRIVE_FREQUENCY)?;
+        let objective = model.columns().iter().position(|column| column.name == range.of.column())?;
+        Some(Target { model, range, frequency, objective })
+    }
+
+    /// The frequencies (Hz) between which the resonance of a design is looked for.
+    pub(super) fn ends(&self, values: &[f64]) -> Result<[f64; 2], Unfinished> {
+        let Range { of, from, to, .. } = self.range;
+        if of == Objective::Stroke && has_prescribed_stroke(self.model.parameters(), values) {
+            return Err(Invalid::new(
+                "stroke_mode is \"prescribed\": such a stroke is the same at every frequency, and has no resonance",
+            ).into());
+        }
+        let [from, to] = match (from, to) {
+            (Some(from), Some(to)) => [from, to],
+            (from, to) => {
+                let mut values = values.to_vec();
+                // Small motions do not depend on it, but it must be there.
+                values[self.frequency] = from.or(to).filter(|given| *given > 0.0).unwrap_or(1.0);
+                let natural = self.model.experiments()?.modes(&values)?.map(|mode| mode.frequency);
+                let lowest = 0.5 * natural[0].min(natural[1]);
+                let highest = 1.5 * natural[0].max(natural[1]);
+                [from.unwrap_or(lowest), to.unwrap_or(highest)]
+            }
+        };
+        if from > 0.0 && from < to && to.is_finite() {
+            return Ok([from, to]);
+        }
+        Err(Invalid::new(format!(
+            "there are no drive frequencies from {from} to {to} Hz: the first must be more than zero, and less than the \
+             last"
+        )).into())
+    }
+}
+
+/// True if the stroke of a point is prescribed, and so the same at every frequency.
+pub(super) fn has_prescribed_stroke(parameters: &[Parameter], values: &[f64]) -> bool {
+    parameters.iter().zip(values).any(|(parameter, &value)| {
+        let Kind::Choice(options) = parameter.kind else { return false };
+        let option = (0_u32..).map(f64::from).zip(options).find(|(index, _)| *index == value);
+        parameter.name == "stroke_mode" && option.is_some_and(|(_, option)| *option == "prescribed")
+    })
+}

@@ -1,0 +1,56 @@
+//! The response of one design.
+
+use flap_core::parameter::Invalid;
+use flap_core::simulate::{Point, Row, Status};
+
+use crate::plan::Along;
+use crate::table::layout::{Cell, Layout};
+
+/// A motion on a curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// Value of the parameter that rises and falls.
+    pub value: f64,
+    /// The motion.
+    pub row: Row,
+}
+
+/// The response of one design.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// The design.
+    pub design: Point,
+    /// The motions on the way up, by rising value.
+    pub up: Vec<Step>,
+    /// The motions on the way down, by rising value too: at the values of `up`.
+    pub down: Vec<Step>,
+    /// Unstable orbits, if they were looked for: for each bistable band, from the end of the upward branch to that of the
+    /// downward one. Values fall and may turn.
+    pub unstable: Vec<Step>,
+}
+
+impl Curve {
+    /// The curve of a design that cannot be run.
+    pub(super) fn impossible(along: &Along, design: Point, reason: &Invalid) -> Curve {
+        let step = |value: &f64| Step { value: *value, row: Row::invalid(reason.clone()) };
+        let up: Vec<Step> = along.values.iter().map(step).collect();
+        Curve { design, down: up.clone(), up, unstable: Vec::new() }
+    }
+
+    /// The reason for which the design has no response, if its parameters are impossible together.
+    pub fn invalid(&self) -> Option<&str> {
+        let first = &self.up.first()?.row;
+        if first.status == Status::Invalid { first.reason.as_deref() } else { None }
+    }
+
+    /// The motions with their cells under the columns of `layout`: the way up, by rising value, then the way down, by falling
+    /// value, then the unstable orbits.
+    pub fn rows(&self, layout: &Layout) -> impl Iterator<Item = (Vec<Cell>, &Row)> {
+        let up = self.up.iter().map(|step| ("up", step));
+        let down = self.down.iter().rev().map(|step| ("down", step));
+        let unstable = self.unstable.iter().map(|step| ("unstable", step));
+        up.chain(down).chain(unstable).map(|(branch, Step { value, row })| {
+            (layout.cells_at(&self.design, Some((branch, *value)), row), row)
+        })
+    }
+}

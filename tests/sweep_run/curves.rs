@@ -1,0 +1,170 @@
+//! Responses on the same runner as sweeps: a model that fails is an error, and interrupted runs go on to the same bytes.
+
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use flap_sweep::files::csv_sink::CsvSink;
+use flap_sweep::files::integrity::{self, Verdict};
+use flap_sweep::files::job::{self, Begin, Done, Job, JobError, Outcome};
+use flap_sweep::files::results::{Format, Reader};
+use flap_sweep::files::session::SessionOptions;
+use flap_sweep::plan::{Along, Plan};
+use flap_sweep::run::{RunError, Summary};
+use flap_sweep::study::response::Responses;
+use flap_sweep::table::layout::Layout;
+
+use crate::fake::{Fake, Fault};
+use crate::support::{must_end, options, plan_of};
+
+/// A file in each format.
+const FILES: &[&str] = &[
+    "rows.csv",
+    "rows.csv.zst",
+    #[cfg(feature = "parquet")]
+    "rows.parquet",
+];
+
+/// So many designs, each followed from size 0 to 2 and back.
+fn curves(model: &'static Fake, designs: u32) -> Plan {
+    let mut plan = plan_of(
+        model,
+        &format!(
+            "preset = \"fake2020\"\n[axes]\ndrive_frequency = {{ from = 1, to = {designs}, step = 1 }}\n"
+        ),
+    );
+    plan.followed =
+        Some(Along { parameter: 0, values: vec![0.0, 1.0, 2.0], tolerance: 0.1, unstable: false });
+    plan
+}
+
+/// The text of all rows with the summary.
+fn csv(plan: &Plan, threads: usize, window: usize) -> (String, Result<Summary, RunError>) {
+    let mut sink = CsvSink::new(Layout::of(plan).names(), Vec::new());
+    let never = AtomicBool::new(false);
+    let summary = Responses::of(plan).unwrap().run(
+        &options(threads, window),
+        Summary::default(),
+        &mut sink,
+        &never,
+        &mut |_| {},
+        &mut |_| Ok(()),
+    );
+    (String::from_utf8(sink.target().clone()).unwrap(), summary)
+}
+
+#[test]
+fn rows_do_not_depend_on_threads() {
+    let (text, summary) = csv(&curves(Fake::leak(Fault::None, 8), 500), 1, 1000);
+    assert_eq!(text.lines().count(), 1 + 500 * 6);
+    assert!(text.starts_with("curve,drive_frequency,branch,size,status,"), "{text}");
+    let summary = summary.unwrap();
+    assert_eq!((summary.ran, summary.rows, summary.points), (500, 3000, 500));
+    for (threads, window) in [(2, 1000), (4, 10), (3, 1)] {
+        assert_eq!(csv(&curves(Fake::leak(Fault::None, 8), 500), threads, window).0, text);
+    }
+}
+
+#[test]
+fn a_panic_is_an_error() {
+    for (threads, window) in [(1, 1000), (2, 1000), (4, 10), (3, 1)] {
+        let (text, summary) =
+            must_end(move || csv(&curves(Fake::leak(Fault::Panic(2.0), 8), 10_000), threads, window));
+        match summary.unwrap_err() {
+            RunError::Panic(message) => assert_eq!(message, "the size is 2"),
+            other => panic!("{other}"),
+        }
+        assert_eq!(text.lines().count(), 1, "no curve is complete");
+    }
+}
+
+#[test]
+fn a_model_that_breaks_its_contract_is_an_error() {
+    for fault in [Fault::Narrow(1.0), Fault::Lose(1.0)] {
+        let (_, summary) = must_end(move || csv(&curves(Fake::leak(fault, 8), 100), 2, 100));
+        assert!(matches!(summary, Err(RunError::Model(_))), "{fault:?}");
+    }
+}
+
+/// Runs a job. The flag is raised before the rows of the curve with the index `stop_at` are written.
+fn run(plan: &Plan, out: &Path, begin: Begin, stop_at: u64) -> Result<Outcome, JobError> {
+    let options = SessionOptions { run: options(2, 100), checkpoint: Duration::from_millis(5) };
+    let job = Job { plan, out: out.to_owned(), begin, options, origin: None };
+    let stop = AtomicBool::new(false);
+    job::run(
+        &job,
+        &mut |plan, options, before, sink| {
+            Responses::of(plan).unwrap().run(options, before, sink, &stop, &mut |_| {}, &mut |curve| {
+                if curve.design.index == stop_at {
+                    stop.store(true, Ordering::Relaxed);
+                }
+                Ok(())
+            })
+        },
+        &mut |_| {},
+    )
+}
+
+#[test]
+fn an_interrupted_response_goes_on_to_the_same_bytes() {
+    // Slow, so that a raised flag leaves curves over.
+    let model = Fake::leak(Fault::Slow(1.0, Duration::from_micros(200)), 8);
+    let plan = curves(model, 2000);
+    for name in FILES {
+        let folder = tempfile::tempdir().unwrap();
+        let [whole, out] = ["whole", "out"].map(|folder_name| {
+            let folder = folder.path().join(folder_name);
+            fs::create_dir(&folder).unwrap();
+            folder.join(name)
+        });
+        assert!(matches!(run(&plan, &whole, Begin::New, u64::MAX), Ok(Outcome::Ran(_))));
+        let Ok(Outcome::Ran(first)) = run(&plan, &out, Begin::New, 300) else { panic!("{name}") };
+        let Done { summary, .. } = *first;
+        assert!(summary.interrupted && summary.ran > 300 && summary.ran < 2000, "{name}: {}", summary.ran);
+        assert!(matches!(integrity::verify(&out), Ok(Verdict::Unfinished { done: Some(_) })), "{name}");
+        assert!(matches!(run(&plan, &out, Begin::New, 0), Err(JobError::Create(_))), "{name}: protected");
+
+        let Ok(Outcome::Ran(second)) = run(&plan, &out, Begin::Resume, u64::MAX) else { panic!("{name}") };
+        assert!(second.rows_before > 1000, "{name}: {}", second.rows_before);
+        assert_eq!((second.summary.ran, second.summary.rows), (2000, 12_000), "{name}");
+        assert!(fs::read(&whole).unwrap() == fs::read(&out).unwrap(), "{name}: other bytes");
+        assert_eq!(integrity::verify(&out).unwrap(), Verdict::Sound { rows: 12_000 }, "{name}");
+        assert!(matches!(run(&plan, &out, Begin::Resume, 0), Ok(Outcome::Complete { .. })), "{name}");
+    }
+}
+
+#[test]
+fn every_format_holds_the_same_rows() {
+    let plan = curves(Fake::leak(Fault::None, 8), 100);
+    let folder = tempfile::tempdir().unwrap();
+    let rows: Vec<Vec<String>> = FILES
+        .iter()
+        .map(|name| {
+            let out = folder.path().join(name);
+            assert!(matches!(run(&plan, &out, Begin::New, u64::MAX), Ok(Outcome::Ran(_))));
+            let mut reader = Reader::new(fs::File::open(&out).unwrap(), Format::of(&out).unwrap()).unwrap();
+            let mut lines = vec![reader.names().join(",")];
+            let mut row = csv::StringRecord::new();
+            while reader.next(&mut row).unwrap() {
+                lines.push(row.iter().collect::<Vec<_>>().join(","));
+            }
+            lines
+        })
+        .collect();
+    assert_eq!(rows[0], csv(&plan, 1, 100).0.lines().collect::<Vec<_>>());
+    assert!(rows.iter().all(|other| *other == rows[0]));
+}
+
+#[test]
+fn a_response_along_other_values_is_another() {
+    let model = Fake::leak(Fault::Slow(1.0, Duration::from_micros(200)), 8);
+    let mut plan = curves(model, 2000);
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("rows.csv");
+    assert!(matches!(run(&plan, &out, Begin::New, 10), Ok(Outcome::Ran(_))));
+    let along = plan.followed.clone().unwrap();
+    plan.followed = Some(Along { tolerance: 0.2, ..along });
+    let Err(JobError::Resume { error, .. }) = run(&plan, &out, Begin::Resume, 0) else { panic!("resumed") };
+    assert!(error.to_string().contains("the parameter that is followed"), "{error}");
+}
