@@ -4,8 +4,8 @@
 //! is then a flat list of operations. Elementary functions are those of `libm`, so that its value has the same bits on
 //! every machine. See `docs/grid.md` for the language.
 //!
-//! What is not a number makes everything computed from it not a number. A comparison with it is unknown, neither true
-//! nor false; `and`, `or` and `not` of what is unknown are unknown unless the other side decides.
+//! Results of NaN are NaN. A comparison with NaN is unknown, neither true nor false; `and`, `or` and `not` of unknown
+//! conditions are unknown unless the other side decides.
 
 mod error;
 mod evaluate;
@@ -19,7 +19,7 @@ mod token;
 pub use error::{ExpressionError, Problem};
 use operation::Operation;
 
-/// What an expression is: a number, or a condition.
+/// The type of an expression: a number, or a condition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// It has a number for a value.
@@ -28,7 +28,7 @@ pub enum Kind {
     Condition,
 }
 
-/// What a name in an expression stands for.
+/// The meaning of a name in an expression.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Meaning {
     /// The number at this place of the values.
@@ -45,14 +45,14 @@ pub enum Meaning {
 
 /// The names that an expression may use.
 pub trait Scope {
-    /// What `name` stands for, if anything.
+    /// The meaning of `name`, if it has one.
     fn meaning(&self, name: &str) -> Option<Meaning>;
 
     /// All names, from which to guess what a misspelt one was meant to be.
     fn names(&self) -> Vec<String>;
 }
 
-/// Whether `name` can be given to something that expressions are to use.
+/// True if `name` can be given to something that expressions are to use.
 pub fn is_free_name(name: &str) -> bool {
     let mut characters = name.chars();
     characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
@@ -79,7 +79,7 @@ impl Expression {
         parse::parse(text, scope).map(|(kind, operations)| Expression { kind, operations })
     }
 
-    /// Whether it is a number or a condition.
+    /// Its type: a number or a condition.
     pub fn kind(&self) -> Kind {
         self.kind
     }
@@ -93,7 +93,7 @@ impl Expression {
     }
 
     /// Its value where names have these `values`: a number; 1 for a condition that is true and 0 for one that is
-    /// false; NaN for what is not a number or unknown.
+    /// false; NaN for an unknown value.
     pub fn value(&self, values: &[f64]) -> f64 {
         evaluate::evaluate(&self.operations, values)
     }
