@@ -194,7 +194,7 @@ fn unstable_orbits_join_the_branches() {
                 (step.row.status, step.row.stable(), step.row.period),
                 (Status::Unstable, Some(false), 1)
             );
-            assert!(step.row.residual <= plan.solver.settle_tol && step.row.floquet_max > 1.0);
+            assert!(step.row.residual <= plan.solver().settle_tol && step.row.floquet_max > 1.0);
         }
 
         // Between the strokes of the branches everywhere.
@@ -219,7 +219,8 @@ fn unstable_orbits_join_the_branches() {
         values[along.parameter] = middle.value;
         let ended = [0.98, 1.02].map(|factor| {
             let begin: Vec<f64> = middle.row.state.iter().map(|y| factor * y).collect();
-            let row = plan.simulator.run_point(InstructionSet::best(), &plan.solver, &values, Some(&begin));
+            let row =
+                plan.simulator().run_point(InstructionSet::best(), plan.solver(), &values, Some(&begin));
             assert_eq!((row.status, row.stable()), (Status::Periodic, Some(true)));
             row.measures[stroke]
         });

@@ -11,7 +11,7 @@ use flap_sweep::files::disk::{self, Durable};
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::output;
 use flap_sweep::notation::text;
-use flap_sweep::plan::Plan;
+use flap_sweep::plan::{ChangeError, Plan};
 use flap_sweep::run::RunOptions;
 use flap_sweep::study::response::{self, Along, AlongError, Curve, Table, Verdict};
 
@@ -22,16 +22,16 @@ use crate::failure::{Exit, Failure};
 use crate::job::make;
 
 pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
-    let mut plan = point::plan(&args.what)?;
+    let plan = point::plan(&args.what)?;
     outputs::check_tables(Inputs::new().add_plan(&plan), [args.out.as_deref()])?;
-    point::set_solver(&mut plan.solver, &args.solver);
-    if plan.resonance.is_some() {
+    let plan = point::with_solver(plan, &args.solver)?;
+    if plan.resonance().is_some() {
         let failure = Failure::usage(format!("{} runs each design at its own resonance", args.what));
         return Err(failure.help("give drive_frequency a number, or follow it with --along drive_frequency"));
     }
-    let along = along(args, &mut plan)?;
+    let (mut plan, along) = along(args, plan)?;
     for (name, value) in &args.set {
-        set(&mut plan, &along, name, value)?;
+        plan = set(plan, &along, name, value)?;
     }
     let never = AtomicBool::new(false);
     let threads = args.threads.unwrap_or(RunOptions::default().threads);
@@ -108,7 +108,7 @@ fn refused(path: &Path, error: io::Error) -> Failure {
 }
 
 /// The parameter that rises and falls, and its values: those of the command line, or of the grid's axis.
-fn along(args: &RespondArgs, plan: &mut Plan) -> Result<Along, Failure> {
+fn along(args: &RespondArgs, plan: Plan) -> Result<(Plan, Along), Failure> {
     let index = point::find_parameter(plan.parameters(), &args.along)?;
     let parameter = &plan.parameters()[index];
     let number = |option: &str, given: &Option<String>| -> Result<Option<f64>, Failure> {
@@ -131,13 +131,19 @@ fn along(args: &RespondArgs, plan: &mut Plan) -> Result<Along, Failure> {
 }
 
 /// Sets a parameter of all designs.
-fn set(plan: &mut Plan, along: &Along, name: &str, value: &str) -> Result<(), Failure> {
+fn set(plan: Plan, along: &Along, name: &str, value: &str) -> Result<Plan, Failure> {
     let index = point::find_parameter(plan.parameters(), name)?;
-    if index == along.parameter || plan.varied().any(|varied| varied == index) {
-        return Err(Failure::usage(format!("`{name}` is set with --set and varied")).help("keep one of them"));
+    let twice =
+        |how: &str| Failure::usage(format!("`{name}` is set with --set and {how}")).help("keep one of them");
+    if index == along.parameter {
+        return Err(twice("varied"));
     }
-    plan.base[index] = point::value(&plan.parameters()[index], "--set", value)?;
-    Ok(())
+    let value = point::value(&plan.parameters()[index], "--set", value)?;
+    plan.with_parameter(index, value).map_err(|error| match error {
+        ChangeError::Varied(_) => twice("varied"),
+        ChangeError::Derived(_) => twice("derived"),
+        other => other.into(),
+    })
 }
 
 /// Makes the line of each curve.
@@ -156,7 +162,7 @@ impl<'a> Verdicts<'a> {
             .iter()
             .position(|column| column.name == "stroke_amplitude_deg")
             .ok_or_else(|| {
-                Failure::usage(format!("the model {} measures no stroke", plan.simulator.name()))
+                Failure::usage(format!("the model {} measures no stroke", plan.simulator().name()))
             })?;
         Ok(Verdicts { plan, parameter: response::parameter(plan, along), stroke })
     }
@@ -174,6 +180,6 @@ impl<'a> Verdicts<'a> {
             let value = text::value(parameter, design.values[index]);
             format!("{} = {value} {}", parameter.name, parameter.unit).trim_end().to_owned()
         };
-        self.plan.varied().map(assignment).collect::<Vec<_>>().join(", ")
+        self.plan.axes().varied().map(assignment).collect::<Vec<_>>().join(", ")
     }
 }

@@ -50,10 +50,10 @@ impl Identity {
             flap: env!("CARGO_PKG_VERSION").to_owned(),
             build: build().to_owned(),
             arithmetic: options.instructions.arithmetic().name().to_owned(),
-            grid: text::hash(&plan.source.text),
-            points_file: plan.points_file.as_ref().map(PointsFile::hash),
-            selection: plan.selection.to_string(),
-            solver: plan.solver,
+            grid: text::hash(&plan.source().text),
+            points_file: plan.points_file().map(PointsFile::hash),
+            selection: plan.selection().to_string(),
+            solver: *plan.solver(),
         }
     }
 

@@ -14,7 +14,7 @@ use crate::plan::{Plan, Verdict};
 /// Runs points until there are none left, and leaves the queue whatever happens.
 pub(super) fn work(plan: &Plan, instructions: InstructionSet, queue: &Queue) {
     let mut source = Source { plan, queue, in_hand: 0, fault: None };
-    let ended = catch_unwind(AssertUnwindSafe(|| plan.rows().run(instructions, &plan.solver, &mut source)));
+    let ended = catch_unwind(AssertUnwindSafe(|| plan.rows().run(instructions, plan.solver(), &mut source)));
     let outcome = match (ended, source.fault, source.in_hand) {
         (Err(panic), _, _) => Err(RunError::Panic(panic_message(&*panic))),
         (Ok(()), Some(fault), _) => Err(RunError::Model(fault)),
@@ -66,7 +66,7 @@ impl Jobs for Source<'_> {
             return;
         }
         self.in_hand = self.in_hand.saturating_sub(1);
-        if !self.plan.measures.is_empty() && position < self.plan.selected() {
+        if !self.plan.measures().is_empty() && position < self.plan.selected() {
             self.plan.add_own_measures(&self.plan.selected_point(position).values, &mut row.measures);
         }
         self.queue.done(position, Finished::Row(row));

@@ -103,8 +103,7 @@ impl Layout {
     /// The columns that `plan` asks for.
     pub fn of(plan: &Plan) -> Layout {
         let parameters = plan.parameters();
-        let varied =
-            plan.varied().chain(plan.derived.parameters()).map(|index| (index, &parameters[index])).collect();
+        let varied = plan.differing().map(|index| (index, &parameters[index])).collect();
         let columns = plan.rows().columns();
         let models = columns.iter().map(|column| Measure {
             index: 0,
@@ -113,7 +112,7 @@ impl Layout {
             doc: column.doc.clone(),
             kind: expression::Kind::Number,
         });
-        let own = plan.measures.iter().map(|own| Measure {
+        let own = plan.measures().iter().map(|own| Measure {
             index: 0,
             name: own.name.clone(),
             unit: "",
@@ -122,7 +121,7 @@ impl Layout {
         });
         let all: Vec<Measure> =
             models.chain(own).enumerate().map(|(index, measure)| Measure { index, ..measure }).collect();
-        let measures = match &plan.output.columns {
+        let measures = match &plan.output().columns {
             Some(chosen) => chosen.iter().map(|&index| all[index].clone()).collect(),
             None => all,
         };

@@ -92,7 +92,7 @@ pub enum RowError {
 impl RowCheck {
     /// A check of the rows of `plan`; `rows` is the number of rows that were written, if it is known.
     pub fn new(plan: &Plan, rows: Option<u64>) -> RowCheck {
-        RowCheck::of(plan, plan.selection.clone(), rows)
+        RowCheck::of(plan, plan.selection().clone(), rows)
     }
 
     /// A check of the rows of other points than `plan` selects.
@@ -107,7 +107,7 @@ impl RowCheck {
             rows,
             next: 0,
             seen: 0,
-            is_dense: plan.conditions.is_empty(),
+            is_dense: plan.conditions().is_empty(),
         }
     }
 

@@ -1,12 +1,12 @@
 //! The plan that a sidecar records.
 
-use flap_core::simulate::{Simulator, SolverSettings};
+use flap_core::simulate::Simulator;
 
 use super::Sidecar;
 use crate::grid;
 use crate::grid::diagnostic::Mistakes;
 use crate::notation::text;
-use crate::plan::selection::{self, Selection};
+use crate::plan::selection;
 use crate::plan::{self, Plan};
 
 /// A sidecar without a plan.
@@ -45,30 +45,19 @@ impl Sidecar {
         if self.grid.xxh3 != text::hash(&self.grid.text) {
             return Err(PlanError::GridText);
         }
-        let mut plan = grid::parse(&self.grid.name, &self.grid.text, models).map_err(PlanError::Grid)?;
-        if !is_allowed(&self.solver) {
-            return Err(PlanError::Solver);
-        }
-        plan.solver = self.solver;
+        let plan = grid::parse(&self.grid.name, &self.grid.text, models).map_err(PlanError::Grid)?;
+        let plan = plan.with_solver(self.solver).map_err(|_| PlanError::Solver)?;
         let points_file = self.points_file.as_ref();
-        if plan.points_file.as_ref().map(plan::PointsFile::hash) != points_file.map(|file| file.xxh3.clone())
-        {
+        if plan.points_file().map(plan::PointsFile::hash) != points_file.map(|file| file.xxh3.clone()) {
             return Err(PlanError::PointsFile { path: points_file.map(|file| file.path.clone()) });
-        }
-        if let Some(shard) = &self.shard {
-            plan.selection = Selection::Shard(shard.parse().map_err(|_| PlanError::Points)?);
         }
         if let Some(rerun) = &self.rerun {
             let list = selection::read_list(&rerun.points, plan.len()).ok_or(PlanError::Points)?;
-            plan.selection = Selection::Listed(list);
+            return plan.with_points(list).map_err(|_| PlanError::Points);
         }
-        Ok(plan)
+        match &self.shard {
+            Some(shard) => Ok(plan.with_shard(shard.parse().map_err(|_| PlanError::Points)?)),
+            None => Ok(plan),
+        }
     }
-}
-
-/// True if a grid file may have these settings.
-fn is_allowed(solver: &SolverSettings) -> bool {
-    let tolerances = [solver.rtol, solver.atol, solver.settle_tol, solver.accuracy];
-    let positive = tolerances.iter().all(|tolerance| *tolerance > 0.0);
-    positive && solver.rtol < grid::LARGEST_RTOL && solver.max_cycles > 0 && solver.max_steps > 0
 }

@@ -50,8 +50,8 @@ pub(super) fn unstable(plan: &Plan, along: &Along, curve: &Curve, interrupted: I
         }
         let first = (0..last).rev().take_while(|&index| is_bistable(index)).last().unwrap_or(last);
         let width = (curve.up[last].value - curve.up[first].value).max(along.tolerance);
-        let SolverSettings { rtol, atol, .. } = plan.solver;
-        let solver = SolverSettings { rtol: FINER * rtol, atol: FINER * atol, ..plan.solver };
+        let SolverSettings { rtol, atol, .. } = *plan.solver();
+        let solver = SolverSettings { rtol: FINER * rtol, atol: FINER * atol, ..*plan.solver() };
         let branch = Branch { plan, solver, along, design: &curve.design, sizes: &units, width, interrupted };
         found.extend(branch.turn(&curve.up[last - 1], &curve.up[last]));
     }
@@ -128,7 +128,7 @@ impl Branch<'_> {
     fn period(&self, place: &DVector<f64>) -> Result<Period, Unfinished> {
         let values = values(self.plan, self.along, self.design, self.value(place));
         let (set, state) = (InstructionSet::best(), self.state(place));
-        self.plan.simulator.motions()?.period(set, &self.solver, &values, &state, self.interrupted)
+        self.plan.simulator().motions()?.period(set, &self.solver, &values, &state, self.interrupted)
     }
 
     /// The orbit nearest to `guess` on the plane through it across `direction`, by Newton's iteration.

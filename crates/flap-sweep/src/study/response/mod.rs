@@ -97,7 +97,7 @@ pub fn run<E: From<RunError>>(
                 scope.spawn(|_| {
                     let set = InstructionSet::best();
                     let mut designs = Designs { plan, along, stop, shared: &shared };
-                    study::run_all(plan.simulator, set, &plan.solver, &mut designs);
+                    study::run_all(plan.simulator(), set, plan.solver(), &mut designs);
                 });
             }
         });
@@ -115,7 +115,7 @@ pub fn run<E: From<RunError>>(
 /// The response of one point, on scalars. Gives the same bits as [`run`].
 pub fn run_one(plan: &Plan, along: &Along, design: Point) -> Curve {
     let mut follow = Follow::new(plan, along, design);
-    study::run_one(plan.simulator, InstructionSet::best(), &plan.solver, &mut follow);
+    study::run_one(plan.simulator(), InstructionSet::best(), plan.solver(), &mut follow);
     complete(plan, along, follow.finish(), &never)
 }
 
@@ -136,7 +136,7 @@ fn complete(plan: &Plan, along: &Along, mut curve: Curve, interrupted: Interrupt
 fn values(plan: &Plan, along: &Along, design: &Point, value: f64) -> Vec<f64> {
     let mut values = design.values.clone();
     values[along.parameter] = value;
-    plan.derived.fill(&mut values, &[]);
+    plan.derived().fill(&mut values, &[]);
     values
 }
 
