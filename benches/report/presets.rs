@@ -25,7 +25,7 @@ pub(crate) fn print(effort: Effort) {
     );
     for preset in PRESETS {
         let plan = grid(preset, effort.side);
-        let ways = [false, true].map(|newton| SolverSettings { newton, ..plan.solver });
+        let ways = [false, true].map(|newton| SolverSettings { newton, ..*plan.solver() });
         let mut seconds = [Vec::new(), Vec::new()];
         let mut last = [Listed::new(&plan), Listed::new(&plan)];
         for _ in 0..effort.rounds {
@@ -51,7 +51,7 @@ pub(crate) fn print(effort: Effort) {
 /// Runs all points on this thread.
 pub(crate) fn run<'a>(plan: &'a Plan, solver: &SolverSettings) -> Listed<'a> {
     let mut listed = Listed::new(plan);
-    plan.simulator.run(InstructionSet::best(), solver, &mut listed);
+    plan.simulator().run(InstructionSet::best(), solver, &mut listed);
     listed
 }
 

@@ -28,7 +28,7 @@ pub(crate) fn print(effort: Effort) {
     for _ in 0..effort.rounds {
         one.push(sweep(&plan, 1));
         two.push(sweep(&plan, 2));
-        let rows = listed.insert(run_here(&plan, &plan.solver));
+        let rows = listed.insert(run_here(&plan, plan.solver()));
         let (write, parse) = file(&plan, rows).expect("a temporary file");
         written.push(100.0 * write / one[one.len() - 1]);
         read.push(100.0 * parse / one[one.len() - 1]);

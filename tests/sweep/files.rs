@@ -56,7 +56,7 @@ fn presets_of_all_models_are_found() {
         let path = folder.path().join(preset.name);
         fs::write(&path, format!("preset = \"{}\"", preset.name)).expect("written");
         let plan = grid::read(&path, simulate::all()).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!((plan.preset, plan.len()), (preset.name, 1));
+        assert_eq!((plan.preset(), plan.len()), (preset.name, 1));
     }
 }
 

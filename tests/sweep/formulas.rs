@@ -43,7 +43,7 @@ fn a_derived_value_that_was_set_instead_is_kept() {
     assert_eq!(values[index("wing_area")], 1.0);
     values[index("hinge_position")] = 3.0;
     values[index("wing_area")] = 7.0;
-    plan.derived.fill(&mut values, &[index("wing_area")]);
+    plan.derived().fill(&mut values, &[index("wing_area")]);
     assert_eq!((values[index("wing_area")], values[index("plate_width")]), (7.0, 7.0));
 }
 
@@ -81,7 +81,7 @@ positive = "wing_area >= 0"
 read = "arms == 'axis' or wing_area > preset.stroke_offset"
 "#,
     );
-    let names: Vec<&str> = plan.conditions.iter().map(|condition| condition.name.as_str()).collect();
+    let names: Vec<&str> = plan.conditions().iter().map(|condition| condition.name.as_str()).collect();
     assert_eq!(names, ["small", "root", "positive", "read"]);
     let judged: Vec<Verdict> = (0..8).map(|point| plan.judge(&plan.point(point).values)).collect();
     let zero = Verdict::Invalid(Invalid::new("`wing_area` comes out as 0.0 m^2, but must be more than zero"));
@@ -104,7 +104,7 @@ read = "arms == 'axis' or wing_area > preset.stroke_offset"
 fn a_condition_that_cannot_be_computed_excludes_nothing() {
     let plan = plan("preset = \"fly\"\n[where]\nroot = \"sqrt(stroke_offset - 1) < 5\"\n");
     let reason = "whether it satisfies the condition `root` cannot be computed";
-    assert_eq!(plan.judge(&plan.base), Verdict::Invalid(Invalid::new(reason)));
+    assert_eq!(plan.judge(&plan.point(0).values), Verdict::Invalid(Invalid::new(reason)));
 }
 
 #[test]
@@ -121,7 +121,7 @@ both = "feasible and arms == 'printed'"
     );
     let measure = |lift: f64, power: f64, stroke: f64| {
         let mut measures = vec![lift, power, stroke];
-        plan.add_own_measures(&plan.base, &mut measures);
+        plan.add_own_measures(&plan.point(0).values, &mut measures);
         measures
     };
     assert_eq!(measure(3.0, 2.0, 80.0), [3.0, 2.0, 80.0, 1.5, 1.0, 1.5, 1.0]);
@@ -132,7 +132,7 @@ both = "feasible and arms == 'printed'"
     assert_eq!(unknown[4], 0.0);
     // A row without measures stays without.
     let mut none = Vec::new();
-    plan.add_own_measures(&plan.base, &mut none);
+    plan.add_own_measures(&plan.point(0).values, &mut none);
     assert!(none.is_empty());
 
     let layout = Layout::of(&plan);

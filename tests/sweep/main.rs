@@ -1,5 +1,6 @@
 //! Grid files and plans: what a grid file means, and what is said about one that means nothing.
 
+mod change;
 mod fake;
 mod files;
 mod formulas;

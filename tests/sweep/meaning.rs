@@ -4,39 +4,39 @@ use std::path::PathBuf;
 
 use flap_core::simulate::SolverSettings;
 use flap_sweep::plan::axis::Values;
-use flap_sweep::plan::{Output, Plan};
+use flap_sweep::plan::{Output, Plan, Value};
 
 use crate::fake::{FLY, index, plan};
 
 /// The values of the one axis of a grid.
 fn axis(text: &str) -> Vec<f64> {
     let plan = plan(&format!("preset = \"fly\"\n[axes]\n{text}\n"));
-    let [axis] = plan.axes.as_slice() else { panic!("one axis") };
-    let [(_, values)] = axis.parameters.as_slice() else { panic!("one parameter") };
+    let [axis] = plan.axes().as_slice() else { panic!("one axis") };
+    let [(_, values)] = axis.parameters() else { panic!("one parameter") };
     (0..values.len()).map(|index| values.get(index)).collect()
 }
 
 /// Names of the varied parameters, in column order.
 fn varied(plan: &Plan) -> Vec<&'static str> {
-    plan.varied().map(|parameter| plan.parameters()[parameter].name).collect()
+    plan.axes().varied().map(|parameter| plan.parameters()[parameter].name).collect()
 }
 
 #[test]
 fn a_preset_alone_is_one_point() {
     let plan = plan("preset = \"fly\"");
-    assert_eq!((plan.preset, plan.len(), plan.simulator.name()), ("fly", 1, "flapper"));
+    assert_eq!((plan.preset(), plan.len(), plan.simulator().name()), ("fly", 1, "flapper"));
     let values = plan.point(0).values;
     assert_eq!(values[..7], FLY[..7]);
     assert!(values[7].is_nan());
-    assert_eq!(plan.solver, SolverSettings::default());
-    assert_eq!(plan.output, Output::default());
-    assert_eq!((plan.source.name.as_str(), plan.source.text.as_str()), ("grid.toml", "preset = \"fly\""));
+    assert_eq!(*plan.solver(), SolverSettings::default());
+    assert_eq!(*plan.output(), Output::default());
+    assert_eq!((plan.source().name.as_str(), plan.source().text.as_str()), ("grid.toml", "preset = \"fly\""));
 }
 
 #[test]
 fn presets_choose_the_model() {
     let plan = plan("preset = \"flea\"\nparams.leg_length = \"2 mm\"");
-    assert_eq!((plan.simulator.name(), plan.base), ("hopper", vec![2e-3]));
+    assert_eq!((plan.simulator().name(), plan.base()), ("hopper", &[Value::Given(2e-3)][..]));
 }
 
 #[test]
@@ -56,7 +56,7 @@ fn params_go_on_top_of_the_preset() {
         "#,
     );
     let degrees = -45.0 * (std::f64::consts::PI / 180.0);
-    assert_eq!(plan.base, [200.0, 120.5, 54e-6, 1.5e-6, degrees, 0.05, 1.0, 2.0]);
+    assert_eq!(plan.base(), [200.0, 120.5, 54e-6, 1.5e-6, degrees, 0.05, 1.0, 2.0].map(Value::Given));
 }
 
 #[test]
@@ -160,14 +160,17 @@ fn an_axis_of_a_billion_values_is_not_stored() {
          hinge_position = { from = 0, to = 4e9, step = 1 }",
     );
     assert_eq!(plan.len(), 1_000_000_000 * 4_000_000_001);
-    assert!(matches!(plan.axes[0].parameters[0].1, Values::Linear { count: 1_000_000_000, .. }));
+    assert!(matches!(
+        plan.axes().as_slice()[0].parameters()[0].1,
+        Values::Linear { count: 1_000_000_000, .. }
+    ));
     let last = plan.point(plan.len() - 1).values;
     assert_eq!((last[1], last[5]), (2.0, 4e9));
 }
 
 #[test]
 fn solver_settings() {
-    let solver = |text: &str| plan(&format!("preset = \"fly\"\n[solver]\n{text}")).solver;
+    let solver = |text: &str| plan(&format!("preset = \"fly\"\n[solver]\n{text}")).solver().to_owned();
     let default = SolverSettings::default();
     assert_eq!(solver(""), default);
     assert_eq!(solver("rtol = 1e-6"), default);
@@ -193,7 +196,7 @@ fn output() {
         "preset = \"fly\"\n[output]\npath = \"out/sweep.csv\"\ncolumns = [\"stroke_pp_deg\", \"lift_mean_mn\"]",
     );
     let expected = Output { path: Some(PathBuf::from("out/sweep.csv")), columns: Some(vec![2, 0]) };
-    assert_eq!(plan.output, expected);
+    assert_eq!(*plan.output(), expected);
 }
 
 #[test]

@@ -30,9 +30,9 @@ stroke_offset = { mean = "10 deg", sd = "1 deg", to = "10 deg" }
 arms = ["axis", "printed"]
 "#,
     );
-    let [axis] = plan.axes.as_slice() else { panic!("one axis") };
+    let [axis] = plan.axes().as_slice() else { panic!("one axis") };
     let distributions: Vec<&Distribution> = axis
-        .parameters
+        .parameters()
         .iter()
         .map(|(_, values)| match values {
             Values::Sampled { design, distribution, .. } => {
@@ -142,7 +142,7 @@ fn points_come_from_a_file_beside_the_grid() {
     let (first, second) = ([50e-6, 100.0, 1.0, 1e-6], [54.5e-6, 200.0, 0.0, 1.5e-6]);
     let with = |point: [f64; 4], offset: f64| [&point[..], &[offset]].concat();
     assert_eq!(found, [with(first, 0.0), with(first, 1.0), with(second, 0.0), with(second, 1.0)]);
-    let file = plan.points_file.expect("a file");
+    let file = plan.points_file().expect("a file");
     assert_eq!(file.path, folder.path().join("points.csv"));
 }
 
@@ -206,4 +206,12 @@ fn mistakes_in_files_of_points_have_a_line_and_a_column() {
         );
     }
     assert_eq!(mistakes_of(&format!("wing_area\n{}", "x\n".repeat(1000))).len(), 10);
+    let windows = "\u{feff}\r\n\"wing_area\" , arms\r\n  \r\n1,axis\r\n\r\n 2 , \"axes\"\r\n";
+    assert_eq!(
+        mistakes_of(windows),
+        ["points.csv:6:6: `arms` has no option `axes` |\"axes\"| options: printed, axis"]
+    );
+    let told = mistakes_of("\u{feff}\u{feff}µ,wing_area\n1,2\n");
+    assert_eq!(told.len(), 1);
+    assert!(told[0].starts_with("points.csv:1:1: model `flapper` has no parameter"), "{told:?}");
 }

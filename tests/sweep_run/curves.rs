@@ -28,15 +28,13 @@ const FILES: &[&str] = &[
 
 /// So many designs, each followed from size 0 to 2 and back.
 fn curves(model: &'static Fake, designs: u32) -> Plan {
-    let mut plan = plan_of(
+    let plan = plan_of(
         model,
         &format!(
             "preset = \"fake2020\"\n[axes]\ndrive_frequency = {{ from = 1, to = {designs}, step = 1 }}\n"
         ),
     );
-    plan.followed =
-        Some(Along { parameter: 0, values: vec![0.0, 1.0, 2.0], tolerance: 0.1, unstable: false });
-    plan
+    plan.following(Along { parameter: 0, values: vec![0.0, 1.0, 2.0], tolerance: 0.1, unstable: false })
 }
 
 /// The text of all rows with the summary.
@@ -159,12 +157,12 @@ fn every_format_holds_the_same_rows() {
 #[test]
 fn a_response_along_other_values_is_another() {
     let model = Fake::leak(Fault::Slow(1.0, Duration::from_micros(200)), 8);
-    let mut plan = curves(model, 2000);
+    let plan = curves(model, 2000);
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("rows.csv");
     assert!(matches!(run(&plan, &out, Begin::New, 10), Ok(Outcome::Ran(_))));
-    let along = plan.followed.clone().unwrap();
-    plan.followed = Some(Along { tolerance: 0.2, ..along });
+    let along = plan.followed().unwrap().clone();
+    let plan = plan.following(Along { tolerance: 0.2, ..along });
     let Err(JobError::Resume { error, .. }) = run(&plan, &out, Begin::Resume, 0) else { panic!("resumed") };
     assert!(error.to_string().contains("the parameter that is followed"), "{error}");
 }

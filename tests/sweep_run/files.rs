@@ -86,7 +86,7 @@ fn the_sidecar_tells_where_rows_come_from() {
     assert_eq!(running["parameters"]["arms"].as_str(), Some("axis"));
     assert_eq!(running["parameters"]["drive_frequency"].as_float(), Some(100.0));
     assert!(running["parameters"].get("span").is_none(), "a follower that is not set");
-    assert_eq!(running["solver"]["max_cycles"].as_integer(), Some(i64::from(plan.solver.max_cycles)));
+    assert_eq!(running["solver"]["max_cycles"].as_integer(), Some(i64::from(plan.solver().max_cycles)));
     assert_eq!(running["varied"][0]["name"].as_str(), Some("size"));
     assert_eq!(running["columns"][1]["unit"].as_str(), Some("mW"));
     assert_eq!(running["grid"]["text"].as_str(), Some(grid));

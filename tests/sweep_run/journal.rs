@@ -12,7 +12,7 @@ use flap_sweep::files::results::Format;
 use flap_sweep::files::session::{ResumeError, Resumed, Session, SessionOptions};
 use flap_sweep::grid;
 use flap_sweep::plan::Plan;
-use flap_sweep::plan::selection::{Selection, Shard};
+use flap_sweep::plan::selection::Shard;
 use flap_sweep::run::identity::Identity;
 use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{self, RunError, Summary};
@@ -77,10 +77,9 @@ impl Sink for Crash<'_> {
 /// Wherever a run ends, it goes on to the same bytes and the same summary.
 #[test]
 fn a_session_goes_on_where_the_last_one_ended() {
-    let mut listed = plan(Fake::leak(Fault::None, 8), 5000);
-    listed.selection = Selection::Listed((0..5000).filter(|index| index % 7 < 3).collect());
-    let mut shard = plan(Fake::leak(Fault::None, 8), 3000);
-    shard.selection = Selection::Shard("2/3".parse().unwrap());
+    let listed = plan(Fake::leak(Fault::None, 8), 5000);
+    let listed = listed.with_points((0..5000).filter(|index| index % 7 < 3).collect()).unwrap();
+    let shard = plan(Fake::leak(Fault::None, 8), 3000).with_shard("2/3".parse().unwrap());
     for plan in [plan(Fake::leak(Fault::None, 8), 1000), listed, shard] {
         let (text, summary) = csv(&plan, &options(2, 100));
         let summary = summary.unwrap();
@@ -138,7 +137,7 @@ fn a_session_with_formulas_goes_on_where_the_last_one_ended() {
     let (whole, _) = csv(&plan, &options(2, 100));
     for selection in ["1/1", "2/3"] {
         let shard: Shard = selection.parse().unwrap();
-        plan.selection = Selection::Shard(shard);
+        plan = plan.with_shard(shard);
         let (text, summary) = csv(&plan, &options(2, 100));
         let summary = summary.unwrap();
         let mut lines = whole.lines();

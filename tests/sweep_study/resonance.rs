@@ -1,14 +1,14 @@
 //! Each design at its own resonance.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Row, Status};
+use flap_core::simulate::{Row, SolverSettings, Status};
 use flap_sweep::plan::Plan;
 
 use crate::support::{bits, column, mistakes, parameter, plan, rows};
 
 /// The rows of a plan whose points are at their resonances.
 fn at_resonance(plan: &Plan) -> Vec<Row> {
-    rows(plan.rows(), &plan.solver, (0..plan.len()).map(|i| plan.point(i).values).collect())
+    rows(plan.rows(), plan.solver(), (0..plan.len()).map(|i| plan.point(i).values).collect())
 }
 
 /// A grid of designs at the resonance of something. Peaks are flat: at looser tolerances the errors of integration move them
@@ -32,7 +32,7 @@ fn fine_sweep(plan: &Plan, values: &[f64], objective: usize, range: [u32; 2]) ->
         values
     };
     let highest = |frequencies: Vec<f64>| {
-        let rows = rows(plan.simulator, &plan.solver, frequencies.iter().map(|&f| at(f)).collect());
+        let rows = rows(plan.simulator(), plan.solver(), frequencies.iter().map(|&f| at(f)).collect());
         let evals: u64 = rows.iter().map(|row| row.rhs_evals).sum();
         let value = |row: &Row| row.measures.get(objective).copied().unwrap_or(f64::NEG_INFINITY);
         let best = rows.iter().zip(frequencies).map(|(row, f)| (value(row), f));
@@ -107,15 +107,15 @@ fn rows_are_at_the_peak_of_a_fine_sweep_for_a_tenth_of_its_cost() {
 fn a_row_is_that_of_a_sweep_at_its_frequency() {
     let plan = grid("jafferis2016", "stroke", [90, 150], "drive_voltage_pp = [\"60 V\", \"150 V\"]");
     let found = column(plan.rows(), "resonance_hz");
-    let count = plan.simulator.columns().len();
+    let count = plan.simulator().columns().len();
     for (index, row) in (0..).zip(at_resonance(&plan)) {
         let mut values = plan.point(index).values;
         assert!(values[parameter(&plan, "drive_frequency")].is_nan(), "it is looked for");
-        let alone = plan.rows().run_point(InstructionSet::best(), &plan.solver, &values, None);
+        let alone = plan.rows().run_point(InstructionSet::best(), plan.solver(), &values, None);
         assert_eq!(bits(&row.measures), bits(&alone.measures), "lanes and scalars");
         assert_eq!((row.cycles, row.rhs_evals), (alone.cycles, alone.rhs_evals));
         values[parameter(&plan, "drive_frequency")] = row.measures[found];
-        let there = plan.simulator.run_point(InstructionSet::best(), &plan.solver, &values, None);
+        let there = plan.simulator().run_point(InstructionSet::best(), plan.solver(), &values, None);
         assert_eq!(bits(&row.measures[..count]), bits(&there.measures));
         assert_eq!(row.floquet_max.to_bits(), there.floquet_max.to_bits());
         assert!(row.rhs_evals > there.rhs_evals, "all of the search counts");
@@ -154,10 +154,10 @@ fn the_range_follows_the_natural_frequencies() {
 
 #[test]
 fn motions_that_do_not_repeat_have_no_resonance() {
-    let mut plan = grid("jafferis2016", "stroke", [66, 74], "drive_voltage_pp = [\"280 V\"]");
+    let plan = grid("jafferis2016", "stroke", [66, 74], "drive_voltage_pp = [\"280 V\"]");
     let hinge = parameter(&plan, "hinge_stiffness");
-    plan.base[hinge] = 0.7486e-6;
-    plan.solver.max_cycles = 60;
+    let solver = SolverSettings { max_cycles: 60, ..*plan.solver() };
+    let plan = plan.with_parameter(hinge, 0.7486e-6).unwrap().with_solver(solver).unwrap();
     let row = &at_resonance(&plan)[0];
     assert_eq!(row.status, Status::Unsettled);
     assert!(row.measures.is_empty() && row.cycles >= 9 * 60, "{row:?}");

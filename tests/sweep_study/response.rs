@@ -31,9 +31,8 @@ fn along(plan: &Plan, range: [u32; 2], tolerance: f64) -> Along {
 }
 
 /// The curves of a plan, which must come in order.
-fn follow(plan: &mut Plan, along: &Along, threads: usize) -> Vec<Curve> {
+fn follow(plan: &Plan, threads: usize) -> Vec<Curve> {
     let mut curves = Vec::new();
-    plan.followed = Some(along.clone());
     let options =
         RunOptions { threads: NonZeroUsize::new(threads).expect("at least one"), ..RunOptions::default() };
     let mut sink = CsvSink::new(Layout::of(plan).names(), Vec::new());
@@ -72,9 +71,10 @@ const BISTABLE: [(u32, Option<[f64; 2]>); 9] = [
 
 #[test]
 fn a_soft_hinge_is_bistable_where_the_reference_is() {
-    let mut plan = bimorph(true, &BISTABLE.map(|(volts, _)| volts));
+    let plan = bimorph(true, &BISTABLE.map(|(volts, _)| volts));
     let along = along(&plan, [114, 145], 0.1);
-    for (curve, (volts, band)) in follow(&mut plan, &along, 2).iter().zip(BISTABLE) {
+    let plan = plan.following(along.clone());
+    for (curve, (volts, band)) in follow(&plan, 2).iter().zip(BISTABLE) {
         let verdict = verdict(&plan, &along, curve);
         println!("{volts} V: {verdict}");
         let bands: Vec<_> = verdict.bistable().collect();
@@ -102,12 +102,11 @@ const BRANCHES: [(u32, f64, &str, f64, f64); 3] = [
 
 #[test]
 fn both_branches_are_those_of_the_reference() {
-    let mut plan = bimorph(true, &BRANCHES.map(|(volts, ..)| volts));
+    let plan = bimorph(true, &BRANCHES.map(|(volts, ..)| volts));
     let along = along(&plan, [114, 145], 0.5);
+    let plan = plan.following(along.clone());
     let [stroke, lift] = ["stroke_pp_deg", "lift_mean_gf"].map(|name| column(plan.rows(), name));
-    for (curve, (volts, frequency, branch, degrees, milligrams)) in
-        follow(&mut plan, &along, 2).iter().zip(BRANCHES)
-    {
+    for (curve, (volts, frequency, branch, degrees, milligrams)) in follow(&plan, 2).iter().zip(BRANCHES) {
         let steps = |way: &str| if way == "up" { &curve.up } else { &curve.down };
         let at = |way| steps(way).iter().find(|step| step.value == frequency).expect("a whole frequency");
         let row = &at(branch).row;
@@ -122,9 +121,10 @@ fn both_branches_are_those_of_the_reference() {
 
 #[test]
 fn the_published_hinge_shows_no_hysteresis() {
-    let mut plan = bimorph(false, &[40, 80, 120, 160, 200, 240, 300]);
+    let plan = bimorph(false, &[40, 80, 120, 160, 200, 240, 300]);
     let along = along(&plan, [60, 200], 0.5);
-    for curve in follow(&mut plan, &along, 2) {
+    let plan = plan.following(along.clone());
+    for curve in follow(&plan, 2) {
         let verdict = verdict(&plan, &along, &curve);
         assert!(verdict.bands.is_empty() && verdict.difference < 0.05, "{:?}: {verdict}", curve.design.index);
     }
@@ -132,9 +132,10 @@ fn the_published_hinge_shows_no_hysteresis() {
 
 #[test]
 fn motions_that_do_not_repeat_are_reported_as_such() {
-    let mut plan = bimorph(true, &[180]);
+    let plan = bimorph(true, &[180]);
     let along = along(&plan, [78, 88], 0.5);
-    let curves = follow(&mut plan, &along, 1);
+    let plan = plan.following(along.clone());
+    let curves = follow(&plan, 1);
     let verdict = verdict(&plan, &along, &curves[0]);
     let irregular = verdict.bands.iter().find(|band| matches!(band.kind, BandKind::Irregular { .. }));
     let [from, to] = irregular.expect("between 81 and 84 Hz").range;
@@ -144,10 +145,11 @@ fn motions_that_do_not_repeat_are_reported_as_such() {
 
 #[test]
 fn curves_depend_on_their_design_alone() {
-    let mut plan = bimorph(true, &[100, 160, 200]);
+    let plan = bimorph(true, &[100, 160, 200]);
     let along = along(&plan, [118, 132], 0.1);
-    let together = follow(&mut plan, &along, 2);
-    for (curve, other) in together.iter().zip(follow(&mut plan, &along, 1)) {
+    let plan = plan.following(along.clone());
+    let together = follow(&plan, 2);
+    for (curve, other) in together.iter().zip(follow(&plan, 1)) {
         let alone = Responses::of(&plan).unwrap().curve(plan.point(curve.design.index));
         for (way, (one, two)) in
             [(&curve.up, (&alone.up, &other.up)), (&curve.down, (&alone.down, &other.down))]
@@ -166,9 +168,10 @@ fn curves_depend_on_their_design_alone() {
 
 #[test]
 fn the_ends_of_a_band_are_located_as_closely_as_asked() {
-    let mut plan = bimorph(true, &[160]);
+    let plan = bimorph(true, &[160]);
     let along = along(&plan, [118, 132], 0.01);
-    let curve = &follow(&mut plan, &along, 1)[0];
+    let plan = plan.following(along.clone());
+    let curve = &follow(&plan, 1)[0];
     let values: Vec<f64> = curve.up.iter().map(|step| step.value).collect();
     assert_eq!(values, curve.down.iter().map(|step| step.value).collect::<Vec<f64>>());
     assert!(values.windows(2).all(|two| two[0] < two[1]), "rising, each once");
@@ -183,19 +186,21 @@ fn the_ends_of_a_band_are_located_as_closely_as_asked() {
 
 #[test]
 fn what_is_impossible_has_a_verdict_too() {
-    let mut plan = plan("preset = \"arabagi2013-75hz\"\n[axes]\nground_link = [\"1 m\"]\n");
+    let plan = plan("preset = \"arabagi2013-75hz\"\n[axes]\nground_link = [\"1 m\"]\n");
     let along = along(&plan, [70, 80], 0.1);
-    let curve = &follow(&mut plan, &along, 1)[0];
+    let plan = plan.following(along.clone());
+    let curve = &follow(&plan, 1)[0];
     assert!(verdict(&plan, &along, curve).to_string().starts_with("no response: "), "{:?}", curve.up[0].row);
 }
 
 /// The branches turn round at the ends of the band, and what joins them is unstable: a motion near it goes to one or the other.
 #[test]
 fn unstable_orbits_join_the_branches() {
-    let mut plan = bimorph(true, &[100, 160, 280]);
+    let plan = bimorph(true, &[100, 160, 280]);
     let along = Along { unstable: true, ..along(&plan, [114, 145], 0.1) };
+    let plan = plan.following(along.clone());
     let stroke = column(plan.rows(), "stroke_pp_deg");
-    for curve in follow(&mut plan, &along, 2) {
+    for curve in follow(&plan, 2) {
         let verdict = verdict(&plan, &along, &curve);
         let [from, to] = verdict.bistable().next().unwrap().range;
         let values = || curve.unstable.iter().map(|step| step.value);
@@ -207,7 +212,7 @@ fn unstable_orbits_join_the_branches() {
                 (step.row.status, step.row.stable(), step.row.period),
                 (Status::Unstable, Some(false), 1)
             );
-            assert!(step.row.residual <= plan.solver.settle_tol && step.row.floquet_max > 1.0);
+            assert!(step.row.residual <= plan.solver().settle_tol && step.row.floquet_max > 1.0);
         }
 
         // Between the strokes of the branches everywhere.
@@ -232,7 +237,8 @@ fn unstable_orbits_join_the_branches() {
         values[along.parameter] = middle.value;
         let ended = [0.98, 1.02].map(|factor| {
             let begin: Vec<f64> = middle.row.state.iter().map(|y| factor * y).collect();
-            let row = plan.simulator.run_point(InstructionSet::best(), &plan.solver, &values, Some(&begin));
+            let row =
+                plan.simulator().run_point(InstructionSet::best(), plan.solver(), &values, Some(&begin));
             assert_eq!((row.status, row.stable()), (Status::Periodic, Some(true)));
             row.measures[stroke]
         });
@@ -242,10 +248,11 @@ fn unstable_orbits_join_the_branches() {
 
 #[test]
 fn a_curve_that_is_stopped_is_not_handed_on() {
-    let mut plan = bimorph(false, &[100, 200]);
+    let plan = bimorph(false, &[100, 200]);
     // A hundred thousand steps, which would take minutes.
     let values = (0..100_000).map(|i| 60.0 + 0.001 * f64::from(i)).collect();
-    plan.followed = Some(Along { values, ..along(&plan, [60, 61], 1e-3) });
+    let along = Along { values, ..along(&plan, [60, 61], 1e-3) };
+    let plan = plan.following(along);
     let stop = AtomicBool::new(false);
     let responses = Responses::of(&plan).unwrap();
     let options = RunOptions { threads: NonZeroUsize::new(2).unwrap(), ..RunOptions::default() };

@@ -18,6 +18,7 @@ use flap_sweep::files::sidecar;
 use flap_sweep::grid::ReadError;
 use flap_sweep::grid::diagnostic::{self, Mistakes};
 use flap_sweep::notation::text::shortened;
+use flap_sweep::plan::ChangeError;
 use flap_sweep::run::RunError;
 
 use crate::console;
@@ -211,6 +212,12 @@ impl From<OpenError> for Failure {
 impl From<Overlap> for Failure {
     fn from(error: Overlap) -> Failure {
         Failure::usage(error.to_string()).help("inputs are never overwritten: name another file")
+    }
+}
+
+impl From<ChangeError> for Failure {
+    fn from(error: ChangeError) -> Failure {
+        Failure::usage(error.to_string())
     }
 }
 

@@ -1,7 +1,8 @@
 //! Designs: the first argument of `evaluate` and `respond`.
 
 use flap_core::simulate;
-use flap_sweep::plan::Plan;
+
+use flap_sweep::plan::{ChangeError, Plan};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
@@ -12,36 +13,26 @@ use crate::{error, grid, parameters};
 /// The plan of a preset by its name, or of anything that is a grid, with keywords on top.
 pub(crate) fn plan(design: &Bound<'_, PyAny>, keywords: Option<&Bound<'_, PyDict>>) -> PyResult<Plan> {
     let (solver, keywords) = Keywords::take(keywords)?;
-    let mut plan = match name(design)? {
-        Some(name) => {
-            let preset = parameters::find_preset(design)?.1;
-            debug_assert_eq!(preset.name, name);
-            of_preset(design.py(), preset.name)?
-        }
+    let plan = match name(design)? {
+        Some(_) => of_preset(design.py(), parameters::find_preset(design)?.1.name)?,
         None => grid::plan(design)?,
     };
-    solver.apply(&mut plan.solver)?;
-    apply(&mut plan, &keywords)?;
-    Ok(plan)
+    Ok(set(with_solver(plan, &solver)?, &keywords)?.0)
 }
 
-/// The plan of a model by its name, with no parameter set but those of `keywords`; `None` if there is no such model.
+/// The plan of a model by its name, with keywords on top, and the parameters that these set; `None` if there is no such
+/// model. Other parameters have the values of a preset.
 pub(crate) fn plan_of_model(
     design: &Bound<'_, PyAny>,
     keywords: Option<&Bound<'_, PyDict>>,
-) -> PyResult<Option<Plan>> {
+) -> PyResult<Option<(Plan, Vec<usize>)>> {
     let model = name(design)?.and_then(|name| simulate::by_name(&name));
-    let Some((model, preset)) = model.and_then(|model| Some((model, model.presets().first()?))) else {
+    let Some(preset) = model.and_then(|model| model.presets().first()) else {
         return Ok(None);
     };
     let (solver, keywords) = Keywords::take(keywords)?;
-    let mut plan = of_preset(design.py(), preset.name)?;
-    debug_assert_eq!(plan.simulator.name(), model.name());
-    plan.base.fill(f64::NAN);
-    plan.preset = "";
-    solver.apply(&mut plan.solver)?;
-    apply(&mut plan, &keywords)?;
-    Ok(Some(plan))
+    let plan = of_preset(design.py(), preset.name)?;
+    set(with_solver(plan, &solver)?, &keywords).map(Some)
 }
 
 fn of_preset(py: Python<'_>, preset: &str) -> PyResult<Plan> {
@@ -58,15 +49,36 @@ fn name(design: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     Ok((!is_grid).then(|| text.into_owned()))
 }
 
-/// Sets parameters of all points.
-fn apply(plan: &mut Plan, keywords: &[Keyword<'_>]) -> PyResult<()> {
-    for (name, _) in keywords {
-        let index = parameters::index(plan.simulator, name)?;
-        if plan.varied().chain(plan.derived.parameters()).any(|varied| varied == index) {
-            let message =
-                format!("`{name}` is set here, and the grid varies or derives it: keep one of them");
-            return Err(PyValueError::new_err(message));
-        }
+/// The plan with the solver settings of keywords over its own.
+fn with_solver(plan: Plan, keywords: &Keywords<'_>) -> PyResult<Plan> {
+    let mut settings = *plan.solver();
+    keywords.apply(&mut settings)?;
+    plan.with_solver(settings).map_err(|error| PyValueError::new_err(error.to_string()))
+}
+
+/// The plan with parameters of all points set to the values of keywords, and the indices of these parameters.
+fn set(mut plan: Plan, keywords: &[Keyword<'_>]) -> PyResult<(Plan, Vec<usize>)> {
+    let mut indices = Vec::new();
+    for (name, value) in keywords {
+        let index = parameters::index(plan.simulator(), name)?;
+        let value = parameters::value_of(&plan.parameters()[index], value)?;
+        plan = plan.with_parameter(index, value).map_err(|error| refused(name, &error))?;
+        indices.push(index);
     }
-    parameters::apply(plan.simulator, &mut plan.base, keywords)
+    Ok((plan, indices))
+}
+
+/// The exception for a keyword called `name` that a plan does not take.
+fn refused(name: &str, error: &ChangeError) -> PyErr {
+    PyValueError::new_err(match error {
+        ChangeError::Varied(_) | ChangeError::Derived(_) => {
+            format!("`{name}` is set here, and the grid varies or derives it: keep one of them")
+        }
+        ChangeError::Resonance(_) => {
+            format!(
+                "`{name}` is set here, and the grid runs each design at its own resonance: keep one of them"
+            )
+        }
+        other => other.to_string(),
+    })
 }

@@ -1,7 +1,7 @@
 //! A batch of points, given as columns of parameters.
 
 use flap_core::parameter::Kind;
-use flap_sweep::plan::Plan;
+use flap_sweep::plan::{ChangeError, Plan};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -25,11 +25,9 @@ pub(crate) fn evaluate<'py>(
     if let Some(keywords) = keywords {
         refuse_twice(columns, keywords)?;
     }
-    let of_model = design::plan_of_model(design, keywords)?;
-    let is_model = of_model.is_some();
-    let mut plan = match of_model {
-        Some(plan) => plan,
-        None => design::plan(design, keywords)?,
+    let (mut plan, set) = match design::plan_of_model(design, keywords)? {
+        Some((plan, set)) => (plan, Some(set)),
+        None => (design::plan(design, keywords)?, None),
     };
     let given = columns.iter().map(|(name, column)| read(&plan, &name.extract::<String>()?, &column));
     let given = given.collect::<PyResult<Vec<_>>>()?;
@@ -42,20 +40,13 @@ pub(crate) fn evaluate<'py>(
             format!("columns differ in length: `{first}` has {length} values, `{name}` has {}", values.len());
         return Err(PyValueError::new_err(message));
     }
-    if is_model {
-        refuse_missing(&plan, &given)?;
+    if let Some(mut set) = set {
+        set.extend(given.iter().map(|(index, _)| *index));
+        let model = plan.simulator().name();
+        plan = plan.without_preset(&set).map_err(|error| refused(model, &error))?;
     }
-    if let Some(index) = plan.varied().chain(plan.derived.parameters()).find(|index| is_given(*index, &given))
-    {
-        let message = format!(
-            "`{}` is a column, and the grid varies or derives it: keep one of them",
-            plan.parameters()[index].name
-        );
-        return Err(PyValueError::new_err(message));
-    }
-    if !plan.cross(given) {
-        return Err(PyValueError::new_err("too many points"));
-    }
+    let model = plan.simulator().name();
+    let plan = plan.crossed_with(given).map_err(|error| refused(model, &error))?;
     sweep::into_columns(py, &plan, &options, progress, None)
 }
 
@@ -70,13 +61,9 @@ fn refuse_twice(columns: &Bound<'_, PyDict>, keywords: &Bound<'_, PyDict>) -> Py
     Ok(())
 }
 
-fn is_given(index: usize, given: &[(usize, Vec<f64>)]) -> bool {
-    given.iter().any(|(given, _)| *given == index)
-}
-
 /// The values of a column.
 fn read(plan: &Plan, name: &str, column: &Bound<'_, PyAny>) -> PyResult<(usize, Vec<f64>)> {
-    let index = parameters::index(plan.simulator, name)?;
+    let index = parameters::index(plan.simulator(), name)?;
     let parameter = &plan.parameters()[index];
     if let (Kind::Number(_) | Kind::Following(..), Ok(numbers)) =
         (&parameter.kind, column.cast::<PyArray1<f64>>())
@@ -87,21 +74,22 @@ fn read(plan: &Plan, name: &str, column: &Bound<'_, PyAny>) -> PyResult<(usize, 
     Ok((index, values.collect::<PyResult<_>>()?))
 }
 
-/// A model has no values of its own: those that nothing follows from must be given.
-fn refuse_missing(plan: &Plan, given: &[(usize, Vec<f64>)]) -> PyResult<()> {
-    let missing = plan.parameters().iter().enumerate().filter(|(index, parameter)| {
-        !matches!(parameter.kind, Kind::Following(..))
-            && plan.base[*index].is_nan()
-            && !is_given(*index, given)
-    });
-    let missing: Vec<&str> = missing.map(|(_, parameter)| parameter.name).collect();
-    if missing.is_empty() {
-        return Ok(());
-    }
-    let message = format!(
-        "model `{}` has no values of its own: give {} too, or start from a preset",
-        plan.simulator.name(),
-        missing.join(", ")
-    );
-    Err(PyValueError::new_err(message))
+/// The exception for columns that a plan of the model called `model` does not take.
+fn refused(model: &str, error: &ChangeError) -> PyErr {
+    PyValueError::new_err(match error {
+        ChangeError::Missing(names) => format!(
+            "model `{model}` has no values of its own: give {} too, or start from a preset",
+            names.join(", ")
+        ),
+        ChangeError::Varied(name) | ChangeError::Derived(name) => {
+            format!("`{name}` is a column, and the grid varies or derives it: keep one of them")
+        }
+        ChangeError::Resonance(name) => {
+            format!(
+                "`{name}` is a column, and the grid runs each design at its own resonance: keep one of them"
+            )
+        }
+        ChangeError::TooManyPoints(_) => "too many points".to_owned(),
+        other => other.to_string(),
+    })
 }

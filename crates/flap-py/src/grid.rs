@@ -81,13 +81,14 @@ impl Grid {
     }
 
     fn __repr__(&self) -> String {
-        let axes = self.plan.axes.iter().map(|axis| {
-            let names = axis.parameters.iter().map(|(parameter, _)| self.plan.parameters()[*parameter].name);
+        let axes = self.plan.axes().as_slice().iter().map(|axis| {
+            let names =
+                axis.parameters().iter().map(|(parameter, _)| self.plan.parameters()[*parameter].name);
             format!("{} ({})", names.collect::<Vec<_>>().join(" + "), axis.len())
         });
         let axes = axes.collect::<Vec<_>>().join(" x ");
         let along = if axes.is_empty() { String::new() } else { format!(": {axes}") };
-        format!("<flapwing.Grid of {} points of {}{along}>", self.plan.len(), self.plan.preset)
+        format!("<flapwing.Grid of {} points of {}{along}>", self.plan.len(), self.plan.preset())
     }
 
     /// The grid of a text that was read from the file `name`.
@@ -99,32 +100,32 @@ impl Grid {
 
     /// The function and the arguments from which `pickle` makes the grid again.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, String))> {
-        let source = &slf.get().plan.source;
+        let source = slf.get().plan.source();
         Ok((slf.get_type().getattr("_named")?, (source.name.clone(), source.text.clone())))
     }
 
     /// The path of the grid file, or ``"<grid>"``. Files that the grid names are in its folder.
     #[getter]
     fn name(&self) -> &str {
-        &self.plan.source.name
+        &self.plan.source().name
     }
 
     /// The text of the grid file.
     #[getter]
     fn text(&self) -> &str {
-        &self.plan.source.text
+        &self.plan.source().text
     }
 
     /// The name of the preset that parameters start from.
     #[getter]
     fn preset(&self) -> &'static str {
-        self.plan.preset
+        self.plan.preset()
     }
 
     /// The name of the model.
     #[getter]
     fn model(&self) -> &'static str {
-        self.plan.simulator.name()
+        self.plan.simulator().name()
     }
 
     /// The axes, the last of which varies fastest: one dictionary each, of the parameters that move together along it
@@ -137,7 +138,7 @@ impl Grid {
     /// The parameters that differ from point to point: those of the axes, then the derived ones.
     #[getter]
     fn varied(&self) -> Vec<&'static str> {
-        let varied = self.plan.varied().chain(self.plan.derived.parameters());
+        let varied = self.plan.differing();
         varied.map(|index| self.plan.parameters()[index].name).collect()
     }
 
@@ -179,7 +180,7 @@ impl Grid {
 pub(crate) fn plan(source: &Bound<'_, PyAny>) -> PyResult<Plan> {
     let py = source.py();
     if let Ok(grid) = source.cast::<Grid>() {
-        let source = &grid.get().plan.source;
+        let source = grid.get().plan.source();
         return parse(py, &source.name, &source.text);
     }
     if let Ok(dict) = source.cast::<PyDict>() {
@@ -207,14 +208,14 @@ fn parse(py: Python<'_>, name: &str, text: &str) -> PyResult<Plan> {
 /// The axes of a plan, see [`Grid::axes`].
 pub(crate) fn axes<'py>(py: Python<'py>, plan: &Plan) -> PyResult<Bound<'py, PyList>> {
     let list = PyList::empty(py);
-    for axis in &plan.axes {
+    for axis in plan.axes().as_slice() {
         let dict = PyDict::new(py);
-        if axis.parameters.iter().any(|(_, values)| matches!(values, Values::Sampled { .. })) {
+        if axis.parameters().iter().any(|(_, values)| matches!(values, Values::Sampled { .. })) {
             dict.set_item("sample", PyArray1::from_iter(py, 0..axis.len()))?;
-        } else if axis.parameters.iter().any(|(_, values)| matches!(values, Values::Unchecked(_))) {
+        } else if axis.parameters().iter().any(|(_, values)| matches!(values, Values::Unchecked(_))) {
             dict.set_item("row", PyArray1::from_iter(py, 0..axis.len()))?;
         }
-        for (index, values) in &axis.parameters {
+        for (index, values) in axis.parameters() {
             let parameter = &plan.parameters()[*index];
             let numbers = (0..values.len()).map(|place| values.get(place));
             let mut options = numbers.clone().map(|value| text::option(parameter, value)).peekable();

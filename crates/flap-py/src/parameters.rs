@@ -1,9 +1,9 @@
 //! Parameters from Python: their names, and values out of keywords.
 
-use flap_core::parameter::{Kind, Parameter, Preset, Range};
+use flap_core::parameter::{Kind, Parameter, Preset};
 use flap_core::simulate::{self, Simulator};
 use flap_sweep::notation::nearest;
-use flap_sweep::notation::units;
+use flap_sweep::notation::value::{self, UnitOf, ValueError};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
@@ -46,54 +46,58 @@ pub(crate) fn apply(simulator: &dyn Simulator, values: &mut [f64], keywords: &[K
 
 /// The value of `parameter` in a design point: a number in SI units, or the index of an option.
 pub(crate) fn value_of(parameter: &Parameter, value: &Bound<'_, PyAny>) -> PyResult<f64> {
-    match &parameter.kind {
-        Kind::Number(range) | Kind::Following(range, _) => quantity(parameter, *range, value),
-        Kind::Choice(options) => option(parameter.name, options, value),
-    }
+    let found = match value.cast::<PyString>() {
+        Ok(text) => value::of_text(parameter, &text.to_cow()?, UnitOf::Text),
+        Err(_) => value::of_number(parameter, number(parameter, value)?),
+    };
+    found.map_err(|error| refused(parameter, &error))
 }
 
-/// A number in SI units, or text with a unit.
-fn quantity(parameter: &Parameter, range: Range, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+/// A number in SI units that is not text.
+fn number(parameter: &Parameter, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let Parameter { name, unit, .. } = *parameter;
-    let number = match value.cast::<PyString>() {
-        Ok(text) => units::parse_as(&text.to_cow()?, unit).map_err(|error| {
-            let help = error.help().map_or_else(String::new, |help| format!("; {help}"));
-            PyValueError::new_err(format!("{}{help}", error.message(&format!("`{name}`"))))
-        })?,
-        Err(_) if unit.is_empty() => convert::number(name, "a number", value)?,
-        Err(_) => convert::number(name, &format!("a number in {unit} or text with a unit"), value)?,
-    };
-    if range.contains(number) {
-        return Ok(number);
+    match parameter.kind {
+        Kind::Choice(options) => {
+            Err(convert::wrong_type(name, &format!("one of {}", listed(options)), value))
+        }
+        Kind::Number(_) | Kind::Following(..) if unit.is_empty() => convert::number(name, "a number", value),
+        Kind::Number(_) | Kind::Following(..) => {
+            convert::number(name, &format!("a number in {unit} or text with a unit"), value)
+        }
     }
-    let allowed = range.describe();
-    let message = format!("`{name}` must be {allowed}, not {number:?} {unit}");
-    Err(PyValueError::new_err(message.trim_end().to_owned()))
 }
 
-/// The index of an option.
-fn option(name: &str, options: &[&str], value: &Bound<'_, PyAny>) -> PyResult<f64> {
-    let listed = options.iter().map(|option| format!("\"{option}\"")).collect::<Vec<_>>().join(", ");
-    let Ok(text) = value.cast::<PyString>() else {
-        return Err(convert::wrong_type(name, &format!("one of {listed}"), value));
-    };
-    let text = text.to_cow()?;
-    let index = options.iter().position(|option| *option == text);
-    index.map(|index| index as f64).ok_or_else(|| {
-        let hint = did_you_mean(&text, options);
-        PyValueError::new_err(format!("`{name}` has no option `{text}`{hint} (options: {listed})"))
+/// The exception for a value that `parameter` does not take.
+fn refused(parameter: &Parameter, error: &ValueError) -> PyErr {
+    let Parameter { name, unit, .. } = *parameter;
+    PyValueError::new_err(match error {
+        ValueError::OutOfRange { value, .. } => error.message(name, &format!("{value:?} {unit}")),
+        ValueError::NoQuantity(cause) => {
+            let help = cause.help().map_or_else(String::new, |help| format!("; {help}"));
+            error.message(name, "") + &help
+        }
+        ValueError::NoOption { text, options } => {
+            let hint = did_you_mean(text, options);
+            format!("{}{hint} (options: {})", error.message(name, text), listed(options))
+        }
     })
+}
+
+/// The options in quotes.
+fn listed(options: &[&str]) -> String {
+    options.iter().map(|option| format!("\"{option}\"")).collect::<Vec<_>>().join(", ")
 }
 
 fn unknown_parameter(simulator: &dyn Simulator, name: &str) -> PyErr {
     let parameters: Vec<&str> = simulator.parameters().iter().map(|parameter| parameter.name).collect();
+    let settings = solver::names();
     // A misspelt solver setting arrives here too.
-    let hint = did_you_mean(name, &[&parameters[..], &solver::NAMES].concat());
+    let hint = did_you_mean(name, &[&parameters[..], &settings[..]].concat());
     PyValueError::new_err(format!(
         "model `{}` has no parameter `{name}`{hint} (parameters: {}; solver settings: {})",
         simulator.name(),
         parameters.join(", "),
-        solver::NAMES.join(", "),
+        settings.join(", "),
     ))
 }
 

@@ -39,7 +39,7 @@ pub(crate) fn read(py: Python<'_>, path: PathBuf, ignore_damage: bool) -> PyResu
         meta.set_item("arithmetic", arithmetic)?;
         dict.set_item("meta", meta)?;
         // The rows of curves are no grid.
-        if plan.followed.is_none() {
+        if plan.followed().is_none() {
             dict.set_item("axes", grid::axes(py, &plan)?)?;
         }
     }

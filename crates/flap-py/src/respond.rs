@@ -35,13 +35,13 @@ pub(crate) fn respond<'py>(
     keywords: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let options = sweep::options(threads)?;
-    let mut plan = design::plan(design, keywords)?;
-    if plan.resonance.is_some() {
+    let plan = design::plan(design, keywords)?;
+    if plan.resonance().is_some() {
         let message =
             "the grid runs each design at its own resonance: give drive_frequency a number, or follow it";
         return Err(PyValueError::new_err(message));
     }
-    let index = parameters::index(plan.simulator, along)?;
+    let index = parameters::index(plan.simulator(), along)?;
     let parameter = &plan.parameters()[index];
     let number = |value: Option<&Bound<'py, PyAny>>| match parameter.kind {
         // It is refused below.
@@ -58,12 +58,12 @@ pub(crate) fn respond<'py>(
             return Err(PyValueError::new_err(message));
         }
     };
-    let along = Along::new(&mut plan, index, steps, number(tolerance)?, unstable);
-    let along = along.map_err(|AlongError { message, help }| {
+    let along = Along::new(plan, index, steps, number(tolerance)?, unstable);
+    let (plan, along) = along.map_err(|AlongError { message, help }| {
         PyValueError::new_err(if help.is_empty() { message } else { format!("{message}: {help}") })
     })?;
 
-    plan.followed = Some(along);
+    let plan = plan.following(along);
     let responses = Responses::of(&plan).ok_or_else(|| PyValueError::new_err("no parameter is followed"))?;
     let stroke = plan.rows().columns().iter().position(|column| column.name == STROKE);
     let stroke = stroke.ok_or_else(|| PyValueError::new_err("the model measures no stroke"))?;

@@ -1,6 +1,6 @@
 //! Solver settings from keywords.
 
-use flap_core::simulate::SolverSettings;
+use flap_core::simulate::{Setting, SettingKind, SolverSettings};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -8,13 +8,11 @@ use pyo3::types::PyDict;
 use crate::convert;
 
 /// The names of the settings, in the order of the signature of `flapwing.run`.
-pub(crate) const NAMES: [&str; 7] =
-    ["rtol", "atol", "settle_tol", "max_cycles", "max_steps", "accuracy", "newton"];
+pub(crate) fn names() -> Vec<&'static str> {
+    SolverSettings::TABLE.iter().map(|setting| setting.name).collect()
+}
 
-/// The bound of rtol: above it, error estimates mean nothing.
-const LARGEST_RTOL: f64 = 0.1;
-
-/// The solver settings of a call: those of [`NAMES`] that it gives.
+/// The solver settings of a call: those of [`names`] that it gives.
 pub(crate) struct Keywords<'py>(Vec<Keyword<'py>>);
 
 impl<'py> Keywords<'py> {
@@ -25,7 +23,7 @@ impl<'py> Keywords<'py> {
         let (mut settings, mut others) = (Vec::new(), Vec::new());
         for (name, value) in keywords.into_iter().flatten() {
             let name: String = name.extract()?;
-            if !NAMES.contains(&name.as_str()) {
+            if SolverSettings::TABLE.iter().all(|setting| setting.name != name) {
                 others.push((name, value));
             } else if !value.is_none() {
                 settings.push((name, value));
@@ -36,19 +34,15 @@ impl<'py> Keywords<'py> {
 
     /// Replaces those of `settings` that the call gives. `TypeError` or `ValueError` for a value that a setting cannot have.
     pub(crate) fn apply(&self, settings: &mut SolverSettings) -> PyResult<()> {
-        // In the order of `NAMES`: rtol decides the default of atol.
-        for name in NAMES {
+        // In the order of the table: rtol decides the default of atol.
+        for Setting { name, kind, .. } in SolverSettings::TABLE {
             let Some((_, value)) = self.0.iter().find(|(given, _)| given == name) else { continue };
-            match name {
-                "rtol" => *settings = settings.with_rtol(tolerance(name, LARGEST_RTOL, value)?),
-                "atol" => settings.atol = tolerance(name, f64::INFINITY, value)?,
-                "settle_tol" => settings.settle_tol = tolerance(name, f64::INFINITY, value)?,
-                "max_cycles" => settings.max_cycles = convert::count(name, value)?,
-                "max_steps" => settings.max_steps = convert::count(name, value)?,
-                "accuracy" => settings.accuracy = tolerance(name, f64::INFINITY, value)?,
-                _ => {
+            match kind {
+                SettingKind::Number { below, set, .. } => set(settings, tolerance(name, *below, value)?),
+                SettingKind::Count { set, .. } => set(settings, convert::count(name, value)?),
+                SettingKind::Flag { set, .. } => {
                     let flag = value.extract::<bool>();
-                    settings.newton = flag.map_err(|_| convert::wrong_type(name, "True or False", value))?;
+                    set(settings, flag.map_err(|_| convert::wrong_type(name, "True or False", value))?);
                 }
             }
         }

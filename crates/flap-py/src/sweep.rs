@@ -169,7 +169,7 @@ fn work(
 /// The origin of rows, as a dictionary: versions, model, solver settings, and the text of the grid.
 pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> PyResult<Bound<'py, PyDict>> {
     let identity = Identity::of(plan, options);
-    let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton } = plan.solver;
+    let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton } = *plan.solver();
     let solver = PyDict::new(py);
     solver.set_item("rtol", rtol)?;
     solver.set_item("atol", atol)?;
@@ -181,12 +181,12 @@ pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> P
     let dict = PyDict::new(py);
     dict.set_item("flap", identity.flap)?;
     dict.set_item("build", identity.build)?;
-    dict.set_item("model", plan.simulator.name())?;
-    dict.set_item("preset", plan.preset)?;
+    dict.set_item("model", plan.simulator().name())?;
+    dict.set_item("preset", plan.preset())?;
     dict.set_item("arithmetic", identity.arithmetic)?;
     dict.set_item("solver", solver)?;
-    dict.set_item("grid", &plan.source.text)?;
-    if let Some(along) = &plan.followed {
+    dict.set_item("grid", &plan.source().text)?;
+    if let Some(along) = plan.followed() {
         dict.set_item("along", plan.parameters()[along.parameter].name)?;
     }
     Ok(dict)

@@ -90,7 +90,7 @@ proptest! {
                     let values = plan.point(index).values;
                     let mut measures = vec![1.0, 0.0, f64::NAN];
                     plan.add_own_measures(&values, &mut measures);
-                    prop_assert_eq!(measures.len(), 3 + plan.measures.len());
+                    prop_assert_eq!(measures.len(), 3 + plan.measures().len());
                     if plan.judge(&values) != Verdict::Runs {
                         continue;
                     }

@@ -33,8 +33,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
 
 fn page(plan: &Arc<Plan>) -> String {
     let points = if plan.len() == 1 { "1 point".to_owned() } else { format!("{} points", plan.len()) };
-    let mut page = format!("{points} of {} from {}\n", plan.simulator.name(), plan.preset);
-    if !plan.axes.is_empty() {
+    let mut page = format!("{points} of {} from {}\n", plan.simulator().name(), plan.preset());
+    if !plan.axes().as_slice().is_empty() {
         page += "\n";
         page += &axes(plan);
         page += &samples(plan);
@@ -42,15 +42,15 @@ fn page(plan: &Arc<Plan>) -> String {
         page += &ends(plan);
     }
     page += &deviations(plan);
-    if let Some(resonance) = &plan.resonance {
+    if let Some(resonance) = plan.resonance() {
         page += "\n";
         page += &at_resonance(resonance.range());
     }
     let (excluded, runs) = excluded(plan);
     page += &excluded;
     page += "\n";
-    page += &solver(&plan.solver);
-    if let Some(path) = &plan.output.path {
+    page += &solver(plan.solver());
+    if let Some(path) = &plan.output().path {
         let _ = write!(page, "\nrows go to {}\n", path.display());
     }
     let trial = estimate::of(plan, runs);
@@ -66,8 +66,8 @@ fn page(plan: &Arc<Plan>) -> String {
 /// One line per varied parameter; parameters that move together have the same axis number.
 fn axes(plan: &Plan) -> String {
     let mut table = Table::with_headings(&["axis", "parameter", "from", "to", "count", "unit"]);
-    for (number, axis) in plan.axes.iter().enumerate() {
-        for (index, values) in &axis.parameters {
+    for (number, axis) in plan.axes().as_slice().iter().enumerate() {
+        for (index, values) in axis.parameters() {
             let parameter = &plan.parameters()[*index];
             let [from, to] = span(parameter, values);
             table.row([
@@ -126,8 +126,8 @@ fn span(parameter: &Parameter, values: &Values) -> [String; 2] {
 /// Method and seed of each sample, and the file of the points.
 fn samples(plan: &Plan) -> String {
     let mut text = String::new();
-    for (number, axis) in plan.axes.iter().enumerate() {
-        if let Some((_, Values::Sampled { design, .. })) = axis.parameters.first() {
+    for (number, axis) in plan.axes().as_slice().iter().enumerate() {
+        if let Some((_, Values::Sampled { design, .. })) = axis.parameters().first() {
             let method = match design.method() {
                 Method::Sobol => "scrambled Sobol' sequence",
                 Method::LatinHypercube => "Latin hypercube",
@@ -136,7 +136,7 @@ fn samples(plan: &Plan) -> String {
             let _ = write!(text, "\naxis {}: {method}, seed {}\n", number + 1, design.seed());
         }
     }
-    if let Some(file) = &plan.points_file {
+    if let Some(file) = plan.points_file() {
         let _ = write!(text, "\npoints from {}\n", file.path.display());
     }
     text
@@ -147,7 +147,7 @@ const MOST_COUNTED: u64 = 1_000_000;
 
 /// A line about excluded points, and the approximate number of the others.
 fn excluded(plan: &Plan) -> (String, u64) {
-    if plan.conditions.is_empty() {
+    if plan.conditions().is_empty() {
         return (String::new(), plan.len());
     }
     let found = survey::exclusions(plan, MOST_COUNTED);
@@ -167,7 +167,7 @@ fn ends(plan: &Plan) -> String {
     let mut text = String::new();
     for (which, index) in [("first", 0), ("last", plan.len() - 1)] {
         let point = plan.point(index);
-        let shown = plan.varied().chain(plan.derived.parameters());
+        let shown = plan.differing();
         let shown = shown.map(|parameter| assignment(&plan.parameters()[parameter], parameter, &point));
         let verdict = match plan.judge(&point.values) {
             Verdict::Runs => String::new(),

@@ -21,7 +21,7 @@ const CYCLES: f64 = 10.0;
 
 pub(crate) fn run(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
     let Chosen { plan, values, .. } = chosen;
-    let experiments = plan.simulator.experiments()?;
+    let experiments = plan.simulator().experiments()?;
     let modes = experiments.modes(values)?;
     let first = modes[0];
     let amplitude = args.impulse.unwrap_or(IMPULSE);
@@ -32,7 +32,8 @@ pub(crate) fn run(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
         duration,
         intervals: intervals(duration, first.frequency * f64::from(args.samples))?,
     };
-    let motion = experiments.free_response(InstructionSet::best(), &plan.solver, values, &request, &never)?;
+    let motion =
+        experiments.free_response(InstructionSet::best(), plan.solver(), values, &request, &never)?;
 
     let mut table = Table::with_headings(&["column", "value", "unit", "meaning"]);
     let mut row = |column: &str, value: f64, unit: &str, meaning: &str| {

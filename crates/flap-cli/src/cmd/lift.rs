@@ -25,7 +25,7 @@ pub(crate) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
     let stroke = samples::column(&file, &args.motion, record::STROKE, repeat)?;
     let pitch = samples::column(&file, &args.motion, record::PITCH, repeat)?;
     let motion = ImposedMotion { stroke, pitch, samples: args.samples };
-    let mut forces = plan.simulator.experiments()?.imposed(&values, &motion)?;
+    let mut forces = plan.simulator().experiments()?.imposed(&values, &motion)?;
     drop_unknown(&mut forces);
 
     match &args.trajectory {

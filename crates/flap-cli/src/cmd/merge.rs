@@ -8,7 +8,6 @@ use flap_sweep::files::integrity::{Note, OnDamage};
 use flap_sweep::files::merge::{self, MergeError, Part};
 use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::files::sidecar::{End, Sidecar, Start};
-use flap_sweep::plan::selection::Selection;
 use flap_sweep::run::RunOptions;
 
 use crate::args::MergeArgs;
@@ -31,8 +30,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let Some(Part { path, sidecar: first }) = parts.first() else {
         return Err(Failure::usage("name the shards to be merged"));
     };
-    let mut plan = job::plan_of(&sidecar_of(path), first)?;
-    plan.selection = Selection::All;
+    let plan = job::plan_of(&sidecar_of(path), first)?.with_all_points();
 
     Inputs::new().add_plan(&plan).protect_from_results(&args.out)?;
     let mut readers = Vec::with_capacity(parts.len());

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use flap_core::num::InstructionSet;
-use flap_core::parameter::{Kind, Parameter};
-use flap_core::simulate::{Rows, Simulator, SolverSettings};
+use flap_core::parameter::Parameter;
+use flap_core::simulate::{Rows, Simulator};
 use flap_sweep::grid;
 use flap_sweep::notation::nearest;
-use flap_sweep::notation::units;
+use flap_sweep::notation::value::{self, UnitOf, ValueError};
 use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
 
@@ -29,8 +29,7 @@ pub(crate) struct Chosen {
 impl Chosen {
     /// The point that the command line asks for.
     pub(crate) fn new(point: &PointArgs, solver: &SolverArgs) -> Result<Chosen, Failure> {
-        let mut plan = plan(&point.what)?;
-        set_solver(&mut plan.solver, solver);
+        let plan = with_solver(plan(&point.what)?, solver)?;
         if point.point >= plan.len() {
             let PointArgs { what, point: index, .. } = point;
             let message = format!("there is no point {index}: {what} has points 0 to {}", plan.len() - 1);
@@ -43,12 +42,12 @@ impl Chosen {
             values[index] = self::value(&plan.parameters()[index], "--set", value)?;
             set.push(index);
         }
-        plan.derived.fill(&mut values, &set);
+        plan.derived().fill(&mut values, &set);
         match plan.judge(&values) {
             Verdict::Runs => {}
             Verdict::Excluded(unsatisfied) => {
                 let names: Vec<&str> =
-                    unsatisfied.iter().map(|&condition| plan.conditions[condition].name.as_str()).collect();
+                    unsatisfied.iter().map(|&condition| plan.conditions()[condition].name.as_str()).collect();
                 console::say(&format!("a sweep does not run this point: {} not satisfied", names.join(", ")));
             }
             Verdict::Invalid(invalid) => return Err(invalid.into()),
@@ -60,12 +59,12 @@ impl Chosen {
 
     /// Searches the resonance if the drive frequency is to be at it.
     fn find_resonance(&mut self) -> Result<(), Failure> {
-        let Some(resonance) = &self.plan.resonance else { return Ok(()) };
+        let Some(resonance) = self.plan.resonance() else { return Ok(()) };
         let index = find_parameter(self.plan.parameters(), DRIVE_FREQUENCY)?;
         if !self.values[index].is_nan() {
             return Ok(());
         }
-        let row = resonance.run_point(InstructionSet::best(), &self.plan.solver, &self.values, None);
+        let row = resonance.run_point(InstructionSet::best(), self.plan.solver(), &self.values, None);
         let place = resonance.columns().iter().position(|column| column.name == RESONANCE_HZ);
         let found = place.and_then(|place| row.measures.get(place));
         let found = found.copied().ok_or_else(|| {
@@ -80,7 +79,7 @@ impl Chosen {
 
     /// The model that is run.
     pub(crate) fn simulator(&self) -> &dyn Simulator {
-        self.sampled.as_deref().unwrap_or(self.plan.simulator)
+        self.sampled.as_deref().unwrap_or(self.plan.simulator())
     }
 
     /// Sets a parameter. False if the model has no such parameter.
@@ -95,7 +94,7 @@ impl Chosen {
     /// Model and preset in one line.
     pub(crate) fn title(&self) -> String {
         let Chosen { plan, index, .. } = self;
-        let title = format!("{} from {}", plan.simulator.name(), plan.preset);
+        let title = format!("{} from {}", plan.simulator().name(), plan.preset());
         if plan.len() > 1 { format!("{title}, point {index} of {}", plan.len()) } else { title }
     }
 }
@@ -118,16 +117,18 @@ pub(super) fn plan(what: &str) -> Result<Plan, Failure> {
     })
 }
 
-/// Puts the settings of the command line over those of the grid file.
-pub(super) fn set_solver(settings: &mut SolverSettings, args: &SolverArgs) {
+/// The plan with the settings of the command line over those of the grid file.
+pub(super) fn with_solver(plan: Plan, args: &SolverArgs) -> Result<Plan, Failure> {
+    let mut settings = *plan.solver();
     if let Some(rtol) = args.rtol {
         let before = settings.accuracy;
-        *settings = settings.with_rtol(rtol);
+        settings = settings.with_rtol(rtol);
         settings.accuracy = settings.accuracy.max(before);
     }
     settings.accuracy = args.accuracy.unwrap_or(settings.accuracy);
     settings.settle_tol = args.settle_tol.unwrap_or(settings.settle_tol);
     settings.max_cycles = args.max_cycles.unwrap_or(settings.max_cycles);
+    Ok(plan.with_solver(settings)?)
 }
 
 /// The index of the parameter called `name`.
@@ -143,28 +144,13 @@ pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usi
 
 /// The value of a parameter from the text given with `option`.
 pub(super) fn value(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Failure> {
-    let name = parameter.name;
-    match parameter.kind {
-        Kind::Choice(options) => {
-            let index = (0_u32..).zip(options).find(|(_, option)| **option == text).map(|(index, _)| index);
-            let failure = || {
-                let message = format!("`{name}` has no option `{text}`");
-                Failure::usage(message).help(format!("options: {}", options.join(", ")))
-            };
-            index.map(f64::from).ok_or_else(failure)
-        }
-        Kind::Number(range) | Kind::Following(range, _) => {
-            // A bare number is in SI units, as in a grid file.
-            let number = units::parse_as(text, "").or_else(|_| units::parse_as(text, parameter.unit));
-            let number = number.map_err(|error| {
-                let failure =
-                    Failure::usage(format!("{option} {text}: {}", error.message(&format!("`{name}`"))));
-                error.help().into_iter().fold(failure, Failure::help)
-            })?;
-            if range.contains(number) {
-                return Ok(number);
-            }
-            Err(Failure::usage(format!("`{name}` must be {}, not {text}", range.describe())))
-        }
-    }
+    // A bare number is in SI units, as in a grid file.
+    value::of_text(parameter, text, UnitOf::TextOrSi).map_err(|error| {
+        let message = error.message(parameter.name, text);
+        let failure = Failure::usage(match error {
+            ValueError::NoQuantity(_) => format!("{option} {text}: {message}"),
+            ValueError::NoOption { .. } | ValueError::OutOfRange { .. } => message,
+        });
+        error.help().into_iter().fold(failure, Failure::help)
+    })
 }

@@ -3,10 +3,9 @@
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::rerun::{self, Wanted};
 use flap_sweep::files::sidecar::{Origin, State};
-use flap_sweep::plan::selection::Selection;
 
 use crate::args::RerunArgs;
-use crate::cmd::point::set_solver;
+use crate::cmd::point::with_solver;
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::job::{self, Begin};
@@ -14,14 +13,14 @@ use crate::job::{self, Begin};
 pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     let of = args.results.display();
     Inputs::new().add_results("the results", &args.results).protect_from_results(&args.out)?;
-    let (mut source, mut plan, sidecar) = job::open_recorded(&args.results, &args.read)?;
-    if plan.followed.is_some() {
+    let (mut source, plan, sidecar) = job::open_recorded(&args.results, &args.read)?;
+    if plan.followed().is_some() {
         let failure = Failure::usage(format!("{of} holds curves, whose motions depend on their neighbours"));
         return Err(failure.help("`flap respond` with other solver settings follows them again"));
     }
     let unreadable = |error| Failure::System(format!("cannot read {of}: {error}"), Vec::new());
     let rows = sidecar.rows.filter(|_| sidecar.state == State::Complete);
-    let accuracy = args.inaccurate.then_some(plan.solver.accuracy);
+    let accuracy = args.inaccurate.then_some(plan.solver().accuracy);
     let wanted = Wanted { statuses: args.status.clone(), accuracy };
     let list = rerun::points(&mut source.reader, &wanted, &plan, rows).map_err(unreadable)?;
     job::tell_missed(&args.results, &source.reader);
@@ -30,8 +29,7 @@ pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
         console::say(&format!("no point in {of} is {}: nothing is left to run", statuses.join(" or ")));
         return Ok(Exit::Done);
     }
-    plan.selection = Selection::Listed(list);
-    set_solver(&mut plan.solver, &args.solver);
+    let plan = with_solver(plan.with_points(list)?, &args.solver)?;
     let origin = Some(Origin { of: of.to_string(), statuses });
     let begin = if args.force { Begin::Overwrite } else { Begin::New };
     job::run(&plan, args.out.clone(), begin, &args.work, origin)

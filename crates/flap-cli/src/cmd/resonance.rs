@@ -28,7 +28,7 @@ const RIVAL: f64 = 0.95;
 pub(crate) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
     let chosen = Chosen::new(&args.point, &args.solver)?;
     let Chosen { plan, values, .. } = &chosen;
-    let (simulator, set) = (plan.simulator, InstructionSet::best());
+    let (simulator, set) = (plan.simulator(), InstructionSet::best());
     let experiments = simulator.experiments()?;
     let modes = experiments.modes(values)?;
     let request = FreeRequest {
@@ -38,8 +38,8 @@ pub(crate) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
         samples_per_cycle: SAMPLES,
     };
     let search = PeakSearch { from: args.from, to: args.to, tolerance: args.tolerance };
-    let free = free::examine(experiments, set, &plan.solver, values, &request, &never)?;
-    let driven = driven::search(simulator, set, &plan.solver, values, &search, &never)?;
+    let free = free::examine(experiments, set, plan.solver(), values, &request, &never)?;
+    let driven = driven::search(simulator, set, plan.solver(), values, &search, &never)?;
 
     let mut lines: Vec<Line> = Vec::new();
     for mode in &modes {

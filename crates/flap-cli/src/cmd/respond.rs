@@ -2,7 +2,7 @@
 
 use std::io;
 
-use flap_sweep::plan::{Along, Plan};
+use flap_sweep::plan::{Along, ChangeError, Plan};
 use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{RunOptions, Summary};
 use flap_sweep::study::response::AlongError;
@@ -16,19 +16,19 @@ use crate::failure::{Exit, Failure};
 use crate::job::{self, Begin, Lines, Verdicts};
 
 pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
-    let mut plan = point::plan(&args.what)?;
-    point::set_solver(&mut plan.solver, &args.solver);
-    if plan.resonance.is_some() {
+    let plan = point::plan(&args.what)?;
+    let plan = point::with_solver(plan, &args.solver)?;
+    if plan.resonance().is_some() {
         let failure = Failure::usage(format!("{} runs each design at its own resonance", args.what));
         return Err(failure.help("give drive_frequency a number, or follow it with --along drive_frequency"));
     }
-    let along = along(args, &mut plan)?;
+    let (mut plan, along) = along(args, plan)?;
     for (name, value) in &args.set {
-        set(&mut plan, &along, name, value)?;
+        plan = set(plan, &along, name, value)?;
     }
-    plan.followed = Some(along);
+    let plan = plan.following(along);
     if Verdicts::of(&plan).is_none() {
-        return Err(Failure::usage(format!("the model {} measures no stroke", plan.simulator.name())));
+        return Err(Failure::usage(format!("the model {} measures no stroke", plan.simulator().name())));
     }
     match &args.out {
         Some(out) if args.resume && is_stdout(out) => {
@@ -74,7 +74,7 @@ impl Sink for Nowhere {
 }
 
 /// The parameter that rises and falls, and its values: those of the command line, or of the grid's axis.
-fn along(args: &RespondArgs, plan: &mut Plan) -> Result<Along, Failure> {
+fn along(args: &RespondArgs, plan: Plan) -> Result<(Plan, Along), Failure> {
     let index = point::find_parameter(plan.parameters(), &args.along)?;
     let parameter = &plan.parameters()[index];
     let number = |option: &str, given: &Option<String>| -> Result<Option<f64>, Failure> {
@@ -97,11 +97,17 @@ fn along(args: &RespondArgs, plan: &mut Plan) -> Result<Along, Failure> {
 }
 
 /// Sets a parameter of all designs.
-fn set(plan: &mut Plan, along: &Along, name: &str, value: &str) -> Result<(), Failure> {
+fn set(plan: Plan, along: &Along, name: &str, value: &str) -> Result<Plan, Failure> {
     let index = point::find_parameter(plan.parameters(), name)?;
-    if index == along.parameter || plan.varied().any(|varied| varied == index) {
-        return Err(Failure::usage(format!("`{name}` is set with --set and varied")).help("keep one of them"));
+    let twice =
+        |how: &str| Failure::usage(format!("`{name}` is set with --set and {how}")).help("keep one of them");
+    if index == along.parameter {
+        return Err(twice("varied"));
     }
-    plan.base[index] = point::value(&plan.parameters()[index], "--set", value)?;
-    Ok(())
+    let value = point::value(&plan.parameters()[index], "--set", value)?;
+    plan.with_parameter(index, value).map_err(|error| match error {
+        ChangeError::Varied(_) => twice("varied"),
+        ChangeError::Derived(_) => twice("derived"),
+        other => other.into(),
+    })
 }

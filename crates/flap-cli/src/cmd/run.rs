@@ -65,7 +65,8 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
             samples_per_cycle: args.samples,
             settled: !args.from_rest && !args.once,
         };
-        let motion = chosen.simulator().motions()?.trajectory(set, &plan.solver, values, &request, &never)?;
+        let motion =
+            chosen.simulator().motions()?.trajectory(set, plan.solver(), values, &request, &never)?;
         if path.as_os_str() == "-" {
             write_csv(&motion, io::stdout().lock())?;
             return Ok(Exit::Done);
@@ -76,7 +77,7 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
         }
     }
 
-    let mut row = chosen.simulator().run_point(set, &plan.solver, values, None);
+    let mut row = chosen.simulator().run_point(set, plan.solver(), values, None);
     plan.add_own_measures(values, &mut row.measures);
     if let (Status::Invalid, Some(reason)) = (row.status, &row.reason) {
         return Err(Failure::usage(format!("the parameters are impossible together: {reason}")));
@@ -115,9 +116,9 @@ fn chirp(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
         rate: args.chirp_rate.unwrap_or(CHIRP_RATE),
         samples_per_cycle: if args.trajectory.is_some() { args.samples } else { 0 },
     };
-    let response = plan.simulator.experiments()?.chirp(
+    let response = plan.simulator().experiments()?.chirp(
         InstructionSet::best(),
-        &plan.solver,
+        plan.solver(),
         values,
         &request,
         &never,
@@ -147,11 +148,11 @@ fn page(chosen: &Chosen, row: &Row) -> String {
     let _ = writeln!(page, "rhs_evals = {rhs_evals}");
     if !row.measures.is_empty() {
         let mut table = Table::with_headings(&["column", "value", "unit", "meaning"]);
-        let columns = chosen.plan.simulator.columns();
+        let columns = chosen.plan.simulator().columns();
         for (column, &measure) in columns.iter().zip(&row.measures) {
             table.row([column.name.clone(), six_digits(measure), column.unit.to_owned(), column.doc.clone()]);
         }
-        for (own, &measure) in chosen.plan.measures.iter().zip(&row.measures[columns.len()..]) {
+        for (own, &measure) in chosen.plan.measures().iter().zip(&row.measures[columns.len()..]) {
             let value = match own.kind() {
                 Kind::Number => six_digits(measure),
                 Kind::Condition => text::truth(measure),

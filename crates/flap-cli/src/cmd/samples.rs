@@ -26,10 +26,10 @@ pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> 
     }
     if args.stroke.is_some() && !(chosen.put("stroke_mode", 1.0) && chosen.put("stroke_amplitude", 1.0)) {
         let message =
-            format!("the stroke of the model {} cannot be prescribed", chosen.plan.simulator.name());
+            format!("the stroke of the model {} cannot be prescribed", chosen.plan.simulator().name());
         return Err(Failure::usage(message).help("models with a parameter stroke_mode can"));
     }
-    chosen.sampled = Some(chosen.plan.simulator.experiments()?.with_samples(samples));
+    chosen.sampled = Some(chosen.plan.simulator().experiments()?.with_samples(samples));
     Ok(())
 }
 

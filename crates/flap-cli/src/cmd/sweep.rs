@@ -7,7 +7,7 @@ use flap_sweep::files::results::Format;
 use flap_sweep::files::sidecar::{Origin, Sidecar};
 use flap_sweep::grid;
 use flap_sweep::plan::Plan;
-use flap_sweep::plan::selection::{Selection, Shard};
+use flap_sweep::plan::selection::Shard;
 use flap_sweep::study::deviation;
 
 use crate::args::SweepArgs;
@@ -20,7 +20,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
     let (mut plan, origin) = plan(args)?;
     let mut out = args.out.clone();
     if let Some(shard) = args.shard {
-        plan.selection = Selection::Shard(shard);
+        plan = plan.with_shard(shard);
         let default = default_path(&plan, args.grid.as_deref());
         out = out.or_else(|| Some(name_of_shard(&default, shard)));
     }
@@ -52,7 +52,7 @@ fn default_path(plan: &Plan, grid: Option<&Path>) -> PathBuf {
         name.push(".csv");
         PathBuf::from(name)
     };
-    plan.output.path.clone().unwrap_or_else(named_after_grid)
+    plan.output().path.clone().unwrap_or_else(named_after_grid)
 }
 
 /// The name of a shard's rows: `grid.2of8.csv` for `grid.csv`.

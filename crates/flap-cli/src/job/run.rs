@@ -67,7 +67,7 @@ pub(crate) fn run(
 
 /// Reports a job that ran, and gives the exit code.
 fn ended(plan: &Plan, done: &Done, resumable: Option<&Path>, work: &WorkArgs) -> Exit {
-    if plan.followed.is_some() {
+    if plan.followed().is_some() {
         report_curves(done);
     } else {
         report(done);

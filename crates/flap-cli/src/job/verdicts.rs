@@ -17,7 +17,7 @@ pub(crate) struct Verdicts<'a> {
 impl<'a> Verdicts<'a> {
     /// For a plan that follows a parameter, of a model that measures its stroke; `None` of any other.
     pub(crate) fn of(plan: &'a Plan) -> Option<Verdicts<'a>> {
-        let parameter = plan.followed.as_ref()?.parameter(plan);
+        let parameter = plan.followed()?.parameter(plan);
         let mut columns = plan.rows().columns().iter();
         let stroke = columns.position(|column| column.name == "stroke_amplitude_deg")?;
         Some(Verdicts { plan, parameter, stroke })
@@ -37,6 +37,6 @@ impl<'a> Verdicts<'a> {
             let value = text::value(parameter, design.values[index]);
             format!("{} = {value} {}", parameter.name, parameter.unit).trim_end().to_owned()
         };
-        self.plan.varied().map(assignment).collect::<Vec<_>>().join(", ")
+        self.plan.axes().varied().map(assignment).collect::<Vec<_>>().join(", ")
     }
 }

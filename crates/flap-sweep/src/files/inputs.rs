@@ -48,10 +48,10 @@ impl Inputs {
     /// Adds the files that `plan` was read from.
     pub fn add_plan(&mut self, plan: &Plan) -> &mut Inputs {
         // The plan of a preset has the preset's name, and no file.
-        if plan.source.name != plan.preset {
-            self.add("the grid file", Path::new(&plan.source.name));
+        if plan.source().name != plan.preset() {
+            self.add("the grid file", Path::new(&plan.source().name));
         }
-        if let Some(points) = &plan.points_file {
+        if let Some(points) = plan.points_file() {
             self.add("the file of points", &points.path);
         }
         self

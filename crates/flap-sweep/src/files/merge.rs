@@ -177,7 +177,7 @@ pub fn summary(parts: &[Part], plan: &Plan) -> Summary {
         begun: 0,
         rows: total(|sidecar| sidecar.rows),
         excluded: total(|sidecar| sidecar.excluded),
-        unsatisfied: plan.conditions.iter().map(|condition| unsatisfied(&condition.name)).collect(),
+        unsatisfied: plan.conditions().iter().map(|condition| unsatisfied(&condition.name)).collect(),
         interrupted: false,
         counts: tallies::total(sidecars().filter_map(|sidecar| sidecar.statuses.as_ref())),
         rhs_evals: total(|sidecar| sidecar.rhs_evals),

@@ -1,4 +1,4 @@
-//! The section `[axes]`, and what holds for axes of every kind.
+//! The section `[axes]`, and checks of axes of every kind.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use super::problems::Problems;
 use super::range;
 use super::table::{self, Entry};
 use super::value;
-use crate::plan::Plan;
+use crate::plan::axes::TooManyPoints;
 use crate::plan::axis::{Axis, Values};
 
 /// An axis and where it stands in the file.
@@ -34,7 +34,7 @@ pub(super) fn read(entry: Option<&Entry<'_>>, lookup: &mut Lookup<'_>) -> Vec<Pl
         };
         let values = values(parameter, &entry, lookup.problems);
         axes.push(Placed {
-            axis: Axis { parameters: vec![(index, values.unwrap_or_else(none))] },
+            axis: Axis::new(vec![(index, values.unwrap_or_else(none))]),
             span: entry.key_span.clone(),
             keys: vec![entry.key_span],
         });
@@ -42,7 +42,7 @@ pub(super) fn read(entry: Option<&Entry<'_>>, lookup: &mut Lookup<'_>) -> Vec<Pl
     axes
 }
 
-/// What stands for values that could not be read.
+/// The empty list, in place of values that could not be read.
 pub(super) fn none() -> Values {
     Values::List(Vec::new())
 }
@@ -82,7 +82,7 @@ pub(super) fn values(parameter: &Parameter, entry: &Entry<'_>, problems: &mut Pr
 pub(super) fn report_repeats(axes: &[Placed], set: &[(usize, Range<usize>)], lookup: &mut Lookup<'_>) {
     let mut seen: Vec<(usize, Range<usize>)> = Vec::new();
     for placed in axes {
-        for ((parameter, _), key) in placed.axis.parameters.iter().zip(&placed.keys) {
+        for ((parameter, _), key) in placed.axis.parameters().iter().zip(&placed.keys) {
             let name = lookup.name(*parameter);
             if let Some((_, first)) = seen.iter().find(|(other, _)| other == parameter) {
                 lookup
@@ -105,18 +105,12 @@ pub(super) fn report_repeats(axes: &[Placed], set: &[(usize, Range<usize>)], loo
 }
 
 /// Reports that the axes multiply to more points than a plan can have, at the axis that is one too many.
-pub(super) fn report_too_many_points(axes: &[Axis], spans: &[Range<usize>], problems: &mut Problems) {
-    let mut points = 1_u64;
-    let too_many = axes.iter().position(|axis| {
-        let product = points.checked_mul(axis.len()).filter(|product| *product <= Plan::MAX_POINTS);
-        points = product.unwrap_or(points);
-        product.is_none()
-    });
-    let span = too_many.and_then(|index| spans.get(index)).cloned().unwrap_or(0..0);
-    let sizes: Vec<String> = axes.iter().map(|axis| axis.len().to_string()).collect();
+pub(super) fn report_too_many_points(error: &TooManyPoints, spans: &[Range<usize>], problems: &mut Problems) {
+    let span = spans.get(error.axis).cloned().unwrap_or(0..0);
+    let lengths: Vec<String> = error.lengths.iter().map(u64::to_string).collect();
     problems
-        .report(span, "the axes have more than 2^63 points between them")
+        .report(span, error.to_string())
         .label("too many with this axis")
-        .note(format!("points: {}", sizes.join(" × ")))
+        .note(format!("points: {}", lengths.join(" × ")))
         .help("use fewer or shorter axes");
 }

@@ -45,7 +45,7 @@ pub(super) fn report_repeats(
     problems: &mut Problems,
 ) {
     for Draft { parameter, entry } in drafts {
-        let varied = axes.iter().flat_map(|placed| placed.axis.parameters.iter().zip(&placed.keys));
+        let varied = axes.iter().flat_map(|placed| placed.axis.parameters().iter().zip(&placed.keys));
         let varied = varied.filter(|((other, _), _)| other == parameter).map(|(_, key)| (key, "varied"));
         let fixed =
             set.iter().filter(|(other, _)| other == parameter).map(|(_, key)| (key, "set under [params]"));

@@ -8,28 +8,38 @@ use super::table::{self, Entry};
 use super::value;
 use crate::grid::diagnostic::Diagnostic;
 use crate::notation::expression::{Expression, ExpressionError, Kind, Meaning, Problem, Scope};
+use crate::plan::Value;
 use crate::plan::formula::OwnMeasure;
 
-/// What stands before the name of a parameter for its value in the preset.
+/// The prefix of a parameter's name that stands for its value in the preset.
 const PRESET: &str = "preset.";
 
-/// What a drive frequency follows that is to be the resonance.
+/// The others that a drive frequency follows that is to be the resonance.
 const RESONANCE: &str = "the resonance of each design, which [measure] has as resonance_hz";
 
-/// The names of parameters, of their values in the preset, and of what rows measure. Values stand in this order: the
+/// The names of parameters, of their values in the preset, and of measures. Values stand in this order: the
 /// parameters, the model's measures, the user's own.
 pub(super) struct Names {
     pub(super) parameters: &'static [Parameter],
     /// The values of the preset.
-    pub(super) preset: Vec<f64>,
-    /// Whether each parameter has a value of its own at every point.
-    pub(super) has_value: Vec<bool>,
-    /// What rows measure, but for the user's own.
+    pub(super) preset: Vec<Value>,
+    /// For each parameter without a value of its own, the others that it follows.
+    pub(super) unset: Vec<Option<&'static str>>,
+    /// The model's measures, without the user's own.
     pub(super) columns: Vec<Column>,
-    /// Whether what the model measures may be used: not before a point is run.
+    /// True if the model's measures may be used: not before a point is run.
     pub(super) are_measured: bool,
     /// The user's own measures that may be used.
     pub(super) own: Vec<OwnMeasure>,
+}
+
+/// The others that a parameter follows, in words, if it has no value of its own.
+pub(super) fn followed(value: Value) -> Option<&'static str> {
+    match value {
+        Value::Given(_) => None,
+        Value::Follows(follows) => Some(follows),
+        Value::Resonance => Some(RESONANCE),
+    }
 }
 
 impl Names {
@@ -38,24 +48,19 @@ impl Names {
     }
 
     fn of_parameter(&self, index: usize) -> Meaning {
-        match self.parameters[index].kind {
-            ParameterKind::Choice(options) => Meaning::Choice(index, options),
-            ParameterKind::Following(_, follows) if !self.has_value[index] => Meaning::Unset(follows),
-            ParameterKind::Number(_) if !self.has_value[index] => Meaning::Unset(RESONANCE),
-            ParameterKind::Number(_) | ParameterKind::Following(..) => Meaning::Number(index),
+        match (&self.parameters[index].kind, self.unset[index]) {
+            (ParameterKind::Choice(options), _) => Meaning::Choice(index, options),
+            (_, Some(follows)) => Meaning::Unset(follows),
+            (_, None) => Meaning::Number(index),
         }
     }
 
     fn of_preset(&self, index: usize) -> Option<Meaning> {
-        match self.parameters[index].kind {
-            ParameterKind::Choice(_) => None,
-            ParameterKind::Following(_, follows) if self.preset[index].is_nan() => {
-                Some(Meaning::Unset(follows))
-            }
-            ParameterKind::Number(_) | ParameterKind::Following(..) => {
-                Some(Meaning::Constant(self.preset[index]))
-            }
+        if let ParameterKind::Choice(_) = self.parameters[index].kind {
+            return None;
         }
+        let value = self.preset[index];
+        value.given().map(Meaning::Constant).or_else(|| followed(value).map(Meaning::Unset))
     }
 
     fn of_measure(&self, name: &str) -> Option<Meaning> {
@@ -125,7 +130,7 @@ pub(super) fn read(
 /// The expression that `entry` holds; `None`, with a report, if it holds something else.
 ///
 /// # Errors
-/// What is wrong with the expression, not reported yet.
+/// The mistakes in the expression, not reported yet.
 pub(super) fn check(
     entry: &Entry<'_>,
     names: &Names,

@@ -1,4 +1,4 @@
-//! The section `[measure]`: columns that are computed from what rows measure.
+//! The section `[measure]`: columns that are computed from measures.
 
 use super::formula::{self, Names};
 use super::output;
@@ -28,7 +28,7 @@ pub(super) fn read(entry: Option<&Entry<'_>>, names: &mut Names, problems: &mut 
                         }
                         _ => None,
                     };
-                    // What is wrong with a measure above is reported there.
+                    // The mistakes in a measure above are reported there.
                     if unknown.is_some_and(|unknown| unknown < place) {
                         continue;
                     }
@@ -45,10 +45,10 @@ pub(super) fn read(entry: Option<&Entry<'_>>, names: &mut Names, problems: &mut 
     sound.map(|entry| entry.key.to_owned()).collect()
 }
 
-/// Whether a column may be called `name`, and be used in expressions.
+/// True if a column may be called `name`, and be used in expressions.
 fn name_is_sound(name: &str, names: &Names) -> bool {
     expression::is_free_name(name)
-        && !output::ALWAYS.contains(&name)
+        && !output::is_fixed(name)
         && names.parameters.iter().all(|parameter| parameter.name != name)
         && names.columns.iter().all(|column| column.name != name)
 }

@@ -1,4 +1,4 @@
-//! Grid files: from text to a [`Plan`], or to everything that is wrong with the text.
+//! Grid files: from text to a [`Plan`](crate::plan::Plan), or to all mistakes in the text.
 //!
 //! Each part of the file has a module of its own below; all report into one list, so that a file with three
 //! mistakes is reported with all three. See `docs/grid.md` for the format.
@@ -11,6 +11,7 @@ mod formula;
 mod measures;
 mod output;
 mod params;
+mod parse;
 mod preset;
 mod problems;
 mod range;
@@ -23,148 +24,5 @@ mod table;
 mod value;
 mod zip;
 
-use std::sync::Arc;
-
-use flap_core::parameter::Preset;
-use flap_core::simulate::{Rows, Simulator};
-use toml::de::DeTable;
-
-use crate::grid::diagnostic::Mistakes;
-use crate::plan::axis::Axis;
-use crate::plan::formula::{Condition, Derived};
-use crate::plan::{Parts, Plan, PointsFile, Source};
-use crate::resonance::AtResonance;
-use formula::Names;
-use problems::Problems;
+pub use parse::parse;
 pub use read::{MOST_BYTES, ReadError, read};
-pub(crate) use solver::LARGEST_RTOL;
-use table::Entry;
-
-/// The keys at the top of a grid file.
-const KEYS: [&str; 11] = [
-    "preset",
-    "params",
-    "resonance",
-    "axes",
-    "zip",
-    "sample",
-    "derived",
-    "where",
-    "measure",
-    "solver",
-    "output",
-];
-
-/// Checks the grid file `text` and makes its plan. Presets are looked up in `models`; `name` is for messages.
-///
-/// # Errors
-/// The mistakes found, in the order of the file. A file that is not TOML is reported for that alone.
-pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Result<Plan, Mistakes> {
-    let source = Arc::new(Source { name: name.to_owned(), text: text.to_owned() });
-    let mut problems = Problems::new(Arc::clone(&source));
-    let (root, errors) = DeTable::parse_recoverable(text);
-    if !errors.is_empty() {
-        syntax::report(&errors, &mut problems);
-        return Err(problems.into_mistakes());
-    }
-
-    let root = table::entries(root.get_ref());
-    let chosen = preset::read(&root, models, &mut problems);
-    report_unknown_keys(&root, chosen.map(|(model, _)| model), &mut problems);
-    let solver = solver::read(table::find(&root, "solver"), &mut problems);
-    let output_entry = table::find(&root, "output");
-    // Without a model there are no parameters and columns to check against.
-    let Some((simulator, preset)) = chosen else {
-        output::read(output_entry, None, &mut problems);
-        return Err(problems.into_mistakes());
-    };
-    let Points { base, axes, sample_file, resonance, derived, conditions, mut names } =
-        read_points(&root, simulator, preset, models, &mut problems);
-    names.are_measured = true;
-    let own = measures::read(table::find(&root, "measure"), &mut names, &mut problems);
-    let columns = names.columns.iter().map(|column| column.name.clone()).chain(own).collect::<Vec<_>>();
-    let output = output::read(output_entry, Some((simulator, &columns)), &mut problems);
-
-    if !problems.is_empty() {
-        return Err(problems.into_mistakes());
-    }
-    let (axes, spans): (Vec<Axis>, Vec<_>) =
-        axes.into_iter().map(|placed| (placed.axis, placed.span)).unzip();
-    let source = (*source).clone();
-    let parts = Parts {
-        simulator,
-        resonance,
-        preset: preset.name,
-        base,
-        axes,
-        points_file: sample_file,
-        derived,
-        conditions,
-        measures: names.own,
-        solver,
-        output,
-        source,
-    };
-    Plan::new(parts).map_err(|parts| {
-        axes::report_too_many_points(&parts.axes, &spans, &mut problems);
-        problems.into_mistakes()
-    })
-}
-
-/// What a grid file says about its points.
-struct Points {
-    base: Vec<f64>,
-    axes: Vec<axes::Placed>,
-    sample_file: Option<PointsFile>,
-    resonance: Option<AtResonance>,
-    derived: Derived,
-    conditions: Vec<Condition>,
-    names: Names,
-}
-
-/// What `[params]`, `[resonance]`, `[axes]`, `[[zip]]`, `[sample]`, `[derived]` and `[where]` say about the points.
-fn read_points(
-    root: &[Entry<'_>],
-    simulator: &'static dyn Simulator,
-    preset: &Preset,
-    models: &[&'static dyn Simulator],
-    problems: &mut Problems,
-) -> Points {
-    let mut base = (preset.values)();
-    let mut lookup = params::Lookup { simulator, models, problems };
-    let set = params::read(table::find(root, "params"), &mut base, &mut lookup);
-    let mut axes = axes::read(table::find(root, "axes"), &mut lookup);
-    axes.extend(zip::read(table::find(root, "zip"), &mut lookup));
-    let sample = sample::read(table::find(root, "sample"), &base, &mut lookup);
-    let (sampled, sample_file) = sample.map_or((None, None), |sample| (Some(sample.placed), sample.file));
-    axes.extend(sampled);
-    axes.sort_by_key(|placed| placed.span.start);
-    axes::report_repeats(&axes, &set, &mut lookup);
-    let drafts = derived::drafts(table::find(root, "derived"), &mut lookup);
-    derived::report_repeats(&drafts, &axes, &set, problems);
-
-    let resonance = resonance::read(root, simulator, &mut base, problems);
-
-    let mut has_value: Vec<bool> = base.iter().map(|value| !value.is_nan()).collect();
-    let varied = axes.iter().flat_map(|placed| &placed.axis.parameters).map(|(parameter, _)| *parameter);
-    for parameter in varied.chain(drafts.iter().map(|draft| draft.parameter)) {
-        has_value[parameter] = true;
-    }
-    let (parameters, preset) = (simulator.parameters(), (preset.values)());
-    let columns =
-        resonance.as_ref().map_or_else(|| simulator.columns(), |resonance| resonance.columns()).to_vec();
-    let names = Names { parameters, preset, has_value, columns, are_measured: false, own: Vec::new() };
-    let derived = derived::read(&drafts, &names, problems);
-    let conditions = conditions::read(table::find(root, "where"), &names, problems);
-    Points { base, axes, sample_file, resonance, derived, conditions, names }
-}
-
-fn report_unknown_keys(root: &[Entry<'_>], model: Option<&'static dyn Simulator>, problems: &mut Problems) {
-    for entry in root.iter().filter(|entry| !KEYS.contains(&entry.key)) {
-        let diagnostic = table::report_unknown_key(entry, &KEYS, "at the top of a grid file", problems);
-        if model.is_some_and(|model| model.parameters().iter().any(|known| known.name == entry.key)) {
-            diagnostic.help.clear();
-            diagnostic.help("parameters go into [params], or into [axes] to vary them");
-        }
-    }
-}

@@ -1,4 +1,4 @@
-//! The section `[output]`: where rows go, and which columns they have.
+//! The section `[output]`: the file that rows go to, and its columns.
 
 use std::path::PathBuf;
 
@@ -10,22 +10,15 @@ use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
 use crate::plan::Output;
+use crate::table::fixed::FIXED;
 use crate::table::format::Format;
 
 const KEYS: [&str; 2] = ["path", "columns"];
 
-/// Columns that every row has, whatever is selected.
-pub(super) const ALWAYS: [&str; 9] = [
-    "point",
-    "status",
-    "cycles",
-    "residual",
-    "period",
-    "floquet_max",
-    "stable",
-    "error_estimate",
-    "rhs_evals",
-];
+/// True if every row has a column called `name`, whatever is selected.
+pub(super) fn is_fixed(name: &str) -> bool {
+    FIXED.iter().any(|column| column.name == name)
+}
 
 /// A model, and the names of the columns that rows measure, the user's own included.
 type Measured<'m> = (&'static dyn Simulator, &'m [String]);
@@ -97,11 +90,11 @@ fn report_unknown(
     let diagnostic = problems
         .report(item.span(), format!("model `{}` has no column `{name}`", model.name()))
         .label("unknown column");
-    if ALWAYS.contains(&name) || varied {
+    if is_fixed(name) || varied {
         diagnostic
             .note(
                 "every row has these columns, and the varied parameters, without asking: ".to_owned()
-                    + &ALWAYS.join(", "),
+                    + &FIXED.map(|column| column.name).join(", "),
             )
             .help(format!("remove `{name}`: `columns` selects among the measures"));
     } else {

@@ -9,8 +9,9 @@ use super::problems::Problems;
 use super::resonance;
 use super::table::{self, Entry};
 use super::value;
+use crate::plan::Value;
 
-/// What it takes to look a parameter up and complain if it is not there.
+/// The model in which parameters are looked up, and the list in which unknown ones are reported.
 pub(super) struct Lookup<'l> {
     pub(super) simulator: &'static dyn Simulator,
     pub(super) models: &'l [&'static dyn Simulator],
@@ -58,7 +59,7 @@ impl Lookup<'_> {
 /// Puts the values of `[params]` into `base`. Returns which parameters the section names, and where.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
-    base: &mut [f64],
+    base: &mut [Value],
     lookup: &mut Lookup<'_>,
 ) -> Vec<(usize, Range<usize>)> {
     let mut set = Vec::new();
@@ -67,12 +68,12 @@ pub(super) fn read(
             continue;
         };
         set.push((index, entry.key_span.clone()));
-        // Not a value, but how to find one.
+        // Not a value: the resonance is searched for.
         if resonance::is_asked_for(&entry) {
             continue;
         }
         if let Some(value) = value::of_parameter(parameter, entry.value, lookup.problems) {
-            base[index] = value;
+            base[index] = Value::Given(value);
         }
     }
     set

@@ -1,4 +1,4 @@
-//! The key `preset`: which model, and where its parameters start.
+//! The key `preset`: the model, and the values that its parameters start from.
 
 use flap_core::parameter::Preset;
 use flap_core::simulate::Simulator;

@@ -8,7 +8,7 @@ use crate::grid::diagnostic::{Diagnostic, Mistakes};
 use crate::plan::Source;
 
 /// Diagnostics that are kept. Others are only counted, so that a file with millions of mistakes takes neither time nor memory
-/// for what is not shown.
+/// for mistakes that are not shown.
 const MOST_KEPT: usize = 1000;
 
 /// Collects diagnostics about one file.
@@ -63,7 +63,7 @@ impl Problems {
         Path::new(&self.source.name).parent().unwrap_or(Path::new("")).join(path)
     }
 
-    /// Everything reported, in the order of the file, then what is about other files.
+    /// All diagnostics, in the order of the file, then those about other files.
     pub(super) fn into_mistakes(mut self) -> Mistakes {
         let source = Arc::clone(&self.source);
         self.found

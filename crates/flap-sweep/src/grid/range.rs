@@ -6,7 +6,7 @@ use toml::de::DeValue;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
-use crate::plan::Plan;
+use crate::plan::axes::Axes;
 use crate::plan::axis::Values;
 
 const KEYS: [&str; 5] = ["from", "to", "n", "step", "scale"];
@@ -23,7 +23,7 @@ struct Ends<'e, 't> {
     to_entry: &'e Entry<'t>,
 }
 
-/// How the values between the ends are given, with the entry for messages.
+/// The spacing of the values between the ends, with the entry for messages.
 enum Spacing<'e, 't> {
     /// Their number.
     Count(&'e Entry<'t>, u64),
@@ -104,7 +104,7 @@ fn spacing<'e, 't>(
         return None;
     }
     if let Some(entry) = n {
-        let count = value::count("n", Plan::MAX_POINTS, entry.value, problems)?;
+        let count = value::count("n", Axes::MAX_POINTS, entry.value, problems)?;
         return Some(Spacing::Count(entry, count));
     }
     let entry = step?;
@@ -228,7 +228,7 @@ fn stepped(ends: &Ends<'_, '_>, entry: &Entry<'_>, step: f64, problems: &mut Pro
         return None;
     }
     let whole = (steps + HIT).floor();
-    if whole >= Plan::MAX_POINTS as f64 {
+    if whole >= Axes::MAX_POINTS as f64 {
         problems.report(entry.value.span(), "the range has more than 2^63 values").help("use a larger step");
         return None;
     }

@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 
 use flap_core::simulate::Simulator;
 
+use super::parse::parse;
 use crate::grid::diagnostic::{Mistakes, position};
 use crate::plan::Plan;
 
 /// The most bytes a grid file may have: 16 MiB. Lists of more values than that holds are a file of points, which has no limit.
 pub const MOST_BYTES: u64 = 16 << 20;
 
-/// Why there is no plan.
+/// The reason why there is no plan.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// There is no such file.
@@ -32,7 +33,7 @@ pub enum ReadError {
     Unreadable {
         /// The path as given.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         #[source]
         cause: io::Error,
     },
@@ -70,7 +71,7 @@ pub enum ReadError {
 }
 
 impl ReadError {
-    /// What to do, if there is something to say.
+    /// Advice, if there is any.
     pub fn help(&self) -> Option<String> {
         match self {
             ReadError::Results { path } => Some(format!("did you mean `flap plot {}`?", path.display())),
@@ -117,7 +118,7 @@ pub fn read(path: &Path, models: &[&'static dyn Simulator]) -> Result<Plan, Read
         let (line, column) = position(&before, byte);
         ReadError::NotUtf8 { path: path.to_owned(), byte, line, column }
     })?;
-    super::parse(&path.display().to_string(), &text, models).map_err(ReadError::Grid)
+    parse(&path.display().to_string(), &text, models).map_err(ReadError::Grid)
 }
 
 /// The beginning of a file: all of it, unless it is too large.
@@ -127,7 +128,7 @@ fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Whether a file that begins with these bytes is compressed, Parquet, or has the header of results.
+/// True if a file that begins with these bytes is compressed, Parquet, or has the header of results.
 fn looks_like_results(bytes: &[u8]) -> bool {
     const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
     let header = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();

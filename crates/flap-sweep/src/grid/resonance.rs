@@ -7,23 +7,24 @@ use toml::de::DeValue;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
+use crate::plan::Value;
 use crate::resonance::{AtResonance, DRIVE_FREQUENCY, Objective, Range};
 
 const KEYS: [&str; 4] = ["of", "from", "to", "tolerance"];
 
-/// What a drive frequency is set to that is to be the resonance.
+/// The word for a drive frequency that is to be the resonance.
 const WORD: &str = "resonance";
 
-/// Whether this sets the drive frequency to the resonance.
+/// True if this sets the drive frequency to the resonance.
 pub(super) fn is_asked_for(entry: &Entry<'_>) -> bool {
     entry.key == DRIVE_FREQUENCY && entry.value.get_ref().as_str() == Some(WORD)
 }
 
-/// The resonances to run at, if `[params]` ask for them: the drive frequency of `base` is then no number.
+/// The resonances to run at, if `[params]` ask for them: the drive frequency of `base` is then [`Value::Resonance`].
 pub(super) fn read(
     root: &[Entry<'_>],
     simulator: &'static dyn Simulator,
-    base: &mut [f64],
+    base: &mut [Value],
     problems: &mut Problems,
 ) -> Option<AtResonance> {
     let params = table::find(root, "params").and_then(|entry| entry.value.get_ref().as_table());
@@ -46,7 +47,7 @@ pub(super) fn read(
     }
     let frequency = simulator.parameters().iter().position(|parameter| parameter.name == DRIVE_FREQUENCY);
     if let Some(frequency) = frequency {
-        base[frequency] = f64::NAN;
+        base[frequency] = Value::Resonance;
     }
     resonance
 }

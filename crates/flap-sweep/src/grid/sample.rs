@@ -7,30 +7,28 @@ use std::sync::Arc;
 
 use toml::de::DeInteger;
 
-use super::axes::Placed;
+use super::axes::{self, Placed};
 use super::params::Lookup;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
-use crate::plan::PointsFile;
 use crate::plan::axis::{Axis, Values};
 use crate::plan::sample::{Design, Method};
+use crate::plan::{PointsFile, Value};
 
 const KEYS: [&str; 4] = ["method", "n", "seed", "parameters"];
 const FILE_KEYS: [&str; 2] = ["method", "path"];
 const METHODS: [&str; 4] = ["sobol", "latin-hypercube", "random", "file"];
 
-/// What a sample is made of.
-pub(super) struct Sample {
-    pub(super) placed: Placed,
-    /// The file that lists its points, if one does.
-    pub(super) file: Option<PointsFile>,
-}
-
-/// The sample of the section. `base` are the values of parameters that are not sampled.
+/// The sample of the section, and the file that lists its points, if one does. `base` has the values of parameters that
+/// are not sampled.
 ///
 /// A parameter whose distribution is wrong still takes part, without values, in the checks that follow.
-pub(super) fn read(entry: Option<&Entry<'_>>, base: &[f64], lookup: &mut Lookup<'_>) -> Option<Sample> {
+pub(super) fn read(
+    entry: Option<&Entry<'_>>,
+    base: &[Value],
+    lookup: &mut Lookup<'_>,
+) -> Option<(Placed, Option<PointsFile>)> {
     let section = entry?;
     let entries = table::section(section, lookup.problems);
     let Some(method) = table::find(&entries, "method") else {
@@ -48,7 +46,7 @@ pub(super) fn read(entry: Option<&Entry<'_>>, base: &[f64], lookup: &mut Lookup<
         2 => Method::Random,
         _ => {
             table::check_keys(&entries, &FILE_KEYS, "in a [sample] from a file", lookup.problems);
-            return file::read(section, &entries, lookup);
+            return file::read(section, &entries, lookup).map(|(placed, file)| (placed, Some(file)));
         }
     };
     table::check_keys(&entries, &KEYS, "in [sample]", lookup.problems);
@@ -82,7 +80,7 @@ pub(super) fn read(entry: Option<&Entry<'_>>, base: &[f64], lookup: &mut Lookup<
     let mut keys = Vec::new();
     for (dimension, (index, parameter, entry)) in found.into_iter().enumerate() {
         let distribution = distribution::read(parameter, base[index], entry, lookup.problems);
-        let values = distribution.map_or_else(super::axes::none, |distribution| Values::Sampled {
+        let values = distribution.map_or_else(axes::none, |distribution| Values::Sampled {
             design: Arc::clone(&design),
             dimension,
             distribution,
@@ -90,8 +88,7 @@ pub(super) fn read(entry: Option<&Entry<'_>>, base: &[f64], lookup: &mut Lookup<
         axis.push((index, values));
         keys.push(entry.key_span.clone());
     }
-    let placed = Placed { axis: Axis { parameters: axis }, span: section.key_span.clone(), keys };
-    Some(Sample { placed, file: None })
+    Some((Placed { axis: Axis::new(axis), span: section.key_span.clone(), keys }, None))
 }
 
 /// The number of points, or `None` with a report.

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::problems::Problems;
 
-/// Reports what the TOML parser stumbled over: once per line, since one slip makes it stumble repeatedly.
+/// Reports the errors of the TOML parser: one per line, since one slip makes several.
 pub(super) fn report(errors: &[toml::de::Error], problems: &mut Problems) {
     let newlines: Vec<usize> = problems.text().match_indices('\n').map(|(newline, _)| newline).collect();
     let mut lines = HashSet::new();
@@ -23,9 +23,9 @@ pub(super) fn report(errors: &[toml::de::Error], problems: &mut Problems) {
     }
 }
 
-/// The parser's message about `text` in the words of someone who writes grid files, and what to do.
+/// The parser's message about `text` in the words of someone who writes grid files, and advice.
 ///
-/// What is not recognised passes through as it is.
+/// Other messages pass through as they are.
 fn explain(message: &str, text: &str) -> (String, Option<String>) {
     let said = |begins: &str| message.starts_with(begins);
     if message == "duplicate key" {

@@ -28,7 +28,7 @@ pub(super) fn find<'e, 't>(entries: &'e [Entry<'t>], key: &str) -> Option<&'e En
     entries.iter().find(|entry| entry.key == key)
 }
 
-/// What `value` is, for messages.
+/// The type of `value`, for messages.
 pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
     match value {
         DeValue::String(_) => "text",
@@ -51,7 +51,7 @@ pub(super) fn section<'t>(entry: &Entry<'t>, problems: &mut Problems) -> Vec<Ent
     Vec::new()
 }
 
-/// Reports a key that means nothing in its place.
+/// Reports an unknown key.
 pub(super) fn report_unknown_key<'p>(
     entry: &Entry<'_>,
     allowed: &[&str],

@@ -2,43 +2,47 @@
 
 use std::ops::Range;
 
-use flap_core::parameter::{self, Kind, Parameter};
+use flap_core::parameter::{Kind, Parameter};
 use toml::Spanned;
 use toml::de::{DeInteger, DeValue};
 
 use super::problems::Problems;
 use super::table;
 use crate::notation::units::{self, Problem, UnitError};
+use crate::notation::value::{self, UnitOf, ValueError};
 
 type Value<'t> = Spanned<DeValue<'t>>;
 
 /// The value of `parameter`: a number in SI units, or the index of an option.
 pub(super) fn of_parameter(parameter: &Parameter, value: &Value<'_>, problems: &mut Problems) -> Option<f64> {
-    match &parameter.kind {
-        Kind::Number(range) | Kind::Following(range, _) => {
-            let number = quantity(parameter.name, parameter.unit, value, problems)?;
-            in_range(parameter, *range, number, value, problems).then_some(number)
+    let found = match (&parameter.kind, value.get_ref()) {
+        (_, DeValue::String(text)) => value::of_text(parameter, text, UnitOf::Text),
+        (Kind::Choice(options), _) => {
+            report_no_text(parameter.name, options, value, problems);
+            return None;
         }
-        Kind::Choice(options) => option(parameter.name, options, value, problems).map(|index| index as f64),
-    }
+        (Kind::Number(_) | Kind::Following(..), _) => {
+            value::of_number(parameter, quantity(parameter.name, parameter.unit, value, problems)?)
+        }
+    };
+    found.map_err(|error| report(parameter, &error, value, problems)).ok()
 }
 
-/// Whether `number` is in the range of `parameter`; reports it otherwise.
-fn in_range(
-    parameter: &Parameter,
-    range: parameter::Range,
-    number: f64,
-    value: &Value<'_>,
-    problems: &mut Problems,
-) -> bool {
-    let inside = range.contains(number);
-    if !inside {
-        let unit = if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
-        let message =
-            format!("`{}` must be {}, not {}{unit}", parameter.name, range.describe(), shown(number));
-        problems.report(value.span(), message);
+/// Reports a value that `parameter` does not take.
+fn report(parameter: &Parameter, error: &ValueError, value: &Value<'_>, problems: &mut Problems) {
+    let name = parameter.name;
+    let text = value.get_ref().as_str().unwrap_or_default();
+    match error {
+        ValueError::NoOption { options, .. } => report_no_option(name, options, text, value, problems),
+        ValueError::NoQuantity(error) => {
+            let span = inside(problems.text(), value.span(), text, &error.span);
+            report_unit_error(name, span, error, problems);
+        }
+        ValueError::OutOfRange { value: number, .. } => {
+            let shown = format!("{} {}", shown(*number), parameter.unit);
+            problems.report(value.span(), error.message(name, &shown));
+        }
     }
-    inside
 }
 
 /// The index of the option that `value` names.
@@ -48,21 +52,36 @@ pub(super) fn option(
     value: &Value<'_>,
     problems: &mut Problems,
 ) -> Option<usize> {
-    let listed = options.iter().map(|option| format!("\"{option}\"")).collect::<Vec<_>>().join(", ");
     let Some(text) = value.get_ref().as_str() else {
-        let message = format!("`{name}` is a choice between options, not {}", table::kind(value.get_ref()));
-        problems.report(value.span(), message).note(format!("options: {listed}"));
+        report_no_text(name, options, value, problems);
         return None;
     };
     let index = options.iter().position(|option| *option == text);
     if index.is_none() {
-        problems
-            .report(value.span(), format!("`{name}` has no option `{text}`"))
-            .label("unknown option")
-            .note(format!("options: {listed}"))
-            .did_you_mean(text, options.iter().copied());
+        report_no_option(name, options, text, value, problems);
     }
     index
+}
+
+/// Reports a choice that is not text.
+fn report_no_text(name: &str, options: &[&str], value: &Value<'_>, problems: &mut Problems) {
+    let message = format!("`{name}` is a choice between options, not {}", table::kind(value.get_ref()));
+    problems.report(value.span(), message).note(listed(options));
+}
+
+/// Reports text that names none of the options.
+fn report_no_option(name: &str, options: &[&str], text: &str, value: &Value<'_>, problems: &mut Problems) {
+    problems
+        .report(value.span(), format!("`{name}` has no option `{text}`"))
+        .label("unknown option")
+        .note(listed(options))
+        .did_you_mean(text, options.iter().copied());
+}
+
+/// The options in quotes.
+fn listed(options: &[&str]) -> String {
+    let quoted: Vec<String> = options.iter().map(|option| format!("\"{option}\"")).collect();
+    format!("options: {}", quoted.join(", "))
 }
 
 /// A number in the SI unit `unit`, bare or as text with a unit.

@@ -67,7 +67,7 @@ fn axis(table: &DeTable<'_>, span: Range<usize>, lookup: &mut Lookup<'_>) -> Opt
         parameters.push((index, values.unwrap_or_else(axes::none)));
         keys.push(entry.key_span.clone());
     }
-    Some(Placed { axis: Axis { parameters }, span, keys })
+    Some(Placed { axis: Axis::new(parameters), span, keys })
 }
 
 fn report_unequal(entry: &Entry<'_>, length: u64, first: &Entry<'_>, wanted: u64, lookup: &mut Lookup<'_>) {

@@ -4,55 +4,24 @@
 //! is then a flat list of operations. Elementary functions are those of `libm`, so that its value has the same bits on
 //! every machine. See `docs/grid.md` for the language.
 //!
-//! What is not a number makes everything computed from it not a number. A comparison with it is unknown, neither true
-//! nor false; `and`, `or` and `not` of what is unknown are unknown unless the other side decides.
+//! Results of NaN are NaN. A comparison with NaN is unknown, neither true nor false; `and`, `or` and `not` of unknown
+//! conditions are unknown unless the other side decides.
 
 mod error;
 mod evaluate;
 mod function;
 mod operation;
 mod parse;
+mod scope;
 #[cfg(test)]
 mod tests;
 mod token;
 
 pub use error::{ExpressionError, Problem};
 use operation::Operation;
+pub use scope::{Kind, Meaning, Scope};
 
-/// What an expression is: a number, or a condition.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// It has a number for a value.
-    Number,
-    /// It is true or false.
-    Condition,
-}
-
-/// What a name in an expression stands for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Meaning {
-    /// The number at this place of the values.
-    Number(usize),
-    /// The condition at this place of the values, as [`Expression::value`] gives it.
-    Condition(usize),
-    /// The choice at this place of the values, as the index of one of these options.
-    Choice(usize, &'static [&'static str]),
-    /// A number that never changes.
-    Constant(f64),
-    /// A number that is not set and follows others, as the text says.
-    Unset(&'static str),
-}
-
-/// The names that an expression may use.
-pub trait Scope {
-    /// What `name` stands for, if anything.
-    fn meaning(&self, name: &str) -> Option<Meaning>;
-
-    /// All names, from which to guess what a misspelt one was meant to be.
-    fn names(&self) -> Vec<String>;
-}
-
-/// Whether `name` can be given to something that expressions are to use.
+/// True if `name` can be given to something that expressions are to use.
 pub fn is_free_name(name: &str) -> bool {
     let mut characters = name.chars();
     characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
@@ -79,7 +48,7 @@ impl Expression {
         parse::parse(text, scope).map(|(kind, operations)| Expression { kind, operations })
     }
 
-    /// Whether it is a number or a condition.
+    /// Its type: a number or a condition.
     pub fn kind(&self) -> Kind {
         self.kind
     }
@@ -93,7 +62,7 @@ impl Expression {
     }
 
     /// Its value where names have these `values`: a number; 1 for a condition that is true and 0 for one that is
-    /// false; NaN for what is not a number or unknown.
+    /// false; NaN for an unknown value.
     pub fn value(&self, values: &[f64]) -> f64 {
         evaluate::evaluate(&self.operations, values)
     }

@@ -5,5 +5,6 @@ mod nearest;
 pub mod text;
 pub mod time;
 pub mod units;
+pub mod value;
 
 pub use nearest::nearest;

@@ -23,7 +23,7 @@ pub fn float(value: f64) -> String {
     text
 }
 
-/// Appends what [`float`] gives to `text`.
+/// Appends the text of [`float`] to `text`.
 pub(crate) fn push_float(text: &mut String, value: f64) {
     let size = value.abs();
     // Elsewhere zmij writes noughts where an exponent should be, or a plus sign in the exponent.
@@ -37,7 +37,7 @@ pub(crate) fn push_float(text: &mut String, value: f64) {
     }
 }
 
-/// What [`float`] gives, for all numbers, in several times the time.
+/// The same text as [`float`], for all numbers, in several times the time.
 fn float_by_standard_library(value: f64) -> String {
     if value.is_nan() {
         return String::new();
@@ -53,7 +53,7 @@ fn float_by_standard_library(value: f64) -> String {
     text
 }
 
-/// `true` for 1 and `false` for 0. NaN, what is unknown, is the empty text.
+/// `true` for 1 and `false` for 0. NaN, which stands for unknown, is the empty text.
 pub fn truth(value: f64) -> String {
     if value.is_nan() {
         return String::new();

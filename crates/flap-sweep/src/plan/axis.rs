@@ -1,5 +1,4 @@
-//! One axis of a design space: the values of one parameter, or of several that move together.
-//!
+//! The values of varied parameters: of one parameter, or of several that move together.
 //! Values are computed on demand, so that an axis of 10^9 values costs nothing.
 
 use std::sync::Arc;
@@ -46,7 +45,7 @@ pub enum Values {
         design: Arc<Design>,
         /// The dimension.
         dimension: usize,
-        /// How its coordinate is carried over to the parameter.
+        /// The distribution that carries its coordinate over to the parameter.
         distribution: Distribution,
     },
 }
@@ -61,7 +60,7 @@ impl Values {
         }
     }
 
-    /// Whether there are no values.
+    /// True if there are no values.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -97,20 +96,34 @@ fn decimal(x: f64) -> f64 {
     format!("{x:.14e}").parse().unwrap_or(x)
 }
 
-/// One axis: one or more parameters with as many values each.
+/// One axis: one or more parameters that move together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Indices into the model's parameter table, each with its values.
-    pub parameters: Vec<(usize, Values)>,
+    parameters: Vec<(usize, Values)>,
 }
 
 impl Axis {
-    /// Number of positions along the axis.
-    pub fn len(&self) -> u64 {
-        self.parameters.first().map_or(0, |(_, values)| values.len())
+    /// The axis of these parameters: indices into the model's parameter table, each with its values.
+    pub fn new(parameters: Vec<(usize, Values)>) -> Axis {
+        Axis { parameters }
     }
 
-    /// Whether the axis has no positions.
+    /// Indices into the model's parameter table, each with its values.
+    pub fn parameters(&self) -> &[(usize, Values)] {
+        &self.parameters
+    }
+
+    /// The indices with their values, by value.
+    pub(crate) fn into_parameters(self) -> impl Iterator<Item = (usize, Values)> {
+        self.parameters.into_iter()
+    }
+
+    /// Number of positions along the axis: the length of its shortest list of values.
+    pub fn len(&self) -> u64 {
+        self.parameters.iter().map(|(_, values)| values.len()).min().unwrap_or(0)
+    }
+
+    /// True if the axis has no positions.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -1,4 +1,4 @@
-//! What a plan computes by expressions: derived parameters, conditions, and measures of the user's own.
+//! Expressions of a plan: derived parameters, conditions, and measures of the user's own.
 
 use crate::notation::expression::{Expression, Kind};
 
@@ -43,7 +43,7 @@ pub struct Condition {
 }
 
 impl Condition {
-    /// Whether the point with these values satisfies it; `None` if that is not known.
+    /// True if the point with these values satisfies it; `None` if that is not known.
     pub fn holds(&self, values: &[f64]) -> Option<bool> {
         let value = self.expression.value(values);
         (!value.is_nan()).then_some(value != 0.0)
@@ -59,13 +59,13 @@ pub struct OwnMeasure {
 }
 
 impl OwnMeasure {
-    /// Whether it is a number, or true or false.
+    /// The type of its values: a number, or true or false.
     pub fn kind(&self) -> Kind {
         self.expression.kind()
     }
 
     /// Its value where parameters, the model's measures and the measures above it have these values, one behind the
-    /// other. NaN for what is not a finite number or unknown.
+    /// other. NaN if the value is not finite or not known.
     pub(crate) fn value(&self, values: &[f64]) -> f64 {
         let value = self.expression.value(values);
         if value.is_finite() { value } else { f64::NAN }

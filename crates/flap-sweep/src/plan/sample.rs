@@ -14,7 +14,7 @@ pub use distribution::Distribution;
 use latin::Permutation;
 use sobol::Sobol;
 
-/// How points are spread over the unit cube.
+/// The method by which points are spread over the unit cube.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// Sobol' sequence with direction numbers by Joe and Kuo, scrambled after Owen by a hash of the digits.
@@ -33,7 +33,7 @@ pub struct Design {
     kind: Kind,
 }
 
-/// What each method needs to know about each dimension.
+/// The data of each method, for each dimension.
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
     Sobol(Vec<Sobol>),
@@ -63,7 +63,7 @@ impl Design {
         Design { seed, count, kind }
     }
 
-    /// How points are spread.
+    /// The method by which points are spread.
     pub fn method(&self) -> Method {
         match self.kind {
             Kind::Sobol(_) => Method::Sobol,
@@ -72,7 +72,7 @@ impl Design {
         }
     }
 
-    /// What the points depend on.
+    /// The seed of the random numbers.
     pub fn seed(&self) -> u64 {
         self.seed
     }

@@ -1,4 +1,4 @@
-//! Which of a plan's points are run: all of them, every n-th, or a list.
+//! The points of a plan that are run: all of them, every n-th, or a list.
 
 use std::fmt;
 use std::str::FromStr;
@@ -18,7 +18,7 @@ pub enum Selection {
 }
 
 impl Selection {
-    /// How many of `points` points are run.
+    /// Number of points that are run, of `points` points.
     pub fn len(&self, points: u64) -> u64 {
         match self {
             Selection::All => points,
@@ -37,7 +37,7 @@ impl Selection {
     }
 }
 
-/// `all points`, `shard 2/3`, or how many points are listed, with a hash that tells lists apart.
+/// `all points`, `shard 2/3`, or the number of listed points with a hash that tells lists apart.
 impl fmt::Display for Selection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -67,17 +67,17 @@ impl Shard {
     /// Most shards of a plan.
     pub const MOST: u64 = 1_000_000;
 
-    /// Which shard, from 1.
+    /// The number of this shard, from 1.
     pub fn number(self) -> u64 {
         self.number
     }
 
-    /// How many shards there are.
+    /// The number of shards.
     pub fn of(self) -> u64 {
         self.of
     }
 
-    /// Whether the point is of this shard.
+    /// True if the point is of this shard.
     pub fn contains(self, index: u64) -> bool {
         index % self.of == self.number - 1
     }

@@ -54,11 +54,11 @@ impl Identity {
             flap: env!("CARGO_PKG_VERSION").to_owned(),
             build: build().to_owned(),
             arithmetic: options.instructions.arithmetic().name().to_owned(),
-            grid: text::hash(&plan.source.text),
-            points_file: plan.points_file.as_ref().map(PointsFile::hash),
-            selection: plan.selection.to_string(),
-            followed: plan.followed.as_ref().map(|along| followed(plan, along)),
-            solver: plan.solver,
+            grid: text::hash(&plan.source().text),
+            points_file: plan.points_file().map(PointsFile::hash),
+            selection: plan.selection().to_string(),
+            followed: plan.followed().map(|along| followed(plan, along)),
+            solver: *plan.solver(),
         }
     }
 
@@ -98,7 +98,8 @@ impl Identity {
 /// The parameter that is followed, in words. The command line may set parameters that the grid file does not, so that the
 /// hash is of those too.
 fn followed(plan: &Plan, along: &Along) -> String {
-    let numbers = along.values.iter().chain([&along.tolerance]).chain(&plan.base);
+    let base = plan.base().iter().map(|value| value.in_point());
+    let numbers = along.values.iter().copied().chain([along.tolerance]).chain(base);
     let mut bytes: Vec<u8> = numbers.flat_map(|number| number.to_le_bytes()).collect();
     bytes.push(u8::from(along.unstable));
     let name = plan.parameters()[along.parameter].name;

@@ -133,7 +133,7 @@ fn check(parcel: &Parcel, identity: &Identity, ledger: &Ledger<'_>, plan: &Plan)
     if begin != done || parcel.is_empty() || end > ledger.units() {
         return Err(RunError::Parcel(format!("points {begin} to {end} came where {done} was next")));
     }
-    let is_condition = |condition: &usize| *condition < plan.conditions.len();
+    let is_condition = |condition: &usize| *condition < plan.conditions().len();
     let excluded = parcel.finished.iter().filter_map(|finished| match finished {
         Finished::Excluded(unsatisfied) => Some(unsatisfied),
         Finished::Row(_) => None,

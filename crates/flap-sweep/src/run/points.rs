@@ -66,7 +66,7 @@ pub(super) fn work(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(), RunError> {
     let worker = |hand: &mut Hand<'_, Finished>| {
-        plan.rows().run(options.instructions, &plan.solver, &mut Points { plan, hand });
+        plan.rows().run(options.instructions, plan.solver(), &mut Points { plan, hand });
     };
     ordered::run(positions, options, stop, &worker, take, progress)
 }
@@ -98,7 +98,7 @@ impl Jobs for Points<'_, '_> {
             self.hand.fail(format!("it returned {found} measures, not {expected}, for point {position}"));
             return;
         }
-        if !self.plan.measures.is_empty() && position < self.plan.selected() {
+        if !self.plan.measures().is_empty() && position < self.plan.selected() {
             self.plan.add_own_measures(&self.plan.selected_point(position).values, &mut row.measures);
         }
         self.hand.done(position, Finished::Row(row));

@@ -89,7 +89,7 @@ impl Summary {
     /// The summary `before` as the beginning of that of `plan`.
     pub(super) fn after(before: Summary, plan: &Plan) -> Summary {
         let counted = |name: &str| before.unsatisfied.iter().find(|(known, _)| known == name);
-        let unsatisfied = plan.conditions.iter().map(|condition| {
+        let unsatisfied = plan.conditions().iter().map(|condition| {
             let count = counted(&condition.name).map_or(0, |(_, count)| *count);
             (condition.name.clone(), count)
         });
@@ -138,7 +138,7 @@ impl Doubtful {
         let columns: &[Column] = plan.rows().columns();
         let position = |name: &str| columns.iter().position(|column| column.name == name);
         Doubtful {
-            accuracy: plan.solver.accuracy,
+            accuracy: plan.solver().accuracy,
             power: position("power_mean_mw"),
             margin: position(RESONANCE_MARGIN_HZ),
         }

@@ -24,11 +24,11 @@ pub struct Deviation {
 
 /// The parameters that do not have the preset's values, in the order of the model's table.
 pub fn of(plan: &Plan) -> Vec<Deviation> {
-    let mut values: Vec<Vec<f64>> = plan.base.iter().map(|value| vec![*value]).collect();
-    for (parameter, along) in plan.axes.iter().flat_map(|axis| &axis.parameters) {
+    let mut values: Vec<Vec<f64>> = plan.base().iter().map(|value| vec![value.in_point()]).collect();
+    for (parameter, along) in plan.axes().parameters() {
         values[*parameter] = ends(along);
     }
-    for parameter in plan.derived.parameters() {
+    for parameter in plan.derived().parameters() {
         values[parameter] = [0, plan.len() - 1].map(|index| plan.point(index).values[parameter]).to_vec();
     }
     compare(plan, values)
@@ -40,8 +40,9 @@ pub fn of_point(plan: &Plan, values: &[f64]) -> Vec<Deviation> {
 }
 
 fn compare(plan: &Plan, values: Vec<Vec<f64>>) -> Vec<Deviation> {
-    let preset = plan.simulator.presets().iter().find(|preset| preset.name == plan.preset);
-    let preset = preset.map_or_else(|| plan.base.clone(), |preset| (preset.values)());
+    let preset = plan.simulator().presets().iter().find(|preset| preset.name == plan.preset());
+    let base = || plan.base().iter().map(|value| value.in_point()).collect();
+    let preset = preset.map_or_else(base, |preset| (preset.values)());
     let all = plan.parameters().iter().zip(values).zip(preset);
     all.map(|((parameter, mut values), preset)| {
         values.dedup();

@@ -16,7 +16,7 @@ pub struct Exclusions {
 /// Counts the points that the conditions of `plan` exclude, among all of its points or, if there are more than `most`, among
 /// so many that are spread over it.
 pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
-    let names = plan.conditions.iter().map(|condition| (condition.name.clone(), 0));
+    let names = plan.conditions().iter().map(|condition| (condition.name.clone(), 0));
     let mut found = Exclusions { looked_at: plan.len().min(most), excluded: 0, unsatisfied: names.collect() };
     for number in 0..found.looked_at {
         let index = if plan.len() > most { spread(number, plan.len()) } else { number };

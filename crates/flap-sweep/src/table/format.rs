@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-/// What a result file is written as.
+/// The format of a result file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Comma-separated values: `.csv`.
@@ -84,7 +84,7 @@ fn unknown(path: &Path, allowed: &'static str) -> FormatError {
     FormatError::Unknown { name: path.display().to_string(), allowed }
 }
 
-/// Whether there is something else than a file at `path`, such as a device or a pipe.
+/// True if there is something else than a file at `path`, such as a device or a pipe.
 fn is_stream(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|metadata| !metadata.is_file())
 }

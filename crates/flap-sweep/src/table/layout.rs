@@ -1,10 +1,11 @@
-//! The columns of a result file: which there are, in which order, and what they mean.
+//! The columns of a result file: their order, their meaning and their cells.
 
-use flap_core::parameter::{self, Parameter};
+use flap_core::parameter::Parameter;
 use flap_core::simulate::{Point, Row};
 
+pub use super::column::{Cell, Column, Kind};
+use super::fixed::{CURVE, FIXED, Fixed};
 use crate::notation::expression;
-use crate::notation::text;
 use crate::plan::Plan;
 
 /// The columns of the rows of a plan:
@@ -36,7 +37,7 @@ pub struct Measure {
     pub unit: &'static str,
     /// One line of meaning.
     pub doc: String,
-    /// Whether it is a number, or true or false: then 1 stands for true and 0 for false.
+    /// A number, or true or false: then 1 stands for true and 0 for false.
     pub kind: expression::Kind,
 }
 
@@ -47,71 +48,11 @@ impl Measure {
     }
 }
 
-/// A column of a result file, as tables with types and units see it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Column {
-    /// Name, with its unit for a measure.
-    pub name: String,
-    /// The unit in words; empty for what has none.
-    pub unit: &'static str,
-    /// What its cells hold. Any cell may be empty.
-    pub kind: Kind,
-    /// One line of meaning.
-    pub doc: String,
-}
-
-/// What the cells of a column hold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Whole numbers from 0.
-    Whole,
-    /// Numbers.
-    Number,
-    /// `true` or `false`.
-    Flag,
-    /// Words.
-    Text,
-}
-
-impl Column {
-    pub(crate) fn new(name: &str, unit: &'static str, kind: Kind, doc: &str) -> Column {
-        Column { name: name.to_owned(), unit, kind, doc: doc.to_owned() }
-    }
-
-    pub(crate) fn of_parameter(parameter: &Parameter) -> Column {
-        let kind = match parameter.kind {
-            parameter::Kind::Choice(_) => Kind::Text,
-            parameter::Kind::Number(_) | parameter::Kind::Following(..) => Kind::Number,
-        };
-        Column::new(parameter.name, parameter.unit, kind, parameter.doc)
-    }
-}
-
-/// What stands in a row under a column.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cell {
-    /// A whole number.
-    Whole(u64),
-    /// A number; NaN if it is not known.
-    Number(f64),
-    /// True or false; `None` if it is not known.
-    Flag(Option<bool>),
-    /// A word.
-    Text(&'static str),
-}
-
-impl Cell {
-    pub(crate) fn of_parameter(parameter: &Parameter, value: f64) -> Cell {
-        text::option(parameter, value).map_or(Cell::Number(value), Cell::Text)
-    }
-}
-
 impl Layout {
     /// The columns that `plan` asks for.
     pub fn of(plan: &Plan) -> Layout {
         let parameters = plan.parameters();
-        let varied =
-            plan.varied().chain(plan.derived.parameters()).map(|index| (index, &parameters[index])).collect();
+        let varied = plan.differing().map(|index| (index, &parameters[index])).collect();
         let columns = plan.rows().columns();
         let models = columns.iter().map(|column| Measure {
             index: 0,
@@ -120,7 +61,7 @@ impl Layout {
             doc: column.doc.clone(),
             kind: expression::Kind::Number,
         });
-        let own = plan.measures.iter().map(|own| Measure {
+        let own = plan.measures().iter().map(|own| Measure {
             index: 0,
             name: own.name.clone(),
             unit: "",
@@ -129,59 +70,17 @@ impl Layout {
         });
         let all: Vec<Measure> =
             models.chain(own).enumerate().map(|(index, measure)| Measure { index, ..measure }).collect();
-        let measures = match &plan.output.columns {
+        let measures = match &plan.output().columns {
             Some(chosen) => chosen.iter().map(|&index| all[index].clone()).collect(),
             None => all,
         };
-        let followed = plan.followed.as_ref().map(|along| &parameters[along.parameter]);
+        let followed = plan.followed().map(|along| &parameters[along.parameter]);
         Layout { varied, followed, measures }
     }
 
     /// The columns, from left to right.
     pub fn columns(&self) -> Vec<Column> {
-        let (first, doc) = match self.followed {
-            Some(_) => ("curve", "index of the design in the grid, from 0"),
-            None => ("point", "index of the point in the grid, from 0"),
-        };
-        let mut columns = vec![Column::new(first, "", Kind::Whole, doc)];
-        columns.extend(self.varied.iter().map(|(_, parameter)| Column::of_parameter(parameter)));
-        if let Some(parameter) = self.followed {
-            let branch = "the way that the motion is on: up, down, or unstable between the two";
-            columns.push(Column::new("branch", "", Kind::Text, branch));
-            columns.push(Column::of_parameter(parameter));
-        }
-        columns.push(Column::new("status", "", Kind::Text, "what became of the point"));
-        columns.extend(self.measures.iter().map(|measure| {
-            let kind = match measure.kind {
-                expression::Kind::Number => Kind::Number,
-                expression::Kind::Condition => Kind::Flag,
-            };
-            Column::new(&measure.name, measure.unit, kind, &measure.doc)
-        }));
-        for (name, kind, doc) in [
-            ("cycles", Kind::Whole, "drive periods integrated, the measured one included"),
-            (
-                "residual",
-                Kind::Number,
-                "change of the state over the last period of the motion, in units of settle_tol",
-            ),
-            ("period", Kind::Whole, "drive periods until the motion repeats; 0 if no orbit was found"),
-            (
-                "floquet_max",
-                Kind::Number,
-                "factor by which a change of the motion grows or decays per orbit in the end",
-            ),
-            ("stable", Kind::Flag, "whether motions near the orbit approach it"),
-            (
-                "error_estimate",
-                Kind::Number,
-                "estimated relative error of stroke, pitch, lift and power, the largest; inf if it cannot be estimated",
-            ),
-            ("rhs_evals", Kind::Whole, "evaluations of the equations of motion"),
-        ] {
-            columns.push(Column::new(name, "", kind, doc));
-        }
-        columns
+        self.entries().map(|entry| entry.column()).collect()
     }
 
     /// The column names.
@@ -189,7 +88,7 @@ impl Layout {
         self.columns().into_iter().map(|column| column.name).collect()
     }
 
-    /// One cell per column. What is not known is empty: the measures of a point that is not periodic,
+    /// One cell per column. Unknown values are empty: the measures of a point that is not periodic,
     /// the multiplier and stability of one without an orbit, and the residual of one that completed no period.
     pub fn cells(&self, point: &Point, row: &Row) -> Vec<Cell> {
         self.cells_at(point, None, row)
@@ -197,31 +96,73 @@ impl Layout {
 
     /// The cells of a motion on a curve of the design `point`, as [`Layout::cells`] gives those of a point.
     pub fn cells_at(&self, point: &Point, place: Option<Place>, row: &Row) -> Vec<Cell> {
-        // Up to four cells before the measures and seven behind them, besides the parameters.
-        let mut cells = Vec::with_capacity(11 + self.varied.len() + self.measures.len());
-        cells.push(Cell::Whole(point.index));
-        cells.extend(
-            self.varied.iter().map(|&(index, parameter)| Cell::of_parameter(parameter, point.values[index])),
-        );
-        if let Some((branch, value)) = place {
-            cells.extend([Cell::Text(branch), Cell::Number(value)]);
-        }
-        cells.push(Cell::Text(row.status.name()));
-        cells.extend(self.measures.iter().map(|measure| {
-            let value = measure.value(&row.measures);
-            match measure.kind {
-                expression::Kind::Number => Cell::Number(value),
-                expression::Kind::Condition => Cell::Flag((!value.is_nan()).then_some(value != 0.0)),
-            }
-        }));
-        cells.push(Cell::Whole(row.cycles.into()));
-        cells.push(Cell::Number(row.residual));
-        cells.push(Cell::Whole(row.period.into()));
-        cells.push(Cell::Number(row.floquet_max));
-        cells.push(Cell::Flag(row.stable()));
-        cells.push(Cell::Number(row.error_estimate));
-        cells.push(Cell::Whole(row.rhs_evals));
+        // A curve has two columns more.
+        let mut cells = Vec::with_capacity(FIXED.len() + 2 + self.varied.len() + self.measures.len());
+        cells.extend(self.entries().map(|entry| entry.cell(point, place, row)));
         cells
+    }
+
+    /// The columns with their cells.
+    fn entries(&self) -> impl Iterator<Item = Entry<'_>> {
+        let [point, status, behind @ ..] = &FIXED;
+        let first = if self.followed.is_some() { &CURVE } else { point };
+        let followed =
+            self.followed.into_iter().flat_map(|parameter| [Entry::Branch, Entry::Followed(parameter)]);
+        [Entry::Fixed(first)]
+            .into_iter()
+            .chain(self.varied.iter().map(|&(index, parameter)| Entry::Parameter(index, parameter)))
+            .chain(followed)
+            .chain([Entry::Fixed(status)])
+            .chain(self.measures.iter().map(Entry::Measure))
+            .chain(behind.iter().map(Entry::Fixed))
+    }
+}
+
+/// A column of a layout.
+enum Entry<'l> {
+    Fixed(&'static Fixed),
+    /// A varied or derived parameter, with its index in the model's table.
+    Parameter(usize, &'static Parameter),
+    /// The branch of a curve.
+    Branch,
+    /// The parameter that rises and falls along a curve.
+    Followed(&'static Parameter),
+    Measure(&'l Measure),
+}
+
+impl Entry<'_> {
+    fn column(&self) -> Column {
+        match self {
+            Entry::Fixed(Fixed { name, kind, doc, .. }) => Column::new(name, "", *kind, doc),
+            Entry::Parameter(_, parameter) | Entry::Followed(parameter) => Column::of_parameter(parameter),
+            Entry::Branch => {
+                let doc = "the way that the motion is on: up, down, or unstable between the two";
+                Column::new("branch", "", Kind::Text, doc)
+            }
+            Entry::Measure(measure) => {
+                let kind = match measure.kind {
+                    expression::Kind::Number => Kind::Number,
+                    expression::Kind::Condition => Kind::Flag,
+                };
+                Column::new(&measure.name, measure.unit, kind, &measure.doc)
+            }
+        }
+    }
+
+    fn cell(&self, point: &Point, place: Option<Place>, row: &Row) -> Cell {
+        match self {
+            Entry::Fixed(fixed) => (fixed.cell)(point, row),
+            Entry::Parameter(index, parameter) => Cell::of_parameter(parameter, point.values[*index]),
+            Entry::Branch => Cell::Text(place.map_or("", |(branch, _)| branch)),
+            Entry::Followed(_) => Cell::Number(place.map_or(f64::NAN, |(_, value)| value)),
+            Entry::Measure(measure) => {
+                let value = measure.value(&row.measures);
+                match measure.kind {
+                    expression::Kind::Number => Cell::Number(value),
+                    expression::Kind::Condition => Cell::Flag((!value.is_nan()).then_some(value != 0.0)),
+                }
+            }
+        }
     }
 }
 

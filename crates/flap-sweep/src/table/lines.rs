@@ -27,7 +27,7 @@ impl<W: Write> Lines<W> {
         self.end()
     }
 
-    /// Writes a line of cells: numbers as [`text::float`] gives them, and nothing for what is not known.
+    /// Writes a line of cells: numbers as [`text::float`] gives them, and nothing for unknown values.
     pub(crate) fn cells(&mut self, cells: &[Cell]) -> io::Result<()> {
         for cell in cells {
             match *cell {
@@ -50,12 +50,12 @@ impl<W: Write> Lines<W> {
         written
     }
 
-    /// Hands what has been written to the target, and flushes that.
+    /// Hands the written lines to the target, and flushes that.
     pub(crate) fn flush(&mut self) -> io::Result<()> {
         self.target.flush()
     }
 
-    /// What is written to; complete after [`Lines::flush`].
+    /// The target; complete after [`Lines::flush`].
     pub(crate) fn target(&self) -> &W {
         self.target.get_ref()
     }

@@ -49,7 +49,7 @@ pub(super) fn of(plan: &Arc<Plan>, points: u64) -> Estimate {
     // A point cannot be stopped: if it never ends, its thread ends with the program.
     thread::spawn(move || {
         let plan = Arc::clone(&trial.plan);
-        plan.rows().run(InstructionSet::best(), &plan.solver, &mut trial);
+        plan.rows().run(InstructionSet::best(), plan.solver(), &mut trial);
         // The receiver may have stopped waiting.
         let _ = send.send(trial);
     });

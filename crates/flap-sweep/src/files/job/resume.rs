@@ -53,7 +53,7 @@ impl Job<'_> {
     fn cannot_resume(&self, error: ResumeError) -> JobError {
         let is_changed = matches!(error, ResumeError::Changed { .. });
         let before = Sidecar::read(&sidecar_of(&self.out)).ok().filter(|_| is_changed);
-        let changed = before.and_then(|before| difference(&before.grid.text, &self.plan.source.text));
+        let changed = before.and_then(|before| difference(&before.grid.text, &self.plan.source().text));
         JobError::Resume { error, changed }
     }
 }

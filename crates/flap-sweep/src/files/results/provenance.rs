@@ -32,15 +32,15 @@ impl Provenance {
         let mut entries = vec![
             ("flap", identity.flap.clone()),
             ("flap.build", identity.build.clone()),
-            ("flap.model", plan.simulator.name().to_owned()),
-            ("flap.preset", plan.preset.to_owned()),
+            ("flap.model", plan.simulator().name().to_owned()),
+            ("flap.preset", plan.preset().to_owned()),
             ("flap.arithmetic", identity.arithmetic.clone()),
-            ("flap.solver", toml_text(&SolverTable(plan.solver))),
+            ("flap.solver", toml_text(&SolverTable(*plan.solver()))),
             ("flap.parameters", toml_text(&parameters(plan))),
             ("flap.units", toml_text(&units)),
-            ("flap.grid", plan.source.text.clone()),
+            ("flap.grid", plan.source().text.clone()),
         ];
-        entries.extend(plan.points_file.as_ref().map(|file| ("flap.points_file", file.hash())));
+        entries.extend(plan.points_file().map(|file| ("flap.points_file", file.hash())));
         entries.extend(identity.followed.clone().map(|followed| ("flap.followed", followed)));
         let entries = entries.into_iter().map(|(key, text)| (key.to_owned(), text)).collect();
         Provenance { columns, entries }
@@ -53,8 +53,9 @@ pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
         Some(option) => Value::String(option.to_owned()),
         None => Value::Float(value),
     };
-    let set = plan.parameters().iter().zip(&plan.base).filter(|(_, base)| !base.is_nan());
-    set.map(|(parameter, &base)| (parameter.name.to_owned(), value(parameter, base))).collect()
+    let base = plan.parameters().iter().zip(plan.base());
+    let set = base.filter_map(|(parameter, base)| Some((parameter, base.given()?)));
+    set.map(|(parameter, base)| (parameter.name.to_owned(), value(parameter, base))).collect()
 }
 
 /// `value` as TOML. Names, numbers and words always have a text.

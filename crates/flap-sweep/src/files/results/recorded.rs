@@ -43,10 +43,10 @@ impl<'a> Recorded<'a> {
     /// The plan of these rows, which may be only some of its points. `None` if the grid file is of another version of flap, or
     /// a file of points has moved or changed.
     pub fn plan(&self, models: &[&'static dyn Simulator]) -> Option<Plan> {
-        let mut plan = grid::parse("grid", self.text("flap.grid"), models).ok()?;
+        let plan = grid::parse("grid", self.text("flap.grid"), models).ok()?;
         let SolverTable(solver) = toml::from_str(self.text("flap.solver")).ok()?;
-        plan.solver = solver;
-        let points = plan.points_file.as_ref().map(plan::PointsFile::hash);
+        let plan = plan.with_solver(solver).ok()?;
+        let points = plan.points_file().map(plan::PointsFile::hash);
         (points.as_deref() == self.0.get("flap.points_file").copied()).then_some(plan)
     }
 

@@ -94,7 +94,7 @@ pub enum RowError {
 impl RowCheck {
     /// A check of the rows of `plan`; `rows` is the number of rows that were written, if it is known.
     pub fn new(plan: &Plan, rows: Option<u64>) -> RowCheck {
-        RowCheck::of(plan, plan.selection.clone(), rows)
+        RowCheck::of(plan, plan.selection().clone(), rows)
     }
 
     /// A check of the rows of other points than `plan` selects.
@@ -109,8 +109,8 @@ impl RowCheck {
             rows,
             next: 0,
             seen: 0,
-            is_dense: plan.conditions.is_empty(),
-            is_repeated: plan.followed.is_some(),
+            is_dense: plan.conditions().is_empty(),
+            is_repeated: plan.followed().is_some(),
         }
     }
 

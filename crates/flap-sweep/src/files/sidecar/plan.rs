@@ -1,14 +1,14 @@
 //! The plan that a sidecar records.
 
 use flap_core::parameter::{Kind, Parameter};
-use flap_core::simulate::{Simulator, SolverSettings};
+use flap_core::simulate::Simulator;
 use toml::Value;
 
 use super::{Followed, Sidecar};
 use crate::grid;
 use crate::grid::diagnostic::Mistakes;
 use crate::notation::text;
-use crate::plan::selection::{self, Selection};
+use crate::plan::selection;
 use crate::plan::{self, Along, Plan};
 
 /// A sidecar without a plan.
@@ -51,41 +51,42 @@ impl Sidecar {
         if self.grid.xxh3 != text::hash(&self.grid.text) {
             return Err(PlanError::GridText);
         }
-        let mut plan = grid::parse(&self.grid.name, &self.grid.text, models).map_err(PlanError::Grid)?;
-        if !is_allowed(&self.solver) {
-            return Err(PlanError::Solver);
-        }
-        plan.solver = self.solver;
+        let plan = grid::parse(&self.grid.name, &self.grid.text, models).map_err(PlanError::Grid)?;
+        let plan = plan.with_solver(self.solver).map_err(|_| PlanError::Solver)?;
         let points_file = self.points_file.as_ref();
-        if plan.points_file.as_ref().map(plan::PointsFile::hash) != points_file.map(|file| file.xxh3.clone())
-        {
+        if plan.points_file().map(plan::PointsFile::hash) != points_file.map(|file| file.xxh3.clone()) {
             return Err(PlanError::PointsFile { path: points_file.map(|file| file.path.clone()) });
         }
-        if let Some(followed) = &self.followed {
-            plan.followed = Some(self.follow(followed, &mut plan).ok_or(PlanError::Parameters)?);
-        }
-        if let Some(shard) = &self.shard {
-            plan.selection = Selection::Shard(shard.parse().map_err(|_| PlanError::Points)?);
-        }
+        let plan = match &self.followed {
+            Some(followed) => self.follow(followed, plan).ok_or(PlanError::Parameters)?,
+            None => plan,
+        };
         if let Some(rerun) = &self.rerun {
             let list = selection::read_list(&rerun.points, plan.len()).ok_or(PlanError::Points)?;
-            plan.selection = Selection::Listed(list);
+            return plan.with_points(list).map_err(|_| PlanError::Points);
         }
-        Ok(plan)
+        match &self.shard {
+            Some(shard) => Ok(plan.with_shard(shard.parse().map_err(|_| PlanError::Points)?)),
+            None => Ok(plan),
+        }
     }
 
-    /// The parameter that is followed. Its axis is taken out of `plan`, which gets the parameters of the command line.
-    fn follow(&self, followed: &Followed, plan: &mut Plan) -> Option<Along> {
+    /// The plan whose points are designs with a curve: without the axis of the followed parameter, and with the parameters of
+    /// the command line.
+    fn follow(&self, followed: &Followed, plan: Plan) -> Option<Plan> {
         let parameters = plan.parameters();
         let place = |name: &str| parameters.iter().position(|parameter| parameter.name == name);
         let parameter = place(&followed.parameter)?;
+        let (mut plan, _) = plan.without_axis(parameter);
         for (name, value) in &self.parameters {
             let index = place(name)?;
-            plan.base[index] = number(&parameters[index], value)?;
+            let number = number(&parameters[index], value)?;
+            if plan.base()[index].given() != Some(number) {
+                plan = plan.with_parameter(index, number).ok()?;
+            }
         }
-        plan.take_axis(parameter);
         let Followed { values, tolerance, unstable, .. } = followed.clone();
-        Some(Along { parameter, values, tolerance, unstable })
+        Some(plan.following(Along { parameter, values, tolerance, unstable }))
     }
 }
 
@@ -98,11 +99,4 @@ fn number(parameter: &Parameter, value: &Value) -> Option<f64> {
         }
         _ => None,
     }
-}
-
-/// True if a grid file may have these settings.
-fn is_allowed(solver: &SolverSettings) -> bool {
-    let tolerances = [solver.rtol, solver.atol, solver.settle_tol, solver.accuracy];
-    let positive = tolerances.iter().all(|tolerance| *tolerance > 0.0);
-    positive && solver.rtol < grid::LARGEST_RTOL && solver.max_cycles > 0 && solver.max_steps > 0
 }

@@ -37,11 +37,11 @@ impl Sidecar {
     /// The contents for a sweep of `plan` that is about to start.
     pub fn new(plan: &Plan, start: Start) -> Sidecar {
         let layout = Layout::of(plan);
-        let shard = match plan.selection {
+        let shard = match plan.selection() {
             Selection::Shard(shard) => Some(shard.to_string()),
             Selection::All | Selection::Listed(_) => None,
         };
-        let rerun = match (&plan.selection, start.rerun) {
+        let rerun = match (plan.selection(), start.rerun) {
             (Selection::Listed(list), origin) => {
                 Some(Rerun { origin: origin.unwrap_or_default(), points: selection::list_text(list) })
             }
@@ -52,8 +52,8 @@ impl Sidecar {
             build: identity::build().to_owned(),
             state: State::Running,
             error: None,
-            model: plan.simulator.name().to_owned(),
-            preset: plan.preset.to_owned(),
+            model: plan.simulator().name().to_owned(),
+            preset: plan.preset().to_owned(),
             points: plan.len(),
             shard,
             rows: None,
@@ -69,7 +69,7 @@ impl Sidecar {
             statuses: None,
             doubts: None,
             unsatisfied: BTreeMap::new(),
-            solver: plan.solver,
+            solver: *plan.solver(),
             rerun,
             followed: followed(plan, &start.options),
             parameters: parameters(plan),
@@ -77,13 +77,12 @@ impl Sidecar {
             columns: layout.measures.iter().map(|m| Unit::new(&m.name, m.unit)).collect(),
             invalid: Vec::new(),
             points_file: plan
-                .points_file
-                .as_ref()
+                .points_file()
                 .map(|file| PointsFile { path: file.path.display().to_string(), xxh3: file.hash() }),
             grid: Grid {
-                name: plan.source.name.clone(),
-                xxh3: text::hash(&plan.source.text),
-                text: plan.source.text.clone(),
+                name: plan.source().name.clone(),
+                xxh3: text::hash(&plan.source().text),
+                text: plan.source().text.clone(),
             },
             checksums: None,
         }
@@ -115,7 +114,7 @@ impl Sidecar {
 
 /// The parameter that a plan follows.
 fn followed(plan: &Plan, options: &RunOptions) -> Option<Followed> {
-    let Along { parameter, values, tolerance, unstable } = plan.followed.clone()?;
+    let Along { parameter, values, tolerance, unstable } = plan.followed()?.clone();
     let parameter = plan.parameters()[parameter].name.to_owned();
     let identity = Identity::of(plan, options).followed?;
     Some(Followed { parameter, values, tolerance, unstable, identity })

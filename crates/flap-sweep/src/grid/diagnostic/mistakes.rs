@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use super::Diagnostic;
+use super::mistake::Diagnostic;
 
 /// The mistakes in a grid file: the first [`Mistakes::MOST_SHOWN`] in the order of the file, and the number of the others.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,7 +12,7 @@ pub struct Mistakes {
 }
 
 impl Mistakes {
-    /// The most mistakes that are shown. Whoever has more than these has made one mistake many times.
+    /// The most mistakes that are shown. A file with more usually has one mistake many times.
     pub const MOST_SHOWN: usize = 20;
 
     /// The first ones of `found`, which is in the order of the file; `more` others were found, too.

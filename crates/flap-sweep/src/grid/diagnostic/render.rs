@@ -2,7 +2,8 @@
 
 use annotate_snippets::{AnnotationKind, Element, Group, Level, Renderer, Snippet};
 
-use super::{Diagnostic, Mistakes};
+use super::mistake::Diagnostic;
+use super::mistakes::Mistakes;
 
 /// The text of the `mistakes` that are shown, with the lines of the grid file that they are about, and the number of the
 /// others; with colours if `styled`.

@@ -1,4 +1,4 @@
-//! How a sampled parameter is distributed: `{ from, to }`, `{ mean, sd }`, or a list.
+//! The distribution of a sampled parameter: `{ from, to }`, `{ mean, sd }`, or a list.
 
 use flap_core::parameter::{Kind, Parameter};
 use toml::de::DeValue;
@@ -6,6 +6,7 @@ use toml::de::DeValue;
 use super::super::problems::Problems;
 use super::super::table::{self, Entry};
 use super::super::{axes, value};
+use crate::plan::Value;
 use crate::plan::axis::Values;
 use crate::plan::sample::Distribution;
 
@@ -14,11 +15,11 @@ const SCALES: [&str; 2] = ["linear", "log"];
 const NOTE: &str = "distributions look like { from = 1, to = 5 }, { from = 1, to = 5, scale = \"log\" }, \
                     { mean = 3, sd = 0.1 }, { relative_sd = \"5 %\" } or [1, 2, 5]";
 
-/// The distribution of `parameter`, which is `base` where it is not sampled. `None`, with a report, if it makes no
+/// The distribution of `parameter`, which has the value `base` where it is not sampled. `None`, with a report, if it makes no
 /// sense.
 pub(super) fn read(
     parameter: &Parameter,
-    base: f64,
+    base: Value,
     entry: &Entry<'_>,
     problems: &mut Problems,
 ) -> Option<Distribution> {
@@ -119,26 +120,26 @@ fn uniform(
 
 fn normal(
     parameter: &Parameter,
-    base: f64,
+    base: Value,
     whole: &Entry<'_>,
     entries: &[Entry<'_>],
     problems: &mut Problems,
 ) -> Option<Distribution> {
     let from = end(parameter, "from", entries, problems);
     let to = end(parameter, "to", entries, problems);
-    let mean = end(parameter, "mean", entries, problems).ok()?.unwrap_or(base);
+    let mean = end(parameter, "mean", entries, problems).ok()?;
     if let Some(scale) = table::find(entries, "scale") {
         problems
             .report(scale.key_span.clone(), "a normal distribution has no `scale`")
             .help("remove it, or give `from` and `to` alone");
         return None;
     }
-    if mean.is_nan() {
+    let Some(mean) = mean.or(base.given()) else {
         problems
             .report(whole.value.span(), format!("`{}` has no value of its own to be the mean", whole.key))
             .help("give the distribution a `mean`");
         return None;
-    }
+    };
     let sd = sd(parameter, mean, whole, entries, problems)?;
     let (from, to) = (from.ok()?.unwrap_or(f64::NEG_INFINITY), to.ok()?.unwrap_or(f64::INFINITY));
     let distribution = Distribution::Normal { mean, sd, from, to };

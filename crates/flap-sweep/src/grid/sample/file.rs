@@ -5,16 +5,17 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use flap_core::parameter::{Kind, Parameter};
+use csv::ByteRecord;
+use flap_core::parameter::Parameter;
 
 use super::super::axes::Placed;
 use super::super::params::Lookup;
 use super::super::table::{self, Entry};
-use super::super::value;
-use super::Sample;
+use super::super::value::text as text_of;
 use crate::grid::diagnostic::Diagnostic;
 use crate::notation::nearest;
 use crate::notation::units;
+use crate::notation::value::{self, UnitOf};
 use crate::plan::axis::{Axis, Values};
 use crate::plan::{PointsFile, Source};
 
@@ -22,7 +23,11 @@ use crate::plan::{PointsFile, Source};
 const MOST_CELLS: usize = 10;
 
 /// The points of the file that the section names.
-pub(super) fn read(section: &Entry<'_>, entries: &[Entry<'_>], lookup: &mut Lookup<'_>) -> Option<Sample> {
+pub(super) fn read(
+    section: &Entry<'_>,
+    entries: &[Entry<'_>],
+    lookup: &mut Lookup<'_>,
+) -> Option<(Placed, PointsFile)> {
     let Some(entry) = table::find(entries, "path") else {
         lookup
             .problems
@@ -30,7 +35,7 @@ pub(super) fn read(section: &Entry<'_>, entries: &[Entry<'_>], lookup: &mut Look
             .help("name the file of points: write `path = \"points.csv\"`");
         return None;
     };
-    let path = value::text("path", entry.value, lookup.problems)?;
+    let path = text_of("path", entry.value, lookup.problems)?;
     let path = lookup.problems.beside(path);
     let text = match text(&path) {
         Ok(text) => text,
@@ -46,14 +51,14 @@ pub(super) fn read(section: &Entry<'_>, entries: &[Entry<'_>], lookup: &mut Look
     let source = Arc::new(Source { name: path.display().to_string(), text });
     let (columns, is_sound) = columns(&source, lookup);
     let keys = columns.iter().map(|_| entry.key_span.clone()).collect();
-    let axis = Axis { parameters: columns };
+    let axis = Axis::new(columns);
     if is_sound && axis.is_empty() {
         lookup.problems.report(entry.value.span(), format!("{}: the file has no points", path.display()));
     }
-    Some(Sample { placed: Placed { axis, span: section.key_span.clone(), keys }, file: Some(file) })
+    Some((Placed { axis, span: section.key_span.clone(), keys }, file))
 }
 
-/// The text of the file, or why there is none.
+/// The text of the file, or the reason why it cannot be read.
 fn text(path: &Path) -> Result<String, String> {
     let metadata = fs::metadata(path).map_err(|error| error.to_string())?;
     // A device or a pipe may never end.
@@ -72,9 +77,9 @@ struct Column<'t> {
     unit: Option<&'t str>,
 }
 
-/// The values of the parameters, and whether there was nothing to report.
+/// The values of the parameters, and true if there was nothing to report.
 fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values)>, bool) {
-    let mut lines = Lines::new(&source.text);
+    let mut lines = lines(&source.text);
     let Some(headings) = lines.next() else {
         lookup.problems.report_in(source, 0..0, "the file of points is empty".to_owned());
         return (Vec::new(), false);
@@ -163,66 +168,46 @@ fn split_unit(heading: &str) -> Option<(&str, Option<&str>)> {
     (!name.contains(']') && !unit.contains(['[', ']'])).then(|| (name.trim(), Some(unit.trim())))
 }
 
-/// The value of a cell, or what is wrong with it and what to do.
+/// The value of a cell, or the mistake in it with the line on what to do.
 fn value(column: &Column<'_>, text: &str) -> Result<f64, (String, Option<String>)> {
-    let Column { parameter, unit, .. } = column;
-    let name = parameter.name;
-    let range = match parameter.kind {
-        Kind::Number(range) | Kind::Following(range, _) => range,
-        Kind::Choice(options) => {
-            let index = options.iter().position(|option| *option == text).map(|index| index as f64);
-            let help = || Some(format!("options: {}", options.join(", ")));
-            return index.ok_or_else(|| (format!("`{name}` has no option `{text}`"), help()));
-        }
-    };
-    let number = match unit {
-        Some(unit) => units::parse_as(&format!("{text} {unit}"), parameter.unit),
-        // A bare number is in SI units, as in the grid file.
-        None => units::parse_as(text, "").or_else(|_| units::parse_as(text, parameter.unit)),
-    };
-    let number = number.map_err(|error| (error.message(&format!("`{name}`")), error.help()))?;
-    if range.contains(number) {
-        return Ok(number);
-    }
-    Err((format!("`{name}` must be {}, not {text}", range.describe()), None))
+    let unit = column.unit.map_or(UnitOf::TextOrSi, UnitOf::Column);
+    value::of_text(column.parameter, text, unit)
+        .map_err(|error| (error.message(column.parameter.name, text), error.help()))
 }
 
-/// The lines of a CSV file that are not empty: cells without the blanks around them, with their bytes.
-struct Lines<'t> {
-    text: &'t str,
-    at: usize,
+/// A cell: its text without the blanks and quotes around it, and its bytes in the file.
+type Cell<'t> = (&'t str, Range<usize>);
+
+/// The lines of a CSV file that are not blank.
+///
+/// Neither numbers nor units nor options have commas: a quote is a character like others, so that bytes of cells are known.
+fn lines(text: &str) -> impl Iterator<Item = Vec<Cell<'_>>> {
+    let reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .quoting(false)
+        .from_reader(text.as_bytes());
+    let records = reader.into_byte_records().map_while(Result::ok);
+    records.map(|record| cells(text, &record)).filter(|cells| cells.len() > 1 || !cells[0].1.is_empty())
 }
 
-impl<'t> Lines<'t> {
-    fn new(text: &'t str) -> Lines<'t> {
-        // A byte order mark is no part of the first heading.
-        Lines { text, at: if text.starts_with('\u{feff}') { 3 } else { 0 } }
+/// The cells of a record of the CSV file `text`.
+fn cells<'t>(text: &'t str, record: &ByteRecord) -> Vec<Cell<'t>> {
+    let position =
+        record.position().and_then(|position| usize::try_from(position.byte()).ok()).unwrap_or_default();
+    // The reader leaves out a byte order mark, and line ends before a record.
+    let rest = &text[position..];
+    let rest = if position == 0 { rest.strip_prefix('\u{feff}').unwrap_or(rest) } else { rest };
+    let rest = rest.trim_start_matches(['\r', '\n']);
+    let mut at = text.len() - rest.len();
+    let mut cells = Vec::with_capacity(record.len());
+    for field in record {
+        let field = &text[at..at + field.len()];
+        let begin = at + field.len() - field.trim_start().len();
+        let cell = field.trim();
+        at += field.len() + 1;
+        let unquoted = cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"'));
+        cells.push((unquoted.unwrap_or(cell).trim(), begin..begin + cell.len()));
     }
-}
-
-impl<'t> Iterator for Lines<'t> {
-    type Item = Vec<(&'t str, Range<usize>)>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        while self.at < self.text.len() {
-            let start = self.at;
-            let line = self.text[start..].lines().next().unwrap_or_default();
-            let length = self.text[start..].find('\n').map_or(self.text.len() - start, |newline| newline + 1);
-            self.at += length;
-            if line.trim().is_empty() {
-                continue;
-            }
-            let mut at = start;
-            let cell = |text: &'t str| {
-                let begin = at + text.len() - text.trim_start().len();
-                let cell = text.trim();
-                at += text.len() + 1;
-                let quoted = cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"'));
-                (quoted.unwrap_or(cell).trim(), begin..begin + cell.len())
-            };
-            // Neither numbers nor units nor options have commas.
-            return Some(line.split(',').map(cell).collect());
-        }
-        None
-    }
+    cells
 }

@@ -1,21 +1,22 @@
-//! What can be wrong with an expression.
+//! Mistakes in expressions.
 
 use std::fmt;
 use std::ops::Range;
 
-use super::{Kind, function};
+use super::function;
+use super::scope::Kind;
 use crate::notation::nearest;
 
-/// What is wrong with an expression, and where in its text.
+/// A mistake in an expression, with its place in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExpressionError {
     /// Bytes of the text at fault. May be empty where something is missing.
     pub span: Range<usize>,
-    /// What is wrong with them.
+    /// The mistake.
     pub problem: Problem,
 }
 
-/// What is wrong with an expression.
+/// A mistake in an expression.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Problem {
     /// There is nothing.
@@ -36,16 +37,16 @@ pub enum Problem {
     Chain,
     /// A condition where there must be a number, or the other way round.
     Mismatch {
-        /// What there must be.
+        /// The kind that there must be.
         wanted: Kind,
     },
-    /// Parentheses and operators within each other beyond all use.
+    /// Parentheses and operators nested too deeply.
     TooDeep,
     /// A name that stands for nothing.
     UnknownName {
         /// The name.
         name: String,
-        /// What may have been meant.
+        /// The name that may have been meant.
         nearest: Option<String>,
     },
     /// A function that does not exist.
@@ -59,7 +60,7 @@ pub enum Problem {
     Arguments {
         /// The function.
         name: String,
-        /// What it takes, such as `one argument`.
+        /// The arguments that it takes, such as `one argument`.
         takes: &'static str,
     },
     /// A choice where there must be a number.
@@ -69,11 +70,11 @@ pub enum Problem {
         /// Its options.
         options: &'static [&'static str],
     },
-    /// A comparison of a choice with what is not among its options.
+    /// A comparison of a choice with text that is none of its options.
     UnknownOption {
         /// The name.
         name: String,
-        /// What it is compared with.
+        /// The text that it is compared with.
         option: String,
         /// Its options.
         options: &'static [&'static str],
@@ -82,7 +83,7 @@ pub enum Problem {
     Unset {
         /// The name.
         name: String,
-        /// How it follows others.
+        /// The others that it follows, in words.
         follows: &'static str,
     },
 }
@@ -116,7 +117,7 @@ impl ExpressionError {
         }
     }
 
-    /// What is allowed, or what to do about it, if that is known.
+    /// Allowed forms or advice, if there are any.
     pub fn help(&self) -> Option<String> {
         let did_you_mean = |name: &str| format!("did you mean `{name}`?");
         match &self.problem {

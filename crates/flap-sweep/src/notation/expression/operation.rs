@@ -1,4 +1,4 @@
-//! What a checked expression consists of: operations on a stack of numbers.
+//! Operations on a stack of numbers, of which a checked expression consists.
 
 /// One operation. Conditions are 1 for true, 0 for false and NaN for unknown.
 #[derive(Clone, Copy, Debug)]

@@ -5,15 +5,15 @@ use std::ops::Range;
 use super::error::{ExpressionError, Problem};
 use super::function::{self, Function};
 use super::operation::{Binary, Operation, Unary};
+use super::scope::{Kind, Meaning, Scope};
 use super::token::{Token, Tokens};
-use super::{Kind, Meaning, Scope};
 use crate::notation::nearest;
 
 /// Parentheses, functions and operators that may stand within each other. More is a mistake or malice, and would take
 /// more than its share of the machine's stack.
 const MOST_NESTED: usize = 100;
 
-/// How tightly operators bind, from loose to tight.
+/// The precedence of operators, from loose to tight.
 mod power {
     pub(super) const ANY: u8 = 0;
     pub(super) const OR: u8 = 1;
@@ -52,9 +52,9 @@ pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<(Kind, Vec<Operatio
     }
 }
 
-/// What has been read between two operators.
+/// The operand between two operators.
 struct Operand {
-    /// `None` for what is wrong already, so that one mistake is not reported twice.
+    /// `None` if it has a mistake already, so that one mistake is not reported twice.
     kind: Option<Kind>,
     span: Range<usize>,
 }
@@ -195,7 +195,7 @@ impl<'a> Parser<'a> {
         Ok(Operand { kind: Some(kind), span: sign.start..operand.span.end })
     }
 
-    /// What the name that was just read stands for.
+    /// The operand that the name just read stands for.
     fn named(&mut self, name: &str, span: Range<usize>) -> Result<Operand, ExpressionError> {
         let constant = || function::constant(name).map(Meaning::Constant);
         let (kind, operation) = match self.scope.meaning(name).or_else(constant) {

@@ -33,7 +33,7 @@ fn value(text: &str) -> f64 {
     expression.value(&VALUES)
 }
 
-/// What other expression libraries get wrong, then all the rest.
+/// The mistakes of other expression libraries, then all the rest.
 #[test]
 fn numbers() {
     let scaled = 1.52e-6 * libm::pow(2000.0 / 3333.0, -1.47);

@@ -20,7 +20,7 @@ pub(super) enum Token<'t> {
 /// Longer ones before those they begin with.
 const SIGNS: [&str; 14] = ["<=", ">=", "==", "!=", "<", ">", "+", "-", "*", "/", "^", "(", ")", ","];
 
-/// What other languages write, with what to write here.
+/// Operators of other languages, with those to write here.
 const FOREIGN: [(&str, &str); 6] =
     [("**", "^ for powers"), ("&&", "and"), ("||", "or"), ("<>", "!="), ("=", "== to compare"), ("!", "not")];
 
@@ -59,7 +59,7 @@ impl<'t> Tokens<'t> {
     }
 }
 
-/// A word and its length, or the length of what is wrong.
+/// A word and its length, or the length of the mistake.
 type Found<'t> = Result<(Token<'t>, usize), (usize, Problem)>;
 
 fn is_name(character: char) -> bool {

@@ -1,4 +1,4 @@
-//! What kind of quantity a unit measures.
+//! Dimensions: the kinds of quantities that units measure.
 
 use std::fmt;
 
@@ -36,7 +36,7 @@ impl Dimension {
         Dimension { base, radian: add(self.radian, other.radian), hertz: add(self.hertz, other.hertz) }
     }
 
-    /// Whether a value of this dimension can stand where `wanted` is asked for.
+    /// True if a value of this dimension can stand in place of a `wanted` one.
     pub(super) fn fits(self, wanted: Dimension) -> bool {
         let mixes_turns_and_radians =
             (self.hertz != 0 && wanted.radian != 0) || (self.radian != 0 && wanted.hertz != 0);

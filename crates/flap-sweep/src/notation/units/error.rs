@@ -1,18 +1,18 @@
-//! What can be wrong with a quantity.
+//! Mistakes in quantities.
 
 use std::fmt;
 use std::ops::Range;
 
-/// A quantity that cannot be used, and where in its text the trouble is.
+/// A quantity that cannot be used, with the place of the mistake in its text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnitError {
     /// Bytes of the text at fault.
     pub span: Range<usize>,
-    /// What is wrong with them.
+    /// The mistake.
     pub problem: Problem,
 }
 
-/// What is wrong with a quantity.
+/// A mistake in a quantity.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Problem {
     /// The text does not start with a number.
@@ -36,21 +36,21 @@ pub enum Problem {
     UnknownUnit {
         /// As written.
         unit: String,
-        /// What may have been meant.
+        /// The unit that may have been meant.
         nearest: Option<String>,
         /// Ways to write the unit wanted; empty for a pure number.
         usual: Vec<String>,
     },
     /// The unit is not put together properly.
     BadUnit {
-        /// What should stand here.
+        /// The text that should stand here.
         expected: &'static str,
     },
     /// The unit measures something else.
     Mismatch {
         /// The unit as written.
         unit: String,
-        /// What it measures, such as `a time`.
+        /// The quantity that it measures, such as `a time`.
         measures: String,
         /// The SI unit wanted; empty for a pure number.
         wanted: String,
@@ -79,7 +79,7 @@ impl UnitError {
         }
     }
 
-    /// What to do about it, if that is known.
+    /// Advice, if there is any.
     pub fn help(&self) -> Option<String> {
         match &self.problem {
             Problem::NoNumber => {

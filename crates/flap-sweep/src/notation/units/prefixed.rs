@@ -20,8 +20,8 @@ pub fn prefixed(value: f64, si_unit: &str) -> String {
     format!("{} {prefix}{symbol}{rest}", digits(value / 10_f64.powi(ten * power)))
 }
 
-/// What `value` in `si_unit` is if its number was meant in a unit with a prefix, which makes it most like `usual`: 0.017 for
-/// 17 m where 0.0165 m is usual. `None` if no prefix makes it like that.
+/// The number of `value` read in `si_unit` with the prefix that brings it nearest to `usual`: 0.017 for 17 m if 0.0165 m is
+/// usual. `None` if no prefix brings it within a factor of ten.
 pub fn meant(value: f64, usual: f64, si_unit: &str) -> Option<f64> {
     let (symbol, rest) = split(si_unit);
     if symbol.is_empty() || symbol == "rad" {

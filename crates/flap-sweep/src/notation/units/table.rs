@@ -10,9 +10,9 @@ pub(super) struct Symbol {
     pub(super) dimension: Dimension,
     /// Power of ten to SI: exact, applied to the text of the number.
     pub(super) shift: i32,
-    /// What remains to SI once `shift` is applied: 1 for decimal units.
+    /// The factor to SI that remains after `shift`: 1 for decimal units.
     pub(super) factor: f64,
-    /// Whether it takes prefixes.
+    /// True if it takes prefixes.
     prefixes: bool,
     /// The forms people use, the SI one first: for messages.
     usual: &'static [&'static str],
@@ -109,7 +109,7 @@ pub(super) fn usual(unit: &str) -> Vec<String> {
     ways
 }
 
-/// What the unknown unit `name` may have meant, best guess first.
+/// Units that the unknown unit `name` may have meant, best guess first.
 pub(super) fn suggestions(name: &str) -> Vec<String> {
     let mut names: Vec<String> =
         SYMBOLS.iter().flat_map(|symbol| symbol.usual.iter().map(|usual| (*usual).to_owned())).collect();

@@ -117,7 +117,7 @@ proptest! {
         prop_assert_eq!(value.to_bits(), literal.to_bits());
     }
 
-    /// What Rust prints for a float is read back with the same bits.
+    /// The text that Rust prints for a float is read back with the same bits.
     #[test]
     fn floats_round_trip(value in proptest::num::f64::NORMAL) {
         prop_assert_eq!(parse_as(&format!("{value:?} V"), "V"), Ok(value));

@@ -1,4 +1,4 @@
-//! How the values of a sampled parameter are distributed.
+//! Distributions of the values of sampled parameters.
 
 use super::normal;
 
@@ -58,7 +58,7 @@ impl Distribution {
         }
     }
 
-    /// Whether there is anything between the bounds of a truncated normal distribution, as far as numbers go.
+    /// False if a truncated normal distribution has no probability between its bounds, to the precision of numbers.
     pub fn is_possible(&self) -> bool {
         match self {
             Distribution::Normal { mean, sd, from, to } => {

@@ -1,6 +1,6 @@
-//! Which interval each point of a Latin hypercube takes.
+//! The interval that each point of a Latin hypercube takes.
 
-/// Rounds of the cipher. Four make it as good as random, if what is mixed in is; two more cost nothing.
+/// Rounds of the cipher. Four make it as good as random, if the key is; two more cost nothing.
 const ROUNDS: u64 = 6;
 
 /// A random permutation of the numbers below `count` that is not stored.
@@ -21,7 +21,7 @@ impl Permutation {
         Permutation { count, half_bits: bits.div_ceil(2).max(1), key }
     }
 
-    /// Where `index`, which must be less than `count`, goes.
+    /// The image of `index`, which must be less than `count`.
     pub(super) fn get(&self, index: u64) -> u64 {
         let mut number = self.once(index);
         while number >= self.count {

@@ -26,24 +26,24 @@ impl AlongError {
 }
 
 impl Along {
-    /// Follows the parameter with this index in steps `[from, to, step]`, or through the values of its axis, which is taken
-    /// out of `plan`. `tolerance` is a sixteenth of the shortest step if not given.
+    /// Follows the parameter with this index in steps `[from, to, step]`, or through the values of its axis. Also gives the
+    /// plan without that axis. `tolerance` is a sixteenth of the shortest step if not given.
     ///
     /// # Errors
     /// [`AlongError`] if the parameter is a choice, is varied together with others, or has no axis and no steps, or no values come of them.
     pub fn new(
-        plan: &mut Plan,
+        plan: Plan,
         parameter: usize,
         steps: Option<[f64; 3]>,
         tolerance: Option<f64>,
         unstable: bool,
-    ) -> Result<Along, AlongError> {
+    ) -> Result<(Plan, Along), AlongError> {
         let Parameter { name, kind, .. } = &plan.parameters()[parameter];
         if let Kind::Choice(_) = kind {
             return Err(AlongError::new(format!("`{name}` is a choice and cannot rise and fall"), ""));
         }
-        let axis = plan.take_axis(parameter);
-        if plan.varied().any(|varied| varied == parameter) {
+        let (plan, axis) = plan.without_axis(parameter);
+        if plan.axes().varied().any(|varied| varied == parameter) {
             let message = format!("`{name}` is varied together with other parameters");
             return Err(AlongError::new(message, "follow a parameter with an axis of its own, or none"));
         }
@@ -59,7 +59,7 @@ impl Along {
         let shortest = values.windows(2).map(|two| two[1] - two[0]).fold(f64::INFINITY, f64::min);
         let tolerance = tolerance.unwrap_or(shortest / 16.0);
         if tolerance > 0.0 {
-            Ok(Along { parameter, values, tolerance, unstable })
+            Ok((plan, Along { parameter, values, tolerance, unstable }))
         } else {
             Err(AlongError::new("the tolerance must be more than zero".to_owned(), ""))
         }
@@ -74,7 +74,7 @@ impl Along {
     pub(super) fn values_at(&self, plan: &Plan, design: &Point, value: f64) -> Vec<f64> {
         let mut values = design.values.clone();
         values[self.parameter] = value;
-        plan.derived.fill(&mut values, &[]);
+        plan.derived().fill(&mut values, &[]);
         values
     }
 

@@ -56,8 +56,8 @@ pub(super) fn unstable(
         }
         let first = (0..last).rev().take_while(|&index| is_bistable(index)).last().unwrap_or(last);
         let width = (curve.up[last].value - curve.up[first].value).max(along.tolerance);
-        let SolverSettings { rtol, atol, .. } = plan.solver;
-        let solver = SolverSettings { rtol: FINER * rtol, atol: FINER * atol, ..plan.solver };
+        let SolverSettings { rtol, atol, .. } = *plan.solver();
+        let solver = SolverSettings { rtol: FINER * rtol, atol: FINER * atol, ..*plan.solver() };
         let design = &curve.design;
         let branch = Branch { plan, set, solver, along, design, sizes: &units, width, interrupted };
         found.extend(branch.turn(&curve.up[last - 1], &curve.up[last]));
@@ -136,7 +136,7 @@ impl Branch<'_> {
     fn period(&self, place: &DVector<f64>) -> Result<Period, Unfinished> {
         let values = self.along.values_at(self.plan, self.design, self.value(place));
         let state = self.state(place);
-        self.plan.simulator.motions()?.period(self.set, &self.solver, &values, &state, self.interrupted)
+        self.plan.simulator().motions()?.period(self.set, &self.solver, &values, &state, self.interrupted)
     }
 
     /// The orbit nearest to `guess` on the plane through it across `direction`, by Newton's iteration.

@@ -37,7 +37,7 @@ enum Followed {
 impl<'a> Responses<'a> {
     /// The responses of a plan that follows a parameter; `None` of any other.
     pub fn of(plan: &'a Plan) -> Option<Responses<'a>> {
-        plan.followed.as_ref().map(|along| Responses { plan, along })
+        plan.followed().map(|along| Responses { plan, along })
     }
 
     /// Follows the designs after those that `before` counts, and writes the rows of their curves to `sink` in the order of
@@ -77,7 +77,7 @@ impl<'a> Responses<'a> {
         let set = options.instructions;
         let worker = |hand: &mut Hand<'_, Followed>| {
             let mut designs = Designs { responses: self, set, hand };
-            study::run_all(self.plan.simulator, set, &self.plan.solver, &mut designs);
+            study::run_all(self.plan.simulator(), set, self.plan.solver(), &mut designs);
         };
         let options = RunOptions { window: self.window(options), ..*options };
         let worked = ordered::run(designs, &options, stop, &worker, &mut take, progress);
@@ -94,7 +94,7 @@ impl<'a> Responses<'a> {
     pub fn curve(self, design: Point) -> Curve {
         let set = InstructionSet::best();
         let mut follow = Follow::new(self.plan, self.along, design);
-        study::run_one(self.plan.simulator, set, &self.plan.solver, &mut follow);
+        study::run_one(self.plan.simulator(), set, self.plan.solver(), &mut follow);
         self.complete(follow.finish(), set, &never)
     }
 
@@ -141,7 +141,7 @@ impl<'a> Desk for Designs<'a, '_, '_> {
 
     fn done(&mut self, follow: Follow<'a>) {
         let curve = follow.finish();
-        let measures = self.responses.plan.simulator.columns().len();
+        let measures = self.responses.plan.simulator().columns().len();
         let mut rows = curve.up.iter().chain(&curve.down).map(|step| &step.row);
         if let Some(row) = rows.find(|row| row.measures.len() != expected(row, measures)) {
             let (found, index) = (row.measures.len(), curve.design.index);

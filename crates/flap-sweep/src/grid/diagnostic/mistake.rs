@@ -1,17 +1,12 @@
-//! What is wrong in a grid file, where, and what to do about it.
+//! One mistake in a grid file.
 //!
-//! A diagnostic carries the text it is about, so that whoever shows it needs nothing else.
-
-mod mistakes;
-mod render;
+//! A diagnostic carries the text that it is about, so that a function that shows it needs nothing else.
 
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-pub use mistakes::Mistakes;
-pub use render::render;
-
+use super::position::position;
 use crate::notation::nearest;
 use crate::notation::text::shortened;
 use crate::plan::Source;
@@ -21,7 +16,7 @@ use crate::plan::Source;
 pub struct Diagnostic {
     /// The file the mistake is in.
     pub source: Arc<Source>,
-    /// What is wrong, in one line.
+    /// The mistake, in one line.
     pub message: String,
     /// Bytes of the source at fault. May be empty where something is missing.
     pub span: Range<usize>,
@@ -29,11 +24,11 @@ pub struct Diagnostic {
     pub label: String,
     /// Other places that have to do with it.
     pub related: Vec<Related>,
-    /// What is allowed.
+    /// The values or forms that are allowed.
     pub notes: Vec<String>,
-    /// What to do.
+    /// Advice.
     pub help: Vec<String>,
-    /// Whether it is counted, and not shown: then it needs no help.
+    /// True if it is counted and not shown: then it needs no help.
     pub(crate) is_only_counted: bool,
 }
 
@@ -73,13 +68,13 @@ impl Diagnostic {
         self
     }
 
-    /// Adds a line on what is allowed.
+    /// Adds a line about the values or forms that are allowed.
     pub(crate) fn note(&mut self, note: impl Into<String>) -> &mut Diagnostic {
         self.notes.push(shortened(&note.into()).into_owned());
         self
     }
 
-    /// Adds a line on what to do.
+    /// Adds a line of advice.
     pub(crate) fn help(&mut self, help: impl Into<String>) -> &mut Diagnostic {
         self.help.push(shortened(&help.into()).into_owned());
         self
@@ -118,33 +113,3 @@ impl fmt::Display for Diagnostic {
 }
 
 impl std::error::Error for Diagnostic {}
-
-/// Line and column of a byte of `text`, both from 1; columns count characters.
-pub(crate) fn position(text: &str, byte: usize) -> (usize, usize) {
-    let mut end = byte.min(text.len());
-    while !text.is_char_boundary(end) {
-        end -= 1;
-    }
-    let before = &text[..end];
-    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    let line = 1 + before.matches('\n').count();
-    // Editors do not show the byte order mark.
-    let column = 1 + before[line_start..].chars().filter(|c| *c != '\u{feff}').count();
-    (line, column)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn positions_count_characters_not_bytes() {
-        let text = "a = 1\n\"µ\" = 2\n";
-        assert_eq!(position(text, 0), (1, 1));
-        assert_eq!(position(text, 4), (1, 5));
-        assert_eq!(position(text, 6), (2, 1));
-        assert_eq!(position(text, 11), (2, 5));
-        assert_eq!(position(text, text.len()), (3, 1));
-        assert_eq!(position("\u{feff}a", 3), (1, 1));
-    }
-}

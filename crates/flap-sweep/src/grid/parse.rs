@@ -1,0 +1,148 @@
+//! The whole of a grid file.
+
+use std::sync::Arc;
+
+use flap_core::parameter::Preset;
+use flap_core::simulate::{Rows, Simulator};
+use toml::de::DeTable;
+
+use super::diagnostic::Mistakes;
+use super::formula::{self, Names};
+use super::problems::Problems;
+use super::table::{self, Entry};
+use super::{
+    axes, conditions, derived, measures, output, params, preset, resonance, sample, solver, syntax, zip,
+};
+use crate::plan::axes::Axes;
+use crate::plan::axis::Axis;
+use crate::plan::formula::{Condition, Derived};
+use crate::plan::{Plan, PointsFile, Source, Space, Value};
+use crate::resonance::AtResonance;
+
+/// The keys at the top of a grid file.
+const KEYS: [&str; 11] = [
+    "preset",
+    "params",
+    "resonance",
+    "axes",
+    "zip",
+    "sample",
+    "derived",
+    "where",
+    "measure",
+    "solver",
+    "output",
+];
+
+/// Checks the grid file `text` and makes its plan. Presets are looked up in `models`; `name` is for messages.
+///
+/// # Errors
+/// The mistakes found, in the order of the file. A file that is not TOML is reported for that alone.
+pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Result<Plan, Mistakes> {
+    let source = Arc::new(Source { name: name.to_owned(), text: text.to_owned() });
+    let mut problems = Problems::new(Arc::clone(&source));
+    let (root, errors) = DeTable::parse_recoverable(text);
+    if !errors.is_empty() {
+        syntax::report(&errors, &mut problems);
+        return Err(problems.into_mistakes());
+    }
+
+    let root = table::entries(root.get_ref());
+    let chosen = preset::read(&root, models, &mut problems);
+    report_unknown_keys(&root, chosen.map(|(model, _)| model), &mut problems);
+    let solver = solver::read(table::find(&root, "solver"), &mut problems);
+    let output_entry = table::find(&root, "output");
+    // Without a model there are no parameters and columns to check against.
+    let Some((simulator, preset)) = chosen else {
+        output::read(output_entry, None, &mut problems);
+        return Err(problems.into_mistakes());
+    };
+    let Points { base, axes, sample_file, resonance, derived, conditions, mut names } =
+        read_points(&root, simulator, preset, models, &mut problems);
+    names.are_measured = true;
+    let own = measures::read(table::find(&root, "measure"), &mut names, &mut problems);
+    let columns = names.columns.iter().map(|column| column.name.clone()).chain(own).collect::<Vec<_>>();
+    let output = output::read(output_entry, Some((simulator, &columns)), &mut problems);
+
+    if !problems.is_empty() {
+        return Err(problems.into_mistakes());
+    }
+    let (axes, spans): (Vec<Axis>, Vec<_>) =
+        axes.into_iter().map(|placed| (placed.axis, placed.span)).unzip();
+    let axes = Axes::new(axes).map_err(|error| {
+        axes::report_too_many_points(&error, &spans, &mut problems);
+        problems.into_mistakes()
+    })?;
+    Ok(Plan::new(Space {
+        simulator,
+        resonance,
+        preset: preset.name,
+        base,
+        axes,
+        points_file: sample_file,
+        derived,
+        conditions,
+        measures: names.own,
+        solver,
+        output,
+        source: (*source).clone(),
+    }))
+}
+
+/// The sections of a grid file about its points.
+struct Points {
+    base: Vec<Value>,
+    axes: Vec<axes::Placed>,
+    sample_file: Option<PointsFile>,
+    resonance: Option<AtResonance>,
+    derived: Derived,
+    conditions: Vec<Condition>,
+    names: Names,
+}
+
+/// The sections `[params]`, `[resonance]`, `[axes]`, `[[zip]]`, `[sample]`, `[derived]` and `[where]`.
+fn read_points(
+    root: &[Entry<'_>],
+    simulator: &'static dyn Simulator,
+    preset: &Preset,
+    models: &[&'static dyn Simulator],
+    problems: &mut Problems,
+) -> Points {
+    let mut base = Value::of_preset(simulator, preset);
+    let mut lookup = params::Lookup { simulator, models, problems };
+    let set = params::read(table::find(root, "params"), &mut base, &mut lookup);
+    let mut axes = axes::read(table::find(root, "axes"), &mut lookup);
+    axes.extend(zip::read(table::find(root, "zip"), &mut lookup));
+    let sample = sample::read(table::find(root, "sample"), &base, &mut lookup);
+    let (sampled, sample_file) = sample.map_or((None, None), |(placed, file)| (Some(placed), file));
+    axes.extend(sampled);
+    axes.sort_by_key(|placed| placed.span.start);
+    axes::report_repeats(&axes, &set, &mut lookup);
+    let drafts = derived::drafts(table::find(root, "derived"), &mut lookup);
+    derived::report_repeats(&drafts, &axes, &set, problems);
+
+    let resonance = resonance::read(root, simulator, &mut base, problems);
+
+    let mut unset: Vec<Option<&str>> = base.iter().map(|value| formula::followed(*value)).collect();
+    let varied = axes.iter().flat_map(|placed| placed.axis.parameters()).map(|(parameter, _)| *parameter);
+    for parameter in varied.chain(drafts.iter().map(|draft| draft.parameter)) {
+        unset[parameter] = None;
+    }
+    let (parameters, preset) = (simulator.parameters(), Value::of_preset(simulator, preset));
+    let columns =
+        resonance.as_ref().map_or_else(|| simulator.columns(), |resonance| resonance.columns()).to_vec();
+    let names = Names { parameters, preset, unset, columns, are_measured: false, own: Vec::new() };
+    let derived = derived::read(&drafts, &names, problems);
+    let conditions = conditions::read(table::find(root, "where"), &names, problems);
+    Points { base, axes, sample_file, resonance, derived, conditions, names }
+}
+
+fn report_unknown_keys(root: &[Entry<'_>], model: Option<&'static dyn Simulator>, problems: &mut Problems) {
+    for entry in root.iter().filter(|entry| !KEYS.contains(&entry.key)) {
+        let diagnostic = table::report_unknown_key(entry, &KEYS, "at the top of a grid file", problems);
+        if model.is_some_and(|model| model.parameters().iter().any(|known| known.name == entry.key)) {
+            diagnostic.help.clear();
+            diagnostic.help("parameters go into [params], or into [axes] to vary them");
+        }
+    }
+}

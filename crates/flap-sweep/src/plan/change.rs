@@ -1,0 +1,177 @@
+//! Changes of a plan that keep it true.
+
+use flap_core::parameter::Kind;
+use flap_core::simulate::{Setting, SettingKind, SolverSettings};
+
+use crate::notation::value::{self, ValueError};
+use crate::plan::Plan;
+use crate::plan::along::Along;
+use crate::plan::axes::TooManyPoints;
+use crate::plan::axis::{Axis, Values};
+use crate::plan::selection::{Selection, Shard};
+use crate::plan::value::Value;
+
+/// A change that would make a plan untrue.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ChangeError {
+    /// An axis varies the parameter.
+    #[error("`{0}` is varied by an axis")]
+    Varied(&'static str),
+    /// The parameter is computed from others.
+    #[error("`{0}` is derived from other parameters")]
+    Derived(&'static str),
+    /// The drive frequency is the resonance of each design.
+    #[error("`{0}` is the resonance of each design")]
+    Resonance(&'static str),
+    /// The parameter does not take the value.
+    #[error("`{parameter}` does not take this value")]
+    Value {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// The mistake in the value.
+        error: Box<ValueError>,
+    },
+    /// These parameters have no value.
+    #[error("these parameters have no value: {}", .0.join(", "))]
+    Missing(Vec<&'static str>),
+    /// The points would be more than [`Axes::MAX_POINTS`](super::axes::Axes::MAX_POINTS).
+    #[error(transparent)]
+    TooManyPoints(#[from] TooManyPoints),
+    /// The plan has no point of this index, or the indices do not rise.
+    #[error("there is no point {0} behind those before it")]
+    NoPoint(u64),
+    /// The solver takes no such settings.
+    #[error("`{0}` is out of its range")]
+    Solver(&'static str),
+}
+
+impl Plan {
+    /// The plan with these tolerances and limits.
+    ///
+    /// # Errors
+    /// [`ChangeError::Solver`] if one of them is out of its range.
+    pub fn with_solver(mut self, solver: SolverSettings) -> Result<Plan, ChangeError> {
+        let is_allowed = |setting: &Setting| match setting.kind {
+            SettingKind::Number { below, get, .. } => get(&solver) > 0.0 && get(&solver) < below,
+            SettingKind::Count { get, .. } => get(&solver) > 0,
+            SettingKind::Flag { .. } => true,
+        };
+        if let Some(wrong) = SolverSettings::TABLE.iter().find(|setting| !is_allowed(setting)) {
+            return Err(ChangeError::Solver(wrong.name));
+        }
+        self.space.solver = solver;
+        Ok(self)
+    }
+
+    /// The plan with `parameter` set to `value`: a number in SI units, or the index of an option.
+    ///
+    /// # Errors
+    /// [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if the parameter has its values from
+    /// elsewhere, [`ChangeError::Value`] if it does not take the value.
+    pub fn with_parameter(mut self, parameter: usize, value: f64) -> Result<Plan, ChangeError> {
+        self.check_free(parameter)?;
+        let known = &self.parameters()[parameter];
+        let value = value::of_number(known, value)
+            .map_err(|error| ChangeError::Value { parameter: known.name, error: Box::new(error) })?;
+        self.space.base[parameter] = Value::Given(value);
+        Ok(self)
+    }
+
+    /// The plan without its preset, where `given` parameters are set or to be varied: others follow those.
+    ///
+    /// # Errors
+    /// [`ChangeError::Missing`] if parameters that do not follow others are not among those `given`.
+    pub fn without_preset(mut self, given: &[usize]) -> Result<Plan, ChangeError> {
+        let mut missing = Vec::new();
+        for (index, parameter) in
+            self.parameters().iter().enumerate().filter(|(index, _)| !given.contains(index))
+        {
+            match parameter.kind {
+                Kind::Following(_, follows) => self.space.base[index] = Value::Follows(follows),
+                Kind::Number(_) | Kind::Choice(_) => missing.push(parameter.name),
+            }
+        }
+        if !missing.is_empty() {
+            return Err(ChangeError::Missing(missing));
+        }
+        self.space.preset = "";
+        Ok(self)
+    }
+
+    /// The plan crossed with rows of values that a program gives for some parameters, as many for each: an axis before all
+    /// others. All of its points are run. The values need not be in range: a point with one that is not has a row that says
+    /// so.
+    ///
+    /// # Errors
+    /// [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if a parameter has its values from
+    /// elsewhere, [`ChangeError::TooManyPoints`].
+    pub fn crossed_with(mut self, parameters: Vec<(usize, Vec<f64>)>) -> Result<Plan, ChangeError> {
+        for (place, (parameter, _)) in parameters.iter().enumerate() {
+            self.check_free(*parameter)?;
+            if parameters[..place].iter().any(|(before, _)| before == parameter) {
+                return Err(ChangeError::Varied(self.parameters()[*parameter].name));
+            }
+        }
+        let parameters =
+            parameters.into_iter().map(|(parameter, list)| (parameter, Values::Unchecked(list))).collect();
+        self.space.axes = self.space.axes.crossed_with(Axis::new(parameters))?;
+        self.selection = Selection::All;
+        Ok(self)
+    }
+
+    /// The plan without the axis that varies `parameter` and no other, and the values of that axis; `None` if there is no
+    /// such axis. All points of the plan are run.
+    pub fn without_axis(mut self, parameter: usize) -> (Plan, Option<Values>) {
+        let (axes, values) = self.space.axes.without(parameter);
+        self.space.axes = axes;
+        self.selection = Selection::All;
+        (self, values)
+    }
+
+    /// The plan each of whose points is a design with a curve of rows, along which a parameter rises and falls. That parameter
+    /// has no axis.
+    pub fn following(mut self, along: Along) -> Plan {
+        self.followed = Some(along);
+        self
+    }
+
+    /// The plan of which one of several equal parts is run.
+    pub fn with_shard(mut self, shard: Shard) -> Plan {
+        self.selection = Selection::Shard(shard);
+        self
+    }
+
+    /// The plan of which these points are run: indices of the plan, rising.
+    ///
+    /// # Errors
+    /// [`ChangeError::NoPoint`] if an index is not less than [`Plan::len`], or not more than the index before it.
+    pub fn with_points(mut self, list: Vec<u64>) -> Result<Plan, ChangeError> {
+        let falls = list.windows(2).find(|two| two[0] >= two[1]).map(|two| two[1]);
+        if let Some(index) = falls.or(list.last().copied().filter(|last| *last >= self.len())) {
+            return Err(ChangeError::NoPoint(index));
+        }
+        self.selection = Selection::Listed(list);
+        Ok(self)
+    }
+
+    /// The plan of which all points are run.
+    pub fn with_all_points(mut self) -> Plan {
+        self.selection = Selection::All;
+        self
+    }
+
+    /// Checks that `parameter` may be set or varied.
+    fn check_free(&self, parameter: usize) -> Result<(), ChangeError> {
+        let name = self.parameters()[parameter].name;
+        if self.axes().varied().any(|varied| varied == parameter) {
+            return Err(ChangeError::Varied(name));
+        }
+        if self.derived().parameters().any(|derived| derived == parameter) {
+            return Err(ChangeError::Derived(name));
+        }
+        if self.base()[parameter] == Value::Resonance {
+            return Err(ChangeError::Resonance(name));
+        }
+        Ok(())
+    }
+}

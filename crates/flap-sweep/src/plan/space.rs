@@ -1,0 +1,190 @@
+//! A checked design space.
+//!
+//! A plan is never materialised: [`Plan::point`] computes any point in constant time.
+
+use flap_core::parameter::Parameter;
+use flap_core::simulate::{Point, Rows, Simulator, SolverSettings};
+
+use crate::plan::along::Along;
+use crate::plan::axes::Axes;
+use crate::plan::files::{Output, PointsFile, Source};
+use crate::plan::formula::{Condition, Derived, OwnMeasure};
+use crate::plan::selection::Selection;
+use crate::plan::value::Value;
+use crate::resonance::AtResonance;
+
+/// A design space that has passed every check, and the settings with which its points are run.
+///
+/// [`crate::grid`] makes plans from grid files. The methods that change a plan keep it true: values are in their ranges,
+/// each parameter is set, varied or derived in one place, and the points that are run are points of the plan.
+pub struct Plan {
+    pub(super) space: Space,
+    pub(super) selection: Selection,
+    pub(super) followed: Option<Along>,
+}
+
+/// The contents of a grid file that has passed every check.
+pub(crate) struct Space {
+    /// The model.
+    pub(crate) simulator: &'static dyn Simulator,
+    /// The search for resonances if each design is run at its own.
+    pub(crate) resonance: Option<AtResonance>,
+    /// Name of the preset that the parameters start from.
+    pub(crate) preset: &'static str,
+    /// One value per parameter: the preset with `[params]` on top.
+    pub(crate) base: Vec<Value>,
+    /// The varied parameters.
+    pub(crate) axes: Axes,
+    /// The file that lists the points of the sample, if one does.
+    pub(crate) points_file: Option<PointsFile>,
+    /// The parameters that are computed from others.
+    pub(crate) derived: Derived,
+    /// The conditions that points satisfy, or are not run.
+    pub(crate) conditions: Vec<Condition>,
+    /// The columns that are computed from the model's measures. Each may use those before it.
+    pub(crate) measures: Vec<OwnMeasure>,
+    /// Tolerances and limits of the integration.
+    pub(crate) solver: SolverSettings,
+    /// The file that rows go to, and its columns.
+    pub(crate) output: Output,
+    /// The grid file itself, for provenance.
+    pub(crate) source: Source,
+}
+
+impl Plan {
+    /// The plan of a design space, of which all points are run.
+    pub(crate) fn new(space: Space) -> Plan {
+        Plan { space, selection: Selection::All, followed: None }
+    }
+
+    /// The model.
+    pub fn simulator(&self) -> &'static dyn Simulator {
+        self.space.simulator
+    }
+
+    /// The model's parameter table.
+    pub fn parameters(&self) -> &'static [Parameter] {
+        self.simulator().parameters()
+    }
+
+    /// The search for resonances if each design is run at its own.
+    pub fn resonance(&self) -> Option<&AtResonance> {
+        self.space.resonance.as_ref()
+    }
+
+    /// The maker of rows: the model, or the model at the resonance of each design.
+    pub fn rows(&self) -> &dyn Rows {
+        match self.resonance() {
+            Some(resonance) => resonance,
+            None => self.simulator(),
+        }
+    }
+
+    /// Name of the preset that the parameters start from; empty if the plan does without.
+    pub fn preset(&self) -> &'static str {
+        self.space.preset
+    }
+
+    /// One value per parameter before the axes are applied: the preset with `[params]` on top.
+    pub fn base(&self) -> &[Value] {
+        &self.space.base
+    }
+
+    /// The varied parameters.
+    pub fn axes(&self) -> &Axes {
+        &self.space.axes
+    }
+
+    /// The file that lists the points of the sample, if one does.
+    pub fn points_file(&self) -> Option<&PointsFile> {
+        self.space.points_file.as_ref()
+    }
+
+    /// The parameters that are computed from others.
+    pub fn derived(&self) -> &Derived {
+        &self.space.derived
+    }
+
+    /// The conditions that points satisfy, or are not run.
+    pub fn conditions(&self) -> &[Condition] {
+        &self.space.conditions
+    }
+
+    /// The columns that are computed from the model's measures. Each may use those before it.
+    pub fn measures(&self) -> &[OwnMeasure] {
+        &self.space.measures
+    }
+
+    /// Tolerances and limits of the integration.
+    pub fn solver(&self) -> &SolverSettings {
+        &self.space.solver
+    }
+
+    /// The file that rows go to, and its columns.
+    pub fn output(&self) -> &Output {
+        &self.space.output
+    }
+
+    /// The grid file itself, for provenance.
+    pub fn source(&self) -> &Source {
+        &self.space.source
+    }
+
+    /// The points that are run.
+    pub fn selection(&self) -> &Selection {
+        &self.selection
+    }
+
+    /// The parameter that rises and falls, if each point is a design with a curve of rows.
+    pub fn followed(&self) -> Option<&Along> {
+        self.followed.as_ref()
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> u64 {
+        self.axes().points()
+    }
+
+    /// True if there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Point number `index`, which must be less than [`Plan::len`].
+    pub fn point(&self, index: u64) -> Point {
+        let mut values: Vec<f64> = self.base().iter().map(|value| value.in_point()).collect();
+        self.axes().fill(index, &mut values);
+        self.derived().fill(&mut values, &[]);
+        Point::at_rest(index, values)
+    }
+
+    /// Number of points that are run.
+    pub fn selected(&self) -> u64 {
+        self.selection.len(self.len())
+    }
+
+    /// Number `position` of the points that are run, which must be less than [`Plan::selected`].
+    pub fn selected_point(&self, position: u64) -> Point {
+        self.point(self.selection.index(position))
+    }
+
+    /// Indices of the parameters that differ from point to point, in the order of their columns: the varied ones in the order
+    /// of the axes, then the derived ones.
+    pub fn differing(&self) -> impl Iterator<Item = usize> + '_ {
+        self.axes().varied().chain(self.derived().parameters())
+    }
+
+    /// Adds the plan's own measures to those of a row, if the point has them.
+    pub fn add_own_measures(&self, values: &[f64], measures: &mut Vec<f64>) {
+        // A row that the model made at a resonance found before lacks the columns about that resonance.
+        if self.measures().is_empty() || measures.len() != self.rows().columns().len() {
+            return;
+        }
+        let mut known = values.to_vec();
+        known.extend_from_slice(measures);
+        for own in self.measures() {
+            known.push(own.value(&known));
+        }
+        measures.extend_from_slice(&known[values.len() + measures.len()..]);
+    }
+}

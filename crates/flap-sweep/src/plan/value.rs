@@ -1,0 +1,40 @@
+//! The value of a parameter before the axes are applied.
+
+use flap_core::parameter::{Kind, Parameter, Preset};
+use flap_core::simulate::Simulator;
+
+/// The value of a parameter before the axes are applied.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// A number in SI units, or the index of an option.
+    Given(f64),
+    /// The parameter is not set and follows others, as the text says.
+    Follows(&'static str),
+    /// The drive frequency is the resonance of each design.
+    Resonance,
+}
+
+impl Value {
+    /// The values of a preset of `model`, one per parameter.
+    pub(crate) fn of_preset(model: &dyn Simulator, preset: &Preset) -> Vec<Value> {
+        let values = model.parameters().iter().zip((preset.values)());
+        let value = |(parameter, value): (&Parameter, f64)| match parameter.kind {
+            Kind::Following(_, follows) if value.is_nan() => Value::Follows(follows),
+            Kind::Following(..) | Kind::Number(_) | Kind::Choice(_) => Value::Given(value),
+        };
+        values.map(value).collect()
+    }
+
+    /// The number, if one is given.
+    pub fn given(self) -> Option<f64> {
+        match self {
+            Value::Given(value) => Some(value),
+            Value::Follows(_) | Value::Resonance => None,
+        }
+    }
+
+    /// The value as a design point holds it: NaN if no number is given.
+    pub fn in_point(self) -> f64 {
+        self.given().unwrap_or(f64::NAN)
+    }
+}

@@ -1,0 +1,73 @@
+//! The decision whether a point is run.
+
+use flap_core::parameter::{Invalid, Kind, Parameter, Range};
+
+use crate::notation::text;
+use crate::plan::Plan;
+use crate::plan::axis::Values;
+
+/// The decision whether a point is run.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// It is run.
+    Runs,
+    /// It does not satisfy the conditions with these numbers. It has no row.
+    Excluded(Vec<usize>),
+    /// It cannot be run, but has a row that says so.
+    Invalid(Invalid),
+}
+
+impl Plan {
+    /// The decision whether the point with these values is run.
+    pub fn judge(&self, values: &[f64]) -> Verdict {
+        let held: Vec<Option<bool>> =
+            self.conditions().iter().map(|condition| condition.holds(values)).collect();
+        let unsatisfied: Vec<usize> = (0..held.len()).filter(|&number| held[number] == Some(false)).collect();
+        if !unsatisfied.is_empty() {
+            return Verdict::Excluded(unsatisfied);
+        }
+        let parameters = self.parameters();
+        let mut computed = computed(self).map(|parameter| (&parameters[parameter], values[parameter]));
+        if let Some((parameter, value)) =
+            computed.find(|(parameter, value)| !range(parameter).contains(*value))
+        {
+            return Verdict::Invalid(not_allowed(parameter, value));
+        }
+        let unknown = self.conditions().iter().zip(held).find(|(_, holds)| holds.is_none());
+        match unknown {
+            Some((condition, _)) => Verdict::Invalid(Invalid::new(format!(
+                "whether it satisfies the condition `{}` cannot be computed",
+                condition.name
+            ))),
+            None => Verdict::Runs,
+        }
+    }
+}
+
+/// The parameters whose values have not been checked: sampled and derived ones, and those that a program gives.
+fn computed(plan: &Plan) -> impl Iterator<Item = usize> + '_ {
+    let unchecked = plan
+        .axes()
+        .parameters()
+        .filter(|(_, values)| matches!(values, Values::Sampled { .. } | Values::Unchecked(_)));
+    unchecked.map(|(parameter, _)| *parameter).chain(plan.derived().parameters())
+}
+
+/// The error of a computed value that cannot be used.
+fn not_allowed(parameter: &Parameter, value: f64) -> Invalid {
+    let Parameter { name, unit, .. } = parameter;
+    if value.is_nan() {
+        return Invalid::new(format!("`{name}` comes out as not a number"));
+    }
+    let value = format!("{} {unit}", text::float(value));
+    let allowed = range(parameter).describe();
+    Invalid::new(format!("`{name}` comes out as {}, but must be {allowed}", value.trim_end()))
+}
+
+/// The numbers that a parameter accepts.
+fn range(parameter: &Parameter) -> Range {
+    match parameter.kind {
+        Kind::Number(range) | Kind::Following(range, _) => range,
+        Kind::Choice(_) => Range::NonNegative,
+    }
+}

@@ -1,0 +1,80 @@
+//! The columns that every result file has.
+
+use flap_core::simulate::{Point, Row};
+
+use super::column::{Cell, Kind};
+
+/// A column that every result file has.
+pub(crate) struct Fixed {
+    /// Its name.
+    pub(crate) name: &'static str,
+    pub(super) kind: Kind,
+    pub(super) doc: &'static str,
+    pub(super) cell: fn(&Point, &Row) -> Cell,
+}
+
+/// The columns that every result file has: `point` first, `status` before the measures, the others behind them.
+pub(crate) const FIXED: [Fixed; 9] = [
+    Fixed {
+        name: "point",
+        kind: Kind::Whole,
+        doc: "index of the point in the grid, from 0",
+        cell: |point, _| Cell::Whole(point.index),
+    },
+    Fixed {
+        name: "status",
+        kind: Kind::Text,
+        doc: "what became of the point",
+        cell: |_, row| Cell::Text(row.status.name()),
+    },
+    Fixed {
+        name: "cycles",
+        kind: Kind::Whole,
+        doc: "drive periods integrated, the measured one included",
+        cell: |_, row| Cell::Whole(row.cycles.into()),
+    },
+    Fixed {
+        name: "residual",
+        kind: Kind::Number,
+        doc: "change of the state over the last period of the motion, in units of settle_tol",
+        cell: |_, row| Cell::Number(row.residual),
+    },
+    Fixed {
+        name: "period",
+        kind: Kind::Whole,
+        doc: "drive periods until the motion repeats; 0 if no orbit was found",
+        cell: |_, row| Cell::Whole(row.period.into()),
+    },
+    Fixed {
+        name: "floquet_max",
+        kind: Kind::Number,
+        doc: "factor by which a change of the motion grows or decays per orbit in the end",
+        cell: |_, row| Cell::Number(row.floquet_max),
+    },
+    Fixed {
+        name: "stable",
+        kind: Kind::Flag,
+        doc: "whether motions near the orbit approach it",
+        cell: |_, row| Cell::Flag(row.stable()),
+    },
+    Fixed {
+        name: "error_estimate",
+        kind: Kind::Number,
+        doc: "estimated relative error of stroke, pitch, lift and power, the largest; inf if it cannot be estimated",
+        cell: |_, row| Cell::Number(row.error_estimate),
+    },
+    Fixed {
+        name: "rhs_evals",
+        kind: Kind::Whole,
+        doc: "evaluations of the equations of motion",
+        cell: |_, row| Cell::Whole(row.rhs_evals),
+    },
+];
+
+/// The first column of curves, in place of `point`.
+pub(crate) const CURVE: Fixed = Fixed {
+    name: "curve",
+    kind: Kind::Whole,
+    doc: "index of the design in the grid, from 0",
+    cell: |point, _| Cell::Whole(point.index),
+};

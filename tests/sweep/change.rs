@@ -1,0 +1,101 @@
+//! Changes of plans: what is refused leaves no plan that is untrue.
+
+use flap_core::simulate::SolverSettings;
+use flap_sweep::notation::value::ValueError;
+use flap_sweep::plan::{ChangeError, Plan, Value};
+
+use crate::fake::{index, plan};
+
+const GRID: &str = "preset = \"fly\"\n[axes]\nwing_area = [5e-5, 6e-5]\nhinge_position = [0, 0.1, 0.2]\n\
+                    [derived]\nhinge_stiffness = \"1e-6 * drive_frequency\"\n";
+
+/// The error of a change.
+fn refused(changed: Result<Plan, ChangeError>) -> ChangeError {
+    changed.err().expect("the change is refused")
+}
+
+#[test]
+fn a_parameter_is_set_in_one_place_and_within_its_range() {
+    let set = |name: &str, value: f64| plan(GRID).with_parameter(index(name), value);
+    let changed = set("drive_frequency", 150.0).unwrap();
+    assert_eq!(changed.base()[index("drive_frequency")], Value::Given(150.0));
+    let values = changed.point(5).values;
+    assert_eq!((values[index("drive_frequency")], values[index("hinge_stiffness")]), (150.0, 1e-6 * 150.0));
+    assert_eq!(set("plate_width", 2.0).unwrap().base()[index("plate_width")], Value::Given(2.0));
+    assert_eq!(refused(set("wing_area", 1.0)), ChangeError::Varied("wing_area"));
+    assert_eq!(refused(set("hinge_stiffness", 1.0)), ChangeError::Derived("hinge_stiffness"));
+    for (name, value) in
+        [("drive_frequency", -1.0), ("drive_frequency", f64::NAN), ("arms", 2.0), ("arms", 0.5)]
+    {
+        let error = refused(set(name, value));
+        assert!(matches!(error, ChangeError::Value { parameter, .. } if parameter == name), "{error:?}");
+    }
+    let ChangeError::Value { error, .. } = refused(set("drive_frequency", -1.0)) else {
+        panic!("the value is refused")
+    };
+    assert!(matches!(*error, ValueError::OutOfRange { value, .. } if value == -1.0), "{error:?}");
+}
+
+#[test]
+fn rows_of_a_program_are_an_axis_before_all_others() {
+    let rows = |name: &str, list: &[f64]| vec![(index(name), list.to_vec())];
+    let crossed = plan(GRID).crossed_with(rows("drive_frequency", &[100.0, f64::NAN])).unwrap();
+    assert_eq!(crossed.len(), 12);
+    assert_eq!(crossed.differing().next(), Some(index("drive_frequency")));
+    assert!(crossed.point(6).values[index("drive_frequency")].is_nan());
+    assert_eq!(plan(GRID).crossed_with(rows("drive_frequency", &[])).unwrap().len(), 0);
+    let crossed = |rows| refused(plan(GRID).crossed_with(rows));
+    assert_eq!(crossed(rows("hinge_position", &[1.0])), ChangeError::Varied("hinge_position"));
+    assert_eq!(crossed(rows("hinge_stiffness", &[1.0])), ChangeError::Derived("hinge_stiffness"));
+    let twice = [rows("arms", &[0.0]), rows("arms", &[1.0])].concat();
+    assert_eq!(crossed(twice), ChangeError::Varied("arms"));
+    let huge = "preset = \"fly\"\n[axes]\nwing_area = { from = 1, to = 2, n = 5_000_000_000_000_000_000 }\n";
+    let error = refused(plan(huge).crossed_with(rows("drive_frequency", &[1.0, 2.0])));
+    assert!(matches!(error, ChangeError::TooManyPoints(_)), "{error:?}");
+}
+
+#[test]
+fn an_axis_is_taken_out_with_its_values() {
+    let (rest, values) = plan(GRID).without_axis(index("hinge_position"));
+    let values = values.expect("the axis of one parameter");
+    assert_eq!((rest.len(), values.len(), values.get(2)), (2, 3, 0.2));
+    let (rest, values) = rest.without_axis(index("arms"));
+    assert_eq!((rest.len(), values), (2, None));
+}
+
+#[test]
+fn points_that_are_run_are_points_of_the_plan() {
+    let run = |list: &[u64]| plan(GRID).with_points(list.to_vec());
+    let listed = run(&[0, 3, 5]).unwrap();
+    assert_eq!((listed.selected(), listed.selected_point(1).index), (3, 3));
+    assert_eq!(listed.with_shard("2/4".parse().unwrap()).selected_point(1).index, 5);
+    for (list, wrong) in [(&[6][..], 6), (&[0, 2, 2], 2), (&[3, 1], 1)] {
+        assert_eq!(refused(run(list)), ChangeError::NoPoint(wrong), "{list:?}");
+    }
+}
+
+#[test]
+fn a_plan_without_its_preset_needs_all_that_follows_nothing() {
+    let missing = refused(plan("preset = \"fly\"").without_preset(&[0, 1, 2, 3, 4]));
+    assert_eq!(missing, ChangeError::Missing(vec!["hinge_position", "arms"]));
+    let alone =
+        plan("preset = \"fly\"\nparams.plate_width = 2").without_preset(&[0, 1, 2, 3, 4, 5, 6]).unwrap();
+    assert_eq!(alone.preset(), "");
+    assert!(matches!(alone.base()[index("plate_width")], Value::Follows(_)));
+}
+
+#[test]
+fn solver_settings_are_those_that_a_grid_file_may_have() {
+    let default = SolverSettings::default();
+    for wrong in [
+        SolverSettings { rtol: 0.1, ..default },
+        SolverSettings { atol: f64::INFINITY, ..default },
+        SolverSettings { accuracy: f64::NAN, ..default },
+        SolverSettings { max_steps: 0, ..default },
+    ] {
+        let error = refused(plan(GRID).with_solver(wrong));
+        assert!(matches!(error, ChangeError::Solver(_)), "{error:?}");
+    }
+    let finer = default.with_rtol(1e-9);
+    assert_eq!(*plan(GRID).with_solver(finer).unwrap().solver(), finer);
+}
