@@ -107,7 +107,8 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
             let point = if let Some(point) = self.jobs.next(false) {
                 point
             } else {
-                // Whoever hands out points may be waiting for rows that wait here. With few of them most lanes would be empty.
+                // The source of points may be waiting for rows that wait here. With few of them most lanes would be
+                // empty.
                 if idle {
                     self.find_and_measure_all();
                 } else if self.near.len() >= Vector::<I>::LANES {

@@ -58,8 +58,8 @@ impl<const N: usize> March<N> {
         self.strobe.period_end(y)
     }
 
-    /// True if the march is to pause, though it has not settled: it may be near an orbit, takes too long, or moves far less
-    /// than the sizes `assumed`.
+    /// True if the march is to pause, though it has not settled: it may be near an orbit, takes too long, or moves far
+    /// less than the sizes `assumed`.
     pub(super) fn is_to_pause(&self, assumed: &[f64; N]) -> bool {
         self.is_promising() || self.is_exhausted() || self.is_oversized(assumed)
     }

@@ -25,8 +25,8 @@ use crate::parameter::{Parameter, Preset};
 
 /// A model behind the object-safe faces: all that a sweep needs of a model of one's own.
 ///
-/// The model has N states, K = N (N + 1) states and responses to their changes, and S signals. K cannot be computed from N
-/// in a type; [`Runner::new`] does not compile with another.
+/// The model has N states, K = N (N + 1) states and responses to their changes, and S signals. K cannot be computed from
+/// N in a type: it is written down, and [`Runner::new`] does not compile if it is another number.
 ///
 /// A driven oscillator, with the drive at its resonance:
 ///

@@ -173,8 +173,8 @@ impl<const N: usize> Search<N> {
         Next::March(*self.march.state())
     }
 
-    /// Tightens the tolerances of an orbit whose row may err by `doubt` where `accuracy` is asked for. Returns the state from
-    /// which it is to be found again; `None` if the row is good enough, or cannot be made better.
+    /// Tightens the tolerances of an orbit whose row may err by `doubt` where `accuracy` is asked for. Returns the state
+    /// from which it is to be found again; `None` if the row is good enough, or cannot be made better.
     pub(super) fn refine(&mut self, doubt: f64, accuracy: f64) -> Option<[f64; N]> {
         let enough = doubt <= accuracy || self.refinements == REFINEMENTS || self.precision.is_finest();
         let orbit = self.found.filter(|_| !enough)?;

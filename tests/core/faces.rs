@@ -1,0 +1,119 @@
+//! A model that has rows alone, lists of points, and the words of errors.
+
+use flap_core::num::InstructionSet;
+use flap_core::parameter::{Parameter, Preset};
+use flap_core::simulate::{
+    ChirpRequest, Column, Jobs, Point, RequestError, Row, Rows, Simulator, SolverSettings, Status,
+    TrajectoryRequest, Unfinished, never, preset, run_list,
+};
+
+/// A model whose rows say nothing, in the order opposite to that of the points.
+struct Backwards;
+
+impl Rows for Backwards {
+    fn columns(&self) -> &[Column] {
+        &[]
+    }
+
+    fn run(&self, _: InstructionSet, _: &SolverSettings, jobs: &mut dyn Jobs) {
+        let mut points = Vec::new();
+        while let Some(point) = jobs.next(true) {
+            points.push(point);
+        }
+        while let Some(point) = points.pop() {
+            // A point without values is lost.
+            if !point.values.is_empty() {
+                jobs.done(point.index, Row::invalid(point.values[0]));
+            }
+        }
+    }
+
+    fn run_point(&self, _: InstructionSet, _: &SolverSettings, values: &[f64], _: Option<&[f64]>) -> Row {
+        Row::invalid(values[0])
+    }
+}
+
+impl Simulator for Backwards {
+    fn name(&self) -> &'static str {
+        "backwards"
+    }
+
+    fn doc(&self) -> &'static str {
+        ""
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        &[]
+    }
+
+    fn presets(&self) -> &'static [Preset] {
+        &[]
+    }
+}
+
+const SOLVER: SolverSettings = SolverSettings::DEFAULT;
+
+#[test]
+fn a_model_with_rows_alone_says_so() {
+    let motions = Backwards.motions().err().unwrap();
+    assert_eq!(motions, Unfinished::NoMotions { model: "backwards" });
+    assert_eq!(motions.to_string(), "the model backwards has no single motions");
+    let experiments = Backwards.experiments().err().unwrap();
+    assert_eq!(experiments, Unfinished::NoExperiments { model: "backwards" });
+
+    let set = InstructionSet::best();
+    assert_eq!(Backwards.row(set, &SOLVER, &[2.0], &never).unwrap().reason.as_deref(), Some("2"));
+    assert_eq!(Backwards.row(set, &SOLVER, &[2.0], &|| true), Err(Unfinished::Interrupted));
+}
+
+#[test]
+fn rows_of_a_list_are_in_the_order_of_its_points() {
+    let set = InstructionSet::best();
+    let points = |values: &[f64]| values.iter().map(|&value| Point::at_rest(9, vec![value])).collect();
+    let rows = run_list(&Backwards, set, &SOLVER, points(&[3.0, 1.0, 2.0]), &never).unwrap();
+    let reasons: Vec<&str> = rows.iter().map(|row| row.reason.as_deref().unwrap()).collect();
+    assert_eq!(reasons, ["3", "1", "2"]);
+    assert_eq!(run_list(&Backwards, set, &SOLVER, Vec::new(), &never), Ok(Vec::new()));
+}
+
+#[test]
+fn a_list_with_a_point_without_row_is_unfinished() {
+    let set = InstructionSet::best();
+    let points = vec![Point::at_rest(0, vec![1.0]), Point::at_rest(1, Vec::new())];
+    assert_eq!(run_list(&Backwards, set, &SOLVER, points.clone(), &never), Err(Unfinished::Interrupted));
+    assert_eq!(run_list(&Backwards, set, &SOLVER, points, &|| true), Err(Unfinished::Interrupted));
+}
+
+#[test]
+fn motions_that_are_not_followed_say_why() {
+    let (model, preset) = preset("ozaki2018-small").unwrap();
+    let (set, values) = (InstructionSet::best(), (preset.values)());
+
+    let short = SolverSettings { max_steps: 3, ..SOLVER };
+    let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 1, settled: false };
+    let motion = model.motions().unwrap().trajectory(set, &short, &values, &request, &never);
+    assert_eq!(motion, Err(Unfinished::StepLimit));
+
+    let hasty = SolverSettings { max_cycles: 2, ..SOLVER };
+    let request = TrajectoryRequest { settled: true, ..request };
+    let motion = model.motions().unwrap().trajectory(set, &hasty, &values, &request, &never);
+    assert_eq!(motion, Err(Unfinished::NotPeriodic { status: Status::Unsettled, cycles: 2 }));
+    let text = "the motion does not settle on an orbit of one drive period (status unsettled, 2 cycles); sample it from \
+                rest instead";
+    assert_eq!(motion.unwrap_err().to_string(), text);
+
+    let request = ChirpRequest { from: 2.0, to: 1.0, rate: 1.0, samples_per_cycle: 0 };
+    let response = model.experiments().unwrap().chirp(set, &SOLVER, &values, &request, &never);
+    assert_eq!(response, Err(RequestError::Chirp { from: 2.0, to: 1.0, rate: 1.0 }.into()));
+    assert_eq!(
+        response.unwrap_err().to_string(),
+        "a chirp from 2 Hz cannot reach 1 Hz at 1 Hz/s: frequencies are more than zero, and the rate has the sign of \
+         the change"
+    );
+
+    let begin = [0.0; 3];
+    let period = model.motions().unwrap().period(set, &SOLVER, &values, &begin, &never);
+    let error = period.unwrap_err();
+    assert_eq!(error, RequestError::Begin { begin: begin.to_vec(), states: 4 }.into());
+    assert_eq!(error.to_string(), "the motion cannot begin at [0.0, 0.0, 0.0]: a state is 4 finite numbers");
+}
