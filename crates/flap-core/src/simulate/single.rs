@@ -2,7 +2,7 @@
 
 use super::settings::SolverSettings;
 use crate::model::Model;
-use crate::num::{Arithmetic, InstructionSet, Scalar, Unfused};
+use crate::num::{Backend, Scalar, ScalarKernel};
 use crate::ode::Interrupt;
 
 /// One point that is followed on scalars.
@@ -25,19 +25,34 @@ pub(super) trait Question<M: Model<N, S>, const N: usize, const K: usize, const 
 }
 
 impl<M> Single<'_, M> {
-    /// The answer to `question`, in the arithmetic class of `set`.
+    /// The answer to `question`, in the arithmetic of `backend`.
     pub(super) fn ask<Q, const N: usize, const K: usize, const S: usize>(
         &self,
-        set: InstructionSet,
+        backend: Backend,
         question: Q,
     ) -> Q::Answer
     where
         M: Model<N, S>,
         Q: Question<M, N, K, S>,
     {
-        match set.arithmetic() {
-            Arithmetic::Fused => question.answer::<f64>(self),
-            Arithmetic::Unfused => question.answer::<Unfused>(self),
-        }
+        backend.dispatch_scalar(Asked::<M, Q, N, K, S> { point: self, question })
+    }
+}
+
+/// A question with the point that it is about.
+struct Asked<'p, 'a, M, Q, const N: usize, const K: usize, const S: usize> {
+    point: &'p Single<'a, M>,
+    question: Q,
+}
+
+impl<M, Q, const N: usize, const K: usize, const S: usize> ScalarKernel for Asked<'_, '_, M, Q, N, K, S>
+where
+    M: Model<N, S>,
+    Q: Question<M, N, K, S>,
+{
+    type Output = Q::Answer;
+
+    fn run<R: Scalar>(self) -> Q::Answer {
+        self.question.answer::<R>(self.point)
     }
 }
