@@ -3,10 +3,12 @@
 use super::row::Row;
 use crate::ode::ensemble::Occupancy;
 
-/// One design point: its index in the plan and one value per parameter.
+/// One design point: the number of its row and one value per parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// Index in the plan.
+    /// The number by which [`Jobs::done`] names the row of this point. Its giver chooses it: the index in the plan for a
+    /// sweep, the place in the list for [`run_list`](super::run_list), a probe's own number for a study. Nothing is computed
+    /// from it.
     pub index: u64,
     /// One value per parameter of the model.
     pub values: Vec<f64>,
@@ -29,7 +31,7 @@ pub trait Jobs {
     /// With `idle`, nothing else is running: the call may wait, and `None` ends the run.
     fn next(&mut self, idle: bool) -> Option<Point>;
 
-    /// Takes the row of the point with this index.
+    /// Takes the row of the point with this [`Point::index`].
     fn done(&mut self, index: u64, row: Row);
 
     /// True if the run is to end at once. Points that have no row yet get none, and `next` is to give no more. See
