@@ -74,7 +74,9 @@ impl House {
         let graph: DiGraphMap<&str, ()> = self.arrows().into_iter().collect();
         let mut circles: Vec<Vec<&str>> =
             tarjan_scc(&graph).into_iter().filter(|files| files.len() > 1).collect();
-        circles.iter_mut().for_each(|files| files.sort_unstable());
+        for files in &mut circles {
+            files.sort_unstable();
+        }
         circles
     }
 }

@@ -84,7 +84,7 @@ impl Reader {
         let (last, mut name) = (last.to_string(), name.to_string());
         let path = if last == "self" { begin.to_vec() } else { [begin, &[last]].concat() };
         if name == "self" {
-            name = path[path.len() - 1].clone();
+            name.clone_from(&path[path.len() - 1]);
         }
         let names = if public { &mut self.handed_on } else { &mut self.imported };
         names.insert(name, absolute(&self.module, &path));

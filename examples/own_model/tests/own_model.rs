@@ -8,34 +8,37 @@ use std::process::{Command, Output};
 const REFERENCE: &str = include_str!("../../../tests/data/motor_wing.csv");
 
 fn flap(folder: &Path, args: &[&str]) -> Output {
-    let output =
-        Command::new(env!("CARGO_BIN_EXE_own-model")).current_dir(folder).args(args).output().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_own-model"))
+        .current_dir(folder)
+        .args(args)
+        .output()
+        .expect("it runs");
     assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
     output
 }
 
 fn text(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).unwrap()
+    String::from_utf8(output.stdout.clone()).expect("text")
 }
 
 /// The rows of a table, each with the cells of these columns.
 fn rows(text: &str, columns: &[&str]) -> Vec<Vec<String>> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let headers = reader.headers().unwrap().clone();
+    let headers = reader.headers().expect("headers").clone();
     let positions: Vec<usize> = columns
         .iter()
         .map(|name| headers.iter().position(|header| header == *name).unwrap_or_else(|| panic!("no {name}")))
         .collect();
     let cells = |row: csv::StringRecord| positions.iter().map(|&position| row[position].to_owned()).collect();
-    reader.records().map(|row| cells(row.unwrap())).collect()
+    reader.records().map(|row| cells(row.expect("a row"))).collect()
 }
 
 /// Runs a sweep of the grid and gives its file.
 fn sweep(grid: &str) -> String {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("grid.toml"), grid).unwrap();
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("grid.toml"), grid).expect("a file");
     flap(folder.path(), &["sweep", "--grid", "grid.toml", "--out", "out.csv"]);
-    fs::read_to_string(folder.path().join("out.csv")).unwrap()
+    fs::read_to_string(folder.path().join("out.csv")).expect("rows")
 }
 
 const MEASURES: [&str; 6] = [

@@ -100,7 +100,7 @@ impl Identity {
 fn followed(plan: &Plan, along: &Along) -> String {
     let base = plan.base().iter().map(|value| value.in_point());
     let numbers = along.values.iter().copied().chain([along.tolerance]).chain(base);
-    let mut bytes: Vec<u8> = numbers.flat_map(|number| number.to_le_bytes()).collect();
+    let mut bytes: Vec<u8> = numbers.flat_map(f64::to_le_bytes).collect();
     bytes.push(u8::from(along.unstable));
     let name = plan.parameters()[along.parameter].name;
     format!("{name}, {} values ({:016x})", along.values.len(), xxh3_64(&bytes))
