@@ -71,6 +71,7 @@ pub(super) const SYMBOLS: &[Symbol] = &[
     prefixed("C", Dimension::base(0, 0, 1, 1), &["C", "uC", "nC"]),
     prefixed("V", Dimension::base(2, 1, -3, -1), &["V", "mV", "kV"]),
     prefixed("F", Dimension::base(-2, -1, 4, 2), &["F", "nF", "pF"]),
+    prefixed("H", Dimension::base(2, 1, -2, -2), &["H", "mH", "uH"]),
     prefixed("Ohm", OHM, OHMS),
     prefixed("ohm", OHM, OHMS),
     prefixed("\u{3a9}", OHM, OHMS),  // Ω, the Greek letter
