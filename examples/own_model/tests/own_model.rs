@@ -100,7 +100,7 @@ fn impossible_values_are_found_before_anything_runs() {
     fs::write(folder.path().join("grid.toml"), grid).unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_own-model"))
         .current_dir(folder.path())
-        .args(["check", "--grid", "grid.toml"])
+        .args(["check", "grid.toml"])
         .output()
         .unwrap();
     assert_eq!(output.status.code(), Some(2));
