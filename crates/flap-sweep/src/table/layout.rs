@@ -12,7 +12,7 @@ use crate::plan::Plan;
 /// `point`, the varied parameters, the derived ones, `status`, the measures, then `cycles`, `residual`, `period`,
 /// `floquet_max`, `stable`, `error_estimate`, `rhs_evals`.
 ///
-/// Where a parameter is followed, the first column is `curve`, and before `status` stand `branch` and that parameter.
+/// Rows of curves begin with `curve` in place of `point`, and have `branch` and the followed parameter before `status`.
 #[derive(Debug)]
 pub struct Layout {
     /// The varied parameters, then the derived ones, each with its index in the model's parameter table.

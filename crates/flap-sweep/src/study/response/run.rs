@@ -43,7 +43,7 @@ impl<'a> Responses<'a> {
     /// Follows the designs after those that `before` counts, and writes the rows of their curves to `sink` in the order of
     /// the designs. `tell` is given every curve before its rows are written. The summary is of the rows of `before` too.
     ///
-    /// When `stop` is raised, the run ends within a second: curves in hand have half of it and are dropped then. `progress`
+    /// Raising `stop` ends the run within a second: curves in hand have half of it and are dropped then. `progress`
     /// counts designs, and is called from this thread several times a second.
     ///
     /// # Errors
