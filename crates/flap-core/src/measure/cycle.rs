@@ -3,9 +3,11 @@
 //! Means and harmonics are quadratures advanced with the stages of each step: exact to the order of the
 //! integration, not sums over samples. They stand outside the error norm. Extrema come from the polynomial through a
 //! signal's values at five places of each step; the positive part of a signal, in steps where it changes sign, from
-//! parabolas through three of them each.
+//! parabolas through three of them each. Of each signal, only what its measures need is found.
 
+use super::asked::Asked;
 use super::course::Course;
+use crate::model::Measure::{Amplitude, First, Magnitude, Max, Min, Peak, PeakToPeak, Rms, Supply};
 use crate::model::{Measure, Model, Signal, SignalCycle};
 use crate::num::Lanes;
 use crate::ode::dense::interpolate;
@@ -13,6 +15,16 @@ use crate::ode::ensemble::Observer;
 use crate::ode::step::Attempt;
 use crate::ode::tableau::{B, C};
 use crate::ode::{input, slope};
+
+/// Measures for which the largest and smallest values are found. Positive parts need their signs, and harmonics of a wing
+/// at rest are told from rounding by them.
+const RANGED: &[Measure] = &[Amplitude, PeakToPeak, Max, Min, Peak, First, Supply, Magnitude];
+/// Measures for which the positive part is integrated.
+const RECTIFIED: &[Measure] = &[Supply, Magnitude];
+/// Measures for which the square is integrated.
+const SQUARED: &[Measure] = &[Rms];
+/// Measures for which the first harmonic is integrated.
+const HARMONIC: &[Measure] = &[First];
 
 crate::per_lane! {
     /// Sums over one signal so far.
@@ -92,25 +104,32 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
                 begin = values;
             }
             for i in 0..S {
+                sums[i].integral = sums[i].integral + values[i] * weight;
+            }
+            for &i in const { Asked::of(&M::SIGNALS, SQUARED) }.positions() {
                 let part = values[i] * weight;
-                sums[i].integral = sums[i].integral + part;
                 sums[i].square = part.mul_add(values[i], sums[i].square);
-                positive[i] = values[i].max(zero).mul_add(weight, positive[i]);
+            }
+            for &i in const { Asked::of(&M::SIGNALS, HARMONIC) }.positions() {
+                let part = values[i] * weight;
                 sums[i].cosine = part.mul_add(cos, sums[i].cosine);
                 sums[i].sine = part.mul_add(sin, sums[i].sine);
+            }
+            for &i in const { Asked::of(&M::SIGNALS, RECTIFIED) }.positions() {
+                positive[i] = values[i].max(zero).mul_add(weight, positive[i]);
             }
         }
 
         if self.extrema {
             let courses = courses(model, c, attempt, begin);
-            for i in 0..S {
+            for &i in const { Asked::of(&M::SIGNALS, RANGED) }.positions() {
                 sums[i].max = courses[i].max.max(sums[i].max);
                 sums[i].min = courses[i].min.min(sums[i].min);
-                if needs_positive_part(&M::SIGNALS[i]) {
-                    let changes_sign = (courses[i].max * courses[i].min).lt(zero);
-                    let part = R::select(changes_sign, courses[i].positive_mean * h, positive[i]);
-                    sums[i].positive = sums[i].positive + part;
-                }
+            }
+            for &i in const { Asked::of(&M::SIGNALS, RECTIFIED) }.positions() {
+                let changes_sign = (courses[i].max * courses[i].min).lt(zero);
+                let part = R::select(changes_sign, courses[i].positive_mean * h, positive[i]);
+                sums[i].positive = sums[i].positive + part;
             }
         }
 
@@ -158,14 +177,15 @@ fn courses<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
         let middle = between(model, c, attempt, place(0.5));
         let third = between(model, c, attempt, place(0.75));
         let end = if part + 1 == parts { last } else { between(model, c, attempt, place(1.0)) };
-        for i in 0..S {
+        for &i in const { Asked::of(&M::SIGNALS, RANGED) }.positions() {
             let course = Course::through([begin[i], first[i], middle[i], third[i], end[i]]);
             let [min, max] = course.range();
             all[i].max = max.max(all[i].max);
             all[i].min = min.min(all[i].min);
-            if needs_positive_part(&M::SIGNALS[i]) {
-                all[i].positive_mean = all[i].positive_mean + course.positive_mean() * share;
-            }
+        }
+        for &i in const { Asked::of(&M::SIGNALS, RECTIFIED) }.positions() {
+            let course = Course::through([begin[i], first[i], middle[i], third[i], end[i]]);
+            all[i].positive_mean = all[i].positive_mean + course.positive_mean() * share;
         }
         begin = end;
     }
@@ -204,23 +224,28 @@ fn signals<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
     )
 }
 
-fn needs_positive_part(signal: &Signal) -> bool {
-    signal.measures.iter().any(|measure| matches!(measure, Measure::Supply | Measure::Magnitude))
-}
-
-/// The cycle's measures from its totals, for a period of `period` seconds.
-pub fn finish<const S: usize>(totals: &[Totals<f64>; S], period: f64) -> [SignalCycle; S] {
-    totals.map(|total| {
+/// The `signals` over a cycle of `period` seconds, from its totals.
+pub fn finish<const S: usize>(
+    signals: &[Signal; S],
+    totals: &[Totals<f64>; S],
+    period: f64,
+) -> [SignalCycle; S] {
+    core::array::from_fn(|i| {
+        let total = &totals[i];
         // An unknown signal has no extremes and no positive part: maxima leave out values that are not numbers.
-        let known = |value: f64| if total.integral.is_nan() { f64::NAN } else { value };
+        let known = |measures: &[Measure], value: f64| {
+            let taken = signals[i].takes_one_of(measures) && !total.integral.is_nan();
+            if taken { value } else { f64::NAN }
+        };
         SignalCycle {
             mean: total.integral / period,
-            mean_square: total.square / period,
-            positive_mean: known(total.positive / period),
+            mean_square: known(SQUARED, total.square / period),
+            positive_mean: known(RECTIFIED, total.positive / period),
             // X = (2/T) ∫ x e^{−iωt} dt
-            first: [2.0 * total.cosine / period, -2.0 * total.sine / period],
-            max: known(total.max),
-            min: known(total.min),
+            first: [2.0 * total.cosine / period, -2.0 * total.sine / period]
+                .map(|part| known(HARMONIC, part)),
+            max: known(RANGED, total.max),
+            min: known(RANGED, total.min),
         }
     })
 }

@@ -6,6 +6,7 @@
 //! - [`damped_sine`], [`spectrum`]: frequencies of a motion that dies away
 //! - [`tracking`]: stroke and pitch from points in images
 
+mod asked;
 mod course;
 pub mod cycle;
 pub mod damped_sine;

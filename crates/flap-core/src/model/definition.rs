@@ -29,7 +29,8 @@ pub struct Derived<M, C, const S: usize> {
     pub unit: &'static str,
     /// Meaning in one line.
     pub doc: &'static str,
-    /// The value in `unit`, from the model, the point's constants and the signals over the orbit's drive period.
+    /// The value in `unit`, from the model, the point's constants and the signals over the orbit's drive period. A signal
+    /// has its mean, and what its own [`Signal::measures`] need; the rest is NaN.
     pub value: fn(&M, &C, &[SignalCycle; S]) -> f64,
 }
 

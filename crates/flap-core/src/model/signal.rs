@@ -39,6 +39,27 @@ impl Signal {
     pub fn is_shown(&self) -> bool {
         !self.measures.is_empty()
     }
+
+    /// True if one of these `measures` is taken, as a column or for the error of a row.
+    pub(crate) const fn takes_one_of(&self, measures: &[Measure]) -> bool {
+        let mut i = 0;
+        while i < measures.len() {
+            if let Some(principal) = self.principal
+                && principal as u8 == measures[i] as u8
+            {
+                return true;
+            }
+            let mut j = 0;
+            while j < self.measures.len() {
+                if self.measures[j] as u8 == measures[i] as u8 {
+                    return true;
+                }
+                j += 1;
+            }
+            i += 1;
+        }
+        false
+    }
 }
 
 /// The position of the signal called `name`.
@@ -124,7 +145,7 @@ impl Measure {
     }
 }
 
-/// A signal over one drive period, in SI units.
+/// A signal over one drive period, in SI units: its mean, and what its measures need. The rest is NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignalCycle {
     /// Mean.

@@ -23,7 +23,7 @@ fn on_orbit<M: Model<N, S>, const N: usize, const S: usize>(
     totals: &[Totals<f64>; S],
     period: f64,
 ) -> [SignalCycle; S] {
-    let mut cycle = finish(totals, period);
+    let mut cycle = finish(&M::SIGNALS, totals, period);
     if let Some(energy) = M::ENERGY {
         energy.close(&mut cycle);
     }
