@@ -1,10 +1,5 @@
 //! The hash of the sources that the build scripts make.
 
-#[expect(dead_code, reason = "a build script begins at its main")]
-#[expect(clippy::print_stdout, reason = "a build script talks to cargo so")]
-#[path = "../../crates/flap-core/build.rs"]
-mod build;
-
 use std::fs;
 use std::path::Path;
 
@@ -16,7 +11,7 @@ fn hash_of(files: &[(&str, &str)]) -> u64 {
         fs::create_dir_all(path.parent().expect("it is in the folder")).expect("a folder");
         fs::write(path, text).expect("a file");
     }
-    build::hash(folder.path(), &["libm 0.2.16".to_owned()]).expect("the folder can be read")
+    flap_sources::hash(folder.path(), &["libm 0.2.16".to_owned()]).expect("the folder can be read")
 }
 
 #[test]
@@ -41,19 +36,10 @@ fn a_change_of_the_sources_is_another_build() {
 fn versions_of_packages_that_compute_are_of_the_build() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let lock = fs::read_to_string(crates.join("../Cargo.lock")).expect("the lock file");
-    let versions = build::versions(&lock);
+    let versions = flap_sources::versions(&lock);
     assert_eq!(versions.len(), 11, "every package of the list is locked: {versions:?}");
     let source = crates.join("flap-core/src");
-    let hash = |versions: &[String]| build::hash(&source, versions).expect("the sources can be read");
+    let hash = |versions: &[String]| flap_sources::hash(&source, versions).expect("the sources can be read");
     assert_eq!(format!("{:016x}", hash(&versions)), flap_core::SOURCES);
     assert_ne!(hash(&versions), hash(&versions[1..]));
-}
-
-#[test]
-fn both_build_scripts_are_the_same() {
-    let read = |name: &str| {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name).join("build.rs");
-        fs::read_to_string(path).expect("a build script")
-    };
-    assert_eq!(read("flap-core"), read("flap-sweep"));
 }
