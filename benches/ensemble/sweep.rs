@@ -1,7 +1,7 @@
 //! The sweep: voltage and frequency of the large actuator of Ozaki and Hamaguchi.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Point, Simulator, SolverSettings, never, preset, run_list};
+use flap_core::simulate::{Point, PointRun, Simulator, SolverSettings, never, preset, run_list};
 
 const VOLTAGES: usize = 16;
 const FREQUENCIES: usize = 32;
@@ -44,7 +44,10 @@ impl Sweep {
     /// Runs it point by point on scalars of the set's arithmetic class. Returns the right-hand sides evaluated.
     pub(crate) fn scalars(&self, set: InstructionSet) -> u64 {
         let settings = SolverSettings::default();
-        self.points.iter().map(|point| self.simulator.run_point(set, &settings, point, None).rhs_evals).sum()
+        self.points
+            .iter()
+            .map(|point| self.simulator.run_point(&PointRun::new(set, &settings, point), None).rhs_evals)
+            .sum()
     }
 }
 

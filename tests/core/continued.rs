@@ -1,7 +1,7 @@
 //! Points whose motion begins at a given state, and single periods.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Point, Simulator, SolverSettings, Status, all, never};
+use flap_core::simulate::{Point, PointRun, Simulator, SolverSettings, Status, all};
 use nalgebra::DMatrix;
 
 use crate::data::assert_close;
@@ -52,14 +52,14 @@ fn what_is_no_state_is_refused() {
     for &model in all() {
         let values = &presets(model)[0];
         for begin in [&[][..], &[0.0; 3], &[0.0; 5], &[0.0, f64::NAN, 0.0, 0.0]] {
-            let row = model.run_point(InstructionSet::best(), &SOLVER, values, Some(begin));
+            let row = model.run_point(&PointRun::new(InstructionSet::best(), &SOLVER, values), Some(begin));
             assert_eq!(row.status, Status::Invalid);
             assert!(row.reason.unwrap().contains("a state is 4 finite numbers"));
             assert!(
                 model
                     .motions()
                     .unwrap()
-                    .period(InstructionSet::best(), &SOLVER, values, begin, &never)
+                    .period(&PointRun::new(InstructionSet::best(), &SOLVER, values), begin)
                     .is_err()
             );
         }
@@ -70,8 +70,11 @@ fn what_is_no_state_is_refused() {
 fn follow(model: &dyn Simulator, values: &[f64], begin: &[f64], periods: u32) -> (Vec<f64>, DMatrix<f64>) {
     let (mut state, mut product) = (begin.to_vec(), DMatrix::identity(4, 4));
     for _ in 0..periods {
-        let period =
-            model.motions().unwrap().period(InstructionSet::best(), &SOLVER, values, &state, &never).unwrap();
+        let period = model
+            .motions()
+            .unwrap()
+            .period(&PointRun::new(InstructionSet::best(), &SOLVER, values), &state)
+            .unwrap();
         product = DMatrix::from_fn(4, 4, |i, j| period.responses[j][i]) * product;
         state = period.end;
     }
@@ -82,11 +85,11 @@ fn follow(model: &dyn Simulator, values: &[f64], begin: &[f64], periods: u32) ->
 fn a_period_is_what_rows_are_made_of() {
     for &model in all() {
         for values in presets(model) {
-            let row = model.run_point(InstructionSet::best(), &SOLVER, &values, None);
+            let row = model.run_point(&PointRun::new(InstructionSet::best(), &SOLVER, &values), None);
             let period = model
                 .motions()
                 .unwrap()
-                .period(InstructionSet::best(), &SOLVER, &values, &row.state, &never)
+                .period(&PointRun::new(InstructionSet::best(), &SOLVER, &values), &row.state)
                 .unwrap();
             // Efficiencies without power are not numbers.
             let bits = |measures: &[f64]| -> Vec<u64> { measures.iter().map(|m| m.to_bits()).collect() };
@@ -104,10 +107,14 @@ fn a_period_is_what_rows_are_made_of() {
 fn responses_are_derivatives() {
     for &model in all() {
         let values = &presets(model)[0];
-        let begin = model.run_point(InstructionSet::best(), &SOLVER, values, None).state;
+        let begin = model.run_point(&PointRun::new(InstructionSet::best(), &SOLVER, values), None).state;
         let exact = SolverSettings { rtol: 1e-11, atol: 1e-13, ..SOLVER };
         let period = |begin: &[f64]| {
-            model.motions().unwrap().period(InstructionSet::best(), &exact, values, begin, &never).unwrap()
+            model
+                .motions()
+                .unwrap()
+                .period(&PointRun::new(InstructionSet::best(), &exact, values), begin)
+                .unwrap()
         };
         let middle = period(&begin);
         for j in 0..4 {
@@ -144,7 +151,7 @@ fn subharmonic_orbits_close_and_decay_by_their_multipliers() {
         let scale = model
             .motions()
             .unwrap()
-            .period(InstructionSet::best(), &SOLVER, values, &row.state, &never)
+            .period(&PointRun::new(InstructionSet::best(), &SOLVER, values), &row.state)
             .unwrap()
             .scale;
         for i in 0..4 {

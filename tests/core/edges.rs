@@ -1,7 +1,7 @@
 //! Motions at the edge of what is common: minute ones, none at all, large reactive power, drives with edges.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Row, Simulator, SolverSettings, Status, preset};
+use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, preset};
 
 use crate::data::assert_close;
 use crate::rows;
@@ -19,7 +19,7 @@ fn design(name: &str, changes: &[(&str, f64)]) -> (&'static dyn Simulator, Vec<f
 
 fn run(design: &(&'static dyn Simulator, Vec<f64>), rtol: f64) -> Row {
     let solver = SolverSettings { settle_tol: rtol.max(1e-9), ..SolverSettings::default().with_rtol(rtol) };
-    let row = design.0.run_point(InstructionSet::best(), &solver, &design.1, None);
+    let row = design.0.run_point(&PointRun::new(InstructionSet::best(), &solver, &design.1), None);
     assert_eq!(row.status, Status::Periodic, "{row:?}");
     row
 }

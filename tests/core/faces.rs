@@ -3,7 +3,7 @@
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Parameter, Preset};
 use flap_core::simulate::{
-    ChirpRequest, Column, Jobs, Point, RequestError, Row, Rows, Simulator, SolverSettings, Status,
+    ChirpRequest, Column, Jobs, Point, PointRun, RequestError, Row, Rows, Simulator, SolverSettings, Status,
     TrajectoryRequest, Unfinished, never, preset, run_list,
 };
 
@@ -28,8 +28,8 @@ impl Rows for Backwards {
         }
     }
 
-    fn run_point(&self, _: InstructionSet, _: &SolverSettings, values: &[f64], _: Option<&[f64]>) -> Row {
-        Row::invalid(values[0])
+    fn run_point(&self, run: &PointRun<'_>, _: Option<&[f64]>) -> Row {
+        Row::invalid(run.values[0])
     }
 }
 
@@ -62,8 +62,11 @@ fn a_model_with_rows_alone_says_so() {
     assert_eq!(experiments, Unfinished::NoExperiments { model: "backwards" });
 
     let set = InstructionSet::best();
-    assert_eq!(Backwards.row(set, &SOLVER, &[2.0], &never).unwrap().reason.as_deref(), Some("2"));
-    assert_eq!(Backwards.row(set, &SOLVER, &[2.0], &|| true), Err(Unfinished::Interrupted));
+    assert_eq!(Backwards.row(&PointRun::new(set, &SOLVER, &[2.0])).unwrap().reason.as_deref(), Some("2"));
+    assert_eq!(
+        Backwards.row(&PointRun::new(set, &SOLVER, &[2.0]).until(&|| true)),
+        Err(Unfinished::Interrupted)
+    );
 }
 
 #[test]
@@ -91,19 +94,19 @@ fn motions_that_are_not_followed_say_why() {
 
     let short = SolverSettings { max_steps: 3, ..SOLVER };
     let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 1, settled: false };
-    let motion = model.motions().unwrap().trajectory(set, &short, &values, &request, &never);
+    let motion = model.motions().unwrap().trajectory(&PointRun::new(set, &short, &values), &request);
     assert_eq!(motion, Err(Unfinished::StepLimit));
 
     let hasty = SolverSettings { max_cycles: 2, ..SOLVER };
     let request = TrajectoryRequest { settled: true, ..request };
-    let motion = model.motions().unwrap().trajectory(set, &hasty, &values, &request, &never);
+    let motion = model.motions().unwrap().trajectory(&PointRun::new(set, &hasty, &values), &request);
     assert_eq!(motion, Err(Unfinished::NotPeriodic { status: Status::Unsettled, cycles: 2 }));
     let text = "the motion does not settle on an orbit of one drive period (status unsettled, 2 cycles); sample it from \
                 rest instead";
     assert_eq!(motion.unwrap_err().to_string(), text);
 
     let request = ChirpRequest { from: 2.0, to: 1.0, rate: 1.0, samples_per_cycle: 0 };
-    let response = model.experiments().unwrap().chirp(set, &SOLVER, &values, &request, &never);
+    let response = model.experiments().unwrap().chirp(&PointRun::new(set, &SOLVER, &values), &request);
     assert_eq!(response, Err(RequestError::Chirp { from: 2.0, to: 1.0, rate: 1.0 }.into()));
     assert_eq!(
         response.unwrap_err().to_string(),
@@ -112,7 +115,7 @@ fn motions_that_are_not_followed_say_why() {
     );
 
     let begin = [0.0; 3];
-    let period = model.motions().unwrap().period(set, &SOLVER, &values, &begin, &never);
+    let period = model.motions().unwrap().period(&PointRun::new(set, &SOLVER, &values), &begin);
     let error = period.unwrap_err();
     assert_eq!(error, RequestError::Begin { begin: begin.to_vec(), states: 4 }.into());
     assert_eq!(error.to_string(), "the motion cannot begin at [0.0, 0.0, 0.0]: a state is 4 finite numbers");

@@ -5,8 +5,8 @@ use std::cell::Cell;
 use flap_core::num::InstructionSet;
 use flap_core::resonance::free;
 use flap_core::simulate::{
-    ChirpRequest, ImpulseRequest, Jobs, Point, Row, Simulator, SolverSettings, TrajectoryRequest, Unfinished,
-    never, preset,
+    ChirpRequest, ImpulseRequest, Jobs, Point, PointRun, Row, Simulator, SolverSettings, TrajectoryRequest,
+    Unfinished, preset,
 };
 
 use crate::rows::bits;
@@ -91,7 +91,10 @@ fn a_drive_period_of_very_many_steps_is_interrupted_halfway() {
     };
     let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 10, settled: false };
     let motions = model.motions().unwrap();
-    let motion = motions.trajectory(InstructionSet::best(), &ENDLESS, &points[0], &request, &interrupted);
+    let motion = motions.trajectory(
+        &PointRun::new(InstructionSet::best(), &ENDLESS, &points[0]).until(&interrupted),
+        &request,
+    );
     assert_eq!(motion, Err(Unfinished::Interrupted));
 }
 
@@ -104,7 +107,8 @@ fn rows_before_an_interruption_are_those_without_one() {
         let jobs = Interrupted::run(model, &solver, points.clone(), |_, rows| rows >= 300);
         assert!((300..2000).contains(&jobs.rows.len()), "{} rows", jobs.rows.len());
         for (index, row) in jobs.rows.iter().step_by(17) {
-            let alone = model.run_point(InstructionSet::best(), &solver, &points[*index], None);
+            let alone =
+                model.run_point(&PointRun::new(InstructionSet::best(), &solver, &points[*index]), None);
             assert_eq!(bits(row), bits(&alone), "point {index}");
         }
     }
@@ -117,24 +121,42 @@ fn motions_of_one_point_end_when_interrupted() {
     let always = || true;
     let interrupted = Some(Unfinished::Interrupted);
 
-    assert_eq!(model.row(set, &ENDLESS, values, &always).err(), interrupted);
+    assert_eq!(model.row(&PointRun::new(set, &ENDLESS, values).until(&always)).err(), interrupted);
     let settings = SolverSettings::default();
-    let row = model.row(set, &settings, values, &never).unwrap();
-    assert_eq!(bits(&row), bits(&model.run_point(set, &settings, values, None)));
+    let row = model.row(&PointRun::new(set, &settings, values)).unwrap();
+    assert_eq!(bits(&row), bits(&model.run_point(&PointRun::new(set, &settings, values), None)));
 
     let (motions, experiments) = (model.motions().unwrap(), model.experiments().unwrap());
     let settled = TrajectoryRequest { cycles: 1, samples_per_cycle: 10, settled: true };
-    assert_eq!(motions.trajectory(set, &ENDLESS, values, &settled, &always).err(), interrupted);
+    assert_eq!(
+        motions.trajectory(&PointRun::new(set, &ENDLESS, values).until(&always), &settled).err(),
+        interrupted
+    );
     let from_rest = TrajectoryRequest { cycles: 1_000_000_000, settled: false, ..settled };
-    assert_eq!(motions.trajectory(set, &ENDLESS, values, &from_rest, &always).err(), interrupted);
+    assert_eq!(
+        motions.trajectory(&PointRun::new(set, &ENDLESS, values).until(&always), &from_rest).err(),
+        interrupted
+    );
     let chirp = ChirpRequest { from: 90.0, to: 110.0, rate: 1e-6, samples_per_cycle: 0 };
-    assert_eq!(experiments.chirp(set, &ENDLESS, values, &chirp, &always).err(), interrupted);
+    assert_eq!(
+        experiments.chirp(&PointRun::new(set, &ENDLESS, values).until(&always), &chirp).err(),
+        interrupted
+    );
     let impulse = ImpulseRequest { stroke_rate: 1.0, duration: 1e6, intervals: 100 };
-    assert_eq!(experiments.free_response(set, &ENDLESS, values, &impulse, &always).err(), interrupted);
-    assert_eq!(motions.period(set, &ENDLESS, values, &[0.0; 4], &always).err(), interrupted);
-    assert!(motions.period(set, &ENDLESS, values, &[0.0; 4], &never).is_ok());
+    assert_eq!(
+        experiments.free_response(&PointRun::new(set, &ENDLESS, values).until(&always), &impulse).err(),
+        interrupted
+    );
+    assert_eq!(
+        motions.period(&PointRun::new(set, &ENDLESS, values).until(&always), &[0.0; 4]).err(),
+        interrupted
+    );
+    assert!(motions.period(&PointRun::new(set, &ENDLESS, values), &[0.0; 4]).is_ok());
 
     let request =
         free::FreeRequest { amplitude: 0.1, fit_cycles: 10, spectrum_window: 1e3, samples_per_cycle: 20 };
-    assert_eq!(free::examine(experiments, set, &ENDLESS, values, &request, &always).err(), interrupted);
+    assert_eq!(
+        free::examine(experiments, &PointRun::new(set, &ENDLESS, values).until(&always), &request).err(),
+        interrupted
+    );
 }

@@ -2,13 +2,13 @@
 
 use flap_core::model::{bimorph, direct_drive};
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Row, SolverSettings, Status, by_name};
+use flap_core::simulate::{PointRun, Row, SolverSettings, Status, by_name};
 
 use crate::data::{assert_close, table};
 
 fn run(model: &str, values: &[f64], rtol: f64, settle_tol: f64) -> Row {
     let solver = SolverSettings { rtol, atol: 1e-2 * rtol, settle_tol, ..SolverSettings::default() };
-    by_name(model).unwrap().run_point(InstructionSet::best(), &solver, values, None)
+    by_name(model).unwrap().run_point(&PointRun::new(InstructionSet::best(), &solver, values), None)
 }
 
 /// The parameters of the bimorph's reference sets.

@@ -11,7 +11,7 @@ use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::ode::Ode;
 use flap_core::resonance::free::{FreeMotion, FreeRequest, examine, intervals, stroke_rate};
-use flap_core::simulate::{ImpulseRequest, SolverSettings, all, by_name, never, preset};
+use flap_core::simulate::{ImpulseRequest, PointRun, SolverSettings, all, by_name, preset};
 
 /// The values of a preset with some of them set.
 fn values(name: &str, set: &[(&str, f64)]) -> Vec<f64> {
@@ -94,7 +94,7 @@ fn impulses_that_mean_nothing_are_refused() {
         let refused = model
             .experiments()
             .unwrap()
-            .free_response(InstructionSet::best(), &solver, &values, &request, &never)
+            .free_response(&PointRun::new(InstructionSet::best(), &solver, &values), &request)
             .unwrap_err();
         assert!(refused.to_string().contains(reason), "{refused}");
     }
@@ -137,7 +137,7 @@ fn a_free_motion_does_not_depend_on_how_it_is_sampled() {
         model
             .experiments()
             .unwrap()
-            .free_response(InstructionSet::best(), &solver, &values, &request, &never)
+            .free_response(&PointRun::new(InstructionSet::best(), &solver, &values), &request)
             .unwrap()
             .rows
     };
@@ -160,15 +160,9 @@ fn free(name: &str, degrees: f64, spectrum_window: f64) -> FreeMotion {
         spectrum_window,
         samples_per_cycle: 200,
     };
-    examine(
-        model.experiments().unwrap(),
-        InstructionSet::best(),
-        &SolverSettings::default(),
-        &values(name, &[]),
-        &request,
-        &never,
-    )
-    .unwrap()
+    let (solver, values) = (SolverSettings::default(), values(name, &[]));
+    let run = PointRun::new(InstructionSet::best(), &solver, &values);
+    examine(model.experiments().unwrap(), &run, &request).unwrap()
 }
 
 /// Arabagi et al., Fig. 12: 78 and 129 Hz. The reference, with bins of 0.125 Hz: 77.75 and 129.62 Hz in the stroke,

@@ -1,7 +1,7 @@
 //! Rows of many points, from lanes.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Jobs, Point, Row, Simulator, SolverSettings, Status};
+use flap_core::simulate::{Jobs, Point, PointRun, Row, Simulator, SolverSettings, Status};
 
 /// Settings for many points: coarse, and with little patience for motions that do not settle.
 pub(crate) const QUICK: SolverSettings = SolverSettings {
@@ -90,7 +90,7 @@ pub(crate) fn assert_lanes_equal_scalars_at(
     for set in InstructionSet::available() {
         let rows = of_points(model, points, set, solver);
         for (i, (point, row)) in points.iter().zip(&rows).enumerate() {
-            let alone = model.run_point(set, solver, &point.values, point.begin.as_deref());
+            let alone = model.run_point(&PointRun::new(set, solver, &point.values), point.begin.as_deref());
             assert_eq!(bits(row), bits(&alone), "point {i} with {set}");
             let measured = row.status == Status::Periodic;
             assert_eq!(row.measures.len(), if measured { model.columns().len() } else { 0 });

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use flap_core::num::{InstructionSet, Kernel, Lanes, Simd, Vector};
-use flap_core::simulate::{Jobs, Point, Row, Simulator, SolverSettings, preset};
+use flap_core::simulate::{Jobs, Point, PointRun, Row, Simulator, SolverSettings, preset};
 
 /// A point of each model, whether or not it is compiled in.
 pub(crate) const PRESETS: [&str; 3] = ["ozaki2018-large", "jafferis2016", "arabagi2013-75hz"];
@@ -65,7 +65,7 @@ impl Work {
             Task::ScalarMarch => {
                 let (simulator, values) = self.point();
                 mark();
-                simulator.run_point(self.set, &MARCH, &values, None);
+                simulator.run_point(&PointRun::new(self.set, &MARCH, &values), None);
                 mark();
             }
             Task::March => {
@@ -83,7 +83,7 @@ impl Work {
         match self.task {
             Task::ScalarMarch => {
                 let (simulator, values) = self.point();
-                simulator.run_point(self.set, &MARCH, &values, None).rhs_evals
+                simulator.run_point(&PointRun::new(self.set, &MARCH, &values), None).rhs_evals
             }
             Task::March => evals(&MARCH),
             Task::Measure => evals(&SETTLE_AND_MEASURE) - evals(&SETTLE),

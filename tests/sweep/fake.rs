@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Kind, Parameter, Preset, Range};
-use flap_core::simulate::{Column, Jobs, Row, Rows, Simulator, SolverSettings};
+use flap_core::simulate::{Column, Jobs, PointRun, Row, Rows, Simulator, SolverSettings};
 use flap_sweep::grid::diagnostic::{Diagnostic, Mistakes};
 use flap_sweep::plan::Plan;
 
@@ -25,7 +25,7 @@ impl Rows for Fake {
         unimplemented!("grid files are checked without running anything")
     }
 
-    fn run_point(&self, _: InstructionSet, _: &SolverSettings, _: &[f64], _: Option<&[f64]>) -> Row {
+    fn run_point(&self, _: &PointRun<'_>, _: Option<&[f64]>) -> Row {
         unimplemented!("grid files are checked without running anything")
     }
 }

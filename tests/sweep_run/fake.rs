@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use flap_core::num::InstructionSet;
 use flap_core::parameter::{Kind, Parameter, Preset, Range};
-use flap_core::simulate::{Column, Jobs, Point, Row, Rows, Simulator, SolverSettings, Status};
+use flap_core::simulate::{Column, Jobs, Point, PointRun, Row, Rows, Simulator, SolverSettings, Status};
 
 /// A fault of the model, and the value of `size` at which it happens.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -160,8 +160,8 @@ impl Rows for Fake {
         }
     }
 
-    fn run_point(&self, _: InstructionSet, _: &SolverSettings, values: &[f64], _: Option<&[f64]>) -> Row {
-        Fake::row(values)
+    fn run_point(&self, run: &PointRun<'_>, _: Option<&[f64]>) -> Row {
+        Fake::row(run.values)
     }
 }
 

@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::Status;
+use flap_core::simulate::{PointRun, Status};
 use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::plan::{Along, Plan};
 use flap_sweep::run::{RunOptions, Summary};
@@ -237,8 +237,9 @@ fn unstable_orbits_join_the_branches() {
         values[along.parameter] = middle.value;
         let ended = [0.98, 1.02].map(|factor| {
             let begin: Vec<f64> = middle.row.state.iter().map(|y| factor * y).collect();
-            let row =
-                plan.simulator().run_point(InstructionSet::best(), plan.solver(), &values, Some(&begin));
+            let row = plan
+                .simulator()
+                .run_point(&PointRun::new(InstructionSet::best(), plan.solver(), &values), Some(&begin));
             assert_eq!((row.status, row.stable()), (Status::Periodic, Some(true)));
             row.measures[stroke]
         });

@@ -3,7 +3,7 @@
 use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::resonance::free::{self, FreeRequest};
-use flap_core::simulate::Unfinished;
+use flap_core::simulate::{PointRun, Unfinished};
 use flap_sweep::resonance::driven::{self, PeakSearch};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList};
@@ -42,8 +42,8 @@ pub(crate) fn resonance<'py>(
     let modes = experiments.modes(&values).map_err(|reason| error::unfinished(&reason))?;
     let search = PeakSearch { from: start, to: stop, tolerance };
     let found = interruptible(py, |interrupted| {
-        let free = free::examine(experiments, set, &solver, &values, &request, interrupted)?;
-        Ok((free, driven::search(simulator, set, &solver, &values, &search, interrupted)?))
+        let run = PointRun::new(set, &solver, &values).until(interrupted);
+        Ok((free::examine(experiments, &run, &request)?, driven::search(simulator, &run, &search)?))
     })?;
     let (free, driven) = found.map_err(|reason: Unfinished| error::unfinished(&reason))?;
 

@@ -1,7 +1,7 @@
 //! One design point at a time.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Column, Row, Simulator, SolverSettings, TrajectoryRequest};
+use flap_core::simulate::{Column, PointRun, Row, Simulator, SolverSettings, TrajectoryRequest};
 use flap_sweep::table::layout::{self, Cell, Kind};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -36,7 +36,9 @@ pub(crate) fn run<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let DesignPoint { simulator, solver, values } = DesignPoint::new(preset, keywords)?;
     let set = InstructionSet::best();
-    let row = interruptible(py, |interrupted| simulator.row(set, &solver, &values, interrupted))?;
+    let row = interruptible(py, |interrupted| {
+        simulator.row(&PointRun::new(set, &solver, &values).until(interrupted))
+    })?;
     let row = row.map_err(|reason| error::unfinished(&reason))?;
     row_to_dict(py, simulator.columns(), &row)
 }
@@ -62,7 +64,7 @@ pub(crate) fn trajectory<'py>(
     let request = TrajectoryRequest { cycles, samples_per_cycle: samples, settled: !from_rest };
     let set = InstructionSet::best();
     let motion = interruptible(py, |interrupted| {
-        simulator.motions()?.trajectory(set, &solver, &values, &request, interrupted)
+        simulator.motions()?.trajectory(&PointRun::new(set, &solver, &values).until(interrupted), &request)
     })?;
     let motion = motion.map_err(|reason| error::unfinished(&reason))?;
     let column = |name: &String| layout::Column {

@@ -8,7 +8,7 @@ use flap_core::model::bimorph::{
 };
 use flap_core::num::{InstructionSet, Real};
 use flap_core::ode::{Ode, Start};
-use flap_core::simulate::{SolverSettings, TrajectoryRequest, never};
+use flap_core::simulate::{PointRun, SolverSettings, TrajectoryRequest};
 use proptest::prelude::*;
 
 use super::orbit::{cycle, tolerances};
@@ -145,7 +145,7 @@ fn settled_motions_are_antisymmetric() {
         let motion = model()
             .motions()
             .unwrap()
-            .trajectory(InstructionSet::best(), &solver, &values, &request, &never)
+            .trajectory(&PointRun::new(InstructionSet::best(), &solver, &values), &request)
             .unwrap();
         let scale = model_scale(&values);
         for k in 0..50 {

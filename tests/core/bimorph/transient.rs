@@ -4,7 +4,7 @@ use flap_core::model::Motions;
 use flap_core::model::bimorph::{Bimorph, Constants, Params};
 use flap_core::num::InstructionSet;
 use flap_core::ode::Start;
-use flap_core::simulate::{ChirpRequest, SolverSettings, Trajectory, never};
+use flap_core::simulate::{ChirpRequest, PointRun, SolverSettings, Trajectory};
 
 use super::orbit::{distance, march, tolerances};
 use super::{driven, model, params};
@@ -72,7 +72,7 @@ fn the_envelope_of_the_frequency_sweep_equals_the_reference() {
     let response = model()
         .experiments()
         .unwrap()
-        .chirp(InstructionSet::best(), &solver, &p.to_values(), &request, &never)
+        .chirp(&PointRun::new(InstructionSet::best(), &solver, &p.to_values()), &request)
         .unwrap();
     let Trajectory { columns, rows } = response.envelope;
     let column = |name| columns.iter().position(|column| column == name).unwrap();

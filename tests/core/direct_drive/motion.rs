@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use flap_core::drive::{Repeat, Samples};
 use flap_core::model::direct_drive::Params;
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{ImposedMotion, Simulator, SolverSettings, Status, by_name};
+use flap_core::simulate::{ImposedMotion, PointRun, Simulator, SolverSettings, Status, by_name};
 
 use crate::data::table;
 use crate::rows;
@@ -59,8 +59,8 @@ fn a_recorded_sine_drives_like_a_sine() {
         model().experiments().unwrap().with_samples(Samples::new(&times, &wave, Repeat::Periodic).unwrap());
     let values = Params::ozaki2018_large().to_values();
     let set = InstructionSet::best();
-    let row = sampled.run_point(set, &settings(), &values, None);
-    let sine = model().run_point(set, &settings(), &values, None);
+    let row = sampled.run_point(&PointRun::new(set, &settings(), &values), None);
+    let sine = model().run_point(&PointRun::new(set, &settings(), &values), None);
     assert_eq!((row.status, sine.status), (Status::Periodic, Status::Periodic));
     for (i, column) in model().columns().iter().enumerate() {
         // The charge of a capacitor feels the wave's slope: a spline is third order there.

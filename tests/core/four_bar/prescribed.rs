@@ -3,7 +3,7 @@
 use flap_core::drive::{Shape, StrokeParameters, WaveformParameters};
 use flap_core::model::four_bar::Params;
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{SolverSettings, Status, TrajectoryRequest, never};
+use flap_core::simulate::{PointRun, SolverSettings, Status, TrajectoryRequest};
 
 use super::steady::{measure, model, run, wrapped};
 use super::{arms, assert_close_to, params};
@@ -62,7 +62,7 @@ fn the_orbit_begins_where_the_reference_does() {
         let motion = model()
             .motions()
             .unwrap()
-            .trajectory(InstructionSet::best(), &solver, &values, &request, &never)
+            .trajectory(&PointRun::new(InstructionSet::best(), &solver, &values), &request)
             .unwrap();
         let [_, stroke, pitch, stroke_rate, pitch_rate] = [0, 1, 2, 3, 4].map(|i| motion.rows[0][i]);
         assert!(stroke.abs() < 1e-6, "{stroke}");

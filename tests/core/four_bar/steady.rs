@@ -2,7 +2,7 @@
 
 use flap_core::model::four_bar::{AddedMassSign, Params};
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Row, Simulator, SolverSettings, Status, by_name};
+use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, by_name};
 
 use super::{arms, assert_close_to, params};
 use crate::data::{Record, table};
@@ -13,7 +13,7 @@ pub(super) fn model() -> &'static dyn Simulator {
 
 pub(super) fn run(params: &Params, rtol: f64, settle_tol: f64) -> Row {
     let solver = SolverSettings { rtol, atol: 1e-2 * rtol, settle_tol, ..SolverSettings::default() };
-    model().run_point(InstructionSet::best(), &solver, &params.to_values(), None)
+    model().run_point(&PointRun::new(InstructionSet::best(), &solver, &params.to_values()), None)
 }
 
 pub(super) fn measure(row: &Row, column: &str) -> f64 {

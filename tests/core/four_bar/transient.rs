@@ -1,7 +1,7 @@
 //! The motion from rest against the reference.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{SolverSettings, TrajectoryRequest, never};
+use flap_core::simulate::{PointRun, SolverSettings, TrajectoryRequest};
 
 use super::steady::model;
 use super::{assert_close_to, params};
@@ -15,7 +15,7 @@ fn five_cycles_from_rest_equal_the_reference() {
     let motion = model()
         .motions()
         .unwrap()
-        .trajectory(InstructionSet::best(), &solver, &values, &request, &never)
+        .trajectory(&PointRun::new(InstructionSet::best(), &solver, &values), &request)
         .unwrap();
     let reference = table("four-bar/transient_sys75.csv");
     assert_eq!(motion.rows.len(), reference.len());

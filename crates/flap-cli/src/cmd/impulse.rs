@@ -2,9 +2,8 @@
 
 use std::io;
 
-use flap_core::num::InstructionSet;
 use flap_core::resonance::free::{intervals, stroke_rate};
-use flap_core::simulate::{ImpulseRequest, never};
+use flap_core::simulate::ImpulseRequest;
 
 use super::motion::{write_csv, write_file};
 use super::point::Chosen;
@@ -32,8 +31,7 @@ pub(crate) fn run(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
         duration,
         intervals: intervals(duration, first.frequency * f64::from(args.samples))?,
     };
-    let motion =
-        experiments.free_response(InstructionSet::best(), plan.solver(), values, &request, &never)?;
+    let motion = experiments.free_response(&chosen.run(), &request)?;
 
     let mut table = Table::with_headings(&["column", "value", "unit", "meaning"]);
     let mut row = |column: &str, value: f64, unit: &str, meaning: &str| {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use flap_core::num::InstructionSet;
 use flap_core::parameter::Parameter;
-use flap_core::simulate::{Rows, Simulator};
+use flap_core::simulate::{PointRun, Rows, Simulator};
 use flap_sweep::grid;
 use flap_sweep::notation::nearest;
 use flap_sweep::notation::value::{self, UnitOf, ValueError};
@@ -64,7 +64,7 @@ impl Chosen {
         if !self.values[index].is_nan() {
             return Ok(());
         }
-        let row = resonance.run_point(InstructionSet::best(), self.plan.solver(), &self.values, None);
+        let row = resonance.run_point(&self.run(), None);
         let place = resonance.columns().iter().position(|column| column.name == RESONANCE_HZ);
         let found = place.and_then(|place| row.measures.get(place));
         let found = found.copied().ok_or_else(|| {
@@ -75,6 +75,11 @@ impl Chosen {
         self.values[index] = found;
         console::say(&format!("{DRIVE_FREQUENCY} = {found} Hz, the resonance"));
         Ok(())
+    }
+
+    /// The run of the point.
+    pub(crate) fn run(&self) -> PointRun<'_> {
+        PointRun::new(InstructionSet::best(), self.plan.solver(), &self.values)
     }
 
     /// The model that is run.

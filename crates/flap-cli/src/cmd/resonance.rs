@@ -3,9 +3,7 @@
 use std::io;
 
 use flap_core::measure::spectrum::SpectrumPeak;
-use flap_core::num::InstructionSet;
 use flap_core::resonance::free::{self, FreeMotion, FreeRequest};
-use flap_core::simulate::never;
 use flap_sweep::files::csv_sink;
 use flap_sweep::notation::text;
 use flap_sweep::resonance::driven::{self, DrivenPeaks, Gap, PeakSearch};
@@ -28,7 +26,7 @@ const RIVAL: f64 = 0.95;
 pub(crate) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
     let chosen = Chosen::new(&args.point, &args.solver)?;
     let Chosen { plan, values, .. } = &chosen;
-    let (simulator, set) = (plan.simulator(), InstructionSet::best());
+    let simulator = plan.simulator();
     let experiments = simulator.experiments()?;
     let modes = experiments.modes(values)?;
     let request = FreeRequest {
@@ -38,8 +36,8 @@ pub(crate) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
         samples_per_cycle: SAMPLES,
     };
     let search = PeakSearch { from: args.from, to: args.to, tolerance: args.tolerance };
-    let free = free::examine(experiments, set, plan.solver(), values, &request, &never)?;
-    let driven = driven::search(simulator, set, plan.solver(), values, &search, &never)?;
+    let free = free::examine(experiments, &chosen.run(), &request)?;
+    let driven = driven::search(simulator, &chosen.run(), &search)?;
 
     let mut lines: Vec<Line> = Vec::new();
     for mode in &modes {

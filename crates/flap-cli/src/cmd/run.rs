@@ -3,8 +3,7 @@
 use std::fmt::Write as _;
 use std::io;
 
-use flap_core::num::InstructionSet;
-use flap_core::simulate::{ChirpRequest, Row, Status, TrajectoryRequest, never};
+use flap_core::simulate::{ChirpRequest, Row, Status, TrajectoryRequest};
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::notation::expression::Kind;
 use flap_sweep::notation::text;
@@ -57,7 +56,6 @@ fn refuse_strays(args: &RunArgs) -> Result<(), Failure> {
 /// Runs the point's own drive until the motion settles.
 fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
     let Chosen { plan, values, .. } = chosen;
-    let set = InstructionSet::best();
     if let Some(path) = &args.trajectory {
         check_length(args)?;
         let request = TrajectoryRequest {
@@ -65,8 +63,7 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
             samples_per_cycle: args.samples,
             settled: !args.from_rest && !args.once,
         };
-        let motion =
-            chosen.simulator().motions()?.trajectory(set, plan.solver(), values, &request, &never)?;
+        let motion = chosen.simulator().motions()?.trajectory(&chosen.run(), &request)?;
         if path.as_os_str() == "-" {
             write_csv(&motion, io::stdout().lock())?;
             return Ok(Exit::Done);
@@ -77,7 +74,7 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
         }
     }
 
-    let mut row = chosen.simulator().run_point(set, plan.solver(), values, None);
+    let mut row = chosen.simulator().run_point(&chosen.run(), None);
     plan.add_own_measures(values, &mut row.measures);
     if let (Status::Invalid, Some(reason)) = (row.status, &row.reason) {
         return Err(Failure::usage(format!("the parameters are impossible together: {reason}")));
@@ -116,13 +113,7 @@ fn chirp(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
         rate: args.chirp_rate.unwrap_or(CHIRP_RATE),
         samples_per_cycle: if args.trajectory.is_some() { args.samples } else { 0 },
     };
-    let response = plan.simulator().experiments()?.chirp(
-        InstructionSet::best(),
-        plan.solver(),
-        values,
-        &request,
-        &never,
-    )?;
+    let response = plan.simulator().experiments()?.chirp(&chosen.run(), &request)?;
     if let Some(path) = &args.trajectory {
         write_file(&response.motion, path, args.force, "samples")?;
     }

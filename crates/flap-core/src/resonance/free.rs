@@ -5,9 +5,8 @@ use core::f64::consts::TAU;
 use crate::measure::damped_sine::{self, DampedSine};
 use crate::measure::spectrum::{Spectrum, SpectrumPeak};
 use crate::modes::Mode;
-use crate::num::InstructionSet;
 use crate::parameter::Invalid;
-use crate::simulate::{Experiments, ImpulseRequest, Interrupt, SolverSettings, Trajectory, Unfinished};
+use crate::simulate::{Experiments, ImpulseRequest, PointRun, Trajectory, Unfinished};
 
 /// The most samples of one motion: they are held in memory.
 pub const INTERVALS_MAX: u32 = 5_000_000;
@@ -62,26 +61,23 @@ pub fn stroke_rate(modes: &[Mode; 2], amplitude: f64) -> Result<f64, Invalid> {
 /// way.
 pub fn examine(
     model: &dyn Experiments,
-    set: InstructionSet,
-    solver: &SolverSettings,
-    values: &[f64],
+    run: &PointRun<'_>,
     request: &FreeRequest,
-    interrupted: Interrupt<'_>,
 ) -> Result<FreeMotion, Unfinished> {
-    let modes = model.modes(values)?;
+    let modes = model.modes(run.values)?;
     let stroke_rate = stroke_rate(&modes, request.amplitude)?;
     let frequency = modes[0].frequency;
-    let run = |duration: f64| {
+    let sampled = |duration: f64| {
         let intervals = intervals(duration, frequency * f64::from(request.samples_per_cycle))?;
         let impulse = ImpulseRequest { stroke_rate, duration, intervals };
-        let motion = model.free_response(set, solver, values, &impulse, interrupted)?;
+        let motion = model.free_response(run, &impulse)?;
         Ok::<_, Unfinished>((duration / f64::from(intervals), motion))
     };
 
-    let (interval, motion) = run(f64::from(request.fit_cycles) / frequency)?;
+    let (interval, motion) = sampled(f64::from(request.fit_cycles) / frequency)?;
     let fit = damped_sine::fit(interval, &column(&motion, "stroke_deg")?)
         .map(|fit| DampedSine { amplitude: fit.amplitude.to_radians(), ..fit });
-    let (interval, motion) = run(request.spectrum_window)?;
+    let (interval, motion) = sampled(request.spectrum_window)?;
     let peaks = |name: &str| {
         let mut samples = column(&motion, name)?;
         // The window holds whole intervals: its last sample is the first of the next.

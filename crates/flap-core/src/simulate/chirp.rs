@@ -8,7 +8,7 @@ use core::ops::ControlFlow;
 use super::error::{RequestError, Unfinished};
 use super::request::{ChirpRequest, ChirpResponse, Trajectory};
 use super::sampler::Sampler;
-use super::single::{Question, Single};
+use super::single::{PointRun, Question};
 use crate::measure::cycle::{Signals, Totals, finish};
 use crate::model::{Measure, Model, Motions};
 use crate::num::{PerLane, Scalar};
@@ -22,8 +22,8 @@ impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Question<
 {
     type Answer = Result<ChirpResponse, Unfinished>;
 
-    fn answer<R: Scalar>(self, point: &Single<'_, M>) -> Result<ChirpResponse, Unfinished> {
-        let Single { model, solver, values, interrupted } = *point;
+    fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<ChirpResponse, Unfinished> {
+        let PointRun { solver, values, interrupted, .. } = *run;
         let ChirpRequest { from, to, rate, samples_per_cycle } = *self;
         if !(from > 0.0 && to > 0.0 && (to - from) * rate > 0.0) {
             return Err(RequestError::Chirp { from, to, rate }.into());

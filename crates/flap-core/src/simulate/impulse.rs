@@ -3,7 +3,7 @@
 use super::error::{RequestError, Unfinished};
 use super::request::{ImpulseRequest, Trajectory};
 use super::sampler::sampled;
-use super::single::{Question, Single};
+use super::single::{PointRun, Question};
 use crate::model::Motions;
 use crate::num::Scalar;
 use crate::ode::Start;
@@ -14,8 +14,8 @@ impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Question<
 {
     type Answer = Result<Trajectory, Unfinished>;
 
-    fn answer<R: Scalar>(self, point: &Single<'_, M>) -> Result<Trajectory, Unfinished> {
-        let Single { model, solver, values, interrupted } = *point;
+    fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Trajectory, Unfinished> {
+        let PointRun { solver, values, interrupted, .. } = *run;
         let ImpulseRequest { stroke_rate, duration, intervals } = *self;
         refuse_nonsense(self)?;
         let Start { constants, mut scale, .. } = model.start(values)?;

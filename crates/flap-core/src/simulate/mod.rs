@@ -44,6 +44,7 @@ pub use row::Row;
 pub use runner::Runner;
 pub use settings::{Setting, SettingKind, SolverSettings};
 pub use simulator::{Experiments, Motions, Rows, Simulator};
+pub use single::PointRun;
 pub use status::Status;
 
 pub use crate::ode::{Interrupt, never};

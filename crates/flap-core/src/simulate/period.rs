@@ -5,7 +5,7 @@ use super::cycle::{cycle, end_of_period};
 use super::error::Unfinished;
 use super::orbit_row::measures;
 use super::request::Period;
-use super::single::{Question, Single};
+use super::single::{PointRun, Question};
 use crate::measure::cycle::Signals;
 use crate::model::Model;
 use crate::num::Scalar;
@@ -17,8 +17,8 @@ pub(super) struct PeriodFrom<'a>(pub(super) &'a [f64]);
 impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M, N, K, S> for PeriodFrom<'_> {
     type Answer = Result<Period, Unfinished>;
 
-    fn answer<R: Scalar>(self, point: &Single<'_, M>) -> Result<Period, Unfinished> {
-        let Single { model, solver, values, interrupted } = *point;
+    fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Period, Unfinished> {
+        let PointRun { solver, values, interrupted, .. } = *run;
         let start = begin(model, values, Some(self.0))?;
         let from = varied(&start, &start.scale);
         let (all, outcome) = end_of_period::<_, R, K>(&Variation(model), solver, &from, interrupted);

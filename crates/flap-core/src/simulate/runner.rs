@@ -15,12 +15,11 @@ use super::row::Row;
 use super::settings::SolverSettings;
 use super::settle::RowFrom;
 use super::simulator::{Experiments, Motions, Rows, Simulator};
-use super::single::{Question, Single};
+use super::single::{PointRun, ask};
 use crate::drive::Samples;
 use crate::model::{self, Model};
 use crate::modes::Mode;
 use crate::num::InstructionSet;
-use crate::ode::{Interrupt, never};
 use crate::parameter::{Parameter, Preset};
 
 /// A model behind the object-safe faces: all that a sweep needs of a model of one's own.
@@ -38,7 +37,7 @@ use crate::parameter::{Parameter, Preset};
 /// use flap_core::parameter::Kind::Number;
 /// use flap_core::parameter::Range::Positive;
 /// use flap_core::parameter::{Invalid, Preset};
-/// use flap_core::simulate::{Rows, Runner, Simulator, SolverSettings, Status};
+/// use flap_core::simulate::{PointRun, Rows, Runner, Simulator, SolverSettings, Status};
 ///
 /// flap_core::parameters! {
 ///     /// Parameters of an oscillator.
@@ -133,7 +132,9 @@ use crate::parameter::{Parameter, Preset};
 /// static OSCILLATOR: Runner<Oscillator, 2, 6, 1> = Runner::new(Oscillator);
 ///
 /// let model: &'static dyn Simulator = &OSCILLATOR;
-/// let row = model.run_point(InstructionSet::best(), &SolverSettings::DEFAULT, &EXAMPLE.to_values(), None);
+/// let values = EXAMPLE.to_values();
+/// let run = PointRun::new(InstructionSet::best(), &SolverSettings::DEFAULT, &values);
+/// let row = model.run_point(&run, None);
 /// assert_eq!(row.status, Status::Periodic);
 /// // At resonance the amplitude is that of the torque over damping times angular frequency.
 /// let exact = (1e3 / (40.0 * std::f64::consts::TAU * 100.0_f64)).to_degrees();
@@ -162,19 +163,6 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Runner<M, N
         const { Self::CHECKED }
         Runner { model, columns: OnceLock::new(), experiments: |_| None }
     }
-
-    /// The answer to a question about one point, on scalars.
-    fn ask<Q: Question<M, N, K, S>>(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        question: Q,
-        interrupted: Interrupt<'_>,
-    ) -> Q::Answer {
-        let model = &self.model.variant(values);
-        Single { model, solver, values, interrupted }.ask(set, question)
-    }
 }
 
 impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Rows for Runner<M, N, K, S> {
@@ -186,14 +174,8 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Rows for Ru
         set.dispatch(LanesKernel::<M, N, K, S> { model: &self.model, solver, jobs });
     }
 
-    fn run_point(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        begin: Option<&[f64]>,
-    ) -> Row {
-        self.ask(set, solver, values, RowFrom(begin), &never)
+    fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row {
+        ask::<M, _, N, K, S>(&self.model, run, RowFrom(begin))
     }
 }
 
@@ -214,17 +196,6 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Simulator f
         M::DESCRIPTION.presets
     }
 
-    fn row(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        interrupted: Interrupt<'_>,
-    ) -> Result<Row, Unfinished> {
-        let row = self.ask(set, solver, values, RowFrom(None), interrupted);
-        if interrupted() { Err(Unfinished::Interrupted) } else { Ok(row) }
-    }
-
     fn motions(&self) -> Result<&dyn Motions, Unfinished> {
         Ok(self)
     }
@@ -235,52 +206,24 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Simulator f
 }
 
 impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Motions for Runner<M, N, K, S> {
-    fn period(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        begin: &[f64],
-        interrupted: Interrupt<'_>,
-    ) -> Result<Period, Unfinished> {
-        self.ask(set, solver, values, PeriodFrom(begin), interrupted)
+    fn period(&self, run: &PointRun<'_>, begin: &[f64]) -> Result<Period, Unfinished> {
+        ask::<M, _, N, K, S>(&self.model, run, PeriodFrom(begin))
     }
 
-    fn trajectory(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        request: &TrajectoryRequest,
-        interrupted: Interrupt<'_>,
-    ) -> Result<Trajectory, Unfinished> {
-        self.ask(set, solver, values, request, interrupted)
+    fn trajectory(&self, run: &PointRun<'_>, request: &TrajectoryRequest) -> Result<Trajectory, Unfinished> {
+        ask::<M, _, N, K, S>(&self.model, run, request)
     }
 }
 
 impl<M: model::Motions<N, S>, const N: usize, const K: usize, const S: usize> Experiments
     for Runner<M, N, K, S>
 {
-    fn chirp(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        request: &ChirpRequest,
-        interrupted: Interrupt<'_>,
-    ) -> Result<ChirpResponse, Unfinished> {
-        self.ask(set, solver, values, request, interrupted)
+    fn chirp(&self, run: &PointRun<'_>, request: &ChirpRequest) -> Result<ChirpResponse, Unfinished> {
+        ask::<M, _, N, K, S>(&self.model, run, request)
     }
 
-    fn free_response(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        request: &ImpulseRequest,
-        interrupted: Interrupt<'_>,
-    ) -> Result<Trajectory, Unfinished> {
-        self.ask(set, solver, values, request, interrupted)
+    fn free_response(&self, run: &PointRun<'_>, request: &ImpulseRequest) -> Result<Trajectory, Unfinished> {
+        ask::<M, _, N, K, S>(&self.model, run, request)
     }
 
     fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Unfinished> {

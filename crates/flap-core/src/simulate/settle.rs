@@ -10,7 +10,7 @@ use super::orbit_row;
 use super::row::Row;
 use super::search::{Next, Search};
 use super::settings::SolverSettings;
-use super::single::{Question, Single};
+use super::single::{PointRun, Question};
 use crate::measure::cycle::Signals;
 use crate::model::Model;
 use crate::num::Scalar;
@@ -24,8 +24,8 @@ pub(super) struct RowFrom<'a>(pub(super) Option<&'a [f64]>);
 impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M, N, K, S> for RowFrom<'_> {
     type Answer = Row;
 
-    fn answer<R: Scalar>(self, point: &Single<'_, M>) -> Row {
-        let Single { model, solver, values, interrupted } = *point;
+    fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Row {
+        let PointRun { solver, values, interrupted, .. } = *run;
         match begin(model, values, self.0) {
             Ok(start) => settle::<M, R, N, K, S>(model, solver, &start, self.0.is_some(), interrupted).row,
             Err(error) => Row::invalid(error),

@@ -9,10 +9,10 @@ use super::request::{
 };
 use super::row::Row;
 use super::settings::SolverSettings;
+use super::single::PointRun;
 use crate::drive::Samples;
 use crate::modes::Mode;
 use crate::num::InstructionSet;
-use crate::ode::Interrupt;
 use crate::parameter::{Parameter, Preset};
 
 /// A source of rows: turns design points into rows.
@@ -26,15 +26,9 @@ pub trait Rows: Sync {
     /// alone: not on its neighbours, nor on the order of the points, nor on `set` within an arithmetic class.
     fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs);
 
-    /// Runs one point on scalars, in the arithmetic class of `set`, from rest or from the state `begin` (see
-    /// [`Point::begin`](super::Point::begin)). Gives the same bits as [`Rows::run`].
-    fn run_point(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        begin: Option<&[f64]>,
-    ) -> Row;
+    /// Runs one point on scalars, from rest or from the state `begin` (see [`Point::begin`](super::Point::begin)). Gives the
+    /// same bits as [`Rows::run`]. Interrupted, the row means nothing.
+    fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row;
 }
 
 /// A model that turns design points into rows, with all that sweeps need to know of it.
@@ -51,20 +45,13 @@ pub trait Simulator: Rows {
     /// Published parameter sets.
     fn presets(&self) -> &'static [Preset];
 
-    /// Runs one point on scalars from rest, as [`Rows::run_point`] does. The default hears of an interrupt at the end
-    /// alone.
+    /// The row of a point from rest, see [`Rows::run_point`].
     ///
     /// # Errors
     /// [`Unfinished::Interrupted`]: there is no row then.
-    fn row(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        interrupted: Interrupt<'_>,
-    ) -> Result<Row, Unfinished> {
-        let row = self.run_point(set, solver, values, None);
-        if interrupted() { Err(Unfinished::Interrupted) } else { Ok(row) }
+    fn row(&self, run: &PointRun<'_>) -> Result<Row, Unfinished> {
+        let row = self.run_point(run, None);
+        if (run.interrupted)() { Err(Unfinished::Interrupted) } else { Ok(row) }
     }
 
     /// The face for motions of single points.
@@ -86,8 +73,7 @@ pub trait Simulator: Rows {
 
 /// Motions of single points under their own drive.
 ///
-/// Motions are computed on scalars, in the arithmetic class of `set`. Each method fails with
-/// [`Unfinished::Interrupted`] if `interrupted` says so, with [`Unfinished::Invalid`] if the values are impossible
+/// Motions are computed on scalars. Each method fails with [`Unfinished::Interrupted`] if the run is interrupted, with [`Unfinished::Invalid`] if the values are impossible
 /// together, with [`Unfinished::Request`] if the request is impossible, and with [`Unfinished::Diverged`] or
 /// [`Unfinished::StepLimit`] if the motion fails on the way.
 pub trait Motions: Sync {
@@ -95,28 +81,14 @@ pub trait Motions: Sync {
     ///
     /// # Errors
     /// As [`Motions`] says.
-    fn period(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        begin: &[f64],
-        interrupted: Interrupt<'_>,
-    ) -> Result<Period, Unfinished>;
+    fn period(&self, run: &PointRun<'_>, begin: &[f64]) -> Result<Period, Unfinished>;
 
     /// Samples the motion of one point, settled or from rest.
     ///
     /// # Errors
     /// As [`Motions`] says; [`Unfinished::NotPeriodic`] if a settled motion is asked for and there is none of one drive
     /// period.
-    fn trajectory(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        request: &TrajectoryRequest,
-        interrupted: Interrupt<'_>,
-    ) -> Result<Trajectory, Unfinished>;
+    fn trajectory(&self, run: &PointRun<'_>, request: &TrajectoryRequest) -> Result<Trajectory, Unfinished>;
 }
 
 /// Experiments on single points, with another drive or motion in place of the point's own.
@@ -127,27 +99,13 @@ pub trait Experiments: Sync {
     ///
     /// # Errors
     /// As [`Motions`] says.
-    fn chirp(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        request: &ChirpRequest,
-        interrupted: Interrupt<'_>,
-    ) -> Result<ChirpResponse, Unfinished>;
+    fn chirp(&self, run: &PointRun<'_>, request: &ChirpRequest) -> Result<ChirpResponse, Unfinished>;
 
     /// The free motion of one point after an impulse on the stroke, with the drive held still.
     ///
     /// # Errors
     /// As [`Motions`] says.
-    fn free_response(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        request: &ImpulseRequest,
-        interrupted: Interrupt<'_>,
-    ) -> Result<Trajectory, Unfinished>;
+    fn free_response(&self, run: &PointRun<'_>, request: &ImpulseRequest) -> Result<Trajectory, Unfinished>;
 
     /// States and signals along a given motion. Signals of the actuator are not numbers.
     ///

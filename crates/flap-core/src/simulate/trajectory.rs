@@ -4,7 +4,7 @@ use super::error::Unfinished;
 use super::request::{Trajectory, TrajectoryRequest};
 use super::sampler::sampled;
 use super::settle::{Settled, settle};
-use super::single::{Question, Single};
+use super::single::{PointRun, Question};
 use super::status::Status;
 use crate::model::Model;
 use crate::num::Scalar;
@@ -14,8 +14,8 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M,
 {
     type Answer = Result<Trajectory, Unfinished>;
 
-    fn answer<R: Scalar>(self, point: &Single<'_, M>) -> Result<Trajectory, Unfinished> {
-        let Single { model, solver, values, interrupted } = *point;
+    fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Trajectory, Unfinished> {
+        let PointRun { solver, values, interrupted, .. } = *run;
         let mut start = model.start(values)?;
         if self.settled {
             let Settled { search, row } = settle::<M, R, N, K, S>(model, solver, &start, false, interrupted);

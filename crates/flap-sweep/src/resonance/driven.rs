@@ -1,8 +1,7 @@
 //! The drive frequencies at which the settled stroke of one design is largest.
 
-use flap_core::num::InstructionSet;
 use flap_core::parameter::Invalid;
-use flap_core::simulate::{Interrupt, Point, Row, Simulator, SolverSettings, Status, Unfinished};
+use flap_core::simulate::{Interrupt, Point, PointRun, Row, Simulator, Status, Unfinished};
 
 use super::range::{Objective, Range};
 use super::search::{Found, Peaks, Search, Seen};
@@ -69,12 +68,10 @@ pub struct Gap {
 /// [`Unfinished::Interrupted`], or [`Unfinished::Invalid`] if the values are impossible together or the search is.
 pub fn search(
     model: &'static dyn Simulator,
-    set: InstructionSet,
-    solver: &SolverSettings,
-    values: &[f64],
+    run: &PointRun<'_>,
     search: &PeakSearch,
-    interrupted: Interrupt<'_>,
 ) -> Result<DrivenPeaks, Unfinished> {
+    let PointRun { backend, solver, values, interrupted } = *run;
     let PeakSearch { from, to, tolerance } = *search;
     if tolerance.is_nan() || tolerance <= 0.0 {
         let message = format!("a peak cannot be found to {tolerance} Hz, only to more than zero");
@@ -92,7 +89,7 @@ pub fn search(
     let pitch = pitch.ok_or_else(|| Invalid::new("the model measures no pitch"))?;
     let design = Search::new(&target, Point::at_rest(0, values.to_vec()), Peaks::ALL);
     let mut one = One { waiting: Some(design), ended: None, interrupted };
-    study::run_all(model, set, solver, &mut one);
+    study::run_all(model, backend, solver, &mut one);
     // A search that is interrupted never ends.
     let (found, seen) = one.ended.ok_or(Unfinished::Interrupted)?.into_peaks()?;
     Ok(peaks(&found, &seen, tolerance, [target.objective, pitch]))

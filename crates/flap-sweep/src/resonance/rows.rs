@@ -1,7 +1,7 @@
 //! Rows of designs that are each run at their own resonance.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Column, Jobs, Point, Row, Rows, Simulator, SolverSettings};
+use flap_core::simulate::{Column, Jobs, Point, PointRun, Row, Rows, Simulator, SolverSettings};
 
 use super::range::Range;
 use super::search::{Peaks, Search};
@@ -69,15 +69,10 @@ impl Rows for AtResonance {
     }
 
     /// A resonance is looked for from rest: `begin` does not matter.
-    fn run_point(
-        &self,
-        set: InstructionSet,
-        solver: &SolverSettings,
-        values: &[f64],
-        _begin: Option<&[f64]>,
-    ) -> Row {
-        let mut search = Search::new(&self.target, Point::at_rest(0, values.to_vec()), Peaks::HIGHEST);
-        study::run_one(self.target.model, set, solver, &mut search);
+    fn run_point(&self, run: &PointRun<'_>, _begin: Option<&[f64]>) -> Row {
+        let design = Point::at_rest(0, run.values.to_vec());
+        let mut search = Search::new(&self.target, design, Peaks::HIGHEST);
+        study::run_one(self.target.model, run.backend, run.solver, &mut search);
         search.into_row().1
     }
 }

@@ -3,8 +3,8 @@
 //! A study knows no threads and no lanes. Many studies are open at once, so that the lanes are full while each study waits
 //! for its own rows.
 
-use flap_core::num::InstructionSet;
-use flap_core::simulate::{Jobs, Point, Row, Rows, SolverSettings};
+use flap_core::num::{Backend, InstructionSet};
+use flap_core::simulate::{Jobs, Point, PointRun, Row, Rows, SolverSettings};
 
 /// Points that are run step by step.
 pub trait Study {
@@ -49,13 +49,15 @@ pub fn run_all(rows: &dyn Rows, set: InstructionSet, solver: &SolverSettings, de
 }
 
 /// Runs one study on scalars. Gives it the same bits as [`run_all`].
-pub fn run_one(rows: &dyn Rows, set: InstructionSet, solver: &SolverSettings, study: &mut impl Study) {
+pub fn run_one(rows: &dyn Rows, backend: Backend, solver: &SolverSettings, study: &mut impl Study) {
     loop {
         let probes = study.probes();
         if probes.is_empty() {
             return;
         }
-        let row = |probe: &Probe| rows.run_point(set, solver, &probe.values, probe.begin.as_deref());
+        let row = |probe: &Probe| {
+            rows.run_point(&PointRun::new(backend, solver, &probe.values), probe.begin.as_deref())
+        };
         let found = probes.iter().map(row).collect();
         study.take(found);
     }

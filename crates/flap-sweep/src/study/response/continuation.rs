@@ -6,7 +6,7 @@
 //! through the last two.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Interrupt, Period, Point, Row, SolverSettings, Status, Unfinished};
+use flap_core::simulate::{Interrupt, Period, Point, PointRun, Row, SolverSettings, Status, Unfinished};
 use nalgebra::{DMatrix, DVector};
 
 use super::compare::{Comparison, compare, sizes};
@@ -136,7 +136,10 @@ impl Branch<'_> {
     fn period(&self, place: &DVector<f64>) -> Result<Period, Unfinished> {
         let values = self.along.values_at(self.plan, self.design, self.value(place));
         let state = self.state(place);
-        self.plan.simulator().motions()?.period(self.set, &self.solver, &values, &state, self.interrupted)
+        self.plan
+            .simulator()
+            .motions()?
+            .period(&PointRun::new(self.set, &self.solver, &values).until(self.interrupted), &state)
     }
 
     /// The orbit nearest to `guess` on the plane through it across `direction`, by Newton's iteration.
