@@ -19,15 +19,12 @@ pub(crate) fn all() -> &'static [&'static dyn Simulator] {
 
 /// The model called `name`.
 pub(crate) fn by_name(name: &str) -> Option<&'static dyn Simulator> {
-    all().iter().copied().find(|model| model.name() == name)
+    simulate::find(all(), name)
 }
 
 /// The preset called `name`, with its model.
 pub(crate) fn preset(name: &str) -> Option<(&'static dyn Simulator, &'static Preset)> {
-    all().iter().find_map(|model| {
-        let preset = model.presets().iter().find(|preset| preset.name == name)?;
-        Some((*model, preset))
-    })
+    simulate::find_preset(all(), name)
 }
 
 /// The names of all presets.

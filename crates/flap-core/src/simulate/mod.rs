@@ -66,14 +66,27 @@ pub fn all() -> &'static [&'static dyn Simulator] {
     ALL
 }
 
-/// The model called `name`.
+/// The model of this crate called `name`.
 pub fn by_name(name: &str) -> Option<&'static dyn Simulator> {
-    all().iter().copied().find(|model| model.name() == name)
+    find(all(), name)
 }
 
-/// The preset called `name`, with the model it belongs to.
+/// The preset of this crate called `name`, with the model it belongs to.
 pub fn preset(name: &str) -> Option<(&'static dyn Simulator, &'static Preset)> {
-    all().iter().find_map(|&model| {
+    find_preset(all(), name)
+}
+
+/// The model called `name` among some.
+pub fn find(models: &[&'static dyn Simulator], name: &str) -> Option<&'static dyn Simulator> {
+    models.iter().copied().find(|model| model.name() == name)
+}
+
+/// The preset called `name` of some models, with the model it belongs to.
+pub fn find_preset(
+    models: &[&'static dyn Simulator],
+    name: &str,
+) -> Option<(&'static dyn Simulator, &'static Preset)> {
+    models.iter().find_map(|&model| {
         let preset = model.presets().iter().find(|preset| preset.name == name)?;
         Some((model, preset))
     })
