@@ -5,7 +5,9 @@ use std::io::ErrorKind;
 use flap_sweep::files::beside::sidecar_of;
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::integrity::Note;
-use flap_sweep::files::results::{Checksums, ConvertError, Converted, Format, Provenance, RowCheck, convert};
+use flap_sweep::files::results::{
+    Checksums, ConvertError, Converted, Format, Provenance, RowCheck, RowsError, convert,
+};
 use flap_sweep::files::sidecar::{Sidecar, State};
 
 use crate::args::ConvertArgs;
@@ -60,10 +62,13 @@ fn failure(args: &ConvertArgs, error: &ConvertError) -> Failure {
     match error {
         ConvertError::Write(source) if source.kind() == ErrorKind::BrokenPipe => Failure::ClosedPipe,
         ConvertError::Write(_) => Failure::System(format!("{}: {error}", args.to.display()), Vec::new()),
-        ConvertError::Read(_) | ConvertError::Columns(_) => {
+        ConvertError::Rows(RowsError::Read(source)) => {
+            Failure::System(format!("{}: cannot read rows: {source}", args.from.display()), Vec::new())
+        }
+        ConvertError::Rows(RowsError::Columns) => {
             Failure::System(format!("{}: {error}", args.from.display()), Vec::new())
         }
-        ConvertError::Rows(_) => {
+        ConvertError::Rows(RowsError::Row(_)) => {
             Failure::damaged(format!("{} is damaged: {error}", args.from.display())).help(IGNORE_HELP)
         }
     }

@@ -12,23 +12,14 @@ use crate::files::journal;
 #[derive(Debug, thiserror::Error)]
 pub enum CreateError {
     /// There is a file of that name.
-    #[error("{} exists already", path.display())]
-    Exists {
-        /// The file.
-        path: PathBuf,
-    },
+    #[error("{} exists already", .0.display())]
+    Exists(PathBuf),
     /// The file is the unfinished result of an interrupted sweep.
-    #[error("{} is the unfinished result of an interrupted sweep", path.display())]
-    Unfinished {
-        /// The file.
-        path: PathBuf,
-    },
+    #[error("{} is the unfinished result of an interrupted sweep", .0.display())]
+    Unfinished(PathBuf),
     /// Another process is writing to the file.
-    #[error("another run is writing to {}", path.display())]
-    Busy {
-        /// The file.
-        path: PathBuf,
-    },
+    #[error("another run is writing to {}", .0.display())]
+    Busy(PathBuf),
     /// The operating system refuses.
     #[error("cannot write {}: {source}", path.display())]
     Io {
@@ -59,10 +50,10 @@ pub fn create(path: &Path, overwrite: bool) -> Result<File, CreateError> {
     }
     lock(&file, path)?;
     if !overwrite && journal::read(&beside::journal_of(path)).map_err(refused)?.is_some() {
-        return Err(CreateError::Unfinished { path: path.to_owned() });
+        return Err(CreateError::Unfinished(path.to_owned()));
     }
     if file.metadata().map_err(refused)?.len() > 0 && !overwrite {
-        return Err(CreateError::Exists { path: path.to_owned() });
+        return Err(CreateError::Exists(path.to_owned()));
     }
     Ok(file)
 }
@@ -86,7 +77,7 @@ pub(crate) fn open_or_make(path: &Path) -> io::Result<File> {
 
 fn lock(file: &File, path: &Path) -> Result<(), CreateError> {
     match file.try_lock() {
-        Err(TryLockError::WouldBlock) => Err(CreateError::Busy { path: path.to_owned() }),
+        Err(TryLockError::WouldBlock) => Err(CreateError::Busy(path.to_owned())),
         // A file system without locks knows of no other run.
         Ok(()) | Err(TryLockError::Error(_)) => Ok(()),
     }

@@ -110,7 +110,7 @@ pub(super) fn read(
     let errors = match check(entry, names, problems) {
         Ok(Some(expression)) if expression.kind() != wanted => {
             let length = entry.value.get_ref().as_str().map_or(0, str::len);
-            vec![ExpressionError { span: 0..length, problem: Problem::Mismatch { wanted } }]
+            vec![ExpressionError { span: 0..length, problem: Problem::Mismatch(wanted) }]
         }
         Ok(expression) => return expression,
         Err(errors) => errors,

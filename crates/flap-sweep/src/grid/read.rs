@@ -17,17 +17,11 @@ pub const MOST_BYTES: u64 = 16 << 20;
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// There is no such file.
-    #[error("{}: there is no such file", path.display())]
-    Missing {
-        /// The path as given.
-        path: PathBuf,
-    },
+    #[error("{}: there is no such file", .0.display())]
+    Missing(PathBuf),
     /// The path is a folder.
-    #[error("{}: this is a folder, not a grid file", path.display())]
-    Folder {
-        /// The path as given.
-        path: PathBuf,
-    },
+    #[error("{}: this is a folder, not a grid file", .0.display())]
+    Folder(PathBuf),
     /// The file cannot be read.
     #[error("{}: cannot be read: {cause}", path.display())]
     Unreadable {
@@ -50,21 +44,15 @@ pub enum ReadError {
         column: usize,
     },
     /// The file holds results.
-    #[error("{}: this looks like results, not like a grid file", path.display())]
-    Results {
-        /// The path as given.
-        path: PathBuf,
-    },
+    #[error("{}: this looks like results, not like a grid file", .0.display())]
+    Results(PathBuf),
     /// The file is too large.
     #[error(
         "{}: the file has more than {} MiB, the most that a grid file may have",
-        path.display(),
+        .0.display(),
         MOST_BYTES >> 20
     )]
-    TooLarge {
-        /// The path as given.
-        path: PathBuf,
-    },
+    TooLarge(PathBuf),
     /// The text is not a proper grid: the mistakes, in the order of the file.
     #[error("{}", one_per_line(.0))]
     Grid(Mistakes),
@@ -74,7 +62,7 @@ impl ReadError {
     /// Advice, if there is any.
     pub fn help(&self) -> Option<String> {
         match self {
-            ReadError::Results { path } => Some(format!("did you mean `flap plot {}`?", path.display())),
+            ReadError::Results(path) => Some(format!("did you mean `flap plot {}`?", path.display())),
             ReadError::TooLarge { .. } => {
                 Some("put long lists of points into a CSV file: [sample] with `method = \"file\"`".to_owned())
             }
@@ -99,18 +87,18 @@ pub fn read(path: &Path, models: &[&'static dyn Simulator]) -> Result<Plan, Read
     let bytes = bytes(path).map_err(|cause| {
         let path = path.to_owned();
         match cause.kind() {
-            io::ErrorKind::NotFound => ReadError::Missing { path },
-            io::ErrorKind::IsADirectory => ReadError::Folder { path },
+            io::ErrorKind::NotFound => ReadError::Missing(path),
+            io::ErrorKind::IsADirectory => ReadError::Folder(path),
             // Not every system has an error of its own for reading a folder.
-            _ if path.is_dir() => ReadError::Folder { path },
+            _ if path.is_dir() => ReadError::Folder(path),
             _ => ReadError::Unreadable { path, cause },
         }
     })?;
     if looks_like_results(&bytes) {
-        return Err(ReadError::Results { path: path.to_owned() });
+        return Err(ReadError::Results(path.to_owned()));
     }
     if bytes.len() as u64 > MOST_BYTES {
-        return Err(ReadError::TooLarge { path: path.to_owned() });
+        return Err(ReadError::TooLarge(path.to_owned()));
     }
     let text = String::from_utf8(bytes).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();

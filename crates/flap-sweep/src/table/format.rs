@@ -26,11 +26,8 @@ pub enum FormatError {
         allowed: &'static str,
     },
     /// A format that this build leaves out.
-    #[error("{name}: this flap was built without Parquet")]
-    WithoutParquet {
-        /// The file.
-        name: String,
-    },
+    #[error("{0}: this flap was built without Parquet")]
+    WithoutParquet(String),
 }
 
 impl Format {
@@ -46,7 +43,7 @@ impl Format {
     pub fn of(path: &Path) -> Result<Format, FormatError> {
         match Format::named(path) {
             Some(Format::Parquet) if !cfg!(feature = "parquet") => {
-                Err(FormatError::WithoutParquet { name: path.display().to_string() })
+                Err(FormatError::WithoutParquet(path.display().to_string()))
             }
             Some(format) => Ok(format),
             None if is_stream(path) => Ok(Format::Csv),

@@ -3,33 +3,17 @@
 use std::fs::File;
 use std::io;
 
-use super::{Checked, Checksums, Format, Provenance, Reader, RowCheck, RowError, RowsError, Writer};
+use super::{Checked, Checksums, Format, Provenance, Reader, RowCheck, RowsError, Writer};
 
 /// Rows that cannot be converted.
 #[derive(Debug, thiserror::Error)]
 pub enum ConvertError {
-    /// They cannot be read.
-    #[error("cannot read rows: {0}")]
-    Read(#[source] io::Error),
-    /// The file has other columns than the plan.
+    /// They cannot be read, or are not those of the plan.
     #[error(transparent)]
-    Columns(RowsError),
-    /// They are not the rows of the plan.
-    #[error(transparent)]
-    Rows(RowError),
+    Rows(#[from] RowsError),
     /// They cannot be written.
     #[error("cannot write rows: {0}")]
     Write(#[from] io::Error),
-}
-
-impl From<RowsError> for ConvertError {
-    fn from(error: RowsError) -> ConvertError {
-        match error {
-            RowsError::Read(source) => ConvertError::Read(source),
-            RowsError::Columns => ConvertError::Columns(error),
-            RowsError::Row(error) => ConvertError::Rows(error),
-        }
-    }
 }
 
 /// The rows and the file that a conversion has written.
@@ -44,9 +28,7 @@ pub struct Converted {
 /// Writes the rows of `from` to `to`, which is empty. Rows of a tolerant reader that fail `check` are left out.
 ///
 /// # Errors
-/// - [`ConvertError::Read`] if `from` cannot be read
-/// - [`ConvertError::Columns`] if its columns are not those of the plan
-/// - [`ConvertError::Rows`] if a row fails `check`
+/// - [`ConvertError::Rows`] if `from` cannot be read, has other columns than the plan, or a row that fails `check`
 /// - [`ConvertError::Write`] if `to` cannot be written
 pub fn convert(
     from: &mut Reader,

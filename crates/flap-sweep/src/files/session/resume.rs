@@ -35,11 +35,8 @@ pub enum ResumeError {
     #[error(transparent)]
     Format(#[from] FormatError),
     /// There is nothing to resume.
-    #[error("{} has no journal: it is not the result of an interrupted sweep", path.display())]
-    NoJournal {
-        /// The results.
-        path: PathBuf,
-    },
+    #[error("{} has no journal: it is not the result of an interrupted sweep", .0.display())]
+    NoJournal(PathBuf),
     /// The remaining rows would differ from those of the earlier run.
     #[error("{} cannot be resumed: {}", path.display(), changes.join("; "))]
     Changed {
@@ -49,11 +46,8 @@ pub enum ResumeError {
         changes: Vec<String>,
     },
     /// Another program has written to the results.
-    #[error("{} cannot be resumed: it is not as the sweep left it", path.display())]
-    Altered {
-        /// The file with the rows.
-        path: PathBuf,
-    },
+    #[error("{} cannot be resumed: it is not as the sweep left it", .0.display())]
+    Altered(PathBuf),
 }
 
 impl Session {
@@ -71,7 +65,7 @@ impl Session {
         let results = output::reopen(path)?;
         let journal_path = journal_of(path);
         let past = journal::read(&journal_path).map_err(refused)?;
-        let past = past.ok_or_else(|| ResumeError::NoJournal { path: path.to_owned() })?;
+        let past = past.ok_or_else(|| ResumeError::NoJournal(path.to_owned()))?;
         let changes = past.header.identity.differences(&Identity::of(plan, &options.run));
         if !changes.is_empty() {
             return Err(ResumeError::Changed { path: path.to_owned(), changes });
@@ -84,7 +78,7 @@ impl Session {
         };
         let rows_file = rows_file.map_err(refused)?;
         let found = last_intact(&rows_file, &past).map_err(refused)?;
-        let found = found.ok_or_else(|| ResumeError::Altered { path: rows_path.clone() })?;
+        let found = found.ok_or_else(|| ResumeError::Altered(rows_path.clone()))?;
         let Intact { checkpoint, journal_bytes, hash, lost } = found;
         let cut = |mut file: &File| {
             file.set_len(checkpoint.bytes)?;

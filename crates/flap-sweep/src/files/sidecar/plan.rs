@@ -27,11 +27,8 @@ pub enum PlanError {
     #[error("its solver settings are not ones that a grid may have")]
     Solver,
     /// The file of points has changed.
-    #[error("{} no longer holds the points that were run", path.as_deref().unwrap_or("its file of points"))]
-    PointsFile {
-        /// The file, if the sidecar names one.
-        path: Option<String>,
-    },
+    #[error("{} no longer holds the points that were run", .0.as_deref().unwrap_or("its file of points"))]
+    PointsFile(Option<String>),
     /// The model has no parameter or no option of a name in it.
     #[error("its parameters are not those of its model")]
     Parameters,
@@ -55,7 +52,7 @@ impl Sidecar {
         let plan = plan.with_solver(self.solver).map_err(|_| PlanError::Solver)?;
         let points_file = self.points_file.as_ref();
         if plan.points_file().map(plan::PointsFile::hash) != points_file.map(|file| file.xxh3.clone()) {
-            return Err(PlanError::PointsFile { path: points_file.map(|file| file.path.clone()) });
+            return Err(PlanError::PointsFile(points_file.map(|file| file.path.clone())));
         }
         let plan = match &self.followed {
             Some(followed) => self.follow(followed, plan).ok_or(PlanError::Parameters)?,

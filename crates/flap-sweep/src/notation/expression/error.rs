@@ -16,47 +16,58 @@ pub struct ExpressionError {
     pub problem: Problem,
 }
 
+const IS_CONDITION: &str = "this is a condition, not a number";
+const IS_NUMBER: &str = "this is a number, not a condition";
+
 /// A mistake in an expression.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Problem {
     /// There is nothing.
+    #[error("the expression is empty")]
     Empty,
     /// A character that means nothing.
+    #[error("`{}` means nothing in an expression", .0.escape_debug())]
     Character(char),
     /// A number that is not one, such as `2x`.
+    #[error("`{0}` is not a number")]
     BadNumber(String),
     /// A number beyond the largest 64-bit float.
+    #[error("the number is too large for a 64-bit float")]
     TooLarge,
     /// Text without the quote that ends it.
+    #[error("a closing quote is missing")]
     OpenQuote,
     /// Something else should stand here.
+    #[error("expected {0}")]
     Expected(&'static str),
     /// An operator of other languages, with the one to write.
+    #[error("`{0}` is not an operator")]
     Foreign(&'static str, &'static str),
     /// A comparison of a comparison, such as `1 < x < 2`.
+    #[error("comparisons cannot be chained")]
     Chain,
-    /// A condition where there must be a number, or the other way round.
-    Mismatch {
-        /// The kind that there must be.
-        wanted: Kind,
-    },
+    /// A condition where there must be a number, or the other way round: the kind that there must be.
+    #[error("{}", if *.0 == Kind::Number { IS_CONDITION } else { IS_NUMBER })]
+    Mismatch(Kind),
     /// Parentheses and operators nested too deeply.
+    #[error("the expression is nested too deeply")]
     TooDeep,
     /// A name that stands for nothing.
+    #[error("unknown name `{name}`")]
     UnknownName {
         /// The name.
         name: String,
         /// The name that may have been meant.
         nearest: Option<String>,
     },
-    /// A function that does not exist.
-    UnknownFunction {
-        /// The name.
-        name: String,
-    },
+    /// A name of no function.
+    #[error("there is no function `{0}`")]
+    UnknownFunction(String),
     /// A function without its parentheses.
+    #[error("`{0}` is a function")]
     BareFunction(String),
     /// A function with too few or too many arguments.
+    #[error("`{name}` takes {takes}")]
     Arguments {
         /// The function.
         name: String,
@@ -64,6 +75,7 @@ pub enum Problem {
         takes: &'static str,
     },
     /// A choice where there must be a number.
+    #[error("`{name}` is a choice between options, not a number")]
     ChoiceAsNumber {
         /// The name.
         name: String,
@@ -71,6 +83,7 @@ pub enum Problem {
         options: &'static [&'static str],
     },
     /// A comparison of a choice with text that is none of its options.
+    #[error("`{name}` has no option `{option}`")]
     UnknownOption {
         /// The name.
         name: String,
@@ -80,6 +93,7 @@ pub enum Problem {
         options: &'static [&'static str],
     },
     /// A number that is not set and follows others.
+    #[error("`{name}` has no value of its own")]
     Unset {
         /// The name.
         name: String,
@@ -91,30 +105,7 @@ pub enum Problem {
 impl ExpressionError {
     /// The message.
     pub fn message(&self) -> String {
-        match &self.problem {
-            Problem::Empty => "the expression is empty".to_owned(),
-            Problem::Character(character) => {
-                format!("`{}` means nothing in an expression", character.escape_debug())
-            }
-            Problem::BadNumber(text) => format!("`{text}` is not a number"),
-            Problem::TooLarge => "the number is too large for a 64-bit float".to_owned(),
-            Problem::OpenQuote => "a closing quote is missing".to_owned(),
-            Problem::Expected(what) => format!("expected {what}"),
-            Problem::Foreign(written, _) => format!("`{written}` is not an operator"),
-            Problem::Chain => "comparisons cannot be chained".to_owned(),
-            Problem::Mismatch { wanted: Kind::Number } => "this is a condition, not a number".to_owned(),
-            Problem::Mismatch { wanted: Kind::Condition } => "this is a number, not a condition".to_owned(),
-            Problem::TooDeep => "the expression is nested too deeply".to_owned(),
-            Problem::UnknownName { name, .. } => format!("unknown name `{name}`"),
-            Problem::UnknownFunction { name } => format!("there is no function `{name}`"),
-            Problem::BareFunction(name) => format!("`{name}` is a function"),
-            Problem::Arguments { name, takes } => format!("`{name}` takes {takes}"),
-            Problem::ChoiceAsNumber { name, .. } => {
-                format!("`{name}` is a choice between options, not a number")
-            }
-            Problem::UnknownOption { name, option, .. } => format!("`{name}` has no option `{option}`"),
-            Problem::Unset { name, .. } => format!("`{name}` has no value of its own"),
-        }
+        self.problem.to_string()
     }
 
     /// Allowed forms or advice, if there are any.
@@ -129,14 +120,14 @@ impl ExpressionError {
             }
             Problem::Foreign(_, right) => Some(format!("write {right}")),
             Problem::Chain => Some("join two comparisons: 1 < x and x < 2".to_owned()),
-            Problem::Mismatch { wanted: Kind::Condition } => {
+            Problem::Mismatch(Kind::Condition) => {
                 Some("conditions compare numbers with < <= > >= == or !=".to_owned())
             }
             Problem::UnknownName { nearest, .. } => nearest.as_deref().map(did_you_mean),
-            Problem::UnknownFunction { name } if name == "log" => {
+            Problem::UnknownFunction(name) if name == "log" => {
                 Some("write ln for the natural logarithm, or log10".to_owned())
             }
-            Problem::UnknownFunction { name } => {
+            Problem::UnknownFunction(name) => {
                 let known: Vec<&str> = function::names().collect();
                 let listed = || format!("functions: {}", known.join(", "));
                 Some(nearest(name, known.iter().copied()).map_or_else(listed, did_you_mean))
@@ -161,7 +152,7 @@ impl ExpressionError {
             | Problem::TooLarge
             | Problem::OpenQuote
             | Problem::Expected(_)
-            | Problem::Mismatch { wanted: Kind::Number }
+            | Problem::Mismatch(Kind::Number)
             | Problem::TooDeep
             | Problem::Arguments { .. } => None,
         }

@@ -112,7 +112,7 @@ impl<'a> Parser<'a> {
     /// Notes if `operand` is not of the kind wanted.
     fn want(&mut self, wanted: Kind, operand: &Operand) {
         if operand.kind.is_some_and(|kind| kind != wanted) {
-            self.note(operand.span.clone(), Problem::Mismatch { wanted });
+            self.note(operand.span.clone(), Problem::Mismatch(wanted));
         }
     }
 
@@ -262,7 +262,7 @@ impl<'a> Parser<'a> {
     /// The function `name` of the arguments that follow in parentheses.
     fn call(&mut self, name: &str, span: Range<usize>) -> Result<Operand, ExpressionError> {
         let Some(function) = function::find(name) else {
-            let problem = Problem::UnknownFunction { name: name.to_owned() };
+            let problem = Problem::UnknownFunction(name.to_owned());
             return Err(ExpressionError { span, problem });
         };
         self.advance()?;

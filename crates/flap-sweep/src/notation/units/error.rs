@@ -42,10 +42,7 @@ pub enum Problem {
         usual: Vec<String>,
     },
     /// The unit is not put together properly.
-    BadUnit {
-        /// The text that should stand here.
-        expected: &'static str,
-    },
+    BadUnit(&'static str),
     /// The unit measures something else.
     Mismatch {
         /// The unit as written.
@@ -70,7 +67,7 @@ impl UnitError {
             Problem::TooSmall => format!("{what} is too small for a 64-bit float, but not zero"),
             Problem::NoUnit { .. } => format!("{what} is written as text but has no unit"),
             Problem::UnknownUnit { unit, .. } => format!("unknown unit `{unit}`"),
-            Problem::BadUnit { expected } => format!("malformed unit: expected {expected}"),
+            Problem::BadUnit(expected) => format!("malformed unit: expected {expected}"),
             Problem::Mismatch { unit, measures, wanted, .. } => {
                 let wanted =
                     if wanted.is_empty() { "a pure number".to_owned() } else { format!("in {wanted}") };
@@ -92,7 +89,7 @@ impl UnitError {
                 Some(format!("add a unit: {}; or write a bare number in {wanted}", usual.join(", ")))
             }
             Problem::UnknownUnit { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
-            Problem::BadUnit { .. } => Some("units look like V, N*m/rad, mm^2 or kg/(m*s)".to_owned()),
+            Problem::BadUnit(_) => Some("units look like V, N*m/rad, mm^2 or kg/(m*s)".to_owned()),
             Problem::UnknownUnit { usual, .. } | Problem::Mismatch { usual, .. } if usual.is_empty() => {
                 Some("write a bare number, or use %".to_owned())
             }

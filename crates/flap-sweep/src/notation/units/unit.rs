@@ -94,7 +94,7 @@ impl<'t> Reader<'t> {
     /// An error at the next character.
     fn expected(&self, expected: &'static str) -> UnitError {
         let length = self.rest().chars().next().map_or(0, char::len_utf8);
-        UnitError { span: self.at..self.at + length, problem: Problem::BadUnit { expected } }
+        UnitError { span: self.at..self.at + length, problem: Problem::BadUnit(expected) }
     }
 
     /// The sign of the powers that follow: `*` or `/`.
@@ -239,7 +239,7 @@ mod tests {
             ("V?", 1..2, "`*` or `/`"),
         ];
         for (text, span, expected) in cases {
-            let error = UnitError { span, problem: Problem::BadUnit { expected } };
+            let error = UnitError { span, problem: Problem::BadUnit(expected) };
             assert_eq!(parse(text), Err(error), "{text}");
         }
     }
