@@ -99,10 +99,6 @@ impl Sink for Watch {
         Ok(())
     }
 
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-
     fn finish(&mut self) -> io::Result<()> {
         self.finished = true;
         Ok(())

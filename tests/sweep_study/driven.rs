@@ -2,6 +2,7 @@
 
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{PointRun, SolverSettings, Status, Unfinished, preset};
+use flap_sweep::resonance::SearchError;
 use flap_sweep::resonance::driven::{DrivenPeaks, PeakSearch, search};
 
 /// The values of a preset with some of them set.
@@ -122,5 +123,5 @@ fn an_interrupted_search_says_so() {
     let values = values("ozaki2018-small", &[]);
     let found =
         search(model, &PointRun::new(InstructionSet::best(), &endless, &values).until(&|| true), &range);
-    assert_eq!(found.err(), Some(Unfinished::Interrupted));
+    assert_eq!(found.err(), Some(SearchError::Unfinished(Unfinished::Interrupted)));
 }

@@ -19,6 +19,7 @@ use flap_sweep::grid::ReadError;
 use flap_sweep::grid::diagnostic::{self, Mistakes};
 use flap_sweep::notation::text::shortened;
 use flap_sweep::plan::ChangeError;
+use flap_sweep::resonance::SearchError;
 use flap_sweep::run::RunError;
 
 use crate::console;
@@ -158,6 +159,12 @@ impl From<Invalid> for Failure {
 impl From<Unfinished> for Failure {
     fn from(unfinished: Unfinished) -> Failure {
         Failure::usage(unfinished.to_string())
+    }
+}
+
+impl From<SearchError> for Failure {
+    fn from(error: SearchError) -> Failure {
+        Failure::usage(error.to_string())
     }
 }
 

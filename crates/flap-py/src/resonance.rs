@@ -3,8 +3,10 @@
 use flap_core::modes::Mode;
 use flap_core::num::InstructionSet;
 use flap_core::resonance::free::{self, FreeRequest};
-use flap_core::simulate::{PointRun, Unfinished};
+use flap_core::simulate::PointRun;
+use flap_sweep::resonance::SearchError;
 use flap_sweep::resonance::driven::{self, PeakSearch};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList};
 
@@ -45,7 +47,7 @@ pub(crate) fn resonance<'py>(
         let run = PointRun::new(set, &solver, &values).until(interrupted);
         Ok((free::examine(experiments, &run, &request)?, driven::search(simulator, &run, &search)?))
     })?;
-    let (free, driven) = found.map_err(|reason: Unfinished| error::unfinished(&reason))?;
+    let (free, driven) = found.map_err(|reason: SearchError| PyValueError::new_err(reason.to_string()))?;
 
     let linear = modes.map(|Mode { name, frequency }| (name, frequency)).into_py_dict(py)?;
     let fit = free.fit.map(|fit| {

@@ -9,11 +9,13 @@ use crate::files::beside::temporary_of;
 /// A target of writing that can be made durable.
 pub trait Durable: Write {
     /// Waits until the bytes written are safe from a crash of the machine. Does nothing for a target that a crash
-    /// cannot harm.
+    /// cannot harm, which is the default.
     ///
     /// # Errors
     /// The error of the operating system.
-    fn sync(&self) -> io::Result<()>;
+    fn sync(&self) -> io::Result<()> {
+        Ok(())
+    }
 }
 
 impl Durable for File {
@@ -23,17 +25,9 @@ impl Durable for File {
     }
 }
 
-impl Durable for Stdout {
-    fn sync(&self) -> io::Result<()> {
-        Ok(())
-    }
-}
+impl Durable for Stdout {}
 
-impl Durable for Vec<u8> {
-    fn sync(&self) -> io::Result<()> {
-        Ok(())
-    }
-}
+impl Durable for Vec<u8> {}
 
 /// Makes the file at `path`, in place of an earlier one, once `write` has written all of it and it is durable.
 ///

@@ -54,8 +54,9 @@ impl Problems {
             self.only_counted += 1;
             return self.last.insert(Diagnostic { is_only_counted: true, ..diagnostic });
         }
+        let place = self.found.len();
         self.found.push(diagnostic);
-        self.found.last_mut().expect("one was just added")
+        &mut self.found[place]
     }
 
     /// The path of a file that the grid file names: relative to the folder of the grid file.

@@ -59,7 +59,7 @@ impl Axes {
         let Some(place) = self.axes.iter().position(alone) else { return (self, None) };
         let axis = self.axes.remove(place);
         let points = self.axes.iter().map(Axis::len).product();
-        let values = axis.into_parameters().next().map(|(_, values)| values);
+        let values = axis.parameters.into_iter().next().map(|(_, values)| values);
         (Axes { axes: self.axes, points }, values)
     }
 

@@ -69,7 +69,7 @@ impl Values {
     pub fn get(&self, index: u64) -> f64 {
         match *self {
             Values::List(ref list) | Values::Unchecked(ref list) => {
-                list[usize::try_from(index).expect("a list fits in memory")]
+                usize::try_from(index).map_or(f64::NAN, |index| list[index])
             }
             Values::Linear { from, to, count } => match index {
                 0 => from,
@@ -99,7 +99,7 @@ fn decimal(x: f64) -> f64 {
 /// One axis: one or more parameters that move together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    parameters: Vec<(usize, Values)>,
+    pub(super) parameters: Vec<(usize, Values)>,
 }
 
 impl Axis {
@@ -111,11 +111,6 @@ impl Axis {
     /// Indices into the model's parameter table, each with its values.
     pub fn parameters(&self) -> &[(usize, Values)] {
         &self.parameters
-    }
-
-    /// The indices with their values, by value.
-    pub(crate) fn into_parameters(self) -> impl Iterator<Item = (usize, Values)> {
-        self.parameters.into_iter()
     }
 
     /// Number of positions along the axis: the length of its shortest list of values.

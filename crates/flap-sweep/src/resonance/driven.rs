@@ -1,11 +1,11 @@
 //! The drive frequencies at which the settled stroke of one design is largest.
 
-use flap_core::parameter::Invalid;
-use flap_core::simulate::{Interrupt, Point, PointRun, Row, Simulator, Status, Unfinished};
+use flap_core::simulate::{Point, PointRun, Row, Simulator, Status, run_list};
 
+use super::error::SearchError;
 use super::range::{Objective, Range};
 use super::search::{Found, Peaks, Search, Seen};
-use super::study::{self, Desk};
+use super::study::Study as _;
 use super::target::{Target, has_prescribed_stroke};
 
 /// Most peaks that are reported.
@@ -65,57 +65,36 @@ pub struct Gap {
 /// motion from rest.
 ///
 /// # Errors
-/// [`Unfinished::Interrupted`], or [`Unfinished::Invalid`] if the values are impossible together or the search is.
+/// - [`SearchError::Unfinished`] if it is interrupted, or the values are impossible together
+/// - another [`SearchError`] if the search is impossible
 pub fn search(
     model: &'static dyn Simulator,
     run: &PointRun<'_>,
     search: &PeakSearch,
-) -> Result<DrivenPeaks, Unfinished> {
+) -> Result<DrivenPeaks, SearchError> {
     let PointRun { backend, solver, values, interrupted } = *run;
     let PeakSearch { from, to, tolerance } = *search;
     if tolerance.is_nan() || tolerance <= 0.0 {
-        let message = format!("a peak cannot be found to {tolerance} Hz, only to more than zero");
-        return Err(Invalid::new(message).into());
+        return Err(SearchError::Tolerance(tolerance));
     }
     if has_prescribed_stroke(model.parameters(), values) {
-        let message =
-            "stroke_mode is \"prescribed\": such a stroke is the same at every frequency, set it to free";
-        return Err(Invalid::new(message).into());
+        return Err(SearchError::Prescribed("set it to free"));
     }
     let range = Range { of: Objective::Stroke, from, to, tolerance };
     let target = Target::new(model, range)
-        .ok_or_else(|| Invalid::new("the model has no drive frequency or measures no stroke"))?;
+        .ok_or(SearchError::Model("has no drive frequency or measures no stroke"))?;
     let pitch = model.columns().iter().position(|column| column.name == "pitch_amplitude_deg");
-    let pitch = pitch.ok_or_else(|| Invalid::new("the model measures no pitch"))?;
-    let design = Search::new(&target, Point::at_rest(0, values.to_vec()), Peaks::ALL);
-    let mut one = One { waiting: Some(design), ended: None, interrupted };
-    study::run_all(model, backend, solver, &mut one);
-    // A search that is interrupted never ends.
-    let (found, seen) = one.ended.ok_or(Unfinished::Interrupted)?.into_peaks()?;
+    let pitch = pitch.ok_or(SearchError::Model("measures no pitch"))?;
+    let mut design = Search::new(&target, Point::at_rest(0, values.to_vec()), Peaks::ALL);
+    loop {
+        let probes = design.probes();
+        if probes.is_empty() {
+            break;
+        }
+        design.take(run_list(model, backend, solver, probes, interrupted)?);
+    }
+    let (found, seen) = design.into_peaks()?;
     Ok(peaks(&found, &seen, tolerance, [target.objective, pitch]))
-}
-
-/// A single search.
-struct One<'a> {
-    waiting: Option<Search<'a>>,
-    ended: Option<Search<'a>>,
-    interrupted: Interrupt<'a>,
-}
-
-impl<'a> Desk for One<'a> {
-    type Study = Search<'a>;
-
-    fn next(&mut self, _idle: bool) -> Option<Search<'a>> {
-        self.waiting.take()
-    }
-
-    fn done(&mut self, search: Search<'a>) {
-        self.ended = Some(search);
-    }
-
-    fn interrupted(&self) -> bool {
-        (self.interrupted)()
-    }
 }
 
 /// The peaks that were found, given the indices of the amplitudes of stroke and pitch among the measures.

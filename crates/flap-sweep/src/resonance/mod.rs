@@ -7,6 +7,7 @@
 //! - [`study`]: points of which each is chosen by the rows of earlier ones
 
 pub mod driven;
+mod error;
 mod maximum;
 mod range;
 mod rows;
@@ -14,6 +15,7 @@ mod search;
 pub mod study;
 mod target;
 
+pub use error::SearchError;
 pub use range::{Objective, Range};
 pub use rows::{AtResonance, RESONANCE_HZ, RESONANCE_MARGIN_HZ};
 pub use target::DRIVE_FREQUENCY;

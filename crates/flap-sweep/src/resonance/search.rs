@@ -5,11 +5,11 @@
 //! it is not what the search has seen there, the design has more than one orbit, and the peaks are located again with all
 //! probes from rest.
 
-use flap_core::parameter::Invalid;
-use flap_core::simulate::{Point, Row, Status, Unfinished};
+use flap_core::simulate::{Point, Row, Status};
 
+use super::error::SearchError;
 use super::maximum::Maximum;
-use super::study::{Probe, Study};
+use super::study::Study;
 use super::target::Target;
 
 /// Ratio of neighbouring frequencies of the grid, less one. A peak of quality Q is 1/Q wide.
@@ -50,7 +50,7 @@ pub(super) struct Search<'a> {
     point: Point,
     peaks: Peaks,
     /// Lowest and highest frequency (Hz), or the reason for which there is no search.
-    ends: Result<[f64; 2], Unfinished>,
+    ends: Result<[f64; 2], SearchError>,
     stage: Stage,
     /// All points that were run.
     seen: Vec<Seen>,
@@ -143,24 +143,25 @@ impl<'a> Search<'a> {
     /// that were run.
     ///
     /// # Errors
-    /// [`Unfinished::Invalid`] if there is no range or the design is impossible, [`Unfinished::NoExperiments`] if the model
-    /// has no natural frequencies to make a range of.
-    pub(super) fn into_peaks(self) -> Result<(Found, Vec<Seen>), Unfinished> {
+    /// - [`SearchError::Range`] or [`SearchError::Prescribed`] if there is no range
+    /// - [`SearchError::Design`] if the design is impossible
+    /// - [`SearchError::Unfinished`] if the model has no natural frequencies to make a range of
+    pub(super) fn into_peaks(self) -> Result<(Found, Vec<Seen>), SearchError> {
         let ends = self.ends?;
         let peaks = match self.stage {
             Stage::Done { tops } if !tops.is_empty() => tops.into_iter().zip(self.rows).collect(),
             _ => match self.rows.into_iter().find_map(|row| row.reason) {
-                Some(reason) => return Err(Invalid::new(reason).into()),
+                Some(reason) => return Err(SearchError::Design(reason)),
                 None => Vec::new(),
             },
         };
         Ok((Found { ends, peaks }, self.seen))
     }
 
-    fn probe(&self, frequency: f64, begin: Option<Vec<f64>>) -> Probe {
+    fn probe(&self, frequency: f64, begin: Option<Vec<f64>>) -> Point {
         let mut values = self.point.values.clone();
         values[self.target.frequency] = frequency;
-        Probe { values, begin }
+        Point { begin, ..Point::at_rest(0, values) }
     }
 
     /// The state on the orbit nearest in frequency.
@@ -267,7 +268,7 @@ impl<'a> Search<'a> {
 }
 
 impl Study for Search<'_> {
-    fn probes(&mut self) -> Vec<Probe> {
+    fn probes(&mut self) -> Vec<Point> {
         let from_rest = match self.stage {
             Stage::Grid => {
                 self.asked = self.grid();

@@ -8,20 +8,11 @@ use flap_core::simulate::{Jobs, Point, PointRun, Row, Rows, SolverSettings};
 
 /// Points that are run step by step.
 pub trait Study {
-    /// The points to run next; none if the study has ended. Called again when [`Study::take`] has had their rows.
-    fn probes(&mut self) -> Vec<Probe>;
+    /// The points to run next, whose indices do not matter; none if the study has ended. Called again when [`Study::take`] has had their rows.
+    fn probes(&mut self) -> Vec<Point>;
 
     /// Takes the rows of the latest probes, in their order.
     fn take(&mut self, rows: Vec<Row>);
-}
-
-/// A point to run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Probe {
-    /// One value per parameter of the model.
-    pub values: Vec<f64>,
-    /// The state from which the motion is followed, see [`Point::begin`].
-    pub begin: Option<Vec<f64>>,
 }
 
 /// The source of studies, which takes them back when they have ended.
@@ -55,7 +46,7 @@ pub fn run_one(rows: &dyn Rows, backend: Backend, solver: &SolverSettings, study
         if probes.is_empty() {
             return;
         }
-        let row = |probe: &Probe| {
+        let row = |probe: &Point| {
             rows.run_point(&PointRun::new(backend, solver, &probe.values), probe.begin.as_deref())
         };
         let found = probes.iter().map(row).collect();
@@ -73,7 +64,7 @@ struct Interleaved<'a, D: Desk> {
 struct Open<S> {
     study: S,
     /// Points that have not begun, the next one last, each with its place among the probes.
-    waiting: Vec<(usize, Probe)>,
+    waiting: Vec<(usize, Point)>,
     /// Rows of the probes, as far as they are here.
     rows: Vec<Option<Row>>,
     missing: usize,
@@ -101,7 +92,7 @@ impl<D: Desk> Interleaved<'_, D> {
         for (slot, open) in (0_u64..).zip(&mut self.open) {
             if let Some((place, probe)) = open.as_mut().and_then(|open| open.waiting.pop()) {
                 let index = slot * STRIDE + place as u64;
-                return Some(Point { index, values: probe.values, begin: probe.begin });
+                return Some(Point { index, ..probe });
             }
         }
         None

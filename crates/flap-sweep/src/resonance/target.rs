@@ -1,9 +1,11 @@
 //! The target of a search: a quantity of a model over its drive frequency.
 
-use flap_core::parameter::{Invalid, Kind, Parameter};
-use flap_core::simulate::{Simulator, Unfinished};
+use flap_core::parameter::Parameter;
+use flap_core::simulate::Simulator;
 
+use super::error::SearchError;
 use super::range::{Objective, Range};
+use crate::notation::text;
 
 /// The parameter that is searched for.
 pub const DRIVE_FREQUENCY: &str = "drive_frequency";
@@ -27,12 +29,10 @@ impl Target {
     }
 
     /// The frequencies (Hz) between which the resonance of a design is looked for.
-    pub(super) fn ends(&self, values: &[f64]) -> Result<[f64; 2], Unfinished> {
+    pub(super) fn ends(&self, values: &[f64]) -> Result<[f64; 2], SearchError> {
         let Range { of, from, to, .. } = self.range;
         if of == Objective::Stroke && has_prescribed_stroke(self.model.parameters(), values) {
-            return Err(Invalid::new(
-                "stroke_mode is \"prescribed\": such a stroke is the same at every frequency, and has no resonance",
-            ).into());
+            return Err(SearchError::Prescribed("and has no resonance"));
         }
         let [from, to] = match (from, to) {
             (Some(from), Some(to)) => [from, to],
@@ -46,21 +46,14 @@ impl Target {
                 [from.unwrap_or(lowest), to.unwrap_or(highest)]
             }
         };
-        if from > 0.0 && from < to && to.is_finite() {
-            return Ok([from, to]);
-        }
-        Err(Invalid::new(format!(
-            "there are no drive frequencies from {from} to {to} Hz: the first must be more than zero, and less than the \
-             last"
-        )).into())
+        let is_range = from > 0.0 && from < to && to.is_finite();
+        if is_range { Ok([from, to]) } else { Err(SearchError::Range { from, to }) }
     }
 }
 
 /// True if the stroke of a point is prescribed, and so the same at every frequency.
 pub(super) fn has_prescribed_stroke(parameters: &[Parameter], values: &[f64]) -> bool {
     parameters.iter().zip(values).any(|(parameter, &value)| {
-        let Kind::Choice(options) = parameter.kind else { return false };
-        let option = (0_u32..).map(f64::from).zip(options).find(|(index, _)| *index == value);
-        parameter.name == "stroke_mode" && option.is_some_and(|(_, option)| *option == "prescribed")
+        parameter.name == "stroke_mode" && text::option(parameter, value) == Some("prescribed")
     })
 }

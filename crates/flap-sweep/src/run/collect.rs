@@ -2,7 +2,7 @@
 
 use super::error::RunError;
 use super::progress::Progress;
-use super::queue::{Queue, Turn};
+use super::queue::Queue;
 
 /// Hands the outcomes of units to `take` until the workers have ended.
 pub(super) fn collect<T>(
@@ -13,7 +13,7 @@ pub(super) fn collect<T>(
 ) -> Result<(), RunError> {
     let _ends_the_workers = Abort(queue);
     let mut batch = Vec::new();
-    while let Turn::Outcomes(finished) = queue.turn(&mut batch) {
+    while let Some(finished) = queue.turn(&mut batch) {
         if !batch.is_empty() {
             take(&mut batch)?;
             batch.clear();

@@ -50,14 +50,6 @@ struct State<T> {
     failure: Option<RunError>,
 }
 
-/// The result of a look of the collector.
-pub(super) enum Turn {
-    /// Outcomes to write, or none for now, with the number of units that have run.
-    Outcomes(u64),
-    /// All workers have ended and every outcome that could be written was taken.
-    End,
-}
-
 impl<'a, T> Queue<'a, T> {
     /// The queue of `units`, of which at most `window` are run ahead of the last one written.
     pub(super) fn new(
@@ -139,8 +131,9 @@ impl<'a, T> Queue<'a, T> {
     }
 
     /// Notes that the outcomes of the last turn are written, and waits for more, not longer than one turn.
-    /// `batch` must be empty.
-    pub(super) fn turn(&self, batch: &mut Vec<T>) -> Turn {
+    /// `batch` must be empty. Returns the number of units that have run; `None` if all workers have ended and every outcome
+    /// that could be written was taken.
+    pub(super) fn turn(&self, batch: &mut Vec<T>) -> Option<u64> {
         let mut state = self.lock();
         state.window.mark_written();
         if self.stop.load(Ordering::Relaxed)
@@ -155,9 +148,9 @@ impl<'a, T> Queue<'a, T> {
         }
         state.window.take(batch, MOST_AT_ONCE);
         if batch.is_empty() && state.workers == 0 {
-            return Turn::End;
+            return None;
         }
-        Turn::Outcomes(state.window.finished())
+        Some(state.window.finished())
     }
 
     /// The first failure of a worker.

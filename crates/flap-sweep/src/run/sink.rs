@@ -9,11 +9,13 @@ use crate::table::layout::Cell;
 ///
 /// Calls come as `begin`, then any number of `write`, `done` and `flush`, then `finish`; nothing comes after an error.
 pub trait Sink {
-    /// Writes the header.
+    /// Writes the header, if the sink has one.
     ///
     /// # Errors
     /// If it cannot be written.
-    fn begin(&mut self) -> io::Result<()>;
+    fn begin(&mut self) -> io::Result<()> {
+        Ok(())
+    }
 
     /// Takes the next row: one cell per column.
     ///
@@ -32,15 +34,19 @@ pub trait Sink {
     }
 
     /// Hands the rows so far to the operating system, so that a killed process loses little. Called after every batch of
-    /// rows, several times a second.
+    /// rows, several times a second. Does nothing for a sink in memory.
     ///
     /// # Errors
     /// If the rows cannot be written.
-    fn flush(&mut self) -> io::Result<()>;
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
 
-    /// Completes the output and makes it durable.
+    /// Completes the output and makes it durable. Does nothing for a sink in memory.
     ///
     /// # Errors
     /// If the rows cannot be written.
-    fn finish(&mut self) -> io::Result<()>;
+    fn finish(&mut self) -> io::Result<()> {
+        Ok(())
+    }
 }

@@ -8,6 +8,7 @@ use super::{Followed, Sidecar};
 use crate::grid;
 use crate::grid::diagnostic::Mistakes;
 use crate::notation::text;
+use crate::notation::value::{self, UnitOf};
 use crate::plan::selection;
 use crate::plan::{self, Along, Plan};
 
@@ -88,12 +89,10 @@ impl Sidecar {
 }
 
 /// The value of a parameter in a sidecar: a number, or the name of an option.
-fn number(parameter: &Parameter, value: &Value) -> Option<f64> {
-    match (value, &parameter.kind) {
+fn number(parameter: &Parameter, recorded: &Value) -> Option<f64> {
+    match (recorded, &parameter.kind) {
         (Value::Float(number), _) => Some(*number),
-        (Value::String(option), Kind::Choice(options)) => {
-            (0_u32..).zip(*options).find(|(_, known)| *known == option).map(|(index, _)| f64::from(index))
-        }
+        (Value::String(option), Kind::Choice(_)) => value::of_text(parameter, option, UnitOf::Text).ok(),
         _ => None,
     }
 }

@@ -8,7 +8,7 @@ use flap_core::simulate::{Point, Row, Status};
 use super::compare::{Comparison, compare, sizes};
 use super::curve::{Curve, Step};
 use crate::plan::{Along, Plan};
-use crate::resonance::study::{Probe, Study};
+use crate::resonance::study::Study;
 
 /// A curve that is being followed.
 pub(super) struct Follow<'a> {
@@ -54,7 +54,7 @@ impl<'a> Follow<'a> {
     }
 
     /// The point at `value`, begun where the motion of `from` has ended.
-    fn probe(&self, value: f64, from: Option<&Step>) -> Probe {
+    fn probe(&self, value: f64, from: Option<&Step>) -> Point {
         let values = self.along.values_at(self.plan, &self.design, value);
         let begin = from.and_then(|step| match step.row.status {
             Status::Periodic | Status::Unstable | Status::Subharmonic | Status::Unsettled => {
@@ -62,7 +62,7 @@ impl<'a> Follow<'a> {
             }
             Status::Diverged | Status::StepLimit | Status::Invalid => None,
         });
-        Probe { values, begin: begin.filter(|state| !state.is_empty()) }
+        Point { begin: begin.filter(|state| !state.is_empty()), ..Point::at_rest(0, values) }
     }
 
     /// The values of the next step up and down; `None` after the last.
@@ -118,7 +118,7 @@ impl Edge {
 }
 
 impl Study for Follow<'_> {
-    fn probes(&mut self) -> Vec<Probe> {
+    fn probes(&mut self) -> Vec<Point> {
         match &self.stage {
             Stage::Steps => {
                 let Some([up, down]) = self.next_values() else { return Vec::new() };
