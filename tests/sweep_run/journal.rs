@@ -8,7 +8,7 @@ use std::time::Duration;
 use flap_sweep::files::beside::journal_of;
 use flap_sweep::files::journal::{self, Checkpoint, Header, Journal};
 use flap_sweep::files::output;
-use flap_sweep::files::results::Format;
+use flap_sweep::files::results::{FileSum, Format};
 use flap_sweep::files::session::{ResumeError, Resumed, Session, SessionOptions};
 use flap_sweep::grid;
 use flap_sweep::plan::Plan;
@@ -222,7 +222,8 @@ fn checkpoints_read_back() {
     summary.invalid[1].1 = "two\nlines".to_owned();
     let header = Header::new("2026-01-02".to_owned(), Identity::of(&plan, &options(2, 100)));
     let mut journal = Journal::create(&path, &header).unwrap();
-    let checkpoint = Checkpoint::new(&summary, 12_345, 0xfeed, 1.5);
+    let checkpoint =
+        Checkpoint::new(&summary, FileSum { bytes: 12_345, xxh3: "000000000000feed".to_owned() }, 1.5);
     journal.add(&checkpoint).unwrap();
     let past = journal::read(&path).unwrap().unwrap();
     assert_eq!(past.header, header);

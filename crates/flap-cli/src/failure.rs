@@ -12,11 +12,13 @@ use flap_sweep::files::integrity::OpenError;
 use flap_sweep::files::job::{self, JobError};
 use flap_sweep::files::merge::MergeError;
 use flap_sweep::files::output::CreateError;
+use flap_sweep::files::record::RecordError;
 use flap_sweep::files::results::FormatError;
 use flap_sweep::files::session::ResumeError;
 use flap_sweep::files::sidecar;
 use flap_sweep::grid::ReadError;
 use flap_sweep::grid::diagnostic::{self, Mistakes};
+use flap_sweep::notation::nearest;
 use flap_sweep::notation::text::shortened;
 use flap_sweep::plan::ChangeError;
 use flap_sweep::resonance::SearchError;
@@ -101,6 +103,19 @@ impl Failure {
         self
     }
 
+    /// Adds the one of `names` that may have been meant by `name`, or else the line `otherwise`.
+    pub(crate) fn nearest<'n>(
+        self,
+        name: &str,
+        names: impl IntoIterator<Item = &'n str>,
+        otherwise: &str,
+    ) -> Failure {
+        match nearest(name, names) {
+            Some(nearest) => self.help(format!("did you mean `{nearest}`?")),
+            None => self.help(otherwise),
+        }
+    }
+
     /// Prints the failure to stderr and gives the exit code.
     pub(crate) fn report(self) -> Exit {
         match self {
@@ -150,23 +165,18 @@ impl From<io::Error> for Failure {
     }
 }
 
-impl From<Invalid> for Failure {
-    fn from(invalid: Invalid) -> Failure {
-        Failure::usage(invalid.to_string())
-    }
+/// Errors that a user can mend, and whose own words say how.
+macro_rules! usage {
+    ($($error:ty),*) => {
+        $(impl From<$error> for Failure {
+            fn from(error: $error) -> Failure {
+                Failure::usage(error.to_string())
+            }
+        })*
+    };
 }
 
-impl From<Unfinished> for Failure {
-    fn from(unfinished: Unfinished) -> Failure {
-        Failure::usage(unfinished.to_string())
-    }
-}
-
-impl From<SearchError> for Failure {
-    fn from(error: SearchError) -> Failure {
-        Failure::usage(error.to_string())
-    }
-}
+usage!(ChangeError, FormatError, Invalid, RecordError, SearchError, Unfinished);
 
 impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Failure {
@@ -219,18 +229,6 @@ impl From<OpenError> for Failure {
 impl From<Overlap> for Failure {
     fn from(error: Overlap) -> Failure {
         Failure::usage(error.to_string()).help("inputs are never overwritten: name another file")
-    }
-}
-
-impl From<ChangeError> for Failure {
-    fn from(error: ChangeError) -> Failure {
-        Failure::usage(error.to_string())
-    }
-}
-
-impl From<FormatError> for Failure {
-    fn from(error: FormatError) -> Failure {
-        Failure::usage(error.to_string())
     }
 }
 

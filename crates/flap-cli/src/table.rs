@@ -1,10 +1,16 @@
 //! Text in aligned columns.
 
+use flap_core::parameter::Parameter;
 use flap_sweep::notation::text;
 
 /// The number with six digits, for people to read.
 pub(crate) fn six_digits(number: f64) -> String {
     format!("{number:.5e}").parse().map_or_else(|_| String::new(), text::float)
+}
+
+/// A parameter with its value and unit, such as `drive_frequency = 120.0 Hz`.
+pub(crate) fn assignment(parameter: &Parameter, value: f64) -> String {
+    format!("{} = {} {}", parameter.name, text::value(parameter, value), parameter.unit).trim_end().to_owned()
 }
 
 /// Rows of cells, aligned on the left. A row may have fewer cells than others.

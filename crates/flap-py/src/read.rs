@@ -116,7 +116,7 @@ fn inside(reader: &Reader) -> Option<Origin> {
     let recorded = Recorded::of(reader.entries())?;
     let plan = recorded.plan(simulate::all())?;
     let [flap, build, arithmetic] =
-        [recorded.flap(), recorded.build(), recorded.arithmetic()].map(str::to_owned);
+        ["flap", "flap.build", "flap.arithmetic"].map(|key| recorded.text(key).to_owned());
     Some(Origin { plan, flap, build, arithmetic })
 }
 

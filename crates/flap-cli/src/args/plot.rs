@@ -90,14 +90,8 @@ pub(crate) enum PictureKind {
 
 impl PictureKind {
     /// The name on the command line.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            PictureKind::Response => "response",
-            PictureKind::Map => "map",
-            PictureKind::Pareto => "pareto",
-            PictureKind::Trajectory => "trajectory",
-            PictureKind::Hysteresis => "hysteresis",
-        }
+    pub(crate) fn name(self) -> String {
+        self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
     }
 }
 

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 use flap_core::parameter::Parameter;
-use flap_core::simulate::{Point, SolverSettings};
+use flap_core::simulate::SolverSettings;
 use flap_sweep::grid;
 use flap_sweep::notation::text;
 use flap_sweep::plan::axis::Values;
@@ -22,7 +22,7 @@ use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::job::exclusion;
 use crate::models;
-use crate::table::Table;
+use crate::table::{self, Table};
 
 pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
     let plan = Arc::new(grid::read(&args.grid, models::all())?);
@@ -168,7 +168,7 @@ fn ends(plan: &Plan) -> String {
     for (which, index) in [("first", 0), ("last", plan.len() - 1)] {
         let point = plan.point(index);
         let shown = plan.differing();
-        let shown = shown.map(|parameter| assignment(&plan.parameters()[parameter], parameter, &point));
+        let shown = shown.map(|index| table::assignment(&plan.parameters()[index], point.values[index]));
         let verdict = match plan.judge(&point.values) {
             Verdict::Runs => String::new(),
             Verdict::Excluded(_) => " (excluded)".to_owned(),
@@ -177,12 +177,6 @@ fn ends(plan: &Plan) -> String {
         let _ = writeln!(text, "{which} point, {index}: {}{verdict}", shown.collect::<Vec<_>>().join(", "));
     }
     text
-}
-
-fn assignment(parameter: &Parameter, index: usize, point: &Point) -> String {
-    let text =
-        format!("{} = {} {}", parameter.name, text::value(parameter, point.values[index]), parameter.unit);
-    text.trim_end().to_owned()
 }
 
 /// The search range of the drive frequency.

@@ -2,7 +2,6 @@
 
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::Simulator;
-use flap_sweep::notation::nearest;
 use flap_sweep::notation::text;
 
 use crate::args::ParamsArgs;
@@ -67,8 +66,5 @@ fn columns(model: &dyn Simulator) -> String {
 fn unknown(name: &str) -> Failure {
     let names = models::all().iter().map(|model| model.name()).chain(models::presets());
     let failure = Failure::usage(format!("there is no model or preset `{name}`"));
-    match nearest(name, names) {
-        Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
-        None => failure.help("`flap models` lists models and presets"),
-    }
+    failure.nearest(name, names, "`flap models` lists models and presets")
 }

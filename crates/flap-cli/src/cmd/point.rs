@@ -6,7 +6,6 @@ use flap_core::num::InstructionSet;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, Rows, Simulator};
 use flap_sweep::grid;
-use flap_sweep::notation::nearest;
 use flap_sweep::notation::value::{self, UnitOf, ValueError};
 use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
@@ -116,10 +115,7 @@ pub(super) fn plan(what: &str) -> Result<Plan, Failure> {
         return Ok(grid::read(path, models::all())?);
     }
     let failure = Failure::usage(format!("there is no preset and no file `{what}`"));
-    Err(match nearest(what, models::presets()) {
-        Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
-        None => failure.help("`flap models` lists models and presets"),
-    })
+    Err(failure.nearest(what, models::presets(), "`flap models` lists models and presets"))
 }
 
 /// The plan with the settings of the command line over those of the grid file.
@@ -139,11 +135,9 @@ pub(super) fn with_solver(plan: Plan, args: &SolverArgs) -> Result<Plan, Failure
 /// The index of the parameter called `name`.
 pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usize, Failure> {
     parameters.iter().position(|parameter| parameter.name == name).ok_or_else(|| {
+        let names = parameters.iter().map(|parameter| parameter.name);
         let failure = Failure::usage(format!("there is no parameter `{name}`"));
-        match nearest(name, parameters.iter().map(|parameter| parameter.name)) {
-            Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
-            None => failure.help("`flap params` lists the parameters of a model"),
-        }
+        failure.nearest(name, names, "`flap params` lists the parameters of a model")
     })
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use flap_core::drive::{Repeat, Samples};
-use flap_sweep::files::record::{self, Record, RecordError};
+use flap_sweep::files::record::{self, Record};
 
 use super::point::Chosen;
 use crate::args::RunArgs;
@@ -47,10 +47,4 @@ pub(super) fn column(
 ) -> Result<Samples, Failure> {
     let samples = Samples::new(&record.column(record::TIME)?, &record.column(names)?, repeat);
     samples.map_err(|invalid| Failure::usage(format!("{}: {invalid}", path.display())))
-}
-
-impl From<RecordError> for Failure {
-    fn from(error: RecordError) -> Failure {
-        Failure::usage(error.to_string())
-    }
 }

@@ -2,9 +2,10 @@
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::Point;
-use flap_sweep::notation::text;
 use flap_sweep::plan::Plan;
 use flap_sweep::study::response::{Curve, Verdict};
+
+use crate::table::assignment;
 
 /// The lines of curves.
 pub(crate) struct Verdicts<'a> {
@@ -32,11 +33,7 @@ impl<'a> Verdicts<'a> {
 
     /// The parameters that tell a design from others.
     fn design(&self, design: &Point) -> String {
-        let assignment = |index: usize| {
-            let parameter = &self.plan.parameters()[index];
-            let value = text::value(parameter, design.values[index]);
-            format!("{} = {value} {}", parameter.name, parameter.unit).trim_end().to_owned()
-        };
+        let assignment = |index: usize| assignment(&self.plan.parameters()[index], design.values[index]);
         self.plan.axes().varied().map(assignment).collect::<Vec<_>>().join(", ")
     }
 }

@@ -27,13 +27,13 @@ const USUAL: [&str; 9] = [
 pub(super) struct Wishes<'a> {
     args: &'a PlotArgs,
     names: Vec<String>,
-    x: Option<usize>,
-    y: Option<usize>,
+    pub(super) x: Option<usize>,
+    pub(super) y: Option<usize>,
     by: Option<usize>,
     color: Option<usize>,
     filters: Vec<usize>,
     /// The end of the leading parameters: the place of `status`, or of `branch`.
-    end: usize,
+    pub(super) end: usize,
 }
 
 impl<'a> Wishes<'a> {
@@ -119,21 +119,6 @@ impl<'a> Wishes<'a> {
         let aim =
             |asked: Option<Aim>, column: usize| asked.unwrap_or_else(|| pareto::aim(&self.names[column]));
         (aim(self.args.x_aim, columns.x), aim(self.args.y_aim, columns.y))
-    }
-
-    /// The column that is asked for as x.
-    pub(super) fn x(&self) -> Option<usize> {
-        self.x
-    }
-
-    /// The column that is asked for as y.
-    pub(super) fn y(&self) -> Option<usize> {
-        self.y
-    }
-
-    /// The end of the leading parameters among the columns.
-    pub(super) fn end(&self) -> usize {
-        self.end
     }
 
     /// The column with the branch of each row of `flap respond`.

@@ -27,7 +27,7 @@ pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String
     let source = Source::open(args, tells)?;
     let wishes = Wishes::of(&source, args)?;
     let table = source.read(|_| true, MOST_ROWS)?;
-    let axes = Axes::of(&table, wishes.end());
+    let axes = Axes::of(&table, wishes.end);
     let start = start(&wishes, &table, &axes, args)?;
     if table.of > table.rows {
         console::say(&format!("{} of {} rows are in the page, evenly chosen", table.rows, table.of));
@@ -63,8 +63,8 @@ fn start(wishes: &Wishes, table: &Table, axes: &Axes, args: &PlotArgs) -> Result
         Err(failure) if args.kind.is_some() => return Err(failure),
         Err(_) => {
             let numbers = || (0..table.columns.len()).filter(|&column| table.numbers(column).is_ok());
-            let x = wishes.x().or(numbers().next());
-            let y = wishes.y().or(numbers().nth(1)).or(x);
+            let x = wishes.x.or(numbers().next());
+            let y = wishes.y.or(numbers().nth(1)).or(x);
             let (Some(x), Some(y)) = (x, y) else {
                 return Err(Failure::usage("no column of the file holds numbers"));
             };

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::files::results::FileSum;
 use crate::files::tallies::{self, InvalidPoint};
-use crate::notation::text;
 use crate::run::identity::Identity;
 use crate::run::{Doubts, Summary};
 
@@ -65,9 +65,8 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// The checkpoint behind the rows that `summary` counts: `bytes` of the file, with the XXH3 `digest`, after `seconds` of
-    /// running.
-    pub fn new(summary: &Summary, bytes: u64, digest: u64, seconds: f64) -> Checkpoint {
+    /// The checkpoint behind the rows that `summary` counts, in a `file` of these bytes, after `seconds` of running.
+    pub fn new(summary: &Summary, file: FileSum, seconds: f64) -> Checkpoint {
         let mut statuses = tallies::by_name(&summary.counts);
         statuses.retain(|_, count| *count > 0);
         // A checkpoint is one line, and so are reasons.
@@ -80,8 +79,8 @@ impl Checkpoint {
             ran: Some(summary.ran),
             begun: summary.begun,
             excluded: summary.excluded,
-            bytes,
-            xxh3: text::digits(digest),
+            bytes: file.bytes,
+            xxh3: file.xxh3,
             seconds,
             cycles: summary.cycles,
             rhs_evals: summary.rhs_evals,

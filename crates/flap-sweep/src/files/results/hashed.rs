@@ -26,19 +26,9 @@ impl Hashed {
         Hashed { file, hash, bytes }
     }
 
-    /// Number of bytes in the file.
-    pub(super) fn bytes(&self) -> u64 {
-        self.bytes
-    }
-
-    /// XXH3 of these bytes.
-    pub(super) fn digest(&self) -> u64 {
-        self.hash.digest()
-    }
-
-    /// Both, in the form that sidecars record.
+    /// Number and checksum of the bytes in the file.
     pub(super) fn sum(&self) -> FileSum {
-        FileSum { bytes: self.bytes, xxh3: digits(self.digest()) }
+        FileSum { bytes: self.bytes, xxh3: digits(self.hash.digest()) }
     }
 }
 

@@ -20,21 +20,6 @@ impl<'a> Recorded<'a> {
         entries.contains_key("flap").then_some(Recorded(entries))
     }
 
-    /// The version of flap that made the rows.
-    pub fn flap(&self) -> &'a str {
-        self.text("flap")
-    }
-
-    /// The build of flap that made the rows; empty in files of early versions.
-    pub fn build(&self) -> &'a str {
-        self.text("flap.build")
-    }
-
-    /// The class of arithmetic of the rows.
-    pub fn arithmetic(&self) -> &'a str {
-        self.text("flap.arithmetic")
-    }
-
     /// The unit of each column that has one.
     pub fn units(&self) -> BTreeMap<String, String> {
         toml::from_str(self.text("flap.units")).unwrap_or_default()
@@ -50,7 +35,8 @@ impl<'a> Recorded<'a> {
         (points.as_deref() == self.0.get("flap.points_file").copied()).then_some(plan)
     }
 
-    fn text(&self, key: &str) -> &'a str {
+    /// The entry `key`, such as `flap.build`; empty if there is none, as in files of early versions.
+    pub fn text(&self, key: &str) -> &'a str {
         self.0.get(key).copied().unwrap_or_default()
     }
 }

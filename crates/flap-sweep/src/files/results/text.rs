@@ -24,15 +24,6 @@ pub struct TextRows {
     rows_in_block: u32,
 }
 
-/// The part of a file that is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Extent {
-    /// Number of bytes from the beginning of the file.
-    pub(crate) bytes: u64,
-    /// XXH3 of these bytes.
-    pub(crate) digest: u64,
-}
-
 impl TextRows {
     /// Writes to `file`, which is empty.
     ///
@@ -120,9 +111,8 @@ impl TextRows {
     }
 
     /// The part of the file that is written; all rows are in it after [`TextRows::flush`] where the file may be cut.
-    pub(crate) fn extent(&self) -> Extent {
-        let frames = self.lines.target();
-        Extent { bytes: frames.file.bytes(), digest: frames.file.digest() }
+    pub(crate) fn extent(&self) -> FileSum {
+        self.lines.target().file.sum()
     }
 
     /// The checksums of all rows after [`TextRows::finish`], with that of the file they were written to, or `file` if they

@@ -123,8 +123,7 @@ impl Session {
         disk::check_in_place(&self.results, &self.path)?;
         disk::check_in_place(self.rows.file(), &self.rows_path(false))?;
         self.rows.file().sync_data()?;
-        let extent = self.rows.extent();
-        self.journal.add(&Checkpoint::new(so_far, extent.bytes, extent.digest, self.seconds()))?;
+        self.journal.add(&Checkpoint::new(so_far, self.rows.extent(), self.seconds()))?;
         self.last_checkpoint = Instant::now();
         Ok(())
     }

@@ -12,8 +12,6 @@ use super::super::axes::Placed;
 use super::super::params::Lookup;
 use super::super::table::{self, Entry};
 use super::super::value::text as text_of;
-use crate::grid::diagnostic::Diagnostic;
-use crate::notation::nearest;
 use crate::notation::units;
 use crate::notation::value::{self, UnitOf};
 use crate::plan::axis::{Axis, Values};
@@ -141,11 +139,10 @@ fn heading<'t>(
     let known = lookup.simulator.parameters();
     let Some(index) = known.iter().position(|parameter| parameter.name == name) else {
         let message = format!("model `{}` has no parameter `{name}`", lookup.simulator.name());
-        let diagnostic: &mut Diagnostic = lookup.problems.report_in(source, span.clone(), message);
-        match nearest(name, known.iter().map(|parameter| parameter.name)) {
-            Some(nearest) => diagnostic.help(format!("did you mean `{nearest}`?")),
-            None => diagnostic.help("the first line names the parameters; `flap params` lists them"),
-        };
+        let diagnostic = lookup.problems.report_in(source, span.clone(), message);
+        if diagnostic.did_you_mean(name, known.iter().map(|parameter| parameter.name)).help.is_empty() {
+            diagnostic.help("the first line names the parameters; `flap params` lists them");
+        }
         return None;
     };
     let parameter = &known[index];
