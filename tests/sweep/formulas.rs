@@ -1,9 +1,8 @@
 //! Derived parameters, conditions and measures of one's own.
 
 use flap_core::parameter::Invalid;
-use flap_sweep::notation::expression::Kind;
 use flap_sweep::plan::Verdict;
-use flap_sweep::table::layout::Layout;
+use flap_sweep::table::layout::{Kind, Layout};
 
 use crate::fake::{index, plan};
 
@@ -136,14 +135,12 @@ both = "feasible and arms == 'printed'"
     assert!(none.is_empty());
 
     let layout = Layout::of(&plan);
-    let kinds: Vec<(&str, Kind)> =
-        layout.measures[3..].iter().map(|measure| (measure.name.as_str(), measure.kind)).collect();
-    let expected = [
-        ("ratio", Kind::Number),
-        ("feasible", Kind::Condition),
-        ("per_area", Kind::Number),
-        ("both", Kind::Condition),
-    ];
+    let kinds: Vec<(&str, Kind)> = layout.measures[3..]
+        .iter()
+        .map(|measure| (measure.column.name.as_str(), measure.column.kind))
+        .collect();
+    let expected =
+        [("ratio", Kind::Number), ("feasible", Kind::Flag), ("per_area", Kind::Number), ("both", Kind::Flag)];
     assert_eq!(kinds, expected);
 }
 
@@ -155,6 +152,6 @@ fn own_measures_can_be_selected() {
     );
     let layout = Layout::of(&plan);
     let found: Vec<(&str, usize)> =
-        layout.measures.iter().map(|measure| (measure.name.as_str(), measure.index)).collect();
+        layout.measures.iter().map(|measure| (measure.column.name.as_str(), measure.index)).collect();
     assert_eq!(found, [("b", 4), ("lift_mean_mn", 0), ("a", 3)]);
 }

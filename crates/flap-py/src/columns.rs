@@ -34,24 +34,20 @@ impl Data {
         }
     }
 
-    fn push_text(&mut self, word: &str) {
-        if let Data::Text(places, words) = self {
-            // Columns of text have few different words.
-            let place = words.iter().position(|known| known == word).unwrap_or_else(|| {
-                words.push(word.to_owned());
-                words.len() - 1
-            });
-            places.push(u32::try_from(place).unwrap_or(u32::MAX));
-        }
-    }
-
     /// Adds a cell, which must be of the column's kind.
     fn push(&mut self, cell: Cell) {
         match (self, cell) {
             (Data::Whole(cells), Cell::Whole(cell)) => cells.push(cell),
             (Data::Number(cells), Cell::Number(cell)) => cells.push(cell),
             (Data::Flag(cells), Cell::Flag(cell)) => cells.push(cell.map_or(-1, i8::from)),
-            (data @ Data::Text(..), Cell::Text(word)) => data.push_text(word),
+            (Data::Text(places, words), Cell::Text(word)) => {
+                // Columns of text have few different words.
+                let place = words.iter().position(|known| known == word).unwrap_or_else(|| {
+                    words.push(word.to_owned());
+                    words.len() - 1
+                });
+                places.push(u32::try_from(place).unwrap_or(u32::MAX));
+            }
             _ => debug_assert!(false, "a cell of another kind than its column"),
         }
     }
@@ -76,25 +72,8 @@ impl Columns {
 
     /// Adds a row out of a file. Gives the column whose cell does not fit.
     pub(crate) fn push_record<'a>(&mut self, cells: impl Iterator<Item = &'a str>) -> Result<(), &str> {
-        for ((column, data), cell) in self.columns.iter_mut().zip(cells) {
-            let known = (!cell.is_empty()).then_some(cell);
-            let fits = match data {
-                Data::Whole(cells) => cell.parse().map(|cell| cells.push(cell)).is_ok(),
-                Data::Number(cells) => {
-                    known.map_or(Ok(f64::NAN), str::parse).map(|cell| cells.push(cell)).is_ok()
-                }
-                Data::Flag(cells) => {
-                    let flag = known.map_or(Ok(-1), |cell| cell.parse::<bool>().map(i8::from));
-                    flag.map(|flag| cells.push(flag)).is_ok()
-                }
-                Data::Text(..) => {
-                    data.push_text(cell);
-                    true
-                }
-            };
-            if !fits {
-                return Err(&column.name);
-            }
+        for ((column, data), text) in self.columns.iter_mut().zip(cells) {
+            data.push(Cell::parse(column.kind, text).ok_or(column.name.as_str())?);
         }
         Ok(())
     }

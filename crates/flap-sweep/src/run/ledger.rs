@@ -52,7 +52,7 @@ impl<'a> Ledger<'a> {
     pub(crate) fn unit<'r>(
         &mut self,
         index: u64,
-        rows: impl IntoIterator<Item = (Vec<Cell>, &'r Row)>,
+        rows: impl IntoIterator<Item = (Vec<Cell<'static>>, &'r Row)>,
     ) -> io::Result<()> {
         let written = usize::try_from(self.summary.begun).unwrap_or(usize::MAX);
         let mut rows = rows.into_iter().skip(written).peekable();

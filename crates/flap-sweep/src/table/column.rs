@@ -46,7 +46,7 @@ impl Column {
 
 /// The entry of a row in a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cell {
+pub enum Cell<'t> {
     /// A whole number.
     Whole(u64),
     /// A number; NaN if it is not known.
@@ -54,11 +54,22 @@ pub enum Cell {
     /// True or false; `None` if it is not known.
     Flag(Option<bool>),
     /// A word.
-    Text(&'static str),
+    Text(&'t str),
 }
 
-impl Cell {
-    pub(crate) fn of_parameter(parameter: &Parameter, value: f64) -> Cell {
+impl<'t> Cell<'t> {
+    pub(crate) fn of_parameter(parameter: &Parameter, value: f64) -> Cell<'static> {
         text::option(parameter, value).map_or(Cell::Number(value), Cell::Text)
+    }
+
+    /// The cell of a column of this `kind` from its text in a result file; `None` if that does not belong there.
+    pub fn parse(kind: Kind, text: &'t str) -> Option<Cell<'t>> {
+        let is_unknown = text.is_empty();
+        Some(match kind {
+            Kind::Whole => Cell::Whole(text.parse().ok()?),
+            Kind::Number => Cell::Number(if is_unknown { f64::NAN } else { text.parse().ok()? }),
+            Kind::Flag => Cell::Flag(if is_unknown { None } else { Some(text.parse().ok()?) }),
+            Kind::Text => Cell::Text(text),
+        })
     }
 }

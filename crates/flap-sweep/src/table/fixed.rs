@@ -10,7 +10,7 @@ pub(crate) struct Fixed {
     pub(crate) name: &'static str,
     pub(super) kind: Kind,
     pub(super) doc: &'static str,
-    pub(super) cell: fn(&Point, &Row) -> Cell,
+    pub(super) cell: fn(&Point, &Row) -> Cell<'static>,
 }
 
 /// The columns that every result file has: `point` first, `status` before the measures, the others behind them.

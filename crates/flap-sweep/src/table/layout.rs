@@ -31,14 +31,8 @@ pub type Place = (&'static str, f64);
 pub struct Measure {
     /// Index in the measures of a row: the model's columns, then the plan's own.
     pub index: usize,
-    /// Name with its unit.
-    pub name: String,
-    /// The unit in words.
-    pub unit: &'static str,
-    /// One line of meaning.
-    pub doc: String,
-    /// A number, or true or false: then 1 stands for true and 0 for false.
-    pub kind: expression::Kind,
+    /// The column. In a row's measures, 1 stands for true and 0 for false.
+    pub column: Column,
 }
 
 impl Measure {
@@ -54,22 +48,14 @@ impl Layout {
         let parameters = plan.parameters();
         let varied = plan.differing().map(|index| (index, &parameters[index])).collect();
         let columns = plan.rows().columns();
-        let models = columns.iter().map(|column| Measure {
-            index: 0,
-            name: column.name.clone(),
-            unit: column.unit,
-            doc: column.doc.clone(),
-            kind: expression::Kind::Number,
+        let models =
+            columns.iter().map(|column| Column::new(&column.name, column.unit, Kind::Number, &column.doc));
+        let own = plan.measures().iter().map(|own| {
+            let kind = if own.kind() == expression::Kind::Number { Kind::Number } else { Kind::Flag };
+            Column::new(&own.name, "", kind, "[measure] in the grid file")
         });
-        let own = plan.measures().iter().map(|own| Measure {
-            index: 0,
-            name: own.name.clone(),
-            unit: "",
-            doc: "[measure] in the grid file".to_owned(),
-            kind: own.kind(),
-        });
-        let all: Vec<Measure> =
-            models.chain(own).enumerate().map(|(index, measure)| Measure { index, ..measure }).collect();
+        let measures = models.chain(own).enumerate();
+        let all: Vec<Measure> = measures.map(|(index, column)| Measure { index, column }).collect();
         let measures = match &plan.output().columns {
             Some(chosen) => chosen.iter().map(|&index| all[index].clone()).collect(),
             None => all,
@@ -90,12 +76,12 @@ impl Layout {
 
     /// One cell per column. Unknown values are empty: the measures of a point that is not periodic,
     /// the multiplier and stability of one without an orbit, and the residual of one that completed no period.
-    pub fn cells(&self, point: &Point, row: &Row) -> Vec<Cell> {
+    pub fn cells(&self, point: &Point, row: &Row) -> Vec<Cell<'static>> {
         self.cells_at(point, None, row)
     }
 
     /// The cells of a motion on a curve of the design `point`, as [`Layout::cells`] gives those of a point.
-    pub fn cells_at(&self, point: &Point, place: Option<Place>, row: &Row) -> Vec<Cell> {
+    pub fn cells_at(&self, point: &Point, place: Option<Place>, row: &Row) -> Vec<Cell<'static>> {
         // A curve has two columns more.
         let mut cells = Vec::with_capacity(FIXED.len() + 2 + self.varied.len() + self.measures.len());
         cells.extend(self.entries().map(|entry| entry.cell(point, place, row)));
@@ -139,17 +125,11 @@ impl Entry<'_> {
                 let doc = "the way that the motion is on: up, down, or unstable between the two";
                 Column::new("branch", "", Kind::Text, doc)
             }
-            Entry::Measure(measure) => {
-                let kind = match measure.kind {
-                    expression::Kind::Number => Kind::Number,
-                    expression::Kind::Condition => Kind::Flag,
-                };
-                Column::new(&measure.name, measure.unit, kind, &measure.doc)
-            }
+            Entry::Measure(measure) => measure.column.clone(),
         }
     }
 
-    fn cell(&self, point: &Point, place: Option<Place>, row: &Row) -> Cell {
+    fn cell(&self, point: &Point, place: Option<Place>, row: &Row) -> Cell<'static> {
         match self {
             Entry::Fixed(fixed) => (fixed.cell)(point, row),
             Entry::Parameter(index, parameter) => Cell::of_parameter(parameter, point.values[*index]),
@@ -157,9 +137,9 @@ impl Entry<'_> {
             Entry::Followed(_) => Cell::Number(place.map_or(f64::NAN, |(_, value)| value)),
             Entry::Measure(measure) => {
                 let value = measure.value(&row.measures);
-                match measure.kind {
-                    expression::Kind::Number => Cell::Number(value),
-                    expression::Kind::Condition => Cell::Flag((!value.is_nan()).then_some(value != 0.0)),
+                match measure.column.kind {
+                    Kind::Flag => Cell::Flag((!value.is_nan()).then_some(value != 0.0)),
+                    _ => Cell::Number(value),
                 }
             }
         }

@@ -5,7 +5,7 @@ use flap_core::simulate::Status;
 
 use crate::plan::Plan;
 use crate::plan::selection::Selection;
-use crate::table::layout::{Column, Kind, Layout};
+use crate::table::layout::{Cell, Column, Layout};
 
 /// A check of rows in their order.
 pub struct RowCheck {
@@ -136,7 +136,7 @@ impl RowCheck {
             return Err(RowError::Width { row, cells: cells.len(), columns });
         }
         for (column, cell) in self.columns.iter().zip(cells) {
-            if !cell.is_empty() && !is_of_kind(cell, column.kind) {
+            if !cell.is_empty() && Cell::parse(column.kind, cell).is_none() {
                 let (cell, column) = (cell.to_owned(), column.name.clone());
                 return Err(RowError::Cell { row, cell, column });
             }
@@ -183,14 +183,5 @@ impl RowCheck {
             Selection::Shard(shard) => shard.contains(point).then(|| point / shard.of()),
             Selection::Listed(list) => list.binary_search(&point).ok().map(|position| position as u64),
         }
-    }
-}
-
-fn is_of_kind(cell: &str, kind: Kind) -> bool {
-    match kind {
-        Kind::Whole => cell.parse::<u64>().is_ok(),
-        Kind::Number => cell.parse::<f64>().is_ok(),
-        Kind::Flag => cell.parse::<bool>().is_ok(),
-        Kind::Text => true,
     }
 }

@@ -45,7 +45,7 @@ impl Curve {
 
     /// The motions with their cells under the columns of `layout`: the way up, by rising value, then the way down, by falling
     /// value, then the unstable orbits.
-    pub fn rows(&self, layout: &Layout) -> impl Iterator<Item = (Vec<Cell>, &Row)> {
+    pub fn rows(&self, layout: &Layout) -> impl Iterator<Item = (Vec<Cell<'static>>, &Row)> {
         let up = self.up.iter().map(|step| ("up", step));
         let down = self.down.iter().rev().map(|step| ("down", step));
         let unstable = self.unstable.iter().map(|step| ("unstable", step));

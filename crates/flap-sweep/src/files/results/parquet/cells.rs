@@ -12,11 +12,11 @@ use parquet::file::properties::WriterPropertiesPtr;
 use parquet::schema::types::{ColumnDescPtr, Type};
 
 use super::pages::Pages;
-use crate::table::layout::{Column, Kind};
+use crate::table::layout::{Cell, Column, Kind};
 
 /// The cells of one column in the row group that is being filled.
 pub(super) struct Cells {
-    name: String,
+    column: Column,
     values: Values,
     /// One per row: 1 for a value, 0 for null.
     levels: Vec<i16>,
@@ -52,7 +52,7 @@ impl Cells {
             Kind::Flag => Values::Flag(Vec::new()),
             Kind::Text => Values::Text(Vec::new()),
         };
-        Cells { name: column.name.clone(), values, levels: Vec::new() }
+        Cells { column: column.clone(), values, levels: Vec::new() }
     }
 
     /// Adds a cell; an empty one is null.
@@ -61,58 +61,47 @@ impl Cells {
         if cell.is_empty() {
             return Ok(());
         }
-        let fits = match &mut self.values {
+        match (Cell::parse(self.column.kind, cell), &mut self.values) {
             // Parquet keeps the bits of an unsigned number in a signed one.
-            Values::Whole(values) => {
-                cell.parse::<u64>().map(|value| values.push(value.cast_signed())).is_ok()
+            (Some(Cell::Whole(value)), Values::Whole(values)) => values.push(value.cast_signed()),
+            (Some(Cell::Number(value)), Values::Number(values)) => values.push(value),
+            (Some(Cell::Flag(Some(value))), Values::Flag(values)) => values.push(value),
+            (Some(Cell::Text(value)), Values::Text(values)) => values.push(ByteArray::from(value)),
+            _ => {
+                let message = format!("`{cell}` does not belong into column {}", self.column.name);
+                return Err(io::Error::new(io::ErrorKind::InvalidData, message));
             }
-            Values::Number(values) => cell.parse().map(|value| values.push(value)).is_ok(),
-            Values::Flag(values) => cell.parse().map(|value| values.push(value)).is_ok(),
-            Values::Text(values) => {
-                values.push(ByteArray::from(cell));
-                true
-            }
-        };
-        if fits {
-            return Ok(());
         }
-        let message = format!("`{cell}` does not belong into column {}", self.name);
-        Err(io::Error::new(io::ErrorKind::InvalidData, message))
+        Ok(())
     }
 
-    /// The cells as pages, and their entry in the index of the file.
-    pub(super) fn chunk(
-        &self,
+    /// Takes the cells out as pages, with their entry in the index of the file.
+    pub(super) fn take(
+        &mut self,
         descriptor: &ColumnDescPtr,
         properties: &WriterPropertiesPtr,
     ) -> Result<(Bytes, ColumnCloseResult), ParquetError> {
         let mut pages = Vec::new();
         let writer =
             get_column_writer(Arc::clone(descriptor), Arc::clone(properties), Box::new(Pages(&mut pages)));
-        let levels = &self.levels;
-        let closed = match (writer, &self.values) {
-            (ColumnWriter::Int64ColumnWriter(writer), Values::Whole(values)) => write(writer, values, levels),
+        let none = Cells::new(&self.column);
+        let Cells { column, values, levels } = std::mem::replace(self, none);
+        let closed = match (writer, values) {
+            (ColumnWriter::Int64ColumnWriter(writer), Values::Whole(values)) => {
+                write(writer, &values, &levels)
+            }
             (ColumnWriter::DoubleColumnWriter(writer), Values::Number(values)) => {
-                write(writer, values, levels)
+                write(writer, &values, &levels)
             }
-            (ColumnWriter::BoolColumnWriter(writer), Values::Flag(values)) => write(writer, values, levels),
+            (ColumnWriter::BoolColumnWriter(writer), Values::Flag(values)) => write(writer, &values, &levels),
             (ColumnWriter::ByteArrayColumnWriter(writer), Values::Text(values)) => {
-                write(writer, values, levels)
+                write(writer, &values, &levels)
             }
-            _ => Err(ParquetError::General(format!("column {} is of another type in the schema", self.name))),
+            _ => {
+                Err(ParquetError::General(format!("column {} is of another type in the schema", column.name)))
+            }
         }?;
         Ok((Bytes::from(pages), closed))
-    }
-
-    /// Drops all cells.
-    pub(super) fn clear(&mut self) {
-        self.levels.clear();
-        match &mut self.values {
-            Values::Whole(values) => values.clear(),
-            Values::Number(values) => values.clear(),
-            Values::Flag(values) => values.clear(),
-            Values::Text(values) => values.clear(),
-        }
     }
 }
 

@@ -88,9 +88,8 @@ impl ParquetRows {
         let schema = self.writer.schema_descr().clone();
         let mut group = self.writer.next_row_group().map_err(io_error)?;
         for (column, descriptor) in self.columns.iter_mut().zip(schema.columns()) {
-            let (pages, closed) = column.chunk(descriptor, &properties).map_err(io_error)?;
+            let (pages, closed) = column.take(descriptor, &properties).map_err(io_error)?;
             group.append_column(&pages, closed).map_err(io_error)?;
-            column.clear();
         }
         group.close().map_err(io_error)?;
         self.rows = 0;
