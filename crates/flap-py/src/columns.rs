@@ -4,7 +4,7 @@ use std::io;
 
 use flap_sweep::run::Summary;
 use flap_sweep::run::sink::Sink;
-use flap_sweep::table::layout::{Cell, Column, Kind};
+use flap_sweep::table::layout::{self, Cell, Column, Kind};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList};
@@ -51,6 +51,11 @@ impl Data {
             _ => debug_assert!(false, "a cell of another kind than its column"),
         }
     }
+}
+
+/// A column of which only the name tells something.
+pub(crate) fn named(name: &str, kind: Kind) -> Column {
+    Column { name: name.to_owned(), unit: layout::split_unit(name).1, kind, doc: String::new() }
 }
 
 impl Columns {

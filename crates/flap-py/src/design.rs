@@ -35,6 +35,13 @@ pub(crate) fn plan_of_model(
     set(with_solver(plan, &solver)?, &keywords).map(Some)
 }
 
+/// The plan of a preset's one point with keywords on top.
+pub(crate) fn point(preset: &Bound<'_, PyAny>, keywords: &Bound<'_, PyDict>) -> PyResult<Plan> {
+    let (solver, keywords) = Keywords::take(Some(keywords))?;
+    let plan = of_preset(preset.py(), parameters::find_preset(preset)?.1.name)?;
+    Ok(set(with_solver(plan, &solver)?, &keywords)?.0)
+}
+
 fn of_preset(py: Python<'_>, preset: &str) -> PyResult<Plan> {
     let text = format!("preset = \"{preset}\"\n");
     flap_sweep::grid::parse(preset, &text, simulate::all())
@@ -62,21 +69,21 @@ fn set(mut plan: Plan, keywords: &[Keyword<'_>]) -> PyResult<(Plan, Vec<usize>)>
     for (name, value) in keywords {
         let index = parameters::index(plan.simulator(), name)?;
         let value = parameters::value_of(&plan.parameters()[index], value)?;
-        plan = plan.with_parameter(index, value).map_err(|error| refused(name, &error))?;
+        plan = plan.with_parameter(index, value).map_err(|error| refused("set here", &error))?;
         indices.push(index);
     }
     Ok((plan, indices))
 }
 
-/// The exception for a keyword called `name` that a plan does not take.
-fn refused(name: &str, error: &ChangeError) -> PyErr {
+/// The exception for a change that a plan does not take, of a parameter that is `given` so, such as "set here".
+pub(crate) fn refused(given: &str, error: &ChangeError) -> PyErr {
     PyValueError::new_err(match error {
-        ChangeError::Varied(_) | ChangeError::Derived(_) => {
-            format!("`{name}` is set here, and the grid varies or derives it: keep one of them")
+        ChangeError::Varied(name) | ChangeError::Derived(name) => {
+            format!("`{name}` is {given}, and the grid varies or derives it: keep one of them")
         }
-        ChangeError::Resonance(_) => {
+        ChangeError::Resonance(name) => {
             format!(
-                "`{name}` is set here, and the grid runs each design at its own resonance: keep one of them"
+                "`{name}` is {given}, and the grid runs each design at its own resonance: keep one of them"
             )
         }
         other => other.to_string(),

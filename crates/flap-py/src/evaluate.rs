@@ -81,15 +81,7 @@ fn refused(model: &str, error: &ChangeError) -> PyErr {
             "model `{model}` has no values of its own: give {} too, or start from a preset",
             names.join(", ")
         ),
-        ChangeError::Varied(name) | ChangeError::Derived(name) => {
-            format!("`{name}` is a column, and the grid varies or derives it: keep one of them")
-        }
-        ChangeError::Resonance(name) => {
-            format!(
-                "`{name}` is a column, and the grid runs each design at its own resonance: keep one of them"
-            )
-        }
         ChangeError::TooManyPoints(_) => "too many points".to_owned(),
-        other => other.to_string(),
+        other => return design::refused("a column", other),
     })
 }

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyString;
 
 use crate::convert;
-use crate::solver::{self, Keyword};
+use crate::solver;
 
 /// The names of all presets, in the order of the models.
 pub(crate) fn preset_names() -> Vec<&'static str> {
@@ -33,15 +33,6 @@ pub(crate) fn find_preset(name: &Bound<'_, PyAny>) -> PyResult<(&'static dyn Sim
 pub(crate) fn index(simulator: &dyn Simulator, name: &str) -> PyResult<usize> {
     let index = simulator.parameters().iter().position(|parameter| parameter.name == name);
     index.ok_or_else(|| unknown_parameter(simulator, name))
-}
-
-/// Puts the parameters given as keywords over `values`.
-pub(crate) fn apply(simulator: &dyn Simulator, values: &mut [f64], keywords: &[Keyword<'_>]) -> PyResult<()> {
-    for (name, value) in keywords {
-        let index = index(simulator, name)?;
-        values[index] = value_of(&simulator.parameters()[index], value)?;
-    }
-    Ok(())
 }
 
 /// The value of `parameter` in a design point: a number in SI units, or the index of an option.

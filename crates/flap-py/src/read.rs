@@ -10,12 +10,12 @@ use flap_sweep::files::results::{Reader, Recorded, RowCheck};
 use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::plan::Plan;
 use flap_sweep::run::RunOptions;
-use flap_sweep::table::layout::{self, Column, Kind, Layout};
+use flap_sweep::table::layout::{Column, Kind, Layout};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::columns::Columns;
+use crate::columns::{self, Columns};
 use crate::{error, grid, sweep};
 
 /// Reads a result file; see `flapwing.read`.
@@ -132,13 +132,8 @@ fn guess(reader: &mut Reader) -> std::io::Result<Vec<Column>> {
             }
         }
     }
-    let column = |(name, kind): (&String, Option<Kind>)| Column {
-        name: name.clone(),
-        unit: layout::split_unit(name).1,
-        kind: kind.unwrap_or(Kind::Number),
-        doc: String::new(),
-    };
-    Ok(reader.names().iter().zip(kinds).map(column).collect())
+    let columns = reader.names().iter().zip(kinds);
+    Ok(columns.map(|(name, kind)| columns::named(name, kind.unwrap_or(Kind::Number))).collect())
 }
 
 fn kind_of(cell: &str) -> Kind {

@@ -10,9 +10,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList};
 
-use crate::run::DesignPoint;
 use crate::watch::interruptible;
-use crate::{convert, error};
+use crate::{convert, design, error};
 
 /// Samples of a free motion per period of the first mode.
 const SAMPLES: u32 = 200;
@@ -32,7 +31,8 @@ pub(crate) fn resonance<'py>(
     fit_cycles: &Bound<'py, PyAny>,
     spectrum_window: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let DesignPoint { simulator, solver, values } = DesignPoint::new(preset, keywords)?;
+    let plan = design::point(preset, keywords)?;
+    let (simulator, solver, values) = (plan.simulator(), plan.solver(), plan.point(0).values);
     let request = FreeRequest {
         amplitude: impulse.to_radians(),
         fit_cycles: convert::count("fit_cycles", fit_cycles)?,
@@ -44,7 +44,7 @@ pub(crate) fn resonance<'py>(
     let modes = experiments.modes(&values).map_err(|reason| error::unfinished(&reason))?;
     let search = PeakSearch { from: start, to: stop, tolerance };
     let found = interruptible(py, |interrupted| {
-        let run = PointRun::new(set, &solver, &values).until(interrupted);
+        let run = PointRun::new(set, solver, &values).until(interrupted);
         Ok((free::examine(experiments, &run, &request)?, driven::search(simulator, &run, &search)?))
     })?;
     let (free, driven) = found.map_err(|reason: SearchError| PyValueError::new_err(reason.to_string()))?;

@@ -1,16 +1,15 @@
 //! One design point at a time.
 
 use flap_core::num::InstructionSet;
-use flap_core::simulate::{Column, PointRun, Row, Simulator, SolverSettings, TrajectoryRequest};
-use flap_sweep::table::layout::{self, Cell, Kind};
+use flap_core::simulate::{Column, PointRun, Row, TrajectoryRequest};
+use flap_sweep::table::layout::{Cell, Kind};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::columns::Columns;
-use crate::solver::Keywords;
+use crate::columns::{self, Columns};
 use crate::watch::interruptible;
-use crate::{convert, error, parameters};
+use crate::{convert, design, error, parameters};
 
 /// The most samples of one trajectory: they are held in memory.
 const SAMPLES_MAX: u64 = 5_000_000;
@@ -34,10 +33,11 @@ pub(crate) fn run<'py>(
     preset: &Bound<'py, PyAny>,
     keywords: &Bound<'py, PyDict>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let DesignPoint { simulator, solver, values } = DesignPoint::new(preset, keywords)?;
+    let plan = design::point(preset, keywords)?;
+    let (simulator, solver, values) = (plan.simulator(), plan.solver(), plan.point(0).values);
     let set = InstructionSet::best();
     let row = interruptible(py, |interrupted| {
-        simulator.row(&PointRun::new(set, &solver, &values).until(interrupted))
+        simulator.row(&PointRun::new(set, solver, &values).until(interrupted))
     })?;
     let row = row.map_err(|reason| error::unfinished(&reason))?;
     row_to_dict(py, simulator.columns(), &row)
@@ -54,7 +54,8 @@ pub(crate) fn trajectory<'py>(
     samples: &Bound<'py, PyAny>,
     from_rest: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let DesignPoint { simulator, solver, values } = DesignPoint::new(preset, keywords)?;
+    let plan = design::point(preset, keywords)?;
+    let (simulator, solver, values) = (plan.simulator(), plan.solver(), plan.point(0).values);
     let (cycles, samples) = (convert::count("cycles", cycles)?, convert::count("samples", samples)?);
     let all = u64::from(cycles) * u64::from(samples);
     if all > SAMPLES_MAX {
@@ -64,41 +65,17 @@ pub(crate) fn trajectory<'py>(
     let request = TrajectoryRequest { cycles, samples_per_cycle: samples, settled: !from_rest };
     let set = InstructionSet::best();
     let motion = interruptible(py, |interrupted| {
-        simulator.motions()?.trajectory(&PointRun::new(set, &solver, &values).until(interrupted), &request)
+        simulator.motions()?.trajectory(&PointRun::new(set, solver, &values).until(interrupted), &request)
     })?;
     let motion = motion.map_err(|reason| error::unfinished(&reason))?;
-    let column = |name: &String| layout::Column {
-        name: name.clone(),
-        unit: layout::split_unit(name).1,
-        kind: Kind::Number,
-        doc: String::new(),
-    };
-    let mut columns = Columns::new(motion.columns.iter().map(column).collect());
+    let described = motion.columns.iter().map(|name| columns::named(name, Kind::Number));
+    let mut columns = Columns::new(described.collect());
     for row in motion.rows {
         columns.push(&row.into_iter().map(Cell::Number).collect::<Vec<_>>());
     }
     let dict = PyDict::new(py);
     dict.set_item("columns", columns.into_python(py)?)?;
     Ok(dict)
-}
-
-/// A preset with keywords on top.
-pub(crate) struct DesignPoint {
-    pub(crate) simulator: &'static dyn Simulator,
-    pub(crate) solver: SolverSettings,
-    pub(crate) values: Vec<f64>,
-}
-
-impl DesignPoint {
-    pub(crate) fn new(preset: &Bound<'_, PyAny>, keywords: &Bound<'_, PyDict>) -> PyResult<DesignPoint> {
-        let (settings, keywords) = Keywords::take(Some(keywords))?;
-        let mut solver = SolverSettings::default();
-        settings.apply(&mut solver)?;
-        let (simulator, preset) = parameters::find_preset(preset)?;
-        let mut values = (preset.values)();
-        parameters::apply(simulator, &mut values, &keywords)?;
-        Ok(DesignPoint { simulator, solver, values })
-    }
 }
 
 /// A row as a dictionary, in the order of result files.
