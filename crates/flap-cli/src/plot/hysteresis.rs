@@ -63,9 +63,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
             drawn.extend(points);
         }
     }
-    let (Some(width), Some(height)) =
-        (scale::range(drawn.iter().map(|point| point.0)), scale::range(drawn.iter().map(|point| point.1)))
-    else {
+    let Some([width, height]) = scale::extent(&drawn) else {
         return Err(chosen.nothing(table, chosen.columns.y));
     };
     let mut notes = chosen.notes.clone();
@@ -79,8 +77,8 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let panel = Panel {
         title: chosen.title.clone(),
         notes,
-        x: Axis { label: x.text(), range: scale::padded(width, 0.02), log: false },
-        y: Axis { label: y.text(), range: scale::from_zero(height), log: false },
+        x: Axis::linear(x.text(), scale::padded(width, 0.02)),
+        y: Axis::linear(y.text(), scale::from_zero(height)),
         plots,
         legend: Some(chosen.columns.by.map_or_else(String::new, |by| table.label(by).text())),
         bar: false,

@@ -44,7 +44,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let Some(range) = scale::range(values.iter().copied()) else {
         return Err(chosen.nothing(table, color));
     };
-    let bar = Axis { label: labels[2].text(), range: scale::padded(range, 0.0), log: false };
+    let bar = Axis::linear(labels[2].text(), scale::padded(range, 0.0));
     let missing = values.iter().filter(|value| !value.is_finite()).count();
 
     let mut notes = chosen.notes.clone();

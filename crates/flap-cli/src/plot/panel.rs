@@ -47,7 +47,19 @@ fn letters(width: f64, size: f64) -> usize {
     letters
 }
 
+impl Axis {
+    /// A linear axis.
+    pub(super) fn linear(label: String, range: (f64, f64)) -> Axis {
+        Axis { label, range, log: false }
+    }
+}
+
 impl Panel {
+    /// A panel without headings, legend and colour bar.
+    pub(super) fn new(x: Axis, y: Axis, plots: Vec<Plot>) -> Panel {
+        Panel { title: String::new(), notes: Vec::new(), x, y, plots, legend: None, bar: false }
+    }
+
     /// The library's description of the panel in a picture of `size`.
     pub(super) fn layout(&self, size: Size) -> Layout {
         // Notes are centred over the plot, which is narrower than the picture.

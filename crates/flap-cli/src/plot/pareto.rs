@@ -34,9 +34,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         chosen.rows.iter().copied().filter(|&row| across[row].is_finite() && up[row].is_finite()).collect();
     let points: Vec<(f64, f64)> =
         rows.iter().map(|&row| (across[row] * x.factor, up[row] * y.factor)).collect();
-    let (Some(width), Some(height)) =
-        (scale::range(points.iter().map(|point| point.0)), scale::range(points.iter().map(|point| point.1)))
-    else {
+    let Some([width, height]) = scale::extent(&points) else {
         return Err(chosen.nothing(table, chosen.columns.y));
     };
     let (x_aim, y_aim) = chosen.aims;
@@ -87,7 +85,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
                 };
                 plots.push(ink::points(points, "", &colour, 2.6));
             }
-            Some(Axis { label: label.text(), range: (low, high), log: false })
+            Some(Axis::linear(label.text(), (low, high)))
         }
     };
     let line: Vec<(f64, f64)> = best.iter().map(|&place| points[place]).collect();
@@ -101,8 +99,8 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let panel = Panel {
         title: chosen.title.clone(),
         notes,
-        x: Axis { label: x.text(), range: scale::padded(width, 0.04), log: false },
-        y: Axis { label: y.text(), range: scale::padded(height, 0.04), log: false },
+        x: Axis::linear(x.text(), scale::padded(width, 0.04)),
+        y: Axis::linear(y.text(), scale::padded(height, 0.04)),
         plots,
         legend: bar.is_none().then(String::new),
         bar: bar.is_some(),

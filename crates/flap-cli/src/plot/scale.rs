@@ -9,6 +9,11 @@ pub(super) fn range(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)>
     })
 }
 
+/// The ranges of finite places and heights of points; `None` if there are no such places or no such heights.
+pub(super) fn extent(points: &[(f64, f64)]) -> Option<[(f64, f64); 2]> {
+    Some([range(points.iter().map(|point| point.0))?, range(points.iter().map(|point| point.1))?])
+}
+
 /// A range with a margin of `share` on both sides, and never empty.
 pub(super) fn padded((low, high): (f64, f64), share: f64) -> (f64, f64) {
     let width = high - low;

@@ -161,37 +161,25 @@ fn code(cell: &str, words: &mut Vec<String>, codes: &mut HashMap<String, u32>) -
     code
 }
 
-/// Units of columns by name.
-struct Units {
-    recorded: BTreeMap<String, String>,
-}
+/// The units of columns: those of the sidecar's plan, else those that models and endings of names tell.
+struct Units(BTreeMap<String, String>);
 
 impl Units {
-    /// The units in the sidecar of `results`, if it has one that this flap understands.
     fn of(results: &Path, sidecar: Option<&Sidecar>) -> Units {
         let beside = sidecar_of(results);
-        let mut recorded = BTreeMap::new();
-        if let Some(sidecar) = sidecar {
-            match job::plan_of(&beside, sidecar) {
-                Ok(plan) => {
-                    let columns = Layout::of(&plan).columns();
-                    recorded.extend(columns.into_iter().map(|column| (column.name, column.unit.to_owned())));
-                }
-                Err(_) => console::say(&format!(
-                    "{} cannot be used: units are those of the columns' names",
-                    beside.display()
-                )),
-            }
+        let plan = sidecar.map(|sidecar| job::plan_of(&beside, sidecar));
+        if let Some(Err(_)) = plan {
+            console::say(&format!(
+                "{} cannot be used: units are those of the columns' names",
+                beside.display()
+            ));
         }
-        Units { recorded }
+        let columns = plan.and_then(Result::ok).map(|plan| Layout::of(&plan).columns()).unwrap_or_default();
+        Units(columns.into_iter().map(|column| (column.name, column.unit.to_owned())).collect())
     }
 
-    /// The unit in the sidecar, else of a model's parameter or measure of that name, else what the name ends in.
     fn of_column(&self, name: &str) -> String {
-        if let Some(unit) = self.recorded.get(name) {
-            return unit.clone();
-        }
-        labels::unit_of(name).to_owned()
+        self.0.get(name).cloned().unwrap_or_else(|| labels::unit_of(name).to_owned())
     }
 }
 
@@ -244,7 +232,7 @@ mod tests {
 
     #[test]
     fn units_come_from_the_models_and_from_names() {
-        let units = Units { recorded: BTreeMap::from([("lift_mean_mn".to_owned(), "N".to_owned())]) };
+        let units = Units(BTreeMap::from([("lift_mean_mn".to_owned(), "N".to_owned())]));
         assert_eq!(units.of_column("lift_mean_mn"), "N", "the sidecar comes first");
         assert_eq!(units.of_column("hinge_stiffness"), "N*m/rad");
         assert_eq!(units.of_column("efficiency_gf_per_w"), "gf/W");

@@ -56,36 +56,23 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
             "of {ticking} samples, extremes are drawn over time, the last {MOST_POINTS} in the phase portrait"
         ));
     }
-    let range = |points: &[(f64, f64)], side: fn(&(f64, f64)) -> f64| scale::range(points.iter().map(side));
-    let (Some(span), Some(angles), Some(around), Some(rates)) = (
-        range(&motions, |point| point.0),
-        range(&motions, |point| point.1),
-        range(&loops, |point| point.0),
-        range(&loops, |point| point.1),
-    ) else {
+    let (Some([span, angles]), Some([around, rates])) = (scale::extent(&motions), scale::extent(&loops))
+    else {
         return Err(chosen.nothing(table, chosen.columns.x));
     };
     let angle = labels::titled("Angle", &labels::printed("deg"));
     let rate = labels::titled("Rate", &labels::printed("deg/ms"));
-    let axis = |label: String, range| Axis { label, range, log: false };
-    let left = Panel {
-        title: String::new(),
-        notes: Vec::new(),
-        x: axis(label.text(), scale::padded(span, 0.0)),
-        y: axis(angle.clone(), scale::padded(angles, 0.05)),
-        plots: over_time,
-        legend: None,
-        bar: false,
-    };
-    let right = Panel {
-        title: String::new(),
-        notes: Vec::new(),
-        x: axis(angle.clone(), scale::padded(around, 0.05)),
-        y: axis(rate, scale::padded(rates, 0.05)),
-        plots: portrait,
-        legend: Some(String::new()),
-        bar: false,
-    };
+    let left = Panel::new(
+        Axis::linear(label.text(), scale::padded(span, 0.0)),
+        Axis::linear(angle.clone(), scale::padded(angles, 0.05)),
+        over_time,
+    );
+    let right = Panel::new(
+        Axis::linear(angle, scale::padded(around, 0.05)),
+        Axis::linear(rate, scale::padded(rates, 0.05)),
+        portrait,
+    );
+    let right = Panel { legend: Some(String::new()), ..right };
     Ok(side_by_side(left, right, &chosen.title, &notes, size))
 }
 

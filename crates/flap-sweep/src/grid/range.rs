@@ -115,16 +115,12 @@ fn spacing<'e, 't>(
 /// The keys without which there is no range, in words; empty if all are there.
 fn missing_keys(entries: &[Entry<'_>]) -> String {
     let has = |key: &str| table::find(entries, key).is_some();
-    let mut missing = Vec::new();
-    if !has("from") {
-        missing.push("`from`");
-    }
-    if !has("to") {
-        missing.push("`to`");
-    }
-    if !has("n") && !has("step") {
-        missing.push("`n` (the number of values) or `step`");
-    }
+    let keys = [
+        (has("from"), "`from`"),
+        (has("to"), "`to`"),
+        (has("n") || has("step"), "`n` (the number of values) or `step`"),
+    ];
+    let missing: Vec<&str> = keys.iter().filter(|(is_there, _)| !is_there).map(|(_, key)| *key).collect();
     missing.join(", ")
 }
 

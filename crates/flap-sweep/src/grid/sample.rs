@@ -52,18 +52,16 @@ pub(super) fn read(
     table::check_keys(&entries, &KEYS, "in [sample]", lookup.problems);
     let count = count(section, &entries, lookup.problems);
     let seed = seed(&entries, lookup.problems);
-    let Some(parameters) = table::find(&entries, "parameters") else {
-        lookup.problems.report(section.key_span.clone(), "the sample has no parameters").help(
-            "list them under [sample.parameters]: wing_area = { from = \"50 mm^2\", to = \"60 mm^2\" }",
-        );
-        return None;
-    };
-    let place = parameters.key_span.clone();
-    let parameters = table::section(parameters, lookup.problems);
+    let below = table::find(&entries, "parameters");
+    let parameters = below.map(|entry| table::section(entry, lookup.problems)).unwrap_or_default();
     if parameters.is_empty() {
-        lookup.problems.report(place, "the sample has no parameters").label("nothing below it").help(
+        let place = below.unwrap_or(section).key_span.clone();
+        let diagnostic = lookup.problems.report(place, "the sample has no parameters").help(
             "list them under [sample.parameters]: wing_area = { from = \"50 mm^2\", to = \"60 mm^2\" }",
         );
+        if below.is_some() {
+            diagnostic.label("nothing below it");
+        }
         return None;
     }
     let found: Vec<_> = parameters

@@ -10,7 +10,6 @@
 //! - `ledger`: writes rows to a [`sink`] and counts them in a [`Summary`]
 //! - [`identity`]: all that decides the bytes of rows
 
-mod collect;
 mod error;
 mod finished;
 mod hand;

@@ -3,7 +3,6 @@
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
-use super::collect;
 use super::error::RunError;
 use super::hand::{self, Hand};
 use super::options::RunOptions;
@@ -35,7 +34,36 @@ pub(crate) fn run<T: Send>(
         for _ in 0..workers {
             scope.spawn(|_| hand::work(&queue, worker));
         }
-        collect::collect(end, &queue, take, progress)
+        collect(end, &queue, take, progress)
     })?;
     queue.into_failure().map_or(Ok(()), Err)
+}
+
+/// Hands the outcomes of units to `take` until the workers have ended.
+fn collect<T>(
+    units: u64,
+    queue: &Queue<'_, T>,
+    take: &mut dyn FnMut(&mut Vec<T>) -> Result<(), RunError>,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<(), RunError> {
+    let _ends_the_workers = Abort(queue);
+    let mut batch = Vec::new();
+    while let Some(finished) = queue.turn(&mut batch) {
+        if !batch.is_empty() {
+            take(&mut batch)?;
+            batch.clear();
+        }
+        progress(Progress { finished, points: units });
+    }
+    Ok(())
+}
+
+/// Aborts the run when the collector ends, be it by an error or a panic: otherwise workers would wait for room
+/// for ever.
+struct Abort<'a, T>(&'a Queue<'a, T>);
+
+impl<T> Drop for Abort<'_, T> {
+    fn drop(&mut self) {
+        self.0.abort();
+    }
 }
