@@ -29,29 +29,20 @@ mod watch;
 #[pyo3::pymodule]
 mod _flapwing {
     #[pymodule_export]
-    use crate::cluster::part;
-    #[pymodule_export]
-    use crate::diagnostic::Diagnostic;
-    #[pymodule_export]
-    use crate::error::GridError;
-    #[pymodule_export]
-    use crate::evaluate::evaluate;
-    #[pymodule_export]
-    use crate::grid::Grid;
-    #[pymodule_export]
-    use crate::labels::{printed, scale, split_unit, unit_of, words};
-    #[pymodule_export]
-    use crate::listing::{measures, params};
-    #[pymodule_export]
-    use crate::read::read;
-    #[pymodule_export]
-    use crate::resonance::resonance;
-    #[pymodule_export]
-    use crate::respond::respond;
-    #[pymodule_export]
-    use crate::run::{presets, run, trajectory};
-    #[pymodule_export]
-    use crate::sweep::sweep;
+    use crate::{
+        cluster::part,
+        diagnostic::Diagnostic,
+        error::GridError,
+        evaluate::evaluate,
+        grid::Grid,
+        labels::{printed, scale, split_unit, unit_of, words},
+        listing::{measures, params},
+        read::read,
+        resonance::resonance,
+        respond::respond,
+        run::{presets, run, trajectory},
+        sweep::sweep,
+    };
 
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "Python's name for it")]

@@ -84,20 +84,16 @@ pub(super) fn report_repeats(axes: &[Placed], set: &[(usize, Range<usize>)], loo
     for placed in axes {
         for ((parameter, _), key) in placed.axis.parameters().iter().zip(&placed.keys) {
             let name = lookup.name(*parameter);
-            if let Some((_, first)) = seen.iter().find(|(other, _)| other == parameter) {
-                lookup
-                    .problems
-                    .report(key.clone(), format!("`{name}` is varied by two axes"))
-                    .label("again here")
-                    .related(first.clone(), "first here")
-                    .help("keep one of them");
-            } else if let Some((_, fixed)) = set.iter().find(|(other, _)| other == parameter) {
-                lookup
-                    .problems
-                    .report(key.clone(), format!("`{name}` is set under [params] and varied by an axis"))
-                    .label("the axis would override it")
-                    .related(fixed.clone(), "set here")
-                    .help("keep one of them");
+            let other = |places: &[(usize, Range<usize>)]| {
+                places.iter().find(|(other, _)| other == parameter).map(|(_, place)| place.clone())
+            };
+            let varied = other(&seen).map(|place| (place, "varied by two axes", "again here", "first here"));
+            let fixed = "set under [params] and varied by an axis";
+            let fixed = || other(set).map(|place| (place, fixed, "the axis would override it", "set here"));
+            if let Some((place, mistake, label, related)) = varied.or_else(fixed) {
+                let message = format!("`{name}` is {mistake}");
+                let diagnostic = lookup.problems.report(key.clone(), message).label(label);
+                diagnostic.related(place, related).help("keep one of them");
             }
             seen.push((*parameter, key.clone()));
         }

@@ -12,6 +12,7 @@ use crate::plan::sample::Distribution;
 
 const KEYS: [&str; 6] = ["from", "to", "scale", "mean", "sd", "relative_sd"];
 const SCALES: [&str; 2] = ["linear", "log"];
+const TOO_WIDE: &str = "the range is too wide for 64-bit floats";
 const NOTE: &str = "distributions look like { from = 1, to = 5 }, { from = 1, to = 5, scale = \"log\" }, \
                     { mean = 3, sd = 0.1 }, { relative_sd = \"5 %\" } or [1, 2, 5]";
 
@@ -93,29 +94,33 @@ fn uniform(
             .note(NOTE);
         return None;
     };
-    if from >= to {
-        problems.report(whole.value.span(), "`from` must be less than `to`");
-        return None;
-    }
-    if scale == 0 {
-        if !(to - from).is_finite() {
-            problems.report(whole.value.span(), "the range is too wide for 64-bit floats");
-            return None;
+    let distribution =
+        if scale == 0 { Distribution::Uniform { from, to } } else { Distribution::LogUniform { from, to } };
+    sound(distribution, whole, problems)
+}
+
+/// The distribution; `None`, with a report, if it has no values.
+fn sound(distribution: Distribution, whole: &Entry<'_>, problems: &mut Problems) -> Option<Distribution> {
+    let mistake = match distribution {
+        Distribution::Uniform { from, to }
+        | Distribution::LogUniform { from, to }
+        | Distribution::Normal { from, to, .. }
+            if from >= to =>
+        {
+            "`from` must be less than `to`"
         }
-        return Some(Distribution::Uniform { from, to });
-    }
-    if from <= 0.0 && to >= 0.0 {
-        problems.report(
-            whole.value.span(),
-            "a logarithmic scale needs ends that are not zero and have the same sign",
-        );
-        return None;
-    }
-    if !(to / from).is_normal() {
-        problems.report(whole.value.span(), "the range is too wide for 64-bit floats");
-        return None;
-    }
-    Some(Distribution::LogUniform { from, to })
+        Distribution::LogUniform { from, to } if from <= 0.0 && to >= 0.0 => {
+            "a logarithmic scale needs ends that are not zero and have the same sign"
+        }
+        Distribution::Uniform { from, to } if !(to - from).is_finite() => TOO_WIDE,
+        Distribution::LogUniform { from, to } if !(to / from).is_normal() => TOO_WIDE,
+        Distribution::Normal { .. } if !distribution.is_possible() => {
+            "nothing of the normal distribution lies between `from` and `to`"
+        }
+        _ => return Some(distribution),
+    };
+    problems.report(whole.value.span(), mistake);
+    None
 }
 
 fn normal(
@@ -142,17 +147,7 @@ fn normal(
     };
     let sd = sd(parameter, mean, whole, entries, problems)?;
     let (from, to) = (from.ok()?.unwrap_or(f64::NEG_INFINITY), to.ok()?.unwrap_or(f64::INFINITY));
-    let distribution = Distribution::Normal { mean, sd, from, to };
-    if from >= to {
-        problems.report(whole.value.span(), "`from` must be less than `to`");
-        return None;
-    }
-    if !distribution.is_possible() {
-        problems
-            .report(whole.value.span(), "nothing of the normal distribution lies between `from` and `to`");
-        return None;
-    }
-    Some(distribution)
+    sound(Distribution::Normal { mean, sd, from, to }, whole, problems)
 }
 
 /// The standard deviation in the unit of the parameter.
