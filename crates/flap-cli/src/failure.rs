@@ -182,14 +182,8 @@ impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Failure {
         match error {
             ReadError::Grid(mistakes) => Failure::Grid(mistakes),
-            ReadError::Missing { .. }
-            | ReadError::Folder { .. }
-            | ReadError::NotUtf8 { .. }
-            | ReadError::Results { .. }
-            | ReadError::TooLarge { .. } => {
-                error.help().into_iter().fold(Failure::usage(error.to_string()), Failure::help)
-            }
             ReadError::Unreadable { .. } => Failure::System(error.to_string(), Vec::new()),
+            _ => error.help().into_iter().fold(Failure::usage(error.to_string()), Failure::help),
         }
     }
 }

@@ -3,7 +3,6 @@
 mod estimate;
 
 use std::fmt::Write as _;
-use std::sync::Arc;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::SolverSettings;
@@ -25,13 +24,13 @@ use crate::models;
 use crate::table::{self, Table};
 
 pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
-    let plan = Arc::new(grid::read(&args.grid, models::all())?);
+    let plan = grid::read(&args.grid, models::all())?;
     far::warn(&deviation::of(&plan));
     console::results(&page(&plan))?;
     Ok(Exit::Done)
 }
 
-fn page(plan: &Arc<Plan>) -> String {
+fn page(plan: &Plan) -> String {
     let points = if plan.len() == 1 { "1 point".to_owned() } else { format!("{} points", plan.len()) };
     let mut page = format!("{points} of {} from {}\n", plan.simulator().name(), plan.preset());
     if !plan.axes().as_slice().is_empty() {

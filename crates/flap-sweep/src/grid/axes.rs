@@ -88,8 +88,8 @@ pub(super) fn report_repeats(axes: &[Placed], set: &[(usize, Range<usize>)], loo
                 places.iter().find(|(other, _)| other == parameter).map(|(_, place)| place.clone())
             };
             let varied = other(&seen).map(|place| (place, "varied by two axes", "again here", "first here"));
-            let fixed = "set under [params] and varied by an axis";
-            let fixed = || other(set).map(|place| (place, fixed, "the axis would override it", "set here"));
+            let both = "set under [params] and varied by an axis";
+            let fixed = || other(set).map(|place| (place, both, "the axis would override it", "set here"));
             if let Some((place, mistake, label, related)) = varied.or_else(fixed) {
                 let message = format!("`{name}` is {mistake}");
                 let diagnostic = lookup.problems.report(key.clone(), message).label(label);

@@ -27,29 +27,24 @@ impl AtResonance {
     /// The resonances of designs of `model`; `None` if that has no drive frequency or does not measure the objective.
     pub fn new(model: &'static dyn Simulator, range: Range) -> Option<AtResonance> {
         let target = Target::new(model, range)?;
-        let mut columns = model.columns().to_vec();
         let of = range.of.name();
-        let mut add = |name: &str, unit, doc: String| {
-            columns.push(Column { name: name.to_owned(), unit, doc });
-        };
-        add(RESONANCE_HZ, "Hz", format!("drive frequency at which the {of} is largest"));
-        add(
-            "resonance_second_hz",
-            "Hz",
-            format!("another peak of the {of}, if it is within 5 % of the largest"),
-        );
-        add(
-            RESONANCE_MARGIN_HZ,
-            "Hz",
-            "distance of the resonance from the nearer end of the range; zero if the largest value is there"
-                .to_owned(),
-        );
-        add("resonance_points", "", "points run in the search".to_owned());
-        add(
-            "resonance_gaps",
-            "",
-            "those whose motion did not become periodic: a larger peak may hide there".to_owned(),
-        );
+        let margin =
+            "distance of the resonance from the nearer end of the range; zero if the largest value is there";
+        let gaps = "those whose motion did not become periodic: a larger peak may hide there";
+        let added = [
+            (RESONANCE_HZ, "Hz", &*format!("drive frequency at which the {of} is largest")),
+            (
+                "resonance_second_hz",
+                "Hz",
+                &*format!("another peak of the {of}, if it is within 5 % of the largest"),
+            ),
+            (RESONANCE_MARGIN_HZ, "Hz", margin),
+            ("resonance_points", "", "points run in the search"),
+            ("resonance_gaps", "", gaps),
+        ];
+        let added =
+            added.map(|(name, unit, doc)| Column { name: name.to_owned(), unit, doc: doc.to_owned() });
+        let columns = model.columns().iter().cloned().chain(added).collect();
         Some(AtResonance { target, columns })
     }
 

@@ -1,8 +1,5 @@
 //! The estimated time of a sweep, from a run of a few of its points.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, mpsc};
-use std::thread;
 use std::time::{Duration, Instant};
 
 use flap_core::num::InstructionSet;
@@ -17,7 +14,7 @@ const MOST: u64 = 32;
 /// The time after which no point is started.
 const LONGEST_BEGIN: Duration = Duration::from_secs(1);
 
-/// The time after which the estimate no longer waits for running points.
+/// The time after which running points are given up.
 const LONGEST: Duration = Duration::from_secs(2);
 
 /// Most points that are checked to find some that are not excluded.
@@ -33,31 +30,16 @@ pub(super) struct Estimate {
 }
 
 /// Runs a few points of `plan` to estimate a sweep of `points` points.
-pub(super) fn of(plan: &Arc<Plan>, points: u64) -> Estimate {
+pub(super) fn of(plan: &Plan, points: u64) -> Estimate {
     let started = Instant::now();
-    let begun = Arc::new(AtomicU64::new(0));
-    let (send, ended) = mpsc::channel();
-    let mut trial = Trial {
-        plan: Arc::clone(plan),
-        started,
-        looked_at: 0,
-        begun: Arc::clone(&begun),
-        valid: 0,
-        invalid: 0,
-        first_reason: None,
-    };
-    // A point cannot be stopped: if it never ends, its thread ends with the program.
-    thread::spawn(move || {
-        let plan = Arc::clone(&trial.plan);
-        plan.rows().run(InstructionSet::best(), plan.solver(), &mut trial);
-        // The receiver may have stopped waiting.
-        let _ = send.send(trial);
-    });
-    let found = ended.recv_timeout(LONGEST);
-    let elapsed = started.elapsed().as_secs_f64();
-    let ran = begun.load(Ordering::Relaxed);
-    let is_over = found.is_ok();
-    if let Ok(Trial { valid: 0, invalid, first_reason: Some((index, reason)), .. }) = found {
+    let mut trial = Trial { plan, started, looked_at: 0, begun: 0, valid: 0, invalid: 0, first_reason: None };
+    plan.rows().run(InstructionSet::best(), plan.solver(), &mut trial);
+    let elapsed = started.elapsed();
+    let is_over = elapsed < LONGEST;
+    let ran = trial.begun;
+    if let Trial { valid: 0, invalid, first_reason: Some((index, reason)), .. } = trial
+        && is_over
+    {
         let text = format!(
             "every point that was looked at is invalid ({invalid} of {}): point {index}: {reason}",
             plan.len()
@@ -68,7 +50,7 @@ pub(super) fn of(plan: &Arc<Plan>, points: u64) -> Estimate {
         return Estimate::default();
     }
     let threads = RunOptions::default().threads.get();
-    let seconds = elapsed / ran as f64 * points as f64 / (threads as f64).min(points as f64);
+    let seconds = elapsed.as_secs_f64() / ran as f64 * points as f64 / (threads as f64).min(points as f64);
     let bound = if is_over { "" } else { "more than " };
     let time = words(seconds);
     let time =
@@ -77,11 +59,12 @@ pub(super) fn of(plan: &Arc<Plan>, points: u64) -> Estimate {
 }
 
 /// Points spread over a plan, until there are enough or the time is over.
-struct Trial {
-    plan: Arc<Plan>,
+struct Trial<'a> {
+    plan: &'a Plan,
     started: Instant,
     looked_at: u64,
-    begun: Arc<AtomicU64>,
+    /// Number of points that were begun.
+    begun: u64,
     /// Number of valid points.
     valid: u64,
     /// Number of invalid points; index and reason of the first one follow.
@@ -89,7 +72,7 @@ struct Trial {
     first_reason: Option<(u64, String)>,
 }
 
-impl Trial {
+impl Trial<'_> {
     /// Counts an invalid point, the checked point number `number`.
     fn note_invalid(&mut self, number: u64, reason: String) {
         self.invalid += 1;
@@ -98,9 +81,9 @@ impl Trial {
     }
 }
 
-impl Jobs for Trial {
+impl Jobs for Trial<'_> {
     fn next(&mut self, _idle: bool) -> Option<Point> {
-        while self.begun.load(Ordering::Relaxed) < MOST.min(self.plan.len())
+        while self.begun < MOST.min(self.plan.len())
             && self.looked_at < MOST_LOOKED_AT
             && self.started.elapsed() < LONGEST_BEGIN
         {
@@ -110,7 +93,7 @@ impl Jobs for Trial {
             self.looked_at += 1;
             match self.plan.judge(&point.values) {
                 Verdict::Runs => {
-                    self.begun.fetch_add(1, Ordering::Relaxed);
+                    self.begun += 1;
                     return Some(point);
                 }
                 Verdict::Invalid(invalid) => self.note_invalid(point.index, invalid.into_reason()),
@@ -126,6 +109,10 @@ impl Jobs for Trial {
         } else {
             self.valid += 1;
         }
+    }
+
+    fn interrupted(&self) -> bool {
+        self.started.elapsed() >= LONGEST
     }
 }
 

@@ -64,7 +64,7 @@ impl Reader {
             #[cfg(feature = "parquet")]
             Format::Parquet => {
                 let rows = super::parquet::ParquetReader::new(file)?;
-                Ok(Reader { names: rows.names(), rows: Rows::Parquet(rows), missed: None })
+                Ok(Reader { names: rows.names.clone(), rows: Rows::Parquet(rows), missed: None })
             }
             #[cfg(not(feature = "parquet"))]
             Format::Parquet => Err(io::Error::other("this flap was built without Parquet")),
@@ -109,7 +109,7 @@ impl Reader {
         match &self.rows {
             Rows::Text(_) => &[],
             #[cfg(feature = "parquet")]
-            Rows::Parquet(rows) => rows.entries(),
+            Rows::Parquet(rows) => &rows.entries,
         }
     }
 

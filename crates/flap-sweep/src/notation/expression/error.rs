@@ -147,14 +147,7 @@ impl ExpressionError {
             Problem::Unset { name, follows } => {
                 Some(format!("it follows others ({follows}): set `{name}` under [params] to use it here"))
             }
-            Problem::Empty
-            | Problem::Character(_)
-            | Problem::TooLarge
-            | Problem::OpenQuote
-            | Problem::Expected(_)
-            | Problem::Mismatch(Kind::Number)
-            | Problem::TooDeep
-            | Problem::Arguments { .. } => None,
+            _ => None,
         }
     }
 }

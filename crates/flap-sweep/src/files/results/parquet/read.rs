@@ -20,8 +20,10 @@ use crate::table::lines;
 /// Reads rows back as the text they were written from. Files of other programs are read if their cells are numbers, flags
 /// and text.
 pub(crate) struct ParquetReader {
-    names: Vec<String>,
-    entries: Vec<(String, String)>,
+    /// The column names.
+    pub(crate) names: Vec<String>,
+    /// The metadata, as keys with their texts.
+    pub(crate) entries: Vec<(String, String)>,
     rows: RowIter<'static>,
 }
 
@@ -34,15 +36,6 @@ impl ParquetReader {
         let entries = about.key_value_metadata().into_iter().flatten();
         let entries = entries.filter_map(|entry| Some((entry.key.clone(), entry.value.clone()?))).collect();
         Ok(ParquetReader { names, entries, rows: RowIter::from_file_into(Box::new(reader)) })
-    }
-
-    /// The metadata of the file: keys with their texts.
-    pub(crate) fn entries(&self) -> &[(String, String)] {
-        &self.entries
-    }
-
-    pub(crate) fn names(&self) -> Vec<String> {
-        self.names.clone()
     }
 
     pub(crate) fn next(&mut self, row: &mut StringRecord) -> io::Result<bool> {
@@ -95,7 +88,7 @@ pub(crate) fn sum_up(file: File) -> (TextDigest, io::Result<()>) {
     let mut digest = TextDigest::new();
     let summed = ParquetReader::new(file).and_then(|mut reader| {
         let mut line = String::new();
-        lines::set_line(&mut line, reader.names());
+        lines::set_line(&mut line, &reader.names);
         digest.update(line.as_bytes());
         let mut row = StringRecord::new();
         while reader.next(&mut row)? {
