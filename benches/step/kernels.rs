@@ -9,7 +9,7 @@ use flap_core::model::Model;
 use flap_core::model::bimorph::Bimorph;
 use flap_core::model::direct_drive::{DirectDrive, FlowDirection};
 use flap_core::model::four_bar::FourBar;
-use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Simd, Unfused, Vector};
+use flap_core::num::{Arithmetic, Kernel, Lanes, PerLane, Simd, Unfused, Vector};
 use flap_core::ode::Ode;
 use flap_core::ode::norm::error_squared;
 use flap_core::ode::step::Step;
@@ -110,52 +110,27 @@ impl Kernel for OnScalars {
     }
 }
 
-/// The number of lanes of a set.
-pub(crate) fn lanes(set: InstructionSet) -> usize {
-    struct Count;
-    impl Kernel for Count {
-        type Output = usize;
-        #[inline(always)]
-        fn run<S: Simd>(self, _simd: S) -> usize {
-            Vector::<S>::LANES
-        }
-    }
-    set.dispatch(Count)
-}
-
 #[inline(always)]
 fn time<R: Lanes>(token: R::Token, work: Work, iterations: u64) -> Duration {
     match work {
-        Work::SinCos => {
-            let x = values::<R>(token, -10.0, 10.0);
-            let begin = Instant::now();
-            for _ in 0..iterations {
-                for &x in black_box(&x) {
-                    black_box(x.sin_cos());
-                }
-            }
-            begin.elapsed()
-        }
-        Work::Exp => {
-            let x = values::<R>(token, -10.0, 10.0);
-            let begin = Instant::now();
-            for _ in 0..iterations {
-                for &x in black_box(&x) {
-                    black_box(x.exp());
-                }
-            }
-            begin.elapsed()
-        }
-        Work::Ln => {
-            let x = values::<R>(token, 1e-3, 10.0);
-            let begin = Instant::now();
-            for _ in 0..iterations {
-                for &x in black_box(&x) {
-                    black_box(x.ln());
-                }
-            }
-            begin.elapsed()
-        }
+        Work::SinCos => time_function(
+            &values::<R>(token, -10.0, 10.0),
+            iterations,
+            #[inline(always)]
+            |x| x.sin_cos(),
+        ),
+        Work::Exp => time_function(
+            &values::<R>(token, -10.0, 10.0),
+            iterations,
+            #[inline(always)]
+            |x| x.exp(),
+        ),
+        Work::Ln => time_function(
+            &values::<R>(token, 1e-3, 10.0),
+            iterations,
+            #[inline(always)]
+            |x| x.ln(),
+        ),
         Work::Rhs(Equations::Bimorph) => time_rhs::<R, _, _>(token, &BIMORPH, "jafferis2016", iterations),
         Work::Rhs(Equations::DirectDrive) => {
             time_rhs::<R, _, _>(token, &DIRECT_DRIVE, "ozaki2018-large", iterations)
@@ -180,6 +155,18 @@ fn time<R: Lanes>(token: R::Token, work: Work, iterations: u64) -> Duration {
             begin.elapsed()
         }
     }
+}
+
+/// Times `function`, which must be `#[inline(always)]` to be compiled for the lanes' instructions.
+#[inline(always)]
+fn time_function<R: Lanes, T>(values: &[R], iterations: u64, function: impl Fn(R) -> T) -> Duration {
+    let begin = Instant::now();
+    for _ in 0..iterations {
+        for &x in black_box(values) {
+            black_box(function(x));
+        }
+    }
+    begin.elapsed()
 }
 
 #[inline(always)]

@@ -9,7 +9,7 @@ use core::time::Duration;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use flap_core::num::InstructionSet;
 
-use kernels::{Equations, InLanes, OnScalars, VALUES, Work, lanes};
+use kernels::{Equations, InLanes, OnScalars, VALUES, Work};
 
 fn parts(criterion: &mut Criterion) {
     let rhs = Equations::ALL.map(Work::Rhs);
@@ -18,7 +18,7 @@ fn parts(criterion: &mut Criterion) {
         group.sample_size(20);
         group.warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(1));
         for set in InstructionSet::available() {
-            let elements = if work.is_function() { VALUES } else { lanes(set) };
+            let elements = if work.is_function() { VALUES } else { set.lanes() };
             group.throughput(Throughput::Elements(elements as u64));
             group.bench_function(format!("lanes/{set}"), |bench| {
                 bench.iter_custom(|iterations| set.dispatch(InLanes { work, iterations }));
