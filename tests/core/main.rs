@@ -31,6 +31,7 @@ mod robustness;
 mod rows;
 mod samples;
 mod settings;
+mod slopes;
 mod span;
 mod strobe;
 mod tracking;
