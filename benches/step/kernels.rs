@@ -113,24 +113,9 @@ impl Kernel for OnScalars {
 #[inline(always)]
 fn time<R: Lanes>(token: R::Token, work: Work, iterations: u64) -> Duration {
     match work {
-        Work::SinCos => time_function(
-            &values::<R>(token, -10.0, 10.0),
-            iterations,
-            #[inline(always)]
-            |x| x.sin_cos(),
-        ),
-        Work::Exp => time_function(
-            &values::<R>(token, -10.0, 10.0),
-            iterations,
-            #[inline(always)]
-            |x| x.exp(),
-        ),
-        Work::Ln => time_function(
-            &values::<R>(token, 1e-3, 10.0),
-            iterations,
-            #[inline(always)]
-            |x| x.ln(),
-        ),
+        Work::SinCos => time_function(&values::<R>(token, -10.0, 10.0), iterations, R::sin_cos),
+        Work::Exp => time_function(&values::<R>(token, -10.0, 10.0), iterations, R::exp),
+        Work::Ln => time_function(&values::<R>(token, 1e-3, 10.0), iterations, R::ln),
         Work::Rhs(Equations::Bimorph) => time_rhs::<R, _, _>(token, &BIMORPH, "jafferis2016", iterations),
         Work::Rhs(Equations::DirectDrive) => {
             time_rhs::<R, _, _>(token, &DIRECT_DRIVE, "ozaki2018-large", iterations)

@@ -11,6 +11,7 @@
 
 mod accuracy;
 mod bimorph;
+mod by_name;
 mod continued;
 mod data;
 mod direct_drive;

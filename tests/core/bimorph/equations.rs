@@ -10,6 +10,7 @@ use flap_core::ode::Ode;
 use super::params;
 use crate::data::{assert_close, table};
 use crate::slopes::{self, Driven};
+use crate::waveforms::third_harmonic;
 
 const TOLERANCE: f64 = 1e-11;
 
@@ -167,13 +168,8 @@ fn sign_of_the_velocity_directs_the_attack_angle() {
 /// Harmonics swing beyond 0 and V_pp; the columns of field and capacitive power follow.
 #[test]
 fn harmonics_widen_the_voltages() {
-    use flap_core::drive::{Shape, WaveformParameters};
     use flap_core::model::bimorph::Params;
-    let third = |h: f64| Params {
-        waveform: WaveformParameters { drive_third_harmonic: h, ..WaveformParameters::new(Shape::Harmonics) },
-        drive_voltage_pp: 100.0,
-        ..params("T1")
-    };
+    let third = |h: f64| Params { waveform: third_harmonic(h), drive_voltage_pp: 100.0, ..params("T1") };
     // sin θ − h sin 3θ has its extremes ±(1 + h) at 90° and 270°.
     let [plain, wide] = [third(0.0), third(-0.25)].map(|p| super::settled(&p, 1e-6));
     let field = |row| super::measure(row, "field_max_v_per_um");
