@@ -42,9 +42,11 @@ impl Drawn {
         self
     }
 
-    /// The number of places in which `part` stands in the SVG.
-    fn count(&self, part: &str) -> usize {
-        count(&self.svg, part)
+    /// Fails the test unless `part` stands in the SVG so many times.
+    #[track_caller]
+    fn counts(&self, part: &str, times: usize) -> &Drawn {
+        assert_eq!(count(&self.svg, part), times, "{part} in {}", self.svg);
+        self
     }
 }
 
@@ -57,9 +59,9 @@ fn a_family_of_responses() {
         .has(&["Drive frequency (Hz)", "Stroke, amplitude (°)", "sweep.csv", "60", "80", "100"])
         .has(&["2 of 12 points without a value"]);
     // One line of four points; two lines of two, each with one beyond the gap.
-    assert_eq!(picture.count("stroke-width=\"2\" fill=\"none\""), 3, "{}", picture.svg);
+    picture.counts("stroke-width=\"2\" fill=\"none\"", 3);
     // A mark at every point that has a value.
-    assert_eq!(picture.count("<circle"), 10);
+    picture.counts("<circle", 10);
 
     drawn(&folder, "sweep.csv --by drive_frequency --x drive_voltage_pp --y lift_mean_mn --title Lift")
         .has(&["Drive voltage, peak to peak (V)", "Lift, mean (mN)", "Lift", "90", "120"]);
@@ -76,9 +78,9 @@ fn a_map_shows_what_is_missing() {
         .has(&["Drive frequency (Hz)", "Drive voltage, peak to peak (V)", "Lift, mean (mN)", "no value"])
         .has(&["2 of 12 cells without a value"]);
     // Two cells, and the one that says what they are.
-    assert_eq!(picture.count("fill=\"#c9c9c9\""), 3);
+    picture.counts("fill=\"#c9c9c9\"", 3);
     // Twelve cells, 64 slices of the colour bar, the sign for missing cells, background, clip and frame.
-    assert_eq!(picture.count("<rect"), 12 + 64 + 1 + 3);
+    picture.counts("<rect", 12 + 64 + 1 + 3);
     // The axes end where the cells do.
     let picture = drawn(&folder, "sweep.csv --kind map --where drive_frequency=90 --y hinge_stiffness");
     picture.has(&["Hinge stiffness (µN·m/rad)"]);
@@ -117,7 +119,7 @@ fn a_front_of_two_measures() {
         .has(&["Lift, mean (mN)", "Power, mean (mW)", "designs (10)", "not dominated (3)"])
         .has(&["better: x larger, y smaller · 2 of 12 designs without values"]);
     // The points, those of the front once more, and the sign in the legend.
-    assert_eq!(picture.count("<circle"), 10 + 3 + 1);
+    picture.counts("<circle", 10 + 3 + 1);
     drawn(&folder, "sweep.csv --kind pareto --x-aim min --y-aim min")
         .has(&["not dominated (1)", "better: x smaller, y smaller · 2 of 12 designs without values"]);
     drawn(&folder, "sweep.csv --x lift_mean_mn --y stroke_amplitude_deg --color drive_frequency").has(&[
@@ -138,7 +140,7 @@ fn a_hysteresis_loop() {
         "Drive frequency (Hz)",
         "Stroke, amplitude (°)",
     ]);
-    assert_eq!(picture.count("<path"), 3);
+    picture.counts("<path", 3);
     let dashed = picture
         .svg
         .split("<path")
@@ -147,7 +149,7 @@ fn a_hysteresis_loop() {
     assert_eq!(dashed.count(), 1);
     let picture = drawn(&folder, "response.csv --where branch=up --y lift_mean_mn");
     picture.has(&["rising", "Lift, mean (mN)", "Branch up"]);
-    assert_eq!(picture.count("<path"), 1);
+    picture.counts("<path", 1);
 }
 
 #[test]
@@ -157,7 +159,7 @@ fn a_motion_and_its_phase_portrait() {
     picture.says("trajectory in out.svg").says("the rate of the pitch is that of its samples' differences");
     assert!(!picture.said.contains("the rate of the stroke"), "{}", picture.said);
     picture.has(&["Time (ms)", "Angle (°)", "Rate (°/ms)", "stroke", "pitch"]);
-    assert_eq!(picture.count("<path"), 4);
+    picture.counts("<path", 4);
     // As a line over time, if that is asked for.
     drawn(&folder, "motion.csv --x time_s --y stroke_deg").has(&["Time (ms)", "Stroke (°)"]);
 }
@@ -223,7 +225,7 @@ fn many_rows_are_thinned_and_said() {
     fs::write(folder.path("many.csv"), text).unwrap();
     let picture = drawn(&folder, "many.csv --kind pareto");
     picture.says("20000 of 50000 points are drawn, evenly chosen; the front is of all");
-    assert!(picture.count("<circle") < 20_100);
+    assert!(count(&picture.svg, "<circle") < 20_100);
     let picture = drawn(&folder, "many.csv --by drive_voltage_pp");
     assert!(picture.svg.len() < 1_000_000, "{}", picture.svg.len());
     let ended = refused(&folder, &["many.csv", "--by", "drive_frequency", "--x", "drive_voltage_pp"]);
