@@ -74,38 +74,32 @@ impl Work {
     }
 }
 
-/// Iterations in lanes.
+/// The numbers that a piece of work computes with.
 #[derive(Clone, Copy)]
-pub(crate) struct InLanes {
+pub(crate) enum Numbers {
+    Lanes,
+    /// Of one class, in a function with the instructions enabled.
+    Scalars(Arithmetic),
+}
+
+/// Iterations of a piece of work. Results in their time.
+#[derive(Clone, Copy)]
+pub(crate) struct Timed {
     pub(crate) work: Work,
+    pub(crate) numbers: Numbers,
     pub(crate) iterations: u64,
 }
 
-impl Kernel for InLanes {
+impl Kernel for Timed {
     type Output = Duration;
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Duration {
-        time::<Vector<S>>(simd, self.work, self.iterations)
-    }
-}
-
-/// Iterations on scalars.
-#[derive(Clone, Copy)]
-pub(crate) struct OnScalars {
-    pub(crate) work: Work,
-    pub(crate) arithmetic: Arithmetic,
-    pub(crate) iterations: u64,
-}
-
-impl Kernel for OnScalars {
-    type Output = Duration;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, _simd: S) -> Duration {
-        match self.arithmetic {
-            Arithmetic::Fused => time::<f64>((), self.work, self.iterations),
-            Arithmetic::Unfused => time::<Unfused>((), self.work, self.iterations),
+        let Timed { work, numbers, iterations } = self;
+        match numbers {
+            Numbers::Lanes => time::<Vector<S>>(simd, work, iterations),
+            Numbers::Scalars(Arithmetic::Fused) => time::<f64>((), work, iterations),
+            Numbers::Scalars(Arithmetic::Unfused) => time::<Unfused>((), work, iterations),
         }
     }
 }

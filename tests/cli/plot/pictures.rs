@@ -53,15 +53,14 @@ impl Drawn {
 #[test]
 fn a_family_of_responses() {
     let folder = folder();
-    let picture = drawn(&folder, "sweep.csv");
-    picture
+    drawn(&folder, "sweep.csv")
         .says("response in out.svg")
         .has(&["Drive frequency (Hz)", "Stroke, amplitude (°)", "sweep.csv", "60", "80", "100"])
-        .has(&["2 of 12 points without a value"]);
-    // One line of four points; two lines of two, each with one beyond the gap.
-    picture.counts("stroke-width=\"2\" fill=\"none\"", 3);
-    // A mark at every point that has a value.
-    picture.counts("<circle", 10);
+        .has(&["2 of 12 points without a value"])
+        // One line of four points; two lines of two, each with one beyond the gap.
+        .counts("stroke-width=\"2\" fill=\"none\"", 3)
+        // A mark at every point that has a value.
+        .counts("<circle", 10);
 
     drawn(&folder, "sweep.csv --by drive_frequency --x drive_voltage_pp --y lift_mean_mn --title Lift")
         .has(&["Drive voltage, peak to peak (V)", "Lift, mean (mN)", "Lift", "90", "120"]);
@@ -72,15 +71,14 @@ fn a_family_of_responses() {
 #[test]
 fn a_map_shows_what_is_missing() {
     let folder = folder();
-    let picture = drawn(&folder, "sweep.csv --color lift_mean_mn");
-    picture
+    drawn(&folder, "sweep.csv --color lift_mean_mn")
         .says("map in out.svg")
         .has(&["Drive frequency (Hz)", "Drive voltage, peak to peak (V)", "Lift, mean (mN)", "no value"])
-        .has(&["2 of 12 cells without a value"]);
-    // Two cells, and the one that says what they are.
-    picture.counts("fill=\"#c9c9c9\"", 3);
-    // Twelve cells, 64 slices of the colour bar, the sign for missing cells, background, clip and frame.
-    picture.counts("<rect", 12 + 64 + 1 + 3);
+        .has(&["2 of 12 cells without a value"])
+        // Two cells, and the one that says what they are.
+        .counts("fill=\"#c9c9c9\"", 3)
+        // Twelve cells, 64 slices of the colour bar, the sign for missing cells, background, clip and frame.
+        .counts("<rect", 12 + 64 + 1 + 3);
     // The axes end where the cells do.
     let picture = drawn(&folder, "sweep.csv --kind map --where drive_frequency=90 --y hinge_stiffness");
     picture.has(&["Hinge stiffness (µN·m/rad)"]);
@@ -113,13 +111,12 @@ fn even_ratios_are_drawn_evenly() {
 #[test]
 fn a_front_of_two_measures() {
     let folder = folder();
-    let picture = drawn(&folder, "sweep.csv --kind pareto");
-    picture
+    drawn(&folder, "sweep.csv --kind pareto")
         .says("pareto in out.svg")
         .has(&["Lift, mean (mN)", "Power, mean (mW)", "designs (10)", "not dominated (3)"])
-        .has(&["better: x larger, y smaller · 2 of 12 designs without values"]);
-    // The points, those of the front once more, and the sign in the legend.
-    picture.counts("<circle", 10 + 3 + 1);
+        .has(&["better: x larger, y smaller · 2 of 12 designs without values"])
+        // The points, those of the front once more, and the sign in the legend.
+        .counts("<circle", 10 + 3 + 1);
     drawn(&folder, "sweep.csv --kind pareto --x-aim min --y-aim min")
         .has(&["not dominated (1)", "better: x smaller, y smaller · 2 of 12 designs without values"]);
     drawn(&folder, "sweep.csv --x lift_mean_mn --y stroke_amplitude_deg --color drive_frequency").has(&[
@@ -147,9 +144,9 @@ fn a_hysteresis_loop() {
         .skip(1)
         .filter(|path| path.split('>').next().unwrap().contains("dasharray"));
     assert_eq!(dashed.count(), 1);
-    let picture = drawn(&folder, "response.csv --where branch=up --y lift_mean_mn");
-    picture.has(&["rising", "Lift, mean (mN)", "Branch up"]);
-    picture.counts("<path", 1);
+    drawn(&folder, "response.csv --where branch=up --y lift_mean_mn")
+        .has(&["rising", "Lift, mean (mN)", "Branch up"])
+        .counts("<path", 1);
 }
 
 #[test]
