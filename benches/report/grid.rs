@@ -4,14 +4,10 @@ use flap_core::simulate;
 use flap_sweep::grid;
 use flap_sweep::plan::Plan;
 
-pub(crate) const PRESETS: [&str; 6] = [
-    "jafferis2016",
-    "jafferis2016-improved",
-    "ozaki2018-small",
-    "ozaki2018-large",
-    "arabagi2013-75hz",
-    "arabagi2013-30hz",
-];
+/// The names of the presets of all models.
+pub(crate) fn presets() -> impl Iterator<Item = &'static str> {
+    simulate::all().iter().flat_map(|model| model.presets()).map(|preset| preset.name)
+}
 
 /// A square grid around the flight of a preset.
 pub(crate) fn grid(preset: &str, side: usize) -> Plan {

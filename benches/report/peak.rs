@@ -35,7 +35,7 @@ pub(crate) fn print(effort: Effort) {
 
 fn line(set: InstructionSet, effort: Effort) -> std::io::Result<String> {
     let executed = Executed::of(&format!("{set} {COUNTED}"))?;
-    let lanes = set.dispatch(Count) as f64;
+    let lanes = set.lanes() as f64;
     let counted = rhs_evals(set, COUNTED) / lanes;
     let [mut peaks, mut shares] = [Vec::new(), Vec::new()];
     for _ in 0..effort.rounds {
@@ -76,18 +76,6 @@ fn march_seconds(set: InstructionSet, periods: u64) -> f64 {
 /// Right-hand sides of all lanes.
 fn rhs_evals(set: InstructionSet, periods: u64) -> f64 {
     set.dispatch(March { periods, mark: &mut || () }) as f64
-}
-
-/// The number of lanes.
-struct Count;
-
-impl Kernel for Count {
-    type Output = usize;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, _simd: S) -> usize {
-        Vector::<S>::LANES
-    }
 }
 
 /// Fused multiplications and additions. Results in instructions per second.

@@ -8,7 +8,7 @@ use flap_core::simulate::{Jobs, LaneUse, Point, Row, SolverSettings, Status};
 use flap_sweep::plan::Plan;
 
 use crate::Effort;
-use crate::grid::{PRESETS, grid};
+use crate::grid::{grid, presets};
 use crate::spread::{Spread, digits};
 
 pub(crate) fn print(effort: Effort) {
@@ -23,7 +23,7 @@ pub(crate) fn print(effort: Effort) {
         SolverSettings::default().settle_tol,
         SolverSettings::default().rtol
     );
-    for preset in PRESETS {
+    for preset in presets() {
         let plan = grid(preset, effort.side);
         let ways = [false, true].map(|newton| SolverSettings { newton, ..*plan.solver() });
         let mut seconds = [Vec::new(), Vec::new()];

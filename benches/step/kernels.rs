@@ -9,7 +9,7 @@ use flap_core::model::Model;
 use flap_core::model::bimorph::Bimorph;
 use flap_core::model::direct_drive::{DirectDrive, FlowDirection};
 use flap_core::model::four_bar::FourBar;
-use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Simd, Unfused, Vector};
+use flap_core::num::{Arithmetic, Kernel, Lanes, PerLane, Simd, Unfused, Vector};
 use flap_core::ode::Ode;
 use flap_core::ode::norm::error_squared;
 use flap_core::ode::step::Step;
@@ -74,88 +74,42 @@ impl Work {
     }
 }
 
-/// Iterations in lanes.
+/// The numbers that a piece of work computes with.
 #[derive(Clone, Copy)]
-pub(crate) struct InLanes {
+pub(crate) enum Numbers {
+    Lanes,
+    /// Of one class, in a function with the instructions enabled.
+    Scalars(Arithmetic),
+}
+
+/// Iterations of a piece of work. Results in their time.
+#[derive(Clone, Copy)]
+pub(crate) struct Timed {
     pub(crate) work: Work,
+    pub(crate) numbers: Numbers,
     pub(crate) iterations: u64,
 }
 
-impl Kernel for InLanes {
+impl Kernel for Timed {
     type Output = Duration;
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Duration {
-        time::<Vector<S>>(simd, self.work, self.iterations)
-    }
-}
-
-/// Iterations on scalars.
-#[derive(Clone, Copy)]
-pub(crate) struct OnScalars {
-    pub(crate) work: Work,
-    pub(crate) arithmetic: Arithmetic,
-    pub(crate) iterations: u64,
-}
-
-impl Kernel for OnScalars {
-    type Output = Duration;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, _simd: S) -> Duration {
-        match self.arithmetic {
-            Arithmetic::Fused => time::<f64>((), self.work, self.iterations),
-            Arithmetic::Unfused => time::<Unfused>((), self.work, self.iterations),
+        let Timed { work, numbers, iterations } = self;
+        match numbers {
+            Numbers::Lanes => time::<Vector<S>>(simd, work, iterations),
+            Numbers::Scalars(Arithmetic::Fused) => time::<f64>((), work, iterations),
+            Numbers::Scalars(Arithmetic::Unfused) => time::<Unfused>((), work, iterations),
         }
     }
-}
-
-/// The number of lanes of a set.
-pub(crate) fn lanes(set: InstructionSet) -> usize {
-    struct Count;
-    impl Kernel for Count {
-        type Output = usize;
-        #[inline(always)]
-        fn run<S: Simd>(self, _simd: S) -> usize {
-            Vector::<S>::LANES
-        }
-    }
-    set.dispatch(Count)
 }
 
 #[inline(always)]
 fn time<R: Lanes>(token: R::Token, work: Work, iterations: u64) -> Duration {
     match work {
-        Work::SinCos => {
-            let x = values::<R>(token, -10.0, 10.0);
-            let begin = Instant::now();
-            for _ in 0..iterations {
-                for &x in black_box(&x) {
-                    black_box(x.sin_cos());
-                }
-            }
-            begin.elapsed()
-        }
-        Work::Exp => {
-            let x = values::<R>(token, -10.0, 10.0);
-            let begin = Instant::now();
-            for _ in 0..iterations {
-                for &x in black_box(&x) {
-                    black_box(x.exp());
-                }
-            }
-            begin.elapsed()
-        }
-        Work::Ln => {
-            let x = values::<R>(token, 1e-3, 10.0);
-            let begin = Instant::now();
-            for _ in 0..iterations {
-                for &x in black_box(&x) {
-                    black_box(x.ln());
-                }
-            }
-            begin.elapsed()
-        }
+        Work::SinCos => time_function(&values::<R>(token, -10.0, 10.0), iterations, R::sin_cos),
+        Work::Exp => time_function(&values::<R>(token, -10.0, 10.0), iterations, R::exp),
+        Work::Ln => time_function(&values::<R>(token, 1e-3, 10.0), iterations, R::ln),
         Work::Rhs(Equations::Bimorph) => time_rhs::<R, _, _>(token, &BIMORPH, "jafferis2016", iterations),
         Work::Rhs(Equations::DirectDrive) => {
             time_rhs::<R, _, _>(token, &DIRECT_DRIVE, "ozaki2018-large", iterations)
@@ -180,6 +134,18 @@ fn time<R: Lanes>(token: R::Token, work: Work, iterations: u64) -> Duration {
             begin.elapsed()
         }
     }
+}
+
+/// Times `function`, which must be `#[inline(always)]` to be compiled for the lanes' instructions.
+#[inline(always)]
+fn time_function<R: Lanes, T>(values: &[R], iterations: u64, function: impl Fn(R) -> T) -> Duration {
+    let begin = Instant::now();
+    for _ in 0..iterations {
+        for &x in black_box(values) {
+            black_box(function(x));
+        }
+    }
+    begin.elapsed()
 }
 
 #[inline(always)]

@@ -9,7 +9,7 @@ use core::time::Duration;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use flap_core::num::InstructionSet;
 
-use kernels::{Equations, InLanes, OnScalars, VALUES, Work, lanes};
+use kernels::{Equations, Numbers, Timed, VALUES, Work};
 
 fn parts(criterion: &mut Criterion) {
     let rhs = Equations::ALL.map(Work::Rhs);
@@ -18,10 +18,11 @@ fn parts(criterion: &mut Criterion) {
         group.sample_size(20);
         group.warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(1));
         for set in InstructionSet::available() {
-            let elements = if work.is_function() { VALUES } else { lanes(set) };
+            let elements = if work.is_function() { VALUES } else { set.lanes() };
             group.throughput(Throughput::Elements(elements as u64));
             group.bench_function(format!("lanes/{set}"), |bench| {
-                bench.iter_custom(|iterations| set.dispatch(InLanes { work, iterations }));
+                let numbers = Numbers::Lanes;
+                bench.iter_custom(|iterations| set.dispatch(Timed { work, numbers, iterations }));
             });
         }
         // Scalars of both classes; the fused ones in a function with the instruction enabled.
@@ -31,7 +32,8 @@ fn parts(criterion: &mut Criterion) {
             let arithmetic = set.arithmetic();
             group.throughput(Throughput::Elements(elements as u64));
             group.bench_function(format!("scalars/{}", arithmetic.name()), |bench| {
-                bench.iter_custom(|iterations| set.dispatch(OnScalars { work, arithmetic, iterations }));
+                let numbers = Numbers::Scalars(arithmetic);
+                bench.iter_custom(|iterations| set.dispatch(Timed { work, numbers, iterations }));
             });
         }
         group.finish();

@@ -20,7 +20,7 @@ use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{self, RunOptions};
 use flap_sweep::table::layout::Layout;
 
-use grid::{PRESETS, grid};
+use grid::grid;
 use rows::{Rows, read};
 
 /// Points per side of the grid of each preset.
@@ -29,7 +29,7 @@ const SIDE: usize = 8;
 fn presets(criterion: &mut Criterion) {
     let mut group = group(criterion, "sweep");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
-    for preset in PRESETS {
+    for preset in grid::presets() {
         let plan = grid(preset, SIDE);
         group.throughput(Throughput::Elements(plan.len()));
         group.bench_function(preset, |bench| bench.iter(|| sweep(&plan)));

@@ -40,10 +40,10 @@ fn main() -> ExitCode {
 fn figure_2() {
     println!("oscillator,force,frequency_ratio,stroke_per_force,hinge_amplitude_deg");
     for force in FORCES {
-        print_curve("linear", force, &response(&Linear, force, DAMPING), false);
-        print_curve("held at 0 deg", force, &response(&HeldWing::at(0.0), force, DAMPING), false);
-        print_curve("held at 75 deg", force, &response(&HeldWing::at(75.0), force, DAMPING), false);
-        print_curve("turning", force, &response(&TABLE_I, force, DAMPING), true);
+        print_curve("linear", force, &response(Linear, force, DAMPING), false);
+        print_curve("held at 0 deg", force, &response(HeldWing::at(0.0), force, DAMPING), false);
+        print_curve("held at 75 deg", force, &response(HeldWing::at(75.0), force, DAMPING), false);
+        print_curve("turning", force, &response(TABLE_I, force, DAMPING), true);
     }
 }
 
@@ -74,7 +74,7 @@ fn summary() {
     let (angle, lift) = highest(|degrees| FIG_3.mean_lift(degrees));
     println!("mean lift is largest where the hinge reaches {angle:.2} deg: {lift:.3} (paper: 51 deg)");
     for force in FORCES {
-        let found: Vec<String> = peaks(&response(&TABLE_I, force, DAMPING))
+        let found: Vec<String> = peaks(&response(TABLE_I, force, DAMPING))
             .iter()
             .map(|peak| {
                 let degrees = peak.second.to_degrees();

@@ -21,10 +21,29 @@ flap_core::per_lane! {
     }
 }
 
-/// The force at time `t`: what depends on time alone is computed apart from the state.
-#[inline(always)]
-fn force<R: Lanes>(c: &Drive<R>, t: R) -> R {
-    c.force * (c.frequency * t).sin()
+/// An oscillator, of `N` states.
+pub(crate) trait Oscillator<const N: usize>: Sync {
+    /// Rates of the states under a force.
+    fn rates<R: Lanes>(&self, c: &Drive<R>, force: R, y: &[R; N]) -> [R; N];
+}
+
+/// An oscillator under its force: a system of differential equations.
+pub(crate) struct Forced<O>(pub(crate) O);
+
+impl<O: Oscillator<N>, const N: usize> Ode<N> for Forced<O> {
+    type Constants<R: Lanes> = Drive<R>;
+    type Input<R: Lanes> = R;
+
+    /// The force at time `t`: what depends on time alone is computed apart from the state.
+    #[inline(always)]
+    fn input<R: Lanes>(&self, c: &Drive<R>, t: R) -> R {
+        c.force * (c.frequency * t).sin()
+    }
+
+    #[inline(always)]
+    fn rhs<R: Lanes>(&self, c: &Drive<R>, force: &R, _side: R, y: &[R; N]) -> [R; N] {
+        self.0.rates(c, *force, y)
+    }
 }
 
 /// (i) Damping in proportion to the speed.
@@ -34,19 +53,11 @@ fn force<R: Lanes>(c: &Drive<R>, t: R) -> R {
 /// ```
 pub(crate) struct Linear;
 
-impl Ode<2> for Linear {
-    type Constants<R: Lanes> = Drive<R>;
-    type Input<R: Lanes> = R;
-
+impl Oscillator<2> for Linear {
     #[inline(always)]
-    fn input<R: Lanes>(&self, c: &Drive<R>, t: R) -> R {
-        force(c, t)
-    }
-
-    #[inline(always)]
-    fn rhs<R: Lanes>(&self, c: &Drive<R>, force: &R, _side: R, y: &[R; 2]) -> [R; 2] {
+    fn rates<R: Lanes>(&self, c: &Drive<R>, force: R, y: &[R; 2]) -> [R; 2] {
         let [x, x_dot] = *y;
-        [x_dot, *force - x - c.damping * x_dot]
+        [x_dot, force - x - c.damping * x_dot]
     }
 }
 
@@ -67,19 +78,11 @@ impl HeldWing {
     }
 }
 
-impl Ode<2> for HeldWing {
-    type Constants<R: Lanes> = Drive<R>;
-    type Input<R: Lanes> = R;
-
+impl Oscillator<2> for HeldWing {
     #[inline(always)]
-    fn input<R: Lanes>(&self, c: &Drive<R>, t: R) -> R {
-        force(c, t)
-    }
-
-    #[inline(always)]
-    fn rhs<R: Lanes>(&self, c: &Drive<R>, force: &R, _side: R, y: &[R; 2]) -> [R; 2] {
+    fn rates<R: Lanes>(&self, c: &Drive<R>, force: R, y: &[R; 2]) -> [R; 2] {
         let [x, x_dot] = *y;
-        [x_dot, *force - x - c.damping * self.drag * x_dot.abs() * x_dot]
+        [x_dot, force - x - c.damping * self.drag * x_dot.abs() * x_dot]
     }
 }
 
@@ -107,22 +110,14 @@ pub(crate) const TABLE_I: TurningWing =
 /// The stroke's damping with a drag coefficient of 1, as of Table I.
 pub(crate) const DAMPING: f64 = 0.67;
 
-impl Ode<4> for TurningWing {
-    type Constants<R: Lanes> = Drive<R>;
-    type Input<R: Lanes> = R;
-
+impl Oscillator<4> for TurningWing {
     #[inline(always)]
-    fn input<R: Lanes>(&self, c: &Drive<R>, t: R) -> R {
-        force(c, t)
-    }
-
-    #[inline(always)]
-    fn rhs<R: Lanes>(&self, c: &Drive<R>, force: &R, _side: R, y: &[R; 4]) -> [R; 4] {
+    fn rates<R: Lanes>(&self, c: &Drive<R>, force: R, y: &[R; 4]) -> [R; 4] {
         let [x, psi, x_dot, psi_dot] = *y;
         let (sin, cos) = psi.sin_cos();
         let pressure = x_dot.abs() * x_dot;
         let drag = FIG_3.drag(cos * cos * 2.0 - 1.0);
-        let x_ddot = *force - x - c.damping * drag * pressure;
+        let x_ddot = force - x - c.damping * drag * pressure;
         let psi_ddot = FIG_3.normal(sin, cos) * pressure * self.moment
             + x_ddot * cos * self.coupling
             + x_dot * x_dot * sin * cos

@@ -8,7 +8,7 @@ use flap_core::ode::dense::interpolate;
 use flap_core::ode::solve::solve;
 use flap_core::ode::{Ode, Start, Tolerances};
 
-use super::oscillators::Drive;
+use super::oscillators::{Drive, Forced, Oscillator};
 
 const TOLERANCES: Tolerances = Tolerances { rtol: 1e-6, atol: 1e-8, max_steps: 10_000 };
 
@@ -35,13 +35,15 @@ pub(crate) struct Response {
 }
 
 /// The response of an oscillator to a force, over the frequency.
-pub(crate) fn response<O, const N: usize>(ode: &O, force: f64, damping: f64) -> Vec<Response>
-where
-    O: Ode<N, Constants<f64> = Drive<f64>>,
-{
+pub(crate) fn response<const N: usize>(
+    oscillator: impl Oscillator<N>,
+    force: f64,
+    damping: f64,
+) -> Vec<Response> {
+    let ode = Forced(oscillator);
     frequencies()
         .map(|frequency| {
-            let amplitudes = settled_amplitudes(ode, Drive { force, frequency, damping });
+            let amplitudes = settled_amplitudes(&ode, Drive { force, frequency, damping });
             Response { frequency, stroke: amplitudes[0] / force, second: amplitudes[1] }
         })
         .collect()

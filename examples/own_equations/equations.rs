@@ -3,6 +3,9 @@
 //! A bimorph of Jafferis, Graule and Wood (2016) with constant stiffness and a sinusoidal force: Eqs. (1), (2), (8) to
 //! (11), numbers of Table I.
 
+#[path = "constants.rs"]
+mod constants;
+
 use core::f64::consts::FRAC_1_PI;
 
 use flap_core::num::Lanes;
@@ -12,23 +15,11 @@ use flap_core::ode::ensemble::Observer;
 use flap_core::ode::step::Attempt;
 use flap_core::ode::tableau::B;
 
-const TRANSMISSION: f64 = 3333.0; // T (rad/m)
-const MASS: f64 = (51.1 + 10.22) * 1e-12 * TRANSMISSION * TRANSMISSION; // at the tip (kg)
-const STIFFNESS: f64 = 395.0; // of the actuator (N/m)
-const INERTIA: f64 = 1.2255e-12; // I_xx (kg m²)
-const COUPLING: f64 = 0.812e-12; // I_xz (kg m²)
-const HINGE: f64 = 1.497e-6; // κ (N m/rad)
-const DRAG_MEAN: f64 = 0.5 * (4.25 + 0.156);
-const DRAG_SWING: f64 = 0.5 * (4.25 - 0.156);
-const LIFT: f64 = 1.8;
-/// ½ ρ A r₂² (R T)²: pressure on the wing per squared tip speed (kg/m).
-const PRESSURE: f64 = 0.5 * 1.2 * 54.59e-6 * 0.564 * 0.564 * (0.017 * TRANSMISSION) * (0.017 * TRANSMISSION);
-/// Drag at the tip per squared tip speed and drag coefficient (kg/m), Eq. (8).
-const TIP_DRAG: f64 = PRESSURE * 13.58e-3 * TRANSMISSION;
-/// Moment of the air on the hinge per squared tip speed, coefficient and arm (kg), Eq. (10).
-const MOMENT: f64 = PRESSURE * 54.59e-6 / 0.017;
-/// Damping of the hinge per squared rate (kg m²), Eq. (11).
-const HINGE_DRAG: f64 = 0.5 * 1.2 * 54.59e-6 * 0.753e-3 * 0.43 * 0.43 * 4.5e-3 * 4.5e-3 * 4.25;
+pub(crate) use constants::SCALE;
+use constants::{
+    COUPLING, DRAG_MEAN, DRAG_SWING, HINGE, HINGE_DRAG, INERTIA, LIFT, MASS, MOMENT, PRESSURE, STIFFNESS,
+    TIP_DRAG, TRANSMISSION,
+};
 
 // What a point of the grid has of its own. The macro makes a struct of numbers `R`: one per SIMD lane.
 flap_core::per_lane! {
@@ -50,9 +41,6 @@ impl Drive<f64> {
 
 /// The wing: tip of the actuator (m), its rate, hinge angle (rad), its rate.
 pub(crate) struct Wing;
-
-/// Typical sizes of the states.
-pub(crate) const SCALE: [f64; 4] = [1e-4, 0.1, 1.0, 1e3];
 
 impl Ode<4> for Wing {
     type Constants<R: Lanes> = Drive<R>;

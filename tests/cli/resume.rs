@@ -10,7 +10,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::support::{Folder, frequencies, quick, send, start, wait, wait_for_rows};
+use crate::support::{Folder, frequencies, quick, send, start, sweep_until, wait};
 
 /// Points of sweeps that are to last long enough to be killed several times.
 const POINTS: u64 = 60_000;
@@ -239,8 +239,7 @@ fn results_removed_meanwhile_are_noticed() {
 #[test]
 fn a_running_sweep_is_not_resumed() {
     let folder = Folder::with_grid(&frequencies(100_000_000));
-    let mut child = start(&folder, &["sweep", "--grid", "grid.toml"]);
-    wait_for_rows(&folder, 1);
+    let mut child = sweep_until(&folder, 1);
     for arguments in ["resume grid.csv", "sweep --grid grid.toml --resume", "sweep --grid grid.toml --force"]
     {
         let ended = folder.ends(3, arguments);

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 #[cfg(unix)]
 use crate::support::start_in_background;
-use crate::support::{Folder, frequencies, send, start, wait, wait_for_rows};
+use crate::support::{Folder, frequencies, send, start, sweep_until, wait, wait_for_rows};
 
 #[test]
 fn stdout_carries_rows_and_nothing_else() {
@@ -42,8 +42,7 @@ fn a_reader_who_has_seen_enough_is_no_error() {
 fn an_interrupted_sweep_keeps_the_rows_of_the_first_points() {
     for signal in ["INT", "TERM"] {
         let folder = Folder::with_grid(&frequencies(100_000_000));
-        let mut child = start(&folder, &["sweep", "--grid", "grid.toml"]);
-        wait_for_rows(&folder, 100);
+        let mut child = sweep_until(&folder, 100);
         send(signal, &child);
         assert_eq!(wait(&mut child), Some(130));
 
@@ -74,8 +73,7 @@ fn an_interrupted_sweep_keeps_the_rows_of_the_first_points() {
 #[cfg(unix)]
 fn a_second_signal_ends_at_once() {
     let folder = Folder::with_grid(&frequencies(100_000_000));
-    let mut child = start(&folder, &["sweep", "--grid", "grid.toml"]);
-    wait_for_rows(&folder, 1);
+    let mut child = sweep_until(&folder, 1);
     send("INT", &child);
     send("INT", &child);
     assert_eq!(wait(&mut child), Some(130));
@@ -128,8 +126,7 @@ fn an_endless_point_does_not_lose_the_rows_before_it() {
     let folder = Folder::with_grid(&format!(
         "preset = \"ozaki2018-small\"\n\n[axes]\n{axis}\n\n[derived]\n{invalid_below_95}\n{ENDLESS}"
     ));
-    let mut child = start(&folder, &["sweep", "--grid", "grid.toml"]);
-    wait_for_rows(&folder, 2);
+    let mut child = sweep_until(&folder, 2);
     send("TERM", &child);
     assert_eq!(wait(&mut child), Some(130));
     assert_eq!(folder.read("grid.csv").lines().count(), 3);

@@ -139,6 +139,13 @@ pub(crate) fn start(folder: &Folder, arguments: &[&str]) -> Child {
     command.spawn().unwrap()
 }
 
+/// Starts `flap sweep --grid grid.toml`, and waits until more than `rows` lines are in `grid.csv`.
+pub(crate) fn sweep_until(folder: &Folder, rows: usize) -> Child {
+    let child = start(folder, &["sweep", "--grid", "grid.toml"]);
+    wait_for_rows(folder, rows);
+    child
+}
+
 /// Starts `flap` as shells start jobs in the background: SIGINT is ignored.
 #[cfg(unix)]
 pub(crate) fn start_in_background(folder: &Folder, arguments: &[&str]) -> Child {

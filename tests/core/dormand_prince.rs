@@ -7,7 +7,9 @@ use flap_core::ode::dense::interpolate;
 use flap_core::ode::solve::solve;
 use flap_core::ode::step::Step;
 use flap_core::ode::tableau::{A, B, C, D, E, STAGES};
-use flap_core::ode::{Ending, Ode, Outcome, Start, Tolerances};
+use flap_core::ode::{Ending, Ode, Start, Tolerances};
+
+use crate::span::{self, Span};
 
 fn dot(x: [f64; STAGES], y: [f64; STAGES]) -> f64 {
     x.iter().zip(y).map(|(x, y)| x * y).sum()
@@ -176,7 +178,7 @@ impl Ode<4> for Arenstorf {
     }
 }
 
-fn arenstorf(rtol: f64) -> ([f64; 4], Outcome, u64) {
+fn arenstorf(rtol: f64) -> Span<4> {
     let start = Start {
         constants: (),
         y: [0.994, 0.0, 0.0, -2.001_585_106_379_082_5],
@@ -184,26 +186,14 @@ fn arenstorf(rtol: f64) -> ([f64; 4], Outcome, u64) {
         scale: [1.0; 4],
         tighten: 1.0,
     };
-    let mut end = [0.0; 4];
-    let mut accepted = 0;
-    let outcome = solve::<_, f64, 4>(
-        &Arenstorf,
-        &Tolerances { rtol, atol: rtol, max_steps: 10_000 },
-        &start,
-        |_, _| accepted += 1,
-        |y| {
-            end = *y;
-            ControlFlow::Break(())
-        },
-    );
-    (end, outcome, accepted)
+    span::run(&Arenstorf, &Tolerances { rtol, atol: rtol, max_steps: 10_000 }, &start)
 }
 
 /// The code DOPRI5 takes 238 steps at this tolerance, 217 of them accepted, with 1 + 6 · 238 evaluations
 /// (as reproduced to the last step by russell_ode). Our start and last step are chosen differently.
 #[test]
 fn arenstorf_orbit_takes_as_many_steps_as_published() {
-    let (end, outcome, accepted) = arenstorf(1e-7);
+    let Span { end, outcome, accepted } = arenstorf(1e-7);
     assert_eq!(outcome.ending, Ending::Stopped);
     assert_eq!(outcome.rhs_evals, 2 + 6 * outcome.attempts);
     println!("Arenstorf: {} steps, {accepted} accepted, end {end:?}", outcome.attempts);
@@ -214,7 +204,7 @@ fn arenstorf_orbit_takes_as_many_steps_as_published() {
 
 #[test]
 fn arenstorf_orbit_closes_as_the_tolerance_falls() {
-    let (end, ..) = arenstorf(1e-11);
+    let end = arenstorf(1e-11).end;
     assert!((end[0] - 0.994).abs() < 1e-6 && end[1].abs() < 1e-6, "{end:?}");
 }
 
@@ -262,17 +252,8 @@ fn crossings_are_located_and_counted() {
     let counter = std::sync::atomic::AtomicU64::new(0);
     let span = 3.5 * std::f64::consts::PI;
     let start = Start { constants: (), y: [2.0, 0.0], span, scale: [1.0; 2], tighten: 1.0 };
-    let mut end = [0.0; 2];
-    let outcome = solve::<_, f64, 2>(
-        &CountedSwitch(&counter),
-        &Tolerances { rtol: 1e-9, atol: 1e-9, max_steps: 10_000 },
-        &start,
-        |_, _| {},
-        |y| {
-            end = *y;
-            ControlFlow::Break(())
-        },
-    );
+    let tolerances = Tolerances { rtol: 1e-9, atol: 1e-9, max_steps: 10_000 };
+    let Span { end, outcome, .. } = span::run(&CountedSwitch(&counter), &tolerances, &start);
     assert_eq!(outcome.rhs_evals, counter.into_inner());
     // Three reversals; then a quarter turn on the fourth half turn, of amplitude 1.3 about −0.1.
     assert!((end[0] + 0.1).abs() < 1e-7 && (end[1] - 1.3).abs() < 1e-7, "{end:?}");
@@ -282,14 +263,8 @@ fn crossings_are_located_and_counted() {
 fn a_step_evaluates_the_right_hand_side_six_times() {
     let counter = std::sync::atomic::AtomicU64::new(0);
     let start = Start { constants: (), y: [3.0], span: 10.0, scale: [1.0], tighten: 1.0 };
-    let mut accepted = 0;
-    let outcome = solve::<_, f64, 1>(
-        &Counted(&counter),
-        &Tolerances { rtol: 1e-6, atol: 1e-8, max_steps: 10_000 },
-        &start,
-        |_, _| accepted += 1,
-        |_| ControlFlow::Break(()),
-    );
+    let tolerances = Tolerances { rtol: 1e-6, atol: 1e-8, max_steps: 10_000 };
+    let Span { outcome, accepted, .. } = span::run(&Counted(&counter), &tolerances, &start);
     assert!(outcome.attempts > accepted && accepted > 20, "{outcome:?}, {accepted} accepted");
     assert_eq!(counter.into_inner(), 2 + 6 * outcome.attempts);
     assert_eq!(outcome.rhs_evals, 2 + 6 * outcome.attempts);
@@ -338,7 +313,7 @@ fn failures_become_endings() {
     let tolerances = Tolerances { rtol: 1e-6, atol: 1e-8, max_steps: 100_000 };
     let run = |y: f64, tolerances: &Tolerances| {
         let start = Start { constants: (), y: [y], span: 2.0, scale: [1.0], tighten: 1.0 };
-        solve::<_, f64, 1>(&BlowUp, tolerances, &start, |_, _| {}, |_| ControlFlow::Break(())).ending
+        span::run(&BlowUp, tolerances, &start).outcome.ending
     };
     assert_eq!(run(0.1, &tolerances), Ending::Stopped);
     assert_eq!(run(1.0, &tolerances), Ending::StepLimit);

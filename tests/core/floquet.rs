@@ -1,7 +1,7 @@
 //! Responses to changes of the initial state, against Floquet multipliers of reference orbits.
 
 use flap_core::model::Model;
-use flap_core::model::bimorph::{self, Bimorph};
+use flap_core::model::bimorph::Bimorph;
 use flap_core::model::direct_drive::{self, DirectDrive};
 use flap_core::ode::variation::{Variation, initial, response};
 use flap_core::ode::{Start, Tolerances};
@@ -57,14 +57,10 @@ fn check<M: Model<4, S>, const S: usize>(
 #[test]
 fn multipliers_of_direct_drive_orbits_equal_the_reference() {
     for record in table("direct-drive/steady_cases.csv") {
-        let p = match record.text("type") {
-            "small" => direct_drive::Params::ozaki2018_small(),
-            _ => direct_drive::Params::ozaki2018_large(),
-        };
         let p = direct_drive::Params {
             drive_voltage_pp: 2.0 * record.number("V0_V"),
             drive_frequency: record.number("f_Hz"),
-            ..p
+            ..crate::direct_drive::params(record.text("type"))
         };
         let states = ["x_phi0", "x_psi0", "x_phidot0", "x_psidot0"];
         check(&DirectDrive::default(), &p.to_values(), &record, states, "floquet_max");
@@ -74,17 +70,7 @@ fn multipliers_of_direct_drive_orbits_equal_the_reference() {
 #[test]
 fn multipliers_of_bimorph_orbits_equal_the_reference() {
     for record in table("bimorph/steady_cases.csv") {
-        let p = match record.text("set") {
-            "T1" => bimorph::Params::jafferis2016(),
-            "T2" => bimorph::Params::jafferis2016().with_transmission_scaled(0.8),
-            "T3" => bimorph::Params::jafferis2016().with_transmission_scaled(0.6),
-            _ => bimorph::Params::jafferis2016_improved(),
-        };
-        let p = bimorph::Params {
-            drive_voltage_pp: record.number("Vpp_V"),
-            drive_frequency: record.number("f_Hz"),
-            ..p
-        };
+        let p = crate::bimorph::driven(&crate::bimorph::params(record.text("set")), &record);
         let states = ["x0_m", "v0_m_per_s", "psi0_rad", "psidot0_rad_per_s"];
         check(&Bimorph::default(), &p.to_values(), &record, states, "floquet_abs_max");
     }

@@ -17,7 +17,7 @@ use crate::data::assert_close;
 
 /// The wing on its hinge.
 fn turning(force: f64) -> Vec<Response> {
-    response(&TABLE_I, force, DAMPING)
+    response(TABLE_I, force, DAMPING)
 }
 
 /// The only peak of a curve.
@@ -38,7 +38,7 @@ fn width(curve: &[Response]) -> f64 {
 #[test]
 fn linear_oscillator_has_its_textbook_response() {
     for force in [0.1, 1.0] {
-        for point in response(&Linear, force, DAMPING) {
+        for point in response(Linear, force, DAMPING) {
             let square = point.frequency * point.frequency;
             let expected = 1.0 / ((1.0 - square).powi(2) + DAMPING * DAMPING * square).sqrt();
             assert_close(point.stroke, expected, 1e-3, &format!("{point:?}"));
@@ -52,10 +52,11 @@ fn linear_oscillator_has_its_textbook_response() {
 fn held_wing_is_damped_as_by_its_equivalent_linear_damping() {
     for degrees in [0.0, 75.0] {
         let wing = HeldWing::at(degrees);
-        for point in response(&wing, 0.1, DAMPING) {
+        let drag = wing.drag;
+        for point in response(wing, 0.1, DAMPING) {
             let amplitude = 0.1 * point.stroke;
             let square = point.frequency * point.frequency;
-            let damping = DAMPING * wing.drag * 8.0 / (3.0 * PI) * square * amplitude;
+            let damping = DAMPING * drag * 8.0 / (3.0 * PI) * square * amplitude;
             let expected = 1.0 / ((1.0 - square).powi(2) + damping * damping).sqrt();
             assert_close(point.stroke, expected, 2e-2, &format!("{degrees} deg, {point:?}"));
         }
@@ -67,7 +68,7 @@ fn held_wing_is_damped_as_by_its_equivalent_linear_damping() {
 #[test]
 fn held_wing_peaks_lower_in_both_ways_with_more_force() {
     for degrees in [0.0, 75.0] {
-        let peaks = [0.1, 0.2, 0.4].map(|force| peak(&response(&HeldWing::at(degrees), force, DAMPING)));
+        let peaks = [0.1, 0.2, 0.4].map(|force| peak(&response(HeldWing::at(degrees), force, DAMPING)));
         println!("held at {degrees} deg: {peaks:?}");
         for pair in peaks.windows(2) {
             assert!(pair[1].stroke < pair[0].stroke && pair[1].frequency < pair[0].frequency, "{pair:?}");
@@ -80,7 +81,7 @@ fn held_wing_peaks_lower_in_both_ways_with_more_force() {
 fn turning_wing_has_three_regimes() {
     // "(a) for low force amplitudes … behaves as in (ii), with a high drag coefficient": a broad and low peak.
     let low = turning(0.2);
-    let held = peak(&response(&HeldWing::at(0.0), 0.2, DAMPING));
+    let held = peak(&response(HeldWing::at(0.0), 0.2, DAMPING));
     assert_close(peak(&low).stroke, held.stroke, 2e-2, "low force");
     assert!((peak(&low).frequency - held.frequency).abs() < 0.025);
     assert!(peak(&low).second.to_degrees() < 15.0);
@@ -103,12 +104,12 @@ fn turning_wing_has_three_regimes() {
     // "(b) for high force amplitudes … approaches that of (ii) but with a lower drag coefficient": lower again.
     let high = peak(&turning(1.0));
     assert!(high.frequency < peak(&strong).frequency && high.stroke < peak(&strong).stroke);
-    let held = peak(&response(&HeldWing::at(75.0), 1.0, DAMPING));
+    let held = peak(&response(HeldWing::at(75.0), 1.0, DAMPING));
     println!("high force: {high:?}, held at 75 deg {held:?}");
     assert_close(high.stroke, held.stroke, 0.2, "high force");
     assert!((high.frequency - held.frequency).abs() < 0.03);
     // With the high drag coefficient it would peak below the static response, if at all.
-    let upright = response(&HeldWing::at(0.0), 1.0, DAMPING);
+    let upright = response(HeldWing::at(0.0), 1.0, DAMPING);
     assert!(upright.iter().all(|point| point.stroke < 0.8 * high.stroke));
 }
 

@@ -11,6 +11,7 @@
 
 mod accuracy;
 mod bimorph;
+mod by_name;
 mod continued;
 mod data;
 mod direct_drive;
@@ -31,6 +32,7 @@ mod robustness;
 mod rows;
 mod samples;
 mod settings;
+mod slopes;
 mod span;
 mod strobe;
 mod tracking;

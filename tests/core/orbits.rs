@@ -11,32 +11,21 @@ fn run(model: &str, values: &[f64], rtol: f64, settle_tol: f64) -> Row {
     by_name(model).unwrap().run_point(&PointRun::new(InstructionSet::best(), &solver, values), None)
 }
 
-/// The parameters of the bimorph's reference sets.
-fn bimorph_set(name: &str) -> bimorph::Params {
-    match name {
-        "T1" => bimorph::Params::jafferis2016(),
-        "T2" => bimorph::Params::jafferis2016().with_transmission_scaled(0.8),
-        "T3" => bimorph::Params::jafferis2016().with_transmission_scaled(0.6),
-        _ => bimorph::Params::jafferis2016_improved(),
-    }
-}
-
 #[test]
 fn multipliers_of_rows_equal_the_reference() {
     for record in table("direct-drive/steady_cases.csv") {
-        let p = match record.text("type") {
-            "small" => direct_drive::Params::ozaki2018_small(),
-            _ => direct_drive::Params::ozaki2018_large(),
-        };
         let (drive_voltage_pp, drive_frequency) = (2.0 * record.number("V0_V"), record.number("f_Hz"));
-        let p = direct_drive::Params { drive_voltage_pp, drive_frequency, ..p };
+        let p = direct_drive::Params {
+            drive_voltage_pp,
+            drive_frequency,
+            ..crate::direct_drive::params(record.text("type"))
+        };
         let row = run("direct-drive", &p.to_values(), 1e-8, 1e-6);
         assert_eq!((row.status, row.period), (Status::Periodic, 1), "{}", record.name);
         assert_close(row.floquet_max, record.number("floquet_max"), 1e-4, &record.name);
     }
     for record in table("bimorph/steady_cases.csv") {
-        let (drive_voltage_pp, drive_frequency) = (record.number("Vpp_V"), record.number("f_Hz"));
-        let p = bimorph::Params { drive_voltage_pp, drive_frequency, ..bimorph_set(record.text("set")) };
+        let p = crate::bimorph::driven(&crate::bimorph::params(record.text("set")), &record);
         let row = run("bimorph", &p.to_values(), 1e-8, 1e-6);
         assert_eq!((row.status, row.period), (Status::Periodic, 1), "{}", record.name);
         assert_close(row.floquet_max, record.number("floquet_abs_max"), 1e-4, &record.name);

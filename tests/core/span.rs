@@ -3,7 +3,44 @@
 use std::ops::ControlFlow;
 
 use flap_core::ode::solve::solve;
-use flap_core::ode::{Ending, Ode, Start, Tolerances};
+use flap_core::ode::{Ending, Ode, Outcome, Start, Tolerances};
+
+use crate::data::assert_close;
+
+/// Tolerances with which a span may take 100,000 steps.
+pub(crate) fn tolerances(rtol: f64) -> Tolerances {
+    Tolerances { rtol, atol: 1e-2 * rtol, max_steps: 100_000 }
+}
+
+/// The first span of a run.
+pub(crate) struct Span<const N: usize> {
+    /// The state at its end; that at its beginning if the run has failed.
+    pub(crate) end: [f64; N],
+    pub(crate) outcome: Outcome,
+    /// Steps accepted.
+    pub(crate) accepted: u64,
+}
+
+/// The first span of a run.
+pub(crate) fn run<O: Ode<N>, const N: usize>(
+    ode: &O,
+    tolerances: &Tolerances,
+    start: &Start<O::Constants<f64>, N>,
+) -> Span<N> {
+    let mut end = start.y;
+    let mut accepted = 0;
+    let outcome = solve::<O, f64, N>(
+        ode,
+        tolerances,
+        start,
+        |_, _| accepted += 1,
+        |y| {
+            end = *y;
+            ControlFlow::Break(())
+        },
+    );
+    Span { end, outcome, accepted }
+}
 
 /// The state at the end of the first span of a run, which must not fail.
 pub(crate) fn end<O: Ode<N>, const N: usize>(
@@ -11,17 +48,22 @@ pub(crate) fn end<O: Ode<N>, const N: usize>(
     tolerances: &Tolerances,
     start: &Start<O::Constants<f64>, N>,
 ) -> [f64; N] {
-    let mut end = start.y;
-    let outcome = solve::<O, f64, N>(
-        ode,
-        tolerances,
-        start,
-        |_, _| {},
-        |y| {
-            end = *y;
-            ControlFlow::Break(())
-        },
-    );
+    let Span { end, outcome, .. } = run(ode, tolerances, start);
     assert_eq!(outcome.ending, Ending::Stopped);
     end
+}
+
+/// Fails unless `energy` at the end of a span is that at its beginning, within `bound` relative to it, and the state
+/// is not.
+pub(crate) fn assert_conserved<O: Ode<N>, const N: usize>(
+    ode: &O,
+    tolerances: &Tolerances,
+    start: &Start<O::Constants<f64>, N>,
+    bound: f64,
+    energy: impl Fn(&[f64; N]) -> f64,
+    what: &str,
+) {
+    let last = end(ode, tolerances, start);
+    assert!(last != start.y, "{what}: nothing moved");
+    assert_close(energy(&last), energy(&start.y), bound, what);
 }

@@ -12,6 +12,11 @@ use flap_core::simulate::{
 const FREQUENCY: f64 = 50.0;
 const PERIOD: f64 = 1.0 / FREQUENCY;
 
+/// A sine with a third harmonic of this amplitude.
+pub(crate) fn third_harmonic(amplitude: f64) -> WaveformParameters {
+    WaveformParameters { drive_third_harmonic: amplitude, ..WaveformParameters::new(Shape::Harmonics) }
+}
+
 /// A wave of unit amplitude.
 fn constants() -> DriveConstants<f64> {
     let waveform = WaveformParameters {
@@ -144,13 +149,7 @@ fn the_shape_of_the_drive_reaches_the_wing() {
     // Harmonics of no amplitude are a sine.
     let none = amplitude(Params { waveform: WaveformParameters::new(Shape::Harmonics), ..p() });
     assert!((none / sine - 1.0).abs() < 1e-9);
-    let third = amplitude(Params {
-        waveform: WaveformParameters {
-            drive_third_harmonic: 0.5,
-            ..WaveformParameters::new(Shape::Harmonics)
-        },
-        ..p()
-    });
+    let third = amplitude(Params { waveform: third_harmonic(0.5), ..p() });
     assert!((third / sine - 1.0).abs() > 1e-3, "{third} against {sine}");
 }
 

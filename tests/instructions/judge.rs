@@ -4,7 +4,7 @@ use flap_core::num::InstructionSet;
 use flap_core::simulate;
 
 use crate::counter::count;
-use crate::workload::{PRESETS, Task, Work, lanes};
+use crate::workload::{PRESETS, Task, Work};
 
 /// A vector is two registers, so that lanes take at best 2/LANES of the scalars' instructions. They come within
 /// a quarter of that; the rest is mostly values that do not fit into the registers. One function that is not
@@ -40,7 +40,7 @@ pub(crate) fn judge() -> Result<(), String> {
             }
             let scalar = per_rhs(Work { preset, set, task: Task::ScalarMarch })?;
             let march = per_rhs(Work { preset, set, task: Task::March })?;
-            let limit = ALLOWANCE * 2.0 / lanes(set) as f64;
+            let limit = ALLOWANCE * 2.0 / set.lanes() as f64;
             check(format!("{preset}, {set} lanes against scalars"), march / scalar, limit);
             if j == 0 {
                 let measure = per_rhs(Work { preset, set, task: Task::Measure })?;

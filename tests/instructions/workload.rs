@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use flap_core::num::{InstructionSet, Kernel, Lanes, Simd, Vector};
+use flap_core::num::InstructionSet;
 use flap_core::simulate::{Jobs, Point, PointRun, Row, Simulator, SolverSettings, preset};
 
 /// A point of each model, whether or not it is compiled in.
@@ -92,7 +92,7 @@ impl Work {
 
     fn run_lanes(self, settings: &SolverSettings, begin: Begin, mark: &mut dyn FnMut()) -> u64 {
         let (simulator, values) = self.point();
-        let mut jobs = Alike { values, left: lanes(self.set), begin, marks: 0, rhs_evals: 0, mark };
+        let mut jobs = Alike { values, left: self.set.lanes(), begin, marks: 0, rhs_evals: 0, mark };
         simulator.run(self.set, settings, &mut jobs);
         jobs.rhs_evals
     }
@@ -167,21 +167,5 @@ impl Jobs for Alike<'_> {
     fn done(&mut self, _index: u64, row: Row) {
         self.mark(2);
         self.rhs_evals += row.rhs_evals;
-    }
-}
-
-/// The number of lanes of a set of instructions.
-pub(crate) fn lanes(set: InstructionSet) -> usize {
-    set.dispatch(CountLanes)
-}
-
-struct CountLanes;
-
-impl Kernel for CountLanes {
-    type Output = usize;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, _simd: S) -> usize {
-        Vector::<S>::LANES
     }
 }

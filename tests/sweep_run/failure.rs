@@ -4,7 +4,7 @@ use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::Ordering;
 
-use flap_sweep::run::{RunError, run};
+use flap_sweep::run::{RunError, Summary, run};
 
 use crate::fake::{Fake, Fault};
 use crate::support::{Watch, flag, must_end, options, plan};
@@ -12,13 +12,17 @@ use crate::support::{Watch, flag, must_end, options, plan};
 /// Threads and window of every test: roomy, narrow, and one at a time.
 const SHAPES: [(usize, usize); 4] = [(1, 1000), (2, 1000), (4, 10), (3, 1)];
 
-/// Runs a million points and gives the error with the number of rows written.
+/// Sweeps a million points.
+fn sweep(sink: &mut Watch, threads: usize, window: usize) -> Result<Summary, RunError> {
+    let plan = plan(sink.model, 1_000_000);
+    run(&plan, &options(threads, window), sink, flag(false), &mut |_| {})
+}
+
+/// The error of a sweep with the number of rows written.
 fn fails(fault: Fault, threads: usize, window: usize) -> (RunError, u64) {
     must_end(move || {
-        let model = Fake::leak(fault, 8);
-        let mut sink = Watch::new(model);
-        let plan = plan(model, 1_000_000);
-        let error = run(&plan, &options(threads, window), &mut sink, flag(false), &mut |_| {}).unwrap_err();
+        let mut sink = Watch::new(Fake::leak(fault, 8));
+        let error = sweep(&mut sink, threads, window).unwrap_err();
         sink.assert_prefix();
         assert!(sink.finished, "what was written is kept");
         (error, sink.indices.len() as u64)
@@ -31,10 +35,7 @@ fn a_full_disk_ends_the_sweep_at_once() {
         must_end(move || {
             let model = Fake::leak(Fault::None, 8);
             let mut sink = Watch { full_at: Some(500), ..Watch::new(model) };
-            let plan = plan(model, 1_000_000);
-            let error =
-                run(&plan, &options(threads, window), &mut sink, flag(false), &mut |_| {}).unwrap_err();
-            match error {
+            match sweep(&mut sink, threads, window).unwrap_err() {
                 RunError::Sink(source) => assert_eq!(source.kind(), io::ErrorKind::StorageFull),
                 other => panic!("{other}"),
             }
@@ -50,12 +51,8 @@ fn a_full_disk_ends_the_sweep_at_once() {
 fn a_panic_in_the_sink_reaches_the_caller() {
     for (threads, window) in SHAPES {
         must_end(move || {
-            let model = Fake::leak(Fault::None, 8);
-            let mut sink = Watch { panic_at: Some(500), ..Watch::new(model) };
-            let plan = plan(model, 1_000_000);
-            let options = options(threads, window);
-            let caught =
-                catch_unwind(AssertUnwindSafe(|| run(&plan, &options, &mut sink, flag(false), &mut |_| {})));
+            let mut sink = Watch { panic_at: Some(500), ..Watch::new(Fake::leak(Fault::None, 8)) };
+            let caught = catch_unwind(AssertUnwindSafe(|| sweep(&mut sink, threads, window)));
             assert!(caught.is_err());
         });
     }

@@ -3,15 +3,14 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use flap_core::simulate::Status;
+use flap_sweep::plan::Plan;
 use flap_sweep::run::{Progress, run};
 
 use crate::fake::{Fake, Fault};
-use crate::support::{Watch, csv, flag, must_end, options, plan_of};
+use crate::support::{Watch, csv, flag, must_end, options, plan_with};
 
-pub(crate) const GRID: &str = r#"
-preset = "fake2020"
-[axes]
-size = { from = 0, to = 11, step = 1 }
+/// Excluded points, derived parameters and measures of one's own, of twelve sizes.
+pub(crate) const FORMULAS: &str = r#"
 [derived]
 drive_frequency = "100 - 10 * size"
 span = "size - 1"
@@ -25,7 +24,7 @@ strong = "lift_mean_mn >= 3 and drive_frequency > preset.drive_frequency / 100"
 
 #[test]
 fn rows_of_a_grid_with_formulas_read_like_this() {
-    let (text, summary) = csv(&plan_of(Fake::leak(Fault::None, 4), GRID), &options(2, 100));
+    let (text, summary) = csv(&plan_with(Fake::leak(Fault::None, 4), 12, FORMULAS), &options(2, 100));
     assert_eq!(
         text,
         "point,size,drive_frequency,span,status,lift_mean_mn,power_mean_mw,ratio,strong,cycles,residual,period,floquet_max,stable,error_estimate,rhs_evals\n\
@@ -50,20 +49,22 @@ fn rows_of_a_grid_with_formulas_read_like_this() {
 
 /// Most points are excluded, in long stretches.
 const SPARSE: &str = r#"
-preset = "fake2020"
-[axes]
-size = { from = 0, to = 19_999, step = 1 }
 [where]
 few = "size / 100 == floor(size / 100) or size < 50"
 "#;
 
+/// The sparse grid.
+fn sparse(model: &'static Fake) -> Plan {
+    plan_with(model, 20_000, SPARSE)
+}
+
 #[test]
 fn the_bytes_of_a_sparse_grid_do_not_depend_on_threads_lanes_or_window() {
-    let (expected, summary) = csv(&plan_of(Fake::leak(Fault::None, 1), SPARSE), &options(1, 1));
+    let (expected, summary) = csv(&sparse(Fake::leak(Fault::None, 1)), &options(1, 1));
     assert_eq!(expected.lines().count(), 1 + 200 + 49);
     assert_eq!(summary.unwrap().excluded, 20_000 - 249);
     for (threads, lanes, window) in [(1, 8, 16_384), (2, 8, 100), (4, 8, 3), (2, 1, 2), (8, 3, 1)] {
-        let plan = move || plan_of(Fake::leak(Fault::None, lanes), SPARSE);
+        let plan = move || sparse(Fake::leak(Fault::None, lanes));
         let found = must_end(move || csv(&plan(), &options(threads, window)));
         assert!(found.0 == expected, "{threads} threads, {lanes} lanes, window {window}");
     }
@@ -74,7 +75,7 @@ fn progress_counts_excluded_points() {
     let mut seen: Vec<Progress> = Vec::new();
     let model = Fake::leak(Fault::None, 8);
     let mut sink = Watch::new(model);
-    let plan = plan_of(model, SPARSE);
+    let plan = sparse(model);
     run(&plan, &options(2, 100), &mut sink, &AtomicBool::new(false), &mut |p| seen.push(p)).unwrap();
     assert!(seen.is_sorted_by_key(|progress| progress.finished));
     assert_eq!(seen.last(), Some(&Progress { finished: 20_000, points: 20_000 }));
@@ -86,7 +87,7 @@ fn a_sparse_grid_can_be_stopped() {
         let model = Fake::leak(Fault::None, 8);
         let stop = flag(false);
         let mut sink = Watch { stop_at: Some((500, stop)), ..Watch::new(model) };
-        let summary = run(&plan_of(model, SPARSE), &options(2, 64), &mut sink, stop, &mut |_| {}).unwrap();
+        let summary = run(&sparse(model), &options(2, 64), &mut sink, stop, &mut |_| {}).unwrap();
         assert!(summary.interrupted && summary.done() < 20_000);
         assert_eq!(summary.rows, sink.indices.len() as u64);
         assert_eq!(summary.rows, model.begun.load(Ordering::SeqCst), "every point begun is written");
@@ -98,7 +99,7 @@ fn a_sparse_grid_can_be_stopped() {
 #[test]
 fn a_grid_without_a_point_that_satisfies_its_conditions_has_no_rows() {
     let grid = SPARSE.replace("or size < 50", "and size < 0");
-    let (text, summary) = csv(&plan_of(Fake::leak(Fault::None, 8), &grid), &options(2, 64));
+    let (text, summary) = csv(&plan_with(Fake::leak(Fault::None, 8), 20_000, &grid), &options(2, 64));
     assert_eq!(text.lines().count(), 1);
     let summary = summary.unwrap();
     assert_eq!((summary.rows, summary.excluded, summary.interrupted), (0, 20_000, false));

@@ -19,7 +19,7 @@ use flap_sweep::run::{self, RunError, Summary};
 use flap_sweep::table::layout::Cell;
 
 use crate::fake::{Fake, Fault};
-use crate::support::{csv, options, plan, plan_of};
+use crate::support::{csv, options, plan, plan_with};
 
 /// Checkpoints wherever there may be one.
 fn often() -> SessionOptions {
@@ -111,11 +111,8 @@ fn a_session_goes_on_where_the_last_one_ended() {
     }
 }
 
-/// Excluded points, derived parameters, measures of one's own and a sample.
+/// Excluded points, derived parameters, measures of one's own and a sample, of thirteen sizes.
 const FORMULAS: &str = r#"
-preset = "fake2020"
-[axes]
-size = { from = 0, to = 12, step = 1 }
 [sample]
 method = "latin-hypercube"
 n = 200
@@ -133,7 +130,7 @@ strong = "lift_mean_mn > 0.05 * drive_frequency"
 
 #[test]
 fn a_session_with_formulas_goes_on_where_the_last_one_ended() {
-    let mut plan = plan_of(Fake::leak(Fault::None, 8), FORMULAS);
+    let mut plan = plan_with(Fake::leak(Fault::None, 8), 13, FORMULAS);
     let (whole, _) = csv(&plan, &options(2, 100));
     for selection in ["1/1", "2/3"] {
         let shard: Shard = selection.parse().unwrap();
@@ -215,7 +212,7 @@ fn a_torn_last_line_is_dropped() {
 fn checkpoints_read_back() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("journal");
-    let plan = plan_of(Fake::leak(Fault::None, 8), FORMULAS);
+    let plan = plan_with(Fake::leak(Fault::None, 8), 13, FORMULAS);
     let (_, summary) = csv(&plan, &options(2, 100));
     let mut summary = summary.unwrap();
     summary.invalid[0].1 = "a reason with 'all' \"quotes\", \\ and µ".to_owned();

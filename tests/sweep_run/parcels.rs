@@ -10,8 +10,8 @@ use flap_sweep::run::{Parcel, RunError, Summary, feed, part};
 use flap_sweep::table::layout::Layout;
 
 use crate::fake::{Fake, Fault};
-use crate::formulas::GRID;
-use crate::support::{csv, options, plan, plan_of};
+use crate::formulas::FORMULAS;
+use crate::support::{csv, options, plan, plan_with};
 
 /// The parcel of a worker for these points.
 fn bytes(plan: &Plan, from: u64, to: u64) -> Vec<u8> {
@@ -31,7 +31,7 @@ fn put_together(plan: &Plan, parcels: Vec<Vec<u8>>) -> (String, Result<Summary, 
 #[test]
 fn parcels_put_together_are_the_rows_of_one_run() {
     let grids: [&dyn Fn() -> Plan; 2] =
-        [&|| plan(Fake::leak(Fault::None, 4), 100), &|| plan_of(Fake::leak(Fault::None, 4), GRID)];
+        [&|| plan(Fake::leak(Fault::None, 4), 100), &|| plan_with(Fake::leak(Fault::None, 4), 12, FORMULAS)];
     for grid in grids {
         let plan = grid();
         let (alone, summary) = csv(&plan, &options(2, 10));

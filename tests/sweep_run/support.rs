@@ -17,9 +17,15 @@ use crate::fake::Fake;
 
 /// A plan of `points` points: `size` runs from 0, in whole numbers.
 pub(crate) fn plan(model: &'static Fake, points: u64) -> Plan {
+    plan_with(model, points, "")
+}
+
+/// [`plan`] with the rest of its grid file.
+pub(crate) fn plan_with(model: &'static Fake, points: u64, rest: &str) -> Plan {
+    let last = points - 1;
     plan_of(
         model,
-        &format!("preset = \"fake2020\"\n[axes]\nsize = {{ from = 0, to = {}, step = 1 }}\n", points - 1),
+        &format!("preset = \"fake2020\"\n[axes]\nsize = {{ from = 0, to = {last}, step = 1 }}\n{rest}"),
     )
 }
 

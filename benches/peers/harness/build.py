@@ -26,6 +26,12 @@ class Unavailable(Exception):
         self.remedy = remedy
 
 
+def need(program: str, remedy: str) -> None:
+    """Refuses a build without this program."""
+    if shutil.which(program) is None:
+        raise Unavailable(f"there is no {program}", remedy)
+
+
 def run(command: Sequence[object], remedy: str, cwd: Path | None = None) -> None:
     """Runs a command of a build."""
     ended = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, cwd=cwd)
@@ -45,8 +51,7 @@ class Cpp:
 
     def build(self) -> list[str]:
         compiler = os.environ.get("CXX", "g++")
-        if shutil.which(compiler) is None:
-            raise Unavailable(f"there is no {compiler}", self.remedy)
+        need(compiler, self.remedy)
         source = PEERS / "cpp" / self.source
         program = WORK / "bin" / source.stem
         inputs = [*source.parent.iterdir(), *Path(__file__).parent.glob("*.py")]
@@ -71,8 +76,7 @@ class Cargo:
 
     def build(self) -> list[str]:
         remedy = "install Rust by rustup, and let cargo reach crates.io"
-        if shutil.which("cargo") is None:
-            raise Unavailable("there is no cargo", remedy)
+        need("cargo", remedy)
         run(["cargo", "build", "--release", "--locked", *self.arguments], remedy, cwd=self.folder)
         return [str(self.program)]
 

@@ -13,18 +13,18 @@ fn masses() -> Vec<Claim> {
     let mass = |p: &Params| 1e6 / constants(p).inverse_m_e;
     let with_air = mass(&transmission(1.0));
     let without_air = mass(&Params { added_inertia_stroke: 0.0, ..transmission(1.0) });
-    vec![
-        said("III-A", "mass that the actuator feels, of the wing's inertia", "~570 mg").is(
-            &about(570.0, 5.0),
-            without_air,
-            format!("{without_air:.0} mg"),
-        ),
-        said("III-A", "the same with the added mass of the air", "~700 mg").is(
-            &about(700.0, 5.0),
-            with_air,
-            format!("{with_air:.0} mg"),
-        ),
+    [
+        ("mass that the actuator feels, of the wing's inertia", 570.0, without_air),
+        ("the same with the added mass of the air", 700.0, with_air),
     ]
+    .map(|(statement, published, mass)| {
+        said("III-A", statement, format!("~{published} mg")).is(
+            &about(published, 5.0),
+            mass,
+            format!("{mass:.0} mg"),
+        )
+    })
+    .into()
 }
 
 fn transmissions() -> Vec<Claim> {

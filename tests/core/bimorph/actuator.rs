@@ -6,30 +6,13 @@ use flap_core::model::bimorph::{
 };
 
 use super::params;
-use crate::data::assert_close;
-
-/// (w_r, l_r, G) from the integral in 40-digit arithmetic.
-#[rustfmt::skip]
-const GAINS: [(f64, f64, f64); 12] = [
-    (1.556, 0.25, 0.884_413_064_353_974_9),
-    (0.4, 0.1, 0.589_151_211_092_170_4),
-    (1.9, 0.6, 0.524_385_032_298_304_5),
-    (1.3, 0.25, 0.848_660_558_557_554_8),
-    (0.8, 0.0, 0.893_739_073_961_301_9),
-    (1.000_01, 0.25, 0.774_196_545_248_479),
-    (1.0, 0.25, 0.774_193_548_387_096_8),
-    (1.499_9, 0.25, 0.879_244_248_483_766_3),
-    (1.5, 0.25, 0.879_254_961_766_380_6),
-    (0.5, 0.3, 0.555_842_847_977_731_6),
-    (1.99, 0.25, 0.754_257_477_972_848_5),
-    (0.02, 0.25, 0.185_347_290_923_348_17),
-];
+use crate::data::{assert_close, table};
 
 #[test]
 fn gain_of_a_taper_equals_the_reference() {
-    for (width_ratio, extension_ratio, expected) in GAINS {
-        let gain = taper_gain(width_ratio, extension_ratio).unwrap();
-        assert_close(gain, expected, 1e-14, &format!("G({width_ratio}, {extension_ratio})"));
+    for record in table("bimorph/taper_gains.csv") {
+        let gain = taper_gain(record.number("w_r"), record.number("l_r")).unwrap();
+        assert_close(gain, record.number("G"), 1e-14, &record.name);
     }
 }
 

@@ -4,18 +4,22 @@ use flap_core::drive::Wave;
 use flap_core::model::bimorph::{
     Bimorph, Constants, Plate, charges, currents, lift_and_drag, plate, plate_forces, secant_stiffness,
 };
-use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Real, Simd, Unfused, Vector};
+use flap_core::num::{Lanes, Real};
 use flap_core::ode::Ode;
 
 use super::params;
-use crate::data::{Record, assert_close, table};
+use crate::data::{assert_close, table};
+use crate::slopes::{self, Driven};
+use crate::waveforms::third_harmonic;
 
 const TOLERANCE: f64 = 1e-11;
 
-struct Case {
-    voltages: [Wave<f64>; 2],
-    y: [f64; 4],
-    record: Record,
+type Case = slopes::Case<Bimorph, 2>;
+
+impl Driven<2> for Bimorph {
+    fn under<R: Lanes>(c: &Constants<R>, voltages: &[Wave<R>; 2]) -> [Plate<R>; 2] {
+        plates(c, voltages)
+    }
 }
 
 fn constants() -> Constants<f64> {
@@ -26,8 +30,11 @@ fn cases() -> Vec<Case> {
     table("bimorph/rhs_vectors.csv")
         .into_iter()
         .map(|record| Case {
+            model: Bimorph::default(),
+            constants: constants(),
             voltages: [("V1_V", "dV1_V_per_s"), ("V2_V", "dV2_V_per_s")]
                 .map(|(value, rate)| Wave::with_rate(record.number(value), record.number(rate))),
+            side: 1.0,
             y: ["x_m", "v_m_per_s", "psi_rad", "psidot_rad_per_s"].map(|column| record.number(column)),
             record,
         })
@@ -42,7 +49,7 @@ fn plates<R: Lanes>(c: &Constants<R>, voltages: &[Wave<R>; 2]) -> [Plate<R>; 2] 
 fn accelerations_forces_and_currents_equal_the_reference() {
     let c = constants();
     let mut largest = (0.0, String::new());
-    for Case { voltages, y, record } in cases() {
+    for Case { voltages, y, record, .. } in cases() {
         let plates = plates(&c, &voltages);
         let [x, x_dot, psi, _] = y;
         let [_, x_ddot, _, psi_ddot] = Bimorph::default().rhs(&c, &plates, 1.0, &y);
@@ -88,7 +95,7 @@ fn accelerations_forces_and_currents_equal_the_reference() {
 #[test]
 fn derivatives_of_force_and_charge_are_their_rates() {
     let c = constants();
-    for Case { voltages, y, record } in cases() {
+    for Case { voltages, y, record, .. } in cases() {
         for voltage in voltages {
             let at = |dv: f64| plate(&c, Wave { value: voltage.value + dv, ..voltage });
             let (low, mid, high) = (at(-1e-3), at(0.0), at(1e-3));
@@ -125,69 +132,14 @@ fn voltages_are_those_of_eq_7() {
     }
 }
 
-struct RhsOnLanes;
-
-impl Kernel for RhsOnLanes {
-    type Output = (Vec<[f64; 4]>, usize);
-
-    /// Derivatives of all cases, a different one in every lane.
-    fn run<S: Simd>(self, simd: S) -> (Vec<[f64; 4]>, usize) {
-        let cases = cases();
-        let c = Constants::<Vector<S>>::fill(simd, &constants());
-        let mut derivatives = Vec::new();
-        for group in cases.chunks(Vector::<S>::LANES) {
-            let zero = Vector::<S>::splat(simd, 0.0);
-            let mut voltages = [Wave::with_rate(zero, zero); 2];
-            let mut y = [zero; 4];
-            for (lane, case) in group.iter().enumerate() {
-                for i in 0..2 {
-                    voltages[i].value.set_lane(lane, case.voltages[i].value);
-                    voltages[i].rate.set_lane(lane, case.voltages[i].rate);
-                }
-                for i in 0..4 {
-                    y[i].set_lane(lane, case.y[i]);
-                }
-            }
-            let dy = Bimorph::default().rhs(&c, &plates(&c, &voltages), zero, &y);
-            derivatives.extend((0..group.len()).map(|lane| dy.map(|d| d.lane(lane))));
-        }
-        (derivatives, Vector::<S>::LANES)
-    }
-}
-
-fn unfused(case: &Case) -> [f64; 4] {
-    let c = Constants::<Unfused>::fill((), &constants());
-    let voltages = case.voltages.map(|v| Wave::with_rate(Unfused(v.value), Unfused(v.rate)));
-    Bimorph::default().rhs(&c, &plates(&c, &voltages), Unfused(1.0), &case.y.map(Unfused)).map(|d| d.0)
-}
-
-fn fused(case: &Case) -> [f64; 4] {
-    let c = constants();
-    Bimorph::default().rhs(&c, &plates(&c, &case.voltages), 1.0, &case.y)
-}
-
 #[test]
 fn every_lane_equals_the_scalar_bit_for_bit() {
-    for set in InstructionSet::available() {
-        let (derivatives, lanes) = set.dispatch(RhsOnLanes);
-        assert!(lanes >= 4, "{set} has {lanes} lanes");
-        for (case, lane) in cases().iter().zip(derivatives) {
-            let scalar = match set.arithmetic() {
-                Arithmetic::Fused => fused(case),
-                Arithmetic::Unfused => unfused(case),
-            };
-            assert_eq!(lane.map(f64::to_bits), scalar.map(f64::to_bits), "{set}, {}", case.record.name);
-        }
-    }
+    slopes::assert_lanes_equal_scalars(&cases());
 }
 
 #[test]
 fn arithmetic_classes_agree_to_rounding() {
-    for case in cases() {
-        for (fused, unfused) in fused(&case).into_iter().zip(unfused(&case)) {
-            assert!((fused - unfused).abs() <= 1e-11 * fused.abs(), "{}", case.record.name);
-        }
-    }
+    slopes::assert_classes_agree(&cases(), 0.0);
 }
 
 /// The sign function that the reading `directional` needs is that of the velocity.
@@ -216,13 +168,8 @@ fn sign_of_the_velocity_directs_the_attack_angle() {
 /// Harmonics swing beyond 0 and V_pp; the columns of field and capacitive power follow.
 #[test]
 fn harmonics_widen_the_voltages() {
-    use flap_core::drive::{Shape, WaveformParameters};
     use flap_core::model::bimorph::Params;
-    let third = |h: f64| Params {
-        waveform: WaveformParameters { drive_third_harmonic: h, ..WaveformParameters::new(Shape::Harmonics) },
-        drive_voltage_pp: 100.0,
-        ..params("T1")
-    };
+    let third = |h: f64| Params { waveform: third_harmonic(h), drive_voltage_pp: 100.0, ..params("T1") };
     // sin θ − h sin 3θ has its extremes ±(1 + h) at 90° and 270°.
     let [plain, wide] = [third(0.0), third(-0.25)].map(|p| super::settled(&p, 1e-6));
     let field = |row| super::measure(row, "field_max_v_per_um");

@@ -6,6 +6,7 @@ use flap_core::simulate::Status;
 
 use super::model;
 use crate::rows::{QUICK, assert_lanes_equal_scalars};
+use crate::waveforms::third_harmonic;
 
 /// Designs, drives and readings in a fixed odd order; every tenth is impossible or blows up.
 fn points() -> Vec<Vec<f64>> {
@@ -25,13 +26,7 @@ fn points() -> Vec<Vec<f64>> {
                 5 => Params { centre_of_pressure: CentreOfPressure::Literal, ..p },
                 7 => Params { actuator_stiffness: ActuatorStiffness::Constant, ..p },
                 4 => Params { waveform: WaveformParameters::new(Shape::Square), ..p },
-                6 => Params {
-                    waveform: WaveformParameters {
-                        drive_third_harmonic: -0.2,
-                        ..WaveformParameters::new(Shape::Harmonics)
-                    },
-                    ..p
-                },
+                6 => Params { waveform: third_harmonic(-0.2), ..p },
                 8 => Params { actuator_width_ratio: 2.5, ..p },
                 9 => Params { wing_inertia_product: 1e-3, ..p },
                 _ => p,

@@ -14,6 +14,7 @@ use flap_core::model::bimorph::Params;
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, by_name};
 
+use crate::by_name::named;
 use crate::data::Record;
 
 fn model() -> &'static dyn Simulator {
@@ -21,18 +22,14 @@ fn model() -> &'static dyn Simulator {
 }
 
 /// The parameters of a set in the reference tables.
-fn params(set: &str) -> Params {
-    match set {
-        "T1" => Params::jafferis2016(),
-        "T2" => Params::jafferis2016().with_transmission_scaled(0.8),
-        "T3" => Params::jafferis2016().with_transmission_scaled(0.6),
-        "RD" => Params::jafferis2016_improved(),
-        other => panic!("no set {other}"),
-    }
+pub(crate) fn params(set: &str) -> Params {
+    let scaled = |factor| Params::jafferis2016().with_transmission_scaled(factor);
+    let sets = [Params::jafferis2016(), scaled(0.8), scaled(0.6), Params::jafferis2016_improved()];
+    named(set, &["T1", "T2", "T3", "RD"], &sets)
 }
 
 /// `p` driven at the voltage and frequency of a reference row.
-fn driven(p: &Params, record: &Record) -> Params {
+pub(crate) fn driven(p: &Params, record: &Record) -> Params {
     Params { drive_voltage_pp: record.number("Vpp_V"), drive_frequency: record.number("f_Hz"), ..p.clone() }
 }
 

@@ -8,17 +8,15 @@ use flap_core::model::{Model, SignalCycle};
 use flap_core::num::PerLane;
 use flap_core::ode::ensemble::Observer;
 use flap_core::ode::solve::solve;
-use flap_core::ode::{Ending, Start, Tolerances};
+use flap_core::ode::{Ending, Start};
+
+use crate::span::tolerances;
 
 const SIGNALS: usize = Bimorph::SIGNALS.len();
 
 /// The run of a point from the state `y`.
 fn start(p: &Params, y: [f64; 4]) -> Start<<Bimorph as flap_core::ode::Ode<4>>::Constants<f64>, 4> {
     Start { y, ..Bimorph::default().start(&p.to_values()).unwrap() }
-}
-
-pub(super) fn tolerances(rtol: f64) -> Tolerances {
-    Tolerances { rtol, atol: 1e-2 * rtol, max_steps: 100_000 }
 }
 
 /// The state after some drive periods from `y`.

@@ -6,10 +6,10 @@ use flap_core::num::InstructionSet;
 use flap_core::ode::Start;
 use flap_core::simulate::{ChirpRequest, PointRun, SolverSettings, Trajectory};
 
-use super::orbit::{distance, march, tolerances};
+use super::orbit::{distance, march};
 use super::{driven, model, params};
 use crate::data::{Record, assert_close, table};
-use crate::span;
+use crate::span::{self, tolerances};
 
 fn end_state(record: &Record) -> [f64; 4] {
     ["x_m", "v_m_per_s", "psi_rad", "psidot_rad_per_s"].map(|column| record.number(column))

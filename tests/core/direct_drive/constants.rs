@@ -1,22 +1,13 @@
 use flap_core::model::direct_drive::{Constants, DirectDrive, FlowDirection, Params};
 use flap_core::modes::natural_frequencies;
-use flap_core::piezo::{Laminate, Layer};
+use flap_core::piezo::Laminate;
 
 use super::params;
+use crate::by_name::layer;
 use crate::data::{assert_close, table};
 
 fn laminate(p: &Params) -> Laminate<3> {
-    Laminate {
-        layers: [
-            Layer { thickness: p.piezo_thickness, modulus: p.piezo_modulus, density: p.piezo_density },
-            Layer {
-                thickness: p.adhesive_thickness,
-                modulus: p.adhesive_modulus,
-                density: p.adhesive_density,
-            },
-            Layer { thickness: p.shim_thickness, modulus: p.shim_modulus, density: p.shim_density },
-        ],
-    }
+    Laminate { layers: ["piezo", "adhesive", "shim"].map(|name| layer(Params::TABLE, &p.to_values(), name)) }
 }
 
 #[test]

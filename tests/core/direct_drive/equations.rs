@@ -6,24 +6,22 @@ use flap_core::drive::Wave;
 use flap_core::model::direct_drive::{
     Constants, DirectDrive, FlowDirection, Params, added_mass, aerodynamics, current, lift, mean_velocity,
 };
-use flap_core::num::{
-    Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Real, Scalar, Simd, Unfused, Vector,
-};
+use flap_core::num::{Lanes, Real};
 use flap_core::ode::Ode;
 use flap_core::quadrature::gauss_legendre;
 
 use super::{FLOWS, centre_of_pressure, params};
-use crate::data::{Record, assert_close, table};
+use crate::data::{assert_close, table};
+use crate::slopes::{self, Driven};
 
 const TOLERANCE: f64 = 1e-11;
 
-struct Case {
-    model: DirectDrive,
-    constants: Constants<f64>,
-    drive: Wave<f64>,
-    side: f64,
-    y: [f64; 4],
-    record: Record,
+type Case = slopes::Case<DirectDrive, 1>;
+
+impl Driven<1> for DirectDrive {
+    fn under<R: Lanes>(_c: &Constants<R>, [voltage]: &[Wave<R>; 1]) -> Wave<R> {
+        *voltage
+    }
 }
 
 /// The reference's states, with a direction of flow.
@@ -38,7 +36,7 @@ fn cases_with(flow: FlowDirection) -> Vec<Case> {
                 ..params(record.text("type"))
             })
             .unwrap(),
-            drive: Wave::with_rate(record.number("V_V"), record.number("Vdot_V_s")),
+            voltages: [Wave::with_rate(record.number("V_V"), record.number("Vdot_V_s"))],
             side: record.number("ubar_m_s").signum(),
             y: ["phi", "psi", "phidot", "psidot"].map(|column| record.number(column)),
             record,
@@ -54,7 +52,7 @@ fn cases() -> Vec<Case> {
 #[test]
 fn accelerations_forces_and_moments_equal_the_reference() {
     for case in cases() {
-        let Case { model, constants: c, drive, side, y, record } = case;
+        let Case { model, constants: c, voltages: [drive], side, y, record } = case;
         let dy = model.rhs(&c, &drive, side, &y);
         let (sin, cos) = y[1].sin_cos();
         let air = aerodynamics(&c, model.flow, side, &y, sin, cos);
@@ -83,7 +81,7 @@ fn accelerations_forces_and_moments_equal_the_reference() {
 /// The rate that comes with the switching function is its derivative along the motion.
 #[test]
 fn rate_of_the_mean_velocity_is_its_derivative() {
-    for Case { model, constants: c, drive, side, y, record } in cases() {
+    for Case { model, constants: c, voltages: [drive], side, y, record } in cases() {
         let dy = model.rhs(&c, &drive, side, &y);
         let [_, rate] = mean_velocity(&c, &y, &dy);
         let at = |dt: f64| mean_velocity(&c, &std::array::from_fn(|i| y[i] + dt * dy[i]), &dy)[0];
@@ -138,67 +136,16 @@ fn blade_elements_add_up_to_the_wing() {
     }
 }
 
-struct RhsOnLanes(FlowDirection);
-
-impl Kernel for RhsOnLanes {
-    type Output = (Vec<[f64; 4]>, usize);
-
-    /// Derivatives of all cases, a different one in every lane.
-    fn run<S: Simd>(self, simd: S) -> (Vec<[f64; 4]>, usize) {
-        let cases = cases_with(self.0);
-        let mut derivatives = Vec::new();
-        for group in cases.chunks(Vector::<S>::LANES) {
-            let zero = Vector::<S>::splat(simd, 0.0);
-            let mut c = Constants::<Vector<S>>::fill(simd, &group[0].constants);
-            let mut drive = Wave::with_rate(zero, zero);
-            let mut side = zero;
-            let mut y = [zero; 4];
-            for (lane, case) in group.iter().enumerate() {
-                c.set(lane, &case.constants);
-                drive.value.set_lane(lane, case.drive.value);
-                side.set_lane(lane, case.side);
-                for i in 0..4 {
-                    y[i].set_lane(lane, case.y[i]);
-                }
-            }
-            let dy = group[0].model.rhs(&c, &drive, side, &y);
-            derivatives.extend((0..group.len()).map(|lane| dy.map(|d| d.lane(lane))));
-        }
-        (derivatives, Vector::<S>::LANES)
-    }
-}
-
-/// The derivative of a case in the arithmetic class `R`, in which `number` writes a number.
-fn derivative<R: Scalar>(case: &Case, number: fn(f64) -> R) -> [f64; 4] {
-    let c = Constants::<R>::fill((), &case.constants);
-    let drive = Wave::with_rate(number(case.drive.value), number(case.drive.rate));
-    case.model.rhs(&c, &drive, number(case.side), &case.y.map(number)).map(|d| d.lane(0))
-}
-
 #[test]
 fn every_lane_equals_the_scalar_bit_for_bit() {
     for flow in FLOWS {
-        for set in InstructionSet::available() {
-            let (derivatives, lanes) = set.dispatch(RhsOnLanes(flow));
-            assert!(lanes >= 4, "{set} has {lanes} lanes");
-            for (case, lane) in cases_with(flow).iter().zip(derivatives) {
-                let scalar = match set.arithmetic() {
-                    Arithmetic::Fused => derivative(case, |x| x),
-                    Arithmetic::Unfused => derivative(case, Unfused),
-                };
-                let name = &case.record.name;
-                assert_eq!(lane.map(f64::to_bits), scalar.map(f64::to_bits), "{set}, {flow:?}, {name}");
-            }
-        }
+        slopes::assert_lanes_equal_scalars(&cases_with(flow));
     }
 }
 
 #[test]
 fn arithmetic_classes_agree_to_rounding() {
-    for case in FLOWS.into_iter().flat_map(cases_with) {
-        let (fused, unfused) = (derivative(&case, |x| x), derivative(&case, Unfused));
-        for i in 0..4 {
-            assert_close(unfused[i], fused[i], 1e-11, &case.record.name);
-        }
+    for flow in FLOWS {
+        slopes::assert_classes_agree(&cases_with(flow), 0.0);
     }
 }

@@ -9,22 +9,17 @@ mod steady;
 
 use flap_core::model::direct_drive::{CentreOfPressure, FlowDirection, Params};
 
+use crate::by_name::named;
+
 /// Whichever way the air flows.
 const FLOWS: [FlowDirection; 2] = [FlowDirection::Uniform, FlowDirection::Blade];
 
 /// The parameters of `small` or `large` in the reference tables.
-fn params(kind: &str) -> Params {
-    match kind {
-        "small" => Params::ozaki2018_small(),
-        "large" => Params::ozaki2018_large(),
-        other => panic!("no type {other}"),
-    }
+pub(crate) fn params(kind: &str) -> Params {
+    named(kind, &["small", "large"], &[Params::ozaki2018_small(), Params::ozaki2018_large()])
 }
 
 /// The reading called `name` in the reference tables.
 fn centre_of_pressure(name: &str) -> CentreOfPressure {
-    let options = ["directional", "folded", "literal"];
-    let index =
-        options.iter().position(|&option| option == name).unwrap_or_else(|| panic!("no reading {name}"));
-    CentreOfPressure::ALL[index]
+    named(name, CentreOfPressure::NAMES, CentreOfPressure::ALL)
 }

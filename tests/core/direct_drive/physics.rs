@@ -6,10 +6,13 @@ use flap_core::model::direct_drive::{
     current, lift,
 };
 use flap_core::num::Real;
-use flap_core::ode::{Ode, Start, Tolerances};
+use flap_core::ode::{Ode, Start};
 use proptest::prelude::*;
+use proptest::sample::select;
 
-use crate::span;
+use super::params;
+use crate::by_name::scaled;
+use crate::span::{self, tolerances};
 
 /// Kinetic energy of structure and added mass plus elastic energy (J).
 fn energy(c: &Constants<f64>, y: &[f64; 4]) -> f64 {
@@ -31,29 +34,20 @@ fn model(p: &Params) -> DirectDrive {
 }
 
 fn any_state() -> impl Strategy<Value = [f64; 4]> {
-    (-0.5..0.5, -1.4..1.4, -400.0..400.0, -800.0..800.0).prop_map(|(a, b, c, d)| [a, b, c, d])
+    [-0.5..0.5, -1.4..1.4, -400.0..400.0, -800.0..800.0]
 }
 
 /// Both presets with their parameters moved by up to 30 %.
 fn any_params() -> impl Strategy<Value = Params> {
-    (prop::bool::ANY, prop::array::uniform8(0.7..1.3_f64), prop::bool::ANY, prop::bool::ANY).prop_map(
-        |(large, s, lagrangian, blade)| {
-            let p = if large { Params::ozaki2018_large() } else { Params::ozaki2018_small() };
-            Params {
-                wing_length: p.wing_length * s[0],
-                mean_chord: p.mean_chord * s[1],
-                wing_mass: p.wing_mass * s[2],
-                hinge_stiffness: p.hinge_stiffness * s[3],
-                leading_edge_inertia: p.leading_edge_inertia * s[4],
-                piezo_thickness: p.piezo_thickness * s[5],
-                drag_max: p.drag_max * s[6],
-                wing_inertia_product: p.wing_inertia_product * s[7],
-                added_mass: if lagrangian { AddedMass::Lagrangian } else { AddedMass::Paper },
-                flow_direction: if blade { FlowDirection::Blade } else { FlowDirection::Uniform },
-                ..p
-            }
-        },
-    )
+    let presets = vec![Params::ozaki2018_small().to_values(), Params::ozaki2018_large().to_values()];
+    let names = "wing_length mean_chord wing_mass hinge_stiffness \
+                 leading_edge_inertia piezo_thickness drag_max wing_inertia_product";
+    (scaled(Params::TABLE, presets, names, 0.7..1.3), select(AddedMass::ALL), select(FlowDirection::ALL))
+        .prop_map(|(values, added_mass, flow_direction)| Params {
+            added_mass,
+            flow_direction,
+            ..Params::from_values(&values)
+        })
 }
 
 proptest! {
@@ -114,8 +108,8 @@ fn the_literal_reading_breaks_the_mirror_symmetry() {
 /// Without air and at constant voltage, E − Γ V φ is conserved along a whole motion.
 #[test]
 fn a_wing_in_vacuum_keeps_its_energy() {
-    for p in [Params::ozaki2018_small(), Params::ozaki2018_large()] {
-        let p = Params { air_density: 0.0, drive_voltage_pp: 0.0, drive_bias: Some(30.0), ..p };
+    for kind in ["small", "large"] {
+        let p = Params { air_density: 0.0, drive_voltage_pp: 0.0, drive_bias: Some(30.0), ..params(kind) };
         let constants = Constants::derive(&p).unwrap();
         let total = |y: &[f64; 4]| energy(&constants, y) - constants.gamma * 30.0 * y[0];
         let start = Start {
@@ -125,10 +119,6 @@ fn a_wing_in_vacuum_keeps_its_energy() {
             scale: [0.1, 0.3, 70.0, 200.0],
             tighten: 1.0,
         };
-        let tolerances = Tolerances { rtol: 1e-10, atol: 1e-12, max_steps: 100_000 };
-        let initial = total(&start.y);
-        let last = total(&span::end(&DirectDrive::default(), &tolerances, &start));
-        assert!(last != initial, "nothing moved");
-        assert!((last / initial - 1.0).abs() < 1e-7, "{initial} → {last}");
+        span::assert_conserved(&DirectDrive::default(), &tolerances(1e-10), &start, 1e-7, total, kind);
     }
 }

@@ -3,18 +3,19 @@ use flap_core::model::four_bar::{
     AddedMassSign, Arms, Composite, Constants, FourBar, MAX_STRIPS, Params, Quadrature, mass_matrix,
     transmission,
 };
-use flap_core::piezo::{Layer, Unimorph};
+use flap_core::piezo::Unimorph;
 use flap_core::quadrature::{Node, gauss_legendre, midpoints};
 
 use super::params;
+use crate::by_name::layer;
 use crate::data::assert_close;
 
 fn unimorph(p: &Params) -> Unimorph {
     Unimorph {
         length: p.actuator_length,
         width: p.actuator_width,
-        shim: Layer { thickness: p.shim_thickness, modulus: p.shim_modulus, density: p.shim_density },
-        piezo: Layer { thickness: p.piezo_thickness, modulus: p.piezo_modulus, density: p.piezo_density },
+        shim: layer(Params::TABLE, &p.to_values(), "shim"),
+        piezo: layer(Params::TABLE, &p.to_values(), "piezo"),
         coefficient: p.piezo_coefficient,
         permittivity: p.piezo_permittivity,
     }

@@ -7,18 +7,19 @@ use flap_core::model::four_bar::{
     Arms, Constants, FourBar, Params, Quadrature, added_mass_lift, aerodynamics, force, mass_matrix, side_of,
     transmission,
 };
-use flap_core::num::{Arithmetic, InstructionSet, Kernel, Lanes, PerLane, Simd, Unfused, Vector};
+use flap_core::num::Lanes;
 use flap_core::ode::Ode;
 
 use super::{arms, assert_close_to, params};
-use crate::data::{Record, table};
+use crate::data::table;
+use crate::slopes::{self, Driven};
 
-struct Case {
-    constants: Constants<f64>,
-    drive: Wave<f64>,
-    side: f64,
-    y: [f64; 4],
-    record: Record,
+type Case = slopes::Case<FourBar, 1>;
+
+impl Driven<1> for FourBar {
+    fn under<R: Lanes>(_c: &Constants<R>, [voltage]: &[Wave<R>; 1]) -> Wave<R> {
+        *voltage
+    }
 }
 
 fn cases() -> Vec<Case> {
@@ -33,8 +34,9 @@ fn cases() -> Vec<Case> {
             };
             let constants = Constants::derive(&p).unwrap();
             let y = ["theta", "phi", "theta_dot", "phi_dot"].map(|column| record.number(column));
-            let drive = FourBar::default().input(&constants, record.number("t"));
-            Case { constants, drive, side: side_of(y[1], y[3])[0].signum(), y, record }
+            let model = FourBar::default();
+            let voltages = [model.input(&constants, record.number("t"))];
+            Case { model, constants, voltages, side: side_of(y[1], y[3])[0].signum(), y, record }
         })
         .collect()
 }
@@ -42,7 +44,7 @@ fn cases() -> Vec<Case> {
 #[test]
 fn accelerations_forces_and_moments_equal_the_reference() {
     let mut largest = (0.0, String::new());
-    for Case { constants: c, drive, side, y, record } in cases() {
+    for Case { constants: c, voltages: [drive], side, y, record, .. } in cases() {
         let [theta, phi, theta_dot, phi_dot] = y;
         let dy = FourBar::default().rhs(&c, &drive, side, &y);
         let (sin, cos) = phi.sin_cos();
@@ -83,36 +85,6 @@ fn accelerations_forces_and_moments_equal_the_reference() {
     println!("largest relative error {:.1e} ({})", largest.0, largest.1);
 }
 
-struct RhsOnLanes;
-
-impl Kernel for RhsOnLanes {
-    type Output = (Vec<[f64; 4]>, usize);
-
-    /// Derivatives of all cases, a different one in every lane.
-    fn run<S: Simd>(self, simd: S) -> (Vec<[f64; 4]>, usize) {
-        let cases = mixed_cases();
-        let mut derivatives = Vec::new();
-        for group in cases.chunks(Vector::<S>::LANES) {
-            let zero = Vector::<S>::splat(simd, 0.0);
-            let mut c = Constants::<Vector<S>>::fill(simd, &group[0].constants);
-            let mut drive = Wave::with_rate(zero, zero);
-            let mut side = zero;
-            let mut y = [zero; 4];
-            for (lane, case) in group.iter().enumerate() {
-                c.set(lane, &case.constants);
-                drive.value.set_lane(lane, case.drive.value);
-                side.set_lane(lane, case.side);
-                for i in 0..4 {
-                    y[i].set_lane(lane, case.y[i]);
-                }
-            }
-            let dy = FourBar::default().rhs(&c, &drive, side, &y);
-            derivatives.extend((0..group.len()).map(|lane| dy.map(|d| d.lane(lane))));
-        }
-        (derivatives, Vector::<S>::LANES)
-    }
-}
-
 /// The cases of the table with all sorts of strips side by side, and with pitches beyond 90°.
 fn mixed_cases() -> Vec<Case> {
     let mut cases = cases();
@@ -133,35 +105,12 @@ fn mixed_cases() -> Vec<Case> {
 
 #[test]
 fn every_lane_equals_the_scalar_bit_for_bit() {
-    for set in InstructionSet::available() {
-        let (derivatives, lanes) = set.dispatch(RhsOnLanes);
-        assert!(lanes >= 4, "{set} has {lanes} lanes");
-        for (case, lane) in mixed_cases().iter().zip(derivatives) {
-            let scalar = match set.arithmetic() {
-                Arithmetic::Fused => FourBar::default().rhs(&case.constants, &case.drive, case.side, &case.y),
-                Arithmetic::Unfused => unfused(case),
-            };
-            assert_eq!(lane.map(f64::to_bits), scalar.map(f64::to_bits), "{set}, {}", case.record.name);
-        }
-    }
-}
-
-/// The derivative in the arithmetic of processors without fused multiply-add.
-fn unfused(case: &Case) -> [f64; 4] {
-    let c = Constants::<Unfused>::fill((), &case.constants);
-    let drive = Wave::with_rate(Unfused(case.drive.value), Unfused(case.drive.rate));
-    FourBar::default().rhs(&c, &drive, Unfused(case.side), &case.y.map(Unfused)).map(|d| d.0)
+    slopes::assert_lanes_equal_scalars(&mixed_cases());
 }
 
 #[test]
 fn arithmetic_classes_agree_to_rounding() {
-    for case in cases() {
-        let fused = FourBar::default().rhs(&case.constants, &case.drive, case.side, &case.y);
-        let size = |i: usize| fused[i].abs().max(1e-9);
-        for (i, unfused) in unfused(&case).into_iter().enumerate() {
-            assert_close_to(unfused, fused[i], size(i), 1e-11, &case.record.name);
-        }
-    }
+    slopes::assert_classes_agree(&cases(), 1e-9);
 }
 
 /// Translational forces and moments as the paper has them: strip by strip, each with its own attack angle.

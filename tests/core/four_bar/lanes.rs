@@ -6,6 +6,7 @@ use flap_core::simulate::{SolverSettings, Status};
 
 use super::steady::model;
 use crate::rows::{QUICK, assert_lanes_equal_scalars};
+use crate::waveforms::third_harmonic;
 
 /// Designs, drives and readings in a fixed odd order; wings of different numbers of strips side by side; some are
 /// impossible or blow up.
@@ -26,13 +27,7 @@ fn points() -> Vec<Vec<f64>> {
                 2 => Params { am_sign: AddedMassSign::Printed, ..p },
                 3 => Params { quadrature: Quadrature::Midpoint, strips: 64.0, ..p },
                 4 => Params { waveform: WaveformParameters::new(Shape::Square), ..p },
-                5 => Params {
-                    waveform: WaveformParameters {
-                        drive_third_harmonic: -0.2,
-                        ..WaveformParameters::new(Shape::Harmonics)
-                    },
-                    ..p
-                },
+                5 => Params { waveform: third_harmonic(-0.2), ..p },
                 6 => Params { stroke: StrokeParameters::prescribed(0.01 * k), ..p },
                 7 => Params { output_link: 0.03, ..p },
                 8 => Params { wing_inertia_product: 1e-8, ..p },

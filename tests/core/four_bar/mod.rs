@@ -8,24 +8,19 @@ mod physics;
 mod prescribed;
 mod steady;
 mod transient;
+
 use flap_core::model::four_bar::{Arms, Params};
+
+use crate::by_name::named;
 
 /// The parameters of `sys75` or `sys30` in the reference tables.
 fn params(system: &str) -> Params {
-    match system {
-        "sys75" => Params::arabagi2013_75hz(),
-        "sys30" => Params::arabagi2013_30hz(),
-        other => panic!("no system {other}"),
-    }
+    named(system, &["sys75", "sys30"], &[Params::arabagi2013_75hz(), Params::arabagi2013_30hz()])
 }
 
 /// The reading called `name` in the reference tables.
 fn arms(name: &str) -> Arms {
-    match name {
-        "printed" => Arms::Printed,
-        "axis" => Arms::Axis,
-        other => panic!("no reading {other}"),
-    }
+    named(name, Arms::NAMES, Arms::ALL)
 }
 
 /// Fails unless `actual` is within `tolerance` of `expected`, relative to `size`.

@@ -8,6 +8,7 @@ use flap_core::simulate::{PointRun, SolverSettings, Status, TrajectoryRequest};
 use super::steady::{measure, model, run, wrapped};
 use super::{arms, assert_close_to, params};
 use crate::data::{Record, assert_close, table};
+use crate::waveforms::third_harmonic;
 
 fn operating_point(record: &Record) -> Params {
     assert_eq!(record.text("quad"), "gauss");
@@ -99,13 +100,7 @@ fn the_actuator_of_a_prescribed_stroke_is_unknown() {
 fn a_stroke_may_have_harmonics_but_no_jumps() {
     let p =
         Params { stroke: StrokeParameters::prescribed(10.0_f64.to_radians()), ..Params::arabagi2013_75hz() };
-    let harmonic = Params {
-        waveform: WaveformParameters {
-            drive_third_harmonic: 0.1,
-            ..WaveformParameters::new(Shape::Harmonics)
-        },
-        ..p.clone()
-    };
+    let harmonic = Params { waveform: third_harmonic(0.1), ..p.clone() };
     let row = run(&harmonic, 1e-8, 1e-7);
     assert_eq!(row.status, Status::Periodic);
     // θ = Θ (sin + 0.1 sin 3): its first harmonic is Θ, its extremes are 0.9 Θ at 90° and 1.0062 Θ beside it.

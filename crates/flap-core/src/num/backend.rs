@@ -10,7 +10,7 @@ use fearless_simd::{Avx2, Sse2};
 
 #[cfg(target_arch = "x86_64")]
 use super::avx512::Avx512;
-use super::{Scalar, Simd, Unfused};
+use super::{Lanes, Scalar, Simd, Unfused, Vector};
 
 /// The rounding of `mul_add`: once or twice. Results are equal to the last bit within a class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,6 +130,22 @@ impl Backend {
             #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
             Proof::Other(_) => Arithmetic::Unfused,
         }
+    }
+
+    /// The number of SIMD lanes: two registers of `f64`.
+    pub fn lanes(self) -> usize {
+        struct Count;
+
+        impl Kernel for Count {
+            type Output = usize;
+
+            #[inline(always)]
+            fn run<S: Simd>(self, _simd: S) -> usize {
+                Vector::<S>::LANES
+            }
+        }
+
+        self.dispatch(Count)
     }
 
     /// Runs `kernel` on scalars of this backend's arithmetic.

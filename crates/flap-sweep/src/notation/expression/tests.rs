@@ -128,6 +128,10 @@ fn reads_are_the_places_of_the_names() {
     assert_eq!(expression.reads().collect::<Vec<_>>(), [1, 0, 1]);
 }
 
+/// Where something else stands than an operator.
+const OPERATOR: &str =
+    "expected an operator; values are in SI units and written without them; products need a `*`";
+
 /// Text, the parts at fault with the whole messages.
 #[test]
 fn mistakes_say_what_and_where() {
@@ -150,40 +154,13 @@ fn mistakes_say_what_and_where() {
         ("1e", &[("1e", "`1e` is not a number; numbers look like 12, 0.5 or 1.5e-6; products need a `*`")]),
         (".", &[(".", "`.` is not a number; numbers look like 12, 0.5 or 1.5e-6; products need a `*`")]),
         ("1e999", &[("1e999", "the number is too large for a 64-bit float")]),
-        (
-            "60 Hz",
-            &[(
-                "Hz",
-                "expected an operator; values are in SI units and written without them; products need a `*`",
-            )],
-        ),
-        (
-            "(60 Hz)",
-            &[(
-                "Hz",
-                "expected an operator; values are in SI units and written without them; products need a `*`",
-            )],
-        ),
+        ("60 Hz", &[("Hz", OPERATOR)]),
+        ("(60 Hz)", &[("Hz", OPERATOR)]),
         ("x +", &[("", "expected a number, a name or `(`")]),
         ("* x", &[("*", "expected a number, a name or `(`")]),
         ("(x", &[("", "expected `)`")]),
-        (
-            "x)",
-            &[(
-                ")",
-                "expected an operator; values are in SI units and written without them; products need a `*`",
-            )],
-        ),
-        (
-            "sin x",
-            &[
-                ("sin", "`sin` is a function; write sin(…)"),
-                (
-                    "x",
-                    "expected an operator; values are in SI units and written without them; products need a `*`",
-                ),
-            ],
-        ),
+        ("x)", &[(")", OPERATOR)]),
+        ("sin x", &[("sin", "`sin` is a function; write sin(…)"), ("x", OPERATOR)]),
         ("sine(x)", &[("sine", "there is no function `sine`; did you mean `sin`?")]),
         ("log(x)", &[("log", "there is no function `log`; write ln for the natural logarithm, or log10")]),
         ("sin()", &[("sin()", "`sin` takes one argument")]),

@@ -1,0 +1,42 @@
+//! Parameters, presets and readings by their names.
+
+use std::ops::Range;
+
+use flap_core::parameter::Parameter;
+use flap_core::piezo::Layer;
+use proptest::prelude::*;
+
+/// The one of `things` that has the name `name` among `names`, which stand in the same order.
+pub(crate) fn named<T: Clone>(name: &str, names: &[&str], things: &[T]) -> T {
+    let position = names.iter().position(|&one| one == name);
+    things[position.unwrap_or_else(|| panic!("no {name} among {names:?}"))].clone()
+}
+
+fn position(table: &[Parameter], name: &str) -> usize {
+    let position = table.iter().position(|parameter| parameter.name == name);
+    position.unwrap_or_else(|| panic!("no parameter {name}"))
+}
+
+/// The layer of an actuator whose parameters begin with `name`.
+pub(crate) fn layer(table: &[Parameter], values: &[f64], name: &str) -> Layer {
+    let value = |what: &str| values[position(table, &format!("{name}_{what}"))];
+    Layer { thickness: value("thickness"), modulus: value("modulus"), density: value("density") }
+}
+
+/// Any of `presets` with parameters multiplied by factors within `range`. `names` are those of the parameters, with
+/// spaces between.
+pub(crate) fn scaled(
+    table: &'static [Parameter],
+    presets: Vec<Vec<f64>>,
+    names: &'static str,
+    range: Range<f64>,
+) -> impl Strategy<Value = Vec<f64>> {
+    let names: Vec<&str> = names.split_whitespace().collect();
+    let factors = prop::collection::vec(range, names.len());
+    (prop::sample::select(presets), factors).prop_map(move |(mut values, factors)| {
+        for (name, factor) in names.iter().zip(factors) {
+            values[position(table, name)] *= factor;
+        }
+        values
+    })
+}
