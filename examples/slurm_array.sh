@@ -7,7 +7,7 @@
 #
 #   flap merge grid.csv grid.*of8.csv
 #
-# A task that was killed, preempted or ran out of time goes on where it was when it is submitted again, alone if need be:
+# If a task was killed, preempted or ran out of time, submit it again, alone if need be. It continues its sweep:
 #
 #   sbatch --array=3 examples/slurm_array.sh grid.toml
 
@@ -18,7 +18,7 @@
 #SBATCH --requeue
 #SBATCH --signal=B:TERM@60
 
-# As many as the array has when it is whole: Slurm's own count is of the tasks submitted together.
+# The number of tasks of the whole array: Slurm's own count is that of the tasks submitted together.
 shards=8
 
 exec flap sweep --grid "$1" --shard "$SLURM_ARRAY_TASK_ID/$shards" --threads "$SLURM_CPUS_PER_TASK" --resume

@@ -99,7 +99,6 @@ impl Observer<Wing, 4> for Measured {
     #[inline(always)]
     fn add<R: Lanes>(
         &self,
-        _ode: &Wing,
         _c: &Drive<R>,
         attempt: &Attempt<'_, R, 4>,
         accepted: R::Mask,

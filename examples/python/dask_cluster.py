@@ -1,8 +1,8 @@
 """A sweep spread over the processes of a cluster, with the same result as on one machine.
 
 Starts a small Dask cluster on this machine, sweeps on it into one file, and compares that with a sweep without a
-cluster: the same bytes. A worker that dies does no harm; others run its points again. A sweep that is interrupted goes
-on with ``resume=True``, on the cluster or without it.
+cluster: the same bytes. If a worker dies, others run its points again. ``resume=True`` continues an interrupted sweep,
+on the cluster or without it.
 
     python dask_cluster.py
     python dask_cluster.py --size full --workers 8 --out sweep.csv
@@ -20,8 +20,8 @@ With Kubernetes (pip install dask-kubernetes), where the image needs flapwing:
     cluster = KubeCluster(image="registry.example/flapwing")
     cluster.scale(64)
 
-Workers need the same version of flapwing, and processors on which elementary functions round alike; if not, the sweep
-says so and stops. The file is written here, not by workers.
+Workers need the same build of flapwing, and processors with the same rounding; otherwise the sweep ends with an error.
+This process writes the file, not the workers.
 
 Needs Dask: pip install distributed
 

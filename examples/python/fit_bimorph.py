@@ -12,10 +12,10 @@ Parameters are fitted as logarithms of their ratios to the preset: they stay pos
 of the fit needs the response and its derivatives with respect to every parameter; all of these points go through one
 call of `flapwing.evaluate`.
 
-What a response can tell, and what it cannot: if the force, both stiffnesses, both inertias and the drag on the stroke
+A response does not determine all parameters: if the force, both stiffnesses, both inertias and the drag on the stroke
 all grow by the same factor, the motion stays the same. One of them has to be known, here the force and the
-stiffnesses. As inertia and stiffness together mostly make the resonance, fitting the transmission's stiffness as well
-makes the error of the inertia more than three times as large. Drag and hinge are strongly correlated even so: both
+stiffnesses. Inertia and stiffness together mostly determine the resonance, so a fit of the transmission's stiffness as
+well makes the error of the inertia more than three times as large. Drag and hinge remain strongly correlated: both
 turn the wing. The script prints the condition number of the Jacobian, with its columns scaled to length 1, and the
 correlations. Above some 30, fit fewer parameters or measure the pitch as well.
 

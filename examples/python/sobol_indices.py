@@ -1,8 +1,8 @@
 """Sobol' indices of lift and power, for parameters that are known to 10 % only.
 
-They are the shares of a result's variance that come from each parameter: the first-order index S1 from it alone,
-the total index ST from it and all its interactions with others. First-order indices add up to at most 1; what is
-missing are interactions. A parameter whose ST is near 0 may as well be fixed.
+A Sobol' index is the share of a result's variance that comes from one parameter: the first-order index S1 from it
+alone, the total index ST from it and all its interactions with others. First-order indices add up to at most 1; the
+rest comes from interactions. A parameter whose ST is near 0 can be fixed.
 
 All points go through one call of `flapwing.evaluate`.
 

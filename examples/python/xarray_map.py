@@ -1,4 +1,4 @@
-"""At which frequency does each design lift most, and how much, over hinge and voltage?
+"""The largest lift of each design and its frequency, over hinge stiffness and voltage.
 
 Sweeps a wing of Ozaki et al. over hinge stiffness, voltage and frequency, and works on the result as labelled arrays:
 selects by value, finds each design's best frequency, interpolates between designs, and prints a map.

@@ -1,9 +1,9 @@
 //! Native part of the `flapwing` Python package.
 //!
-//! Python values become plain ones at the edge, in [`parameters`], [`design`] and [`solver`]; results become columns in
-//! [`columns`]. Nothing behind that sees Python. `python/flapwing/_flapwing.pyi` repeats signatures and docstrings
-//! for editors and type checkers; tests hold both to be equal. What users see of the functions without docstrings of
-//! their own is in `python/flapwing`.
+//! [`parameters`], [`design`] and [`solver`] turn Python values into those of flap-core and flap-sweep; [`columns`] turns
+//! rows into NumPy columns. No other code handles Python values. `python/flapwing/_flapwing.pyi` repeats signatures and
+//! docstrings for editors and type checkers; tests compare both. Functions without a docstring here are called by those in
+//! `python/flapwing`, which have one.
 
 mod cluster;
 mod columns;

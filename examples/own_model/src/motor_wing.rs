@@ -15,7 +15,7 @@ mod params;
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use flap_core::drive::{Drive, DriveConstants, Wave, WaveformParameters};
-use flap_core::model::{Derived, Description, EnergyBalance, Model, Signal};
+use flap_core::model::{Derived, Description, EnergyBalance, Instant, Model, Signal};
 use flap_core::num::{Lanes, PerLane, Real};
 use flap_core::ode::{Ode, Start};
 use flap_core::parameter::Invalid;
@@ -194,14 +194,8 @@ impl Model<3, S> for MotorWing {
     }
 
     #[inline(always)]
-    fn signals<R: Lanes>(
-        &self,
-        c: &Constants<R>,
-        voltage: &Wave<R>,
-        _side: R,
-        y: &[R; 3],
-        _dy: &[R; 3],
-    ) -> [R; S] {
+    fn signals<R: Lanes>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 3>) -> [R; S] {
+        let Instant { input: voltage, y, .. } = at;
         let [flap, rate, current] = *y;
         let power = voltage.value * current;
         [

@@ -44,13 +44,14 @@ pub(super) fn march(p: &Params, y: [f64; 4], cycles: u32, rtol: f64) -> [f64; 4]
 /// The signals over one drive period from `y`, and the right-hand sides evaluated in it.
 pub(super) fn cycle(p: &Params, y: [f64; 4], rtol: f64) -> ([SignalCycle; SIGNALS], u64) {
     let start = start(p, y);
-    let observer = Signals::<SIGNALS>::ALL;
+    let model = Bimorph::default();
+    let observer = Signals::<_, SIGNALS>::all(&model);
     let mut totals = Observer::<Bimorph, 4>::nothing(&observer).map(|one| Totals::<f64>::fill((), &one));
     let outcome = solve::<_, f64, 4>(
         &Bimorph::default(),
         &tolerances(rtol),
         &start,
-        |c, accepted| observer.add(&Bimorph::default(), c, accepted, true, &mut totals),
+        |c, accepted| observer.add(c, accepted, true, &mut totals),
         |_| ControlFlow::Break(()),
     );
     assert_eq!(outcome.ending, Ending::Stopped);

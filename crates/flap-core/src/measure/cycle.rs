@@ -8,7 +8,7 @@
 use super::asked::Asked;
 use super::course::Course;
 use crate::model::Measure::{Amplitude, First, Magnitude, Max, Min, Peak, PeakToPeak, Rms, Supply};
-use crate::model::{Measure, Model, Signal, SignalCycle};
+use crate::model::{Instant, Measure, Model, Signal, SignalCycle};
 use crate::num::Lanes;
 use crate::ode::dense::interpolate;
 use crate::ode::ensemble::Observer;
@@ -48,20 +48,26 @@ crate::per_lane! {
 
 /// Sums up the S signals of a model along a run.
 #[derive(Clone, Copy, Debug)]
-pub struct Signals<const S: usize> {
+pub struct Signals<'a, M, const S: usize> {
+    model: &'a M,
     /// True to look for largest and smallest values and positive parts, which takes most of the work. If false, they have
     /// no meaning.
-    pub extrema: bool,
+    extrema: bool,
 }
 
-impl<const S: usize> Signals<S> {
+impl<'a, M, const S: usize> Signals<'a, M, S> {
     /// Sums up everything.
-    pub const ALL: Signals<S> = Signals { extrema: true };
+    pub fn all(model: &'a M) -> Self {
+        Signals { model, extrema: true }
+    }
+
     /// Sums up means and first harmonics.
-    pub const MEANS: Signals<S> = Signals { extrema: false };
+    pub fn means(model: &'a M) -> Self {
+        Signals { model, extrema: false }
+    }
 }
 
-impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<S> {
+impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<'_, M, S> {
     type Totals<R: Lanes> = [Totals<R>; S];
 
     #[inline(always)]
@@ -81,12 +87,12 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
     #[inline(always)]
     fn add<R: Lanes>(
         &self,
-        model: &M,
         c: &M::Constants<R>,
         attempt: &Attempt<'_, R, N>,
         accepted: R::Mask,
         totals: &mut [Totals<R>; S],
     ) {
+        let model = self.model;
         let Attempt { t, h, side, step } = *attempt;
         let zero = h.lit(0.0);
         let mut sums = *totals;
@@ -99,7 +105,8 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
             let weight = h * B[stage];
             let (sin, cos) = M::drive(c).phase(at).sin_cos();
             let u = input(model, c, at);
-            let values = signals(model, c, &u, side, &step.y[stage], &step.k[stage]);
+            let instant = Instant { input: &u, side, y: &step.y[stage], dy: &step.k[stage] };
+            let values = signals(model, c, instant);
             if stage == 0 {
                 begin = values;
             }
@@ -167,7 +174,8 @@ fn courses<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
     mut begin: [R; S],
 ) -> [Within<R>; S] {
     let Attempt { t, h, side, step } = *attempt;
-    let last = signals(model, c, &input(model, c, t + h), side, &step.y[6], &step.k[6]);
+    let last = Instant { input: &input(model, c, t + h), side, y: &step.y[6], dy: &step.k[6] };
+    let last = signals(model, c, last);
     let mut all = begin.map(|value| Within { max: value, min: value, positive_mean: value.lit(0.0) });
     let parts = model.parts();
     let share = 1.0 / f64::from(parts);
@@ -205,22 +213,19 @@ fn between<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
     let y = interpolate(step, h, h.lit(theta));
     let u = input(model, c, at);
     let dy = slope(model, c, &u, side, &y);
-    signals(model, c, &u, side, &y, &dy)
+    signals(model, c, Instant { input: &u, side, y: &y, dy: &dy })
 }
 
-/// The signals for the inputs `u`. Called here for the sake of the compiler, see [`slope`].
+/// The signals at an instant. Called here for the sake of the compiler, see [`slope`].
 #[inline(always)]
 fn signals<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
     model: &M,
     c: &M::Constants<R>,
-    u: &M::Input<R>,
-    side: R,
-    y: &[R; N],
-    dy: &[R; N],
+    at: Instant<'_, R, M::Input<R>, N>,
 ) -> [R; S] {
-    side.apart(
+    at.side.apart(
         #[inline(always)]
-        || model.signals(c, u, side, y, dy),
+        || model.signals(c, at),
     )
 }
 

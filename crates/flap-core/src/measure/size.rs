@@ -20,7 +20,6 @@ impl<O: Ode<N>, const N: usize> Observer<O, N> for Size {
     #[inline(always)]
     fn add<R: Lanes>(
         &self,
-        _ode: &O,
         _c: &O::Constants<R>,
         attempt: &Attempt<'_, R, N>,
         accepted: R::Mask,

@@ -46,6 +46,19 @@ impl<M, C, const S: usize> Derived<M, C, S> {
     }
 }
 
+/// An instant of a motion of N states, with inputs `I`.
+#[derive(Clone, Copy, Debug)]
+pub struct Instant<'a, R, I, const N: usize> {
+    /// The inputs, see [`Ode::input`].
+    pub input: &'a I,
+    /// The side of the switching surface, see [`Ode::rhs`].
+    pub side: R,
+    /// The states.
+    pub y: &'a [R; N],
+    /// Their derivatives.
+    pub dy: &'a [R; N],
+}
+
 /// A periodically driven model with N states, of which S signals are measured over a drive period.
 pub trait Model<const N: usize, const S: usize>: Ode<N> + Clone + PartialEq + 'static {
     /// Name, meaning and parameters.
@@ -76,15 +89,8 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + Clone + PartialEq + 's
     /// The drive of a point, to whose phase the signals' harmonics refer.
     fn drive<R: Lanes>(c: &Self::Constants<R>) -> &DriveConstants<R>;
 
-    /// The signals at a state `y` with derivative `dy`, on one `side` of the switching surface, in SI units.
-    fn signals<R: Lanes>(
-        &self,
-        c: &Self::Constants<R>,
-        u: &Self::Input<R>,
-        side: R,
-        y: &[R; N],
-        dy: &[R; N],
-    ) -> [R; S];
+    /// The signals at an instant, in SI units.
+    fn signals<R: Lanes>(&self, c: &Self::Constants<R>, at: Instant<'_, R, Self::Input<R>, N>) -> [R; S];
 
     /// Number of parts into which each step is divided to find the largest and smallest values of the signals. More than one
     /// if signals change faster than the motion, which chooses the steps.

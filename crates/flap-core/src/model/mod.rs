@@ -18,7 +18,7 @@ mod signal;
 mod stroke_and_pitch;
 mod units;
 
-pub use definition::{Derived, Description, Model};
+pub use definition::{Derived, Description, Instant, Model};
 pub use energy::EnergyBalance;
 pub use motions::{Imposed, Motions};
 pub use signal::{Measure, Signal, SignalCycle, position};

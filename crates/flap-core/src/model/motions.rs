@@ -1,6 +1,6 @@
 //! Single motions of a model that contains the drive component: chirped, sampled, released, imposed.
 
-use super::definition::Model;
+use super::definition::{Instant, Model};
 use crate::drive::{Drive, DriveConstants, Samples, Waveform};
 use crate::modes::Mode;
 
@@ -67,6 +67,7 @@ pub trait Motions<const N: usize, const S: usize>: Model<N, S> {
         let (y, dy, input) = Self::placed(c, stroke, pitch);
         let prescribed = self.with_drive(|_| Drive::PRESCRIBED);
         let [direction, _] = prescribed.switch(c, &y, &dy);
-        (y, prescribed.signals(c, &input, 1.0_f64.copysign(direction), &y, &dy))
+        let at = Instant { input: &input, side: 1.0_f64.copysign(direction), y: &y, dy: &dy };
+        (y, prescribed.signals(c, at))
     }
 }

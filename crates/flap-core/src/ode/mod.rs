@@ -6,14 +6,14 @@
 //! - [`switch`]: right-hand sides that jump where a function changes sign
 //! - [`variation`]: a run with its response to small changes of its initial state
 //! - [`dense`]: the solution between the ends of a step
-//! - [`solve`]: one run on scalars, written to be read; the oracle of the ensemble
+//! - [`solve`]: one run on scalars, in simple code; the reference of the ensemble
 //! - [`ensemble`]: many runs in lanes, each with its own time, step size and constants
 //!
 //! Time runs from 0 to the end of a *span*, usually one drive period, and every span ends exactly on a step.
-//! At its end the caller looks at the state and decides to stop or to go on with another span. An equation whose
-//! inputs repeat with the span therefore sees no growing times.
+//! At its end the caller checks the state, and stops or starts another span. An equation whose inputs repeat with the
+//! span therefore gets no growing times.
 //!
-//! Equations of one's own are an [`Ode`]: `examples/jafferis_fig2_3` brings three of them to their settled motions,
+//! Other equations implement [`Ode`]: `examples/jafferis_fig2_3` brings three of them to their settled motions,
 //! `examples/own_equations` runs thousands of points in lanes.
 
 mod begin;

@@ -29,7 +29,6 @@ impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Question<
             return Err(RequestError::Chirp { from, to, rate }.into());
         }
         let start = model.start(values)?;
-        let observer = Signals::<S>::ALL;
         let mut sampler = Sampler::new(samples_per_cycle);
         let mut rows = Vec::new();
         let (mut frequency, mut time, mut y) = (from, 0.0, start.y);
@@ -44,6 +43,7 @@ impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Question<
             let span = 2.0 / (frequency + end);
             let (model, constants) = model.chirped(&start.constants, frequency, rate);
             let cycle = Start { constants, y, span, ..start };
+            let observer = Signals::<M, S>::all(&model);
             let mut totals = Observer::<M, N>::nothing(&observer).map(|one| Totals::<R>::fill((), &one));
             sampler.begin_cycle(span);
             let outcome = solve_until::<M, R, N>(
@@ -54,7 +54,7 @@ impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Question<
                 |c, attempt| {
                     R::enter(
                         #[inline(always)]
-                        || observer.add(&model, c, attempt, true, &mut totals),
+                        || observer.add(c, attempt, true, &mut totals),
                     );
                     if samples_per_cycle > 0 {
                         sampler.step(&model, c, attempt);

@@ -15,14 +15,14 @@ pub(super) fn cycle<M, R, const N: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,
     start: &Start<M::Constants<f64>, N>,
-    signals: Signals<S>,
+    signals: &Signals<'_, M, S>,
     interrupted: Interrupt<'_>,
 ) -> (Option<[Totals<f64>; S]>, Outcome)
 where
     M: Model<N, S>,
     R: Scalar,
 {
-    let mut totals = Observer::<M, N>::nothing(&signals).map(|one| Totals::<R>::fill((), &one));
+    let mut totals = Observer::<M, N>::nothing(signals).map(|one| Totals::<R>::fill((), &one));
     let outcome = solve_until::<M, R, N>(
         model,
         &solver.tolerances(),
@@ -31,7 +31,7 @@ where
         |c, accepted| {
             R::enter(
                 #[inline(always)]
-                || signals.add(model, c, accepted, true, &mut totals),
+                || signals.add(c, accepted, true, &mut totals),
             );
         },
         |_| ControlFlow::Break(()),

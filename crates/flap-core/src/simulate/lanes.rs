@@ -197,7 +197,7 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
         let start =
             |run: &Searched<_, N>| Some(run.search.precision().start(&run.start, &run.search.orbit()?.y));
         let fine = orbits.iter().map(start).collect();
-        for PeriodEnd { position, end, outcome } in self.periods(&Signals::ALL, fine) {
+        for PeriodEnd { position, end, outcome } in self.periods(&Signals::all(self.model), fine) {
             orbits[position].search.charge(outcome);
             compared[position].take_fine(end.map(|(_, totals)| totals), outcome);
         }
@@ -207,7 +207,7 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
             Some(run.search.precision().coarse(&run.start, &y))
         };
         let coarse = orbits.iter().zip(&ends).map(start).collect();
-        for PeriodEnd { position, end, outcome } in self.periods(&Signals::MEANS, coarse) {
+        for PeriodEnd { position, end, outcome } in self.periods(&Signals::means(self.model), coarse) {
             orbits[position].search.charge(outcome);
             compared[position].coarse = end.map(|(_, totals)| totals);
         }

@@ -1,7 +1,7 @@
-//! Design points in, rows out: models as sweeps, the command line and Python see them.
+//! Design points in, rows out: the interface of models for sweeps, the command line and Python.
 //!
-//! A [`Simulator`] is the face of a model for sweeps; [`Motions`] and [`Experiments`] are its faces for single motions.
-//! [`Runner`] gives them to a [`Model`](crate::model::Model). [`all`] lists the models of this crate.
+//! A sweep uses the trait [`Simulator`] of a model; single motions use [`Motions`] and [`Experiments`]. [`Runner`]
+//! implements these traits for a [`Model`](crate::model::Model). [`all`] lists the models of this crate.
 
 mod accuracy;
 mod begin;

@@ -25,7 +25,7 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M,
         Unfinished::check(outcome.ending, interrupted)?;
         let all = all.ok_or(Unfinished::Interrupted)?;
         let varied = outcome.rhs_evals * (N as u64 + 1);
-        let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start, Signals::ALL, interrupted);
+        let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start, &Signals::all(model), interrupted);
         Unfinished::check(outcome.ending, interrupted)?;
         let measures = totals.map(|totals| measures(model, &start.constants, &totals, start.span));
         Ok(Period {

@@ -31,7 +31,7 @@ use crate::parameter::{Parameter, Preset};
 ///
 /// ```
 /// use flap_core::drive::{DriveConstants, WaveformParameters};
-/// use flap_core::model::{Derived, Description, Measure, Model, Signal, Unit};
+/// use flap_core::model::{Derived, Description, Instant, Measure, Model, Signal, Unit};
 /// use flap_core::num::{InstructionSet, Lanes};
 /// use flap_core::ode::{Ode, Start};
 /// use flap_core::parameter::Kind::Number;
@@ -110,15 +110,8 @@ use crate::parameter::{Parameter, Preset};
 ///     }
 ///
 ///     #[inline(always)]
-///     fn signals<R: Lanes>(
-///         &self,
-///         _c: &Constants<R>,
-///         _torque: &R,
-///         _side: R,
-///         y: &[R; 2],
-///         _dy: &[R; 2],
-///     ) -> [R; 1] {
-///         [y[0]]
+///     fn signals<R: Lanes>(&self, _c: &Constants<R>, at: Instant<'_, R, R, 2>) -> [R; 1] {
+///         [at.y[0]]
 ///     }
 /// }
 ///

@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use super::error::Unfinished;
 use super::request::Trajectory;
 use super::settings::SolverSettings;
-use crate::model::Model;
+use crate::model::{Instant, Model};
 use crate::num::Scalar;
 use crate::ode::dense::interpolate;
 use crate::ode::solve::solve_until;
@@ -137,7 +137,8 @@ where
     R: Scalar,
 {
     let input = model.input(c, t);
-    let signals = model.signals(c, &input, side, y, &model.rhs(c, &input, side, y));
+    let dy = model.rhs(c, &input, side, y);
+    let signals = model.signals(c, Instant { input: &input, side, y, dy: &dy });
     let mut row = vec![time];
     row.extend(y.iter().map(|y| y.lane(0)));
     row.extend(shown::<M, N, S>(&signals.map(|value| value.lane(0))));

@@ -132,12 +132,13 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Settling<'_, M, N, S> {
 
         let mut periods = Compared::new();
         let fine = self.search.precision().start(start, orbit);
-        let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &fine, Signals::ALL, interrupted);
+        let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &fine, &Signals::all(model), interrupted);
         self.search.charge(outcome);
         periods.take_fine(totals, outcome);
         if let Some(y) = end.and_then(|end| self.search.coarse_orbit(&end)) {
             let coarse = self.search.precision().coarse(start, &y);
-            let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &coarse, Signals::MEANS, interrupted);
+            let (totals, outcome) =
+                cycle::<M, R, N, S>(model, solver, &coarse, &Signals::means(model), interrupted);
             self.search.charge(outcome);
             periods.coarse = totals;
         }

@@ -1,8 +1,9 @@
 """Simulation of insect-scale piezoelectric flapping-wing actuators.
 
-`presets` lists published designs, `params` their numbers. `run` simulates one design, `trajectory` gives its motion and
-`resonance` its resonances; `sweep` runs a whole grid, `evaluate` a batch of points, and `respond` follows designs up and
-down in frequency. Results are a `Table`, whose columns are NumPy arrays, and go to pandas, polars, Arrow and xarray.
+`presets` lists published designs and `params` their parameters. `run` simulates one design, `trajectory` returns its
+motion and `resonance` its resonances. `sweep` runs a whole grid and `evaluate` a batch of points. `respond` follows
+designs up and down in frequency. Results are a `Table`, whose columns are NumPy arrays; it converts to pandas, polars,
+Arrow and xarray.
 
 Pictures are in `flapwing.plot`, which needs matplotlib.
 """

@@ -27,41 +27,41 @@ def evaluate(
 ) -> Table:
     """Run a batch of design points, given as columns of parameters.
 
-    This is what optimisers, samplers and fits call: points go in as arrays, what they measure comes out as arrays in
-    the same order. All points run at once, on all cores. A row depends on its point alone, whatever stands in the
-    other rows.
+    Optimisers, samplers and fits call this function: it takes points as arrays and returns their measures as arrays in
+    the same order. All points run at the same time, on all cores. A row depends on its point alone, not on the other
+    rows.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        The base of all points: a preset; a model, whose parameters all have to be given then; or a grid (see
+        The base of all points: a preset; a model, all of whose parameters must then be given; or a grid (see
         `Grid`), whose ``[derived]``, ``[where]``, ``[measure]``, ``[solver]`` and ``[output]`` hold for every point. A
-        grid with axes is run for each row of `columns`: designs times frequencies, for instance.
+        grid with axes is run for each row of `columns`, for example all frequencies for each design.
     columns : mapping or DataFrame
         Parameters by name, each with an array of n values in SI units, a list of texts with units or of options, or
-        one value for all points. Of a masked array, nothing may be masked.
+        one value for all points. A masked array must have no masked values.
     threads : int, optional
         Threads, 1 or more. Default: one per core. Rows do not depend on it.
     progress : bool or function, optional
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
         points in all.
     **keywords : float or str
-        Parameters of all points and solver settings, as for `run`; none that is a column too.
+        Parameters of all points and solver settings, as for `run`; a name must not be a column too.
 
     Returns
     -------
     Table
-        n rows in the order of `columns`, or n times the points of the grid's axes, which vary faster; less those of
-        points that ``[where]`` excludes: the column `point` counts all. With axes, `dims` begins with the dimension
+        n rows in the order of `columns`, or n times the points of the grid's axes, which vary faster. Points that
+        ``[where]`` excludes have no row, but count in the column `point`. With axes, `dims` begins with the dimension
         `row`. A value that is out of range, infinite or not a number makes a row with the status
-        ``"invalid"``, and so do parameters that are impossible together; ``table.meta["invalid"]`` says why for the
-        first few.
+        ``"invalid"``, and so do parameters that are impossible together; ``table.meta["invalid"]`` gives the reason for
+        the first few.
 
     Raises
     ------
     ValueError
         Unknown preset, parameter, option or unit; columns of different lengths, or with masked values; a parameter
-        that is a column and a keyword; a parameter that a model needs is missing. GridError if there are mistakes in a grid.
+        that is a column and a keyword; a missing parameter of a model. GridError if there are mistakes in a grid.
     TypeError
         A value of the wrong type.
 

@@ -120,17 +120,17 @@ def run(
     max_cycles : int, optional
         Drive periods after which the point counts as unsettled: 1 or more. Default 1000.
     max_steps : int, optional
-        Integration steps within one drive period after which the point is given up: 1 or more.
+        Largest number of integration steps in one drive period: 1 or more.
         Default 20000.
     accuracy : float, optional
         Largest error_estimate and energy audit of a row: more than 0. A point whose row exceeds it is integrated
         again with tighter tolerances, up to a limit. Default 1e-3, or 1000 rtol if that is more.
     newton : bool, optional
-        Newton's iteration finds the orbit that the motion approaches. If False, the motion is followed until it
-        settles: to the same orbit, in more periods. Default True.
+        True to find the orbit that the motion approaches by Newton's iteration. If False, the motion is integrated
+        until it settles on the same orbit, in more periods. Default True.
     **parameters : float or str
         Parameters of the model by name: a number in SI units, text with a unit such as
-        ``"1.5 uN*m/rad"``, or the name of an option where there are options to choose from.
+        ``"1.5 uN*m/rad"``, or the name of an option if the parameter is a choice.
 
     Returns
     -------
@@ -143,9 +143,9 @@ def run(
             to advance time); ``"invalid"`` (each parameter is in range, but together they are
             impossible).
         measures : float or None
-            Several keys, named after what is measured, how and in which unit: ``stroke_pp_deg``,
-            ``lift_mean_mn``, ``power_mean_mw``. All are None unless the point is periodic; a ratio of
-            nothing to nothing, such as efficiency without power, is nan.
+            Several keys, each named after its quantity, its kind of measure and its unit:
+            ``stroke_pp_deg``, ``lift_mean_mn``, ``power_mean_mw``. All are None unless the point is periodic.
+            A ratio of zero to zero, such as the efficiency without power, is nan.
         cycles : int
             Drive periods integrated, the measured one included.
         residual : float or None
@@ -154,8 +154,8 @@ def run(
         period : int
             Drive periods until the motion repeats: 1 if periodic, more if subharmonic, otherwise 0.
         floquet_max : float or None
-            Factor by which a change of the motion grows or decays per orbit in the end. None if no orbit was
-            found, and for a wing at rest.
+            Factor by which a small change of the motion grows or decays per orbit after a long time. None if no
+            orbit was found, and for a wing at rest.
         stable : bool or None
             True if floquet_max is below 1, so that motions near the orbit approach it, and for a wing at rest.
             None if no orbit was found.
@@ -171,7 +171,7 @@ def run(
     ------
     ValueError
         Unknown preset, parameter, option or unit; a value out of range, infinite or not a number. The
-        message gives the nearest name and what is allowed.
+        message gives the nearest name and the allowed values.
     TypeError
         A value of the wrong type, such as text for a tolerance or a number for an option.
     """
@@ -255,7 +255,7 @@ def resonance(
         Impulse on the resting stroke, as the amplitude (deg) that the first mode alone would reach without damping.
         Default 20.
     fit_cycles : int, optional
-        Periods of the first mode that the damped sine is fitted to. Default 4.
+        Number of periods of the first mode to which the damped sine is fitted. Default 4.
     spectrum_window : float, optional
         Length (s) of the motion whose spectrum is taken. Default 1.
     **keywords : float or str
@@ -268,7 +268,7 @@ def resonance(
             Small undamped motions: frequency (Hz) by name of the mode.
         impulse_fit : dict or None
             The damped sine through the stroke after the impulse: `frequency_hz`, `decay_1_s` (1/s) and
-            `relative_rms`, the rms of the rest over that of the stroke. None if none fits.
+            `relative_rms`, the rms of the residuals over that of the stroke. None if no damped sine fits.
         stroke_spectrum_hz, pitch_spectrum_hz : list of float
             Highest peaks of the spectra after the impulse (Hz).
         driven : list of dict
@@ -277,7 +277,7 @@ def resonance(
         larger_at_hz : float or None
             The end of the range at which the stroke is larger than at any peak, if there is one.
         gaps : list of (float, float, str)
-            Ranges of drive frequencies (Hz) without a periodic motion, each with a status: a peak may hide there.
+            Ranges of drive frequencies (Hz) without a periodic motion, each with a status: there may be a peak in them.
 
     Raises
     ------

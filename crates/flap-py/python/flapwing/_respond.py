@@ -25,9 +25,9 @@ def respond(
 ) -> Table:
     """Follow the motions of designs as a parameter rises and falls, and find hysteresis.
 
-    The first point of each way is followed from rest, every other from where its neighbour's motion has ended. Where
-    the way up and the way down come to different motions the design is bistable; the ends of such bands are located
-    by halving steps.
+    The first point of each way starts at rest, every other from the settled motion of the point before it. Where the
+    way up and the way down settle to different motions, the design is bistable; the ends of such bands are located by
+    halving steps.
 
     Parameters
     ----------
@@ -51,8 +51,8 @@ def respond(
     -------
     Table
         A row per motion: `curve` (number of the design), its parameters, `branch` (``"up"``, ``"down"`` or
-        ``"unstable"``), the parameter that is followed, and the columns of a sweep. ``meta["verdicts"]`` has a
-        line for each design with what was found, ``meta["along"]`` the parameter that was followed.
+        ``"unstable"``), the parameter that is followed, and the columns of a sweep. ``meta["verdicts"]`` has the
+        verdict on each design in one line, ``meta["along"]`` the parameter that was followed.
 
     Raises
     ------

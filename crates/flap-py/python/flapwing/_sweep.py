@@ -33,16 +33,16 @@ def sweep(
     Parameters
     ----------
     grid : path, str, dict or Grid
-        The design space, see `Grid`. Its ``[output]`` chooses columns; its path is not used here.
+        The design space, see `Grid`. Its ``[output]`` chooses columns; the path in it is not used.
     out : path, optional
-        Write the rows to this file as they come, as ``flap sweep --out`` does to the same bytes: ``.csv``,
-        ``.csv.zst`` or ``.parquet``, with a sidecar that says where they come from. By default they are kept in
-        memory: about half a kilobyte each.
+        File for the rows, written as soon as they are computed, with the same bytes as by ``flap sweep --out``:
+        ``.csv``, ``.csv.zst`` or ``.parquet``. A sidecar beside it records the origin of the rows. By default rows are
+        kept in memory: about half a kilobyte each.
     resume : bool, optional
-        Go on with the unfinished results in `out`, or begin them.
+        Continue the unfinished results in `out`; start the sweep if there are none.
     overwrite : bool, optional
-        Replace the results in `out`, which are kept beside the new ones until those are complete. By default a file that
-        holds something is an error.
+        Replace the results in `out`. They are kept beside the new ones until those are complete. By default an existing
+        file is an error, unless it is empty.
     threads : int, optional
         Threads, 1 or more; with `client`, those of each task. Default: one per core; with `client`, 1. Rows do not
         depend on it.
@@ -50,22 +50,22 @@ def sweep(
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
         points in all.
     client : distributed.Client, optional
-        Run the points on the workers of a Dask cluster, which need the same build of flapwing. Rows come in the
-        same order and with the same bytes as on one machine; those of a worker that dies are run again by others.
-        A worker whose processor rounds differently, so that rows could differ, is an error.
+        Run the points on the workers of a Dask cluster, which need the same build of flapwing. Rows have the
+        same order and the same bytes as on one machine. If a worker dies, others run its points again. A worker whose
+        processor rounds differently is an error, because its rows could differ.
 
     Returns
     -------
     Table
         One row per point in the order of the grid, less those that ``[where]`` excludes: `point`, the varied and
         derived parameters in SI units, `status`, the measures, `cycles`, `residual`, `period`, `floquet_max`,
-        `stable`, `rhs_evals`. A point that fails is a row with a status. With `out`, the rows are read from the file
-        when they are first asked for.
+        `stable`, `error_estimate`, `rhs_evals`. A point that fails is a row with a status. With `out`, the rows are
+        read from the file when they are first used.
 
     Raises
     ------
     GridError
-        Mistakes in the grid: all of them, each with its line, what is allowed and the nearest name. It is a
+        Mistakes in the grid: all of them, each with its line, the allowed values and the nearest name. It is a
         ValueError.
     FileExistsError
         `out` holds results, and neither `resume` nor `overwrite` is given.
@@ -74,7 +74,7 @@ def sweep(
     ValueError
         `out` cannot be resumed: it is of another grid, or was changed.
     KeyboardInterrupt
-        Ctrl-C. Rows in `out` are kept, and `resume` goes on with them.
+        Ctrl-C. Rows in `out` are kept, and `resume` continues with them.
 
     Examples
     --------
@@ -99,31 +99,31 @@ def sweep(
 
 
 def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Table:
-    """Read results that flap has written, and check that they are as they were written.
+    """Read results that flap has written, and compare them with their checksums.
 
     Parameters
     ----------
     path : path
-        Results of a sweep (``.csv``, ``.csv.zst``, ``.parquet``); or a table in CSV that ``flap respond``, ``flap run
-        --trajectory`` or the like has written; or a table in Parquet that another program has written, with
-        Zstandard, Snappy or no compression. Units, meanings and the axes come from the sidecar beside the results, or
-        out of flap's own Parquet; without either, units come from the names of the columns. Of unfinished results the
-        rows up to the last checkpoint are read, with a warning.
+        Results of a sweep or a response (``.csv``, ``.csv.zst``, ``.parquet``); or a table in CSV of another command,
+        such as ``flap run --trajectory``; or a table in Parquet of another program, with Zstandard, Snappy or no
+        compression. Units, meanings and the axes come from the sidecar beside the results, or from the metadata of
+        flap's own Parquet; without either, units come from the names of the columns. Of unfinished results the rows up
+        to the last checkpoint are read, with a warning.
     ignore_damage : bool, optional
-        Read results that are not as they were written all the same, as far as possible, with a warning.
+        Read damaged results as far as possible, with a warning. By default damage is an error.
 
     Returns
     -------
     Table
-        The rows. Numbers have the same bits as when they were written. ``meta["verified"]`` says whether that could be
-        checked: False for unfinished or damaged results, and where there is no sidecar with checksums.
+        The rows. Numbers have the same bits as when they were written. ``meta["verified"]`` is True if the checksums
+        agree, False for unfinished or damaged results, and without a sidecar with checksums.
 
     Raises
     ------
     OSError
         The file cannot be read.
     ValueError
-        It holds something else, or is damaged; the text says where.
+        The file is no table of results, or is damaged; the text locates the damage.
     """
     native = _flapwing.read(os.fspath(path), ignore_damage=ignore_damage)
     for text in native["warnings"]:

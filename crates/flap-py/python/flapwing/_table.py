@@ -62,9 +62,9 @@ class Table:
     ``table["lift_mean_mn"]`` is a column, ``table[rows]`` a table of some of the rows, ``len(table)`` their number.
     Iterating gives the names of the columns, as a DataFrame does.
 
-    Columns are float64 with nan for what is not known (the measures of a point that is not periodic), uint64 for
-    counts, bool for flags (False also where nothing is known; `to_pandas`, `to_polars` and `to_arrow` tell the two
-    apart), and text for options and words. Units are in `units`, meanings in `docs`.
+    Columns are float64 with nan for unknown values (the measures of a point that is not periodic), uint64 for
+    counts, bool for flags, and text for options and words. An unknown flag is False; `to_pandas`, `to_polars` and
+    `to_arrow` distinguish it from False. `units` has the units of the columns, `docs` their meanings.
 
     Attributes
     ----------
@@ -72,10 +72,10 @@ class Table:
         The axes of the grid, the last of which varies fastest: for each, the parameters that move together along it
         with their values. Empty if the rows are not those of a grid with axes.
     meta : dict
-        The origin of the rows: `flap` (version), `build` (which tells builds of a version apart), `model`, `preset`,
-        `solver`, `arithmetic` and `grid` (the text of the grid file). The call adds `counts`, rows by status;
-        `excluded` points, which have no row; `invalid`, the first few invalid points with the reason; `set`, keywords
-        that replace values of the grid.
+        The origin of the rows: `flap` (version), `build` (a hash of the sources, which differs between builds of a
+        version), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of the grid file). The
+        call adds `counts`, rows by status; `excluded` points, which have no row; `invalid`, the first few invalid
+        points with the reason; `set`, keywords that replace values of the grid.
     """
 
     dims: list[dict[str, np.ndarray[Any, Any]]]
@@ -158,7 +158,7 @@ class Table:
 
     @property
     def docs(self) -> dict[str, str]:
-        """The meaning of each column in a line; ``""`` if it is not known."""
+        """The meaning of each column in one line; ``""`` if it is unknown."""
         return {name: column.doc for name, column in self._columns.items()}
 
     @property

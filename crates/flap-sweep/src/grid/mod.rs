@@ -1,7 +1,7 @@
 //! Grid files: from text to a [`Plan`](crate::plan::Plan), or to all mistakes in the text.
 //!
-//! Each part of the file has a module of its own below; all report into one list, so that a file with three
-//! mistakes is reported with all three. See `docs/grid.md` for the format.
+//! Each part of the file has its own module below; all report mistakes into one list, so that one check finds all
+//! mistakes of a file. See `docs/grid.md` for the format.
 
 mod axes;
 mod conditions;

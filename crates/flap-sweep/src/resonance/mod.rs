@@ -4,7 +4,7 @@
 //! - [`driven`]: the highest peaks of one design
 //! - `search`: the search for both; `maximum` locates the top of one peak
 //! - `target`, `range`: the quantity that is largest, and the range of the search
-//! - [`study`]: points of which each is chosen by the rows of earlier ones
+//! - [`study`]: points that are chosen one after another, by the rows of earlier ones
 
 pub mod driven;
 mod error;

@@ -8,7 +8,7 @@ use super::rhs::{
     Plate, charging_power, currents, double_angle, lift_and_drag, plate, plate_forces, tip_drag,
 };
 use crate::drive::{Drive, DriveConstants, Shape, StrokeMode, Wave, Waveform};
-use crate::model::{Derived, Description, EnergyBalance, Imposed, Model, Motions, Signal};
+use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Model, Motions, Signal};
 use crate::modes::Mode;
 use crate::num::Lanes;
 use crate::ode::Start;
@@ -49,14 +49,8 @@ impl Model<4, S> for Bimorph {
     }
 
     #[inline(always)]
-    fn signals<R: Lanes>(
-        &self,
-        c: &Constants<R>,
-        plates: &[Plate<R>; 2],
-        _side: R,
-        y: &[R; 4],
-        _dy: &[R; 4],
-    ) -> [R; S] {
+    fn signals<R: Lanes>(&self, c: &Constants<R>, at: Instant<'_, R, [Plate<R>; 2], 4>) -> [R; S] {
+        let Instant { input: plates, y, .. } = at;
         let [x, x_dot, psi, psi_dot] = *y;
         let (sin, cos) = psi.sin_cos();
         let (sin_2psi, cos_2psi) = double_angle(sin, cos);

@@ -7,7 +7,7 @@ use super::params::Params;
 use super::rhs::{added_mass, aerodynamics, current, lift};
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::stroke_and_pitch as states;
-use crate::model::{Derived, Description, EnergyBalance, Imposed, Model, Motions, Signal};
+use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Model, Motions, Signal};
 use crate::modes::Mode;
 use crate::num::Lanes;
 use crate::ode::Start;
@@ -46,14 +46,8 @@ impl Model<4, S> for DirectDrive {
     }
 
     #[inline(always)]
-    fn signals<R: Lanes>(
-        &self,
-        c: &Constants<R>,
-        drive: &Wave<R>,
-        side: R,
-        y: &[R; 4],
-        dy: &[R; 4],
-    ) -> [R; S] {
+    fn signals<R: Lanes>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> [R; S] {
+        let Instant { input: drive, side, y, dy } = at;
         let y = states::state(&self.drive, drive, y);
         let [phi, psi, phi_dot, psi_dot] = y;
         let (sin, cos) = psi.sin_cos();

@@ -162,7 +162,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
         self.h = crossing.h;
         let accepted = crossing.accepted;
         let attempt = Attempt { t: self.t, h, side, step: &self.step };
-        observer.add(ode, &self.constants, &attempt, accepted, &mut self.totals);
+        observer.add(&self.constants, &attempt, accepted, &mut self.totals);
         let t = R::select(landing, target, self.t + h);
         self.t = R::select(accepted, t, self.t);
         self.step.advance(accepted);

@@ -1,6 +1,6 @@
 //! Many runs in SIMD lanes.
 //!
-//! Every lane has its own time, step size, accept or reject, and constants. A lane whose run has ended takes
+//! Every lane has its own time, step size, acceptance of steps, and constants. A lane whose run has ended takes
 //! the next one from the queue while its neighbours go on, so lanes are full until the queue is empty; a run
 //! that fails is reported and replaced likewise. No operation mixes lanes: a run's results do not depend on
 //! its neighbours, and equal those of [`super::solve`] to the last bit.

@@ -12,10 +12,9 @@ pub trait Observer<O: Ode<N>, const N: usize> {
     /// The sums before the first step.
     fn nothing(&self) -> Self::Totals<f64>;
 
-    /// Adds a step, in the lanes in which it was accepted.
+    /// Adds a step of a run with the constants `c`, in the lanes in which it was `accepted`.
     fn add<R: Lanes>(
         &self,
-        ode: &O,
         c: &O::Constants<R>,
         attempt: &Attempt<'_, R, N>,
         accepted: R::Mask,
@@ -34,13 +33,5 @@ impl<O: Ode<N>, const N: usize> Observer<O, N> for Unobserved {
     fn nothing(&self) {}
 
     #[inline(always)]
-    fn add<R: Lanes>(
-        &self,
-        _ode: &O,
-        _c: &O::Constants<R>,
-        _attempt: &Attempt<'_, R, N>,
-        _accepted: R::Mask,
-        (): &mut (),
-    ) {
-    }
+    fn add<R: Lanes>(&self, _: &O::Constants<R>, _: &Attempt<'_, R, N>, _: R::Mask, (): &mut ()) {}
 }

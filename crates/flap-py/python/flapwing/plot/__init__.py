@@ -1,7 +1,7 @@
-"""Pictures of results, one line each, with matplotlib.
+"""Pictures of results with matplotlib, each by one function call.
 
 Every function takes a `flapwing.Table`, a data frame, a mapping of columns or the path of a file of results, and
-returns what matplotlib would: the Axes, the Figure where there are several, or the animation. Nothing global changes.
+returns the matplotlib Axes, the Figure if it has several Axes, or the animation. Settings of matplotlib do not change.
 
     >>> import numpy as np
     >>> from flapwing import plot

@@ -41,10 +41,10 @@ def heatmap(
     ax: Axes | None = None,
     **slices: Any,
 ) -> Axes:
-    """Draw a measure over two axes as a map: lift, power or efficiency over frequency and voltage, say.
+    """Draw a measure over two axes as a map, such as lift, power or efficiency over frequency and voltage.
 
     Cells end halfway between their values, in the logarithm where an axis is logarithmic. Cells without a periodic
-    motion are grey and those without a row (left out by ``[where]``, or not in the file) hatched; the legend says so.
+    motion are grey, those without a row (excluded by ``[where]``, or not in the file) hatched; a legend explains both.
 
     Parameters
     ----------
@@ -53,8 +53,8 @@ def heatmap(
     value : str
         The measure.
     x, y : str, optional
-        The parameters along the axes: numbers or words. By default the two axes that there are, with
-        ``drive_frequency`` or else the last of them along x.
+        The parameters along the axes: numbers or words. By default the two axes of the grid, with ``drive_frequency``
+        or else the last of them along x.
     xscale, yscale : {"linear", "log"}, optional
         By default logarithmic if the values are in constant ratio.
     cmap : str
@@ -67,7 +67,7 @@ def heatmap(
     Raises
     ------
     ValueError
-        A column or value that there is not; axes that are left, with their values; several rows in one cell.
+        An unknown column or value; axes without a chosen value, with their values; several rows in one cell.
 
     Examples
     --------

@@ -28,7 +28,7 @@ def hysteresis(
 ) -> Axes:
     """Draw the way up and the way down of a response, with the unstable orbits between them if the table has them.
 
-    Arrows show the ways and their jumps. Bands in which the ways have come to different motions are shaded.
+    Arrows show the ways and their jumps. Bands with different motions on the two ways are shaded.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def hysteresis(
     Raises
     ------
     ValueError
-        Several designs, with their parameters; a column or value that there is not; no ways.
+        Several designs, with their parameters; an unknown column or value; no ways.
     """
     data = Data.of(table)
     if "branch" not in data:

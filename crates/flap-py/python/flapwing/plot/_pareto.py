@@ -25,10 +25,11 @@ def pareto(
     ax: Axes | None = None,
     **slices: Any,
 ) -> Axes:
-    """Draw designs in the plane of two objectives, with the front of those that no other beats.
+    """Draw designs in the plane of two objectives, with the Pareto front: the designs that no other design beats.
 
     Designs without a periodic motion, or with a NaN among the objectives, are left out. The front's designs are
-    those of ``non_dominated``; with two objectives a line bounds what it attains, with more its designs are ringed.
+    those of ``non_dominated``. With two objectives a stepped line bounds the values that they reach; with more they have
+    rings.
 
     Parameters
     ----------
@@ -46,7 +47,7 @@ def pareto(
     Raises
     ------
     ValueError
-        Fewer than two objectives; a column or value that there is not; no design that has all objectives.
+        Fewer than two objectives; an unknown column or value; no design that has all objectives.
 
     Examples
     --------

@@ -43,7 +43,7 @@ def response(
     x : str, optional
         The parameter along the horizontal axis; by default ``drive_frequency``, else the grid's last axis.
     by : str, optional
-        The parameter that has a line for each value; by default the axis that is left, if one is.
+        The parameter with a line for each value; by default the remaining axis of the grid, if there is one.
     %(where)s
     ax : matplotlib Axes, optional
         Axes to draw in, if `y` is one measure; by default those of a new figure.
@@ -56,7 +56,7 @@ def response(
     Raises
     ------
     ValueError
-        A column or value that there is not; axes that are left, with their values; text where numbers are needed.
+        An unknown column or value; axes without a chosen value, with their values; text where numbers are needed.
 
     Examples
     --------

@@ -52,7 +52,7 @@ def sensitivities(
     change: float = 0.05,
     **fixed: Any,
 ) -> list[Sensitivity]:
-    """Change each parameter of a design by a little, down and up, and compute the change of a measure.
+    """Change each parameter of a design slightly, down and up, and compute the change of a measure.
 
     Two points are run for each parameter, and one for the design. All other parameters stay as they are, except those
     that follow the one that is changed, such as the bias that follows the voltage.
@@ -65,7 +65,7 @@ def sensitivities(
         A measure of its model.
     parameters : mapping or iterable of str, optional
         The parameters to change; in a mapping, each with its own relative change or with the two values to try (SI).
-        By default all numbers that are not zero, but for those that follow others and those that cannot take such
+        By default all numbers that are not zero, except those that follow others and those that cannot take such
         values, such as whole numbers.
     change : float
         The relative change of parameters that have none of their own.
@@ -131,7 +131,7 @@ def tornado(
     Parameters
     ----------
     design : str, or sequence of Sensitivity
-        A preset; or what `sensitivities` has returned, and then nothing is run.
+        A preset; or the result of `sensitivities`, and then no points are run.
     measure, parameters, change, **fixed
         As for `sensitivities`.
     top : int

@@ -46,7 +46,7 @@ def trajectory(
     Raises
     ------
     ValueError
-        A column that there is not; signals of several units, or portraits, with `ax`.
+        An unknown column; signals of several units, or portraits, with `ax`.
 
     Examples
     --------

@@ -98,11 +98,11 @@ def wing_path(
     frames : int
         Frames of the cycle, evenly spaced.
     frequency : float, optional
-        Cycles per second (Hz); by default found from where the motion repeats.
+        Cycles per second (Hz); by default the rate at which the motion repeats.
     radius : float
-        Distance of the chord that is seen from the stroke's axis, in chords.
+        Distance of the drawn chord from the stroke's axis, in chords.
     lift : str or None
-        The column that the arrow shows; None, or a column that is not there by default, for no arrow.
+        The column that the arrow shows; None for no arrow. There is no arrow if the default column is missing.
     pitch_sign : {1, -1}, optional
         1 if a positive pitch has the trailing edge lag a wing that moves to positive stroke, -1 if it leads; by
         default as the model of the table has it.
@@ -117,7 +117,7 @@ def wing_path(
     Raises
     ------
     ValueError
-        A column that there is not; a motion that does not repeat, or less than one cycle of it.
+        An unknown column; a motion that does not repeat, or less than one cycle of it.
     """
     data = Data.of(table)
     if frames < 2:

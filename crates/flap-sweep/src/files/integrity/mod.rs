@@ -1,8 +1,7 @@
 //! Checks that results are unchanged since they were written.
 //!
 //! A sidecar has checksums of complete results: of the file's bytes, which are fast to compare, and of the rows in blocks,
-//! which tell where damage is. For unfinished results, the journal tells up to where they are safe: no more than that is
-//! read.
+//! which locate damage. For unfinished results, the journal records how many rows are safe; only these are read.
 
 mod check;
 mod damage;

@@ -1,7 +1,7 @@
 //! Responses: the motions of a design as one parameter, usually the drive frequency, rises and falls.
 //!
-//! Every point is begun where its neighbour's motion has ended, so that a branch of orbits is followed as far as it goes.
-//! At values where the way up and the way down differ, the design has two motions at the same drive.
+//! Every point starts from the settled motion of its neighbour, so that the response stays on a branch of orbits up to the
+//! branch's end. At values where the way up and the way down differ, the design has two motions at the same drive.
 //!
 //! - `along`: the values that the parameter takes
 //! - `curve`: the response of one design, and its rows
