@@ -34,111 +34,111 @@ pub fn solve_until<O: Ode<N>, R: Scalar, const N: usize>(
     mut on_step: impl FnMut(&O::Constants<R>, &Attempt<'_, R, N>),
     mut at_span_end: impl FnMut(&[f64; N]) -> ControlFlow<()>,
 ) -> Outcome {
-    march::<O, R, N>(ode, tolerances, start, interrupted, &mut on_step, &mut at_span_end)
+    let (on_step, at_span_end) = (&mut on_step, &mut at_span_end);
+    March::<O, R, N> { ode, tolerances, start, interrupted, on_step, at_span_end }.run()
 }
 
 /// The callback that sees the accepted steps.
 type OnStep<'a, O, R, const N: usize> = dyn FnMut(&<O as Ode<N>>::Constants<R>, &Attempt<'_, R, N>) + 'a;
 
-/// [`solve`], compiled once per system of equations: the callbacks are not part of it.
-#[inline(never)]
-fn march<O: Ode<N>, R: Scalar, const N: usize>(
-    ode: &O,
-    tolerances: &Tolerances,
-    start: &Start<O::Constants<f64>, N>,
-    interrupted: Interrupt<'_>,
-    on_step: &mut OnStep<'_, O, R, N>,
-    at_span_end: &mut dyn FnMut(&[f64; N]) -> ControlFlow<()>,
-) -> Outcome {
-    R::enter(
-        #[inline(always)]
-        || steps::<O, R, N>(ode, tolerances, start, interrupted, on_step, at_span_end),
-    )
+/// A run and its callbacks.
+struct March<'a, O: Ode<N>, R: Scalar, const N: usize> {
+    ode: &'a O,
+    tolerances: &'a Tolerances,
+    start: &'a Start<O::Constants<f64>, N>,
+    interrupted: Interrupt<'a>,
+    on_step: &'a mut OnStep<'a, O, R, N>,
+    at_span_end: &'a mut dyn FnMut(&[f64; N]) -> ControlFlow<()>,
 }
 
-#[inline(always)]
-fn steps<O: Ode<N>, R: Scalar, const N: usize>(
-    ode: &O,
-    tolerances: &Tolerances,
-    start: &Start<O::Constants<f64>, N>,
-    interrupted: Interrupt<'_>,
-    on_step: &mut OnStep<'_, O, R, N>,
-    at_span_end: &mut dyn FnMut(&[f64; N]) -> ControlFlow<()>,
-) -> Outcome {
-    let number = |x: f64| R::splat((), x);
-    let c = O::Constants::<R>::fill((), &start.constants);
-    let span = number(start.span);
-    let rtol = number(tolerances.rtol * start.tighten);
-    let mut y = [span; N];
-    let mut atol = [span; N];
-    for i in 0..N {
-        y[i] = number(start.y[i]);
-        atol[i] = number(tolerances.atol * start.tighten * start.scale[i]);
+impl<O: Ode<N>, R: Scalar, const N: usize> March<'_, O, R, N> {
+    /// Integrates. Compiled once per system of equations: the callbacks are not part of it.
+    #[inline(never)]
+    fn run(self) -> Outcome {
+        R::enter(
+            #[inline(always)]
+            || self.steps(),
+        )
     }
 
-    let mut switching = Switching::begin(ode, &c, &y);
-    let (k1, mut h) = first_step(ode, &c, switching.side, &y, span, &atol, rtol);
-    switching.value = ode.switch(&c, &y, &k1);
-    let mut step = Step::new(y, k1);
-    let mut h_begin = h;
-    let mut memory = Memory::new(span);
-    let mut t = number(0.0);
-    let mut attempts = 0;
-    let mut switches = 0;
-    let mut steps_in_span = 0;
-    loop {
-        let target = ode.next_break(&c, t).min(span);
-        let remaining = target - t;
-        let landing = remaining.lt(h * landing_stretch(&switching));
-        let h_try = if landing { remaining } else { h };
-
-        let side = switching.side;
-        step.attempt(ode, &c, t, h_try, side);
-        let error = error_squared(&step.error, &step.y[0], &step.y[6], &atol, rtol, O::CONTROLLED);
-        let verdict = judge(error, &mut memory);
-        attempts += 1;
-        steps_in_span += 1;
-
-        let proposal = h_try * verdict.factor;
-        // A step cut short by its target says little about the next one.
-        let h_next = if verdict.accepted && landing { proposal.max(h) } else { proposal };
-        let mut crossing = Crossing { accepted: verdict.accepted, h: h_next, arrived: false };
-        if O::SWITCHES {
-            crossing = switching.judge(ode, &c, &step, h_try, verdict.accepted, h_next);
-        }
-        h = crossing.h;
-        let accepted = crossing.accepted;
-        if accepted {
-            on_step(&c, &Attempt { t, h: h_try, side, step: &step });
-            t = if landing { target } else { t + h_try };
-            step.advance(true);
-        }
-        if crossing.arrived {
-            let u = input(ode, &c, t);
-            let Step { y: [y, ..], k: [k1, ..], .. } = &mut step;
-            *y = ode.crossed(&c, &u, switching.side, y);
-            *k1 = slope(ode, &c, &u, switching.side, y);
-            switching.value = ode.switch(&c, y, k1);
-            switches += 1;
+    #[inline(always)]
+    fn steps(self) -> Outcome {
+        let March { ode, tolerances, start, interrupted, on_step, at_span_end } = self;
+        let number = |x: f64| R::splat((), x);
+        let c = O::Constants::<R>::fill((), &start.constants);
+        let span = number(start.span);
+        let rtol = number(tolerances.rtol * start.tighten);
+        let mut y = [span; N];
+        let mut atol = [span; N];
+        for i in 0..N {
+            y[i] = number(start.y[i]);
+            atol[i] = number(tolerances.atol * start.tighten * start.scale[i]);
         }
 
-        if accepted && landing && !target.lt(span) {
-            let mut state = [0.0; N];
-            for i in 0..N {
-                state[i] = step.y[0][i].lane(0);
+        let mut switching = Switching::begin(ode, &c, &y);
+        let (k1, mut h) = first_step(ode, &c, switching.side, &y, span, &atol, rtol);
+        switching.value = ode.switch(&c, &y, &k1);
+        let mut step = Step::new(y, k1);
+        let mut h_begin = h;
+        let mut memory = Memory::new(span);
+        let mut t = number(0.0);
+        let mut attempts = 0;
+        let mut switches = 0;
+        let mut steps_in_span = 0;
+        loop {
+            let target = ode.next_break(&c, t).min(span);
+            let remaining = target - t;
+            let landing = remaining.lt(h * landing_stretch(&switching));
+            let h_try = if landing { remaining } else { h };
+
+            let side = switching.side;
+            step.attempt(ode, &c, t, h_try, side);
+            let error = error_squared(&step.error, &step.y[0], &step.y[6], &atol, rtol, O::CONTROLLED);
+            let verdict = judge(error, &mut memory);
+            attempts += 1;
+            steps_in_span += 1;
+
+            let proposal = h_try * verdict.factor;
+            // A step cut short by its target says little about the next one.
+            let h_next = if verdict.accepted && landing { proposal.max(h) } else { proposal };
+            let mut crossing = Crossing { accepted: verdict.accepted, h: h_next, arrived: false };
+            if O::SWITCHES {
+                crossing = switching.judge(ode, &c, &step, h_try, verdict.accepted, h_next);
             }
-            if at_span_end(&state).is_break() || interrupted() {
+            h = crossing.h;
+            let accepted = crossing.accepted;
+            if accepted {
+                on_step(&c, &Attempt { t, h: h_try, side, step: &step });
+                t = if landing { target } else { t + h_try };
+                step.advance(true);
+            }
+            if crossing.arrived {
+                let u = input(ode, &c, t);
+                let Step { y: [y, ..], k: [k1, ..], .. } = &mut step;
+                *y = ode.crossed(&c, &u, switching.side, y);
+                *k1 = slope(ode, &c, &u, switching.side, y);
+                switching.value = ode.switch(&c, y, k1);
+                switches += 1;
+            }
+
+            if accepted && landing && !target.lt(span) {
+                let mut state = [0.0; N];
+                for i in 0..N {
+                    state[i] = step.y[0][i].lane(0);
+                }
+                if at_span_end(&state).is_break() || interrupted() {
+                    return Outcome::new::<O, N>(Ending::Stopped, attempts, switches);
+                }
+                h = number(span_step(h_begin.lane(0), h.lane(0)));
+                h_begin = h;
+                memory = Memory::new(span);
+                t = number(0.0);
+                steps_in_span = 0;
+            } else if steps_in_span >= tolerances.max_steps || h.lt(span * MIN_STEP) {
+                return Outcome::new::<O, N>(Ending::of_failure(error.lane(0)), attempts, switches);
+            } else if steps_in_span % UNASKED == 0 && interrupted() {
                 return Outcome::new::<O, N>(Ending::Stopped, attempts, switches);
             }
-            h = number(span_step(h_begin.lane(0), h.lane(0)));
-            h_begin = h;
-            memory = Memory::new(span);
-            t = number(0.0);
-            steps_in_span = 0;
-        } else if steps_in_span >= tolerances.max_steps || h.lt(span * MIN_STEP) {
-            return Outcome::new::<O, N>(Ending::of_failure(error.lane(0)), attempts, switches);
-        } else if steps_in_span % UNASKED == 0 && interrupted() {
-            return Outcome::new::<O, N>(Ending::Stopped, attempts, switches);
         }
     }
 }
