@@ -48,146 +48,125 @@ pub(super) fn read(
             .help(format!("list the options to choose from at random, such as {options:?}"));
         return None;
     }
-    let entries = table::entries(table);
-    if !table::check_keys(&entries, &KEYS, "in a distribution", problems) {
+    let entries = &table::entries(table);
+    if !table::check_keys(entries, &KEYS, "in a distribution", problems) {
         return None;
     }
-    let has = |key: &str| table::find(&entries, key).is_some();
-    if has("mean") || has("sd") || has("relative_sd") {
-        normal(parameter, base, entry, &entries, problems)
-    } else {
-        uniform(parameter, entry, &entries, problems)
-    }
+    let has = |key: &str| table::find(entries, key).is_some();
+    let mut reader = Reader { parameter, whole: entry, entries, problems };
+    if has("mean") || has("sd") || has("relative_sd") { reader.normal(base) } else { reader.uniform() }
 }
 
-/// The value of an end of the range, if it is given: `Err`, with a report, if it is wrong.
-fn end(
-    parameter: &Parameter,
-    key: &str,
-    entries: &[Entry<'_>],
-    problems: &mut Problems,
-) -> Result<Option<f64>, ()> {
-    match table::find(entries, key) {
-        Some(entry) => value::of_parameter(parameter, entry.value, problems).map(Some).ok_or(()),
-        None => Ok(None),
-    }
+/// The reader of one distribution. Its methods return `None`, with a report, for what makes no sense.
+struct Reader<'a, 't> {
+    parameter: &'a Parameter,
+    /// The entry of the parameter.
+    whole: &'a Entry<'t>,
+    /// The entries of the distribution.
+    entries: &'a [Entry<'t>],
+    problems: &'a mut Problems,
 }
 
-fn uniform(
-    parameter: &Parameter,
-    whole: &Entry<'_>,
-    entries: &[Entry<'_>],
-    problems: &mut Problems,
-) -> Option<Distribution> {
-    let from = end(parameter, "from", entries, problems);
-    let to = end(parameter, "to", entries, problems);
-    let scale = match table::find(entries, "scale") {
-        Some(entry) => value::option("scale", &SCALES, entry.value, problems)?,
-        None => 0,
-    };
-    let (Some(from), Some(to)) = (from.ok()?, to.ok()?) else {
-        problems
-            .report(
-                whole.value.span(),
-                format!("the distribution of `{}` has no two ends and no `sd`", whole.key),
-            )
-            .note(NOTE);
-        return None;
-    };
-    let distribution =
-        if scale == 0 { Distribution::Uniform { from, to } } else { Distribution::LogUniform { from, to } };
-    sound(distribution, whole, problems)
-}
-
-/// The distribution; `None`, with a report, if it has no values.
-fn sound(distribution: Distribution, whole: &Entry<'_>, problems: &mut Problems) -> Option<Distribution> {
-    let mistake = match distribution {
-        Distribution::Uniform { from, to }
-        | Distribution::LogUniform { from, to }
-        | Distribution::Normal { from, to, .. }
-            if from >= to =>
-        {
-            "`from` must be less than `to`"
+impl Reader<'_, '_> {
+    /// The value of an end of the range, if it is given: `Err`, with a report, if it is wrong.
+    fn end(&mut self, key: &str) -> Result<Option<f64>, ()> {
+        match table::find(self.entries, key) {
+            Some(entry) => {
+                value::of_parameter(self.parameter, entry.value, self.problems).map(Some).ok_or(())
+            }
+            None => Ok(None),
         }
-        Distribution::LogUniform { from, to } if from <= 0.0 && to >= 0.0 => {
-            "a logarithmic scale needs ends that are not zero and have the same sign"
-        }
-        Distribution::Uniform { from, to } if !(to - from).is_finite() => TOO_WIDE,
-        Distribution::LogUniform { from, to } if !(to / from).is_normal() => TOO_WIDE,
-        Distribution::Normal { .. } if !distribution.is_possible() => {
-            "nothing of the normal distribution lies between `from` and `to`"
-        }
-        _ => return Some(distribution),
-    };
-    problems.report(whole.value.span(), mistake);
-    None
-}
-
-fn normal(
-    parameter: &Parameter,
-    base: Value,
-    whole: &Entry<'_>,
-    entries: &[Entry<'_>],
-    problems: &mut Problems,
-) -> Option<Distribution> {
-    let from = end(parameter, "from", entries, problems);
-    let to = end(parameter, "to", entries, problems);
-    let mean = end(parameter, "mean", entries, problems).ok()?;
-    if let Some(scale) = table::find(entries, "scale") {
-        problems
-            .report(scale.key_span.clone(), "a normal distribution has no `scale`")
-            .help("remove it, or give `from` and `to` alone");
-        return None;
     }
-    let Some(mean) = mean.or(base.given()) else {
-        problems
-            .report(whole.value.span(), format!("`{}` has no value of its own to be the mean", whole.key))
-            .help("give the distribution a `mean`");
-        return None;
-    };
-    let sd = sd(parameter, mean, whole, entries, problems)?;
-    let (from, to) = (from.ok()?.unwrap_or(f64::NEG_INFINITY), to.ok()?.unwrap_or(f64::INFINITY));
-    sound(Distribution::Normal { mean, sd, from, to }, whole, problems)
-}
 
-/// The standard deviation in the unit of the parameter.
-fn sd(
-    parameter: &Parameter,
-    mean: f64,
-    whole: &Entry<'_>,
-    entries: &[Entry<'_>],
-    problems: &mut Problems,
-) -> Option<f64> {
-    let (entry, unit) = match (table::find(entries, "sd"), table::find(entries, "relative_sd")) {
-        (Some(absolute), None) => (absolute, Some(parameter.unit)),
-        (None, Some(relative)) => (relative, None),
-        (Some(_), Some(relative)) => {
-            problems
-                .report(
-                    relative.key_span.clone(),
-                    "a normal distribution takes `sd` or `relative_sd`, not both",
-                )
-                .help("keep one of them");
+    fn uniform(&mut self) -> Option<Distribution> {
+        let (from, to) = (self.end("from"), self.end("to"));
+        let scale = match table::find(self.entries, "scale") {
+            Some(entry) => value::option("scale", &SCALES, entry.value, self.problems)?,
+            None => 0,
+        };
+        let (Some(from), Some(to)) = (from.ok()?, to.ok()?) else {
+            let message = format!("the distribution of `{}` has no two ends and no `sd`", self.whole.key);
+            self.problems.report(self.whole.value.span(), message).note(NOTE);
+            return None;
+        };
+        self.sound(if scale == 0 {
+            Distribution::Uniform { from, to }
+        } else {
+            Distribution::LogUniform { from, to }
+        })
+    }
+
+    fn normal(&mut self, base: Value) -> Option<Distribution> {
+        let (from, to) = (self.end("from"), self.end("to"));
+        let mean = self.end("mean").ok()?;
+        if let Some(scale) = table::find(self.entries, "scale") {
+            self.problems
+                .report(scale.key_span.clone(), "a normal distribution has no `scale`")
+                .help("remove it, or give `from` and `to` alone");
             return None;
         }
-        (None, None) => {
-            problems
-                .report(whole.value.span(), format!("the distribution of `{}` has no `sd`", whole.key))
-                .note(NOTE);
+        let Some(mean) = mean.or(base.given()) else {
+            let message = format!("`{}` has no value of its own to be the mean", self.whole.key);
+            self.problems.report(self.whole.value.span(), message).help("give the distribution a `mean`");
             return None;
+        };
+        let sd = self.sd(mean)?;
+        let (from, to) = (from.ok()?.unwrap_or(f64::NEG_INFINITY), to.ok()?.unwrap_or(f64::INFINITY));
+        self.sound(Distribution::Normal { mean, sd, from, to })
+    }
+
+    /// The standard deviation in the unit of the parameter.
+    fn sd(&mut self, mean: f64) -> Option<f64> {
+        let (absolute, relative) =
+            (table::find(self.entries, "sd"), table::find(self.entries, "relative_sd"));
+        let (entry, unit) = match (absolute, relative) {
+            (Some(absolute), None) => (absolute, Some(self.parameter.unit)),
+            (None, Some(relative)) => (relative, None),
+            (Some(_), Some(relative)) => {
+                let message = "a normal distribution takes `sd` or `relative_sd`, not both";
+                self.problems.report(relative.key_span.clone(), message).help("keep one of them");
+                return None;
+            }
+            (None, None) => {
+                let message = format!("the distribution of `{}` has no `sd`", self.whole.key);
+                self.problems.report(self.whole.value.span(), message).note(NOTE);
+                return None;
+            }
+        };
+        let number = value::quantity(entry.key, unit.unwrap_or_default(), entry.value, self.problems)?;
+        let sd = if unit.is_some() { number } else { number * mean.abs() };
+        if sd > 0.0 && sd.is_finite() {
+            return Some(sd);
         }
-    };
-    let number = value::quantity(entry.key, unit.unwrap_or_default(), entry.value, problems)?;
-    let sd = if unit.is_some() { number } else { number * mean.abs() };
-    if sd > 0.0 && sd.is_finite() {
-        return Some(sd);
+        let message = format!("`{}` must come to more than zero, not {}", entry.key, value::shown(sd));
+        let diagnostic = self.problems.report(entry.value.span(), message);
+        if unit.is_none() && mean == 0.0 {
+            diagnostic.help("the mean is zero: give `sd` in the unit of the parameter");
+        }
+        None
     }
-    let diagnostic = problems.report(
-        entry.value.span(),
-        format!("`{}` must come to more than zero, not {}", entry.key, value::shown(sd)),
-    );
-    if unit.is_none() && mean == 0.0 {
-        diagnostic.help("the mean is zero: give `sd` in the unit of the parameter");
+
+    /// The distribution, if it has values.
+    fn sound(&mut self, distribution: Distribution) -> Option<Distribution> {
+        let mistake = match distribution {
+            Distribution::Uniform { from, to }
+            | Distribution::LogUniform { from, to }
+            | Distribution::Normal { from, to, .. }
+                if from >= to =>
+            {
+                "`from` must be less than `to`"
+            }
+            Distribution::LogUniform { from, to } if from <= 0.0 && to >= 0.0 => {
+                "a logarithmic scale needs ends that are not zero and have the same sign"
+            }
+            Distribution::Uniform { from, to } if !(to - from).is_finite() => TOO_WIDE,
+            Distribution::LogUniform { from, to } if !(to / from).is_normal() => TOO_WIDE,
+            Distribution::Normal { .. } if !distribution.is_possible() => {
+                "nothing of the normal distribution lies between `from` and `to`"
+            }
+            _ => return Some(distribution),
+        };
+        self.problems.report(self.whole.value.span(), mistake);
+        None
     }
-    None
 }
