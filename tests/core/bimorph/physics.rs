@@ -1,5 +1,7 @@
 //! Symmetries, limits and conservation laws.
 
+use std::ops::Range;
+
 use flap_core::drive::Wave;
 use flap_core::model::Model;
 use flap_core::model::bimorph::{
@@ -51,9 +53,7 @@ fn electric_energy(c: &Constants<f64>, plates: &[Plate<f64>; 2], x: f64) -> f64 
     0.5 * c.c_p * (v_1 * v_1 + v_2 * v_2) + one * (x - bend) - two * (x + bend)
 }
 
-fn any_state() -> impl Strategy<Value = [f64; 4]> {
-    [-4e-4..4e-4, -0.4..0.4, -1.5..1.5, -1500.0..1500.0]
-}
+const STATES: [Range<f64>; 4] = [-4e-4..4e-4, -0.4..0.4, -1.5..1.5, -1500.0..1500.0];
 
 /// Both presets with their parameters moved by up to 30 %.
 fn any_params() -> impl Strategy<Value = Params> {
@@ -75,7 +75,7 @@ fn any_voltages() -> impl Strategy<Value = [Wave<f64>; 2]> {
 proptest! {
     /// d(U + E)/dt = V₁i₁ + V₂i₂ − drag, for any state and any change of the voltages.
     #[test]
-    fn energy_changes_by_electrical_work_and_drag_alone(p in any_params(), y in any_state(), v in any_voltages()) {
+    fn energy_changes_by_electrical_work_and_drag_alone(p in any_params(), y in STATES, v in any_voltages()) {
         let c = Constants::derive(&p).unwrap();
         let plates = v.map(|v| plate(&c, v));
         let dy = Bimorph::default().rhs(&c, &plates, 1.0, &y);
@@ -97,7 +97,7 @@ proptest! {
 
     /// (x, ψ) → −(x, ψ) with the plates swapped mirrors the motion and leaves lift and power alone.
     #[test]
-    fn half_strokes_are_mirror_images(p in any_params(), y in any_state(), v in any_voltages(), folded in prop::bool::ANY) {
+    fn half_strokes_are_mirror_images(p in any_params(), y in STATES, v in any_voltages(), folded in prop::bool::ANY) {
         let reading = if folded { CentreOfPressure::Folded } else { CentreOfPressure::Directional };
         let c = Constants::derive(&Params { centre_of_pressure: reading, ..p }).unwrap();
         let plates = v.map(|v| plate(&c, v));

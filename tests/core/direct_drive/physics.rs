@@ -1,5 +1,7 @@
 //! Symmetries and conservation laws.
 
+use std::ops::Range;
+
 use flap_core::drive::Wave;
 use flap_core::model::direct_drive::{
     AddedMass, CentreOfPressure, Constants, DirectDrive, FlowDirection, Params, added_mass, aerodynamics,
@@ -33,9 +35,7 @@ fn model(p: &Params) -> DirectDrive {
     DirectDrive { flow: p.flow_direction, ..DirectDrive::default() }
 }
 
-fn any_state() -> impl Strategy<Value = [f64; 4]> {
-    [-0.5..0.5, -1.4..1.4, -400.0..400.0, -800.0..800.0]
-}
+const STATES: [Range<f64>; 4] = [-0.5..0.5, -1.4..1.4, -400.0..400.0, -800.0..800.0];
 
 /// Both presets with their parameters moved by up to 30 %.
 fn any_params() -> impl Strategy<Value = Params> {
@@ -53,7 +53,7 @@ fn any_params() -> impl Strategy<Value = Params> {
 proptest! {
     /// dE/dt = Γ V φ̇ + aerodynamic power, for any state: inertia, added mass and springs keep energy.
     #[test]
-    fn energy_changes_by_work_alone(p in any_params(), y in any_state(), volts in -100.0..100.0, up in prop::bool::ANY) {
+    fn energy_changes_by_work_alone(p in any_params(), y in STATES, volts in -100.0..100.0, up in prop::bool::ANY) {
         let c = Constants::derive(&p).unwrap();
         let side = if up { 1.0 } else { -1.0 };
         let model = model(&p);
@@ -75,7 +75,7 @@ proptest! {
 
     /// (φ, ψ, V) → −(φ, ψ, V) mirrors the motion and leaves lift and power alone.
     #[test]
-    fn half_strokes_are_mirror_images(p in any_params(), y in any_state(), volts in -100.0..100.0, folded in prop::bool::ANY) {
+    fn half_strokes_are_mirror_images(p in any_params(), y in STATES, volts in -100.0..100.0, folded in prop::bool::ANY) {
         let reading = if folded { CentreOfPressure::Folded } else { CentreOfPressure::Directional };
         let model = model(&p);
         let c = Constants::derive(&Params { centre_of_pressure: reading, ..p }).unwrap();

@@ -1,5 +1,7 @@
 //! Symmetries and conservation laws.
 
+use std::ops::Range;
+
 use flap_core::drive::Wave;
 use flap_core::model::four_bar::{
     Arms, Constants, FourBar, Params, added_mass_lift, aerodynamics, current, force, mass_matrix, side_of,
@@ -26,9 +28,7 @@ fn energy(c: &Constants<f64>, volts: f64, y: &[f64; 4]) -> f64 {
         + 0.5 * c.actuator.stiffness * stretch * stretch
 }
 
-fn any_state() -> impl Strategy<Value = [f64; 4]> {
-    [-1.0..1.0, -3.5..3.5, -200.0..200.0, -800.0..800.0]
-}
+const STATES: [Range<f64>; 4] = [-1.0..1.0, -3.5..3.5, -200.0..200.0, -800.0..800.0];
 
 /// Both systems with their parameters moved by up to 20 %.
 fn any_params() -> impl Strategy<Value = Params> {
@@ -46,7 +46,7 @@ fn side(y: &[f64; 4]) -> f64 {
 proptest! {
     /// dE/dt is the power of air and damping, for any state: inertia, springs and actuator keep energy.
     #[test]
-    fn energy_changes_by_dissipation_alone(p in any_params(), y in any_state(), volts in -100.0..100.0) {
+    fn energy_changes_by_dissipation_alone(p in any_params(), y in STATES, volts in -100.0..100.0) {
         let c = Constants::derive(&p).unwrap();
         let side = side(&y);
         let dy = FourBar::default().rhs(&c, &Wave::with_rate(volts, 0.0), side, &y);
@@ -70,7 +70,7 @@ proptest! {
 
     /// Rotation takes energy from the wing, and so does translation but for lift on a pitching wing.
     #[test]
-    fn rotational_drag_always_dissipates(p in any_params(), y in any_state()) {
+    fn rotational_drag_always_dissipates(p in any_params(), y in STATES) {
         let c = Constants::derive(&p).unwrap();
         let (sin, cos) = Real::sin_cos(y[1]);
         let air = aerodynamics(&c, side(&y), &y, sin, cos);
@@ -82,7 +82,7 @@ proptest! {
     /// (θ̇, φ, φ̇) → −(θ̇, φ, φ̇) mirrors the forces of the air and leaves lift alone. The four-bar is not symmetric, so
     /// the whole motion is not either.
     #[test]
-    fn the_air_treats_both_half_strokes_alike(p in any_params(), y in any_state()) {
+    fn the_air_treats_both_half_strokes_alike(p in any_params(), y in STATES) {
         let c = Constants::derive(&p).unwrap();
         let dy = [y[2], y[3], 1e4, -3e4];
         let [one, other] = [1.0, -1.0].map(|m| {
