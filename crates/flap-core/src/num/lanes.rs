@@ -1,10 +1,9 @@
 //! Single lanes of numbers, which the integrator needs beyond [`Real`].
 
-use super::float::Float;
 use super::real::Real;
 
 /// One or more independent numbers, one per lane. `f64` is the case of one lane.
-pub trait Lanes: Real + Float {
+pub trait Lanes: Real {
     /// Number of lanes.
     const LANES: usize;
 
