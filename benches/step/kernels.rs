@@ -128,7 +128,7 @@ fn time<R: Lanes>(token: R::Token, work: Work, iterations: u64) -> Duration {
             let begin = Instant::now();
             for _ in 0..iterations {
                 step.attempt(model, &c, black_box(h), h, side);
-                let error = error_squared(&step.error, &y, &step.y[6], &atol, h.lit(1e-6), 4);
+                let error = error_squared(&step.error, [&y, &step.y[6]], &atol, h.lit(1e-6), 4);
                 black_box((&step, error));
             }
             begin.elapsed()

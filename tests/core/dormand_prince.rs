@@ -251,7 +251,7 @@ impl Ode<2> for CountedSwitch<'_> {
 fn crossings_are_located_and_counted() {
     let counter = std::sync::atomic::AtomicU64::new(0);
     let span = 3.5 * std::f64::consts::PI;
-    let start = Start { constants: (), y: [2.0, 0.0], span, scale: [1.0; 2], tighten: 1.0 };
+    let start = Start::new((), [2.0, 0.0], span, [1.0; 2]);
     let tolerances = Tolerances { rtol: 1e-9, atol: 1e-9, max_steps: 10_000 };
     let Span { end, outcome, .. } = span::run(&CountedSwitch(&counter), &tolerances, &start);
     assert_eq!(outcome.rhs_evals, counter.into_inner());
@@ -262,7 +262,7 @@ fn crossings_are_located_and_counted() {
 #[test]
 fn a_step_evaluates_the_right_hand_side_six_times() {
     let counter = std::sync::atomic::AtomicU64::new(0);
-    let start = Start { constants: (), y: [3.0], span: 10.0, scale: [1.0], tighten: 1.0 };
+    let start = Start::new((), [3.0], 10.0, [1.0]);
     let tolerances = Tolerances { rtol: 1e-6, atol: 1e-8, max_steps: 10_000 };
     let Span { outcome, accepted, .. } = span::run(&Counted(&counter), &tolerances, &start);
     assert!(outcome.attempts > accepted && accepted > 20, "{outcome:?}, {accepted} accepted");
@@ -273,7 +273,7 @@ fn a_step_evaluates_the_right_hand_side_six_times() {
 /// Spans end exactly on their end: every step ends where the next begins.
 #[test]
 fn spans_are_tiled_without_gaps() {
-    let start = Start { constants: (), y: [1.0], span: 0.7, scale: [1.0], tighten: 1.0 };
+    let start = Start::new((), [1.0], 0.7, [1.0]);
     let expected = std::cell::Cell::new(0.0);
     let mut spans = 0;
     solve::<_, f64, 1>(
@@ -312,7 +312,7 @@ impl Ode<1> for BlowUp {
 fn failures_become_endings() {
     let tolerances = Tolerances { rtol: 1e-6, atol: 1e-8, max_steps: 100_000 };
     let run = |y: f64, tolerances: &Tolerances| {
-        let start = Start { constants: (), y: [y], span: 2.0, scale: [1.0], tighten: 1.0 };
+        let start = Start::new((), [y], 2.0, [1.0]);
         span::run(&BlowUp, tolerances, &start).outcome.ending
     };
     assert_eq!(run(0.1, &tolerances), Ending::Stopped);

@@ -185,7 +185,7 @@ impl Model<3, S> for MotorWing {
         let drive = constants.drive;
         // Typical sizes of flap angle (rad), rate (rad/s) and current (A).
         let scale = [0.5, 0.5 * drive.rate, 0.1];
-        Ok(Start { constants, y: [0.0; 3], span: drive.period(), scale, tighten: 1.0 })
+        Ok(Start::new(constants, [0.0; 3], drive.period(), scale))
     }
 
     #[inline(always)]

@@ -112,13 +112,7 @@ fn a_wing_in_vacuum_keeps_its_energy() {
         let p = Params { air_density: 0.0, drive_voltage_pp: 0.0, drive_bias: Some(30.0), ..params(kind) };
         let constants = Constants::derive(&p).unwrap();
         let total = |y: &[f64; 4]| energy(&constants, y) - constants.gamma * 30.0 * y[0];
-        let start = Start {
-            constants,
-            y: [0.2, 0.5, 30.0, -80.0],
-            span: 0.05,
-            scale: [0.1, 0.3, 70.0, 200.0],
-            tighten: 1.0,
-        };
+        let start = Start::new(constants, [0.2, 0.5, 30.0, -80.0], 0.05, [0.1, 0.3, 70.0, 200.0]);
         span::assert_conserved(&DirectDrive::default(), &tolerances(1e-10), &start, 1e-7, total, kind);
     }
 }

@@ -146,13 +146,7 @@ fn a_wing_in_vacuum_keeps_its_energy() {
             ..params(system)
         };
         let constants = Constants::derive(&p).unwrap();
-        let start = Start {
-            constants,
-            y: [0.3, 0.5, 30.0, -80.0],
-            span: 0.1,
-            scale: [0.3, 0.5, 100.0, 200.0],
-            tighten: 1.0,
-        };
+        let start = Start::new(constants, [0.3, 0.5, 30.0, -80.0], 0.1, [0.3, 0.5, 100.0, 200.0]);
         let total = |y: &[f64; 4]| energy(&constants, p.drive_bias, y);
         span::assert_conserved(&FourBar::default(), &tolerances(1e-10), &start, 1e-7, total, system);
     }
@@ -182,8 +176,7 @@ fn small_motions_have_the_natural_frequencies() {
         for i in 0..2 {
             y[i] = 1e-7 * shape[i] / shape[0].abs().max(shape[1].abs());
         }
-        let start =
-            Start { constants, y, span: 10.0 / frequency, scale: [1.0, 1.0, 100.0, 100.0], tighten: 1.0 };
+        let start = Start::new(constants, y, 10.0 / frequency, [1.0, 1.0, 100.0, 100.0]);
         let end = span::end(&FourBar::default(), &tolerances, &start);
         for i in 0..2 {
             assert!((end[i] / y[i] - 1.0).abs() < 1e-4, "{frequency} Hz: {y:?} → {end:?}");

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::value_parser;
 
-use super::options::PointArgs;
+use super::options::{OverwriteArgs, PointArgs};
 use super::values::positive;
 
 #[derive(clap::Args)]
@@ -29,9 +29,8 @@ pub(crate) struct LiftArgs {
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = value_parser!(u32).range(1..=5_000_000))]
     pub(crate) samples: u32,
 
-    /// Overwrite existing files
-    #[arg(short, long)]
-    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) overwrite: OverwriteArgs,
 }
 
 const LIFT_HELP: &str = "\
@@ -58,9 +57,8 @@ pub(crate) struct TrackArgs {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// Overwrite an existing file
-    #[arg(short, long)]
-    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) overwrite: OverwriteArgs,
 }
 
 const TRACK_HELP: &str = "\

@@ -61,6 +61,25 @@ pub(crate) struct WorkArgs {
     pub(crate) checkpoint: Duration,
 }
 
+/// Options of commands that write small files.
+#[derive(clap::Args)]
+pub(crate) struct OverwriteArgs {
+    /// Overwrite existing files
+    #[arg(short, long)]
+    pub(crate) force: bool,
+}
+
+/// Options of commands that begin results.
+#[derive(clap::Args)]
+pub(crate) struct BeginArgs {
+    /// Replace existing results. Until the new ones are complete, the old ones stay beside them, as in results.old.csv
+    #[arg(short, long)]
+    pub(crate) force: bool,
+
+    #[command(flatten)]
+    pub(crate) work: WorkArgs,
+}
+
 /// Options of commands that read results.
 #[derive(clap::Args)]
 pub(crate) struct ReadArgs {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use super::options::ReadArgs;
+use super::options::{OverwriteArgs, ReadArgs};
 use super::values::assignment;
 
 #[derive(clap::Args)]
@@ -68,9 +68,8 @@ pub(crate) struct PlotArgs {
     #[command(flatten)]
     pub(crate) read: ReadArgs,
 
-    /// Overwrite existing files
-    #[arg(short, long)]
-    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) overwrite: OverwriteArgs,
 }
 
 /// The kind of a picture.

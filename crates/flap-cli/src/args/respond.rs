@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::options::{SolverArgs, WorkArgs};
+use super::options::{BeginArgs, SolverArgs};
 use super::values::assignment;
 
 #[derive(clap::Args)]
@@ -50,12 +50,8 @@ pub(crate) struct RespondArgs {
     #[arg(long, requires = "out", conflicts_with = "force")]
     pub(crate) resume: bool,
 
-    /// Replace existing results. They are kept beside the new ones, as in response.old.csv, until those are complete
-    #[arg(short, long)]
-    pub(crate) force: bool,
-
     #[command(flatten)]
-    pub(crate) work: WorkArgs,
+    pub(crate) begin: BeginArgs,
 
     #[command(flatten)]
     pub(crate) solver: SolverArgs,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use flap_core::simulate::Status;
 
-use super::options::{ReadArgs, SolverArgs, WorkArgs};
+use super::options::{BeginArgs, OverwriteArgs, ReadArgs, SolverArgs, WorkArgs};
 use super::values::status;
 
 #[derive(clap::Args)]
@@ -83,11 +83,7 @@ pub(crate) struct RerunArgs {
     pub(crate) read: ReadArgs,
 
     #[command(flatten)]
-    pub(crate) work: WorkArgs,
-
-    /// Replace existing results. Until the new ones are complete, the old ones stay beside them, as in again.old.csv
-    #[arg(short, long)]
-    pub(crate) force: bool,
+    pub(crate) begin: BeginArgs,
 }
 
 const RERUN_HELP: &str = "\
@@ -112,9 +108,8 @@ pub(crate) struct MergeArgs {
     #[command(flatten)]
     pub(crate) read: ReadArgs,
 
-    /// Overwrite an existing file of results
-    #[arg(short, long)]
-    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) overwrite: OverwriteArgs,
 }
 
 const MERGE_HELP: &str = "\
@@ -140,9 +135,8 @@ pub(crate) struct ConvertArgs {
     #[command(flatten)]
     pub(crate) read: ReadArgs,
 
-    /// Overwrite an existing file of results
-    #[arg(short, long)]
-    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) overwrite: OverwriteArgs,
 }
 
 const CONVERT_HELP: &str = "\

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{ValueEnum, value_parser};
 
-use super::options::{PointArgs, SolverArgs};
+use super::options::{OverwriteArgs, PointArgs, SolverArgs};
 use super::values::{angle, frequency, time};
 
 #[derive(clap::Args)]
@@ -76,9 +76,8 @@ pub(crate) struct RunArgs {
     #[arg(long, requires = "trajectory")]
     pub(crate) from_rest: bool,
 
-    /// Overwrite existing files
-    #[arg(short, long)]
-    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) overwrite: OverwriteArgs,
 
     #[command(flatten)]
     pub(crate) solver: SolverArgs,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use flap_sweep::plan::selection::Shard;
 
-use super::options::WorkArgs;
+use super::options::BeginArgs;
 
 #[derive(clap::Args)]
 #[command(after_help = SWEEP_HELP)]
@@ -32,12 +32,8 @@ pub(crate) struct SweepArgs {
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
 
-    /// Replace existing results. Until the new ones are complete, the old ones stay beside them, as in grid.old.csv
-    #[arg(short, long)]
-    pub(crate) force: bool,
-
     #[command(flatten)]
-    pub(crate) work: WorkArgs,
+    pub(crate) begin: BeginArgs,
 }
 
 const SWEEP_HELP: &str = "\

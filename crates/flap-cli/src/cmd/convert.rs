@@ -34,7 +34,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
         return Ok(Exit::Done);
     }
     let mut rows = 0;
-    let made = job::make(&args.to, args.force, |target| {
+    let made = job::make(&args.to, args.overwrite.force, |target| {
         let converted = convert(&mut source.reader, (target, to), &provenance, check)?;
         rows = converted.rows;
         note(&mut sidecar, converted, is_damaged);

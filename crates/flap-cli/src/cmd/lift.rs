@@ -33,7 +33,7 @@ pub(crate) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
             write_csv(&forces, io::stdout().lock())?;
             return Ok(Exit::Done);
         }
-        Some(path) => write_file(&forces, path, args.force, "samples")?,
+        Some(path) => write_file(&forces, path, args.overwrite.force, "samples")?,
         None => {}
     }
     console::results(&summary(&forces))?;

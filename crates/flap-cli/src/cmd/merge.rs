@@ -55,7 +55,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let summary = merge::summary(&parts, &plan);
     let finished = sidecars().filter_map(|sidecar| sidecar.finished.clone()).max().unwrap_or_default();
     whole.finish(&summary, End { finished, seconds: sidecars().filter_map(|sidecar| sidecar.seconds).sum() });
-    job::make(&args.out, args.force, |target| {
+    job::make(&args.out, args.overwrite.force, |target| {
         let checksums = merge::merge(&parts, &mut readers, &plan, (target, format))?;
         // Rows that were damaged before are not to be called sound.
         whole.checksums = Some(checksums).filter(|_| !is_damaged);

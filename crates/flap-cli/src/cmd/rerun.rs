@@ -31,6 +31,6 @@ pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     }
     let plan = with_solver(plan.with_points(list)?, &args.solver)?;
     let origin = Some(Origin { of: of.to_string(), statuses });
-    let begin = if args.force { Begin::Overwrite } else { Begin::New };
-    job::run(&plan, args.out.clone(), begin, &args.work, origin)
+    let begin = if args.begin.force { Begin::Overwrite } else { Begin::New };
+    job::run(&plan, args.out.clone(), begin, &args.begin.work, origin)
 }

@@ -34,7 +34,9 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
         Some(out) if args.resume && is_stdout(out) => {
             Err(Failure::usage("what was written to stdout cannot be resumed"))
         }
-        Some(out) => job::run(&plan, out.clone(), Begin::of(args.resume, args.force), &args.work, None),
+        Some(out) => {
+            job::run(&plan, out.clone(), Begin::of(args.resume, args.begin.force), &args.begin.work, None)
+        }
         None => lines_alone(&plan, args),
     }
 }
@@ -42,14 +44,14 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
 /// Prints the line of each curve, and writes no rows.
 fn lines_alone(plan: &Plan, args: &RespondArgs) -> Result<Exit, Failure> {
     let default = RunOptions::default();
-    let options = RunOptions { threads: args.work.threads.unwrap_or(default.threads), ..default };
+    let options = RunOptions { threads: args.begin.work.threads.unwrap_or(default.threads), ..default };
     let summary = job::work(plan, &options, Summary::default(), &mut Nowhere, Lines::Stdout)?;
     if summary.interrupted {
         let (done, designs) = (summary.done(), summary.points);
         console::say(&format!("interrupted: {done} of {designs} designs are done"));
         return Ok(Exit::Interrupted);
     }
-    Ok(job::complete(&summary, &args.work))
+    Ok(job::complete(&summary, &args.begin.work))
 }
 
 /// A sink that drops rows.

@@ -68,7 +68,7 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
             write_csv(&motion, io::stdout().lock())?;
             return Ok(Exit::Done);
         }
-        write_file(&motion, path, args.force, "samples")?;
+        write_file(&motion, path, args.overwrite.force, "samples")?;
         if args.once {
             return Ok(Exit::Done);
         }
@@ -115,10 +115,10 @@ fn chirp(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
     };
     let response = plan.simulator().experiments()?.chirp(&chosen.run(), &request)?;
     if let Some(path) = &args.trajectory {
-        write_file(&response.motion, path, args.force, "samples")?;
+        write_file(&response.motion, path, args.overwrite.force, "samples")?;
     }
     match &args.envelope {
-        Some(path) => write_file(&response.envelope, path, args.force, "cycles")?,
+        Some(path) => write_file(&response.envelope, path, args.overwrite.force, "cycles")?,
         None => write_csv(&response.envelope, io::stdout().lock())?,
     }
     Ok(Exit::Done)

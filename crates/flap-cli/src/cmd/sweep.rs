@@ -32,7 +32,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
         Inputs::new().add("the sidecar", sidecar).protect_from_results(&out)?;
     }
     far::warn(&deviation::of(&plan));
-    job::run(&plan, out, Begin::of(args.resume, args.force), &args.work, origin)
+    job::run(&plan, out, Begin::of(args.resume, args.begin.force), &args.begin.work, origin)
 }
 
 /// The plan, and the origin of its points if it is the plan of a rerun.

@@ -55,7 +55,7 @@ pub(crate) fn run(args: &PlotArgs) -> Result<Exit, Failure> {
     if let Some(html) = &args.html {
         // Once is enough to tell what a user should know.
         let bytes = page::page(args, &heading(args), out.is_none())?;
-        write(html, args.force, bytes.as_bytes())?;
+        write(html, args.overwrite.force, bytes.as_bytes())?;
         console::say(&format!("a page in {}: open it in a browser", html.display()));
     }
     Ok(Exit::Done)
@@ -70,7 +70,7 @@ fn picture(args: &PlotArgs, out: &Path) -> Result<(), Failure> {
     let chosen = wishes.choose(&table, heading(args))?;
     let scene = draw(&table, &chosen, args.size)?;
     let bytes = encode::bytes(scene, format).map_err(Failure::Bug)?;
-    write(out, args.force, &bytes)?;
+    write(out, args.overwrite.force, &bytes)?;
     console::say(&format!("{} in {}", chosen.columns.kind.name(), out.display()));
     Ok(())
 }

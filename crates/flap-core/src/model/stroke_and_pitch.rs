@@ -7,6 +7,7 @@ use super::motions::Imposed;
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::num::Real;
 use crate::ode::Start;
+use crate::parameter::Invalid;
 
 /// Names of the states with their units, as trajectory columns.
 pub(super) const NAMES: [&str; 4] = ["stroke_rad", "pitch_rad", "stroke_rate_rad_s", "pitch_rate_rad_s"];
@@ -77,18 +78,24 @@ pub(super) fn start<C>(
 ) -> Start<C, 4> {
     let [stroke, pitch] = sizes;
     let rate = drive_constants.rate;
-    Start {
-        constants,
-        y: state(drive, &drive.at(drive_constants, 0.0), &[0.0; 4]),
-        span: drive_constants.period(),
-        scale: [stroke, pitch, stroke * rate, pitch * rate],
-        tighten: 1.0,
-    }
+    let y = state(drive, &drive.at(drive_constants, 0.0), &[0.0; 4]);
+    Start::new(constants, y, drive_constants.period(), [stroke, pitch, stroke * rate, pitch * rate])
 }
 
 /// State, derivative and drive of a wing whose stroke and pitch are given: value (rad), rate, second derivative.
 pub(super) fn placed(stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Wave<f64>, 4> {
     ([stroke[0], pitch[0], stroke[1], pitch[1]], [stroke[1], pitch[1], stroke[2], pitch[2]], stroke.into())
+}
+
+/// The error of a mass matrix that is not positive definite, because the first two of these inertias are too large for the
+/// last two.
+pub(super) fn inertias_apart(parameters: &'static [&'static str; 4]) -> Invalid {
+    let [a, b, c, d] = parameters;
+    let reason = format!(
+        "the mass matrix is not positive definite: the wing's inertias do not go together ({a} and {b} against {c} and \
+         {d})"
+    );
+    Invalid::together(parameters, reason)
 }
 
 /// The state at rest right after an impulse that gives the stroke a rate (rad/s), for a mass matrix

@@ -46,4 +46,16 @@ macro_rules! with_constant {
     };
 }
 
-pub(super) use {constants_on_the_right, operator, with_constant};
+/// Methods of a wrapper of numbers, which are those of the numbers within.
+macro_rules! of_inner {
+    ($Wrapper:ident: $($method:ident($($argument:ident),*)),*) => {
+        $(
+            #[inline(always)]
+            fn $method(self, $($argument: Self),*) -> Self {
+                $Wrapper(self.0.$method($($argument.0),*))
+            }
+        )*
+    };
+}
+
+pub(super) use {constants_on_the_right, of_inner, operator, with_constant};

@@ -5,7 +5,7 @@ use fearless_simd::{Bytes, ExtractToken, Select, Simd, SimdBase, SimdFloat, Simd
 use super::float::{EXPONENT_BITS, Float, MANTISSA_BITS, ONE_BITS, ROUND, TWO_52, TWO_52_BITS};
 use super::lanes::Lanes;
 use super::number::Number;
-use super::operators::{constants_on_the_right, operator};
+use super::operators::{constants_on_the_right, of_inner, operator};
 
 /// 4 lanes with AVX2, 2 with SSE2 and NEON.
 #[derive(Clone, Copy, Debug)]
@@ -38,25 +38,7 @@ impl<S: Simd> Number for Register<S> {
         Self::splat(self.0.token(), c)
     }
 
-    #[inline(always)]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        Register(self.0.mul_add(a.0, b.0))
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Register(self.0.abs())
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Register(self.0.sqrt())
-    }
-
-    #[inline(always)]
-    fn copysign(self, sign: Self) -> Self {
-        Register(self.0.copysign(sign.0))
-    }
+    of_inner!(Register: mul_add(a, b), abs(), sqrt(), copysign(sign));
 
     #[inline(always)]
     fn lt(self, other: Self) -> S::mask64s {
@@ -68,18 +50,9 @@ impl<S: Simd> Number for Register<S> {
         Register(mask.select(yes.0, no.0))
     }
 
+    // One instruction each, with the very meaning; those of other architectures treat NaN in other ways.
     #[cfg(target_arch = "x86_64")]
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        // One instruction with the very meaning; other architectures' treat NaN in other ways.
-        Register(self.0.min(other.0))
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Register(self.0.max(other.0))
-    }
+    of_inner!(Register: min(other), max(other));
 }
 
 impl<S: Simd> Lanes for Register<S> {

@@ -2,7 +2,7 @@
 
 use super::float::Float;
 use super::number::Number;
-use super::operators::{constants_on_the_right, operator};
+use super::operators::{constants_on_the_right, of_inner, operator};
 use super::scalar::Scalar;
 
 /// A single `f64` whose `mul_add` rounds twice: the scalar of [`super::Arithmetic::Unfused`].
@@ -46,20 +46,7 @@ impl Number for Unfused {
         self * a + b
     }
 
-    #[inline(always)]
-    fn abs(self) -> Unfused {
-        Unfused(self.0.abs())
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Unfused {
-        Unfused(self.0.sqrt())
-    }
-
-    #[inline(always)]
-    fn copysign(self, sign: Unfused) -> Unfused {
-        Unfused(self.0.copysign(sign.0))
-    }
+    of_inner!(Unfused: abs(), sqrt(), copysign(sign));
 
     #[inline(always)]
     fn lt(self, other: Unfused) -> bool {
@@ -74,18 +61,10 @@ impl Number for Unfused {
 
 impl Float for Unfused {
     #[inline(always)]
-    fn flip_sign_by_lowest_bit(self, selector: Unfused) -> Unfused {
-        Unfused(self.0.flip_sign_by_lowest_bit(selector.0))
-    }
-
-    #[inline(always)]
     fn exponent_and_mantissa(self) -> (Unfused, Unfused) {
         let (exponent, mantissa) = self.0.exponent_and_mantissa();
         (Unfused(exponent), Unfused(mantissa))
     }
 
-    #[inline(always)]
-    fn times_power_of_two(self, k: Unfused) -> Unfused {
-        Unfused(self.0.times_power_of_two(k.0))
-    }
+    of_inner!(Unfused: flip_sign_by_lowest_bit(selector), times_power_of_two(k));
 }

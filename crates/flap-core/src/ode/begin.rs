@@ -16,6 +16,13 @@ pub struct Start<C, const N: usize> {
     pub tighten: f64,
 }
 
+impl<C, const N: usize> Start<C, N> {
+    /// A run with the tolerances that are asked for.
+    pub const fn new(constants: C, y: [f64; N], span: f64, scale: [f64; N]) -> Start<C, N> {
+        Start { constants, y, span, scale, tighten: 1.0 }
+    }
+}
+
 /// Tolerances and limits.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerances {

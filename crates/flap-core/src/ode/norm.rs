@@ -12,8 +12,7 @@ use crate::num::Real;
 #[inline(always)]
 pub fn error_squared<R: Real, const N: usize>(
     error: &[R; N],
-    y: &[R; N],
-    y_new: &[R; N],
+    [y, y_new]: [&[R; N]; 2],
     atol: &[R; N],
     rtol: R,
     count: usize,

@@ -93,7 +93,7 @@ impl<O: Ode<N>, R: Scalar, const N: usize> March<'_, O, R, N> {
 
             let side = switching.side;
             step.attempt(ode, &c, t, h_try, side);
-            let error = error_squared(&step.error, &step.y[0], &step.y[6], &atol, rtol, O::CONTROLLED);
+            let error = error_squared(&step.error, [&step.y[0], &step.y[6]], &atol, rtol, O::CONTROLLED);
             let verdict = judge(error, &mut memory);
             attempts += 1;
             steps_in_span += 1;

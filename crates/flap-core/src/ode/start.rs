@@ -60,7 +60,7 @@ fn weighted_norm<R: Lanes, const N: usize>(
     rtol: R,
     count: usize,
 ) -> R {
-    error_squared(x, y, y, atol, rtol, count).sqrt()
+    error_squared(x, [y, y], atol, rtol, count).sqrt()
 }
 
 /// The step size with which the next span begins, given that of the last and the one that the controller proposes.

@@ -37,7 +37,7 @@ impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Question<
         )]
         let per_span = (period / interval).round().clamp(1.0, f64::from(intervals)) as u32;
         let span = interval * f64::from(per_span);
-        let start = Start { constants, y, span, scale, tighten: 1.0 };
+        let start = Start::new(constants, y, span, scale);
         let spans = intervals.div_ceil(per_span);
         let mut motion = sampled::<M, R, N, S>(&model, solver, &start, spans, per_span, interrupted)?;
         motion.rows.truncate(intervals as usize + 1);

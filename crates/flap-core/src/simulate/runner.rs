@@ -101,8 +101,7 @@ use crate::parameter::{Parameter, Preset};
 ///         let drive = DriveConstants::new(params.drive_frequency, &WaveformParameters::SINE, strength);
 ///         let natural = std::f64::consts::TAU * params.natural_frequency;
 ///         let constants = Constants { drive, stiffness: natural * natural, damping: 2.0 * params.decay };
-///         let (y, scale) = ([0.0; 2], [0.1, 0.1 * drive.rate]);
-///         Ok(Start { constants, y, span: drive.period(), scale, tighten: 1.0 })
+///         Ok(Start::new(constants, [0.0; 2], drive.period(), [0.1, 0.1 * drive.rate]))
 ///     }
 ///
 ///     fn drive<R: Lanes>(c: &Constants<R>) -> &DriveConstants<R> {

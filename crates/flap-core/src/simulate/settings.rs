@@ -41,75 +41,45 @@ impl SolverSettings {
     /// A reader that applies values in this order needs no other rule: `rtol` comes first and moves the settings that
     /// follow it.
     pub const TABLE: &'static [Setting] = &[
-        Setting {
-            name: "rtol",
-            kind: SettingKind::Number {
-                below: 0.1,
-                get: |settings| settings.rtol,
-                set: |settings, rtol| *settings = settings.with_rtol(rtol),
-            },
-            follows: None,
-            doc: "relative error per integration step",
-        },
-        Setting {
-            name: "atol",
-            kind: SettingKind::Number {
-                below: f64::INFINITY,
-                get: |settings| settings.atol,
-                set: |settings, atol| settings.atol = atol,
-            },
-            follows: Some("rtol / 100"),
-            doc: "absolute error per integration step, in units of each state's typical size",
-        },
-        Setting {
-            name: "settle_tol",
-            kind: SettingKind::Number {
-                below: f64::INFINITY,
-                get: |settings| settings.settle_tol,
-                set: |settings, settle_tol| settings.settle_tol = settle_tol,
-            },
-            follows: None,
-            doc: "change of the state per drive period, in units of each state's typical size, below which a motion \
-                  has settled",
-        },
-        Setting {
-            name: "max_cycles",
-            kind: SettingKind::Count {
-                get: |settings| settings.max_cycles,
-                set: |settings, max_cycles| settings.max_cycles = max_cycles,
-            },
-            follows: None,
-            doc: "drive periods marched after which a motion counts as unsettled",
-        },
-        Setting {
-            name: "max_steps",
-            kind: SettingKind::Count {
-                get: |settings| settings.max_steps,
-                set: |settings, max_steps| settings.max_steps = max_steps,
-            },
-            follows: None,
-            doc: "integration steps in one drive period after which a point is given up",
-        },
-        Setting {
-            name: "accuracy",
-            kind: SettingKind::Number {
-                below: f64::INFINITY,
-                get: |settings| settings.accuracy,
-                set: |settings, accuracy| settings.accuracy = accuracy,
-            },
-            follows: Some("1000 rtol, but at least 1e-3"),
-            doc: "largest error_estimate and energy audit of a row; a point whose row exceeds it is integrated again \
-                  with tighter tolerances",
-        },
-        Setting {
-            name: "newton",
-            kind: SettingKind::Flag {
-                get: |settings| settings.newton,
-                set: |settings, newton| settings.newton = newton,
-            },
-            follows: None,
-            doc: "Newton's iteration looks for orbits; without it points settle by marching alone",
-        },
+        Setting::new(
+            "rtol",
+            number(0.1, |s| s.rtol, |s, rtol| *s = s.with_rtol(rtol)),
+            "relative error per integration step",
+        ),
+        Setting::new(
+            "atol",
+            number(f64::INFINITY, |s| s.atol, |s, atol| s.atol = atol),
+            "absolute error per integration step, in units of each state's typical size",
+        )
+        .following("rtol / 100"),
+        Setting::new(
+            "settle_tol",
+            number(f64::INFINITY, |s| s.settle_tol, |s, settle_tol| s.settle_tol = settle_tol),
+            "change of the state per drive period, in units of each state's typical size, below which a motion has \
+             settled",
+        ),
+        Setting::new(
+            "max_cycles",
+            SettingKind::Count { get: |s| s.max_cycles, set: |s, max_cycles| s.max_cycles = max_cycles },
+            "drive periods marched after which a motion counts as unsettled",
+        ),
+        Setting::new(
+            "max_steps",
+            SettingKind::Count { get: |s| s.max_steps, set: |s, max_steps| s.max_steps = max_steps },
+            "integration steps in one drive period after which a point is given up",
+        ),
+        Setting::new(
+            "accuracy",
+            number(f64::INFINITY, |s| s.accuracy, |s, accuracy| s.accuracy = accuracy),
+            "largest error_estimate and energy audit of a row; a point whose row exceeds it is integrated again with \
+             tighter tolerances",
+        )
+        .following("1000 rtol, but at least 1e-3"),
+        Setting::new(
+            "newton",
+            SettingKind::Flag { get: |s| s.newton, set: |s, newton| s.newton = newton },
+            "Newton's iteration looks for orbits; without it points settle by marching alone",
+        ),
     ];
 
     /// These settings with another relative tolerance, and with the settings that follow it by default: `atol`, a
@@ -141,6 +111,26 @@ pub struct Setting {
     pub follows: Option<&'static str>,
     /// One line of meaning.
     pub doc: &'static str,
+}
+
+impl Setting {
+    const fn new(name: &'static str, kind: SettingKind, doc: &'static str) -> Setting {
+        Setting { name, kind, follows: None, doc }
+    }
+
+    /// The setting, whose default follows another one as these words say.
+    const fn following(self, follows: &'static str) -> Setting {
+        Setting { follows: Some(follows), ..self }
+    }
+}
+
+/// A number more than zero and less than `below`.
+const fn number(
+    below: f64,
+    get: fn(&SolverSettings) -> f64,
+    set: fn(&mut SolverSettings, f64),
+) -> SettingKind {
+    SettingKind::Number { below, get, set }
 }
 
 /// Values that a setting takes, with the functions that read and write it.

@@ -1,6 +1,6 @@
 //! Ranges of values: `{ from = 60, to = 200, n = 15 }` or with `step`, linear or logarithmic.
 
-use flap_core::parameter::{Kind, Parameter};
+use flap_core::parameter::Parameter;
 use toml::de::DeValue;
 
 use super::problems::Problems;
@@ -36,10 +36,7 @@ pub(super) fn read(parameter: &Parameter, axis: &Entry<'_>, problems: &mut Probl
     let DeValue::Table(table) = axis.value.get_ref() else {
         return None;
     };
-    if let Kind::Choice(options) = &parameter.kind {
-        problems
-            .report(axis.value.span(), format!("`{}` is a choice and has no ranges", parameter.name))
-            .help(format!("list the options to try, such as {options:?}"));
+    if value::is_choice(parameter, axis, "ranges", "list the options to try", problems) {
         return None;
     }
     let entries = table::entries(table);

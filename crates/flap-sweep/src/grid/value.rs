@@ -7,7 +7,7 @@ use toml::Spanned;
 use toml::de::{DeInteger, DeValue};
 
 use super::problems::Problems;
-use super::table;
+use super::table::{self, Entry};
 use crate::notation::units::{self, Problem, UnitError};
 use crate::notation::value::{self, UnitOf, ValueError};
 
@@ -223,4 +223,19 @@ pub(super) fn inside(file: &str, span: Range<usize>, text: &str, part: &Range<us
     } else {
         span
     }
+}
+
+/// True, with a report, if the parameter is a choice, which has no `shape` but a list.
+pub(super) fn is_choice(
+    parameter: &Parameter,
+    entry: &Entry<'_>,
+    shape: &str,
+    help: &str,
+    problems: &mut Problems,
+) -> bool {
+    let Kind::Choice(options) = &parameter.kind else { return false };
+    problems
+        .report(entry.value.span(), format!("`{}` is a choice and has no {shape}", parameter.name))
+        .help(format!("{help}, such as {options:?}"));
+    true
 }

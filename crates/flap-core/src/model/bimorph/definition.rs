@@ -40,7 +40,7 @@ impl Model<4, S> for Bimorph {
         let DriveConstants { rate, .. } = constants.drive;
         let tip = 0.1 / params.transmission_ratio;
         let scale = [tip, tip * rate, 0.3, 0.3 * rate];
-        Ok(Start { constants, y: [0.0; 4], span: constants.drive.period(), scale, tighten: 1.0 })
+        Ok(Start::new(constants, [0.0; 4], constants.drive.period(), scale))
     }
 
     #[inline(always)]

@@ -9,6 +9,7 @@ use super::chord::{BLADES, blades};
 use super::params::{AddedMass, CentreOfPressure, FlowDirection, LiftSign, Params};
 use crate::aero::Strips;
 use crate::drive::DriveConstants;
+use crate::model::stroke_and_pitch::inertias_apart;
 use crate::num::PerLane;
 use crate::parameter::Invalid;
 use crate::piezo::{Laminate, Layer};
@@ -215,11 +216,12 @@ impl Constants<f64> {
         if upright > 0.0 && flat > 0.0 {
             Ok(self)
         } else {
-            Err(Invalid::together(
-                &["mass_centre_chord", "wing_inertia_product", "wing_inertia_span", "wing_mass"],
-                "the mass matrix is not positive definite: the wing's inertias do not go together \
-                 (mass_centre_chord and wing_inertia_product against wing_inertia_span and wing_mass)",
-            ))
+            Err(inertias_apart(&[
+                "mass_centre_chord",
+                "wing_inertia_product",
+                "wing_inertia_span",
+                "wing_mass",
+            ]))
         }
     }
 }

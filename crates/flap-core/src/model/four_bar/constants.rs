@@ -9,6 +9,7 @@ use super::params::{AddedMassSign, Arms, MAX_STRIPS, Params, Quadrature, STRIPS}
 use crate::aero::{Cut, Strips, sum};
 use crate::drive::DriveConstants;
 use crate::linkage::{FourBar, LinkInertias, LinkLengths, SliderCrank};
+use crate::model::stroke_and_pitch::inertias_apart;
 use crate::num::PerLane;
 use crate::parameter::Invalid;
 use crate::piezo::{Layer, TipResponse, Unimorph};
@@ -158,11 +159,12 @@ impl Constants<f64> {
         if (least + j_cos) * j_pitch > coupling * coupling && (least + j_sin) * j_pitch > 0.0 {
             Ok(self)
         } else {
-            Err(Invalid::together(
-                &["wing_inertia_product", "mass_centre_depth", "wing_inertia_span", "wing_mass"],
-                "the mass matrix is not positive definite: the wing's inertias do not go together \
-                 (wing_inertia_product and mass_centre_depth against wing_inertia_span and wing_mass)",
-            ))
+            Err(inertias_apart(&[
+                "wing_inertia_product",
+                "mass_centre_depth",
+                "wing_inertia_span",
+                "wing_mass",
+            ]))
         }
     }
 }

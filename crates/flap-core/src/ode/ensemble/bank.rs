@@ -147,7 +147,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
         let side = self.switching.side;
         self.step.attempt(ode, &self.constants, self.t, h, side);
         let Step { y: [y, .., y_new], error, .. } = &self.step;
-        self.error = error_squared(error, y, y_new, &self.atol, self.rtol, O::CONTROLLED);
+        self.error = error_squared(error, [y, y_new], &self.atol, self.rtol, O::CONTROLLED);
         let verdict = judge(self.error, &mut self.memory);
         self.steps_in_span = self.steps_in_span + 1.0;
 

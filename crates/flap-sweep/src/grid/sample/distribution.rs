@@ -1,6 +1,6 @@
 //! The distribution of a sampled parameter: `{ from, to }`, `{ mean, sd }`, or a list.
 
-use flap_core::parameter::{Kind, Parameter};
+use flap_core::parameter::Parameter;
 use toml::de::DeValue;
 
 use super::super::problems::Problems;
@@ -42,10 +42,8 @@ pub(super) fn read(
             return None;
         }
     };
-    if let Kind::Choice(options) = &parameter.kind {
-        problems
-            .report(entry.value.span(), format!("`{}` is a choice and has no such distribution", entry.key))
-            .help(format!("list the options to choose from at random, such as {options:?}"));
+    let help = "list the options to choose from at random";
+    if value::is_choice(parameter, entry, "such distribution", help, problems) {
         return None;
     }
     let entries = &table::entries(table);
