@@ -32,7 +32,7 @@ docs:
 example:
     cargo run --release -- sweep --grid examples/ozaki_large.toml --force
 
-# What the papers say beside what flap computes: writes docs/reproduction.md.
+# Computes the statements of the papers with flap: writes docs/reproduction.md.
 reproduce:
     mkdir -p target
     cargo run --release --locked --example reproduce > target/reproduction.md

@@ -30,7 +30,7 @@ fn print_table(file: &Path) -> Option<()> {
 
     println!(
         "{} points at rtol {:e}, {} rounds on {}:\n\n\
-         | solver | points per CPU-second | flap is faster by | median deviation | remarks |\n|---|---|---|---|---|",
+         | solver | points per CPU-second | rate of flap over this rate | median deviation | remarks |\n|---|---|---|---|---|",
         told["points"],
         told["rtol"].as_f64()?,
         told["rounds"],

@@ -74,7 +74,7 @@ impl Ode<4> for Wing {
 }
 
 flap_core::per_lane! {
-    /// What is measured.
+    /// The measures.
     #[derive(Default)]
     pub struct Sums<R> {
         /// Largest |x| (m).

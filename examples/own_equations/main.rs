@@ -87,7 +87,7 @@ struct Runs<'a> {
     tolerances: Tolerances,
 }
 
-/// What came of them.
+/// Their results.
 struct Found {
     sums: Vec<Sums<f64>>,
     rhs_evals: u64,
@@ -118,7 +118,7 @@ impl Kernel for Runs<'_> {
 struct Part<T> {
     periods: u32,
     begun: usize,
-    /// Where the runs begin, and once they have ended, where they ended.
+    /// States of the runs: their beginnings, and once they have ended, their ends.
     ends: Vec<Begin>,
     totals: Vec<T>,
     rhs_evals: u64,

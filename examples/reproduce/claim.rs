@@ -22,7 +22,7 @@ pub(crate) enum Verdict {
     Met,
     /// The computed number is off by this share of the published one, within what the claim allows.
     MetWithin(f64),
-    /// It is farther off, or the statement does not hold.
+    /// It is further off, or the statement does not hold.
     NotReproduced,
     /// There is nothing to compare, and why.
     CannotBeChecked(&'static str),

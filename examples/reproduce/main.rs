@@ -18,10 +18,10 @@ use table::{Paper, paragraph, section, summary};
 const PAPERS: [Paper; 3] = [jafferis::PAPER, ozaki::PAPER, arabagi::PAPER];
 
 const HEAD: &str = "\
-# What the papers say, and what flap computes
+# Statements of the papers, and results of flap
 
 Written by `just reproduce`; not to be edited. Every row is a statement of a paper, computed anew with flap's presets;
-where the paper leaves a size open, a statement has a row for each size that was tried. `rtol` is 1e-7. Motions are
+where the paper does not give a size, a statement has a row for each size that was tried. `rtol` is 1e-7. Motions are
 driven until they settle, except those after an impulse. Responses to frequency have steps of 1 Hz unless a row is
 finer. A verdict is a rule applied to the computed number:
 
@@ -29,14 +29,14 @@ finer. A verdict is a rule applied to the computed number:
 - *met within X %*: off by up to X %, and by no more than 3 % of a resonance or of a number that the paper computed from
   the same parameters, 10 % of a number that it calls approximate, 20 % of a measured one, 25 % where wing and actuator
   are assumed;
-- *not reproduced*: farther off, or the statement does not hold;
+- *not reproduced*: further off, or the statement does not hold;
 - *cannot be checked*: there is nothing to compare, for the reason given.
 
-The four limits are a choice, made with results in sight: they decide where *met within X %* ends, so read X and the
+The four limits are a choice that was made after the results were known: they decide where *met within X %* ends, so read X and the
 computed number rather than the word.
 
 Corrections to print and what is assumed: [model.md](model.md), [model-bimorph.md](model-bimorph.md),
-[model-four-bar.md](model-four-bar.md). How free motions and their frequencies are computed:
+[model-four-bar.md](model-four-bar.md). Free motions and their frequencies:
 [resonance.md](resonance.md); prescribed strokes: [experiments.md](experiments.md).
 
 ";

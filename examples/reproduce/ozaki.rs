@@ -21,7 +21,7 @@ pub(crate) const PAPER: Paper = Paper {
                       errors of -0.7 % and 3.8 % against the measured 210 and 105 Hz. There is no linear \
                       damping, so the frequency depends on both. Here it is fitted through 4 periods of small \
                       motions, after impulses by which these, undamped, would reach 0.3, 0.5 and 0.8 rad. These \
-                      choices are flap's, made with results in sight.",
+                      choices are flap's, and were made after the results were known.",
             quick: true,
             claims: resonance::calculated,
         },

@@ -23,7 +23,7 @@ pub(crate) struct Group {
 /// A group as a section.
 pub(crate) fn section(group: &Group, claims: &[Claim]) -> String {
     let mut lines = vec![
-        "| where | what the paper says | published | computed | verdict |".to_owned(),
+        "| place | statement of the paper | published | computed | verdict |".to_owned(),
         "|---|---|---|---|---|".to_owned(),
     ];
     for Claim { place, statement, published, computed, verdict } in claims {

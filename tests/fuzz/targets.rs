@@ -1,4 +1,4 @@
-//! What must hold for any input: the bodies of the fuzz targets in `fuzz`, run by an ordinary test too.
+//! Properties that hold for any input: the bodies of the fuzz targets in `fuzz`, run by an ordinary test too.
 
 use flap_core::simulate::all;
 use flap_sweep::files::journal;

@@ -1,4 +1,4 @@
-//! How many instructions are few enough.
+//! The limits on instructions.
 
 use flap_core::num::InstructionSet;
 use flap_core::simulate;

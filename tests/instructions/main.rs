@@ -44,7 +44,7 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// What the process does when the test has started it again.
+/// The work of the process that the test has started again.
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[expect(clippy::print_stderr, reason = "it tells the test's user")]
 fn be_counted(name: &str) -> ExitCode {
@@ -61,7 +61,7 @@ fn be_counted(name: &str) -> ExitCode {
     }
 }
 
-/// Whether the test is to run, going by the usual arguments of test programs.
+/// True if the test is to run, judged by the usual arguments of test programs.
 fn is_wanted() -> bool {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let has = |flag: &str| arguments.iter().any(|argument| argument == flag);

@@ -1,4 +1,4 @@
-//! What is counted: one point on scalars, or the same point in every lane, for about one drive period.
+//! The work that is counted: one point on scalars, or the same point in every lane, for about one drive period.
 
 use std::fmt;
 
@@ -15,11 +15,11 @@ pub(crate) struct Work {
     pub(crate) preset: &'static str,
     /// The instructions it is done with.
     pub(crate) set: InstructionSet,
-    /// What is done.
+    /// The task.
     pub(crate) task: Task,
 }
 
-/// What is done with the instructions.
+/// A task for the instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Task {
     /// Marching a point for a period on scalars of the set's arithmetic class.
@@ -122,12 +122,12 @@ const SETTLE_AND_MEASURE: SolverSettings =
 /// The same two periods and no more.
 const SETTLE: SolverSettings = SolverSettings { max_cycles: 2, ..MARCH };
 
-/// Where the count begins.
+/// The beginning of a count.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Begin {
-    /// When all lanes have their points and marching begins.
+    /// All lanes have their points and marching begins.
     WithTheLastPoint,
-    /// When there is no further point and what has settled goes on.
+    /// There is no further point and what has settled goes on.
     AfterTheLastPoint,
 }
 

@@ -1,4 +1,4 @@
-//! Which file of a crate uses which.
+//! The uses of files by each other within a crate.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -8,7 +8,7 @@ mod sources;
 
 use source::source_files;
 
-/// What prints, opens, spawns or reads the clock.
+/// Names of the standard library that print, open, spawn or read the clock.
 const FORBIDDEN: &[&str] = &[
     "print!",
     "println!",

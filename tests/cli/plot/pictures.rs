@@ -6,7 +6,7 @@ use std::fs;
 use super::{HEADER, count, folder, refused};
 use crate::support::{Folder, frequencies};
 
-/// What was drawn, and what was said.
+/// A picture, and the messages about it.
 struct Drawn {
     svg: String,
     said: String,

@@ -63,7 +63,7 @@ impl WaveformParameters {
 crate::parameters! {
     /// Parameters of a stroke that can be prescribed.
     pub struct StrokeParameters {
-        /// Whether the actuator drives the stroke, or the stroke is prescribed: stroke_amplitude times the drive's waveform, whatever that takes. The pitch is free in both.
+        /// Motion of the stroke: driven by the actuator, or prescribed as stroke_amplitude times the drive's waveform, whatever force that takes. The pitch is free in both.
         stroke_mode: StrokeMode = ("", "", Choice(StrokeMode::NAMES)),
         /// Amplitude of the prescribed stroke. Only for stroke_mode = "prescribed".
         stroke_amplitude: f64 = ("rad", "", Number(NonNegative)),

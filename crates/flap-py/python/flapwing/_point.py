@@ -147,7 +147,7 @@ def run(
             ``stroke_pp_deg``, ``lift_mean_mn``, ``power_mean_mw``. All are None unless the point is periodic.
             A ratio of zero to zero, such as the efficiency without power, is nan.
         cycles : int
-            Drive periods integrated, the measured one included.
+            Drive periods integrated, those of the measurement included.
         residual : float or None
             Change of the state over the last period of the motion, in the units of settle_tol. None if
             no period was completed.

@@ -24,13 +24,13 @@ pub(crate) const FIXED: [Fixed; 9] = [
     Fixed {
         name: "status",
         kind: Kind::Text,
-        doc: "what became of the point",
+        doc: "result of the search for an orbit, such as periodic or unsettled",
         cell: |_, row| Cell::Text(row.status.name()),
     },
     Fixed {
         name: "cycles",
         kind: Kind::Whole,
-        doc: "drive periods integrated, the measured one included",
+        doc: "drive periods integrated, those of the measurement included",
         cell: |_, row| Cell::Whole(row.cycles.into()),
     },
     Fixed {
@@ -54,7 +54,7 @@ pub(crate) const FIXED: [Fixed; 9] = [
     Fixed {
         name: "stable",
         kind: Kind::Flag,
-        doc: "whether motions near the orbit approach it",
+        doc: "true if motions near the orbit approach it",
         cell: |_, row| Cell::Flag(row.stable()),
     },
     Fixed {

@@ -108,7 +108,7 @@ crate::parameters! {
 
         /// Transition of the piezoelectric stress with field, Eq. (6): corrected, or as printed (which halves the force).
         field_transition: FieldTransition = ("", "", Choice(FieldTransition::NAMES)),
-        /// Which attack angle moves the chordwise centre of pressure, Eq. (11): folded to at most 90 deg, relative to the motion, or as printed (which breaks mirror symmetry).
+        /// Attack angle that moves the chordwise centre of pressure, Eq. (11): folded to at most 90 deg, relative to the motion, or as printed (which breaks mirror symmetry).
         centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)),
         /// Stiffness of the actuator: growing with strain, Eq. (4), or constant at its value for none.
         actuator_stiffness: ActuatorStiffness = ("", "", Choice(ActuatorStiffness::NAMES)),

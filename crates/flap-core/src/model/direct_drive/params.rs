@@ -112,7 +112,7 @@ crate::parameters! {
         /// Centre of pressure at zero attack, in chords from the leading edge, Eq. (24).
         pressure_offset: f64 = ("", "0.05", Number(Any)),
 
-        /// Which attack angle moves the centre of pressure: relative to the motion, folded to at most 90 deg, or as printed (which breaks mirror symmetry).
+        /// Attack angle that moves the centre of pressure: relative to the motion, folded to at most 90 deg, or as printed (which breaks mirror symmetry).
         centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)),
         /// Moments of the added mass: as in the paper, or with the gyroscopic terms of the Lagrangian form.
         added_mass: AddedMass = ("", "", Choice(AddedMass::NAMES)),

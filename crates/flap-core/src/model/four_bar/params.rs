@@ -143,7 +143,7 @@ crate::parameters! {
         arms: Arms = ("", "", Choice(Arms::NAMES)),
         /// Sign of the pitch acceleration's part of the added-mass lift, Eq. (7): corrected, or as printed.
         am_sign: AddedMassSign = ("", "", Choice(AddedMassSign::NAMES)),
-        /// How the wing is cut into strips: at Gauss-Legendre nodes, or into equal widths taken at their middles.
+        /// Strips of the wing: at Gauss-Legendre nodes, or of equal widths taken at their middles.
         quadrature: Quadrature = ("", "", Choice(Quadrature::NAMES)),
         /// Number of strips, a whole number from 1 to 64.
         strips: f64 = ("", "N", Number(STRIPS)),
