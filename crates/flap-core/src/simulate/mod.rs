@@ -50,15 +50,17 @@ pub use status::Status;
 pub use crate::ode::{Interrupt, never};
 
 use crate::drive::Drive;
-use crate::model::bimorph::Bimorph;
-use crate::model::direct_drive::{DirectDrive, FlowDirection};
-use crate::model::four_bar::FourBar;
+use crate::model::bimorph::{self, Bimorph};
+use crate::model::direct_drive::{self, DirectDrive, FlowDirection};
+use crate::model::four_bar::{self, FourBar};
 use crate::parameter::Preset;
 
-static BIMORPH: Runner<Bimorph, 4, 20, 15> = Runner::with_experiments(Bimorph { drive: Drive::SINE });
-static DIRECT_DRIVE: Runner<DirectDrive, 4, 20, 10> =
+static BIMORPH: Runner<Bimorph, 4, 20, { bimorph::S }> =
+    Runner::with_experiments(Bimorph { drive: Drive::SINE });
+static DIRECT_DRIVE: Runner<DirectDrive, 4, 20, { direct_drive::S }> =
     Runner::with_experiments(DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform });
-static FOUR_BAR: Runner<FourBar, 4, 20, 17> = Runner::with_experiments(FourBar { drive: Drive::SINE });
+static FOUR_BAR: Runner<FourBar, 4, 20, { four_bar::S }> =
+    Runner::with_experiments(FourBar { drive: Drive::SINE });
 static ALL: &[&dyn Simulator] = &[&BIMORPH, &DIRECT_DRIVE, &FOUR_BAR];
 
 /// Every model, in the order `flap models` lists them.

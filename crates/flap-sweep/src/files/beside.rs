@@ -21,10 +21,7 @@ pub fn part_of(results: &Path) -> PathBuf {
 
 /// The path of the rows before the results are complete: those of a Parquet file wait in [`part_of`].
 pub fn rows_of(results: &Path, format: Format) -> PathBuf {
-    match format {
-        Format::Parquet => part_of(results),
-        Format::Csv | Format::CsvZstd => results.to_owned(),
-    }
+    if format.is_columnar() { part_of(results) } else { results.to_owned() }
 }
 
 /// The sidecar, the journal and the rows that wait.

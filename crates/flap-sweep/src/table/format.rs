@@ -51,6 +51,11 @@ impl Format {
         }
     }
 
+    /// True if a file holds whole columns. Its rows wait beside it, as compressed text, until all are there.
+    pub fn is_columnar(self) -> bool {
+        self == Format::Parquet
+    }
+
     /// Checks the name of a table that is written as CSV and in no other format.
     ///
     /// # Errors

@@ -8,7 +8,7 @@ use crate::model::units::DEGREES;
 use crate::model::{Derived, EnergyBalance, Signal, SignalCycle, Unit, position};
 
 /// Number of signals.
-pub(super) const S: usize = 15;
+pub const S: usize = 15;
 
 /// Share of the largest lift that a vehicle can hover with, the rest being needed for control; section IV.
 const HOVER_SHARE: f64 = 0.8;

@@ -13,6 +13,7 @@ mod params;
 mod rhs;
 
 pub use actuator::{Actuator, taper_gain};
+pub use columns::S;
 pub use constants::Constants;
 pub use dynamics::Bimorph;
 pub use params::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};

@@ -13,6 +13,7 @@ mod params;
 mod rhs;
 
 pub use chord::BLADES;
+pub use columns::S;
 pub use constants::Constants;
 pub use dynamics::DirectDrive;
 pub use params::{AddedMass, CentreOfPressure, FlowDirection, LiftSign, Params};

@@ -7,7 +7,7 @@ use crate::model::readings::{SINE_PHASE, charging, efficiency, grams_force, lag_
 use crate::model::{Derived, EnergyBalance, Signal, Unit, position};
 
 /// Number of signals.
-pub(super) const S: usize = 17;
+pub const S: usize = 17;
 
 const STROKE: usize = position(&SIGNALS, "stroke");
 const PITCH: usize = position(&SIGNALS, "pitch");

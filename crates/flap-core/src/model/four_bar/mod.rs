@@ -17,6 +17,7 @@ mod params;
 mod rhs;
 
 pub use aerodynamics::{Aerodynamics, added_mass_lift, aerodynamics, coefficients, side_of};
+pub use columns::S;
 pub use composite::Composite;
 pub use constants::{Actuator, Air, Constants, Wing};
 pub use dynamics::FourBar;

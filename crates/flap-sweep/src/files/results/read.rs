@@ -60,7 +60,6 @@ impl Reader {
     /// - the error of the operating system if the file cannot be read
     pub fn new(file: File, format: Format) -> io::Result<Reader> {
         match format {
-            Format::Csv | Format::CsvZstd => Reader::of_text(file, format),
             #[cfg(feature = "parquet")]
             Format::Parquet => {
                 let rows = super::parquet::ParquetReader::new(file)?;
@@ -68,6 +67,7 @@ impl Reader {
             }
             #[cfg(not(feature = "parquet"))]
             Format::Parquet => Err(io::Error::other("this flap was built without Parquet")),
+            _ => Reader::of_text(file, format),
         }
     }
 

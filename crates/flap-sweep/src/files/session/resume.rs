@@ -72,10 +72,8 @@ impl Session {
         }
 
         let rows_path = rows_of(path, format);
-        let rows_file = match format {
-            Format::Parquet => output::open_or_make(&rows_path),
-            Format::Csv | Format::CsvZstd => results.try_clone(),
-        };
+        let rows_file =
+            if format.is_columnar() { output::open_or_make(&rows_path) } else { results.try_clone() };
         let rows_file = rows_file.map_err(refused)?;
         let found = last_intact(&rows_file, &past).map_err(refused)?;
         let found = found.ok_or_else(|| ResumeError::Altered(rows_path.clone()))?;

@@ -31,10 +31,8 @@ impl Session {
         let mut header = Header::new(started, Identity::of(plan, &options.run));
         header.replaces = replaces;
         let journal = Journal::create(&journal_of(path), &header)?;
-        let rows_file = match format {
-            Format::Parquet => File::create(rows_of(path, format))?,
-            Format::Csv | Format::CsvZstd => results.try_clone()?,
-        };
+        let rows_file =
+            if format.is_columnar() { File::create(rows_of(path, format))? } else { results.try_clone()? };
         disk::sync_folder(path);
         let rows = TextRows::new(rows_file, format)?;
         Ok(Session::new(results, (path, format), rows, plan, options, journal))

@@ -92,7 +92,7 @@ impl Session {
         if !summary.interrupted || self.rows.may_be_cut() {
             self.note(summary)?;
         }
-        if !summary.interrupted && self.format == Format::Parquet {
+        if !summary.interrupted && self.format.is_columnar() {
             disk::empty(&self.results)?;
             self.results.seek(SeekFrom::Start(0))?;
             let results = self.results.try_clone()?;
