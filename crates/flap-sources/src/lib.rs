@@ -43,7 +43,7 @@ pub fn print() -> io::Result<()> {
     Ok(())
 }
 
-/// The lines `name version` of [`PACKAGES`] in a lock file, in its order, which is that of the names.
+/// The lines `name version` of the packages that decide bytes of rows, in the order of a lock file: that of the names.
 pub fn versions(lock: &str) -> Vec<String> {
     let value = |line: Option<&str>, key: &str| {
         let value = line?.strip_prefix(key)?.strip_prefix(" = \"")?.strip_suffix('"')?;

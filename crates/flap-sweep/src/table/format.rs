@@ -14,6 +14,14 @@ pub enum Format {
     Parquet,
 }
 
+/// The endings of names, and the formats that they stand for.
+const NAMED: [(&str, Format); 3] =
+    [(".csv", Format::Csv), (".csv.zst", Format::CsvZstd), (".parquet", Format::Parquet)];
+
+/// The endings, for help and messages.
+const ENDINGS: &str =
+    if cfg!(feature = "parquet") { ".csv, .csv.zst or .parquet" } else { ".csv or .csv.zst" };
+
 /// A name that stands for no format.
 #[derive(Debug, thiserror::Error)]
 pub enum FormatError {
@@ -32,8 +40,7 @@ pub enum FormatError {
 
 impl Format {
     /// The endings, for help and messages.
-    pub const ENDINGS: &str =
-        if cfg!(feature = "parquet") { ".csv, .csv.zst or .parquet" } else { ".csv or .csv.zst" };
+    pub const ENDINGS: &str = ENDINGS;
 
     /// The format that the ending of a file's name stands for, in capital letters or small ones. Devices and pipes are CSV,
     /// whatever they are called.
@@ -77,10 +84,6 @@ impl Format {
         NAMED.iter().find(|(known, _)| ending.eq_ignore_ascii_case(known)).map(|(_, format)| *format)
     }
 }
-
-/// The endings, and what they stand for.
-const NAMED: [(&str, Format); 3] =
-    [(".csv", Format::Csv), (".csv.zst", Format::CsvZstd), (".parquet", Format::Parquet)];
 
 fn unknown(path: &Path, allowed: &'static str) -> FormatError {
     FormatError::Unknown { name: path.display().to_string(), allowed }
