@@ -36,7 +36,7 @@ pub(super) fn read(parameter: &Parameter, axis: &Entry<'_>, problems: &mut Probl
     let DeValue::Table(table) = axis.value.get_ref() else {
         return None;
     };
-    if value::is_choice(parameter, axis, "ranges", "list the options to try", problems) {
+    if value::report_choice(parameter, axis, "ranges", "list the options to try", problems) {
         return None;
     }
     let entries = table::entries(table);

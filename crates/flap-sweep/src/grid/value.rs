@@ -225,8 +225,8 @@ pub(super) fn inside(file: &str, span: Range<usize>, text: &str, part: &Range<us
     }
 }
 
-/// True, with a report, if the parameter is a choice, which has no `shape` but a list.
-pub(super) fn is_choice(
+/// Reports a parameter that is a choice: it takes a list and no `shape`, such as "ranges". False if it is not one.
+pub(super) fn report_choice(
     parameter: &Parameter,
     entry: &Entry<'_>,
     shape: &str,

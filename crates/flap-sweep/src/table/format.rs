@@ -18,29 +18,10 @@ pub enum Format {
 const NAMED: [(&str, Format); 3] =
     [(".csv", Format::Csv), (".csv.zst", Format::CsvZstd), (".parquet", Format::Parquet)];
 
-/// The endings, for help and messages.
-const ENDINGS: &str =
-    if cfg!(feature = "parquet") { ".csv, .csv.zst or .parquet" } else { ".csv or .csv.zst" };
-
-/// A name that stands for no format.
-#[derive(Debug, thiserror::Error)]
-pub enum FormatError {
-    /// It ends in something else, or has no ending.
-    #[error("{name}: the ending of a file's name says its format, and must be {allowed}")]
-    Unknown {
-        /// The file.
-        name: String,
-        /// The endings that do.
-        allowed: &'static str,
-    },
-    /// A format that this build leaves out.
-    #[error("{0}: this flap was built without Parquet")]
-    WithoutParquet(String),
-}
-
 impl Format {
     /// The endings, for help and messages.
-    pub const ENDINGS: &str = ENDINGS;
+    pub const ENDINGS: &str =
+        if cfg!(feature = "parquet") { ".csv, .csv.zst or .parquet" } else { ".csv or .csv.zst" };
 
     /// The format that the ending of a file's name stands for, in capital letters or small ones. Devices and pipes are CSV,
     /// whatever they are called.
@@ -83,6 +64,22 @@ impl Format {
         let (_, ending) = Format::split_ending(path.file_name()?.to_str()?);
         NAMED.iter().find(|(known, _)| ending.eq_ignore_ascii_case(known)).map(|(_, format)| *format)
     }
+}
+
+/// A name that stands for no format.
+#[derive(Debug, thiserror::Error)]
+pub enum FormatError {
+    /// It ends in something else, or has no ending.
+    #[error("{name}: the ending of a file's name says its format, and must be {allowed}")]
+    Unknown {
+        /// The file.
+        name: String,
+        /// The endings that do.
+        allowed: &'static str,
+    },
+    /// A format that this build leaves out.
+    #[error("{0}: this flap was built without Parquet")]
+    WithoutParquet(String),
 }
 
 fn unknown(path: &Path, allowed: &'static str) -> FormatError {

@@ -43,7 +43,7 @@ pub(super) fn read(
         }
     };
     let help = "list the options to choose from at random";
-    if value::is_choice(parameter, entry, "such distribution", help, problems) {
+    if value::report_choice(parameter, entry, "such distribution", help, problems) {
         return None;
     }
     let entries = &table::entries(table);

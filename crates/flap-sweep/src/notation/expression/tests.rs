@@ -128,7 +128,7 @@ fn reads_are_the_places_of_the_names() {
     assert_eq!(expression.reads().collect::<Vec<_>>(), [1, 0, 1]);
 }
 
-/// Where something else stands than an operator.
+/// The message at a part that is no operator, in the place of one.
 const OPERATOR: &str =
     "expected an operator; values are in SI units and written without them; products need a `*`";
 
