@@ -51,10 +51,15 @@ fn an_ensemble_allocates_the_same_for_more_cycles() {
 fn a_sweep_allocates_the_same_for_more_cycles() {
     for preset in ["ozaki2018-large", "jafferis2016", "arabagi2013-75hz"] {
         for set in InstructionSet::available() {
-            let (few, few_cycles) = sweep(preset, set, 1e-1);
-            let (many, many_cycles) = sweep(preset, set, 1e-6);
-            assert!(many_cycles > few_cycles, "{preset}, {set}: {many_cycles} cycles against {few_cycles}");
-            assert_eq!(many, few, "{preset}, {set}");
+            for (progressive, loose) in [(false, 1e-1), (true, 1e-6)] {
+                let (few, few_cycles) = sweep(preset, set, loose, progressive);
+                let (many, many_cycles) = sweep(preset, set, 1e-9, progressive);
+                assert!(
+                    many_cycles > few_cycles,
+                    "{preset}, {set}: {many_cycles} cycles against {few_cycles}"
+                );
+                assert_eq!(many, few, "{preset}, {set}, progressive tolerances: {progressive}");
+            }
         }
     }
 }

@@ -16,6 +16,7 @@ const SOLVER: SolverSettings = SolverSettings {
     max_steps: 20_000,
     accuracy: 1e-3,
     newton: true,
+    progressive: true,
 };
 
 /// Every preset of a model.

@@ -20,6 +20,7 @@ const ENDLESS: SolverSettings = SolverSettings {
     max_steps: u32::MAX,
     accuracy: 1e-3,
     newton: false,
+    progressive: false,
 };
 
 /// Points that are interrupted when `until` says so of how often that was asked, and of the rows so far.

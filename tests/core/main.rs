@@ -27,6 +27,7 @@ mod interrupted;
 mod jafferis_figures;
 mod orbits;
 mod parameters;
+mod progressive;
 mod resonance;
 mod robustness;
 mod rows;

@@ -12,6 +12,7 @@ pub(crate) const QUICK: SolverSettings = SolverSettings {
     max_steps: 500,
     accuracy: 1e-3,
     newton: true,
+    progressive: true,
 };
 
 /// Points given in order; rows kept by index.

@@ -2,7 +2,8 @@
 
 use flap_core::simulate::{SettingKind, SolverSettings};
 
-const NAMES: [&str; 7] = ["rtol", "atol", "settle_tol", "max_cycles", "max_steps", "accuracy", "newton"];
+const NAMES: [&str; 8] =
+    ["rtol", "atol", "settle_tol", "max_cycles", "max_steps", "accuracy", "newton", "progressive"];
 
 /// Settings of which none is the default, and none follows another.
 const OTHERS: SolverSettings = SolverSettings {
@@ -13,6 +14,7 @@ const OTHERS: SolverSettings = SolverSettings {
     max_steps: 5,
     accuracy: 6e-2,
     newton: false,
+    progressive: false,
 };
 
 #[test]

@@ -112,6 +112,7 @@ const MARCH: SolverSettings = SolverSettings {
     max_steps: 20_000,
     accuracy: f64::INFINITY,
     newton: true,
+    progressive: true,
 };
 
 /// Any change counts as none, so that the motion has settled after two periods; a third is integrated with responses to

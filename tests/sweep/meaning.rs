@@ -185,7 +185,8 @@ fn solver_settings() {
             max_cycles: 5,
             max_steps: 7,
             accuracy: 0.02,
-            newton: true
+            newton: true,
+            progressive: true,
         }
     );
 }

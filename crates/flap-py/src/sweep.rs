@@ -169,7 +169,8 @@ fn work(
 /// The origin of rows, as a dictionary: versions, model, solver settings, and the text of the grid.
 pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> PyResult<Bound<'py, PyDict>> {
     let identity = Identity::of(plan, options);
-    let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton } = *plan.solver();
+    let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton, progressive } =
+        *plan.solver();
     let solver = PyDict::new(py);
     solver.set_item("rtol", rtol)?;
     solver.set_item("atol", atol)?;
@@ -178,6 +179,7 @@ pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> P
     solver.set_item("max_steps", max_steps)?;
     solver.set_item("accuracy", accuracy)?;
     solver.set_item("newton", newton)?;
+    solver.set_item("progressive", progressive)?;
     let dict = PyDict::new(py);
     dict.set_item("flap", identity.flap)?;
     dict.set_item("build", identity.build)?;

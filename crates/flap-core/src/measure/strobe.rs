@@ -77,6 +77,11 @@ impl<const N: usize> Strobe<N> {
         &self.states[0]
     }
 
+    /// The state a period before the latest.
+    pub fn before(&self) -> &[f64; N] {
+        &self.states[1]
+    }
+
     /// Periods seen.
     pub fn cycles(&self) -> u32 {
         self.cycles

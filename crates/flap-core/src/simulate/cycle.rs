@@ -8,20 +8,24 @@ use crate::model::Model;
 use crate::num::{PerLane, Scalar};
 use crate::ode::ensemble::Observer;
 use crate::ode::solve::solve_until;
-use crate::ode::{Ending, Interrupt, Ode, Outcome, Start};
+use crate::ode::{Interrupt, Ode, Outcome, Start};
 
-/// The totals of a drive period from `start`, of what `signals` asks for, unless it fails.
+/// The state and the totals at the end of a period, unless it failed.
+pub(super) type Measured<const N: usize, const S: usize> = (Option<([f64; N], [Totals<f64>; S])>, Outcome);
+
+/// The state at the end of a drive period from `start`, and totals of what `signals` asks for, unless it fails.
 pub(super) fn cycle<M, R, const N: usize, const S: usize>(
     model: &M,
     solver: &SolverSettings,
     start: &Start<M::Constants<f64>, N>,
     signals: &Signals<'_, M, S>,
     interrupted: Interrupt<'_>,
-) -> (Option<[Totals<f64>; S]>, Outcome)
+) -> Measured<N, S>
 where
     M: Model<N, S>,
     R: Scalar,
 {
+    let mut end = None;
     let mut totals = Observer::<M, N>::nothing(signals).map(|one| Totals::<R>::fill((), &one));
     let outcome = solve_until::<M, R, N>(
         model,
@@ -34,10 +38,12 @@ where
                 || signals.add(c, accepted, true, &mut totals),
             );
         },
-        |_| ControlFlow::Break(()),
+        |y| {
+            end = Some(*y);
+            ControlFlow::Break(())
+        },
     );
-    let totals = totals.map(|total| total.get(0));
-    ((outcome.ending == Ending::Stopped).then_some(totals), outcome)
+    (end.map(|end| (end, totals.map(|total| total.get(0)))), outcome)
 }
 
 /// The state at the end of a drive period from `start`, unless the period fails or is interrupted.

@@ -1,10 +1,8 @@
 //! The estimate of a row's error.
 //!
-//! An orbit is measured twice: on the orbit that the point's tolerances have, and on the one that tolerances coarser by
-//! [`COARSER`] have. The second is found from the first by one period and the monodromy matrix. The error of the method
+//! An orbit is measured twice: on the orbit that the point's tolerances have, and on the one that tolerances coarser by a
+//! factor have. The second is found from the first by one period and the monodromy matrix. The error of the method
 //! goes about as its tolerance, so the difference of the two, divided by that factor, is about the error of the first.
-//!
-//! [`COARSER`]: super::precision::COARSER
 
 use crate::measure::cycle::Totals;
 use crate::model::{Model, SignalCycle};

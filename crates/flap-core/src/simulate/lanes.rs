@@ -61,6 +61,7 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Kernel for 
                 jobs: &mut *jobs,
                 waiting,
                 near: Vec::with_capacity(BATCH),
+                found: Vec::with_capacity(BATCH),
                 resumed: Vec::with_capacity(BATCH),
                 lane_use,
             };
@@ -92,7 +93,9 @@ struct Marching<'a, I, M: Model<N, S>, const N: usize, const K: usize, const S: 
     waiting: Vec<(M, Point)>,
     /// Runs that have come near an orbit, and the state from which their period is to be varied.
     near: Vec<Paused<M::Constants<f64>, N>>,
-    /// Runs whose iteration has failed, and the state from which they march on.
+    /// Runs whose orbit is to be measured.
+    found: Vec<Searched<M::Constants<f64>, N>>,
+    /// Runs that go on marching, and the state from which they do.
     resumed: Vec<Paused<M::Constants<f64>, N>>,
     lane_use: LaneUse,
 }
@@ -112,7 +115,9 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
                 if idle {
                     self.find_and_measure_all();
                 } else if self.near.len() >= Vector::<I>::LANES {
-                    self.find_and_measure();
+                    self.vary();
+                } else if self.found.len() >= Vector::<I>::LANES {
+                    self.measure();
                 }
                 // Runs that march on and points put aside are to run before this one waits for more.
                 if !idle || !self.waiting.is_empty() || !self.resumed.is_empty() {
@@ -129,25 +134,69 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
         None
     }
 
-    /// Finds the orbits of all runs that are near them, and hands on their rows.
+    /// Goes on with all runs that wait for others, until none does.
     fn find_and_measure_all(&mut self) {
-        while !self.near.is_empty() && !self.jobs.interrupted() {
-            self.find_and_measure();
+        while !(self.jobs.interrupted() || self.near.is_empty() && self.found.is_empty()) {
+            self.vary();
+            self.measure();
         }
     }
 
-    /// Finds the orbits of the runs that are near them, measures those, and hands on their rows. Runs whose rows are not
-    /// accurate enough stay.
-    fn find_and_measure(&mut self) {
-        if self.near.is_empty() {
-            return;
+    /// Puts a run where its next step is made. A run without one has its row.
+    fn sort(&mut self, mut run: Searched<M::Constants<f64>, N>, next: Next<N>) {
+        match next {
+            Next::March(y) => self.resumed.push((run, y)),
+            Next::Vary(y) => self.near.push((run, y)),
+            Next::Measure => self.found.push(run),
+            Next::Done => self.jobs.done(run.index, orbit_row::unsettled(&run.search, run.last.take())),
         }
-        let mut orbits = self.find();
-        let compared = self.measure(&mut orbits);
+    }
+
+    /// Integrates periods with responses of the runs that wait for them.
+    fn vary(&mut self) {
+        let pending = std::mem::take(&mut self.near);
+        let mut varying = Varying::<_, N, K> { jobs: &*self.jobs, pending, done: Vec::new() };
+        let ode = Variation(self.model);
+        self.lane_use.varying += run(self.simd, &ode, &Unobserved, &self.solver.tolerances(), &mut varying);
+        let Varying { done, .. } = varying;
         if self.jobs.interrupted() {
             return;
         }
-        for (mut run, compared) in orbits.into_iter().zip(compared) {
+        for (run, next) in done {
+            self.sort(run, next);
+        }
+    }
+
+    /// Measures the orbits that have been found, and hands on their rows. Runs whose orbit turns out not to be one, or
+    /// whose row is not accurate enough, go on.
+    fn measure(&mut self) {
+        let mut orbits = std::mem::take(&mut self.found);
+        let fine = orbits.iter().map(|run| run.search.orbit(&run.start)).collect();
+        let mut compared = vec![Compared::new(); orbits.len()];
+        let mut next = vec![None; orbits.len()];
+        for PeriodEnd { position, end, outcome } in self.periods(&Signals::all(self.model), fine) {
+            let search = &mut orbits[position].search;
+            search.charge(outcome);
+            next[position] = search.confirm(end.as_ref().map(|(y, _)| y));
+            compared[position].take_fine(end.map(|(_, totals)| totals), outcome);
+        }
+        let coarse = orbits.iter().zip(&next).map(|(run, next)| match next {
+            None => run.search.coarse_orbit(&run.start),
+            Some(_) => None,
+        });
+        let coarse = coarse.collect();
+        for PeriodEnd { position, end, outcome } in self.periods(&Signals::means(self.model), coarse) {
+            orbits[position].search.charge(outcome);
+            compared[position].coarse = end.map(|(_, totals)| totals);
+        }
+        if self.jobs.interrupted() {
+            return;
+        }
+        for ((mut run, next), compared) in orbits.into_iter().zip(next).zip(compared) {
+            if let Some(next) = next {
+                self.sort(run, next);
+                continue;
+            }
             let Searched { index, start, search, last } = &mut run;
             match judge(search, self.model, start, &compared, last.take(), self.solver.accuracy) {
                 Verdict::Done(row) => self.jobs.done(*index, row),
@@ -157,61 +206,6 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
                 }
             }
         }
-    }
-
-    /// Runs Newton's iteration of the runs that are near their orbits, and returns those that have found them. Others
-    /// march on, or have their rows. Interrupted, none has found its orbit.
-    fn find(&mut self) -> Vec<Searched<M::Constants<f64>, N>> {
-        let pending = std::mem::take(&mut self.near);
-        let mut varying = Varying::<_, N, K> { jobs: &*self.jobs, pending, done: Vec::new() };
-        let ode = Variation(self.model);
-        self.lane_use.varying += run(self.simd, &ode, &Unobserved, &self.solver.tolerances(), &mut varying);
-        let Varying { pending, done, .. } = varying;
-        self.near = pending;
-        let mut orbits = Vec::new();
-        if self.jobs.interrupted() {
-            return orbits;
-        }
-        for (mut run, next) in done {
-            match (next, run.search.orbit()) {
-                (Next::March(y), _) => self.resumed.push((run, y)),
-                (_, Some(_)) => orbits.push(run),
-                (_, None) => self.jobs.done(run.index, orbit_row::unsettled(&run.search, run.last.take())),
-            }
-        }
-        orbits
-    }
-
-    /// Integrates a period of each orbit, and one of the orbit that coarser tolerances have.
-    fn measure(&mut self, orbits: &mut [Searched<M::Constants<f64>, N>]) -> Vec<Compared<S>> {
-        let start =
-            |run: &Searched<_, N>| Some(run.search.precision().coarse(&run.start, &run.search.orbit()?.y));
-        let departing = orbits.iter().map(start).collect();
-        let mut ends = vec![None; orbits.len()];
-        for PeriodEnd { position, end, outcome } in self.periods(&Unobserved, departing) {
-            orbits[position].search.charge(outcome);
-            ends[position] = end.map(|(y, ())| y);
-        }
-
-        let mut compared = vec![Compared::new(); orbits.len()];
-        let start =
-            |run: &Searched<_, N>| Some(run.search.precision().start(&run.start, &run.search.orbit()?.y));
-        let fine = orbits.iter().map(start).collect();
-        for PeriodEnd { position, end, outcome } in self.periods(&Signals::all(self.model), fine) {
-            orbits[position].search.charge(outcome);
-            compared[position].take_fine(end.map(|(_, totals)| totals), outcome);
-        }
-
-        let start = |(run, end): (&Searched<_, N>, &Option<[f64; N]>)| {
-            let y = run.search.coarse_orbit(end.as_ref()?)?;
-            Some(run.search.precision().coarse(&run.start, &y))
-        };
-        let coarse = orbits.iter().zip(&ends).map(start).collect();
-        for PeriodEnd { position, end, outcome } in self.periods(&Signals::means(self.model), coarse) {
-            orbits[position].search.charge(outcome);
-            compared[position].coarse = end.map(|(_, totals)| totals);
-        }
-        compared
     }
 
     /// Integrates a period from each start, as far as there are any, and observes it.
@@ -234,7 +228,7 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Qu
 
     fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, N>> {
         if let Some((run, y)) = self.resumed.pop() {
-            let start = run.search.precision().start(&run.start, &y);
+            let start = run.search.marching(&run.start, &y);
             return Some((run, start));
         }
         loop {
@@ -242,7 +236,8 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Qu
             match begin(self.model, &point.values, point.begin.as_deref()) {
                 Ok(start) => {
                     let search = Search::new(&start, self.solver, point.begin.is_some());
-                    return Some((Searched { index: point.index, start, search, last: None }, start));
+                    let first = search.marching(&start, &start.y);
+                    return Some((Searched { index: point.index, start, search, last: None }, first));
                 }
                 Err(error) => self.jobs.done(point.index, Row::invalid(error)),
             }
@@ -254,13 +249,13 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Qu
     }
 
     fn ended(&mut self, mut run: Self::Run, outcome: Outcome) {
-        match run.search.marched(outcome) {
-            Next::Vary(y) => self.near.push((run, y)),
-            Next::March(y) => self.resumed.push((run, y)),
-            Next::Done => self.jobs.done(run.index, orbit_row::unsettled(&run.search, None)),
-        }
+        let next = run.search.marched(outcome);
+        self.sort(run, next);
         if self.near.len() >= BATCH {
-            self.find_and_measure();
+            self.vary();
+        }
+        if self.found.len() >= BATCH {
+            self.measure();
         }
     }
 

@@ -78,8 +78,8 @@ pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
     if let Some(fine) = periods.fine.as_ref().map(cycle) {
         row.measures = values(model, &start.constants, &fine);
         let coarse = periods.coarse.as_ref().map(cycle);
-        row.error_estimate = estimate::<M, N, S>(&fine, coarse.as_ref(), periods.slides)
-            .max(LEAST * search.precision().rtol());
+        row.error_estimate =
+            estimate::<M, N, S>(&fine, coarse.as_ref(), periods.slides).max(LEAST * search.rtol());
         audit = M::ENERGY.map_or(0.0, |energy| energy.audit(&fine));
         if is_at_rest::<M, N, S>(&fine) {
             row.floquet_max = f64::NAN;

@@ -5,6 +5,7 @@ use super::cycle::{cycle, end_of_period};
 use super::error::Unfinished;
 use super::orbit_row::measures;
 use super::request::Period;
+use super::search::{monodromy, spectral_radius};
 use super::single::{PointRun, Question};
 use crate::measure::cycle::Signals;
 use crate::model::Model;
@@ -27,13 +28,14 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M,
         let varied = outcome.rhs_evals * (N as u64 + 1);
         let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start, &Signals::all(model), interrupted);
         Unfinished::check(outcome.ending, interrupted)?;
-        let measures = totals.map(|totals| measures(model, &start.constants, &totals, start.span));
+        let measures = totals.map(|(_, totals)| measures(model, &start.constants, &totals, start.span));
         Ok(Period {
             end: all[..N].to_vec(),
             responses: (0..N)
                 .map(|j| response::<N, K>(&all, j).map(|change| change / start.scale[j]).to_vec())
                 .collect(),
             scale: start.scale.to_vec(),
+            floquet_max: spectral_radius(&monodromy(&all, &start.scale)),
             measures: measures.unwrap_or_default(),
             rhs_evals: varied + outcome.rhs_evals,
         })

@@ -75,6 +75,8 @@ pub struct Period {
     pub responses: Vec<Vec<f64>>,
     /// Typical sizes of the state's components.
     pub scale: Vec<f64>,
+    /// Largest modulus of the Floquet multipliers, meaningful if the period repeats.
+    pub floquet_max: f64,
     /// One value per column of the model, meaningful if the period repeats.
     pub measures: Vec<f64>,
     /// Right-hand sides evaluated.

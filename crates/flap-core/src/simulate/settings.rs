@@ -22,6 +22,8 @@ pub struct SolverSettings {
     /// Newton's iteration on the period map looks for the orbit to which a motion is on its way. Without it, points
     /// settle by marching alone: to the same orbits, in more periods.
     pub newton: bool,
+    /// Newton's iteration begins at looser tolerances.
+    pub progressive: bool,
 }
 
 impl SolverSettings {
@@ -34,6 +36,7 @@ impl SolverSettings {
         max_steps: 20_000,
         accuracy: 1e-3,
         newton: true,
+        progressive: true,
     };
 
     /// The settings by name. Grid files, the command line and Python accept these names.
@@ -79,6 +82,11 @@ impl SolverSettings {
             "newton",
             SettingKind::Flag { get: |s| s.newton, set: |s, newton| s.newton = newton },
             "Newton's iteration looks for orbits; without it points settle by marching alone",
+        ),
+        Setting::new(
+            "progressive",
+            SettingKind::Flag { get: |s| s.progressive, set: |s, progressive| s.progressive = progressive },
+            "the search for an orbit begins at looser tolerances and ends at rtol; without it the whole search is at rtol",
         ),
     ];
 

@@ -4,7 +4,7 @@ use core::cell::Cell;
 
 use super::accuracy::{Verdict, judge};
 use super::begin::begin;
-use super::cycle::{cycle, end_of_period};
+use super::cycle::{Measured, cycle, end_of_period};
 use super::estimate::Compared;
 use super::orbit_row;
 use super::row::Row;
@@ -55,22 +55,27 @@ where
         Settling { model, solver, start, interrupted, search: Search::new(start, solver, nearby) };
     let mut next = Next::March(start.y);
     let mut last = None;
-    loop {
-        point.seek::<R, K>(next);
-        let orbit = point.search.orbit().map(|orbit| orbit.y).filter(|_| !interrupted());
-        let Some(orbit) = orbit else {
-            let row = orbit_row::unsettled(&point.search, last);
-            return Settled { search: point.search, row };
+    while !interrupted() {
+        next = match next {
+            Next::March(y) => point.march::<R>(&y),
+            Next::Vary(y) => point.vary::<R, K>(&y),
+            Next::Measure => match point.measure::<R>() {
+                Err(next) => next,
+                Ok(periods) => {
+                    match judge(&mut point.search, model, start, &periods, last.take(), solver.accuracy) {
+                        Verdict::Done(row) => return Settled { search: point.search, row },
+                        Verdict::Again(row, y) => {
+                            last = Some(row);
+                            Next::Vary(y)
+                        }
+                    }
+                }
+            },
+            Next::Done => break,
         };
-        let periods = point.compare::<R>(&orbit);
-        match judge(&mut point.search, model, start, &periods, last, solver.accuracy) {
-            Verdict::Done(row) => return Settled { search: point.search, row },
-            Verdict::Again(row, y) => {
-                last = Some(row);
-                next = Next::Vary(y);
-            }
-        }
     }
+    let row = orbit_row::unsettled(&point.search, last);
+    Settled { search: point.search, row }
 }
 
 /// A point on its way.
@@ -83,20 +88,9 @@ struct Settling<'a, M: Model<N, S>, const N: usize, const S: usize> {
 }
 
 impl<M: Model<N, S>, const N: usize, const S: usize> Settling<'_, M, N, S> {
-    /// Goes on with the search for an orbit, to its end.
-    fn seek<R: Scalar, const K: usize>(&mut self, mut next: Next<N>) {
-        while !(self.interrupted)() {
-            next = match next {
-                Next::March(y) => self.march::<R>(&y),
-                Next::Vary(y) => self.vary::<R, K>(&y),
-                Next::Done => return,
-            }
-        }
-    }
-
-    /// Marches from `y` until the search pauses the march.
+    /// Integrates periods from `y` until the search has enough of them.
     fn march<R: Scalar>(&mut self, y: &[f64; N]) -> Next<N> {
-        let from = self.search.precision().start(self.start, y);
+        let from = self.search.marching(self.start, y);
         let largest = Cell::new([R::splat((), 0.0); N]);
         let outcome = solve_until::<M, R, N>(
             self.model,
@@ -123,25 +117,32 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Settling<'_, M, N, S> {
         self.search.varied(end.as_ref(), outcome)
     }
 
-    /// Integrates a period of the orbit that begins at `orbit`, and one of the orbit that coarser tolerances have.
-    fn compare<R: Scalar>(&mut self, orbit: &[f64; N]) -> Compared<S> {
-        let Settling { model, solver, start, interrupted, .. } = *self;
-        let coarse = self.search.precision().coarse(start, orbit);
-        let (end, outcome) = end_of_period::<_, R, N>(model, solver, &coarse, interrupted);
-        self.search.charge(outcome);
-
+    /// Integrates a period of the orbit, and one of the orbit that coarser tolerances have. An error is the search's next
+    /// step, if the orbit turns out not to be one.
+    fn measure<R: Scalar>(&mut self) -> Result<Compared<S>, Next<N>> {
         let mut periods = Compared::new();
-        let fine = self.search.precision().start(start, orbit);
-        let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &fine, &Signals::all(model), interrupted);
-        self.search.charge(outcome);
-        periods.take_fine(totals, outcome);
-        if let Some(y) = end.and_then(|end| self.search.coarse_orbit(&end)) {
-            let coarse = self.search.precision().coarse(start, &y);
-            let (totals, outcome) =
-                cycle::<M, R, N, S>(model, solver, &coarse, &Signals::means(model), interrupted);
-            self.search.charge(outcome);
-            periods.coarse = totals;
+        let fine =
+            self.search.orbit(self.start).map(|fine| self.cycle::<R>(&fine, &Signals::all(self.model)));
+        if let Some((end, outcome)) = fine {
+            if let Some(next) = self.search.confirm(end.as_ref().map(|(y, _)| y)) {
+                return Err(next);
+            }
+            periods.take_fine(end.map(|(_, totals)| totals), outcome);
         }
-        periods
+        let coarse = self.search.coarse_orbit(self.start);
+        let coarse = coarse.map(|coarse| self.cycle::<R>(&coarse, &Signals::means(self.model)));
+        periods.coarse = coarse.and_then(|(end, _)| end).map(|(_, totals)| totals);
+        Ok(periods)
+    }
+
+    /// Integrates a period from `start`, of what `signals` asks for.
+    fn cycle<R: Scalar>(
+        &mut self,
+        start: &Start<M::Constants<f64>, N>,
+        signals: &Signals<'_, M, S>,
+    ) -> Measured<N, S> {
+        let measured = cycle::<M, R, N, S>(self.model, self.solver, start, signals, self.interrupted);
+        self.search.charge(measured.1);
+        measured
     }
 }

@@ -27,7 +27,7 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M,
             let Some(orbit) = orbit.filter(|_| row.status == Status::Periodic) else {
                 return Err(Unfinished::NotPeriodic { status: row.status, cycles: row.cycles });
             };
-            start = search.precision().start(&start, &orbit);
+            start = search.from(&start, &orbit);
         }
         sampled::<M, R, N, S>(model, solver, &start, self.cycles, self.samples_per_cycle, interrupted)
     }

@@ -93,6 +93,7 @@ def run(
     max_steps: SupportsIndex | None = None,
     accuracy: SupportsFloat | None = None,
     newton: bool | None = None,
+    progressive: bool | None = None,
     **parameters: SupportsFloat | str,
 ) -> dict[str, Any]:
     """Run one design point until its motion repeats with the drive, then measure one drive period.
@@ -128,6 +129,9 @@ def run(
     newton : bool, optional
         True to find the orbit that the motion approaches by Newton's iteration. If False, the motion is integrated
         until it settles on the same orbit, in more periods. Default True.
+    progressive : bool, optional
+        True to begin the search for the orbit at looser tolerances, and to end it at rtol. If False, the whole search
+        is at rtol: to the same orbit, for about twice the work. Default True.
     **parameters : float or str
         Parameters of the model by name: a number in SI units, text with a unit such as
         ``"1.5 uN*m/rad"``, or the name of an option if the parameter is a choice.
@@ -175,9 +179,10 @@ def run(
     TypeError
         A value of the wrong type, such as text for a tolerance or a number for an option.
     """
-    solver = {"rtol": rtol, "atol": atol, "settle_tol": settle_tol, "accuracy": accuracy, "newton": newton}
+    solver = {"rtol": rtol, "atol": atol, "settle_tol": settle_tol, "accuracy": accuracy}
     steps = {"max_cycles": max_cycles, "max_steps": max_steps}
-    return _flapwing.run(preset, {**parameters, **solver, **steps})
+    search = {"newton": newton, "progressive": progressive}
+    return _flapwing.run(preset, {**parameters, **solver, **steps, **search})
 
 
 def trajectory(

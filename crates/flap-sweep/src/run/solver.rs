@@ -15,6 +15,9 @@ pub(crate) struct SolverFields {
     #[serde(default = "default_accuracy")]
     accuracy: f64,
     newton: bool,
+    /// False for results of versions that did not know it.
+    #[serde(default)]
+    progressive: bool,
 }
 
 /// The accuracy of results whose files do not record it.

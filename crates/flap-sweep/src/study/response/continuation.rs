@@ -178,10 +178,7 @@ impl Branch<'_> {
     fn row(&self, orbit: &Orbit) -> Row {
         let n = self.sizes.len();
         let Orbit { place, period, residual, iterations, rhs_evals } = orbit;
-        let monodromy = DMatrix::from_fn(n, n, |i, j| period.responses[j][i] * self.sizes[j] / self.sizes[i]);
-        let multipliers = monodromy.complex_eigenvalues();
-        let floquet_max =
-            multipliers.iter().fold(0.0_f64, |largest, one| largest.max(libm::hypot(one.re, one.im)));
+        let floquet_max = period.floquet_max;
         // A period with its responses counts as many as there are of them and one, and each was measured.
         let periods = (2 * iterations + 1) * (n + 2);
         Row {

@@ -1,9 +1,9 @@
 //! The march of a point: one drive period after another, until it has settled, may have come near an orbit, or takes
 //! too long.
 
-use super::settings::SolverSettings;
 use crate::measure::strobe::Strobe;
 use crate::ode::Start;
+use crate::simulate::settings::SolverSettings;
 
 /// Periods that are marched before Newton's iteration is first tried: from rest, and from a state that is perhaps near
 /// an orbit.
@@ -47,6 +47,11 @@ impl<const N: usize> March<N> {
             max_cycles: solver.max_cycles,
             next_try: solver.newton.then_some(if nearby { FIRST_TRY_NEARBY } else { FIRST_TRY }),
         }
+    }
+
+    /// The same march, of at most this many drive periods.
+    pub(super) fn at_most(self, cycles: u32) -> March<N> {
+        March { max_cycles: self.max_cycles.min(cycles), ..self }
     }
 
     /// Takes the state at the end of a period, with the largest magnitude of each state so far. Returns the orbit's
@@ -102,6 +107,11 @@ impl<const N: usize> March<N> {
     /// The state at the end of the last period.
     pub(super) fn state(&self) -> &[f64; N] {
         self.strobe.state()
+    }
+
+    /// The state a period before that.
+    pub(super) fn before(&self) -> &[f64; N] {
+        self.strobe.before()
     }
 
     /// Drive periods marched.

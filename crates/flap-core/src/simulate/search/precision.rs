@@ -1,14 +1,14 @@
 //! The tolerances with which a point is integrated: those of its motion's size, tightened where they do not suffice.
 
-use super::settings::SolverSettings;
 use crate::ode::Start;
+use crate::simulate::settings::SolverSettings;
 
 /// The finest tolerances at which a point is integrated again: relative to those that were asked for, and as `rtol`.
 const FINEST: f64 = 1e-5;
 const FINEST_RTOL: f64 = 1e-12;
 
 /// The factor between the tolerances of a row and those, coarser, with which it is compared.
-pub(super) const COARSER: f64 = 64.0;
+const COARSER: f64 = 64.0;
 
 /// The tolerances of a point.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +17,8 @@ pub(super) struct Precision<const N: usize> {
     size: [f64; N],
     /// The relative tolerance that was asked for.
     rtol: f64,
-    /// The factor on the relative tolerance and on the absolute ones.
+    /// The factor on the relative tolerance and on the absolute ones: that of the point, and the one now.
+    asked: f64,
     tighten: f64,
     /// The smallest such factor.
     finest: f64,
@@ -29,6 +30,7 @@ impl<const N: usize> Precision<N> {
         Precision {
             size: start.scale,
             rtol: solver.rtol,
+            asked: start.tighten,
             tighten: start.tighten,
             finest: start.tighten * FINEST.max(FINEST_RTOL / solver.rtol).min(1.0),
         }
@@ -52,6 +54,27 @@ impl<const N: usize> Precision<N> {
     /// Multiplies the tolerances by `factor`, down to the finest.
     pub(super) fn tighten(&mut self, factor: f64) {
         self.tighten = (self.tighten * factor).max(self.finest);
+    }
+
+    /// Loosens the tolerances to the relative tolerance `rtol`, or to that asked for if it is looser.
+    pub(super) fn loosen_to(&mut self, rtol: f64) {
+        self.tighten = self.asked * (rtol / self.rtol).max(1.0);
+    }
+
+    /// The relative tolerance that was asked for.
+    pub(super) fn asked_rtol(&self) -> f64 {
+        self.rtol * self.asked
+    }
+
+    /// Returns to the tolerances that were asked for, relative to these sizes of the states.
+    pub(super) fn begin_again(&mut self, size: &[f64; N]) {
+        self.size = *size;
+        self.restore();
+    }
+
+    /// Returns to the tolerances that were asked for.
+    pub(super) fn restore(&mut self) {
+        self.tighten = self.asked;
     }
 
     /// The factor on the tolerances that were asked for.

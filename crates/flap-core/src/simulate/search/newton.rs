@@ -1,8 +1,8 @@
 //! Newton's iteration on the period map: from a state near a periodic orbit onto it.
 
-use nalgebra::DMatrix;
+use nalgebra::{SMatrix, SVector};
 
-use crate::ode::variation::response;
+use super::multipliers::{monodromy, spectral_radius};
 
 /// Iterations after which a search is given up: where it converges at all, it takes two to four.
 const LONGEST: u32 = 8;
@@ -21,6 +21,8 @@ pub(super) struct Newton<const N: usize> {
     /// The residual that is aimed at, and the one that will do if it cannot be reached.
     goal: f64,
     enough: f64,
+    /// The error of the march.
+    slack: f64,
     /// The state of the march when the search began, and a period later.
     march: [[f64; N]; 2],
     /// The beginning of the period that is being integrated.
@@ -62,6 +64,7 @@ impl<const N: usize> Newton<N> {
             scale: *scale,
             goal: tolerance,
             enough: tolerance,
+            slack: tolerance,
             march: [*y; 2],
             y: *y,
             iterations: 0,
@@ -74,10 +77,25 @@ impl<const N: usize> Newton<N> {
         Newton { goal, ..self }
     }
 
+    /// The same search after a march whose last period began at `before` and ended at `after`.
+    pub(super) fn after(self, before: &[f64; N], after: &[f64; N]) -> Newton<N> {
+        Newton { march: [*before, *after], iterations: 1, ..self }
+    }
+
+    /// The same search after a march that errs by `slack`, in units of the states' typical sizes.
+    pub(super) fn allowing(self, slack: f64) -> Newton<N> {
+        Newton { slack, ..self }
+    }
+
     /// The search that goes on from where this one was stuck, on the period map of finer integration. Returns it with
     /// the state at which it goes on.
     pub(super) fn resumed(self) -> (Newton<N>, [f64; N]) {
-        (Newton { iterations: 1, residual: f64::INFINITY, ..self }, self.y)
+        (self.resumed_at(self.y), self.y)
+    }
+
+    /// The search that goes on from the state `y`, on the period map of other tolerances.
+    pub(super) fn resumed_at(self, y: [f64; N]) -> Newton<N> {
+        Newton { y, iterations: 1, residual: f64::INFINITY, ..self }
     }
 
     /// Judges a period, given its end with the responses to changes of its beginning.
@@ -86,17 +104,14 @@ impl<const N: usize> Newton<N> {
         if self.iterations == 0 {
             self.march[1] = end;
         }
-        let change = difference(&end, &self.y);
-        let size = self.size(&end).max(self.size(&self.y)).min(1.0);
-        let residual = if change == [0.0; N] { 0.0 } else { self.size(&change) / size };
+        let residual = self.residual(&self.y, &end);
         let monodromy = self.monodromy(all);
         let slow = residual > PROGRESS * self.residual || self.iterations == LONGEST;
-        let next = fixed_point(&monodromy, &self.scale, &self.y, &change);
+        let next = fixed_point(&monodromy, &self.scale, &self.y, &end);
         if residual <= self.goal || (slow && residual <= self.enough) {
             let y = next.unwrap_or(end);
             let point = FixedPoint { y, residual, monodromy, floquet_max: spectral_radius(&monodromy) };
-            let approached = point.floquet_max < 1.0 && self.approaches(&point.y, &monodromy);
-            return if approached { Step::Found(point) } else { Step::Failed };
+            return if self.leads_to(&point) { Step::Found(point) } else { Step::Failed };
         }
         self.residual = residual;
         self.iterations += 1;
@@ -109,21 +124,61 @@ impl<const N: usize> Newton<N> {
         }
     }
 
-    /// Column j: response to a change of component j by its scale, in units of the scales.
+    /// The same search from the state `y`.
+    pub(super) fn moved_to(self, y: [f64; N]) -> Newton<N> {
+        Newton { y, ..self }
+    }
+
+    /// The fixed point of the linear map of the period that is being integrated, given its end with the responses.
+    pub(super) fn linearised<const K: usize>(&self, all: &[f64; K]) -> Option<FixedPoint<N>> {
+        let end: [f64; N] = core::array::from_fn(|i| all[i]);
+        let y = fixed_point(&self.monodromy(all), &self.scale, &self.y, &end)?;
+        Some(FixedPoint { residual: self.residual(&self.y, &end), ..self.point(y, all) })
+    }
+
+    /// The state `y` as an orbit, with the monodromy matrix of the period that is being integrated.
+    pub(super) fn point<const K: usize>(&self, y: [f64; N], all: &[f64; K]) -> FixedPoint<N> {
+        let monodromy = self.monodromy(all);
+        FixedPoint { y, residual: f64::NAN, monodromy, floquet_max: spectral_radius(&monodromy) }
+    }
+
+    /// The change of the state over a period from `y` to `end`: in units of the scales, in a motion smaller than these
+    /// relative to its own size.
+    pub(super) fn residual(&self, y: &[f64; N], end: &[f64; N]) -> f64 {
+        let change = difference(end, y);
+        let size = self.size(end).max(self.size(y)).min(1.0);
+        if change == [0.0; N] { 0.0 } else { self.size(&change) / size }
+    }
+
+    /// The residual that is aimed at.
+    pub(super) fn goal(&self) -> f64 {
+        self.goal
+    }
+
+    /// True if the residual is as small as the search aims at.
+    pub(super) fn is_enough(&self, residual: f64) -> bool {
+        residual <= self.goal
+    }
+
+    /// Typical sizes of the states.
+    pub(super) fn scale(&self) -> &[f64; N] {
+        &self.scale
+    }
+
+    /// The monodromy matrix, given the end of a period with its responses.
     pub(super) fn monodromy<const K: usize>(&self, all: &[f64; K]) -> [[f64; N]; N] {
-        let mut monodromy = [[0.0; N]; N];
-        for j in 0..N {
-            let column = response::<N, K>(all, j);
-            for i in 0..N {
-                monodromy[i][j] = column[i] / self.scale[i];
-            }
-        }
-        monodromy
+        monodromy(all, &self.scale)
+    }
+
+    /// True if the orbit is stable, and the march was on its way to it.
+    pub(super) fn leads_to(&self, orbit: &FixedPoint<N>) -> bool {
+        orbit.floquet_max < 1.0 && self.approaches(orbit)
     }
 
     /// True if the march, in the period with which the search began, moved towards the orbit through `y` as the orbit's
     /// linear map predicts. Then the march was near the orbit and, if that is stable, goes there.
-    fn approaches(&self, y: &[f64; N], monodromy: &[[f64; N]; N]) -> bool {
+    fn approaches(&self, orbit: &FixedPoint<N>) -> bool {
+        let FixedPoint { y, monodromy, .. } = orbit;
         let [before, after] = self.march.map(|march| {
             let distance = difference(&march, y);
             core::array::from_fn::<f64, N, _>(|i| distance[i] / self.scale[i])
@@ -138,7 +193,7 @@ impl<const N: usize> Newton<N> {
             astray = astray.max((after[i] - predicted).abs());
             distance = distance.max(before[i].abs());
         }
-        astray <= LINEAR * distance + self.enough
+        astray <= LINEAR * distance + self.slack
     }
 
     /// The largest component in units of the scales.
@@ -150,76 +205,25 @@ impl<const N: usize> Newton<N> {
 impl<const N: usize> FixedPoint<N> {
     /// The fixed point of a slightly different map, which takes this one's state to `end`. `None` if it is not near.
     pub(super) fn of_map(&self, scale: &[f64; N], end: &[f64; N]) -> Option<[f64; N]> {
-        fixed_point(&self.monodromy, scale, &self.y, &difference(end, &self.y))
+        fixed_point(&self.monodromy, scale, &self.y, end)
     }
 }
 
-/// The fixed point of the linear map that changes `y` by `change`, and small changes of y as the monodromy matrix says.
-fn fixed_point<const N: usize>(
+/// The fixed point of the linear map that takes `y` to `end`, and changes small changes of y as the monodromy matrix
+/// says. `None` if the linear system is singular or not finite.
+pub(super) fn fixed_point<const N: usize>(
     monodromy: &[[f64; N]; N],
     scale: &[f64; N],
     y: &[f64; N],
-    change: &[f64; N],
+    end: &[f64; N],
 ) -> Option<[f64; N]> {
-    let scaled = core::array::from_fn(|i| change[i] / scale[i]);
-    let step = solve(&identity_minus(monodromy), &scaled)?;
-    Some(core::array::from_fn(|i| y[i] + step[i] * scale[i]))
+    let inverse =
+        SMatrix::<f64, N, N>::from_fn(|i, j| f64::from(u8::from(i == j)) - monodromy[i][j]).try_inverse()?;
+    let step = inverse * SVector::<f64, N>::from_fn(|i, _| (end[i] - y[i]) / scale[i]);
+    let is_finite = step.iter().all(|component| component.is_finite());
+    is_finite.then(|| core::array::from_fn(|i| y[i] + step[i] * scale[i]))
 }
 
 fn difference<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
     core::array::from_fn(|i| a[i] - b[i])
-}
-
-/// The identity matrix.
-pub(super) fn identity<const N: usize>() -> [[f64; N]; N] {
-    core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j))))
-}
-
-/// The product `second * first`.
-pub(super) fn product<const N: usize>(second: &[[f64; N]; N], first: &[[f64; N]; N]) -> [[f64; N]; N] {
-    core::array::from_fn(|i| core::array::from_fn(|j| (0..N).map(|k| second[i][k] * first[k][j]).sum()))
-}
-
-fn identity_minus<const N: usize>(m: &[[f64; N]; N]) -> [[f64; N]; N] {
-    let identity = identity::<N>();
-    core::array::from_fn(|i| core::array::from_fn(|j| identity[i][j] - m[i][j]))
-}
-
-/// Solves a small linear system by elimination with pivoting; `None` if it is singular or not finite.
-fn solve<const N: usize>(matrix: &[[f64; N]; N], right: &[f64; N]) -> Option<[f64; N]> {
-    let (mut a, mut b) = (*matrix, *right);
-    for k in 0..N {
-        let pivot = (k..N).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs()))?;
-        if !(a[pivot][k].abs() > 1e-14 && a[pivot][k].is_finite()) {
-            return None;
-        }
-        a.swap(k, pivot);
-        b.swap(k, pivot);
-        for i in k + 1..N {
-            let factor = a[i][k] / a[k][k];
-            for j in k..N {
-                a[i][j] -= factor * a[k][j];
-            }
-            b[i] -= factor * b[k];
-        }
-    }
-    for k in (0..N).rev() {
-        for j in k + 1..N {
-            b[k] -= a[k][j] * b[j];
-        }
-        b[k] /= a[k][k];
-    }
-    b.iter().all(|x| x.is_finite()).then_some(b)
-}
-
-/// Largest modulus of the eigenvalues; infinite if one of the matrix's components is, NaN if one is not a number.
-pub(super) fn spectral_radius<const N: usize>(m: &[[f64; N]; N]) -> f64 {
-    if m.iter().flatten().any(|x| x.is_nan()) {
-        return f64::NAN;
-    }
-    if m.iter().flatten().any(|x| x.is_infinite()) {
-        return f64::INFINITY;
-    }
-    let matrix = DMatrix::from_fn(N, N, |i, j| m[i][j]);
-    matrix.complex_eigenvalues().iter().fold(0.0, |radius, value| libm::hypot(value.re, value.im).max(radius))
 }

@@ -1,0 +1,101 @@
+//! Progressive tolerances find the orbits on which motions from rest settle at full tolerance.
+
+use flap_core::model::bimorph;
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{Row, Simulator, SolverSettings, Status, all, by_name};
+
+use crate::{robustness, rows};
+
+/// Designs drawn of each model.
+const DRAWN: usize = 2000;
+
+/// Drive periods that designs are marched at most.
+const PATIENCE: u32 = 400;
+
+fn progressive() -> SolverSettings {
+    SolverSettings { max_cycles: PATIENCE, ..SolverSettings::default() }
+}
+
+fn full() -> SolverSettings {
+    SolverSettings { progressive: false, ..progressive() }
+}
+
+/// Marching alone, to a residual above the jitter of the period map.
+fn marching() -> SolverSettings {
+    SolverSettings { newton: false, settle_tol: 1e-5, ..full() }
+}
+
+/// True if both rows are of the same motion: of the same status, with the same stroke and pitch to 1 %.
+fn agree(model: &dyn Simulator, one: &Row, other: &Row) -> bool {
+    let angle = |name: &str| name == "stroke_amplitude_deg" || name == "pitch_amplitude_deg";
+    let measures = model.columns().iter().zip(one.measures.iter().zip(&other.measures));
+    let mut angles = measures.filter(|(column, _)| angle(&column.name));
+    one.status == other.status && angles.all(|(_, (a, b))| (a - b).abs() <= 1e-2 * a.abs())
+}
+
+/// Compares the rows of `designs` with those at full tolerance and with those of marching alone, and prints the counts.
+fn compare(model: &dyn Simulator, what: &str, designs: &[Vec<f64>]) {
+    let [found, full, marched] = [progressive(), full(), marching()]
+        .map(|solver| rows::of(model, designs, InstructionSet::best(), &solver));
+    let settled = |row: &Row| matches!(row.status, Status::Periodic | Status::Subharmonic);
+    let (mut compared, mut other, mut other_march, mut evals) = (0, 0, 0, [0, 0]);
+    for ((found, full), marched) in found.iter().zip(&full).zip(&marched) {
+        other += usize::from(!agree(model, found, full));
+        // Either may leave a motion unsettled that the other settles.
+        if settled(found) && settled(marched) {
+            compared += 1;
+            other_march += usize::from(!agree(model, found, marched));
+        }
+        if settled(found) {
+            evals = [evals[0] + found.rhs_evals, evals[1] + full.rhs_evals];
+        }
+    }
+    println!(
+        "{what}: {} designs, {other} with another motion than at full tolerance; {compared} settle by marching alone too, \
+         {other_march} on another motion; {:.3} of the right-hand sides of those that settle",
+        designs.len(),
+        evals[0] as f64 / evals[1] as f64
+    );
+    assert_eq!((other, other_march), (0, 0), "{what}");
+    assert!(compared > designs.len() / 3, "{what}");
+    assert!(evals[0] < evals[1], "{what}");
+}
+
+#[test]
+fn random_designs_settle_on_the_orbits_of_full_tolerance() {
+    for &model in all() {
+        compare(model, model.name(), &robustness::designs(model, DRAWN));
+    }
+}
+
+/// With half of its hinge stiffness the bimorph has two orbits between 124 and 128 Hz.
+#[test]
+fn a_bistable_bimorph_settles_on_the_orbits_of_full_tolerance() {
+    let base = bimorph::Params::jafferis2016();
+    let mut designs = Vec::new();
+    for voltage in 0..24 {
+        for frequency in 0..48 {
+            let p = bimorph::Params {
+                hinge_stiffness: 0.5 * base.hinge_stiffness,
+                drive_voltage_pp: 140.0 + 2.0 * f64::from(voltage),
+                drive_frequency: 116.0 + 0.375 * f64::from(frequency),
+                ..base.clone()
+            };
+            designs.push(p.to_values());
+        }
+    }
+    compare(by_name("bimorph").unwrap(), "bistable bimorph", &designs);
+}
+
+#[test]
+fn the_orbit_meets_the_residual_that_was_asked_for() {
+    for settle_tol in [1e-5, 1e-6, 1e-7] {
+        for &model in all() {
+            let solver = SolverSettings { settle_tol, ..progressive().with_rtol(1e-7) };
+            for row in rows::of(model, &robustness::designs(model, 100), InstructionSet::best(), &solver) {
+                let kept = row.status != Status::Periodic || row.residual <= settle_tol;
+                assert!(kept, "{row:?} at {settle_tol:e}");
+            }
+        }
+    }
+}
