@@ -39,16 +39,24 @@ impl<R: Lanes, const N: usize> Step<R, N> {
     /// sides.
     #[inline(always)]
     pub fn attempt<O: Ode<N>>(&mut self, ode: &O, c: &O::Constants<R>, t: R, h: R, side: R) {
-        let mut u = ode.input(c, h.mul_add(h.lit(C[1]), t));
+        // All inputs first, because they do not wait for each other. Stages 6 and 7 are both at the end of the step and share
+        // theirs.
+        let mut inputs = [ode.input(c, h.mul_add(h.lit(C[1]), t)); STAGES - 2];
+        for i in 1..STAGES - 2 {
+            inputs[i] = ode.input(c, h.mul_add(h.lit(C[i + 1]), t));
+        }
         // A loop, so that the right-hand side is compiled once: six copies of it take the compiler minutes, and are no
         // faster.
+        let mut last = self.k[0];
         for stage in 1..STAGES {
-            let y = combine(&self.y[0], h, &self.k, &A[stage], stage);
-            // Stages 6 and 7 are both at the end of the step and share its inputs.
-            if stage > 1 && C[stage] != C[stage - 1] {
-                u = ode.input(c, h.mul_add(h.lit(C[stage]), t));
+            let mut y = combine(&self.y[0], h, &self.k, &A[stage], stage - 1);
+            // The last slope comes last, from its registers: the other terms are ready before it.
+            let weight = h * A[stage][stage - 1];
+            for i in 0..N {
+                y[i] = last[i].mul_add(weight, y[i]);
             }
-            self.k[stage] = ode.rhs(c, &u, side, &y);
+            last = ode.rhs(c, &inputs[stage.min(STAGES - 2) - 1], side, &y);
+            self.k[stage] = last;
             self.y[stage] = y;
         }
         let zero = [h.lit(0.0); N];
@@ -98,13 +106,13 @@ fn add<R: Lanes, const N: usize, const W: usize, const SIZE: usize>(
     count: usize,
     first: usize,
 ) {
-    let mut sum = [h; SIZE];
-    for i in 0..SIZE {
-        sum[i] = k[0][first + i] * weights[0];
-    }
-    for j in 1..W {
+    let mut sum = [h.lit(0.0); SIZE];
+    for j in 0..W {
         if j == count {
             break;
+        }
+        if weights[j] == 0.0 {
+            continue;
         }
         let weight = h.lit(weights[j]);
         for i in 0..SIZE {
