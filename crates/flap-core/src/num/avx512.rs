@@ -9,12 +9,14 @@ use core::arch::x86_64::{
     __m512d, __m512i, __mmask8, _CMP_LT_OQ, _mm512_abs_pd, _mm512_add_epi64, _mm512_add_pd, _mm512_and_si512,
     _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_fmadd_pd,
     _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_or_si512, _mm512_set1_epi64,
-    _mm512_set1_pd, _mm512_slli_epi64, _mm512_sqrt_pd, _mm512_srli_epi64, _mm512_sub_pd,
+    _mm512_set1_pd, _mm512_slli_epi64, _mm512_sqrt_pd, _mm512_srli_epi64, _mm512_sub_epi64, _mm512_sub_pd,
     _mm512_ternarylogic_epi64, _mm512_xor_si512,
 };
 use core::mem::transmute;
 
-use super::float::{EXPONENT_BITS, Float, MANTISSA_BITS, ONE_BITS, ROUND, TWO_52, TWO_52_BITS};
+use super::float::{
+    EXPONENT_BITS, Float, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52, TWO_52_BITS,
+};
 use super::lanes::Lanes;
 use super::number::Number;
 use super::operators::{constants_on_the_right, operator};
@@ -210,6 +212,18 @@ impl Float for F64x8 {
         let field = intrinsic!(_mm512_srli_epi64::<52>(kept(EXPONENT_BITS)));
         let exponent = Self::from_bits(intrinsic!(_mm512_or_si512(field, Self::all(TWO_52_BITS))));
         (exponent - (TWO_52 + 1023.0), Self::from_bits(mantissa))
+    }
+
+    #[inline(always)]
+    fn linear_log2(self) -> Self {
+        let octaves = intrinsic!(_mm512_srli_epi64::<12>(self.to_bits()));
+        let number = Self::from_bits(intrinsic!(_mm512_or_si512(octaves, Self::all(TWO_52_BITS))));
+        number.mul_add(Self::broadcast(OCTAVE), Self::broadcast(-TWO_52 * OCTAVE - 1023.0))
+    }
+
+    #[inline(always)]
+    fn reciprocal_guess(self) -> Self {
+        Self::from_bits(intrinsic!(_mm512_sub_epi64(Self::all(RECIPROCAL_BITS), self.to_bits())))
     }
 
     #[inline(always)]

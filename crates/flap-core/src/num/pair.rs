@@ -141,6 +141,16 @@ impl<L: Lanes> Float for Pair<L> {
     }
 
     #[inline(always)]
+    fn linear_log2(self) -> Self {
+        Pair { lo: self.lo.linear_log2(), hi: self.hi.linear_log2() }
+    }
+
+    #[inline(always)]
+    fn reciprocal_guess(self) -> Self {
+        Pair { lo: self.lo.reciprocal_guess(), hi: self.hi.reciprocal_guess() }
+    }
+
+    #[inline(always)]
     fn times_power_of_two(self, k: Self) -> Self {
         Pair { lo: self.lo.times_power_of_two(k.lo), hi: self.hi.times_power_of_two(k.hi) }
     }

@@ -2,7 +2,9 @@
 
 use fearless_simd::{Bytes, ExtractToken, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask};
 
-use super::float::{EXPONENT_BITS, Float, MANTISSA_BITS, ONE_BITS, ROUND, TWO_52, TWO_52_BITS};
+use super::float::{
+    EXPONENT_BITS, Float, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52, TWO_52_BITS,
+};
 use super::lanes::Lanes;
 use super::number::Number;
 use super::operators::{constants_on_the_right, of_inner, operator};
@@ -101,6 +103,17 @@ impl<S: Simd> Float for Register<S> {
         let mantissa = Self::from_bits((self.to_bits() & MANTISSA_BITS) | ONE_BITS);
         let exponent = Self::from_bits(((self.to_bits() & EXPONENT_BITS) >> 52) | TWO_52_BITS);
         (exponent - (TWO_52 + 1023.0), mantissa)
+    }
+
+    #[inline(always)]
+    fn linear_log2(self) -> Self {
+        let number = Self::from_bits((self.to_bits() >> 12) | TWO_52_BITS);
+        number.mul_add(number.lit(OCTAVE), number.lit(-TWO_52 * OCTAVE - 1023.0))
+    }
+
+    #[inline(always)]
+    fn reciprocal_guess(self) -> Self {
+        Self::from_bits(S::u64s::simd_from(self.0.token(), RECIPROCAL_BITS) - self.to_bits())
     }
 
     #[inline(always)]

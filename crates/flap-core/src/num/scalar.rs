@@ -1,6 +1,8 @@
 //! One number at a time.
 
-use super::float::{EXPONENT_BITS, Float, MANTISSA_BITS, ONE_BITS, ROUND, TWO_52, TWO_52_BITS};
+use super::float::{
+    EXPONENT_BITS, Float, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52, TWO_52_BITS,
+};
 use super::lanes::Lanes;
 use super::number::Number;
 
@@ -127,6 +129,17 @@ impl Float for f64 {
         // The exponent field as a whole number: its bits below those of 2^52.
         let exponent = f64::from_bits(((bits & EXPONENT_BITS) >> 52) | TWO_52_BITS) - (TWO_52 + 1023.0);
         (exponent, mantissa)
+    }
+
+    #[inline(always)]
+    fn linear_log2(self) -> f64 {
+        let number = f64::from_bits((self.to_bits() >> 12) | TWO_52_BITS);
+        number.mul_add(OCTAVE, -TWO_52 * OCTAVE - 1023.0)
+    }
+
+    #[inline(always)]
+    fn reciprocal_guess(self) -> f64 {
+        f64::from_bits(RECIPROCAL_BITS.wrapping_sub(self.to_bits()))
     }
 
     #[inline(always)]

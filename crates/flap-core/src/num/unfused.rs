@@ -66,5 +66,5 @@ impl Float for Unfused {
         (Unfused(exponent), Unfused(mantissa))
     }
 
-    of_inner!(Unfused: flip_sign_by_lowest_bit(selector), times_power_of_two(k));
+    of_inner!(Unfused: flip_sign_by_lowest_bit(selector), linear_log2(), reciprocal_guess(), times_power_of_two(k));
 }

@@ -8,16 +8,14 @@
 //! periodic motion would not be met.
 
 use crate::num::Float;
-use crate::num::functions::{rough_exp2, rough_log2, round};
+use crate::num::functions::{rough_exp2, round_to_eighths};
 
 const SAFETY_LOG2: f64 = -0.152_003_093_445_049_97; // log2 0.9
 const BETA: f64 = 0.04;
 const ALPHA: f64 = 0.2 - 0.75 * BETA;
-/// Factors per octave.
-const LEVELS: f64 = 8.0;
-/// The smallest and the largest factor, in levels: 0.21 and 9.5.
-const LEVEL_MIN: f64 = -18.0;
-const LEVEL_MAX: f64 = 26.0;
+/// The smallest and the largest factor, in octaves: 0.21 and 9.5.
+const OCTAVES_MIN: f64 = -18.0 / 8.0;
+const OCTAVES_MAX: f64 = 26.0 / 8.0;
 /// log2 of the square of 10^-4: an error smaller than this is remembered as this.
 const LOG2_ERROR_MIN: f64 = -26.575_424_759_098_897;
 
@@ -26,15 +24,15 @@ const LOG2_ERROR_MIN: f64 = -26.575_424_759_098_897;
 pub struct Memory<R> {
     /// log2 of the square of the last accepted error.
     pub log2_error: R,
-    /// The largest factor allowed now, in levels: 0, which is a factor of 1, right after a rejection.
-    pub level_max: R,
+    /// The largest factor allowed now, in octaves: 0, which is a factor of 1, right after a rejection.
+    pub octaves_max: R,
 }
 
 impl<R: Float> Memory<R> {
     /// The memory of a run that has made no step.
     #[inline(always)]
     pub fn new(like: R) -> Memory<R> {
-        Memory { log2_error: like.lit(LOG2_ERROR_MIN), level_max: like.lit(LEVEL_MAX) }
+        Memory { log2_error: like.lit(LOG2_ERROR_MIN), octaves_max: like.lit(OCTAVES_MAX) }
     }
 }
 
@@ -52,17 +50,18 @@ pub struct Verdict<R: Float> {
 pub fn judge<R: Float>(error_squared: R, memory: &mut Memory<R>) -> Verdict<R> {
     let accepted = error_squared.lt(error_squared.lit(1.0));
     // Finite for any error, NaN included: the factor is then the smallest.
-    let log2_error = rough_log2(error_squared);
+    let log2_error = error_squared.linear_log2();
     let zero = log2_error.lit(0.0);
 
-    // log2 of 0.9 error^-α last^β, in levels; half of it because errors are squared.
-    let own = log2_error.mul_add(zero.lit(-0.5 * LEVELS * ALPHA), zero.lit(LEVELS * SAFETY_LOG2));
+    // log2 of 0.9 error^-α last^β; half of it because errors are squared.
+    let own = log2_error.mul_add(zero.lit(-0.5 * ALPHA), zero.lit(SAFETY_LOG2));
     let last = R::select(accepted, memory.log2_error, zero);
-    let level = round(last.mul_add(zero.lit(0.5 * LEVELS * BETA), own));
-    let level = level.max(zero.lit(LEVEL_MIN)).min(memory.level_max);
+    let octaves = last.mul_add(zero.lit(0.5 * BETA), own);
+    let octaves = octaves.max(zero.lit(OCTAVES_MIN)).min(memory.octaves_max);
+    let octaves = round_to_eighths(octaves);
 
     let remembered = log2_error.max(zero.lit(LOG2_ERROR_MIN));
     memory.log2_error = R::select(accepted, remembered, memory.log2_error);
-    memory.level_max = R::select(accepted, zero.lit(LEVEL_MAX), zero);
-    Verdict { accepted, factor: rough_exp2(level * (1.0 / LEVELS)) }
+    memory.octaves_max = R::select(accepted, zero.lit(OCTAVES_MAX), zero);
+    Verdict { accepted, factor: rough_exp2(octaves) }
 }

@@ -1,6 +1,7 @@
 //! The size of an error, relative to the tolerances.
 
 use crate::num::Real;
+use crate::num::functions::rough_reciprocal;
 
 /// The mean square of error over tolerance, Hairer I Eq. (II.4.11) without the root: a step is good below 1.
 ///
@@ -9,6 +10,8 @@ use crate::num::Real;
 /// ```text
 /// 1/N Σᵢ (eᵢ / (atolᵢ + rtol max(|yᵢ|, |yᵢ new|)))²
 /// ```
+///
+/// The quotients are right to 0.2 %, so no division is needed.
 #[inline(always)]
 pub fn error_squared<R: Real, const N: usize>(
     error: &[R; N],
@@ -20,7 +23,7 @@ pub fn error_squared<R: Real, const N: usize>(
     let mut sum = rtol.lit(0.0);
     for i in 0..count {
         let tolerance = rtol.mul_add(y[i].abs().max(y_new[i].abs()), atol[i]);
-        let ratio = error[i] / tolerance;
+        let ratio = error[i] * rough_reciprocal(tolerance);
         sum = ratio.mul_add(ratio, sum);
     }
     sum * (1.0 / count as f64)

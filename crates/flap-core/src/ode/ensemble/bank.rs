@@ -112,7 +112,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
         self.t = R::select(fresh, zero, self.t);
         self.steps_in_span = R::select(fresh, zero, self.steps_in_span);
         self.memory.log2_error = R::select(fresh, memory.log2_error, self.memory.log2_error);
-        self.memory.level_max = R::select(fresh, memory.level_max, self.memory.level_max);
+        self.memory.octaves_max = R::select(fresh, memory.octaves_max, self.memory.octaves_max);
         if O::SWITCHES {
             self.switching.side = R::select(fresh, switching.side, self.switching.side);
             self.switching.heading = self.switching.heading & !fresh;
@@ -133,7 +133,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
         self.h.set_lane(lane, h);
         self.h_begin.set_lane(lane, h);
         self.memory.log2_error.set_lane(lane, memory.log2_error);
-        self.memory.level_max.set_lane(lane, memory.level_max);
+        self.memory.octaves_max.set_lane(lane, memory.octaves_max);
     }
 
     /// Attempts one step in every lane.
