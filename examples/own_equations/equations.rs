@@ -109,8 +109,7 @@ impl Observer<Wing, 4> for Measured {
         let mut lift = sums.lift;
         for stage in [0, 2, 3, 4, 5] {
             let [_, v, psi, _] = step.y[stage];
-            let (sin, cos) = psi.sin_cos();
-            lift = (v * v.abs() * sin * cos * (2.0 * LIFT * PRESSURE)).mul_add(h * B[stage], lift);
+            lift = (v * v.abs() * (psi * 2.0).sin() * (LIFT * PRESSURE)).mul_add(h * B[stage], lift);
         }
         sums.lift = R::select(accepted, lift, sums.lift);
         let tip = peak(attempt, accepted, 0, 1, sums.tip);
