@@ -39,11 +39,16 @@ impl<R: Lanes, const N: usize> Step<R, N> {
     /// sides.
     #[inline(always)]
     pub fn attempt<O: Ode<N>>(&mut self, ode: &O, c: &O::Constants<R>, t: R, h: R, side: R) {
-        // All inputs first, because they do not wait for each other. Stages 6 and 7 are both at the end of the step and share
-        // theirs.
-        let mut inputs = [ode.input(c, h.mul_add(h.lit(C[1]), t)); STAGES - 2];
-        for i in 1..STAGES - 2 {
-            inputs[i] = ode.input(c, h.mul_add(h.lit(C[i + 1]), t));
+        let mut u = ode.input(c, h.mul_add(h.lit(C[1]), t));
+        // The inputs of all stages do not wait for each other. Of inputs that are several numbers, those that the right-hand
+        // side does not need would be computed too.
+        let ahead = size_of::<O::Input<R>>() == size_of::<R>();
+        let mut inputs = [u; STAGES];
+        if ahead {
+            for stage in 2..STAGES - 1 {
+                inputs[stage] = ode.input(c, h.mul_add(h.lit(C[stage]), t));
+            }
+            inputs[STAGES - 1] = inputs[STAGES - 2];
         }
         // A loop, so that the right-hand side is compiled once: six copies of it take the compiler minutes, and are no
         // faster.
@@ -55,7 +60,13 @@ impl<R: Lanes, const N: usize> Step<R, N> {
             for i in 0..N {
                 y[i] = last[i].mul_add(weight, y[i]);
             }
-            last = ode.rhs(c, &inputs[stage.min(STAGES - 2) - 1], side, &y);
+            if ahead {
+                u = inputs[stage];
+            } else if stage > 1 && C[stage] != C[stage - 1] {
+                // Stages 6 and 7 are both at the end of the step and share its inputs.
+                u = ode.input(c, h.mul_add(h.lit(C[stage]), t));
+            }
+            last = ode.rhs(c, &u, side, &y);
             self.k[stage] = last;
             self.y[stage] = y;
         }
