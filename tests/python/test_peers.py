@@ -1,7 +1,9 @@
-"""The harness of benches/peers: its equations are those of the example, and a peer that is missing stops nothing."""
+"""The harness of benches/peers: its equations are those of flap, and a peer that is missing stops nothing."""
 
 import csv
+import dataclasses
 import json
+import os
 import re
 import sys
 from pathlib import Path
@@ -36,13 +38,51 @@ def test_the_equations_are_those_of_the_example():
         np.testing.assert_allclose(found[0], expected, rtol=2e-6)
 
 
-@pytest.mark.parametrize("count", [1, 2, 7, 16, 250])
-def test_a_grid_has_as_many_points_as_asked_for(count):
-    from harness import points
+@pytest.mark.parametrize("newton", ["true", "false"])
+def test_settled_motions_are_those_of_flap(newton, tmp_path, flap, monkeypatch, capsys):
+    import orbit
+    import settled_flap
+    import settled_scipy
 
-    grid = points.grid(count)
-    assert len({(point.force, point.frequency) for point in grid}) == len({point.id for point in grid}) == count
-    assert all(0.02 <= point.force <= 0.2 and 60.0 <= point.frequency <= 180.0 for point in grid)
+    points = [(135.0, 110.0), (190.0, 125.0)]
+    phases = settled_scipy.PERIOD * np.arange(2048) / 2048
+    samples = np.stack([settled_scipy.settle(*point, 1e-7, phases)[0] for point in points])
+    expected = orbit.measures(samples, [frequency for _, frequency in points])
+
+    given, out = tmp_path / "points.csv", tmp_path / "out.csv"
+    lines = "".join(f"{number},{volts!r},{hertz!r}\n" for number, (volts, hertz) in enumerate(points))
+    given.write_text("id,drive_voltage_pp,drive_frequency\n" + lines, encoding="utf-8")
+    monkeypatch.setattr(sys, "argv", ["settled_flap.py", os.environ["FLAP"], newton, str(given), "1e-7", str(out)])
+    settled_flap.main()
+    with out.open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    found = [[float(row[column]) for column in orbit.COLUMNS] for row in rows]
+    np.testing.assert_allclose(found, expected, rtol=5e-6)
+    told = json.loads(capsys.readouterr().out)
+    assert told["cpu_s"] > 0.0 and told["rhs_per_point"] > 100.0 and told["periods_per_point"] > 3.0
+
+
+def test_a_motion_that_does_not_settle_has_no_measures(monkeypatch):
+    import orbit
+    import settled_scipy
+
+    monkeypatch.setattr(settled_scipy, "MOST_PERIODS", 2)
+    samples, _, periods = settled_scipy.settle(190.0, 125.0, 1e-3)
+    assert periods == 2
+    assert np.isnan(orbit.measures(samples[np.newaxis], [125.0])).all()
+
+
+@pytest.mark.parametrize("work", ["integration", "settled"])
+@pytest.mark.parametrize("count", [1, 2, 7, 16, 250])
+def test_a_grid_has_as_many_points_as_asked_for(count, work):
+    from harness import points
+    from harness.roster import WORKS
+
+    work = WORKS[work]
+    grid = points.grid(count, work)
+    assert len({(point.amplitude, point.frequency) for point in grid}) == len({point.id for point in grid}) == count
+    assert all(work.amplitude.low <= point.amplitude <= work.amplitude.high for point in grid)
+    assert all(work.frequency.low <= point.frequency <= work.frequency.high for point in grid)
 
 
 #: A peer whose answers are of this factor of the true ones.
@@ -87,17 +127,19 @@ class Missing:
 @pytest.fixture
 def run(monkeypatch, tmp_path, capsys):
     """Runs the harness with peers of one's own, the first of which is the base."""
-    from harness import command, measure, roster
+    from harness import command
+    from harness.peer import Peer
+    from harness.roster import WORKS
 
     monkeypatch.setattr(command, "WORK", tmp_path)
-    monkeypatch.setattr(measure, "WORK", tmp_path)
     monkeypatch.setattr(command.os, "sched_setaffinity", lambda *_: None, raising=False)
 
     def run(*arguments, reference=None, **builders):
-        peers = [roster.Peer(name, f"peer {name}", builder) for name, builder in builders.items()]
-        monkeypatch.setattr(command, "PEERS_IN_TURN", peers)
-        monkeypatch.setattr(command, "BASE", peers[0])
-        monkeypatch.setattr(command, "REFERENCE", reference or Script(REFERENCE))
+        peers = tuple(Peer(name, f"peer {name}", builder) for name, builder in builders.items())
+        work = dataclasses.replace(
+            WORKS["integration"], base=peers[0], peers=peers, reference=reference or Script(REFERENCE)
+        )
+        monkeypatch.setitem(WORKS, "integration", work)
         out = tmp_path / "out.json"
         command.main([*arguments, "--json", str(out)])
         return SimpleNamespace(printed=capsys.readouterr().out, **json.loads(out.read_text(encoding="utf-8")))
@@ -153,6 +195,9 @@ def test_nothing_is_known_without_a_reference_and_no_ratio_without_the_base(run)
         (["--rtol", "1"], "--rtol is 1, but must be from 1e-10"),
         (["--only", "bost"], "--only bost is none of the peers: boost, flap"),
         (["--only", "("], "--only: ( is no regular expression: missing )"),
+        (["--work", "settled", "--rtol", "1e-5"], "--rtol is 1e-05, but must be from 1e-10, where the reference ends"),
+        (["--work", "settled", "--only", "cyrk"], "--only cyrk is none of the peers: boost, flap, flap_marching"),
+        (["--work", "walk"], "invalid choice: 'walk'"),
         (["--core", "99999"], "--core 99999 cannot be used; allowed: "),
         (["--json", "/no/such/folder/out.json"], "there is no folder /no/such/folder"),
     ],
@@ -166,9 +211,11 @@ def test_mistakes_are_named(arguments, message, capsys):
     assert message in capsys.readouterr().err
 
 
-def test_every_peer_is_described():
-    from harness.roster import PEERS_IN_TURN
+@pytest.mark.parametrize("name", ["integration", "settled"])
+def test_every_peer_is_described(name):
+    from harness.roster import WORKS
 
     page = (PEERS / "README.md").read_text(encoding="utf-8")
-    described = re.findall(r"^\| `(\w+)` \|.*\| (\w+) \|$", page, re.MULTILINE)
-    assert described == [(peer.name, "adaptive" if peer.adaptive else "fixed") for peer in PEERS_IN_TURN]
+    section = page.split(f"\n## The work `{name}`\n")[1].split("\n## ")[0]
+    described = re.findall(r"^\| `(\w+)` \|.*\| (\w+) \|$", section, re.MULTILINE)
+    assert described == [(peer.name, "adaptive" if peer.adaptive else "fixed") for peer in WORKS[name].peers]

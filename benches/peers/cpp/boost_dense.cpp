@@ -2,8 +2,8 @@
 #include "odeint.hpp"
 
 int main(int count, char** arguments) {
-    return sweep(count, arguments, [](const std::vector<Point>& points, double rtol) {
-        std::vector<Result> results;
+    return sweep(count, arguments, COLUMNS, [](const std::vector<Point>& points, double rtol) {
+        std::vector<Result<3>> results;
         results.reserve(points.size());
         for (const Point& point : points) {
             Sampler sampler(model::SAMPLES_PER_PERIOD);

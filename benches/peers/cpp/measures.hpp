@@ -5,9 +5,8 @@
 
 #include "model.hpp"
 
-struct Measures {
-    double tip, psi, lift;  // max |x| (m), max |ψ| (rad), mean lift (N)
-};
+using Measures = std::array<double, 3>;  // max |x| (m), max |ψ| (rad), mean lift (N)
+constexpr const char* COLUMNS = "max_x,max_psi,lift";
 
 // The largest magnitude of what is sampled, with a parabola through the three samples around it.
 class Peak {

@@ -3,6 +3,7 @@
 
 #include <boost/numeric/odeint.hpp>
 
+#include "measures.hpp"
 #include "sweep.hpp"
 
 // Integrates a point and gives `take` the states that are due until `sampler` is full. Returns how often the right-hand
@@ -11,7 +12,7 @@ template <class Real, class Take>
 long integrate(const Point& point, Real rtol, const Sampler& sampler, Take take) {
     namespace odeint = boost::numeric::odeint;
     using State = model::State<Real>;
-    const Real force = point.force, period = 1 / Real(point.frequency);
+    const Real force = point.amplitude, period = 1 / Real(point.frequency);
     const Real omega = 2 * std::acos(Real(-1)) * Real(point.frequency);
     long evaluations = 0;
     const auto system = [&](const State& y, State& dy, Real t) {

@@ -1,45 +1,14 @@
 // Fixed-step Runge-Kutta 4 over points in SIMD lanes, in lockstep: what a processor can do on these equations when nobody
 // watches the error. Time is in periods, so that all lanes share the phase of the drive.
+#include "lanes.hpp"
+#include "measures.hpp"
 #include "sweep.hpp"
 
-#define EACH_LANE _Pragma("omp simd") for (int lane = 0; lane < LANES; ++lane)
-
 namespace {
-
-constexpr int LANES = 16;
-using Lanes = double[LANES];
 
 // As many steps per period as keep the error about that of an adaptive solver at this tolerance: a multiple of the
 // samples, 128 at 1e-6.
 int steps_per_sample(double rtol) { return int(std::ceil(2 * std::pow(1e-6 / rtol, 0.25) - 1e-9)); }
-
-// Sine and cosine by polynomials, for the few turns that a hinge makes.
-inline __attribute__((always_inline)) void sin_cos(double x, double& sine, double& cosine) {
-    const double quadrant = std::rint(x * (2 / model::PI));
-    double r = x - quadrant * 1.5707963267341256142;
-    r -= quadrant * 6.0771005065061922e-11;
-    const double z = r * r;
-    const double s =
-        r + r * z *
-                (-1.66666666666666324348e-01 +
-                 z * (8.33333333332248946124e-03 +
-                      z * (-1.98412698298579493134e-04 +
-                           z * (2.75573137070700676789e-06 +
-                                z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)))));
-    const double c =
-        1 - 0.5 * z +
-        z * z *
-            (4.16666666666666019037e-02 +
-             z * (-1.38888888888741095749e-03 +
-                  z * (2.48015872894767294178e-05 +
-                       z * (-2.75573143513906633035e-07 +
-                            z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
-    const double odd = quadrant - 2 * std::floor(quadrant * 0.5), turn = quadrant - 4 * std::floor(quadrant * 0.25);
-    const bool swapped = odd > 0.5;
-    const double of_sine = swapped ? c : s, of_cosine = swapped ? s : c;
-    sine = turn > 1.5 ? -of_sine : of_sine;
-    cosine = turn > 0.5 && turn < 2.5 ? -of_cosine : of_cosine;
-}
 
 inline __attribute__((always_inline)) void rates(double drive, const Lanes* y, Lanes* dy, const Lanes force,
                                                  const Lanes period) {
@@ -55,18 +24,13 @@ inline __attribute__((always_inline)) void rates(double drive, const Lanes* y, L
     }
 }
 
-// result = y + h dy
-inline __attribute__((always_inline)) void advance(const Lanes* y, double h, const Lanes* dy, Lanes* result) {
-    for (int i = 0; i < 4; ++i) EACH_LANE result[i][lane] = y[i][lane] + h * dy[i][lane];
-}
-
 // The points from `first`, of which there are at most LANES; lanes without one repeat the last.
 void solve(const std::vector<Point>& points, std::size_t first, int steps, const std::vector<double>& drive,
-           std::vector<Result>& results) {
+           std::vector<Result<3>>& results) {
     alignas(64) Lanes force, period, y[4] = {}, k1[4], k2[4], k3[4], k4[4], stage[4];
     for (int lane = 0; lane < LANES; ++lane) {
         const Point& point = points[std::min(first + lane, points.size() - 1)];
-        force[lane] = point.force;
+        force[lane] = point.amplitude;
         period[lane] = 1 / point.frequency;
     }
     std::vector<Sampler> samplers(LANES, Sampler(model::SAMPLES_PER_PERIOD));
@@ -97,11 +61,11 @@ void solve(const std::vector<Point>& points, std::size_t first, int steps, const
 }  // namespace
 
 int main(int count, char** arguments) {
-    return sweep(count, arguments, [](const std::vector<Point>& points, double rtol) {
+    return sweep(count, arguments, COLUMNS, [](const std::vector<Point>& points, double rtol) {
         const int steps = model::SAMPLES_PER_PERIOD * steps_per_sample(rtol);
         std::vector<double> drive(2 * steps + 1);
         for (int i = 0; i <= 2 * steps; ++i) drive[i] = std::sin(model::PI * i / steps);
-        std::vector<Result> results(points.size());
+        std::vector<Result<3>> results(points.size());
         for (std::size_t first = 0; first < points.size(); first += LANES) solve(points, first, steps, drive, results);
         return results;
     });

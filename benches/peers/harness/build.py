@@ -16,6 +16,15 @@ REPOSITORY = PEERS.parents[1]
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR") or REPOSITORY / "target").resolve()
 WORK = TARGET / "peers"
 
+#: What helps where compilers are missing.
+GXX = "install g++ (Debian: sudo apt-get install g++)"
+BOOST = "install g++ and Boost's headers (Debian: sudo apt-get install g++ libboost-dev)"
+
+#: Packages that several peers need.
+NUMPY = "numpy==2.4.6"
+SCIPY = "scipy==1.17.1"
+NUMBA = "numba==0.68.1"
+
 
 class Unavailable(Exception):
     """A peer cannot be built: why, and what would help."""
@@ -100,3 +109,16 @@ class Python:
         install = f"pip must reach a package index that has {' '.join(self.packages)} for this Python"
         run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *self.packages], install)
         return [str(python), str(PEERS / "python" / self.script)]
+
+
+@dataclass(frozen=True)
+class Through:
+    """A program in Rust that does not take a peer's arguments: a script with the standard library alone runs it."""
+
+    script: str
+    program: Cargo
+    #: Given to the script after the program.
+    arguments: tuple[str, ...]
+
+    def build(self) -> list[str]:
+        return [sys.executable, str(PEERS / "python" / self.script), *self.program.build(), *self.arguments]

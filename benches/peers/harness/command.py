@@ -10,13 +10,15 @@ import re
 import sys
 import time
 from pathlib import Path
-from typing import Any, Pattern, Sequence, Set
+from typing import Any, Mapping, Pattern, Sequence, Set
 
 from . import measure, points, report
 from .build import WORK, Unavailable
 from .compare import deviation
-from .measure import Failed, Timing
-from .roster import BASE, PEERS_IN_TURN, REFERENCE, Peer
+from .measure import Failed, Task, Timing
+from .peer import Peer
+from .roster import WORKS
+from .work import Work
 
 #: Points that the reference is computed for at most: it takes a tenth of a second for each.
 MOST_REFERENCES = 256
@@ -24,66 +26,71 @@ MOST_REFERENCES = 256
 
 def main(arguments: Sequence[str] | None = None) -> None:
     options = parse(arguments)
-    WORK.mkdir(parents=True, exist_ok=True)
-    sweep = points.grid(options.points)
+    work = WORKS[options.work]
+    task = Task(work, points.grid(options.points, work), options.rtol, WORK / work.name)
+    task.folder.mkdir(parents=True, exist_ok=True)
 
     skipped: list[dict[str, str]] = []
     timings = []
-    for peer in chosen(options.only):
+    for peer in chosen(work, options.only):
         say(f"building {peer.name}")
         try:
             command = peer.builder.build()
         except Unavailable as unavailable:
             skipped.append({"name": peer.name, "why": unavailable.why, "remedy": unavailable.remedy})
         else:
-            timings.append(Timing(peer, command, min(len(sweep), peer.most_points or len(sweep))))
-    truth = known(sweep, skipped)
+            timings.append(Timing(peer, command, min(options.points, peer.most_points or options.points)))
+    truth = known(task, skipped)
 
     if options.core is not None:
         os.sched_setaffinity(0, {options.core})
     begin = load()
-    measure.in_turn(timings, sweep, options.rtol, options.rounds, say)
+    measure.in_turn(timings, task, options.rounds, say)
     for timing in timings:
         if timing.failure is not None:
             skipped.append({"name": timing.peer.name, "why": timing.failure, "remedy": "run it by itself with --only"})
 
     setting = {
+        "work": work.name,
+        "what": work.what,
         "date": time.strftime("%Y-%m-%d"),
         "processor": processor(),
         "core": options.core,
         "load": [begin, load()],
-        "points": len(sweep),
+        "points": options.points,
         "rtol": options.rtol,
         "rounds": options.rounds,
-        "base": BASE.name,
+        "base": work.base.name,
     }
-    rows = compared([timing for timing in timings if timing.failure is None], truth)
+    rows = compared([timing for timing in timings if timing.failure is None], truth, work)
     show(rows, skipped, setting, options.json)
 
 
-def known(sweep: Sequence[points.Point], skipped: list[dict[str, str]]) -> dict[bool, dict[int, points.Measures]]:
+def known(task: Task, skipped: list[dict[str, str]]) -> dict[bool, dict[int, points.Measures]]:
     """The reference: what a peer that samples should find, and what one that does not."""
     say("computing the reference")
     try:
-        path = measure.reference(REFERENCE.build(), sweep[:MOST_REFERENCES])
+        path = measure.reference(task.work.reference.build(), task, MOST_REFERENCES)
     except Unavailable as unavailable:
         skipped.append({"name": "reference", "why": unavailable.why, "remedy": unavailable.remedy})
     except Failed as failed:
         skipped.append({"name": "reference", "why": str(failed), "remedy": "report it"})
     else:
-        return {True: points.read(path, "sampled_"), False: points.read(path)}
+        return {True: points.read(path, task.work, "sampled_"), False: points.read(path, task.work)}
     return {True: {}, False: {}}
 
 
-def compared(timings: Sequence[Timing], truth: dict[bool, dict[int, points.Measures]]) -> list[report.Row]:
+def compared(
+    timings: Sequence[Timing], truth: dict[bool, dict[int, points.Measures]], work: Work
+) -> list[report.Row]:
     """The lines of the report."""
-    base = next((timing.speeds for timing in timings if timing.peer is BASE), [])
+    base = next((timing.speeds for timing in timings if timing.peer is work.base), [])
     return [
         report.Row(
             timing,
             [speed / of for speed, of in zip(timing.speeds, base)],
-            deviation(timing.found, truth[False], timing.points),
-            deviation(timing.found, truth[timing.peer.samples], timing.points),
+            deviation(timing.found, truth[False], timing.points, work),
+            deviation(timing.found, truth[timing.peer.samples], timing.points, work),
         )
         for timing in timings
     ]
@@ -91,14 +98,15 @@ def compared(timings: Sequence[Timing], truth: dict[bool, dict[int, points.Measu
 
 def show(rows: Sequence[report.Row], skipped: Sequence[dict[str, str]], setting: dict[str, Any], path: Path) -> None:
     """Prints the table and writes the JSON."""
-    base = next((row.integration for row in rows if row.timing.peer is BASE), None)
+    base = next((row.integration for row in rows if row.timing.peer.name == setting["base"]), None)
     load = "{:.1f} – {:.1f}".format(*setting["load"])
     print(
+        f"{setting['work']}: {setting['what']}\n"
         f"{setting['points']} points at rtol {setting['rtol']:g}, {setting['rounds']} rounds in turn"
         f" on core {setting['core']} of {setting['processor']}; load {load}\n"
     )
     print(report.table(rows, base, setting["points"]) if rows else "Nothing could be run.")
-    print(f"\nThe base is {BASE.name}; ratios are taken round by round.")
+    print(f"\nThe base is {setting['base']}; ratios are taken round by round.")
     for row in rows:
         print(f"{row.timing.peer.name}: {row.timing.peer.what}")
     for peer in skipped:
@@ -113,36 +121,43 @@ def say(text: str) -> None:
     print(text, file=sys.stderr)
 
 
-def chosen(only: Pattern[str]) -> list[Peer]:
+def chosen(work: Work, only: Pattern[str]) -> list[Peer]:
     """The peers that take part: the base always does."""
-    return [peer for peer in PEERS_IN_TURN if peer is BASE or only.search(peer.name)]
+    return [peer for peer in work.peers if peer is work.base or only.search(peer.name)]
 
 
 def parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="just peers", description="Runs flap and other solvers on the same points, in turn, on one core."
     )
+    parser.add_argument(
+        "--work", choices=WORKS, default=next(iter(WORKS)), help=described(WORKS) + f" (default: {next(iter(WORKS))})"
+    )
     parser.add_argument("--points", type=int, default=256, metavar="N", help="points of the sweep (default: 256)")
-    parser.add_argument("--rtol", type=float, default=1e-6, help="relative tolerance, 1e-10 to 1e-2 (default: 1e-6)")
+    parser.add_argument("--rtol", type=float, default=1e-6, help="relative tolerance (default: 1e-6)")
     parser.add_argument("--rounds", type=int, default=5, metavar="N", help="runs of each peer (default: 5)")
     parser.add_argument(
         "--only", type=pattern, default=re.compile(""), metavar="REGEX", help="peers whose names match, beside the base"
     )
     parser.add_argument("--core", type=int, default=None, metavar="N", help="where to run (default: the last core)")
     parser.add_argument(
-        "--json", type=Path, default=WORK / "result.json", metavar="FILE", help="default: target/peers/result.json"
+        "--json", type=Path, metavar="FILE", help="default: result.json in target/peers/WORK"
     )
     options = parser.parse_args(arguments)
     for name in ("points", "rounds"):
         if getattr(options, name) < 1:
             parser.error(f"--{name} is {getattr(options, name)}, but must be 1 or more")
-    if not 1e-10 <= options.rtol <= 1e-2:
-        parser.error(f"--rtol is {options.rtol:g}, but must be from 1e-10, where the reference ends, to 1e-2")
-    if not any(options.only.search(peer.name) for peer in PEERS_IN_TURN):
-        names = ", ".join(peer.name for peer in PEERS_IN_TURN)
+    work = WORKS[options.work]
+    least, most = work.rtol
+    if not least <= options.rtol <= most:
+        parser.error(f"--rtol is {options.rtol:g}, but must be {work.rtol_limits}")
+    if not any(options.only.search(peer.name) for peer in work.peers):
+        names = ", ".join(peer.name for peer in work.peers)
         parser.error(f"--only {options.only.pattern} is none of the peers: {names}")
+    if options.json is None:
+        options.json = WORK / work.name / "result.json"
     options.json = options.json.resolve()
-    if options.json != WORK / "result.json" and not options.json.parent.is_dir():
+    if options.json.parent != WORK / work.name and not options.json.parent.is_dir():
         parser.error(f"--json {options.json}: there is no folder {options.json.parent}")
     cores = usable_cores()
     if options.core is None:
@@ -151,6 +166,11 @@ def parse(arguments: Sequence[str] | None) -> argparse.Namespace:
         allowed = ", ".join(map(str, sorted(cores))) or "none, because this system does not pin processes"
         parser.error(f"--core {options.core} cannot be used; allowed: {allowed}")
     return options
+
+
+def described(works: Mapping[str, Work]) -> str:
+    """The works in words."""
+    return "; ".join(f"{work.name}: {work.what}" for work in works.values())
 
 
 def pattern(text: str) -> Pattern[str]:

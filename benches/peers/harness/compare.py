@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from statistics import median
 
 from .points import Measures
+from .work import Work
 
 
 @dataclass(frozen=True)
@@ -19,19 +20,23 @@ class Deviation:
     missing: int
 
 
-def deviation(found: dict[int, Measures], known: dict[int, Measures], points: int) -> Deviation | None:
-    """Compares the answers for `points` points with those that are known. Lift is measured by its size, or that of a
-    typical point where it is smaller; none if nothing can be compared."""
+def deviation(
+    found: dict[int, Measures], known: dict[int, Measures], points: int, work: Work
+) -> Deviation | None:
+    """Compares the answers for `points` points with those that are known. A measure that crosses zero counts by its size,
+    or that of a typical point where it is smaller; none if nothing can be compared."""
     if not known:
         return None
-    typical = median(abs(lift) for *_, lift in known.values())
+    least = [
+        median(map(abs, column)) if measure.crosses_zero else 0.0
+        for measure, column in zip(work.measures, zip(*known.values()))
+    ]
     worst = []
-    for number, (tip, psi, lift) in known.items():
+    for number, true in known.items():
         got = found.get(number)
         if got is None or not all(map(math.isfinite, got)):
             continue
-        sizes = (abs(tip), abs(psi), max(abs(lift), typical))
-        worst.append(max(abs(a - b) / size for a, b, size in zip(got, (tip, psi, lift), sizes)))
+        worst.append(max(abs(a - b) / max(abs(b), size) for a, b, size in zip(got, true, least)))
     if not worst:
         return None
     answered = sum(all(map(math.isfinite, measures)) for measures in found.values())

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Callable, Sequence
 
 from . import points as tables
-from .build import WORK
+from .peer import Peer
 from .points import Measures, Point
-from .roster import Peer
+from .work import Work
 
 #: Seconds after which a run is given up.
 TIMEOUT = 600.0
@@ -35,36 +35,47 @@ class Timing:
     #: Points per second of CPU time, round by round.
     speeds: list[float] = field(default_factory=list)
     rhs_per_point: float | None = None
+    periods_per_point: float | None = None
     found: dict[int, Measures] = field(default_factory=dict)
     failure: str | None = None
 
 
-def in_turn(
-    timings: Sequence[Timing], points: Sequence[Point], rtol: float, rounds: int, say: Callable[[str], None]
-) -> None:
+@dataclass(frozen=True)
+class Task:
+    """What every peer is asked to do."""
+
+    work: Work
+    points: Sequence[Point]
+    rtol: float
+    #: For the files that peers read and write.
+    folder: Path
+
+
+def in_turn(timings: Sequence[Timing], task: Task, rounds: int, say: Callable[[str], None]) -> None:
     """Runs every peer once a round, so that whatever slows the machine down slows all of them."""
     for number in range(1, rounds + 1):
         for timing in timings:
             if timing.failure is None:
                 say(f"round {number} of {rounds}: {timing.peer.name}")
                 try:
-                    once(timing, points, rtol)
+                    once(timing, task)
                 except Failed as failed:
                     timing.failure = str(failed)
 
 
-def once(timing: Timing, points: Sequence[Point], rtol: float) -> None:
+def once(timing: Timing, task: Task) -> None:
     """Runs a peer once."""
     name = timing.peer.name
-    given, out = WORK / f"{name}-points.csv", WORK / f"{name}-results.csv"
-    tables.write(points[: timing.points], given)
+    given, out = task.folder / f"{name}-points.csv", task.folder / f"{name}-results.csv"
+    tables.write(task.points[: timing.points], task.work, given)
     out.unlink(missing_ok=True)
-    said = output([*timing.command, str(given), repr(rtol), str(out)])
+    said = output([*timing.command, str(given), repr(task.rtol), str(out)])
     try:
         told = json.loads(said)
         seconds = float(told["cpu_s"])
         timing.rhs_per_point = told["rhs_per_point"]
-        timing.found = tables.read(out)
+        timing.periods_per_point = told.get("periods_per_point")
+        timing.found = tables.read(out, task.work)
     except (KeyError, ValueError, OSError) as error:
         raise Failed(f"what it wrote cannot be read: {error!r}") from None
     if not seconds > 0.0:
@@ -88,11 +99,11 @@ def output(command: Sequence[str]) -> str:
     return ended.stdout
 
 
-def reference(command: Sequence[str], points: Sequence[Point]) -> Path:
-    """The table that peers are compared with; that of the same points is kept."""
-    given, out = WORK / "reference-points.csv", WORK / "reference.csv"
+def reference(command: Sequence[str], task: Task, most: int) -> Path:
+    """The table that peers are compared with, for the first points; that of the same points is kept."""
+    given, out = task.folder / "reference-points.csv", task.folder / "reference.csv"
     before = given.read_text(encoding="utf-8") if given.exists() else ""
-    tables.write(points, given)
+    tables.write(task.points[:most], task.work, given)
     program = Path(command[0])
     same = before == given.read_text(encoding="utf-8") and out.exists()
     if not same or out.stat().st_mtime < program.stat().st_mtime:

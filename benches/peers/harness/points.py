@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import csv
+import itertools
 import math
 import random
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Sequence
 
-#: Amplitude of the force (N) and drive frequency (Hz), from and to.
-FORCE = (0.02, 0.2)
-FREQUENCY = (60.0, 180.0)
+from .work import Axis, Work
 
-#: The columns of what is measured.
-COLUMNS = ("max_x", "max_psi", "lift")
-
-#: max |x| (m), max |ψ| (rad), mean lift (N).
+#: What a point's motion is measured by: the measures of the work.
 Measures = tuple[float, ...]
 
 
@@ -25,34 +21,35 @@ class Point:
     """A drive."""
 
     id: int
-    force: float
+    amplitude: float
     frequency: float
 
 
-def grid(count: int) -> list[Point]:
-    """So many points of a grid of force and frequency, shuffled: the first few are spread over it, too."""
-    forces = math.isqrt(count)
-    frequencies = -(-count // forces)
-    pairs = [(force, frequency) for force in spread(*FORCE, forces) for frequency in spread(*FREQUENCY, frequencies)]
+def grid(count: int, work: Work) -> list[Point]:
+    """So many points of a grid of amplitude and frequency, shuffled: the first few are spread over it, too."""
+    amplitudes = math.isqrt(count)
+    frequencies = -(-count // amplitudes)
+    pairs = itertools.product(spread(work.amplitude, amplitudes), spread(work.frequency, frequencies))
     points = [Point(number, *pair) for number, pair in enumerate(pairs)]
     random.Random(7).shuffle(points)
     return points[:count]
 
 
-def spread(low: float, high: float, count: int) -> list[float]:
+def spread(axis: Axis, count: int) -> list[float]:
     """Numbers at equal distances."""
-    return [low + (high - low) * i / max(1, count - 1) for i in range(count)]
+    return [axis.low + (axis.high - axis.low) * i / max(1, count - 1) for i in range(count)]
 
 
-def write(points: Sequence[Point], path: Path) -> None:
+def write(points: Sequence[Point], work: Work, path: Path) -> None:
     """Writes points as peers read them."""
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["id", "F0", "f"])
-        writer.writerows([point.id, repr(point.force), repr(point.frequency)] for point in points)
+        writer.writerow(["id", work.amplitude.column, work.frequency.column])
+        writer.writerows([point.id, repr(point.amplitude), repr(point.frequency)] for point in points)
 
 
-def read(path: Path, prefix: str = "") -> dict[int, Measures]:
+def read(path: Path, work: Work, prefix: str = "") -> dict[int, Measures]:
     """The measures in a table, by point."""
     with path.open(newline="", encoding="utf-8") as file:
-        return {int(row["id"]): tuple(float(row[prefix + name]) for name in COLUMNS) for row in csv.DictReader(file)}
+        rows = csv.DictReader(file)
+        return {int(row["id"]): tuple(float(row[prefix + name]) for name in work.columns) for row in rows}

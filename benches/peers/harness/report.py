@@ -41,8 +41,8 @@ class Row:
 
 
 HEADINGS = [
-    ["", "points per CPU-second", "ratio to base", "rhs per", "deviation", "of the integration", ""],
-    ["peer", "median (range)", "median (range)", "point", "median, max", "median, max", "remarks"],
+    ["", "points per CPU-second", "ratio to base", "rhs per", "periods", "deviation", "of the integration", ""],
+    ["peer", "median (range)", "median (range)", "point", "per point", "median, max", "median, max", "remarks"],
 ]
 
 
@@ -50,13 +50,14 @@ def table(rows: Sequence[Row], base: Deviation | None, of: int) -> str:
     """The table, fastest first."""
     lines = [*HEADINGS]
     for row in sorted(rows, key=lambda row: -median(row.timing.speeds)):
-        rhs = row.timing.rhs_per_point
+        rhs, periods = row.timing.rhs_per_point, row.timing.periods_per_point
         lines.append(
             [
                 row.timing.peer.name,
                 spread(row.timing.speeds),
                 spread(row.ratios),
                 "–" if rhs is None else f"{rhs:,.0f}",
+                "–" if periods is None else f"{periods:.1f}",
                 errors(row.deviation),
                 errors(row.integration),
                 "; ".join(row.remarks(base, of)),
@@ -92,6 +93,7 @@ def record(row: Row, base: Deviation | None, of: int) -> dict[str, Any]:
         "points_per_cpu_second": summary(row.timing.speeds),
         "ratio_to_base": summary(row.ratios),
         "rhs_per_point": row.timing.rhs_per_point,
+        "periods_per_point": row.timing.periods_per_point,
         "deviation": row.deviation and asdict(row.deviation),
         "integration_deviation": row.integration and asdict(row.integration),
         "remarks": row.remarks(base, of),

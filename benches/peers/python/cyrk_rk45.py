@@ -9,8 +9,8 @@ import model
 import numba
 import numpy as np
 from CyRK import nb_diffeq_addr, nbsolve2_ivp
-from measures import measures, times
-from sweep import Array, sweep
+from measures import COLUMNS, measures, times
+from sweep import Answers, Array, sweep
 
 rates = numba.njit(model.equations(math.sin, math.cos, abs))
 
@@ -48,14 +48,14 @@ def run(address: int, force: Array, frequency: Array, rtol: float, at: Array, sa
     return True
 
 
-def solve(force: Array, frequency: Array, rtol: float) -> tuple[Array, None]:
+def solve(force: Array, frequency: Array, rtol: float) -> Answers:
     at = np.stack([times(each) for each in frequency])
     samples = np.empty((*at.shape, 4))
     if not run(address, force, frequency, rtol, at, samples):
         raise SystemExit("CyRK did not reach the end of a run")
     # CyRK counts steps, not evaluations.
-    return measures(samples), None
+    return Answers(measures(samples), rhs=None)
 
 
 if __name__ == "__main__":
-    sweep(solve)
+    sweep(solve, COLUMNS)

@@ -11,8 +11,8 @@ from typing import Any, Callable
 import heyoka
 import model
 import numpy as np
-from measures import measures, times
-from sweep import Array, sweep
+from measures import COLUMNS, measures, times
+from sweep import Answers, Array, sweep
 
 #: Periods after the start, where all magnitudes have a kink, at which integration begins, on the motion's tangent.
 TANGENT = 1e-5
@@ -73,10 +73,10 @@ def begin(system: Any, force: Array, frequency: Array) -> Array:
     return time
 
 
-def solver() -> Callable[[Array, Array, float], tuple[Array, None]]:
+def solver() -> Callable[[Array, Array, float], Answers]:
     compiled = {}
 
-    def solve(force: Array, frequency: Array, rtol: float) -> tuple[Array, None]:
+    def solve(force: Array, frequency: Array, rtol: float) -> Answers:
         system = compiled.get(rtol)
         if system is None:
             system = compiled[rtol] = integrator(rtol)
@@ -90,10 +90,10 @@ def solver() -> Callable[[Array, Array, float], tuple[Array, None]]:
             states = system.propagate_grid(np.vstack([time, at]))[1]
             found.append(measures(np.ascontiguousarray(states[1:].transpose(2, 0, 1))))
         # Taylor coefficients are not evaluations of a right-hand side.
-        return np.concatenate(found)[: len(force)], None
+        return Answers(np.concatenate(found)[: len(force)], rhs=None)
 
     return solve
 
 
 if __name__ == "__main__":
-    sweep(solver())
+    sweep(solver(), COLUMNS)

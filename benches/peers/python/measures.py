@@ -8,6 +8,8 @@ import model
 import numpy as np
 from numpy.typing import NDArray
 
+COLUMNS = ("max_x", "max_psi", "lift")
+
 
 def times(frequency: Any, per_period: int = model.SAMPLES_PER_PERIOD) -> NDArray[np.float64]:
     """The times of the samples (s): the measured periods, with both ends."""

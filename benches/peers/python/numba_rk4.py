@@ -11,9 +11,9 @@ from typing import Any
 import model
 import numba
 import numpy as np
-from measures import measures
+from measures import COLUMNS, measures
 from model import MEASURED, PERIODS, SAMPLES_PER_PERIOD
-from sweep import Array, sweep
+from sweep import Answers, Array, sweep
 
 compiled = numba.njit(fastmath=True)
 rates = compiled(model.equations(math.sin, math.cos, abs))
@@ -49,14 +49,14 @@ def run(force: Array, frequency: Array, steps: int, drive: Array, samples: Array
             y = step(force[point], 1.0 / frequency[point], 1.0 / steps, drive[phase : phase + 3], *y)
 
 
-def solve(force: Array, frequency: Array, rtol: float) -> tuple[Array, float]:
+def solve(force: Array, frequency: Array, rtol: float) -> Answers:
     # As many steps as keep the error about that of an adaptive solver at this tolerance: 128 per period at 1e-6.
     steps = SAMPLES_PER_PERIOD * math.ceil(2.0 * (1e-6 / rtol) ** 0.25 - 1e-9)
     drive = np.sin(math.pi * np.arange(2 * steps + 1) / steps)
     samples = np.empty((len(force), MEASURED * SAMPLES_PER_PERIOD + 1, 4))
     run(force, frequency, steps, drive, samples)
-    return measures(samples), 4.0 * PERIODS * steps * len(force)
+    return Answers(measures(samples), rhs=4.0 * PERIODS * steps * len(force))
 
 
 if __name__ == "__main__":
-    sweep(solve)
+    sweep(solve, COLUMNS)

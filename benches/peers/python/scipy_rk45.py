@@ -7,9 +7,9 @@ from typing import Any
 
 import model
 import numpy as np
-from measures import measures, times
+from measures import COLUMNS, measures, times
 from scipy.integrate import solve_ivp
-from sweep import Array, sweep
+from sweep import Answers, Array, sweep
 
 rates = model.equations(math.sin, math.cos, abs)
 
@@ -32,10 +32,10 @@ def motion(force: float, frequency: float, rtol: float, at: Array) -> Any:
     )
 
 
-def solve(force: Array, frequency: Array, rtol: float) -> tuple[Array, float]:
+def solve(force: Array, frequency: Array, rtol: float) -> Answers:
     runs = [motion(*point, rtol, times(point[1])) for point in zip(force.tolist(), frequency.tolist())]
-    return measures(np.stack([run.y.T for run in runs])), sum(run.nfev for run in runs)
+    return Answers(measures(np.stack([run.y.T for run in runs])), rhs=sum(run.nfev for run in runs))
 
 
 if __name__ == "__main__":
-    sweep(solve)
+    sweep(solve, COLUMNS)

@@ -6,35 +6,48 @@ import csv
 import json
 import sys
 import time
-from typing import Callable
+from dataclasses import dataclass
+from typing import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-#: Forces (N), frequencies (Hz) and tolerance to measures by point, and how often the right-hand side was evaluated in
-#: all, where that is known.
-Solve = Callable[[Array, Array, float], tuple[Array, float | None]]
+@dataclass(frozen=True)
+class Answers:
+    """What a peer has found for all points together."""
+
+    #: By point.
+    measures: Array
+    #: Evaluations of the right-hand side, if the library counts them.
+    rhs: float | None
+    #: Drive periods; none if all points have the same.
+    periods: float | None = None
 
 
-def sweep(solve: Solve) -> None:
-    """Runs all points; says how long that took, without what is compiled once."""
+#: Amplitudes of the drive (N or V), frequencies (Hz) and tolerance to the answers.
+Solve = Callable[[Array, Array, float], Answers]
+
+
+def sweep(solve: Solve, columns: Sequence[str]) -> None:
+    """Runs all points, and writes their measures by these names; says how long that took, without what is compiled
+    once."""
     points, rtol, out = sys.argv[1:]
     with open(points, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    force = np.array([float(row["F0"]) for row in rows])
-    frequency = np.array([float(row["f"]) for row in rows])
+        rows = list(csv.reader(file))[1:]
+    amplitude = np.array([float(row[1]) for row in rows])
+    frequency = np.array([float(row[2]) for row in rows])
 
-    solve(force[:1], frequency[:1], float(rtol))
+    solve(amplitude[:1], frequency[:1], float(rtol))
     begin = time.process_time()
-    found, evaluations = solve(force, frequency, float(rtol))
+    found = solve(amplitude, frequency, float(rtol))
     seconds = time.process_time() - begin
 
     with open(out, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
-        writer.writerow(["id", "max_x", "max_psi", "lift"])
-        for row, values in zip(rows, found):
-            writer.writerow([row["id"], *map(float, values)])
-    per_point = None if evaluations is None else evaluations / len(rows)
-    print(json.dumps({"cpu_s": seconds, "rhs_per_point": per_point}))
+        writer.writerow(["id", *columns])
+        for row, values in zip(rows, found.measures):
+            writer.writerow([row[0], *map(float, values)])
+    rhs, periods = (None if total is None else total / len(rows) for total in (found.rhs, found.periods))
+    print(json.dumps({"cpu_s": seconds, "rhs_per_point": rhs, "periods_per_point": periods}))

@@ -1,0 +1,65 @@
+"""The work `settled`: periods of the bimorph model from rest until the motion has settled, and one that is measured."""
+
+from __future__ import annotations
+
+from .build import BOOST, GXX, NUMBA, NUMPY, REPOSITORY, SCIPY, TARGET, Cargo, Cpp, Python, Through, processor_flag
+from .peer import Peer
+from .work import Axis, Measure, Work
+
+COMMAND = Cargo(REPOSITORY, ("-p", "flap-cli"), TARGET / "release" / "flap")
+
+BASE = Peer(
+    "boost",
+    "Boost.Odeint (C++), DP5(4), strobe test",
+    Cpp("settled_boost.cpp", ("-O3", processor_flag("x86-64-v3")), BOOST),
+)
+
+SETTLED = Work(
+    name="settled",
+    what="settled motions from rest, preset jafferis2016",
+    # 60 to 100 % of the preset's voltage, 85 to 110 % of its frequency: every motion settles to one period.
+    amplitude=Axis("drive_voltage_pp", 120.0, 200.0),
+    frequency=Axis("drive_frequency", 102.0, 132.0),
+    measures=(
+        Measure("stroke_pp_deg"),
+        Measure("pitch_pp_deg"),
+        Measure("lift_mean_mn", crosses_zero=True),
+        Measure("power_mean_mw"),
+    ),
+    rtol=(1e-10, 1e-6),
+    rtol_limits="from 1e-10, where the reference ends, to 1e-6, the residual",
+    reference=Cpp("settled_reference.cpp", ("-O2",), BOOST),
+    base=BASE,
+    peers=(
+        BASE,
+        Peer("flap", "flap sweep", Through("settled_flap.py", COMMAND, ("true",)), samples=False),
+        Peer(
+            "flap_marching",
+            "flap sweep with newton = false",
+            Through("settled_flap.py", COMMAND, ("false",)),
+            samples=False,
+        ),
+        Peer(
+            "scipy",
+            "SciPy solve_ivp, RK45, plain Python, strobe test",
+            Python("settled_scipy.py", (NUMPY, SCIPY)),
+            most_points=16,
+        ),
+        Peer(
+            "numba_rk4",
+            "RK4 by hand (Python, numba), strobe test",
+            Python("settled_numba.py", (NUMPY, NUMBA)),
+            adaptive=False,
+        ),
+        Peer(
+            "rk4_lanes",
+            "RK4 by hand in lanes (C++), strobe test: an upper mark",
+            Cpp(
+                "settled_rk4_lanes.cpp",
+                ("-O3", processor_flag("native"), "-ffast-math", "-fopenmp-simd", "-mprefer-vector-width=512"),
+                GXX,
+            ),
+            adaptive=False,
+        ),
+    ),
+)
