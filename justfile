@@ -42,12 +42,19 @@ reproduce:
 bench:
     cargo bench -p flap-core -p flap-sweep
 
-# flap beside other solvers on the same equations, in turn on one core (benches/peers): `just peers --help`.
+# flap beside other solvers on the same equations, in turn on one core (benches/peers): `just peers --help`. With
+# `--work settled` the motions settle, as those of a sweep do.
 [positional-arguments]
 peers *ARGS:
     python3 benches/peers "$@"
 
-# Run nothing else meanwhile: it takes a quarter of an hour, most of it for the other solvers.
+# Times and memory of `flap sweep` for 10^3 to 10^7 points (benches/growth): `just growth --help`.
+[positional-arguments]
+growth *ARGS:
+    python3 benches/growth "$@"
+
+# Run nothing else meanwhile: it takes half an hour, most of it for the other solvers and the largest sweeps. The largest
+# file of rows has 2 GB, and there are four at a time.
 # How fast flap is on this machine, beside other solvers too: writes docs/performance.md.
 bench-report:
     mkdir -p target
@@ -55,7 +62,12 @@ bench-report:
     just peers --points 4096 --rtol 1e-6 --only 'flap|rk4_lanes' --json "$PWD/target/peers-4096-6.json"
     just peers --points 256 --rtol 1e-8 --only 'flap|rk4_lanes|ode_solvers' --json "$PWD/target/peers-256-8.json"
     just peers --points 4096 --rtol 1e-8 --rounds 3 --only 'flap|rk4_lanes' --json "$PWD/target/peers-4096-8.json"
-    cargo bench --locked -p flap-sweep --bench report -- --peers "$PWD"/target/peers-*-[68].json > target/performance.md
+    just peers --work settled --points 256 --rtol 1e-6 --json "$PWD/target/peers-settled-256-6.json"
+    just peers --work settled --points 4096 --rtol 1e-6 --only 'flap|rk4_lanes' --json "$PWD/target/peers-settled-4096-6.json"
+    just peers --work settled --points 256 --rtol 1e-8 --only 'flap|rk4_lanes' --json "$PWD/target/peers-settled-256-8.json"
+    just growth --json "$PWD/target/growth.json" --picture docs/pictures/growth.svg
+    cargo bench --locked -p flap-sweep --bench report -- --growth "$PWD/target/growth.json" \
+        --peers "$PWD"/target/peers-*-[68].json > target/performance.md
     mv target/performance.md docs/performance.md
 
 # Instructions of small sweeps against the stored numbers (needs valgrind); `just count-instructions --renew` stores them.

@@ -18,6 +18,7 @@ mod equations;
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 mod executed;
 mod grid;
+mod growth;
 mod machine;
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 mod peak;
@@ -53,18 +54,22 @@ fn main() {
 
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let effort = if arguments.iter().any(|argument| argument == "--bench") { MEASURED } else { TRIED_OUT };
-    let files = arguments.iter().skip_while(|argument| *argument != "--peers").skip(1);
-    let files: Vec<PathBuf> =
-        files.filter(|argument| !argument.starts_with('-')).map(PathBuf::from).collect();
 
     println!("# Performance\n");
     println!(
         "Written by `just bench-report`, which measures everything anew. Other machines give other numbers.\n"
     );
     machine::print();
-    peers::print(&files);
+    peers::print(&files_of(&arguments, "--peers"));
     presets::print(effort);
     whole::print(effort);
+    growth::print(&files_of(&arguments, "--growth"));
     #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
     peak::print(effort);
+}
+
+/// The files behind an option, up to the next one.
+fn files_of(arguments: &[String], option: &str) -> Vec<PathBuf> {
+    let behind = arguments.iter().skip_while(|argument| *argument != option).skip(1);
+    behind.take_while(|argument| !argument.starts_with('-')).map(PathBuf::from).collect()
 }

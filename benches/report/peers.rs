@@ -5,46 +5,78 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::spread::Spread;
+use crate::spread::{Spread, digits};
+
+/// A work of the benchmark, with its name in the files.
+struct Work {
+    name: &'static str,
+    text: &'static str,
+}
+
+const WORKS: [Work; 2] = [
+    Work {
+        name: "integration",
+        text: "## Beside other solvers\n\nThe equations of `examples/own_equations`, the same points for all, in turn on one \
+               core: see [benches/peers](../benches/peers/README.md).\n",
+    },
+    Work {
+        name: "settled",
+        text: "## Settled motions beside other solvers\n\nThe preset `jafferis2016` around its flight, from rest until a \
+               drive period changes the state by at most 1e-6, and one more period that is measured: the other solvers \
+               march, flap runs as `flap sweep` and writes rows with all columns. See \
+               [benches/peers](../benches/peers/README.md#the-work-settled).\n",
+    },
+];
 
 pub(crate) fn print(files: &[PathBuf]) {
-    println!(
-        "## Beside other solvers\n\nThe equations of `examples/own_equations`, the same points for all, in turn on one core: \
-         see [benches/peers](../benches/peers/README.md).\n"
-    );
-    if files.is_empty() {
-        println!("Not measured.\n");
-    }
-    for file in files {
-        print_table(file).unwrap_or_else(|| panic!("{} is not what `just peers` writes", file.display()));
+    let results: Vec<(&PathBuf, Value)> = files.iter().map(|file| (file, read(file))).collect();
+    for work in WORKS {
+        println!("{}", work.text);
+        let mut of_work = results.iter().filter(|(_, told)| told["work"] == work.name).peekable();
+        if of_work.peek().is_none() {
+            println!("Not measured.\n");
+        }
+        for (file, told) in of_work {
+            print_table(told).unwrap_or_else(|| panic!("{} is not what `just peers` writes", file.display()));
+        }
     }
 }
 
-/// `None` if the file is not as expected.
-fn print_table(file: &Path) -> Option<()> {
-    let told: Value = serde_json::from_str(&fs::read_to_string(file).ok()?).ok()?;
+fn read(file: &Path) -> Value {
+    let text = fs::read_to_string(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
+}
+
+/// `None` if the results are not as expected.
+fn print_table(told: &Value) -> Option<()> {
     let mut peers: Vec<&Value> = told["peers"].as_array()?.iter().collect();
     let speed = |peer: &Value| peer["points_per_cpu_second"]["median"].as_f64().unwrap_or(0.0);
     peers.sort_by(|a, b| speed(b).total_cmp(&speed(a)));
     let flap = peers.iter().find(|peer| peer["name"] == "flap").map(|flap| rounds(flap));
 
+    let counted = peers.iter().any(|peer| peer["periods_per_point"].is_number());
     println!(
         "{} points at rtol {:e}, {} rounds on {}:\n\n\
-         | solver | points per CPU-second | rate of flap over this rate | median deviation | remarks |\n|---|---|---|---|---|",
+         | solver | points per CPU-second | rate of flap over this rate |{} median deviation | remarks |\n\
+         |---|---|---|{}---|---|",
         told["points"],
         told["rtol"].as_f64()?,
         told["rounds"],
-        told["processor"].as_str()?
+        told["processor"].as_str()?,
+        if counted { " periods per point |" } else { "" },
+        if counted { "---|" } else { "" }
     );
     for peer in peers {
         let ratio = flap.as_ref().map(|flap| Spread::of_ratios(flap, &rounds(peer)));
+        let periods = peer["periods_per_point"].as_f64().map_or("–".into(), digits);
         let deviation = peer["integration_deviation"]["median"].as_f64();
         let remarks: Vec<&str> = peer["remarks"].as_array()?.iter().filter_map(Value::as_str).collect();
         println!(
-            "| {} | {} | {} | {} | {} |",
+            "| {} | {} | {} |{} {} | {} |",
             peer["what"].as_str()?,
             Spread::of(rounds(peer)),
             ratio.filter(|_| peer["name"] != "flap").map_or("–".into(), |ratio| ratio.to_string()),
+            if counted { format!(" {periods} |") } else { String::new() },
             deviation.map_or("–".into(), |deviation| format!("{deviation:.1e}")),
             remarks.join("; ")
         );
