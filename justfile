@@ -43,7 +43,7 @@ bench:
     cargo bench -p flap-core -p flap-sweep
 
 # flap beside other solvers on the same equations, in turn on one core (benches/peers): `just peers --help`. With
-# `--work settled` the motions settle, as those of a sweep do.
+# `--work settled` and `--work responses` motions settle, as those of a sweep do.
 [positional-arguments]
 peers *ARGS:
     python3 benches/peers "$@"
@@ -65,6 +65,7 @@ bench-report:
     just peers --work settled --points 256 --rtol 1e-6 --json "$PWD/target/peers-settled-256-6.json"
     just peers --work settled --points 4096 --rtol 1e-6 --only 'flap|rk4_lanes' --json "$PWD/target/peers-settled-4096-6.json"
     just peers --work settled --points 256 --rtol 1e-8 --only 'flap|rk4_lanes' --json "$PWD/target/peers-settled-256-8.json"
+    just peers --work responses --points 256 --rtol 1e-6 --json "$PWD/target/peers-responses-256-6.json"
     just growth --json "$PWD/target/growth.json" --picture docs/pictures/growth.svg
     cargo bench --locked -p flap-sweep --bench report -- --growth "$PWD/target/growth.json" \
         --peers "$PWD"/target/peers-*-[68].json > target/performance.md

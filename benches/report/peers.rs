@@ -13,7 +13,7 @@ struct Work {
     text: &'static str,
 }
 
-const WORKS: [Work; 2] = [
+const WORKS: [Work; 3] = [
     Work {
         name: "integration",
         text: "## Beside other solvers\n\nThe equations of `examples/own_equations`, the same points for all, in turn on one \
@@ -21,10 +21,15 @@ const WORKS: [Work; 2] = [
     },
     Work {
         name: "settled",
-        text: "## Settled motions beside other solvers\n\nThe preset `jafferis2016` around its flight, from rest until a \
-               drive period changes the state by at most 1e-6, and one more period that is measured: the other solvers \
-               march, flap runs as `flap sweep` and writes rows with all columns. See \
-               [benches/peers](../benches/peers/README.md#the-work-settled).\n",
+        text: "## Settled motions beside other solvers\n\nThe preset `jafferis2016` around its flight (120 to 200 V, 102 to \
+               132 Hz), from rest until a drive period changes the state by at most 1e-6, and one more period that is \
+               measured: the other solvers march, flap runs as `flap sweep` and writes rows with all columns. See \
+               [benches/peers](../benches/peers/README.md#the-works-settled-and-responses).\n",
+    },
+    Work {
+        name: "responses",
+        text: "Likewise over the frequency responses of `examples/jafferis_fig4.toml` (40 to 240 V, 40 to 200 Hz), where \
+               some motions settle slowly.\n",
     },
 ];
 

@@ -72,7 +72,7 @@ def test_a_motion_that_does_not_settle_has_no_measures(monkeypatch):
     assert np.isnan(orbit.measures(samples[np.newaxis], [125.0])).all()
 
 
-@pytest.mark.parametrize("work", ["integration", "settled"])
+@pytest.mark.parametrize("work", ["integration", "settled", "responses"])
 @pytest.mark.parametrize("count", [1, 2, 7, 16, 250])
 def test_a_grid_has_as_many_points_as_asked_for(count, work):
     from harness import points
@@ -211,11 +211,18 @@ def test_mistakes_are_named(arguments, message, capsys):
     assert message in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("name", ["integration", "settled"])
-def test_every_peer_is_described(name):
+@pytest.mark.parametrize(
+    ("name", "heading"),
+    [
+        ("integration", "The work `integration`"),
+        ("settled", "The works `settled` and `responses`"),
+        ("responses", "The works `settled` and `responses`"),
+    ],
+)
+def test_every_peer_is_described(name, heading):
     from harness.roster import WORKS
 
     page = (PEERS / "README.md").read_text(encoding="utf-8")
-    section = page.split(f"\n## The work `{name}`\n")[1].split("\n## ")[0]
+    section = page.split(f"\n## {heading}\n")[1].split("\n## ")[0]
     described = re.findall(r"^\| `(\w+)` \|.*\| (\w+) \|$", section, re.MULTILINE)
     assert described == [(peer.name, "adaptive" if peer.adaptive else "fixed") for peer in WORKS[name].peers]

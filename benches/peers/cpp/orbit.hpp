@@ -10,7 +10,7 @@
 namespace orbit {
 
 constexpr double RESIDUAL = 1e-6;     // largest change of a state over a period of a settled motion
-constexpr int PATIENCE = 64;          // periods after which a march goes on at a tenth of the tolerance
+constexpr int PATIENCE = 32;          // periods in which the residual is to fall
 constexpr int MOST_PERIODS = 1000;
 constexpr int SAMPLES = 64;           // per period
 
@@ -31,14 +31,22 @@ template <class Real> struct Found {
 };
 
 // Marches from rest until a period changes the state by `residual` at most. `period` integrates one at a tolerance. A
-// period map that jumps by the error of integration may never come to rest: then a tighter tolerance helps.
+// period map that jumps by the error of integration may never come to rest: where the residual has stopped falling, the
+// march goes on at a tenth of the tolerance.
 template <class Real, class Period> Found<Real> settle(Real rtol, Real residual, Period period) {
     bimorph::State<Real> y{};
+    Real least = std::numeric_limits<Real>::infinity(), last_least = least;
     for (int periods = 1; periods <= MOST_PERIODS; ++periods) {
         const auto before = y;
         period(y, rtol);
-        if (change(before, y) <= residual) return {y, rtol, periods};
-        if (periods % PATIENCE == 0) rtol = std::max(rtol / 10, 100 * std::numeric_limits<Real>::epsilon());
+        const Real changed = change(before, y);
+        if (changed <= residual) return {y, rtol, periods};
+        least = std::min(least, changed);
+        if (periods % PATIENCE == 0) {
+            if (least > last_least * Real(0.9)) rtol = std::max(rtol / 10, 100 * std::numeric_limits<Real>::epsilon());
+            last_least = least;
+            least = std::numeric_limits<Real>::infinity();
+        }
     }
     return {y, rtol, 0};
 }

@@ -34,22 +34,29 @@ public:
 
     double omega() const { return double(omega_); }
 
-    // States at `count` equally spaced phases of the measured period: none if the motion does not settle.
-    std::vector<State> samples(Real rtol, Real residual, int count) {
+    // One period.
+    void period(State& y, Real rtol) {
         namespace odeint = boost::numeric::odeint;
-        const Real first = turn_ / orbit::SAMPLES;
-        auto found = orbit::settle<Real>(rtol, residual, [&](State& y, Real tolerance) {
-            ++periods;
-            auto stepper = odeint::make_controlled(tolerance / 10, tolerance, Method());
-            odeint::integrate_adaptive(stepper, equations(), y, Real(0), turn_, first);
-        });
+        ++periods;
+        auto stepper = odeint::make_controlled(rtol / 10, rtol, Method());
+        odeint::integrate_adaptive(stepper, equations(), y, Real(0), turn_, turn_ / orbit::SAMPLES);
+    }
+
+    // The state at the beginning of a period of the settled motion.
+    orbit::Found<Real> settle(Real rtol, Real residual) {
+        return orbit::settle<Real>(rtol, residual, [this](State& y, Real tolerance) { period(y, tolerance); });
+    }
+
+    // States at `count` equally spaced phases of one more period: none if the motion has not settled.
+    std::vector<State> samples(orbit::Found<Real> found, int count) {
+        namespace odeint = boost::numeric::odeint;
         std::vector<State> taken;
         if (found.periods == 0) return taken;
         ++periods;
         std::vector<Real> phases;
         for (int i = 0; i < count; ++i) phases.push_back(turn_ * Real(i) / Real(count));
         auto stepper = odeint::make_dense_output(found.rtol / 10, found.rtol, Method());
-        odeint::integrate_times(stepper, equations(), found.y, phases, first,
+        odeint::integrate_times(stepper, equations(), found.y, phases, turn_ / orbit::SAMPLES,
                                 [&](const State& y, Real) { taken.push_back(y); });
         return taken;
     }

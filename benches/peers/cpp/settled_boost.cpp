@@ -7,7 +7,7 @@ int main(int count, char** arguments) {
         results.reserve(points.size());
         for (const Point& point : points) {
             Settling<double> settling(point);
-            const auto samples = settling.samples(rtol, orbit::RESIDUAL, orbit::SAMPLES);
+            const auto samples = settling.samples(settling.settle(rtol, orbit::RESIDUAL), orbit::SAMPLES);
             results.push_back({orbit::measures(samples, settling.omega()), settling.rhs, settling.periods});
         }
         return results;

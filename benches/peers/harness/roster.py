@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .integration import INTEGRATION
-from .settled import SETTLED
+from .settled import RESPONSES, SETTLED
 from .work import Work
 
-WORKS: dict[str, Work] = {work.name: work for work in (INTEGRATION, SETTLED)}
+WORKS: dict[str, Work] = {work.name: work for work in (INTEGRATION, SETTLED, RESPONSES)}

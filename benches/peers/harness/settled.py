@@ -1,6 +1,9 @@
-"""The work `settled`: periods of the bimorph model from rest until the motion has settled, and one that is measured."""
+"""The works `settled` and `responses`: periods of the bimorph model from rest until the motion has settled, and one that is
+measured."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 from .build import BOOST, GXX, NUMBA, NUMPY, REPOSITORY, SCIPY, TARGET, Cargo, Cpp, Python, Through, processor_flag
 from .peer import Peer
@@ -14,10 +17,43 @@ BASE = Peer(
     Cpp("settled_boost.cpp", ("-O3", processor_flag("x86-64-v3")), BOOST),
 )
 
+PEERS_IN_TURN: tuple[Peer, ...] = (
+    BASE,
+    Peer("flap", "flap sweep", Through("settled_flap.py", COMMAND, ("true",)), samples=False),
+    Peer(
+        "flap_marching",
+        "flap sweep with newton = false",
+        Through("settled_flap.py", COMMAND, ("false",)),
+        samples=False,
+    ),
+    Peer(
+        "scipy",
+        "SciPy solve_ivp, RK45, plain Python, strobe test",
+        Python("settled_scipy.py", (NUMPY, SCIPY)),
+        most_points=16,
+    ),
+    Peer(
+        "numba_rk4",
+        "RK4 by hand (Python, numba), strobe test",
+        Python("settled_numba.py", (NUMPY, NUMBA)),
+        adaptive=False,
+    ),
+    Peer(
+        "rk4_lanes",
+        "RK4 by hand in lanes (C++), strobe test: an upper mark",
+        Cpp(
+            "settled_rk4_lanes.cpp",
+            ("-O3", processor_flag("native"), "-ffast-math", "-fopenmp-simd", "-mprefer-vector-width=512"),
+            GXX,
+        ),
+        adaptive=False,
+    ),
+)
+
 SETTLED = Work(
     name="settled",
-    what="settled motions from rest, preset jafferis2016",
-    # 60 to 100 % of the preset's voltage, 85 to 110 % of its frequency: every motion settles to one period.
+    what="settled motions around the flight of jafferis2016",
+    # 60 to 100 % of the preset's voltage, 85 to 110 % of its frequency: every motion settles to one drive period.
     amplitude=Axis("drive_voltage_pp", 120.0, 200.0),
     frequency=Axis("drive_frequency", 102.0, 132.0),
     measures=(
@@ -30,36 +66,14 @@ SETTLED = Work(
     rtol_limits="from 1e-10, where the reference ends, to 1e-6, the residual",
     reference=Cpp("settled_reference.cpp", ("-O2",), BOOST),
     base=BASE,
-    peers=(
-        BASE,
-        Peer("flap", "flap sweep", Through("settled_flap.py", COMMAND, ("true",)), samples=False),
-        Peer(
-            "flap_marching",
-            "flap sweep with newton = false",
-            Through("settled_flap.py", COMMAND, ("false",)),
-            samples=False,
-        ),
-        Peer(
-            "scipy",
-            "SciPy solve_ivp, RK45, plain Python, strobe test",
-            Python("settled_scipy.py", (NUMPY, SCIPY)),
-            most_points=16,
-        ),
-        Peer(
-            "numba_rk4",
-            "RK4 by hand (Python, numba), strobe test",
-            Python("settled_numba.py", (NUMPY, NUMBA)),
-            adaptive=False,
-        ),
-        Peer(
-            "rk4_lanes",
-            "RK4 by hand in lanes (C++), strobe test: an upper mark",
-            Cpp(
-                "settled_rk4_lanes.cpp",
-                ("-O3", processor_flag("native"), "-ffast-math", "-fopenmp-simd", "-mprefer-vector-width=512"),
-                GXX,
-            ),
-            adaptive=False,
-        ),
-    ),
+    peers=PEERS_IN_TURN,
+)
+
+RESPONSES = replace(
+    SETTLED,
+    name="responses",
+    what="settled motions of the frequency responses of jafferis2016 at many voltages",
+    # Those of examples/jafferis_fig4.toml, with motions that settle slowly.
+    amplitude=Axis("drive_voltage_pp", 40.0, 240.0),
+    frequency=Axis("drive_frequency", 40.0, 200.0),
 )

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 #: Largest change of a state over a period of a settled motion.
 RESIDUAL = 1e-6
-#: Periods after which a march with error control goes on at a tenth of the tolerance.
-PATIENCE = 64
+#: Periods in which the residual of a march with error control is to fall.
+PATIENCE = 32
 MOST_PERIODS = 1000
 #: Per period.
 SAMPLES = 64
