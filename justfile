@@ -42,8 +42,8 @@ reproduce:
 bench:
     cargo bench -p flap-core -p flap-sweep
 
-# flap beside other solvers on the same equations, in turn on one core (benches/peers): `just peers --help`. With
-# `--work settled` and `--work responses` motions settle, as those of a sweep do.
+# With `--work settled` and `--work responses` motions settle, as those of a sweep do.
+# flap beside other solvers on the same equations, in turn on one core (benches/peers): `just peers --help`.
 [positional-arguments]
 peers *ARGS:
     python3 benches/peers "$@"
@@ -53,8 +53,8 @@ peers *ARGS:
 growth *ARGS:
     python3 benches/growth "$@"
 
-# Run nothing else meanwhile: it takes half an hour, most of it for the other solvers and the largest sweeps. The largest
-# file of rows has 2 GB, and there are four at a time.
+# Run nothing else meanwhile: it takes some forty minutes, most of it for the other solvers and the largest sweeps, whose
+# rows take 4 GB below target/ for a while.
 # How fast flap is on this machine, beside other solvers too: writes docs/performance.md.
 bench-report:
     mkdir -p target
