@@ -31,7 +31,7 @@ const LONGEST: u32 = 16;
 /// The largest residual of the orbit at the loose tolerance. The period map of this tolerance jumps by less.
 const NEAR: f64 = 1e-2;
 
-/// The largest residual, at the middle tolerance, of the orbit whose monodromy matrix is taken.
+/// The residual of a march that is as near as an iteration at the loose tolerance comes.
 const NEARER: f64 = 1e-3;
 
 /// The residual at the middle tolerance below which one more chord step is the last.
@@ -108,6 +108,12 @@ impl<const N: usize> Search<N> {
         Next::March(chord.y())
     }
 
+    /// The square root of the relative tolerance asked for: the largest residual, at the middle tolerance, of the orbit
+    /// whose monodromy matrix is taken.
+    fn mapped_residual(&self) -> f64 {
+        self.precision.asked_rtol().sqrt()
+    }
+
     /// The step after a chord step at the middle tolerance.
     pub(super) fn approach(&mut self, mut chord: Chord<N>) -> Next<N> {
         let step = chord.step(&self.newton, NEAREST);
@@ -116,7 +122,7 @@ impl<const N: usize> Search<N> {
             return Next::March(y);
         }
         self.stage = Stage::Mapping;
-        self.newton = self.newton.resumed_at(chord.y()).aiming_at(NEARER).allowing(APART);
+        self.newton = self.newton.resumed_at(chord.y()).aiming_at(self.mapped_residual()).allowing(APART);
         Next::Vary(chord.y())
     }
 
