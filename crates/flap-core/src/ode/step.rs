@@ -39,16 +39,14 @@ impl<R: Lanes, const N: usize> Step<R, N> {
     /// sides.
     #[inline(always)]
     pub fn attempt<O: Ode<N>>(&mut self, ode: &O, c: &O::Constants<R>, t: R, h: R, side: R) {
-        let mut u = ode.input(c, h.mul_add(h.lit(C[1]), t));
-        // The inputs of all stages do not wait for each other. Of inputs that are several numbers, those that the right-hand
-        // side does not need would be computed too.
-        let ahead = size_of::<O::Input<R>>() == size_of::<R>();
-        let mut inputs = [u; STAGES];
+        // The inputs of all stages do not wait for each other. Of inputs that are many numbers, those that the right-hand side
+        // does not need would be computed too. Stages 6 and 7 are both at the end of the step and share theirs.
+        let ahead = size_of::<O::Input<R>>() <= AHEAD * size_of::<R>();
+        let mut inputs = [ode.input(c, h.mul_add(h.lit(C[1]), t)); STAGES - 2];
         if ahead {
-            for stage in 2..STAGES - 1 {
-                inputs[stage] = ode.input(c, h.mul_add(h.lit(C[stage]), t));
+            for i in 1..STAGES - 2 {
+                inputs[i] = ode.input(c, h.mul_add(h.lit(C[i + 1]), t));
             }
-            inputs[STAGES - 1] = inputs[STAGES - 2];
         }
         // A loop, so that the right-hand side is compiled once: six copies of it take the compiler minutes, and are no
         // faster.
@@ -60,13 +58,11 @@ impl<R: Lanes, const N: usize> Step<R, N> {
             for i in 0..N {
                 y[i] = last[i].mul_add(weight, y[i]);
             }
-            if ahead {
-                u = inputs[stage];
-            } else if stage > 1 && C[stage] != C[stage - 1] {
-                // Stages 6 and 7 are both at the end of the step and share its inputs.
-                u = ode.input(c, h.mul_add(h.lit(C[stage]), t));
+            let at = if ahead { stage.min(STAGES - 2) - 1 } else { 0 };
+            if !ahead && stage > 1 && C[stage] != C[stage - 1] {
+                inputs[0] = ode.input(c, h.mul_add(h.lit(C[stage]), t));
             }
-            last = ode.rhs(c, &u, side, &y);
+            last = ode.rhs(c, &inputs[at], side, &y);
             self.k[stage] = last;
             self.y[stage] = y;
         }
@@ -83,6 +79,9 @@ impl<R: Lanes, const N: usize> Step<R, N> {
         }
     }
 }
+
+/// The most numbers of an input that is computed for all stages of a step at once.
+const AHEAD: usize = 3;
 
 /// Components whose sums stay in registers while slopes are added up.
 const BLOCK: usize = 4;
