@@ -40,6 +40,7 @@ PRESETS = [
 # Settings that keep the emulated sweeps short: what a step costs depends neither on its length nor on their number.
 MARCHING = "newton = false\nmax_cycles = 6"
 NEWTON = "rtol = 1e-4\nsettle_tol = 1e-2"
+PROGRESSIVE = "rtol = 1e-6\nsettle_tol = 1e-6"
 
 # The function in which counting begins and ends, as callgrind writes it.
 COUNTED = "*Runner*Rows>::run"
@@ -70,7 +71,8 @@ class NotComparableError(Exception):
 def grids() -> dict[str, str]:
     """The grids by name, in the order of reports."""
     texts = {}
-    for way, solver, points in (("marching", MARCHING, 16), ("newton", NEWTON, 8)):
+    ways = (("marching", MARCHING, 16), ("newton", NEWTON, 8), ("progressive", PROGRESSIVE, 8))
+    for way, solver, points in ways:
         for preset in PRESETS:
             texts[f"{preset}-{way}"] = grid(preset, "", solver, points)
     blades = 'flow_direction = "blade"'
