@@ -66,7 +66,7 @@ def respond(
     --------
     >>> curve = flapwing.respond("ozaki2018-large", start=100, stop=120, step=5)
     >>> curve.meta["verdicts"]
-    ['no hysteresis above 8.8e-9 deg from 100 to 120 Hz']
+    ['no hysteresis above 1.1e-9 deg from 100 to 120 Hz']
     """
     if along in keywords:
         raise ValueError(f"`{along}` is set here and followed: keep one of them")
