@@ -6,7 +6,7 @@ use core::ops::ControlFlow;
 use std::time::Instant;
 
 use flap_core::num::{InstructionSet, Kernel, Lanes, Number, Simd, Vector};
-use flap_core::ode::ensemble::{NewRun, Queue, Unobserved, run};
+use flap_core::ode::ensemble::{Continuation, NewRun, Queue, Unobserved, run};
 use flap_core::ode::{Outcome, Start, Tolerances};
 
 use crate::Effort;
@@ -154,11 +154,12 @@ impl Queue<Wing, Unobserved, 4> for Alike<'_> {
         if *left == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    fn ended(&mut self, _run: u64, outcome: Outcome) {
+    fn ended(&mut self, _run: u64, outcome: Outcome) -> Option<(u64, Continuation<4>)> {
         if self.marks == 0 {
             self.marks = 1;
             (self.mark)();
         }
         self.rhs_evals += outcome.rhs_evals;
+        None
     }
 }

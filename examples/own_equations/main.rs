@@ -19,7 +19,7 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use flap_core::num::{InstructionSet, Kernel, Simd};
-use flap_core::ode::ensemble::{NewRun, Observer, Queue, Unobserved, run};
+use flap_core::ode::ensemble::{Continuation, NewRun, Observer, Queue, Unobserved, run};
 use flap_core::ode::{Outcome, Start, Tolerances};
 use nix::time::{ClockId, clock_gettime};
 
@@ -152,9 +152,10 @@ impl<V: Observer<Wing, 4>> Queue<Wing, V, 4> for Part<V::Totals<f64>> {
         ControlFlow::Break(())
     }
 
-    fn ended(&mut self, _run: (usize, u32), outcome: Outcome) {
+    fn ended(&mut self, _run: (usize, u32), outcome: Outcome) -> Option<(Self::Run, Continuation<4>)> {
         // A run that fails keeps the totals of nothing: zeros.
         self.rhs_evals += outcome.rhs_evals;
+        None
     }
 }
 

@@ -7,7 +7,7 @@ use flap_core::drive::Drive;
 use flap_core::model::Model;
 use flap_core::model::direct_drive::{Constants, DirectDrive, FlowDirection};
 use flap_core::num::{InstructionSet, Kernel, Lanes, PerLane, Simd, Vector};
-use flap_core::ode::ensemble::{NewRun, Queue, Unobserved, run};
+use flap_core::ode::ensemble::{Continuation, NewRun, Queue, Unobserved, run};
 use flap_core::ode::step::Step;
 use flap_core::ode::{Ode, Outcome, Start, Tolerances};
 use flap_core::simulate::{Jobs, Point, Row, SolverSettings, preset};
@@ -85,8 +85,9 @@ impl Queue<DirectDrive, Unobserved, 4> for Ensemble {
         count_down(left)
     }
 
-    fn ended(&mut self, _left: u32, outcome: Outcome) {
+    fn ended(&mut self, _left: u32, outcome: Outcome) -> Option<(u32, Continuation<4>)> {
         black_box(outcome);
+        None
     }
 }
 

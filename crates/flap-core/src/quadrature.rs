@@ -1,6 +1,9 @@
 //! Rules for integrals over the interval from 0 to 1.
 
 use core::f64::consts::PI;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// A node in [0, 1] and its weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,7 +15,7 @@ pub struct Node {
 }
 
 /// The middles of `n` equal parts: exact for straight lines.
-pub fn midpoints(n: usize) -> Vec<Node> {
+pub fn midpoints(n: usize) -> Rc<[Node]> {
     let weight = 1.0 / n as f64;
     (0..n).map(|i| Node { x: (i as f64 + 0.5) * weight, weight }).collect()
 }
@@ -24,7 +27,15 @@ pub fn midpoints(n: usize) -> Vec<Node> {
 /// let integral: f64 = rule.iter().map(|node| node.weight * node.x.powi(7)).sum();
 /// assert!((integral - 1.0 / 8.0).abs() < 1e-16);
 /// ```
-pub fn gauss_legendre(n: usize) -> Vec<Node> {
+pub fn gauss_legendre(n: usize) -> Rc<[Node]> {
+    thread_local! {
+        // Every point of a sweep asks for the same rules.
+        static RULES: RefCell<BTreeMap<usize, Rc<[Node]>>> = const { RefCell::new(BTreeMap::new()) };
+    }
+    RULES.with_borrow_mut(|rules| Rc::clone(rules.entry(n).or_insert_with(|| find_gauss_legendre(n))))
+}
+
+fn find_gauss_legendre(n: usize) -> Rc<[Node]> {
     (0..n)
         .map(|i| {
             // Newton's method from an approximation that lies closer to its own root than to any other.

@@ -100,7 +100,7 @@ fn blade_elements_add_up_to_the_wing() {
         let c_lift = c.k_lift * (2.0 * psi).sin();
         let c_drag = c.drag_mean + c.drag_swing * (2.0 * psi).cos();
         let mut expected = [0.0; 4];
-        for node in gauss_legendre(8) {
+        for node in gauss_legendre(8).iter() {
             let x = 0.5 * p.actuator_length + node.x * p.wing_length;
             let z = 2.0 * node.x - 1.0;
             let chord = p.mean_chord

@@ -187,7 +187,7 @@ fn gauss_rules_integrate_polynomials_exactly() {
 
 #[test]
 fn midpoints_are_the_middles() {
-    assert_eq!(midpoints(2), [Node { x: 0.25, weight: 0.5 }, Node { x: 0.75, weight: 0.5 }]);
+    assert_eq!(*midpoints(2), [Node { x: 0.25, weight: 0.5 }, Node { x: 0.75, weight: 0.5 }]);
     // The wing's area converges with the square of the number of strips.
     let force = |quadrature, strips| {
         let p = Params { quadrature, strips, ..params("sys75") };

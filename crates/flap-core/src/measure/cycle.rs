@@ -212,7 +212,7 @@ fn between<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
     let at = h.mul_add(h.lit(theta), t);
     let y = interpolate(step, h, h.lit(theta));
     let u = input(model, c, at);
-    let dy = slope(model, c, &u, side, &y);
+    let dy = if M::SIGNALS_OF_SLOPES { slope(model, c, &u, side, &y) } else { [h.lit(f64::NAN); N] };
     signals(model, c, Instant { input: &u, side, y: &y, dy: &dy })
 }
 

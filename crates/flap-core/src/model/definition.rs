@@ -69,6 +69,8 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + Clone + PartialEq + 's
     const SIGNALS: [Signal; S];
     /// Columns computed from the signals.
     const DERIVED: &'static [Derived<Self, Self::Constants<f64>, S>];
+    /// True if the signals depend on the derivatives of the states, [`Instant::dy`]. If not, they may be NaN there.
+    const SIGNALS_OF_SLOPES: bool = true;
     /// The balance of energy over an orbit, if rows are to be held to it.
     const ENERGY: Option<EnergyBalance> = None;
 

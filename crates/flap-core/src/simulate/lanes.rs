@@ -20,7 +20,7 @@ use crate::measure::cycle::Signals;
 use crate::measure::size::Size;
 use crate::model::Model;
 use crate::num::{Kernel, Lanes, Simd, Vector};
-use crate::ode::ensemble::{NewRun, Observer, Queue, Unobserved, run};
+use crate::ode::ensemble::{Continuation, NewRun, Observer, Queue, Unobserved, run};
 use crate::ode::variation::Variation;
 use crate::ode::{Outcome, Start};
 
@@ -248,8 +248,12 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Qu
         run.search.period_end(y, largest)
     }
 
-    fn ended(&mut self, mut run: Self::Run, outcome: Outcome) {
+    fn ended(&mut self, mut run: Self::Run, outcome: Outcome) -> Option<(Self::Run, Continuation<N>)> {
         let next = run.search.marched(outcome);
+        if let Next::March(y) = next {
+            let next = Continuation::from(&run.search.marching(&run.start, &y));
+            return Some((run, next));
+        }
         self.sort(run, next);
         if self.near.len() >= BATCH {
             self.vary();
@@ -257,6 +261,7 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Qu
         if self.found.len() >= BATCH {
             self.measure();
         }
+        None
     }
 
     fn interrupted(&self) -> bool {

@@ -7,7 +7,7 @@ use std::vec::IntoIter;
 use super::jobs::Jobs;
 use super::row::Row;
 use super::search::{Next, Search};
-use crate::ode::ensemble::{NewRun, Observer, Queue, Unobserved};
+use crate::ode::ensemble::{Continuation, NewRun, Observer, Queue, Unobserved};
 use crate::ode::variation::Variation;
 use crate::ode::{Ode, Outcome, Start};
 
@@ -47,11 +47,14 @@ impl<M: Ode<N>, const N: usize, const K: usize> Queue<Variation<'_, M, N>, Unobs
         ControlFlow::Break(())
     }
 
-    fn ended(&mut self, (mut run, end): Self::Run, outcome: Outcome) {
-        match run.search.varied(end.as_ref(), outcome) {
-            Next::Vary(y) => self.pending.push((run, y)),
-            next => self.done.push((run, next)),
+    fn ended(&mut self, (mut run, end): Self::Run, outcome: Outcome) -> Option<(Self::Run, Continuation<K>)> {
+        let next = run.search.varied(end.as_ref(), outcome);
+        if let Next::Vary(y) = next {
+            let next = Continuation::from(&run.search.responding(&run.start, &y));
+            return Some(((run, None), next));
         }
+        self.done.push((run, next));
+        None
     }
 
     fn interrupted(&self) -> bool {
@@ -104,8 +107,13 @@ impl<M: Ode<N>, V: Observer<M, N>, const N: usize> Queue<M, V, N>
         ControlFlow::Break(())
     }
 
-    fn ended(&mut self, (position, end): Self::Run, outcome: Outcome) {
+    fn ended(
+        &mut self,
+        (position, end): Self::Run,
+        outcome: Outcome,
+    ) -> Option<(Self::Run, Continuation<N>)> {
         self.ended.push(PeriodEnd { position, end, outcome });
+        None
     }
 
     fn interrupted(&self) -> bool {

@@ -23,6 +23,7 @@ impl Model<4, S> for Bimorph {
     };
     const STATES: [&'static str; 4] = ["tip_m", "tip_rate_m_s", "pitch_rad", "pitch_rate_rad_s"];
     const SIGNALS: [Signal; S] = columns::SIGNALS;
+    const SIGNALS_OF_SLOPES: bool = false;
     const DERIVED: &'static [Derived<Bimorph, Constants<f64>, S>] = columns::DERIVED;
     const ENERGY: Option<EnergyBalance> = Some(columns::ENERGY);
 

@@ -69,7 +69,7 @@ impl Composite {
         let across = |x: f64| [-p.axis_position * p.chord(x), (1.0 - p.axis_position) * p.chord(x)];
         let mut pieces = Vec::new();
         // Exact for the moments of a chord of fourth degree.
-        for node in gauss_legendre(16) {
+        for node in gauss_legendre(16).iter() {
             let radius = p.wing_offset + p.wing_length * node.x;
             let width = p.wing_length * node.weight;
             let spar = self.spar_position * p.chord(node.x);

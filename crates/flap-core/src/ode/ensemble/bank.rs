@@ -1,6 +1,7 @@
 //! The numbers in an ensemble's lanes, and a step of all of them.
 
 use super::observer::Observer;
+use super::queue::Continuation;
 use crate::num::{Lanes, PerLane};
 use crate::ode::controller::{Memory, judge};
 use crate::ode::norm::error_squared;
@@ -78,12 +79,17 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
     /// Puts a run into a lane.
     pub(super) fn load(&mut self, lane: usize, start: &Start<O::Constants<f64>, N>, observer: &V) {
         self.constants.set(lane, &start.constants);
-        self.totals.set(lane, &observer.nothing());
         self.span.set_lane(lane, start.span);
-        self.rtol.set_lane(lane, self.tolerances.rtol * start.tighten);
+        self.load_continuation(lane, &Continuation::from(start), observer);
+    }
+
+    /// Puts the continuation of a lane's run into it.
+    pub(super) fn load_continuation(&mut self, lane: usize, next: &Continuation<N>, observer: &V) {
+        self.totals.set(lane, &observer.nothing());
+        self.rtol.set_lane(lane, self.tolerances.rtol * next.tighten);
         for i in 0..N {
-            self.step.y[0][i].set_lane(lane, start.y[i]);
-            self.atol[i].set_lane(lane, self.tolerances.atol * start.tighten * start.scale[i]);
+            self.step.y[0][i].set_lane(lane, next.y[i]);
+            self.atol[i].set_lane(lane, self.tolerances.atol * next.tighten * next.scale[i]);
         }
     }
 

@@ -11,5 +11,5 @@ mod queue;
 mod schedule;
 
 pub use observer::{Observer, Unobserved};
-pub use queue::{NewRun, Queue};
+pub use queue::{Continuation, NewRun, Queue};
 pub use schedule::{Occupancy, run};

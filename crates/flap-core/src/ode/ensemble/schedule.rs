@@ -94,6 +94,11 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Schedule<R, O,
     /// Puts a run into a lane.
     fn load(&mut self, lane: usize, run: Run, start: &Start<O::Constants<f64>, N>, observer: &V) {
         self.bank.load(lane, start, observer);
+        self.begin(lane, run);
+    }
+
+    /// Begins a run in a lane that has been loaded.
+    fn begin(&mut self, lane: usize, run: Run) {
         self.runs[lane] = Some(Running { run, began: self.steps });
         self.active |= 1 << lane;
         self.fresh |= 1 << lane;
@@ -119,7 +124,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Schedule<R, O,
                     break events;
                 }
             };
-            self.settle(&events, queue);
+            self.settle(&events, observer, queue);
         }
     }
 
@@ -137,7 +142,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Schedule<R, O,
     }
 
     /// Asks the queue about the lanes that have landed, and gives up those that have failed.
-    fn settle<Q: Queue<O, V, N, Run = Run>>(&mut self, events: &Events, queue: &mut Q) {
+    fn settle<Q: Queue<O, V, N, Run = Run>>(&mut self, events: &Events, observer: &V, queue: &mut Q) {
         for lane in 0..R::LANES {
             let bit = 1 << lane;
             if (events.landed | events.failed) & bit == 0 {
@@ -158,7 +163,11 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Schedule<R, O,
                     if let Some(Running { run, began }) = self.runs[lane].take() {
                         let steps = self.steps - began;
                         self.used += steps;
-                        queue.ended(run, Outcome::new::<O, N>(ending, steps, self.bank.switches(lane)));
+                        let outcome = Outcome::new::<O, N>(ending, steps, self.bank.switches(lane));
+                        if let Some((run, next)) = queue.ended(run, outcome) {
+                            self.bank.load_continuation(lane, &next, observer);
+                            self.begin(lane, run);
+                        }
                     }
                 }
             }
