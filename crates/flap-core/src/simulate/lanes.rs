@@ -116,8 +116,6 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
                     self.find_and_measure_all();
                 } else if self.near.len() >= Vector::<I>::LANES {
                     self.vary();
-                } else if self.found.len() >= Vector::<I>::LANES {
-                    self.measure();
                 }
                 // Runs that march on and points put aside are to run before this one waits for more.
                 if !idle || !self.waiting.is_empty() || !self.resumed.is_empty() {
@@ -134,11 +132,17 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
         None
     }
 
-    /// Goes on with all runs that wait for others, until none does.
+    /// Goes on with the runs that wait for others, until some are to march or none waits any more. Measures last, when the
+    /// most orbits have been found.
     fn find_and_measure_all(&mut self) {
-        while !(self.jobs.interrupted() || self.near.is_empty() && self.found.is_empty()) {
-            self.vary();
-            self.measure();
+        while self.resumed.is_empty() && !self.jobs.interrupted() {
+            if !self.near.is_empty() {
+                self.vary();
+            } else if !self.found.is_empty() {
+                self.measure();
+            } else {
+                break;
+            }
         }
     }
 
