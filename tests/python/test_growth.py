@@ -28,13 +28,13 @@ def small(monkeypatch):
 
 def test_sweeps_are_measured_and_drawn(small, flap, tmp_path, capsys):
     results, picture = tmp_path / "results" / "growth.json", tmp_path / "growth.svg"
-    sizes = ["--most", "6", "--most-loose", "6e1", "--rounds", "2"]
+    sizes = ["--most", "6", "--most-loose", "6e3", "--rounds", "2"]
     small.main([*sizes, "--flap", os.environ["FLAP"], "--json", str(results), "--picture", str(picture)])
     printed = capsys.readouterr().out
     runs = json.loads(results.read_text(encoding="utf-8"))["runs"]
     ways = ["1 thread", "2 threads", "2 shards"]
     assert [(run["points"], run["rtol"], run["way"]) for run in runs] == [
-        (points, rtol, way) for points, rtol in [(6, 1e-6), (6, 1e-3), (60, 1e-3)] for way in ways
+        (points, rtol, way) for points, rtol in [(6, 1e-6), *((points, 1e-3) for points in (6, 60, 600, 6000))] for way in ways
     ]
     for run in runs:
         rounds = 2 if run["points"] == 6 else 1
@@ -44,7 +44,9 @@ def test_sweeps_are_measured_and_drawn(small, flap, tmp_path, capsys):
             assert len(run[name]) == rounds
         assert all(value > 0.0 for name in ["wall_s", "cpu_s"] for value in run[name])
         assert all((value > 0.0) == (run["way"] == "2 shards") for value in run["merge_s"])
-        assert all(1.0 < value < 1000.0 for value in run["peak_mib"])
+        # Short sweeps may end between two looks at their memory.
+        least = 1.0 if run["points"] == 6000 else 0.0
+        assert all(least <= value < 1000.0 for value in run["peak_mib"])
     # The rows are gone.
     assert list(results.parent.iterdir()) == [results]
 

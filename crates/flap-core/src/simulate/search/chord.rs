@@ -22,12 +22,14 @@ pub(super) struct Chord<const N: usize> {
     steps: u32,
     /// The residual of the period before.
     last: f64,
+    /// True once a step has not led as near the orbit as was presumed.
+    disproved: bool,
 }
 
 impl<const N: usize> Chord<N> {
     /// The iteration that begins on the orbit `near`.
     pub(super) fn new(near: FixedPoint<N>) -> Chord<N> {
-        Chord { near, y: near.y, before: None, end: near.y, steps: 0, last: f64::INFINITY }
+        Chord { near, y: near.y, before: None, end: near.y, steps: 0, last: f64::INFINITY, disproved: false }
     }
 
     /// The iteration from the state `y` without a monodromy matrix, which begins as a march.
@@ -38,6 +40,16 @@ impl<const N: usize> Chord<N> {
     /// Takes the end of the period.
     pub(super) fn period_end(&mut self, end: &[f64; N]) {
         self.end = *end;
+    }
+
+    /// Takes note that a step has not led as near the orbit as was presumed.
+    pub(super) fn disprove(&mut self) {
+        self.disproved = true;
+    }
+
+    /// True once a step has not led as near the orbit as was presumed.
+    pub(super) fn is_disproved(&self) -> bool {
+        self.disproved
     }
 
     /// The beginning of the period that is being integrated.

@@ -43,16 +43,17 @@ impl<const N: usize> Search<N> {
         let chord = Chord::new(point);
         self.stage = Stage::Closing(chord);
         let presumed = self.newton.is_enough(point.residual / PRESUMED);
-        if presumed { self.presume(point, chord) } else { Next::March(point.y) }
+        if presumed { self.take(point, Some(chord)) } else { Next::March(point.y) }
     }
 
     /// The step after a chord step at the tolerance of the row.
     pub(super) fn close(&mut self, mut chord: Chord<N>) -> Next<N> {
-        let step = chord.step(&self.newton, PRESUMED * self.newton.goal());
+        let presumed = if chord.is_disproved() { 1.0 } else { PRESUMED };
+        let step = chord.step(&self.newton, presumed * self.newton.goal());
         self.stage = Stage::Closing(chord);
         match step {
             Step::Again(y) => Next::March(y),
-            Step::Found(point) => self.presume(point, chord),
+            Step::Found(point) => self.take(point, Some(chord).filter(|chord| !chord.is_disproved())),
             Step::Stuck(residual) if residual <= self.tolerance => {
                 self.measure(FixedPoint { residual, ..chord.point() }, None)
             }
@@ -65,9 +66,9 @@ impl<const N: usize> Search<N> {
         }
     }
 
-    /// Takes the orbit to which the last chord step has led.
-    pub(super) fn presume(&mut self, point: FixedPoint<N>, chord: Chord<N>) -> Next<N> {
-        if self.newton.leads_to(&point) { self.measure(point, Some(chord)) } else { self.fall_back() }
+    /// Takes the orbit to which the last chord step has led; `presumed` if its residual is still to be confirmed.
+    pub(super) fn take(&mut self, point: FixedPoint<N>, presumed: Option<Chord<N>>) -> Next<N> {
+        if self.newton.leads_to(&point) { self.measure(point, presumed) } else { self.fall_back() }
     }
 
     /// Takes the end of the orbit's period; `None` if the period could not be integrated. Returns the next step if the
@@ -83,6 +84,7 @@ impl<const N: usize> Search<N> {
         }
         self.found = None;
         self.period = None;
+        chord.disprove();
         Some(self.close(chord))
     }
 }

@@ -137,7 +137,7 @@ impl<const N: usize> Search<N> {
                 let chord = Chord::new(point);
                 self.stage = Stage::Closing(chord);
                 // The orbit of the middle tolerance is that near to the one of full tolerance.
-                if self.tolerance >= NEAREST { self.presume(point, chord) } else { Next::March(point.y) }
+                if self.tolerance >= NEAREST { self.take(point, Some(chord)) } else { Next::March(point.y) }
             }
             Step::Stuck(_) | Step::Failed => self.fall_back(),
         }
