@@ -213,13 +213,13 @@ def test_an_interrupted_sweep_goes_on_to_the_same_bytes(tmp_path):
         if next(calls, None) is None:
             raise RuntimeError("enough")
 
-    grid = QUICK.replace("n = 26", "n = 8000")
+    grid = QUICK.replace("n = 26", "n = 40000")
     out = tmp_path / "rows.csv"
     with pytest.raises(RuntimeError):
         flapwing.sweep(grid, out=out, progress=stop)
     with pytest.raises(FileExistsError, match="resume=True goes on"):
         flapwing.sweep(grid, out=out)
-    assert len(flapwing.sweep(grid, out=out, resume=True)) == 8000
+    assert len(flapwing.sweep(grid, out=out, resume=True)) == 40000
     flapwing.sweep(grid, out=tmp_path / "whole.csv")
     assert out.read_bytes() == (tmp_path / "whole.csv").read_bytes()
 
