@@ -49,9 +49,21 @@ if ! diff -q - "$made_from" >/dev/null 2>&1 < <(printf '%s\n' "$work" "$version"
     rm -f -- "$made_from"
     "$python" -m venv --clear "$work"
     "$work/bin/python" -m pip install --quiet --disable-pip-version-check -r "$requirements"
+    # For the test that installs the wheel into a new environment.
+    "$work/bin/python" -m pip download --quiet --disable-pip-version-check --no-deps --dest "$work/packages" \
+        "$(grep '^numpy==' "$requirements")"
     { printf '%s\n' "$work" "$version"; cat "$requirements"; } >"$made_from"
 fi
 export PATH="$work/bin:$PATH"
+
+# Rows are compared with those of the command, and the wheel carries it as a published one does.
+cargo build --quiet --profile "$profile" --locked -p flap-cli
+folder=$profile
+[[ $profile == dev ]] && folder=debug
+export FLAP=${CARGO_TARGET_DIR:-$PWD/target}/$folder/flap
+data=crates/flap-py/flapwing.data
+trap 'rm -rf -- "$data"' EXIT
+install -D -s -m 755 "$FLAP" "$data/scripts/flap"
 
 # pip would take the directory's name for a name and a version, and keep every build in its cache.
 rm -rf -- "$work/wheels"
@@ -59,13 +71,9 @@ python -m pip wheel --quiet --disable-pip-version-check --no-cache-dir --no-inde
     --config-settings "build-args=--profile $profile --locked" --wheel-dir "$work/wheels" ./crates/flap-py
 FLAPWING_WHEEL=$(echo "$work"/wheels/*.whl)
 export FLAPWING_WHEEL
+export FLAPWING_PACKAGES=$work/packages
 python -m pip install --quiet --disable-pip-version-check --no-index --no-deps --force-reinstall "$FLAPWING_WHEEL"
-
-# Rows are compared with those of the command.
-cargo build --quiet --profile "$profile" --locked -p flap-cli
-folder=$profile
-[[ $profile == dev ]] && folder=debug
-export FLAP=${CARGO_TARGET_DIR:-$PWD/target}/$folder/flap
+rm -rf -- "$data"
 
 export PYTHONDONTWRITEBYTECODE=1
 python -m pytest --quiet -o "cache_dir=$work/pytest-cache" tests/python "$@"
