@@ -61,9 +61,9 @@ cargo build --quiet --profile "$profile" --locked -p flap-cli
 folder=$profile
 [[ $profile == dev ]] && folder=debug
 export FLAP=${CARGO_TARGET_DIR:-$PWD/target}/$folder/flap
-data=crates/flap-py/flapwing.data
-trap 'rm -rf -- "$data"' EXIT
-install -D -s -m 755 "$FLAP" "$data/scripts/flap"
+command=crates/flap-py/flapwing.data/scripts/flap
+trap 'rm -f -- "$command"' EXIT
+install -s -m 755 "$FLAP" "$command"
 
 # pip would take the directory's name for a name and a version, and keep every build in its cache.
 rm -rf -- "$work/wheels"
@@ -73,7 +73,7 @@ FLAPWING_WHEEL=$(echo "$work"/wheels/*.whl)
 export FLAPWING_WHEEL
 export FLAPWING_PACKAGES=$work/packages
 python -m pip install --quiet --disable-pip-version-check --no-index --no-deps --force-reinstall "$FLAPWING_WHEEL"
-rm -rf -- "$data"
+rm -- "$command"
 
 export PYTHONDONTWRITEBYTECODE=1
 python -m pytest --quiet -o "cache_dir=$work/pytest-cache" tests/python "$@"
