@@ -23,6 +23,7 @@ mod faces;
 mod floquet;
 mod four_bar;
 mod frequencies;
+mod gradient;
 mod interrupted;
 mod jafferis_figures;
 mod orbits;

@@ -4,6 +4,7 @@
 //! - [`step`]: one step: stages, new state, error estimate; no policy
 //! - [`norm`], [`controller`], [`start`]: the size of the error, the next step size, the first one
 //! - [`switch`]: right-hand sides that jump where a function changes sign
+//! - [`replay`]: a run again on the same steps, with other constants and initial states
 //! - [`variation`]: a run with its response to small changes of its initial state
 //! - [`dense`]: the solution between the ends of a step
 //! - [`solve`]: one run on scalars, in simple code; the reference of the ensemble
@@ -23,6 +24,7 @@ pub mod ensemble;
 mod equation;
 pub mod norm;
 mod outcome;
+pub mod replay;
 pub mod solve;
 pub mod start;
 pub mod step;

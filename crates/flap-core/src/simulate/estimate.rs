@@ -18,7 +18,7 @@ pub(super) const LEAST: f64 = 5.0;
 
 /// Crossings of the switching surface in a period beyond which the motion counts as sliding along the surface: others
 /// cross it twice, or some times more. The error of a sliding motion does not fall as the method's does.
-const MANY_SWITCHES: u64 = 16;
+pub(super) const MANY_SWITCHES: u64 = 16;
 
 /// A period of the orbit, and one of the orbit that coarser integration has.
 #[derive(Clone, Copy, Debug)]

@@ -10,6 +10,7 @@ mod column;
 mod cycle;
 mod error;
 mod estimate;
+mod gradient;
 mod imposed;
 mod impulse;
 mod jobs;
@@ -32,6 +33,7 @@ mod trajectory;
 
 pub use column::Column;
 pub use error::{RequestError, Unfinished};
+pub use gradient::{Change, Gradient, NoSlope};
 pub use jobs::{Jobs, LaneUse, Point};
 pub use list::run_list;
 pub use request::{

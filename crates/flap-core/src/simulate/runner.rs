@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 
 use super::column::{Column, columns};
 use super::error::Unfinished;
+use super::gradient::{Change, Gradient, GradientAt};
 use super::imposed;
 use super::jobs::Jobs;
 use super::lanes::LanesKernel;
@@ -200,6 +201,15 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Simulator f
 impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Motions for Runner<M, N, K, S> {
     fn period(&self, run: &PointRun<'_>, begin: &[f64]) -> Result<Period, Unfinished> {
         ask::<M, _, N, K, S>(&self.model, run, PeriodFrom(begin))
+    }
+
+    fn gradient(
+        &self,
+        run: &PointRun<'_>,
+        state: &[f64],
+        changes: &[Change],
+    ) -> Result<Gradient, Unfinished> {
+        ask::<M, _, N, K, S>(&self.model, run, GradientAt { state, changes })
     }
 
     fn trajectory(&self, run: &PointRun<'_>, request: &TrajectoryRequest) -> Result<Trajectory, Unfinished> {

@@ -3,6 +3,7 @@
 
 use super::column::Column;
 use super::error::Unfinished;
+use super::gradient::{Change, Gradient};
 use super::jobs::Jobs;
 use super::request::{
     ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, Trajectory, TrajectoryRequest,
@@ -82,6 +83,15 @@ pub trait Motions: Sync {
     /// # Errors
     /// As [`Motions`] says.
     fn period(&self, run: &PointRun<'_>, begin: &[f64]) -> Result<Period, Unfinished>;
+
+    /// Derivatives of the measures of the orbit that begins at `state`, such as [`Row::state`] of a periodic row, along each
+    /// of `changes`. Takes a period of the states for each change, two measured ones, and some six more in all, each with 1.6
+    /// times the steps of a period at the solver's tolerances.
+    ///
+    /// # Errors
+    /// As [`Motions`] says.
+    fn gradient(&self, run: &PointRun<'_>, state: &[f64], changes: &[Change])
+    -> Result<Gradient, Unfinished>;
 
     /// Samples the motion of one point, settled or from rest.
     ///

@@ -1,0 +1,159 @@
+//! A run made again with other constants and initial states, on the same steps.
+//!
+//! A step-size controller makes the end of a run a function of its constants that jumps by about the tolerance. On steps
+//! that are given, as shares of the span, it is a smooth function: its differences are derivatives, whatever the tolerance.
+//! Steps that end on the switching surface end on it again, wherever the run meets it.
+
+use core::ops::ControlFlow;
+
+use super::ensemble::Observer;
+use super::solve::solve_until;
+use super::step::{Attempt, Step};
+use super::{Interrupt, Ode, Outcome, Start, Tolerances, input, slope};
+use crate::num::{Lanes, PerLane, Scalar, Simd, Vector};
+
+/// A step of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leg {
+    /// Its end, as a share of the span.
+    pub end: f64,
+    /// The side of the switching surface: +1 or −1.
+    pub side: f64,
+    /// It ends on the surface, where the run changes sides.
+    pub lands: bool,
+}
+
+/// The end of a run that was made again.
+#[derive(Clone, Copy, Debug)]
+pub struct Repeated<T, const N: usize> {
+    /// The state.
+    pub y: [f64; N],
+    /// The observer's totals.
+    pub totals: T,
+    /// The run met the switching surface where the first one did, but for a small share of the step. Otherwise its end
+    /// means nothing.
+    pub meets: bool,
+}
+
+/// The accepted steps of a run over one span, and its outcome. Of a run that fails, the steps mean nothing.
+pub fn record<O: Ode<N>, R: Scalar, const N: usize>(
+    ode: &O,
+    tolerances: &Tolerances,
+    start: &Start<O::Constants<f64>, N>,
+    interrupted: Interrupt<'_>,
+) -> (Vec<Leg>, Outcome) {
+    let mut legs: Vec<Leg> = Vec::new();
+    let outcome = solve_until::<O, R, N>(
+        ode,
+        tolerances,
+        start,
+        interrupted,
+        |_, attempt| {
+            let side = attempt.side.lane(0);
+            if let Some(last) = legs.last_mut() {
+                last.lands = last.side != side;
+            }
+            let end = (attempt.t.lane(0) + attempt.h.lane(0)) / start.span;
+            legs.push(Leg { end, side, lands: false });
+        },
+        |_| ControlFlow::Break(()),
+    );
+    if let Some(last) = legs.last_mut() {
+        last.end = 1.0;
+    }
+    (legs, outcome)
+}
+
+/// Makes runs from `starts` on the steps of `legs`, in lanes, each over its own span. Every run evaluates six right-hand sides
+/// per step, eighteen where a step lands, and some at changes of sides.
+pub fn replay<S, O, V, const N: usize>(
+    simd: S,
+    ode: &O,
+    observer: &V,
+    legs: &[Leg],
+    starts: &[Start<O::Constants<f64>, N>],
+) -> Vec<Repeated<V::Totals<f64>, N>>
+where
+    S: Simd,
+    O: Ode<N>,
+    V: Observer<O, N>,
+{
+    let mut ends = Vec::with_capacity(starts.len());
+    for starts in starts.chunks(Vector::<S>::LANES) {
+        simd.vectorize(
+            #[inline(always)]
+            || in_lanes::<Vector<S>, O, V, N>(simd, ode, observer, legs, starts, &mut ends),
+        );
+    }
+    ends
+}
+
+/// Times that a step is taken again to land on the surface: each squares its error, which is small from the beginning.
+const LANDINGS: u32 = 2;
+
+/// The share of a step by which a landing may be moved.
+const NEAR: f64 = 1e-2;
+
+/// Makes at most as many runs as there are lanes.
+#[inline(always)]
+fn in_lanes<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize>(
+    token: R::Token,
+    ode: &O,
+    observer: &V,
+    legs: &[Leg],
+    starts: &[Start<O::Constants<f64>, N>],
+    ends: &mut Vec<Repeated<V::Totals<f64>, N>>,
+) {
+    let number = R::splat(token, 0.0);
+    let mut c = O::Constants::<R>::fill(token, &starts[0].constants);
+    let mut span = number.lit(starts[0].span);
+    let mut y = [number; N];
+    for lane in 0..R::LANES {
+        // Idle lanes repeat the first run.
+        let start = if lane < starts.len() { &starts[lane] } else { &starts[0] };
+        c.set(lane, &start.constants);
+        span.set_lane(lane, start.span);
+        for i in 0..N {
+            y[i].set_lane(lane, start.y[i]);
+        }
+    }
+    let all = number.lt(number.lit(1.0));
+    let mut totals = V::Totals::<R>::fill(token, &observer.nothing());
+    let mut t = number;
+    let mut moved = number;
+    let side = number.lit(if legs.is_empty() { 1.0 } else { legs[0].side });
+    let k1 = slope(ode, &c, &input(ode, &c, t), side, &y);
+    let mut step = Step::new(y, k1);
+    for leg in legs {
+        let side = number.lit(leg.side);
+        let whole = span * leg.end - t;
+        let mut h = whole;
+        let tries = if leg.lands { 1 + LANDINGS } else { 1 };
+        for attempt in 0..tries {
+            if attempt > 0 {
+                let [value, rate] = ode.switch(&c, &step.y[6], &step.k[6]);
+                h = h - value / rate;
+            }
+            step.attempt(ode, &c, t, h, side);
+        }
+        moved = ((h - whole) / whole).abs().max(moved);
+        observer.add(&c, &Attempt { t, h, side, step: &step }, all, &mut totals);
+        t = t + h;
+        step.advance(all);
+        if leg.lands {
+            let u = input(ode, &c, t);
+            let y = ode.crossed(&c, &u, -side, &step.y[0]);
+            step.y[0] = y;
+            step.k[0] = slope(ode, &c, &u, -side, &y);
+        }
+    }
+    for lane in 0..starts.len() {
+        let mut y = [0.0; N];
+        for i in 0..N {
+            y[i] = step.y[0][i].lane(lane);
+        }
+        // The state is not a number where the surface was missed altogether.
+        let meets = moved.lane(lane) <= NEAR && y.iter().all(|y| y.is_finite());
+        ends.push(Repeated { y, totals: totals.get(lane), meets });
+    }
+}

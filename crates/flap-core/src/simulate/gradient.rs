@@ -1,0 +1,301 @@
+//! Derivatives of the measures of a settled motion.
+//!
+//! With the parameter p, the state y₀ at the beginning of the orbit's period moves too. It is a fixed point of the period's
+//! map, y₀ = Φ(p, y₀), so
+//!
+//! ```text
+//! dy₀/dp = (1 − M)⁻¹ ∂Φ/∂p   with the monodromy matrix M = ∂Φ/∂y₀
+//! dm/dp  = (m(p + δ, y₀ + δ dy₀/dp) − m(p − δ, y₀ − δ dy₀/dp)) / 2δ
+//! ```
+//!
+//! All periods are made on the steps of one ([`replay`](crate::ode::replay)), so that Φ and m are smooth and δ can be small.
+//! Two-sided differences along the orbit's own path stay exact where one of ∂m/∂y₀ has a kink, such as the largest
+//! magnitude of a symmetric motion; and a kink along the path shows, as the two halves differ.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::begin::begin;
+use super::error::Unfinished;
+use super::estimate::MANY_SWITCHES;
+use super::orbit_row::measures;
+use super::single::{PointRun, Question};
+use crate::measure::cycle::{Signals, Totals, finish};
+use crate::model::Model;
+use crate::num::{Kernel, Scalar, Simd};
+use crate::ode::Start;
+use crate::ode::ensemble::Unobserved;
+use crate::ode::replay::{Leg, Repeated, record, replay};
+use crate::parameter::{Kind, Parameter};
+
+/// A change of the state in units of its typical size, small enough to neglect its square and large enough to stand above
+/// rounding.
+const SMALL: f64 = 1e-8;
+
+/// The factor on the tolerances with which the steps are chosen: near a resonance, derivatives of a period are larger than its
+/// states by far, and so are their errors.
+const TIGHTEN: f64 = 0.1;
+
+/// The largest component of (1 − M)⁻¹, in units of the states' typical sizes, for which the derivatives are given. Beyond, the
+/// orbit is so near to a fold that they would err by 1e-4 and more.
+const LARGEST_RESPONSE: f64 = 1e3;
+
+/// The share by which the two halves of a difference may differ. They differ by far less where a measure is smooth.
+const SMOOTH: f64 = 1e-3;
+
+/// The part of a measure that rounding may change.
+const ROUNDING: f64 = 1e-13;
+
+/// A quantity to which derivatives are taken: the point's values with more and with less of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// One value per parameter, with the quantity larger by `size`.
+    pub ahead: Vec<f64>,
+    /// The same, smaller by `size`.
+    pub behind: Vec<f64>,
+    /// The size of the change: about 1e-8 of the quantity, in whatever unit derivatives are to have.
+    pub size: f64,
+}
+
+/// The reason why a derivative is not known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum NoSlope {
+    /// The orbit is too near to a fold, where it would change without bounds.
+    Fold,
+    /// The motion slides along its switching surface, or touches it.
+    Sliding,
+    /// A parameter is at an end of its range, or the changed point is impossible.
+    Edge,
+    /// The measure has a kink: its derivatives to both sides differ, or it cannot be told.
+    Kink,
+}
+
+impl NoSlope {
+    /// All reasons.
+    pub const ALL: [NoSlope; 4] = [NoSlope::Fold, NoSlope::Sliding, NoSlope::Edge, NoSlope::Kink];
+
+    /// The word for it in rows.
+    pub fn name(self) -> &'static str {
+        match self {
+            NoSlope::Fold => "fold",
+            NoSlope::Sliding => "sliding",
+            NoSlope::Edge => "edge",
+            NoSlope::Kink => "kink",
+        }
+    }
+}
+
+/// Derivatives of the measures of a settled motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gradient {
+    /// For each change, the derivative of each column of the model, in the column's unit per unit of the change. NaN where the
+    /// column has no number.
+    pub slopes: Vec<Vec<Result<f64, NoSlope>>>,
+    /// Right-hand sides evaluated.
+    pub rhs_evals: u64,
+}
+
+/// The derivatives along `changes` of the orbit that begins at `state`.
+pub(super) struct GradientAt<'a> {
+    pub(super) state: &'a [f64],
+    pub(super) changes: &'a [Change],
+}
+
+impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M, N, K, S> for GradientAt<'_> {
+    type Answer = Result<Gradient, Unfinished>;
+
+    fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Gradient, Unfinished> {
+        let mut start = begin(model, run.values, Some(self.state))?;
+        start.tighten = TIGHTEN;
+        let (legs, outcome) = record::<M, R, N>(model, &run.solver.tolerances(), &start, run.interrupted);
+        Unfinished::check(outcome.ending, run.interrupted)?;
+        let sides = self.changes.iter().map(|change| sides(model, change)).collect();
+        let orbit = Orbit { model, start: &start, legs: &legs, changes: self.changes, sides };
+        let mut gradient = if outcome.switches > MANY_SWITCHES {
+            orbit.without(NoSlope::Sliding)
+        } else {
+            run.backend.dispatch(orbit)
+        };
+        gradient.rhs_evals += outcome.rhs_evals;
+        if (run.interrupted)() { Err(Unfinished::Interrupted) } else { Ok(gradient) }
+    }
+}
+
+/// The constants and the drive period of a changed point.
+type Side<C> = (C, f64);
+
+/// The points on both sides of a point along a change; `None` if one of them is impossible or of another variant.
+type Sides<C> = Option<[Side<C>; 2]>;
+
+/// The points on both sides of a point.
+fn sides<M: Model<N, S>, const N: usize, const S: usize>(
+    model: &M,
+    change: &Change,
+) -> Sides<M::Constants<f64>> {
+    let side = |values: &[f64]| {
+        let possible = in_range(M::DESCRIPTION.parameters, values) && model.variant(values) == *model;
+        let start = model.start(values).ok().filter(|_| possible)?;
+        Some((start.constants, start.span))
+    };
+    Some([side(&change.ahead)?, side(&change.behind)?])
+}
+
+/// The first state of an orbit, and its derivatives in units of the states' typical sizes.
+struct Moves<const N: usize> {
+    y: [f64; N],
+    along: Vec<SVector<f64, N>>,
+}
+
+/// True if all numbers are in the ranges of their parameters. NaN stands for a number that follows others.
+fn in_range(parameters: &[Parameter], values: &[f64]) -> bool {
+    parameters.iter().zip(values).all(|(parameter, value)| match parameter.kind {
+        Kind::Number(range) | Kind::Following(range, _) => value.is_nan() || range.contains(*value),
+        Kind::Choice(_) => true,
+    })
+}
+
+/// A period of an orbit, to be repeated with changes.
+struct Orbit<'a, M: Model<N, S>, const N: usize, const S: usize> {
+    model: &'a M,
+    start: &'a Start<M::Constants<f64>, N>,
+    legs: &'a [Leg],
+    changes: &'a [Change],
+    sides: Vec<Sides<M::Constants<f64>>>,
+}
+
+impl<M: Model<N, S>, const N: usize, const S: usize> Kernel for Orbit<'_, M, N, S> {
+    type Output = Gradient;
+
+    #[inline(always)]
+    fn run<I: Simd>(self, simd: I) -> Gradient {
+        let Orbit { model, legs, .. } = self;
+        let starts = self.for_responses();
+        let ends = replay(simd, model, &Unobserved, legs, &starts);
+        let Some(moves) = self.moves(&ends) else { return self.without(NoSlope::Fold) };
+        let measured = self.along(&moves);
+        let cycles = replay(simd, model, &Signals::all(model), legs, &measured);
+        self.gradient(&measured, &cycles)
+    }
+}
+
+impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
+    /// The period, periods from changed states, and periods with changed quantities.
+    fn for_responses(&self) -> Vec<Start<M::Constants<f64>, N>> {
+        let mut starts = vec![*self.start; N + 1];
+        for i in 0..N {
+            starts[i + 1].y[i] += SMALL * self.start.scale[i];
+        }
+        for side in &self.sides {
+            let (constants, span) = side.map_or((self.start.constants, self.start.span), |[ahead, _]| ahead);
+            starts.push(Start { constants, span, ..*self.start });
+        }
+        starts
+    }
+
+    /// The orbit's first state, to which one step of Newton's takes the search's, and its derivatives along each change, in
+    /// units of the scales: (1 − M)⁻¹ ∂Φ/∂p. `None` near a fold.
+    fn moves(&self, ends: &[Repeated<(), N>]) -> Option<Moves<N>> {
+        let scale = &self.start.scale;
+        let difference = |end: &Repeated<(), N>, size: f64| {
+            SVector::<f64, N>::from_fn(|i, _| (end.y[i] - ends[0].y[i]) / (size * scale[i]))
+        };
+        let monodromy = SMatrix::<f64, N, N>::from_fn(|i, j| difference(&ends[j + 1], SMALL)[i]);
+        let response = (SMatrix::<f64, N, N>::identity() - monodromy).try_inverse()?;
+        if response.amax().is_nan() || response.amax() > LARGEST_RESPONSE {
+            return None;
+        }
+        let missed = SVector::<f64, N>::from_fn(|i, _| (ends[0].y[i] - self.start.y[i]) / scale[i]);
+        let step = response * missed;
+        let y = core::array::from_fn(|i| self.start.y[i] + step[i] * scale[i]);
+        let changed = ends[N + 1..].iter().zip(self.changes);
+        let along = changed.map(|(end, change)| response * difference(end, change.size)).collect();
+        Some(Moves { y, along })
+    }
+
+    /// The orbit, and the orbits on both sides of it along each change.
+    fn along(&self, moves: &Moves<N>) -> Vec<Start<M::Constants<f64>, N>> {
+        let mut starts = vec![Start { y: moves.y, ..*self.start }];
+        for ((side, change), moved) in self.sides.iter().zip(self.changes).zip(&moves.along) {
+            let unchanged = (self.start.constants, self.start.span);
+            for ((constants, span), size) in
+                side.unwrap_or([unchanged; 2]).into_iter().zip([change.size, -change.size])
+            {
+                let y = core::array::from_fn(|i| moves.y[i] + size * moved[i] * self.start.scale[i]);
+                starts.push(Start { constants, y, span, ..*self.start });
+            }
+        }
+        starts
+    }
+
+    /// The differences of the measures.
+    fn gradient(
+        &self,
+        starts: &[Start<M::Constants<f64>, N>],
+        cycles: &[Repeated<[Totals<f64>; S], N>],
+    ) -> Gradient {
+        let measured = starts.iter().zip(cycles).map(|(start, cycle)| {
+            measures::<M, N, S>(self.model, &start.constants, &cycle.totals, start.span)
+        });
+        let measured: Vec<Vec<f64>> = measured.collect();
+        let sizes = sizes::<M, N, S>(&cycles[0].totals, &measured[0], self.start.span);
+        let slopes = self.sides.iter().zip(self.changes).enumerate().map(|(i, (side, change))| {
+            let [ahead, behind] = [2 * i + 1, 2 * i + 2];
+            let meets = cycles[0].meets && cycles[ahead].meets && cycles[behind].meets;
+            let trouble = if side.is_none() {
+                Some(NoSlope::Edge)
+            } else if !meets {
+                Some(NoSlope::Sliding)
+            } else {
+                None
+            };
+            let columns = 0..measured[0].len();
+            let slope = |j: usize| match trouble {
+                Some(trouble) => Err(trouble),
+                None => {
+                    slope([measured[behind][j], measured[0][j], measured[ahead][j]], sizes[j], change.size)
+                }
+            };
+            columns.map(slope).collect()
+        });
+        let slopes = slopes.collect();
+        let evaluated = (N + 1 + self.changes.len()) + (1 + 2 * self.changes.len());
+        let steps = self.legs.len() + 2 * self.legs.iter().filter(|leg| leg.lands).count();
+        Gradient { slopes, rhs_evals: (6 * steps * evaluated) as u64 }
+    }
+
+    /// No derivatives, for this reason.
+    fn without(&self, reason: NoSlope) -> Gradient {
+        let columns = M::SIGNALS.iter().map(|signal| signal.measures.len()).sum::<usize>() + M::DERIVED.len();
+        Gradient { slopes: vec![vec![Err(reason); columns]; self.changes.len()], rhs_evals: 0 }
+    }
+}
+
+/// The sizes of the columns: a mean of almost nothing errs by the rounding of its signal.
+fn sizes<M: Model<N, S>, const N: usize, const S: usize>(
+    totals: &[Totals<f64>; S],
+    measured: &[f64],
+    period: f64,
+) -> Vec<f64> {
+    let mut sizes = Vec::with_capacity(measured.len());
+    for (signal, cycle) in M::SIGNALS.iter().zip(finish(&M::SIGNALS, totals, period)) {
+        let known = [cycle.mean, cycle.max, cycle.min, cycle.positive_mean, cycle.mean_square.sqrt()];
+        let size = known.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
+        sizes.extend(signal.measures.iter().map(|_| size * signal.unit.factor.abs()));
+    }
+    sizes.extend(measured[sizes.len()..].iter().map(|value| value.abs()));
+    sizes
+}
+
+/// The derivative of a measure of some size, from its values behind, at and ahead of a point. NaN of a measure without a number.
+fn slope([behind, here, ahead]: [f64; 3], of: f64, size: f64) -> Result<f64, NoSlope> {
+    if here.is_nan() {
+        return Ok(f64::NAN);
+    }
+    let (forward, backward) = (ahead - here, here - behind);
+    let tolerance = SMOOTH * forward.abs().max(backward.abs()) + ROUNDING * of;
+    // Not so if one of them is not a number.
+    if (forward - backward).abs() <= tolerance {
+        Ok((ahead - behind) / (2.0 * size))
+    } else {
+        Err(NoSlope::Kink)
+    }
+}
