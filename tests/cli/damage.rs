@@ -397,8 +397,9 @@ fn unfinished_results_say_so_and_are_read_as_far_as_they_are_safe() {
         let told = ended.stdout.strip_prefix(&format!("{name}: unfinished, sound so far: ")).unwrap();
         let done: usize = told.strip_suffix(" points are done\n").unwrap().parse().unwrap();
         assert!(done > 0);
-        let warning =
-            format!("warning: {name} is unfinished: {done} points are done so far, `flap resume` goes on\n");
+        let warning = format!(
+            "warning: {name} is unfinished: {done} points are done so far, `flap resume` continues it\n"
+        );
         let ended = folder.ends(0, &format!("plot {name} --y cycles --html page.html"));
         assert!(ended.stderr.starts_with(&warning), "{}", ended.stderr);
         let ended = folder.flap(&format!("convert {name} out.csv"));

@@ -65,7 +65,7 @@ fn results_are_not_overwritten_unasked() {
     let ended = folder.ends(2, "sweep --grid grid.toml");
     assert_eq!(
         ended.stderr,
-        "error: grid.csv exists already\nhelp: use --force to overwrite it, or name another file\n"
+        "error: grid.csv exists already\nhelp: --force replaces it, --out FILE writes to another file\n"
     );
     assert_eq!(folder.read("grid.csv"), "precious\n");
     assert_eq!(folder.flap("sweep --grid grid.toml --force").code, 0);

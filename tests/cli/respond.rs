@@ -42,7 +42,9 @@ fn a_line_per_design_says_where_it_is_bistable() {
     down.reverse();
     assert_eq!(up, down, "rising, then falling");
 
-    assert_eq!(folder.flap("respond grid.toml --out curves.csv").code, 2, "never overwritten unasked");
+    folder.ends(2, "respond grid.toml --out curves.csv --rtol 1e-5").says("exists already, with other rows");
+    folder.ends(0, "respond grid.toml --out curves.csv").says("nothing is left to run");
+    assert_eq!(folder.read("curves.csv"), text, "never overwritten unasked");
     let piped = folder.flap("respond grid.toml --out - --threads 1");
     assert_eq!(piped.stdout, text);
     assert_eq!(piped.stderr.lines().collect::<Vec<_>>(), lines);
@@ -117,7 +119,7 @@ fn options_are_those_of_the_sidecar() {
     assert_eq!(others.code, 2, "{}", others.stderr);
     let others = folder.flap(&format!("{} --resume", respond.replace("=70", "=71")));
     assert_eq!(others.code, 2, "{}", others.stderr);
-    assert!(others.stderr.contains("the parameter that is followed"), "{}", others.stderr);
+    assert!(others.stderr.contains("the followed parameter"), "{}", others.stderr);
     let rerun = folder.flap("rerun rows.csv --status periodic --out rerun.csv");
     assert_eq!(rerun.code, 2);
     assert!(rerun.stderr.contains("holds curves"), "{}", rerun.stderr);

@@ -129,7 +129,7 @@ fn an_interrupted_sweep_goes_on() {
 
         let ended = folder.ends(2, &format!("sweep --grid grid.toml --out {out}"));
         ended.says("is the unfinished result of an interrupted sweep");
-        ended.says("`flap sweep --resume`");
+        ended.says(&format!("help: `flap resume {out}` continues it, --force starts over\n"));
         folder
             .ends(0, &format!("sweep --grid grid.toml --out {out} --resume"))
             .says(&format!("of {POINTS} points of {out} are done\n"));
@@ -151,7 +151,10 @@ fn a_full_disk_loses_nothing() {
         let stderr = String::from_utf8(limited.stderr).unwrap();
         assert_eq!(limited.status.code(), Some(3), "{stderr}");
         assert!(stderr.starts_with("error: cannot write rows: "), "{stderr}");
-        assert!(stderr.ends_with(&format!("help: `flap resume rows.{ending}` goes on\n")), "{stderr}");
+        assert!(
+            stderr.ends_with(&format!("help: `flap resume rows.{ending}` continues the run\n")),
+            "{stderr}"
+        );
         folder.ends(0, &format!("resume rows.{ending}"));
         assert_same(&folder, ending);
     }
@@ -265,7 +268,7 @@ fn a_changed_grid_is_not_resumed() {
     let grid = folder.read("grid.toml").replace("rtol = 1e-3", "rtol = 1e-4");
     fs::write(folder.path("grid.toml"), grid).unwrap();
     let ended = folder.ends(2, "sweep --grid grid.toml --resume");
-    let told = "error: grid.csv cannot be resumed: the grid file is another; the solver settings are others\n\
+    let told = "error: grid.csv cannot be resumed: the grid file differs; the solver settings differ\n\
                 help: use `flap sweep --force` to start over, or name another file\n\
                 help: line 7 of the grid was `rtol = 1e-3`, it is `rtol = 1e-4`\n";
     assert!(ended.stderr.ends_with(told), "{}", ended.stderr);
@@ -302,7 +305,7 @@ fn there_may_be_nothing_to_resume() {
     assert_eq!(folder.read("grid.csv"), rows);
 
     fs::write(folder.path("grid.toml"), quick(11)).unwrap();
-    folder.ends(2, "sweep --grid grid.toml --resume").says("the grid file is another");
+    folder.ends(2, "sweep --grid grid.toml --resume").says("the grid file differs");
 
     fs::write(folder.path("alone.csv"), "precious\n").unwrap();
     folder.ends(2, "sweep --grid grid.toml --out alone.csv --resume").says("alone.csv has no journal");

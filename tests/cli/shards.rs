@@ -97,7 +97,7 @@ fn shards_that_do_not_belong_together_are_refused() {
         ),
         (
             "grid.1of3.csv grid.2of3.csv other.3of3.csv",
-            "error: other.3of3.csv does not belong to grid.1of3.csv: the grid file is another\n\
+            "error: other.3of3.csv does not belong to grid.1of3.csv: the grid file differs\n\
              shard 3/3 is missing\n",
         ),
         (

@@ -54,7 +54,7 @@ fn an_interrupted_sweep_keeps_the_rows_of_the_first_points() {
         child.stderr.take().unwrap().read_to_string(&mut stderr).unwrap();
         let last = format!(
             "interrupted: the rows of the first {rows} of 100000000 points are in grid.csv\n\
-             `flap resume grid.csv` goes on\n"
+             `flap resume grid.csv` continues the run\n"
         );
         assert!(stderr.ends_with(&last), "{stderr}");
         let sidecar: toml::Table = folder.read("grid.csv.meta.toml").parse().unwrap();

@@ -67,9 +67,10 @@ def test_files_are_those_of_the_command_byte_for_byte(flap, grid, tmp_path, name
     assert table.units == in_memory.units and table.docs == in_memory.docs
     assert [list(dim) for dim in table.dims] == [list(dim) for dim in in_memory.dims]
     assert table.meta["grid"] == in_memory.meta["grid"] == GRID
-    # A file of another one's rows is not overwritten unasked.
-    with pytest.raises(FileExistsError, match="overwrite=True"):
-        flapwing.sweep(grid, out=tmp_path / name)
+    # Rows of another grid are not overwritten unasked; those of the same grid are there already.
+    with pytest.raises(FileExistsError, match="the grid file differs; line .*: overwrite=True"):
+        flapwing.sweep(GRID + "\n", out=tmp_path / name)
+    assert len(flapwing.sweep(grid, out=tmp_path / name)) == len(table)
     flapwing.sweep(grid, out=tmp_path / name, overwrite=True)
     # Nothing is left to run.
     assert len(flapwing.sweep(grid, out=tmp_path / name, resume=True)) == len(table)
@@ -132,7 +133,7 @@ def test_where_files_go_wrong(tmp_path):
     with pytest.raises(ValueError, match="not the result of an interrupted sweep"):
         flapwing.sweep(QUICK, out=tmp_path / "other.csv", resume=True)
     flapwing.sweep(QUICK, out=tmp_path / "rows.csv")
-    with pytest.raises(ValueError, match="the grid file is another; line 3 of the grid was"):
+    with pytest.raises(ValueError, match="the grid file differs; line 3 of the grid was"):
         flapwing.sweep(QUICK.replace("26", "27"), out=tmp_path / "rows.csv", resume=True)
 
 

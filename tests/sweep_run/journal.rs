@@ -176,7 +176,7 @@ fn a_changed_file_of_points_is_not_resumed() {
     let (first, other) = (plan("1\n2\n3"), plan("1\n2\n8"));
     assert_eq!(run_to(&mut start(&path, &first), &first, Summary::default(), 2), None);
     match Session::resume(&path, &other, &often()).map(|_| ()) {
-        Err(ResumeError::Changed { changes, .. }) => assert_eq!(changes, ["the file of points is another"]),
+        Err(ResumeError::Changed { changes, .. }) => assert_eq!(changes, ["the file of points differs"]),
         other => panic!("{other:?}"),
     }
     let Resumed { mut session, before, .. } = Session::resume(&path, &first, &often()).unwrap();
@@ -242,7 +242,7 @@ fn other_versions_and_machines_do_not_go_on() {
         (Identity { build: "fed0".to_owned(), ..ours.clone() }, "the rows are by build fed0 of flap "),
         (Identity { build: String::new(), ..ours.clone() }, "the rows are by an unknown build of flap "),
         (Identity { arithmetic: "other".to_owned(), ..ours.clone() }, "the arithmetic is other, not "),
-        (Identity { grid: String::new(), ..ours.clone() }, "the grid file is another"),
+        (Identity { grid: String::new(), ..ours.clone() }, "the grid file differs"),
     ] {
         Journal::create(&journal_of(&path), &Header::new(String::new(), identity)).unwrap();
         match Session::resume(&path, &plan, &often()).map(|_| ()) {

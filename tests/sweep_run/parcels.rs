@@ -68,7 +68,7 @@ fn parcels_that_do_not_fit_are_refused() {
     for (parcels, complaint) in [
         (vec![bytes(&whole, 10, 20)], "points 10 to 20 came where 0 was next"),
         (vec![bytes(&whole, 0, 10), bytes(&whole, 0, 10)], "points 0 to 10 came where 10 was next"),
-        (vec![bytes(&other, 0, 10)], "the grid file is another"),
+        (vec![bytes(&other, 0, 10)], "the grid file differs"),
         (vec![vec![7, 7, 7]], ""),
         (vec![of_another_build(bytes(&whole, 0, 10))], "another build of flap than this one"),
         (vec![bytes(&whole, 0, 10)[..40].to_vec()], ""),

@@ -80,6 +80,11 @@ impl Failure {
             JobError::Overlap(error) => error.into(),
             JobError::Format(error) => error.into(),
             JobError::Create(error) => error.into(),
+            JobError::Exists { ref changed, .. } => {
+                let failure = Failure::usage(error.to_string());
+                let failure = changed.iter().fold(failure, |failure, line| failure.help(line.clone()));
+                failure.help("--force replaces it, --out FILE writes to another file")
+            }
             JobError::Resume { error, changed } => changed.into_iter().fold(error.into(), Failure::help),
             JobError::Open(OpenError::Damaged { .. }) => {
                 Failure::damaged(error.to_string()).help("`flap sweep --force` computes it anew")
@@ -91,7 +96,7 @@ impl Failure {
         if !resumable {
             return failure;
         }
-        let failure = failure.help(format!("`flap resume {}` goes on", out.display()));
+        let failure = failure.help(format!("`flap resume {}` continues the run", out.display()));
         job::kept(out).into_iter().fold(failure, |failure, kept| failure.help(still_kept(&kept)))
     }
 
@@ -200,8 +205,8 @@ impl From<CreateError> for Failure {
             CreateError::Exists { .. } => {
                 Failure::usage(error.to_string()).help("use --force to overwrite it, or name another file")
             }
-            CreateError::Unfinished { .. } => Failure::usage(error.to_string())
-                .help("`flap sweep --resume` or `flap resume` goes on with it, --force overwrites it"),
+            CreateError::Unfinished(ref path) => Failure::usage(error.to_string())
+                .help(format!("`flap resume {}` continues it, --force starts over", path.display())),
             CreateError::Busy { .. } | CreateError::Io { .. } => {
                 Failure::System(error.to_string(), Vec::new())
             }

@@ -76,6 +76,11 @@ pub(crate) fn job(error: &JobError) -> PyErr {
         JobError::Format(error) => PyValueError::new_err(error.to_string()),
         JobError::Overlap(error) => PyValueError::new_err(error.to_string()),
         JobError::Create(error) => create(error),
+        JobError::Exists { changed, .. } => {
+            let changed = changed.as_ref().map_or_else(String::new, |changed| format!("; {changed}"));
+            let remedy = "overwrite=True replaces it, or name another file";
+            PyFileExistsError::new_err(format!("{error}{changed}: {remedy}"))
+        }
         JobError::Resume { error, changed } => resume(error, changed.as_deref()),
         JobError::Open(OpenError::Read { path, source }) => {
             io_error(&format!("cannot read {}", path.display()), source)

@@ -42,7 +42,7 @@ pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
         match error {
             PlanError::Grid(mistakes) => Failure::Grid(mistakes),
             PlanError::GridText => {
-                failure.help("sweep an edited grid from a file of its own: flap sweep --grid FILE")
+                failure.help("sweep an edited grid from a file of its own: flap sweep FILE")
             }
             PlanError::PointsFile { .. } => {
                 failure.help("put the file of points back as it was, or sweep its grid file anew")

@@ -59,7 +59,8 @@ pub(crate) fn run(
     match outcome.map_err(|error| Failure::of_job(error, &job.out))? {
         Outcome::Ran(done) => Ok(ended(plan, &done, Some(&job.out), work)),
         Outcome::Complete { all_periodic } => {
-            console::say(&format!("{place} is complete: nothing is left to run"));
+            let again = if job.begin == Begin::New { "; --force runs its points again" } else { "" };
+            console::say(&format!("{place} is complete: nothing is left to run{again}"));
             Ok(exit(all_periodic, work))
         }
     }
@@ -74,7 +75,7 @@ fn ended(plan: &Plan, done: &Done, resumable: Option<&Path>, work: &WorkArgs) ->
     }
     if done.summary.interrupted {
         if let Some(out) = resumable {
-            console::say(&format!("`flap resume {}` goes on", out.display()));
+            console::say(&format!("`flap resume {}` continues the run", out.display()));
             if let Some(kept) = job::kept(out) {
                 console::say(&still_kept(&kept));
             }

@@ -42,7 +42,7 @@ def sweep(
         Continue the unfinished results in `out`; start the sweep if there are none.
     overwrite : bool, optional
         Replace the results in `out`. They are kept beside the new ones until those are complete. By default an existing
-        file is an error, unless it is empty.
+        file is an error, unless it is empty or holds the complete rows of the same grid: then nothing is run.
     threads : int, optional
         Threads, 1 or more; with `client`, those of each task. Default: one per core; with `client`, 1. Rows do not
         depend on it.
@@ -68,7 +68,7 @@ def sweep(
         Mistakes in the grid: all of them, each with its line, the allowed values and the nearest name. It is a
         ValueError.
     FileExistsError
-        `out` holds results, and neither `resume` nor `overwrite` is given.
+        `out` holds unfinished or other rows, and neither `resume` nor `overwrite` is given.
     OSError
         A file cannot be read or written.
     ValueError

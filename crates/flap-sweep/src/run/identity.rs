@@ -66,17 +66,17 @@ impl Identity {
     pub fn differences(&self, other: &Identity) -> Vec<String> {
         let mut differences = Vec::new();
         if self.grid != other.grid {
-            differences.push("the grid file is another".to_owned());
+            differences.push("the grid file differs".to_owned());
         }
         if self.points_file != other.points_file {
-            differences.push("the file of points is another".to_owned());
+            differences.push("the file of points differs".to_owned());
         }
         if self.solver != other.solver {
-            differences.push("the solver settings are others".to_owned());
+            differences.push("the solver settings differ".to_owned());
         }
         if self.followed != other.followed {
             differences.push(
-                "the parameter that is followed, its values or those of the designs are others".to_owned(),
+                "the followed parameter, its values or the parameters of the designs differ".to_owned(),
             );
         }
         let mut compare = |what: &str, own: &str, others: &str| {

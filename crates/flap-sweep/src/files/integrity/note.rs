@@ -49,7 +49,7 @@ pub enum Unverified {
 
 fn so_far(done: Option<u64>) -> String {
     match done {
-        Some(done) => format!("{done} points are done so far, `flap resume` goes on"),
+        Some(done) => format!("{done} points are done so far, `flap resume` continues it"),
         None => "there are fewer rows than points to be run".to_owned(),
     }
 }

@@ -22,6 +22,16 @@ pub enum JobError {
     /// The results cannot be made.
     #[error(transparent)]
     Create(#[from] CreateError),
+    /// A file has the name of the results, and does not hold their rows.
+    #[error("{} exists already{}", path.display(), other_rows(changes))]
+    Exists {
+        /// The file.
+        path: PathBuf,
+        /// The differences between its rows and those of the job, in words; empty if they are not known.
+        changes: Vec<String>,
+        /// The first line of the grid file that differs, in words.
+        changed: Option<String>,
+    },
     /// The run cannot be resumed.
     #[error("{error}")]
     Resume {
@@ -51,6 +61,11 @@ pub enum JobError {
         /// True if the run can be resumed: if its rows went into a file.
         resumable: bool,
     },
+}
+
+/// The differences of existing rows, as the end of a message.
+fn other_rows(changes: &[String]) -> String {
+    if changes.is_empty() { String::new() } else { format!(", with other rows: {}", changes.join("; ")) }
 }
 
 impl JobError {

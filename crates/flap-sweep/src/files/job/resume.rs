@@ -21,7 +21,7 @@ impl Job<'_> {
         let resumed = match Session::resume(&self.out, self.plan, &self.options) {
             Ok(resumed) => resumed,
             Err(ResumeError::NoJournal { .. }) if disk::is_empty(&self.out) => return self.start(engine),
-            Err(error @ ResumeError::NoJournal { .. }) => return self.complete(error),
+            Err(error @ ResumeError::NoJournal { .. }) => return self.without_journal(error),
             Err(error) => return Err(self.cannot_resume(error)),
         };
         let Resumed { session, before, started, lost } = resumed;
@@ -32,19 +32,42 @@ impl Job<'_> {
     }
 
     /// The outcome if there is no journal: the rows wanted are all there, or the `error` is one.
-    fn complete(&self, error: ResumeError) -> Result<Outcome, JobError> {
+    fn without_journal(&self, error: ResumeError) -> Result<Outcome, JobError> {
         let sidecar = match Sidecar::read(&sidecar_of(&self.out)) {
             Ok(sidecar) if sidecar.state == State::Complete => sidecar,
             Err(error @ ReadError::Damaged { .. }) => return Err(JobError::Open(error.into())),
             _ => return Err(self.cannot_resume(error)),
         };
-        let own = Identity::of(self.plan, &self.options.run);
-        let changes = sidecar.identity().differences(&own);
+        let changes = self.changes(&sidecar);
         if !changes.is_empty() {
             return Err(self.cannot_resume(ResumeError::Changed { path: self.out.clone(), changes }));
         }
+        self.complete(&sidecar)
+    }
+
+    /// The outcome if a file has the name of the results: it holds the rows wanted, or it is in the way.
+    pub(super) fn existing(&self) -> Result<Outcome, JobError> {
+        let exists = |changes, changed| JobError::Exists { path: self.out.clone(), changes, changed };
+        let sidecar = Sidecar::read(&sidecar_of(&self.out)).ok();
+        let Some(sidecar) = sidecar.filter(|sidecar| sidecar.state == State::Complete) else {
+            return Err(exists(Vec::new(), None));
+        };
+        let changes = self.changes(&sidecar);
+        if !changes.is_empty() {
+            return Err(exists(changes, self.changed_line(&sidecar)));
+        }
+        self.complete(&sidecar)
+    }
+
+    /// The differences between the rows that a sidecar describes and those wanted, in words.
+    fn changes(&self, sidecar: &Sidecar) -> Vec<String> {
+        sidecar.identity().differences(&Identity::of(self.plan, &self.options.run))
+    }
+
+    /// The outcome if the results hold the rows wanted, and are sound.
+    fn complete(&self, sidecar: &Sidecar) -> Result<Outcome, JobError> {
         let format = Format::of(&self.out)?;
-        integrity::check(&self.out, format, &sidecar, OnDamage::Refuse).map_err(JobError::Open)?;
+        integrity::check(&self.out, format, sidecar, OnDamage::Refuse).map_err(JobError::Open)?;
         let periodic = sidecar.statuses.as_ref().and_then(|counts| counts.get(Status::Periodic.name()));
         Ok(Outcome::Complete { all_periodic: periodic == sidecar.rows.as_ref() })
     }
@@ -53,8 +76,13 @@ impl Job<'_> {
     fn cannot_resume(&self, error: ResumeError) -> JobError {
         let is_changed = matches!(error, ResumeError::Changed { .. });
         let before = Sidecar::read(&sidecar_of(&self.out)).ok().filter(|_| is_changed);
-        let changed = before.and_then(|before| difference(&before.grid.text, &self.plan.source().text));
+        let changed = before.and_then(|before| self.changed_line(&before));
         JobError::Resume { error, changed }
+    }
+
+    /// The first line of the grid file that has changed since the rows of a sidecar were begun, in words.
+    fn changed_line(&self, before: &Sidecar) -> Option<String> {
+        difference(&before.grid.text, &self.plan.source().text)
     }
 }
 

@@ -7,7 +7,7 @@ use std::time::Instant;
 use super::{Before, Done, Engine, JobError, Outcome, to_stream};
 use crate::files::beside::{journal_of, sidecar_of};
 use crate::files::inputs::Inputs;
-use crate::files::output;
+use crate::files::output::{self, CreateError};
 use crate::files::replaced;
 use crate::files::results::Format;
 use crate::files::session::{Session, SessionOptions};
@@ -33,7 +33,7 @@ pub struct Job<'a> {
 /// The treatment of results that are there already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Begin {
-    /// They are an error.
+    /// They are an error, unless they are complete and hold the rows of the job: then nothing is left to run.
     New,
     /// They are kept under the name that [`kept`](replaced::kept) gives until the new ones are complete, and then removed.
     Overwrite,
@@ -57,7 +57,8 @@ impl Begin {
 /// # Errors
 /// - [`JobError::Overlap`] if the results would overwrite a file that they are made from
 /// - [`JobError::Format`] if the name of the results stands for no format
-/// - [`JobError::Create`] if they are there already, or cannot be made
+/// - [`JobError::Exists`] if a file of that name holds other rows
+/// - [`JobError::Create`] if the results are unfinished, or cannot be made
 /// - [`JobError::Resume`] if the run cannot be resumed
 /// - [`JobError::Open`] if the results are complete already, but damaged
 /// - [`JobError::Write`] if a file beside the results cannot be written
@@ -66,7 +67,11 @@ pub fn run(job: &Job<'_>, engine: Engine<'_>, tell: &mut dyn FnMut(Before)) -> R
     Inputs::new().add_plan(job.plan).protect_from_results(&job.out)?;
     match job.begin {
         Begin::Resume => job.resume(engine, tell),
-        Begin::New | Begin::Overwrite => job.start(engine),
+        Begin::Overwrite => job.start(engine),
+        Begin::New => match job.start(engine) {
+            Err(JobError::Create(CreateError::Exists(_))) => job.existing(),
+            outcome => outcome,
+        },
     }
 }
 
