@@ -21,4 +21,4 @@
 # The number of tasks of the whole array: Slurm's own count is that of the tasks submitted together.
 shards=8
 
-exec flap sweep --grid "$1" --shard "$SLURM_ARRAY_TASK_ID/$shards" --threads "$SLURM_CPUS_PER_TASK" --resume
+exec flap sweep "$1" --shard "$SLURM_ARRAY_TASK_ID/$shards" --threads "$SLURM_CPUS_PER_TASK" --resume

@@ -86,7 +86,7 @@ fn example_grids_are_valid_and_described() {
     for (name, path) in examples() {
         let points = points(&path);
         let text = fs::read_to_string(&path).unwrap();
-        assert!(text.contains(&format!("#   flap sweep --grid examples/{name}\n")), "{name}");
+        assert!(text.contains(&format!("#   flap sweep examples/{name}\n")), "{name}");
         let results = name.replace(".toml", ".csv");
         assert!(text.contains(&format!("path = \"{results}\"")), "{name}");
         assert!(text.contains(&format!("= {points} designs")), "{name} has {points} points");
@@ -133,11 +133,28 @@ fn the_slurm_example_works() {
     assert_eq!(folder.read("grid.csv").lines().count(), 51);
 }
 
+/// The commands of the page on grid files work.
+#[test]
+#[cfg(unix)]
+fn commands_in_the_grid_page_work() {
+    let grid = quick(1).replace("to = 60.0, step = 0.1", "to = 61, n = 21");
+    let folder = Folder::with_grid(&grid);
+    let flap = Path::new(env!("CARGO_BIN_EXE_flap")).parent().unwrap();
+    let paths = format!("{}:{}", flap.display(), std::env::var("PATH").unwrap());
+    for block in blocks(&document("docs/grid.md"), "sh") {
+        let mut shell = std::process::Command::new("sh");
+        let ended =
+            shell.args(["-ec", &block]).env("PATH", &paths).current_dir(folder.path("")).output().unwrap();
+        assert!(ended.status.success(), "{block}: {}", String::from_utf8_lossy(&ended.stderr));
+    }
+    assert_eq!(folder.read("fine.csv").lines().count(), 82);
+}
+
 /// The commands of the results page work one after the other, from a sweep that left points unsettled.
 #[test]
 fn commands_in_the_results_page_work() {
     let folder = Folder::with_grid(&quick(20));
-    assert_eq!(folder.flap("sweep --grid grid.toml --out sweep.csv").code, 0);
+    assert_eq!(folder.flap("sweep grid.toml --out sweep.csv").code, 0);
     let mut commands = 0;
     for block in blocks(&document("docs/results.md"), "sh") {
         for line in block.lines() {
@@ -182,7 +199,7 @@ fn commands_in_the_page_on_plots_work() {
 fn the_results_page_is_complete() {
     let page = document("docs/results.md");
     let folder = Folder::with_grid("preset = \"ozaki2018-large\"\n");
-    assert_eq!(folder.flap("sweep --grid grid.toml --out o.csv").code, 0);
+    assert_eq!(folder.flap("sweep grid.toml --out o.csv").code, 0);
     for line in folder.read("o.csv.meta.toml").lines().take_while(|line| !line.starts_with("[solver]")) {
         if let Some(key) = line.split(" = ").next().filter(|_| line.contains(" = ")) {
             assert!(page.contains(&format!("`{key}`")), "{key} is not described");

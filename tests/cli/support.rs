@@ -88,8 +88,14 @@ impl Folder {
 
     /// Runs `flap`.
     pub(crate) fn flap_with(&self, arguments: &[&str]) -> Ended {
+        self.flap_reading("", arguments)
+    }
+
+    /// Runs `flap` with the text `stdin` on its standard input.
+    pub(crate) fn flap_reading(&self, stdin: &str, arguments: &[&str]) -> Ended {
         let output = Command::new(env!("CARGO_BIN_EXE_flap"))
             .args(arguments)
+            .write_stdin(stdin)
             .current_dir(self.0.path())
             .timeout(Duration::from_secs(120))
             .output()

@@ -1,7 +1,7 @@
 //! The `flap` command with one more model: the motor-driven wing of `motor_wing`.
 //!
 //! ```sh
-//! cargo run --release -p own-model -- sweep --grid examples/own_model/grid.toml --out own.csv
+//! cargo run --release -p own-model -- sweep examples/own_model/grid.toml --out own.csv
 //! ```
 
 mod motor_wing;

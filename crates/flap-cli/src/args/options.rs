@@ -11,7 +11,7 @@ use super::values::{assignment, interval, positive, threads, tolerance};
 /// The choice of a design point.
 #[derive(clap::Args)]
 pub(crate) struct PointArgs {
-    /// A preset, or a grid file
+    /// A preset, or a grid file; `-` for a grid from stdin
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 

@@ -117,8 +117,8 @@ OUT has the same bytes as a sweep on one machine. Refuses if a shard is missing,
 another sweep.
 
 Examples:
-  flap sweep --grid grid.toml --shard 1/2
-  flap sweep --grid grid.toml --shard 2/2
+  flap sweep grid.toml --shard 1/2
+  flap sweep grid.toml --shard 2/2
   flap merge grid.csv grid.1of2.csv grid.2of2.csv";
 
 #[derive(clap::Args)]

@@ -1,6 +1,6 @@
 //! Commands on grid files: `sweep`, `check`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use flap_sweep::plan::selection::Shard;
 
@@ -9,12 +9,16 @@ use super::options::BeginArgs;
 #[derive(clap::Args)]
 #[command(after_help = SWEEP_HELP)]
 pub(crate) struct SweepArgs {
-    /// The grid file: preset, parameters and axes
-    #[arg(short, long, value_name = "FILE", required_unless_present = "from_sidecar")]
-    pub(crate) grid: Option<PathBuf>,
+    /// The grid file: preset, parameters and axes; `-` for stdin
+    #[arg(value_name = "GRID", required_unless_present_any = ["named_grid", "from_sidecar"])]
+    first_grid: Option<PathBuf>,
+
+    /// The grid file, as an option
+    #[arg(short = 'g', long = "grid", value_name = "GRID", conflicts_with = "first_grid")]
+    named_grid: Option<PathBuf>,
 
     /// Repeat the sweep of earlier results, as their sidecar FILE (.meta.toml) describes it
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["grid", "shard"], requires = "out")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["first_grid", "named_grid", "shard"], requires = "out")]
     pub(crate) from_sidecar: Option<PathBuf>,
 
     /// File for the rows, or `-` for stdout [default: the output path in the grid file, else the grid
@@ -36,25 +40,34 @@ pub(crate) struct SweepArgs {
     pub(crate) begin: BeginArgs,
 }
 
+impl SweepArgs {
+    /// The grid file, however it is named.
+    pub(crate) fn grid(&self) -> Option<&Path> {
+        self.first_grid.as_deref().or(self.named_grid.as_deref())
+    }
+}
+
 const SWEEP_HELP: &str = "\
 Rows are written in the order of the points, as soon as they are computed. Ctrl-C or SIGTERM gives the running points \
 half a second to finish, keeps the rows and exits with 130; a second one exits at once. Beside FILE, \
 FILE.meta.toml (the sidecar) records the origin of the rows. Until the sweep is complete, FILE.journal records its \
-progress, so that `flap resume FILE` can continue it, whatever ended it.
+progress, so that `flap resume FILE` can continue it, whatever ended it. A second sweep of the same grid into the same \
+file finds complete rows and runs nothing. Rows of another grid or of another build of flap are not replaced without --force.
 
 Examples:
-  flap sweep --grid grid.toml
-  flap sweep --grid grid.toml --out results/run1.csv --threads 8
-  flap sweep --grid grid.toml --out run1.parquet --resume
-  flap sweep --grid grid.toml --shard 2/8
+  flap sweep grid.toml
+  flap sweep grid.toml --out results/run1.csv --threads 8
+  flap sweep grid.toml --out run1.parquet --resume
+  flap sweep grid.toml --shard 2/8
   flap sweep --from-sidecar run1.csv.meta.toml --out again.csv
-  flap sweep --grid grid.toml --out - | head";
+  flap sweep grid.toml --out - | head
+  sed 's/n = 21/n = 81/' grid.toml | flap sweep - --out fine.csv";
 
 #[derive(clap::Args)]
 #[command(after_help = CHECK_HELP)]
 pub(crate) struct CheckArgs {
-    /// The grid file
-    #[arg(value_name = "FILE")]
+    /// The grid file; `-` for stdin. Files that a grid from stdin names are relative to the working directory
+    #[arg(value_name = "GRID")]
     pub(crate) grid: PathBuf,
 }
 
@@ -64,5 +77,6 @@ of the time that the sweep takes. For the estimate, it runs up to 32 points for 
 that differ from the preset, and warns of values more than a hundred times larger or smaller. Of a grid of more than a \
 million points, it counts excluded points among a million of them.
 
-Example:
-  flap check grid.toml";
+Examples:
+  flap check grid.toml
+  flap check - < grid.toml";

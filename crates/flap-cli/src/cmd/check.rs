@@ -6,7 +6,6 @@ use std::fmt::Write as _;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::SolverSettings;
-use flap_sweep::grid;
 use flap_sweep::notation::text;
 use flap_sweep::plan::axis::Values;
 use flap_sweep::plan::sample::{Distribution, Method};
@@ -15,16 +14,15 @@ use flap_sweep::resonance::Range;
 use flap_sweep::study::deviation;
 use flap_sweep::study::survey;
 
-use super::far;
+use super::{far, grid};
 use crate::args::CheckArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::job::exclusion;
-use crate::models;
 use crate::table::{self, Table};
 
 pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
-    let plan = grid::read(&args.grid, models::all())?;
+    let plan = grid::read(&args.grid)?;
     far::warn(&deviation::of(&plan));
     console::results(&page(&plan))?;
     Ok(Exit::Done)

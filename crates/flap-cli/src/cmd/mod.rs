@@ -3,6 +3,7 @@
 pub(crate) mod check;
 pub(crate) mod convert;
 pub(crate) mod far;
+mod grid;
 mod impulse;
 pub(crate) mod lift;
 pub(crate) mod merge;

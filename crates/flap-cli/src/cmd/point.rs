@@ -111,8 +111,8 @@ pub(super) fn plan(what: &str) -> Result<Plan, Failure> {
     }
     let path = Path::new(what);
     let looks_like_a_file = path.extension().is_some() || path.components().count() > 1;
-    if looks_like_a_file || path.exists() {
-        return Ok(grid::read(path, models::all())?);
+    if super::grid::is_stdin(path) || looks_like_a_file || path.exists() {
+        return super::grid::read(path);
     }
     let failure = Failure::usage(format!("there is no preset and no file `{what}`"));
     Err(failure.nearest(what, models::presets(), "`flap models` lists models and presets"))

@@ -5,26 +5,24 @@ use std::path::{Path, PathBuf};
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::results::Format;
 use flap_sweep::files::sidecar::{Origin, Sidecar};
-use flap_sweep::grid;
 use flap_sweep::plan::Plan;
 use flap_sweep::plan::selection::Shard;
 use flap_sweep::study::deviation;
 
 use crate::args::SweepArgs;
-use crate::cmd::far;
+use crate::cmd::{far, grid};
 use crate::failure::{Exit, Failure};
 use crate::job::{self, Begin};
-use crate::models;
 
 pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
     let (mut plan, origin) = plan(args)?;
-    let mut out = args.out.clone();
     if let Some(shard) = args.shard {
         plan = plan.with_shard(shard);
-        let default = default_path(&plan, args.grid.as_deref());
-        out = out.or_else(|| Some(name_of_shard(&default, shard)));
     }
-    let out = out.unwrap_or_else(|| default_path(&plan, args.grid.as_deref()));
+    let out = match &args.out {
+        Some(out) => out.clone(),
+        None => default_path(&plan, args)?,
+    };
     if out.as_os_str() == "-" && args.resume {
         return Err(Failure::usage("what was written to stdout cannot be resumed"));
     }
@@ -41,18 +39,25 @@ fn plan(args: &SweepArgs) -> Result<(Plan, Option<Origin>), Failure> {
         let sidecar = Sidecar::read(path)?;
         return Ok((job::plan_of(path, &sidecar)?, sidecar.origin().cloned()));
     }
-    let grid = args.grid.as_ref().ok_or_else(|| Failure::usage("name a grid file with --grid"))?;
-    Ok((grid::read(grid, models::all())?, None))
+    let grid = args.grid().ok_or_else(|| Failure::usage("name a grid file: flap sweep FILE"))?;
+    Ok((grid::read(grid)?, None))
 }
 
 /// The file of the rows by default.
-fn default_path(plan: &Plan, grid: Option<&Path>) -> PathBuf {
-    let named_after_grid = || {
-        let mut name = grid.and_then(Path::file_stem).unwrap_or_default().to_owned();
-        name.push(".csv");
-        PathBuf::from(name)
+fn default_path(plan: &Plan, args: &SweepArgs) -> Result<PathBuf, Failure> {
+    let whole = match (&plan.output().path, args.grid()) {
+        (Some(path), _) => path.clone(),
+        (None, Some(grid)) if grid::is_stdin(grid) => {
+            let failure = Failure::usage("a grid from stdin gives the rows no name");
+            return Err(failure.help("name their file: --out FILE, or `path` in [output] of the grid"));
+        }
+        (None, grid) => {
+            let mut name = grid.and_then(Path::file_stem).unwrap_or_default().to_owned();
+            name.push(".csv");
+            PathBuf::from(name)
+        }
     };
-    plan.output().path.clone().unwrap_or_else(named_after_grid)
+    Ok(args.shard.map_or_else(|| whole.clone(), |shard| name_of_shard(&whole, shard)))
 }
 
 /// The name of a shard's rows: `grid.2of8.csv` for `grid.csv`.

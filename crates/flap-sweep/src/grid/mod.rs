@@ -25,4 +25,4 @@ mod value;
 mod zip;
 
 pub use parse::parse;
-pub use read::{MOST_BYTES, ReadError, read};
+pub use read::{MOST_BYTES, ReadError, read, read_from};

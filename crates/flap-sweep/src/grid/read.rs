@@ -84,35 +84,51 @@ fn one_per_line(mistakes: &Mistakes) -> String {
 /// # Errors
 /// If the file cannot be read, or there are mistakes in it.
 pub fn read(path: &Path, models: &[&'static dyn Simulator]) -> Result<Plan, ReadError> {
-    let bytes = bytes(path).map_err(|cause| {
-        let path = path.to_owned();
-        match cause.kind() {
-            io::ErrorKind::NotFound => ReadError::Missing(path),
-            io::ErrorKind::IsADirectory => ReadError::Folder(path),
-            // Not every system has an error of its own for reading a folder.
-            _ if path.is_dir() => ReadError::Folder(path),
-            _ => ReadError::Unreadable { path, cause },
-        }
-    })?;
+    File::open(path).map_err(|cause| unreadable(path, cause)).and_then(|file| read_from(file, path, models))
+}
+
+/// Reads a grid from a stream, such as stdin, and makes its plan, with the presets of all models. `name` stands for the
+/// stream in messages and in the sidecar of rows. Files that the grid names are relative to the folder of `name`.
+///
+/// # Errors
+/// If the stream cannot be read, or there are mistakes in the grid.
+pub fn read_from(
+    source: impl io::Read,
+    name: &Path,
+    models: &[&'static dyn Simulator],
+) -> Result<Plan, ReadError> {
+    let bytes = bytes(source).map_err(|cause| unreadable(name, cause))?;
     if looks_like_results(&bytes) {
-        return Err(ReadError::Results(path.to_owned()));
+        return Err(ReadError::Results(name.to_owned()));
     }
     if bytes.len() as u64 > MOST_BYTES {
-        return Err(ReadError::TooLarge(path.to_owned()));
+        return Err(ReadError::TooLarge(name.to_owned()));
     }
     let text = String::from_utf8(bytes).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();
         let before = String::from_utf8_lossy(&error.as_bytes()[..byte]);
         let (line, column) = position(&before, byte);
-        ReadError::NotUtf8 { path: path.to_owned(), byte, line, column }
+        ReadError::NotUtf8 { path: name.to_owned(), byte, line, column }
     })?;
-    parse(&path.display().to_string(), &text, models).map_err(ReadError::Grid)
+    parse(&name.display().to_string(), &text, models).map_err(ReadError::Grid)
 }
 
-/// The beginning of a file: all of it, unless it is too large.
-fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+/// The error of the operating system in words of the user.
+fn unreadable(path: &Path, cause: io::Error) -> ReadError {
+    let path = path.to_owned();
+    match cause.kind() {
+        io::ErrorKind::NotFound => ReadError::Missing(path),
+        io::ErrorKind::IsADirectory => ReadError::Folder(path),
+        // Not every system has an error of its own for reading a folder.
+        _ if path.is_dir() => ReadError::Folder(path),
+        _ => ReadError::Unreadable { path, cause },
+    }
+}
+
+/// The beginning of a stream: all of it, unless it is too large.
+fn bytes(source: impl io::Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    File::open(path)?.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    source.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
