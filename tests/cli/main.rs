@@ -13,6 +13,7 @@ mod formulas;
 mod inputs;
 mod irregular;
 mod lists;
+mod look;
 mod mistakes;
 #[cfg(feature = "plots")]
 mod plot;

@@ -1,6 +1,8 @@
 //! The command line: commands, their options and help texts.
 
 mod film;
+mod filter;
+mod look;
 mod options;
 #[cfg(feature = "plots")]
 mod plot;
@@ -14,10 +16,12 @@ use std::sync::LazyLock;
 
 use clap::{Parser, Subcommand};
 pub(crate) use film::{LiftArgs, TrackArgs};
+pub(crate) use filter::Filter;
 use flap_sweep::run::identity;
-pub(crate) use options::{PointArgs, ReadArgs, SolverArgs, WorkArgs};
+pub(crate) use look::{DescribeArgs, Listing, LookArgs, TopArgs};
+pub(crate) use options::{Aim, PointArgs, ReadArgs, SolverArgs, WorkArgs};
 #[cfg(feature = "plots")]
-pub(crate) use plot::{Aim, PictureKind, PlotArgs, Size};
+pub(crate) use plot::{PictureKind, PlotArgs, Size};
 pub(crate) use respond::RespondArgs;
 pub(crate) use results::{ConvertArgs, MergeArgs, RerunArgs, ResumeArgs, VerifyArgs};
 pub(crate) use run::{Drive, Format, ResonanceArgs, RunArgs};
@@ -58,6 +62,10 @@ pub(crate) enum Command {
     Run(RunArgs),
     /// Follow the response of designs up and down in frequency or another parameter, and find hysteresis
     Respond(RespondArgs),
+    /// List the best rows of results
+    Top(TopArgs),
+    /// Summarize results: statuses, percentiles, and the best value of each axis
+    Describe(DescribeArgs),
     /// Draw results as a picture, or as a page to explore in a browser
     #[cfg(feature = "plots")]
     Plot(PlotArgs),

@@ -13,6 +13,7 @@
 mod args;
 mod cmd;
 mod console;
+mod data;
 mod failure;
 mod job;
 mod models;
@@ -42,6 +43,8 @@ pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
         Command::Verify(args) => cmd::verify::run(&args),
         Command::Run(args) => cmd::run::run(&args),
         Command::Respond(args) => cmd::respond::run(&args),
+        Command::Top(args) => cmd::top::run(&args),
+        Command::Describe(args) => cmd::describe::run(&args),
         #[cfg(feature = "plots")]
         Command::Plot(args) => plot::run(&args),
         Command::Resonance(args) => cmd::resonance::run(&args),

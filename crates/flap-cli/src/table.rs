@@ -25,8 +25,13 @@ impl Table {
         Table { rows: vec![headings.iter().map(|heading| heading.to_uppercase()).collect()] }
     }
 
+    /// A table with a first row of names of columns, as they are written.
+    pub(crate) fn with_names(names: Vec<String>) -> Table {
+        Table { rows: vec![names] }
+    }
+
     /// Adds a row.
-    pub(crate) fn row<const N: usize>(&mut self, cells: [String; N]) {
+    pub(crate) fn row(&mut self, cells: impl Into<Vec<String>>) {
         self.rows.push(cells.into());
     }
 

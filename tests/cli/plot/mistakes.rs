@@ -61,7 +61,10 @@ fn mistakes_are_told() {
             &["sweep.csv", "--where", "drive_voltage_pp=61"],
             &["no row has drive_voltage_pp = 61", "drive_voltage_pp is 60.0, 80.0, 100.0 V"],
         ),
-        (&["sweep.csv", "--where", "drive_voltage_pp=61 Hz"], &["not a number", "a number in V"]),
+        (
+            &["sweep.csv", "--where", "drive_voltage_pp=61 Hz"],
+            &["`Hz` is a frequency, but drive_voltage_pp is in V", "use V, mV, kV"],
+        ),
         (&["sweep.csv", "--y", "status"], &["column `status` holds words, not numbers"]),
         (
             &["sweep.csv", "--kind", "map", "--by", "status"],

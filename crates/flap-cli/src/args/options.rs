@@ -3,8 +3,9 @@
 use std::num::NonZeroUsize;
 use std::time::Duration;
 
-use clap::value_parser;
+use clap::{ValueEnum, value_parser};
 use flap_sweep::files::integrity::OnDamage;
+use flap_sweep::table::labels::{self, Direction};
 
 use super::values::{assignment, interval, positive, threads, tolerance};
 
@@ -78,6 +79,22 @@ pub(crate) struct BeginArgs {
 
     #[command(flatten)]
     pub(crate) work: WorkArgs,
+}
+
+/// The better direction of a measure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Aim {
+    /// Larger values are better
+    Max,
+    /// Smaller values are better
+    Min,
+}
+
+impl Aim {
+    /// The better direction of the column called `name`: that of its label, else larger values.
+    pub(crate) fn of(name: &str) -> Aim {
+        if labels::of(name).better == Some(Direction::Smaller) { Aim::Min } else { Aim::Max }
+    }
 }
 
 /// Options of commands that read results.

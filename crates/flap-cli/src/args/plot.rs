@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use super::options::{OverwriteArgs, ReadArgs};
+use super::options::{Aim, OverwriteArgs, ReadArgs};
 use super::values::assignment;
 
 #[derive(clap::Args)]
@@ -92,13 +92,6 @@ impl PictureKind {
     pub(crate) fn name(self) -> String {
         self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
     }
-}
-
-/// The better direction of a measure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Aim {
-    Max,
-    Min,
 }
 
 /// Width and height of a picture (pixels).

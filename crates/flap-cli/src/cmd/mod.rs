@@ -2,10 +2,12 @@
 
 pub(crate) mod check;
 pub(crate) mod convert;
+pub(crate) mod describe;
 pub(crate) mod far;
 mod grid;
 mod impulse;
 pub(crate) mod lift;
+mod look;
 pub(crate) mod merge;
 pub(crate) mod models;
 mod motion;
@@ -18,6 +20,8 @@ pub(crate) mod respond;
 pub(crate) mod resume;
 pub(crate) mod run;
 mod samples;
+mod shown;
 pub(crate) mod sweep;
+pub(crate) mod top;
 pub(crate) mod track;
 pub(crate) mod verify;

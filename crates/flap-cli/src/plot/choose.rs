@@ -1,13 +1,12 @@
 //! The choice of a picture that suits a file: its kind and columns.
 
-use super::axes::Axes;
 use super::chosen::{Chosen, Columns};
-use super::columns::Table;
-use super::pareto;
 use super::slices::{self, Taken};
-use super::source::Source;
 use crate::args::{Aim, PictureKind, PlotArgs};
 use crate::console;
+use crate::data::axes::Axes;
+use crate::data::columns::Table;
+use crate::data::source::Source;
 use crate::failure::Failure;
 
 /// Measures that are drawn by default, and columns that some kinds need.
@@ -116,8 +115,7 @@ impl<'a> Wishes<'a> {
 
     /// The better directions of x and y.
     pub(super) fn aims(&self, columns: &Columns) -> (Aim, Aim) {
-        let aim =
-            |asked: Option<Aim>, column: usize| asked.unwrap_or_else(|| pareto::aim(&self.names[column]));
+        let aim = |asked: Option<Aim>, column: usize| asked.unwrap_or_else(|| Aim::of(&self.names[column]));
         (aim(self.args.x_aim, columns.x), aim(self.args.y_aim, columns.y))
     }
 

@@ -1,7 +1,7 @@
 //! The choice of kind, columns and rows for a picture.
 
-use super::columns::Table;
 use crate::args::{Aim, PictureKind};
+use crate::data::columns::Table;
 use crate::failure::Failure;
 
 /// Kind and columns of a picture.

@@ -3,13 +3,13 @@
 use kuva::render::render::Scene;
 
 use super::chosen::Chosen;
-use super::columns::{Cells, Table};
 use super::ink::{self, Look};
 use super::panel::{Axis, Panel};
 use super::response::{family, ordered};
 use super::scale;
 use crate::args::Size;
 use crate::console;
+use crate::data::columns::{Cells, Table};
 use crate::failure::Failure;
 
 /// The branches in the order of drawing, with their names in the legend.

@@ -2,6 +2,9 @@
 
 use flap_sweep::table::labels;
 
+use crate::data::columns::{Cells, Table};
+use crate::data::levels::{Levels, Values};
+
 /// A column's label, and the unit in which its numbers are shown.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Label {
@@ -28,6 +31,31 @@ impl Label {
     /// A value in the unit that is shown: `70 V`.
     pub(super) fn value(&self, value: f64) -> String {
         format!("{} {}", short(value * self.factor), self.unit).trim_end().to_owned()
+    }
+}
+
+impl Table {
+    /// The label of a column, in a unit that suits its largest number.
+    pub(super) fn label(&self, index: usize) -> Label {
+        let column = &self.columns[index];
+        let largest = match &column.cells {
+            Cells::Numbers(values) => values
+                .iter()
+                .filter(|value| value.is_finite())
+                .fold(0.0, |most: f64, value| most.max(value.abs())),
+            _ => 0.0,
+        };
+        Label::new(&column.name, &column.unit, largest)
+    }
+}
+
+impl Levels {
+    /// Value number `place` as text, with its unit.
+    pub(super) fn text(&self, place: usize, label: &Label) -> String {
+        match &self.values {
+            Values::Numbers(values) => label.value(values[place]),
+            Values::Words(words) => words[place].clone(),
+        }
     }
 }
 

@@ -6,12 +6,12 @@ use kuva::render::render::{Primitive, Scene};
 
 use super::bar;
 use super::chosen::{Chosen, Columns};
-use super::columns::Table;
 use super::ink;
-use super::levels::{Levels, Values};
 use super::panel::{Axis, Panel};
 use super::scale;
 use crate::args::Size;
+use crate::data::columns::Table;
+use crate::data::levels::{Levels, Values};
 use crate::failure::Failure;
 
 /// Most cells of a picture: more would exceed its pixels.

@@ -1,16 +1,13 @@
 //! `flap plot`: pictures and pages of results.
 
-mod axes;
 mod bar;
 mod choose;
 mod chosen;
-mod columns;
 mod encode;
 mod front;
 mod hysteresis;
 mod ink;
 mod label;
-mod levels;
 mod map;
 mod page;
 mod panel;
@@ -19,7 +16,6 @@ mod raster;
 mod response;
 mod scale;
 mod slices;
-mod source;
 mod trajectory;
 
 use std::io::Write;
@@ -27,15 +23,15 @@ use std::path::{Path, PathBuf};
 
 use choose::Wishes;
 use chosen::Chosen;
-use columns::Table;
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::results::Format;
 use flap_sweep::notation::text::printable;
 use kuva::render::render::Scene;
-use source::Source;
 
 use crate::args::{PictureKind, PlotArgs, Size};
 use crate::cmd::outputs;
+use crate::data::columns::Table;
+use crate::data::source::Source;
 use crate::failure::{Exit, Failure};
 use crate::{console, job};
 
@@ -64,7 +60,7 @@ pub(crate) fn run(args: &PlotArgs) -> Result<Exit, Failure> {
 /// Draws into the file `out`.
 fn picture(args: &PlotArgs, out: &Path) -> Result<(), Failure> {
     let format = encode::format(out)?;
-    let source = Source::open(args, true)?;
+    let source = Source::open(&args.results, &args.read, true)?;
     let wishes = Wishes::of(&source, args)?;
     let table = source.read(|column| wishes.wants(column), usize::MAX)?;
     let chosen = wishes.choose(&table, heading(args))?;

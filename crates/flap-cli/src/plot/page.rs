@@ -6,13 +6,13 @@ use std::collections::BTreeMap;
 
 use data::{Data, Kind, Start, Value};
 
-use super::axes::Axes;
 use super::choose::Wishes;
-use super::columns::{Cells, Table};
 use super::slices;
-use super::source::Source;
 use crate::args::{Aim, PictureKind, PlotArgs};
 use crate::console;
+use crate::data::axes::Axes;
+use crate::data::columns::{Cells, Table};
+use crate::data::source::Source;
 use crate::failure::Failure;
 
 const PAGE: &str = include_str!("assets/page.html");
@@ -24,7 +24,7 @@ const MOST_ROWS: usize = 1 << 17;
 
 /// The page of results. With `tells`, warnings about the results go to stderr.
 pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String, Failure> {
-    let source = Source::open(args, tells)?;
+    let source = Source::open(&args.results, &args.read, tells)?;
     let wishes = Wishes::of(&source, args)?;
     let table = source.read(|_| true, MOST_ROWS)?;
     let axes = Axes::of(&table, wishes.end);

@@ -1,18 +1,17 @@
 //! Pareto pictures: two measures of every design, and the designs that no other design beats in both.
 
-use flap_sweep::table::labels::{self, Direction};
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::Scene;
 
 use super::bar;
 use super::chosen::Chosen;
-use super::columns::Table;
 use super::front::front;
 use super::ink::{self, Look};
 use super::panel::{Axis, Panel};
 use super::scale;
 use crate::args::{Aim, Size};
 use crate::console;
+use crate::data::columns::Table;
 use crate::failure::Failure;
 
 /// Most points of a picture besides the front.
@@ -20,11 +19,6 @@ const MOST_POINTS: usize = 20_000;
 
 /// Number of shades of coloured points.
 const SHADES: usize = 24;
-
-/// The better direction of a column by default.
-pub(super) fn aim(name: &str) -> Aim {
-    if labels::of(name).better == Some(Direction::Smaller) { Aim::Min } else { Aim::Max }
-}
 
 /// Draws column `y` over column `x`, with the front.
 pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {

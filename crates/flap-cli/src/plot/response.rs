@@ -3,13 +3,13 @@
 use kuva::render::render::Scene;
 
 use super::chosen::Chosen;
-use super::columns::Table;
 use super::ink::{self, Look};
-use super::levels::{Levels, Values};
 use super::panel::{Axis, Panel};
 use super::scale;
 use crate::args::Size;
 use crate::console;
+use crate::data::columns::Table;
+use crate::data::levels::{Levels, Values};
 use crate::failure::Failure;
 
 /// Most lines of a picture: more cannot be distinguished.

@@ -1,9 +1,8 @@
 //! Choice of rows: filters, and slices through axes that a picture does not show.
 
-use flap_sweep::notation::units;
-
-use super::columns::{Cells, Column, Table};
-use super::levels::Levels;
+use crate::data::columns::{Cells, Column, Table};
+use crate::data::filter;
+use crate::data::levels::Levels;
 use crate::failure::Failure;
 
 /// The rows that have the values of `filters`.
@@ -13,10 +12,12 @@ pub(super) fn filtered(table: &Table, filters: &[(String, String)]) -> Result<Ve
         let column = table.find(name)?;
         let kept: Vec<usize> = match &table.columns[column].cells {
             Cells::Numbers(values) => {
-                let wanted = wanted(table, column, text)?;
-                // Users write fewer digits than files hold.
-                let near = |value: f64| (value - wanted).abs() <= 1e-9 * wanted.abs().max(f64::MIN_POSITIVE);
-                rows.iter().copied().filter(|&row| near(values[row])).collect()
+                let Column { name, unit, .. } = &table.columns[column];
+                let wanted = filter::number(name, unit, text)?.ok_or_else(|| {
+                    let message = format!("`{name}` holds numbers, and `{text}` is not a number");
+                    Failure::usage(format!("--where {name}={text}: {message}"))
+                })?;
+                rows.iter().copied().filter(|&row| filter::is_same(values[row], wanted)).collect()
             }
             Cells::Words { codes, words } => {
                 let code = words.iter().position(|word| word == text);
@@ -32,20 +33,6 @@ pub(super) fn filtered(table: &Table, filters: &[(String, String)]) -> Result<Ve
         rows = kept;
     }
     Ok(rows)
-}
-
-/// The number in a filter, in the column's unit.
-fn wanted(table: &Table, column: usize, text: &str) -> Result<f64, Failure> {
-    let column = &table.columns[column];
-    let number = text.parse().ok().or_else(|| units::parse_as(text, &column.unit).ok());
-    number.ok_or_else(|| {
-        let message = format!("--where {}={text}: not a number", column.name);
-        match column.unit.as_str() {
-            "" => Failure::usage(message),
-            unit => Failure::usage(message)
-                .help(format!("write a number in {unit}, or with a unit of the same kind")),
-        }
-    })
 }
 
 /// The values of a column, a dozen at most.
@@ -109,7 +96,7 @@ pub(super) fn sliced(table: &Table, axes: &[usize], shown: &[usize], mut rows: V
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::columns::tests::grid;
+    use crate::data::columns::tests::grid;
 
     #[test]
     fn slices_take_the_middle_of_what_is_not_shown() {

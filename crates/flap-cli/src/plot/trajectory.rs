@@ -5,12 +5,12 @@ use kuva::render::figure::Figure;
 use kuva::render::render::Scene;
 
 use super::chosen::Chosen;
-use super::columns::Table;
 use super::ink::{self, Look};
 use super::panel::{Axis, LETTER, Panel};
 use super::scale;
 use crate::args::Size;
 use crate::console;
+use crate::data::columns::Table;
 use crate::failure::Failure;
 
 /// Most points of one line.

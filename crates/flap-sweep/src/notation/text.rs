@@ -53,6 +53,16 @@ fn float_by_standard_library(value: f64) -> String {
     text
 }
 
+/// A number of things in words: `1 row`, `2 rows`.
+///
+/// ```
+/// assert_eq!(flap_sweep::notation::text::count(1, "periodic row"), "1 periodic row");
+/// assert_eq!(flap_sweep::notation::text::count(0, "point"), "0 points");
+/// ```
+pub fn count(number: u64, thing: &str) -> String {
+    if number == 1 { format!("1 {thing}") } else { format!("{number} {thing}s") }
+}
+
 /// `true` for 1 and `false` for 0. NaN, which stands for unknown, is the empty text.
 pub fn truth(value: f64) -> String {
     if value.is_nan() {

@@ -6,7 +6,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
-use crate::plot::columns::{Cells, NO_WORD, Table};
+use crate::data::columns::{Cells, NO_WORD, Table};
 
 /// Most rows of a page with all digits of their measures; larger pages have seven digits.
 const MOST_EXACT: usize = 20_000;
@@ -185,7 +185,7 @@ fn distinct(values: &[f64]) -> Option<(Vec<usize>, Vec<f64>)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::columns;
+    use crate::data::columns;
 
     #[test]
     fn texts_cannot_end_the_script() {

@@ -4,16 +4,16 @@ use super::columns::Table;
 use super::levels::{Levels, Values};
 
 /// The parameters that a file varies.
-pub(super) struct Axes {
+pub(crate) struct Axes {
     /// Columns with more than one value, without those that follow from one before.
-    pub(super) columns: Vec<usize>,
+    pub(crate) columns: Vec<usize>,
     /// True for a sample: most of its values are different, so that they form no grid.
-    pub(super) sampled: bool,
+    pub(crate) sampled: bool,
 }
 
 impl Axes {
     /// The axes among the columns from the second up to `end`.
-    pub(super) fn of(table: &Table, end: usize) -> Axes {
+    pub(crate) fn of(table: &Table, end: usize) -> Axes {
         let rows: Vec<usize> = (0..table.rows).collect();
         let mut kept: Vec<(usize, Levels)> = Vec::new();
         for column in 1..end {
@@ -48,7 +48,7 @@ fn is_even(levels: &Levels) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::columns::tests::{grid, table};
+    use crate::data::columns::tests::{grid, table};
 
     #[test]
     fn axes_are_what_varies_by_itself() {

@@ -2,27 +2,27 @@
 
 use std::collections::HashMap;
 
+#[cfg(feature = "plots")]
 use flap_sweep::notation::text;
 
 use super::columns::{Cells, NO_WORD, Table};
-use super::label::Label;
 
 /// The different values of a column, and the value of each row.
-pub(super) struct Levels {
+pub(crate) struct Levels {
     /// Per row the index of its value.
-    pub(super) codes: Vec<usize>,
-    pub(super) values: Values,
+    pub(crate) codes: Vec<usize>,
+    pub(crate) values: Values,
 }
 
 /// Different values: numbers by rising value, words in the order of the file.
-pub(super) enum Values {
+pub(crate) enum Values {
     Numbers(Vec<f64>),
     Words(Vec<String>),
 }
 
 impl Levels {
     /// The values of the column in these rows. Empty cells are a value of their own, the last.
-    pub(super) fn of(table: &Table, column: usize, rows: &[usize]) -> Levels {
+    pub(crate) fn of(table: &Table, column: usize, rows: &[usize]) -> Levels {
         match &table.columns[column].cells {
             Cells::Numbers(values) => {
                 let mut distinct: Vec<f64> = rows.iter().map(|&row| values[row]).collect();
@@ -54,7 +54,7 @@ impl Levels {
         }
     }
 
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         match &self.values {
             Values::Numbers(values) => values.len(),
             Values::Words(words) => words.len(),
@@ -62,23 +62,16 @@ impl Levels {
     }
 
     /// Value number `place` as the user types it and as files have it.
-    pub(super) fn typed(&self, place: usize) -> String {
+    #[cfg(feature = "plots")]
+    pub(crate) fn typed(&self, place: usize) -> String {
         match &self.values {
             Values::Numbers(values) => text::float(values[place]),
             Values::Words(words) => words[place].clone(),
         }
     }
 
-    /// Value number `place` as text, with its unit.
-    pub(super) fn text(&self, place: usize, label: &Label) -> String {
-        match &self.values {
-            Values::Numbers(values) => label.value(values[place]),
-            Values::Words(words) => words[place].clone(),
-        }
-    }
-
     /// True if the value of each row follows from its value in `other`.
-    pub(super) fn follow(&self, other: &Levels) -> bool {
+    pub(crate) fn follow(&self, other: &Levels) -> bool {
         let mut image = vec![usize::MAX; other.len()];
         self.codes.iter().zip(&other.codes).all(|(&mine, &theirs)| {
             let first = image[theirs] == usize::MAX;

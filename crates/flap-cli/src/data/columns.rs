@@ -2,29 +2,28 @@
 
 use flap_sweep::notation::nearest;
 
-use super::label::Label;
 use crate::failure::Failure;
 
 /// Columns of a file. Columns that the picture does not need have no cells.
-pub(super) struct Table {
-    pub(super) columns: Vec<Column>,
+pub(crate) struct Table {
+    pub(crate) columns: Vec<Column>,
     /// Rows that are held.
-    pub(super) rows: usize,
+    pub(crate) rows: usize,
     /// Rows of the file.
-    pub(super) of: usize,
+    pub(crate) of: usize,
 }
 
 /// A column of a file.
-pub(super) struct Column {
-    pub(super) name: String,
+pub(crate) struct Column {
+    pub(crate) name: String,
     /// The unit in words; empty for none.
-    pub(super) unit: String,
-    pub(super) cells: Cells,
+    pub(crate) unit: String,
+    pub(crate) cells: Cells,
 }
 
 /// The cells of a column.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Cells {
+pub(crate) enum Cells {
     /// A number per row; NaN for an empty cell.
     Numbers(Vec<f64>),
     /// Per row the index of a word; [`NO_WORD`] for an empty cell.
@@ -34,16 +33,17 @@ pub(super) enum Cells {
 }
 
 /// Stands for an empty cell among words.
-pub(super) const NO_WORD: u32 = u32::MAX;
+pub(crate) const NO_WORD: u32 = u32::MAX;
 
 impl Table {
     /// The position of a column that the user named.
-    pub(super) fn find(&self, name: &str) -> Result<usize, Failure> {
+    #[cfg(feature = "plots")]
+    pub(crate) fn find(&self, name: &str) -> Result<usize, Failure> {
         find(self.columns.iter().map(|column| column.name.as_str()), name)
     }
 
     /// The numbers of a column.
-    pub(super) fn numbers(&self, index: usize) -> Result<&[f64], Failure> {
+    pub(crate) fn numbers(&self, index: usize) -> Result<&[f64], Failure> {
         let column = &self.columns[index];
         match &column.cells {
             Cells::Numbers(values) => Ok(values),
@@ -54,23 +54,10 @@ impl Table {
             Cells::Unread => Err(Failure::Bug(format!("column `{}` was not read", column.name))),
         }
     }
-
-    /// The label of a column, in a unit that suits its largest number.
-    pub(super) fn label(&self, index: usize) -> Label {
-        let column = &self.columns[index];
-        let largest = match &column.cells {
-            Cells::Numbers(values) => values
-                .iter()
-                .filter(|value| value.is_finite())
-                .fold(0.0, |most: f64, value| most.max(value.abs())),
-            _ => 0.0,
-        };
-        Label::new(&column.name, &column.unit, largest)
-    }
 }
 
 /// The position of a column that the user named.
-pub(super) fn find<'n>(names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Result<usize, Failure> {
+pub(crate) fn find<'n>(names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Result<usize, Failure> {
     names.clone().position(|known| known == name).ok_or_else(|| {
         let failure = Failure::usage(format!("there is no column `{name}`"));
         let failure = match nearest(name, names.clone()) {
@@ -82,11 +69,11 @@ pub(super) fn find<'n>(names: impl Iterator<Item = &'n str> + Clone, name: &str)
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
     use super::*;
 
     /// A table of columns with a first one that counts.
-    pub(in crate::plot) fn table(columns: &[(&str, &[f64])]) -> Table {
+    pub(crate) fn table(columns: &[(&str, &[f64])]) -> Table {
         let rows = columns[0].1.len();
         let column = |name: &str, values: Vec<f64>| Column {
             name: name.to_owned(),
@@ -99,7 +86,7 @@ pub(super) mod tests {
     }
 
     /// Two axes, `f` of three values fastest, one that follows `v`, and one that is the same everywhere.
-    pub(in crate::plot) fn grid() -> Table {
+    pub(crate) fn grid() -> Table {
         table(&[
             ("v", &[1.0, 1.0, 1.0, 2.0, 2.0, 2.0]),
             ("f", &[10.0, 20.0, 30.0, 10.0, 20.0, 30.0]),

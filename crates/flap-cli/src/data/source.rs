@@ -12,7 +12,7 @@ use flap_sweep::table::labels;
 use flap_sweep::table::layout::Layout;
 
 use super::columns::{self, Cells, Column, NO_WORD, Table};
-use crate::args::PlotArgs;
+use crate::args::ReadArgs;
 use crate::failure::Failure;
 use crate::{console, job};
 
@@ -20,7 +20,7 @@ use crate::{console, job};
 const MOST_ROWS: usize = 20_000_000;
 
 /// An open file of results, of which the header is read.
-pub(super) struct Source {
+pub(crate) struct Source {
     reader: Reader,
     units: Units,
     path: PathBuf,
@@ -29,12 +29,8 @@ pub(super) struct Source {
 
 impl Source {
     /// Opens the results and reads their header. With `tells`, notes and warnings about them go to stderr.
-    pub(super) fn open(args: &PlotArgs, tells: bool) -> Result<Source, Failure> {
-        let path = &args.results;
-        let Opened { reader, sidecar, notes } = integrity::open(path, args.read.on_damage())?;
-        if reader.names().iter().all(String::is_empty) {
-            return Err(Failure::usage(format!("{} has no columns", path.display())));
-        }
+    pub(crate) fn open(path: &Path, read: &ReadArgs, tells: bool) -> Result<Source, Failure> {
+        let Opened { reader, sidecar, notes } = integrity::open(path, read.on_damage())?;
         if tells {
             // Only results of sweeps have sidecars: motions and responses are drawn too.
             let is_sweep =
@@ -42,29 +38,66 @@ impl Source {
             let is_told = |note: &&Note| is_sweep || !matches!(note, Note::Unverified { .. });
             notes.iter().filter(is_told).for_each(job::tell);
         }
+        if reader.names().iter().all(String::is_empty) {
+            return Err(Failure::usage(format!("{} has no columns", path.display())));
+        }
         let units = Units::of(path, sidecar.as_ref());
-        Ok(Source { reader, units, path: path.clone(), tells })
+        Ok(Source { reader, units, path: path.to_owned(), tells })
     }
 
-    pub(super) fn names(&self) -> &[String] {
+    pub(crate) fn names(&self) -> &[String] {
         self.reader.names()
     }
 
     /// The position of a column that the user named.
-    pub(super) fn find(&self, name: &str) -> Result<usize, Failure> {
+    pub(crate) fn find(&self, name: &str) -> Result<usize, Failure> {
         columns::find(self.names().iter().map(String::as_str), name)
+    }
+
+    /// The unit of a column in words; empty for none.
+    pub(crate) fn unit(&self, column: usize) -> String {
+        self.units.of_column(&self.names()[column])
+    }
+
+    /// Reads the next row into `row`; false if there is none left.
+    pub(crate) fn next(&mut self, row: &mut StringRecord) -> Result<bool, Failure> {
+        let found = self.reader.next(row).map_err(|error| {
+            Failure::System(format!("cannot read {}: {error}", self.path.display()), Vec::new())
+        })?;
+        if !found && self.tells {
+            job::tell_missed(&self.path, &self.reader);
+        }
+        Ok(found)
     }
 
     /// Reads the rows, with the cells of `wanted` columns. Of a file with more than `most` rows, it keeps every second row,
     /// or every fourth, and so on.
-    pub(super) fn read(mut self, wanted: impl Fn(usize) -> bool, most: usize) -> Result<Table, Failure> {
+    #[cfg(feature = "plots")]
+    pub(crate) fn read(self, wanted: impl Fn(usize) -> bool, most: usize) -> Result<Table, Failure> {
+        let name = self.path.display().to_string();
+        let table = self.read_kept(wanted, most, |_| Ok(true))?;
+        if table.rows == 0 {
+            return Err(Failure::usage(format!("{name} has no rows: there is nothing to draw")));
+        }
+        Ok(table)
+    }
+
+    /// Reads the rows that `keep` keeps, as [`Source::read`] does.
+    pub(crate) fn read_kept(
+        mut self,
+        wanted: impl Fn(usize) -> bool,
+        most: usize,
+        mut keep: impl FnMut(&StringRecord) -> Result<bool, Failure>,
+    ) -> Result<Table, Failure> {
         let names = self.reader.names().to_vec();
         let mut columns: Vec<Gathered> = (0..names.len()).map(|index| Gathered::new(wanted(index))).collect();
         let mut row = StringRecord::new();
         let (mut rows, mut of, mut stride) = (0, 0, 1);
-        let name = self.path.display();
-        let unreadable = |error| Failure::System(format!("cannot read {name}: {error}"), Vec::new());
-        while self.reader.next(&mut row).map_err(unreadable)? {
+        let name = self.path.display().to_string();
+        while self.next(&mut row)? {
+            if !keep(&row)? {
+                continue;
+            }
             if rows == most {
                 columns.iter_mut().for_each(Gathered::halve);
                 rows = rows.div_ceil(2);
@@ -72,7 +105,7 @@ impl Source {
             }
             if rows == MOST_ROWS {
                 let message = format!("{name} has more than {MOST_ROWS} rows");
-                return Err(Failure::usage(message).help("draw one of its shards, or sweep fewer points"));
+                return Err(Failure::usage(message).help("read one of its shards, or sweep fewer points"));
             }
             if of % stride == 0 {
                 for (column, cell) in columns.iter_mut().zip(&row) {
@@ -81,12 +114,6 @@ impl Source {
                 rows += 1;
             }
             of += 1;
-        }
-        if rows == 0 {
-            return Err(Failure::usage(format!("{name} has no rows: there is nothing to draw")));
-        }
-        if self.tells {
-            job::tell_missed(&self.path, &self.reader);
         }
         let columns = names.into_iter().zip(columns).map(|(name, gathered)| {
             let unit = self.units.of_column(&name);

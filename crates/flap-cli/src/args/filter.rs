@@ -1,0 +1,37 @@
+//! Conditions on rows: the option `--where`.
+
+use flap_sweep::notation::expression::is_free_name;
+
+/// A condition that rows satisfy, or are left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Filter {
+    /// The column of this name has this value.
+    Equal(String, String),
+    /// A comparison of columns and numbers, such as `lift_mean_mn > 1`.
+    Comparison(String),
+}
+
+/// The condition that `text` is: `COLUMN=VALUE`, else a comparison.
+#[expect(clippy::unnecessary_wraps, reason = "clap asks for a result")]
+pub(super) fn filter(text: &str) -> Result<Filter, String> {
+    let equal = text.split_once('=').map(|(name, value)| (name.trim(), value.trim()));
+    Ok(match equal.filter(|(name, value)| is_free_name(name) && !value.starts_with('=')) {
+        Some((name, value)) => Filter::Equal(name.to_owned(), value.to_owned()),
+        None => Filter::Comparison(text.to_owned()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_equal_sign_behind_a_name_is_a_value() {
+        let equal = |name: &str, value: &str| Ok(Filter::Equal(name.to_owned(), value.to_owned()));
+        assert_eq!(filter("drive_frequency=95 Hz"), equal("drive_frequency", "95 Hz"));
+        assert_eq!(filter(" status = periodic"), equal("status", "periodic"));
+        for text in ["lift_mean_mn>1", "cycles == 7", "a >= 1", "a<=1", "a != 2", "a > 1 and b = 2", "a"] {
+            assert_eq!(filter(text), Ok(Filter::Comparison(text.to_owned())));
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Commands that summarize results: `top`, `describe`.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+
+use super::filter::{Filter, filter};
+use super::options::{Aim, ReadArgs};
+
+#[derive(clap::Args)]
+#[command(after_help = TOP_HELP)]
+pub(crate) struct TopArgs {
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
+
+    /// Column by which rows are ranked
+    #[arg(long, value_name = "COLUMN")]
+    pub(crate) by: String,
+
+    /// Number of rows
+    #[arg(short = 'n', long, value_name = "N", default_value = "10")]
+    pub(crate) rows: NonZeroUsize,
+
+    /// More columns to list, separated by commas
+    #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
+    pub(crate) columns: Vec<String>,
+}
+
+const TOP_HELP: &str = "\
+Lists the varied and derived parameters of the best rows, the column that ranks them, and their status. The table shows \
+six digits and prefixes of units; csv and json have the cells of FILE. Rows without a value are left out, and of equal rows \
+the first ones come first. Of an unfinished file, the rows up to the last checkpoint are ranked.
+
+Examples:
+  flap top sweep.csv --by efficiency_gf_per_w
+  flap top sweep.csv --by lift_mean_mn -n 3 --where 'power_mean_mw<20' --where drive_voltage_pp='80 V'
+  flap top sweep.parquet --by floquet_max --aim max --columns period,stable --all
+  flap top sweep.csv --by lift_mean_mn --format csv > best.csv";
+
+#[derive(clap::Args)]
+#[command(after_help = DESCRIBE_HELP)]
+pub(crate) struct DescribeArgs {
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
+
+    /// Measures for which the best values of each axis are listed, separated by commas [default: lift_mean_mn and
+    /// efficiency_gf_per_w, or the first measure of a file that has neither]
+    #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
+    pub(crate) by: Vec<String>,
+
+    /// Columns whose percentiles are listed, separated by commas [default: all behind the parameters]
+    #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
+    pub(crate) columns: Vec<String>,
+}
+
+const DESCRIBE_HELP: &str = "\
+Prints three kinds of tables. First: the number of rows of each status. Second: the smallest value, the 5th, 50th and 95th \
+percentile and the largest value of each measure. Third, for each main measure: the best row, with the value of each axis \
+there, and the values of the axis among the best tenth of the rows. A wide range there means that the axis matters little; \
+`at the end` means that a wider axis may hold better designs. An axis is a varied parameter, and in results of \
+`flap respond` also the branch.
+
+Examples:
+  flap describe sweep.csv
+  flap describe sweep.csv --by power_mean_mw --aim min --where 'lift_mean_mn>1'
+  flap describe sweep.parquet --columns lift_mean_mn,stroke_pp_deg --format json";
+
+/// The choice of rows, and the format of a summary.
+#[derive(clap::Args)]
+pub(crate) struct LookArgs {
+    /// Results of `flap sweep`, `rerun`, `merge` or `respond --out`
+    #[arg(value_name = "FILE")]
+    pub(crate) results: PathBuf,
+
+    /// The better direction [default: min for power, current, strain, field, drag and force, max for other columns]
+    #[arg(long, value_enum)]
+    pub(crate) aim: Option<Aim>,
+
+    /// Use only rows with this value (a number as in the file, a number with a unit, or a word), or for which this
+    /// comparison holds: 'lift_mean_mn > 1 and cycles < 100'. May be repeated
+    #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
+    pub(crate) filters: Vec<Filter>,
+
+    /// Use rows of every status, not only periodic ones
+    #[arg(long)]
+    pub(crate) all: bool,
+
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Listing::Table)]
+    pub(crate) format: Listing,
+
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+}
+
+/// The format of a summary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Listing {
+    /// Aligned columns with six digits, to be read
+    Table,
+    /// Comma-separated values with all digits
+    Csv,
+    /// JSON with all digits
+    Json,
+}

@@ -1,0 +1,112 @@
+//! `flap describe`: statuses, percentiles, and the best values of axes.
+
+mod best;
+mod description;
+mod show;
+mod spread;
+
+use best::Best;
+use description::{Count, Description};
+use flap_core::simulate::Status;
+use spread::Spread;
+
+use crate::args::{Aim, DescribeArgs, LookArgs};
+use crate::console;
+use crate::data::axes::Axes;
+use crate::data::columns::{Cells, Table};
+use crate::data::filter::Filters;
+use crate::data::levels::{Levels, Values};
+use crate::data::source::Source;
+use crate::failure::{Exit, Failure};
+
+/// Measures whose best rows are described by default.
+const MAIN: [&str; 2] = ["lift_mean_mn", "efficiency_gf_per_w"];
+
+pub(crate) fn run(args: &DescribeArgs) -> Result<Exit, Failure> {
+    let LookArgs { results, filters, format, read, .. } = &args.look;
+    let source = Source::open(results, read, true)?;
+    let filters = Filters::of(filters, &source)?;
+    let asked = Asked::of(args, &source)?;
+    let table = source.read_kept(|column| asked.wants(column), usize::MAX, |row| filters.keep(row))?;
+    if table.rows == 0 {
+        return Err(args.look.no_rows());
+    }
+    let description = describe(&table, &asked, args)?;
+    console::results(&show::text(&description, *format)?)?;
+    Ok(Exit::Done)
+}
+
+/// The columns that are asked for.
+struct Asked {
+    status: Option<usize>,
+    /// Columns with percentiles, and true if the user named them.
+    columns: (Vec<usize>, bool),
+    /// Measures with best rows.
+    by: Vec<usize>,
+}
+
+impl Asked {
+    fn of(args: &DescribeArgs, source: &Source) -> Result<Asked, Failure> {
+        let place = |name: &str| source.names().iter().position(|known| known == name);
+        let find = |names: &[String]| {
+            names.iter().map(|name| source.find(name.trim())).collect::<Result<Vec<usize>, Failure>>()
+        };
+        let status = place("status");
+        let behind = status.map_or(0, |status| status + 1);
+        let columns = match args.columns.as_slice() {
+            [] => ((behind..source.names().len()).collect(), false),
+            names => (find(names)?, true),
+        };
+        let mut by = find(&args.by)?;
+        if by.is_empty() && status.is_some() {
+            by = MAIN.into_iter().filter_map(place).collect();
+            let first = Some(behind).filter(|&first| by.is_empty() && first < source.names().len());
+            by.extend(first);
+        }
+        Ok(Asked { status, columns, by })
+    }
+
+    fn wants(&self, column: usize) -> bool {
+        self.status.is_some_and(|status| column <= status)
+            || self.columns.0.contains(&column)
+            || self.by.contains(&column)
+    }
+}
+
+fn describe(table: &Table, asked: &Asked, args: &DescribeArgs) -> Result<Description, Failure> {
+    let (statuses, rows) = match asked.status {
+        Some(status) => statuses(table, status, args.look.all),
+        None => (Vec::new(), (0..table.rows).collect()),
+    };
+    let (columns, are_named) = &asked.columns;
+    let mut spreads = Vec::new();
+    for &column in columns {
+        // Columns of words have no percentiles; that matters only if the user named them.
+        if *are_named || matches!(table.columns[column].cells, Cells::Numbers(_)) {
+            spreads.push(Spread::of(&table.columns[column], table.numbers(column)?, &rows));
+        }
+    }
+    let axes = Axes::of(table, asked.status.unwrap_or(0));
+    let mut best = Vec::new();
+    for &column in &asked.by {
+        let aim = args.look.aim.unwrap_or_else(|| Aim::of(&table.columns[column].name));
+        let found = Best::of(table, column, aim, &rows, &axes)?;
+        if found.is_none() && !args.by.is_empty() {
+            return Err(args.look.without(&table.columns[column].name));
+        }
+        best.extend(found);
+    }
+    Ok(Description { rows: table.of, statuses, columns: spreads, best })
+}
+
+/// The number of rows of each status, and the rows to be described: those that are periodic, or `all`.
+fn statuses(table: &Table, status: usize, all: bool) -> (Vec<Count>, Vec<usize>) {
+    let rows: Vec<usize> = (0..table.rows).collect();
+    let levels = Levels::of(table, status, &rows);
+    let Values::Words(words) = &levels.values else { return (Vec::new(), rows) };
+    let count = |place: usize| levels.codes.iter().filter(|&&code| code == place).count();
+    let counts = words.iter().enumerate();
+    let counts = counts.map(|(place, word)| Count { status: word.clone(), rows: count(place) }).collect();
+    let is_periodic = |row: &usize| words[levels.codes[*row]] == Status::Periodic.name();
+    (counts, rows.into_iter().filter(|row| all || is_periodic(row)).collect())
+}

@@ -1,0 +1,117 @@
+//! The best row by a measure, and the values of the axes among the best rows.
+
+use serde::Serialize;
+
+use crate::args::Aim;
+use crate::data::axes::Axes;
+use crate::data::columns::Table;
+use crate::data::levels::{Levels, Values};
+use crate::failure::Failure;
+
+/// The best row by a measure.
+#[derive(Serialize)]
+pub(super) struct Best {
+    /// The measure.
+    pub(super) column: String,
+    pub(super) unit: String,
+    /// `max` or `min`.
+    pub(super) aim: &'static str,
+    pub(super) value: f64,
+    /// Index of the point or of the curve.
+    pub(super) point: u64,
+    pub(super) axes: Vec<Axis>,
+}
+
+/// The values of an axis: a varied parameter, or the branch of a curve.
+#[derive(Serialize)]
+pub(super) struct Axis {
+    #[serde(rename = "axis")]
+    pub(super) name: String,
+    pub(super) unit: String,
+    /// Number of different values.
+    pub(super) values: usize,
+    /// The smallest and the largest value; of words, the first and the last.
+    pub(super) range: [Place; 2],
+    /// The value in the best row.
+    pub(super) best: Place,
+    /// The smallest and the largest value among the best tenth of the rows; of words, all of them.
+    pub(super) best_tenth: Vec<Place>,
+    /// True if the best value is the first or the last of an axis of three or more numbers, not of a sample.
+    pub(super) at_the_end: bool,
+}
+
+/// A value of an axis.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub(super) enum Place {
+    Number(f64),
+    Word(String),
+}
+
+impl Best {
+    /// The best of these rows; `None` if none has a value.
+    pub(super) fn of(
+        table: &Table,
+        column: usize,
+        aim: Aim,
+        rows: &[usize],
+        axes: &Axes,
+    ) -> Result<Option<Best>, Failure> {
+        let numbers = table.numbers(column)?;
+        let mut ranked: Vec<usize> = rows.iter().copied().filter(|&row| !numbers[row].is_nan()).collect();
+        let Some(&first) = ranked.first() else { return Ok(None) };
+        ranked.sort_by(|&a, &b| match aim {
+            Aim::Max => numbers[b].total_cmp(&numbers[a]),
+            Aim::Min => numbers[a].total_cmp(&numbers[b]),
+        });
+        let row = ranked.first().copied().unwrap_or(first);
+        ranked.truncate(ranked.len().div_ceil(10));
+        let described = &table.columns[column];
+        Ok(Some(Best {
+            column: described.name.clone(),
+            unit: described.unit.clone(),
+            aim: if aim == Aim::Max { "max" } else { "min" },
+            value: numbers[row],
+            point: point(table, row),
+            axes: axes.columns.iter().map(|&axis| Axis::of(table, axis, &ranked, axes.sampled)).collect(),
+        }))
+    }
+}
+
+/// The index in the first column of results; the number of the row in other files.
+fn point(table: &Table, row: usize) -> u64 {
+    let first = &table.columns[0];
+    let indices = table.numbers(0).ok().filter(|_| ["point", "curve"].contains(&first.name.as_str()));
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number from 0")]
+    indices.map_or(row as u64, |indices| indices[row] as u64)
+}
+
+impl Axis {
+    /// The axis in this column; `best` are the best rows, the best first.
+    fn of(table: &Table, column: usize, best: &[usize], sampled: bool) -> Axis {
+        let rows: Vec<usize> = (0..table.rows).collect();
+        let levels = Levels::of(table, column, &rows);
+        let place = |level: usize| match &levels.values {
+            Values::Numbers(values) => Place::Number(values[level]),
+            Values::Words(words) => Place::Word(words[level].clone()),
+        };
+        let mut found: Vec<usize> = best.iter().map(|&row| levels.codes[row]).collect();
+        let top = found[0];
+        found.sort_unstable();
+        found.dedup();
+        let (last, is_number) = (levels.len() - 1, matches!(levels.values, Values::Numbers(_)));
+        if is_number {
+            found = vec![found[0], found[found.len() - 1]];
+        }
+        let described = &table.columns[column];
+        Axis {
+            name: described.name.clone(),
+            unit: described.unit.clone(),
+            values: levels.len(),
+            range: [place(0), place(last)],
+            best: place(top),
+            best_tenth: found.into_iter().map(place).collect(),
+            at_the_end: is_number && !sampled && last >= 2 && (top == 0 || top == last),
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! All that is said of results.
+
+use serde::Serialize;
+
+use super::best::Best;
+use super::spread::Spread;
+
+/// All that is said of results.
+#[derive(Serialize)]
+pub(super) struct Description {
+    pub(super) rows: usize,
+    pub(super) statuses: Vec<Count>,
+    pub(super) columns: Vec<Spread>,
+    pub(super) best: Vec<Best>,
+}
+
+/// The number of rows of a status.
+#[derive(Serialize)]
+pub(super) struct Count {
+    pub(super) status: String,
+    pub(super) rows: usize,
+}

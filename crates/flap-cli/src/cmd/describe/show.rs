@@ -1,0 +1,133 @@
+//! Descriptions as text: tables, comma-separated values, JSON.
+
+use std::fmt::Write as _;
+
+use flap_sweep::notation::text;
+
+use super::best::{Axis, Best, Place};
+use super::description::Description;
+use crate::args::Listing;
+use crate::cmd::shown::Shown;
+use crate::failure::Failure;
+use crate::table::Table;
+
+/// The text of a description.
+pub(super) fn text(description: &Description, format: Listing) -> Result<String, Failure> {
+    match format {
+        Listing::Table => Ok(page(description)),
+        Listing::Csv => csv(description).ok_or_else(|| Failure::Bug("no comma-separated values".to_owned())),
+        Listing::Json => {
+            let json = serde_json::to_string_pretty(description);
+            json.map(|json| json + "\n").map_err(|error| Failure::Bug(error.to_string()))
+        }
+    }
+}
+
+/// Tables, one below the other.
+fn page(description: &Description) -> String {
+    let mut tables = Vec::new();
+    if !description.statuses.is_empty() {
+        let mut table = Table::with_headings(&["status", "rows", "share"]);
+        for status in &description.statuses {
+            let share = 100.0 * status.rows as f64 / description.rows as f64;
+            table.row([status.status.clone(), status.rows.to_string(), format!("{share:.1} %")]);
+        }
+        tables.push(table.text());
+    }
+    if !description.columns.is_empty() {
+        let mut table =
+            Table::with_headings(&["column", "unit", "rows", "min", "5 %", "median", "95 %", "max"]);
+        for spread in &description.columns {
+            let numbers = spread.percentiles().map(|(_, number)| number);
+            let shown = Shown::new(&spread.unit, numbers);
+            let head = [spread.column.clone(), shown.unit().to_owned(), spread.count.to_string()];
+            table.row(head.into_iter().chain(numbers.map(|number| shown.number(number))).collect::<Vec<_>>());
+        }
+        tables.push(table.text());
+    }
+    tables.extend(description.best.iter().map(best));
+    tables.join("\n")
+}
+
+/// A line with the best row, and a line per axis.
+fn best(best: &Best) -> String {
+    let shown = Shown::new(&best.unit, [best.value]);
+    let direction = if best.aim == "max" { "largest" } else { "smallest" };
+    let value = format!("{} {}", shown.number(best.value), shown.unit());
+    let mut text = format!("{direction} {}: {} at point {}\n", best.column, value.trim_end(), best.point);
+    if best.axes.is_empty() {
+        return text;
+    }
+    let mut table =
+        Table::with_headings(&["axis", "unit", "from", "to", "values", "best row", "best tenth", ""]);
+    for axis in &best.axes {
+        table.row(line(axis));
+    }
+    let _ = write!(text, "{}", table.text());
+    text
+}
+
+fn line(axis: &Axis) -> [String; 8] {
+    let number = |place: &Place| if let Place::Number(number) = place { *number } else { f64::NAN };
+    let shown = Shown::new(&axis.unit, axis.range.iter().map(number));
+    let text = |place: &Place| match place {
+        Place::Number(number) => shown.number(*number),
+        Place::Word(word) => word.clone(),
+    };
+    let tenth: Vec<String> = axis.best_tenth.iter().map(text).collect();
+    let tenth = match (&axis.best, tenth.as_slice()) {
+        (Place::Number(_), [from, to]) if from != to => format!("{from} to {to}"),
+        (Place::Number(_), [one, ..]) => one.clone(),
+        _ => tenth.join(", "),
+    };
+    let [from, to] = &axis.range;
+    let end = if axis.at_the_end { "at the end" } else { "" };
+    [
+        axis.name.clone(),
+        shown.unit().to_owned(),
+        text(from),
+        text(to),
+        axis.values.to_string(),
+        text(&axis.best),
+        tenth,
+        end.to_owned(),
+    ]
+}
+
+/// One number per line, with its table, column, axis and name.
+fn csv(description: &Description) -> Option<String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut line = |cells: [&str; 5]| writer.write_record(cells).ok();
+    line(["table", "column", "axis", "name", "value"])?;
+    for status in &description.statuses {
+        line(["statuses", "status", "", &status.status, &status.rows.to_string()])?;
+    }
+    for spread in &description.columns {
+        line(["columns", &spread.column, "", "count", &spread.count.to_string()])?;
+        for (name, number) in spread.percentiles() {
+            line(["columns", &spread.column, "", name, &text::float(number)])?;
+        }
+    }
+    for best in &description.best {
+        line(["best", &best.column, "", "value", &text::float(best.value)])?;
+        line(["best", &best.column, "", "point", &best.point.to_string()])?;
+        for axis in &best.axes {
+            let [from, to] = &axis.range;
+            for (name, place) in [("from", from), ("to", to), ("best", &axis.best)] {
+                line(["best", &best.column, &axis.name, name, &exact(place)])?;
+            }
+            for place in &axis.best_tenth {
+                line(["best", &best.column, &axis.name, "best_tenth", &exact(place)])?;
+            }
+        }
+    }
+    String::from_utf8(writer.into_inner().ok()?).ok()
+}
+
+/// A value with all digits.
+fn exact(place: &Place) -> String {
+    match place {
+        Place::Number(number) => text::float(*number),
+        Place::Word(word) => word.clone(),
+    }
+}

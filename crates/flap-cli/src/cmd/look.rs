@@ -1,0 +1,28 @@
+//! Failures that commands on rows share.
+
+use crate::args::LookArgs;
+use crate::failure::Failure;
+
+impl LookArgs {
+    /// The failure if no row is left.
+    pub(super) fn no_rows(&self) -> Failure {
+        let file = self.results.display();
+        if self.filters.is_empty() {
+            return Failure::usage(format!("{file} has no rows"));
+        }
+        Failure::usage(format!("no row of {file} satisfies --where"))
+            .help("`flap describe` shows the range of each column")
+    }
+
+    /// The failure if no row that is used has a value of the column called `name`.
+    pub(super) fn without(&self, name: &str) -> Failure {
+        let file = self.results.display();
+        if self.all {
+            return Failure::usage(format!("no row of {file} has a value of {name}"));
+        }
+        let rows =
+            if self.filters.is_empty() { "periodic row" } else { "periodic row that satisfies --where" };
+        Failure::usage(format!("no {rows} of {file} has a value of {name}"))
+            .help("--all uses rows of every status")
+    }
+}

@@ -1,0 +1,93 @@
+//! Cells of result files as they are shown: to people with prefixes of units, to programs with all digits.
+
+use flap_sweep::table::labels;
+use flap_sweep::table::layout::split_unit;
+use serde_json::Value;
+
+use crate::table::six_digits;
+
+/// A unit that suits the size of the numbers that are shown.
+pub(super) struct Shown {
+    factor: f64,
+    unit: String,
+}
+
+impl Shown {
+    /// For numbers in `unit`.
+    pub(super) fn new(unit: &str, numbers: impl IntoIterator<Item = f64>) -> Shown {
+        let finite = numbers.into_iter().filter(|number| number.is_finite());
+        let largest = finite.fold(0.0, |most: f64, number| most.max(number.abs()));
+        let labels::Scale { factor, unit } = labels::scale(unit, largest);
+        Shown { factor, unit }
+    }
+
+    /// The unit as it is printed; empty for none.
+    pub(super) fn unit(&self) -> &str {
+        &self.unit
+    }
+
+    /// The name of a column, with its unit if the name does not end in it.
+    pub(super) fn heading(&self, name: &str) -> String {
+        let (_, ending) = split_unit(name);
+        if self.unit.is_empty() || labels::printed(ending) == self.unit {
+            name.to_owned()
+        } else {
+            format!("{name} ({})", self.unit)
+        }
+    }
+
+    /// A number with six digits.
+    pub(super) fn number(&self, number: f64) -> String {
+        six_digits(number * self.factor)
+    }
+
+    /// A cell of a file: a number with six digits, or a word.
+    pub(super) fn cell(&self, cell: &str) -> String {
+        let is_whole = cell.parse::<u64>().is_ok();
+        match cell.parse() {
+            Ok(number) if !is_whole => self.number(number),
+            _ => cell.to_owned(),
+        }
+    }
+}
+
+/// A cell as JSON: null if it is empty or infinite.
+pub(super) fn json(cell: &str) -> Value {
+    match cell {
+        "" => Value::Null,
+        "true" => Value::Bool(true),
+        "false" => Value::Bool(false),
+        _ => {
+            let whole = || cell.parse::<u64>().ok().map(Value::from);
+            let number = || cell.parse::<f64>().ok().map(Value::from);
+            whole().or_else(number).unwrap_or_else(|| Value::from(cell))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headings_have_a_unit_once() {
+        let heading = |name: &str, unit: &str, largest| Shown::new(unit, [largest]).heading(name);
+        assert_eq!(heading("lift_mean_mn", "mN", 1.0), "lift_mean_mn");
+        assert_eq!(heading("stroke_pp_deg", "deg", 80.0), "stroke_pp_deg");
+        assert_eq!(heading("hinge_stiffness", "N*m/rad", 6e-5), "hinge_stiffness (µN·m/rad)");
+        assert_eq!(heading("status", "", f64::NAN), "status");
+    }
+
+    #[test]
+    fn cells_keep_whole_numbers_and_words() {
+        let shown = Shown::new("N*m/rad", [1.6e-4, f64::NAN]);
+        assert_eq!(shown.cell("8.64e-5"), "86.4");
+        let plain = Shown::new("", []);
+        assert_eq!(["12", "", "up", "inf"].map(|cell| plain.cell(cell)), ["12", "", "up", "inf"]);
+        assert_eq!(
+            ["12", "", "up", "inf"].map(json),
+            [Value::from(12), Value::Null, Value::from("up"), Value::Null]
+        );
+        assert_eq!(["true", "0.5"].map(json), [Value::from(true), Value::from(0.5)]);
+    }
+}

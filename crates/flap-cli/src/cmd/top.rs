@@ -1,0 +1,180 @@
+//! `flap top`: the best rows of results.
+
+use std::fmt::Write as _;
+
+use csv::StringRecord;
+use flap_core::simulate::Status;
+use flap_sweep::notation::text::count;
+use serde::Serializer as _;
+
+use super::shown::{Shown, json};
+use crate::args::{Aim, Listing, LookArgs, TopArgs};
+use crate::console;
+use crate::data::filter::Filters;
+use crate::data::source::Source;
+use crate::failure::{Exit, Failure};
+use crate::table::Table;
+
+pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
+    let LookArgs { results, aim, filters, all, format, read } = &args.look;
+    let mut source = Source::open(results, read, true)?;
+    let filters = Filters::of(filters, &source)?;
+    let columns = columns(args, &source)?;
+    let by = source.find(&args.by)?;
+    let status = source.names().iter().position(|name| name == "status").filter(|_| !all);
+    let units: Vec<String> = columns.iter().map(|&column| source.unit(column)).collect();
+    let names: Vec<String> = columns.iter().map(|&column| source.names()[column].clone()).collect();
+
+    let aim = aim.unwrap_or_else(|| Aim::of(&args.by));
+    let mut best = Best { most: args.rows.get(), aim, rows: Vec::new() };
+    let mut left_out = LeftOut::default();
+    let mut row = StringRecord::new();
+    let (mut kept, mut ranked) = (0_u64, 0);
+    while source.next(&mut row)? {
+        if !filters.keep(&row)? {
+            continue;
+        }
+        kept += 1;
+        let value = value(&args.by, row.get(by).unwrap_or_default())?;
+        if status.is_some_and(|status| row.get(status) != Some(Status::Periodic.name())) {
+            left_out.other_statuses += 1;
+        } else if value.is_nan() {
+            left_out.empty += 1;
+        } else {
+            best.add(value, columns.iter().map(|&column| row.get(column).unwrap_or_default()).collect());
+            ranked += 1;
+        }
+    }
+    if ranked == 0 {
+        return Err(if kept == 0 { args.look.no_rows() } else { args.look.without(&args.by) });
+    }
+    let rows = best.sorted();
+    let direction = if aim == Aim::Max { "largest" } else { "smallest" };
+    let (shown, of) = (
+        count(rows.len() as u64, "row"),
+        count(ranked, if status.is_some() { "periodic row" } else { "row" }),
+    );
+    console::say(&format!("{shown} with the {direction} {} of {of}{}", args.by, left_out.text()));
+    match format {
+        Listing::Table => console::results(&table(&names, &units, &rows))?,
+        Listing::Csv => {
+            let mut writer = csv::Writer::from_writer(Vec::new());
+            let written = writer
+                .write_record(&names)
+                .and_then(|()| rows.iter().try_for_each(|row| writer.write_record(row)));
+            let bytes = written.ok().and_then(|()| writer.into_inner().ok());
+            let bytes = bytes.ok_or_else(|| Failure::Bug("rows are no comma-separated values".to_owned()))?;
+            console::results(&String::from_utf8_lossy(&bytes))?;
+        }
+        Listing::Json => console::results(&objects(&names, &rows)?)?,
+    }
+    Ok(Exit::Done)
+}
+
+/// The columns that are listed: those of the point (in other files, the first), that of the ranking, those asked for, and the
+/// status.
+fn columns(args: &TopArgs, source: &Source) -> Result<Vec<usize>, Failure> {
+    let place = |name: &str| source.names().iter().position(|known| known == name);
+    let status = place("status");
+    let mut columns: Vec<usize> = (0..status.unwrap_or(1)).collect();
+    let asked = [&args.by].into_iter().chain(&args.columns);
+    let asked = asked.map(|name| source.find(name.trim())).collect::<Result<Vec<usize>, Failure>>()?;
+    for column in asked.into_iter().chain(status) {
+        if !columns.contains(&column) {
+            columns.push(column);
+        }
+    }
+    Ok(columns)
+}
+
+/// The number in a cell of the column that ranks rows; NaN if the cell is empty.
+fn value(by: &str, cell: &str) -> Result<f64, Failure> {
+    if cell.is_empty() {
+        return Ok(f64::NAN);
+    }
+    cell.parse().map_err(|_| {
+        Failure::usage(format!("column `{by}` holds words such as `{cell}`, which have no order"))
+            .help("name a column of numbers with --by")
+    })
+}
+
+/// The best rows so far.
+struct Best {
+    most: usize,
+    aim: Aim,
+    /// Values with the cells that are shown.
+    rows: Vec<(f64, Vec<String>)>,
+}
+
+impl Best {
+    fn add(&mut self, value: f64, cells: Vec<&str>) {
+        // Sorting now and then takes less time than keeping rows in order.
+        if self.rows.len() >= self.most.saturating_mul(2).max(1000) {
+            self.cut();
+        }
+        self.rows.push((value, cells.into_iter().map(str::to_owned).collect()));
+    }
+
+    /// Drops all rows but the best. Rows of the same value stay in their order.
+    fn cut(&mut self) {
+        match self.aim {
+            Aim::Max => self.rows.sort_by(|a, b| b.0.total_cmp(&a.0)),
+            Aim::Min => self.rows.sort_by(|a, b| a.0.total_cmp(&b.0)),
+        }
+        self.rows.truncate(self.most);
+    }
+
+    /// The best rows, the best first.
+    fn sorted(mut self) -> Vec<Vec<String>> {
+        self.cut();
+        self.rows.into_iter().map(|(_, cells)| cells).collect()
+    }
+}
+
+/// Numbers of rows that are not ranked.
+#[derive(Default)]
+struct LeftOut {
+    other_statuses: u64,
+    empty: u64,
+}
+
+impl LeftOut {
+    /// The end of a message.
+    fn text(&self) -> String {
+        let mut text = String::new();
+        if self.other_statuses > 0 {
+            let rows = count(self.other_statuses, "row");
+            let _ = write!(text, "; {rows} of other statuses not ranked (--all ranks them)");
+        }
+        if self.empty > 0 {
+            let _ = write!(text, "; {} without a value", count(self.empty, "row"));
+        }
+        text
+    }
+}
+
+/// The rows as aligned columns.
+fn table(names: &[String], units: &[String], rows: &[Vec<String>]) -> String {
+    let shown: Vec<Shown> = (units.iter().enumerate())
+        .map(|(place, unit)| Shown::new(unit, rows.iter().filter_map(|row| row[place].parse().ok())))
+        .collect();
+    let headings = names.iter().zip(&shown).map(|(name, shown)| shown.heading(name));
+    let mut table = Table::with_names(headings.collect());
+    for row in rows {
+        table.row(row.iter().zip(&shown).map(|(cell, shown)| shown.cell(cell)).collect::<Vec<_>>());
+    }
+    table.text()
+}
+
+/// The rows as a list of JSON objects.
+fn objects(names: &[String], rows: &[Vec<String>]) -> Result<String, Failure> {
+    let object = |row: &Vec<String>| {
+        let mut bytes = Vec::new();
+        let cells = names.iter().zip(row.iter().map(|cell| json(cell)));
+        serde_json::Serializer::new(&mut bytes).collect_map(cells)?;
+        Ok(format!("  {}", String::from_utf8_lossy(&bytes)))
+    };
+    let objects: Result<Vec<String>, serde_json::Error> = rows.iter().map(object).collect();
+    let objects = objects.map_err(|error| Failure::Bug(error.to_string()))?;
+    Ok(format!("[\n{}\n]\n", objects.join(",\n")))
+}

@@ -1,0 +1,291 @@
+//! `flap top` and `flap describe`.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::support::{Folder, frequencies, quick, start, wait, wait_for_rows};
+
+/// Two axes; some of the points settle within this number of periods.
+const GRID: &str = "\
+preset = \"ozaki2018-large\"
+[axes]
+hinge_stiffness = [\"60 uN*m/rad\", \"100 uN*m/rad\", \"160 uN*m/rad\"]
+drive_frequency = { from = 95, to = 122, n = 10 }
+[solver]
+max_cycles = 20
+newton = false
+";
+
+/// A folder with the results `rows.csv` of a grid.
+fn swept(grid: &str) -> Folder {
+    let folder = Folder::with_grid(grid);
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    folder
+}
+
+/// A folder with results of which all rows are periodic.
+fn periodic() -> Folder {
+    swept(&GRID.replace("max_cycles = 20\nnewton = false\n", ""))
+}
+
+/// Lines of comma-separated values: names, then rows.
+fn cells(text: &str) -> Vec<Vec<String>> {
+    text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+/// The numbers of a column; NaN for empty cells.
+fn column(rows: &[Vec<String>], name: &str) -> Vec<f64> {
+    let place = rows[0].iter().position(|known| known == name).unwrap();
+    rows[1..].iter().map(|row| row[place].parse().unwrap_or(f64::NAN)).collect()
+}
+
+/// The command's JSON.
+fn json(folder: &Folder, arguments: &str) -> Value {
+    serde_json::from_str(&folder.ends(0, &format!("{arguments} --format json")).stdout).unwrap()
+}
+
+#[test]
+fn the_best_rows_come_first() {
+    let folder = periodic();
+    let file = cells(&folder.read("rows.csv"));
+    let mut lift = column(&file, "lift_mean_mn");
+    let top = folder.ends(0, "top rows.csv --by lift_mean_mn -n 4 --format csv --columns cycles");
+    top.says("4 rows with the largest lift_mean_mn of 30 periodic rows\n");
+    let best = cells(&top.stdout);
+    assert_eq!(best[0], ["point", "hinge_stiffness", "drive_frequency", "lift_mean_mn", "cycles", "status"]);
+    lift.sort_by(|a, b| b.total_cmp(a));
+    assert_eq!(column(&best, "lift_mean_mn"), lift[..4]);
+    // Cells are those of the file.
+    let point: usize = best[1][0].parse().unwrap();
+    assert!(best[1].iter().all(|cell| file[point + 1].contains(cell)), "{best:?}");
+
+    // Of power, less is better, unless it is asked for otherwise.
+    let mut power = column(&file, "power_mean_mw");
+    power.sort_by(f64::total_cmp);
+    let least = folder.ends(0, "top rows.csv --by power_mean_mw -n 2 --format csv");
+    least.says("2 rows with the smallest power_mean_mw");
+    assert_eq!(column(&cells(&least.stdout), "power_mean_mw"), power[..2]);
+    let most = folder.ends(0, "top rows.csv --by power_mean_mw -n 1 --aim max --format csv");
+    assert_eq!(column(&cells(&most.stdout), "power_mean_mw"), power[29..]);
+    assert_eq!(cells(&folder.ends(0, "top rows.csv --by cycles --format csv").stdout).len(), 11, "ten rows");
+    assert_eq!(cells(&folder.ends(0, "top rows.csv --by cycles -n 99 --format csv").stdout).len(), 31);
+}
+
+#[test]
+fn a_table_is_for_people_and_json_for_programs() {
+    let folder = periodic();
+    let table = folder.ends(0, "top rows.csv --by lift_mean_mn -n 3").stdout;
+    let words = |line: &str| -> Vec<String> {
+        line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).map(str::to_owned).collect()
+    };
+    let lines: Vec<Vec<String>> = table.lines().map(words).collect();
+    let headings = ["point", "hinge_stiffness (µN·m/rad)", "drive_frequency (Hz)", "lift_mean_mn", "status"];
+    assert_eq!(lines[0], headings);
+    assert_eq!(lines.len(), 4);
+    assert!(["60.0", "100.0", "160.0"].contains(&lines[1][1].as_str()), "{table}");
+    assert_eq!(lines[1][4], "periodic");
+    assert!(lines[1][3].len() <= 8, "six digits: {table}");
+
+    let objects = json(&folder, "top rows.csv --by lift_mean_mn -n 3 --columns stable");
+    let rows = cells(&folder.ends(0, "top rows.csv --by lift_mean_mn -n 3 --format csv").stdout);
+    let objects = objects.as_array().unwrap();
+    assert_eq!(objects.len(), 3);
+    for (object, row) in objects.iter().zip(&rows[1..]) {
+        assert_eq!(object["point"].as_u64().unwrap().to_string(), row[0]);
+        assert_eq!(object["lift_mean_mn"].as_f64(), row[3].parse().ok());
+        assert_eq!((object["status"].as_str(), object["stable"].as_bool()), (Some("periodic"), Some(true)));
+    }
+}
+
+#[test]
+fn only_periodic_rows_are_ranked_unless_all_are_asked_for() {
+    let folder = swept(GRID);
+    let unsettled = folder.read("rows.csv").matches(",unsettled,").count();
+    assert!((2..30).contains(&unsettled), "{unsettled}");
+    let top = folder.ends(0, "top rows.csv --by cycles -n 30 --format csv");
+    top.says(&format!("; {unsettled} rows of other statuses not ranked (--all ranks them)\n"));
+    assert_eq!(cells(&top.stdout).len(), 31 - unsettled);
+    let all = folder.ends(0, "top rows.csv --by cycles -n 30 --all --format csv");
+    all.says("30 rows with the largest cycles of 30 rows\n");
+    assert!(all.stdout.contains(",unsettled\n"));
+    let lift = folder.ends(0, "top rows.csv --by lift_mean_mn -n 30 --all --format csv");
+    lift.says(&format!("; {unsettled} rows without a value\n"));
+
+    let described = json(&folder, "describe rows.csv");
+    assert_eq!(described["rows"], 30);
+    let statuses = described["statuses"].as_array().unwrap();
+    let count =
+        |name: &str| statuses.iter().find(|status| status["status"] == name).unwrap()["rows"].as_u64();
+    assert_eq!(count("unsettled"), Some(unsettled as u64));
+    assert_eq!(count("periodic"), Some(30 - unsettled as u64));
+    let columns = described["columns"].as_array().unwrap();
+    let lift = columns.iter().find(|spread| spread["column"] == "lift_mean_mn").unwrap();
+    assert_eq!(lift["count"], 30 - unsettled);
+}
+
+#[test]
+fn conditions_choose_rows() {
+    let folder = periodic();
+    let file = cells(&folder.read("rows.csv"));
+    let (stiffness, power) = (column(&file, "hinge_stiffness"), column(&file, "power_mean_mw"));
+    let mut sorted = power.clone();
+    sorted.sort_by(f64::total_cmp);
+    let middle = sorted[15];
+    let kept = |arguments: &[&str]| {
+        let begin = ["top", "rows.csv", "--by", "cycles", "-n", "99", "--format", "csv"];
+        cells(&folder.ends_with(0, &[&begin, arguments].concat()).stdout).len() - 1
+    };
+    assert_eq!(kept(&["--where", "hinge_stiffness=100 uN*m/rad"]), 10);
+    assert_eq!(kept(&["--where", "hinge_stiffness=1e-4"]), 10);
+    assert_eq!(kept(&["--where", "status=periodic"]), 30);
+    assert_eq!(kept(&["--where", "status == 'periodic' and stable"]), 30);
+    let comparison = format!("power_mean_mw < {middle}");
+    assert_eq!(kept(&["--where", &comparison]), power.iter().filter(|power| **power < middle).count());
+    let both = power.iter().zip(&stiffness).filter(|(power, k)| **power < middle && **k > 7e-5).count();
+    assert_eq!(kept(&["--where", &comparison, "--where", "hinge_stiffness>7e-5"]), both);
+    assert_eq!(kept(&["--where", &format!("{comparison} and hinge_stiffness > 7e-5")]), both);
+
+    for (condition, message, help) in [
+        ("drive_frequency=95 V", "`V` is a voltage, but drive_frequency is in Hz\n", "help: use Hz"),
+        ("drive_frequency>95Hz", "`95Hz` is not a number\n", "written without it: drive_frequency>95"),
+        (
+            "drive_frequency",
+            "this is a number, not a condition\n",
+            "help: write COLUMN=VALUE, or a comparison",
+        ),
+        ("drive_frequenzy>1", "unknown name `drive_frequenzy`\n", "did you mean `drive_frequency`?"),
+        ("zzz>1", "unknown name `zzz`\n", "the columns are point, hinge_stiffness, "),
+        ("a=1", "there is no column `a`\n", "the columns are point, hinge_stiffness, "),
+        ("status=='periodc'", "`status` has no option `periodc`\n", "did you mean `periodic`?"),
+        ("status==periodic", "expected the name of an option in quotes\n", "help: write COLUMN=WORD"),
+        ("lift_mean_mn>1 and cycles=3", "`=` is not an operator\n", "help: write == to compare"),
+        ("lift_mean_mn>1e9", "no row of rows.csv satisfies --where\n", "`flap describe` shows the range"),
+    ] {
+        for begin in [&["top", "rows.csv", "--by", "cycles"][..], &["describe", "rows.csv"]] {
+            let ended = folder.ends_with(2, &[begin, &["--where", condition]].concat());
+            ended.says(message).says(help);
+            assert_eq!(ended.stdout, "", "{condition}");
+        }
+    }
+}
+
+#[test]
+fn every_format_is_read() {
+    let folder = periodic();
+    let top = "--by efficiency_gf_per_w -n 5 --format csv";
+    let expected = folder.ends(0, &format!("top rows.csv {top}")).stdout;
+    let described = folder.ends(0, "describe rows.csv --format csv").stdout;
+    for ending in ["csv.zst", "parquet"] {
+        folder.ends(0, &format!("convert rows.csv rows.{ending}"));
+        assert_eq!(folder.ends(0, &format!("top rows.{ending} {top}")).stdout, expected);
+        assert_eq!(folder.ends(0, &format!("describe rows.{ending} --format csv")).stdout, described);
+    }
+    fs::remove_file(folder.path("rows.csv.meta.toml")).unwrap();
+    let alone = folder.ends(0, &format!("top rows.csv {top}"));
+    assert_eq!(alone.says("could not be verified").stdout, expected);
+    fs::write(folder.path("rows.csv.zst"), "rubbish").unwrap();
+    folder.ends(3, &format!("top rows.csv.zst {top}")).says("rows.csv.zst is damaged");
+    folder.ends(2, &format!("top grid.toml {top}")).says("grid.toml");
+}
+
+/// Unfinished results are read as far as they go.
+#[test]
+#[cfg(unix)]
+fn unfinished_results_are_read() {
+    let folder = Folder::with_grid(&frequencies(1_000_000));
+    let mut child = start(&folder, &["sweep", "grid.toml", "--checkpoint", "5 ms"]);
+    wait_for_rows(&folder, 300);
+    child.kill().unwrap();
+    wait(&mut child);
+    let described = folder.ends(0, "describe grid.csv --columns lift_mean_mn");
+    described.says("grid.csv is unfinished: ").prints("periodic");
+    folder.ends(0, "top grid.csv --by lift_mean_mn -n 2").says("grid.csv is unfinished: ").prints("periodic");
+}
+
+#[test]
+fn columns_that_cannot_be_ranked_are_named() {
+    let folder = swept(&quick(3));
+    folder.ends(2, "top rows.csv --by lift_mean_mn").says(
+        "error: no periodic row of rows.csv has a value of lift_mean_mn\nhelp: --all uses rows of every status\n",
+    );
+    folder
+        .refuses("top rows.csv --by lift_mean_mn --all", "no row of rows.csv has a value of lift_mean_mn\n");
+    folder.refuses("describe rows.csv --by lift_mean_mn", "no periodic row of rows.csv has a value of lift");
+    folder.refuses("top rows.csv --by status --all", "column `status` holds words such as `unsettled`");
+    folder.refuses("top rows.csv --by lift_men_mn", "did you mean `lift_mean_mn`?");
+    folder.refuses("describe rows.csv --columns status", "column `status` holds words, not numbers");
+    folder.refuses("top rows.csv", "--by <COLUMN>");
+    // Nothing is periodic, and that is told.
+    folder.ends(0, "describe rows.csv").prints("unsettled  3     100.0 %\n");
+    fs::write(folder.path("empty.csv"), "point,status,lift_mean_mn\n").unwrap();
+    folder.refuses("top empty.csv --by lift_mean_mn", "error: empty.csv has no rows\n");
+    folder.refuses("describe empty.csv", "error: empty.csv has no rows\n");
+}
+
+#[test]
+fn percentiles_are_those_of_the_rows() {
+    let folder = swept(&frequencies(41));
+    let mut lift = column(&cells(&folder.read("rows.csv")), "lift_mean_mn");
+    lift.sort_by(f64::total_cmp);
+    let described = folder.ends(0, "describe rows.csv --columns lift_mean_mn --format csv").stdout;
+    let rows = cells(&described);
+    assert_eq!(rows[0], ["table", "column", "axis", "name", "value"]);
+    let value = |name: &str| {
+        let row = rows.iter().find(|row| row[0] == "columns" && row[3] == name).unwrap();
+        row[4].parse::<f64>().unwrap()
+    };
+    // Of 41 rows, each of these percentiles is one row.
+    let names = ["min", "p5", "median", "p95", "max"];
+    assert_eq!(names.map(value), [0, 2, 20, 38, 40].map(|place| lift[place]));
+    assert_eq!(value("count"), 41.0);
+    assert!(described.contains("statuses,status,,periodic,41\n"), "{described}");
+}
+
+#[test]
+fn the_best_value_of_each_axis_is_told() {
+    let folder = periodic();
+    let file = cells(&folder.read("rows.csv"));
+    let lift = column(&file, "lift_mean_mn");
+    let mut order: Vec<usize> = (0..30).collect();
+    order.sort_by(|a, b| lift[*b].total_cmp(&lift[*a]));
+    let best = order[0];
+    let described = &json(&folder, "describe rows.csv --by lift_mean_mn")["best"][0];
+    assert_eq!((&described["column"], &described["aim"]), (&"lift_mean_mn".into(), &"max".into()));
+    assert_eq!(
+        (described["point"].as_u64(), described["value"].as_f64()),
+        (Some(best as u64), Some(lift[best]))
+    );
+    let axes = described["axes"].as_array().unwrap();
+    assert_eq!(axes.len(), 2);
+    for axis in axes {
+        let values = column(&file, axis["axis"].as_str().unwrap());
+        assert_eq!(axis["best"].as_f64(), Some(values[best]));
+        let tenth: Vec<f64> = order[..3].iter().map(|row| values[*row]).collect();
+        let ends = [f64::min, f64::max].map(|choose| tenth.iter().copied().reduce(choose));
+        assert_eq!([axis["best_tenth"][0].as_f64(), axis["best_tenth"][1].as_f64()], ends);
+        let is_end = [values[0], values[29]].contains(&values[best]);
+        assert_eq!(axis["at_the_end"].as_bool(), Some(is_end));
+    }
+    let page = folder.ends(0, "describe rows.csv --by power_mean_mw").stdout;
+    assert!(page.contains("smallest power_mean_mw: "), "{page}");
+    assert!(page.contains("AXIS             UNIT      FROM"), "{page}");
+    folder
+        .ends(0, "describe rows.csv")
+        .prints("largest lift_mean_mn: ")
+        .prints("largest efficiency_gf_per_w: ");
+}
+
+#[test]
+fn responses_and_motions_are_described_too() {
+    let folder = Folder::new();
+    folder.ends(0, "respond ozaki2018-large --from 100 --to 110 --step 5 --out loop.csv");
+    let top = folder.ends(0, "top loop.csv --by stroke_amplitude_deg -n 1 --format csv");
+    assert!(top.stdout.starts_with("curve,branch,drive_frequency,stroke_amplitude_deg,status\n"));
+    folder.ends(0, "describe loop.csv").prints("branch").prints("up     down");
+    folder.ends(0, "run ozaki2018-large --trajectory motion.csv");
+    folder.ends(0, "describe motion.csv --columns stroke_deg").prints("stroke_deg  °     401");
+    let top = folder.ends(0, "top motion.csv --by stroke_deg -n 1 --format csv");
+    assert!(top.stdout.starts_with("time_s,stroke_deg\n"), "{}", top.stdout);
+    top.says("1 row with the largest stroke_deg of 401 rows\n");
+}
