@@ -19,7 +19,7 @@ settle_tol = 1e-4
 max_cycles = 500
 
 [output]
-columns = ["stroke_pp_deg", "vehicle_lift_mgf"]
+columns = ["stroke_pp_deg", "vehicle_lift_mgf", "cycles", "residual", "period", "floquet_max", "stable", "error_estimate", "rhs_evals"]
 "#;
 
 /// Periods are those that an independent integration finds (the classical fourth-order method with 2000 steps in a drive

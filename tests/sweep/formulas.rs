@@ -135,8 +135,9 @@ both = "feasible and arms == 'printed'"
     assert!(none.is_empty());
 
     let layout = Layout::of(&plan);
-    let kinds: Vec<(&str, Kind)> = layout.measures[3..]
-        .iter()
+    let kinds: Vec<(&str, Kind)> = layout
+        .measures()
+        .skip(3)
         .map(|measure| (measure.column.name.as_str(), measure.column.kind))
         .collect();
     let expected =
@@ -152,6 +153,6 @@ fn own_measures_can_be_selected() {
     );
     let layout = Layout::of(&plan);
     let found: Vec<(&str, usize)> =
-        layout.measures.iter().map(|measure| (measure.column.name.as_str(), measure.index)).collect();
+        layout.measures().map(|measure| (measure.column.name.as_str(), measure.index)).collect();
     assert_eq!(found, [("b", 4), ("lift_mean_mn", 0), ("a", 3)]);
 }

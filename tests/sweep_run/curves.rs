@@ -164,5 +164,5 @@ fn a_response_along_other_values_is_another() {
     let along = plan.followed().unwrap().clone();
     let plan = plan.following(Along { tolerance: 0.2, ..along });
     let Err(JobError::Resume { error, .. }) = run(&plan, &out, Begin::Resume, 0) else { panic!("resumed") };
-    assert!(error.to_string().contains("the parameter that is followed"), "{error}");
+    assert!(error.to_string().contains("the followed parameter"), "{error}");
 }

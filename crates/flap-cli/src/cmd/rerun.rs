@@ -1,7 +1,7 @@
 //! `flap rerun`: points of earlier results, run again with other solver settings.
 
 use flap_sweep::files::inputs::Inputs;
-use flap_sweep::files::rerun::{self, Wanted};
+use flap_sweep::files::rerun::{self, RerunError, Wanted};
 use flap_sweep::files::sidecar::{Origin, State};
 
 use crate::args::RerunArgs;
@@ -18,7 +18,11 @@ pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
         let failure = Failure::usage(format!("{of} holds curves, whose motions depend on their neighbours"));
         return Err(failure.help("`flap respond` with other solver settings follows them again"));
     }
-    let unreadable = |error| Failure::System(format!("cannot read {of}: {error}"), Vec::new());
+    let unreadable = |error: RerunError| match error {
+        RerunError::NoEstimate => Failure::usage(format!("{of}: {error}"))
+            .help("name it there and sweep again, or choose points with --status"),
+        _ => Failure::System(format!("cannot read {of}: {error}"), Vec::new()),
+    };
     let rows = sidecar.rows.filter(|_| sidecar.state == State::Complete);
     let accuracy = args.inaccurate.then_some(plan.solver().accuracy);
     let wanted = Wanted { statuses: args.status.clone(), accuracy };

@@ -59,8 +59,8 @@ def sweep(
     Table
         One row per point in the order of the grid, less those that ``[where]`` excludes: `point`, the varied and
         derived parameters in SI units, `status`, the measures, `cycles`, `residual`, `period`, `floquet_max`,
-        `stable`, `error_estimate`, `rhs_evals`. A point that fails is a row with a status. With `out`, the rows are
-        read from the file when they are first used.
+        `stable`, `error_estimate`, `rhs_evals`. ``columns`` in ``[output]`` chooses among those behind `status`. A point
+        that fails is a row with a status. With `out`, the rows are read from the file when they are first used.
 
     Raises
     ------

@@ -21,6 +21,9 @@ pub enum RerunError {
     /// The rows cannot be read, or are not those of the plan.
     #[error(transparent)]
     Rows(#[from] RowsError),
+    /// Nothing tells which rows are inaccurate.
+    #[error("the rows have no column `error_estimate`: their grid leaves it out of `columns` in [output]")]
+    NoEstimate,
     /// There are more than [`MOST_LISTED`] of them.
     #[error("more than {MOST_LISTED} points would be run again: change the grid file instead")]
     TooMany,
@@ -46,6 +49,7 @@ impl Wanted {
 ///
 /// # Errors
 /// - [`RerunError::Rows`] if the rows cannot be read, or are not those of the plan
+/// - [`RerunError::NoEstimate`] if inaccurate rows are wanted, and the rows have no estimate of their error
 /// - [`RerunError::TooMany`] if there are more than [`MOST_LISTED`] of them
 pub fn points(
     reader: &mut Reader,
@@ -53,12 +57,16 @@ pub fn points(
     plan: &Plan,
     rows: Option<u64>,
 ) -> Result<Vec<u64>, RerunError> {
-    let column = |wanted: &str| reader.names().iter().position(|name| name == wanted).unwrap_or_default();
+    let column = |wanted: &str| reader.names().iter().position(|name| name == wanted);
     let (status, estimate) = (column("status"), column("error_estimate"));
+    if wanted.accuracy.is_some() && estimate.is_none() {
+        return Err(RerunError::NoEstimate);
+    }
     let mut checked = Checked::new(reader, RowCheck::new(plan, rows))?;
     let mut list: Vec<u64> = Vec::new();
     while let Some(point) = checked.next()? {
-        if !wanted.includes(checked.row().get(status), checked.row().get(estimate)) {
+        let cell = |column: Option<usize>| column.and_then(|column| checked.row().get(column));
+        if !wanted.includes(cell(status), cell(estimate)) {
             continue;
         }
         if list.len() as u64 == MOST_LISTED {

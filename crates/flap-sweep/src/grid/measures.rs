@@ -1,11 +1,11 @@
 //! The section `[measure]`: columns that are computed from measures.
 
 use super::formula::{self, Names};
-use super::output;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use crate::notation::expression::{self, Problem};
 use crate::plan::formula::OwnMeasure;
+use crate::table::fixed::is_fixed;
 
 /// Puts the measures of the section into `names`, one by one: each may use those above it.
 ///
@@ -48,7 +48,7 @@ pub(super) fn read(entry: Option<&Entry<'_>>, names: &mut Names, problems: &mut 
 /// True if a column may be called `name`, and be used in expressions.
 fn name_is_sound(name: &str, names: &Names) -> bool {
     expression::is_free_name(name)
-        && !output::is_fixed(name)
+        && !is_fixed(name)
         && names.parameters.iter().all(|parameter| parameter.name != name)
         && names.columns.iter().all(|column| column.name != name)
 }

@@ -10,15 +10,10 @@ use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
 use crate::plan::Output;
-use crate::table::fixed::FIXED;
+use crate::table::fixed::{POINT, RUN, STATUS};
 use crate::table::format::Format;
 
 const KEYS: [&str; 2] = ["path", "columns"];
-
-/// True if every row has a column called `name`, whatever is selected.
-pub(super) fn is_fixed(name: &str) -> bool {
-    FIXED.iter().any(|column| column.name == name)
-}
 
 /// A model, and the names of the columns that rows measure, the user's own included.
 type Measured<'m> = (&'static dyn Simulator, &'m [String]);
@@ -64,7 +59,7 @@ fn columns_of(model: Measured<'_>, value: &Spanned<DeValue<'_>>, problems: &mut 
         let Some(name) = value::text("columns", item, problems) else {
             continue;
         };
-        let Some(index) = model.1.iter().position(|known| known == name) else {
+        let Some(index) = names(model.1).position(|known| known == name) else {
             report_unknown(model, name, item, problems);
             continue;
         };
@@ -80,25 +75,33 @@ fn columns_of(model: Measured<'_>, value: &Spanned<DeValue<'_>>, problems: &mut 
     chosen.into_iter().map(|(index, _)| index).collect()
 }
 
+/// The names of the columns that can be chosen: measures, then those on the course of a run.
+fn names(measures: &[String]) -> impl Iterator<Item = &str> {
+    measures.iter().map(String::as_str).chain(RUN.iter().map(|column| column.name))
+}
+
 fn report_unknown(
     (model, columns): Measured<'_>,
     name: &str,
     item: &Spanned<DeValue<'_>>,
     problems: &mut Problems,
 ) {
-    let varied = model.parameters().iter().any(|parameter| parameter.name == name);
-    let diagnostic = problems
-        .report(item.span(), format!("model `{}` has no column `{name}`", model.name()))
-        .label("unknown column");
-    if is_fixed(name) || varied {
-        diagnostic
-            .note(
-                "every row has these columns, and the varied parameters, without asking: ".to_owned()
-                    + &FIXED.map(|column| column.name).join(", "),
-            )
-            .help(format!("remove `{name}`: `columns` selects among the measures"));
-    } else {
-        let names = columns.iter().map(String::as_str);
-        diagnostic.note(format!("columns: {}", columns.join(", "))).did_you_mean(name, names);
+    if [POINT.name, STATUS.name].contains(&name) {
+        problems
+            .report(item.span(), format!("`{name}` cannot be chosen: every row has it"))
+            .help(format!("remove `{name}`"));
+        return;
     }
+    if model.parameters().iter().any(|parameter| parameter.name == name) {
+        problems
+            .report(item.span(), format!("`{name}` is a parameter, not a measure"))
+            .note("rows have all varied and derived parameters")
+            .help(format!("remove `{name}`"));
+        return;
+    }
+    problems
+        .report(item.span(), format!("model `{}` has no column `{name}`", model.name()))
+        .label("unknown column")
+        .note(format!("columns: {}", names(columns).collect::<Vec<_>>().join(", ")))
+        .did_you_mean(name, names(columns));
 }

@@ -7,7 +7,8 @@ use std::path::PathBuf;
 pub struct Output {
     /// Path as written in the grid file, relative to the working directory; `None` if it names none.
     pub path: Option<PathBuf>,
-    /// Indices into the model's columns, followed by the plan's own measures, in the order wanted; `None` for all.
+    /// Indices into the model's columns, followed by the plan's own measures and the columns on the course of a run, in the
+    /// order wanted; `None` for all.
     pub columns: Option<Vec<usize>>,
 }
 

@@ -1,10 +1,11 @@
-//! The columns that every result file has.
+//! The columns that do not depend on the model: the point, its status, and the course of its run.
 
 use flap_core::simulate::{Point, Row};
 
 use super::column::{Cell, Kind};
 
-/// A column that every result file has.
+/// A column that does not depend on the model.
+#[derive(Debug)]
 pub(crate) struct Fixed {
     /// Its name.
     pub(crate) name: &'static str,
@@ -13,20 +14,29 @@ pub(crate) struct Fixed {
     pub(super) cell: fn(&Point, &Row) -> Cell<'static>,
 }
 
-/// The columns that every result file has: `point` first, `status` before the measures, the others behind them.
-pub(crate) const FIXED: [Fixed; 9] = [
-    Fixed {
-        name: "point",
-        kind: Kind::Whole,
-        doc: "index of the point in the grid, from 0",
-        cell: |point, _| Cell::Whole(point.index),
-    },
-    Fixed {
-        name: "status",
-        kind: Kind::Text,
-        doc: "result of the search for an orbit, such as periodic or unsettled",
-        cell: |_, row| Cell::Text(row.status.name()),
-    },
+/// The first column.
+pub(crate) const POINT: Fixed = Fixed {
+    name: "point",
+    kind: Kind::Whole,
+    doc: "index of the point in the grid, from 0",
+    cell: |point, _| Cell::Whole(point.index),
+};
+
+/// The column before the measures.
+pub(crate) const STATUS: Fixed = Fixed {
+    name: "status",
+    kind: Kind::Text,
+    doc: "result of the search for an orbit, such as periodic or unsettled",
+    cell: |_, row| Cell::Text(row.status.name()),
+};
+
+/// True if measures cannot be called `name`: rows may have another column of that name.
+pub(crate) fn is_fixed(name: &str) -> bool {
+    [&POINT, &STATUS].into_iter().chain(&RUN).any(|column| column.name == name)
+}
+
+/// The columns on the course of a run, behind the measures.
+pub(crate) const RUN: [Fixed; 7] = [
     Fixed {
         name: "cycles",
         kind: Kind::Whole,

@@ -4,13 +4,13 @@ use flap_core::parameter::Parameter;
 use flap_core::simulate::{Point, Row};
 
 pub use super::column::{Cell, Column, Kind};
-use super::fixed::{CURVE, FIXED, Fixed};
+use super::fixed::{CURVE, Fixed, POINT, RUN, STATUS};
 use crate::notation::expression;
 use crate::plan::Plan;
 
 /// The columns of the rows of a plan:
 /// `point`, the varied parameters, the derived ones, `status`, the measures, then `cycles`, `residual`, `period`,
-/// `floquet_max`, `stable`, `error_estimate`, `rhs_evals`.
+/// `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. A plan may choose among those behind `status`.
 ///
 /// Rows of curves begin with `curve` in place of `point`, and have `branch` and the followed parameter before `status`.
 #[derive(Debug)]
@@ -19,8 +19,16 @@ pub struct Layout {
     pub varied: Vec<(usize, &'static Parameter)>,
     /// The parameter that is followed, if one is.
     pub followed: Option<&'static Parameter>,
-    /// The selected measures.
-    pub measures: Vec<Measure>,
+    /// The columns behind `status`.
+    behind: Vec<Behind>,
+}
+
+/// A column behind `status`.
+#[derive(Clone, Debug)]
+enum Behind {
+    Measure(Measure),
+    /// On the course of the run.
+    Run(&'static Fixed),
 }
 
 /// The place of a motion on a curve: its branch, and the value of the parameter that is followed.
@@ -55,13 +63,27 @@ impl Layout {
             Column::new(&own.name, "", kind, "[measure] in the grid file")
         });
         let measures = models.chain(own).enumerate();
-        let all: Vec<Measure> = measures.map(|(index, column)| Measure { index, column }).collect();
-        let measures = match &plan.output().columns {
+        let measures = measures.map(|(index, column)| Behind::Measure(Measure { index, column }));
+        let all: Vec<Behind> = measures.chain(RUN.iter().map(Behind::Run)).collect();
+        let behind = match &plan.output().columns {
             Some(chosen) => chosen.iter().map(|&index| all[index].clone()).collect(),
             None => all,
         };
         let followed = plan.followed().map(|along| &parameters[along.parameter]);
-        Layout { varied, followed, measures }
+        Layout { varied, followed, behind }
+    }
+
+    /// The selected measures.
+    pub fn measures(&self) -> impl Iterator<Item = &Measure> {
+        self.behind.iter().filter_map(|behind| match behind {
+            Behind::Measure(measure) => Some(measure),
+            Behind::Run(_) => None,
+        })
+    }
+
+    /// True if rows have a column of this name.
+    pub fn has(&self, name: &str) -> bool {
+        self.entries().any(|entry| entry.column().name == name)
     }
 
     /// The columns, from left to right.
@@ -82,25 +104,26 @@ impl Layout {
 
     /// The cells of a motion on a curve of the design `point`, as [`Layout::cells`] gives those of a point.
     pub fn cells_at(&self, point: &Point, place: Option<Place>, row: &Row) -> Vec<Cell<'static>> {
-        // A curve has two columns more.
-        let mut cells = Vec::with_capacity(FIXED.len() + 2 + self.varied.len() + self.measures.len());
+        // A curve has two columns more than a point: its index, and its status.
+        let mut cells = Vec::with_capacity(4 + self.varied.len() + self.behind.len());
         cells.extend(self.entries().map(|entry| entry.cell(point, place, row)));
         cells
     }
 
     /// The columns with their cells.
     fn entries(&self) -> impl Iterator<Item = Entry<'_>> {
-        let [point, status, behind @ ..] = &FIXED;
-        let first = if self.followed.is_some() { &CURVE } else { point };
+        let first = if self.followed.is_some() { &CURVE } else { &POINT };
         let followed =
             self.followed.into_iter().flat_map(|parameter| [Entry::Branch, Entry::Followed(parameter)]);
         [Entry::Fixed(first)]
             .into_iter()
             .chain(self.varied.iter().map(|&(index, parameter)| Entry::Parameter(index, parameter)))
             .chain(followed)
-            .chain([Entry::Fixed(status)])
-            .chain(self.measures.iter().map(Entry::Measure))
-            .chain(behind.iter().map(Entry::Fixed))
+            .chain([Entry::Fixed(&STATUS)])
+            .chain(self.behind.iter().map(|behind| match behind {
+                Behind::Measure(measure) => Entry::Measure(measure),
+                Behind::Run(fixed) => Entry::Fixed(fixed),
+            }))
     }
 }
 
