@@ -7,8 +7,8 @@ fn rows_that_miss_the_accuracy_are_counted_and_can_be_run_again() {
     let grid =
         "preset = \"ozaki2018-large\"\n[axes]\ndrive_frequency = [100, 110]\n[solver]\naccuracy = 1e-14\n";
     let folder = Folder::with_grid(grid);
-    let said = "2 rows miss the accuracy of [solver], see their error_estimate: \
-                `flap rerun rows.csv --inaccurate --rtol 1e-10 --out again.csv` runs them again";
+    let said = "2 rows miss the accuracy of [solver], see their error_estimate. This command runs them again: \
+                flap rerun rows.csv --inaccurate --rtol 1e-10 --out rows.accurate.csv\n";
     folder.ends(0, "sweep --grid grid.toml --out rows.csv").says(said);
     assert!(folder.read("rows.csv.meta.toml").contains("[doubts]\ninaccurate = 2\n"));
 
@@ -21,12 +21,36 @@ fn rows_that_miss_the_accuracy_are_counted_and_can_be_run_again() {
     folder.ends(2, "rerun again.csv --out third.csv");
 }
 
+/// The rows do not tell which of them are inaccurate.
+#[test]
+fn rows_without_their_estimate_cannot_be_chosen_by_it() {
+    let grid =
+        "preset = \"ozaki2018-large\"\n[solver]\naccuracy = 1e-14\n[output]\ncolumns = [\"lift_mean_mn\"]\n";
+    let folder = Folder::with_grid(grid);
+    folder.ends(0, "sweep grid.toml --out rows.csv").says(
+        "1 row misses the accuracy of [solver]: lower rtol there, or name `error_estimate` in `columns`\n",
+    );
+    assert_eq!(folder.read("rows.csv").lines().next(), Some("point,status,lift_mean_mn"));
+    folder.refuses(
+        "rerun rows.csv --inaccurate --rtol 1e-10 --out again.csv",
+        "error: rows.csv: the rows have no column `error_estimate`: their grid leaves it out of `columns` in [output]\n\
+         help: name it there and sweep again, or choose points with --status\n",
+    );
+    // Everything else reads such rows.
+    folder.ends(0, "rerun rows.csv --status periodic --out again.csv");
+    folder.ends(0, "sweep grid.toml --out rows.csv --resume").says("nothing is left to run");
+    folder.ends(0, "convert rows.csv rows.parquet");
+    folder.ends(0, "verify rows.csv rows.parquet again.csv");
+    folder.ends(0, "top rows.parquet --by lift_mean_mn").prints("lift_mean_mn");
+    folder.ends(2, "top rows.csv --by cycles").says("there is no column `cycles`");
+}
+
 #[test]
 fn resonances_at_an_end_of_their_range_are_counted() {
     let grid = "preset = \"ozaki2018-large\"\n[params]\ndrive_frequency = \"resonance\"\n\
                 [resonance]\nfrom = \"60 Hz\"\nto = \"70 Hz\"\n";
     let folder = Folder::with_grid(grid);
-    folder.ends(0, "sweep --grid grid.toml --out rows.csv").says("1 resonances are at an end of their range");
+    folder.ends(0, "sweep --grid grid.toml --out rows.csv").says("1 resonance is at an end of its range");
 }
 
 /// A wide wing on a soft hinge, which pitches fast beside its stroke.
@@ -48,5 +72,5 @@ rotation_drag = 3.9433014244420006
 #[test]
 fn rows_to_which_the_air_gives_energy_are_counted() {
     let folder = Folder::with_grid(GAINING);
-    folder.ends(0, "sweep --grid grid.toml --out rows.csv").says("1 rows have negative mean power");
+    folder.ends(0, "sweep --grid grid.toml --out rows.csv").says("1 row has negative mean power");
 }

@@ -1,8 +1,10 @@
 //! Excluded points in words.
 
+use flap_sweep::notation::text::count;
+
 /// The number of excluded points, and for each condition the number of points that do not satisfy it.
 pub(crate) fn text(excluded: u64, unsatisfied: &[(String, u64)]) -> String {
-    let points = if excluded == 1 { "1 point is".to_owned() } else { format!("{excluded} points are") };
+    let points = count(excluded, "point") + if excluded == 1 { " is" } else { " are" };
     let each: Vec<String> = unsatisfied.iter().map(|(name, count)| format!("{name} {count}")).collect();
     format!("{points} excluded by [where]; not satisfied: {}", each.join(", "))
 }

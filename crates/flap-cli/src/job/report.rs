@@ -4,13 +4,17 @@ use std::path::Path;
 
 use flap_core::simulate::Status;
 use flap_sweep::files::job::Done;
+use flap_sweep::files::results::Format;
+use flap_sweep::notation::text::count;
+use flap_sweep::plan::Plan;
 use flap_sweep::run::Doubts;
+use flap_sweep::table::layout::Layout;
 
 use super::exclusion;
 use crate::console;
 
 /// Tells the user the summary of the rows and their file.
-pub(super) fn report(done: &Done) {
+pub(super) fn report(plan: &Plan, done: &Done) {
     let Done { summary, rows_before, seconds, place } = done;
     for (point, reason) in &summary.invalid {
         console::say(&format!("point {point} is invalid: {reason}"));
@@ -24,63 +28,96 @@ pub(super) fn report(done: &Done) {
     if summary.excluded > 0 {
         console::say(&exclusion::text(summary.excluded, &summary.unsatisfied));
     }
-    report_doubts(done);
-    let unsettled = summary.counts.of(Status::Unsettled);
-    if unsettled > 0 {
-        console::say(&format!(
-            "{unsettled} did not settle: where `residual` is still falling, raise max_cycles in [solver]; \
-             where it is not, lower rtol or raise settle_tol"
-        ));
-    }
+    report_doubts(plan, done);
+    report_unsettled(plan, done);
 
-    let place = place.as_deref().map_or("stdout".into(), Path::to_string_lossy);
+    let to = place.as_deref().map_or("stdout".into(), Path::to_string_lossy);
     if summary.interrupted {
         let (done, points) = (summary.done(), summary.points);
-        console::say(&format!("interrupted: the rows of the first {done} of {points} points are in {place}"));
+        console::say(&format!("interrupted: the rows of the first {done} of {points} points are in {to}"));
     } else {
-        console::say(&format!("{} rows in {place}", summary.rows));
+        console::say(&format!("{} in {to}", count(summary.rows, "row")));
     }
 }
 
 /// Tells the user the numbers of rows to be read with care, with advice.
-fn report_doubts(done: &Done) {
+fn report_doubts(plan: &Plan, done: &Done) {
     let Doubts { inaccurate, powerless, at_range_end } = done.summary.doubts;
     if inaccurate > 0 {
-        let help = match &done.place {
-            Some(place) => {
-                format!(
-                    "`flap rerun {} --inaccurate --rtol 1e-10 --out again.csv` runs them again",
-                    place.display()
-                )
+        let rows = count(inaccurate, "row");
+        let verb = if inaccurate == 1 { "misses" } else { "miss" };
+        let said = format!("{rows} {verb} the accuracy of [solver]");
+        let it = if inaccurate == 1 { "it" } else { "them" };
+        console::say(&match &done.place {
+            _ if !Layout::of(plan).has("error_estimate") => {
+                format!("{said}: lower rtol there, or name `error_estimate` in `columns`")
             }
-            None => "lower rtol in [solver]".to_owned(),
-        };
-        console::say(&format!(
-            "{inaccurate} rows miss the accuracy of [solver], see their error_estimate: {help}"
-        ));
+            Some(place) => format!(
+                "{said}, see their error_estimate. This command runs {it} again: \
+                 flap rerun {} --inaccurate --rtol 1e-10 --out {}",
+                place.display(),
+                beside(place, "accurate")
+            ),
+            None => format!("{said}, see their error_estimate: lower rtol there"),
+        });
     }
     if powerless > 0 {
+        let rows = count(powerless, "row");
+        let verb = if powerless == 1 { "has" } else { "have" };
         console::say(&format!(
-            "{powerless} rows have negative mean power: the model's air gives energy to the wing there (docs/model.md)"
+            "{rows} {verb} negative mean power: the model's air gives energy to the wing there (docs/model.md)"
         ));
     }
     if at_range_end > 0 {
+        let resonances = count(at_range_end, "resonance");
+        let place =
+            if at_range_end == 1 { "is at an end of its range" } else { "are at an end of their range" };
         console::say(&format!(
-            "{at_range_end} resonances are at an end of their range (resonance_margin_hz is 0): they are no peaks, \
+            "{resonances} {place} (resonance_margin_hz is 0), where the largest value is no peak: \
              widen the range with from and to in [resonance]"
         ));
     }
 }
 
+/// Tells the user the number of points that did not settle, with the command that runs them longer.
+fn report_unsettled(plan: &Plan, done: &Done) {
+    let unsettled = done.summary.counts.of(Status::Unsettled);
+    if unsettled == 0 {
+        return;
+    }
+    let cycles = plan.solver().max_cycles;
+    let (points, it) = (count(unsettled, "point"), if unsettled == 1 { "it" } else { "them" });
+    let periods = count(cycles.into(), "drive period");
+    let longer = match &done.place {
+        Some(place) => format!(
+            "This command runs {it} longer: flap rerun {} --status unsettled --max-cycles {} --out {}",
+            place.display(),
+            cycles.saturating_mul(10),
+            beside(place, "unsettled")
+        ),
+        None => format!("A larger max_cycles in [solver] runs {it} longer"),
+    };
+    console::say(&format!(
+        "{points} did not settle within {periods}. {longer}. If the column residual does not fall with more periods, \
+         lower rtol or raise settle_tol"
+    ));
+}
+
+/// The name of results with a word before the ending: `sweep.unsettled.csv` for `sweep.csv`.
+fn beside(results: &Path, word: &str) -> String {
+    let name = results.file_name().unwrap_or_default().to_string_lossy();
+    let (stem, ending) = Format::split_ending(&name);
+    results.with_file_name(format!("{stem}.{word}{ending}")).display().to_string()
+}
+
 /// Tells the user the number of curves and their file.
 pub(super) fn report_curves(done: &Done) {
     let Done { summary, place, .. } = done;
-    let curves = summary.ran;
     match place {
         Some(place) if !summary.interrupted => {
-            console::say(&format!("{curves} curves in {}", place.display()));
+            console::say(&format!("{} in {}", count(summary.ran, "curve"), place.display()));
         }
-        // Rows on stdout speak for themselves.
+        // Rows on stdout need no message.
         None if !summary.interrupted => {}
         place => {
             let place = place.as_ref().map_or("stdout".to_owned(), |place| place.display().to_string());

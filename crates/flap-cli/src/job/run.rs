@@ -71,7 +71,7 @@ fn ended(plan: &Plan, done: &Done, resumable: Option<&Path>, work: &WorkArgs) ->
     if plan.followed().is_some() {
         report_curves(done);
     } else {
-        report(done);
+        report(plan, done);
     }
     if done.summary.interrupted {
         if let Some(out) = resumable {
