@@ -63,7 +63,7 @@ fn damaged_rows_do_not_count_as_complete() {
     folder
         .ends(3, "sweep grid.toml")
         .says("grid.csv is damaged")
-        .says("`flap sweep --force` computes it anew");
+        .says("`flap sweep --force` computes the rows again");
     assert_eq!(folder.read("grid.csv"), rows);
 }
 

@@ -1,4 +1,4 @@
-//! Results that are not as they were written: found, refused, and read all the same if asked.
+//! Results that have changed since they were written: found, refused, and read all the same if asked.
 
 use std::fs::{self, File};
 use std::io::Write;
@@ -211,7 +211,7 @@ fn commands_refuse_what_is_damaged() {
         let provenance = Provenance::of(&plan, &sidecar.identity());
         let edited = written(&folder, Format::of(Path::new(&name)).unwrap(), &rows, &provenance);
         fs::write(folder.path(&name), edited).unwrap();
-        let told = "rows 1 to 256 are not as they were written";
+        let told = "rows 1 to 256 have changed since they were written";
 
         let ended = folder.ends(3, &format!("verify {name} grid.1of2.csv"));
         assert_eq!(ended.stdout, format!("{name}: damaged: {told}\ngrid.1of2.csv: sound, 350 rows\n"));
@@ -261,7 +261,8 @@ fn conversion_does_not_heal() {
     let lines: Vec<&str> = rows.lines().collect();
     let missing = [&lines[..300], &lines[301..]].concat().join("\n") + "\n";
     fs::write(folder.path("rows.csv"), missing).unwrap();
-    let told = "rows 257 to 700 are not as they were written; it holds 699 rows, 700 were written";
+    let told =
+        "rows 257 to 700 have changed since they were written; it holds 699 rows, but 700 were written";
     assert_eq!(folder.flap("verify rows.csv").stdout, format!("rows.csv: damaged: {told}\n"));
     assert_eq!(folder.flap("convert rows.csv out.parquet --ignore-damage").code, 0);
     let ended = folder.flap("verify out.parquet");
@@ -277,7 +278,7 @@ fn what_is_no_row_is_left_out() {
     fs::write(folder.path("rows.csv"), broken).unwrap();
     folder
         .ends(0, "convert rows.csv out.csv --ignore-damage")
-        .says("warning: rows.csv: 2 lines are no rows, and are left out\n");
+        .says("warning: rows.csv: 2 lines are not rows and are left out\n");
     assert_eq!(folder.read("out.csv").lines().count(), 1 + 698);
 }
 
@@ -308,7 +309,7 @@ fn rows_without_checksums_must_be_those_of_the_grid() {
     for (edited, message) in [
         (rows.replacen("unsettled", "peridoic", 1), "row 1: there is no status `peridoic`"),
         (without(4), "row 4 is of point 4: the row of point 3 is missing"),
-        (without(700), "it holds 699 rows, 700 were written"),
+        (without(700), "it holds 699 rows, but 700 were written"),
         (
             rows.replacen(first, &format!("{first}\n{first}"), 1),
             "row 5 is of point 3: it comes twice or out of order",
@@ -319,7 +320,7 @@ fn rows_without_checksums_must_be_those_of_the_grid() {
         ),
         (
             rows.clone() + "700" + lines[700].strip_prefix("699").unwrap() + "\n",
-            "row 701 is of point `700`, which is none",
+            "row 701 is of point `700`, which was not run",
         ),
     ] {
         fs::write(folder.path("rows.csv"), edited).unwrap();
@@ -365,7 +366,7 @@ fn an_edited_sidecar_is_noticed() {
     edited.write(&folder.path("rows.csv.meta.toml")).unwrap();
     folder
         .ends(2, "sweep --from-sidecar rows.csv.meta.toml --out out.csv")
-        .says("the grid in it is not the one that was run");
+        .says("the grid in it was edited after the sweep");
     assert!(!folder.path("out.csv").exists());
 }
 
@@ -394,12 +395,11 @@ fn unfinished_results_say_so_and_are_read_as_far_as_they_are_safe() {
         let folder = unfinished(ending);
         let name = format!("rows.{ending}");
         let ended = folder.ends(0, &format!("verify {name}"));
-        let told = ended.stdout.strip_prefix(&format!("{name}: unfinished, sound so far: ")).unwrap();
-        let done: usize = told.strip_suffix(" points are done\n").unwrap().parse().unwrap();
+        let told = ended.stdout.strip_prefix(&format!("{name}: unfinished, sound so far (")).unwrap();
+        let done: usize = told.strip_suffix(" points done)\n").unwrap().parse().unwrap();
         assert!(done > 0);
-        let warning = format!(
-            "warning: {name} is unfinished: {done} points are done so far, `flap resume` continues it\n"
-        );
+        let warning =
+            format!("warning: {name} is unfinished: {done} points done so far, `flap resume` continues it\n");
         let ended = folder.ends(0, &format!("plot {name} --y cycles --html page.html"));
         assert!(ended.stderr.starts_with(&warning), "{}", ended.stderr);
         let ended = folder.flap(&format!("convert {name} out.csv"));
@@ -419,7 +419,7 @@ fn unfinished_results_say_so_and_are_read_as_far_as_they_are_safe() {
         fs::write(&path, bytes).unwrap();
         for command in ["verify NAME", "convert NAME other.csv", "plot NAME --y cycles --force"] {
             let ended = folder.ends(3, &command.replace("NAME", &name));
-            assert!((ended.stdout + &ended.stderr).contains("it is not as the sweep left it"));
+            assert!((ended.stdout + &ended.stderr).contains("it has changed since the sweep wrote it"));
         }
     }
 }

@@ -106,6 +106,25 @@ fn tracked_points_become_a_motion() {
     assert!(short.code == 2 && short.stderr.contains("image 1: the lower edge appears"), "{}", short.stderr);
 }
 
+/// A filmed stroke without pitch leads to the command that computes the pitch.
+#[test]
+fn a_stroke_alone_is_run_and_not_lifted() {
+    let mut stroke = "time_s,stroke_deg\n".to_owned();
+    for i in 0..=100 {
+        let angle = 30.0 * (0.02 * std::f64::consts::PI * f64::from(i)).sin();
+        let _ = writeln!(stroke, "{},{}", 1e-4 * f64::from(i), if i == 100 { 0.0 } else { angle });
+    }
+    let folder = folder_with("stroke.csv", &stroke);
+    let ended = folder.ends(2, "lift ozaki2018-large stroke.csv");
+    ended.says("stroke.csv: there is no column pitch_rad or pitch_deg");
+    let command = "run ozaki2018-large --stroke stroke.csv";
+    ended.says(&format!(
+        "help: `flap {command}` computes the pitch of a wing that follows the stroke, and its lift\n"
+    ));
+    folder.ends(0, command).prints("lift_mean_mn");
+    folder.ends(2, "lift jafferis2016 stroke.csv").says("`flap run PRESET --stroke stroke.csv`");
+}
+
 /// Two columns of the time may stand in a file if they agree.
 #[test]
 fn contradictory_columns_are_refused() {
@@ -146,5 +165,5 @@ fn unusable_files_are_named_with_line_and_column() {
         "time_s,stroke_deg\n0,0\n1,1\n2,0\n3,1\n",
         "no column pitch_rad or pitch_deg",
     );
-    refused("run ozaki2018-small --once --trajectory -", "", "--once goes with");
+    refused("run ozaki2018-small --once --trajectory -", "", "--once needs --waveform or --stroke");
 }

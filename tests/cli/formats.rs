@@ -234,6 +234,8 @@ fn what_cannot_be_converted() {
 
     fs::write(folder.path("rows.csv"), "point,other\n0,1\n").unwrap();
     folder.rewrite_sidecar("rows.csv", |sidecar| sidecar.checksums = None);
-    folder.ends(3, "convert rows.csv out.parquet").says("its columns are not those of the grid");
+    folder
+        .ends(3, "convert rows.csv out.parquet")
+        .says("its columns differ from those of the grid in its sidecar");
     assert!(!folder.path("out.parquet").exists());
 }

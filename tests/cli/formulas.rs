@@ -58,7 +58,7 @@ fn one_point_shows_its_own_measures() {
     ended.prints("\nlift_per_power ");
     assert!(ended.stdout.lines().any(|line| line.starts_with("strong ") && line.contains(" true ")));
     let excluded = folder.ends(0, "run grid.toml --point 4");
-    assert_eq!(excluded.stderr, "a sweep does not run this point: low not satisfied\n");
+    assert_eq!(excluded.stderr, "a sweep leaves this point out, because it does not satisfy low\n");
 }
 
 #[test]
@@ -71,7 +71,7 @@ fn derived_parameters_follow_those_that_are_set() {
     assert_ne!(at("--point 1 --set hinge_stiffness=1e-4"), at("--point 1"));
     Folder::with_grid(&GRID.replace("^2", "^2 - 1"))
         .ends(2, "run grid.toml")
-        .says("`hinge_stiffness` comes out as -0.99");
+        .says("`hinge_stiffness` is computed as -0.99");
 }
 
 #[test]
@@ -110,7 +110,7 @@ other = "drive_frequency > 102"
     // Too many to count.
     let many = grid.replace("n = 5", "n = 4_000_000_000");
     let ended = Folder::with_grid(&many).flap("check grid.toml");
-    let counted = "\nof 1000000 points spread over the grid, which has too many to count, ";
+    let counted = "\nof 1000000 points spread over the grid, which is too large to check each, ";
     let (_, rest) = ended.stdout.split_once(counted).unwrap();
     let excluded: f64 = rest.split(' ').next().unwrap().parse().unwrap();
     assert!((excluded / 1e6 - 0.4).abs() < 1e-3, "{excluded}");

@@ -108,7 +108,7 @@ fn two_outputs_are_two_files() {
     let folder = Folder::with_grid(&quick(3));
     let run = "run ozaki2018-large --drive chirp --trajectory one.csv --envelope";
     for name in ["one.csv", "./one.csv"] {
-        folder.ends(2, &format!("{run} {name}")).says("would be written twice");
+        folder.ends(2, &format!("{run} {name}")).says("is the name of two outputs");
     }
     assert_eq!(folder.names(), ["grid.toml"]);
 }
@@ -147,7 +147,7 @@ fn options_of_a_chirp_need_a_chirp() {
         for drive in ["steady", "impulse"] {
             let ended =
                 Folder::new().ends(2, &format!("run ozaki2018-large --drive {drive} {option} {value}"));
-            assert_eq!(ended.stderr, format!("error: {option} goes with --drive chirp\n"));
+            assert_eq!(ended.stderr, format!("error: {option} needs --drive chirp\n"));
         }
     }
 }

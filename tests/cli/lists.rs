@@ -15,7 +15,7 @@ drive_frequency = { from = "60 Hz", to = "200 Hz", n = 15 }
     let folder = Folder::with_grid(grid);
     let ended = folder.ends(0, "check grid.toml");
     let (page, estimate) = ended.stdout.split_once("estimate: ").unwrap();
-    assert!(estimate.ends_with(" threads, judged by 30 points spread over the grid\n"), "{estimate}");
+    assert!(estimate.ends_with(" from runs of 30 points spread over the grid\n"), "{estimate}");
     assert_eq!(
         page,
         "\

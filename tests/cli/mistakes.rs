@@ -186,3 +186,75 @@ fn threads_are_as_many_as_a_machine_could_have() {
         folder.ends(2, &format!("sweep --grid grid.toml --threads {threads}")).says("from 1 to 1024");
     }
 }
+
+/// A grid file or a sidecar in place of results is named for what it is.
+#[test]
+fn grids_and_sidecars_are_not_results() {
+    let folder = Folder::with_grid(&frequencies(2));
+    for command in [
+        "plot",
+        "top --by cycles",
+        "describe",
+        "resume",
+        "convert --force",
+        "rerun --status unsettled --out o.csv",
+    ] {
+        let (name, options) = command.split_once(' ').unwrap_or((command, ""));
+        if cfg!(not(feature = "plots")) && name == "plot" {
+            continue;
+        }
+        let out = if name == "convert" { "o.csv" } else { "" };
+        folder.refuses(
+            &format!("{name} grid.toml {out} {options}"),
+            "error: grid.toml is a grid file, not a file of results\nhelp: `flap sweep grid.toml` computes its results\n",
+        );
+        folder.refuses(
+            &format!("{name} rows.csv.meta.toml {out} {options}"),
+            "error: rows.csv.meta.toml is the sidecar of results, not results\nhelp: name the results: rows.csv\n",
+        );
+    }
+}
+
+/// Numbers beyond a float and other impossible ones are refused in words.
+#[test]
+fn impossible_numbers_are_named() {
+    let folder = Folder::new();
+    for (arguments, message) in [
+        (
+            "run ozaki2018-large --set drive_frequency=1e999",
+            "`drive_frequency` is too large for a 64-bit float\n",
+        ),
+        ("run ozaki2018-large --accuracy 1e999", "expected a finite number more than zero"),
+        ("run ozaki2018-large --max-cycles 1e999", "expected a whole number from 1 to 4294967295"),
+        ("run ozaki2018-large --max-cycles 0", "expected a whole number from 1 to 4294967295"),
+        ("run ozaki2018-large --drive chirp --chirp-from 1e999", "the value is too large for a 64-bit float"),
+        ("run ozaki2018-large --drive chirp --chirp-rate 1e999", "expected a finite number"),
+        ("resonance ozaki2018-large --from 1e999", "the value is too large for a 64-bit float"),
+        ("resonance ozaki2018-large --tolerance 0", "the tolerance must be more than zero, not 0 Hz\n"),
+    ] {
+        folder.refuses(arguments, message);
+    }
+}
+
+/// Points that did not settle come with the command that runs them longer, and the command works.
+#[test]
+fn unsettled_points_come_with_a_command() {
+    let grid = frequencies(2) + "[solver]\nmax_cycles = 4\n";
+    let folder = Folder::with_grid(&grid);
+    let command = "rerun grid.csv --status unsettled --max-cycles 40 --out grid.unsettled.csv";
+    folder.ends(0, "sweep grid.toml").says(&format!(
+        "2 points did not settle within 4 drive periods. This command runs them longer: flap {command}. If"
+    ));
+    folder.ends(0, command).says("2 periodic in ").says("2 rows in grid.unsettled.csv\n");
+    folder.ends(0, "sweep grid.toml --out -").says("A larger max_cycles in [solver] runs them longer");
+
+    let command = "run grid.toml --point 1 --set 'drive_voltage_pp=80 V' --max-cycles 40";
+    let ended = folder.ends_with(0, &["run", "grid.toml", "--point", "1", "--set", "drive_voltage_pp=80 V"]);
+    ended.says(&format!(
+        "the point did not settle within 4 drive periods. This command runs it longer: flap {command}. If"
+    ));
+    let one = Folder::with_grid(&(frequencies(1) + "[solver]\nmax_cycles = 1\n"));
+    one.ends(0, "sweep grid.toml")
+        .says("1 point did not settle within 1 drive period. This command runs it longer");
+    one.ends(0, "convert grid.csv o.csv").says("1 row in o.csv\n");
+}

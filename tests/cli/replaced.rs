@@ -55,7 +55,7 @@ fn a_killed_force_keeps_the_earlier_results_and_goes_on() {
         assert_eq!(wait(&mut child), Some(130));
         let mut told = String::new();
         std::io::Read::read_to_string(&mut child.stderr.take().unwrap(), &mut told).unwrap();
-        let expected = format!("until then, the earlier results are in rows.old.{ending}\n");
+        let expected = format!("the earlier results are kept in rows.old.{ending} until then\n");
         assert!(told.ends_with(&expected), "{told}");
         assert_kept(&folder, ending, &rows, &sidecar);
     }
@@ -91,7 +91,9 @@ fn a_file_in_the_way_stays() {
     let (folder, rows, sidecar) = folder("csv");
     fs::write(folder.path("grid.toml"), quick(5)).unwrap();
     fs::write(folder.path("rows.old.csv"), "precious").unwrap();
-    folder.ends(3, "sweep --grid grid.toml --out rows.csv --force").says("rows.old.csv is in the way");
+    folder
+        .ends(3, "sweep --grid grid.toml --out rows.csv --force")
+        .says("rows.old.csv exists already, and the earlier results would be kept under this name");
     assert_eq!(folder.read("rows.old.csv"), "precious");
     assert!(fs::read(folder.path("rows.csv")).unwrap() == rows);
     assert_eq!(folder.read("rows.csv.meta.toml"), sidecar);

@@ -81,7 +81,7 @@ fn what_cannot_be_run_again() {
     folder.rewrite_sidecar("edited", |sidecar| sidecar.solver.max_cycles = 0);
     folder
         .ends(2, "sweep --from-sidecar edited.meta.toml --out again.csv")
-        .says("its solver settings are not ones");
+        .says("its solver settings are outside the limits");
 
     folder.ends(2, "rerun rows.csv --status unsetled --out again.csv").says("did you mean `unsettled`?");
 
@@ -118,7 +118,7 @@ fn a_sweep_of_a_file_of_points_is_repeated_from_its_sidecar() {
         assert_eq!(
             ended.stderr,
             "error: rows.csv.meta.toml: designs/points.csv no longer holds the points that were run\n\
-             help: put the file of points back as it was, or sweep its grid file anew\n",
+             help: restore the file of points, or sweep the grid file again\n",
             "{arguments}"
         );
     }

@@ -80,10 +80,10 @@ fn what_hides_a_peak_is_told() {
 fn impossible_motions_and_searches_are_refused() {
     let folder = Folder::new();
     for (arguments, message) in [
-        ("run ozaki2018-small --impulse 20deg", "--impulse goes with --drive impulse"),
-        ("run ozaki2018-small --duration 50ms", "--duration goes with --drive impulse"),
-        ("run ozaki2018-small --drive chirp --impulse 20deg", "--impulse goes with --drive impulse"),
-        ("run ozaki2018-small --drive impulse --envelope e.csv", "--envelope goes with --drive chirp"),
+        ("run ozaki2018-small --impulse 20deg", "--impulse needs --drive impulse"),
+        ("run ozaki2018-small --duration 50ms", "--duration needs --drive impulse"),
+        ("run ozaki2018-small --drive chirp --impulse 20deg", "--impulse needs --drive impulse"),
+        ("run ozaki2018-small --drive impulse --envelope e.csv", "--envelope needs --drive chirp"),
         ("run ozaki2018-small --drive impulse --impulse 20", "write a number with a unit, such as `20 deg`"),
         (
             "run ozaki2018-small --drive impulse --impulse 20mm",
@@ -94,12 +94,12 @@ fn impossible_motions_and_searches_are_refused() {
         ("run ozaki2018-small --drive impulse --duration 1e9s", "cannot be sampled"),
         (
             "run ozaki2018-small --drive impulse --from-rest --trajectory t.csv",
-            "--from-rest goes with --drive steady",
+            "--from-rest needs --drive steady",
         ),
         ("resonance ozaki2018-small --from 100 --to 90", "there are no drive frequencies from 100 to 90 Hz"),
         ("resonance ozaki2018-small --from 0", "more than zero"),
         ("resonance ozaki2018-small --from 5mm", "write a number with a unit, such as `120 Hz`"),
-        ("resonance ozaki2018-small --tolerance 0", "only to more than zero"),
+        ("resonance ozaki2018-small --tolerance 0", "the tolerance must be more than zero, not 0 Hz"),
         ("resonance ozaki2018-small --window-cycles 1", "2..=1000"),
         ("resonance ozaki2018-small --spectrum-window 0s", "cannot be sampled"),
         ("resonance ozaki2018-small --set drive_freqency=100", "did you mean `drive_frequency`?"),

@@ -152,14 +152,23 @@ fn mistakes_are_told() {
     let folder = Folder::with_grid(SOFT);
     let range = "--from 120 --to 130 --step 1";
     for (arguments, message) in [
-        ("jafferis2016".to_owned(), "how `drive_frequency` rises is not known"),
-        ("grid.toml --from 120".to_owned(), "how `drive_frequency` rises is not known"),
+        ("jafferis2016".to_owned(), "the values of `drive_frequency` are not given"),
+        ("grid.toml --from 120".to_owned(), "the values of `drive_frequency` are incomplete"),
         (format!("jafferis2016 {range} --along drive_frequncy"), "did you mean `drive_frequency`?"),
         (format!("jafferis2016 {range} --along arms"), "`arms`"),
-        (format!("jafferis2016 {range} --tolerance 0"), "`drive_frequency` must be more than zero"),
+        (format!("jafferis2016 {range} --tolerance 0"), "--tolerance 0: must be more than zero\n"),
+        (
+            "jafferis2016 --from 1 --to 2 --step 0".to_owned(),
+            "--step 0: must be more than zero\nhelp: values rise",
+        ),
+        (
+            "jafferis2016 --from 1 --to 2 --step 1V".to_owned(),
+            "--step 1V: `V` is a voltage, but the value is in Hz",
+        ),
+        ("jafferis2016 --from 1 --to 2 --step 1e999".to_owned(), "is too large for a 64-bit float"),
         (
             "jafferis2016 --from 130 --to 120 --step 1".to_owned(),
-            "there are no steps of 1 in `drive_frequency`",
+            "`drive_frequency` cannot rise from 130 to 120 in steps of 1",
         ),
         ("jafferis2016 --from 1m --to 120 --step 1".to_owned(), "--from 1m"),
         ("grid.toml --set drive_voltage_pp=100".to_owned(), "is set with --set and varied"),
@@ -221,5 +230,5 @@ fn each_design_is_run_at_its_own_resonance() {
     }
     let refused = folder.flap("respond grid.toml --along drive_voltage_pp --from 50 --to 60 --step 1");
     assert_eq!(refused.code, 2);
-    assert!(refused.stderr.contains("runs each design at its own resonance"), "{}", refused.stderr);
+    assert!(refused.stderr.contains("asks for designs at their own resonance"), "{}", refused.stderr);
 }

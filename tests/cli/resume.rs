@@ -233,7 +233,7 @@ fn results_removed_meanwhile_are_noticed() {
         let stderr = std::io::read_to_string(child.stderr.take().unwrap()).unwrap();
         assert!(stderr.contains(&format!("{removed} was removed or replaced meanwhile")), "{stderr}");
 
-        folder.ends(0, &format!("resume {out}")).says("rows are no longer in");
+        folder.ends(0, &format!("resume {out}")).says(&format!(" missing from {out}, and computed again\n"));
         assert_same(&folder, ending);
     }
 }
@@ -288,7 +288,7 @@ fn rows_edited_meanwhile_are_not_resumed() {
     let folder = unfinished();
     let rows = folder.read("grid.csv").replacen("unsettled", "periodic!", 1);
     fs::write(folder.path("grid.csv"), &rows).unwrap();
-    folder.ends(2, "resume grid.csv").says("it is not as the sweep left it");
+    folder.ends(2, "resume grid.csv").says("it has changed since the sweep wrote it");
     assert_eq!(folder.read("grid.csv"), rows);
 }
 

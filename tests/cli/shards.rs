@@ -121,11 +121,11 @@ fn shards_that_do_not_hold_what_they_should_are_refused() {
     let short = lines.join("\n") + "\n";
     let foreign = short.clone() + "3," + last.split_once(',').unwrap().1 + "\n";
     for (rows, message) in [
-        (short.as_str(), "it holds 32 rows, 33 were written"),
-        (foreign.as_str(), "row 33 is of point `3`, which is none of the points that were run"),
+        (short.as_str(), "it holds 32 rows, but 33 were written"),
+        (foreign.as_str(), "row 33 is of point `3`, which was not run"),
         (&short.replacen("unsettled", "peridoic", 1), "row 1: there is no status `peridoic`"),
-        ("a,b\n1,2\n", "its columns are not those of the grid that its sidecar holds"),
-        ("", "its columns are not those of the grid that its sidecar holds"),
+        ("a,b\n1,2\n", "its columns differ from those of the grid in its sidecar"),
+        ("", "its columns differ from those of the grid in its sidecar"),
     ] {
         let folder = folder(100);
         fs::write(folder.path("grid.2of3.csv"), rows).unwrap();

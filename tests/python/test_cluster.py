@@ -91,7 +91,7 @@ def test_what_a_worker_says_arrives(client, tmp_path):
     path.write_text('preset = "ozaki2018-large"\n[sample]\nmethod = "file"\npath = "points.csv"\n')
     grid = flapwing.Grid(path)
     points.write_text("drive_frequency\n100\n106\n")
-    with pytest.raises(RuntimeError, match="rows from elsewhere do not fit: the file of points differs"):
+    with pytest.raises(RuntimeError, match="rows of a worker do not fit: the file of points differs"):
         flapwing.sweep(grid, client=client)
     points.unlink()
     with pytest.raises(flapwing.GridError, match="points.csv") as caught:

@@ -76,8 +76,8 @@ def test_values_out_of_range_are_rows():
     assert table["status"].tolist() == ["periodic", "invalid", "invalid", "invalid", "invalid", "periodic"]
     assert np.isnan(table["lift_mean_mn"][1:5]).all()
     reasons = dict(table.meta["invalid"])
-    assert reasons[1] == "`drive_frequency` comes out as -5.0 Hz, but must be more than zero"
-    assert reasons[2] == "`drive_frequency` comes out as not a number"
+    assert reasons[1] == "`drive_frequency` is computed as -5.0 Hz, but must be more than zero"
+    assert reasons[2] == "`drive_frequency` is computed as not a number"
 
 
 def test_a_grid_without_axes_is_a_design():

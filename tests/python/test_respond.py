@@ -48,7 +48,7 @@ def test_designs_of_a_grid_have_a_curve_each():
 @pytest.mark.parametrize(
     ("arguments", "keywords", "says"),
     [
-        ((), {}, "how `drive_frequency` rises is not known"),
+        ((), {}, "the values of `drive_frequency` are not given"),
         ((), {"start": 100, "stop": 120}, "start, stop and step go together"),
         ((), {"start": 100, "stop": 90, "step": 1}, "no steps of 1"),
         (("lift_sign",), {"start": 1, "stop": 2, "step": 1}, "is a choice"),

@@ -218,7 +218,7 @@ def test_an_interrupted_sweep_goes_on_to_the_same_bytes(tmp_path):
     out = tmp_path / "rows.csv"
     with pytest.raises(RuntimeError):
         flapwing.sweep(grid, out=out, progress=stop)
-    with pytest.raises(FileExistsError, match="resume=True goes on"):
+    with pytest.raises(FileExistsError, match="resume=True continues"):
         flapwing.sweep(grid, out=out)
     assert len(flapwing.sweep(grid, out=out, resume=True)) == 40000
     flapwing.sweep(grid, out=tmp_path / "whole.csv")
@@ -275,7 +275,7 @@ def test_damage_is_ignored_with_a_warning(tmp_path):
     with pytest.warns(UserWarning) as warned:
         table = flapwing.read(path, ignore_damage=True)
     texts = [str(warning.message) for warning in warned]
-    assert "rows 1 to 26 are not as they were written" in texts[0] and "1 lines are no rows" in texts[1]
+    assert "rows 1 to 26 have changed since they were written" in texts[0] and "1 line is not a row" in texts[1]
     assert len(table) == 25 and table.meta["verified"] is False
 
     alone = tmp_path / "alone.csv"

@@ -56,8 +56,8 @@ fn derived_values_out_of_range_make_a_point_invalid() {
         judged,
         [
             Verdict::Runs,
-            Verdict::Invalid(Invalid::new("`wing_area` comes out as 0.0 m^2, but must be more than zero")),
-            Verdict::Invalid(Invalid::new("`wing_area` comes out as not a number")),
+            Verdict::Invalid(Invalid::new("`wing_area` is computed as 0.0 m^2, but must be more than zero")),
+            Verdict::Invalid(Invalid::new("`wing_area` is computed as not a number")),
         ]
     );
 }
@@ -83,7 +83,8 @@ read = "arms == 'axis' or wing_area > preset.stroke_offset"
     let names: Vec<&str> = plan.conditions().iter().map(|condition| condition.name.as_str()).collect();
     assert_eq!(names, ["small", "root", "positive", "read"]);
     let judged: Vec<Verdict> = (0..8).map(|point| plan.judge(&plan.point(point).values)).collect();
-    let zero = Verdict::Invalid(Invalid::new("`wing_area` comes out as 0.0 m^2, but must be more than zero"));
+    let zero =
+        Verdict::Invalid(Invalid::new("`wing_area` is computed as 0.0 m^2, but must be more than zero"));
     assert_eq!(
         judged,
         [
@@ -102,7 +103,7 @@ read = "arms == 'axis' or wing_area > preset.stroke_offset"
 #[test]
 fn a_condition_that_cannot_be_computed_excludes_nothing() {
     let plan = plan("preset = \"fly\"\n[where]\nroot = \"sqrt(stroke_offset - 1) < 5\"\n");
-    let reason = "whether it satisfies the condition `root` cannot be computed";
+    let reason = "the condition `root` cannot be computed";
     assert_eq!(plan.judge(&plan.point(0).values), Verdict::Invalid(Invalid::new(reason)));
 }
 

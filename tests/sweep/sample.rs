@@ -116,7 +116,7 @@ fn sampled_values_out_of_range_make_a_point_invalid() {
     assert!((112..206).contains(&below), "{below}");
     for (point, area) in (0..).zip(areas) {
         let reason = format!(
-            "`wing_area` comes out as {} m^2, but must be more than zero",
+            "`wing_area` is computed as {} m^2, but must be more than zero",
             flap_sweep::notation::text::float(area)
         );
         let expected = if area > 0.0 { Verdict::Runs } else { Verdict::Invalid(Invalid::new(reason)) };

@@ -79,7 +79,7 @@ fn a_model_that_loses_a_point_is_an_error() {
         assert_eq!(rows, 700);
         assert_eq!(
             error.to_string(),
-            "the model does not keep its contract: it returned without the rows of 1 points"
+            "the model does not keep its contract: it returned without the rows of 1 point"
         );
     }
 }

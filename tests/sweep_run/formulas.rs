@@ -42,7 +42,7 @@ fn rows_of_a_grid_with_formulas_read_like_this() {
     assert!(!summary.interrupted);
     assert_eq!(summary.counts.of(Status::Invalid), 2);
     assert_eq!(summary.unsatisfied, [("not_two".to_owned(), 1), ("not_tiny_or_huge".to_owned(), 3)]);
-    let reason = "`span` comes out as 0.0 m, but must be more than zero";
+    let reason = "`span` is computed as 0.0 m, but must be more than zero";
     assert_eq!(summary.invalid[0], (1, reason.to_owned()));
     assert_eq!(summary.invalid[1].0, 7);
 }

@@ -66,8 +66,11 @@ fn parcels_that_do_not_fit_are_refused() {
     let whole = plan(Fake::leak(Fault::None, 4), 100);
     let other = plan(Fake::leak(Fault::None, 4), 101);
     for (parcels, complaint) in [
-        (vec![bytes(&whole, 10, 20)], "points 10 to 20 came where 0 was next"),
-        (vec![bytes(&whole, 0, 10), bytes(&whole, 0, 10)], "points 0 to 10 came where 10 was next"),
+        (vec![bytes(&whole, 10, 20)], "points 10 to 20 came, but point 0 was expected next"),
+        (
+            vec![bytes(&whole, 0, 10), bytes(&whole, 0, 10)],
+            "points 0 to 10 came, but point 10 was expected next",
+        ),
         (vec![bytes(&other, 0, 10)], "the grid file differs"),
         (vec![vec![7, 7, 7]], ""),
         (vec![of_another_build(bytes(&whole, 0, 10))], "another build of flap than this one"),
@@ -75,10 +78,7 @@ fn parcels_that_do_not_fit_are_refused() {
     ] {
         let (text, summary) = put_together(&whole, parcels);
         let error = summary.expect_err(complaint).to_string();
-        assert!(
-            error.starts_with("rows from elsewhere do not fit: ") && error.contains(complaint),
-            "{error}"
-        );
+        assert!(error.starts_with("rows of a worker do not fit: ") && error.contains(complaint), "{error}");
         // What came before is kept.
         assert!(text.lines().count() == 1 || text.lines().count() == 11, "{text}");
     }

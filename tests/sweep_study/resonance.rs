@@ -181,7 +181,7 @@ fn mistakes_are_told() {
     let start = "preset = \"jafferis2016\"\n";
     let asked = "[params]\ndrive_frequency = \"resonance\"\n";
     for (rest, expected) in [
-        ("[resonance]\nof = \"lift\"\n".to_owned(), "without a drive frequency that is to be one"),
+        ("[resonance]\nof = \"lift\"\n".to_owned(), "[resonance] has no effect"),
         (format!("{asked}[resonance]\nof = \"drag\"\n"), "`of` has no option `drag`"),
         (format!("{asked}[resonance]\nfrom = \"90 Hz\"\nto = 80\n"), "`to` must be more than `from`, 90 Hz"),
         (format!("{asked}[resonance]\ntolerance = 0\n"), "`tolerance` must be more than zero, not 0 Hz"),

@@ -17,7 +17,35 @@ pub(crate) fn warn(text: &str) {
     say(&format!("{style}warning{style:#}: {text}"));
 }
 
+/// A word of a command to be copied into a shell: in quotes if it has characters that shells interpret.
+pub(crate) fn shell_word(word: &str) -> String {
+    let is_plain = |letter: char| letter.is_alphanumeric() || "._-/+=:,".contains(letter);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
 /// Prints a line to stderr. If stderr is closed, the line is lost.
 pub(crate) fn say(text: &str) {
     let _ = writeln!(anstream::stderr(), "{text}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_for_shells_are_in_quotes_if_they_must() {
+        for (word, shell) in [
+            ("results/a-1.csv", "results/a-1.csv"),
+            ("my results.csv", "'my results.csv'"),
+            ("drive_voltage_pp=80 V", "'drive_voltage_pp=80 V'"),
+            ("it's", "'it'\\''s'"),
+            ("", "''"),
+        ] {
+            assert_eq!(shell_word(word), shell);
+        }
+    }
 }

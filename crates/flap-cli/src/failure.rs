@@ -27,7 +27,7 @@ use flap_sweep::run::RunError;
 use crate::console;
 
 /// The help line of commands that can read damaged results.
-pub(crate) const IGNORE_HELP: &str = "--ignore-damage uses it all the same, as far as it can be read";
+pub(crate) const IGNORE_HELP: &str = "--ignore-damage uses the rows that can be read";
 
 /// The exit code of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +69,21 @@ impl Failure {
 
     /// Results that differ from what was written.
     pub(crate) fn damaged(message: String) -> Failure {
-        Failure::System(message, Vec::new()).help("put a sound copy in its place")
+        Failure::System(message, Vec::new()).help("replace it by an undamaged copy")
+    }
+
+    /// The failure of a grid file or a sidecar where results are read; `None` for other names.
+    pub(crate) fn not_results(path: &Path) -> Option<Failure> {
+        let name = path.to_string_lossy();
+        if let Some(results) = name.strip_suffix(".meta.toml") {
+            let message = format!("{name} is the sidecar of results, not results");
+            return Some(Failure::usage(message).help(format!("name the results: {results}")));
+        }
+        if !name.ends_with(".toml") {
+            return None;
+        }
+        let message = format!("{name} is a grid file, not a file of results");
+        Some(Failure::usage(message).help(format!("`flap sweep {name}` computes its results")))
     }
 
     /// The failure of a job with results at `out`.
@@ -87,7 +101,7 @@ impl Failure {
             }
             JobError::Resume { error, changed } => changed.into_iter().fold(error.into(), Failure::help),
             JobError::Open(OpenError::Damaged { .. }) => {
-                Failure::damaged(error.to_string()).help("`flap sweep --force` computes it anew")
+                Failure::damaged(error.to_string()).help("`flap sweep --force` computes the rows again")
             }
             JobError::Open(error) => error.into(),
             JobError::Write { path, source, .. } => Failure::cannot_write(&path, &source),
@@ -147,7 +161,7 @@ impl Failure {
 
 /// The help line that names the earlier results, which are kept until the new ones are complete.
 pub(crate) fn still_kept(kept: &Path) -> String {
-    format!("until then, the earlier results are in {}", kept.display())
+    format!("the earlier results are kept in {} until then", kept.display())
 }
 
 fn complain(message: &str, help: &[String]) {

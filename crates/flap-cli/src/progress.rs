@@ -42,7 +42,7 @@ impl Bar {
             let units = self.units;
             self.aside(|| {
                 console::say(&format!(
-                    "stopping: {units} in hand have half a second; interrupt again to stop at once"
+                    "stopping: running {units} have half a second to finish; interrupt again to stop at once"
                 ));
             });
         }

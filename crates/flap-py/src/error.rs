@@ -70,7 +70,7 @@ pub(crate) fn run(error: &RunError) -> PyErr {
 /// The exception for results that were not written, or not completed.
 pub(crate) fn job(error: &JobError) -> PyErr {
     let go_on = |error: PyErr, resumable: bool, py: Python<'_>| {
-        if resumable { noted(py, error, "the same call with resume=True goes on") } else { error }
+        if resumable { noted(py, error, "the same call with resume=True continues the run") } else { error }
     };
     Python::attach(|py| match error {
         JobError::Format(error) => PyValueError::new_err(error.to_string()),
@@ -104,7 +104,7 @@ fn create(error: &CreateError) -> PyErr {
             PyFileExistsError::new_err(format!("{error}: overwrite=True replaces it, or name another file"))
         }
         CreateError::Unfinished { .. } => PyFileExistsError::new_err(format!(
-            "{error}: resume=True goes on with it, overwrite=True replaces it"
+            "{error}: resume=True continues it, overwrite=True replaces it"
         )),
         CreateError::Busy { .. } => PyOSError::new_err(error.to_string()),
         CreateError::Io { path, source } => io_error(&format!("cannot write {}", path.display()), source),
@@ -131,7 +131,7 @@ pub(crate) fn open(error: &OpenError) -> PyErr {
         }
         OpenError::Format(_) => PyValueError::new_err(error.to_string()),
         OpenError::Sidecar(_) | OpenError::Damaged { .. } => {
-            PyValueError::new_err(format!("{error}: ignore_damage=True reads it all the same"))
+            PyValueError::new_err(format!("{error}: ignore_damage=True reads the rows that can be read"))
         }
     }
 }

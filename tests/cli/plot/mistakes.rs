@@ -68,17 +68,17 @@ fn mistakes_are_told() {
         (&["sweep.csv", "--y", "status"], &["column `status` holds words, not numbers"]),
         (
             &["sweep.csv", "--kind", "map", "--by", "status"],
-            &["--by goes with lines: --kind response or hysteresis, and this picture is a map"],
+            &["--by needs --kind response or hysteresis, and this picture is a map"],
         ),
         (
             &["sweep.csv", "--kind", "response", "--color", "cycles"],
-            &["--color goes with --kind map or pareto, and this picture is a response"],
+            &["--color needs --kind map or pareto, and this picture is a response"],
         ),
-        (&["sweep.csv", "--y-aim", "min"], &["--x-aim and --y-aim go with --kind pareto"]),
+        (&["sweep.csv", "--y-aim", "min"], &["--x-aim and --y-aim need --kind pareto"]),
         (&["sweep.csv", "--kind", "trajectory"], &["needs a column time_s"]),
         (&["sweep.csv", "--kind", "hysteresis"], &["needs a column `branch`"]),
         (&["sweep.csv", "--out", "picture.pdf"], &["pictures end in .svg or .png"]),
-        (&["sweep.csv", "--out", "picture.html"], &["--html writes a page"]),
+        (&["sweep.csv", "--out", "picture.html"], &["--html picture.html writes a page"]),
         (&["sweep.csv", "--size", "10x10"], &["expected WxH"]),
         (
             &["sweep.csv", "--kind", "pie"],
@@ -86,7 +86,7 @@ fn mistakes_are_told() {
         ),
         (&["empty.csv"], &["empty.csv has no columns"]),
         (&["bare.csv"], &["bare.csv has no rows"]),
-        (&["other.csv"], &["not clear", "--x and --y", "the columns are a, b"]),
+        (&["other.csv"], &["neither of a sweep nor of a motion", "--x and --y", "the columns are a, b"]),
         (&["failed.csv"], &["none of 2 rows has a value of stroke_amplitude_deg"]),
         (&["failed.csv", "--kind", "pareto"], &["there is nothing to draw"]),
     ];

@@ -153,7 +153,9 @@ fn a_hysteresis_loop() {
 fn a_motion_and_its_phase_portrait() {
     let folder = folder();
     let picture = drawn(&folder, "motion.csv");
-    picture.says("trajectory in out.svg").says("the rate of the pitch is that of its samples' differences");
+    picture
+        .says("trajectory in out.svg")
+        .says("the rate of the pitch is computed from differences of its samples");
     assert!(!picture.said.contains("the rate of the stroke"), "{}", picture.said);
     picture.has(&["Time (ms)", "Angle (°)", "Rate (°/ms)", "stroke", "pitch"]);
     picture.counts("<path", 4);
@@ -166,7 +168,7 @@ fn slices_are_told() {
     let folder = folder();
     let sliced = "sweep.csv --x drive_voltage_pp --y lift_mean_mn --by status";
     drawn(&folder, sliced)
-        .says("slice drive_frequency=110.0, the middle of 4 values; --where takes another")
+        .says("drawn: drive_frequency=110.0, the middle of 4 values; --where chooses another")
         .has(&["Drive frequency 110 Hz · 2 of 3 points without a value"]);
     let picture = drawn(&folder, &format!("{sliced} --where drive_frequency=0.12kHz"));
     assert!(!picture.said.contains("slice"), "{}", picture.said);

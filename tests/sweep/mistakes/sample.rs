@@ -89,7 +89,7 @@ hinge_stiffness = 5
   line 3 |wing_area| (first here)
   help: keep one of them
 8:13 |{ from = 2, to = 1 }| `from` must be less than `to`
-9:20 |{ from = 1 }| the distribution of `drive_voltage_pp` has no two ends and no `sd`
+9:20 |{ from = 1 }| the distribution of `drive_voltage_pp` needs `from` and `to`, or `sd`
   note: distributions look like { from = 1, to = 5 }, { from = 1, to = 5, scale = "log" }, { mean = 3, sd = 0.1 }, { relative_sd = "5 %" } or [1, 2, 5]
 10:28 |-1| `drive_frequency` must be more than zero, not -1 Hz
 10:40 |V| `V` is a voltage, but `drive_frequency` is in Hz

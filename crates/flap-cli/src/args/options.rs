@@ -3,11 +3,11 @@
 use std::num::NonZeroUsize;
 use std::time::Duration;
 
-use clap::{ValueEnum, value_parser};
+use clap::ValueEnum;
 use flap_sweep::files::integrity::OnDamage;
 use flap_sweep::table::labels::{self, Direction};
 
-use super::values::{assignment, interval, positive, threads, tolerance};
+use super::values::{assignment, count, interval, positive, threads, tolerance};
 
 /// The choice of a design point.
 #[derive(clap::Args)]
@@ -42,7 +42,7 @@ pub(crate) struct SolverArgs {
     pub(crate) settle_tol: Option<f64>,
 
     /// Drive periods after which a point counts as unsettled
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = count)]
     pub(crate) max_cycles: Option<u32>,
 }
 
@@ -100,7 +100,7 @@ impl Aim {
 /// Options of commands that read results.
 #[derive(clap::Args)]
 pub(crate) struct ReadArgs {
-    /// Use damaged results all the same, as far as they can be read
+    /// Use the readable rows of damaged results
     #[arg(long)]
     ignore_damage: bool,
 }

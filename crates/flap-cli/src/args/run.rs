@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{ValueEnum, value_parser};
 
 use super::options::{OverwriteArgs, PointArgs, SolverArgs};
-use super::values::{angle, frequency, time};
+use super::values::{angle, finite, frequency, time};
 
 #[derive(clap::Args)]
 #[command(after_help = RUN_HELP)]
@@ -20,15 +20,15 @@ pub(crate) struct RunArgs {
     pub(crate) drive: Drive,
 
     /// Frequency at which the chirp begins (Hz) [default: 1]
-    #[arg(long, value_name = "HZ")]
+    #[arg(long, value_name = "HZ", value_parser = frequency)]
     pub(crate) chirp_from: Option<f64>,
 
     /// Frequency at which the chirp ends (Hz) [default: twice the point's drive frequency]
-    #[arg(long, value_name = "HZ")]
+    #[arg(long, value_name = "HZ", value_parser = frequency)]
     pub(crate) chirp_to: Option<f64>,
 
     /// Rate of change of the chirp's frequency (Hz/s); negative for a falling chirp [default: 15]
-    #[arg(long, value_name = "HZ/S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ/S", value_parser = finite, allow_negative_numbers = true)]
     pub(crate) chirp_rate: Option<f64>,
 
     /// CSV file for the chirp's rows per cycle [default: stdout]

@@ -23,7 +23,19 @@ pub(super) fn threads(text: &str) -> Result<NonZeroUsize, String> {
 /// A finite number greater than 0.
 pub(super) fn positive(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|number| number.is_finite() && *number > 0.0);
-    number.ok_or_else(|| "expected a number more than zero".to_owned())
+    number.ok_or_else(|| "expected a finite number more than zero".to_owned())
+}
+
+/// A whole number from 1 to 2^32 - 1.
+pub(super) fn count(text: &str) -> Result<u32, String> {
+    let number = text.parse().ok().filter(|number| *number > 0);
+    number.ok_or_else(|| format!("expected a whole number from 1 to {}", u32::MAX))
+}
+
+/// A finite number.
+pub(super) fn finite(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
+    number.ok_or_else(|| "expected a finite number, such as 15".to_owned())
 }
 
 /// A tolerance greater than 0 and less than 0.1; a larger one has no meaning.

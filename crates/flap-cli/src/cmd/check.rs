@@ -29,7 +29,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
 }
 
 fn page(plan: &Plan) -> String {
-    let points = if plan.len() == 1 { "1 point".to_owned() } else { format!("{} points", plan.len()) };
+    let points = text::count(plan.len(), "point");
     let mut page = format!("{points} of {} from {}\n", plan.simulator().name(), plan.preset());
     if !plan.axes().as_slice().is_empty() {
         page += "\n";
@@ -156,7 +156,10 @@ fn excluded(plan: &Plan) -> (String, u64) {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of the points")]
     let runs = (plan.len() as f64 * share) as u64;
     let looked_at = found.looked_at;
-    (format!("\nof {looked_at} points spread over the grid, which has too many to count, {line}\n"), runs)
+    (
+        format!("\nof {looked_at} points spread over the grid, which is too large to check each, {line}\n"),
+        runs,
+    )
 }
 
 /// The varied and derived parameters of the first and the last point, and whether each is run.

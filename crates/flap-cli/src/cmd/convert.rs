@@ -9,6 +9,7 @@ use flap_sweep::files::results::{
     Checksums, ConvertError, Converted, Format, Provenance, RowCheck, RowsError, convert,
 };
 use flap_sweep::files::sidecar::{Sidecar, State};
+use flap_sweep::notation::text::count;
 
 use crate::args::ConvertArgs;
 use crate::cmd::outputs::is_stdout;
@@ -43,7 +44,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
     });
     made?.map_err(|error| failure(args, &error))?;
     job::tell_missed(&args.from, &source.reader);
-    console::say(&format!("{rows} rows in {}", args.to.display()));
+    console::say(&format!("{} in {}", count(rows, "row"), args.to.display()));
     Ok(Exit::Done)
 }
 

@@ -61,7 +61,7 @@ pub(crate) fn run(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
             write_csv(&motion, io::stdout().lock())?;
         }
         Some(path) => {
-            write_file(&motion, path, args.overwrite.force, "samples")?;
+            write_file(&motion, path, args.overwrite.force, "sample")?;
             console::results(&page)?;
         }
         None => console::results(&page)?,

@@ -5,13 +5,14 @@ use std::io;
 use flap_core::drive::Repeat;
 use flap_core::simulate::{ImposedMotion, Trajectory};
 use flap_sweep::files::inputs::Inputs;
-use flap_sweep::files::record;
+use flap_sweep::files::record::{self, RecordError};
+use flap_sweep::plan::Plan;
 
 use super::motion::{write_csv, write_file};
 use super::point::Chosen;
 use super::{outputs, samples};
 use crate::args::{LiftArgs, SolverArgs};
-use crate::console;
+use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
 use crate::table::{Table, six_digits};
 
@@ -23,6 +24,9 @@ pub(crate) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
     let repeat = if args.periodic { Repeat::Periodic } else { Repeat::Once };
     let file = samples::read(&args.motion)?;
     let stroke = samples::column(&file, &args.motion, record::STROKE, repeat)?;
+    if let Err(error @ RecordError::Missing { .. }) = file.column(record::PITCH) {
+        return Err(stroke_alone(error, &plan, args));
+    }
     let pitch = samples::column(&file, &args.motion, record::PITCH, repeat)?;
     let motion = ImposedMotion { stroke, pitch, samples: args.samples };
     let mut forces = plan.simulator().experiments()?.imposed(&values, &motion)?;
@@ -33,11 +37,27 @@ pub(crate) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
             write_csv(&forces, io::stdout().lock())?;
             return Ok(Exit::Done);
         }
-        Some(path) => write_file(&forces, path, args.overwrite.force, "samples")?,
+        Some(path) => write_file(&forces, path, args.overwrite.force, "sample")?,
         None => {}
     }
     console::results(&summary(&forces))?;
     Ok(Exit::Done)
+}
+
+/// The failure of a motion without pitch. Models whose stroke can be prescribed compute the pitch.
+fn stroke_alone(error: RecordError, plan: &Plan, args: &LiftArgs) -> Failure {
+    let computes = |what: &str| {
+        let motion = shell_word(&args.motion.to_string_lossy());
+        format!(
+            "`flap run {what} --stroke {motion}` computes the pitch of a wing that follows the stroke, and its lift"
+        )
+    };
+    let is_able = plan.parameters().iter().any(|parameter| parameter.name == "stroke_mode");
+    Failure::from(error).help(if is_able {
+        computes(&args.point.what)
+    } else {
+        computes("PRESET") + ", with a preset of a model that has the parameter stroke_mode"
+    })
 }
 
 /// Removes the columns that a given motion does not determine.

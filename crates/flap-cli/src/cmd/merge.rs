@@ -8,6 +8,7 @@ use flap_sweep::files::integrity::{Note, OnDamage};
 use flap_sweep::files::merge::{self, MergeError, Part};
 use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::files::sidecar::{End, Sidecar, Start};
+use flap_sweep::notation::text::count;
 use flap_sweep::run::RunOptions;
 
 use crate::args::MergeArgs;
@@ -63,7 +64,8 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
         Ok::<(), MergeError>(whole.write(&sidecar_of(&args.out))?)
     })??;
     tell_missed(&parts, &readers);
-    console::say(&format!("{} rows of {} shards in {}", summary.rows, parts.len(), args.out.display()));
+    let (rows, shards) = (count(summary.rows, "row"), count(parts.len() as u64, "shard"));
+    console::say(&format!("{rows} of {shards} in {}", args.out.display()));
     Ok(Exit::Done)
 }
 

@@ -5,12 +5,12 @@ use std::path::Path;
 
 use flap_core::simulate::Trajectory;
 use flap_sweep::files::csv_sink;
-use flap_sweep::notation::text;
+use flap_sweep::notation::text::{self, count};
 
 use crate::failure::Failure;
 use crate::{console, job};
 
-/// Writes a CSV file, all of it or nothing, and says how many rows it has, such as 400 `samples`.
+/// Writes a CSV file, all of it or nothing, and says how many rows it has. `row` is the noun for one, such as `sample`.
 ///
 /// # Errors
 ///
@@ -19,11 +19,11 @@ pub(crate) fn write_file(
     motion: &Trajectory,
     path: &Path,
     overwrite: bool,
-    rows: &str,
+    row: &str,
 ) -> Result<(), Failure> {
     let written = job::make(path, overwrite, |file| write_csv(motion, file))?;
     written.map_err(|error: io::Error| Failure::cannot_write(path, &error))?;
-    console::say(&format!("{} {rows} in {}", motion.rows.len(), path.display()));
+    console::say(&format!("{} in {}", count(motion.rows.len() as u64, row), path.display()));
     Ok(())
 }
 

@@ -42,8 +42,8 @@ pub(crate) fn check<'p>(
     for (number, output) in outputs.iter().enumerate() {
         inputs.protect(output)?;
         if outputs[..number].iter().any(|other| is_same_target(other, output)) {
-            let message = format!("{} would be written twice", output.display());
-            return Err(Failure::usage(message).help("name different files"));
+            let message = format!("{} is the name of two outputs", output.display());
+            return Err(Failure::usage(message).help("give each output a file of its own"));
         }
     }
     Ok(())

@@ -47,7 +47,10 @@ impl Chosen {
             Verdict::Excluded(unsatisfied) => {
                 let names: Vec<&str> =
                     unsatisfied.iter().map(|&condition| plan.conditions()[condition].name.as_str()).collect();
-                console::say(&format!("a sweep does not run this point: {} not satisfied", names.join(", ")));
+                console::say(&format!(
+                    "a sweep leaves this point out, because it does not satisfy {}",
+                    names.join(", ")
+                ));
             }
             Verdict::Invalid(invalid) => return Err(invalid.into()),
         }

@@ -15,8 +15,9 @@ pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     Inputs::new().add_results("the results", &args.results).protect_from_results(&args.out)?;
     let (mut source, plan, sidecar) = job::open_recorded(&args.results, &args.read)?;
     if plan.followed().is_some() {
-        let failure = Failure::usage(format!("{of} holds curves, whose motions depend on their neighbours"));
-        return Err(failure.help("`flap respond` with other solver settings follows them again"));
+        let failure =
+            Failure::usage(format!("{of} holds curves of `flap respond`, whose rows depend on each other"));
+        return Err(failure.help("run `flap respond` again with other solver settings"));
     }
     let unreadable = |error: RerunError| match error {
         RerunError::NoEstimate => Failure::usage(format!("{of}: {error}"))

@@ -2,6 +2,8 @@
 
 use std::io;
 
+use flap_core::parameter::Parameter;
+use flap_sweep::notation::units;
 use flap_sweep::plan::{Along, ChangeError, Plan};
 use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{RunOptions, Summary};
@@ -19,7 +21,10 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     let plan = point::plan(&args.what)?;
     let plan = point::with_solver(plan, &args.solver)?;
     if plan.resonance().is_some() {
-        let failure = Failure::usage(format!("{} runs each design at its own resonance", args.what));
+        let failure = Failure::usage(format!(
+            "{} asks for designs at their own resonance, which `flap respond` cannot follow",
+            args.what
+        ));
         return Err(failure.help("give drive_frequency a number, or follow it with --along drive_frequency"));
     }
     let (mut plan, along) = along(args, plan)?;
@@ -32,7 +37,7 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     }
     match &args.out {
         Some(out) if args.resume && is_stdout(out) => {
-            Err(Failure::usage("what was written to stdout cannot be resumed"))
+            Err(Failure::usage("--resume needs a file of results: rows on stdout cannot be resumed"))
         }
         Some(out) => {
             job::run(&plan, out.clone(), Begin::of(args.resume, args.begin.force), &args.begin.work, None)
@@ -70,19 +75,42 @@ fn along(args: &RespondArgs, plan: Plan) -> Result<(Plan, Along), Failure> {
     let number = |option: &str, given: &Option<String>| -> Result<Option<f64>, Failure> {
         given.as_deref().map(|text| point::value(parameter, option, text)).transpose()
     };
+    // A difference of values may be smaller than any value.
+    let amount = |option: &str, given: &Option<String>| -> Result<Option<f64>, Failure> {
+        given.as_deref().map(|text| difference(parameter, option, text)).transpose()
+    };
     let steps =
-        match [number("--from", &args.from)?, number("--to", &args.to)?, number("--step", &args.step)?] {
+        match [number("--from", &args.from)?, number("--to", &args.to)?, amount("--step", &args.step)?] {
             [Some(from), Some(to), Some(step)] => Some([from, to, step]),
             [None, None, None] => None,
             _ => {
-                let message = format!("how `{}` rises is not known", parameter.name);
-                return Err(Failure::usage(message).help("--from, --to and --step go together"));
+                let message = format!("the values of `{}` are incomplete", parameter.name);
+                return Err(Failure::usage(message).help("--from, --to and --step are needed together"));
             }
         };
-    let tolerance = number("--tolerance", &args.tolerance)?;
+    let tolerance = amount("--tolerance", &args.tolerance)?;
     Along::new(plan, index, steps, tolerance, args.unstable).map_err(|AlongError { message, help }| {
         let failure = Failure::usage(message);
         if help.is_empty() { failure } else { failure.help(help) }
+    })
+}
+
+/// The difference between two values of a parameter, which is more than zero.
+fn difference(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Failure> {
+    let number = units::parse_as(text, "").or_else(|_| units::parse_as(text, parameter.unit));
+    let number = number.map_err(|error| {
+        let failure = Failure::usage(format!("{option} {text}: {}", error.message("the value")));
+        error.help().into_iter().fold(failure, Failure::help)
+    })?;
+    if number > 0.0 {
+        return Ok(number);
+    }
+    let failure = Failure::usage(format!("{option} {text}: must be more than zero"));
+    let is_step = option == "--step";
+    Err(if is_step {
+        failure.help("values rise from --from to --to, then fall in the same steps")
+    } else {
+        failure
     })
 }
 

@@ -10,6 +10,7 @@ use crate::failure::{Exit, Failure};
 use crate::job::{self, Begin};
 
 pub(crate) fn run(args: &ResumeArgs) -> Result<Exit, Failure> {
+    Failure::not_results(&args.results).map_or(Ok(()), Err)?;
     Format::of(&args.results)?;
     let on_damage = args.read.on_damage();
     let (plan, sidecar) = job::recorded(&args.results, on_damage)?;

@@ -6,14 +6,14 @@ use std::io;
 use flap_core::simulate::{ChirpRequest, Row, Status, TrajectoryRequest};
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::notation::expression::Kind;
-use flap_sweep::notation::text;
+use flap_sweep::notation::text::{self, count};
 use flap_sweep::study::deviation;
 
 use super::motion::{write_csv, write_file};
 use super::point::Chosen;
 use super::{far, impulse, outputs, samples};
-use crate::args::{Drive, RunArgs};
-use crate::console;
+use crate::args::{Drive, PointArgs, RunArgs};
+use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
 use crate::table::{Table, six_digits};
 
@@ -37,8 +37,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
 
 /// Refuses options of another drive.
 fn refuse_strays(args: &RunArgs) -> Result<(), Failure> {
-    let stray =
-        |option: &str, drive: &str| Err(Failure::usage(format!("{option} goes with --drive {drive}")));
+    let stray = |option: &str, drive: &str| Err(Failure::usage(format!("{option} needs --drive {drive}")));
     match args.drive {
         Drive::Steady | Drive::Impulse if args.envelope.is_some() => stray("--envelope", "chirp"),
         Drive::Steady | Drive::Impulse if args.chirp_from.is_some() => stray("--chirp-from", "chirp"),
@@ -68,7 +67,7 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
             write_csv(&motion, io::stdout().lock())?;
             return Ok(Exit::Done);
         }
-        write_file(&motion, path, args.overwrite.force, "samples")?;
+        write_file(&motion, path, args.overwrite.force, "sample")?;
         if args.once {
             return Ok(Exit::Done);
         }
@@ -80,7 +79,29 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
         return Err(Failure::usage(format!("the parameters are impossible together: {reason}")));
     }
     console::results(&page(chosen, &row))?;
+    if row.status == Status::Unsettled {
+        console::say(&longer(chosen, args));
+    }
     Ok(Exit::Done)
+}
+
+/// The line with the command that runs an unsettled point longer.
+fn longer(chosen: &Chosen, args: &RunArgs) -> String {
+    let cycles = chosen.plan.solver().max_cycles;
+    let PointArgs { what, point, set } = &args.point;
+    let mut command = format!("flap run {}", shell_word(what));
+    if *point > 0 {
+        let _ = write!(command, " --point {point}");
+    }
+    for (name, value) in set {
+        let _ = write!(command, " --set {}", shell_word(&format!("{name}={value}")));
+    }
+    let periods = count(cycles.into(), "drive period");
+    let longer = cycles.saturating_mul(10);
+    format!(
+        "the point did not settle within {periods}. This command runs it longer: {command} --max-cycles {longer}. \
+         If the residual does not fall with more periods, lower --rtol or raise --settle-tol"
+    )
 }
 
 /// Most samples of one trajectory: they are held in memory.
@@ -115,10 +136,10 @@ fn chirp(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
     };
     let response = plan.simulator().experiments()?.chirp(&chosen.run(), &request)?;
     if let Some(path) = &args.trajectory {
-        write_file(&response.motion, path, args.overwrite.force, "samples")?;
+        write_file(&response.motion, path, args.overwrite.force, "sample")?;
     }
     match &args.envelope {
-        Some(path) => write_file(&response.envelope, path, args.overwrite.force, "cycles")?,
+        Some(path) => write_file(&response.envelope, path, args.overwrite.force, "cycle")?,
         None => write_csv(&response.envelope, io::stdout().lock())?,
     }
     Ok(Exit::Done)

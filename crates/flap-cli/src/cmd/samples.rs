@@ -16,7 +16,7 @@ pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> 
         (Some(path), _) => (path, record::WAVE),
         (None, Some(path)) => (path, record::STROKE),
         (None, None) if args.once => {
-            return Err(Failure::usage("--once goes with --waveform or --stroke"));
+            return Err(Failure::usage("--once needs --waveform or --stroke"));
         }
         (None, None) => return Ok(()),
     };
@@ -27,7 +27,9 @@ pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> 
     if args.stroke.is_some() && !(chosen.put("stroke_mode", 1.0) && chosen.put("stroke_amplitude", 1.0)) {
         let message =
             format!("the stroke of the model {} cannot be prescribed", chosen.plan.simulator().name());
-        return Err(Failure::usage(message).help("models with a parameter stroke_mode can"));
+        return Err(
+            Failure::usage(message).help("--stroke works with models that have the parameter stroke_mode")
+        );
     }
     chosen.sampled = Some(chosen.plan.simulator().experiments()?.with_samples(samples));
     Ok(())

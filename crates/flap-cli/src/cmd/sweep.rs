@@ -24,7 +24,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
         None => default_path(&plan, args)?,
     };
     if out.as_os_str() == "-" && args.resume {
-        return Err(Failure::usage("what was written to stdout cannot be resumed"));
+        return Err(Failure::usage("--resume needs a file of results: rows on stdout cannot be resumed"));
     }
     if let Some(sidecar) = &args.from_sidecar {
         Inputs::new().add("the sidecar", sidecar).protect_from_results(&out)?;

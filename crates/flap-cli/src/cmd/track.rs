@@ -41,7 +41,7 @@ pub(crate) fn run(args: &TrackArgs) -> Result<Exit, Failure> {
 
     let found = format!("rotation centre at x = {}, y = {}", six_digits(centre[0]), six_digits(centre[1]));
     if let Some(path) = &args.out {
-        write_file(&motion, path, args.overwrite.force, "images")?;
+        write_file(&motion, path, args.overwrite.force, "image")?;
         console::results(&(found + "\n"))?;
     } else {
         console::say(&found);

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use flap_sweep::files::integrity::{self, Verdict};
+use flap_sweep::notation::text::count;
 
 use crate::args::VerifyArgs;
 use crate::console;
@@ -22,9 +23,9 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Exit, Failure> {
 fn verdict(results: &Path) -> (String, Exit) {
     let name = results.display();
     match integrity::verify(results) {
-        Ok(Verdict::Sound { rows }) => (format!("{name}: sound, {rows} rows"), Exit::Done),
+        Ok(Verdict::Sound { rows }) => (format!("{name}: sound, {}", count(rows, "row")), Exit::Done),
         Ok(Verdict::Unfinished { done: Some(done) }) => {
-            (format!("{name}: unfinished, sound so far: {done} points are done"), Exit::Done)
+            (format!("{name}: unfinished, sound so far ({} done)", count(done, "point")), Exit::Done)
         }
         Ok(Verdict::Unfinished { done: None }) => {
             (format!("{name}: unfinished, and could not be verified: it has no journal"), Exit::NotAll)

@@ -30,6 +30,7 @@ pub(crate) struct Source {
 impl Source {
     /// Opens the results and reads their header. With `tells`, notes and warnings about them go to stderr.
     pub(crate) fn open(path: &Path, read: &ReadArgs, tells: bool) -> Result<Source, Failure> {
+        Failure::not_results(path).map_or(Ok(()), Err)?;
         let Opened { reader, sidecar, notes } = integrity::open(path, read.on_damage())?;
         if tells {
             // Only results of sweeps have sidecars: motions and responses are drawn too.
@@ -197,7 +198,7 @@ impl Units {
         let plan = sidecar.map(|sidecar| job::plan_of(&beside, sidecar));
         if let Some(Err(_)) = plan {
             console::say(&format!(
-                "{} cannot be used: units are those of the columns' names",
+                "{} cannot be used: units are taken from the names of columns",
                 beside.display()
             ));
         }

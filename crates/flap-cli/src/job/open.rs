@@ -14,7 +14,8 @@ use crate::failure::{Failure, IGNORE_HELP};
 use crate::models;
 
 /// The help line for results without a sidecar.
-const SIDECAR_HELP: &str = "the sidecar lies beside the results and tells what grid they are of";
+const SIDECAR_HELP: &str =
+    "the sidecar is the file FILE.meta.toml beside the results, which holds their grid";
 
 /// The plan of results, from the sidecar beside them.
 pub(crate) fn recorded(results: &Path, on_damage: OnDamage) -> Result<(Plan, Sidecar), Failure> {
@@ -42,10 +43,10 @@ pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
         match error {
             PlanError::Grid(mistakes) => Failure::Grid(mistakes),
             PlanError::GridText => {
-                failure.help("sweep an edited grid from a file of its own: flap sweep FILE")
+                failure.help("to sweep another grid, write it to a grid file and run `flap sweep GRID`")
             }
             PlanError::PointsFile { .. } => {
-                failure.help("put the file of points back as it was, or sweep its grid file anew")
+                failure.help("restore the file of points, or sweep the grid file again")
             }
             PlanError::Points | PlanError::Parameters | PlanError::Solver => failure,
         }
@@ -54,6 +55,7 @@ pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
 
 /// Opens results for reading, and tells the user the notes on them.
 pub(crate) fn open(results: &Path, read: &ReadArgs) -> Result<Opened, Failure> {
+    Failure::not_results(results).map_or(Ok(()), Err)?;
     let opened = integrity::open(results, read.on_damage())?;
     for note in &opened.notes {
         tell(note);
@@ -68,6 +70,7 @@ pub(crate) fn tell(note: &Note) {
 
 /// Opens results that have a sidecar, with the plan in it.
 pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, Plan, Sidecar), Failure> {
+    Failure::not_results(results).map_or(Ok(()), Err)?;
     Format::of(results)?;
     let (plan, sidecar) = recorded(results, read.on_damage())?;
     Ok((open(results, read)?, plan, sidecar))

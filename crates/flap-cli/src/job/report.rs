@@ -11,7 +11,7 @@ use flap_sweep::run::Doubts;
 use flap_sweep::table::layout::Layout;
 
 use super::exclusion;
-use crate::console;
+use crate::console::{self, shell_word};
 
 /// Tells the user the summary of the rows and their file.
 pub(super) fn report(plan: &Plan, done: &Done) {
@@ -55,7 +55,7 @@ fn report_doubts(plan: &Plan, done: &Done) {
             Some(place) => format!(
                 "{said}, see their error_estimate. This command runs {it} again: \
                  flap rerun {} --inaccurate --rtol 1e-10 --out {}",
-                place.display(),
+                shell_word(&place.to_string_lossy()),
                 beside(place, "accurate")
             ),
             None => format!("{said}, see their error_estimate: lower rtol there"),
@@ -91,7 +91,7 @@ fn report_unsettled(plan: &Plan, done: &Done) {
     let longer = match &done.place {
         Some(place) => format!(
             "This command runs {it} longer: flap rerun {} --status unsettled --max-cycles {} --out {}",
-            place.display(),
+            shell_word(&place.to_string_lossy()),
             cycles.saturating_mul(10),
             beside(place, "unsettled")
         ),
@@ -107,7 +107,7 @@ fn report_unsettled(plan: &Plan, done: &Done) {
 fn beside(results: &Path, word: &str) -> String {
     let name = results.file_name().unwrap_or_default().to_string_lossy();
     let (stem, ending) = Format::split_ending(&name);
-    results.with_file_name(format!("{stem}.{word}{ending}")).display().to_string()
+    shell_word(&results.with_file_name(format!("{stem}.{word}{ending}")).to_string_lossy())
 }
 
 /// Tells the user the number of curves and their file.

@@ -52,7 +52,8 @@ pub(crate) fn run(
     };
     let outcome = job::run(&job, &mut engine, &mut |Before { lost, done }| {
         if lost > 0 {
-            console::say(&format!("{lost} rows are no longer in {place}: they are computed again"));
+            let again = if lost == 1 { "row is missing from" } else { "rows are missing from" };
+            console::say(&format!("{lost} {again} {place}, and computed again"));
         }
         console::say(&format!("{done} of {points} points of {place} are done"));
     });

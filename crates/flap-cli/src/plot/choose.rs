@@ -87,9 +87,7 @@ impl<'a> Wishes<'a> {
             let slice = slices::sliced(table, &axes.columns, &shown, rows);
             for taken in &slice.taken {
                 let Taken { typed, of, .. } = taken;
-                console::say(&format!(
-                    "drawn is the slice {typed}, the middle of {of} values; --where takes another"
-                ));
+                console::say(&format!("drawn: {typed}, the middle of {of} values; --where chooses another"));
             }
             notes.extend(slice.taken.into_iter().map(|taken| taken.shown));
             slice.rows
@@ -144,7 +142,7 @@ impl<'a> Wishes<'a> {
             _ => {}
         }
         if self.end == 0 {
-            let message = "what to draw of this file is not clear: it is neither of a sweep nor a motion";
+            let message = "the file is neither of a sweep nor of a motion: name the columns to draw";
             return Err(Failure::usage(message).help("name columns with --x and --y").help(self.listed()));
         }
         Ok(if axes.sampled {
@@ -165,14 +163,18 @@ impl<'a> Wishes<'a> {
         let color = matches!(kind, Map | Pareto);
         let aims = self.args.x_aim.is_some() || self.args.y_aim.is_some();
         let strays = [
-            (self.by.is_some() && !by, "--by goes", "lines: --kind response or hysteresis"),
-            (self.color.is_some() && !color, "--color goes", "--kind map or pareto"),
-            (aims && kind != Pareto, "--x-aim and --y-aim go", "--kind pareto"),
-            ((self.x.is_some() || self.y.is_some()) && kind == Trajectory, "--x and --y go", "other kinds"),
+            (self.by.is_some() && !by, "--by needs", "--kind response or hysteresis"),
+            (self.color.is_some() && !color, "--color needs", "--kind map or pareto"),
+            (aims && kind != Pareto, "--x-aim and --y-aim need", "--kind pareto"),
+            (
+                (self.x.is_some() || self.y.is_some()) && kind == Trajectory,
+                "--x and --y need",
+                "another kind",
+            ),
         ];
         match strays.iter().find(|(stray, ..)| *stray) {
             Some((_, option, home)) => {
-                let message = format!("{option} with {home}, and this picture is a {}", kind.name());
+                let message = format!("{option} {home}, and this picture is a {}", kind.name());
                 Err(Failure::usage(message).help("name the kind with --kind"))
             }
             None => Ok(()),

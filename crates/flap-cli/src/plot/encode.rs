@@ -29,7 +29,11 @@ pub(super) fn format(out: &Path) -> Result<Format, Failure> {
         "svg" => Ok(Format::Svg),
         "png" => Ok(Format::Png),
         "html" | "htm" => {
-            Err(Failure::usage(format!("{} is no picture", out.display())).help("--html writes a page"))
+            let failure = Failure::usage(format!(
+                "{}: --out writes pictures, which end in .svg or .png",
+                out.display()
+            ));
+            Err(failure.help(format!("--html {} writes a page", out.display())))
         }
         _ => Err(Failure::usage(format!("{}: pictures end in .svg or .png", out.display()))),
     }

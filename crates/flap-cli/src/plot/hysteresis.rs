@@ -24,13 +24,13 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let (x, y) = (table.label(chosen.columns.x), table.label(chosen.columns.y));
     let branch = table.find("branch")?;
     let Cells::Words { codes, words } = &table.columns[branch].cells else {
-        return Err(Failure::usage("column `branch` does not say `up`, `down` or `unstable`"));
+        return Err(Failure::usage("column `branch` holds other words than `up`, `down` and `unstable`"));
     };
     let curves = family(table, chosen)?;
     let shown = scale::even(curves.len(), MOST_CURVES);
     if shown.len() < curves.len() {
         let (drawn, all) = (shown.len(), curves.len());
-        console::say(&format!("{drawn} of {all} curves are drawn, evenly chosen; --where takes one"));
+        console::say(&format!("{drawn} of {all} curves are drawn, evenly chosen; --where chooses one"));
     }
 
     let mut plots = Vec::new();

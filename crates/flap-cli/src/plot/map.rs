@@ -72,9 +72,9 @@ fn grid(table: &Table, chosen: &Chosen, color: usize) -> Result<Grid, Failure> {
     let cells = across.len() * up.len();
     if cells > MOST_CELLS {
         let message =
-            format!("a map of {} times {} cells is more than a picture shows", across.len(), up.len());
+            format!("a map of {} times {} cells is too large for a picture", across.len(), up.len());
         return Err(Failure::usage(message).help(
-            "`--kind pareto` draws a sample; --where takes one value of an axis; --html thins out by itself",
+            "draw a sample with --kind pareto, choose one value of an axis with --where, or write a page with --html",
         ));
     }
     let mut values = vec![f64::NAN; cells];
@@ -83,7 +83,7 @@ fn grid(table: &Table, chosen: &Chosen, color: usize) -> Result<Grid, Failure> {
         let cell = up.codes[place] * across.len() + across.codes[place];
         if taken[cell] {
             let message = format!("several rows have the same {} and {}", names[0], names[1]);
-            return Err(Failure::usage(message).help("--where takes one value of what else they differ in"));
+            return Err(Failure::usage(message).help("choose one value of each other parameter with --where"));
         }
         taken[cell] = true;
         values[cell] = colours[row];

@@ -97,7 +97,10 @@ fn default_name(results: &Path) -> PathBuf {
 fn require_html(html: &Path) -> Result<(), Failure> {
     match encode::ending(html).as_str() {
         "html" | "htm" => Ok(()),
-        _ => Err(Failure::usage(format!("{}: pages end in .html or .htm", html.display()))),
+        _ => Err(Failure::usage(format!(
+            "{}: --html writes pages, which end in .html or .htm",
+            html.display()
+        ))),
     }
 }
 

@@ -28,7 +28,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         let by = chosen.columns.by.map_or("", |by| table.columns[by].name.as_str());
         let (drawn, all) = (shown.len(), family.len());
         console::say(&format!(
-            "{drawn} of the {all} values of {by} are drawn, evenly chosen; --where takes one"
+            "{drawn} of the {all} values of {by} are drawn, evenly chosen; --where chooses one"
         ));
     }
 
@@ -96,7 +96,7 @@ pub(super) fn family(table: &Table, chosen: &Chosen) -> Result<Vec<Line>, Failur
     if levels.len() * 3 > chosen.rows.len() && levels.len() > MOST_LINES {
         let name = &table.columns[by].name;
         let message = format!(
-            "{} of {} rows have a {name} of their own: they make no lines",
+            "{} of {} rows have a {name} of their own, so that they form no lines",
             levels.len(),
             chosen.rows.len()
         );
@@ -124,6 +124,6 @@ pub(super) fn ordered(table: &Table, chosen: &Chosen) -> bool {
 fn several(table: &Table, chosen: &Chosen) -> Failure {
     let name = &table.columns[chosen.columns.x].name;
     Failure::usage(format!("several rows of one line have the same {name}")).help(
-        "--by draws a line for each value of a column, --where takes one value; --kind pareto draws points",
+        "--by draws a line for each value of a column, --where chooses one value, --kind pareto draws points",
     )
 }

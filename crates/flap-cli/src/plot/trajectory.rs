@@ -33,7 +33,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         let rates = if let Some(column) = table.columns.iter().position(|column| column.name == rate) {
             table.numbers(column)?.iter().map(|rate| rate.to_degrees() * 1e-3).collect()
         } else {
-            console::say(&format!("the rate of the {name} is that of its samples' differences"));
+            console::say(&format!("the rate of the {name} is computed from differences of its samples"));
             rates(time, values)
         };
         let motion: Vec<(f64, f64)> =

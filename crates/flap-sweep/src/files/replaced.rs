@@ -30,7 +30,10 @@ pub(crate) fn set_aside(results: &Path) -> io::Result<()> {
     let moves = moves(results);
     for (_, to) in &moves {
         if fs::symlink_metadata(to).is_ok() {
-            let message = format!("{} is in the way: the earlier results would wait there", to.display());
+            let message = format!(
+                "{} exists already, and the earlier results would be kept under this name",
+                to.display()
+            );
             return Err(io::Error::new(io::ErrorKind::AlreadyExists, message));
         }
     }

@@ -121,7 +121,7 @@ pub(super) fn read(
             && names.columns.iter().any(|column| column.name == *name)
         {
             diagnostic.help.clear();
-            diagnostic.help("rows measure it when points have run: only [measure] can use it");
+            diagnostic.help("it is measured when a point has run: only [measure] can use it");
         }
     }
     None

@@ -35,7 +35,7 @@ pub(super) fn read(entry: Option<&Entry<'_>>, names: &mut Names, problems: &mut 
                     let diagnostic = formula::report(entry, &error, problems);
                     if unknown.is_some() {
                         diagnostic.help.clear();
-                        diagnostic.help("a measure may use those above it");
+                        diagnostic.help("a measure can use only measures above it");
                     }
                 }
             }
@@ -56,6 +56,6 @@ fn name_is_sound(name: &str, names: &Names) -> bool {
 fn report_name(entry: &Entry<'_>, problems: &mut Problems) {
     problems
         .report(entry.key_span.clone(), format!("a measure cannot be called `{}`", entry.key))
-        .note("names are of letters, digits and _, and not those of parameters, columns or functions")
+        .note("a name has letters, digits and _, and differs from names of parameters, columns and functions")
         .help("give it another name");
 }

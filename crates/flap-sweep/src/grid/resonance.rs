@@ -34,7 +34,10 @@ pub(super) fn read(
     let Some(asked) = asked else {
         if let Some(section) = section {
             problems
-                .report(section.key_span.clone(), "`resonance` without a drive frequency that is to be one")
+                .report(
+                    section.key_span.clone(),
+                    "[resonance] has no effect: the drive frequency is not \"resonance\"",
+                )
                 .help(format!("write {DRIVE_FREQUENCY} = \"{WORD}\" under [params]"));
         }
         return None;

@@ -38,6 +38,7 @@ pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     let unit_start = start + trimmed.len() - unit_text.len();
     let unit_span = unit_start..unit_start + unit_text.len();
     if unit_text.is_empty() && !si_unit.is_empty() {
+        number.shifted(0).map_err(|problem| UnitError { span: start..start + length, problem })?;
         let problem = Problem::NoUnit { wanted: si_unit.to_owned(), usual: table::usual(si_unit) };
         return Err(UnitError { span: start..start + length, problem });
     }

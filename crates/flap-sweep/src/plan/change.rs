@@ -38,7 +38,7 @@ pub enum ChangeError {
     #[error(transparent)]
     TooManyPoints(#[from] TooManyPoints),
     /// The plan has no point of this index, or the indices do not rise.
-    #[error("there is no point {0} behind those before it")]
+    #[error("point {0} is not in the grid, or not in rising order")]
     NoPoint(u64),
     /// The solver takes no such settings.
     #[error("`{0}` is out of its range")]

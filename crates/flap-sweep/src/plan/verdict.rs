@@ -36,7 +36,7 @@ impl Plan {
         let unknown = self.conditions().iter().zip(held).find(|(_, holds)| holds.is_none());
         match unknown {
             Some((condition, _)) => Verdict::Invalid(Invalid::new(format!(
-                "whether it satisfies the condition `{}` cannot be computed",
+                "the condition `{}` cannot be computed",
                 condition.name
             ))),
             None => Verdict::Runs,
@@ -57,11 +57,11 @@ fn computed(plan: &Plan) -> impl Iterator<Item = usize> + '_ {
 fn not_allowed(parameter: &Parameter, value: f64) -> Invalid {
     let Parameter { name, unit, .. } = parameter;
     if value.is_nan() {
-        return Invalid::new(format!("`{name}` comes out as not a number"));
+        return Invalid::new(format!("`{name}` is computed as not a number"));
     }
     let value = format!("{} {unit}", text::float(value));
     let allowed = range(parameter).describe();
-    Invalid::new(format!("`{name}` comes out as {}, but must be {allowed}", value.trim_end()))
+    Invalid::new(format!("`{name}` is computed as {}, but must be {allowed}", value.trim_end()))
 }
 
 /// The numbers that a parameter accepts.

@@ -7,7 +7,7 @@ use flap_core::simulate::Unfinished;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SearchError {
     /// The tolerance (Hz) is not more than zero.
-    #[error("a peak cannot be found to {0} Hz, only to more than zero")]
+    #[error("the tolerance must be more than zero, not {0} Hz")]
     Tolerance(f64),
     /// The stroke is prescribed.
     #[error("stroke_mode is \"prescribed\": such a stroke is the same at every frequency, {0}")]

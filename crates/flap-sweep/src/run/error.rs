@@ -15,7 +15,7 @@ pub enum RunError {
     #[error("the model does not keep its contract: {0}")]
     Model(String),
     /// Rows that another process has computed do not belong here.
-    #[error("rows from elsewhere do not fit: {0}")]
+    #[error("rows of a worker do not fit: {0}")]
     Parcel(String),
     /// The caller that fetches rows from other processes has given up.
     #[error("rows cannot be fetched: {0}")]

@@ -5,6 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::error::RunError;
 use super::queue::Queue;
+use crate::notation::text::count;
 
 /// A worker's hold on the queue: takes units out, hands their outcomes in, and counts those that are missing.
 pub(crate) struct Hand<'a, T> {
@@ -55,7 +56,7 @@ pub(super) fn work<T>(queue: &Queue<'_, T>, units: &(dyn Fn(&mut Hand<'_, T>) + 
         (Ok(()), None, 0) => Ok(()),
         (Ok(()), None, _) if queue.is_cancelled() => Ok(()),
         (Ok(()), None, lost) => {
-            Err(RunError::Model(format!("it returned without the rows of {lost} points")))
+            Err(RunError::Model(format!("it returned without the rows of {}", count(lost, "point"))))
         }
     };
     queue.leave(outcome);

@@ -131,7 +131,9 @@ fn check(parcel: &Parcel, identity: &Identity, ledger: &Ledger<'_>, plan: &Plan)
     let (begin, done) = (parcel.begin, ledger.done());
     let end = begin.saturating_add(parcel.len());
     if begin != done || parcel.is_empty() || end > ledger.units() {
-        return Err(RunError::Parcel(format!("points {begin} to {end} came where {done} was next")));
+        return Err(RunError::Parcel(format!(
+            "points {begin} to {end} came, but point {done} was expected next"
+        )));
     }
     let is_condition = |condition: &usize| *condition < plan.conditions().len();
     let excluded = parcel.finished.iter().filter_map(|finished| match finished {

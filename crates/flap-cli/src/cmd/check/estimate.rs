@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{Jobs, Point, Row, Status};
+use flap_sweep::notation::text::count;
 use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::run::RunOptions;
 use flap_sweep::study::survey::spread;
@@ -32,18 +33,15 @@ pub(super) struct Estimate {
 /// Runs a few points of `plan` to estimate a sweep of `points` points.
 pub(super) fn of(plan: &Plan, points: u64) -> Estimate {
     let started = Instant::now();
-    let mut trial = Trial { plan, started, looked_at: 0, begun: 0, valid: 0, invalid: 0, first_reason: None };
+    let mut trial = Trial { plan, started, looked_at: 0, begun: 0, valid: 0, first_reason: None };
     plan.rows().run(InstructionSet::best(), plan.solver(), &mut trial);
     let elapsed = started.elapsed();
     let is_over = elapsed < LONGEST;
     let ran = trial.begun;
-    if let Trial { valid: 0, invalid, first_reason: Some((index, reason)), .. } = trial
+    if let Trial { valid: 0, first_reason: Some((index, reason)), .. } = trial
         && is_over
     {
-        let text = format!(
-            "every point that was looked at is invalid ({invalid} of {}): point {index}: {reason}",
-            plan.len()
-        );
+        let text = format!("all points that were tried are invalid, such as point {index}: {reason}");
         return Estimate { invalid: Some(text), time: None };
     }
     if ran == 0 {
@@ -53,8 +51,11 @@ pub(super) fn of(plan: &Plan, points: u64) -> Estimate {
     let seconds = elapsed.as_secs_f64() / ran as f64 * points as f64 / (threads as f64).min(points as f64);
     let bound = if is_over { "" } else { "more than " };
     let time = words(seconds);
-    let time =
-        format!("estimate: {bound}{time} on {threads} threads, judged by {ran} points spread over the grid");
+    let time = format!(
+        "estimate: {bound}{time} on {}, from runs of {} spread over the grid",
+        count(threads as u64, "thread"),
+        count(ran, "point")
+    );
     Estimate { invalid: None, time: Some(time) }
 }
 
@@ -67,15 +68,13 @@ struct Trial<'a> {
     begun: u64,
     /// Number of valid points.
     valid: u64,
-    /// Number of invalid points; index and reason of the first one follow.
-    invalid: u64,
+    /// Index and reason of the first invalid point.
     first_reason: Option<(u64, String)>,
 }
 
 impl Trial<'_> {
-    /// Counts an invalid point, the checked point number `number`.
+    /// Notes an invalid point, the checked point number `number`.
     fn note_invalid(&mut self, number: u64, reason: String) {
-        self.invalid += 1;
         let index = spread(number, self.plan.len());
         self.first_reason.get_or_insert((index, reason));
     }

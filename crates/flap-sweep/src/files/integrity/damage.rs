@@ -77,22 +77,22 @@ impl fmt::Display for Damage {
             told.push("its checksums cannot be read".to_owned());
         }
         if self.header {
-            told.push("its header is not as it was written".to_owned());
+            told.push("its header has changed".to_owned());
         }
         if !self.rows.is_empty() {
-            told.push(format!("rows {} are not as they were written", listed(&self.rows)));
+            told.push(format!("rows {} have changed since they were written", listed(&self.rows)));
         }
         if let Some((found, written)) = self.count {
-            told.push(format!("it holds {found} rows, {written} were written"));
+            told.push(format!("it holds {found} rows, but {written} were written"));
         }
         if let Some(reason) = &self.unreadable {
-            told.push(format!("what follows cannot be read ({reason})"));
+            told.push(format!("the rest cannot be read ({reason})"));
         }
         if self.altered {
-            told.push("it is not as the sweep left it".to_owned());
+            told.push("it has changed since the sweep wrote it".to_owned());
         }
         if self.bytes && told.is_empty() {
-            told.push("its rows are as they were written, but other bytes of the file are not".to_owned());
+            told.push("its rows are unchanged, but other bytes of the file have changed".to_owned());
         }
         f.write_str(&told.join("; "))
     }

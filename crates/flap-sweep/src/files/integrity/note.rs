@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::Damage;
+use crate::notation::text::count;
 
 /// A note on results for the user.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -49,7 +50,7 @@ pub enum Unverified {
 
 fn so_far(done: Option<u64>) -> String {
     match done {
-        Some(done) => format!("{done} points are done so far, `flap resume` continues it"),
+        Some(done) => format!("{} done so far, `flap resume` continues it", count(done, "point")),
         None => "there are fewer rows than points to be run".to_owned(),
     }
 }

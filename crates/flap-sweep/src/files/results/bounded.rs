@@ -28,7 +28,7 @@ impl<R: Read> Read for Bounded<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         if self.since_line > LONGEST_LINE {
             let message =
-                format!("a line is longer than {} MiB: this is no table of numbers", LONGEST_LINE >> 20);
+                format!("a line is longer than {} MiB: this is not a table of numbers", LONGEST_LINE >> 20);
             // The kind of this error is one that readers of damaged lines do not skip: nothing behind it can be read.
             return Err(io::Error::other(message));
         }

@@ -20,7 +20,7 @@ pub enum RowsError {
     #[error(transparent)]
     Read(#[from] io::Error),
     /// The file has other columns.
-    #[error("its columns are not those of the grid that its sidecar holds")]
+    #[error("its columns differ from those of the grid in its sidecar")]
     Columns,
     /// A row is not the next one of the plan.
     #[error(transparent)]

@@ -8,6 +8,7 @@ use csv::StringRecord;
 
 use super::{Bounded, Format, text};
 use crate::files::csv_sink::cause;
+use crate::notation::text::count;
 
 /// Reads the rows of a result file in their order.
 pub struct Reader {
@@ -35,11 +36,12 @@ impl Missed {
 impl fmt::Display for Missed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.rows > 0 {
-            write!(f, "{} lines are no rows, and are left out", self.rows)?;
+            let are = if self.rows == 1 { "is not a row and is" } else { "are not rows and are" };
+            write!(f, "{} {are} left out", count(self.rows, "line"))?;
         }
         if let Some(reason) = &self.rest {
             let between = if self.rows > 0 { "; " } else { "" };
-            write!(f, "{between}what follows the last row that was read is left out ({reason})")?;
+            write!(f, "{between}everything behind the last readable row is left out ({reason})")?;
         }
         Ok(())
     }

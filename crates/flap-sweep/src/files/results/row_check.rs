@@ -38,7 +38,7 @@ pub enum RowError {
         columns: usize,
     },
     /// A cell does not fit its column.
-    #[error("row {row}: `{cell}` does not belong into column {column}")]
+    #[error("row {row}: `{cell}` does not fit column {column}")]
     Cell {
         /// Number of the row.
         row: u64,
@@ -56,7 +56,7 @@ pub enum RowError {
         status: String,
     },
     /// The plan does not select the point.
-    #[error("row {row} is of point `{point}`, which is none of the points that were run")]
+    #[error("row {row} is of point `{point}`, which was not run")]
     Point {
         /// Number of the row.
         row: u64,
@@ -82,7 +82,7 @@ pub enum RowError {
         missing: u64,
     },
     /// The file has another number of rows than were written.
-    #[error("it holds {found} rows, {written} were written")]
+    #[error("it holds {found} rows, but {written} were written")]
     Count {
         /// Number of rows in the file.
         found: u64,

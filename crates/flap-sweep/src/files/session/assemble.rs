@@ -27,7 +27,10 @@ pub(super) fn assemble(
     }
     let checksums = writer.finish()?;
     if checksums.text != text {
-        return Err(io::Error::other(format!("the rows in {} are not those written", part.display())));
+        return Err(io::Error::other(format!(
+            "the rows in {} have changed since they were written",
+            part.display()
+        )));
     }
     Ok(checksums)
 }

@@ -46,7 +46,7 @@ pub enum ResumeError {
         changes: Vec<String>,
     },
     /// Another program has written to the results.
-    #[error("{} cannot be resumed: it is not as the sweep left it", .0.display())]
+    #[error("{} cannot be resumed: it has changed since the sweep wrote it", .0.display())]
     Altered(PathBuf),
 }
 

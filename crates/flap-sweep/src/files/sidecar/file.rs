@@ -111,7 +111,7 @@ impl Sidecar {
         if sidecar.build.is_empty() && sidecar.checksums.is_none() {
             Ok(sidecar)
         } else {
-            Err(ParseError::Damaged("its first line should be its checksum, and is not"))
+            Err(ParseError::Damaged("its first line is not its checksum"))
         }
     }
 

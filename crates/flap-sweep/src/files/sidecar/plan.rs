@@ -19,13 +19,13 @@ pub enum PlanError {
     #[error("the grid in it has mistakes")]
     Grid(Mistakes),
     /// The grid file in it has another hash than the one that was run.
-    #[error("the grid in it is not the one that was run: it was edited")]
+    #[error("the grid in it was edited after the sweep")]
     GridText,
     /// The points in it are not points of the grid.
     #[error("its points are not points of its grid")]
     Points,
     /// The solver settings in it are outside the limits of a grid file.
-    #[error("its solver settings are not ones that a grid may have")]
+    #[error("its solver settings are outside the limits of a grid file")]
     Solver,
     /// The file of points has changed.
     #[error("{} no longer holds the points that were run", .0.as_deref().unwrap_or("its file of points"))]

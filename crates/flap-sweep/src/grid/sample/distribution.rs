@@ -83,7 +83,7 @@ impl Reader<'_, '_> {
             None => 0,
         };
         let (Some(from), Some(to)) = (from.ok()?, to.ok()?) else {
-            let message = format!("the distribution of `{}` has no two ends and no `sd`", self.whole.key);
+            let message = format!("the distribution of `{}` needs `from` and `to`, or `sd`", self.whole.key);
             self.problems.report(self.whole.value.span(), message).note(NOTE);
             return None;
         };

@@ -53,7 +53,7 @@ impl Along {
             (None, None) => {
                 let help = "give the first value, the last and the step, or a grid file with an axis of its own for the \
                             parameter";
-                return Err(AlongError::new(format!("how `{name}` rises is not known"), help));
+                return Err(AlongError::new(format!("the values of `{name}` are not given"), help));
             }
         };
         let shortest = values.windows(2).map(|two| two[1] - two[0]).fold(f64::INFINITY, f64::min);
@@ -94,8 +94,8 @@ fn steps(name: &str, [from, to, step]: [f64; 3]) -> Result<Vec<f64>, AlongError>
     // A last step that is short by rounding alone is a step.
     let whole = ((to - from) / step + 1e-9).floor();
     if !(step > 0.0 && (1.0..MOST_VALUES).contains(&whole)) {
-        let message = format!("there are no steps of {step} in `{name}` from {from} to {to}");
-        let help = "the first value less than the last by one step or more, up to a million";
+        let message = format!("`{name}` cannot rise from {from} to {to} in steps of {step}");
+        let help = "the last value must be larger than the first, by one step to a million steps";
         return Err(AlongError::new(message, help));
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to a million")]
@@ -110,7 +110,7 @@ fn rising(name: &str, axis: &Values) -> Result<Vec<f64>, AlongError> {
     values.sort_by(f64::total_cmp);
     values.dedup();
     if values.len() < 2 {
-        let message = format!("the axis of `{name}` has one value: nothing rises and falls");
+        let message = format!("the axis of `{name}` has one value, so that it cannot rise and fall");
         return Err(AlongError::new(message, ""));
     }
     Ok(values)

@@ -68,7 +68,7 @@ impl Cells {
             (Some(Cell::Flag(Some(value))), Values::Flag(values)) => values.push(value),
             (Some(Cell::Text(value)), Values::Text(values)) => values.push(ByteArray::from(value)),
             _ => {
-                let message = format!("`{cell}` does not belong into column {}", self.column.name);
+                let message = format!("`{cell}` does not fit column {}", self.column.name);
                 return Err(io::Error::new(io::ErrorKind::InvalidData, message));
             }
         }

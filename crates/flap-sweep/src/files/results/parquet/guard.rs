@@ -27,7 +27,7 @@ pub(super) fn guarded<T>(decode: impl FnOnce() -> io::Result<T>) -> io::Result<T
     decoded.unwrap_or_else(|_| {
         Err(io::Error::new(
             io::ErrorKind::InvalidData,
-            "it cannot be decoded: it is damaged, or no file of this format",
+            "it cannot be decoded: it is damaged, or not a file of this format",
         ))
     })
 }
