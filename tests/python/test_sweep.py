@@ -292,7 +292,7 @@ def test_unfinished_results_are_read_with_a_warning(tmp_path):
 
     with pytest.raises(KeyboardInterrupt):
         flapwing.sweep(QUICK.replace("n = 26", "n = 20001"), out=path, threads=1, progress=stop)
-    with pytest.warns(UserWarning, match=r"rows.csv is unfinished: \d+ points are done so far"):
+    with pytest.warns(UserWarning, match=r"rows.csv is unfinished: \d+ points done so far"):
         table = flapwing.read(path)
     assert 0 < len(table) < 20001 and table.meta["verified"] is False
 

@@ -11,9 +11,6 @@ use super::options::{Aim, ReadArgs};
 #[derive(clap::Args)]
 #[command(after_help = TOP_HELP)]
 pub(crate) struct TopArgs {
-    #[command(flatten)]
-    pub(crate) look: LookArgs,
-
     /// Column by which rows are ranked
     #[arg(long, value_name = "COLUMN")]
     pub(crate) by: String,
@@ -25,6 +22,9 @@ pub(crate) struct TopArgs {
     /// More columns to list, separated by commas
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     pub(crate) columns: Vec<String>,
+
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
 }
 
 const TOP_HELP: &str = "\
@@ -41,9 +41,6 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_help = DESCRIBE_HELP)]
 pub(crate) struct DescribeArgs {
-    #[command(flatten)]
-    pub(crate) look: LookArgs,
-
     /// Measures for which the best values of each axis are listed, separated by commas [default: lift_mean_mn and
     /// efficiency_gf_per_w, or the first measure of a file that has neither]
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
@@ -52,6 +49,9 @@ pub(crate) struct DescribeArgs {
     /// Columns whose percentiles are listed, separated by commas [default: all behind the parameters]
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     pub(crate) columns: Vec<String>,
+
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
 }
 
 const DESCRIBE_HELP: &str = "\

@@ -46,7 +46,7 @@ pub(crate) struct RespondArgs {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// Go on if the run was interrupted; start it if there are no results, do nothing if they are complete
+    /// Continue the run if it was interrupted, start it if there are no results, do nothing if they are complete
     #[arg(long, requires = "out", conflicts_with = "force")]
     pub(crate) resume: bool,
 
@@ -63,10 +63,10 @@ motion of the point before it. Where the way up and the way down settle to diffe
 the ends of such bands are located by halving steps. One line per design summarizes its response; it goes to stdout, \
 with --out - to stderr.
 
-Rows leave in the order of the designs, a whole curve at a time. Ctrl-C and SIGTERM leave the curves in hand half a \
-second, keep the rows and exit with 130; a second one exits at once. Beside FILE, FILE.meta.toml records the command's \
-options. Until all curves are there, FILE.journal records the progress, so that `flap resume FILE` can go on, whatever \
-ended it.
+Rows leave in the order of the designs, a whole curve at a time. Ctrl-C and SIGTERM give the running curves half a \
+second to finish, keep the rows and exit with 130; a second one exits at once. Beside FILE, FILE.meta.toml records the command's \
+options. Until all curves are there, FILE.journal records the progress, so that `flap resume FILE` can continue the run, \
+whatever ended it.
 
 Examples:
   flap respond jafferis2016 --from '60 Hz' --to '200 Hz' --step '1 Hz'
