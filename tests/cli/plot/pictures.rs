@@ -171,8 +171,27 @@ fn slices_are_told() {
         .says("drawn: drive_frequency=110.0, the middle of 4 values; --where chooses another")
         .has(&["Drive frequency 110 Hz · 2 of 3 points without a value"]);
     let picture = drawn(&folder, &format!("{sliced} --where drive_frequency=0.12kHz"));
-    assert!(!picture.said.contains("slice"), "{}", picture.said);
+    assert!(!picture.said.contains("drawn:"), "{}", picture.said);
     picture.has(&["Drive frequency 0.12kHz"]);
+}
+
+/// Comparisons leave rows out before anything is drawn.
+#[test]
+fn comparisons_choose_rows() {
+    let folder = folder();
+    let lines = "sweep.csv --x drive_frequency --y lift_mean_mn --by drive_voltage_pp";
+    drawn(&folder, lines).has(&["60", "80", "100"]);
+    assert!(folder.read("out.svg").contains(">60<"));
+    let fewer = drawn(&folder, &format!("{lines} --where drive_voltage_pp>70"));
+    fewer.has(&["80", "100"]);
+    assert!(!folder.read("out.svg").contains(">60<"), "no line of 60 V");
+    let ended = folder.flap(&format!("plot {lines} --where lift_mean_mn>1e9 --out none.svg"));
+    assert_eq!(ended.code, 2);
+    ended.says("error: no row of sweep.csv satisfies --where\n");
+    folder
+        .ends(2, &format!("plot {lines} --where lift_men_mn>1 --out none.svg"))
+        .says("did you mean `lift_mean_mn`?");
+    assert!(!folder.path("none.svg").exists());
 }
 
 #[test]

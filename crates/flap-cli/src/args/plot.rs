@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
+use super::filter::{Filter, filter};
 use super::options::{Aim, OverwriteArgs, ReadArgs};
-use super::values::assignment;
 
 #[derive(clap::Args)]
 #[command(after_help = PLOT_HELP)]
@@ -43,10 +43,11 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_name = "COLUMN")]
     pub(crate) color: Option<String>,
 
-    /// Draw only the rows with this value: a number as in the file, a number with a unit, or a word. May be repeated.
-    /// An axis of the sweep that the picture does not show is fixed at its middle value, unless it is named here
-    #[arg(long = "where", value_name = "COLUMN=VALUE", value_parser = assignment)]
-    pub(crate) filters: Vec<(String, String)>,
+    /// Draw only the rows with this value (a number as in the file, a number with a unit, or a word), or for which this
+    /// comparison holds: 'lift_mean_mn > 1 and cycles < 100'. May be repeated. An axis of the sweep that the picture does
+    /// not show is fixed at its middle value, unless its value is given here
+    #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
+    pub(crate) filters: Vec<Filter>,
 
     /// The better direction of x in a Pareto picture [default: min for power, current, strain, field, drag and force,
     /// max for other columns]
@@ -70,6 +71,22 @@ pub(crate) struct PlotArgs {
 
     #[command(flatten)]
     pub(crate) overwrite: OverwriteArgs,
+}
+
+impl PlotArgs {
+    /// The columns that must have a value, with it.
+    pub(crate) fn values(&self) -> Vec<(String, String)> {
+        let value = |filter: &Filter| match filter {
+            Filter::Equal(name, value) => Some((name.clone(), value.clone())),
+            Filter::Comparison(_) => None,
+        };
+        self.filters.iter().filter_map(value).collect()
+    }
+
+    /// The comparisons that rows must satisfy.
+    pub(crate) fn comparisons(&self) -> Vec<Filter> {
+        self.filters.iter().filter(|filter| matches!(filter, Filter::Comparison(_))).cloned().collect()
+    }
 }
 
 /// The kind of a picture.

@@ -71,19 +71,31 @@ impl Source {
         Ok(found)
     }
 
-    /// Reads the rows, with the cells of `wanted` columns. Of a file with more than `most` rows, it keeps every second row,
-    /// or every fourth, and so on.
+    /// Reads the rows that `keep` keeps, of which there must be some, as [`Source::read_kept`] does.
     #[cfg(feature = "plots")]
-    pub(crate) fn read(self, wanted: impl Fn(usize) -> bool, most: usize) -> Result<Table, Failure> {
+    pub(crate) fn read(
+        self,
+        wanted: impl Fn(usize) -> bool,
+        most: usize,
+        keep: impl FnMut(&StringRecord) -> Result<bool, Failure>,
+    ) -> Result<Table, Failure> {
         let name = self.path.display().to_string();
-        let table = self.read_kept(wanted, most, |_| Ok(true))?;
+        let (mut rows, mut keep) = (0_u64, keep);
+        let table = self.read_kept(wanted, most, |row| {
+            rows += 1;
+            keep(row)
+        })?;
+        if table.rows == 0 && rows > 0 {
+            return Err(Failure::usage(format!("no row of {name} satisfies --where")));
+        }
         if table.rows == 0 {
             return Err(Failure::usage(format!("{name} has no rows: there is nothing to draw")));
         }
         Ok(table)
     }
 
-    /// Reads the rows that `keep` keeps, as [`Source::read`] does.
+    /// Reads the rows that `keep` keeps, with the cells of `wanted` columns. Of more than `most` such rows, it holds every second
+    /// one, or every fourth, and so on.
     pub(crate) fn read_kept(
         mut self,
         wanted: impl Fn(usize) -> bool,

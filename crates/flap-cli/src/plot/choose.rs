@@ -2,7 +2,7 @@
 
 use super::chosen::{Chosen, Columns};
 use super::slices::{self, Taken};
-use crate::args::{Aim, PictureKind, PlotArgs};
+use crate::args::{Aim, Filter, PictureKind, PlotArgs};
 use crate::console;
 use crate::data::axes::Axes;
 use crate::data::columns::Table;
@@ -30,6 +30,8 @@ pub(super) struct Wishes<'a> {
     pub(super) y: Option<usize>,
     by: Option<usize>,
     color: Option<usize>,
+    /// Columns that must have a value, with it and with their place.
+    values: Vec<(String, String)>,
     filters: Vec<usize>,
     /// The end of the leading parameters: the place of `status`, or of `branch`.
     pub(super) end: usize,
@@ -42,7 +44,8 @@ impl<'a> Wishes<'a> {
         let names = source.names().to_vec();
         let place = |name: &str| names.iter().position(|known| known == name);
         let end = place("branch").or_else(|| place("status")).unwrap_or(0);
-        let filters = args.filters.iter().map(|(name, _)| source.find(name)).collect::<Result<_, _>>()?;
+        let values = args.values();
+        let filters = values.iter().map(|(name, _)| source.find(name)).collect::<Result<_, _>>()?;
         Ok(Wishes {
             x: find(&args.x)?,
             y: find(&args.y)?,
@@ -50,6 +53,7 @@ impl<'a> Wishes<'a> {
             color: find(&args.color)?,
             args,
             names,
+            values,
             filters,
             end,
         })
@@ -69,17 +73,20 @@ impl<'a> Wishes<'a> {
 
     /// Chooses kind, columns and rows.
     pub(super) fn choose(&self, table: &Table, title: String) -> Result<Chosen, Failure> {
-        let rows = slices::filtered(table, &self.args.filters)?;
+        let rows = slices::filtered(table, &self.values)?;
         let axes = Axes::of(table, self.end);
         let columns = self.columns(&axes)?;
         let Columns { kind, x, y, by, .. } = columns;
         let label = |column: usize| table.label(column);
-        let mut notes: Vec<String> = (self.filters.iter().zip(&self.args.filters))
+        let mut notes: Vec<String> = (self.filters.iter().zip(&self.values))
             .map(|(&column, (_, value))| match value.parse() {
                 Ok(number) => format!("{} {}", label(column).words, label(column).value(number)),
                 Err(_) => format!("{} {value}", label(column).words),
             })
             .collect();
+        notes.extend(self.args.comparisons().into_iter().map(|filter| match filter {
+            Filter::Comparison(text) | Filter::Equal(_, text) => text,
+        }));
         let rows = if matches!(kind, PictureKind::Pareto | PictureKind::Trajectory) {
             rows
         } else {

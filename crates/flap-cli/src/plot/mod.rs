@@ -31,6 +31,7 @@ use kuva::render::render::Scene;
 use crate::args::{PictureKind, PlotArgs, Size};
 use crate::cmd::outputs;
 use crate::data::columns::Table;
+use crate::data::filter::Filters;
 use crate::data::source::Source;
 use crate::failure::{Exit, Failure};
 use crate::{console, job};
@@ -62,7 +63,8 @@ fn picture(args: &PlotArgs, out: &Path) -> Result<(), Failure> {
     let format = encode::format(out)?;
     let source = Source::open(&args.results, &args.read, true)?;
     let wishes = Wishes::of(&source, args)?;
-    let table = source.read(|column| wishes.wants(column), usize::MAX)?;
+    let filters = Filters::of(&args.comparisons(), &source)?;
+    let table = source.read(|column| wishes.wants(column), usize::MAX, |row| filters.keep(row))?;
     let chosen = wishes.choose(&table, heading(args))?;
     let scene = draw(&table, &chosen, args.size)?;
     let bytes = encode::bytes(scene, format).map_err(Failure::Bug)?;

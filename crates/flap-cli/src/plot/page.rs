@@ -12,6 +12,7 @@ use crate::args::{Aim, PictureKind, PlotArgs};
 use crate::console;
 use crate::data::axes::Axes;
 use crate::data::columns::{Cells, Table};
+use crate::data::filter::Filters;
 use crate::data::source::Source;
 use crate::failure::Failure;
 
@@ -26,7 +27,8 @@ const MOST_ROWS: usize = 1 << 17;
 pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String, Failure> {
     let source = Source::open(&args.results, &args.read, tells)?;
     let wishes = Wishes::of(&source, args)?;
-    let table = source.read(|_| true, MOST_ROWS)?;
+    let comparisons = Filters::of(&args.comparisons(), &source)?;
+    let table = source.read(|_| true, MOST_ROWS, |row| comparisons.keep(row))?;
     let axes = Axes::of(&table, wishes.end);
     let start = start(&wishes, &table, &axes, args)?;
     if table.of > table.rows {
@@ -54,8 +56,8 @@ pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String
 
 /// The first view: that of the picture with the same arguments, if there is one.
 fn start(wishes: &Wishes, table: &Table, axes: &Axes, args: &PlotArgs) -> Result<Start, Failure> {
-    let filters = (args.filters.iter())
-        .map(|(name, text)| Ok((name.clone(), filter(table, name, text)?)))
+    let filters = (args.values().into_iter())
+        .map(|(name, text)| Ok((name.clone(), filter(table, &name, &text)?)))
         .collect::<Result<BTreeMap<_, _>, Failure>>()?;
     let columns = match wishes.columns(axes) {
         Ok(columns) => columns,
