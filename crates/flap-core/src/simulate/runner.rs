@@ -13,10 +13,12 @@ use super::request::{
     ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, Trajectory, TrajectoryRequest,
 };
 use super::row::Row;
+use super::sampler;
 use super::settings::SolverSettings;
 use super::settle::RowFrom;
 use super::simulator::{Experiments, Motions, Rows, Simulator};
 use super::single::{PointRun, ask};
+use super::trajectory::TrajectoryFrom;
 use crate::drive::Samples;
 use crate::model::{self, Model};
 use crate::modes::Mode;
@@ -212,8 +214,21 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Motions for
         ask::<M, _, N, K, S>(&self.model, run, GradientAt { state, changes })
     }
 
-    fn trajectory(&self, run: &PointRun<'_>, request: &TrajectoryRequest) -> Result<Trajectory, Unfinished> {
-        ask::<M, _, N, K, S>(&self.model, run, request)
+    fn states(&self) -> &'static [&'static str] {
+        &M::STATES
+    }
+
+    fn meanings(&self) -> Vec<String> {
+        sampler::meanings::<M, N, S>()
+    }
+
+    fn trajectory_from(
+        &self,
+        run: &PointRun<'_>,
+        begin: Option<&[f64]>,
+        request: &TrajectoryRequest,
+    ) -> Result<Trajectory, Unfinished> {
+        ask::<M, _, N, K, S>(&self.model, run, TrajectoryFrom { begin, request })
     }
 }
 

@@ -123,6 +123,14 @@ pub(super) fn columns<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<S
     columns
 }
 
+/// The meanings of the columns of a trajectory, in their order.
+pub(super) fn meanings<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<String> {
+    let mut meanings = vec!["time since the beginning of the motion".to_owned()];
+    meanings.extend(M::STATES.iter().map(|name| format!("state {name} of the equations of motion")));
+    meanings.extend(M::SIGNALS.iter().filter(|signal| signal.is_shown()).map(|signal| signal.doc.to_owned()));
+    meanings
+}
+
 /// One row of a trajectory, at `t` within a cycle and `time` since the beginning (s).
 fn sample<M, R, const N: usize, const S: usize>(
     model: &M,

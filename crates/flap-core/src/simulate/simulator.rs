@@ -78,6 +78,12 @@ pub trait Simulator: Rows {
 /// together, with [`Unfinished::Request`] if the request is impossible, and with [`Unfinished::Diverged`] or
 /// [`Unfinished::StepLimit`] if the motion fails on the way.
 pub trait Motions: Sync {
+    /// Names of the states with their units, in the order of a state: the columns of a trajectory behind `time_s`.
+    fn states(&self) -> &'static [&'static str];
+
+    /// The meaning of each column of a trajectory in one line, in the order of the columns.
+    fn meanings(&self) -> Vec<String>;
+
     /// Follows one point for one drive period from the state `begin`, whether the motion repeats or not.
     ///
     /// # Errors
@@ -98,7 +104,21 @@ pub trait Motions: Sync {
     /// # Errors
     /// As [`Motions`] says; [`Unfinished::NotPeriodic`] if a settled motion is asked for and there is none of one drive
     /// period.
-    fn trajectory(&self, run: &PointRun<'_>, request: &TrajectoryRequest) -> Result<Trajectory, Unfinished>;
+    fn trajectory(&self, run: &PointRun<'_>, request: &TrajectoryRequest) -> Result<Trajectory, Unfinished> {
+        self.trajectory_from(run, None, request)
+    }
+
+    /// Samples the motion of one point that begins in the state `begin` at the start of a drive period, or at rest. A settled
+    /// motion is the one that it approaches from there.
+    ///
+    /// # Errors
+    /// As [`Motions::trajectory`]; [`Unfinished::Request`] if `begin` is not one finite number for each state.
+    fn trajectory_from(
+        &self,
+        run: &PointRun<'_>,
+        begin: Option<&[f64]>,
+        request: &TrajectoryRequest,
+    ) -> Result<Trajectory, Unfinished>;
 }
 
 /// Experiments on single points, with another drive or motion in place of the point's own.

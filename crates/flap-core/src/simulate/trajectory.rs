@@ -1,5 +1,6 @@
 //! The motion of one point over time, sampled.
 
+use super::begin::begin;
 use super::error::Unfinished;
 use super::request::{Trajectory, TrajectoryRequest};
 use super::sampler::sampled;
@@ -9,16 +10,24 @@ use super::status::Status;
 use crate::model::Model;
 use crate::num::Scalar;
 
+/// The motion of a point that begins in this state, or at rest.
+pub(super) struct TrajectoryFrom<'a> {
+    pub(super) begin: Option<&'a [f64]>,
+    pub(super) request: &'a TrajectoryRequest,
+}
+
 impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M, N, K, S>
-    for &TrajectoryRequest
+    for TrajectoryFrom<'_>
 {
     type Answer = Result<Trajectory, Unfinished>;
 
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Trajectory, Unfinished> {
         let PointRun { solver, values, interrupted, .. } = *run;
-        let mut start = model.start(values)?;
-        if self.settled {
-            let Settled { search, row } = settle::<M, R, N, K, S>(model, solver, &start, false, interrupted);
+        let TrajectoryRequest { cycles, samples_per_cycle, settled } = *self.request;
+        let mut start = begin(model, values, self.begin)?;
+        if settled {
+            let nearby = self.begin.is_some();
+            let Settled { search, row } = settle::<M, R, N, K, S>(model, solver, &start, nearby, interrupted);
             if interrupted() {
                 return Err(Unfinished::Interrupted);
             }
@@ -29,6 +38,6 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M,
             };
             start = search.from(&start, &orbit);
         }
-        sampled::<M, R, N, S>(model, solver, &start, self.cycles, self.samples_per_cycle, interrupted)
+        sampled::<M, R, N, S>(model, solver, &start, cycles, samples_per_cycle, interrupted)
     }
 }
