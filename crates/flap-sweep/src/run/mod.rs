@@ -31,6 +31,6 @@ pub(crate) use hand::Hand;
 pub(crate) use ledger::Ledger;
 pub use options::RunOptions;
 pub use parcel::{Parcel, feed, part};
-pub use points::{resume, run};
+pub use points::{alone, resume, run};
 pub use progress::Progress;
 pub use summary::{Counts, Doubts, Summary};

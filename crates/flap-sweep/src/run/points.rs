@@ -4,7 +4,7 @@ use std::io;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
-use flap_core::simulate::{Jobs, Point, Row, Status};
+use flap_core::simulate::{Interrupt, Jobs, Point, PointRun, Row, Status};
 
 use super::error::RunError;
 use super::finished::Finished;
@@ -55,6 +55,59 @@ pub fn resume(
     ledger.ledger.end(worked)
 }
 
+/// Runs the selected points of `plan` one after another on the calling thread, on scalars. The rows are those of [`run`]: for
+/// a few points they come sooner, since no thread starts and no lanes stay empty.
+///
+/// # Errors
+/// [`RunError`] as of [`run`]. Once `interrupted` says so, the rows written are those of the first points.
+pub fn alone(
+    plan: &Plan,
+    options: &RunOptions,
+    sink: &mut dyn Sink,
+    interrupted: Interrupt<'_>,
+) -> Result<Summary, RunError> {
+    let mut ledger = PointLedger::begin(plan, Summary::default(), sink)?;
+    for position in ledger.ledger.remaining() {
+        let finished = match taken(plan, position) {
+            Ok(point) => {
+                let run = PointRun::new(options.instructions, plan.solver(), &point.values);
+                let row = plan.rows().run_point(&run.until(interrupted), point.begin.as_deref());
+                if interrupted() {
+                    break;
+                }
+                completed(plan, position, row).map_err(RunError::Model)?
+            }
+            Err(finished) => finished,
+        };
+        ledger.take([finished])?;
+    }
+    ledger.ledger.end(Ok(()))
+}
+
+/// The point at `position` among the selected ones, or its outcome if it is not run.
+fn taken(plan: &Plan, position: u64) -> Result<Point, Finished> {
+    let point = plan.selected_point(position);
+    match plan.judge(&point.values) {
+        // The model hands the index back and has no other use for it: rows are put in order by position.
+        Verdict::Runs => Ok(Point { index: position, ..point }),
+        Verdict::Excluded(unsatisfied) => Err(Finished::Excluded(unsatisfied)),
+        Verdict::Invalid(invalid) => Err(Finished::Row(Row::invalid(invalid))),
+    }
+}
+
+/// The outcome of a point with the row of the model, or the model's mistake.
+fn completed(plan: &Plan, position: u64, mut row: Row) -> Result<Finished, String> {
+    let expected = if row.status == Status::Periodic { plan.rows().columns().len() } else { 0 };
+    if row.measures.len() != expected {
+        let found = row.measures.len();
+        return Err(format!("it returned {found} measures, not {expected}, for point {position}"));
+    }
+    if !plan.measures().is_empty() && position < plan.selected() {
+        plan.add_own_measures(&plan.selected_point(position).values, &mut row.measures);
+    }
+    Ok(Finished::Row(row))
+}
+
 /// Runs the points at these positions among the selected ones, on all threads, and hands their outcomes to `take`, in
 /// order.
 pub(super) fn work(
@@ -65,11 +118,20 @@ pub(super) fn work(
     take: &mut dyn FnMut(&mut Vec<Finished>) -> Result<(), RunError>,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(), RunError> {
+    let few = (positions.end - positions.start).div_ceil(options.threads.get() as u64) <= FEW;
     let worker = |hand: &mut Hand<'_, Finished>| {
-        plan.rows().run(options.instructions, plan.solver(), &mut Points { plan, hand });
+        let mut points = Points { plan, hand };
+        if few && plan.resonance().is_none() {
+            points.run_singly(options);
+        } else {
+            plan.rows().run(options.instructions, plan.solver(), &mut points);
+        }
     };
     ordered::run(positions, options, stop, &worker, take, progress)
 }
+
+/// Points per thread that run sooner one after another on scalars than side by side in lanes, most of which they leave empty.
+const FEW: u64 = 2;
 
 /// The points of a plan, as the model sees the queue.
 struct Points<'a, 'q> {
@@ -77,31 +139,37 @@ struct Points<'a, 'q> {
     hand: &'a mut Hand<'q, Finished>,
 }
 
+impl Points<'_, '_> {
+    /// Runs points one after another on scalars.
+    fn run_singly(&mut self, options: &RunOptions) {
+        while let Some(point) = self.next(true) {
+            let cancelled = || self.hand.is_cancelled();
+            let run = PointRun::new(options.instructions, self.plan.solver(), &point.values);
+            let row = self.plan.rows().run_point(&run.until(&cancelled), point.begin.as_deref());
+            if self.hand.is_cancelled() {
+                break;
+            }
+            self.done(point.index, row);
+        }
+    }
+}
+
 impl Jobs for Points<'_, '_> {
     fn next(&mut self, idle: bool) -> Option<Point> {
         loop {
             let position = self.hand.next(idle)?;
-            let point = self.plan.selected_point(position);
-            match self.plan.judge(&point.values) {
-                // The model hands the index back and has no other use for it: rows are put in order by position.
-                Verdict::Runs => return Some(Point { index: position, ..point }),
-                Verdict::Excluded(unsatisfied) => self.hand.done(position, Finished::Excluded(unsatisfied)),
-                Verdict::Invalid(invalid) => self.hand.done(position, Finished::Row(Row::invalid(invalid))),
+            match taken(self.plan, position) {
+                Ok(point) => return Some(point),
+                Err(finished) => self.hand.done(position, finished),
             }
         }
     }
 
-    fn done(&mut self, position: u64, mut row: Row) {
-        let expected = if row.status == Status::Periodic { self.plan.rows().columns().len() } else { 0 };
-        if row.measures.len() != expected {
-            let found = row.measures.len();
-            self.hand.fail(format!("it returned {found} measures, not {expected}, for point {position}"));
-            return;
+    fn done(&mut self, position: u64, row: Row) {
+        match completed(self.plan, position, row) {
+            Ok(finished) => self.hand.done(position, finished),
+            Err(fault) => self.hand.fail(fault),
         }
-        if !self.plan.measures().is_empty() && position < self.plan.selected() {
-            self.plan.add_own_measures(&self.plan.selected_point(position).values, &mut row.measures);
-        }
-        self.hand.done(position, Finished::Row(row));
     }
 
     fn interrupted(&self) -> bool {
