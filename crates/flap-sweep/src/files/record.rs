@@ -36,12 +36,26 @@ pub enum RecordError {
         /// The heading.
         heading: String,
     },
+    /// A column is longer or shorter than the first one.
+    #[error("{name}: columns differ in length: {first} has {other} numbers, {heading} has {length}")]
+    Lengths {
+        /// The record.
+        name: String,
+        /// The heading of the column.
+        heading: String,
+        /// Its length.
+        length: usize,
+        /// The heading of the first column.
+        first: String,
+        /// The length of the first column.
+        other: usize,
+    },
     /// A cell is not a finite number.
     #[error("{name}, line {line}, column {heading}: `{cell}` is not a number")]
     Cell {
         /// The file.
         name: String,
-        /// Number of the line, from 1.
+        /// Number of the line, from 1; of the row, for a record in memory.
         line: u64,
         /// The heading of the column.
         heading: String,
@@ -105,6 +119,32 @@ impl Record {
             }
         }
         Ok(Record { name, headings, columns })
+    }
+
+    /// A record of columns in memory, each of them with a heading; `name` stands for the file in messages.
+    ///
+    /// # Errors
+    /// - [`RecordError::Lengths`] if columns differ in length
+    /// - [`RecordError::Cell`] if a number is not finite
+    pub fn of(name: &str, columns: Vec<(String, Vec<f64>)>) -> Result<Record, RecordError> {
+        let length = columns.first().map_or(0, |(_, numbers)| numbers.len());
+        for (heading, numbers) in &columns {
+            if numbers.len() != length {
+                return Err(RecordError::Lengths {
+                    name: name.to_owned(),
+                    heading: heading.clone(),
+                    length: numbers.len(),
+                    first: columns[0].0.clone(),
+                    other: length,
+                });
+            }
+            if let Some(row) = numbers.iter().position(|number| !number.is_finite()) {
+                let (heading, cell) = (heading.clone(), numbers[row].to_string());
+                return Err(RecordError::Cell { name: name.to_owned(), line: row as u64 + 1, heading, cell });
+            }
+        }
+        let (headings, columns) = columns.into_iter().unzip();
+        Ok(Record { name: name.to_owned(), headings, columns })
     }
 
     /// The column that has one of these headings, multiplied by its factor; the first if there are more that agree.

@@ -40,6 +40,9 @@ pub enum ChangeError {
     /// The plan has no point of this index, or the indices do not rise.
     #[error("point {0} is not in the grid, or not in rising order")]
     NoPoint(u64),
+    /// Rows have no such measure, or it is named twice.
+    #[error("there is no measure `{0}`, or it is named twice")]
+    NoColumn(String),
     /// The solver takes no such settings.
     #[error("`{0}` is out of its range")]
     Solver(&'static str),
@@ -75,6 +78,28 @@ impl Plan {
             .map_err(|error| ChangeError::Value { parameter: known.name, error: Box::new(error) })?;
         self.space.base[parameter] = Value::Given(value);
         Ok(self)
+    }
+
+    /// The plan whose rows have these measures alone: names of columns of the model, or of the plan's own measures, in the order
+    /// wanted.
+    ///
+    /// # Errors
+    /// [`ChangeError::NoColumn`] if there is no such column, or it is named before.
+    pub fn with_columns(mut self, names: &[String]) -> Result<Plan, ChangeError> {
+        let known: Vec<&str> = self.measured().collect();
+        let mut columns = Vec::with_capacity(names.len());
+        for name in names {
+            let index = known.iter().position(|known| known == name).filter(|index| !columns.contains(index));
+            columns.push(index.ok_or_else(|| ChangeError::NoColumn(name.clone()))?);
+        }
+        self.space.output.columns = Some(columns);
+        Ok(self)
+    }
+
+    /// The names of the columns that rows measure: those of the model, then the plan's own.
+    pub fn measured(&self) -> impl Iterator<Item = &str> + '_ {
+        let of_model = self.rows().columns().iter().map(|column| column.name.as_str());
+        of_model.chain(self.measures().iter().map(|own| own.name.as_str()))
     }
 
     /// The plan without its preset, where `given` parameters are set or to be varied: others follow those.
