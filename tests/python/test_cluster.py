@@ -97,3 +97,30 @@ def test_what_a_worker_says_arrives(client, tmp_path):
     with pytest.raises(flapwing.GridError, match="points.csv") as caught:
         flapwing.sweep(grid, client=client)
     assert caught.value.diagnostics[0].line == 4
+
+
+def test_a_batch_has_the_rows_of_one_machine(client):
+    rng = np.random.default_rng(1)
+    grid = {"preset": "ozaki2018-large", "axes": {"drive_frequency": [100, 110]}, "where": {"long": "wing_length > 0.029"}}
+    columns = {
+        "wing_length": rng.uniform(0.028, 0.032, 60),
+        "drive_voltage_pp": [f"{volts} V" for volts in range(50, 110)],
+        "lift_sign": ["corrected", "printed"] * 30,
+        "air_density": np.where(np.arange(60) % 20 == 7, -1.0, 1.2),
+    }
+    told = []
+    options = {"measures": ["lift_mean_mn"], "rtol": 1e-5}
+    far = flapwing.evaluate(grid, columns, client=client, progress=lambda *done: told.append(done), **options)
+    near = flapwing.evaluate(grid, columns, **options)
+    assert far.columns == near.columns and far.units == near.units and told[-1] == (120, 120)
+    for name in near:
+        np.testing.assert_array_equal(far[name], near[name])
+    assert far.counts == near.counts and far.counts["invalid"] > 0
+    assert far.meta == near.meta
+    assert [{k: v.tolist() for k, v in dim.items()} for dim in far.dims] == [
+        {k: v.tolist() for k, v in dim.items()} for dim in near.dims
+    ]
+    with pytest.raises(ValueError, match="did you mean `drive_frequency`"):
+        flapwing.evaluate("ozaki2018-large", {"drive_frequenc": [100.0]}, client=client)
+    with pytest.raises(ValueError, match="columns differ in length"):
+        flapwing.evaluate("ozaki2018-large", {"drive_frequency": [100.0], "wing_length": [0.03, 0.031]}, client=client)

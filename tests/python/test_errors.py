@@ -8,6 +8,7 @@ import flapwing
 import pytest
 
 PRESET = "ozaki2018-large"
+EXPERIMENTS = [flapwing.resonance, flapwing.chirp, flapwing.impulse, flapwing.lift]
 
 
 def refused(error, *arguments, **keywords):
@@ -107,12 +108,15 @@ def test_wrong_type(arguments, says):
 
 
 def test_preset_of_the_wrong_type():
-    assert refused(TypeError, 3) == "`preset` must be the name of a preset, not int"
+    assert refused(TypeError, 3).splitlines() == [
+        "a design is not int",
+        "it is the name of a preset, a path, the text of a grid file, a dictionary or a Grid",
+    ]
 
 
 def test_preset_is_required_and_positional():
-    assert "preset" in refused(TypeError)
-    assert "preset" in refused(TypeError, preset=PRESET)
+    assert "design" in refused(TypeError)
+    assert "design" in refused(TypeError, preset=PRESET)
 
 
 def test_errors_of_a_value_itself_pass_through():
@@ -129,5 +133,9 @@ def test_no_parameter_is_hidden_by_a_solver_setting(preset):
     parameters = re.search(r"\(parameters: (.*);", message).group(1).split(", ")
     settings = re.search(r"; solver settings: (.*)\)", message).group(1).split(", ")
     kinds = {name: parameter.kind for name, parameter in inspect.signature(flapwing.run).parameters.items()}
-    assert settings == [name for name, kind in kinds.items() if kind is inspect.Parameter.KEYWORD_ONLY]
-    assert not set(parameters) & set(settings)
+    keywords = [name for name, kind in kinds.items() if kind is inspect.Parameter.KEYWORD_ONLY]
+    assert keywords == ["point", "begin", "waveform", "stroke", *settings]
+    for function in [flapwing.run, flapwing.sweep, flapwing.evaluate, flapwing.respond, flapwing.trajectory, *EXPERIMENTS]:
+        kinds = {name: parameter.kind for name, parameter in inspect.signature(function).parameters.items()}
+        keywords = [name for name, kind in kinds.items() if kind is inspect.Parameter.KEYWORD_ONLY]
+        assert not set(parameters) & set(keywords), function

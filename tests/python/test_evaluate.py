@@ -1,5 +1,7 @@
 """Batches of points."""
 
+import time
+
 import flapwing
 import numpy as np
 import pandas
@@ -157,3 +159,28 @@ def test_progress_is_told():
     told = []
     flapwing.evaluate(PRESET, {"drive_frequency": FREQUENCIES}, progress=lambda done, points: told.append(points))
     assert told and set(told) == {21}
+
+
+def fastest(call):
+    """The shortest time (s) of several calls: others on the machine make it longer, never shorter."""
+
+    def once():
+        begin = time.perf_counter()
+        call()
+        return time.perf_counter() - begin
+
+    return min(once() for _ in range(20))
+
+
+def test_one_point_costs_about_what_run_costs():
+    alone = fastest(lambda: flapwing.run(PRESET, drive_frequency=105.0))
+    batch = fastest(lambda: flapwing.evaluate(PRESET, {"drive_frequency": [105.0]}))
+    assert batch < 3 * alone + 0.0005
+
+
+@pytest.mark.parametrize("points", [1, 2, 3, 5])
+def test_few_points_have_the_rows_of_many(points):
+    few = flapwing.evaluate(PRESET, {"drive_frequency": FREQUENCIES[:points]}, threads=2)
+    many = flapwing.evaluate(PRESET, {"drive_frequency": FREQUENCIES})
+    for name in many:
+        np.testing.assert_array_equal(few[name], many[name][:points])

@@ -1,5 +1,7 @@
 """Tables: columns, and what they become elsewhere."""
 
+import json
+
 import flapwing
 import numpy as np
 import pandas
@@ -101,7 +103,11 @@ def test_xarray_has_the_axes_of_the_grid(table):
 
 def test_xarray_of_other_tables():
     motion = flapwing.trajectory("ozaki2018-large", cycles=1, samples=10).to_xarray()
-    assert dict(motion.sizes) == {"row": 11} and motion["stroke_deg"].attrs["units"] == "deg"
+    assert dict(motion.sizes) == {"time_s": 11} and motion["stroke_deg"].attrs["units"] == "deg"
+    assert motion["time_s"].attrs["units"] == "s" and float(motion["stroke_deg"].sel(time_s=0.0)) == motion["stroke_deg"][0]
+    curve = flapwing.respond("ozaki2018-large", start=100, stop=110, step=5).to_xarray()
+    assert dict(curve.sizes) == {"row": 6} and set(curve.coords) == {"curve", "branch", "drive_frequency"}
+    assert curve["lift_mean_mn"].where(curve["branch"] == "up", drop=True).sizes["row"] == 3
     zipped = flapwing.sweep(
         {"preset": "jafferis2016", "zip": [{"wing_area": [5e-5, 6e-5], "wing_length": [0.015, 0.016]}]}
     ).to_xarray()
@@ -194,3 +200,48 @@ def test_files_that_others_wrote_are_read(flap, tmp_path):
         flapwing.read(tmp_path / "ragged.csv")
     with pytest.raises(FileNotFoundError, match="no.csv"):
         flapwing.read(tmp_path / "no.csv")
+
+
+def test_columns_are_read_only(table):
+    for part in (table, table[1:4], table[[0, 2]], table.periodic, table[["lift_mean_mn", "status"]]):
+        for name in part:
+            assert not part[name].flags.writeable, name
+    with pytest.raises(ValueError, match="read-only"):
+        table["lift_mean_mn"][0] = 1.0
+    copy = table["lift_mean_mn"].copy()
+    copy[0] = 1.0
+    frame = table.to_pandas().copy()
+    frame.loc[0, "lift_mean_mn"] = 1.0
+    assert table["lift_mean_mn"][0] != 1.0
+
+
+def test_columns_are_chosen_by_lists(table):
+    for names in (["drive_frequency", "lift_mean_mn"], ("drive_frequency", "lift_mean_mn")):
+        part = table[names]
+        assert part.columns == list(names) and len(part) == len(table) and part.units["lift_mean_mn"] == "mN"
+        np.testing.assert_array_equal(part["lift_mean_mn"], table["lift_mean_mn"])
+    with pytest.raises(KeyError, match="there is no column 'lift_mean'.*did you mean 'lift_mean_"):
+        table[["drive_frequency", "lift_mean"]]
+    assert len(table[[]]) == 0 and table[[]].columns == table.columns
+    whole = table[["point", "lift_mean_mn"]].to_xarray()
+    assert whole["lift_mean_mn"].dims == ("drive_voltage_pp", "lift_sign", "drive_frequency")
+    with pytest.raises(ValueError, match="no column `point` that tells which\nkeep it"):
+        table[["lift_mean_mn"]].to_xarray()
+
+
+def test_the_origin_stays_with_parts(table):
+    part = table.periodic[["status", "lift_mean_mn"]]
+    for key in ("flap", "build", "model", "preset", "solver", "grid"):
+        assert part.meta[key] == table.meta[key]
+    assert part.meta["rows"] == len(part) and part.meta["counts"] == {"periodic": len(part)}
+    assert table.meta["rows"] == len(table) and len(table.meta["counts"]) > 1
+    part.meta["note"] = "mine"
+    assert "note" not in table.meta
+
+
+def test_the_origin_is_in_arrow_and_parquet(table, tmp_path):
+    origin = table.to_arrow().schema.metadata
+    assert origin[b"flapwing.preset"] == b"ozaki2018-large" and origin[b"flapwing.grid"].decode() == table.meta["grid"]
+    assert json.loads(origin[b"flapwing.solver"]) == table.meta["solver"]
+    parquet.write_table(table.to_arrow(), tmp_path / "rows.parquet")
+    assert parquet.read_schema(tmp_path / "rows.parquet").metadata[b"flapwing.build"].decode() == table.meta["build"]

@@ -1,8 +1,9 @@
 //! Numbers out of Python objects, and the errors for objects that are no numbers.
 
+use flap_sweep::notation::units;
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyBool;
+use pyo3::types::{PyBool, PyString};
 
 /// A finite number, of any type that Python's `float` takes except text and truth values.
 ///
@@ -25,6 +26,20 @@ pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyRe
         Ok(number)
     } else {
         Err(PyValueError::new_err(format!("`{name}` cannot be {}: values are finite", value.str()?)))
+    }
+}
+
+/// A number in `unit`, or text with a unit, in `unit`. Text is refused if `takes_text` is false: the name has another unit.
+///
+/// `TypeError` or `ValueError` as [`number`]; `ValueError` for a text that is no such quantity.
+pub(crate) fn quantity(name: &str, unit: &str, takes_text: bool, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    match value.cast::<PyString>() {
+        Ok(text) if takes_text => units::parse_as(&text.to_cow()?, unit).map_err(|error| {
+            let help = error.help().map_or_else(String::new, |help| format!("\n{help}"));
+            PyValueError::new_err(format!("{}{help}", error.message(&format!("`{name}`"))))
+        }),
+        _ if takes_text => number(name, &format!("a number in {unit} or text with a unit"), value),
+        _ => number(name, "a number, in the unit of its name", value),
     }
 }
 

@@ -1,23 +1,39 @@
-//! Designs: the first argument of `evaluate` and `respond`.
+//! Designs with keywords on top: the first arguments of calls.
 
 use flap_core::simulate;
 
 use flap_sweep::plan::{ChangeError, Plan};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::PyDict;
 
 use crate::solver::{Keyword, Keywords};
-use crate::{error, grid, parameters};
+use crate::{grid, parameters};
 
-/// The plan of a preset by its name, or of anything that is a grid, with keywords on top.
+/// The plan of anything that names a design, see [`grid::plan`], with keywords on top.
 pub(crate) fn plan(design: &Bound<'_, PyAny>, keywords: Option<&Bound<'_, PyDict>>) -> PyResult<Plan> {
     let (solver, keywords) = Keywords::take(keywords)?;
-    let plan = match name(design)? {
-        Some(_) => of_preset(design.py(), parameters::find_preset(design)?.1.name)?,
-        None => grid::plan(design)?,
-    };
-    Ok(set(with_solver(plan, &solver)?, &keywords)?.0)
+    Ok(set(with_solver(grid::plan(design)?, &solver)?, &keywords)?.0)
+}
+
+/// As [`plan`], or the plan of a model all of whose parameters the keywords give.
+pub(crate) fn whole(design: &Bound<'_, PyAny>, keywords: &Bound<'_, PyDict>) -> PyResult<Plan> {
+    match plan_of_model(design, Some(keywords))? {
+        Some((plan, set)) => alone(plan, &set),
+        None => plan(design, Some(keywords)),
+    }
+}
+
+/// The plan of a model without its preset, where these parameters are set.
+pub(crate) fn alone(plan: Plan, set: &[usize]) -> PyResult<Plan> {
+    let model = plan.simulator().name();
+    plan.without_preset(set).map_err(|error| match error {
+        ChangeError::Missing(names) => PyValueError::new_err(format!(
+            "model `{model}` has no values of its own: give {} too, or start from a preset",
+            names.join(", ")
+        )),
+        other => refused("a column", &other),
+    })
 }
 
 /// The plan of a model by its name, with keywords on top, and the parameters that these set; `None` if there is no such
@@ -26,34 +42,13 @@ pub(crate) fn plan_of_model(
     design: &Bound<'_, PyAny>,
     keywords: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<(Plan, Vec<usize>)>> {
-    let model = name(design)?.and_then(|name| simulate::by_name(&name));
+    let model = grid::name(design)?.and_then(|name| simulate::by_name(&name));
     let Some(preset) = model.and_then(|model| model.presets().first()) else {
         return Ok(None);
     };
     let (solver, keywords) = Keywords::take(keywords)?;
-    let plan = of_preset(design.py(), preset.name)?;
+    let plan = grid::of_preset(design.py(), preset.name)?;
     set(with_solver(plan, &solver)?, &keywords).map(Some)
-}
-
-/// The plan of a preset's one point with keywords on top.
-pub(crate) fn point(preset: &Bound<'_, PyAny>, keywords: &Bound<'_, PyDict>) -> PyResult<Plan> {
-    let (solver, keywords) = Keywords::take(Some(keywords))?;
-    let plan = of_preset(preset.py(), parameters::find_preset(preset)?.1.name)?;
-    Ok(set(with_solver(plan, &solver)?, &keywords)?.0)
-}
-
-fn of_preset(py: Python<'_>, preset: &str) -> PyResult<Plan> {
-    let text = format!("preset = \"{preset}\"\n");
-    flap_sweep::grid::parse(preset, &text, simulate::all())
-        .map_err(|diagnostics| error::grid(py, &diagnostics))
-}
-
-/// The name of a preset or a model; `None` if `design` is a path, the text of a grid, or no text.
-fn name(design: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
-    let Ok(text) = design.cast::<PyString>() else { return Ok(None) };
-    let text = text.to_cow()?;
-    let is_grid = text.contains(['\n', '=', '/', '\\']) || text.ends_with(".toml");
-    Ok((!is_grid).then(|| text.into_owned()))
 }
 
 /// The plan with the solver settings of keywords over its own.

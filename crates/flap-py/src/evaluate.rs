@@ -12,13 +12,14 @@ use crate::{design, parameters, sweep};
 /// Runs a batch of points; see `flapwing.evaluate`. `columns` has a one-dimensional array of float64, or a list of text,
 /// for each parameter that varies, all as long.
 #[pyfunction]
-#[pyo3(signature = (design, columns, /, *, threads=None, progress=None, keywords=None))]
+#[pyo3(signature = (design, columns, /, *, threads=None, progress=None, measures=None, keywords=None))]
 pub(crate) fn evaluate<'py>(
     py: Python<'py>,
     design: &Bound<'py, PyAny>,
     columns: &Bound<'py, PyDict>,
     threads: Option<&Bound<'py, PyAny>>,
     progress: Option<Py<PyAny>>,
+    measures: Option<Vec<String>>,
     keywords: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let options = sweep::options(threads)?;
@@ -42,12 +43,25 @@ pub(crate) fn evaluate<'py>(
     }
     if let Some(mut set) = set {
         set.extend(given.iter().map(|(index, _)| *index));
-        let model = plan.simulator().name();
-        plan = plan.without_preset(&set).map_err(|error| refused(model, &error))?;
+        plan = design::alone(plan, &set)?;
     }
-    let model = plan.simulator().name();
-    let plan = plan.crossed_with(given).map_err(|error| refused(model, &error))?;
+    if let Some(measures) = measures {
+        plan = with_columns(plan, &measures)?;
+    }
+    let plan = plan.crossed_with(given).map_err(|error| refused(&error))?;
     sweep::into_columns(py, &plan, &options, progress, None)
+}
+
+/// Checks that a design takes these keywords and has these measures, with the messages of `evaluate`.
+#[pyfunction]
+#[pyo3(signature = (design, /, *, keywords, measures=None))]
+pub(crate) fn check(
+    design: &Bound<'_, PyAny>,
+    keywords: &Bound<'_, PyDict>,
+    measures: Option<Vec<String>>,
+) -> PyResult<()> {
+    let plan = design::plan(design, Some(keywords))?;
+    measures.map_or(Ok(()), |measures| with_columns(plan, &measures).map(drop))
 }
 
 /// A parameter has one place: a keyword would be lost behind a column.
@@ -74,14 +88,28 @@ fn read(plan: &Plan, name: &str, column: &Bound<'_, PyAny>) -> PyResult<(usize, 
     Ok((index, values.collect::<PyResult<_>>()?))
 }
 
-/// The exception for columns that a plan of the model called `model` does not take.
-fn refused(model: &str, error: &ChangeError) -> PyErr {
-    PyValueError::new_err(match error {
-        ChangeError::Missing(names) => format!(
-            "model `{model}` has no values of its own: give {} too, or start from a preset",
-            names.join(", ")
-        ),
-        ChangeError::TooManyPoints(_) => "too many points".to_owned(),
-        other => return design::refused("a column", other),
+/// The plan whose rows have these measures alone.
+fn with_columns(plan: Plan, names: &[String]) -> PyResult<Plan> {
+    let known: Vec<String> = plan.measured().map(str::to_owned).collect();
+    plan.with_columns(names).map_err(|error| match error {
+        ChangeError::NoColumn(name) if known.contains(&name) => {
+            PyValueError::new_err(format!("`measures` names {name} twice\nkeep one of them"))
+        }
+        ChangeError::NoColumn(name) => {
+            let hint = parameters::did_you_mean(&name, &known.iter().map(String::as_str).collect::<Vec<_>>());
+            PyValueError::new_err(format!(
+                "there is no measure `{name}`{hint}\nmeasures: {}",
+                known.join(", ")
+            ))
+        }
+        other => refused(&other),
     })
+}
+
+/// The exception for columns that a plan does not take.
+fn refused(error: &ChangeError) -> PyErr {
+    match error {
+        ChangeError::TooManyPoints(_) => PyValueError::new_err("too many points"),
+        other => design::refused("a column", other),
+    }
 }

@@ -1,6 +1,6 @@
 //! Grids: design spaces that have passed every check.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use flap_core::simulate;
 use flap_sweep::grid;
@@ -13,7 +13,7 @@ use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList, PySlice, PyString};
 
-use crate::{error, grid_text};
+use crate::{error, grid_text, parameters};
 
 /// The largest number of points of which `Grid.exclusions` evaluates the conditions.
 const LOOKED_AT: u64 = 1_000_000;
@@ -28,14 +28,17 @@ const LOOKED_AT: u64 = 1_000_000;
 ///
 /// Parameters
 /// ----------
-/// source : path, str, dict or Grid
-///     A grid file by its path; the text of one (a str with a line break or ``=``); or its entries as a dictionary
-///     of dictionaries.
+/// source : str, path, dict or Grid
+///     A preset by its name; a grid file by its path; the text of one (a str with a line break or ``=``); or its entries
+///     as a dictionary of dictionaries. Lists in it may be arrays, Series, ranges, or columns of Arrow; a DataFrame
+///     stands for the dictionary of its columns.
 ///
 /// Raises
 /// ------
 /// GridError
 ///     Mistakes in the grid: all of them, each with its line, what is allowed and the nearest name.
+/// ValueError
+///     There is no such preset.
 /// OSError
 ///     The file is not there or cannot be read.
 /// TypeError
@@ -176,15 +179,20 @@ impl Grid {
     }
 }
 
-/// The plan of a path, a text, a dictionary or a grid.
+/// The plan of a preset's name, a path, a text, a dictionary or a grid.
 pub(crate) fn plan(source: &Bound<'_, PyAny>) -> PyResult<Plan> {
     let py = source.py();
     if let Ok(grid) = source.cast::<Grid>() {
         let source = grid.get().plan.source();
         return parse(py, &source.name, &source.text);
     }
-    if let Ok(dict) = source.cast::<PyDict>() {
-        return parse(py, "<grid>", &grid_text::write(dict)?);
+    if let Some(dict) = grid_text::dictionary(source)? {
+        return parse(py, "<grid>", &grid_text::write(&dict)?);
+    }
+    if let Some(name) = name(source)?
+        && !Path::new(&name).exists()
+    {
+        return of_preset(py, parameters::find_preset(source)?.1.name);
     }
     if let Ok(text) = source.cast::<PyString>() {
         let text = text.to_cow()?;
@@ -194,11 +202,25 @@ pub(crate) fn plan(source: &Bound<'_, PyAny>) -> PyResult<Plan> {
     }
     let Ok(path) = source.extract::<PathBuf>() else {
         let found = source.get_type().name()?;
-        let message =
-            format!("a grid is a path, the text of a grid file, a dictionary or a Grid, not {found}");
+        let message = format!(
+            "a design is not {found}\nit is the name of a preset, a path, the text of a grid file, a dictionary or a Grid"
+        );
         return Err(PyTypeError::new_err(message));
     };
     grid::read(&path, simulate::all()).map_err(|error| error::grid_file(py, &error))
+}
+
+/// The plan of a preset's one point.
+pub(crate) fn of_preset(py: Python<'_>, preset: &str) -> PyResult<Plan> {
+    parse(py, preset, &format!("preset = \"{preset}\"\n"))
+}
+
+/// The name of a preset or a model; `None` if `design` is a path, the text of a grid, or no text.
+pub(crate) fn name(design: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
+    let Ok(text) = design.cast::<PyString>() else { return Ok(None) };
+    let text = text.to_cow()?;
+    let is_grid = text.contains(['\n', '=', '/', '\\']) || text.ends_with(".toml");
+    Ok((!is_grid).then(|| text.into_owned()))
 }
 
 fn parse(py: Python<'_>, name: &str, text: &str) -> PyResult<Plan> {

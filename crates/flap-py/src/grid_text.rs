@@ -4,17 +4,27 @@
 
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyList, PyString, PyTuple};
+use pyo3::types::{PyBool, PyDict, PyList, PyMapping, PyRange, PyString, PyTuple};
 use toml::Value;
+
+/// The text of a grid file with these entries.
+#[pyfunction]
+#[pyo3(signature = (entries, /))]
+pub(crate) fn text_of(entries: &Bound<'_, PyDict>) -> PyResult<String> {
+    write(entries)
+}
 
 /// The text of a grid file with the entries of `grid`. `TypeError` for a key or a value that no grid file has.
 pub(crate) fn write(grid: &Bound<'_, PyDict>) -> PyResult<String> {
     let (mut head, mut tables) = (Vec::new(), Vec::new());
     for (key, value) in grid {
         let name = name(&key)?;
-        if let Ok(table) = value.cast::<PyDict>() {
-            tables.push(format!("\n[{name}]\n{}", lines(table, &name)?));
-        } else if let Some(blocks) = dictionaries(&value) {
+        if let Some(table) = dictionary(&value)? {
+            // A table of columns that change together.
+            let brackets = if name == "zip" { ["[[", "]]"] } else { ["[", "]"] };
+            let [open, close] = brackets;
+            tables.push(format!("\n{open}{name}{close}\n{}", lines(&table, &name)?));
+        } else if let Some(blocks) = dictionaries(&value)? {
             for block in blocks {
                 tables.push(format!("\n[[{name}]]\n{}", lines(&block, &name)?));
             }
@@ -27,12 +37,51 @@ pub(crate) fn write(grid: &Bound<'_, PyDict>) -> PyResult<String> {
 }
 
 /// The dictionaries of a list, if it is a list of nothing else.
-fn dictionaries<'py>(value: &Bound<'py, PyAny>) -> Option<Vec<Bound<'py, PyDict>>> {
-    let items: Vec<Bound<'py, PyAny>> = value.cast::<PyList>().ok()?.iter().collect();
-    if items.is_empty() {
-        return None;
+fn dictionaries<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Vec<Bound<'py, PyDict>>>> {
+    let Ok(list) = value.cast::<PyList>() else { return Ok(None) };
+    let items = list.iter().map(|item| dictionary(&item)).collect::<PyResult<Option<Vec<_>>>>()?;
+    Ok(items.filter(|items| !items.is_empty()))
+}
+
+/// A dictionary, a mapping, or a table of columns (a DataFrame, an Arrow table, a `Table`), as a dictionary.
+pub(crate) fn dictionary<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyDict>>> {
+    if let Ok(dict) = value.cast::<PyDict>() {
+        return Ok(Some(dict.clone()));
     }
-    items.into_iter().map(|item| item.cast_into::<PyDict>().ok()).collect()
+    let dict = PyDict::new(value.py());
+    if let Ok(mapping) = value.cast::<PyMapping>() {
+        dict.update(mapping)?;
+        return Ok(Some(dict));
+    }
+    if value.is_instance_of::<PyString>() {
+        return Ok(None);
+    }
+    for names in ["column_names", "columns"] {
+        if let Ok(names) = value.getattr(names) {
+            for name in names.try_iter()? {
+                let name = name?;
+                dict.set_item(&name, value.get_item(&name)?)?;
+            }
+            return Ok(Some(dict));
+        }
+    }
+    Ok(None)
+}
+
+/// The list of a range, an array, a Series or a column of Arrow; `None` for anything else.
+fn listed<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>>> {
+    if value.is_instance_of::<PyRange>() {
+        return Ok(Some(
+            PyList::new(value.py(), value.try_iter()?.collect::<PyResult<Vec<_>>>()?)?.into_any(),
+        ));
+    }
+    for method in ["tolist", "to_list", "to_pylist"] {
+        if let Ok(method) = value.getattr(method) {
+            let list = method.call0()?;
+            return Ok(list.is_instance_of::<PyList>().then_some(list));
+        }
+    }
+    Ok(None)
 }
 
 fn lines(table: &Bound<'_, PyDict>, place: &str) -> PyResult<String> {
@@ -57,7 +106,10 @@ fn name(key: &Bound<'_, PyAny>) -> PyResult<String> {
 
 /// A value on one line.
 fn inline(value: &Bound<'_, PyAny>, place: &str) -> PyResult<String> {
-    if let Ok(dict) = value.cast::<PyDict>() {
+    if let Some(list) = listed(value)? {
+        return inline(&list, place);
+    }
+    if let Some(dict) = dictionary(value)? {
         let items = dict.iter().map(|(key, value)| {
             let name = name(&key)?;
             Ok(format!("{name} = {}", inline(&value, &format!("{place}.{name}"))?))
@@ -87,7 +139,7 @@ fn scalar(value: &Bound<'_, PyAny>, place: &str) -> PyResult<Value> {
     }
     let found = value.get_type().name()?;
     let message = format!(
-        "`{place}` of a grid must be a number, text, true or false, a list or a dictionary, not {found}"
+        "`{place}` of a grid is {found}\nit must be a number, text, True or False, a list, an array, or a dictionary"
     );
     Err(PyTypeError::new_err(message))
 }

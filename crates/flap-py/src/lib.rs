@@ -5,6 +5,7 @@
 //! docstrings for editors and type checkers; tests compare both. Functions without a docstring here are called by those in
 //! `python/flapwing`, which have one.
 
+mod begin;
 mod cluster;
 mod columns;
 mod convert;
@@ -12,12 +13,17 @@ mod design;
 mod diagnostic;
 mod error;
 mod evaluate;
+mod experiments;
+mod film;
 mod grid;
 mod grid_text;
 mod labels;
 mod listing;
+mod motion;
 mod parameters;
+mod point;
 mod read;
+mod records;
 mod resonance;
 mod respond;
 mod run;
@@ -30,17 +36,22 @@ mod watch;
 mod _flapwing {
     #[pymodule_export]
     use crate::{
+        begin::states,
         cluster::part,
         diagnostic::Diagnostic,
         error::GridError,
-        evaluate::evaluate,
+        evaluate::{check, evaluate},
+        experiments::{chirp, impulse, lift},
+        film::track,
         grid::Grid,
+        grid_text::text_of,
         labels::{printed, scale, split_unit, unit_of, words},
         listing::{measures, params},
         read::read,
         resonance::resonance,
         respond::respond,
         run::{presets, run, trajectory},
+        solver::settings,
         sweep::sweep,
     };
 

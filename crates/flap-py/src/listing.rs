@@ -49,6 +49,11 @@ pub(crate) fn measures(name: &Bound<'_, PyAny>) -> PyResult<Vec<(String, &'stati
     Ok(model.columns().iter().map(|column| (column.name.clone(), column.unit, column.doc.clone())).collect())
 }
 
+/// The model of a preset, or the model itself.
+pub(crate) fn model(name: &Bound<'_, PyAny>) -> PyResult<&'static dyn Simulator> {
+    Ok(find(name)?.0)
+}
+
 /// The model of a preset with its values, or a model with none.
 fn find(name: &Bound<'_, PyAny>) -> PyResult<(&'static dyn Simulator, Vec<f64>)> {
     let model = name.extract::<String>().ok().and_then(|name| simulate::by_name(&name));

@@ -93,7 +93,7 @@ fn unknown_parameter(simulator: &dyn Simulator, name: &str) -> PyErr {
 }
 
 /// The name among `names` that is nearest to `name`, as part of a message; empty if none is near.
-fn did_you_mean(name: &str, names: &[&str]) -> String {
+pub(crate) fn did_you_mean(name: &str, names: &[&str]) -> String {
     let nearest = nearest(name, names.iter().copied());
     nearest.map_or_else(String::new, |nearest| format!(", did you mean `{nearest}`?"))
 }

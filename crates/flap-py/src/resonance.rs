@@ -8,43 +8,52 @@ use flap_sweep::resonance::SearchError;
 use flap_sweep::resonance::driven::{self, PeakSearch};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict, PyList};
+use pyo3::types::{IntoPyDict, PyDict, PyList, PyString};
 
+use crate::point::Chosen;
 use crate::watch::interruptible;
-use crate::{convert, design, error};
+use crate::{convert, error};
 
 /// Samples of a free motion per period of the first mode.
 const SAMPLES: u32 = 200;
 
 /// Finds the resonances of one point; see `flapwing.resonance`.
 #[pyfunction]
-#[pyo3(signature = (preset, keywords, /, *, start, stop, tolerance, impulse, fit_cycles, spectrum_window))]
+#[pyo3(signature = (design, keywords, /, *, point, start, stop, tolerance, impulse, fit_cycles, spectrum_window))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]
 pub(crate) fn resonance<'py>(
     py: Python<'py>,
-    preset: &Bound<'py, PyAny>,
+    design: &Bound<'py, PyAny>,
     keywords: &Bound<'py, PyDict>,
-    start: Option<f64>,
-    stop: Option<f64>,
-    tolerance: f64,
-    impulse: f64,
+    point: Option<&Bound<'py, PyAny>>,
+    start: Option<&Bound<'py, PyAny>>,
+    stop: Option<&Bound<'py, PyAny>>,
+    tolerance: &Bound<'py, PyAny>,
+    impulse: &Bound<'py, PyAny>,
     fit_cycles: &Bound<'py, PyAny>,
-    spectrum_window: f64,
+    spectrum_window: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let plan = design::point(preset, keywords)?;
-    let (simulator, solver, values) = (plan.simulator(), plan.solver(), plan.point(0).values);
+    let chosen = Chosen::new(design, keywords, point, None)?.possible()?;
+    let (simulator, solver, values) = (chosen.plan.simulator(), chosen.plan.solver(), &chosen.values);
+    let frequency = |name, value: Option<&Bound<'py, PyAny>>| {
+        value.map(|value| convert::quantity(name, "Hz", true, value)).transpose()
+    };
     let request = FreeRequest {
-        amplitude: impulse.to_radians(),
+        amplitude: impulse_of(impulse)?,
         fit_cycles: convert::count("fit_cycles", fit_cycles)?,
-        spectrum_window,
+        spectrum_window: convert::quantity("spectrum_window", "s", true, spectrum_window)?,
         samples_per_cycle: SAMPLES,
     };
     let set = InstructionSet::best();
     let experiments = simulator.experiments().map_err(|reason| error::unfinished(&reason))?;
-    let modes = experiments.modes(&values).map_err(|reason| error::unfinished(&reason))?;
-    let search = PeakSearch { from: start, to: stop, tolerance };
+    let modes = experiments.modes(values).map_err(|reason| error::unfinished(&reason))?;
+    let search = PeakSearch {
+        from: frequency("start", start)?,
+        to: frequency("stop", stop)?,
+        tolerance: convert::quantity("tolerance", "Hz", true, tolerance)?,
+    };
     let found = interruptible(py, |interrupted| {
-        let run = PointRun::new(set, solver, &values).until(interrupted);
+        let run = PointRun::new(set, solver, values).until(interrupted);
         Ok((free::examine(experiments, &run, &request)?, driven::search(simulator, &run, &search)?))
     })?;
     let (free, driven) = found.map_err(|reason: SearchError| PyValueError::new_err(reason.to_string()))?;
@@ -79,4 +88,12 @@ pub(crate) fn resonance<'py>(
     dict.set_item("larger_at_hz", driven.larger_at)?;
     dict.set_item("gaps", gaps)?;
     Ok(dict)
+}
+
+/// The impulse (rad): a number in degrees, or text with a unit.
+fn impulse_of(impulse: &Bound<'_, PyAny>) -> PyResult<f64> {
+    if impulse.is_instance_of::<PyString>() {
+        return convert::quantity("impulse", "rad", true, impulse);
+    }
+    Ok(convert::number("impulse", "a number in deg or text with a unit", impulse)?.to_radians())
 }

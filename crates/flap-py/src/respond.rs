@@ -20,7 +20,7 @@ const STROKE: &str = "stroke_amplitude_deg";
 
 /// Follows responses; see `flapwing.respond`.
 #[pyfunction]
-#[pyo3(signature = (design, along, /, *, start=None, stop=None, step=None, tolerance=None, unstable=false, threads=None, keywords=None))]
+#[pyo3(signature = (design, along, /, *, start=None, stop=None, step=None, tolerance=None, unstable=false, threads=None, progress=None, keywords=None))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]
 pub(crate) fn respond<'py>(
     py: Python<'py>,
@@ -32,6 +32,7 @@ pub(crate) fn respond<'py>(
     tolerance: Option<&Bound<'py, PyAny>>,
     unstable: bool,
     threads: Option<&Bound<'py, PyAny>>,
+    progress: Option<Py<PyAny>>,
     keywords: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let options = sweep::options(threads)?;
@@ -69,7 +70,7 @@ pub(crate) fn respond<'py>(
     let stroke = stroke.ok_or_else(|| PyValueError::new_err("the model measures no stroke"))?;
     let mut columns = Columns::new(Layout::of(&plan).columns());
     let mut verdicts = Vec::new();
-    let mut watch = Watch::new(None);
+    let mut watch = Watch::new(progress);
     let stop = Arc::clone(&watch.stop);
     let ran = py.detach(|| {
         let mut look = |progress: Progress| watch.look(progress.finished, progress.points);
@@ -79,6 +80,9 @@ pub(crate) fn respond<'py>(
         };
         responses.run(&options, Summary::default(), &mut columns, &stop, &mut look, &mut tell)
     });
+    if ran.is_ok() {
+        watch.done(plan.selected());
+    }
     watch.ended()?;
     ran.map_err(|error| error::run(&error))?;
     let meta = sweep::meta(py, &plan, &options)?;

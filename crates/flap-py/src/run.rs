@@ -1,15 +1,16 @@
-//! One design point at a time.
+//! One design point at a time: its row and its motion.
 
-use flap_core::num::InstructionSet;
-use flap_core::simulate::{Column, PointRun, Row, TrajectoryRequest};
-use flap_sweep::table::layout::{Cell, Kind};
+use flap_core::simulate::{Row, TrajectoryRequest};
+use flap_sweep::notation::expression::Kind;
+use flap_sweep::plan::Plan;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::columns::{self, Columns};
+use crate::point::Chosen;
+use crate::records::Wave;
 use crate::watch::interruptible;
-use crate::{convert, design, error, parameters};
+use crate::{begin, convert, error, motion, parameters};
 
 /// The most samples of one trajectory: they are held in memory.
 const SAMPLES_MAX: u64 = 5_000_000;
@@ -27,63 +28,95 @@ pub(crate) fn presets() -> Vec<&'static str> {
 
 /// Runs one point; see `flapwing.run`.
 #[pyfunction]
-#[pyo3(signature = (preset, keywords, /))]
+#[pyo3(signature = (design, keywords, /, *, point=None, begin=None, waveform=None, stroke=None))]
+#[expect(clippy::too_many_arguments, reason = "one per keyword")]
 pub(crate) fn run<'py>(
     py: Python<'py>,
-    preset: &Bound<'py, PyAny>,
+    design: &Bound<'py, PyAny>,
     keywords: &Bound<'py, PyDict>,
+    point: Option<&Bound<'py, PyAny>>,
+    begin: Option<&Bound<'py, PyAny>>,
+    waveform: Option<&Bound<'py, PyAny>>,
+    stroke: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let plan = design::point(preset, keywords)?;
-    let (simulator, solver, values) = (plan.simulator(), plan.solver(), plan.point(0).values);
-    let set = InstructionSet::best();
-    let row = interruptible(py, |interrupted| {
-        simulator.row(&PointRun::new(set, solver, &values).until(interrupted))
-    })?;
-    let row = row.map_err(|reason| error::unfinished(&reason))?;
-    row_to_dict(py, simulator.columns(), &row)
+    let wave = Wave::of(waveform, stroke, false)?;
+    let mut chosen = Chosen::new(design, keywords, point, wave.as_ref())?;
+    let begin = begin.map(|begin| begin::state(chosen.plan.simulator(), begin)).transpose()?;
+    if begin.is_some() && chosen.plan.resonance().is_some() {
+        chosen = chosen.for_motion(py)?;
+    }
+    let mut row = match &chosen.invalid {
+        Some(reason) => Row::invalid(reason),
+        None => interruptible(py, |interrupted| {
+            chosen.rows().run_point(&chosen.run().until(interrupted), begin.as_deref())
+        })?,
+    };
+    chosen.plan.add_own_measures(&chosen.values, &mut row.measures);
+    let names: Vec<&str> = chosen.rows().columns().iter().map(|column| column.name.as_str()).collect();
+    row_to_dict(py, &names, &chosen.plan, &row)
 }
 
 /// Samples the motion of one point; see `flapwing.trajectory`.
 #[pyfunction]
-#[pyo3(signature = (preset, keywords, /, *, cycles, samples, from_rest))]
+#[pyo3(signature = (
+    design, keywords, /, *, point, cycles, samples, from_rest, begin=None, waveform=None, stroke=None, once=false
+))]
+#[expect(clippy::too_many_arguments, reason = "one per keyword")]
 pub(crate) fn trajectory<'py>(
     py: Python<'py>,
-    preset: &Bound<'py, PyAny>,
+    design: &Bound<'py, PyAny>,
     keywords: &Bound<'py, PyDict>,
+    point: Option<&Bound<'py, PyAny>>,
     cycles: &Bound<'py, PyAny>,
     samples: &Bound<'py, PyAny>,
     from_rest: bool,
+    begin: Option<&Bound<'py, PyAny>>,
+    waveform: Option<&Bound<'py, PyAny>>,
+    stroke: Option<&Bound<'py, PyAny>>,
+    once: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let plan = design::point(preset, keywords)?;
-    let (simulator, solver, values) = (plan.simulator(), plan.solver(), plan.point(0).values);
+    let wave = Wave::of(waveform, stroke, once)?;
+    let chosen = Chosen::new(design, keywords, point, wave.as_ref())?.for_motion(py)?;
     let (cycles, samples) = (convert::count("cycles", cycles)?, convert::count("samples", samples)?);
+    // A record that is followed once has one period.
+    let cycles = if wave.is_some_and(|wave| wave.once) { 1 } else { cycles };
     let all = u64::from(cycles) * u64::from(samples);
     if all > SAMPLES_MAX {
         let message = format!("{all} samples are too many: cycles times samples may be {SAMPLES_MAX}");
         return Err(PyValueError::new_err(message));
     }
-    let request = TrajectoryRequest { cycles, samples_per_cycle: samples, settled: !from_rest };
-    let set = InstructionSet::best();
-    let motion = interruptible(py, |interrupted| {
-        simulator.motions()?.trajectory(&PointRun::new(set, solver, &values).until(interrupted), &request)
-    })?;
-    let motion = motion.map_err(|reason| error::unfinished(&reason))?;
-    let described = motion.columns.iter().map(|name| columns::named(name, Kind::Number));
-    let mut columns = Columns::new(described.collect());
-    for row in motion.rows {
-        columns.push(&row.into_iter().map(Cell::Number).collect::<Vec<_>>());
+    if from_rest && begin.is_some() {
+        return Err(PyValueError::new_err(
+            "from_rest and begin both say where the motion begins\nkeep one of them",
+        ));
     }
-    let dict = PyDict::new(py);
-    dict.set_item("columns", columns.into_python(py)?)?;
-    Ok(dict)
+    let begin = begin.map(|begin| begin::state(chosen.plan.simulator(), begin)).transpose()?;
+    let settled = !from_rest && !once && begin.is_none();
+    let request = TrajectoryRequest { cycles, samples_per_cycle: samples, settled };
+    let sampled = interruptible(py, |interrupted| {
+        let run = chosen.run().until(interrupted);
+        chosen.simulator().motions()?.trajectory_from(&run, begin.as_deref(), &request)
+    })?;
+    let sampled = sampled.map_err(|reason| error::unfinished(&reason))?;
+    let meanings = motion::meanings(chosen.simulator(), &sampled)?;
+    motion::into_python(py, sampled, meanings, &chosen.meta(py)?)
 }
 
-/// A row as a dictionary, in the order of result files.
-fn row_to_dict<'py>(py: Python<'py>, columns: &[Column], row: &Row) -> PyResult<Bound<'py, PyDict>> {
+/// A row as a dictionary, in the order of result files: measures called `names`, then those of the plan's own.
+fn row_to_dict<'py>(py: Python<'py>, names: &[&str], plan: &Plan, row: &Row) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     dict.set_item("status", row.status.name())?;
-    for (i, column) in columns.iter().enumerate() {
-        dict.set_item(&column.name, row.measures.get(i))?;
+    for (i, name) in names.iter().enumerate() {
+        dict.set_item(name, row.measures.get(i))?;
+    }
+    for (i, own) in plan.measures().iter().enumerate() {
+        let value = row.measures.get(names.len() + i);
+        match own.kind() {
+            Kind::Number => dict.set_item(&own.name, value)?,
+            Kind::Condition => {
+                dict.set_item(&own.name, value.filter(|value| !value.is_nan()).map(|value| *value != 0.0))?;
+            }
+        }
     }
     dict.set_item("cycles", row.cycles)?;
     dict.set_item("residual", (!row.residual.is_nan()).then_some(row.residual))?;

@@ -12,6 +12,12 @@ pub(crate) fn names() -> Vec<&'static str> {
     SolverSettings::TABLE.iter().map(|setting| setting.name).collect()
 }
 
+/// The names of the solver settings, in the order of the signature of `flapwing.run`.
+#[pyfunction]
+pub(crate) fn settings() -> Vec<&'static str> {
+    names()
+}
+
 /// The solver settings of a call: those of [`names`] that it gives.
 pub(crate) struct Keywords<'py>(Vec<Keyword<'py>>);
 

@@ -20,7 +20,7 @@ use pyo3::types::{PyBytes, PyDict};
 
 use crate::columns::{self, Columns};
 use crate::grid::{self, Grid};
-use crate::watch::Watch;
+use crate::watch::{Watch, interruptible};
 use crate::{convert, error};
 
 /// Time between checkpoints of results in a file.
@@ -85,7 +85,11 @@ pub(crate) fn into_columns<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let mut sink = Columns::new(Layout::of(plan).columns());
     let mut watch = Watch::new(progress);
-    let ran = py.detach(|| work(plan, options, Summary::default(), &mut sink, &mut watch, parcels));
+    let ran = if parcels.is_none() && plan.selected() <= 1 && plan.resonance().is_none() {
+        interruptible(py, |interrupted| run::alone(plan, options, &mut sink, interrupted))?
+    } else {
+        py.detach(|| work(plan, options, Summary::default(), &mut sink, &mut watch, parcels))
+    };
     if ran.is_ok() {
         watch.done(plan.selected());
     }

@@ -2,15 +2,20 @@
 
 `presets` lists published designs and `params` their parameters. `run` simulates one design, `trajectory` returns its
 motion and `resonance` its resonances. `sweep` runs a whole grid and `evaluate` a batch of points. `respond` follows
-designs up and down in frequency. Results are a `Table`, whose columns are NumPy arrays; it converts to pandas, polars,
-Arrow and xarray.
+designs up and down in frequency. `chirp` and `impulse` drive a design in other ways; `track` and `lift` are about wings
+that were filmed. Results are a `Table`, whose columns are NumPy arrays; it converts to pandas, polars, Arrow and xarray.
+
+A design is the name of a preset, a grid file, its text, a dictionary or a `Grid`. Parameters and solver settings are
+keywords of every call.
 
 Pictures are in `flapwing.plot`, which needs matplotlib.
 """
 
 from ._evaluate import evaluate
+from ._experiments import chirp, impulse, lift, track
 from ._flapwing import Diagnostic, Grid, GridError, __version__, presets
-from ._point import Parameter, measures, params, resonance, run, trajectory
+from ._listing import Parameter, measures, params, states
+from ._point import resonance, run, trajectory
 from ._respond import respond
 from ._sweep import read, sweep
 from ._table import Table
@@ -22,7 +27,10 @@ __all__ = [
     "Parameter",
     "Table",
     "__version__",
+    "chirp",
     "evaluate",
+    "impulse",
+    "lift",
     "measures",
     "params",
     "presets",
@@ -30,6 +38,8 @@ __all__ = [
     "resonance",
     "respond",
     "run",
+    "states",
     "sweep",
+    "track",
     "trajectory",
 ]

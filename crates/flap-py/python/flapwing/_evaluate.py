@@ -2,28 +2,34 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Mapping, SupportsFloat, SupportsIndex
+from typing import TYPE_CHECKING, Any, Mapping, SupportsIndex
 
 import numpy as np
 
-from . import _flapwing
+from . import _arguments, _flapwing
 from ._progress import Progress, shown
 from ._table import Table
+from ._types import Design, Measures, Value
 
 if TYPE_CHECKING:
     import pandas
+    import polars
+    import pyarrow
+    from distributed import Client
 
 __all__ = ["evaluate"]
 
 
 def evaluate(
-    design: Any,
-    columns: Mapping[str, Any] | pandas.DataFrame,
+    design: Design,
+    columns: Mapping[str, Any] | Table | pandas.DataFrame | polars.DataFrame | pyarrow.Table,
     /,
     *,
     threads: SupportsIndex | None = None,
     progress: Progress = False,
-    **keywords: SupportsFloat | str,
+    client: Client | None = None,
+    measures: Measures | None = None,
+    **keywords: Value,
 ) -> Table:
     """Run a batch of design points, given as columns of parameters.
 
@@ -37,14 +43,20 @@ def evaluate(
         The base of all points: a preset; a model, all of whose parameters must then be given; or a grid (see
         `Grid`), whose ``[derived]``, ``[where]``, ``[measure]``, ``[solver]`` and ``[output]`` hold for every point. A
         grid with axes is run for each row of `columns`, for example all frequencies for each design.
-    columns : mapping or DataFrame
-        Parameters by name, each with an array of n values in SI units, a list of texts with units or of options, or
-        one value for all points. A masked array must have no masked values.
+    columns : dict, Table or DataFrame
+        Parameters by name, each with n values: an array, a Series or a range of numbers in SI units, a list of texts with
+        units or of options, or one value for all points. A masked array must have no masked values. Of a `Table`, or of
+        some of its rows, the parameters are taken, and its measures are left out.
     threads : int, optional
-        Threads, 1 or more. Default: one per core. Rows do not depend on it.
+        Threads, 1 or more; with `client`, those of each task. Default: one per core; with `client`, 1. Rows do not
+        depend on it.
     progress : bool or function, optional
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
         points in all.
+    client : distributed.Client, optional
+        Run the points on the workers of a Dask cluster, which need the same build of flapwing. Rows are the same.
+    measures : list of str, optional
+        The measures of the rows, in place of all of them or of those that the grid's ``[output]`` chooses.
     **keywords : float or str
         Parameters of all points and solver settings, as for `run`; a name must not be a column too.
 
@@ -70,11 +82,32 @@ def evaluate(
     >>> rows = flapwing.evaluate("ozaki2018-large", {"drive_frequency": [100.0, 105.0, 110.0]})
     >>> rows["lift_mean_mn"].round(2)
     array([2.79, 3.84, 4.73])
+    >>> again = flapwing.evaluate("ozaki2018-large", rows[1:], rtol=1e-8, measures=["lift_mean_mn"])
+    >>> again.columns[:4]
+    ['point', 'drive_frequency', 'status', 'lift_mean_mn']
     """
+    given = _given(columns)
+    chosen = _arguments.measures(measures)
+    with shown(progress) as show:
+        if client is None:
+            native = _flapwing.evaluate(
+                design, given, threads=threads, progress=show, measures=chosen, keywords=dict(keywords)
+            )
+        else:
+            from ._scatter import scattered
+
+            call = {"design": design, "measures": chosen, "keywords": dict(keywords)}
+            native = scattered(_arguments.cluster(client), call, given, threads, show)
+    # Without axes rows are just rows.
+    return Table._of(native if len(native["axes"]) > 1 else {**native, "axes": []}, set=keywords)
+
+
+def _given(columns: Any) -> dict[str, Any]:
+    """The parameters by name, each with an array of float64 or a list of what else there is, all as long."""
     given: dict[str, Any] = {}
     constants: dict[str, Any] = {}
-    for name in columns.keys():
-        values = columns[name]
+    found = _parameters(columns) if isinstance(columns, Table) else _arguments.columns_of("columns", columns)
+    for name, values in found.items():
         _refuse_masked(name, values)
         if isinstance(values, (str, bytes)) or np.ndim(values) == 0:
             constants[name] = values
@@ -84,15 +117,18 @@ def evaluate(
         length = len(next(iter(given.values())))
         for name, value in constants.items():
             given[name] = [value] * length if isinstance(value, str) else np.full(length, _number(name, value))
-        given = {name: given[name] for name in columns.keys()}
-    elif constants:
-        given = {name: [value] for name, value in constants.items()}
-    with shown(progress) as show:
-        native = _flapwing.evaluate(design, given, threads=threads, progress=show, keywords=dict(keywords))
-    # Without axes rows are just rows.
-    table = Table._of(native if len(native["axes"]) > 1 else {**native, "axes": []})
-    table.meta["set"] = dict(keywords)
-    return table
+        return {name: given[name] for name in found}
+    return given or {name: [value] for name, value in constants.items()}
+
+
+def _parameters(table: Table) -> dict[str, Any]:
+    """The columns of a table that are parameters of its model, or of any."""
+    models = [table.meta["model"]] if table.meta.get("model") else _flapwing.presets()
+    known = {name for model in models for name, *_ in _flapwing.params(model)}
+    found = {name: table[name] for name in table if name in known}
+    if not found:
+        raise ValueError(f"`columns` has no column of a parameter, only {', '.join(table)}\nadd one, or give a dictionary")
+    return found
 
 
 def _refuse_masked(name: str, values: Any) -> None:
@@ -112,11 +148,13 @@ def _column(name: str, values: Any) -> np.ndarray[Any, Any] | list[Any]:
     if isinstance(values, (list, tuple)) and any(isinstance(value, str) for value in values):
         # NumPy would make text of the numbers among them.
         return list(values)
+    if isinstance(values, (dict, set, frozenset)):
+        raise _arguments.refused(name, values, "it must be one value, or a list, an array or a Series of values")
     array = np.asarray(values)
     if array.ndim != 1:
         raise ValueError(f"`{name}` must be one value or have one dimension, not {array.ndim}")
     if array.dtype.kind in "fiu":
-        return np.ascontiguousarray(array, dtype=np.float64)
+        return np.require(array, np.float64, ["C", "A"])
     listed: list[Any] = array.tolist()
     return listed
 
@@ -124,4 +162,7 @@ def _column(name: str, values: Any) -> np.ndarray[Any, Any] | list[Any]:
 def _number(name: str, value: Any) -> float:
     if isinstance(value, (bool, np.bool_, bytes)):
         raise TypeError(f"`{name}` must be a number or text with a unit, not {type(value).__name__}")
-    return float(value)
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise _arguments.refused(name, value, "it must be a number, text with a unit, or a column of these") from None

@@ -8,7 +8,11 @@ __all__ = [
     "Grid",
     "GridError",
     "__version__",
+    "check",
+    "chirp",
     "evaluate",
+    "impulse",
+    "lift",
     "measures",
     "params",
     "part",
@@ -19,8 +23,12 @@ __all__ = [
     "respond",
     "run",
     "scale",
+    "settings",
     "split_unit",
+    "states",
     "sweep",
+    "text_of",
+    "track",
     "trajectory",
     "unit_of",
     "words",
@@ -95,14 +103,17 @@ class Grid:
 
     Parameters
     ----------
-    source : path, str, dict or Grid
-        A grid file by its path; the text of one (a str with a line break or ``=``); or its entries as a dictionary
-        of dictionaries.
+    source : str, path, dict or Grid
+        A preset by its name; a grid file by its path; the text of one (a str with a line break or ``=``); or its entries
+        as a dictionary of dictionaries. Lists in it may be arrays, Series, ranges, or columns of Arrow; a DataFrame
+        stands for the dictionary of its columns.
 
     Raises
     ------
     GridError
         Mistakes in the grid: all of them, each with its line, what is allowed and the nearest name.
+    ValueError
+        There is no such preset.
     OSError
         The file is not there or cannot be read.
     TypeError
@@ -173,33 +184,100 @@ def params(name: str, /) -> list[tuple[str, float | str | None, str, str, str, s
 def measures(name: str, /) -> list[tuple[str, str, str]]:
     """The measures of a preset or a model: names, each with unit and meaning; see `flapwing.measures`."""
 
-def run(preset: str, keywords: dict[str, Any], /) -> dict[str, Any]:
-    """Runs one point; see `flapwing.run`."""
+def states(name: str, /) -> list[str]:
+    """The names of the states of a preset's or a model's equations of motion, with their units at the end."""
 
-def trajectory(
-    preset: str,
+def settings() -> list[str]:
+    """The names of the solver settings, in the order of the signature of `flapwing.run`."""
+
+def run(
+    design: Any,
     keywords: dict[str, Any],
     /,
     *,
+    point: SupportsIndex | None = None,
+    begin: dict[str, Any] | None = None,
+    waveform: str | dict[str, Any] | None = None,
+    stroke: str | dict[str, Any] | None = None,
+) -> dict[str, Any]:
+    """Runs one point; see `flapwing.run`."""
+
+def trajectory(
+    design: Any,
+    keywords: dict[str, Any],
+    /,
+    *,
+    point: SupportsIndex | None,
     cycles: SupportsIndex,
     samples: SupportsIndex,
     from_rest: bool,
+    begin: dict[str, Any] | None = None,
+    waveform: str | dict[str, Any] | None = None,
+    stroke: str | dict[str, Any] | None = None,
+    once: bool = False,
 ) -> dict[str, Any]:
     """Samples the motion of one point; see `flapwing.trajectory`."""
 
 def resonance(
-    preset: str,
+    design: Any,
     keywords: dict[str, Any],
     /,
     *,
-    start: float | None,
-    stop: float | None,
-    tolerance: float,
-    impulse: float,
+    point: SupportsIndex | None,
+    start: SupportsFloat | str | None,
+    stop: SupportsFloat | str | None,
+    tolerance: SupportsFloat | str,
+    impulse: SupportsFloat | str,
     fit_cycles: SupportsIndex,
-    spectrum_window: float,
+    spectrum_window: SupportsFloat | str,
 ) -> dict[str, Any]:
     """Finds the resonances of one point; see `flapwing.resonance`."""
+
+def chirp(
+    design: Any,
+    keywords: dict[str, Any],
+    /,
+    *,
+    point: SupportsIndex | None,
+    start: SupportsFloat | str,
+    stop: SupportsFloat | str | None,
+    rate: SupportsFloat | str,
+    samples: SupportsIndex | None,
+) -> dict[str, Any]:
+    """Runs a chirp; see `flapwing.chirp`."""
+
+def impulse(
+    design: Any,
+    keywords: dict[str, Any],
+    /,
+    *,
+    point: SupportsIndex | None,
+    amplitude: SupportsFloat | str,
+    duration: SupportsFloat | str | None,
+    samples: SupportsIndex,
+) -> dict[str, Any]:
+    """Follows the motion after an impulse; see `flapwing.impulse`."""
+
+def lift(
+    design: Any,
+    motion: str | dict[str, Any],
+    keywords: dict[str, Any],
+    /,
+    *,
+    point: SupportsIndex | None,
+    periodic: bool,
+    samples: SupportsIndex,
+) -> dict[str, Any]:
+    """Forces along a given motion; see `flapwing.lift`."""
+
+def track(points: str | dict[str, Any], /, *, chord: SupportsFloat | None = None) -> dict[str, Any]:
+    """Computes stroke and pitch; see `flapwing.track`."""
+
+def check(design: Any, /, *, keywords: dict[str, Any], measures: list[str] | None = None) -> None:
+    """Checks that a design takes these keywords and has these measures, with the messages of `evaluate`."""
+
+def text_of(entries: dict[str, Any], /) -> str:
+    """The text of a grid file with these entries."""
 
 def evaluate(
     design: Any,
@@ -208,6 +286,7 @@ def evaluate(
     *,
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
+    measures: list[str] | None = None,
     keywords: dict[str, Any] | None = None,
 ) -> dict[str, Any]:
     """Runs a batch of points; see `flapwing.evaluate`. `columns` has a one-dimensional array of float64, or a list of text,
@@ -225,6 +304,7 @@ def respond(
     tolerance: SupportsFloat | str | None = None,
     unstable: bool = False,
     threads: SupportsIndex | None = None,
+    progress: Callable[[int, int], object] | None = None,
     keywords: dict[str, Any] | None = None,
 ) -> dict[str, Any]:
     """Follows responses; see `flapwing.respond`."""

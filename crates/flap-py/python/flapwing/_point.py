@@ -1,91 +1,25 @@
-"""Single design points, and lists of parameters and measures."""
+"""Single design points: their rows, motions and resonances."""
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, SupportsFloat, SupportsIndex
+from typing import Any, SupportsFloat, SupportsIndex
 
-from . import _flapwing
+from . import _arguments, _flapwing
+from ._flapwing import Grid
 from ._table import Table
+from ._types import Design, Record, State, Value
 
-__all__ = ["Parameter", "measures", "params", "resonance", "run", "trajectory"]
-
-
-class Parameter(NamedTuple):
-    """A parameter of a model."""
-
-    #: Name in grids, on the command line and as a keyword.
-    name: str
-    #: Value in the preset, in SI units, or the name of an option. None if it is not set and follows others.
-    value: float | str | None
-    #: SI unit; ``""`` for pure numbers and options.
-    unit: str
-    #: Symbol in the paper; ``""`` if it has none.
-    symbol: str
-    #: One line of meaning, with its source.
-    doc: str
-    #: The allowed values, in words.
-    allowed: str
-    #: Its options, if it is a choice; else empty.
-    options: tuple[str, ...]
-
-
-def params(name: str, /) -> dict[str, Parameter]:
-    """The parameters of a preset, with their values, or of a model, without.
-
-    Parameters
-    ----------
-    name : str
-        A preset, such as ``"ozaki2018-large"``, or a model, such as ``"direct-drive"``.
-
-    Returns
-    -------
-    dict of str to Parameter
-        By name, in the order of the model's table.
-
-    Raises
-    ------
-    ValueError
-        There is no such preset or model.
-
-    Examples
-    --------
-    >>> flapwing.params("ozaki2018-large")["drive_frequency"].unit
-    'Hz'
-    """
-    listed = (Parameter(*row[:-1], options=tuple(row[-1])) for row in _flapwing.params(name))
-    return {parameter.name: parameter for parameter in listed}
-
-
-def measures(name: str, /) -> dict[str, tuple[str, str]]:
-    """The measures in rows of a preset or a model: the unit and the meaning of each column.
-
-    Parameters
-    ----------
-    name : str
-        As for `params`.
-
-    Returns
-    -------
-    dict of str to (str, str)
-        Unit and meaning by column, in the order of the rows.
-
-    Raises
-    ------
-    ValueError
-        As for `params`.
-
-    Examples
-    --------
-    >>> flapwing.measures("ozaki2018-large")["lift_mean_mn"][0]
-    'mN'
-    """
-    return {column: (unit, doc) for column, unit, doc in _flapwing.measures(name)}
+__all__ = ["resonance", "run", "trajectory"]
 
 
 def run(
-    preset: str,
+    design: Design,
     /,
     *,
+    point: SupportsIndex | None = None,
+    begin: State | None = None,
+    waveform: Record | None = None,
+    stroke: Record | None = None,
     rtol: SupportsFloat | None = None,
     atol: SupportsFloat | None = None,
     settle_tol: SupportsFloat | None = None,
@@ -94,20 +28,36 @@ def run(
     accuracy: SupportsFloat | None = None,
     newton: bool | None = None,
     progressive: bool | None = None,
-    **parameters: SupportsFloat | str,
+    **parameters: Value,
 ) -> dict[str, Any]:
     """Run one design point until its motion repeats with the drive, then measure one drive period.
 
-    The preset's parameters hold except those given as keywords::
+    The design's parameters hold except those given as keywords::
 
         run("ozaki2018-large", drive_voltage_pp="80 V", hinge_stiffness=9e-5, lift_sign="printed")
+        run("grid.toml", point=17)
 
     The same call gives the same bits every time. Other Python threads go on meanwhile.
 
     Parameters
     ----------
-    preset : str
-        One of `presets()`. It names the model too.
+    design : str, path, dict or Grid
+        A preset, one of `presets()`; or a grid, see `Grid`, as a path, text, dictionary or Grid; or a model, all of whose
+        parameters must then be given.
+    point : int, optional
+        The index of a point in the grid. Needed if it has more than one.
+    begin : dict or Table, optional
+        The state at the start of the first drive period: components by the names of `states(…)`, each a number in SI
+        units or text with a unit, ``{"pitch": "10 deg"}``; those not given are zero. Or a table of one row with the
+        states, such as ``trajectory(…)[-1:]``. If the design has several orbits, it decides which is found. Default:
+        rest.
+    waveform : path, tuple or columns, optional
+        One period of the drive in place of `drive_shape`: a CSV file or columns (a dictionary, Table or DataFrame) with
+        `time_s` (or `time_ms`) and `wave`, or a pair of arrays (times in s, wave). Its duration is the drive period unless
+        `drive_frequency` is given as a keyword. The voltage is bias + amplitude times wave.
+    stroke : path, tuple or columns, optional
+        One period of a prescribed stroke, likewise: `time_s` and `stroke_deg` (or `stroke_rad`), or a pair of arrays (s,
+        rad). For models with the parameter `stroke_mode`.
     rtol : float, optional
         Relative tolerance of the integrator, per step and state: more than 0 and less than 0.1.
         Default 1e-6.
@@ -148,8 +98,8 @@ def run(
             impossible).
         measures : float or None
             Several keys, each named after its quantity, its kind of measure and its unit:
-            ``stroke_pp_deg``, ``lift_mean_mn``, ``power_mean_mw``. All are None unless the point is periodic.
-            A ratio of zero to zero, such as the efficiency without power, is nan.
+            ``stroke_pp_deg``, ``lift_mean_mn``, ``power_mean_mw``; then those of the grid's ``[measure]``. All are None
+            unless the point is periodic. A ratio of zero to zero, such as the efficiency without power, is nan.
         cycles : int
             Drive periods integrated, those of the measurement included.
         residual : float or None
@@ -174,32 +124,51 @@ def run(
     Raises
     ------
     ValueError
-        Unknown preset, parameter, option or unit; a value out of range, infinite or not a number. The
-        message gives the nearest name and the allowed values.
+        Unknown preset, parameter, option or unit; a value out of range, infinite or not a number; a grid with several
+        points, and no `point`. The message gives the nearest name and the allowed values.
     TypeError
         A value of the wrong type, such as text for a tolerance or a number for an option.
+    IndexError
+        The grid has no such point.
+
+    Examples
+    --------
+    >>> grid = {"preset": "ozaki2018-large", "axes": {"drive_frequency": range(100, 120)}}
+    >>> flapwing.run(grid, point=5, drive_voltage_pp="80 V")["status"]
+    'periodic'
     """
     solver = {"rtol": rtol, "atol": atol, "settle_tol": settle_tol, "accuracy": accuracy}
     steps = {"max_cycles": max_cycles, "max_steps": max_steps}
     search = {"newton": newton, "progressive": progressive}
-    return _flapwing.run(preset, {**parameters, **solver, **steps, **search})
+    return _flapwing.run(
+        design,
+        {**parameters, **solver, **steps, **search},
+        point=point,
+        begin=None if begin is None else _arguments.state(_model(design), begin),
+        **_waves(waveform, stroke),
+    )
 
 
 def trajectory(
-    preset: str,
+    design: Design,
     /,
     *,
+    point: SupportsIndex | None = None,
     cycles: SupportsIndex = 2,
     samples: SupportsIndex = 200,
     from_rest: bool = False,
-    **keywords: SupportsFloat | str,
+    begin: State | None = None,
+    waveform: Record | None = None,
+    stroke: Record | None = None,
+    once: bool = False,
+    **keywords: Value,
 ) -> Table:
     """The motion of one design point, sampled at equal times.
 
     Parameters
     ----------
-    preset : str
-        One of `presets()`.
+    design, point
+        As for `run`.
     cycles : int, optional
         Drive periods. Default 2.
     samples : int, optional
@@ -207,6 +176,13 @@ def trajectory(
         at most 5,000,000.
     from_rest : bool, optional
         Begin at rest. By default the motion begins once it has settled.
+    begin : dict or Table, optional
+        Begin in this state at the start of a drive period, see `run`.
+    waveform, stroke : path, tuple or columns, optional
+        A waveform of the drive or a prescribed stroke, see `run`.
+    once : bool, optional
+        Follow the waveform or the stroke once, from rest or from `begin`, instead of repeating it. It need not be
+        closed, and `cycles` does not count.
     **keywords : float or str
         Parameters of the model and solver settings, as for `run`.
 
@@ -214,7 +190,7 @@ def trajectory(
     -------
     Table
         ``cycles * samples + 1`` rows with the columns of ``flap run --trajectory``: `time_s` (s), then the states and
-        signals of the model, named with their units.
+        signals of the model, named with their units. `docs` has their meanings, `meta` the origin of the motion.
 
     Raises
     ------
@@ -228,41 +204,53 @@ def trajectory(
     >>> motion = flapwing.trajectory("ozaki2018-large", cycles=1, samples=100)
     >>> len(motion), motion.columns[:3]
     (101, ['time_s', 'stroke_rad', 'pitch_rad'])
+    >>> on = flapwing.trajectory("ozaki2018-large", begin=motion[-1:], drive_voltage_pp="80 V")
     """
-    native = _flapwing.trajectory(preset, dict(keywords), cycles=cycles, samples=samples, from_rest=from_rest)
-    return Table._of(native)
+    native = _flapwing.trajectory(
+        design,
+        dict(keywords),
+        point=point,
+        cycles=cycles,
+        samples=samples,
+        from_rest=_arguments.flag("from_rest", from_rest),
+        begin=None if begin is None else _arguments.state(_model(design), begin),
+        once=_arguments.flag("once", once),
+        **_waves(waveform, stroke),
+    )
+    return Table._of(native, set=keywords)
 
 
 def resonance(
-    preset: str,
+    design: Design,
     /,
     *,
-    start: float | None = None,
-    stop: float | None = None,
-    tolerance: float = 0.05,
-    impulse: float = 20.0,
+    point: SupportsIndex | None = None,
+    start: Value | None = None,
+    stop: Value | None = None,
+    tolerance: Value = 0.05,
+    impulse: Value = 20.0,
     fit_cycles: SupportsIndex = 4,
-    spectrum_window: float = 1.0,
-    **keywords: SupportsFloat | str,
+    spectrum_window: Value = 1.0,
+    **keywords: Value,
 ) -> dict[str, Any]:
     """The resonances of one design point: of small motions, after an impulse, and under the drive.
 
     Parameters
     ----------
-    preset : str
-        One of `presets()`.
-    start, stop : float, optional
-        Lowest and highest drive frequency (Hz) of the search for peaks of the settled stroke. Default: half of the lower
-        natural frequency to one and a half times the upper one.
-    tolerance : float, optional
-        Largest error of the peaks' frequencies (Hz). Default 0.05.
-    impulse : float, optional
-        Impulse on the resting stroke, as the amplitude (deg) that the first mode alone would reach without damping.
-        Default 20.
+    design, point
+        As for `run`.
+    start, stop : float or str, optional
+        Lowest and highest drive frequency (Hz, or text with a unit) of the search for peaks of the settled stroke.
+        Default: half of the lower natural frequency to one and a half times the upper one.
+    tolerance : float or str, optional
+        Largest error of the peaks' frequencies (Hz, or text with a unit). Default 0.05.
+    impulse : float or str, optional
+        Impulse on the resting stroke, as the amplitude (deg, or text with a unit) that the first mode alone would reach
+        without damping. Default 20.
     fit_cycles : int, optional
         Number of periods of the first mode to which the damped sine is fitted. Default 4.
-    spectrum_window : float, optional
-        Length (s) of the motion whose spectrum is taken. Default 1.
+    spectrum_window : float or str, optional
+        Length (s, or text with a unit) of the motion whose spectrum is taken. Default 1.
     **keywords : float or str
         Parameters of the model and solver settings, as for `run`.
 
@@ -288,6 +276,8 @@ def resonance(
     ------
     ValueError
         As for `run`; also if the parameters are impossible together.
+    TypeError
+        A value of the wrong type.
 
     Examples
     --------
@@ -296,8 +286,9 @@ def resonance(
     110.7
     """
     return _flapwing.resonance(
-        preset,
+        design,
         dict(keywords),
+        point=point,
         start=start,
         stop=stop,
         tolerance=tolerance,
@@ -305,3 +296,23 @@ def resonance(
         fit_cycles=fit_cycles,
         spectrum_window=spectrum_window,
     )
+
+
+def _waves(waveform: Record | None, stroke: Record | None) -> dict[str, Any]:
+    """The records of a call, for the native part."""
+    return {
+        "waveform": None if waveform is None else _arguments.record("waveform", waveform, "wave"),
+        "stroke": None if stroke is None else _arguments.record("stroke", stroke, "stroke_rad"),
+    }
+
+
+def _model(design: Design) -> str:
+    """The model of a design, or its preset, whose states are the same."""
+    if isinstance(design, str):
+        try:
+            _flapwing.states(design)
+        except ValueError:
+            pass
+        else:
+            return design
+    return Grid(design).model

@@ -12,10 +12,14 @@ Progress = bool | Callable[[int, int], object]
 @contextmanager
 def shown(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
     """The function to call with the numbers of points done and of points in all; None for no progress."""
-    if not progress:
-        yield None
-    elif callable(progress):
+    if callable(progress):
         yield progress
+    elif not isinstance(progress, bool):
+        raise TypeError(
+            f"`progress` is {type(progress).__name__}\nit must be True, False, or a function of two numbers: points done, points"
+        )
+    elif not progress:
+        yield None
     else:
         try:
             from tqdm.auto import tqdm

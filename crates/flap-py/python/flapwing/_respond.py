@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
-from typing import Any, SupportsFloat, SupportsIndex
+from typing import SupportsIndex
 
-from . import _flapwing
+from . import _arguments, _flapwing
+from ._progress import Progress, shown
 from ._table import Table
+from ._types import Design, Value
 
 __all__ = ["respond"]
 
 
 def respond(
-    design: Any,
+    design: Design,
     along: str = "drive_frequency",
     /,
     *,
-    start: SupportsFloat | str | None = None,
-    stop: SupportsFloat | str | None = None,
-    step: SupportsFloat | str | None = None,
-    tolerance: SupportsFloat | str | None = None,
+    start: Value | None = None,
+    stop: Value | None = None,
+    step: Value | None = None,
+    tolerance: Value | None = None,
     unstable: bool = False,
     threads: SupportsIndex | None = None,
-    **keywords: SupportsFloat | str,
+    progress: Progress = False,
+    **keywords: Value,
 ) -> Table:
     """Follow the motions of designs as a parameter rises and falls, and find hysteresis.
 
@@ -32,7 +35,8 @@ def respond(
     Parameters
     ----------
     design : str, path, dict or Grid
-        A preset, or a grid: each of its points, without the axis that is followed, is a design with a curve.
+        A preset, or a grid (see `Grid`): each of its points, without the axis that is followed, is a design with a
+        curve.
     along : str, optional
         The parameter that rises and falls. Default ``"drive_frequency"``.
     start, stop, step : float or str, optional
@@ -44,6 +48,9 @@ def respond(
         Continue the branches around the ends of bistable bands: adds the unstable orbits between them.
     threads : int, optional
         Threads, 1 or more. Default: one per core. Rows do not depend on it.
+    progress : bool or function, optional
+        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of designs done and of
+        designs in all.
     **keywords : float or str
         Parameters of all designs and solver settings, as for `run`.
 
@@ -68,19 +75,21 @@ def respond(
     >>> curve.meta["verdicts"]
     ['no hysteresis above 1.1e-9 deg from 100 to 120 Hz']
     """
+    if not isinstance(along, str):
+        raise _arguments.refused("along", along, 'it must be the name of a parameter, such as "drive_frequency"')
     if along in keywords:
         raise ValueError(f"`{along}` is set here and followed: keep one of them")
-    native = _flapwing.respond(
-        design,
-        along,
-        start=start,
-        stop=stop,
-        step=step,
-        tolerance=tolerance,
-        unstable=unstable,
-        threads=threads,
-        keywords=dict(keywords),
-    )
-    table = Table._of(native)
-    table.meta["set"] = dict(keywords)
-    return table
+    with shown(progress) as show:
+        native = _flapwing.respond(
+            design,
+            along,
+            start=start,
+            stop=stop,
+            step=step,
+            tolerance=tolerance,
+            unstable=_arguments.flag("unstable", unstable),
+            threads=threads,
+            progress=show,
+            keywords=dict(keywords),
+        )
+    return Table._of(native, set=keywords)

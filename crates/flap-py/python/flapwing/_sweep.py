@@ -6,10 +6,11 @@ import os
 import warnings
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
-from . import _flapwing
-from ._flapwing import Grid
+from . import _arguments, _flapwing
+from ._overlay import grid_of
 from ._progress import Progress, shown
 from ._table import Table
+from ._types import Design, Measures, Value
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -18,7 +19,7 @@ __all__ = ["read", "sweep"]
 
 
 def sweep(
-    grid: Any,
+    design: Design,
     /,
     *,
     out: str | os.PathLike[str] | None = None,
@@ -27,13 +28,16 @@ def sweep(
     threads: SupportsIndex | None = None,
     progress: Progress = False,
     client: Client | None = None,
+    measures: Measures | None = None,
+    **keywords: Value,
 ) -> Table:
     """Run every point of a grid.
 
     Parameters
     ----------
-    grid : path, str, dict or Grid
-        The design space, see `Grid`. Its ``[output]`` chooses columns; the path in it is not used.
+    design : str, path, dict or Grid
+        The design space, see `Grid`; a preset has a single point. Its ``[output]`` chooses columns; the path in it is not
+        used.
     out : path, optional
         File for the rows, written as soon as they are computed, with the same bytes as by ``flap sweep --out``:
         ``.csv``, ``.csv.zst`` or ``.parquet``. A sidecar beside it records the origin of the rows. By default rows are
@@ -53,6 +57,11 @@ def sweep(
         Run the points on the workers of a Dask cluster, which need the same build of flapwing. Rows have the
         same order and the same bytes as on one machine. If a worker dies, others run its points again. A worker whose
         processor rounds differently is an error, because its rows could differ.
+    measures : list of str, optional
+        The measures of the rows, in place of the columns that the grid's ``[output]`` chooses.
+    **keywords : float or str
+        Parameters of all points and solver settings, as for `run`. They count as entries of the grid's ``[params]`` and
+        ``[solver]``, and `out` and its sidecar record them so.
 
     Returns
     -------
@@ -72,7 +81,10 @@ def sweep(
     OSError
         A file cannot be read or written.
     ValueError
-        `out` cannot be resumed: it is of another grid, or was changed.
+        `out` cannot be resumed: it is of another grid, or was changed. Unknown preset, parameter, option, unit or
+        measure; a keyword that the grid varies or derives.
+    TypeError
+        A value of the wrong type.
     KeyboardInterrupt
         Ctrl-C. Rows in `out` are kept, and `resume` continues with them.
 
@@ -81,21 +93,25 @@ def sweep(
     >>> rows = flapwing.sweep({
     ...     "preset": "ozaki2018-large",
     ...     "axes": {"drive_voltage_pp": [60.0, 80.0], "drive_frequency": {"from": 100, "to": 110, "step": 5}},
-    ... })
+    ... }, rtol=1e-5)
     >>> len(rows), rows.counts
     (6, {'periodic': 6})
     """
-    checked = grid if isinstance(grid, Grid) else Grid(grid)
-    given: dict[str, Any] = {"out": out, "resume": resume, "overwrite": overwrite}
+    checked = grid_of(design, keywords, _arguments.measures(measures))
+    given: dict[str, Any] = {
+        "out": out,
+        "resume": _arguments.flag("resume", resume),
+        "overwrite": _arguments.flag("overwrite", overwrite),
+    }
     with shown(progress) as show:
         if client is None:
             native = _flapwing.sweep(checked, threads=threads, progress=show, **given)
         else:
             from ._cluster import Parcels
 
-            with Parcels(checked, client, threads) as parcels:
+            with Parcels(checked, _arguments.cluster(client), threads) as parcels:
                 native = _flapwing.sweep(checked, progress=show, parcels=parcels.next, **given)
-    return Table._of(native, None if out is None else os.path.abspath(out))
+    return Table._of(native, None if out is None else os.path.abspath(out), keywords)
 
 
 def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Table:
@@ -125,7 +141,10 @@ def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Tab
     ValueError
         The file is no table of results, or is damaged; the text locates the damage.
     """
-    native = _flapwing.read(os.fspath(path), ignore_damage=ignore_damage)
+    if not isinstance(path, (str, os.PathLike)):
+        raise _arguments.refused("path", path, "it must be the path of a file of results")
+    damaged = _arguments.flag("ignore_damage", ignore_damage)
+    native = _flapwing.read(os.fspath(path), ignore_damage=damaged)
     for text in native["warnings"]:
         warnings.warn(text, stacklevel=2)
     table = Table._of(native)

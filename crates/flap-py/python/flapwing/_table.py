@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterator, NamedTuple, overload
+import difflib
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence, overload
 
 import numpy as np
 
-from . import _flapwing
-from ._flapwing import split_unit
+from . import _conversions, _flapwing
 
 if TYPE_CHECKING:
     import pandas
@@ -23,7 +23,13 @@ SHOWN_ROWS = 10
 SHOWN_NAMES = 8
 
 
-class _Column(NamedTuple):
+#: What chooses rows and columns, for messages.
+_KEYS = (
+    "columns are chosen by a name or a list of names, rows by a slice or by an array of one dimension: a mask or indices"
+)
+
+
+class Column(NamedTuple):
     """A column as the native part hands it over."""
 
     unit: str
@@ -33,12 +39,16 @@ class _Column(NamedTuple):
     words: list[str] | None
 
     def values(self) -> np.ndarray[Any, Any]:
+        """The cells as they are shown, read-only: a table stays as it was computed."""
         if self.words is not None:
             words: np.ndarray[Any, Any] = np.array(self.words, dtype=np.str_)
-            return words[self.cells]
-        if self.cells.dtype == np.int8:
-            return np.equal(self.cells, 1)
-        return self.cells
+            values = words[self.cells]
+        elif self.cells.dtype == np.int8:
+            values = np.equal(self.cells, 1)
+        else:
+            values = self.cells.view()
+        values.flags.writeable = False
+        return values
 
     def known(self) -> np.ndarray[Any, Any]:
         """A mask, True for cells that hold a value."""
@@ -49,18 +59,19 @@ class _Column(NamedTuple):
         return np.ones(len(self.cells), dtype=np.bool_)
 
 
-def _columns(native: dict[str, Any]) -> dict[str, _Column]:
+def _columns(native: dict[str, Any]) -> dict[str, Column]:
     told = native.get("units", {})
     return {
-        name: _Column(told.get(name, unit), doc, cells, words) for name, unit, doc, cells, words in native["columns"]
+        name: Column(told.get(name, unit), doc, cells, words) for name, unit, doc, cells, words in native["columns"]
     }
 
 
 class Table:
     """Results as columns: one NumPy array each, all of the same length.
 
-    ``table["lift_mean_mn"]`` is a column, ``table[rows]`` a table of some of the rows, ``len(table)`` their number.
-    Iterating gives the names of the columns, as a DataFrame does.
+    ``table["lift_mean_mn"]`` is a column, ``table[["drive_frequency", "lift_mean_mn"]]`` a table of some of the columns,
+    ``table[rows]`` one of some of the rows, by a slice, a mask or indices; ``len(table)`` is their number. Iterating gives
+    the names of the columns, as a DataFrame does. Columns are read-only: ``table["lift_mean_mn"].copy()`` may be changed.
 
     Columns are float64 with nan for unknown values (the measures of a point that is not periodic), uint64 for
     counts, bool for flags, and text for options and words. An unknown flag is False; `to_pandas`, `to_polars` and
@@ -75,21 +86,25 @@ class Table:
         The origin of the rows: `flap` (version), `build` (a hash of the sources, which differs between builds of a
         version), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of the grid file). The
         call adds `counts`, rows by status; `excluded` points, which have no row; `invalid`, the first few invalid
-        points with the reason; `set`, keywords that replace values of the grid.
+        points with the reason; `set`, keywords that replace values of the grid. Tables of some of the rows or columns
+        have them too, with `rows` and `counts` of their own.
     """
 
     dims: list[dict[str, np.ndarray[Any, Any]]]
     meta: dict[str, Any]
-    _held: dict[str, _Column] | None
+    _held: dict[str, Column] | None
     _path: str
 
     def __init__(self, *_: object) -> None:
-        raise TypeError("a Table comes from sweep, evaluate, respond, trajectory or read")
+        raise TypeError("a Table comes from sweep, evaluate, respond, trajectory or read\ncall one of them")
 
     @classmethod
-    def _of(cls, native: dict[str, Any], path: str | None = None) -> Table:
-        """A table of native results; with a path, its columns are read from there when first used."""
+    def _of(cls, native: dict[str, Any], path: str | None = None, set: Mapping[str, Any] | None = None) -> Table:
+        """A table of native results, where a call has `set` some parameters and settings; with a path, its columns are
+        read from there when first used."""
         meta = {**native.get("meta", {}), **native.get("summary", {})}
+        if set is not None:
+            meta["set"] = dict(set)
         if path is None:
             return cls._new(_columns(native), native.get("axes", []), meta)
         table = cls._new(None, native["axes"], meta)
@@ -98,7 +113,7 @@ class Table:
 
     @classmethod
     def _new(
-        cls, columns: dict[str, _Column] | None, dims: list[dict[str, Any]], meta: dict[str, Any]
+        cls, columns: dict[str, Column] | None, dims: list[dict[str, Any]], meta: dict[str, Any]
     ) -> Table:
         table = object.__new__(cls)
         table._held = columns
@@ -107,7 +122,7 @@ class Table:
         return table
 
     @property
-    def _columns(self) -> dict[str, _Column]:
+    def _columns(self) -> dict[str, Column]:
         if self._held is None:
             self._held = _columns(_flapwing.read(self._path))
         return self._held
@@ -128,19 +143,42 @@ class Table:
     @overload
     def __getitem__(self, key: str) -> np.ndarray[Any, Any]: ...
     @overload
-    def __getitem__(self, key: slice | np.ndarray[Any, Any] | list[int] | list[bool]) -> Table: ...
+    def __getitem__(self, key: list[str] | tuple[str, ...]) -> Table: ...
+    @overload
+    def __getitem__(self, key: slice | np.ndarray[Any, Any] | Sequence[int] | Sequence[bool]) -> Table: ...
     def __getitem__(self, key: Any) -> Any:
         if isinstance(key, str):
+            return self._column(key).values()
+        if isinstance(key, slice):
             try:
-                return self._columns[key].values()
-            except KeyError:
-                raise KeyError(f"there is no column {key!r}; there are {', '.join(self._columns)}") from None
-        if not isinstance(key, slice):
-            key = np.asarray(key)
-            if key.ndim != 1:
-                raise TypeError("rows are chosen by a slice, or by an array of one dimension: a mask or indices")
+                return self._rows(key)
+            except TypeError:
+                raise TypeError(f"rows are sliced by whole numbers\n{_KEYS}") from None
+        if isinstance(key, (list, tuple)) and key and all(isinstance(name, str) for name in key):
+            chosen = {name: self._column(name) for name in key}
+            return self._new(chosen, self.dims, dict(self.meta))
+        rows = np.asarray(key)
+        if rows.ndim == 1 and rows.size == 0:
+            rows = rows.astype(np.intp)
+        if rows.ndim != 1 or rows.dtype.kind not in "biu":
+            raise TypeError(f"a table is not indexed by {type(key).__name__}: {key!r:.60}\n{_KEYS}")
+        return self._rows(rows)
+
+    def _column(self, name: str) -> Column:
+        try:
+            return self._columns[name]
+        except KeyError:
+            near = difflib.get_close_matches(name, self._columns, n=1)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            raise KeyError(f"there is no column {name!r}; there are {', '.join(self._columns)}{hint}") from None
+
+    def _rows(self, key: slice | np.ndarray[Any, Any]) -> Table:
+        """Some of the rows. What `meta` counts is counted among them; the rest is about the call."""
         columns = {name: column._replace(cells=column.cells[key]) for name, column in self._columns.items()}
-        return self._new(columns, self.dims, self.meta)
+        table = self._new(columns, self.dims, dict(self.meta))
+        if "counts" in table.meta:
+            table.meta.update(rows=len(table), counts=table.counts)
+        return table
 
     def keys(self) -> list[str]:
         """The names of the columns, so that ``dict(table)`` has all of them."""
@@ -177,20 +215,10 @@ class Table:
     def to_pandas(self) -> pandas.DataFrame:
         """The table as a pandas DataFrame, numbers without a copy where pandas allows it.
 
-        Flags are of the type ``boolean``, text is categorical; ``frame.attrs`` has `units`.
+        Flags are of the type ``boolean``, text is categorical; ``frame.attrs`` has `units`. Columns that are not copied
+        are read-only: ``frame.copy()`` may be changed.
         """
-        import pandas
-
-        def series(column: _Column) -> Any:
-            if column.words is not None:
-                return pandas.Categorical.from_codes(column.cells.astype(np.int32), column.words)
-            if column.cells.dtype == np.int8:
-                return pandas.arrays.BooleanArray(column.values(), ~column.known())
-            return column.cells
-
-        frame = pandas.DataFrame({name: series(column) for name, column in self._columns.items()}, copy=False)
-        frame.attrs["units"] = self.units
-        return frame
+        return _conversions.to_pandas(self)
 
     def to_polars(self) -> polars.DataFrame:
         """The table as a polars DataFrame, through Arrow; unknown values are null."""
@@ -203,22 +231,10 @@ class Table:
     def to_arrow(self) -> pyarrow.Table:
         """The table as an Arrow table: numbers share memory with the table, unknown values are null.
 
-        Units and meanings are in the metadata of the fields.
+        Units and meanings are in the metadata of the fields; the entries of `meta` are in the metadata of the schema, as
+        ``flapwing.build``, ``flapwing.grid`` and so on, those that are not text as JSON. Parquet files keep both.
         """
-        import pyarrow
-
-        arrays, fields = [], []
-        for name, column in self._columns.items():
-            unknown = ~column.known()
-            if column.words is not None:
-                cells = pyarrow.array(column.cells.view(np.int32))
-                array = pyarrow.DictionaryArray.from_arrays(cells, pyarrow.array(column.words, pyarrow.string()))
-            else:
-                array = pyarrow.array(column.values(), mask=unknown if unknown.any() else None)
-            arrays.append(array)
-            about = {"unit": column.unit, "doc": column.doc}
-            fields.append(pyarrow.field(name, array.type, metadata={k: v for k, v in about.items() if v}))
-        return pyarrow.Table.from_arrays(arrays, schema=pyarrow.schema(fields))
+        return _conversions.to_arrow(self)
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         """The table through the Arrow C stream interface, which needs pyarrow."""
@@ -228,42 +244,12 @@ class Table:
         """The table as an xarray Dataset: the axes of the grid are its dimensions, in the order of the grid.
 
         A dimension is named after the first parameter of its axis; others that move with it are coordinates along it.
-        Without axes, rows are along the dimension ``row``. Columns are variables with the attributes `units`,
-        `long_name` and `description`. Points that have no row, because the grid excludes them, are nan, 0, False or empty text.
+        A motion has the dimension ``time_s``. Otherwise rows are along the dimension ``row``; of a response, the columns
+        that place a row on its curve (`curve`, the design's parameters, `branch`, the parameter that is followed) are
+        coordinates along it. Columns are variables with the attributes `units`, `long_name` and `description`. Points
+        that have no row, because the grid excludes them, are nan, 0, False or empty text.
         """
-        import xarray
-
-        dims = [next(iter(dim)) for dim in self.dims] or ["row"]
-        shape = [len(next(iter(dim.values()))) for dim in self.dims] or [len(self)]
-        axes = {name for dim in self.dims for name in dim}
-        places = self["point"].astype(np.intp) if self.dims else np.arange(len(self))
-
-        def spread(values: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-            empty = np.nan if values.dtype == np.float64 else np.zeros((), values.dtype)
-            whole = np.full(int(np.prod(shape)), empty, dtype=values.dtype)
-            whole[places] = values
-            return whole.reshape(shape)
-
-        def about(name: str) -> dict[str, str]:
-            column = self._columns.get(name)
-            if column is None:
-                return {}
-            words = split_unit(name)[0].replace("_", " ")
-            pairs = {"units": column.unit, "long_name": words, "description": column.doc}
-            return {key: value for key, value in pairs.items() if value}
-
-        variables = {
-            name: (dims, spread(column.values()), about(name))
-            for name, column in self._columns.items()
-            if name not in axes and not (self.dims and name == "point")
-        }
-        coordinates = {
-            name: (dims[place], values, about(name))
-            for place, dim in enumerate(self.dims)
-            for name, values in dim.items()
-        }
-        attributes = {name: self.meta[name] for name in ("flap", "model", "preset", "grid") if name in self.meta}
-        return xarray.Dataset(variables, coordinates, attributes)
+        return _conversions.to_xarray(self)
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{count} {status}" for status, count in self.counts.items())

@@ -1,0 +1,114 @@
+"""Arguments of several kinds, made into those that the native part takes."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Mapping
+
+import numpy as np
+
+from . import _flapwing
+from ._table import Table
+
+#: The forms that a set of columns may have, for messages.
+COLUMNS = "it must be a dictionary of columns, a Table, a DataFrame (pandas, polars) or an Arrow table"
+
+
+def refused(name: str, value: object, allowed: str) -> TypeError:
+    """The error for a value of the wrong type, in two lines."""
+    return TypeError(f"`{name}` is {type(value).__name__}\n{allowed}")
+
+
+def columns_of(name: str, given: Any) -> dict[str, Any]:
+    """The columns of a mapping, a Table, a DataFrame or an Arrow table, by name."""
+    if isinstance(given, Mapping):
+        found = dict(given)
+    else:
+        names = getattr(given, "column_names", getattr(given, "columns", None))
+        if names is None or isinstance(given, (str, bytes)) or not hasattr(given, "__getitem__"):
+            raise refused(name, given, COLUMNS)
+        found = {column: given[column] for column in names}
+    for column in found:
+        if not isinstance(column, str):
+            raise TypeError(f"`{name}` has a column called {column!r}, which is {type(column).__name__}\nnames are text")
+    return found
+
+
+def numbers(name: str, values: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """A column of numbers as float64."""
+    try:
+        array = np.asarray(values)
+        if array.dtype.kind not in "fiu":
+            array = array.astype(np.float64) if array.dtype.kind == "O" else array.reshape(-1, 1)
+    except (TypeError, ValueError):
+        raise refused(name, values, "it must be numbers: a list, an array or a Series") from None
+    if array.ndim != 1 or array.dtype.kind not in "fiu":
+        raise refused(name, values, "it must be numbers in one dimension: a list, an array or a Series")
+    return np.require(array, np.float64, ["C", "A"])
+
+
+def record(name: str, given: Any, heading: str) -> str | dict[str, Any]:
+    """A record over time: a path as it is, else its columns as arrays. Of two arrays, the second is called `heading`."""
+    if isinstance(given, (str, os.PathLike)):
+        return os.fspath(given)
+    if isinstance(given, tuple):
+        if len(given) != 2:
+            raise ValueError(f"`{name}` has {len(given)} arrays\nit must have two: times (s) and values")
+        given = {"time_s": given[0], heading: given[1]}
+    if not isinstance(given, Mapping) and not hasattr(given, "columns") and not hasattr(given, "column_names"):
+        allowed = f"it must be a path, a pair (times, values), or columns such as time_s and {heading}"
+        raise refused(name, given, allowed)
+    columns = columns_of(name, given)
+    if isinstance(given, Table):
+        # Words, and what is unknown in some rows, is not about the motion.
+        columns = {column: values for column, values in columns.items() if _is_known(values)}
+    return {column: numbers(f"{name}[{column!r}]", values) for column, values in columns.items()}
+
+
+def _is_known(values: Any) -> bool:
+    return values.dtype.kind in "fiu" and bool(np.isfinite(values).all())
+
+
+def state(model: str, begin: Any) -> dict[str, Any] | None:
+    """Components of a state, those of the states of `model` if a table has them."""
+    if begin is None:
+        return None
+    if isinstance(begin, Mapping):
+        return dict(begin)
+    if not isinstance(begin, Table):
+        allowed = 'it must be a dictionary of components such as {"pitch": "10 deg"}, or a Table of one row'
+        raise refused("begin", begin, allowed)
+    if len(begin) != 1:
+        raise ValueError(f"`begin` has {len(begin)} rows\nchoose one of them: table[-1:] is the last")
+    names = _flapwing.states(model)
+    missing = [name for name in names if name not in begin]
+    if missing:
+        raise ValueError(f"`begin` lacks the columns {', '.join(missing)}\na trajectory of the same model has them")
+    return {name: float(begin[name][0]) for name in names}
+
+
+def measures(names: Any) -> list[str] | None:
+    """Names of measures as a list."""
+    if names is None:
+        return None
+    if isinstance(names, str) or not hasattr(names, "__iter__"):
+        raise refused("measures", names, 'it must be a list of names such as ["lift_mean_mn"]')
+    listed = list(names)
+    for name in listed:
+        if not isinstance(name, str):
+            raise refused("measures", name, 'its entries must be names such as "lift_mean_mn"')
+    return [str(name) for name in listed]
+
+
+def flag(name: str, value: Any) -> bool:
+    """True or False."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise refused(name, value, "it must be True or False")
+    return bool(value)
+
+
+def cluster(client: Any) -> Any:
+    """The client of a Dask cluster."""
+    if not hasattr(client, "submit") or not hasattr(client, "nthreads"):
+        raise refused("client", client, "it must be a distributed.Client, the client of a Dask cluster")
+    return client

@@ -1,0 +1,225 @@
+"""Experiments on single design points, and wings that were filmed."""
+
+from __future__ import annotations
+
+from typing import SupportsFloat, SupportsIndex
+
+from . import _arguments, _flapwing
+from ._table import Table
+from ._types import Design, Record, Value
+
+__all__ = ["chirp", "impulse", "lift", "track"]
+
+
+def chirp(
+    design: Design,
+    /,
+    *,
+    point: SupportsIndex | None = None,
+    start: Value = 1.0,
+    stop: Value | None = None,
+    rate: Value = 15.0,
+    samples: SupportsIndex | None = None,
+    **keywords: Value,
+) -> Table:
+    """The response of one design point to a drive whose frequency changes steadily, from rest.
+
+    Parameters
+    ----------
+    design, point
+        As for `run`.
+    start : float or str, optional
+        Frequency at the beginning (Hz, or text with a unit): more than 0. Default 1.
+    stop : float or str, optional
+        Frequency at which the chirp ends, after a whole number of cycles (Hz, or text with a unit): more than 0. Default:
+        twice the design's drive frequency.
+    rate : float or str, optional
+        Rate of change of the frequency (Hz/s): negative for a falling chirp. Default 15.
+    samples : int, optional
+        Give the motion, with so many samples per cycle, in place of the measures of each cycle.
+    **keywords : float or str
+        Parameters of the model and solver settings, as for `run`.
+
+    Returns
+    -------
+    Table
+        One row per cycle: `begin_s`, `end_s`, `frequency_hz` (cycles per second), and the measures of the signals. With
+        `samples`, the motion with the columns of `trajectory`.
+
+    Raises
+    ------
+    ValueError
+        As for `run`; also if the chirp cannot get from `start` to `stop` at this `rate`, or the motion diverges.
+    TypeError
+        A value of the wrong type.
+
+    Examples
+    --------
+    >>> rows = flapwing.chirp("ozaki2018-small", start="150 Hz", stop="250 Hz", rate=400)
+    >>> peak = rows["stroke_pp_deg"].argmax()
+    >>> bool(180 < rows["frequency_hz"][peak] < 220)
+    True
+    """
+    native = _flapwing.chirp(
+        design, dict(keywords), point=point, start=start, stop=stop, rate=rate, samples=samples
+    )
+    return Table._of(native, set=keywords)
+
+
+def impulse(
+    design: Design,
+    /,
+    *,
+    point: SupportsIndex | None = None,
+    amplitude: Value = "20 deg",
+    duration: Value | None = None,
+    samples: SupportsIndex = 200,
+    **keywords: Value,
+) -> Table:
+    """The free motion of one design point after an impulse on the resting stroke, with the drive held still.
+
+    Parameters
+    ----------
+    design, point
+        As for `run`.
+    amplitude : float or str, optional
+        Size of the impulse, as the amplitude (rad, or text with a unit) that the first mode alone would reach without
+        damping; not zero. Default ``"20 deg"``.
+    duration : float or str, optional
+        Length of the motion (s, or text with a unit): more than 0. Default: ten periods of the first mode.
+    samples : int, optional
+        Samples per period of the first mode, at least. Default 200.
+    **keywords : float or str
+        Parameters of the model and solver settings, as for `run`.
+
+    Returns
+    -------
+    Table
+        The motion with the columns of `trajectory`. ``meta["mode_hz"]`` is the natural frequency of the first mode,
+        ``meta["stroke_rate_rad_s"]`` the rate of the stroke right after the impulse.
+
+    Raises
+    ------
+    ValueError
+        As for `run`; also for an impulse or a duration of zero.
+    TypeError
+        A value of the wrong type.
+
+    Examples
+    --------
+    >>> free = flapwing.impulse("ozaki2018-small", amplitude="10 deg", duration="50 ms")
+    >>> bool(free["stroke_deg"].max() < 10)
+    True
+    """
+    native = _flapwing.impulse(
+        design, dict(keywords), point=point, amplitude=amplitude, duration=duration, samples=samples
+    )
+    return Table._of(native, set=keywords)
+
+
+def lift(
+    design: Design,
+    motion: Record,
+    /,
+    *,
+    point: SupportsIndex | None = None,
+    periodic: bool = False,
+    samples: SupportsIndex = 2000,
+    **keywords: Value,
+) -> Table:
+    """The forces on the wing of one design point along a given motion, such as one that was filmed.
+
+    No equation of motion is integrated. Between samples the motion is a cubic spline. Its acceleration amplifies noise, so
+    smooth measured angles first.
+
+    Parameters
+    ----------
+    design, point
+        As for `run`.
+    motion : path or columns
+        Stroke and pitch over time: a CSV file, or columns (a dictionary, Table or DataFrame), with `time_s` (or
+        `time_ms`), `stroke_deg` (or `stroke_rad`) and `pitch_deg` (or `pitch_rad`). Tables of `track` and `trajectory`
+        have them. At least four samples at rising times.
+    periodic : bool, optional
+        The motion is one period: its last sample is the first of the next period.
+    samples : int, optional
+        Number of intervals at whose ends forces are computed. Default 2000.
+    **keywords : float or str
+        Parameters of the model, as for `run`.
+
+    Returns
+    -------
+    Table
+        ``samples + 1`` rows: `time_s`, the angles, and lift, drag and their parts. Columns of the actuator, which the
+        motion does not determine, are left out.
+
+    Raises
+    ------
+    ValueError
+        As for `run`; also if a column is missing or is not of finite numbers, or times do not rise.
+    OSError
+        The file cannot be read.
+    TypeError
+        A value of the wrong type.
+
+    Examples
+    --------
+    >>> motion = flapwing.trajectory("ozaki2018-small", cycles=1)
+    >>> forces = flapwing.lift("ozaki2018-small", motion, periodic=True)
+    >>> round(float(forces["lift_mn"].mean() / flapwing.run("ozaki2018-small")["lift_mean_mn"]), 2)
+    1.0
+    """
+    native = _flapwing.lift(
+        design,
+        _arguments.record("motion", motion, "stroke_rad"),
+        dict(keywords),
+        point=point,
+        periodic=_arguments.flag("periodic", periodic),
+        samples=samples,
+    )
+    return Table._of(native, set=keywords)
+
+
+def track(points: Record, /, *, chord: SupportsFloat | None = None) -> Table:
+    """Stroke and pitch of a filmed wing, from points that were tracked in its images.
+
+    The stroke is the angle from the x-axis to the leading edge. The pitch follows from the projected chord, and the centre
+    of the stroke's rotation is the point nearest to all leading edges (Ozaki and Hamaguchi 2018, eqs. 42 and 43).
+
+    Parameters
+    ----------
+    points : path or columns
+        The points of every image: a CSV file, or columns (a dictionary, Table or DataFrame), with `root_x`, `root_y`,
+        `tip_x`, `tip_y` of the leading edge, all in one unit, and `time_s` (or `time_ms`). For the pitch also `edge_x`,
+        `edge_y` of a point of the lower edge.
+    chord : float, optional
+        Chord from the leading edge to the point of the lower edge, in the unit of the points: more than 0. Adds the
+        pitch.
+
+    Returns
+    -------
+    Table
+        A row per image: `time_s`, `stroke_deg` and, with `chord`, `pitch_deg`. ``meta["centre"]`` is the centre of
+        rotation (x, y) in the unit of the points.
+
+    Raises
+    ------
+    ValueError
+        A column is missing or is not of finite numbers; all leading edges are parallel; the lower edge appears further
+        from the leading edge than the chord.
+    OSError
+        The file cannot be read.
+    TypeError
+        A value of the wrong type.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> stroke = np.linspace(-0.5, 0.5, 5)
+    >>> film = {"time_ms": np.arange(5.0), "root_x": 0 * stroke, "root_y": 0 * stroke,
+    ...         "tip_x": 9 * np.cos(stroke), "tip_y": 9 * np.sin(stroke)}
+    >>> flapwing.track(film)["stroke_deg"].round(1)
+    array([-28.6, -14.3,   0. ,  14.3,  28.6])
+    """
+    native = _flapwing.track(_arguments.record("points", points, "stroke_rad"), chord=chord)
+    return Table._of(native)

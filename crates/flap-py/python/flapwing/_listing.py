@@ -1,0 +1,107 @@
+"""Lists of parameters, measures and states."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from . import _flapwing
+
+__all__ = ["Parameter", "measures", "params", "states"]
+
+
+class Parameter(NamedTuple):
+    """A parameter of a model."""
+
+    #: Name in grids, on the command line and as a keyword.
+    name: str
+    #: Value in the preset, in SI units, or the name of an option. None if it is not set and follows others.
+    value: float | str | None
+    #: SI unit; ``""`` for pure numbers and options.
+    unit: str
+    #: Symbol in the paper; ``""`` if it has none.
+    symbol: str
+    #: One line of meaning, with its source.
+    doc: str
+    #: The allowed values, in words.
+    allowed: str
+    #: Its options, if it is a choice; else empty.
+    options: tuple[str, ...]
+
+
+def params(name: str, /) -> dict[str, Parameter]:
+    """The parameters of a preset, with their values, or of a model, without.
+
+    Parameters
+    ----------
+    name : str
+        A preset, such as ``"ozaki2018-large"``, or a model, such as ``"direct-drive"``.
+
+    Returns
+    -------
+    dict of str to Parameter
+        By name, in the order of the model's table.
+
+    Raises
+    ------
+    ValueError
+        There is no such preset or model.
+
+    Examples
+    --------
+    >>> flapwing.params("ozaki2018-large")["drive_frequency"].unit
+    'Hz'
+    """
+    listed = (Parameter(*row[:-1], options=tuple(row[-1])) for row in _flapwing.params(name))
+    return {parameter.name: parameter for parameter in listed}
+
+
+def measures(name: str, /) -> dict[str, tuple[str, str]]:
+    """The measures in rows of a preset or a model: the unit and the meaning of each column.
+
+    Parameters
+    ----------
+    name : str
+        As for `params`.
+
+    Returns
+    -------
+    dict of str to (str, str)
+        Unit and meaning by column, in the order of the rows.
+
+    Raises
+    ------
+    ValueError
+        As for `params`.
+
+    Examples
+    --------
+    >>> flapwing.measures("ozaki2018-large")["lift_mean_mn"][0]
+    'mN'
+    """
+    return {column: (unit, doc) for column, unit, doc in _flapwing.measures(name)}
+
+
+def states(name: str, /) -> dict[str, str]:
+    """The states of the equations of motion of a preset or a model: the components of `begin`, each with its unit.
+
+    Parameters
+    ----------
+    name : str
+        As for `params`.
+
+    Returns
+    -------
+    dict of str to str
+        Unit by component, in the order of the state. Columns of `trajectory` have the same names with the unit behind.
+
+    Raises
+    ------
+    ValueError
+        As for `params`.
+
+    Examples
+    --------
+    >>> flapwing.states("ozaki2018-large")["pitch_rate"]
+    'rad/s'
+    """
+    return dict(_flapwing.split_unit(state) for state in _flapwing.states(name))

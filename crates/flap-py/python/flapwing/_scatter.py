@@ -1,0 +1,130 @@
+"""Batches of points on a Dask cluster: stretches of the columns, whose rows are joined in order."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING, Any, Callable, SupportsIndex
+
+import numpy as np
+
+from . import _flapwing
+from ._cluster import RETRIES, TASK_POINTS, TASKS_PER_THREAD
+from ._flapwing import Grid
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+#: Reasons kept of invalid points, as of a batch on one machine.
+MOST_REASONS = 5
+
+
+def task(call: dict[str, Any], given: dict[str, Any], threads: SupportsIndex | None) -> dict[str, Any]:
+    """The task of a worker: the rows of a stretch of the columns."""
+    # Arrays may lie anywhere in a message.
+    given = {
+        name: np.require(values, requirements=["C", "A"]) if isinstance(values, np.ndarray) else values
+        for name, values in given.items()
+    }
+    options = {"measures": call["measures"], "keywords": call["keywords"]}
+    return _flapwing.evaluate(call["design"], given, threads=threads, **options)
+
+
+def scattered(
+    client: Client,
+    call: dict[str, Any],
+    given: dict[str, Any],
+    threads: SupportsIndex | None,
+    show: Callable[[int, int], object] | None,
+) -> dict[str, Any]:
+    """The rows of the columns `given`, computed by the workers of a cluster."""
+    # Mistakes are told here, and rows are empty: their columns and axes are those of all.
+    nothing = task(call, {name: values[:0] for name, values in given.items()}, 1)
+    lengths = {name: len(values) for name, values in given.items()}
+    length = next(iter(lengths.values()))
+    if len(set(lengths.values())) > 1:
+        return task(call, given, 1)
+    each = int(np.prod([len(next(iter(axis.values()))) for axis in nothing["axes"][1:]]))
+    workers = max(1, sum(client.nthreads().values()))
+    most = max(1, TASK_POINTS // max(1, each))
+    size = max(1, min(most, -(-length // (TASKS_PER_THREAD * workers))))
+    # Workers read a grid where this process has read it.
+    if not isinstance(call["design"], str):
+        call = {**call, "design": Grid(call["design"])}
+    count = 1 if threads is None else threads
+    begins = range(0, length, size)
+    futures = [
+        client.submit(
+            task,
+            call,
+            {name: values[begin : begin + size] for name, values in given.items()},
+            count,
+            pure=False,
+            retries=RETRIES,
+        )
+        for begin in begins
+    ]
+    parts = [nothing]
+    try:
+        for begin, future in zip(begins, futures):
+            part = future.result()
+            _check(nothing["meta"], part["meta"])
+            parts.append(_moved(part, begin * each))
+            if show is not None:
+                show(min(length, begin + size) * each, length * each)
+    finally:
+        client.cancel(futures, force=True)
+    return _joined(parts)
+
+
+def _check(ours: dict[str, Any], theirs: dict[str, Any]) -> None:
+    for name in ("build", "arithmetic"):
+        if ours[name] != theirs[name]:
+            raise RuntimeError(
+                f"a worker's {name} of flapwing is {theirs[name]}, and here it is {ours[name]}\n"
+                "install the same build everywhere, on processors that round alike"
+            )
+
+
+def _moved(part: dict[str, Any], offset: int) -> dict[str, Any]:
+    """The rows with the points of the whole batch, which begin at `offset` here."""
+    columns = [
+        (name, unit, doc, cells + np.uint64(offset) if name == "point" else cells, words)
+        for name, unit, doc, cells, words in part["columns"]
+    ]
+    invalid = [(point + offset, reason) for point, reason in part["summary"]["invalid"]]
+    return {**part, "columns": columns, "summary": {**part["summary"], "invalid": invalid}}
+
+
+def _joined(parts: list[dict[str, Any]]) -> dict[str, Any]:
+    """All rows as one batch."""
+    first = parts[0]
+    columns = []
+    for place, (name, unit, doc, _, words) in enumerate(first["columns"]):
+        cells = [part["columns"][place][3] for part in parts]
+        if words is not None:
+            words = list(dict.fromkeys(word for part in parts for word in part["columns"][place][4]))
+            places = [
+                np.array([words.index(word) for word in part["columns"][place][4]], dtype=np.uint32) for part in parts
+            ]
+            cells = [place_of[one] if len(place_of) else one for place_of, one in zip(places, cells)]
+        columns.append((name, unit, doc, np.concatenate(cells), words))
+    axes = list(first["axes"])
+    if axes:
+        rows = {name: [value for part in parts for value in part["axes"][0][name]] for name in axes[0]}
+        axes[0] = {**rows, "row": np.arange(len(rows["row"]), dtype=np.uint64)}
+    return {"columns": columns, "summary": _summed([part["summary"] for part in parts]), "axes": axes, "meta": first["meta"]}
+
+
+def _summed(summaries: list[dict[str, Any]]) -> dict[str, Any]:
+    """The summary of the whole batch."""
+    whole = dict(summaries[0])
+    for name, value in whole.items():
+        if isinstance(value, dict):
+            total: Counter[str] = Counter()
+            for summary in summaries:
+                total.update(summary[name])
+            whole[name] = dict(total)
+        elif isinstance(value, int):
+            whole[name] = sum(summary[name] for summary in summaries)
+    whole["invalid"] = [entry for summary in summaries for entry in summary["invalid"]][:MOST_REASONS]
+    return whole

@@ -1,0 +1,26 @@
+"""The types of arguments that several functions take."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Mapping, Sequence, SupportsFloat, Union
+
+from ._flapwing import Grid
+
+if TYPE_CHECKING:
+    from ._table import Table
+
+#: A preset by its name, a grid file by its path, the text of one, its entries as a dictionary, or a Grid.
+Design = Union[str, os.PathLike[str], Mapping[str, Any], Grid]
+
+#: A parameter or a solver setting: a number in SI units, text with a unit, or the name of an option.
+Value = Union[SupportsFloat, str]
+
+#: A record over time: a CSV file by its path, columns by name, or times (s) and values.
+Record = Union[str, os.PathLike[str], Mapping[str, Any], "Table", "tuple[Any, Any]"]
+
+#: A state at the start of a drive period: components by name, or a table of one row that has them.
+State = Union[Mapping[str, Value], "Table"]
+
+#: Names of measures.
+Measures = Sequence[str]

@@ -1,0 +1,69 @@
+//! States at the start of a drive period, from Python.
+
+use flap_core::simulate::Simulator;
+use flap_sweep::notation::nearest;
+use flap_sweep::table::layout::split_unit;
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::{convert, error};
+
+/// The state with these components, each a number in the unit of its name, or text with a unit. Those not given are zero.
+///
+/// A component has the name of its state, with the unit (`pitch_rad`, a number in rad) or without (`pitch`, the same), or
+/// with `deg` in place of `rad`.
+pub(crate) fn state(model: &dyn Simulator, begin: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    let Ok(begin) = begin.cast::<PyDict>() else {
+        let found = begin.get_type().name()?;
+        let message = format!(
+            "`begin` is {found}\nit must be a dictionary of components such as {{\"pitch\": \"10 deg\"}}, or a table of one row"
+        );
+        return Err(PyTypeError::new_err(message));
+    };
+    let states = model.motions().map_err(|reason| error::unfinished(&reason))?.states();
+    let mut values = vec![0.0; states.len()];
+    let mut given = vec![false; states.len()];
+    for (name, value) in begin {
+        let name: String = name.extract().map_err(|_| {
+            PyTypeError::new_err("names in `begin` must be text\nsuch as {\"pitch\": \"10 deg\"}")
+        })?;
+        let (index, factor) = component(states, &name)?;
+        if std::mem::replace(&mut given[index], true) {
+            let message = format!("`begin` gives {} twice\nkeep one of them", states[index]);
+            return Err(PyValueError::new_err(message));
+        }
+        let (_, unit) = split_unit(states[index]);
+        values[index] = factor * convert::quantity(&format!("begin[{name:?}]"), unit, factor == 1.0, &value)?;
+    }
+    Ok(values)
+}
+
+/// The place of a component among the states, and the factor from the unit of its name to that of the state.
+fn component(states: &[&str], name: &str) -> PyResult<(usize, f64)> {
+    for (index, state) in states.iter().enumerate() {
+        let (words, unit) = split_unit(state);
+        if name == *state || name == words {
+            return Ok((index, 1.0));
+        }
+        // In degrees, as signals of trajectories are: stroke_deg, stroke_rate_deg_s.
+        let in_degrees = state.replace("rad", "deg");
+        if unit.contains("rad") && name == in_degrees {
+            return Ok((index, 1.0_f64.to_radians()));
+        }
+    }
+    let known: Vec<&str> = states.iter().map(|state| split_unit(state).0).collect();
+    let hint = nearest(name, known.iter().copied())
+        .map_or_else(String::new, |nearest| format!(", did you mean `{nearest}`?"));
+    let message = format!("`begin` has no component `{name}`{hint}\nthe states are {}", states.join(", "));
+    Err(PyValueError::new_err(message))
+}
+
+/// The names of the states of a preset's or a model's equations of motion, with their units at the end.
+#[pyfunction]
+#[pyo3(signature = (name, /))]
+pub(crate) fn states(name: &Bound<'_, PyAny>) -> PyResult<Vec<&'static str>> {
+    let model = crate::listing::model(name)?;
+    let motions = model.motions().map_err(|reason| error::unfinished(&reason))?;
+    Ok(motions.states().to_vec())
+}

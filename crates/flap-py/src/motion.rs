@@ -1,0 +1,43 @@
+//! Motions of single points as columns.
+
+use flap_core::simulate::{Simulator, Trajectory};
+use flap_sweep::table::layout::{Cell, Kind};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::columns::{self, Columns};
+use crate::error;
+
+/// A motion as `columns`, each with its meaning, and `meta`.
+pub(crate) fn into_python<'py>(
+    py: Python<'py>,
+    motion: Trajectory,
+    meaning: impl Fn(&str) -> String,
+    meta: &Bound<'py, PyDict>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let described = motion.columns.iter().map(|name| {
+        let mut column = columns::named(name, Kind::Number);
+        column.doc = meaning(name);
+        column
+    });
+    let mut columns = Columns::new(described.collect());
+    for row in motion.rows {
+        columns.push(&row.into_iter().map(Cell::Number).collect::<Vec<_>>());
+    }
+    let dict = PyDict::new(py);
+    dict.set_item("columns", columns.into_python(py)?)?;
+    dict.set_item("meta", meta)?;
+    Ok(dict)
+}
+
+/// The meanings of the columns of a trajectory, by name; empty for a column that a trajectory has not.
+pub(crate) fn meanings(
+    model: &dyn Simulator,
+    motion: &Trajectory,
+) -> PyResult<impl Fn(&str) -> String + use<>> {
+    let meanings = model.motions().map_err(|reason| error::unfinished(&reason))?.meanings();
+    let pairs: Vec<(String, String)> = motion.columns.iter().cloned().zip(meanings).collect();
+    Ok(move |name: &str| {
+        pairs.iter().find(|(column, _)| column == name).map_or_else(String::new, |(_, doc)| doc.clone())
+    })
+}

@@ -1,0 +1,149 @@
+//! The design point of a call: a design with keywords on top, and which of its points.
+
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{PointRun, Rows, Simulator};
+use flap_sweep::plan::{Plan, Verdict};
+use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
+use pyo3::exceptions::{PyIndexError, PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::records::Wave;
+use crate::watch::interruptible;
+use crate::{design, error, sweep};
+
+/// A design point and its plan.
+pub(crate) struct Chosen {
+    pub(crate) plan: Plan,
+    /// One value per parameter.
+    pub(crate) values: Vec<f64>,
+    /// The model with a waveform or a stroke of the call.
+    sampled: Option<Box<dyn Simulator>>,
+    /// The reason why the point cannot be run.
+    pub(crate) invalid: Option<String>,
+}
+
+impl Chosen {
+    /// The point number `point` of a design with keywords on top, driven by `wave` if the call gives one.
+    pub(crate) fn new(
+        design: &Bound<'_, PyAny>,
+        keywords: &Bound<'_, PyDict>,
+        point: Option<&Bound<'_, PyAny>>,
+        wave: Option<&Wave>,
+    ) -> PyResult<Chosen> {
+        let plan = design::whole(design, keywords)?;
+        let index = index(&plan, point)?;
+        let values = plan.point(index).values;
+        let invalid = match plan.judge(&values) {
+            Verdict::Invalid(invalid) => Some(invalid.to_string()),
+            Verdict::Runs | Verdict::Excluded(_) => None,
+        };
+        let mut chosen = Chosen { plan, values, sampled: None, invalid };
+        if let Some(wave) = wave {
+            chosen.drive_by(wave, keywords.contains(DRIVE_FREQUENCY)?)?;
+        }
+        Ok(chosen)
+    }
+
+    /// The point, if it can be run.
+    pub(crate) fn possible(self) -> PyResult<Chosen> {
+        match &self.invalid {
+            Some(reason) => Err(PyValueError::new_err(reason.clone())),
+            None => Ok(self),
+        }
+    }
+
+    /// The point for a motion: possible, and with a drive frequency, which is searched if it is to be the resonance.
+    pub(crate) fn for_motion(self, py: Python<'_>) -> PyResult<Chosen> {
+        let mut chosen = self.possible()?;
+        let Some(resonance) = chosen.plan.resonance() else { return Ok(chosen) };
+        let Some(index) = chosen.parameter(DRIVE_FREQUENCY).filter(|index| chosen.values[*index].is_nan())
+        else {
+            return Ok(chosen);
+        };
+        let row =
+            interruptible(py, |interrupted| resonance.run_point(&chosen.run().until(interrupted), None))?;
+        let place = resonance.columns().iter().position(|column| column.name == RESONANCE_HZ);
+        let found = place.and_then(|place| row.measures.get(place)).copied();
+        chosen.values[index] = found.ok_or_else(|| {
+            let reason = row.reason.unwrap_or_else(|| format!("at every frequency: {}", row.status.name()));
+            PyValueError::new_err(format!("the resonance of this point was not found: {reason}"))
+        })?;
+        Ok(chosen)
+    }
+
+    /// The run of the point.
+    pub(crate) fn run(&self) -> PointRun<'_> {
+        PointRun::new(InstructionSet::best(), self.plan.solver(), &self.values)
+    }
+
+    /// The model that is run.
+    pub(crate) fn simulator(&self) -> &dyn Simulator {
+        self.sampled.as_deref().unwrap_or(self.plan.simulator())
+    }
+
+    /// The maker of the point's row: its model, at the resonance if the design is to be there.
+    pub(crate) fn rows(&self) -> &dyn Rows {
+        match self.sampled.as_deref() {
+            Some(sampled) => sampled,
+            None => self.plan.rows(),
+        }
+    }
+
+    /// The origin of the point's motions, see [`sweep::meta`].
+    pub(crate) fn meta<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        sweep::meta(py, &self.plan, &sweep::options(None)?)
+    }
+
+    fn parameter(&self, name: &str) -> Option<usize> {
+        self.plan.parameters().iter().position(|parameter| parameter.name == name)
+    }
+
+    /// Replaces the drive, or the stroke, by samples, whose duration is the drive period unless the frequency `is_set`.
+    fn drive_by(&mut self, wave: &Wave, is_set: bool) -> PyResult<()> {
+        if !is_set && let Some(index) = self.parameter(DRIVE_FREQUENCY) {
+            self.values[index] = 1.0 / wave.samples.duration();
+        }
+        if wave.is_stroke {
+            let Some((mode, amplitude)) =
+                self.parameter("stroke_mode").zip(self.parameter("stroke_amplitude"))
+            else {
+                let message = format!(
+                    "the stroke of the model {} cannot be prescribed\nmodels with a parameter stroke_mode can",
+                    self.plan.simulator().name()
+                );
+                return Err(PyValueError::new_err(message));
+            };
+            (self.values[mode], self.values[amplitude]) = (1.0, 1.0);
+        }
+        let experiments = self.plan.simulator().experiments().map_err(|reason| error::unfinished(&reason))?;
+        self.sampled = Some(experiments.with_samples(wave.samples.clone()));
+        Ok(())
+    }
+}
+
+/// The index of the point: the one given, or the only one.
+fn index(plan: &Plan, point: Option<&Bound<'_, PyAny>>) -> PyResult<u64> {
+    let length = plan.len();
+    let Some(point) = point else {
+        if length == 1 {
+            return Ok(0);
+        }
+        let message = format!(
+            "the grid has {length} points, and this is about one\ngive point=0 to point={}",
+            length - 1
+        );
+        return Err(PyValueError::new_err(message));
+    };
+    let wanted: i64 = point.extract().map_err(|_| {
+        let found = point.get_type().name().map_or_else(|_| "this".to_owned(), |name| name.to_string());
+        PyTypeError::new_err(format!(
+            "`point` is {found}\nit must be a whole number, the index of a point in the grid"
+        ))
+    })?;
+    let index =
+        if wanted < 0 { length.checked_sub(wanted.unsigned_abs()) } else { Some(wanted.unsigned_abs()) };
+    index
+        .filter(|index| *index < length)
+        .ok_or_else(|| PyIndexError::new_err(format!("there is no point {wanted}: the grid has {length}")))
+}

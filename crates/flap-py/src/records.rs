@@ -1,0 +1,80 @@
+//! Records over time from Python: waveforms, strokes, motions and points in images.
+
+use std::path::PathBuf;
+
+use flap_core::drive::{Repeat, Samples};
+use flap_sweep::files::record::{self, Record, RecordError};
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::error;
+
+/// A waveform of the drive, or a stroke, as samples.
+pub(crate) struct Wave {
+    pub(crate) samples: Samples,
+    /// True for a stroke (rad), false for a waveform of unit amplitude.
+    pub(crate) is_stroke: bool,
+    /// True if it is followed once, from rest.
+    pub(crate) once: bool,
+}
+
+impl Wave {
+    /// The waveform or the stroke of a call, if it gives one.
+    pub(crate) fn of(
+        waveform: Option<&Bound<'_, PyAny>>,
+        stroke: Option<&Bound<'_, PyAny>>,
+        once: bool,
+    ) -> PyResult<Option<Wave>> {
+        let (source, name, headings) = match (waveform, stroke) {
+            (Some(_), Some(_)) => {
+                return Err(PyValueError::new_err(
+                    "waveform and stroke both drive the wing\nkeep one of them",
+                ));
+            }
+            (Some(source), None) => (source, "waveform", record::WAVE),
+            (None, Some(source)) => (source, "stroke", record::STROKE),
+            (None, None) if once => {
+                return Err(PyValueError::new_err("once is about a waveform or a stroke\ngive one of them"));
+            }
+            (None, None) => return Ok(None),
+        };
+        let repeat = if once { Repeat::Once } else { Repeat::Periodic };
+        let samples = column(&read(name, source)?, name, headings, repeat)?;
+        Ok(Some(Wave { samples, is_stroke: stroke.is_some(), once }))
+    }
+}
+
+/// The record of a file, or of a dictionary of arrays of float64; `name` stands for the dictionary in messages.
+pub(crate) fn read(name: &str, source: &Bound<'_, PyAny>) -> PyResult<Record> {
+    let Ok(columns) = source.cast::<PyDict>() else {
+        let path: PathBuf = source.extract()?;
+        return Record::read(&path).map_err(|error| refused(&error));
+    };
+    let columns = columns.iter().map(|(heading, numbers)| {
+        Ok((heading.extract::<String>()?, numbers.cast::<PyArray1<f64>>()?.to_vec()?))
+    });
+    Record::of(name, columns.collect::<PyResult<_>>()?).map_err(|error| refused(&error))
+}
+
+/// A column of a record over its time.
+pub(crate) fn column(
+    record: &Record,
+    name: &str,
+    headings: &[(&str, f64)],
+    repeat: Repeat,
+) -> PyResult<Samples> {
+    let times = record.column(record::TIME).map_err(|error| refused(&error))?;
+    let values = record.column(headings).map_err(|error| refused(&error))?;
+    let samples = Samples::new(&times, &values, repeat);
+    samples.map_err(|invalid| PyValueError::new_err(format!("{name}: {invalid}")))
+}
+
+/// The exception for a record that cannot be used.
+pub(crate) fn refused(error: &RecordError) -> PyErr {
+    match error {
+        RecordError::Read { name, source } => error::io_error(&format!("cannot read {name}"), source),
+        other => PyValueError::new_err(other.to_string()),
+    }
+}

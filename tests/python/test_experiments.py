@@ -1,0 +1,184 @@
+"""Chirps, impulses, waveforms, strokes, states at the beginning, and filmed wings."""
+
+import flapwing
+import numpy as np
+import pandas
+import pytest
+
+PRESET = "ozaki2018-small"
+ARABAGI = "arabagi2013-75hz"
+
+
+def same(table, path):
+    """Compares a table with a file of the command, bit for bit."""
+    read = flapwing.read(path)
+    assert read.columns == table.columns
+    for name in table:
+        np.testing.assert_array_equal(read[name], table[name])
+
+
+def test_chirps_are_those_of_the_command(flap, tmp_path):
+    options = ["--drive", "chirp", "--chirp-from", "150", "--chirp-to", "160", "--chirp-rate", "200"]
+    flap("run", PRESET, *options, "--envelope", tmp_path / "rows.csv", "--trajectory", tmp_path / "motion.csv", "--samples", "20")
+    rows = flapwing.chirp(PRESET, start="0.15 kHz", stop=160, rate="200 Hz/s")
+    same(rows, tmp_path / "rows.csv")
+    same(flapwing.chirp(PRESET, start=150, stop=160, rate=200, samples=20), tmp_path / "motion.csv")
+    assert rows.docs["lift_mean_mn"] and rows.units["frequency_hz"] == "Hz" and rows.meta["model"] == "direct-drive"
+    with pytest.raises(ValueError, match="cannot reach 100 Hz"):
+        flapwing.chirp(PRESET, start=150, stop=100)
+    with pytest.raises(ValueError, match="`V` is a voltage, but `start` is in Hz\nuse "):
+        flapwing.chirp(PRESET, start="150 V")
+
+
+def test_impulses_are_those_of_the_command(flap, tmp_path):
+    flap("run", PRESET, "--drive", "impulse", "--impulse", "10 deg", "--duration", "20 ms", "--trajectory", tmp_path / "a.csv")
+    free = flapwing.impulse(PRESET, amplitude="10 deg", duration="20 ms")
+    same(free, tmp_path / "a.csv")
+    assert free.meta["stroke_rate_rad_s"] == pytest.approx(2 * np.pi * free.meta["mode_hz"] * np.radians(10))
+    same(flapwing.impulse(PRESET, amplitude=np.radians(10), duration=0.02), tmp_path / "a.csv")
+
+
+def wave():
+    time = np.linspace(0, 0.005, 41)
+    return time, np.sin(2 * np.pi * time / 0.005)
+
+
+def test_waveforms_are_those_of_the_command(flap, tmp_path):
+    time, values = wave()
+    frame = pandas.DataFrame({"time_s": time, "wave": values})
+    path = tmp_path / "wave.csv"
+    frame.to_csv(path, index=False)
+    flap("run", PRESET, "--waveform", path, "--trajectory", tmp_path / "motion.csv")
+    row = flapwing.run(PRESET, waveform=path)
+    for waveform in (frame, {"time_s": time, "wave": values}, (time, values), str(path)):
+        same(flapwing.trajectory(PRESET, waveform=waveform), tmp_path / "motion.csv")
+        assert flapwing.run(PRESET, waveform=waveform) == row
+    sine = flapwing.run(PRESET, drive_frequency=200)
+    assert row["lift_mean_mn"] == pytest.approx(sine["lift_mean_mn"], rel=1e-3)
+    # Stretched to another period.
+    slower = flapwing.run(PRESET, waveform=(time, values), drive_frequency=190)
+    assert slower["lift_mean_mn"] == pytest.approx(flapwing.run(PRESET, drive_frequency=190)["lift_mean_mn"], rel=1e-3)
+
+
+def test_a_waveform_is_followed_once(flap, tmp_path):
+    time = np.linspace(0, 0.01, 81)
+    path = tmp_path / "wave.csv"
+    pandas.DataFrame({"time_s": time, "wave": time / 0.01}).to_csv(path, index=False)
+    flap("run", PRESET, "--waveform", path, "--once", "--trajectory", tmp_path / "motion.csv")
+    same(flapwing.trajectory(PRESET, waveform=path, once=True), tmp_path / "motion.csv")
+    with pytest.raises(ValueError, match="ends with the value that it begins with"):
+        flapwing.trajectory(PRESET, waveform=path)
+    with pytest.raises(ValueError, match="once is about a waveform or a stroke\ngive one"):
+        flapwing.trajectory(PRESET, once=True)
+
+
+def test_a_stroke_is_prescribed(flap, tmp_path):
+    time = np.linspace(0, 0.0125, 61)
+    stroke = 12.5 * np.sin(2 * np.pi * time / 0.0125)
+    path = tmp_path / "stroke.csv"
+    pandas.DataFrame({"time_s": time, "stroke_deg": stroke}).to_csv(path, index=False)
+    flap("run", ARABAGI, "--stroke", path, "--trajectory", tmp_path / "motion.csv")
+    same(flapwing.trajectory(ARABAGI, stroke=path), tmp_path / "motion.csv")
+    assert flapwing.run(ARABAGI, stroke=(time, np.radians(stroke)))["stroke_pp_deg"] == pytest.approx(25, rel=1e-3)
+    with pytest.raises(ValueError, match="stroke of the model bimorph cannot be prescribed\nmodels with"):
+        flapwing.run("jafferis2016", stroke=path)
+    with pytest.raises(ValueError, match="waveform and stroke both drive the wing\nkeep one"):
+        flapwing.run(ARABAGI, stroke=path, waveform=path)
+
+
+@pytest.mark.parametrize(
+    ("waveform", "says"),
+    [
+        ({"time_s": [0, 1, 2, 3]}, "there is no column wave"),
+        ({"time_s": [0, 1, 2, 3], "wave": [0, 1, 0]}, "time_s has 4 numbers, wave has 3"),
+        ({"time_s": [0, 1, 2, 3], "wave": [0, 1, np.nan, 0]}, "`NaN` is not a number"),
+        (([0, 1, 2], [0, 1, 0]), "3 samples are too few"),
+        (([0, 1, 2],), "`waveform` has 1 arrays\nit must have two"),
+    ],
+)
+def test_what_is_no_waveform_is_refused(waveform, says):
+    with pytest.raises(ValueError) as caught:
+        flapwing.run(PRESET, waveform=waveform)
+    assert says in str(caught.value)
+
+
+def test_a_motion_goes_on_from_a_state():
+    from_rest = flapwing.trajectory(PRESET, cycles=4, samples=50, from_rest=True)
+    second = flapwing.trajectory(PRESET, cycles=2, samples=50, begin=from_rest[100:101])
+    np.testing.assert_allclose(second["stroke_rad"], from_rest["stroke_rad"][100:], atol=1e-5)
+    names = list(flapwing.states(PRESET))
+    assert names == ["stroke", "pitch", "stroke_rate", "pitch_rate"]
+    state = {name: float(from_rest[f"{name}_{unit}"][100]) for name, unit in zip(names, ["rad", "rad", "rad_s", "rad_s"])}
+    same = flapwing.trajectory(PRESET, cycles=2, samples=50, begin=state)
+    np.testing.assert_array_equal(same["stroke_rad"], second["stroke_rad"])
+    one = flapwing.trajectory(PRESET, begin={"stroke": "10 deg", "pitch_deg": 20, "pitch_rate": "5 rad/s"})
+    assert one["stroke_deg"][0] == pytest.approx(10) and one["pitch_deg"][0] == pytest.approx(20)
+    assert one["pitch_rate_rad_s"][0] == 5 and one["stroke_rate_rad_s"][0] == 0
+
+
+def test_a_state_decides_between_two_orbits():
+    bistable = {"hinge_stiffness": "0.7486 uN*m/rad", "drive_voltage_pp": "160 V", "drive_frequency": 126}
+    curve = flapwing.respond("jafferis2016", start=124, stop=128, step=1, **{k: v for k, v in bistable.items() if k != "drive_frequency"})
+    strokes = curve["stroke_pp_deg"][curve["drive_frequency"] == 126]
+    assert strokes.max() > strokes.min() + 20
+    up = flapwing.trajectory("jafferis2016", **{**bistable, "drive_frequency": 123})[-1:]
+    down = flapwing.trajectory("jafferis2016", **{**bistable, "drive_frequency": 130})[-1:]
+    found = [flapwing.run("jafferis2016", begin=state, **bistable)["stroke_pp_deg"] for state in (up, down)]
+    assert sorted(found) == pytest.approx(sorted([strokes.min(), strokes.max()]), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("begin", "says"),
+    [
+        ({"strok": 1}, "`begin` has no component `strok`, did you mean `stroke`?\nthe states are stroke_rad, "),
+        ({"stroke": "10 V"}, "`V` is a voltage"),
+        ({"stroke": 1, "stroke_rad": 1}, "`begin` gives stroke_rad twice\nkeep one"),
+        ({"stroke": float("nan")}, "values are finite"),
+    ],
+)
+def test_what_is_no_state_is_refused(begin, says):
+    with pytest.raises(ValueError) as caught:
+        flapwing.run(PRESET, begin=begin)
+    assert says in str(caught.value)
+
+
+def test_tables_that_are_no_state_are_refused():
+    motion = flapwing.trajectory(PRESET, cycles=1, samples=4)
+    with pytest.raises(ValueError, match="`begin` has 5 rows\nchoose one"):
+        flapwing.run(PRESET, begin=motion)
+    with pytest.raises(ValueError, match="`begin` lacks the columns stroke_rad, .*\na trajectory"):
+        flapwing.run(PRESET, begin=motion[["time_s"]][-1:])
+    with pytest.raises(ValueError, match="from_rest and begin both say where the motion begins\nkeep one"):
+        flapwing.trajectory(PRESET, begin=motion[-1:], from_rest=True)
+
+
+def test_motions_have_meanings_and_an_origin():
+    motion = flapwing.trajectory(PRESET, cycles=1, samples=4, drive_voltage_pp="50 V")
+    assert all(motion.docs.values()) and motion.docs["lift_mn"]
+    assert motion.meta["preset"] == PRESET and motion.meta["build"] and motion.meta["set"] == {"drive_voltage_pp": "50 V"}
+
+
+def test_forces_of_filmed_wings_are_those_of_the_command(flap, tmp_path):
+    time, stroke = np.linspace(0, 5, 60), 0.6 * np.sin(np.linspace(0, 2 * np.pi, 60))
+    pitch = 0.5 * np.cos(np.linspace(0, 2 * np.pi, 60))
+    # The lower edge appears at chord times the sine of the pitch to the left of the leading edge.
+    film = pandas.DataFrame({
+        "time_ms": time, "root_x": 1.0, "root_y": 2.0, "tip_x": 1 + 9 * np.cos(stroke), "tip_y": 2 + 9 * np.sin(stroke),
+        "edge_x": 1 - 3 * np.sin(pitch) * np.sin(stroke), "edge_y": 2 + 3 * np.sin(pitch) * np.cos(stroke),
+    })
+    film.to_csv(tmp_path / "film.csv", index=False)
+    flap("track", tmp_path / "film.csv", "--chord", "3", "--out", tmp_path / "motion.csv")
+    for source in (film, tmp_path / "film.csv", flapwing.read(tmp_path / "film.csv")):
+        motion = flapwing.track(source, chord=3)
+        same(motion, tmp_path / "motion.csv")
+        assert motion.meta["centre"] == pytest.approx((1, 2))
+    np.testing.assert_allclose(motion["pitch_deg"], np.degrees(pitch), atol=1e-6)
+    assert flapwing.track(film).columns == ["time_s", "stroke_deg"]
+
+    flap("lift", PRESET, tmp_path / "motion.csv", "--trajectory", tmp_path / "forces.csv", "--samples", "100")
+    for source in (motion, tmp_path / "motion.csv", dict(motion)):
+        same(flapwing.lift(PRESET, source, samples=100), tmp_path / "forces.csv")
+    with pytest.raises(ValueError, match="image 1: the lower edge appears"):
+        flapwing.track(film, chord=0.1)
+    with pytest.raises(ValueError, match="there is no column pitch_rad or pitch_deg; the file has time_s, stroke_deg"):
+        flapwing.lift(PRESET, flapwing.track(film))
