@@ -34,6 +34,7 @@ import filecmp
 import os
 import tempfile
 import time
+from typing import Any
 
 import flapwing
 from distributed import Client, LocalCluster
@@ -41,7 +42,7 @@ from distributed import Client, LocalCluster
 STEP_HZ = {"small": 1.0, "full": 0.02}
 
 
-def grid(step):
+def grid(step: float) -> dict[str, Any]:
     return {
         "preset": "ozaki2018-large",
         "axes": {
@@ -51,8 +52,8 @@ def grid(step):
     }
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--size", choices=list(STEP_HZ), default="small")
     parser.add_argument("--workers", type=int, default=2, help="processes, with one thread each")
     parser.add_argument("--out", metavar="FILE", help="keep the rows: .csv, .csv.zst or .parquet")

@@ -10,7 +10,7 @@ All columns count alike, so they should have about the same error of measurement
 
 Parameters are fitted as logarithms of their ratios to the preset: they stay positive, and errors are relative. A step
 of the fit needs the response and its derivatives with respect to every parameter; all of these points go through one
-call of `flapwing.evaluate`.
+call of `flapwing.evaluate`: the frequencies are the axis of a grid, and each set of parameters is a row of columns.
 
 A response does not determine all parameters: if the force, both stiffnesses, both inertias and the drag on the stroke
 all grow by the same factor, the motion stays the same. One of them has to be known, here the force and the
@@ -27,6 +27,7 @@ G. A. F. Seber and C. J. Wild, "Nonlinear Regression" (Wiley 1989), section 5.1,
 """
 
 import argparse
+from typing import Any
 
 import flapwing
 import numpy as np
@@ -39,9 +40,11 @@ FITTED = ["hinge_stiffness", "wing_inertia_stroke", "drag_max"]
 LOWEST, HIGHEST = 0.5, 2.0
 # Relative step of the differences, and a tolerance at which the integration's error divided by the step is small.
 STEP = 1e-3
-SOLVER = {"rtol": 1e-8}
+RTOL = 1e-8
 
-# Synthetic data: true ratios to the preset, and the noise of a reading.
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+# Synthetic data: true ratios to the preset, and the standard deviation of the noise of a reading.
 TRUE_RATIOS = [1.15, 0.93, 0.90]
 NOISE_DEG = 1.0
 READINGS = {"small": 21, "full": 81}
@@ -50,35 +53,36 @@ READINGS = {"small": 21, "full": 81}
 class Response:
     """Measured columns as a function of the logarithms of the parameters' ratios to the preset."""
 
-    def __init__(self, names, frequency, measured, voltage):
+    def __init__(self, names: list[str], frequency: Array, measured: dict[str, Array], voltage: float) -> None:
         self.names = names
-        self.nominal = np.array([flapwing.params(PRESET)[name].value for name in names])
-        self.frequency = frequency
+        self.nominal = np.array([flapwing.params(PRESET)[name].value for name in names], dtype=float)
         self.measured = measured
-        self.voltage = voltage
+        # Every set of parameters is run at all operating points.
+        self.grid = flapwing.Grid(
+            {"preset": PRESET, "params": {"drive_voltage_pp": voltage}, "axes": {"drive_frequency": frequency}}
+        )
 
-    def model(self, logs):
+    def model(self, logs: Array) -> Array:
         """The response of the model, for many parameter sets at once: rows of `logs` in, rows of readings out.
 
         Readings are nan where the motion is not periodic.
         """
-        values = np.exp(logs) * self.nominal
-        points = {name: np.repeat(column, len(self.frequency)) for name, column in zip(self.names, values.T)}
-        points["drive_frequency"] = np.tile(self.frequency, len(logs))
-        table = flapwing.evaluate(PRESET, points, drive_voltage_pp=self.voltage, **SOLVER)
-        columns = [table[name].reshape(len(logs), -1) for name in self.measured]
+        sets = dict(zip(self.names, (np.exp(logs) * self.nominal).T))
+        table = flapwing.evaluate(self.grid, sets, measures=list(self.measured), rtol=RTOL)
+        columns = [table[name].reshape(len(logs), len(self.grid)) for name in self.measured]
         return np.concatenate(columns, axis=1)
 
-    def residuals(self, logs):
+    def residuals(self, logs: Array) -> Array:
         """Model less measurement (deg).
 
         A trial step of the fit may come where a motion is not periodic. The residual there is that of a wing at rest:
         so large that the step is refused. `jacobian` and the result do not accept such points.
         """
         model = self.model(logs[np.newaxis])[0]
-        return np.nan_to_num(model, nan=0.0) - np.concatenate(list(self.measured.values()))
+        difference: Array = np.nan_to_num(model, nan=0.0) - np.concatenate(list(self.measured.values()))
+        return difference
 
-    def jacobian(self, logs):
+    def jacobian(self, logs: Array) -> Array:
         """Derivatives of the residuals by central differences, all columns in one batch."""
         steps = STEP * np.eye(len(logs))
         model = self.model(np.concatenate([logs + steps, logs - steps]))
@@ -87,17 +91,18 @@ class Response:
         above, below = np.split(model, 2)
         return (above - below).T / (2 * STEP)
 
-    def named(self, logs):
+    def named(self, logs: Array) -> str:
         values = np.exp(logs) * self.nominal
         return ", ".join(f"{name} = {value:.4g}" for name, value in zip(self.names, values))
 
 
-def read(path):
+def read(path: str) -> tuple[Array, dict[str, Array]]:
     """Frequencies, and the other columns by name."""
     data = np.genfromtxt(path, delimiter=",", names=True)
-    if "frequency_hz" not in (data.dtype.names or ()):
+    names = data.dtype.names or ()
+    if "frequency_hz" not in names:
         raise SystemExit(f"{path} has no column `frequency_hz`")
-    measured = {name: np.atleast_1d(data[name]) for name in data.dtype.names if name != "frequency_hz"}
+    measured = {name: np.atleast_1d(data[name]) for name in names if name != "frequency_hz"}
     known = flapwing.measures(PRESET)
     for name, values in measured.items():
         if name not in known:
@@ -109,16 +114,16 @@ def read(path):
     return np.atleast_1d(data["frequency_hz"]), measured
 
 
-def synthetic(names, readings, voltage, seed):
-    """A response of the model with other parameters than the preset's, plus noise."""
+def synthetic(names: list[str], readings: int, voltage: float, seed: int) -> tuple[Array, dict[str, Array], Array]:
+    """Frequencies, a response of the model with other parameters than the preset's, plus noise, and the noise itself."""
     frequency = np.linspace(70.0, 150.0, readings)
-    response = Response(names, frequency, {"stroke_pp_deg": None}, voltage)
+    response = Response(names, frequency, {"stroke_pp_deg": frequency}, voltage)
     exact = response.model(np.log(TRUE_RATIOS)[np.newaxis])[0]
     noise = np.random.default_rng(seed).normal(0.0, NOISE_DEG, readings)
-    return frequency, {"stroke_pp_deg": exact + noise}
+    return frequency, {"stroke_pp_deg": exact + noise}, noise
 
 
-def fit(response):
+def fit(response: Response) -> tuple[Any, Array, int]:
     """The fit, and the covariance of the logarithms of the ratios as the scatter of the data implies it."""
     start = np.zeros(len(response.names))
     bounds = (np.log(LOWEST), np.log(HIGHEST))
@@ -128,8 +133,8 @@ def fit(response):
     return found, variance * np.linalg.inv(found.jac.T @ found.jac), freedom
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("data", nargs="?", metavar="CSV", help="measured response; without it, synthetic data are made")
     parser.add_argument("--size", choices=list(READINGS), default="small", help="of synthetic data")
     parser.add_argument("--voltage", type=float, default=160.0, help="drive voltage, peak to peak (V)")
@@ -140,8 +145,10 @@ def main():
     if arguments.data:
         frequency, measured = read(arguments.data)
     else:
-        frequency, measured = synthetic(FITTED, READINGS[arguments.size], arguments.voltage, arguments.seed)
-        print(f"synthetic data: {len(frequency)} readings with a noise of {NOISE_DEG:g} deg")
+        frequency, measured, noise = synthetic(FITTED, READINGS[arguments.size], arguments.voltage, arguments.seed)
+        rms = np.sqrt(np.mean(noise**2))
+        print(f"synthetic data: {len(frequency)} readings with noise of {rms:.3f} deg rms, drawn with a standard", end=" ")
+        print(f"deviation of {NOISE_DEG:g} deg")
         if arguments.write_data:
             rows = np.column_stack([frequency, *measured.values()])
             header = ",".join(["frequency_hz", *measured])

@@ -16,6 +16,7 @@ J. Blank and K. Deb, "pymoo: multi-objective optimization in Python", IEEE Acces
 """
 
 import argparse
+from typing import Any
 
 import flapwing
 import numpy as np
@@ -49,15 +50,15 @@ VEHICLE_MG = 80.0
 SIZES = {"small": (100, 30), "full": (200, 200)}
 
 
-class Wing(Problem):
+class Wing(Problem):  # type: ignore[misc, unused-ignore]
     """Two objectives to be made small, -lift and power, and what must not be above 0."""
 
-    def __init__(self, strain):
+    def __init__(self, strain: float) -> None:
         lowest, highest = np.array(list(VARIABLES.values())).T
         super().__init__(n_var=len(VARIABLES), n_obj=2, n_ieq_constr=5, xl=lowest, xu=highest)
         self.strain = strain
 
-    def _evaluate(self, x, out, *args, **kwargs):
+    def _evaluate(self, x: Any, out: dict[str, Any], *_args: Any, **_kwargs: Any) -> None:
         table = flapwing.evaluate(DESIGN, dict(zip(VARIABLES, x.T)))
         periodic = table["status"] == "periodic"
         # Excesses over the limits, relative to them.
@@ -75,8 +76,8 @@ class Wing(Problem):
         out["F"] = np.where(periodic[:, np.newaxis], objectives, 1e3)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--size", choices=list(SIZES), default="small")
     parser.add_argument("--strain", type=float, default=STRAIN, help="limit on strain_surface_max")
     parser.add_argument("--seed", type=int, default=1)
@@ -114,7 +115,7 @@ def main():
         print(f"drew {arguments.picture}")
 
 
-def draw(front, path):
+def draw(front: flapwing.Table, path: str) -> None:
     try:
         from matplotlib.figure import Figure
     except ImportError:

@@ -114,7 +114,8 @@ def main() -> None:
         "tornado": tornado(),
     }
     for name, picture in pictures.items():
-        figure = picture if isinstance(picture, Figure) else picture.figure
+        figure = picture.get_figure(root=True)
+        assert figure is not None
         save(figure, folder / f"py-{name}.png")
     wing_path().save(folder / "py-wing-path.gif", dpi=64)
     plt.close("all")

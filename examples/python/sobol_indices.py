@@ -20,6 +20,7 @@ T. Iwanaga, W. Usher and J. Herman, "Toward SALib 2.0", Socio-Environmental Syst
 """
 
 import argparse
+from typing import Any
 
 import flapwing
 import numpy as np
@@ -50,15 +51,15 @@ RESULTS = ["lift_mean_mn", "power_mean_mw"]
 BASES = {"small": 1024, "full": 8192}
 
 
-def uncertain_parameters(preset, spread):
+def uncertain_parameters(preset: str, spread: float) -> dict[str, Any]:
     """SALib's description of the parameters, each uniform within a share of its value in the preset."""
     names = UNCERTAIN[preset]
-    values = [flapwing.params(preset)[name].value for name in names]
+    values = [float(flapwing.params(preset)[name].value or 0.0) for name in names]
     bounds = [[value * (1 - spread), value * (1 + spread)] for value in values]
     return {"num_vars": len(names), "names": names, "bounds": bounds}
 
 
-def rows_of_whole_blocks(periodic, parameters):
+def rows_of_whole_blocks(periodic: np.ndarray, parameters: int) -> np.ndarray:
     """Marks the rows of blocks that are periodic throughout.
 
     Saltelli's design comes in blocks of rows that belong together: two points, and the first with each parameter
@@ -70,8 +71,8 @@ def rows_of_whole_blocks(periodic, parameters):
     return np.repeat(whole, parameters + 2)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--size", choices=list(BASES), default="small")
     parser.add_argument("--preset", choices=list(UNCERTAIN), default="ozaki2018-large")
     parser.add_argument("--spread", type=float, default=10.0, help="uncertainty of each parameter, in %% either way")

@@ -12,14 +12,17 @@ S. Hoyer and J. Hamman, "xarray: N-D labeled arrays and datasets in Python", J. 
 """
 
 import argparse
+from typing import Any
 
 import flapwing
 import numpy as np
+import xarray
 
-STEPS = {"small": {"hinge": 5, "voltage": 4, "hz": 2.0}, "full": {"hinge": 21, "voltage": 11, "hz": 0.5}}
+# Values of hinge stiffness and voltage, and the step of the frequency (Hz).
+STEPS = {"small": (5, 4, 2.0), "full": (21, 11, 0.5)}
 
 
-def grid(hinge, voltage, hz):
+def grid(hinge: int, voltage: int, hz: float) -> dict[str, Any]:
     """A grid as a dictionary: what a grid file would say."""
     return {
         "preset": "ozaki2018-large",
@@ -31,14 +34,14 @@ def grid(hinge, voltage, hz):
     }
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--size", choices=list(STEPS), default="small")
     parser.add_argument("--save", metavar="FILE", help="write the map as netCDF")
     parser.add_argument("--picture", metavar="FILE", help="draw the map")
     arguments = parser.parse_args()
 
-    table = flapwing.sweep(grid(**STEPS[arguments.size]))
+    table = flapwing.sweep(grid(*STEPS[arguments.size]))
     data = table.to_xarray()
     print(f"{len(table)} points ({', '.join(f'{count} {status}' for status, count in table.counts.items())})")
     print(f"dimensions: {dict(data.sizes)}")
@@ -76,7 +79,7 @@ def main():
     # Between designs: linear interpolation, beside a simulation of that very point.
     wanted = {"hinge_stiffness": 93e-6, "drive_voltage_pp": 75.0, "drive_frequency": 107.0}
     guessed = float(lift.interp(wanted))
-    simulated = flapwing.run("ozaki2018-large", **wanted)["lift_mean_mn"]
+    simulated = flapwing.evaluate("ozaki2018-large", wanted)["lift_mean_mn"][0]
     print(
         f"at 93 uN*m/rad, 75 V and 107 Hz: interpolated {guessed:.3f} mN, simulated {simulated:.3f} mN "
         f"({guessed / simulated - 1:+.1%})"
@@ -90,12 +93,12 @@ def main():
         print(f"drew {arguments.picture}")
 
 
-def step(atlas, dimension):
+def step(atlas: xarray.Dataset, dimension: int) -> int:
     """The stride along an axis of the map at which at most eight values are printed."""
     return -(-list(atlas["lift_mean_mn"].shape)[dimension] // 8)
 
 
-def draw(atlas, path):
+def draw(atlas: xarray.Dataset, path: str) -> None:
     try:
         from matplotlib.figure import Figure
     except ImportError:
@@ -105,7 +108,7 @@ def draw(atlas, path):
     named = {"lift_mean_mn": "most mean lift (mN)", "best_frequency_hz": "drive frequency of most lift (Hz)"}
     micro = atlas.assign_coords(hinge_stiffness=atlas["hinge_stiffness"] * 1e6)
     for axes, (name, label) in zip(figure.subplots(1, 2), named.items()):
-        micro[name].plot(ax=axes, x="drive_voltage_pp", y="hinge_stiffness", cbar_kwargs={"label": label})
+        micro[name].plot.pcolormesh(ax=axes, x="drive_voltage_pp", y="hinge_stiffness", cbar_kwargs={"label": label})
         axes.set_xlabel("drive voltage, peak to peak (V)")
         axes.set_ylabel("hinge stiffness (uN*m/rad)")
     figure.savefig(path, dpi=150)

@@ -185,6 +185,8 @@ def test_fit_recovers_what_is_true(tmp_path):
         assert abs(np.log(value / true)) < 3 * error / 100
     noise = float(re.search(r"residuals: ([\d.]+) deg rms", printed)[1])
     assert 0.5 < noise / example.NOISE_DEG < 1.6
+    drawn = float(re.search(r"noise of ([\d.]+) deg rms", printed)[1])
+    assert noise == pytest.approx(drawn, rel=0.25)
     condition = float(re.search(r"condition of the Jacobian: ([\d.]+)", printed)[1])
     assert condition < 30
 
@@ -202,7 +204,7 @@ def test_fit_takes_other_measures_and_its_derivatives_are_right():
     frequency = np.linspace(80.0, 140.0, 7)
     names = [*example.FITTED, "force_factor"]
     true = np.log([1.1, 0.95, 0.9, 1.05])
-    response = example.Response(names, frequency, {"stroke_pp_deg": None, "pitch_amplitude_deg": None}, 160.0)
+    response = example.Response(names, frequency, dict.fromkeys(["stroke_pp_deg", "pitch_amplitude_deg"], frequency), 160.0)
     exact = response.model(true[np.newaxis])[0]
     response.measured = dict(zip(response.measured, np.split(exact, 2)))
     assert np.abs(response.residuals(true)).max() == 0
@@ -220,7 +222,7 @@ def test_fit_leaves_out_what_no_response_tells():
     names = ["force_factor", "stiffness_factor", "transmission_stiffness", "wing_inertia_stroke"]
     names += ["added_inertia_stroke", "pressure_radius"]
     example = load("fit_bimorph")
-    response = example.Response(names, np.linspace(80.0, 140.0, 7), {"stroke_pp_deg": None}, 160.0)
+    response = example.Response(names, np.linspace(80.0, 140.0, 7), {"stroke_pp_deg": np.zeros(7)}, 160.0)
     same, larger = response.model(np.log([[1.0] * 6, [1.3] * 6]))
     assert larger == pytest.approx(same, rel=1e-6)
 
