@@ -40,7 +40,7 @@ def heatmap(
     where: Mapping[str, Any] | None = None,
     ax: Axes | None = None,
     **slices: Any,
-) -> Axes:
+) -> _style.Drawn:
     """Draw a measure over two axes as a map, such as lift, power or efficiency over frequency and voltage.
 
     Cells end halfway between their values, in the logarithm where an axis is logarithmic. Cells without a periodic

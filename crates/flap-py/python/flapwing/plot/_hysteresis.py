@@ -25,7 +25,7 @@ def hysteresis(
     where: Mapping[str, Any] | None = None,
     ax: Axes | None = None,
     **slices: Any,
-) -> Axes:
+) -> _style.Drawn:
     """Draw the way up and the way down of a response, with the unstable orbits between them if the table has them.
 
     Arrows show the ways and their jumps. Bands with different motions on the two ways are shaded.

@@ -24,7 +24,7 @@ def pareto(
     where: Mapping[str, Any] | None = None,
     ax: Axes | None = None,
     **slices: Any,
-) -> Axes:
+) -> _style.Drawn:
     """Draw designs in the plane of two objectives, with the Pareto front: the designs that no other design beats.
 
     Designs without a periodic motion, or with a NaN among the objectives, are left out. The front's designs are

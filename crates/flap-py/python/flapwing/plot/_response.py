@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, Sequence
+from typing import Any, Mapping, Sequence, overload
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,6 +19,10 @@ from ._docs import completed
 _USUAL = ("stroke_pp_deg", "stroke_amplitude_deg", "lift_mean_mn", "lift_mean_gf", "vehicle_lift_mgf")
 
 
+@overload
+def response(table: Any, y: str | None = None, **options: Any) -> _style.Drawn: ...
+@overload
+def response(table: Any, y: list[str] | tuple[str, ...], **options: Any) -> Figure: ...
 @completed
 def response(
     table: Any,
@@ -106,7 +110,7 @@ def response(
         family.explain(axes)
         if len(axes) > 1:
             _style.figure_of(axes[0]).align_ylabels(axes)
-    return _style.figure_of(axes[0]) if several else axes[0]
+    return _style.figure_of(axes[0]) if several else _style.axes_of(axes[0])
 
 
 class _Family:

@@ -3,13 +3,26 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from typing import Any, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Iterator, Sequence, cast
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+
+if TYPE_CHECKING:
+
+    class Drawn(Axes):
+        """Axes with a picture, for type checkers: those of a new figure are in a figure that can be saved."""
+
+        @property
+        def figure(self) -> Figure: ...
+        @figure.setter
+        def figure(self, value: Any) -> None: ...
+
+else:
+    Drawn = Axes
 
 # Okabe and Ito's colours, which readers with any colour vision tell apart.
 BLUE, VERMILLION, GREEN, PURPLE, SKY, ORANGE = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00"
@@ -59,9 +72,9 @@ def new_figure(width: float = 6.4, height: float = 4.0) -> Figure:
     return plt.figure(figsize=(width, height), layout="constrained")
 
 
-def axes_of(ax: Axes | None, width: float = 6.4, height: float = 4.0) -> Axes:
+def axes_of(ax: Axes | None, width: float = 6.4, height: float = 4.0) -> Drawn:
     """The axes given, or those of a new figure."""
-    return new_figure(width, height).add_subplot() if ax is None else ax
+    return cast("Drawn", new_figure(width, height).add_subplot() if ax is None else ax)
 
 
 def figure_of(ax: Axes) -> Figure:

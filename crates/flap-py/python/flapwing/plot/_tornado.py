@@ -125,7 +125,7 @@ def tornado(
     top: int = 12,
     ax: Axes | None = None,
     **fixed: Any,
-) -> Axes:
+) -> _style.Drawn:
     """Draw how a measure changes with each parameter, as bars in the order of their length.
 
     Parameters

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Sequence
+from typing import Any, Sequence, overload
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,6 +14,24 @@ from ._data import Data
 _ANGLES = ("stroke_deg", "pitch_deg")
 
 
+@overload
+def trajectory(
+    table: Any,
+    signals: str | Sequence[str] = ...,
+    *,
+    portrait: Sequence[str] | None = ...,
+    time: str = ...,
+    ax: None = ...,
+) -> Figure: ...
+@overload
+def trajectory(
+    table: Any,
+    signals: str | Sequence[str] = ...,
+    *,
+    portrait: Sequence[str] | None = ...,
+    time: str = ...,
+    ax: Axes,
+) -> Axes: ...
 def trajectory(
     table: Any,
     signals: str | Sequence[str] = _ANGLES,
