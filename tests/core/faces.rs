@@ -120,3 +120,29 @@ fn motions_that_are_not_followed_say_why() {
     assert_eq!(error, RequestError::Begin { begin: begin.to_vec(), states: 4 }.into());
     assert_eq!(error.to_string(), "the motion cannot begin at [0.0, 0.0, 0.0]: a state is 4 finite numbers");
 }
+
+#[test]
+fn a_motion_goes_on_from_the_state_in_which_another_ends() {
+    for name in ["jafferis2016", "ozaki2018-small", "arabagi2013-75hz"] {
+        let (model, preset) = preset(name).unwrap();
+        let values = (preset.values)();
+        let run = PointRun::new(InstructionSet::best(), &SOLVER, &values);
+        let motions = model.motions().unwrap();
+        let request = TrajectoryRequest { cycles: 2, samples_per_cycle: 4, settled: false };
+        let whole = motions.trajectory(&run, &request).unwrap();
+        let states = motions.states();
+        assert_eq!(&whole.columns[1..=states.len()], states);
+        assert_eq!(motions.meanings().len(), whole.columns.len());
+
+        let half = TrajectoryRequest { cycles: 1, ..request };
+        let first = motions.trajectory(&run, &half).unwrap();
+        let begin = &first.rows[4][1..=states.len()];
+        let second = motions.trajectory_from(&run, Some(begin), &half).unwrap();
+        // The step size starts anew, within the tolerance.
+        for (a, b) in second.rows[4][1..=states.len()].iter().zip(&whole.rows[8][1..=states.len()]) {
+            assert!((a - b).abs() <= 1e-4 * b.abs().max(1e-3), "{name}: {a} {b}");
+        }
+        let error = motions.trajectory_from(&run, Some(&begin[1..]), &half).unwrap_err();
+        assert!(matches!(error, Unfinished::Request(RequestError::Begin { states: 4, .. })));
+    }
+}

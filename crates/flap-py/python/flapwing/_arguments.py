@@ -8,7 +8,9 @@ from typing import Any, Mapping
 import numpy as np
 
 from . import _flapwing
+from ._flapwing import Grid
 from ._table import Table
+from ._types import Design
 
 #: The forms that a set of columns may have, for messages.
 COLUMNS = "it must be a dictionary of columns, a Table, a DataFrame (pandas, polars) or an Arrow table"
@@ -69,8 +71,16 @@ def _is_known(values: Any) -> bool:
     return values.dtype.kind in "fiu" and bool(np.isfinite(values).all())
 
 
-def state(model: str, begin: Any) -> dict[str, Any] | None:
-    """Components of a state, those of the states of `model` if a table has them."""
+def waves(waveform: Any, stroke: Any) -> dict[str, Any]:
+    """The records of a call, for the native part."""
+    return {
+        "waveform": None if waveform is None else record("waveform", waveform, "wave"),
+        "stroke": None if stroke is None else record("stroke", stroke, "stroke_rad"),
+    }
+
+
+def state(design: Design, begin: Any) -> dict[str, Any] | None:
+    """Components of a state; of a table, those of the states of the design's model."""
     if begin is None:
         return None
     if isinstance(begin, Mapping):
@@ -80,11 +90,23 @@ def state(model: str, begin: Any) -> dict[str, Any] | None:
         raise refused("begin", begin, allowed)
     if len(begin) != 1:
         raise ValueError(f"`begin` has {len(begin)} rows\nchoose one of them: table[-1:] is the last")
-    names = _flapwing.states(model)
+    names = _flapwing.states(_model(design))
     missing = [name for name in names if name not in begin]
     if missing:
         raise ValueError(f"`begin` lacks the columns {', '.join(missing)}\na trajectory of the same model has them")
     return {name: float(begin[name][0]) for name in names}
+
+
+def _model(design: Design) -> str:
+    """The model of a design, or its preset, whose states are the same."""
+    if isinstance(design, str):
+        try:
+            _flapwing.states(design)
+        except ValueError:
+            pass
+        else:
+            return design
+    return Grid(design).model
 
 
 def measures(names: Any) -> list[str] | None:

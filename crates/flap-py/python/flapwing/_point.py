@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any, SupportsFloat, SupportsIndex
 
 from . import _arguments, _flapwing
-from ._flapwing import Grid
 from ._table import Table
 from ._types import Design, Record, State, Value
 
@@ -144,8 +143,8 @@ def run(
         design,
         {**parameters, **solver, **steps, **search},
         point=point,
-        begin=None if begin is None else _arguments.state(_model(design), begin),
-        **_waves(waveform, stroke),
+        begin=_arguments.state(design, begin),
+        **_arguments.waves(waveform, stroke),
     )
 
 
@@ -213,9 +212,9 @@ def trajectory(
         cycles=cycles,
         samples=samples,
         from_rest=_arguments.flag("from_rest", from_rest),
-        begin=None if begin is None else _arguments.state(_model(design), begin),
+        begin=_arguments.state(design, begin),
         once=_arguments.flag("once", once),
-        **_waves(waveform, stroke),
+        **_arguments.waves(waveform, stroke),
     )
     return Table._of(native, set=keywords)
 
@@ -296,23 +295,3 @@ def resonance(
         fit_cycles=fit_cycles,
         spectrum_window=spectrum_window,
     )
-
-
-def _waves(waveform: Record | None, stroke: Record | None) -> dict[str, Any]:
-    """The records of a call, for the native part."""
-    return {
-        "waveform": None if waveform is None else _arguments.record("waveform", waveform, "wave"),
-        "stroke": None if stroke is None else _arguments.record("stroke", stroke, "stroke_rad"),
-    }
-
-
-def _model(design: Design) -> str:
-    """The model of a design, or its preset, whose states are the same."""
-    if isinstance(design, str):
-        try:
-            _flapwing.states(design)
-        except ValueError:
-            pass
-        else:
-            return design
-    return Grid(design).model
