@@ -19,7 +19,10 @@ import numpy as np
 import xarray
 
 # Values of hinge stiffness and voltage, and the step of the frequency (Hz).
-STEPS = {"small": (5, 4, 2.0), "full": (21, 11, 0.5)}
+STEPS: dict[str, dict[str, Any]] = {
+    "small": {"hinge": 5, "voltage": 4, "hz": 2.0},
+    "full": {"hinge": 21, "voltage": 11, "hz": 0.5},
+}
 
 
 def grid(hinge: int, voltage: int, hz: float) -> dict[str, Any]:
@@ -41,7 +44,7 @@ def main() -> None:
     parser.add_argument("--picture", metavar="FILE", help="draw the map")
     arguments = parser.parse_args()
 
-    table = flapwing.sweep(grid(*STEPS[arguments.size]))
+    table = flapwing.sweep(grid(**STEPS[arguments.size]))
     data = table.to_xarray()
     print(f"{len(table)} points ({', '.join(f'{count} {status}' for status, count in table.counts.items())})")
     print(f"dimensions: {dict(data.sizes)}")

@@ -99,7 +99,7 @@ def test_what_a_worker_says_arrives(client, tmp_path):
     assert caught.value.diagnostics[0].line == 4
 
 
-def test_a_batch_has_the_rows_of_one_machine(client):
+def test_a_batch_has_the_rows_of_one_machine(client, tmp_path, monkeypatch):
     rng = np.random.default_rng(1)
     grid = {"preset": "ozaki2018-large", "axes": {"drive_frequency": [100, 110]}, "where": {"long": "wing_length > 0.029"}}
     columns = {
@@ -122,5 +122,11 @@ def test_a_batch_has_the_rows_of_one_machine(client):
     ]
     with pytest.raises(ValueError, match="did you mean `drive_frequency`"):
         flapwing.evaluate("ozaki2018-large", {"drive_frequenc": [100.0]}, client=client)
+    path = tmp_path / "grid.toml"
+    path.write_text('preset = "ozaki2018-large"\n[sample]\nmethod = "file"\npath = "points.csv"\n')
+    (tmp_path / "points.csv").write_text("drive_frequency\n100\n105\n")
+    monkeypatch.chdir(tmp_path)
+    rows = flapwing.evaluate("grid.toml", {"wing_length": [0.03, 0.031]}, client=client)
+    assert rows["drive_frequency"].tolist() == [100, 105] * 2
     with pytest.raises(ValueError, match="columns differ in length"):
         flapwing.evaluate("ozaki2018-large", {"drive_frequency": [100.0], "wing_length": [0.03, 0.031]}, client=client)

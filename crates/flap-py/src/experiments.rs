@@ -103,7 +103,6 @@ pub(crate) fn impulse<'py>(
 /// Forces along a given motion; see `flapwing.lift`.
 #[pyfunction]
 #[pyo3(signature = (design, motion, keywords, /, *, point, periodic, samples))]
-#[expect(clippy::too_many_arguments, reason = "one per keyword")]
 pub(crate) fn lift<'py>(
     py: Python<'py>,
     design: &Bound<'py, PyAny>,

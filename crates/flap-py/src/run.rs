@@ -29,7 +29,6 @@ pub(crate) fn presets() -> Vec<&'static str> {
 /// Runs one point; see `flapwing.run`.
 #[pyfunction]
 #[pyo3(signature = (design, keywords, /, *, point=None, begin=None, waveform=None, stroke=None))]
-#[expect(clippy::too_many_arguments, reason = "one per keyword")]
 pub(crate) fn run<'py>(
     py: Python<'py>,
     design: &Bound<'py, PyAny>,

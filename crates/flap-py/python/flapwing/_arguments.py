@@ -40,8 +40,8 @@ def numbers(name: str, values: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
     """A column of numbers as float64."""
     try:
         array = np.asarray(values)
-        if array.dtype.kind not in "fiu":
-            array = array.astype(np.float64) if array.dtype.kind == "O" else array.reshape(-1, 1)
+        if array.dtype.kind == "O":
+            array = array.astype(np.float64)
     except (TypeError, ValueError):
         raise refused(name, values, "it must be numbers: a list, an array or a Series") from None
     if array.ndim != 1 or array.dtype.kind not in "fiu":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections import Counter
 from typing import TYPE_CHECKING, Any, Callable, SupportsIndex
 
@@ -47,9 +48,7 @@ def scattered(
     workers = max(1, sum(client.nthreads().values()))
     most = max(1, TASK_POINTS // max(1, each))
     size = max(1, min(most, -(-length // (TASKS_PER_THREAD * workers))))
-    # Workers read a grid where this process has read it.
-    if not isinstance(call["design"], str):
-        call = {**call, "design": Grid(call["design"])}
+    call = {**call, "design": _sent(call["design"])}
     count = 1 if threads is None else threads
     begins = range(0, length, size)
     futures = [
@@ -74,6 +73,19 @@ def scattered(
     finally:
         client.cancel(futures, force=True)
     return _joined(parts)
+
+
+def _sent(design: Any) -> Any:
+    """The design as workers take it: a name as it is, and a grid whose files are where this process looks for them."""
+    if isinstance(design, str):
+        try:
+            _flapwing.states(design)
+        except ValueError:
+            pass
+        else:
+            return design
+    grid = Grid(design)
+    return Grid._named(os.path.abspath(grid.name), grid.text)
 
 
 def _check(ours: dict[str, Any], theirs: dict[str, Any]) -> None:
