@@ -43,11 +43,11 @@ fn grids_in_the_documents_are_valid() {
 fn commands_in_the_documents_work() {
     for (name, least) in [("README.md", 4), ("docs/response.md", 4)] {
         let mut commands = 0;
+        // Later commands read the results of earlier ones.
+        let folder = Folder::new();
+        fs::create_dir(folder.path("examples")).unwrap();
+        fs::copy(root().join("examples/ozaki_large.toml"), folder.path("examples/ozaki_large.toml")).unwrap();
         for block in blocks(&document(name), "sh") {
-            let folder = Folder::new();
-            fs::create_dir(folder.path("examples")).unwrap();
-            fs::copy(root().join("examples/ozaki_large.toml"), folder.path("examples/ozaki_large.toml"))
-                .unwrap();
             for line in block.lines() {
                 let command = line.split('#').next().unwrap().trim();
                 let command = command.replace("cargo run --release -- ", "flap ");

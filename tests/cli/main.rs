@@ -10,6 +10,7 @@ mod doubts;
 mod experiments;
 mod formats;
 mod formulas;
+mod gradient;
 mod inputs;
 mod irregular;
 mod lists;

@@ -76,6 +76,11 @@ pub(crate) struct RunArgs {
     #[arg(long, requires = "trajectory")]
     pub(crate) from_rest: bool,
 
+    /// Print the ten parameters by which this measure of the settled motion changes most, in its unit per per cent of the
+    /// parameter
+    #[arg(long, value_name = "COLUMN")]
+    pub(crate) gradient: Option<String>,
+
     #[command(flatten)]
     pub(crate) overwrite: OverwriteArgs,
 
@@ -95,6 +100,7 @@ const RUN_HELP: &str = "\
 Examples:
   flap run ozaki2018-large
   flap run ozaki2018-large --set drive_frequency='120 Hz' --set drive_voltage_pp=150
+  flap run ozaki2018-large --gradient lift_mean_mn
   flap run grid.toml --point 17 --trajectory point17.csv
   flap run ozaki2018-large --trajectory - --from-rest --cycles 50
   flap run ozaki2018-small --drive chirp --chirp-from 150 --chirp-to 250 --envelope envelope.csv

@@ -4,6 +4,7 @@ pub(crate) mod check;
 pub(crate) mod convert;
 pub(crate) mod describe;
 pub(crate) mod far;
+mod gradient;
 mod grid;
 mod impulse;
 pub(crate) mod lift;

@@ -23,6 +23,8 @@ pub(crate) struct Chosen {
     /// The model with a waveform or stroke from a file, if the command line names one.
     pub(crate) sampled: Option<Box<dyn Simulator>>,
     index: u64,
+    /// The parameters that the command line sets.
+    set: Vec<usize>,
 }
 
 impl Chosen {
@@ -54,7 +56,7 @@ impl Chosen {
             }
             Verdict::Invalid(invalid) => return Err(invalid.into()),
         }
-        let mut chosen = Chosen { plan, values, sampled: None, index: point.point };
+        let mut chosen = Chosen { plan, values, sampled: None, index: point.point, set };
         chosen.find_resonance()?;
         Ok(chosen)
     }
@@ -96,6 +98,14 @@ impl Chosen {
             self.values[index] = value;
         }
         index.is_some()
+    }
+
+    /// The values with one parameter larger by a `share` of itself, and derived parameters that follow it.
+    pub(crate) fn changed(&self, parameter: usize, share: f64) -> Vec<f64> {
+        let mut values = self.values.clone();
+        values[parameter] *= 1.0 + share;
+        self.plan.derived().fill(&mut values, &self.set);
+        values
     }
 
     /// Model and preset in one line.

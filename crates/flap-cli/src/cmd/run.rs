@@ -11,7 +11,7 @@ use flap_sweep::study::deviation;
 
 use super::motion::{write_csv, write_file};
 use super::point::Chosen;
-use super::{far, impulse, outputs, samples};
+use super::{far, gradient, impulse, outputs, samples};
 use crate::args::{Drive, PointArgs, RunArgs};
 use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
@@ -46,6 +46,7 @@ fn refuse_strays(args: &RunArgs) -> Result<(), Failure> {
         Drive::Steady | Drive::Chirp if args.impulse.is_some() => stray("--impulse", "impulse"),
         Drive::Steady | Drive::Chirp if args.duration.is_some() => stray("--duration", "impulse"),
         Drive::Chirp | Drive::Impulse if args.from_rest => stray("--from-rest", "steady"),
+        Drive::Chirp | Drive::Impulse if args.gradient.is_some() => stray("--gradient", "steady"),
         Drive::Chirp | Drive::Impulse if args.waveform.is_some() => stray("--waveform", "steady"),
         Drive::Chirp | Drive::Impulse if args.stroke.is_some() => stray("--stroke", "steady"),
         _ => Ok(()),
@@ -79,6 +80,9 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
         return Err(Failure::usage(format!("the parameters are impossible together: {reason}")));
     }
     console::results(&page(chosen, &row))?;
+    if let Some(column) = &args.gradient {
+        console::results(&format!("\n{}", gradient::strongest(chosen, &row, column)?))?;
+    }
     if row.status == Status::Unsettled {
         console::say(&longer(chosen, args));
     }

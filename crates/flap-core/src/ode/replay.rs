@@ -30,8 +30,8 @@ pub struct Repeated<T, const N: usize> {
     pub y: [f64; N],
     /// The observer's totals.
     pub totals: T,
-    /// The run met the switching surface where the first one did, but for a small share of the step. Otherwise its end
-    /// means nothing.
+    /// The run met the switching surface where the first one did, but for a small share of a mean step. Otherwise its
+    /// end means nothing.
     pub meets: bool,
 }
 
@@ -91,7 +91,7 @@ where
 /// Times that a step is taken again to land on the surface: each squares its error, which is small from the beginning.
 const LANDINGS: u32 = 2;
 
-/// The share of a step by which a landing may be moved.
+/// The share of a mean step by which a landing may be moved.
 const NEAR: f64 = 1e-2;
 
 /// Makes at most as many runs as there are lanes.
@@ -136,7 +136,7 @@ fn in_lanes<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize>(
             }
             step.attempt(ode, &c, t, h, side);
         }
-        moved = ((h - whole) / whole).abs().max(moved);
+        moved = ((h - whole) / span).abs().max(moved);
         observer.add(&c, &Attempt { t, h, side, step: &step }, all, &mut totals);
         t = t + h;
         step.advance(all);
@@ -153,7 +153,8 @@ fn in_lanes<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize>(
             y[i] = step.y[0][i].lane(lane);
         }
         // The state is not a number where the surface was missed altogether.
-        let meets = moved.lane(lane) <= NEAR && y.iter().all(|y| y.is_finite());
+        let steps = moved.lane(lane) * legs.len() as f64;
+        let meets = steps <= NEAR && y.iter().all(|y| y.is_finite());
         ends.push(Repeated { y, totals: totals.get(lane), meets });
     }
 }

@@ -22,9 +22,9 @@ use super::single::{PointRun, Question};
 use crate::measure::cycle::{Signals, Totals, finish};
 use crate::model::Model;
 use crate::num::{Kernel, Scalar, Simd};
-use crate::ode::Start;
 use crate::ode::ensemble::Unobserved;
 use crate::ode::replay::{Leg, Repeated, record, replay};
+use crate::ode::{Ending, Start};
 use crate::parameter::{Kind, Parameter};
 
 /// A change of the state in units of its typical size, small enough to neglect its square and large enough to stand above
@@ -52,8 +52,19 @@ pub struct Change {
     pub ahead: Vec<f64>,
     /// The same, smaller by `size`.
     pub behind: Vec<f64>,
-    /// The size of the change: about 1e-8 of the quantity, in whatever unit derivatives are to have.
+    /// The size of the change: [`Change::SHARE`] of the quantity, in whatever unit derivatives are to have.
     pub size: f64,
+}
+
+impl Change {
+    /// The share of a quantity by which it is best changed: its square is negligible, and it stands above rounding.
+    pub const SHARE: f64 = 1e-8;
+
+    /// True if it changes nothing. NaN stands for a parameter that follows others.
+    fn is_none(&self) -> bool {
+        let mut both = self.ahead.iter().zip(&self.behind);
+        both.all(|(ahead, behind)| ahead.total_cmp(behind).is_eq())
+    }
 }
 
 /// The reason why a derivative is not known.
@@ -65,13 +76,18 @@ pub enum NoSlope {
     Sliding,
     /// A parameter is at an end of its range, or the changed point is impossible.
     Edge,
+    /// The quantity is zero, so that a share of it changes nothing.
+    Zero,
+    /// The period cannot be integrated with tighter tolerances, within the limits on steps.
+    Lost,
     /// The measure has a kink: its derivatives to both sides differ, or it cannot be told.
     Kink,
 }
 
 impl NoSlope {
     /// All reasons.
-    pub const ALL: [NoSlope; 4] = [NoSlope::Fold, NoSlope::Sliding, NoSlope::Edge, NoSlope::Kink];
+    pub const ALL: [NoSlope; 6] =
+        [NoSlope::Fold, NoSlope::Sliding, NoSlope::Edge, NoSlope::Zero, NoSlope::Lost, NoSlope::Kink];
 
     /// The word for it in rows.
     pub fn name(self) -> &'static str {
@@ -79,6 +95,8 @@ impl NoSlope {
             NoSlope::Fold => "fold",
             NoSlope::Sliding => "sliding",
             NoSlope::Edge => "edge",
+            NoSlope::Zero => "zero",
+            NoSlope::Lost => "lost",
             NoSlope::Kink => "kink",
         }
     }
@@ -107,10 +125,11 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M,
         let mut start = begin(model, run.values, Some(self.state))?;
         start.tighten = TIGHTEN;
         let (legs, outcome) = record::<M, R, N>(model, &run.solver.tolerances(), &start, run.interrupted);
-        Unfinished::check(outcome.ending, run.interrupted)?;
         let sides = self.changes.iter().map(|change| sides(model, change)).collect();
         let orbit = Orbit { model, start: &start, legs: &legs, changes: self.changes, sides };
-        let mut gradient = if outcome.switches > MANY_SWITCHES {
+        let mut gradient = if outcome.ending != Ending::Stopped {
+            orbit.without(NoSlope::Lost)
+        } else if outcome.switches > MANY_SWITCHES {
             orbit.without(NoSlope::Sliding)
         } else {
             run.backend.dispatch(orbit)
@@ -240,7 +259,9 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
         let slopes = self.sides.iter().zip(self.changes).enumerate().map(|(i, (side, change))| {
             let [ahead, behind] = [2 * i + 1, 2 * i + 2];
             let meets = cycles[0].meets && cycles[ahead].meets && cycles[behind].meets;
-            let trouble = if side.is_none() {
+            let trouble = if change.is_none() {
+                Some(NoSlope::Zero)
+            } else if side.is_none() {
                 Some(NoSlope::Edge)
             } else if !meets {
                 Some(NoSlope::Sliding)

@@ -8,6 +8,7 @@ mod conditions;
 mod derived;
 pub mod diagnostic;
 mod formula;
+mod gradient;
 mod measures;
 mod output;
 mod params;

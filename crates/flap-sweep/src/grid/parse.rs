@@ -11,7 +11,8 @@ use super::formula::{self, Names};
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::{
-    axes, conditions, derived, measures, output, params, preset, resonance, sample, solver, syntax, zip,
+    axes, conditions, derived, gradient, measures, output, params, preset, resonance, sample, solver, syntax,
+    zip,
 };
 use crate::plan::axes::Axes;
 use crate::plan::axis::Axis;
@@ -20,7 +21,7 @@ use crate::plan::{Plan, PointsFile, Source, Space, Value};
 use crate::resonance::AtResonance;
 
 /// The keys at the top of a grid file.
-const KEYS: [&str; 11] = [
+const KEYS: [&str; 12] = [
     "preset",
     "params",
     "resonance",
@@ -30,6 +31,7 @@ const KEYS: [&str; 11] = [
     "derived",
     "where",
     "measure",
+    "gradient",
     "solver",
     "output",
 ];
@@ -61,6 +63,8 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
         read_points(&root, simulator, preset, models, &mut problems);
     names.are_measured = true;
     let own = measures::read(table::find(&root, "measure"), &mut names, &mut problems);
+    let gradient = table::find(&root, "gradient");
+    let gradient = gradient::read(gradient, simulator, &names, &derived, resonance.is_some(), &mut problems);
     let columns = names.columns.iter().map(|column| column.name.clone()).chain(own).collect::<Vec<_>>();
     let output = output::read(output_entry, Some((simulator, &columns)), &mut problems);
 
@@ -83,6 +87,7 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
         derived,
         conditions,
         measures: names.own,
+        gradient,
         solver,
         output,
         source: (*source).clone(),

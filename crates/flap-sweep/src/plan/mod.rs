@@ -4,6 +4,7 @@
 //! - [`axis`], [`axes`]: the values of varied parameters
 //! - [`sample`]: points spread over a design space
 //! - [`formula`]: derived parameters, conditions, measures of the user's own
+//! - [`gradient`]: derivatives of measures
 //! - [`selection`]: the points that are run
 
 mod along;
@@ -12,6 +13,7 @@ pub mod axis;
 mod change;
 mod files;
 pub mod formula;
+pub mod gradient;
 pub mod sample;
 pub mod selection;
 mod space;

@@ -9,6 +9,7 @@ use crate::plan::along::Along;
 use crate::plan::axes::Axes;
 use crate::plan::files::{Output, PointsFile, Source};
 use crate::plan::formula::{Condition, Derived, OwnMeasure};
+use crate::plan::gradient::Gradient;
 use crate::plan::selection::Selection;
 use crate::plan::value::Value;
 use crate::resonance::AtResonance;
@@ -43,6 +44,8 @@ pub(crate) struct Space {
     pub(crate) conditions: Vec<Condition>,
     /// The columns that are computed from the model's measures. Each may use those before it.
     pub(crate) measures: Vec<OwnMeasure>,
+    /// The derivatives that rows have.
+    pub(crate) gradient: Option<Gradient>,
     /// Tolerances and limits of the integration.
     pub(crate) solver: SolverSettings,
     /// The file that rows go to, and its columns.
@@ -115,6 +118,11 @@ impl Plan {
         &self.space.measures
     }
 
+    /// The derivatives that rows have, if they have any. Rows of curves have none.
+    pub fn gradient(&self) -> Option<&Gradient> {
+        self.space.gradient.as_ref().filter(|_| self.followed().is_none())
+    }
+
     /// Tolerances and limits of the integration.
     pub fn solver(&self) -> &SolverSettings {
         &self.space.solver
@@ -152,10 +160,22 @@ impl Plan {
 
     /// Point number `index`, which must be less than [`Plan::len`].
     pub fn point(&self, index: u64) -> Point {
+        Point::at_rest(index, self.values(index, None))
+    }
+
+    /// The values of point number `index` with one parameter larger by a `share` of itself. Derived parameters follow it.
+    pub(crate) fn changed(&self, index: u64, parameter: usize, share: f64) -> Vec<f64> {
+        self.values(index, Some((parameter, share)))
+    }
+
+    fn values(&self, index: u64, change: Option<(usize, f64)>) -> Vec<f64> {
         let mut values: Vec<f64> = self.base().iter().map(|value| value.in_point()).collect();
         self.axes().fill(index, &mut values);
+        if let Some((parameter, share)) = change {
+            values[parameter] *= 1.0 + share;
+        }
         self.derived().fill(&mut values, &[]);
-        Point::at_rest(index, values)
+        values
     }
 
     /// Number of points that are run.

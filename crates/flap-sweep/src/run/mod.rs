@@ -12,6 +12,7 @@
 
 mod error;
 mod finished;
+mod gradient;
 mod hand;
 pub mod identity;
 mod ledger;

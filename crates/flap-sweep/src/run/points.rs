@@ -8,6 +8,7 @@ use flap_core::simulate::{Interrupt, Jobs, Point, PointRun, Row, Status};
 
 use super::error::RunError;
 use super::finished::Finished;
+use super::gradient;
 use super::hand::Hand;
 use super::ledger::Ledger;
 use super::options::RunOptions;
@@ -75,7 +76,9 @@ pub fn alone(
                 if interrupted() {
                     break;
                 }
-                completed(plan, position, row).map_err(RunError::Model)?
+                let completed = completed(plan, options, position, row, interrupted);
+                let Some(finished) = completed.map_err(RunError::Model)? else { break };
+                finished
             }
             Err(finished) => finished,
         };
@@ -95,17 +98,28 @@ fn taken(plan: &Plan, position: u64) -> Result<Point, Finished> {
     }
 }
 
-/// The outcome of a point with the row of the model, or the model's mistake.
-fn completed(plan: &Plan, position: u64, mut row: Row) -> Result<Finished, String> {
+/// The outcome of a point with the row of the model, `None` if it was interrupted, or the model's mistake.
+fn completed(
+    plan: &Plan,
+    options: &RunOptions,
+    position: u64,
+    mut row: Row,
+    interrupted: Interrupt<'_>,
+) -> Result<Option<Finished>, String> {
     let expected = if row.status == Status::Periodic { plan.rows().columns().len() } else { 0 };
     if row.measures.len() != expected {
         let found = row.measures.len();
         return Err(format!("it returned {found} measures, not {expected}, for point {position}"));
     }
-    if !plan.measures().is_empty() && position < plan.selected() {
-        plan.add_own_measures(&plan.selected_point(position).values, &mut row.measures);
+    let has_more = !plan.measures().is_empty() || plan.gradient().is_some();
+    if has_more && position < plan.selected() {
+        let point = plan.selected_point(position);
+        plan.add_own_measures(&point.values, &mut row.measures);
+        if !gradient::add(plan, options, &point, &mut row, interrupted) {
+            return Ok(None);
+        }
     }
-    Ok(Finished::Row(row))
+    Ok(Some(Finished::Row(row)))
 }
 
 /// Runs the points at these positions among the selected ones, on all threads, and hands their outcomes to `take`, in
@@ -120,9 +134,9 @@ pub(super) fn work(
 ) -> Result<(), RunError> {
     let few = (positions.end - positions.start).div_ceil(options.threads.get() as u64) <= FEW;
     let worker = |hand: &mut Hand<'_, Finished>| {
-        let mut points = Points { plan, hand };
+        let mut points = Points { plan, options, hand };
         if few && plan.resonance().is_none() {
-            points.run_singly(options);
+            points.run_singly();
         } else {
             plan.rows().run(options.instructions, plan.solver(), &mut points);
         }
@@ -136,15 +150,16 @@ const FEW: u64 = 2;
 /// The points of a plan, as the model sees the queue.
 struct Points<'a, 'q> {
     plan: &'a Plan,
+    options: &'a RunOptions,
     hand: &'a mut Hand<'q, Finished>,
 }
 
 impl Points<'_, '_> {
     /// Runs points one after another on scalars.
-    fn run_singly(&mut self, options: &RunOptions) {
+    fn run_singly(&mut self) {
         while let Some(point) = self.next(true) {
             let cancelled = || self.hand.is_cancelled();
-            let run = PointRun::new(options.instructions, self.plan.solver(), &point.values);
+            let run = PointRun::new(self.options.instructions, self.plan.solver(), &point.values);
             let row = self.plan.rows().run_point(&run.until(&cancelled), point.begin.as_deref());
             if self.hand.is_cancelled() {
                 break;
@@ -166,8 +181,10 @@ impl Jobs for Points<'_, '_> {
     }
 
     fn done(&mut self, position: u64, row: Row) {
-        match completed(self.plan, position, row) {
-            Ok(finished) => self.hand.done(position, finished),
+        let cancelled = || self.hand.is_cancelled();
+        match completed(self.plan, self.options, position, row, &cancelled) {
+            Ok(Some(finished)) => self.hand.done(position, finished),
+            Ok(None) => {}
             Err(fault) => self.hand.fail(fault),
         }
     }

@@ -1,12 +1,13 @@
 //! The columns of a result file: their order, their meaning and their cells.
 
 use flap_core::parameter::Parameter;
-use flap_core::simulate::{Point, Row};
+use flap_core::simulate::{NoSlope, Point, Row};
 
 pub use super::column::{Cell, Column, Kind};
 use super::fixed::{CURVE, Fixed, POINT, RUN, STATUS};
 use crate::notation::expression;
 use crate::plan::Plan;
+use crate::plan::gradient::column_name;
 
 /// The columns of the rows of a plan:
 /// `point`, the varied parameters, the derived ones, `status`, the measures, then `cycles`, `residual`, `period`,
@@ -64,10 +65,15 @@ impl Layout {
         });
         let measures = models.chain(own).enumerate();
         let measures = measures.map(|(index, column)| Behind::Measure(Measure { index, column }));
-        let all: Vec<Behind> = measures.chain(RUN.iter().map(Behind::Run)).collect();
+        let measures: Vec<Behind> = measures.collect();
+        let derivatives = derivatives(plan, measures.len());
+        let run = RUN.iter().map(Behind::Run);
         let behind = match &plan.output().columns {
-            Some(chosen) => chosen.iter().map(|&index| all[index].clone()).collect(),
-            None => all,
+            Some(chosen) => {
+                let all: Vec<Behind> = measures.into_iter().chain(run).collect();
+                chosen.iter().map(|&index| all[index].clone()).chain(derivatives).collect()
+            }
+            None => measures.into_iter().chain(derivatives).chain(run).collect(),
         };
         let followed = plan.followed().map(|along| &parameters[along.parameter]);
         Layout { varied, followed, behind }
@@ -127,6 +133,41 @@ impl Layout {
     }
 }
 
+/// The columns of derivatives, behind `before` measures in a row.
+fn derivatives(plan: &Plan, before: usize) -> Vec<Behind> {
+    let Some(gradient) = plan.gradient() else { return Vec::new() };
+    let models = plan.rows().columns();
+    let name = |of: usize| match of.checked_sub(models.len()) {
+        None => (models[of].name.as_str(), models[of].unit),
+        Some(place) => (plan.measures()[place].name.as_str(), ""),
+    };
+    let columns = gradient.pairs().map(|(of, by)| {
+        let ((of, unit), by) = (name(of), plan.parameters()[by].name);
+        let doc = format!("change of {of} {unit} per per cent of {by}").replace("  ", " ");
+        Column::new(&column_name(of, by), "", Kind::Number, &doc)
+    });
+    let gap = Column::new(
+        GRADIENT_GAP,
+        "",
+        Kind::Text,
+        "reason why a derivative of the row is not known; empty if all are",
+    );
+    let columns = columns.chain([gap]).enumerate();
+    columns.map(|(place, column)| Behind::Measure(Measure { index: before + place, column })).collect()
+}
+
+/// The column with the reason why derivatives of a row are missing.
+const GRADIENT_GAP: &str = "gradient_gap";
+
+/// The word for the reason with this place among all.
+fn gap(place: f64) -> &'static str {
+    NoSlope::ALL
+        .into_iter()
+        .enumerate()
+        .find(|(other, _)| *other as f64 == place)
+        .map_or("", |(_, reason)| reason.name())
+}
+
 /// A column of a layout.
 enum Entry<'l> {
     Fixed(&'static Fixed),
@@ -162,7 +203,8 @@ impl Entry<'_> {
                 let value = measure.value(&row.measures);
                 match measure.column.kind {
                     Kind::Flag => Cell::Flag((!value.is_nan()).then_some(value != 0.0)),
-                    _ => Cell::Number(value),
+                    Kind::Text => Cell::Text(gap(value)),
+                    Kind::Number | Kind::Whole => Cell::Number(value),
                 }
             }
         }

@@ -1,0 +1,136 @@
+//! The section `[gradient]`: columns with the derivatives of measures by parameters.
+
+use flap_core::parameter::{Kind as ParameterKind, Range};
+use flap_core::simulate::Simulator;
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::formula::Names;
+use super::problems::Problems;
+use super::table::{self, Entry};
+use super::value;
+use crate::notation::expression::Kind;
+use crate::plan::formula::Derived;
+use crate::plan::gradient::Gradient;
+
+const KEYS: [&str; 2] = ["of", "with_respect_to"];
+
+/// The derivatives that the section asks for. `names` has the measures of rows, and `derived` the parameters that others
+/// decide.
+pub(super) fn read(
+    entry: Option<&Entry<'_>>,
+    simulator: &'static dyn Simulator,
+    names: &Names,
+    derived: &Derived,
+    at_resonance: bool,
+    problems: &mut Problems,
+) -> Option<Gradient> {
+    let entry = entry?;
+    let entries = table::section(entry, problems);
+    table::check_keys(&entries, &KEYS, "in [gradient]", problems);
+    if at_resonance {
+        problems
+            .report(entry.key_span.clone(), "rows at the resonance of each design have no derivatives")
+            .note("the resonance moves with the design, and flap does not know how")
+            .help("set drive_frequency, or remove [gradient]");
+    }
+    if let Err(error) = simulator.motions() {
+        problems.report(entry.key_span.clone(), error.to_string());
+    }
+    for key in KEYS {
+        if table::find(&entries, key).is_none() {
+            let help = format!("write {key} = [\"…\"] under [gradient]");
+            problems.report(entry.key_span.clone(), format!("[gradient] lacks `{key}`")).help(help);
+        }
+    }
+    let of = table::find(&entries, "of")?;
+    let with_respect_to = table::find(&entries, "with_respect_to")?;
+    let of = listed(of, problems, |name, item, problems| measure(name, item, names, problems));
+    let with_respect_to = listed(with_respect_to, problems, |name, item, problems| {
+        parameter(name, item, names, derived, problems)
+    });
+    Some(Gradient { of, with_respect_to })
+}
+
+/// The indices of the names in a list, which `index` finds or reports.
+fn listed(
+    entry: &Entry<'_>,
+    problems: &mut Problems,
+    mut index: impl FnMut(&str, &Spanned<DeValue<'_>>, &mut Problems) -> Option<usize>,
+) -> Vec<usize> {
+    let list = entry.value.get_ref().as_array().filter(|list| !list.is_empty());
+    let Some(list) = list else {
+        problems.report(entry.value.span(), format!("`{}` must be a list of names", entry.key));
+        return Vec::new();
+    };
+    let mut indices = Vec::new();
+    for item in list {
+        let name = value::text(entry.key, item, problems);
+        let Some(index) = name.and_then(|name| index(name, item, problems)) else { continue };
+        if indices.contains(&index) {
+            problems
+                .report(item.span(), format!("`{}` is listed twice", name.unwrap_or_default()))
+                .help("keep one of them");
+        }
+        indices.push(index);
+    }
+    indices
+}
+
+/// The index of a measure: the model's columns, then the user's own.
+fn measure(name: &str, item: &Spanned<DeValue<'_>>, names: &Names, problems: &mut Problems) -> Option<usize> {
+    let columns = names.columns.iter().map(|column| column.name.as_str());
+    let own = names.own.iter().map(|own| own.name.as_str());
+    let index = columns.clone().chain(own.clone()).position(|known| known == name);
+    let Some(index) = index else {
+        problems
+            .report(item.span(), format!("there is no measure `{name}`"))
+            .did_you_mean(name, columns.chain(own));
+        return None;
+    };
+    let own = index.checked_sub(names.columns.len()).map(|place| &names.own[place]);
+    if own.is_some_and(|own| own.kind() != Kind::Number) {
+        problems.report(item.span(), format!("`{name}` is true or false, and has no derivatives"));
+        return None;
+    }
+    Some(index)
+}
+
+/// The index of a parameter whose share can change.
+fn parameter(
+    name: &str,
+    item: &Spanned<DeValue<'_>>,
+    names: &Names,
+    derived: &Derived,
+    problems: &mut Problems,
+) -> Option<usize> {
+    let Some(index) = names.parameters.iter().position(|parameter| parameter.name == name) else {
+        problems
+            .report(item.span(), format!("there is no parameter `{name}`"))
+            .did_you_mean(name, names.parameters.iter().map(|parameter| parameter.name));
+        return None;
+    };
+    let mut refuse = |reason: String, help: &str| {
+        let diagnostic = problems.report(item.span(), reason);
+        if !help.is_empty() {
+            diagnostic.help(help);
+        }
+        None
+    };
+    if derived.parameters().any(|derived| derived == index) {
+        return refuse(
+            format!("`{name}` is derived from other parameters"),
+            "name those: derivatives by them include what follows from them",
+        );
+    }
+    match (&names.parameters[index].kind, names.unset[index]) {
+        (ParameterKind::Choice(_), _) => refuse(format!("`{name}` is a choice, and has no shares"), ""),
+        (ParameterKind::Number(Range::Whole(..)), _) => {
+            refuse(format!("`{name}` is a whole number, and has no shares"), "")
+        }
+        (_, Some(follows)) => {
+            refuse(format!("`{name}` is not set: it follows {follows}"), "set it under [params]")
+        }
+        _ => Some(index),
+    }
+}

@@ -1,0 +1,98 @@
+//! Derivatives of the measures of a row.
+
+use flap_core::simulate::{Change, Interrupt, NoSlope, Point, PointRun, Row};
+
+use super::options::RunOptions;
+use crate::plan::Plan;
+use crate::plan::gradient::Gradient;
+
+/// The share that changes for the derivatives of the plan's own measures, which are computed from those and need not be as small.
+const OWN_SHARE: f64 = 1e-5;
+
+/// Adds the derivatives that `plan` asks for to the measures of the row of `point`, which has the plan's own: changes per per
+/// cent of the parameter, and at the end the reason why one is not known, as its place in [`NoSlope::ALL`]; NaN if all are.
+/// False if it was interrupted.
+pub(super) fn add(
+    plan: &Plan,
+    options: &RunOptions,
+    point: &Point,
+    row: &mut Row,
+    interrupted: Interrupt<'_>,
+) -> bool {
+    let Some(gradient) = plan.gradient().filter(|_| !row.measures.is_empty()) else { return true };
+    let changes = gradient.with_respect_to.iter().map(|&parameter| Change {
+        ahead: plan.changed(point.index, parameter, Change::SHARE),
+        behind: plan.changed(point.index, parameter, -Change::SHARE),
+        size: Change::SHARE,
+    });
+    let changes: Vec<Change> = changes.collect();
+    let run = PointRun::new(options.instructions, plan.solver(), &point.values).until(interrupted);
+    let found = plan.simulator().motions().and_then(|motions| motions.gradient(&run, &row.state, &changes));
+    if interrupted() {
+        return false;
+    }
+    let slopes = match found {
+        Ok(found) => {
+            row.rhs_evals += found.rhs_evals;
+            found.slopes
+        }
+        Err(_) => vec![vec![Err(NoSlope::Lost); plan.simulator().columns().len()]; changes.len()],
+    };
+    let derivatives = derivatives(plan, gradient, point, &row.measures, &slopes);
+    let trouble = derivatives.iter().filter_map(|derivative| derivative.err()).min();
+    row.measures.extend(derivatives.iter().map(|derivative| derivative.unwrap_or(f64::NAN)));
+    let place = NoSlope::ALL.iter().position(|reason| Some(*reason) == trouble);
+    row.measures.push(place.map_or(f64::NAN, |place| place as f64));
+    true
+}
+
+/// The derivatives in the order of their columns, each a change per per cent.
+fn derivatives(
+    plan: &Plan,
+    gradient: &Gradient,
+    point: &Point,
+    measures: &[f64],
+    slopes: &[Vec<Result<f64, NoSlope>>],
+) -> Vec<Result<f64, NoSlope>> {
+    let own_slopes = gradient.with_respect_to.iter().zip(slopes);
+    let own_slopes = own_slopes.map(|(&parameter, slopes)| own(plan, point, parameter, measures, slopes));
+    let own_slopes: Vec<Vec<Result<f64, NoSlope>>> = own_slopes.collect();
+    let by = |parameter: usize| gradient.with_respect_to.iter().position(|other| *other == parameter);
+    let pairs = gradient.pairs().map(|(of, parameter)| {
+        let by = by(parameter).unwrap_or_default();
+        let slope = match of.checked_sub(slopes[by].len()) {
+            None => slopes[by][of],
+            Some(place) => own_slopes[by][place],
+        };
+        slope.map(|slope| 0.01 * slope)
+    });
+    pairs.collect()
+}
+
+/// The derivatives of the plan's own measures by one parameter, from those of the model's.
+fn own(
+    plan: &Plan,
+    point: &Point,
+    parameter: usize,
+    measures: &[f64],
+    slopes: &[Result<f64, NoSlope>],
+) -> Vec<Result<f64, NoSlope>> {
+    let count = slopes.len();
+    let trouble = slopes.iter().filter_map(|slope| slope.err()).min();
+    let moved = |share: f64| {
+        let values = plan.changed(point.index, parameter, share);
+        let slopes = slopes.iter().map(|slope| slope.unwrap_or(f64::NAN));
+        let mut moved: Vec<f64> =
+            measures.iter().zip(slopes).map(|(measure, slope)| slope.mul_add(share, *measure)).collect();
+        plan.add_own_measures(&values, &mut moved);
+        moved.split_off(count)
+    };
+    let [ahead, behind] = [OWN_SHARE, -OWN_SHARE].map(moved);
+    let here = &measures[slopes.len()..];
+    let slopes = here.iter().zip(ahead.iter().zip(&behind)).map(|(here, (ahead, behind))| {
+        let slope = (ahead - behind) / (2.0 * OWN_SHARE);
+        // Not known where a measure that it is computed from has no derivative.
+        if slope.is_nan() && !here.is_nan() { Err(trouble.unwrap_or(NoSlope::Kink)) } else { Ok(slope) }
+    });
+    slopes.collect()
+}
