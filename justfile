@@ -19,6 +19,15 @@ test-python:
 test-aarch64:
     ./scripts/test-aarch64.sh
 
+# Wheels and the command for Linux, into dist/ (docs/releasing.md): `just wheels x86_64 aarch64`.
+[positional-arguments]
+wheels *ARGS:
+    ./scripts/build-wheels.sh "$@"
+
+# The workflow files and the scripts, by actionlint and shellcheck.
+lint-workflows:
+    ./scripts/lint-workflows.sh
+
 # Formatting and lints.
 lint:
     cargo fmt --all --check
