@@ -1,5 +1,7 @@
 """Fronts of designs."""
 
+import sys
+
 import numpy as np
 import pytest
 from figures import HERTZ, drawn, fails, grid, legend, message
@@ -33,6 +35,30 @@ def test_front_of_many_points():
     front = random[plot.non_dominated(random)]
     order = np.argsort(front[:, 0])
     assert (np.diff(front[order, 1]) < 0).all()
+
+
+def on_a_sphere(count):
+    """Points of which most are on the front of three objectives."""
+    points = np.abs(np.random.default_rng(17).normal(size=(count, 3)))
+    return points / np.linalg.norm(points, axis=1, keepdims=True)
+
+
+def test_large_fronts_of_three_objectives():
+    points = on_a_sphere(20_000)
+    front = plot.non_dominated(points)
+    assert front.sum() > 15_000
+    some = points[:400]
+    assert_array_equal(plot.non_dominated(some), np.array(brute_force(some), dtype=bool))
+
+
+def test_front_without_the_library(monkeypatch):
+    points = np.vstack([on_a_sphere(300), 2 * on_a_sphere(5000)])
+    expected = plot.non_dominated(points)
+    monkeypatch.setitem(sys.modules, "moocore", None)
+    with pytest.warns(UserWarning, match="takes a while without moocore: pip install moocore"):
+        assert_array_equal(plot.non_dominated(points), expected)
+    few = on_a_sphere(100)
+    assert_array_equal(plot.non_dominated(few), np.array(brute_force(few), dtype=bool))
 
 
 def test_front_needs_rows_of_objectives():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import numpy as np
@@ -52,10 +53,34 @@ def _of_distinct(points: np.ndarray) -> np.ndarray:
     elif points.shape[1] == 2:
         kept[1:] = points[1:, 1] < np.minimum.accumulate(points[:, 1])[:-1]
     else:
-        left = np.arange(len(points))
-        kept[:] = False
-        while left.size:
-            best = left[0]
-            kept[best] = True
-            left = left[(points[left] < points[best]).any(axis=1)]
+        kept = _by_library(points)
+    return kept
+
+
+#: Points of which the front of three and more objectives is found without moocore at once.
+FEW = 5000
+
+
+def _by_library(points: np.ndarray) -> np.ndarray:
+    """The front of distinct points in lexicographic order with three and more columns."""
+    try:
+        import moocore
+    except ImportError:
+        if len(points) > FEW:
+            warnings.warn(
+                f"the front of {len(points)} points takes a while without moocore: pip install moocore", stacklevel=4
+            )
+        return _one_by_one(points)
+    found: np.ndarray = moocore.is_nondominated(points)
+    return found
+
+
+def _one_by_one(points: np.ndarray) -> np.ndarray:
+    """The same without the library: each point of the front against all that are left."""
+    kept = np.zeros(len(points), dtype=bool)
+    left = np.arange(len(points))
+    while left.size:
+        best = left[0]
+        kept[best] = True
+        left = left[(points[left] < points[best]).any(axis=1)]
     return kept
