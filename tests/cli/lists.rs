@@ -2,6 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use flap_core::simulate::Status;
+
 use crate::support::{Folder, frequencies};
 
 #[test]
@@ -96,4 +98,58 @@ fn help_has_examples_and_exit_codes() {
     assert_eq!(folder.flap("-V").stdout, format!("flap {version}\n"));
     let long = folder.flap("--version").stdout;
     assert!(long.starts_with(&format!("flap {version}\nbuild {build} (")), "{long}");
+}
+
+#[test]
+fn names_are_explained() {
+    let folder = Folder::new();
+    let parameter = folder.ends(0, "explain hinge_stiffness").stdout;
+    for model in ["bimorph", "direct-drive", "four-bar"] {
+        assert!(parameter.contains(&format!("hinge_stiffness: a parameter of {model}\n")), "{parameter}");
+    }
+    assert!(
+        parameter.contains("  unit      N*m/rad\n  symbol    k_w\n  allowed   more than zero"),
+        "{parameter}"
+    );
+    assert!(parameter.contains(" in ozaki2018-large\n"), "{parameter}");
+
+    let measure = folder.ends(0, "explain lift_mean_mn resonance_hz").stdout;
+    assert!(
+        measure.contains("lift_mean_mn: a measure of bimorph\n  mean lift of the wing\n  unit      mN\n"),
+        "{measure}"
+    );
+    let resonance = "resonance_hz: a measure of four-bar with drive_frequency = \"resonance\"\n";
+    assert!(measure.contains(resonance), "{measure}");
+
+    let fixed = folder.ends(0, "explain floquet_max").stdout;
+    assert!(
+        fixed.starts_with("floquet_max: a column of the rows of every model\n  factor by which"),
+        "{fixed}"
+    );
+    for status in Status::ALL {
+        let told = folder.ends(0, &format!("explain {}", status.name())).stdout;
+        assert_eq!(told, format!("{}: a status of rows\n  {}\n\n", status.name(), status.describe()));
+    }
+
+    let unknown = folder.ends(2, "explain lift_meen_mn").stderr;
+    assert!(unknown.contains("there is no parameter, column or status `lift_meen_mn`"), "{unknown}");
+    assert!(unknown.contains("did you mean `lift_mean_mn`?"), "{unknown}");
+}
+
+#[test]
+fn shells_and_manuals_know_every_command() {
+    let folder = Folder::new();
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = folder.ends(0, &format!("completions {shell}")).stdout;
+        for word in ["sweep", "explain", "resonance", "--max-cycles"] {
+            let word = if shell == "fish" { word.trim_start_matches("--") } else { word };
+            assert!(script.contains(word), "{shell}: {word}");
+        }
+    }
+    folder.ends(0, "man manual/man1");
+    let pages = folder.path("manual/man1");
+    for page in ["flap.1", "flap-sweep.1", "flap-top.1", "flap-run.1"] {
+        let text = std::fs::read_to_string(pages.join(page)).unwrap();
+        assert!(text.contains(".SH SYNOPSIS"), "{page}");
+    }
 }

@@ -12,9 +12,11 @@ mod run;
 mod sweep;
 mod values;
 
+use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use clap::{Parser, Subcommand};
+use clap_complete::Shell;
 pub(crate) use film::{LiftArgs, TrackArgs};
 pub(crate) use filter::Filter;
 use flap_sweep::run::identity;
@@ -79,8 +81,14 @@ pub(crate) enum Command {
     Track(TrackArgs),
     /// List the parameters and output columns of a model
     Params(ParamsArgs),
+    /// Explain parameters, columns of results, and statuses
+    Explain(ExplainArgs),
     /// List the models and their presets
     Models,
+    /// Print a script that completes commands and options in a shell
+    Completions(CompletionsArgs),
+    /// Write manual pages
+    Man(ManArgs),
 }
 
 const EXIT_CODES: &str = "\
@@ -100,4 +108,35 @@ pub(crate) struct ParamsArgs {
     /// A model, or a preset to list with its values
     #[arg(value_name = "MODEL|PRESET")]
     pub(crate) what: String,
+}
+
+#[derive(clap::Args)]
+#[command(after_help = "Examples:\n  flap explain hinge_stiffness\n  flap explain floquet_max unsettled")]
+pub(crate) struct ExplainArgs {
+    /// Names of parameters, columns or statuses
+    #[arg(value_name = "NAME", required = true)]
+    pub(crate) names: Vec<String>,
+}
+
+#[derive(clap::Args)]
+#[command(after_help = COMPLETIONS_HELP)]
+pub(crate) struct CompletionsArgs {
+    /// The shell
+    #[arg(value_name = "SHELL")]
+    pub(crate) shell: Shell,
+}
+
+const COMPLETIONS_HELP: &str = "\
+Examples:
+  flap completions bash > ~/.local/share/bash-completion/completions/flap
+  flap completions zsh > ~/.zfunc/_flap        (with fpath+=~/.zfunc before compinit in ~/.zshrc)
+  flap completions fish > ~/.config/fish/completions/flap.fish
+  flap completions powershell >> $PROFILE";
+
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  flap man ~/.local/share/man/man1")]
+pub(crate) struct ManArgs {
+    /// Folder for the pages, one per command; pages that are there are overwritten
+    #[arg(value_name = "FOLDER")]
+    pub(crate) folder: PathBuf,
 }

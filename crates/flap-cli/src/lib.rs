@@ -52,7 +52,10 @@ pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
         Command::Lift(args) => cmd::lift::run(&args),
         Command::Track(args) => cmd::track::run(&args),
         Command::Params(args) => cmd::params::run(&args),
+        Command::Explain(args) => cmd::explain::run(&args),
         Command::Models => cmd::models::run(),
+        Command::Completions(args) => cmd::completions::run(&args),
+        Command::Man(args) => cmd::man::run(&args),
     };
     let exit = ended.unwrap_or_else(failure::Failure::report);
     ExitCode::from(exit as u8)

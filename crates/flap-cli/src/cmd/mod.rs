@@ -1,14 +1,17 @@
 //! Commands, one module each, and the code that they share.
 
 pub(crate) mod check;
+pub(crate) mod completions;
 pub(crate) mod convert;
 pub(crate) mod describe;
+pub(crate) mod explain;
 pub(crate) mod far;
 mod gradient;
 mod grid;
 mod impulse;
 pub(crate) mod lift;
 mod look;
+pub(crate) mod man;
 pub(crate) mod merge;
 pub(crate) mod models;
 mod motion;

@@ -46,12 +46,17 @@ fn parameters(model: &dyn Simulator) -> String {
 }
 
 fn cells(parameter: &Parameter) -> [String; 5] {
-    let allowed = match parameter.kind {
+    [parameter.name, parameter.unit, parameter.symbol, parameter.doc, &allowed(parameter)]
+        .map(ToOwned::to_owned)
+}
+
+/// The allowed values, in words.
+pub(super) fn allowed(parameter: &Parameter) -> String {
+    match parameter.kind {
         Kind::Number(range) => range.describe(),
         Kind::Following(range, follows) => format!("{}; if not set, {follows}", range.describe()),
         Kind::Choice(options) => options.join(" | "),
-    };
-    [parameter.name, parameter.unit, parameter.symbol, parameter.doc, &allowed].map(ToOwned::to_owned)
+    }
 }
 
 /// The output columns.

@@ -168,6 +168,12 @@ fn gap(place: f64) -> &'static str {
         .map_or("", |(_, reason)| reason.name())
 }
 
+/// The columns that rows of every model have: index, status, and the course of the run.
+pub fn fixed_columns() -> Vec<Column> {
+    let fixed = [&POINT, &CURVE, &STATUS].into_iter().chain(&RUN);
+    fixed.map(|fixed| Column::new(fixed.name, "", fixed.kind, fixed.doc)).collect()
+}
+
 /// A column of a layout.
 enum Entry<'l> {
     Fixed(&'static Fixed),

@@ -1,0 +1,104 @@
+//! `flap explain`: the meaning of parameters, columns and statuses.
+
+use std::fmt::Write as _;
+
+use flap_core::parameter::Parameter;
+use flap_core::simulate::{Rows as _, Simulator, Status};
+use flap_sweep::notation::text;
+use flap_sweep::resonance::{AtResonance, Range};
+use flap_sweep::table::layout::fixed_columns;
+
+use super::params::allowed;
+use crate::args::ExplainArgs;
+use crate::console;
+use crate::failure::{Exit, Failure};
+use crate::models;
+
+pub(crate) fn run(args: &ExplainArgs) -> Result<Exit, Failure> {
+    let pages = args.names.iter().map(|name| page(name)).collect::<Result<Vec<String>, Failure>>()?;
+    console::results(&pages.join("\n"))?;
+    Ok(Exit::Done)
+}
+
+/// All that is known of a name: it may be a parameter of several models, and a column of others.
+fn page(name: &str) -> Result<String, Failure> {
+    let mut page = String::new();
+    for entry in entries().into_iter().filter(|entry| entry.name == name) {
+        let Entry { kind, text, .. } = entry;
+        let _ = writeln!(page, "{name}: {kind}\n{text}");
+    }
+    if page.is_empty() {
+        let entries = entries();
+        let failure = Failure::usage(format!("there is no parameter, column or status `{name}`"));
+        let names = entries.iter().map(|entry| entry.name.as_str());
+        return Err(failure.nearest(name, names, "`flap params MODEL` lists parameters and columns"));
+    }
+    Ok(page)
+}
+
+/// A name and its meaning.
+struct Entry {
+    name: String,
+    /// Whatever it names, with the models that have it.
+    kind: String,
+    /// Indented lines.
+    text: String,
+}
+
+/// Everything that can be explained.
+fn entries() -> Vec<Entry> {
+    let statuses = Status::ALL.map(|status| Entry {
+        name: status.name().to_owned(),
+        kind: "a status of rows".to_owned(),
+        text: format!("  {}\n", status.describe()),
+    });
+    let fixed = fixed_columns().into_iter().map(|column| Entry {
+        name: column.name,
+        kind: "a column of the rows of every model".to_owned(),
+        text: format!("  {}\n", column.doc),
+    });
+    let models = models::all().iter().flat_map(|&model| of_model(model));
+    statuses.into_iter().chain(fixed).chain(models).collect()
+}
+
+/// The parameters and columns of a model.
+fn of_model(model: &'static dyn Simulator) -> impl Iterator<Item = Entry> {
+    let parameters = model.parameters().iter().enumerate().map(move |(index, parameter)| Entry {
+        name: parameter.name.to_owned(),
+        kind: format!("a parameter of {}", model.name()),
+        text: of_parameter(model, index, parameter),
+    });
+    let resonance = AtResonance::new(model, Range::default());
+    let own = model.columns().len();
+    let added = resonance.map(|resonance| resonance.columns()[own..].to_vec()).unwrap_or_default();
+    let added = added.into_iter().map(|column| (column, " with drive_frequency = \"resonance\""));
+    let columns = model.columns().iter().cloned().map(|column| (column, "")).chain(added);
+    let columns = columns.map(move |(column, when)| {
+        let unit =
+            if column.unit.is_empty() { String::new() } else { format!("  unit      {}\n", column.unit) };
+        Entry {
+            kind: format!("a measure of {}{when}", model.name()),
+            text: format!("  {}\n{unit}", column.doc),
+            name: column.name,
+        }
+    });
+    parameters.chain(columns)
+}
+
+/// Meaning, unit, symbol, range and published values of a parameter.
+fn of_parameter(model: &dyn Simulator, index: usize, parameter: &Parameter) -> String {
+    let mut page = format!("  {}\n", parameter.doc);
+    for (what, value) in
+        [("unit", parameter.unit), ("symbol", parameter.symbol), ("allowed", allowed(parameter).as_str())]
+    {
+        if !value.is_empty() {
+            let _ = writeln!(page, "  {what:<8}  {value}");
+        }
+    }
+    for preset in model.presets() {
+        let value = (preset.values)()[index];
+        let value = if value.is_nan() { "not set".to_owned() } else { text::value(parameter, value) };
+        let _ = writeln!(page, "  {value} in {}", preset.name);
+    }
+    page
+}
