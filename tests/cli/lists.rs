@@ -153,3 +153,16 @@ fn shells_and_manuals_know_every_command() {
         assert!(text.contains(".SH SYNOPSIS"), "{page}");
     }
 }
+
+#[test]
+fn no_color_turns_colours_off() {
+    let stderr = |variables: &[(&str, &str)]| {
+        let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_flap"));
+        command.env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE").envs(variables.iter().copied());
+        String::from_utf8(command.args(["explain", "nothing"]).output().unwrap().stderr).unwrap()
+    };
+    let is_coloured = |text: &str| text.contains('\u{1b}');
+    assert!(is_coloured(&stderr(&[("CLICOLOR_FORCE", "1")])), "a terminal shows colours");
+    assert!(!is_coloured(&stderr(&[("NO_COLOR", "1")])));
+    assert!(!is_coloured(&stderr(&[])), "a file has none");
+}
