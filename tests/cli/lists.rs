@@ -128,7 +128,7 @@ fn names_are_explained() {
     );
     for status in Status::ALL {
         let told = folder.ends(0, &format!("explain {}", status.name())).stdout;
-        assert_eq!(told, format!("{}: a status of rows\n  {}\n\n", status.name(), status.describe()));
+        assert_eq!(told, format!("{}: a status of rows\n  {}\n", status.name(), status.describe()));
     }
 
     let unknown = folder.ends(2, "explain lift_meen_mn").stderr;

@@ -25,7 +25,7 @@ fn page(name: &str) -> Result<String, Failure> {
     let mut page = String::new();
     for entry in entries().into_iter().filter(|entry| entry.name == name) {
         let Entry { kind, text, .. } = entry;
-        let _ = writeln!(page, "{name}: {kind}\n{text}");
+        let _ = write!(page, "{name}: {kind}\n{text}");
     }
     if page.is_empty() {
         let entries = entries();

@@ -39,8 +39,8 @@ pub(crate) fn strongest(chosen: &Chosen, row: &Row, column: &str) -> Result<Stri
     let size = |slope: &Result<f64, NoSlope>| slope.map_or(0.0, f64::abs);
     known.sort_by(|(_, one), (_, other)| size(other).total_cmp(&size(one)));
     let unit = columns[measure].unit;
-    let (per_cent, value) = (format!("{unit} per %"), row.measures[measure]);
-    let mut table = Table::with_headings(&["parameter", "value", "unit", per_cent.trim_start(), "% per %"]);
+    let value = row.measures[measure];
+    let mut table = Table::with_headings(&["parameter", "value", "unit", "change per %", "% per %"]);
     for (index, slope) in known.iter().take(LISTED) {
         let (parameter, slope) = (&chosen.plan.parameters()[*index], slope.unwrap_or(f64::NAN));
         table.row([
@@ -51,9 +51,10 @@ pub(crate) fn strongest(chosen: &Chosen, row: &Row, column: &str) -> Result<Stri
             six_digits(slope / value.abs()),
         ]);
     }
+    let here = format!("{} {unit}", six_digits(value));
     let mut page = format!(
-        "change of {column} (here {} {unit}) per per cent of a parameter, the largest:\n\n",
-        six_digits(value)
+        "{column} = {}. The largest changes per per cent of a parameter, in the unit of the measure and in % of it:\n\n",
+        here.trim_end()
     );
     page += &table.text();
     for reason in NoSlope::ALL {
