@@ -35,7 +35,7 @@ from scipy.optimize import least_squares
 from scipy.stats import t as students_t
 
 PRESET = "jafferis2016"
-FITTED = ["hinge_stiffness", "wing_inertia_stroke", "drag_max"]
+FITTED = ["hinge_stiffness", "wing_inertia_stroke", "drag_coefficient_max"]
 # Ratios to the preset within which values are looked for.
 LOWEST, HIGHEST = 0.5, 2.0
 # Relative step of the differences, and a tolerance at which the integration's error divided by the step is small.

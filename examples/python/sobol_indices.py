@@ -35,15 +35,15 @@ UNCERTAIN = {
         "piezo_modulus",
         "piezo_coefficient",
         "leading_edge_inertia",
-        "drag_max",
+        "drag_coefficient_max",
     ],
     "jafferis2016": [
         "hinge_stiffness",
         "transmission_ratio",
         "wing_inertia_stroke",
         "piezo_thickness",
-        "drag_max",
-        "lift_max",
+        "drag_coefficient_max",
+        "lift_coefficient_max",
     ],
 }
 RESULTS = ["lift_mean_mn", "power_mean_mw"]

@@ -65,7 +65,7 @@ hinge_stiffness = 4.083303093082505e-5
 shape_moment_13 = 1.178361517868167
 shape_moment_31 = 0.8137032474454492
 shim_thickness = 7.537287347476463e-5
-drag_max = 5.5167793985664275
+drag_coefficient_max = 5.5167793985664275
 rotation_drag = 3.9433014244420006
 "#;
 

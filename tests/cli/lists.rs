@@ -101,6 +101,24 @@ fn help_has_examples_and_exit_codes() {
 }
 
 #[test]
+fn former_names_still_work_with_a_warning() {
+    let grid = |name: &str| format!("preset = \"jafferis2016\"\n[params]\n{name} = 3.0\n");
+    let folder = Folder::with_grid(&grid("drag_max"));
+    let former = folder.ends(0, "sweep grid.toml --out former.csv");
+    former.says("`drag_max` is called `drag_coefficient_max` now; the former name still works");
+    std::fs::write(folder.path("new.toml"), grid("drag_coefficient_max")).unwrap();
+    let new = folder.ends(0, "sweep new.toml --out new.csv");
+    assert!(!new.stderr.contains("former"), "{}", new.stderr);
+    assert_eq!(folder.read("former.csv"), folder.read("new.csv"));
+    let run = folder.ends(0, "run jafferis2016 --set drag_max=3.0");
+    run.says("`drag_max` is called `drag_coefficient_max` now");
+    let told = folder.ends(0, "explain lift_max").stdout;
+    assert!(told.contains("the former name of lift_coefficient_max"), "{told}");
+    std::fs::write(folder.path("both.toml"), grid("drag_max") + "drag_coefficient_max = 3.0\n").unwrap();
+    folder.ends(2, "check both.toml").says("`drag_coefficient_max` is set twice: `drag_max` is its former name");
+}
+
+#[test]
 fn names_are_explained() {
     let folder = Folder::new();
     let parameter = folder.ends(0, "explain hinge_stiffness").stdout;

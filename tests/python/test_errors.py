@@ -51,7 +51,7 @@ def test_unknown_option():
     [
         ({"drive_frequency": 0}, "`drive_frequency` must be more than zero, not 0.0 Hz"),
         ({"drive_frequency": "-1 kHz"}, "`drive_frequency` must be more than zero, not -1000.0 Hz"),
-        ({"drag_max": -1}, "`drag_max` must be zero or more, not -1.0"),
+        ({"drag_coefficient_max": -1}, "`drag_coefficient_max` must be zero or more, not -1.0"),
         ({"rtol": 0}, "`rtol` must be more than zero and less than 0.1, not 0.0"),
         ({"rtol": 0.5}, "`rtol` must be more than zero and less than 0.1, not 0.5"),
         ({"atol": -1e-9}, "`atol` must be more than zero, not -1e-9"),
@@ -63,6 +63,15 @@ def test_unknown_option():
 )
 def test_out_of_range(arguments, says):
     assert refused(ValueError, PRESET, **arguments) == says
+
+
+def test_former_names_warn_and_work():
+    now = flapwing.evaluate("jafferis2016", drag_coefficient_max=3.0)
+    with pytest.warns(FutureWarning, match="`drag_max` is called `drag_coefficient_max` now"):
+        former = flapwing.evaluate("jafferis2016", drag_max=3.0)
+    assert former["lift_mean_mn"] == now["lift_mean_mn"]
+    with pytest.warns(FutureWarning, match="`drag_min` is called"):
+        flapwing.Grid({"preset": "jafferis2016", "params": {"drag_min": 0.2}})
 
 
 @pytest.mark.parametrize("name", ["drive_bias", "drive_frequency", "rtol", "atol", "settle_tol"])
@@ -94,7 +103,7 @@ def test_text_that_is_no_quantity(value, says):
         ({"drive_frequency": [100.0]}, "`drive_frequency` must be a number in Hz or text with a unit, not list"),
         ({"drive_frequency": True}, "`drive_frequency` must be a number in Hz or text with a unit, not bool"),
         ({"drive_frequency": 1j}, "`drive_frequency` must be a number in Hz or text with a unit, not complex"),
-        ({"drag_max": b"5"}, "`drag_max` must be a number, not bytes"),
+        ({"drag_coefficient_max": b"5"}, "`drag_coefficient_max` must be a number, not bytes"),
         ({"lift_sign": 1}, '`lift_sign` must be one of "corrected", "printed", not int'),
         ({"rtol": "1e-6"}, "`rtol` must be a number, not str"),
         ({"atol": True}, "`atol` must be a number, not bool"),

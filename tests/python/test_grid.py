@@ -96,9 +96,9 @@ def test_a_grid_says_what_it_is():
 
 def test_a_huge_grid_costs_nothing():
     step = {"from": 1.0, "to": 2.0, "n": 1_000_000}
-    grid = flapwing.Grid({"preset": "ozaki2018-large", "axes": {"air_density": step, "drag_max": step}})
+    grid = flapwing.Grid({"preset": "ozaki2018-large", "axes": {"air_density": step, "drag_coefficient_max": step}})
     assert len(grid) == 10**12
-    assert grid[10**12 - 1]["drag_max"] == 2.0
+    assert grid[10**12 - 1]["drag_coefficient_max"] == 2.0
 
 
 def test_all_mistakes_are_told_with_their_places():

@@ -49,7 +49,7 @@ impl Simulator for Fake {
 }
 
 const fn parameter(name: &'static str, unit: &'static str, kind: Kind) -> Parameter {
-    Parameter { name, unit, symbol: "", kind, doc: "" }
+    Parameter::new(name, unit, "", kind, "")
 }
 
 static COLUMNS: LazyLock<Vec<Column>> = LazyLock::new(|| {

@@ -37,28 +37,10 @@ pub(crate) struct Fake {
 }
 
 static PARAMETERS: [Parameter; 4] = [
-    Parameter { name: "size", unit: "m", symbol: "s", kind: Kind::Number(Range::NonNegative), doc: "Size." },
-    Parameter {
-        name: "drive_frequency",
-        unit: "Hz",
-        symbol: "f",
-        kind: Kind::Number(Range::Any),
-        doc: "Drive.",
-    },
-    Parameter {
-        name: "arms",
-        unit: "",
-        symbol: "",
-        kind: Kind::Choice(&["printed", "axis"]),
-        doc: "Reading.",
-    },
-    Parameter {
-        name: "span",
-        unit: "m",
-        symbol: "b",
-        kind: Kind::Following(Range::Positive, "twice size"),
-        doc: "Span.",
-    },
+    Parameter::new("size", "m", "s", Kind::Number(Range::NonNegative), "Size."),
+    Parameter::new("drive_frequency", "Hz", "f", Kind::Number(Range::Any), "Drive."),
+    Parameter::new("arms", "", "", Kind::Choice(&["printed", "axis"]), "Reading."),
+    Parameter::new("span", "m", "b", Kind::Following(Range::Positive, "twice size"), "Span."),
 ];
 
 static PRESETS: [Preset; 1] =

@@ -207,7 +207,14 @@ pub(crate) fn plan(source: &Bound<'_, PyAny>) -> PyResult<Plan> {
         );
         return Err(PyTypeError::new_err(message));
     };
-    grid::read(&path, simulate::all()).map_err(|error| error::grid_file(py, &error))
+    let plan = grid::read(&path, simulate::all()).map_err(|error| error::grid_file(py, &error))?;
+    with_warnings(py, plan)
+}
+
+/// The plan, with a warning for each former name that its grid uses.
+fn with_warnings(py: Python<'_>, plan: Plan) -> PyResult<Plan> {
+    plan.renamed().iter().try_for_each(|parameter| parameters::warn_renamed(py, parameter))?;
+    Ok(plan)
 }
 
 /// The plan of a preset's one point.
@@ -224,7 +231,9 @@ pub(crate) fn name(design: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
 }
 
 fn parse(py: Python<'_>, name: &str, text: &str) -> PyResult<Plan> {
-    grid::parse(name, text, simulate::all()).map_err(|diagnostics| error::grid(py, &diagnostics))
+    let plan =
+        grid::parse(name, text, simulate::all()).map_err(|diagnostics| error::grid(py, &diagnostics))?;
+    with_warnings(py, plan)
 }
 
 /// The axes of a plan, see [`Grid::axes`].

@@ -1,10 +1,12 @@
 //! Parameters from Python: their names, and values out of keywords.
 
+use std::ffi::CString;
+
 use flap_core::parameter::{Kind, Parameter, Preset};
 use flap_core::simulate::{self, Simulator};
 use flap_sweep::notation::nearest;
 use flap_sweep::notation::value::{self, UnitOf, ValueError};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyFutureWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
@@ -31,8 +33,19 @@ pub(crate) fn find_preset(name: &Bound<'_, PyAny>) -> PyResult<(&'static dyn Sim
 
 /// The index of the parameter called `name`.
 pub(crate) fn index(simulator: &dyn Simulator, name: &str) -> PyResult<usize> {
-    let index = simulator.parameters().iter().position(|parameter| parameter.name == name);
-    index.ok_or_else(|| unknown_parameter(simulator, name))
+    let index =
+        Parameter::index(simulator.parameters(), name).ok_or_else(|| unknown_parameter(simulator, name))?;
+    let parameter = &simulator.parameters()[index];
+    if parameter.name != name {
+        Python::attach(|py| warn_renamed(py, parameter))?;
+    }
+    Ok(index)
+}
+
+/// Warns of the former name of a parameter.
+pub(crate) fn warn_renamed(py: Python<'_>, parameter: &Parameter) -> PyResult<()> {
+    let text = CString::new(parameter.renamed())?;
+    PyErr::warn(py, &py.get_type::<PyFutureWarning>(), &text, 2)
 }
 
 /// The value of `parameter` in a design point: a number in SI units, or the index of an option.

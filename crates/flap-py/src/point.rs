@@ -1,6 +1,7 @@
 //! The design point of a call: a design with keywords on top, and which of its points.
 
 use flap_core::num::InstructionSet;
+use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, Rows, Simulator};
 use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
@@ -96,7 +97,7 @@ impl Chosen {
     }
 
     fn parameter(&self, name: &str) -> Option<usize> {
-        self.plan.parameters().iter().position(|parameter| parameter.name == name)
+        Parameter::index(self.plan.parameters(), name)
     }
 
     /// Replaces the drive, or the stroke, by samples, whose duration is the drive period unless the frequency `is_set`.

@@ -53,7 +53,8 @@ fn transmissions() -> Vec<Claim> {
 fn lift_and_drag() -> Vec<Claim> {
     let fitted = constants(&transmission(1.0));
     // The coefficients of Fig. 3.
-    let drawn = constants(&Params { drag_max: 3.4, drag_min: 0.4, ..transmission(1.0) });
+    let drawn =
+        constants(&Params { drag_coefficient_max: 3.4, drag_coefficient_min: 0.4, ..transmission(1.0) });
     let angle = angle_of_largest(|degrees| lift_to_drag(&drawn, degrees));
     let angle_fitted = angle_of_largest(|degrees| lift_to_drag(&fitted, degrees));
     let before = 0.5 * (lift_to_drag(&drawn, 45.0) + lift_to_drag(&drawn, 50.0));

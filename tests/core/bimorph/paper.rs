@@ -101,7 +101,9 @@ fn deflection_at_dc() {
 #[test]
 fn coefficients_of_figure_3_and_table_1() {
     let of = |c: &Constants<f64>| Coefficients { lift: c.b_l, drag_mean: c.b_1, drag_swing: c.b_2 };
-    let figure_3 = Constants::derive(&Params { drag_max: 3.4, drag_min: 0.4, ..params("T1") }).unwrap();
+    let figure_3 =
+        Constants::derive(&Params { drag_coefficient_max: 3.4, drag_coefficient_min: 0.4, ..params("T1") })
+            .unwrap();
     for degrees in [0.0, 30.0, 70.0, 90.0_f64] {
         let (sin_2psi, cos_2psi) = (2.0 * degrees).to_radians().sin_cos();
         assert_close(drag_coefficient(&figure_3, cos_2psi), FIG_3.drag(cos_2psi), 1e-14, "drag");

@@ -59,7 +59,7 @@ const STATES: [Range<f64>; 4] = [-4e-4..4e-4, -0.4..0.4, -1.5..1.5, -1500.0..150
 fn any_params() -> impl Strategy<Value = Params> {
     let presets = vec![Params::jafferis2016().to_values(), Params::jafferis2016_improved().to_values()];
     let names = "transmission_ratio wing_area hinge_stiffness piezo_thickness \
-                 actuator_width_ratio modulus_strain drag_max stress_field";
+                 actuator_width_ratio modulus_strain drag_coefficient_max stress_field";
     (scaled(Params::TABLE, presets, names, 0.7..1.3), 0.0..1e-5).prop_map(|(values, actuator_mass)| {
         let p = Params::from_values(&values);
         // An actuator has no width at one end if the ratio is 2.

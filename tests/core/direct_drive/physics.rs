@@ -41,7 +41,7 @@ const STATES: [Range<f64>; 4] = [-0.5..0.5, -1.4..1.4, -400.0..400.0, -800.0..80
 fn any_params() -> impl Strategy<Value = Params> {
     let presets = vec![Params::ozaki2018_small().to_values(), Params::ozaki2018_large().to_values()];
     let names = "wing_length mean_chord wing_mass hinge_stiffness \
-                 leading_edge_inertia piezo_thickness drag_max wing_inertia_product";
+                 leading_edge_inertia piezo_thickness drag_coefficient_max wing_inertia_product";
     (scaled(Params::TABLE, presets, names, 0.7..1.3), select(AddedMass::ALL), select(FlowDirection::ALL))
         .prop_map(|(values, added_mass, flow_direction)| Params {
             added_mass,

@@ -24,7 +24,7 @@ from flapwing.plot import _labels
         ("drive_voltage_pp", "V", "Drive voltage, peak to peak (V)"),
         ("hinge_stiffness", "N*m/rad", "Hinge stiffness (N·m/rad)"),
         ("air_density", "kg/m^3", "Air density (kg/m³)"),
-        ("drag_max", "", "Drag max"),
+        ("drag_coefficient_max", "", "Drag coefficient, largest"),
         ("force_factor", "", "Force factor"),
         ("lift_slope", "", "Lift slope"),
         ("strain_surface_max", "", "Surface strain, largest"),

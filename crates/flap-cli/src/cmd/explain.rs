@@ -63,9 +63,16 @@ fn entries() -> Vec<Entry> {
 
 /// The parameters and columns of a model.
 fn of_model(model: &'static dyn Simulator) -> impl Iterator<Item = Entry> {
-    let parameters = model.parameters().iter().enumerate().map(move |(index, parameter)| Entry {
+    let table = || model.parameters().iter().enumerate();
+    let parameters = table().map(move |(index, parameter)| Entry {
         name: parameter.name.to_owned(),
         kind: format!("a parameter of {}", model.name()),
+        text: of_parameter(model, index, parameter),
+    });
+    let renamed = table().filter(|(_, parameter)| !parameter.former.is_empty());
+    let renamed = renamed.map(move |(index, parameter)| Entry {
+        name: parameter.former.to_owned(),
+        kind: format!("the former name of {}, a parameter of {}", parameter.name, model.name()),
         text: of_parameter(model, index, parameter),
     });
     let resonance = AtResonance::new(model, Range::default());
@@ -82,7 +89,7 @@ fn of_model(model: &'static dyn Simulator) -> impl Iterator<Item = Entry> {
             name: column.name,
         }
     });
-    parameters.chain(columns)
+    parameters.chain(renamed).chain(columns)
 }
 
 /// Meaning, unit, symbol, range and published values of a parameter.
@@ -94,6 +101,12 @@ fn of_parameter(model: &dyn Simulator, index: usize, parameter: &Parameter) -> S
         if !value.is_empty() {
             let _ = writeln!(page, "  {what:<8}  {value}");
         }
+    }
+    if !parameter.group.is_empty() {
+        let _ = writeln!(page, "  group     {}", parameter.group);
+    }
+    if parameter.is_fitted {
+        page += "  The published value is a fit to one vehicle: measure or fit it for another.\n";
     }
     for preset in model.presets() {
         let value = (preset.values)()[index];

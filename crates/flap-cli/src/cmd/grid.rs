@@ -7,6 +7,7 @@ use flap_sweep::grid;
 use flap_sweep::plan::Plan;
 
 use super::outputs::is_stdout;
+use crate::console;
 use crate::failure::Failure;
 use crate::models;
 
@@ -20,7 +21,11 @@ pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
     } else {
         grid::read(path, models::all())
     };
-    Ok(plan?)
+    let plan = plan?;
+    for parameter in plan.renamed() {
+        console::warn(&format!("{}: {}", plan.source().name, parameter.renamed()));
+    }
+    Ok(plan)
 }
 
 /// True for `-`, the name of stdin where a grid is read.

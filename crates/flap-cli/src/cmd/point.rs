@@ -93,7 +93,7 @@ impl Chosen {
 
     /// Sets a parameter. False if the model has no such parameter.
     pub(crate) fn put(&mut self, name: &str, value: f64) -> bool {
-        let index = self.plan.parameters().iter().position(|parameter| parameter.name == name);
+        let index = Parameter::index(self.plan.parameters(), name);
         if let Some(index) = index {
             self.values[index] = value;
         }
@@ -147,7 +147,11 @@ pub(super) fn with_solver(plan: Plan, args: &SolverArgs) -> Result<Plan, Failure
 
 /// The index of the parameter called `name`.
 pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usize, Failure> {
-    parameters.iter().position(|parameter| parameter.name == name).ok_or_else(|| {
+    let found = Parameter::index(parameters, name);
+    if let Some(index) = found.filter(|&index| parameters[index].name != name) {
+        console::warn(&parameters[index].renamed());
+    }
+    found.ok_or_else(|| {
         let names = parameters.iter().map(|parameter| parameter.name);
         let failure = Failure::usage(format!("there is no parameter `{name}`"));
         failure.nearest(name, names, "`flap params` lists the parameters of a model")

@@ -13,7 +13,7 @@ pub const fn rows(tables: &[&[Parameter]]) -> usize {
     count
 }
 
-/// The rows of some tables in one; `N` is [`rows`] of them, at least one.
+/// The rows of some tables in one; `N` is [`rows`] of them, at least one. A row without a group is in that of the row before.
 #[doc(hidden)]
 pub const fn joined<const N: usize>(tables: &[&[Parameter]]) -> [Parameter; N] {
     let mut all = [tables[0][0]; N];
@@ -22,6 +22,9 @@ pub const fn joined<const N: usize>(tables: &[&[Parameter]]) -> [Parameter; N] {
         let mut row = 0;
         while row < tables[table].len() {
             all[count] = tables[table][row];
+            if all[count].group.is_empty() && count > 0 {
+                all[count].group = all[count - 1].group;
+            }
             count += 1;
             row += 1;
         }
@@ -42,7 +45,8 @@ pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
 /// Each line gives the field's documentation, name and type (`f64`; `Option<f64>` for a number that follows
 /// others until it is set; an enum declared by [`choice!`](crate::choice)), then SI unit, symbol and
 /// [`Kind`](crate::parameter::Kind). A field of the type of another such struct has `(flatten)` in their place: its rows
-/// stand in the table where the field stands.
+/// stand in the table where the field stands. A name in brackets before a field begins a group. Behind the kind may stand
+/// `former "name"` for the name of earlier versions, and `fitted` for a value that was fitted to one vehicle.
 ///
 /// The struct gets `TABLE`, `from_values` and `to_values`; the table's order is that of the fields.
 ///
@@ -63,8 +67,10 @@ pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
 /// flap_core::parameters! {
 ///     /// A beam.
 ///     pub struct Beam {
+///         ["shape"]
 ///         /// Length.
-///         length: f64 = ("m", "L", Number(Positive)),
+///         length: f64 = ("m", "L", Number(Positive), former "beam_length"),
+///         ["substance"]
 ///         /// Material.
 ///         material: Material = ("", "", Choice(Material::NAMES)),
 ///     }
@@ -82,6 +88,8 @@ pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
 ///
 /// let names: Vec<&str> = Row::TABLE.iter().map(|row| row.name).collect();
 /// assert_eq!(names, ["beams", "length", "material"]);
+/// assert_eq!(Row::TABLE[2].group, "substance");
+/// assert_eq!(Row::TABLE[1].former, "beam_length");
 /// let row = Row::from_values(&[3.0, 0.1, 1.0]);
 /// assert_eq!(row.beam.material, Material::Steel);
 /// assert_eq!(row.to_values(), [3.0, 0.1, 1.0]);
@@ -89,7 +97,7 @@ pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
 #[macro_export]
 macro_rules! parameters {
     ($(#[$meta:meta])* pub struct $Name:ident {
-        $($(#[doc = $doc:literal])+ $field:ident: $type:ty = ($($row:tt)+),)*
+        $($([$group:literal])? $(#[doc = $doc:literal])+ $field:ident: $type:ty = ($($row:tt)+),)*
     }) => {
         $(#[$meta])*
         #[derive(Clone, Debug, PartialEq)]
@@ -101,7 +109,7 @@ macro_rules! parameters {
             /// The parameter table, in the order of the fields.
             pub const TABLE: &'static [$crate::parameter::Parameter] = {
                 const TABLES: &[&[$crate::parameter::Parameter]] =
-                    &[$($crate::parameters!(@table $type, $field, [$($doc),+], $($row)+),)*];
+                    &[$($crate::parameters!(@table $type, $field, [$($group)?], [$($doc),+], $($row)+),)*];
                 &$crate::parameter::joined::<{ $crate::parameter::rows(TABLES) }>(TABLES)
             };
 
@@ -128,17 +136,14 @@ macro_rules! parameters {
             }
         }
     };
-    (@table $type:ty, $field:ident, $docs:tt, flatten) => {
+    (@table $type:ty, $field:ident, [], $docs:tt, flatten) => {
         <$type>::TABLE
     };
-    (@table $type:ty, $field:ident, [$($doc:literal),+], $unit:literal, $symbol:literal, $kind:expr) => {
-        &[$crate::parameter::Parameter {
-            name: stringify!($field),
-            unit: $unit,
-            symbol: $symbol,
-            kind: $kind,
-            doc: concat!($($doc),+).trim_ascii_start(),
-        }]
+    (@table $type:ty, $field:ident, [$($group:literal)?], [$($doc:literal),+],
+     $unit:literal, $symbol:literal, $kind:expr $(, $mark:ident $($text:literal)?)*) => {
+        &[$crate::parameter::Parameter::new(
+            stringify!($field), $unit, $symbol, $kind, concat!($($doc),+).trim_ascii_start(),
+        )$(.group($group))?$(.$mark($($text)?))*]
     };
 }
 

@@ -15,6 +15,54 @@ pub struct Parameter {
     pub kind: Kind,
     /// Meaning in one line, with its source.
     pub doc: &'static str,
+    /// The part of the robot that it describes, such as `hinge`: a heading of lists of parameters.
+    pub group: &'static str,
+    /// Name in earlier versions, which is still understood; empty if it had none.
+    pub former: &'static str,
+    /// True if the published value was fitted to measurements of one vehicle: it need not hold for another.
+    pub is_fitted: bool,
+}
+
+impl Parameter {
+    /// A parameter without a group, without a former name, whose value is not a fit.
+    pub const fn new(
+        name: &'static str,
+        unit: &'static str,
+        symbol: &'static str,
+        kind: Kind,
+        doc: &'static str,
+    ) -> Parameter {
+        Parameter { name, unit, symbol, kind, doc, group: "", former: "", is_fitted: false }
+    }
+
+    /// The parameter in a group.
+    #[must_use]
+    pub const fn group(self, group: &'static str) -> Parameter {
+        Parameter { group, ..self }
+    }
+
+    /// The parameter with the name that it had in earlier versions.
+    #[must_use]
+    pub const fn former(self, former: &'static str) -> Parameter {
+        Parameter { former, ..self }
+    }
+
+    /// The parameter, whose published value is a fit to one vehicle.
+    #[must_use]
+    pub const fn fitted(self) -> Parameter {
+        Parameter { is_fitted: true, ..self }
+    }
+
+    /// The note on a former name that is still understood.
+    pub fn renamed(&self) -> String {
+        format!("`{}` is called `{}` now; the former name still works", self.former, self.name)
+    }
+
+    /// The index of the parameter called `name`, now or in earlier versions, in a model's table.
+    pub fn index(table: &[Parameter], name: &str) -> Option<usize> {
+        let now = table.iter().position(|parameter| parameter.name == name);
+        now.or_else(|| table.iter().position(|parameter| !name.is_empty() && parameter.former == name))
+    }
 }
 
 /// The values that a parameter takes.

@@ -44,7 +44,7 @@ pub(super) fn followed(value: Value) -> Option<&'static str> {
 
 impl Names {
     fn parameter(&self, name: &str) -> Option<usize> {
-        self.parameters.iter().position(|parameter| parameter.name == name)
+        Parameter::index(self.parameters, name)
     }
 
     fn of_parameter(&self, index: usize) -> Meaning {

@@ -1,6 +1,6 @@
 //! The section `[gradient]`: columns with the derivatives of measures by parameters.
 
-use flap_core::parameter::{Kind as ParameterKind, Range};
+use flap_core::parameter::{Kind as ParameterKind, Parameter, Range};
 use flap_core::simulate::Simulator;
 use toml::Spanned;
 use toml::de::DeValue;
@@ -104,7 +104,7 @@ fn parameter(
     derived: &Derived,
     problems: &mut Problems,
 ) -> Option<usize> {
-    let Some(index) = names.parameters.iter().position(|parameter| parameter.name == name) else {
+    let Some(index) = Parameter::index(names.parameters, name) else {
         problems
             .report(item.span(), format!("there is no parameter `{name}`"))
             .did_you_mean(name, names.parameters.iter().map(|parameter| parameter.name));

@@ -7,6 +7,7 @@ mod axes;
 mod conditions;
 mod derived;
 pub mod diagnostic;
+mod former;
 mod formula;
 mod gradient;
 mod measures;

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use flap_core::parameter::Parameter;
 use flap_core::simulate::Simulator;
 use toml::Spanned;
 use toml::de::DeValue;
@@ -92,7 +93,7 @@ fn report_unknown(
             .help(format!("remove `{name}`"));
         return;
     }
-    if model.parameters().iter().any(|parameter| parameter.name == name) {
+    if Parameter::index(model.parameters(), name).is_some() {
         problems
             .report(item.span(), format!("`{name}` is a parameter, not a measure"))
             .note("rows have all varied and derived parameters")

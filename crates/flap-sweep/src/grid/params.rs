@@ -22,7 +22,7 @@ impl Lookup<'_> {
     /// The parameter that `entry` is for, with its index.
     pub(super) fn parameter(&mut self, entry: &Entry<'_>) -> Option<(usize, &'static Parameter)> {
         let known = self.simulator.parameters();
-        let found = known.iter().enumerate().find(|(_, parameter)| parameter.name == entry.key);
+        let found = Parameter::index(known, entry.key).map(|index| (index, &known[index]));
         if found.is_none() {
             self.report_unknown(entry, known);
         }
@@ -34,7 +34,7 @@ impl Lookup<'_> {
         let owners: Vec<&str> = self
             .models
             .iter()
-            .filter(|other| other.parameters().iter().any(|parameter| parameter.name == entry.key))
+            .filter(|other| Parameter::index(other.parameters(), entry.key).is_some())
             .map(|other| other.name())
             .collect();
         let diagnostic = self
@@ -67,6 +67,7 @@ pub(super) fn read(
         let Some((index, parameter)) = lookup.parameter(&entry) else {
             continue;
         };
+        report_both_names(parameter, &entry, index, &set, lookup.problems);
         set.push((index, entry.key_span.clone()));
         // Not a value: the resonance is searched for.
         if resonance::is_asked_for(&entry) {
@@ -77,4 +78,19 @@ pub(super) fn read(
         }
     }
     set
+}
+
+/// Reports a parameter that the section sets by its name and by its former name.
+fn report_both_names(
+    parameter: &Parameter,
+    entry: &Entry<'_>,
+    index: usize,
+    set: &[(usize, Range<usize>)],
+    problems: &mut Problems,
+) {
+    if let Some((_, before)) = set.iter().find(|(other, _)| *other == index) {
+        let message = format!("`{}` is set twice: `{}` is its former name", parameter.name, parameter.former);
+        let diagnostic = problems.report(entry.key_span.clone(), message).label("again here");
+        diagnostic.related(before.clone(), "first here").help("keep one of them");
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use flap_core::parameter::Preset;
+use flap_core::parameter::{Parameter, Preset};
 use flap_core::simulate::{Rows, Simulator};
 use toml::de::DeTable;
 
@@ -11,8 +11,8 @@ use super::formula::{self, Names};
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::{
-    axes, conditions, derived, gradient, measures, output, params, preset, resonance, sample, solver, syntax,
-    zip,
+    axes, conditions, derived, former, gradient, measures, output, params, preset, resonance, sample, solver,
+    syntax, zip,
 };
 use crate::plan::axes::Axes;
 use crate::plan::axis::Axis;
@@ -49,7 +49,8 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
         return Err(problems.into_mistakes());
     }
 
-    let root = table::entries(root.get_ref());
+    let document = root.get_ref();
+    let root = table::entries(document);
     let chosen = preset::read(&root, models, &mut problems);
     report_unknown_keys(&root, chosen.map(|(model, _)| model), &mut problems);
     let solver = solver::read(table::find(&root, "solver"), &mut problems);
@@ -90,6 +91,7 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
         gradient,
         solver,
         output,
+        renamed: former::used(document, simulator.parameters()),
         source: (*source).clone(),
     }))
 }
@@ -145,7 +147,7 @@ fn read_points(
 fn report_unknown_keys(root: &[Entry<'_>], model: Option<&'static dyn Simulator>, problems: &mut Problems) {
     for entry in root.iter().filter(|entry| !KEYS.contains(&entry.key)) {
         let diagnostic = table::report_unknown_key(entry, &KEYS, "at the top of a grid file", problems);
-        if model.is_some_and(|model| model.parameters().iter().any(|known| known.name == entry.key)) {
+        if model.is_some_and(|model| Parameter::index(model.parameters(), entry.key).is_some()) {
             diagnostic.help.clear();
             diagnostic.help("parameters go into [params], or into [axes] to vary them");
         }

@@ -215,21 +215,10 @@ mod tests {
 
     #[test]
     fn a_choice_is_written_by_name() {
-        let arms = Parameter {
-            name: "arms",
-            unit: "",
-            symbol: "",
-            kind: Kind::Choice(&["printed", "axis"]),
-            doc: "",
-        };
+        let arms = Parameter::new("arms", "", "", Kind::Choice(&["printed", "axis"]), "");
         assert_eq!(value(&arms, 1.0), "axis");
-        let span = Parameter {
-            name: "span",
-            unit: "m",
-            symbol: "",
-            kind: Kind::Number(flap_core::parameter::Range::Positive),
-            doc: "",
-        };
+        let positive = Kind::Number(flap_core::parameter::Range::Positive);
+        let span = Parameter::new("span", "m", "", positive, "");
         assert_eq!(value(&span, 1.0), "1.0");
     }
 

@@ -50,6 +50,8 @@ pub(crate) struct Space {
     pub(crate) solver: SolverSettings,
     /// The file that rows go to, and its columns.
     pub(crate) output: Output,
+    /// The parameters that the grid file calls by their former names.
+    pub(crate) renamed: Vec<&'static Parameter>,
     /// The grid file itself, for provenance.
     pub(crate) source: Source,
 }
@@ -131,6 +133,11 @@ impl Plan {
     /// The file that rows go to, and its columns.
     pub fn output(&self) -> &Output {
         &self.space.output
+    }
+
+    /// The parameters that the grid file calls by the names of earlier versions.
+    pub fn renamed(&self) -> &[&'static Parameter] {
+        &self.space.renamed
     }
 
     /// The grid file itself, for provenance.

@@ -105,9 +105,6 @@ const QUALIFIERS: [(&str, &str); 13] = [
 /// Nouns that names of measures put before their adjectives: `power_drag_mean_mw` is a drag power.
 const NOUNS: [&str; 8] = ["lift", "drag", "power", "current", "force", "efficiency", "strain", "field"];
 
-/// Parameters whose last word belongs to the noun.
-const WHOLE: [&str; 3] = ["drag_max", "drag_min", "lift_max"];
-
 fn qualifier(word: &str) -> Option<&'static str> {
     QUALIFIERS.iter().find(|(known, _)| *known == word).map(|(_, text)| *text)
 }
@@ -122,7 +119,7 @@ fn words(name: &str, unit: &str) -> String {
     if parts.is_empty() {
         return String::new();
     }
-    let is_whole = parts[0] == "mode" || WHOLE.contains(&name);
+    let is_whole = parts[0] == "mode";
     let first_behind = parts.iter().skip(1).position(|part| qualifier(part).is_some()).map(|place| place + 1);
     let (noun, behind) = parts.split_at(first_behind.filter(|_| !is_whole).unwrap_or(parts.len()));
 
@@ -259,7 +256,7 @@ mod tests {
             ("resonance_second_hz", "Hz", "Resonance, second (Hz)"),
             ("air_density", "kg/m^3", "Air density (kg/m³)"),
             ("energy_audit", "", "Energy audit"),
-            ("drag_max", "", "Drag max"),
+            ("drag_coefficient_max", "", "Drag coefficient, largest"),
             ("force_factor", "", "Force factor"),
             ("lift_slope", "", "Lift slope"),
             ("mode_1_hz", "Hz", "Mode 1 (Hz)"),

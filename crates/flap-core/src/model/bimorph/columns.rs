@@ -25,7 +25,7 @@ const TRANSDUCED_POWER: usize = position(&SIGNALS, "power_transduced");
 #[rustfmt::skip]
 pub(super) const SIGNALS: [Signal; S] = [
     Signal::new("stroke", Unit::DEG, "stroke angle", &[Amplitude, PeakToPeak, Mean, Max, Min, First]).principal(First),
-    Signal::new("pitch", Unit::DEG, "hinge angle of the wing", &[Amplitude, Peak, Mean, Max, Min, First]).principal(First),
+    Signal::new("pitch", Unit::DEG, "hinge angle of the wing", &[Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]).principal(First),
     Signal::new("lift", Unit::MN, "lift of the wing", &[Mean, Max, Min]).principal(Mean),
     Signal::new("drag", Unit::MN, "drag of the wing along the stroke", &[Mean, Magnitude]),
     Signal::new("power", Unit::MW, "electrical power of both plates, current x voltage; its mean is that of power_drag", &[Mean]).principal(Mean),

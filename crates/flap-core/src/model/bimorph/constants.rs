@@ -139,8 +139,8 @@ impl Constants<f64> {
         let w_2 = p.wing_width_2 * p.wing_width;
         let dynamic = 0.5 * p.air_density * p.wing_area;
         let force = dynamic * (r_2 * r_2) * (ratio * ratio);
-        let b_1 = 0.5 * (p.drag_max + p.drag_min);
-        let b_2 = 0.5 * (p.drag_max - p.drag_min);
+        let b_1 = 0.5 * (p.drag_coefficient_max + p.drag_coefficient_min);
+        let b_2 = 0.5 * (p.drag_coefficient_max - p.drag_coefficient_min);
 
         let one_if = |yes: bool| if yes { 1.0 } else { 0.0 };
         let constants = Constants {
@@ -172,7 +172,7 @@ impl Constants<f64> {
             coupling: p.wing_inertia_product * ratio,
             centrifugal: 0.5 * p.wing_inertia_hinge * (ratio * ratio),
             kappa_wh: p.hinge_stiffness,
-            c_c: dynamic * p.rotation_pressure_width * (w_2 * w_2) * p.drag_max,
+            c_c: dynamic * p.rotation_pressure_width * (w_2 * w_2) * p.drag_coefficient_max,
             hinge_torque: force * (p.wing_area / p.wing_length),
             p_min: p.pressure_min,
             p_swing: p.pressure_max - p.pressure_min,
@@ -182,7 +182,7 @@ impl Constants<f64> {
 
             b_1,
             b_2,
-            b_l: p.lift_max,
+            b_l: p.lift_coefficient_max,
             force,
 
             ratio,

@@ -8,6 +8,7 @@ use crate::parameter::{Preset, Range};
 crate::parameters! {
     /// Parameters of the bimorph model, in SI units. Symbols as in Jafferis, Graule and Wood 2016, Table I.
     pub struct Params {
+        ["drive"]
         /// Drive voltage, peak to peak: the plates see 0 to this, in antiphase, Eq. (7). With harmonics, that of the fundamental alone.
         drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)),
         /// Drive frequency. The paper sweeps it at 15 Hz/s.
@@ -15,11 +16,13 @@ crate::parameters! {
         /// Parameters of the waveform.
         waveform: WaveformParameters = (flatten),
 
+        ["transmission"]
         /// Transmission ratio: stroke angle per displacement of the actuator's tip.
         transmission_ratio: f64 = ("rad/m", "T", Number(Positive)),
         /// Stiffness of the transmission felt at the actuator's tip: T^2 kappa_t.
-        transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative)),
+        transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative), fitted),
 
+        ["wing"]
         /// Distance from the transmission's flexure to the wing's tip.
         wing_length: f64 = ("m", "R", Number(Positive)),
         /// Wing area.
@@ -35,29 +38,33 @@ crate::parameters! {
         /// Inertia of the air moving with the wing, about the stroke axis.
         added_inertia_stroke: f64 = ("kg*m^2", "I_am", Number(NonNegative)),
         /// Wing inertia about the hinge's axis.
-        wing_inertia_hinge: f64 = ("kg*m^2", "I_xx", Number(Positive)),
+        wing_inertia_hinge: f64 = ("kg*m^2", "I_xx", Number(Positive), fitted),
         /// Product of inertia that couples stroke and hinge.
-        wing_inertia_product: f64 = ("kg*m^2", "I_xz", Number(Any)),
-        /// Stiffness of the wing hinge.
-        hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive)),
+        wing_inertia_product: f64 = ("kg*m^2", "I_xz", Number(Any), fitted),
 
+        ["hinge"]
+        /// Stiffness of the wing hinge.
+        hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive), fitted),
+
+        ["air"]
         /// Density of air. Assumed: the paper gives none.
         air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)),
         /// Drag coefficient at an attack angle of 90 deg (hinge angle 0).
-        drag_max: f64 = ("", "b_max", Number(NonNegative)),
+        drag_coefficient_max: f64 = ("", "b_max", Number(NonNegative), former "drag_max", fitted),
         /// Drag coefficient at an attack angle of 0 (hinge angle 90 deg).
-        drag_min: f64 = ("", "b_min", Number(NonNegative)),
+        drag_coefficient_min: f64 = ("", "b_min", Number(NonNegative), former "drag_min", fitted),
         /// Lift coefficient at an attack angle of 45 deg.
-        lift_max: f64 = ("", "b_L", Number(NonNegative)),
+        lift_coefficient_max: f64 = ("", "b_L", Number(NonNegative), former "lift_max", fitted),
         /// Radial centre of pressure: lever of the drag about the stroke axis.
-        pressure_radius: f64 = ("m", "R_cp", Number(Positive)),
+        pressure_radius: f64 = ("m", "R_cp", Number(Positive), fitted),
         /// Lever of the rotational drag about the hinge's axis.
-        rotation_pressure_width: f64 = ("m", "W_cp1", Number(NonNegative)),
+        rotation_pressure_width: f64 = ("m", "W_cp1", Number(NonNegative), fitted),
         /// Chordwise centre of pressure at an attack angle of 0, in mean widths A_w/R, Eq. (11).
-        pressure_min: f64 = ("", "p_min", Number(Any)),
+        pressure_min: f64 = ("", "p_min", Number(Any), fitted),
         /// Chordwise centre of pressure at an attack angle of 90 deg, in mean widths A_w/R, Eq. (11).
-        pressure_max: f64 = ("", "p_max", Number(Any)),
+        pressure_max: f64 = ("", "p_max", Number(Any), fitted),
 
+        ["actuator"]
         /// Length of the active part of the actuator.
         actuator_length: f64 = ("m", "l_pzt", Number(Positive)),
         /// Mean width of the actuator.
@@ -95,17 +102,19 @@ crate::parameters! {
         /// Relative change of the plates' force with strain, Eq. (6).
         force_strain_slope: f64 = ("", "a_2", Number(Any)),
         /// Share of the plates' force that the actuator's attachment leaves.
-        force_factor: f64 = ("", "p_3", Number(Positive)),
+        force_factor: f64 = ("", "p_3", Number(Positive), fitted),
         /// Share of the actuator's stiffness that its attachment leaves.
-        stiffness_factor: f64 = ("", "p_4", Number(Positive)),
+        stiffness_factor: f64 = ("", "p_4", Number(Positive), fitted),
         /// Factor on the actuator's stiffness that brings its free deflection to the measured one.
-        deflection_factor: f64 = ("", "p_5", Number(Positive)),
+        deflection_factor: f64 = ("", "p_5", Number(Positive), fitted),
 
+        ["vehicle"]
         /// Capacitance of a vehicle's two actuators together: four plates.
         vehicle_capacitance: f64 = ("F", "C_act", Number(NonNegative)),
         /// Mass of the vehicle with its two actuators and wings, Table II: what payload_mg is reckoned against.
         vehicle_mass: f64 = ("kg", "M_f", Number(NonNegative)),
 
+        ["readings of the paper"]
         /// Transition of the piezoelectric stress with field, Eq. (6): corrected, or as printed (which halves the force).
         field_transition: FieldTransition = ("", "", Choice(FieldTransition::NAMES)),
         /// Attack angle that moves the chordwise centre of pressure, Eq. (11): folded to at most 90 deg, relative to the motion, or as printed (which breaks mirror symmetry).
@@ -184,9 +193,9 @@ impl Params {
             wing_inertia_product: 0.29 * 2.8e-12,
             hinge_stiffness: 0.985 * 1.52e-6,
             air_density: 1.2,
-            drag_max: 1.25 * 3.4,
-            drag_min: 0.39 * 0.4,
-            lift_max: 1.8,
+            drag_coefficient_max: 1.25 * 3.4,
+            drag_coefficient_min: 0.39 * 0.4,
+            lift_coefficient_max: 1.8,
             pressure_radius: 1.42 * 9.56e-3,
             rotation_pressure_width: 0.39 * 1.93e-3,
             pressure_min: 0.132,

@@ -20,7 +20,7 @@ const TRANSDUCED_POWER: usize = position(&SIGNALS, "power_transduced");
 #[rustfmt::skip]
 pub(super) const SIGNALS: [Signal; S] = [
     Signal::new("stroke", Unit::DEG, "stroke angle", &[Amplitude, PeakToPeak, Mean, Max, Min, First]).principal(First),
-    Signal::new("pitch", Unit::DEG, "pitch angle of the wing on its hinge", &[Amplitude, Mean, Max, Min, First]).principal(First),
+    Signal::new("pitch", Unit::DEG, "pitch angle of the wing on its hinge", &[Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]).principal(First),
     Signal::new("lift", Unit::MN, "lift of the wing, Eq. (35)", &[Mean, Max, Min]).principal(Mean),
     Signal::new("lift_translational", Unit::MN, "lift without the part of the added mass, Eq. (21)", &[Mean]),
     Signal::new("drag", Unit::MN, "translational drag along the stroke, Eq. (21)", &[Magnitude]),

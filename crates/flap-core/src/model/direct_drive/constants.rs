@@ -175,8 +175,8 @@ impl Constants<f64> {
             mid_half_chord: 0.5 * p.midspan_chord.unwrap_or(c),
 
             k_lift,
-            drag_mean: 0.5 * (p.drag_max + p.drag_min),
-            drag_swing: 0.5 * (p.drag_max - p.drag_min),
+            drag_mean: 0.5 * (p.drag_coefficient_max + p.drag_coefficient_min),
+            drag_swing: 0.5 * (p.drag_coefficient_max - p.drag_coefficient_min),
 
             lift_pp: dynamic * r * r * p.shape_moment_21,
             lift_pw: -dynamic * r * c * p.shape_moment_12,

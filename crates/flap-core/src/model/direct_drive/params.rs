@@ -9,6 +9,7 @@ use crate::parameter::Range::{Any, NonNegative, Positive};
 crate::parameters! {
     /// Parameters of the direct-drive model, in SI units. Symbols as in Ozaki and Hamaguchi 2018, Table A1.
     pub struct Params {
+        ["drive"]
         /// Drive voltage, peak to peak: twice the paper's V_0. With harmonics, that of the fundamental alone.
         drive_voltage_pp: f64 = ("V", "2 V_0", Number(NonNegative)),
         /// Constant part of the drive voltage. The paper drives with V_0 sin(wt) + V_0.
@@ -20,6 +21,7 @@ crate::parameters! {
         /// Parameters of a prescribed stroke.
         stroke: StrokeParameters = (flatten),
 
+        ["wing"]
         /// Wing length, from the wing's root to its tip.
         wing_length: f64 = ("m", "R", Number(Positive)),
         /// Mean chord.
@@ -42,9 +44,12 @@ crate::parameters! {
         wing_inertia_product: f64 = ("kg*m^2", "J_wxy", Number(Any)),
         /// Inertia of the leading-edge part about the stroke axis.
         leading_edge_inertia: f64 = ("kg*m^2", "J_B", Number(NonNegative)),
+
+        ["hinge"]
         /// Stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "k_w", Number(Positive)),
 
+        ["wing shape"]
         /// Direction of flow that the translational forces follow: that of the wing's mean velocity, one for the whole wing as in the paper, or that of each blade element's own velocity. With "blade" the shape moments, rotation_moment and midspan_chord are computed from the chord shape, and what is given for them is not used.
         flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)),
         /// Chord shape: coefficient of the Legendre polynomial P_1(2r/R - 1) in chord / mean_chord, whose constant term is 1; not in the paper: fitted to its shape moments. Only for flow_direction = "blade".
@@ -70,6 +75,7 @@ crate::parameters! {
         /// Moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord, averaged along the span. For flow_direction = "uniform".
         rotation_moment: f64 = ("m^4", "I_rd", Number(NonNegative)),
 
+        ["actuator"]
         /// Actuator length.
         actuator_length: f64 = ("m", "L_A", Number(Positive)),
         /// Actuator width at the root.
@@ -99,12 +105,13 @@ crate::parameters! {
         /// Permittivity of the piezoelectric layer (free or clamped is not stated in the paper).
         piezo_permittivity: f64 = ("F/m", "eps_pz", Number(NonNegative)),
 
+        ["air"]
         /// Density of air.
         air_density: f64 = ("kg/m^3", "rho_Air", Number(NonNegative)),
         /// Drag coefficient at an attack angle of 90 deg.
-        drag_max: f64 = ("", "C_Dmax", Number(NonNegative)),
+        drag_coefficient_max: f64 = ("", "C_Dmax", Number(NonNegative), former "drag_max"),
         /// Drag coefficient at an attack angle of 0.
-        drag_min: f64 = ("", "C_Dmin", Number(NonNegative)),
+        drag_coefficient_min: f64 = ("", "C_Dmin", Number(NonNegative), former "drag_min"),
         /// Rotational drag coefficient, Eq. (32).
         rotation_drag: f64 = ("", "C_rd", Number(NonNegative)),
         /// Centre of pressure: shift in chords per radian of attack, Eq. (24).
@@ -112,6 +119,7 @@ crate::parameters! {
         /// Centre of pressure at zero attack, in chords from the leading edge, Eq. (24).
         pressure_offset: f64 = ("", "0.05", Number(Any)),
 
+        ["readings of the paper"]
         /// Attack angle that moves the centre of pressure: relative to the motion, folded to at most 90 deg, or as printed (which breaks mirror symmetry).
         centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)),
         /// Moments of the added mass: as in the paper, or with the gyroscopic terms of the Lagrangian form.
@@ -238,8 +246,8 @@ impl Params {
             piezo_coefficient: 950e-12,
             piezo_permittivity: 2920.0 * EPSILON_0,
             air_density: 1.29,
-            drag_max: 5.0,
-            drag_min: 0.4,
+            drag_coefficient_max: 5.0,
+            drag_coefficient_min: 0.4,
             rotation_drag: 3.5,
             pressure_slope: 0.82 / core::f64::consts::PI,
             pressure_offset: 0.05,

@@ -20,7 +20,7 @@ const DRIVING_POWER: usize = position(&SIGNALS, "power_driving");
 #[rustfmt::skip]
 pub(super) const SIGNALS: [Signal; S] = [
     Signal::new("stroke", Unit::DEG, "stroke angle", &[Amplitude, PeakToPeak, Mean, Max, Min, First]).principal(First),
-    Signal::new("pitch", Unit::DEG, "pitch angle of the wing on its hinge", &[Amplitude, PeakToPeak, Mean, Max, Min, First]).principal(First),
+    Signal::new("pitch", Unit::DEG, "pitch angle of the wing on its hinge", &[Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]).principal(First),
     Signal::new("lift", Unit::MN, "lift of the wing, Eq. (4)", &[Mean, Max, Min]).principal(Mean),
     Signal::new("lift_translational", Unit::MN, "lift of the wing's translation, Eq. (5)", &[Mean]),
     Signal::new("lift_rotational", Unit::MN, "lift of the wing's rotation, Eq. (6)", &[Mean]),

@@ -11,6 +11,7 @@ use crate::parameter::{Preset, Range};
 crate::parameters! {
     /// Parameters of the four-bar model, in SI units. Symbols as in Arabagi, Hines and Sitti 2013 where it has any.
     pub struct Params {
+        ["drive"]
         /// Drive voltage, peak to peak.
         drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)),
         /// Constant part of the drive voltage.
@@ -24,6 +25,7 @@ crate::parameters! {
         /// Voltage at which the mechanism stands unloaded at zero stroke; assumed: not in the paper.
         rest_voltage: Option<f64> = ("V", "V_ref", Following(Any, "drive_bias")),
 
+        ["actuator"]
         /// Actuator length; assumed: gives the drive its strength.
         actuator_length: f64 = ("m", "L", Number(Positive)),
         /// Actuator width, uniform; assumed: gives the drive its strength.
@@ -44,6 +46,7 @@ crate::parameters! {
         piezo_coefficient: f64 = ("m/V", "d_31", Number(Any)),
         /// Permittivity of the unstressed piezoelectric layer; assumed: PZT-5H. Acts on the current alone.
         piezo_permittivity: f64 = ("F/m", "eps_T", Number(NonNegative)),
+        ["transmission"]
         /// Stiffness in series between the actuator's tip and the slider-crank.
         series_stiffness: f64 = ("N/m", "k_sc", Number(Positive)),
 
@@ -76,11 +79,13 @@ crate::parameters! {
         /// Damping of the stroke by the transmission's flexures; assumed: modal damping ratios of 4 to 9 percent.
         stroke_damping: f64 = ("N*m*s", "D", Number(NonNegative)),
 
+        ["hinge"]
         /// Stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "k_rot", Number(Positive)),
         /// Damping of the wing hinge.
         hinge_damping: f64 = ("N*m*s", "d", Number(NonNegative)),
 
+        ["wing"]
         /// Distance from the stroke axis to the wing's root; assumed.
         wing_offset: f64 = ("m", "r_0", Number(NonNegative)),
         /// Wing length, from root to tip; assumed.
@@ -114,6 +119,7 @@ crate::parameters! {
         /// Product of inertia about the centre of mass, positive if the wing is deeper farther out; assumed.
         wing_inertia_product: f64 = ("kg*m^2", "J_xz", Number(Any)),
 
+        ["air"]
         /// Density of air; assumed.
         air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)),
         /// Lift coefficient, Eq. (9): constant term.
@@ -139,10 +145,12 @@ crate::parameters! {
         /// Centre of pressure at zero attack, in chords, Eq. (17).
         pressure_offset: f64 = ("", "0.05", Number(Any)),
 
+        ["readings of the paper"]
         /// Chordwise arms of Eqs. (8) and (17): as printed, as if the rotation axis were the leading edge; or from the rotation axis.
         arms: Arms = ("", "", Choice(Arms::NAMES)),
         /// Sign of the pitch acceleration's part of the added-mass lift, Eq. (7): corrected, or as printed.
         am_sign: AddedMassSign = ("", "", Choice(AddedMassSign::NAMES)),
+        ["strips of the wing"]
         /// Strips of the wing: at Gauss-Legendre nodes, or of equal widths taken at their middles.
         quadrature: Quadrature = ("", "", Choice(Quadrature::NAMES)),
         /// Number of strips, a whole number from 1 to 64.

@@ -73,7 +73,7 @@ impl Sidecar {
     /// the command line.
     fn follow(&self, followed: &Followed, plan: Plan) -> Option<Plan> {
         let parameters = plan.parameters();
-        let place = |name: &str| parameters.iter().position(|parameter| parameter.name == name);
+        let place = |name: &str| Parameter::index(parameters, name);
         let parameter = place(&followed.parameter)?;
         let (mut plan, _) = plan.without_axis(parameter);
         for (name, value) in &self.parameters {

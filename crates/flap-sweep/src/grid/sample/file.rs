@@ -137,7 +137,7 @@ fn heading<'t>(
         return None;
     };
     let known = lookup.simulator.parameters();
-    let Some(index) = known.iter().position(|parameter| parameter.name == name) else {
+    let Some(index) = Parameter::index(known, name) else {
         let message = format!("model `{}` has no parameter `{name}`", lookup.simulator.name());
         let diagnostic = lookup.problems.report_in(source, span.clone(), message);
         if diagnostic.did_you_mean(name, known.iter().map(|parameter| parameter.name)).help.is_empty() {
