@@ -115,7 +115,9 @@ fn former_names_still_work_with_a_warning() {
     let told = folder.ends(0, "explain lift_max").stdout;
     assert!(told.contains("the former name of lift_coefficient_max"), "{told}");
     std::fs::write(folder.path("both.toml"), grid("drag_max") + "drag_coefficient_max = 3.0\n").unwrap();
-    folder.ends(2, "check both.toml").says("`drag_coefficient_max` is set twice: `drag_max` is its former name");
+    folder
+        .ends(2, "check both.toml")
+        .says("`drag_coefficient_max` is set twice: `drag_max` is its former name");
 }
 
 #[test]

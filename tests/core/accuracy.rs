@@ -6,6 +6,7 @@ use flap_core::simulate::{Row, Simulator, SolverSettings, Status, all, preset};
 
 use crate::robustness::Random;
 use crate::rows;
+use crate::terms::is_left_out;
 
 /// Designs drawn of each preset, and how many of them are integrated again at the tolerance of [`exact`].
 const DRAWN: usize = 2000;
@@ -28,7 +29,8 @@ pub(crate) fn designs(model: &dyn Simulator, preset: &Preset) -> Vec<Vec<f64>> {
     let mut random = Random(14);
     let mut design = || {
         let mut values = (preset.values)();
-        for (value, parameter) in values.iter_mut().zip(model.parameters()) {
+        let numbers = values.iter_mut().zip(model.parameters());
+        for (value, parameter) in numbers.filter(|(value, parameter)| !is_left_out(parameter, **value)) {
             let factor = 0.2 + 1.6 * random.next();
             if !matches!(parameter.kind, Kind::Choice(_)) {
                 *value *= factor;

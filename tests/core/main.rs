@@ -37,5 +37,6 @@ mod settings;
 mod slopes;
 mod span;
 mod strobe;
+mod terms;
 mod tracking;
 mod waveforms;

@@ -21,7 +21,7 @@ fn shared_rows_stand_between_those_of_the_model() {
     for model in all() {
         let names: Vec<&str> = model.parameters().iter().map(|parameter| parameter.name).collect();
         let first = match model.name() {
-            "bimorph" => [&voltage[..1], &shape, &["transmission_ratio"]].concat(),
+            "bimorph" => [&voltage[..1], &shape, &["drive_offset"]].concat(),
             "direct-drive" => [&voltage[..], &shape, &stroke, &["wing_length"]].concat(),
             "four-bar" => [&voltage[..], &shape, &stroke, &["rest_voltage"]].concat(),
             other => panic!("no table of {other}"),

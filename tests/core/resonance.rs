@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use flap_core::drive::Wave;
 use flap_core::model::Motions;
-use flap_core::model::bimorph::{self, Bimorph, plate};
+use flap_core::model::bimorph::{self, Bimorph};
 use flap_core::model::direct_drive::DirectDrive;
 use flap_core::model::four_bar::FourBar;
 use flap_core::modes::Mode;
@@ -60,8 +60,8 @@ fn an_impulse_moves_the_pitch_as_a_drive_does() {
                 }
                 "bimorph" => {
                     let (c, y, rest) = released(&Bimorph::default(), &values);
-                    let plates = [plate(&c, volts(120.0)), plate(&c, volts(80.0))];
-                    (y, rest, bimorph::derivative(&c, &plates, &[0.0; 4]))
+                    let plates = bimorph::plates(&c, [volts(120.0), volts(80.0)]);
+                    (y, rest, bimorph::derivative(&c, bimorph::Law::Constant, &plates, &[0.0; 4]))
                 }
                 other => panic!("no derivative of {other}"),
             };

@@ -1,5 +1,6 @@
 //! Designs drawn at random about the presets: whatever they do, each has a row that says so.
 
+use crate::terms::is_left_out;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::Kind;
 use flap_core::simulate::{Simulator, SolverSettings, Status, all};
@@ -29,7 +30,8 @@ pub(crate) fn designs(model: &dyn Simulator, count: usize) -> Vec<Vec<f64>> {
     (0..count)
         .map(|i| {
             let mut values = (presets[i % presets.len()].values)();
-            for (value, parameter) in values.iter_mut().zip(model.parameters()) {
+            let numbers = values.iter_mut().zip(model.parameters());
+            for (value, parameter) in numbers.filter(|(value, parameter)| !is_left_out(parameter, **value)) {
                 let factor = 0.5 * 3.0_f64.powf(random.next());
                 // The terms of a chord describe one shape together.
                 if matches!(parameter.kind, Kind::Choice(_)) || parameter.name.starts_with("chord_") {

@@ -2,7 +2,7 @@
 
 use flap_core::drive::Wave;
 use flap_core::model::bimorph::{
-    Bimorph, Constants, Plate, charges, currents, lift_and_drag, plate, plate_forces, secant_stiffness,
+    Bimorph, Constants, Plate, charges, currents, lift_and_drag, plate_forces, plates, secant_stiffness,
 };
 use flap_core::num::{Lanes, Real};
 use flap_core::ode::Ode;
@@ -18,7 +18,7 @@ type Case = slopes::Case<Bimorph, 2>;
 
 impl Driven<2> for Bimorph {
     fn under<R: Lanes>(c: &Constants<R>, voltages: &[Wave<R>; 2]) -> [Plate<R>; 2] {
-        plates(c, voltages)
+        plates(c, *voltages)
     }
 }
 
@@ -41,16 +41,12 @@ fn cases() -> Vec<Case> {
         .collect()
 }
 
-fn plates<R: Lanes>(c: &Constants<R>, voltages: &[Wave<R>; 2]) -> [Plate<R>; 2] {
-    [plate(c, voltages[0]), plate(c, voltages[1])]
-}
-
 #[test]
 fn accelerations_forces_and_currents_equal_the_reference() {
     let c = constants();
     let mut largest = (0.0, String::new());
     for Case { voltages, y, record, .. } in cases() {
-        let plates = plates(&c, &voltages);
+        let plates = plates(&c, voltages);
         let [x, x_dot, psi, _] = y;
         let [_, x_ddot, _, psi_ddot] = Bimorph::default().rhs(&c, &plates, 1.0, &y);
         let [f_1, f_2] = plate_forces(&c, &plates, x);
@@ -97,7 +93,7 @@ fn derivatives_of_force_and_charge_are_their_rates() {
     let c = constants();
     for Case { voltages, y, record, .. } in cases() {
         for voltage in voltages {
-            let at = |dv: f64| plate(&c, Wave { value: voltage.value + dv, ..voltage });
+            let at = |dv: f64| plates(&c, [Wave { value: voltage.value + dv, ..voltage }; 2])[0];
             let (low, mid, high) = (at(-1e-3), at(0.0), at(1e-3));
             let per_volt = (high.force - low.force) / 2e-3;
             let bend = (high.force_per_volt - low.force_per_volt) / 2e-3;
@@ -106,9 +102,9 @@ fn derivatives_of_force_and_charge_are_their_rates() {
         }
         let at = |dt: f64| {
             let moved = voltages.map(|v| Wave { value: v.value + dt * v.rate, ..v });
-            charges(&c, &plates(&c, &moved), y[0] + dt * y[1])
+            charges(&c, &plates(&c, moved), y[0] + dt * y[1])
         };
-        let currents = currents(&c, &plates(&c, &voltages), y[0], y[1]);
+        let currents = currents(&c, &plates(&c, voltages), y[0], y[1]);
         let (before, after) = (at(-1e-7), at(1e-7));
         for i in 0..2 {
             let rate = (after[i] - before[i]) / 2e-7;

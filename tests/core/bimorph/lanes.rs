@@ -1,6 +1,7 @@
 //! Rows from lanes against rows from scalars.
 
 use flap_core::drive::{Shape, WaveformParameters};
+use flap_core::linkage::HingeParameters;
 use flap_core::model::bimorph::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
 use flap_core::simulate::Status;
 
@@ -18,6 +19,12 @@ fn points() -> Vec<Vec<f64>> {
                 drive_voltage_pp: 60.0 + (37.3 * k) % 190.0,
                 drive_frequency: 70.0 + (23.1 * k) % 130.0,
                 hinge_stiffness: p.hinge_stiffness * (0.5 + (0.37 * k) % 1.5),
+                // Without a size, the hinge's strain is not a number.
+                hinge: HingeParameters {
+                    hinge_loss_factor: 0.0,
+                    hinge_thickness: Some(12.5e-6),
+                    hinge_length: Some(80e-6),
+                },
                 ..p
             };
             let p = match i % 10 {
@@ -27,6 +34,13 @@ fn points() -> Vec<Vec<f64>> {
                 7 => Params { actuator_stiffness: ActuatorStiffness::Constant, ..p },
                 4 => Params { waveform: WaveformParameters::new(Shape::Square), ..p },
                 6 => Params { waveform: third_harmonic(-0.2), ..p },
+                0 => Params {
+                    transmission_growth: 1e9 * (k % 5.0),
+                    plate_ratio: 0.9,
+                    stroke_damping: 1e-9,
+                    ..p
+                },
+                2 => Params { drive_offset: 10.0, stroke_loss_factor: 0.05, hinge_damping: 1e-10, ..p },
                 8 => Params { actuator_width_ratio: 2.5, ..p },
                 9 => Params { wing_inertia_product: 1e-3, ..p },
                 _ => p,

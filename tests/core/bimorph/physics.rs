@@ -3,11 +3,11 @@
 use std::ops::Range;
 
 use flap_core::drive::Wave;
-use flap_core::model::Model;
 use flap_core::model::bimorph::{
-    Bimorph, CentreOfPressure, Constants, Params, Plate, currents, elastic_force, lift_and_drag, plate,
-    plate_forces, tip_drag,
+    Bimorph, CentreOfPressure, Constants, Law, Params, Plate, currents, elastic_force, lift_and_drag,
+    plate_forces, plates, tip_drag,
 };
+use flap_core::model::{Model, position};
 use flap_core::num::{InstructionSet, Real};
 use flap_core::ode::{Ode, Start};
 use flap_core::simulate::{PointRun, SolverSettings, TrajectoryRequest};
@@ -38,7 +38,8 @@ fn elastic_energy(c: &Constants<f64>, x: f64) -> f64 {
 
 /// Kinetic energy at the tip and elastic energy (J).
 fn tip_energy(c: &Constants<f64>, y: &[f64; 4]) -> f64 {
-    0.5 / c.inverse_m_e * y[1] * y[1] + elastic_energy(c, y[0])
+    let ratio = 1.0 + c.ratio_growth * y[0] * y[0];
+    0.5 * (c.stroke_mass * ratio * ratio + c.tip_mass) * y[1] * y[1] + elastic_energy(c, y[0])
 }
 
 /// Energy that the plates' charges have brought in and that is neither elastic nor kinetic (J).
@@ -67,26 +68,43 @@ fn any_params() -> impl Strategy<Value = Params> {
     })
 }
 
+/// The same with damping, unequal plates, and a transmission whose ratio grows or falls.
+fn any_robot() -> impl Strategy<Value = Params> {
+    (any_params(), -2e9..5e9, 0.7..1.3, 0.0..2e-8, 0.0..0.2).prop_map(
+        |(p, transmission_growth, plate_ratio, stroke_damping, stroke_loss_factor)| Params {
+            transmission_growth,
+            plate_ratio,
+            stroke_damping,
+            stroke_loss_factor,
+            ..p
+        },
+    )
+}
+
 fn any_voltages() -> impl Strategy<Value = [Wave<f64>; 2]> {
     let voltage = || (0.0..300.0, -1e5..1e5).prop_map(|(value, rate)| Wave::with_rate(value, rate));
     [voltage(), voltage()]
 }
 
 proptest! {
-    /// d(U + E)/dt = V₁i₁ + V₂i₂ − drag, for any state and any change of the voltages.
+    /// d(U + E)/dt = V₁i₁ + V₂i₂ − drag − damping, for any state and any change of the voltages.
     #[test]
-    fn energy_changes_by_electrical_work_and_drag_alone(p in any_params(), y in STATES, v in any_voltages()) {
+    fn energy_changes_by_electrical_work_and_losses_alone(p in any_robot(), y in STATES, v in any_voltages()) {
         let c = Constants::derive(&p).unwrap();
-        let plates = v.map(|v| plate(&c, v));
-        let dy = Bimorph::default().rhs(&c, &plates, 1.0, &y);
-        let [i_1, i_2] = currents(&c, &plates, y[0], y[1]);
+        let driven = plates(&c, v);
+        let model = Bimorph { law: Law::Square, ..Bimorph::default() };
+        let dy = model.rhs(&c, &driven, 1.0, &y);
+        let [i_1, i_2] = currents(&c, &driven, y[0], y[1]);
         let (_, cos_2psi) = Real::sin_cos(2.0 * y[2]);
-        let drag = tip_drag(&c, cos_2psi) * y[1] * y[1] * y[1].abs();
-        let work = v[0].value * i_1 + v[1].value * i_2 - drag;
+        // φ̇ over the ratio at rest.
+        let rate = (1.0 + c.ratio_growth * y[0] * y[0]) * y[1];
+        let drag = tip_drag(&c, cos_2psi) * rate * rate * rate.abs();
+        let damping = c.tip_damping * y[1] * y[1] + c.stroke_damping * rate * rate;
+        let work = v[0].value * i_1 + v[1].value * i_2 - drag - damping;
 
         let at = |dt: f64| {
             let y: [f64; 4] = std::array::from_fn(|i| y[i] + dt * dy[i]);
-            let plates = v.map(|v| plate(&c, Wave { value: v.value + dt * v.rate, ..v }));
+            let plates = plates(&c, v.map(|v| Wave { value: v.value + dt * v.rate, ..v }));
             electric_energy(&c, &plates, y[0]) + tip_energy(&c, &y)
         };
         let dt = 1e-8;
@@ -100,7 +118,7 @@ proptest! {
     fn half_strokes_are_mirror_images(p in any_params(), y in STATES, v in any_voltages(), folded in prop::bool::ANY) {
         let reading = if folded { CentreOfPressure::Folded } else { CentreOfPressure::Directional };
         let c = Constants::derive(&Params { centre_of_pressure: reading, ..p }).unwrap();
-        let plates = v.map(|v| plate(&c, v));
+        let plates = plates(&c, v);
         let swapped = [plates[1], plates[0]];
         let mirror = y.map(|y| -y);
         let dy = Bimorph::default().rhs(&c, &plates, 1.0, &y);
@@ -120,7 +138,7 @@ proptest! {
 fn the_literal_reading_breaks_the_mirror_symmetry() {
     let p = Params { centre_of_pressure: CentreOfPressure::Literal, ..params("T1") };
     let c = Constants::derive(&p).unwrap();
-    let plates = [plate(&c, Wave::with_rate(100.0, 0.0)); 2];
+    let plates = plates(&c, [Wave::with_rate(100.0, 0.0); 2]);
     let y = [0.0, 0.2, 1.0, 0.0];
     let [dy, mirrored] = [1.0, -1.0].map(|m| Bimorph::default().rhs(&c, &plates, 1.0, &y.map(|y| m * y)));
     assert!((dy[3] + mirrored[3]).abs() > 0.05 * dy[3].abs());
@@ -155,7 +173,7 @@ fn model_scale(values: &[f64]) -> [f64; 4] {
 
 /// The place at which the tip rests under constant voltages: K(x) x = F₁ − F₂.
 pub(super) fn static_tip(c: &Constants<f64>, voltages: [f64; 2]) -> f64 {
-    let plates = voltages.map(|value| plate(c, Wave::with_rate(value, 0.0)));
+    let plates = plates(c, voltages.map(|value| Wave::with_rate(value, 0.0)));
     let (mut low, mut high) = (-2e-3, 2e-3);
     for _ in 0..80 {
         let x = 0.5 * (low + high);
@@ -225,7 +243,8 @@ fn currents_have_no_mean() {
     assert!(super::measure(&row, "current_1_rms_ma") > 0.05);
     let y = super::orbit::march(&p, [0.0; 4], 60, 1e-8);
     let signals = cycle(&p, y, 1e-8).0;
-    for signal in [signals[10], signals[11]] {
+    let signal = |name| signals[position(&Bimorph::SIGNALS, name)];
+    for signal in [signal("current_1"), signal("current_2")] {
         assert!(signal.mean.abs() < 1e-6 * signal.mean_square.sqrt(), "{signal:?}");
     }
 }

@@ -66,7 +66,15 @@ fn a_recorded_sine_drives_like_a_sine() {
         // The charge of a capacitor feels the wave's slope: a spline is third order there.
         let error = (row.measures[i] - sine.measures[i]).abs() / sine.measures[i].abs();
         let small = ["pitch_mean_deg", "energy_audit"].contains(&column.name.as_str());
-        assert!(small || error < 1e-5, "{}: {} against {}", column.name, row.measures[i], sine.measures[i]);
+        // Losses are zero, and the strain of a hinge of unknown size is not a number.
+        let same = row.measures[i].to_bits() == sine.measures[i].to_bits();
+        assert!(
+            small || same || error < 1e-5,
+            "{}: {} against {}",
+            column.name,
+            row.measures[i],
+            sine.measures[i]
+        );
     }
     rows::assert_lanes_equal_scalars(&*sampled, &vec![values; 3], &settings());
 }

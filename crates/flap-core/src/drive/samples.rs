@@ -67,6 +67,8 @@ struct Record {
     duration: f64,
     phases: Vec<f64>,
     values: Vec<f64>,
+    /// Mean value over the duration.
+    mean: f64,
     /// Second derivative with respect to phase at each sample.
     bends: Vec<f64>,
 }
@@ -107,12 +109,19 @@ impl Samples {
                 periodic_bends(&phases, &values)
             }
         };
-        Ok(Samples(Arc::new(Record { duration, phases, values, bends })))
+        let mean = mean(&phases, &values, &bends);
+        Ok(Samples(Arc::new(Record { duration, phases, values, mean, bends })))
     }
 
     /// Time from the first to the last sample (s).
     pub fn duration(&self) -> f64 {
         self.0.duration
+    }
+
+    /// Mean value over the duration.
+    #[inline(always)]
+    pub(super) fn mean(&self) -> f64 {
+        self.0.mean
     }
 
     /// Value, first and second derivative at a phase, lane by lane: the same bits in every lane and arithmetic.
@@ -160,6 +169,15 @@ impl Record {
             a * bend_i + b * bend_j,
         ]
     }
+}
+
+/// The mean of a cubic spline over phases from 0 to 1.
+fn mean(phases: &[f64], values: &[f64], bends: &[f64]) -> f64 {
+    let pieces = (1..phases.len()).map(|i| {
+        let width = phases[i] - phases[i - 1];
+        0.5 * width * (values[i] + values[i - 1]) - width * width * width / 24.0 * (bends[i] + bends[i - 1])
+    });
+    pieces.sum()
 }
 
 /// The smallest and largest of some values.

@@ -122,6 +122,21 @@ impl Drive {
         }
     }
 
+    /// The mean of the waveform over a period: zero but for samples.
+    #[inline(always)]
+    pub fn mean(&self) -> f64 {
+        match &self.waveform {
+            Waveform::Samples(samples) => samples.mean(),
+            Waveform::Shape(_) | Waveform::Chirp => 0.0,
+        }
+    }
+
+    /// The mean voltage (V), or prescribed stroke (rad), over a period.
+    #[inline(always)]
+    pub fn mean_voltage<R: Real>(&self, c: &DriveConstants<R>) -> R {
+        c.bias + c.amplitude * self.mean()
+    }
+
     /// The smallest and largest value of the waveform over a period.
     pub fn range(&self, c: &DriveConstants<f64>) -> [f64; 2] {
         match &self.waveform {

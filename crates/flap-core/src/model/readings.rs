@@ -27,6 +27,12 @@ pub(super) fn efficiency(lift: f64, power: f64) -> f64 {
     if power > 0.0 { lift / power } else { f64::NAN }
 }
 
+/// Largest strain of a hinge by its strain per angle (1/rad) and the largest angle (rad); not a number where the first is zero
+/// because the hinge's size is not known.
+pub(super) fn hinge_strain(per_angle: f64, largest: f64) -> f64 {
+    if per_angle > 0.0 { per_angle * largest } else { f64::NAN }
+}
+
 /// Power (W) of charging a capacitance (F) at a frequency (Hz) to a voltage (V) from another, without recovery.
 pub(super) fn charging(capacitance: f64, [low, high]: [f64; 2], frequency: f64) -> f64 {
     let voltage_pp = high - low;

@@ -14,6 +14,8 @@ pub struct Signal {
     /// Its measures over a drive period. A signal without measures serves derived columns alone, and has no column in
     /// trajectories either.
     pub measures: &'static [Measure],
+    /// Measures that only derived columns use.
+    pub needed: &'static [Measure],
     /// The measure whose error stands for that of a row, if there is one: of stroke, pitch, lift and power.
     pub principal: Option<Measure>,
 }
@@ -26,13 +28,19 @@ impl Signal {
         doc: &'static str,
         measures: &'static [Measure],
     ) -> Signal {
-        Signal { name, unit, doc, measures, principal: None }
+        Signal { name, unit, doc, measures, needed: &[], principal: None }
     }
 
     /// The same signal, one of whose measures stands for the error of a row.
     #[must_use]
     pub const fn principal(self, measure: Measure) -> Signal {
         Signal { principal: Some(measure), ..self }
+    }
+
+    /// The same signal, of which derived columns use these measures besides.
+    #[must_use]
+    pub const fn needs(self, needed: &'static [Measure]) -> Signal {
+        Signal { needed, ..self }
     }
 
     /// True if it has columns of its own.
@@ -49,17 +57,25 @@ impl Signal {
             {
                 return true;
             }
-            let mut j = 0;
-            while j < self.measures.len() {
-                if self.measures[j] as u8 == measures[i] as u8 {
-                    return true;
-                }
-                j += 1;
+            if has(self.measures, measures[i]) || has(self.needed, measures[i]) {
+                return true;
             }
             i += 1;
         }
         false
     }
+}
+
+/// True if `measures` has this one.
+const fn has(measures: &[Measure], one: Measure) -> bool {
+    let mut i = 0;
+    while i < measures.len() {
+        if measures[i] as u8 == one as u8 {
+            return true;
+        }
+        i += 1;
+    }
+    false
 }
 
 /// The position of the signal called `name`.

@@ -11,6 +11,8 @@ pub enum Range {
     Positive,
     /// Numbers between two others, both excluded.
     Between(f64, f64),
+    /// Numbers from 0 to 1, both included.
+    Share,
     /// Whole numbers from the first to the last, both included.
     Whole(u32, u32),
 }
@@ -24,6 +26,7 @@ impl Range {
                 Range::NonNegative => value >= 0.0,
                 Range::Positive => value > 0.0,
                 Range::Between(low, high) => low < value && value < high,
+                Range::Share => (0.0..=1.0).contains(&value),
                 Range::Whole(first, last) => {
                     value.fract() == 0.0 && (f64::from(first)..=f64::from(last)).contains(&value)
                 }
@@ -37,6 +40,7 @@ impl Range {
             Range::NonNegative => "zero or more".to_owned(),
             Range::Positive => "more than zero".to_owned(),
             Range::Between(low, high) => format!("between {low} and {high}"),
+            Range::Share => "from 0 to 1".to_owned(),
             Range::Whole(first, last) => format!("a whole number from {first} to {last}"),
         }
     }

@@ -49,13 +49,13 @@ pub use status::Status;
 pub use crate::ode::{Interrupt, never};
 
 use crate::drive::Drive;
-use crate::model::bimorph::{self, Bimorph};
+use crate::model::bimorph::{self, Bimorph, Law};
 use crate::model::direct_drive::{self, DirectDrive, FlowDirection};
 use crate::model::four_bar::{self, FourBar};
 use crate::parameter::Preset;
 
 static BIMORPH: Runner<Bimorph, 4, 20, { bimorph::S }> =
-    Runner::with_experiments(Bimorph { drive: Drive::SINE });
+    Runner::with_experiments(Bimorph { drive: Drive::SINE, law: Law::Constant });
 static DIRECT_DRIVE: Runner<DirectDrive, 4, 20, { direct_drive::S }> =
     Runner::with_experiments(DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform });
 static FOUR_BAR: Runner<FourBar, 4, 20, { four_bar::S }> =

@@ -27,13 +27,15 @@ pub(super) const SIGNALS: [Signal; S] = [
 
 /// Spring, inertia and inductance give back all that they take.
 pub(super) const ENERGY: EnergyBalance = EnergyBalance {
-    powers: &[POWER],
-    losses: &[
-        AIR,
-        position(&SIGNALS, "power_resistive"),
-        position(&SIGNALS, "power_bearing"),
-        position(&SIGNALS, "power_magnetic"),
-    ],
+    powers: &[(
+        POWER,
+        &[
+            AIR,
+            position(&SIGNALS, "power_resistive"),
+            position(&SIGNALS, "power_bearing"),
+            position(&SIGNALS, "power_magnetic"),
+        ],
+    )],
     audit: [POWER, position(&SIGNALS, "power_terminal")],
 };
 

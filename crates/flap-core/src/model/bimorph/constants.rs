@@ -6,7 +6,9 @@
 
 use super::actuator::Actuator;
 use super::params::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
+use super::rhs::secant_stiffness;
 use crate::drive::{DriveConstants, Shape};
+use crate::linkage::structural_damping;
 use crate::num::PerLane;
 use crate::parameter::Invalid;
 
@@ -16,6 +18,8 @@ crate::per_lane! {
         /// The drive: half of the drive voltage peak to peak as constant part and as amplitude, of opposite sign for the
         /// two plates.
         pub drive: DriveConstants<R>,
+        /// Half of the bias between the plates (V): plate 1 has that much more, plate 2 that much less.
+        pub half_offset: R,
 
         /// Field per voltage (1/m): 1/t_pzt.
         pub field_per_volt: R,
@@ -31,12 +35,16 @@ crate::per_lane! {
         pub field_0: R,
         /// Steepness of the transition a₃ (m/V), (6).
         pub a_3: R,
-        /// Blocked force per piezoelectric stress F_pre (N/Pa), (6).
-        pub force_per_stress: R,
+        /// Blocked force per piezoelectric stress F_pre (N/Pa) of each plate, (6).
+        pub force_per_stress: [R; 2],
         /// Relative change of a plate's force per displacement of the tip b = a₂ s_ε (1/m), (5), (6).
         pub b: R,
         /// Capacitance of a plate C_p (F).
         pub c_p: R,
+        /// Conductance of a plate that stands for its dielectric loss (S).
+        pub conductance: R,
+        /// Share of the returned power that the supply recovers.
+        pub charge_recovery: R,
 
         /// Stiffness of the actuator without the stiffening by strain (N/m), (3).
         pub k_soft: R,
@@ -51,6 +59,14 @@ crate::per_lane! {
 
         /// 1/m_e (1/kg), with the effective mass m_e = (I_zz + I_am) T².
         pub inverse_m_e: R,
+        /// J T² (kg): inertia of the stroke as felt at the tip.
+        pub stroke_mass: R,
+        /// Mass of the actuator as felt at its tip m_a (kg).
+        pub tip_mass: R,
+        /// Damping of the tip (N·s/m) that stands for the loss factor of its springs.
+        pub tip_damping: R,
+        /// Damping of the stroke as felt at the tip (N·s/m): that about the stroke axis times T².
+        pub stroke_damping: R,
         /// Drag at the tip C_A (kg/m), (8).
         pub c_a: R,
         /// Its swing with the hinge angle C_B (kg/m), (8).
@@ -64,6 +80,10 @@ crate::per_lane! {
         pub centrifugal: R,
         /// Stiffness of the hinge κ_wh (N·m/rad).
         pub kappa_wh: R,
+        /// Damping of the hinge (N·m·s), that of its loss factor included.
+        pub hinge_damping: R,
+        /// Strain of the hinge per angle (1/rad); zero if the hinge's size is not known.
+        pub hinge_strain: R,
         /// Rotational drag C_C (N·m·s²), (9).
         pub c_c: R,
         /// Aerodynamic torque about the hinge per coefficient and centre of pressure (kg), (10), (11).
@@ -90,6 +110,8 @@ crate::per_lane! {
 
         /// Transmission ratio T (rad/m).
         pub ratio: R,
+        /// Growth of the ratio with the square of the displacement τ = T₃/T (1/m²).
+        pub ratio_growth: R,
         /// Strain of a plate's mid-plane per displacement of the tip s_ε (1/m), (5).
         pub strain_per_tip: R,
         /// Strain of a plate's outer face over that of its mid-plane.
@@ -116,7 +138,8 @@ impl Constants<f64> {
         } else {
             0.0
         };
-        let field_max = p.drive_voltage_pp * (1.0 + harmonics) / p.piezo_thickness;
+        let voltage_max = p.drive_voltage_pp * (1.0 + harmonics) + 0.5 * p.drive_offset.abs();
+        let field_max = voltage_max / p.piezo_thickness;
         let steepest = (p.stress_field.abs() + field_max) * p.stress_steepness;
         let z_0 = p.modulus_steepness * p.modulus_strain;
         if steepest.max(z_0.abs()) > EXPONENT_MAX {
@@ -143,8 +166,12 @@ impl Constants<f64> {
         let b_2 = 0.5 * (p.drag_coefficient_max - p.drag_coefficient_min);
 
         let one_if = |yes: bool| if yes { 1.0 } else { 0.0 };
-        let constants = Constants {
-            drive: p.drive(),
+        let drive = p.drive();
+        let c_p = 0.25 * p.vehicle_capacitance;
+        let stroke_inertia = p.wing_inertia_stroke + p.added_inertia_stroke;
+        let mut constants = Constants {
+            drive,
+            half_offset: 0.5 * p.drive_offset,
 
             field_per_volt: 1.0 / p.piezo_thickness,
             f_min: p.piezo_stress_min,
@@ -153,9 +180,11 @@ impl Constants<f64> {
             f_decline: p.stress_decline * p.piezo_stress_max,
             field_0: p.stress_field,
             a_3: p.stress_steepness,
-            force_per_stress: actuator.force_per_stress,
+            force_per_stress: [actuator.force_per_stress, actuator.force_per_stress * p.plate_ratio],
             b: p.force_strain_slope * actuator.strain_per_tip,
-            c_p: 0.25 * p.vehicle_capacitance,
+            c_p,
+            conductance: p.electrical.conductance(c_p, drive.rate),
+            charge_recovery: p.electrical.charge_recovery,
 
             k_soft: actuator.stiffness_per_modulus * soft_modulus + actuator.shim_stiffness,
             f_stiff: actuator.stiffness_per_modulus * half_range / u_per_tip * one_if(stiffens),
@@ -163,8 +192,11 @@ impl Constants<f64> {
             sigma_0,
             k_t: p.transmission_stiffness,
 
-            inverse_m_e: 1.0
-                / ((p.wing_inertia_stroke + p.added_inertia_stroke) * (ratio * ratio) + p.actuator_mass),
+            inverse_m_e: 1.0 / (stroke_inertia * (ratio * ratio) + p.actuator_mass),
+            stroke_mass: stroke_inertia * (ratio * ratio),
+            tip_mass: p.actuator_mass,
+            tip_damping: 0.0,
+            stroke_damping: p.stroke_damping * (ratio * ratio),
             c_a: force * p.pressure_radius * ratio * b_1,
             c_b: force * p.pressure_radius * ratio * b_2,
 
@@ -172,6 +204,8 @@ impl Constants<f64> {
             coupling: p.wing_inertia_product * ratio,
             centrifugal: 0.5 * p.wing_inertia_hinge * (ratio * ratio),
             kappa_wh: p.hinge_stiffness,
+            hinge_damping: p.hinge_damping + p.hinge.damping(p.hinge_stiffness, drive.rate),
+            hinge_strain: p.hinge.strain_per_angle(),
             c_c: dynamic * p.rotation_pressure_width * (w_2 * w_2) * p.drag_coefficient_max,
             hinge_torque: force * (p.wing_area / p.wing_length),
             p_min: p.pressure_min,
@@ -186,10 +220,13 @@ impl Constants<f64> {
             force,
 
             ratio,
+            ratio_growth: p.transmission_growth / ratio,
             strain_per_tip: actuator.strain_per_tip,
             surface_strain_ratio: actuator.surface_strain_ratio,
             vehicle_mass: p.vehicle_mass,
         };
+        let stiffness = secant_stiffness(&constants, 0.0) + constants.k_t;
+        constants.tip_damping = structural_damping(p.stroke_loss_factor, stiffness, drive.rate);
         if <Constants<f64> as PerLane<f64>>::is_finite(&constants) {
             Ok(constants)
         } else {

@@ -5,8 +5,10 @@ use super::constants::Constants;
 use super::dynamics::Bimorph;
 use super::params::Params;
 use super::rhs::{
-    Plate, charging_power, currents, double_angle, lift_and_drag, plate, plate_forces, tip_drag,
+    Plate, charging_power, currents, double_angle, leakage, lift_and_drag, plate_forces, plates,
+    stroke_damping, tip_drag,
 };
+use super::transmission::{Law, Transmission, stroke};
 use crate::drive::{Drive, DriveConstants, Shape, StrokeMode, Wave, Waveform};
 use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Model, Motions, Signal};
 use crate::modes::Mode;
@@ -28,8 +30,11 @@ impl Model<4, S> for Bimorph {
     const ENERGY: Option<EnergyBalance> = Some(columns::ENERGY);
 
     fn variant(&self, values: &[f64]) -> Bimorph {
-        let Params { waveform, .. } = Params::from_values(values);
-        Bimorph { drive: self.drive.of_point(waveform.drive_shape, StrokeMode::Free) }
+        let Params { waveform, transmission_growth, .. } = Params::from_values(values);
+        Bimorph {
+            drive: self.drive.of_point(waveform.drive_shape, StrokeMode::Free),
+            law: if transmission_growth == 0.0 { Law::Constant } else { Law::Square },
+        }
     }
 
     /// Starts at rest. The scales are those of the direct-drive model, so that tolerances and residuals mean the
@@ -55,13 +60,17 @@ impl Model<4, S> for Bimorph {
         let [x, x_dot, psi, psi_dot] = *y;
         let (sin, cos) = psi.sin_cos();
         let (sin_2psi, cos_2psi) = double_angle(sin, cos);
-        let [lift, drag] = lift_and_drag(c, x_dot, sin_2psi, cos_2psi);
+        let transmission = Transmission::at(c, self.law, x);
+        let rate = transmission.times(x_dot);
+        let [lift, drag] = lift_and_drag(c, rate, sin_2psi, cos_2psi);
         let [f_1, f_2] = plate_forces(c, plates, x);
         let [i_1, i_2] = currents(c, plates, x, x_dot);
-        let power_1 = plates[0].voltage.value * i_1;
-        let power_2 = plates[1].voltage.value * i_2;
+        let [leak_1, leak_2] = leakage(c, plates, self.mean_voltages(c));
+        let (i_1, i_2) = (i_1 + leak_1, i_2 + leak_2);
+        let [v_1, v_2] = [plates[0].voltage.value, plates[1].voltage.value];
+        let (power_1, power_2) = (v_1 * i_1, v_2 * i_2);
         [
-            c.ratio * x,
+            stroke(c, self.law, x),
             psi,
             lift,
             drag,
@@ -69,8 +78,11 @@ impl Model<4, S> for Bimorph {
             power_1,
             power_2,
             (f_1 - f_2) * x_dot,
-            tip_drag(c, cos_2psi) * x_dot * x_dot * x_dot.abs(),
+            tip_drag(c, cos_2psi) * rate * rate * rate.abs(),
             c.c_c * psi_dot * psi_dot * psi_dot.abs(),
+            stroke_damping(c, &transmission, x_dot, rate) * x_dot,
+            c.hinge_damping * psi_dot * psi_dot,
+            v_1 * leak_1 + v_2 * leak_2,
             i_1,
             i_2,
             f_1,
@@ -111,8 +123,12 @@ impl Motions<4, S> for Bimorph {
     }
 
     fn placed(c: &Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<[Plate<f64>; 2], 4> {
-        let [x, x_dot, x_ddot] = stroke.map(|stroke| stroke / c.ratio);
-        let unknown = plate(c, Wave::with_rate(f64::NAN, f64::NAN));
-        ([x, x_dot, pitch[0], pitch[1]], [x_dot, x_ddot, pitch[1], pitch[2]], [unknown; 2])
+        let x = c.tip(stroke[0]);
+        // φ = T (x + τ x³/3), differentiated twice.
+        let (ratio, slope) = (c.ratio * (1.0 + c.ratio_growth * x * x), 2.0 * c.ratio * c.ratio_growth * x);
+        let x_dot = stroke[1] / ratio;
+        let x_ddot = (stroke[2] - slope * x_dot * x_dot) / ratio;
+        let unknown = plates(c, [Wave::with_rate(f64::NAN, f64::NAN); 2]);
+        ([x, x_dot, pitch[0], pitch[1]], [x_dot, x_ddot, pitch[1], pitch[2]], unknown)
     }
 }

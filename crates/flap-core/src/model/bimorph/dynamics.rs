@@ -1,7 +1,8 @@
 //! The bimorph model as a system of differential equations.
 
 use super::constants::Constants;
-use super::rhs::{Plate, derivative, plate, secant_stiffness};
+use super::rhs::{Plate, derivative, plates, secant_stiffness};
+use super::transmission::Law;
 use crate::drive::{Drive, DriveConstants};
 use crate::num::Lanes;
 use crate::ode::Ode;
@@ -11,6 +12,8 @@ use crate::ode::Ode;
 pub struct Bimorph {
     /// The drive voltage.
     pub drive: Drive,
+    /// Law of the transmission ratio.
+    pub law: Law,
 }
 
 impl Ode<4> for Bimorph {
@@ -22,11 +25,14 @@ impl Ode<4> for Bimorph {
     /// ```text
     /// V₁ = ½V_pp (1 − sin ωt)     V₂ = ½V_pp (1 + sin ωt)
     /// ```
+    ///
+    /// A bias between the plates moves them apart.
     #[inline(always)]
     fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> [Plate<R>; 2] {
         let DriveConstants { bias, amplitude, .. } = c.drive;
         let wave = self.drive.wave(&c.drive, t);
-        [plate(c, wave.scaled(bias, -amplitude)), plate(c, wave.scaled(bias, amplitude))]
+        let (first, second) = (bias + c.half_offset, bias - c.half_offset);
+        plates(c, [wave.scaled(first, -amplitude), wave.scaled(second, amplitude)])
     }
 
     #[inline(always)]
@@ -36,11 +42,19 @@ impl Ode<4> for Bimorph {
 
     #[inline(always)]
     fn rhs<R: Lanes>(&self, c: &Constants<R>, plates: &[Plate<R>; 2], _side: R, y: &[R; 4]) -> [R; 4] {
-        derivative(c, plates, y)
+        derivative(c, self.law, plates, y)
     }
 }
 
 impl Bimorph {
+    /// Mean voltages of the two plates (V) over a period.
+    #[inline(always)]
+    pub(super) fn mean_voltages<R: Lanes>(&self, c: &Constants<R>) -> [R; 2] {
+        let DriveConstants { bias, amplitude, .. } = c.drive;
+        let swing = amplitude * self.drive.mean();
+        [bias + c.half_offset - swing, bias - c.half_offset + swing]
+    }
+
     /// Natural frequencies (Hz) of small motions without drag: of the stroke and of the hinge.
     ///
     /// (1) contains no reaction of the hinge, so each is that of its own oscillator:

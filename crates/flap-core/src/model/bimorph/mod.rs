@@ -11,6 +11,7 @@ mod definition;
 mod dynamics;
 mod params;
 mod rhs;
+mod transmission;
 
 pub use actuator::{Actuator, taper_gain};
 pub use columns::S;
@@ -19,5 +20,6 @@ pub use dynamics::Bimorph;
 pub use params::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
 pub use rhs::{
     Plate, charges, charging_power, currents, derivative, drag_coefficient, elastic_force, hinge_drag,
-    lift_and_drag, plate, plate_forces, secant_stiffness, stiffening, tip_drag,
+    leakage, lift_and_drag, plate_forces, plates, secant_stiffness, stiffening, tip_drag,
 };
+pub use transmission::{Law, Transmission};

@@ -1,9 +1,11 @@
 //! Parameters of the bimorph model and their published values.
 
 use crate::drive::{DriveConstants, WaveformParameters};
+use crate::linkage::HingeParameters;
 use crate::parameter::Kind::{Choice, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
 use crate::parameter::{Preset, Range};
+use crate::piezo::ElectricalParameters;
 
 crate::parameters! {
     /// Parameters of the bimorph model, in SI units. Symbols as in Jafferis, Graule and Wood 2016, Table I.
@@ -15,12 +17,20 @@ crate::parameters! {
         drive_frequency: f64 = ("Hz", "f", Number(Positive)),
         /// Parameters of the waveform.
         waveform: WaveformParameters = (flatten),
+        /// Bias between the plates: the voltage of plate 1 is half of it higher, that of plate 2 half of it lower. Not in the paper.
+        drive_offset: f64 = ("V", "", Number(Any)),
 
         ["transmission"]
         /// Transmission ratio: stroke angle per displacement of the actuator's tip.
         transmission_ratio: f64 = ("rad/m", "T", Number(Positive)),
         /// Stiffness of the transmission felt at the actuator's tip: T^2 kappa_t.
         transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative), fitted),
+        /// Growth of the transmission ratio with the square of the tip's displacement x: T + T_3 x^2. Not in the paper.
+        transmission_growth: f64 = ("rad/m^3", "T_3", Number(Any)),
+        /// Damping of the stroke, about the stroke axis. Not in the paper.
+        stroke_damping: f64 = ("N*m*s", "", Number(NonNegative)),
+        /// Loss factor of the stroke's spring, actuator and transmission together: a damping of loss factor times stiffness over the drive's angular frequency.
+        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative)),
 
         ["wing"]
         /// Distance from the transmission's flexure to the wing's tip.
@@ -45,6 +55,10 @@ crate::parameters! {
         ["hinge"]
         /// Stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive), fitted),
+        /// Damping of the wing hinge. Not in the paper.
+        hinge_damping: f64 = ("N*m*s", "", Number(NonNegative)),
+        /// Loss factor and size of the hinge.
+        hinge: HingeParameters = (flatten),
 
         ["air"]
         /// Density of air. Assumed: the paper gives none.
@@ -107,6 +121,10 @@ crate::parameters! {
         stiffness_factor: f64 = ("", "p_4", Number(Positive), fitted),
         /// Factor on the actuator's stiffness that brings its free deflection to the measured one.
         deflection_factor: f64 = ("", "p_5", Number(Positive), fitted),
+        /// Force of plate 2 over that of plate 1 at the same voltage. Not in the paper.
+        plate_ratio: f64 = ("", "", Number(NonNegative)),
+        /// Dielectric loss and charge recovery.
+        electrical: ElectricalParameters = (flatten),
 
         ["vehicle"]
         /// Capacitance of a vehicle's two actuators together: four plates.
@@ -180,8 +198,12 @@ impl Params {
             drive_voltage_pp: 200.0,
             drive_frequency: 120.0,
             waveform: WaveformParameters::SINE,
+            drive_offset: 0.0,
             transmission_ratio: 3333.0,
             transmission_stiffness: 197.7,
+            transmission_growth: 0.0,
+            stroke_damping: 0.0,
+            stroke_loss_factor: 0.0,
             wing_length: 17e-3,
             wing_area: 54.59e-6,
             wing_radius_2: 0.564,
@@ -192,6 +214,8 @@ impl Params {
             wing_inertia_hinge: 0.95 * 1.29e-12,
             wing_inertia_product: 0.29 * 2.8e-12,
             hinge_stiffness: 0.985 * 1.52e-6,
+            hinge_damping: 0.0,
+            hinge: HingeParameters::NONE,
             air_density: 1.2,
             drag_coefficient_max: 1.25 * 3.4,
             drag_coefficient_min: 0.39 * 0.4,
@@ -221,6 +245,8 @@ impl Params {
             force_factor: 0.7,
             stiffness_factor: 0.79,
             deflection_factor: 0.8,
+            plate_ratio: 1.0,
+            electrical: ElectricalParameters::NONE,
             vehicle_capacitance: 10.1e-9,
             vehicle_mass: 80e-6,
             field_transition: FieldTransition::Corrected,

@@ -9,6 +9,7 @@
 use core::f64::consts::FRAC_2_PI;
 
 use super::constants::{Constants, EXPONENT_MAX};
+use super::transmission::{Law, Transmission};
 use crate::drive::Wave;
 use crate::num::Real;
 
@@ -25,6 +26,13 @@ pub struct Plate<R> {
     pub force_bend: R,
 }
 
+/// Both plates under their voltages. They have the same force but for the factor that `c` has.
+#[inline(always)]
+pub fn plates<R: Real>(c: &Constants<R>, voltages: [Wave<R>; 2]) -> [Plate<R>; 2] {
+    let [f_1, f_2] = c.force_per_stress;
+    [plate(c, f_1, voltages[0]), plate(c, f_2, voltages[1])]
+}
+
 /// The force of a plate at zero strain (6), with its derivatives, which the current needs.
 ///
 /// ```text
@@ -33,7 +41,7 @@ pub struct Plate<R> {
 ///
 /// As printed, A has 2 f_min.
 #[inline(always)]
-pub fn plate<R: Real>(c: &Constants<R>, voltage: Wave<R>) -> Plate<R> {
+fn plate<R: Real>(c: &Constants<R>, force_per_stress: R, voltage: Wave<R>) -> Plate<R> {
     let field = voltage.value * c.field_per_volt;
     let one = field.lit(1.0);
     let s = one / ((c.a_3 * (c.field_0 - field)).exp() + 1.0);
@@ -45,10 +53,10 @@ pub fn plate<R: Real>(c: &Constants<R>, voltage: Wave<R>) -> Plate<R> {
     let s_2 = c.a_3 * s_1 * (one - s * 2.0);
     let f_1 = a * s_1 - c.f_decline * s;
     let f_2 = a * s_2 - c.f_decline * s_1 * 2.0;
-    let per_volt = c.force_per_stress * c.field_per_volt;
+    let per_volt = force_per_stress * c.field_per_volt;
     Plate {
         voltage,
-        force: c.force_per_stress * field * f,
+        force: force_per_stress * field * f,
         force_per_volt: per_volt * (f + field * f_1),
         force_bend: per_volt * c.field_per_volt * (f_1 * 2.0 + field * f_2),
     }
@@ -140,27 +148,46 @@ pub(super) fn double_angle<R: Real>(sin: R, cos: R) -> (R, R) {
 /// m_e ẍ + (K_act(x) + K_t) x + (C_A + C_B cos 2ψ) |ẋ| ẋ = F₁ − F₂
 /// I_xx ψ̈ + κ_wh ψ + C_C |ψ̇| ψ̇ = C_D ẋ|ẋ| + I_xz T ẍ cos ψ + ½ I_xx (Tẋ)² sin 2ψ
 /// ```
+///
+/// Not in the paper: damping of stroke and hinge, zero unless asked for; and a [`Transmission`] whose ratio grows. Then
+/// T ẋ is φ̇ and T ẍ is φ̈.
 #[inline(always)]
-pub fn derivative<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], y: &[R; 4]) -> [R; 4] {
+pub fn derivative<R: Real>(c: &Constants<R>, law: Law, plates: &[Plate<R>; 2], y: &[R; 4]) -> [R; 4] {
     let [x, x_dot, psi, psi_dot] = *y;
     let (sin, cos) = psi.sin_cos();
     let (sin_2psi, cos_2psi) = double_angle(sin, cos);
-    let flow = x_dot.abs() * x_dot;
+    let transmission = Transmission::at(c, law, x);
+    let rate = transmission.times(x_dot);
+    let flow = rate.abs() * rate;
 
     let [f_1, f_2] = plate_forces(c, plates, x);
     let restoring = elastic_force(c, x) + c.k_t * x;
-    let x_ddot = (f_1 - f_2 - restoring - tip_drag(c, cos_2psi) * flow) * c.inverse_m_e;
+    let drag = transmission.times(tip_drag(c, cos_2psi) * flow);
+    let force = f_1 - f_2 - restoring - drag - stroke_damping(c, &transmission, x_dot, rate);
+    let x_ddot = transmission.acceleration(c, force, x_dot);
 
     let psi_ddot = (hinge_drag(c, psi, x_dot, sin, cos) * flow
-        + c.coupling * x_ddot * cos
-        + c.centrifugal * x_dot * x_dot * sin_2psi
+        + c.coupling * transmission.stroke_acceleration(x_ddot, x_dot) * cos
+        + c.centrifugal * rate * rate * sin_2psi
         - c.kappa_wh * psi
-        - c.c_c * psi_dot.abs() * psi_dot)
+        - (c.c_c * psi_dot.abs() + c.hinge_damping) * psi_dot)
         * c.inverse_i_xx;
     [x_dot, x_ddot, psi_dot, psi_ddot]
 }
 
-/// Lift and drag of the wing (N). The paper prints neither; this is the form that (8) and (10) imply.
+/// Force of the stroke's damping at the tip (N): that of the springs' loss factor, and that about the stroke axis.
+#[inline(always)]
+pub(super) fn stroke_damping<R: Real>(
+    c: &Constants<R>,
+    transmission: &Transmission<R>,
+    x_dot: R,
+    rate: R,
+) -> R {
+    c.tip_damping * x_dot + transmission.times(c.stroke_damping * rate)
+}
+
+/// Lift and drag of the wing (N) at the stroke rate φ̇ over T, which is ẋ in the paper. The paper prints neither; this is the
+/// form that (8) and (10) imply.
 ///
 /// ```text
 /// L = ½ρA_w r̂₂²R²T² ẋ|ẋ| b_L sin 2ψ     D = ½ρA_w r̂₂²R²T² ẋ|ẋ| (b₁ + b₂ cos 2ψ)
@@ -168,8 +195,8 @@ pub fn derivative<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], y: &[R; 4])
 ///
 /// Drag opposes the stroke: its work R_cp T ẋ D is the actuator's loss to the air.
 #[inline(always)]
-pub fn lift_and_drag<R: Real>(c: &Constants<R>, x_dot: R, sin_2psi: R, cos_2psi: R) -> [R; 2] {
-    let force = c.force * x_dot.abs() * x_dot;
+pub fn lift_and_drag<R: Real>(c: &Constants<R>, rate: R, sin_2psi: R, cos_2psi: R) -> [R; 2] {
+    let force = c.force * rate.abs() * rate;
     [force * c.b_l * sin_2psi, force * drag_coefficient(c, cos_2psi)]
 }
 
@@ -201,6 +228,8 @@ pub fn charging_power<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2]) -> R {
 /// i₁ = C_p V̇₁ + g''(V₁) V̇₁ (x − ½ b x²) + g'(V₁) (1 − b x) ẋ
 /// i₂ = C_p V̇₂ − g''(V₂) V̇₂ (x + ½ b x²) − g'(V₂) (1 + b x) ẋ
 /// ```
+///
+/// Dielectric loss adds [`leakage`] to them.
 #[inline(always)]
 pub fn currents<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R, x_dot: R) -> [R; 2] {
     let [p_1, p_2] = plates;
@@ -211,4 +240,11 @@ pub fn currents<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R, x_dot: 
         (c.c_p + p_1.force_bend * (x - bend)) * p_1.voltage.rate + p_1.force_per_volt * (x_dot - moved),
         (c.c_p - p_2.force_bend * (x + bend)) * p_2.voltage.rate - p_2.force_per_volt * (x_dot + moved),
     ]
+}
+
+/// Currents of the dielectric loss (A): conductance times the voltage less its mean.
+#[inline(always)]
+pub fn leakage<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], means: [R; 2]) -> [R; 2] {
+    let [v_1, v_2] = [plates[0].voltage.value, plates[1].voltage.value];
+    [c.conductance * (v_1 - means[0]), c.conductance * (v_2 - means[1])]
 }

@@ -9,6 +9,7 @@ use super::chord::{BLADES, blades};
 use super::params::{AddedMass, CentreOfPressure, FlowDirection, LiftSign, Params};
 use crate::aero::Strips;
 use crate::drive::DriveConstants;
+use crate::linkage::structural_damping;
 use crate::model::stroke_and_pitch::inertias_apart;
 use crate::num::PerLane;
 use crate::parameter::Invalid;
@@ -24,10 +25,20 @@ crate::per_lane! {
         pub k_phi: R,
         /// Hinge stiffness k_w (N·m/rad).
         pub k_w: R,
+        /// Damping of the stroke (N·m·s), that of its spring's loss factor included.
+        pub stroke_damping: R,
+        /// Damping of the hinge (N·m·s), that of its loss factor included.
+        pub hinge_damping: R,
+        /// Strain of the hinge per angle (1/rad); zero if the hinge's size is not known.
+        pub hinge_strain: R,
         /// Torque per voltage and charge per stroke angle Γ (N·m/V = C/rad), (11), (38).
         pub gamma: R,
         /// Capacitance C_p (F), (37).
         pub c_p: R,
+        /// Conductance that stands for the dielectric loss (S).
+        pub conductance: R,
+        /// Share of the returned power that the supply recovers.
+        pub charge_recovery: R,
 
         /// Inertia of actuator, leading edge and wing about the stroke axis m₁₁ (kg·m²).
         pub m11: R,
@@ -151,13 +162,21 @@ impl Constants<f64> {
         let k_lift = FRAC_PI_2 * (r / c) / (1.0 + (aspect * aspect + 1.0).sqrt());
 
         let one_if = |yes: bool| if yes { 1.0 } else { 0.0 };
+        let drive = p.drive();
+        let k_phi = 0.5 * s_a * widths / l_a;
+        let c_p = p.piezo_permittivity * widths * l_a / (2.0 * p.piezo_thickness);
         let constants = Constants {
-            drive: p.drive(),
+            drive,
 
-            k_phi: 0.5 * s_a * widths / l_a,
+            k_phi,
             k_w: p.hinge_stiffness,
+            stroke_damping: p.stroke_damping + structural_damping(p.stroke_loss_factor, k_phi, drive.rate),
+            hinge_damping: p.hinge_damping + p.hinge.damping(p.hinge_stiffness, drive.rate),
+            hinge_strain: p.hinge.strain_per_angle(),
             gamma: 0.5 * p.piezo_modulus * p.piezo_coefficient * (z_0 - z_c) * widths,
-            c_p: p.piezo_permittivity * widths * l_a / (2.0 * p.piezo_thickness),
+            c_p,
+            conductance: p.electrical.conductance(c_p, drive.rate),
+            charge_recovery: p.electrical.charge_recovery,
 
             m11: j_a + p.leading_edge_inertia + p.wing_mass * x_g * x_g + p.wing_inertia_chord,
             m_s,

@@ -55,7 +55,9 @@ impl Model<4, S> for DirectDrive {
         let added = added_mass(c, sin, cos, &states::slope(&self.drive, drive, dy));
         // A prescribed stroke says nothing about the actuator.
         let unknown = self.drive.prescribes_stroke();
-        let current = if unknown { phi.lit(f64::NAN) } else { current(c, drive, phi_dot) };
+        let leakage = c.conductance * (drive.value - self.drive.mean_voltage(&c.drive));
+        let [current, leakage] =
+            if unknown { [phi.lit(f64::NAN); 2] } else { [current(c, drive, phi_dot) + leakage, leakage] };
         [
             phi,
             psi,
@@ -65,6 +67,9 @@ impl Model<4, S> for DirectDrive {
             current * drive.value,
             -(air.stroke_moment * phi_dot + air.pitch_moment * psi_dot),
             -(air.rotation_moment * psi_dot),
+            c.stroke_damping * phi_dot * phi_dot,
+            c.hinge_damping * psi_dot * psi_dot,
+            leakage * drive.value,
             current,
             (drive.value - c.drive.bias) * (current - c.c_p * drive.rate),
         ]

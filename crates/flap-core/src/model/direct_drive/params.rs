@@ -1,10 +1,11 @@
 //! Parameters of the direct-drive model and their published values.
 
 use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
-use crate::linkage::TorsionHinge;
+use crate::linkage::{HingeParameters, TorsionHinge};
 use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Preset;
 use crate::parameter::Range::{Any, NonNegative, Positive};
+use crate::piezo::ElectricalParameters;
 
 crate::parameters! {
     /// Parameters of the direct-drive model, in SI units. Symbols as in Ozaki and Hamaguchi 2018, Table A1.
@@ -48,6 +49,10 @@ crate::parameters! {
         ["hinge"]
         /// Stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "k_w", Number(Positive)),
+        /// Damping of the wing hinge. Not in the paper.
+        hinge_damping: f64 = ("N*m*s", "", Number(NonNegative)),
+        /// Loss factor and size of the hinge.
+        hinge: HingeParameters = (flatten),
 
         ["wing shape"]
         /// Direction of flow that the translational forces follow: that of the wing's mean velocity, one for the whole wing as in the paper, or that of each blade element's own velocity. With "blade" the shape moments, rotation_moment and midspan_chord are computed from the chord shape, and what is given for them is not used.
@@ -104,6 +109,12 @@ crate::parameters! {
         piezo_coefficient: f64 = ("m/V", "d_pz", Number(Any)),
         /// Permittivity of the piezoelectric layer (free or clamped is not stated in the paper).
         piezo_permittivity: f64 = ("F/m", "eps_pz", Number(NonNegative)),
+        /// Damping of the stroke, about the stroke axis. Not in the paper.
+        stroke_damping: f64 = ("N*m*s", "", Number(NonNegative)),
+        /// Loss factor of the stroke's spring, the actuator: a damping of loss factor times stiffness over the drive's angular frequency.
+        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative)),
+        /// Dielectric loss and charge recovery.
+        electrical: ElectricalParameters = (flatten),
 
         ["air"]
         /// Density of air.
@@ -219,6 +230,8 @@ impl Params {
             wing_inertia_product: 3.62e-13,
             leading_edge_inertia: 3.89e-9,
             hinge_stiffness: 1.48e-4,
+            hinge_damping: 0.0,
+            hinge: HingeParameters::NONE,
             flow_direction: FlowDirection::Uniform,
             chord_legendre_1: 0.0562,
             chord_legendre_2: -0.0913,
@@ -245,6 +258,9 @@ impl Params {
             shim_density: 2250.0,
             piezo_coefficient: 950e-12,
             piezo_permittivity: 2920.0 * EPSILON_0,
+            stroke_damping: 0.0,
+            stroke_loss_factor: 0.0,
+            electrical: ElectricalParameters::NONE,
             air_density: 1.29,
             drag_coefficient_max: 5.0,
             drag_coefficient_min: 0.4,

@@ -160,6 +160,8 @@ fn centre_of_pressure<R: Real>(c: &Constants<R>, psi: R, side: R) -> R {
 /// Q₂ = −k_w ψ + m_s φ̇² s c − a₁₂ φ̇ψ̇ s + M_tr,x′ + M_rot
 /// ```
 ///
+/// Damping of stroke and hinge, which the paper does not have, takes from both in proportion to φ̇ and ψ̇.
+///
 /// The Lagrangian form of the added mass adds ψ̇ e to Q₁ and −φ̇ e to Q₂, e = (a₁₁ φ̇ c − a₁₂ ψ̇) s.
 #[inline(always)]
 pub fn balance<R: Real>(c: &Constants<R>, flow: FlowDirection, side: R, y: &[R; 4]) -> Balance<R> {
@@ -171,11 +173,13 @@ pub fn balance<R: Real>(c: &Constants<R>, flow: FlowDirection, side: R, y: &[R; 
     let gyroscopic = c.gyroscopic * (c.a11 * phi_dot * cos - c.a12 * psi_dot) * sin;
     let q1 = (c.a11 - c.m_s * 2.0) * both * sin * cos + c.m12 * psi_dot * psi_dot * sin + air.stroke_moment
         - c.k_phi * phi
-        + psi_dot * gyroscopic;
+        + psi_dot * gyroscopic
+        - c.stroke_damping * phi_dot;
     let q2 = c.m_s * phi_dot * phi_dot * sin * cos - c.k_w * psi - c.a12 * both * sin
         + air.pitch_moment
         + air.rotation_moment
-        - phi_dot * gyroscopic;
+        - phi_dot * gyroscopic
+        - c.hinge_damping * psi_dot;
 
     let m11 = c.m11 + c.m_s * sin * sin + c.a11 * cos * cos;
     let m12 = (c.m12 - c.a12) * cos;
@@ -215,7 +219,7 @@ pub fn lift<R: Real>(c: &Constants<R>, air: &Aerodynamics<R>, added: &AddedMassL
     air.lift - c.lift_sign * added.force * sin
 }
 
-/// Current into the actuator j_A (A), (39) with the reciprocal coupling: C_p V̇ + Γ φ̇.
+/// Current into the actuator j_A (A), (39) with the reciprocal coupling: C_p V̇ + Γ φ̇. Dielectric loss adds to it.
 #[inline(always)]
 pub fn current<R: Real>(c: &Constants<R>, drive: &Wave<R>, phi_dot: R) -> R {
     c.c_p * drive.rate + c.gamma * phi_dot

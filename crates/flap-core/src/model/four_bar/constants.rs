@@ -8,7 +8,7 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use super::params::{AddedMassSign, Arms, MAX_STRIPS, Params, Quadrature, STRIPS};
 use crate::aero::{Cut, Strips, sum};
 use crate::drive::DriveConstants;
-use crate::linkage::{FourBar, LinkInertias, LinkLengths, SliderCrank};
+use crate::linkage::{FourBar, LinkInertias, LinkLengths, SliderCrank, structural_damping};
 use crate::model::stroke_and_pitch::inertias_apart;
 use crate::num::PerLane;
 use crate::parameter::Invalid;
@@ -30,6 +30,10 @@ crate::per_lane! {
         pub coupling: R,
         /// Capacitance with the tip blocked C_b (F).
         pub capacitance: R,
+        /// Conductance that stands for the dielectric loss (S).
+        pub conductance: R,
+        /// Share of the returned power that the supply recovers.
+        pub charge_recovery: R,
         /// Mass that moves with the tip m_eff (kg).
         pub mass: R,
         /// Thickness of the piezoelectric layer h_p (m).
@@ -54,8 +58,12 @@ crate::per_lane! {
         pub j_difference: R,
         /// Damping of the stroke D (N·m·s).
         pub stroke_damping: R,
+        /// Damping of the slider-crank (N·s/m) that stands for the loss factor of actuator and series spring.
+        pub spring_damping: R,
         /// Damping of the hinge d (N·m·s).
         pub hinge_damping: R,
+        /// Strain of the hinge per angle (1/rad); zero if the hinge's size is not known.
+        pub hinge_strain: R,
         /// Stiffness of the hinge k_rot (N·m/rad).
         pub hinge_stiffness: R,
     }
@@ -136,13 +144,15 @@ impl Constants<f64> {
     /// allowed, the mass matrix is not positive definite for every position, or a constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let cuts = cut(p)?;
+        let drive = p.drive();
+        let actuator = actuator(p, drive.rate);
         let constants = Constants {
-            drive: p.drive(),
-            actuator: actuator(p),
+            drive,
+            actuator,
             slider_crank: SliderCrank { crank: p.crank_radius, rod: p.connecting_rod },
             four_bar: four_bar(p)?,
             links: link_inertias(p),
-            wing: wing(p, &cuts),
+            wing: wing(p, &cuts, actuator.stiffness, drive.rate),
             air: air(p, &cuts),
             strips: Strips::new(&cuts, p.air_density, arms(p)[0]),
         };
@@ -202,8 +212,8 @@ fn cut(p: &Params) -> Result<Vec<Cut>, Invalid> {
     }
 }
 
-/// Actuator and series spring [(1), (2)].
-fn actuator(p: &Params) -> Actuator<f64> {
+/// Actuator and series spring [(1), (2)] at the angular frequency `rate` (rad/s).
+fn actuator(p: &Params, rate: f64) -> Actuator<f64> {
     let unimorph = Unimorph {
         length: p.actuator_length,
         width: p.actuator_width,
@@ -220,6 +230,8 @@ fn actuator(p: &Params) -> Actuator<f64> {
         series_compliance: 1.0 / p.series_stiffness,
         coupling,
         capacitance,
+        conductance: p.electrical.conductance(capacitance, rate),
+        charge_recovery: p.electrical.charge_recovery,
         mass,
         piezo_thickness: p.piezo_thickness,
     }
@@ -271,8 +283,9 @@ fn link_inertias(p: &Params) -> LinkInertias<f64> {
     }
 }
 
-/// Inertia of the wing with the added mass in its centre of mass (13), (19).
-fn wing(p: &Params, cuts: &[Cut]) -> Wing<f64> {
+/// Inertia of the wing with the added mass in its centre of mass (13), (19), and the damping of its joints: at the angular
+/// frequency `rate` (rad/s), with a `spring` (N/m) at the slider-crank.
+fn wing(p: &Params, cuts: &[Cut], spring: f64, rate: f64) -> Wing<f64> {
     let m = p.wing_mass + FRAC_PI_4 * p.air_density * sum(cuts, |_, c| c * c);
     let (r, beta) = (p.mass_centre_radius, p.mass_centre_depth);
     Wing {
@@ -283,7 +296,9 @@ fn wing(p: &Params, cuts: &[Cut]) -> Wing<f64> {
         j_pitch: m * beta * beta + p.wing_inertia_span,
         j_difference: m * beta * beta + p.wing_inertia_normal - p.wing_inertia_chord,
         stroke_damping: p.stroke_damping,
-        hinge_damping: p.hinge_damping,
+        spring_damping: structural_damping(p.stroke_loss_factor, spring, rate),
+        hinge_damping: p.hinge_damping + p.hinge.damping(p.hinge_stiffness, rate),
+        hinge_strain: p.hinge.strain_per_angle(),
         hinge_stiffness: p.hinge_stiffness,
     }
 }

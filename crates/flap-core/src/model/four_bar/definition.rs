@@ -5,7 +5,9 @@ use super::columns::{self, S};
 use super::constants::Constants;
 use super::dynamics::FourBar;
 use super::params::Params;
-use super::rhs::{charging_current, current, driving_force, force, mass_matrix, tip, transmission};
+use super::rhs::{
+    charging_current, current, driving_force, force, mass_matrix, stroke_damping, tip, transmission,
+};
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::stroke_and_pitch as states;
 use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Model, Motions, Signal};
@@ -53,11 +55,13 @@ impl Model<4, S> for FourBar {
         let added_mass = added_mass_lift(&c.air, sin, cos, &states::slope(&self.drive, drive, dy));
         let links = transmission(c, theta);
         let slider_rate = links.slope * theta_dot;
+        let leakage = c.actuator.conductance * (drive.value - self.drive.mean_voltage(&c.drive));
         // A prescribed stroke says nothing about the actuator.
         let [force, current] = if self.drive.prescribes_stroke() {
             [theta.lit(f64::NAN); 2]
         } else {
-            [force(&c.actuator, drive, links.displacement), current(&c.actuator, drive, slider_rate)]
+            let current = current(&c.actuator, drive, slider_rate);
+            [force(&c.actuator, drive, links.displacement), current + leakage]
         };
         let swing = drive.value - c.drive.bias;
         [
@@ -69,11 +73,12 @@ impl Model<4, S> for FourBar {
             added_mass,
             air.drag,
             force * slider_rate,
-            c.wing.stroke_damping * theta_dot * theta_dot,
+            stroke_damping(&c.wing, &links) * theta_dot * theta_dot,
             c.wing.hinge_damping * phi_dot * phi_dot,
             -(air.stroke_moment * theta_dot + air.pitch_moment * phi_dot),
             -(air.rotation_stroke_moment * theta_dot + air.rotation_pitch_moment * phi_dot),
             current * drive.value,
+            leakage * drive.value,
             current,
             tip(&c.actuator, links.displacement, force),
             swing * (current - charging_current(&c.actuator, drive)),

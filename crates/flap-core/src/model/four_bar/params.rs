@@ -4,9 +4,11 @@
 //! stiffness, C_rot and the position of the rotation axis. Everything else is assumed, and says so.
 
 use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
+use crate::linkage::HingeParameters;
 use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
 use crate::parameter::{Preset, Range};
+use crate::piezo::ElectricalParameters;
 
 crate::parameters! {
     /// Parameters of the four-bar model, in SI units. Symbols as in Arabagi, Hines and Sitti 2013 where it has any.
@@ -46,6 +48,9 @@ crate::parameters! {
         piezo_coefficient: f64 = ("m/V", "d_31", Number(Any)),
         /// Permittivity of the unstressed piezoelectric layer; assumed: PZT-5H. Acts on the current alone.
         piezo_permittivity: f64 = ("F/m", "eps_T", Number(NonNegative)),
+        /// Dielectric loss and charge recovery.
+        electrical: ElectricalParameters = (flatten),
+
         ["transmission"]
         /// Stiffness in series between the actuator's tip and the slider-crank.
         series_stiffness: f64 = ("N/m", "k_sc", Number(Positive)),
@@ -78,12 +83,16 @@ crate::parameters! {
         output_link_inertia: Option<f64> = ("kg*m^2", "J_L3", Following(NonNegative, "output_link_mass * output_link^2 / 12")),
         /// Damping of the stroke by the transmission's flexures; assumed: modal damping ratios of 4 to 9 percent.
         stroke_damping: f64 = ("N*m*s", "D", Number(NonNegative)),
+        /// Loss factor of the stroke's spring, actuator and series spring together: a damping of loss factor times stiffness over the drive's angular frequency.
+        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative)),
 
         ["hinge"]
         /// Stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "k_rot", Number(Positive)),
         /// Damping of the wing hinge.
         hinge_damping: f64 = ("N*m*s", "d", Number(NonNegative)),
+        /// Loss factor and size of the hinge.
+        hinge: HingeParameters = (flatten),
 
         ["wing"]
         /// Distance from the stroke axis to the wing's root; assumed.
@@ -237,6 +246,7 @@ impl Params {
             shim_density: 7900.0,
             piezo_coefficient: 320e-12,
             piezo_permittivity: 3800.0 * EPSILON_0,
+            electrical: ElectricalParameters::NONE,
             series_stiffness: 1400.0,
             crank_radius: 3.285e-3,
             connecting_rod: 5e-3,
@@ -252,8 +262,10 @@ impl Params {
             coupler_link_inertia: None,
             output_link_inertia: None,
             stroke_damping: 2e-7,
+            stroke_loss_factor: 0.0,
             hinge_stiffness: 50e-6,
             hinge_damping: 5e-9,
+            hinge: HingeParameters::NONE,
             wing_offset: 4e-3,
             wing_length: 24e-3,
             root_chord: 8.3e-3,

@@ -5,7 +5,7 @@
 //! is vertical; φ > 0 displaces the trailing edge, which hangs below, to where θ > 0 goes.
 
 use super::aerodynamics::aerodynamics;
-use super::constants::{Actuator, Constants};
+use super::constants::{Actuator, Constants, Wing};
 use crate::drive::Wave;
 use crate::model::Balance;
 use crate::num::Real;
@@ -117,6 +117,8 @@ pub fn mass_matrix<R: Real>(c: &Constants<R>, inertia: R, sin: R, cos: R) -> [R;
 /// ⎡M₁₁ M₁₂⎤ ⎡θ̈⎤ = ⎡F δ′ + Q_θ − Dθ̇ + P sin φ φ̇² − J_d sin 2φ θ̇φ̇ − ½G′θ̇²⎤
 /// ⎣M₁₂ M₂₂⎦ ⎣φ̈⎦   ⎣Q_φ − dφ̇ − k_rot φ + ½J_d sin 2φ θ̇²                  ⎦
 /// ```
+///
+/// D is the [`stroke_damping`].
 #[inline(always)]
 pub fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: R, y: &[R; 4]) -> Balance<R> {
     let [_, phi, theta_dot, phi_dot] = *y;
@@ -125,7 +127,8 @@ pub fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: R, y: &
 
     let wing = &c.wing;
     let gyroscopic = wing.j_difference * sin * cos * theta_dot;
-    let stroke_moment = air.stroke_moment + air.rotation_stroke_moment - wing.stroke_damping * theta_dot
+    let stroke_moment = air.stroke_moment + air.rotation_stroke_moment
+        - stroke_damping(wing, links) * theta_dot
         + wing.coupling * sin * phi_dot * phi_dot
         - gyroscopic * phi_dot * 2.0
         - links.half_inertia_slope * theta_dot * theta_dot;
@@ -134,4 +137,15 @@ pub fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: R, y: &
         - wing.hinge_stiffness * phi
         + gyroscopic * theta_dot;
     Balance { mass: mass_matrix(c, links.inertia, sin, cos), stroke_moment, pitch_moment }
+}
+
+/// Damping of the stroke (N·m·s): D, and that of the loss factor γ of actuator and series spring, which the paper does not
+/// have.
+///
+/// ```text
+/// D + γ k_eff δ′²/ω
+/// ```
+#[inline(always)]
+pub(super) fn stroke_damping<R: Real>(wing: &Wing<R>, links: &Transmission<R>) -> R {
+    wing.stroke_damping + wing.spring_damping * links.slope * links.slope
 }

@@ -284,4 +284,4 @@ def _pitch_sign(data: Data) -> int:
     model = data.meta.get("model")
     if model is not None:
         return -1 if model == "four-bar" else 1
-    return -1 if "power_hinge_damping_mw" in data else 1
+    return -1 if "lift_added_mass_mn" in data else 1

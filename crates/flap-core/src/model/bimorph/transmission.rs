@@ -1,0 +1,114 @@
+//! The transmission of the bimorph model: its ratio is constant, or grows with the square of the displacement.
+//!
+//! ```text
+//! φ = T x + T₃ x³/3     φ̇ = T(x) ẋ     T(x) = T + T₃ x²
+//! ```
+//!
+//! The paper's is constant. Lagrange's equation for x with a moment M_φ about the stroke axis:
+//!
+//! ```text
+//! (m_a + J T(x)²) ẍ + J T(x) T′(x) ẋ² = F(x) + T(x) M_φ     T′(x) = 2 T₃ x
+//! ```
+
+use super::constants::Constants;
+use crate::num::Real;
+
+/// Laws of the transmission ratio, on which the equations branch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Law {
+    /// T(x) = T.
+    #[default]
+    Constant,
+    /// T(x) = T + T₃ x².
+    Square,
+}
+
+/// The transmission at a displacement of the tip, relative to its ratio T at rest.
+#[derive(Clone, Copy, Debug)]
+pub enum Transmission<R> {
+    /// T(x) = T.
+    Constant,
+    /// T(x) = T t with t = 1 + τ x², τ = T₃/T.
+    Square {
+        /// t.
+        ratio: R,
+        /// t′ = 2 τ x (1/m).
+        slope: R,
+    },
+}
+
+impl<R: Real> Transmission<R> {
+    /// The transmission at the displacement `x` (m).
+    #[inline(always)]
+    pub fn at(c: &Constants<R>, law: Law, x: R) -> Transmission<R> {
+        match law {
+            Law::Constant => Transmission::Constant,
+            Law::Square => {
+                let half_slope = c.ratio_growth * x;
+                Transmission::Square { ratio: half_slope.mul_add(x, x.lit(1.0)), slope: half_slope * 2.0 }
+            }
+        }
+    }
+
+    /// t times a number. Of ẋ it makes φ̇/T (m/s); of a moment about the stroke axis times T, its force at the tip (N).
+    #[inline(always)]
+    pub fn times(&self, number: R) -> R {
+        match *self {
+            Transmission::Constant => number,
+            Transmission::Square { ratio, .. } => ratio * number,
+        }
+    }
+
+    /// Acceleration of the tip (m/s²) by a `force` (N) on it: `ẍ = (F − J T T′ ẋ²)/(m_a + J T²)`.
+    #[inline(always)]
+    pub fn acceleration(&self, c: &Constants<R>, force: R, x_dot: R) -> R {
+        match *self {
+            Transmission::Constant => force * c.inverse_m_e,
+            Transmission::Square { ratio, slope } => {
+                let inertia = c.stroke_mass * ratio;
+                (force - inertia * slope * x_dot * x_dot) / (inertia * ratio + c.tip_mass)
+            }
+        }
+    }
+
+    /// Acceleration of the stroke φ̈/T (m/s²), `t ẍ + t′ ẋ²`.
+    #[inline(always)]
+    pub fn stroke_acceleration(&self, x_ddot: R, x_dot: R) -> R {
+        match *self {
+            Transmission::Constant => x_ddot,
+            Transmission::Square { ratio, slope } => ratio * x_ddot + slope * x_dot * x_dot,
+        }
+    }
+}
+
+/// The stroke angle φ (rad) at the displacement `x` (m).
+#[inline(always)]
+pub(super) fn stroke<R: Real>(c: &Constants<R>, law: Law, x: R) -> R {
+    match law {
+        Law::Constant => c.ratio * x,
+        Law::Square => c.ratio * x * (c.ratio_growth * x * x * (1.0 / 3.0) + 1.0),
+    }
+}
+
+impl Constants<f64> {
+    /// The displacement (m) of the tip at a stroke angle (rad): the inverse of [`stroke`] between the displacements at which
+    /// the ratio is zero.
+    pub(super) fn tip(&self, stroke: f64) -> f64 {
+        let tau = self.ratio_growth;
+        let linear = stroke / self.ratio;
+        if tau == 0.0 {
+            return linear;
+        }
+        // Newton's iteration on x + τ x³/3, from below where that is convex and from above where it is concave.
+        let limit = if tau < 0.0 { (-1.0 / tau).sqrt() } else { f64::INFINITY };
+        let mut x = linear.clamp(-limit, limit);
+        for _ in 0..60 {
+            let step = (x + tau * x * x * x / 3.0 - linear) / (1.0 + tau * x * x);
+            if !step.is_finite() || step.abs() <= f64::EPSILON * x.abs() {
+                break;
+            }
+            x = (x - step).clamp(-limit, limit);
+        }
+        x
+    }
+}
