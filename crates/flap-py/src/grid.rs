@@ -241,7 +241,11 @@ pub(crate) fn axes<'py>(py: Python<'py>, plan: &Plan) -> PyResult<Bound<'py, PyL
     let list = PyList::empty(py);
     for axis in plan.axes().as_slice() {
         let dict = PyDict::new(py);
-        if axis.parameters().iter().any(|(_, values)| matches!(values, Values::Sampled { .. })) {
+        if axis
+            .parameters()
+            .iter()
+            .any(|(_, values)| matches!(values, Values::Sampled { .. } | Values::Correlated { .. }))
+        {
             dict.set_item("sample", PyArray1::from_iter(py, 0..axis.len()))?;
         } else if axis.parameters().iter().any(|(_, values)| matches!(values, Values::Unchecked(_))) {
             dict.set_item("row", PyArray1::from_iter(py, 0..axis.len()))?;

@@ -97,6 +97,9 @@ fn deviations(plan: &Plan) -> String {
 /// The first and the last value of an axis, or the distribution of a sample.
 fn span(parameter: &Parameter, values: &Values) -> [String; 2] {
     let show = |value| text::value(parameter, value);
+    if let Values::Correlated { mean, sd, .. } = values {
+        return [format!("mean {}", show(*mean)), format!("sd {}, of the device", show(*sd))];
+    }
     let Values::Sampled { distribution, .. } = values else {
         return [0, values.len() - 1].map(|position| show(values.get(position)));
     };
@@ -124,7 +127,9 @@ fn span(parameter: &Parameter, values: &Values) -> [String; 2] {
 fn samples(plan: &Plan) -> String {
     let mut text = String::new();
     for (number, axis) in plan.axes().as_slice().iter().enumerate() {
-        if let Some((_, Values::Sampled { design, .. })) = axis.parameters().first() {
+        if let Some((_, Values::Sampled { design, .. } | Values::Correlated { design, .. })) =
+            axis.parameters().first()
+        {
             let method = match design.method() {
                 Method::Sobol => "scrambled Sobol' sequence",
                 Method::LatinHypercube => "Latin hypercube",

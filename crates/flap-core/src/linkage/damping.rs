@@ -15,7 +15,7 @@ crate::parameters! {
     /// Loss factor and size of the wing hinge.
     pub struct HingeParameters {
         /// Loss factor of the wing hinge: a damping of loss factor times stiffness over the drive's angular frequency.
-        hinge_loss_factor: f64 = ("", "gamma_h", Number(NonNegative)),
+        hinge_loss_factor: f64 = ("", "gamma_h", Number(NonNegative), default 0.0),
         /// Thickness of the hinge's flexure. For hinge_strain_max alone.
         hinge_thickness: Option<f64> = ("m", "t_h", Following(Positive, "nothing: hinge_strain_max is empty without it")),
         /// Length of the hinge's flexure from one rigid part to the other. For hinge_strain_max alone.

@@ -46,7 +46,8 @@ pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
 /// others until it is set; an enum declared by [`choice!`](crate::choice)), then SI unit, symbol and
 /// [`Kind`](crate::parameter::Kind). A field of the type of another such struct has `(flatten)` in their place: its rows
 /// stand in the table where the field stands. A name in brackets before a field begins a group. Behind the kind may stand
-/// `former "name"` for the name of earlier versions, and `fitted` for a value that was fitted to one vehicle.
+/// `former "name"` for the name of earlier versions, `default 0.0` for the
+/// value where no preset gives one, and `fitted` for a value that was fitted to one vehicle.
 ///
 /// The struct gets `TABLE`, `from_values` and `to_values`; the table's order is that of the fields.
 ///

@@ -19,6 +19,8 @@ pub struct Parameter {
     pub group: &'static str,
     /// Name in earlier versions, which is still understood; empty if it had none.
     pub former: &'static str,
+    /// Value where no preset gives one; not a number if there is none.
+    pub default: f64,
     /// True if the published value was fitted to measurements of one vehicle: it need not hold for another.
     pub is_fitted: bool,
 }
@@ -32,7 +34,17 @@ impl Parameter {
         kind: Kind,
         doc: &'static str,
     ) -> Parameter {
-        Parameter { name, unit, symbol, kind, doc, group: "", former: "", is_fitted: false }
+        Parameter {
+            name,
+            unit,
+            symbol,
+            kind,
+            doc,
+            group: "",
+            former: "",
+            default: f64::NAN,
+            is_fitted: false,
+        }
     }
 
     /// The parameter in a group.
@@ -45,6 +57,12 @@ impl Parameter {
     #[must_use]
     pub const fn former(self, former: &'static str) -> Parameter {
         Parameter { former, ..self }
+    }
+
+    /// The parameter, which has this value where no preset gives one.
+    #[must_use]
+    pub const fn default(self, default: f64) -> Parameter {
+        Parameter { default, ..self }
     }
 
     /// The parameter, whose published value is a fit to one vehicle.

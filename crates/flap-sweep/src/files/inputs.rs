@@ -51,6 +51,9 @@ impl Inputs {
         if plan.source().name != plan.preset() {
             self.add("the grid file", Path::new(&plan.source().name));
         }
+        for device in plan.devices() {
+            self.add("a device", Path::new(&device.name));
+        }
         if let Some(points) = plan.points_file() {
             self.add("the file of points", &points.path);
         }

@@ -14,6 +14,9 @@ use crate::plan::formula::OwnMeasure;
 /// The prefix of a parameter's name that stands for its value in the preset.
 const PRESET: &str = "preset.";
 
+/// The prefix that stands for its value in the device.
+const DEVICE: &str = "device.";
+
 /// The others that a drive frequency follows that is to be the resonance.
 const RESONANCE: &str = "the resonance of each design, which [measure] has as resonance_hz";
 
@@ -23,6 +26,8 @@ pub(super) struct Names {
     pub(super) parameters: &'static [Parameter],
     /// The values of the preset.
     pub(super) preset: Vec<Value>,
+    /// The values of the device, if the grid begins with one.
+    pub(super) device: Option<Vec<Value>>,
     /// For each parameter without a value of its own, the others that it follows.
     pub(super) unset: Vec<Option<&'static str>>,
     /// The model's measures, without the user's own.
@@ -55,11 +60,12 @@ impl Names {
         }
     }
 
-    fn of_preset(&self, index: usize) -> Option<Meaning> {
+    /// The meaning of a parameter's value in a design that does not change: the preset or the device.
+    fn of_fixed(&self, design: &[Value], index: usize) -> Option<Meaning> {
         if let ParameterKind::Choice(_) = self.parameters[index].kind {
             return None;
         }
-        let value = self.preset[index];
+        let value = design[index];
         value.given().map(Meaning::Constant).or_else(|| followed(value).map(Meaning::Unset))
     }
 
@@ -83,19 +89,27 @@ impl Names {
 impl Scope for Names {
     fn meaning(&self, name: &str) -> Option<Meaning> {
         if let Some(name) = name.strip_prefix(PRESET) {
-            return self.parameter(name).and_then(|index| self.of_preset(index));
+            return self.parameter(name).and_then(|index| self.of_fixed(&self.preset, index));
+        }
+        if let (Some(name), Some(device)) = (name.strip_prefix(DEVICE), &self.device) {
+            return self.parameter(name).and_then(|index| self.of_fixed(device, index));
         }
         self.parameter(name).map(|index| self.of_parameter(index)).or_else(|| self.of_measure(name))
     }
 
     fn names(&self) -> Vec<String> {
         let parameters = self.parameters.iter().map(|parameter| parameter.name.to_owned());
-        let preset = (0..self.parameters.len())
-            .filter(|&index| matches!(self.of_preset(index), Some(Meaning::Constant(_))))
-            .map(|index| PRESET.to_owned() + self.parameters[index].name);
+        let fixed = [(PRESET, Some(&self.preset)), (DEVICE, self.device.as_ref())];
+        let fixed = fixed.into_iter().filter_map(|(prefix, design)| design.map(|design| (prefix, design)));
+        let fixed = fixed.flat_map(|(prefix, design)| {
+            let constant =
+                |index: &usize| matches!(self.of_fixed(design, *index), Some(Meaning::Constant(_)));
+            let named = move |index: usize| prefix.to_owned() + self.parameters[index].name;
+            (0..self.parameters.len()).filter(constant).map(named).collect::<Vec<_>>()
+        });
         let columns = self.columns.iter().filter(|_| self.are_measured).map(|column| column.name.clone());
         let own = self.own.iter().map(|own| own.name.clone());
-        parameters.chain(preset).chain(columns).chain(own).collect()
+        parameters.chain(fixed).chain(columns).chain(own).collect()
     }
 }
 

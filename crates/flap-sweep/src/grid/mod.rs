@@ -4,8 +4,10 @@
 //! mistakes of a file. See `docs/grid.md` for the format.
 
 mod axes;
+mod companion;
 mod conditions;
 mod derived;
+mod device;
 pub mod diagnostic;
 mod former;
 mod formula;
@@ -23,8 +25,9 @@ mod sample;
 mod solver;
 mod syntax;
 mod table;
+mod uncertainty;
 mod value;
 mod zip;
 
-pub use parse::parse;
+pub use parse::{parse, parse_recorded};
 pub use read::{MOST_BYTES, ReadError, read, read_from};

@@ -8,8 +8,9 @@ use flap_core::simulate::Simulator;
 use super::problems::Problems;
 use super::resonance;
 use super::table::{self, Entry};
-use super::value;
+use super::uncertainty;
 use crate::plan::Value;
+use crate::plan::uncertainty::Uncertainty;
 
 /// The model in which parameters are looked up, and the list in which unknown ones are reported.
 pub(super) struct Lookup<'l> {
@@ -19,29 +20,34 @@ pub(super) struct Lookup<'l> {
 }
 
 impl Lookup<'_> {
-    /// The parameter that `entry` is for, with its index.
-    pub(super) fn parameter(&mut self, entry: &Entry<'_>) -> Option<(usize, &'static Parameter)> {
+    /// The parameter called `name`, with its index; a name that is not known is reported at `span`.
+    pub(super) fn named(&mut self, name: &str, span: Range<usize>) -> Option<(usize, &'static Parameter)> {
         let known = self.simulator.parameters();
-        let found = Parameter::index(known, entry.key).map(|index| (index, &known[index]));
+        let found = Parameter::index(known, name).map(|index| (index, &known[index]));
         if found.is_none() {
-            self.report_unknown(entry, known);
+            self.report_unknown(name, span, known);
         }
         found
     }
 
-    fn report_unknown(&mut self, entry: &Entry<'_>, known: &[Parameter]) {
+    /// The parameter that `entry` is for, with its index.
+    pub(super) fn parameter(&mut self, entry: &Entry<'_>) -> Option<(usize, &'static Parameter)> {
+        self.named(entry.key, entry.key_span.clone())
+    }
+
+    fn report_unknown(&mut self, name: &str, span: Range<usize>, known: &[Parameter]) {
         let model = self.simulator.name();
         let owners: Vec<&str> = self
             .models
             .iter()
-            .filter(|other| Parameter::index(other.parameters(), entry.key).is_some())
+            .filter(|other| Parameter::index(other.parameters(), name).is_some())
             .map(|other| other.name())
             .collect();
         let diagnostic = self
             .problems
-            .report(entry.key_span.clone(), format!("model `{model}` has no parameter `{}`", entry.key))
+            .report(span, format!("model `{model}` has no parameter `{name}`"))
             .label("unknown parameter")
-            .did_you_mean(entry.key, known.iter().map(|parameter| parameter.name));
+            .did_you_mean(name, known.iter().map(|parameter| parameter.name));
         if !owners.is_empty() {
             diagnostic.note(format!("it is a parameter of the model {}", owners.join(" and ")));
         }
@@ -56,10 +62,12 @@ impl Lookup<'_> {
     }
 }
 
-/// Puts the values of `[params]` into `base`. Returns which parameters the section names, and where.
+/// Puts the values of `[params]` into `base`, and their standard errors into `errors`. Returns which parameters the section
+/// names, and where.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
     base: &mut [Value],
+    errors: &mut Uncertainty,
     lookup: &mut Lookup<'_>,
 ) -> Vec<(usize, Range<usize>)> {
     let mut set = Vec::new();
@@ -73,9 +81,11 @@ pub(super) fn read(
         if resonance::is_asked_for(&entry) {
             continue;
         }
-        if let Some(value) = value::of_parameter(parameter, entry.value, lookup.problems) {
+        let (value, error) = uncertainty::of_parameter(parameter, &entry, lookup.problems);
+        if let Some(value) = value {
             base[index] = Value::Given(value);
         }
+        errors.set(index, error);
     }
     set
 }

@@ -2,17 +2,18 @@
 
 use std::sync::Arc;
 
-use flap_core::parameter::{Parameter, Preset};
+use flap_core::parameter::Parameter;
 use flap_core::simulate::{Rows, Simulator};
 use toml::de::DeTable;
 
+use super::device::{Base, Reader, Shelf};
 use super::diagnostic::Mistakes;
 use super::formula::{self, Names};
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::{
-    axes, conditions, derived, former, gradient, measures, output, params, preset, resonance, sample, solver,
-    syntax, zip,
+    axes, conditions, derived, former, gradient, measures, output, params, resonance, sample, solver, syntax,
+    zip,
 };
 use crate::plan::axes::Axes;
 use crate::plan::axis::Axis;
@@ -21,9 +22,12 @@ use crate::plan::{Plan, PointsFile, Source, Space, Value};
 use crate::resonance::AtResonance;
 
 /// The keys at the top of a grid file.
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 15] = [
+    "description",
     "preset",
+    "device",
     "params",
+    "correlation",
     "resonance",
     "axes",
     "zip",
@@ -41,6 +45,23 @@ const KEYS: [&str; 12] = [
 /// # Errors
 /// The mistakes found, in the order of the file. A file that is not TOML is reported for that alone.
 pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Result<Plan, Mistakes> {
+    plan(name, text, Reader { models, shelf: Shelf::Disk })
+}
+
+/// The same for a grid that results recorded, with the devices that they recorded in place of files.
+///
+/// # Errors
+/// The mistakes found, in the order of the file.
+pub fn parse_recorded(
+    name: &str,
+    text: &str,
+    devices: &[Source],
+    models: &[&'static dyn Simulator],
+) -> Result<Plan, Mistakes> {
+    plan(name, text, Reader { models, shelf: Shelf::Recorded(devices) })
+}
+
+fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     let source = Arc::new(Source { name: name.to_owned(), text: text.to_owned() });
     let mut problems = Problems::new(Arc::clone(&source));
     let (root, errors) = DeTable::parse_recoverable(text);
@@ -51,17 +72,18 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
 
     let document = root.get_ref();
     let root = table::entries(document);
-    let chosen = preset::read(&root, models, &mut problems);
-    report_unknown_keys(&root, chosen.map(|(model, _)| model), &mut problems);
+    let base = reader.base(&root, &mut problems);
+    report_unknown_keys(&root, base.as_ref().map(|base| base.simulator), &mut problems);
     let solver = solver::read(table::find(&root, "solver"), &mut problems);
     let output_entry = table::find(&root, "output");
     // Without a model there are no parameters and columns to check against.
-    let Some((simulator, preset)) = chosen else {
+    let Some(base) = base else {
         output::read(output_entry, None, &mut problems);
         return Err(problems.into_mistakes());
     };
+    let (simulator, preset) = (base.simulator, base.preset);
     let Points { base, axes, sample_file, resonance, derived, conditions, mut names } =
-        read_points(&root, simulator, preset, models, &mut problems);
+        read_points(&root, base, reader.models, &mut problems);
     names.are_measured = true;
     let own = measures::read(table::find(&root, "measure"), &mut names, &mut problems);
     let gradient = table::find(&root, "gradient");
@@ -82,7 +104,9 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
         simulator,
         resonance,
         preset: preset.name,
-        base,
+        base: base.values,
+        uncertainty: base.uncertainty,
+        devices: base.devices,
         axes,
         points_file: sample_file,
         derived,
@@ -98,7 +122,7 @@ pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Resul
 
 /// The sections of a grid file about its points.
 struct Points {
-    base: Vec<Value>,
+    base: Base,
     axes: Vec<axes::Placed>,
     sample_file: Option<PointsFile>,
     resonance: Option<AtResonance>,
@@ -110,14 +134,13 @@ struct Points {
 /// The sections `[params]`, `[resonance]`, `[axes]`, `[[zip]]`, `[sample]`, `[derived]` and `[where]`.
 fn read_points(
     root: &[Entry<'_>],
-    simulator: &'static dyn Simulator,
-    preset: &Preset,
+    mut base: Base,
     models: &[&'static dyn Simulator],
     problems: &mut Problems,
 ) -> Points {
-    let mut base = Value::of_preset(simulator, preset);
+    let (simulator, device) = (base.simulator, base.values.clone());
+    let set = base.set(root, models, problems);
     let mut lookup = params::Lookup { simulator, models, problems };
-    let set = params::read(table::find(root, "params"), &mut base, &mut lookup);
     let mut axes = axes::read(table::find(root, "axes"), &mut lookup);
     axes.extend(zip::read(table::find(root, "zip"), &mut lookup));
     let sample = sample::read(table::find(root, "sample"), &base, &mut lookup);
@@ -128,17 +151,18 @@ fn read_points(
     let drafts = derived::drafts(table::find(root, "derived"), &mut lookup);
     derived::report_repeats(&drafts, &axes, &set, problems);
 
-    let resonance = resonance::read(root, simulator, &mut base, problems);
+    let resonance = resonance::read(root, simulator, &mut base.values, problems);
 
-    let mut unset: Vec<Option<&str>> = base.iter().map(|value| formula::followed(*value)).collect();
+    let mut unset: Vec<Option<&str>> = base.values.iter().map(|value| formula::followed(*value)).collect();
     let varied = axes.iter().flat_map(|placed| placed.axis.parameters()).map(|(parameter, _)| *parameter);
     for parameter in varied.chain(drafts.iter().map(|draft| draft.parameter)) {
         unset[parameter] = None;
     }
-    let (parameters, preset) = (simulator.parameters(), Value::of_preset(simulator, preset));
+    let (parameters, preset) = (simulator.parameters(), Value::of_preset(simulator, base.preset));
+    let device = (!base.devices.is_empty()).then_some(device);
     let columns =
         resonance.as_ref().map_or_else(|| simulator.columns(), |resonance| resonance.columns()).to_vec();
-    let names = Names { parameters, preset, unset, columns, are_measured: false, own: Vec::new() };
+    let names = Names { parameters, preset, device, unset, columns, are_measured: false, own: Vec::new() };
     let derived = derived::read(&drafts, &names, problems);
     let conditions = conditions::read(table::find(root, "where"), &names, problems);
     Points { base, axes, sample_file, resonance, derived, conditions, names }

@@ -34,6 +34,19 @@ impl Problems {
         self.found.is_empty()
     }
 
+    /// Number of mistakes.
+    pub(super) fn count(&self) -> usize {
+        self.found.len() + self.only_counted
+    }
+
+    /// Adds the mistakes of another file.
+    pub(super) fn absorb(&mut self, other: Problems) {
+        self.only_counted += other.only_counted;
+        for diagnostic in other.found {
+            self.add(diagnostic);
+        }
+    }
+
     /// Adds a diagnostic, and hands it back for labels, notes and help.
     pub(super) fn report(&mut self, span: Range<usize>, message: impl Into<String>) -> &mut Diagnostic {
         self.add(Diagnostic::new(Arc::clone(&self.source), span, &message.into()))

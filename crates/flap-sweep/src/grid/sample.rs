@@ -8,25 +8,26 @@ use std::sync::Arc;
 use toml::de::DeInteger;
 
 use super::axes::{self, Placed};
+use super::device::Base;
 use super::params::Lookup;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
+use crate::plan::PointsFile;
 use crate::plan::axis::{Axis, Values};
 use crate::plan::sample::{Design, Method};
-use crate::plan::{PointsFile, Value};
 
-const KEYS: [&str; 4] = ["method", "n", "seed", "parameters"];
+const KEYS: [&str; 5] = ["method", "n", "seed", "of", "parameters"];
 const FILE_KEYS: [&str; 2] = ["method", "path"];
 const METHODS: [&str; 4] = ["sobol", "latin-hypercube", "random", "file"];
 
 /// The sample of the section, and the file that lists its points, if one does. `base` has the values of parameters that
-/// are not sampled.
+/// are not sampled, and their standard errors.
 ///
 /// A parameter whose distribution is wrong still takes part, without values, in the checks that follow.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
-    base: &[Value],
+    base: &Base,
     lookup: &mut Lookup<'_>,
 ) -> Option<(Placed, Option<PointsFile>)> {
     let section = entry?;
@@ -53,6 +54,10 @@ pub(super) fn read(
     let count = count(section, &entries, lookup.problems);
     let seed = seed(&entries, lookup.problems);
     let below = table::find(&entries, "parameters");
+    if let Some(of) = table::find(&entries, "of") {
+        let sample = (method, seed.unwrap_or(0), count.unwrap_or(1));
+        return of_device(section, of, below, sample, base, lookup).map(|placed| (placed, None));
+    }
     let parameters = below.map(|entry| table::section(entry, lookup.problems)).unwrap_or_default();
     if parameters.is_empty() {
         let place = below.unwrap_or(section).key_span.clone();
@@ -77,7 +82,7 @@ pub(super) fn read(
     let mut axis = Vec::new();
     let mut keys = Vec::new();
     for (dimension, (index, parameter, entry)) in found.into_iter().enumerate() {
-        let distribution = distribution::read(parameter, base[index], entry, lookup.problems);
+        let distribution = distribution::read(parameter, base.values[index], entry, lookup.problems);
         let values = distribution.map_or_else(axes::none, |distribution| Values::Sampled {
             design: Arc::clone(&design),
             dimension,
@@ -87,6 +92,51 @@ pub(super) fn read(
         keys.push(entry.key_span.clone());
     }
     Some((Placed { axis: Axis::new(axis), span: section.key_span.clone(), keys }, None))
+}
+
+/// Builds of a device: all parameters that have standard errors, with their correlations.
+fn of_device(
+    section: &Entry<'_>,
+    of: &Entry<'_>,
+    below: Option<&Entry<'_>>,
+    (method, seed, count): (Method, u64, u64),
+    base: &Base,
+    lookup: &mut Lookup<'_>,
+) -> Option<Placed> {
+    value::option("of", &["device"], of.value, lookup.problems)?;
+    if let Some(below) = below {
+        lookup
+            .problems
+            .report(below.key_span.clone(), "a sample is of the device or of parameters, not of both")
+            .related(of.key_span.clone(), "of the device")
+            .help("keep one of them");
+        return None;
+    }
+    let errors = base.uncertainty.errors();
+    if errors.is_empty() || errors.len() > Design::MAX_DIMENSIONS {
+        let most = Design::MAX_DIMENSIONS;
+        let (message, help) = if errors.is_empty() {
+            let help = "write `hinge_stiffness = { value = \"2.1 uN*m/rad\", sd = \"0.1 uN*m/rad\" }` under [params] of the device";
+            ("no parameter of the device has a standard error".to_owned(), help)
+        } else {
+            (
+                format!("a sample has at most {most} parameters"),
+                "leave out standard errors that hardly matter",
+            )
+        };
+        lookup.problems.report(of.value.span(), message).help(help);
+        return None;
+    }
+    // Contradicting correlations are reported where they stand.
+    let factor = base.uncertainty.factor()?;
+    let design = Arc::new(Design::new(method, seed, count, errors.len()));
+    let axis = errors.iter().zip(factor).filter_map(|(&(index, sd), weights)| {
+        let mean = base.values[index].given()?;
+        Some((index, Values::Correlated { design: Arc::clone(&design), mean, sd, weights }))
+    });
+    let axis: Vec<_> = axis.collect();
+    let keys = vec![of.key_span.clone(); axis.len()];
+    Some(Placed { axis: Axis::new(axis), span: section.key_span.clone(), keys })
 }
 
 /// The number of points, or `None` with a report.

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use crate::plan::sample::{Design, Distribution};
+use crate::plan::sample::{Design, Distribution, normal_quantile};
 
 /// The values of one parameter along an axis, in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,6 +48,17 @@ pub enum Values {
         /// The distribution that carries its coordinate over to the parameter.
         distribution: Distribution,
     },
+    /// The points of a sample of normal distributions that are correlated.
+    Correlated {
+        /// The points, shared by all parameters of the sample.
+        design: Arc<Design>,
+        /// Mean.
+        mean: f64,
+        /// Standard deviation.
+        sd: f64,
+        /// Weights of the first dimensions' independent normal numbers in this parameter's; the squares sum to 1.
+        weights: Vec<f64>,
+    },
 }
 
 impl Values {
@@ -56,7 +67,7 @@ impl Values {
         match self {
             Values::List(list) | Values::Unchecked(list) => list.len() as u64,
             Values::Linear { count, .. } | Values::Step { count, .. } | Values::Log { count, .. } => *count,
-            Values::Sampled { design, .. } => design.count(),
+            Values::Sampled { design, .. } | Values::Correlated { design, .. } => design.count(),
         }
     }
 
@@ -78,6 +89,12 @@ impl Values {
             },
             Values::Sampled { ref design, dimension, ref distribution } => {
                 distribution.quantile(design.coordinate(index, dimension))
+            }
+            Values::Correlated { ref design, mean, sd, ref weights } => {
+                let normal = |dimension| normal_quantile(design.coordinate(index, dimension));
+                let number: f64 =
+                    weights.iter().enumerate().map(|(dimension, weight)| weight * normal(dimension)).sum();
+                mean + sd * number
             }
             Values::Step { from, step, .. } => decimal(from + step * index as f64),
             Values::Log { from, to, count } => match index {

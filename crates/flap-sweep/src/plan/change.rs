@@ -105,7 +105,7 @@ impl Plan {
     /// The plan without its preset, where `given` parameters are set or to be varied: others follow those.
     ///
     /// # Errors
-    /// [`ChangeError::Missing`] if parameters that do not follow others are not among those `given`.
+    /// [`ChangeError::Missing`] if parameters that neither follow others nor have a default are not among those `given`.
     pub fn without_preset(mut self, given: &[usize]) -> Result<Plan, ChangeError> {
         let mut missing = Vec::new();
         for (index, parameter) in
@@ -113,6 +113,9 @@ impl Plan {
         {
             match parameter.kind {
                 Kind::Following(_, follows) => self.space.base[index] = Value::Follows(follows),
+                Kind::Number(_) | Kind::Choice(_) if !parameter.default.is_nan() => {
+                    self.space.base[index] = Value::Given(parameter.default);
+                }
                 Kind::Number(_) | Kind::Choice(_) => missing.push(parameter.name),
             }
         }

@@ -5,6 +5,7 @@
 //! - [`sample`]: points spread over a design space
 //! - [`formula`]: derived parameters, conditions, measures of the user's own
 //! - [`gradient`]: derivatives of measures
+//! - [`uncertainty`]: standard errors of parameters
 //! - [`selection`]: the points that are run
 
 mod along;
@@ -17,6 +18,7 @@ pub mod gradient;
 pub mod sample;
 pub mod selection;
 mod space;
+pub mod uncertainty;
 mod value;
 mod verdict;
 

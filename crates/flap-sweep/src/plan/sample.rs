@@ -12,6 +12,7 @@ mod sobol;
 
 pub use distribution::Distribution;
 use latin::Permutation;
+pub(crate) use normal::quantile as normal_quantile;
 use sobol::Sobol;
 
 /// The method by which points are spread over the unit cube.

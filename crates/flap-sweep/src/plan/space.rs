@@ -11,6 +11,7 @@ use crate::plan::files::{Output, PointsFile, Source};
 use crate::plan::formula::{Condition, Derived, OwnMeasure};
 use crate::plan::gradient::Gradient;
 use crate::plan::selection::Selection;
+use crate::plan::uncertainty::Uncertainty;
 use crate::plan::value::Value;
 use crate::resonance::AtResonance;
 
@@ -32,8 +33,12 @@ pub(crate) struct Space {
     pub(crate) resonance: Option<AtResonance>,
     /// Name of the preset that the parameters start from.
     pub(crate) preset: &'static str,
-    /// One value per parameter: the preset with `[params]` on top.
+    /// One value per parameter: the preset or the device with `[params]` on top.
     pub(crate) base: Vec<Value>,
+    /// Standard errors of these values, and their correlations.
+    pub(crate) uncertainty: Uncertainty,
+    /// The devices that the grid begins with: its own, then those that this one begins with.
+    pub(crate) devices: Vec<Source>,
     /// The varied parameters.
     pub(crate) axes: Axes,
     /// The file that lists the points of the sample, if one does.
@@ -93,6 +98,16 @@ impl Plan {
     /// One value per parameter before the axes are applied: the preset with `[params]` on top.
     pub fn base(&self) -> &[Value] {
         &self.space.base
+    }
+
+    /// Standard errors of these values, and their correlations.
+    pub fn uncertainty(&self) -> &Uncertainty {
+        &self.space.uncertainty
+    }
+
+    /// The devices that the plan begins with, as read: the grid's own, then those that this one begins with.
+    pub fn devices(&self) -> &[Source] {
+        &self.space.devices
     }
 
     /// The varied parameters.

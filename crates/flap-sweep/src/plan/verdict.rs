@@ -46,10 +46,9 @@ impl Plan {
 
 /// The parameters whose values have not been checked: sampled and derived ones, and those that a program gives.
 fn computed(plan: &Plan) -> impl Iterator<Item = usize> + '_ {
-    let unchecked = plan
-        .axes()
-        .parameters()
-        .filter(|(_, values)| matches!(values, Values::Sampled { .. } | Values::Unchecked(_)));
+    let unchecked = plan.axes().parameters().filter(|(_, values)| {
+        matches!(values, Values::Sampled { .. } | Values::Correlated { .. } | Values::Unchecked(_))
+    });
     unchecked.map(|(parameter, _)| *parameter).chain(plan.derived().parameters())
 }
 

@@ -34,6 +34,9 @@ pub struct Identity {
     pub arithmetic: String,
     /// Hash of the grid file's text.
     pub grid: String,
+    /// Hash of the texts of the devices that the grid begins with, if it does.
+    #[serde(default)]
+    pub devices: Option<String>,
     /// Hash of the file that lists the points of the sample, if one does.
     pub points_file: Option<String>,
     /// The selection of points that are run, in words.
@@ -55,6 +58,7 @@ impl Identity {
             build: build().to_owned(),
             arithmetic: options.instructions.arithmetic().name().to_owned(),
             grid: text::hash(&plan.source().text),
+            devices: devices(plan.devices().iter().map(|device| device.text.as_str())),
             points_file: plan.points_file().map(PointsFile::hash),
             selection: plan.selection().to_string(),
             followed: plan.followed().map(|along| followed(plan, along)),
@@ -67,6 +71,9 @@ impl Identity {
         let mut differences = Vec::new();
         if self.grid != other.grid {
             differences.push("the grid file differs".to_owned());
+        }
+        if self.devices != other.devices {
+            differences.push("the device differs".to_owned());
         }
         if self.points_file != other.points_file {
             differences.push("the file of points differs".to_owned());
@@ -93,6 +100,12 @@ impl Identity {
         }
         differences
     }
+}
+
+/// The hash of the texts of devices; `None` if there are none.
+pub(crate) fn devices<'d>(texts: impl Iterator<Item = &'d str>) -> Option<String> {
+    let hashes: Vec<String> = texts.map(text::hash).collect();
+    (!hashes.is_empty()).then(|| hashes.join(" "))
 }
 
 /// The parameter that is followed, in words. The command line may set parameters that the grid file does not, so that the

@@ -60,6 +60,7 @@ fn ends(values: &Values) -> Vec<f64> {
             Distribution::Uniform { from, to } | Distribution::LogUniform { from, to } => vec![*from, *to],
             Distribution::Normal { mean, .. } => vec![*mean],
         },
+        Values::Correlated { mean, .. } => vec![*mean],
         Values::List(list) | Values::Unchecked(list) => extremes(list),
         Values::Linear { .. } | Values::Step { .. } | Values::Log { .. } => {
             vec![values.get(0), values.get(values.len() - 1)]

@@ -6,7 +6,6 @@
 
 use super::actuator::Actuator;
 use super::params::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
-use super::rhs::secant_stiffness;
 use crate::drive::{DriveConstants, Shape};
 use crate::linkage::structural_damping;
 use crate::num::PerLane;
@@ -225,7 +224,9 @@ impl Constants<f64> {
             surface_strain_ratio: actuator.surface_strain_ratio,
             vehicle_mass: p.vehicle_mass,
         };
-        let stiffness = secant_stiffness(&constants, 0.0) + constants.k_t;
+        // L → σ₀ u for small u.
+        let stiffening = constants.f_stiff * constants.sigma_0 * constants.u_per_tip;
+        let stiffness = constants.k_soft + stiffening + constants.k_t;
         constants.tip_damping = structural_damping(p.stroke_loss_factor, stiffness, drive.rate);
         if <Constants<f64> as PerLane<f64>>::is_finite(&constants) {
             Ok(constants)

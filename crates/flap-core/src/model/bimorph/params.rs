@@ -18,7 +18,7 @@ crate::parameters! {
         /// Parameters of the waveform.
         waveform: WaveformParameters = (flatten),
         /// Bias between the plates: the voltage of plate 1 is half of it higher, that of plate 2 half of it lower. Not in the paper.
-        drive_offset: f64 = ("V", "", Number(Any)),
+        drive_offset: f64 = ("V", "", Number(Any), default 0.0),
 
         ["transmission"]
         /// Transmission ratio: stroke angle per displacement of the actuator's tip.
@@ -26,11 +26,11 @@ crate::parameters! {
         /// Stiffness of the transmission felt at the actuator's tip: T^2 kappa_t.
         transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative), fitted),
         /// Growth of the transmission ratio with the square of the tip's displacement x: T + T_3 x^2. Not in the paper.
-        transmission_growth: f64 = ("rad/m^3", "T_3", Number(Any)),
+        transmission_growth: f64 = ("rad/m^3", "T_3", Number(Any), default 0.0),
         /// Damping of the stroke, about the stroke axis. Not in the paper.
-        stroke_damping: f64 = ("N*m*s", "", Number(NonNegative)),
+        stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default 0.0),
         /// Loss factor of the stroke's spring, actuator and transmission together: a damping of loss factor times stiffness over the drive's angular frequency.
-        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative)),
+        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default 0.0),
 
         ["wing"]
         /// Distance from the transmission's flexure to the wing's tip.
@@ -56,7 +56,7 @@ crate::parameters! {
         /// Stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive), fitted),
         /// Damping of the wing hinge. Not in the paper.
-        hinge_damping: f64 = ("N*m*s", "", Number(NonNegative)),
+        hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default 0.0),
         /// Loss factor and size of the hinge.
         hinge: HingeParameters = (flatten),
 
@@ -122,7 +122,7 @@ crate::parameters! {
         /// Factor on the actuator's stiffness that brings its free deflection to the measured one.
         deflection_factor: f64 = ("", "p_5", Number(Positive), fitted),
         /// Force of plate 2 over that of plate 1 at the same voltage. Not in the paper.
-        plate_ratio: f64 = ("", "", Number(NonNegative)),
+        plate_ratio: f64 = ("", "", Number(NonNegative), default 1.0),
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten),
 

@@ -50,7 +50,7 @@ crate::parameters! {
         /// Stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "k_w", Number(Positive)),
         /// Damping of the wing hinge. Not in the paper.
-        hinge_damping: f64 = ("N*m*s", "", Number(NonNegative)),
+        hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default 0.0),
         /// Loss factor and size of the hinge.
         hinge: HingeParameters = (flatten),
 
@@ -110,9 +110,9 @@ crate::parameters! {
         /// Permittivity of the piezoelectric layer (free or clamped is not stated in the paper).
         piezo_permittivity: f64 = ("F/m", "eps_pz", Number(NonNegative)),
         /// Damping of the stroke, about the stroke axis. Not in the paper.
-        stroke_damping: f64 = ("N*m*s", "", Number(NonNegative)),
+        stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default 0.0),
         /// Loss factor of the stroke's spring, the actuator: a damping of loss factor times stiffness over the drive's angular frequency.
-        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative)),
+        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default 0.0),
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten),
 

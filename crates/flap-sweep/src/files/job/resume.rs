@@ -82,14 +82,17 @@ impl Job<'_> {
 
     /// The first line of the grid file that has changed since the rows of a sidecar were begun, in words.
     fn changed_line(&self, before: &Sidecar) -> Option<String> {
-        difference(&before.grid.text, &self.plan.source().text)
+        let of_devices = before.devices.iter().zip(self.plan.devices());
+        let mut of_devices = of_devices.map(|(before, now)| difference(&before.text, &now.text, &now.name));
+        let of_grid = difference(&before.grid.text, &self.plan.source().text, "the grid");
+        of_grid.or_else(|| of_devices.find_map(|difference| difference))
     }
 }
 
-/// The first line that differs, in words.
-fn difference(before: &str, now: &str) -> Option<String> {
+/// The first line of the file called `name` that differs, in words.
+fn difference(before: &str, now: &str, name: &str) -> Option<String> {
     let (before, now): (Vec<&str>, Vec<&str>) = (before.lines().collect(), now.lines().collect());
     let line = (0..before.len().max(now.len())).find(|&line| before.get(line) != now.get(line))?;
     let shown = |lines: &[&str]| lines.get(line).map_or("not there".to_owned(), |text| format!("`{text}`"));
-    Some(format!("line {} of the grid was {}, it is {}", line + 1, shown(&before), shown(&now)))
+    Some(format!("line {} of {name} was {}, it is {}", line + 1, shown(&before), shown(&now)))
 }

@@ -11,7 +11,7 @@ use crate::files::tallies::InvalidPoint;
 use crate::notation::text;
 use crate::plan::selection::{self, Selection};
 use crate::run::Doubts;
-use crate::run::identity::Identity;
+use crate::run::identity::{self, Identity};
 use crate::run::solver::SolverFields;
 
 /// The contents of a sidecar.
@@ -82,6 +82,9 @@ pub struct Sidecar {
     pub points_file: Option<PointsFile>,
     /// The grid file.
     pub grid: Grid,
+    /// The devices that the grid begins with: its own, then those that this one begins with.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub devices: Vec<Grid>,
     /// Checksums of complete results; `None` before, and in files of early versions.
     pub checksums: Option<Checksums>,
 }
@@ -156,7 +159,7 @@ pub struct PointsFile {
     pub xxh3: String,
 }
 
-/// A grid file.
+/// A grid file or a device.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Grid {
     /// Its name.
@@ -181,6 +184,7 @@ impl Sidecar {
             build: self.build.clone(),
             arithmetic: self.arithmetic.clone(),
             grid: text::hash(&self.grid.text),
+            devices: identity::devices(self.devices.iter().map(|device| device.text.as_str())),
             points_file: self.points_file.as_ref().map(|file| file.xxh3.clone()),
             selection,
             followed: self.followed.as_ref().map(|followed| followed.identity.clone()),

@@ -46,10 +46,16 @@ impl Sidecar {
     /// - [`PlanError::Parameters`] if the model of a response has no parameter or no option of a name in it
     /// - [`PlanError::Points`] if the points that were run are not points of the grid
     pub fn plan(&self, models: &[&'static dyn Simulator]) -> Result<Plan, PlanError> {
-        if self.grid.xxh3 != text::hash(&self.grid.text) {
+        if [&self.grid].into_iter().chain(&self.devices).any(|file| file.xxh3 != text::hash(&file.text)) {
             return Err(PlanError::GridText);
         }
-        let plan = grid::parse(&self.grid.name, &self.grid.text, models).map_err(PlanError::Grid)?;
+        let devices: Vec<plan::Source> = self
+            .devices
+            .iter()
+            .map(|device| plan::Source { name: device.name.clone(), text: device.text.clone() })
+            .collect();
+        let plan = grid::parse_recorded(&self.grid.name, &self.grid.text, &devices, models)
+            .map_err(PlanError::Grid)?;
         let plan = plan.with_solver(self.solver).map_err(|_| PlanError::Solver)?;
         let points_file = self.points_file.as_ref();
         if plan.points_file().map(plan::PointsFile::hash) != points_file.map(|file| file.xxh3.clone()) {

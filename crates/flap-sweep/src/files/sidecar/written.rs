@@ -8,7 +8,7 @@ use crate::files::results::parameters;
 use crate::files::tallies;
 use crate::notation::text;
 use crate::plan::selection::{self, Selection};
-use crate::plan::{Along, Plan};
+use crate::plan::{Along, Plan, Source};
 use crate::run::identity::{self, Identity};
 use crate::run::{RunOptions, Summary};
 use crate::table::layout::Layout;
@@ -79,11 +79,8 @@ impl Sidecar {
             points_file: plan
                 .points_file()
                 .map(|file| PointsFile { path: file.path.display().to_string(), xxh3: file.hash() }),
-            grid: Grid {
-                name: plan.source().name.clone(),
-                xxh3: text::hash(&plan.source().text),
-                text: plan.source().text.clone(),
-            },
+            grid: recorded(plan.source()),
+            devices: plan.devices().iter().map(recorded).collect(),
             checksums: None,
         }
     }
@@ -110,6 +107,12 @@ impl Sidecar {
         self.finished = Some(end.finished);
         self.seconds = Some(end.seconds);
     }
+}
+
+/// A grid file or a device as a sidecar records it.
+fn recorded(source: &Source) -> Grid {
+    let Source { name, text } = source;
+    Grid { name: name.clone(), xxh3: text::hash(text), text: text.clone() }
 }
 
 /// The parameter that a plan follows.

@@ -1,14 +1,13 @@
 //! A sample from a file: a CSV table of points, with the names of parameters as headings.
 
-use std::fs;
 use std::ops::Range;
-use std::path::Path;
 use std::sync::Arc;
 
 use csv::ByteRecord;
 use flap_core::parameter::Parameter;
 
 use super::super::axes::Placed;
+use super::super::companion;
 use super::super::params::Lookup;
 use super::super::table::{self, Entry};
 use super::super::value::text as text_of;
@@ -35,7 +34,7 @@ pub(super) fn read(
     };
     let path = text_of("path", entry.value, lookup.problems)?;
     let path = lookup.problems.beside(path);
-    let text = match text(&path) {
+    let text = match companion::text(&path) {
         Ok(text) => text,
         Err(reason) => {
             lookup
@@ -54,17 +53,6 @@ pub(super) fn read(
         lookup.problems.report(entry.value.span(), format!("{}: the file has no points", path.display()));
     }
     Some((Placed { axis, span: section.key_span.clone(), keys }, file))
-}
-
-/// The text of the file, or the reason why it cannot be read.
-fn text(path: &Path) -> Result<String, String> {
-    let metadata = fs::metadata(path).map_err(|error| error.to_string())?;
-    // A device or a pipe may never end.
-    if !metadata.is_file() {
-        return Err("this is not a file".to_owned());
-    }
-    let bytes = fs::read(path).map_err(|error| error.to_string())?;
-    String::from_utf8(bytes).map_err(|_| "the file is not UTF-8 text".to_owned())
 }
 
 /// A column of the file.

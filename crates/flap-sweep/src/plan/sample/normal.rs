@@ -11,7 +11,7 @@ pub(super) fn cumulative(z: f64) -> f64 {
 ///
 /// Wichura, "The percentage points of the normal distribution", Appl. Statist. 37, 477 (1988), algorithm AS 241,
 /// function PPND16.
-pub(super) fn quantile(p: f64) -> f64 {
+pub(crate) fn quantile(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
         let r = 0.180_625 - q * q;

@@ -1,0 +1,159 @@
+//! The design that a grid begins with: a preset, or a device, which is a file with a preset and parameters.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use flap_core::parameter::Preset;
+use flap_core::simulate::Simulator;
+use toml::de::DeTable;
+
+use super::companion;
+use super::params::{self, Lookup};
+use super::preset;
+use super::problems::Problems;
+use super::syntax;
+use super::table::{self, Entry};
+use super::uncertainty;
+use super::value;
+use crate::plan::uncertainty::Uncertainty;
+use crate::plan::{Source, Value};
+
+/// The keys of a device.
+const KEYS: [&str; 5] = ["description", "preset", "device", "params", "correlation"];
+
+/// The design that a grid begins with.
+pub(super) struct Base {
+    pub(super) simulator: &'static dyn Simulator,
+    /// The preset at the root.
+    pub(super) preset: &'static Preset,
+    pub(super) values: Vec<Value>,
+    pub(super) uncertainty: Uncertainty,
+    /// The devices read, the grid's own first.
+    pub(super) devices: Vec<Source>,
+}
+
+/// The places that devices are read from.
+#[derive(Clone, Copy)]
+pub(super) enum Shelf<'s> {
+    /// The disk.
+    Disk,
+    /// Those that results recorded, by their names.
+    Recorded(&'s [Source]),
+}
+
+impl Shelf<'_> {
+    /// The text of a device, or the reason why it cannot be read.
+    fn text(self, path: &Path) -> Result<String, String> {
+        match self {
+            Shelf::Disk => companion::text(path),
+            Shelf::Recorded(devices) => {
+                let name = path.display().to_string();
+                let found = devices.iter().find(|device| device.name == name);
+                found.map(|device| device.text.clone()).ok_or_else(|| "it was not recorded".to_owned())
+            }
+        }
+    }
+}
+
+/// A reader of devices.
+#[derive(Clone, Copy)]
+pub(super) struct Reader<'r> {
+    pub(super) models: &'r [&'static dyn Simulator],
+    pub(super) shelf: Shelf<'r>,
+}
+
+impl Reader<'_> {
+    /// The design that the keys `preset` or `device` at the top of a file name. `None`, with a report, if there is none.
+    pub(super) fn base(self, root: &[Entry<'_>], problems: &mut Problems) -> Option<Base> {
+        self.of_file(root, &mut Vec::new(), problems)
+    }
+
+    /// The same for a file that devices on the way to it are made of.
+    fn of_file(self, root: &[Entry<'_>], chain: &mut Vec<PathBuf>, problems: &mut Problems) -> Option<Base> {
+        if let Some(description) = table::find(root, "description") {
+            value::text("description", description.value, problems);
+        }
+        let Some(entry) = table::find(root, "device") else {
+            let (simulator, preset) = preset::read(root, self.models, problems)?;
+            let values = Value::of_preset(simulator, preset);
+            return Some(Base {
+                simulator,
+                preset,
+                values,
+                uncertainty: Uncertainty::default(),
+                devices: Vec::new(),
+            });
+        };
+        if let Some(preset) = table::find(root, "preset") {
+            problems
+                .report(
+                    preset.key_span.clone(),
+                    "a design begins with a preset or with a device, not with both",
+                )
+                .related(entry.key_span.clone(), "the device")
+                .help("keep one of them: a device names its own preset");
+            return None;
+        }
+        let name = value::text("device", entry.value, problems)?;
+        let path = problems.beside(name);
+        if chain.contains(&path) {
+            let names: Vec<String> =
+                chain.iter().chain([&path]).map(|path| path.display().to_string()).collect();
+            problems
+                .report(entry.value.span(), format!("the device begins with itself: {}", names.join(" → ")))
+                .help("begin one of them with a preset");
+            return None;
+        }
+        let text = match self.shelf.text(&path) {
+            Ok(text) => text,
+            Err(reason) => {
+                problems
+                    .report(entry.value.span(), format!("{}: {reason}", path.display()))
+                    .note("the path is relative to the folder of the file that names it")
+                    .help("`flap new PRESET > mybee.toml` writes a device");
+                return None;
+            }
+        };
+        chain.push(path.clone());
+        let source = Source { name: path.display().to_string(), text };
+        let mut own = Problems::new(Arc::new(source.clone()));
+        let base = self.device(&source.text, chain, &mut own);
+        problems.absorb(own);
+        let mut base = base?;
+        base.devices.insert(0, source);
+        Some(base)
+    }
+
+    /// The design in the text of a device.
+    fn device(self, text: &str, chain: &mut Vec<PathBuf>, problems: &mut Problems) -> Option<Base> {
+        let (root, errors) = DeTable::parse_recoverable(text);
+        if !errors.is_empty() {
+            syntax::report(&errors, problems);
+            return None;
+        }
+        let root = table::entries(root.get_ref());
+        for entry in root.iter().filter(|entry| !KEYS.contains(&entry.key)) {
+            table::report_unknown_key(entry, &KEYS, "in a device", problems)
+                .help("axes, samples and settings go into the grid file that names the device");
+        }
+        let mut base = self.of_file(&root, chain, problems)?;
+        base.set(&root, self.models, problems);
+        Some(base)
+    }
+}
+
+impl Base {
+    /// Puts `[params]` and `[[correlation]]` of a file on top.
+    pub(super) fn set(
+        &mut self,
+        root: &[Entry<'_>],
+        models: &[&'static dyn Simulator],
+        problems: &mut Problems,
+    ) -> Vec<(usize, std::ops::Range<usize>)> {
+        let mut lookup = Lookup { simulator: self.simulator, models, problems };
+        let set =
+            params::read(table::find(root, "params"), &mut self.values, &mut self.uncertainty, &mut lookup);
+        uncertainty::correlations(table::find(root, "correlation"), &mut self.uncertainty, &mut lookup);
+        set
+    }
+}

@@ -1,0 +1,173 @@
+//! Values with an uncertainty: `{ value, sd, source }` in `[params]`, and `[[correlation]]`.
+
+use flap_core::parameter::{Kind, Parameter};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::params::Lookup;
+use super::problems::Problems;
+use super::table::{self, Entry};
+use super::value;
+use crate::plan::uncertainty::{Correlation, Uncertainty};
+
+const VALUE_KEYS: [&str; 4] = ["value", "sd", "relative_sd", "source"];
+const CORRELATION_KEYS: [&str; 2] = ["between", "coefficient"];
+
+/// The value of an entry of `[params]` and its standard error, if it has one. The value is `None`, with a report, if it makes
+/// no sense.
+pub(super) fn of_parameter(
+    parameter: &Parameter,
+    entry: &Entry<'_>,
+    problems: &mut Problems,
+) -> (Option<f64>, Option<f64>) {
+    match entry.value.get_ref() {
+        DeValue::Table(table) => of_table(parameter, entry, table, problems),
+        _ => (value::of_parameter(parameter, entry.value, problems), None),
+    }
+}
+
+fn of_table(
+    parameter: &Parameter,
+    entry: &Entry<'_>,
+    table: &DeTable<'_>,
+    problems: &mut Problems,
+) -> (Option<f64>, Option<f64>) {
+    let entries = table::entries(table);
+    if !table::check_keys(&entries, &VALUE_KEYS, "of a value", problems) {
+        return (None, None);
+    }
+    if let Some(source) = table::find(&entries, "source") {
+        value::text("source", source.value, problems);
+    }
+    let Some(given) = table::find(&entries, "value") else {
+        problems
+            .report(entry.value.span(), format!("`{}` has no `value`", entry.key))
+            .note("values look like 2.1e-6, \"2.1 uN*m/rad\" or { value = \"2.1 uN*m/rad\", sd = \"0.1 uN*m/rad\" }");
+        return (None, None);
+    };
+    let number = value::of_parameter(parameter, given.value, problems);
+    (number, number.and_then(|number| standard_error(parameter, number, &entries, problems)))
+}
+
+/// The standard error in the unit of the parameter.
+fn standard_error(
+    parameter: &Parameter,
+    number: f64,
+    entries: &[Entry<'_>],
+    problems: &mut Problems,
+) -> Option<f64> {
+    let (absolute, relative) = (table::find(entries, "sd"), table::find(entries, "relative_sd"));
+    let entry = absolute.or(relative)?;
+    if let Kind::Choice(_) = parameter.kind {
+        let message = format!("`{}` is a choice and has no standard error", parameter.name);
+        problems.report(entry.key_span.clone(), message).help(format!("remove `{}`", entry.key));
+        return None;
+    }
+    if let (Some(_), Some(relative)) = (absolute, relative) {
+        let message = "a value takes `sd` or `relative_sd`, not both";
+        problems.report(relative.key_span.clone(), message).help("keep one of them");
+        return None;
+    }
+    let unit = if absolute.is_some() { parameter.unit } else { "" };
+    let given = value::quantity(entry.key, unit, entry.value, problems)?;
+    let error = if absolute.is_some() { given } else { given * number.abs() };
+    if error > 0.0 && error.is_finite() {
+        return Some(error);
+    }
+    let message = format!("`{}` must come to more than zero, not {}", entry.key, value::shown(error));
+    problems.report(entry.value.span(), message).help("leave it out if the value is exact");
+    None
+}
+
+/// Adds the correlations of the tables `[[correlation]]`.
+pub(super) fn correlations(
+    entry: Option<&Entry<'_>>,
+    uncertainty: &mut Uncertainty,
+    lookup: &mut Lookup<'_>,
+) {
+    let Some(entry) = entry else { return };
+    let DeValue::Array(tables) = entry.value.get_ref() else {
+        report_not_tables(entry.value, lookup.problems);
+        return;
+    };
+    let before = lookup.problems.count();
+    for table in tables {
+        match table.get_ref() {
+            DeValue::Table(entries) => correlation(entries, table, uncertainty, lookup),
+            _ => report_not_tables(table, lookup.problems),
+        }
+    }
+    if lookup.problems.count() == before && uncertainty.factor().is_none() {
+        lookup
+            .problems
+            .report(entry.key_span.clone(), "the correlations contradict each other")
+            .note("no parameters can have all of them at once: their matrix is not positive definite")
+            .help("take them from one fit, with enough digits");
+    }
+}
+
+fn report_not_tables(value: &Spanned<DeValue<'_>>, problems: &mut Problems) {
+    problems
+        .report(value.span(), format!("`correlation` is not {}", table::kind(value.get_ref())))
+        .help("write [[correlation]] above `between` and `coefficient`, once for each pair");
+}
+
+fn correlation(
+    table: &DeTable<'_>,
+    place: &Spanned<DeValue<'_>>,
+    uncertainty: &mut Uncertainty,
+    lookup: &mut Lookup<'_>,
+) {
+    let entries = table::entries(table);
+    if !table::check_keys(&entries, &CORRELATION_KEYS, "in [[correlation]]", lookup.problems) {
+        return;
+    }
+    let (Some(between), Some(coefficient)) =
+        (table::find(&entries, "between"), table::find(&entries, "coefficient"))
+    else {
+        let message = "a correlation has two parameters and a coefficient";
+        let help = "write between = [\"hinge_stiffness\", \"wing_area\"] and coefficient = 0.4";
+        lookup.problems.report(place.span(), message).help(help);
+        return;
+    };
+    let number = value::number("coefficient", coefficient.value, lookup.problems);
+    let between = pair(between, uncertainty, lookup);
+    let (Some(coefficient_value), Some(between)) = (number, between) else { return };
+    if coefficient_value.abs() >= 1.0 {
+        let message =
+            format!("`coefficient` must be between -1 and 1, not {}", value::shown(coefficient_value));
+        lookup.problems.report(coefficient.value.span(), message);
+        return;
+    }
+    uncertainty.correlate(Correlation { between, coefficient: coefficient_value });
+}
+
+/// The two parameters, which must have standard errors.
+fn pair(entry: &Entry<'_>, uncertainty: &Uncertainty, lookup: &mut Lookup<'_>) -> Option<[usize; 2]> {
+    let names = entry.value.get_ref().as_array().filter(|names| names.len() == 2);
+    let Some(names) = names else {
+        lookup
+            .problems
+            .report(entry.value.span(), "`between` must be a list of two parameters")
+            .help("write between = [\"hinge_stiffness\", \"wing_area\"]");
+        return None;
+    };
+    let mut pair = Vec::new();
+    for name in names {
+        let text = value::text("between", name, lookup.problems)?;
+        let (index, parameter) = lookup.named(text, name.span())?;
+        if uncertainty.error(index).is_none() {
+            lookup
+                .problems
+                .report(name.span(), format!("`{}` has no standard error", parameter.name))
+                .help(format!("write {} = {{ value = ..., sd = ... }} under [params]", parameter.name));
+            return None;
+        }
+        pair.push(index);
+    }
+    if pair[0] == pair[1] {
+        lookup.problems.report(entry.value.span(), "`between` names one parameter twice");
+        return None;
+    }
+    Some([pair[0], pair[1]])
+}

@@ -1,0 +1,113 @@
+//! Standard errors of parameters, and correlations between them.
+
+use nalgebra::DMatrix;
+
+/// Standard errors of parameters, and correlations between them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Uncertainty {
+    /// Indices into the model's parameter table, rising, each with its standard error in the parameter's SI unit.
+    errors: Vec<(usize, f64)>,
+    correlations: Vec<Correlation>,
+}
+
+/// The correlation of two parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Correlation {
+    /// Indices into the model's parameter table.
+    pub between: [usize; 2],
+    /// The coefficient, between -1 and 1.
+    pub coefficient: f64,
+}
+
+impl Uncertainty {
+    /// True if no parameter has an error.
+    pub fn is_empty(&self) -> bool {
+        self.errors.is_empty()
+    }
+
+    /// Indices of parameters, rising, each with its standard error in its SI unit.
+    pub fn errors(&self) -> &[(usize, f64)] {
+        &self.errors
+    }
+
+    /// The correlations that are not zero.
+    pub fn correlations(&self) -> &[Correlation] {
+        &self.correlations
+    }
+
+    /// The standard error of a parameter in its SI unit, if it has one.
+    pub fn error(&self, parameter: usize) -> Option<f64> {
+        self.errors.iter().find(|(index, _)| *index == parameter).map(|(_, error)| *error)
+    }
+
+    /// Gives a parameter another standard error, or none. Its correlations are those of an earlier value: they end.
+    pub(crate) fn set(&mut self, parameter: usize, error: Option<f64>) {
+        self.errors.retain(|(index, _)| *index != parameter);
+        self.correlations.retain(|correlation| !correlation.between.contains(&parameter));
+        self.errors.extend(error.map(|error| (parameter, error)));
+        self.errors.sort_by_key(|(index, _)| *index);
+    }
+
+    /// Correlates two parameters, in place of an earlier correlation of them.
+    pub(crate) fn correlate(&mut self, correlation: Correlation) {
+        let [one, other] = correlation.between;
+        self.correlations.retain(|old| old.between != [one, other] && old.between != [other, one]);
+        self.correlations.push(correlation);
+    }
+
+    /// The lower triangle L of the correlation matrix R = L Lᵀ, a row for each of [`Uncertainty::errors`]. `None` if R is not
+    /// positive definite: the correlations contradict each other.
+    pub(crate) fn factor(&self) -> Option<Vec<Vec<f64>>> {
+        let n = self.errors.len();
+        let mut matrix = DMatrix::identity(n, n);
+        let place = |parameter: usize| self.errors.iter().position(|(index, _)| *index == parameter);
+        for Correlation { between: [one, other], coefficient } in &self.correlations {
+            if let (Some(row), Some(column)) = (place(*one), place(*other)) {
+                matrix[(row, column)] = *coefficient;
+                matrix[(column, row)] = *coefficient;
+            }
+        }
+        let lower = matrix.cholesky()?.unpack();
+        Some((0..n).map(|row| (0..=row).map(|column| lower[(row, column)]).collect()).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn uncertainty(coefficients: [f64; 3]) -> Uncertainty {
+        let mut uncertainty = Uncertainty::default();
+        [7, 2, 5].into_iter().for_each(|parameter| uncertainty.set(parameter, Some(1.0)));
+        for (between, coefficient) in [[2, 5], [2, 7], [5, 7]].into_iter().zip(coefficients) {
+            uncertainty.correlate(Correlation { between, coefficient });
+        }
+        uncertainty
+    }
+
+    #[test]
+    fn the_factor_makes_the_correlations() {
+        let rows = uncertainty([0.5, -0.3, 0.2]).factor().unwrap();
+        let product = |i: usize, j: usize| rows[i].iter().zip(&rows[j]).map(|(a, b)| a * b).sum::<f64>();
+        for (i, j, expected) in
+            [(0, 0, 1.0), (1, 1, 1.0), (2, 2, 1.0), (0, 1, 0.5), (0, 2, -0.3), (1, 2, 0.2)]
+        {
+            assert!((product(i, j) - expected).abs() < 1e-15, "{i}, {j}: {}", product(i, j));
+        }
+    }
+
+    #[test]
+    fn contradictions_have_no_factor() {
+        assert_eq!(uncertainty([0.9, 0.9, -0.9]).factor(), None);
+    }
+
+    #[test]
+    fn a_new_value_ends_its_correlations() {
+        let mut uncertainty = uncertainty([0.5, -0.3, 0.2]);
+        uncertainty.set(5, Some(2.0));
+        assert_eq!(uncertainty.correlations().len(), 1);
+        assert_eq!(uncertainty.error(5), Some(2.0));
+        uncertainty.set(5, None);
+        assert_eq!(uncertainty.errors().iter().map(|(index, _)| *index).collect::<Vec<_>>(), [2, 7]);
+    }
+}
