@@ -151,6 +151,29 @@ fn commands_in_the_grid_page_work() {
     assert_eq!(folder.read("fine.csv").lines().count(), 82);
 }
 
+/// The commands of the page on devices work, and its grids begin with its device.
+#[test]
+#[cfg(unix)]
+fn the_page_on_devices_works() {
+    let folder = Folder::new();
+    let page = document("docs/devices.md");
+    let flap = Path::new(env!("CARGO_BIN_EXE_flap")).parent().unwrap();
+    let paths = format!("{}:{}", flap.display(), std::env::var("PATH").unwrap());
+    for block in blocks(&page, "sh") {
+        let mut shell = std::process::Command::new("sh");
+        let ended =
+            shell.args(["-ec", &block]).env("PATH", &paths).current_dir(folder.path("")).output().unwrap();
+        assert!(ended.status.success(), "{block}: {}", String::from_utf8_lossy(&ended.stderr));
+    }
+    let grids = blocks(&page, "toml");
+    fs::write(folder.path("mybee.toml"), &grids[0]).unwrap();
+    for grid in &grids {
+        fs::write(folder.path("grid.toml"), grid).unwrap();
+        folder.ends(0, "check grid.toml");
+    }
+    assert_eq!(grids.len(), 3);
+}
+
 /// The commands of the results page work one after the other, from a sweep that left points unsettled.
 #[test]
 fn commands_in_the_results_page_work() {

@@ -5,6 +5,7 @@
 mod again;
 mod damage;
 mod deviations;
+mod devices;
 mod documents;
 mod doubts;
 mod experiments;

@@ -79,6 +79,8 @@ pub(crate) enum Command {
     Lift(LiftArgs),
     /// Compute stroke, pitch and rotation centre of a filmed wing from tracked points
     Track(TrackArgs),
+    /// Print a device file of a preset, to be edited: every parameter with value, unit, range and meaning
+    New(NewArgs),
     /// List the parameters and output columns of a model
     Params(ParamsArgs),
     /// Explain parameters, columns of results, and statuses
@@ -107,6 +109,16 @@ Exit codes:
 pub(crate) struct ParamsArgs {
     /// A model, or a preset to list with its values
     #[arg(value_name = "MODEL|PRESET")]
+    pub(crate) what: String,
+}
+
+#[derive(clap::Args)]
+#[command(
+    after_help = "Examples:\n  flap new jafferis2016 > mybee.toml\n  flap run mybee.toml\n  flap new mybee.toml > copy.toml"
+)]
+pub(crate) struct NewArgs {
+    /// A preset, or a device or grid file whose values are written out
+    #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 }
 

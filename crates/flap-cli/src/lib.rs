@@ -51,6 +51,7 @@ pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
         Command::Check(args) => cmd::check::run(&args),
         Command::Lift(args) => cmd::lift::run(&args),
         Command::Track(args) => cmd::track::run(&args),
+        Command::New(args) => cmd::new::run(&args),
         Command::Params(args) => cmd::params::run(&args),
         Command::Explain(args) => cmd::explain::run(&args),
         Command::Models => cmd::models::run(),

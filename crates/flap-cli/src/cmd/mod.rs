@@ -15,6 +15,7 @@ pub(crate) mod man;
 pub(crate) mod merge;
 pub(crate) mod models;
 mod motion;
+pub(crate) mod new;
 pub(crate) mod outputs;
 pub(crate) mod params;
 mod point;

@@ -27,7 +27,9 @@ mod syntax;
 mod table;
 mod uncertainty;
 mod value;
+mod written;
 mod zip;
 
 pub use parse::{parse, parse_recorded};
 pub use read::{MOST_BYTES, ReadError, read, read_from};
+pub use written::device;

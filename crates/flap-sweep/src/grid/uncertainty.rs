@@ -68,6 +68,13 @@ fn standard_error(
         problems.report(relative.key_span.clone(), message).help("keep one of them");
         return None;
     }
+    let is_share = entry.value.get_ref().as_str().is_some_and(|text| text.trim_end().ends_with('%'));
+    if absolute.is_some() && is_share {
+        problems
+            .report(entry.value.span(), "`sd` is in the unit of the parameter, not a share of its value")
+            .help("write `relative_sd` for a share");
+        return None;
+    }
     let unit = if absolute.is_some() { parameter.unit } else { "" };
     let given = value::quantity(entry.key, unit, entry.value, problems)?;
     let error = if absolute.is_some() { given } else { given * number.abs() };

@@ -15,7 +15,7 @@ use std::ops::Range;
 
 pub use error::{Problem, UnitError};
 pub(crate) use number::scan;
-pub use prefixed::{meant, prefixed};
+pub use prefixed::{exact, meant, prefixed};
 use unit::Unit;
 
 /// The value in SI units of the quantity `text`, which must measure the same as `si_unit`.

@@ -1,5 +1,7 @@
 //! Numbers in SI units as people write them: with a prefix.
 
+use super::parse_as;
+
 /// Prefixes, and the powers of ten that they stand for.
 const PREFIXES: [(&str, i32); 9] =
     [("G", 9), ("M", 6), ("k", 3), ("", 0), ("m", -3), ("u", -6), ("n", -9), ("p", -12), ("f", -15)];
@@ -7,17 +9,39 @@ const PREFIXES: [(&str, i32); 9] =
 /// `value` in `si_unit`, to six digits and with the prefix that leaves few of them before the point: `17 mm` for 0.017 m.
 /// [`parse_as`](super::parse_as) reads it back.
 pub fn prefixed(value: f64, si_unit: &str) -> String {
+    let (unit, tens) = unit_for(value, si_unit);
+    let value = if tens == 0 { value } else { value / 10_f64.powi(tens) };
+    format!("{} {unit}", digits(value)).trim_end().to_owned()
+}
+
+/// `value` in `si_unit` with the same prefix and with all its digits: [`parse_as`](super::parse_as) gives the very float back.
+pub fn exact(value: f64, si_unit: &str) -> String {
+    let (unit, tens) = unit_for(value, si_unit);
+    let scientific = format!("{value:e}");
+    let shifted = scientific.split_once('e').and_then(|(digits, exponent)| {
+        let exponent = exponent.parse::<i32>().ok()? - tens;
+        // Shortest digits again: of a decimal number that is not rounded.
+        format!("{digits}e{exponent}").parse::<f64>().ok()
+    });
+    let plain = shifted.map(|number| format!("{number} {unit}").trim_end().to_owned());
+    let is_same = |text: &String| parse_as(text, si_unit).is_ok_and(|read| read.to_bits() == value.to_bits());
+    plain.filter(is_same).unwrap_or_else(|| format!("{value:?} {si_unit}").trim_end().to_owned())
+}
+
+/// The unit with the prefix that leaves few digits of `value` before the point, and the power of ten that it stands for.
+fn unit_for(value: f64, si_unit: &str) -> (String, i32) {
     let (symbol, rest) = split(si_unit);
     if symbol.is_empty() || symbol == "rad" || value == 0.0 || !value.is_finite() {
-        return format!("{} {si_unit}", digits(value)).trim_end().to_owned();
+        return (si_unit.to_owned(), 0);
     }
     let power = power(rest);
     // Prefixes stand before the gram.
-    let (value, symbol) = if symbol == "kg" { (value * 1000_f64.powi(power), "g") } else { (value, symbol) };
+    let (kilo, symbol) = if symbol == "kg" { (3 * power, "g") } else { (0, symbol) };
     let least = if power == 1 { 1.0 } else { 0.1 };
-    let fits = |(_, ten): &&(&str, i32)| value.abs() / 10_f64.powi(ten * power) >= least * (1.0 - 1e-9);
+    let fits =
+        |(_, ten): &&(&str, i32)| value.abs() / 10_f64.powi(ten * power - kilo) >= least * (1.0 - 1e-9);
     let (prefix, ten) = PREFIXES.iter().find(fits).unwrap_or(&PREFIXES[PREFIXES.len() - 1]);
-    format!("{} {prefix}{symbol}{rest}", digits(value / 10_f64.powi(ten * power)))
+    (format!("{prefix}{symbol}{rest}"), ten * power - kilo)
 }
 
 /// The number of `value` read in `si_unit` with the prefix that brings it nearest to `usual`: 0.017 for 17 m if 0.0165 m is
@@ -57,7 +81,6 @@ fn digits(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::parse_as;
     use super::*;
 
     #[test]
@@ -79,6 +102,22 @@ mod tests {
             assert_eq!(prefixed(value, unit), text);
             let read = parse_as(text, unit).unwrap();
             assert!((read - value).abs() <= 1e-9 * value.abs(), "{text}: {read}");
+        }
+    }
+
+    #[test]
+    fn exact_numbers_are_read_back_bit_for_bit() {
+        for (value, unit, text) in [
+            (0.985 * 1.52e-6, "N*m/rad", "1.4972 uN*m/rad"),
+            (54.59e-6, "m^2", "54.59 mm^2"),
+            (51.1e-12, "kg*m^2", "51.1 ng*m^2"),
+            (3333.0, "rad/m", "3333 rad/m"),
+            (1.2, "kg/m^3", "1.2 kg/m^3"),
+            (-230.0, "", "-230"),
+            (69e-9, "m/V", "69 nm/V"),
+        ] {
+            assert_eq!(exact(value, unit), text);
+            assert_eq!(parse_as(text, unit).unwrap().to_bits(), value.to_bits(), "{text}");
         }
     }
 

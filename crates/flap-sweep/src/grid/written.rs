@@ -1,0 +1,111 @@
+//! Devices as text.
+
+use std::fmt::Write as _;
+
+use flap_core::parameter::{Kind, Parameter};
+
+use crate::notation::{text, units};
+use crate::plan::uncertainty::Correlation;
+use crate::plan::{Plan, Value};
+
+/// Width of comments.
+const WIDTH: usize = 110;
+
+const HEAD: &str = "\
+# Name this file wherever a preset is named: `flap run mybee.toml`, or device = \"mybee.toml\" in a grid file.
+# A number is in SI units, or text with a unit. It may say how well it is known, and where it comes from:
+#   hinge_stiffness = { value = \"2.1 uN*m/rad\", sd = \"0.1 uN*m/rad\", source = \"bending test, 12 March\" }
+# What is not named here is that of the preset.
+";
+
+/// The text of a device with all values of a plan before its axes are applied: every parameter with its unit, range and
+/// meaning as a comment. Read again, it gives the same numbers bit for bit.
+///
+/// ```
+/// use flap_sweep::grid;
+///
+/// let models = flap_core::simulate::all();
+/// let plan = grid::parse("small", "preset = \"ozaki2018-small\"", models).unwrap();
+/// let text = grid::device(&plan);
+/// let again = grid::parse("mybee.toml", &text, models).unwrap();
+/// assert_eq!(again.base(), plan.base());
+/// ```
+pub fn device(plan: &Plan) -> String {
+    let model = plan.simulator();
+    let mut page = String::new();
+    let _ = writeln!(page, "# A device of the model {}: {}", model.name(), model.doc());
+    page += HEAD;
+    let _ = write!(page, "\npreset = \"{}\"\n\n[params]\n", plan.preset());
+    let mut group = "";
+    for (index, (parameter, value)) in plan.parameters().iter().zip(plan.base()).enumerate() {
+        if parameter.group != group {
+            group = parameter.group;
+            let _ = write!(page, "\n# ---- {group} ----\n");
+        }
+        page.push('\n');
+        page += &comment(parameter);
+        page += &line(parameter, *value, plan.uncertainty().error(index));
+    }
+    for Correlation { between, coefficient } in plan.uncertainty().correlations() {
+        let [one, other] = between.map(|index| plan.parameters()[index].name);
+        let _ = write!(
+            page,
+            "\n[[correlation]]\nbetween = [\"{one}\", \"{other}\"]\ncoefficient = {}\n",
+            text::float(*coefficient)
+        );
+    }
+    page
+}
+
+/// Meaning, symbol and range of a parameter.
+fn comment(parameter: &Parameter) -> String {
+    let mut facts = Vec::new();
+    if !parameter.symbol.is_empty() {
+        facts.push(parameter.symbol.to_owned());
+    }
+    facts.push(match parameter.kind {
+        Kind::Number(range) => range.describe(),
+        Kind::Following(range, follows) => format!("{}; if not set, {follows}", range.describe()),
+        Kind::Choice(options) => options.join(" | "),
+    });
+    if parameter.is_fitted {
+        facts.push("in the preset a fit to one vehicle".to_owned());
+    }
+    wrapped(&format!("{} [{}]", parameter.doc, facts.join("; ")))
+}
+
+/// A comment in lines of at most [`WIDTH`] characters, if words are shorter.
+fn wrapped(text: &str) -> String {
+    let mut page = String::new();
+    let mut line = "#".to_owned();
+    for word in text.split_whitespace() {
+        if line.chars().count() + 1 + word.chars().count() > WIDTH && line.len() > 1 {
+            page += &line;
+            page.push('\n');
+            "#".clone_into(&mut line);
+        }
+        line.push(' ');
+        line += word;
+    }
+    page + &line + "\n"
+}
+
+/// The line of a parameter; as a comment if it has no value of its own.
+fn line(parameter: &Parameter, value: Value, error: Option<f64>) -> String {
+    let Parameter { name, unit, .. } = parameter;
+    let Some(value) = value.given() else {
+        return format!("# {name} = \n");
+    };
+    let shown = |number: f64| {
+        let exact = units::exact(number, unit);
+        if unit.is_empty() { exact } else { format!("\"{exact}\"") }
+    };
+    let value = match text::option(parameter, value) {
+        Some(option) => format!("\"{option}\""),
+        None => shown(value),
+    };
+    match error {
+        Some(error) => format!("{name} = {{ value = {value}, sd = {} }}\n", shown(error)),
+        None => format!("{name} = {value}\n"),
+    }
+}

@@ -1,0 +1,203 @@
+//! Devices: files with a preset and parameters of one's own, wherever a preset is named.
+
+use std::fs;
+
+use crate::support::Folder;
+
+const DEVICE: &str = "\
+description = \"the robot on bench 2\"
+preset = \"jafferis2016\"
+
+[params]
+hinge_stiffness = { value = \"2 uN*m/rad\", relative_sd = \"5 %\", source = \"bending test\" }
+wing_inertia_stroke = { value = \"50 ng*m^2\", sd = \"1 ng*m^2\" }
+drive_voltage_pp = \"160 V\"
+
+[[correlation]]
+between = [\"hinge_stiffness\", \"wing_inertia_stroke\"]
+coefficient = 0.6
+";
+
+const AXES: &str = "[axes]\ndrive_frequency = { from = 110, to = 130, n = 5 }\n";
+
+/// A folder with a device, a grid that begins with it, and one that sets the same values on the preset.
+fn folder() -> Folder {
+    let folder = Folder::with_grid(&format!("device = \"mybee.toml\"\n{AXES}"));
+    fs::write(folder.path("mybee.toml"), DEVICE).unwrap();
+    let params = "[params]\nhinge_stiffness = \"2 uN*m/rad\"\nwing_inertia_stroke = \"50 ng*m^2\"\n\
+                  drive_voltage_pp = \"160 V\"\n";
+    fs::write(folder.path("preset.toml"), format!("preset = \"jafferis2016\"\n{params}{AXES}")).unwrap();
+    folder
+}
+
+#[test]
+fn a_device_written_from_a_preset_has_its_rows() {
+    let folder = Folder::new();
+    for preset in ["jafferis2016", "jafferis2016-improved", "ozaki2018-small", "arabagi2013-30hz"] {
+        let text = folder.ends(0, &format!("new {preset}")).stdout;
+        fs::write(folder.path("mybee.toml"), &text).unwrap();
+        let [of_device, of_preset] =
+            ["mybee.toml", preset].map(|what| folder.ends(0, &format!("run {what}")).stdout);
+        assert_eq!(of_device, of_preset, "{preset}");
+        // A device is written again as it is.
+        assert_eq!(folder.ends(0, "new mybee.toml").stdout, text, "{preset}");
+    }
+}
+
+#[test]
+fn a_grid_begins_with_a_device() {
+    let folder = folder();
+    folder.ends(0, "sweep grid.toml --out device.csv");
+    folder.ends(0, "sweep preset.toml --out preset.csv");
+    assert_eq!(folder.read("device.csv"), folder.read("preset.csv"));
+    // Expressions know the device's values besides those of the preset.
+    let derived = "[derived]\nhinge_stiffness = \"device.hinge_stiffness * 0 + preset.hinge_stiffness\"\n";
+    fs::write(folder.path("derived.toml"), format!("device = \"mybee.toml\"\n{AXES}{derived}")).unwrap();
+    folder.ends(0, "sweep derived.toml --out derived.csv");
+    assert!(folder.read("derived.csv").contains("1.4972e-6"), "{}", folder.read("derived.csv"));
+}
+
+#[test]
+fn results_carry_the_device_and_resume_compares_it() {
+    let folder = folder();
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    let sidecar = folder.read("rows.csv.meta.toml");
+    assert!(sidecar.contains("[[devices]]") && sidecar.contains("the robot on bench 2"), "{sidecar}");
+    // Other work on the results takes the recorded device, wherever the file has gone.
+    fs::rename(folder.path("mybee.toml"), folder.path("moved.toml")).unwrap();
+    folder.ends(0, "rerun rows.csv --status periodic --rtol 1e-7 --out again.csv");
+    folder.ends(0, "convert rows.csv rows.parquet");
+    folder.ends(2, "sweep grid.toml --out rows.csv --resume").says("mybee.toml: ");
+    fs::write(folder.path("mybee.toml"), DEVICE.replace("160 V", "161 V")).unwrap();
+    folder.ends(2, "sweep grid.toml --out rows.csv --resume").says("the device differs").says(
+        "line 7 of mybee.toml was `drive_voltage_pp = \"160 V\"`, it is `drive_voltage_pp = \"161 V\"`",
+    );
+    // A device is an input: results do not overwrite it.
+    folder.ends(2, "sweep grid.toml --out mybee.toml --force");
+}
+
+#[test]
+fn devices_begin_with_devices_in_other_folders() {
+    let folder = folder();
+    fs::create_dir(folder.path("lab")).unwrap();
+    fs::rename(folder.path("mybee.toml"), folder.path("lab/mybee.toml")).unwrap();
+    fs::write(folder.path("lab/stiff.toml"), "device = \"mybee.toml\"\n[params]\nhinge_stiffness = 3e-6\n")
+        .unwrap();
+    fs::write(folder.path("grid.toml"), format!("device = \"lab/stiff.toml\"\n{AXES}")).unwrap();
+    folder.ends(0, "sweep grid.toml --out stiff.csv");
+    let preset = folder.read("preset.toml").replace("2 uN*m/rad", "3 uN*m/rad");
+    fs::write(folder.path("preset.toml"), preset).unwrap();
+    folder.ends(0, "sweep preset.toml --out preset.csv");
+    assert_eq!(folder.read("stiff.csv"), folder.read("preset.csv"));
+    // A value that is set anew has no standard error, and its correlation has ended.
+    let text = folder.ends(0, "new lab/stiff.toml").stdout;
+    assert!(
+        text.contains("hinge_stiffness = \"3 uN*m/rad\"\n") && !text.contains("[[correlation]]"),
+        "{text}"
+    );
+    assert!(text.contains("wing_inertia_stroke = { value = \"50 ng*m^2\", sd = \"1 ng*m^2\" }"), "{text}");
+}
+
+#[test]
+fn builds_are_drawn_from_errors_and_correlations() {
+    let folder = folder();
+    let sample =
+        "[sample]\nmethod = \"sobol\"\nn = 512\nof = \"device\"\n[output]\ncolumns = [\"stroke_pp_deg\"]\n";
+    fs::write(folder.path("builds.toml"), format!("device = \"mybee.toml\"\n{sample}")).unwrap();
+    folder.ends(0, "check builds.toml").prints("sd 1e-7, of the device");
+    folder.ends(0, "sweep builds.toml --out builds.csv");
+    let text = folder.read("builds.csv");
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let column = |name: &str| {
+        let place = rows[0].iter().position(|known| *known == name).unwrap();
+        rows[1..].iter().map(|row| row[place].parse::<f64>().unwrap()).collect::<Vec<f64>>()
+    };
+    let (stiffness, inertia) = (column("hinge_stiffness"), column("wing_inertia_stroke"));
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let covariance = |a: &[f64], b: &[f64]| {
+        let (mean_a, mean_b) = (mean(a), mean(b));
+        mean(&a.iter().zip(b).map(|(a, b)| (a - mean_a) * (b - mean_b)).collect::<Vec<f64>>())
+    };
+    let sd = |values: &[f64]| covariance(values, values).sqrt();
+    assert!((mean(&stiffness) / 2e-6 - 1.0).abs() < 1e-3 && (sd(&stiffness) / 1e-7 - 1.0).abs() < 0.02);
+    assert!((mean(&inertia) / 50e-12 - 1.0).abs() < 1e-3 && (sd(&inertia) / 1e-12 - 1.0).abs() < 0.02);
+    let correlation = covariance(&stiffness, &inertia) / (sd(&stiffness) * sd(&inertia));
+    assert!((correlation - 0.6).abs() < 0.02, "{correlation}");
+}
+
+#[test]
+fn commands_take_a_device_for_a_preset() {
+    let folder = folder();
+    folder.ends(0, "run mybee.toml").prints("lift_mean_mn");
+    folder.ends(0, "resonance mybee.toml");
+    folder.ends(0, "respond mybee.toml --from 110 --to 130 --step 5 --out curves.csv");
+    folder.ends(0, "check mybee.toml").prints("hinge_stiffness");
+}
+
+#[test]
+fn mistakes_in_devices_are_told_with_their_place() {
+    let folder = folder();
+    let told = |text: &str, message: &str, place: &str| {
+        fs::write(folder.path("mybee.toml"), text).unwrap();
+        folder.ends(2, "check grid.toml").says(message).says(place);
+    };
+    let params = |line: &str| format!("preset = \"jafferis2016\"\n[params]\n{line}\n");
+    told("device = \"grid2.toml\"\n", "grid2.toml: ", "mybee.toml:1:10");
+    told(
+        "device = \"mybee.toml\"\n",
+        "the device begins with itself: mybee.toml → mybee.toml",
+        "mybee.toml:1:10",
+    );
+    told(
+        "preset = \"jafferis2016\"\n[axes]\nwing_area = [1]\n",
+        "unknown key `axes` in a device",
+        "mybee.toml:2:2",
+    );
+    told("preset = \"jafferis2016\"\ndevice = \"a.toml\"\n", "not with both", "mybee.toml:1:1");
+    told("[params]\nwing_area = 1\n", "`preset` is missing", "mybee.toml");
+    told(&params("wing_area = \"-1 mm^2\""), "`wing_area` must be more than zero", "mybee.toml:3:13");
+    told(&params("wing_aera = 1"), "has no parameter `wing_aera`", "did you mean `wing_area`?");
+    told(&params("wing_area = { sd = \"1 mm^2\" }"), "`wing_area` has no `value`", "mybee.toml:3:13");
+    told(&params("wing_area = { value = 5e-5, sd = \"2 %\" }"), "not a share of its value", "relative_sd");
+    told(
+        &params("wing_area = { value = 5e-5, sd = 0 }"),
+        "`sd` must come to more than zero",
+        "mybee.toml:3:34",
+    );
+    told(
+        &params("wing_area = { value = 5e-5, sd = 1e-6, relative_sd = 0.1 }"),
+        "not both",
+        "mybee.toml:3:40",
+    );
+    told(
+        &params("drive_shape = { value = \"sine\", sd = 1 }"),
+        "a choice and has no standard error",
+        "mybee.toml:3",
+    );
+    told(&params("wing_area = { value = 5e-5, note = \"x\" }"), "unknown key `note` of a value", "source");
+    let pair = |pair: &str, coefficient: &str| {
+        let values =
+            "wing_area = { value = 5e-5, sd = 1e-6 }\nhinge_stiffness = { value = 2e-6, sd = 1e-7 }\n";
+        params(&format!("{values}[[correlation]]\nbetween = {pair}\ncoefficient = {coefficient}"))
+    };
+    told(&pair("[\"wing_area\"]", "0.1"), "a list of two parameters", "mybee.toml:6:11");
+    told(
+        &pair("[\"wing_area\", \"wing_length\"]", "0.1"),
+        "`wing_length` has no standard error",
+        "mybee.toml:6:25",
+    );
+    told(&pair("[\"wing_area\", \"wing_area\"]", "0.1"), "names one parameter twice", "mybee.toml:6:11");
+    told(&pair("[\"wing_area\", \"hinge_stiffness\"]", "1"), "must be between -1 and 1", "mybee.toml:7:15");
+    let three = "piezo_thickness = { value = 1e-4, sd = 1e-6 }\n[[correlation]]\nbetween = [\"wing_area\", \"piezo_thickness\"]\n\
+                 coefficient = 0.9\n[[correlation]]\nbetween = [\"hinge_stiffness\", \"piezo_thickness\"]\ncoefficient = -0.9\n";
+    let text = pair("[\"wing_area\", \"hinge_stiffness\"]", "0.9")
+        .replace("[[correlation]]", &format!("{three}[[correlation]]"));
+    told(&text, "the correlations contradict each other", "mybee.toml");
+    // A sample of a device without errors.
+    let sample = "preset = \"jafferis2016\"\n[sample]\nmethod = \"random\"\nn = 5\nof = \"device\"\n";
+    fs::write(folder.path("grid.toml"), sample).unwrap();
+    folder
+        .ends(2, "check grid.toml")
+        .says("no parameter of the device has a standard error")
+        .says("grid.toml:5:6");
+}
