@@ -174,6 +174,31 @@ fn the_page_on_devices_works() {
     assert_eq!(grids.len(), 3);
 }
 
+/// The commands of the page on wings work with its outline, for every model.
+#[test]
+#[cfg(unix)]
+fn the_page_on_wings_works() {
+    let folder = Folder::new();
+    let page = document("docs/wings.md");
+    fs::write(folder.path("outline.csv"), &blocks(&page, "csv")[0]).unwrap();
+    let flap = Path::new(env!("CARGO_BIN_EXE_flap")).parent().unwrap();
+    let paths = format!("{}:{}", flap.display(), std::env::var("PATH").unwrap());
+    for block in blocks(&page, "sh") {
+        let mut shell = std::process::Command::new("sh");
+        let ended =
+            shell.args(["-ec", &block]).env("PATH", &paths).current_dir(folder.path("")).output().unwrap();
+        assert!(ended.status.success(), "{block}: {}", String::from_utf8_lossy(&ended.stderr));
+    }
+    for preset in ["ozaki2018-small", "arabagi2013-75hz"] {
+        let device = folder.ends(0, &format!("wing outline.csv --preset {preset}")).stdout;
+        // The page says which parameters are written.
+        for line in device.lines().filter(|line| line.contains(" = ") && !line.starts_with("preset")) {
+            let name = line.split(' ').next().unwrap();
+            assert!(name.starts_with("chord_") || page.contains(&format!("`{name}`")), "{name}");
+        }
+    }
+}
+
 /// The commands of the results page work one after the other, from a sweep that left points unsettled.
 #[test]
 fn commands_in_the_results_page_work() {

@@ -30,3 +30,4 @@ mod streams;
 mod studies;
 mod support;
 mod sweep;
+mod wings;

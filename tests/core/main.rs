@@ -40,3 +40,4 @@ mod strobe;
 mod terms;
 mod tracking;
 mod waveforms;
+mod wings;

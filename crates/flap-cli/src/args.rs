@@ -11,6 +11,7 @@ mod results;
 mod run;
 mod sweep;
 mod values;
+mod wing;
 
 use std::path::PathBuf;
 use std::sync::LazyLock;
@@ -28,6 +29,7 @@ pub(crate) use respond::RespondArgs;
 pub(crate) use results::{ConvertArgs, MergeArgs, RerunArgs, ResumeArgs, VerifyArgs};
 pub(crate) use run::{Drive, Format, ResonanceArgs, RunArgs};
 pub(crate) use sweep::{CheckArgs, SweepArgs};
+pub(crate) use wing::WingArgs;
 
 /// Sweeps of insect-scale flapping-wing designs: a grid file goes in, one row per design point comes out.
 #[derive(Parser)]
@@ -81,6 +83,8 @@ pub(crate) enum Command {
     Track(TrackArgs),
     /// Print a device file of a preset, to be edited: every parameter with value, unit, range and meaning
     New(NewArgs),
+    /// Turn the outline of a wing into a device: areas, radii, inertias, and the chord as a table
+    Wing(WingArgs),
     /// List the parameters and output columns of a model
     Params(ParamsArgs),
     /// Explain parameters, columns of results, and statuses

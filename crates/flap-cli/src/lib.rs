@@ -52,6 +52,7 @@ pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
         Command::Lift(args) => cmd::lift::run(&args),
         Command::Track(args) => cmd::track::run(&args),
         Command::New(args) => cmd::new::run(&args),
+        Command::Wing(args) => cmd::wing::run(&args),
         Command::Params(args) => cmd::params::run(&args),
         Command::Explain(args) => cmd::explain::run(&args),
         Command::Models => cmd::models::run(),

@@ -14,6 +14,33 @@ pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
     Ok((name.trim().to_owned(), value.trim().to_owned()))
 }
 
+/// A length (m) of zero or more.
+pub(super) fn length(text: &str) -> Result<f64, String> {
+    size(text, "m", "2 mm")
+}
+
+/// A density (kg/m³).
+pub(super) fn density(text: &str) -> Result<f64, String> {
+    size(text, "kg/m^3", "1400 kg/m^3")
+}
+
+/// A mass per length (kg/m).
+pub(super) fn line_density(text: &str) -> Result<f64, String> {
+    size(text, "kg/m", "20 mg/m")
+}
+
+/// A mass (kg) of more than zero.
+pub(super) fn mass(text: &str) -> Result<f64, String> {
+    size(text, "kg", "0.6 mg")
+        .and_then(|mass| if mass > 0.0 { Ok(mass) } else { Err("a wing has a mass".to_owned()) })
+}
+
+/// A quantity of zero or more in an SI unit.
+fn size(text: &str, unit: &str, example: &str) -> Result<f64, String> {
+    let number = quantity(text, unit, example)?;
+    if number >= 0.0 { Ok(number) } else { Err("expected zero or more".to_owned()) }
+}
+
 /// A number of threads from 1 to 1024.
 pub(super) fn threads(text: &str) -> Result<NonZeroUsize, String> {
     let number = text.parse::<NonZeroUsize>().ok().filter(|number| number.get() <= 1024);

@@ -30,3 +30,4 @@ pub(crate) mod sweep;
 pub(crate) mod top;
 pub(crate) mod track;
 pub(crate) mod verify;
+pub(crate) mod wing;

@@ -2,6 +2,7 @@
 
 use super::energy::EnergyBalance;
 use super::signal::{Signal, SignalCycle};
+use crate::aero::Wing;
 use crate::drive::DriveConstants;
 use crate::num::Lanes;
 use crate::ode::{Ode, Start};
@@ -87,6 +88,12 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + Clone + PartialEq + 's
     /// [`Invalid`] if a parameter is out of its range, parameters are impossible together, or a derived constant is not
     /// finite.
     fn start(&self, values: &[f64]) -> Result<Start<Self::Constants<f64>, N>, Invalid>;
+
+    /// The parameters that a wing of one's own decides, by name, in SI units; none if the model has no such wing.
+    fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
+        let _ = wing;
+        Vec::new()
+    }
 
     /// The drive of a point, to whose phase the signals' harmonics refer.
     fn drive<R: Lanes>(c: &Self::Constants<R>) -> &DriveConstants<R>;

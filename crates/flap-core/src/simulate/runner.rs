@@ -19,6 +19,7 @@ use super::settle::RowFrom;
 use super::simulator::{Experiments, Motions, Rows, Simulator};
 use super::single::{PointRun, ask};
 use super::trajectory::TrajectoryFrom;
+use crate::aero::Wing;
 use crate::drive::Samples;
 use crate::model::{self, Model};
 use crate::modes::Mode;
@@ -189,6 +190,10 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Simulator f
 
     fn presets(&self) -> &'static [Preset] {
         M::DESCRIPTION.presets
+    }
+
+    fn wing(&self, wing: &Wing) -> Vec<(&'static str, f64)> {
+        M::wing(wing)
     }
 
     fn motions(&self) -> Result<&dyn Motions, Unfinished> {

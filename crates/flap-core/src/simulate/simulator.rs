@@ -11,6 +11,7 @@ use super::request::{
 use super::row::Row;
 use super::settings::SolverSettings;
 use super::single::PointRun;
+use crate::aero::Wing;
 use crate::drive::Samples;
 use crate::modes::Mode;
 use crate::num::InstructionSet;
@@ -45,6 +46,12 @@ pub trait Simulator: Rows {
 
     /// Published parameter sets.
     fn presets(&self) -> &'static [Preset];
+
+    /// The parameters that a wing of one's own decides, by name, in SI units; none if the model has no such wing.
+    fn wing(&self, wing: &Wing) -> Vec<(&'static str, f64)> {
+        let _ = wing;
+        Vec::new()
+    }
 
     /// The row of a point from rest, see [`Rows::run_point`].
     ///

@@ -12,6 +12,7 @@ pub mod integrity;
 pub mod job;
 pub mod journal;
 pub mod merge;
+pub mod outline;
 pub mod output;
 pub mod record;
 mod replaced;

@@ -32,4 +32,4 @@ mod zip;
 
 pub use parse::{parse, parse_recorded};
 pub use read::{MOST_BYTES, ReadError, read, read_from};
-pub use written::device;
+pub use written::{device, wing};

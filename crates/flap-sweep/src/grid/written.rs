@@ -109,3 +109,24 @@ fn line(parameter: &Parameter, value: Value, error: Option<f64>) -> String {
         None => format!("{name} = {value}\n"),
     }
 }
+
+/// The text of a device with the parameters of a wing, by name, in SI units, on top of a preset or a device called `base`. The
+/// values before stand behind them as comments.
+pub fn wing(plan: &Plan, base: &str, parameters: &[(&str, f64)]) -> String {
+    let kind = if base == plan.preset() { "preset" } else { "device" };
+    let mut page = format!("{kind} = \"{base}\"\n\n[params]\n");
+    for (name, value) in parameters {
+        let Some(index) = Parameter::index(plan.parameters(), name) else { continue };
+        let parameter = &plan.parameters()[index];
+        let before = match plan.base()[index] {
+            Value::Given(before) => match text::option(parameter, before) {
+                Some(option) => option.to_owned(),
+                None => units::prefixed(before, parameter.unit),
+            },
+            Value::Follows(_) | Value::Resonance => "not set".to_owned(),
+        };
+        let line = line(parameter, Value::Given(*value), None);
+        let _ = writeln!(page, "{:<56}# before: {before}", line.trim_end());
+    }
+    page
+}

@@ -9,6 +9,8 @@ use super::rhs::{
     stroke_damping, tip_drag,
 };
 use super::transmission::{Law, Transmission, stroke};
+use super::wing;
+use crate::aero::Wing;
 use crate::drive::{Drive, DriveConstants, Shape, StrokeMode, Wave, Waveform};
 use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Model, Motions, Signal};
 use crate::modes::Mode;
@@ -47,6 +49,10 @@ impl Model<4, S> for Bimorph {
         let tip = 0.1 / params.transmission_ratio;
         let scale = [tip, tip * rate, 0.3, 0.3 * rate];
         Ok(Start::new(constants, [0.0; 4], constants.drive.period(), scale))
+    }
+
+    fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
+        wing::parameters(wing)
     }
 
     #[inline(always)]

@@ -12,6 +12,7 @@ mod dynamics;
 mod params;
 mod rhs;
 mod transmission;
+mod wing;
 
 pub use actuator::{Actuator, taper_gain};
 pub use columns::S;

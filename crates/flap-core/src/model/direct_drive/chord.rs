@@ -10,14 +10,17 @@ use crate::quadrature::gauss_legendre;
 pub const BLADES: usize = 8;
 
 impl Params {
-    /// These parameters with the shape moments (22), (33) and the midspan chord of the chord shape.
+    /// These parameters with the mean chord, the shape moments (22), (33) and the midspan chord of the chord shape.
     #[must_use]
     pub fn with_chord_moments(self) -> Params {
         let cuts = cut(&self);
-        let (length, mean) = (self.wing_length, self.mean_chord);
+        let length = self.wing_length;
+        // Of the elements, so that the moment of the chord itself is 1.
+        let mean = if self.chords.is_on() { sum(&cuts, |_, c| c) / length } else { self.mean_chord };
         let moment = |f: fn(f64, f64) -> f64| sum(&cuts, |r, c| f(r / length, c / mean)) / length;
         let fourth = moment(|_, c| c * c * c * c);
         Params {
+            mean_chord: mean,
             midspan_chord: Some(self.chord(0.5)),
             shape_moment_03: moment(|_, c| c * c * c),
             shape_moment_04: fourth,
@@ -31,12 +34,15 @@ impl Params {
         }
     }
 
-    /// The chord (m) at `span` wing lengths from the root.
+    /// The chord (m) at `span` wing lengths from the root, of the table or by Legendre polynomials.
     ///
     /// ```text
     /// c = c̄ (1 + a₁ P₁(z) + a₂ P₂(z) + a₃ P₃(z))     z = 2 span − 1
     /// ```
     fn chord(&self, span: f64) -> f64 {
+        if let Some(chord) = self.chords.chord(span) {
+            return chord;
+        }
         let z = 2.0 * span - 1.0;
         let [p_1, p_2, p_3] = [z, 0.5 * (3.0 * z * z - 1.0), 0.5 * z * (5.0 * z * z - 3.0)];
         let shape =

@@ -125,9 +125,11 @@ impl Constants<f64> {
     /// If the chord is negative somewhere, the mass matrix is not positive definite for every pitch angle, or a
     /// constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
-        let p = &match p.flow_direction {
-            FlowDirection::Uniform => p.clone(),
-            FlowDirection::Blade => p.clone().with_chord_moments(),
+        p.chords.check()?;
+        let p = &if p.chords.is_on() || p.flow_direction == FlowDirection::Blade {
+            p.clone().with_chord_moments()
+        } else {
+            p.clone()
         };
         let laminate = Laminate {
             layers: [

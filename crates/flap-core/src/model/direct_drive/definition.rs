@@ -5,6 +5,8 @@ use super::constants::Constants;
 use super::dynamics::DirectDrive;
 use super::params::Params;
 use super::rhs::{added_mass, aerodynamics, current, lift};
+use super::wing;
+use crate::aero::Wing;
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::stroke_and_pitch as states;
 use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Model, Motions, Signal};
@@ -38,6 +40,10 @@ impl Model<4, S> for DirectDrive {
         self.drive.check(&params.waveform)?;
         let constants = Constants::derive(&params)?;
         Ok(states::start(&self.drive, &constants.drive, constants, [0.1, 0.3]))
+    }
+
+    fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
+        wing::parameters(wing)
     }
 
     #[inline(always)]

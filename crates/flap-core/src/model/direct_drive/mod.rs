@@ -11,6 +11,7 @@ mod definition;
 mod dynamics;
 mod params;
 mod rhs;
+mod wing;
 
 pub use chord::BLADES;
 pub use columns::S;

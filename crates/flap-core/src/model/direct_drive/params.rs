@@ -1,5 +1,6 @@
 //! Parameters of the direct-drive model and their published values.
 
+use crate::aero::ChordTable;
 use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
 use crate::linkage::{HingeParameters, TorsionHinge};
 use crate::parameter::Kind::{Choice, Following, Number};
@@ -63,6 +64,8 @@ crate::parameters! {
         chord_legendre_2: f64 = ("", "a_2", Number(Any)),
         /// Chord shape: coefficient of the Legendre polynomial P_3; not in the paper.
         chord_legendre_3: f64 = ("", "a_3", Number(Any)),
+        /// The chord as a table. It replaces mean_chord, midspan_chord, the shape moments and rotation_moment, for every flow_direction.
+        chords: ChordTable = (flatten),
         /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22). All shape moments are for flow_direction = "uniform".
         shape_moment_03: f64 = ("", "I_w0,3", Number(Positive)),
         /// Wing shape moment: normalised integral of chord^4.
@@ -236,6 +239,7 @@ impl Params {
             chord_legendre_1: 0.0562,
             chord_legendre_2: -0.0913,
             chord_legendre_3: 0.176,
+            chords: ChordTable::OFF,
             shape_moment_03: 1.02,
             shape_moment_04: 1.04,
             shape_moment_12: 0.88,

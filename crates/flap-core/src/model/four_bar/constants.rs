@@ -182,6 +182,7 @@ impl Constants<f64> {
 /// Cuts the wing into strips.
 fn cut(p: &Params) -> Result<Vec<Cut>, Invalid> {
     Invalid::unless_within("strips", p.strips, STRIPS)?;
+    p.chords.check()?;
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

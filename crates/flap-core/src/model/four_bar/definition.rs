@@ -8,6 +8,8 @@ use super::params::Params;
 use super::rhs::{
     charging_current, current, driving_force, force, mass_matrix, stroke_damping, tip, transmission,
 };
+use super::wing;
+use crate::aero::Wing;
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::stroke_and_pitch as states;
 use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Model, Motions, Signal};
@@ -38,6 +40,10 @@ impl Model<4, S> for FourBar {
         self.drive.check(&params.waveform)?;
         let constants = Constants::derive(&params)?;
         Ok(states::start(&self.drive, &constants.drive, constants, [0.3, 0.5]))
+    }
+
+    fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
+        wing::parameters(wing)
     }
 
     #[inline(always)]

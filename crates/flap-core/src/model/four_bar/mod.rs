@@ -15,6 +15,7 @@ mod definition;
 mod dynamics;
 mod params;
 mod rhs;
+mod wing;
 
 pub use aerodynamics::{Aerodynamics, added_mass_lift, aerodynamics, coefficients, side_of};
 pub use columns::S;

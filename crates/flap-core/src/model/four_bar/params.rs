@@ -3,6 +3,7 @@
 //! The paper gives the links of one four-bar, voltages, frequencies, the hinges' stiffness and damping, the series
 //! stiffness, C_rot and the position of the rotation axis. Everything else is assumed, and says so.
 
+use crate::aero::ChordTable;
 use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
 use crate::linkage::HingeParameters;
 use crate::parameter::Kind::{Choice, Following, Number};
@@ -111,6 +112,8 @@ crate::parameters! {
         chord_term_3: f64 = ("", "p_3", Number(Any)),
         /// The chord polynomial's factor of x^4; assumed: no chord at the tip.
         chord_term_4: f64 = ("", "p_4", Number(Any)),
+        /// The chord as a table.
+        chords: ChordTable = (flatten),
         /// Position of the rotation axis, in chords behind the leading edge.
         axis_position: f64 = ("", "z_RA/c", Number(Any)),
         /// Wing mass; assumed: spar, veins and membrane, scaled to the second resonance.
@@ -274,6 +277,7 @@ impl Params {
             chord_term_2: 0.0,
             chord_term_3: 0.0,
             chord_term_4: -2.0,
+            chords: ChordTable::OFF,
             axis_position: 0.25,
             wing_mass: 9.577e-6,
             mass_centre_radius: 15.22e-3,
@@ -326,8 +330,11 @@ impl Params {
         }
     }
 
-    /// The chord (m) at `x`, from 0 at the wing's root to 1 at its tip.
+    /// The chord (m) at `x`, from 0 at the wing's root to 1 at its tip: of the table, or of the polynomial.
     pub fn chord(&self, x: f64) -> f64 {
+        if let Some(chord) = self.chords.chord(x) {
+            return chord;
+        }
         let terms =
             [self.chord_term_4, self.chord_term_3, self.chord_term_2, self.chord_term_1, self.chord_term_0];
         self.root_chord * terms.iter().fold(0.0, |sum, term| sum * x + term)

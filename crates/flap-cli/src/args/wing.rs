@@ -1,0 +1,45 @@
+//! The command `wing`.
+
+use std::path::PathBuf;
+
+use super::values::{density, length, line_density, mass};
+
+#[derive(clap::Args)]
+#[command(after_help = HELP)]
+pub(crate) struct WingArgs {
+    /// CSV file with the columns `span [mm]`, `leading_edge [mm]` and `trailing_edge [mm]`, from root to tip
+    #[arg(value_name = "OUTLINE")]
+    pub(crate) outline: PathBuf,
+
+    /// The preset or device that the wing is put on; its model decides the parameters
+    #[arg(long, value_name = "PRESET|FILE")]
+    pub(crate) preset: String,
+
+    /// Distance of the wing's root from the stroke axis, such as `2 mm`
+    #[arg(long, value_name = "LENGTH", default_value = "0 m", value_parser = length)]
+    pub(crate) offset: f64,
+
+    /// Thickness of the wing's membrane, such as `1.5 um`
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub(crate) thickness: Option<f64>,
+
+    /// Density of the membrane, such as `1400 kg/m^3`
+    #[arg(long, value_name = "DENSITY", value_parser = density)]
+    pub(crate) density: Option<f64>,
+
+    /// Mass per length of a spar along the leading edge, such as `20 mg/m`
+    #[arg(long, value_name = "MASS/LENGTH", value_parser = line_density)]
+    pub(crate) spar: Option<f64>,
+
+    /// Mass of the wing as weighed, such as `0.6 mg`: membrane and spar are scaled to it; alone, it is spread evenly
+    #[arg(long, value_name = "MASS", value_parser = mass)]
+    pub(crate) mass: Option<f64>,
+}
+
+const HELP: &str = "\
+The edges are distances from the hinge's axis: the leading edge ahead of it, the trailing edge behind it. Between stations they are \
+straight. docs/wings.md says which numbers belong together when a wing changes.
+
+Examples:
+  flap wing outline.csv --preset jafferis2016 --offset '2 mm' --mass '0.6 mg' > wing.toml
+  flap run wing.toml";

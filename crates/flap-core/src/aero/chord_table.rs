@@ -1,0 +1,162 @@
+//! The chord of a wing as a table, for wings that no polynomial describes.
+
+use super::wing::Outline;
+use crate::parameter::Invalid;
+use crate::parameter::Kind::{Choice, Number};
+use crate::parameter::Range::NonNegative;
+
+/// Stations of the table: at 0, 10, ... 100 % of the wing's length.
+pub const STATIONS: usize = 11;
+
+crate::choice! {
+    /// Use of the table.
+    pub enum Tabulated {
+        /// The chord is that of the model's own shape.
+        Off = "off",
+        /// The chord is that of the table.
+        On = "on",
+    }
+}
+
+crate::parameters! {
+    /// The chord at stations along the span, straight between them.
+    pub struct ChordTable {
+        /// Chord of the wing: by the model's own shape, or by the table chord_0 to chord_10.
+        chord_table: Tabulated = ("", "", Choice(Tabulated::NAMES), default 0.0),
+        /// Chord at 0 % of the wing's length, the root. Only for chord_table = "on".
+        chord_0: f64 = ("m", "", Number(NonNegative), default 0.0),
+        /// Chord at 10 % of the wing's length. Only for chord_table = "on".
+        chord_1: f64 = ("m", "", Number(NonNegative), default 0.0),
+        /// Chord at 20 % of the wing's length. Only for chord_table = "on".
+        chord_2: f64 = ("m", "", Number(NonNegative), default 0.0),
+        /// Chord at 30 % of the wing's length. Only for chord_table = "on".
+        chord_3: f64 = ("m", "", Number(NonNegative), default 0.0),
+        /// Chord at 40 % of the wing's length. Only for chord_table = "on".
+        chord_4: f64 = ("m", "", Number(NonNegative), default 0.0),
+        /// Chord at 50 % of the wing's length. Only for chord_table = "on".
+        chord_5: f64 = ("m", "", Number(NonNegative), default 0.0),
+        /// Chord at 60 % of the wing's length. Only for chord_table = "on".
+        chord_6: f64 = ("m", "", Number(NonNegative), default 0.0),
+        /// Chord at 70 % of the wing's length. Only for chord_table = "on".
+        chord_7: f64 = ("m", "", Number(NonNegative), default 0.0),
+        /// Chord at 80 % of the wing's length. Only for chord_table = "on".
+        chord_8: f64 = ("m", "", Number(NonNegative), default 0.0),
+        /// Chord at 90 % of the wing's length. Only for chord_table = "on".
+        chord_9: f64 = ("m", "", Number(NonNegative), default 0.0),
+        /// Chord at 100 % of the wing's length, the tip. Only for chord_table = "on".
+        chord_10: f64 = ("m", "", Number(NonNegative), default 0.0),
+    }
+}
+
+impl ChordTable {
+    /// No table.
+    pub const OFF: ChordTable = ChordTable::new(Tabulated::Off, [0.0; STATIONS]);
+
+    /// A table of chords (m).
+    pub const fn new(chord_table: Tabulated, chords: [f64; STATIONS]) -> ChordTable {
+        let [
+            chord_0,
+            chord_1,
+            chord_2,
+            chord_3,
+            chord_4,
+            chord_5,
+            chord_6,
+            chord_7,
+            chord_8,
+            chord_9,
+            chord_10,
+        ] = chords;
+        ChordTable {
+            chord_table,
+            chord_0,
+            chord_1,
+            chord_2,
+            chord_3,
+            chord_4,
+            chord_5,
+            chord_6,
+            chord_7,
+            chord_8,
+            chord_9,
+            chord_10,
+        }
+    }
+
+    /// The chords at the stations (m).
+    pub fn chords(&self) -> [f64; STATIONS] {
+        let c = self;
+        [
+            c.chord_0, c.chord_1, c.chord_2, c.chord_3, c.chord_4, c.chord_5, c.chord_6, c.chord_7,
+            c.chord_8, c.chord_9, c.chord_10,
+        ]
+    }
+
+    /// True if the table is to be used.
+    pub fn is_on(&self) -> bool {
+        self.chord_table == Tabulated::On
+    }
+
+    /// The chord (m) at `x`, from 0 at the wing's root to 1 at its tip; `None` if the table is not used.
+    pub fn chord(&self, x: f64) -> Option<f64> {
+        if !self.is_on() {
+            return None;
+        }
+        let chords = self.chords();
+        let place = (x * (STATIONS - 1) as f64).clamp(0.0, (STATIONS - 1) as f64);
+        let before = (0..STATIONS - 1).rev().find(|&station| station as f64 <= place).unwrap_or(0);
+        let share = place - before as f64;
+        Some(chords[before] + share * (chords[before + 1] - chords[before]))
+    }
+
+    /// The mean chord (m) of the table.
+    pub fn mean(&self) -> f64 {
+        let chords = self.chords();
+        let ends = 0.5 * (chords[0] + chords[STATIONS - 1]);
+        (ends + chords[1..STATIONS - 1].iter().sum::<f64>()) / (STATIONS - 1) as f64
+    }
+
+    /// Refuses a table without a chord.
+    ///
+    /// # Errors
+    /// [`Invalid::Together`] if the table is used and all of it is zero.
+    pub fn check(&self) -> Result<(), Invalid> {
+        if self.is_on() && self.mean() <= 0.0 {
+            return Err(Invalid::together(
+                &["chord_table", "chord_0", "chord_5", "chord_10"],
+                "chord_table is \"on\", but chord_0 to chord_10 are all zero: `flap wing OUTLINE.csv` writes them",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// The parameters of the table for an outline, switched on.
+pub fn chord_table(outline: &Outline) -> Vec<(&'static str, f64)> {
+    let mut parameters = vec![("chord_table", f64::from(Tabulated::On as u8))];
+    for (station, parameter) in ChordTable::TABLE[1..].iter().enumerate() {
+        let share = station as f64 / (STATIONS - 1) as f64;
+        parameters.push((parameter.name, outline.chord(share * outline.length())));
+    }
+    parameters
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_chord_is_straight_between_stations() {
+        let mut chords = [0.0; STATIONS];
+        for (station, chord) in chords.iter_mut().enumerate() {
+            *chord = [2e-3, 3e-3][station % 2];
+        }
+        let table = ChordTable::new(Tabulated::On, chords);
+        for (x, chord) in [(0.0, 2e-3), (0.1, 3e-3), (0.05, 2.5e-3), (0.925, 2.75e-3), (1.0, 2e-3)] {
+            assert!((table.chord(x).unwrap() - chord).abs() < 1e-15, "{x}: {:?}", table.chord(x));
+        }
+        assert!((table.mean() - 2.5e-3).abs() < 1e-15);
+        assert_eq!(ChordTable::new(Tabulated::Off, chords).chord(0.5), None);
+        assert!(ChordTable::new(Tabulated::On, [0.0; STATIONS]).check().is_err());
+    }
+}

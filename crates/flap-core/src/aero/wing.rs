@@ -1,0 +1,275 @@
+//! A wing of one's own: integrals over an outline and its mass.
+
+use crate::quadrature::gauss_legendre;
+
+/// The outline at a distance from the wing's root (m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Station {
+    /// Distance from the root along the span.
+    pub span: f64,
+    /// Distance of the leading edge ahead of the hinge's axis; negative behind it.
+    pub leading: f64,
+    /// Distance of the trailing edge behind the hinge's axis.
+    pub trailing: f64,
+}
+
+/// Stations that are no outline.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum OutlineError {
+    /// An outline has at least two stations.
+    #[error("an outline has at least two stations, not {0}")]
+    TooFew(usize),
+    /// The stations do not begin at the root.
+    #[error("the first station is at {0} m along the span: an outline begins at 0, the wing's root")]
+    NotAtRoot(f64),
+    /// The stations do not go outwards.
+    #[error("station {0} is not farther out than the one before")]
+    NotOutwards(usize),
+    /// The chord is negative.
+    #[error("the chord is negative at station {0}: its trailing edge is ahead of its leading edge")]
+    NegativeChord(usize),
+    /// The chord is zero everywhere.
+    #[error("the wing has no area")]
+    NoArea,
+}
+
+/// The outline of a wing, straight between stations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    stations: Vec<Station>,
+}
+
+/// The mass of a wing: a membrane of uniform areal density, and a spar along the leading edge.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Material {
+    /// Areal density of the membrane (kg/m²).
+    pub membrane: f64,
+    /// Mass of the spar per length (kg/m).
+    pub spar: f64,
+    /// Mass of the whole wing as weighed (kg), to which both are scaled; `None` if they are taken as they are.
+    pub weighed: Option<f64>,
+}
+
+/// A wing, and the air around it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wing {
+    /// Its outline.
+    pub outline: Outline,
+    /// Distance of its root from the stroke axis (m).
+    pub offset: f64,
+    /// Its mass, if that is known.
+    pub material: Option<Material>,
+    /// Density of the air (kg/m³).
+    pub air_density: f64,
+}
+
+/// Mass, and moments of mass about the stroke axis (r) and the hinge's axis (z, positive behind it).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Masses {
+    /// ∫ dm (kg).
+    pub mass: f64,
+    /// Distance of the centre of mass from the stroke axis (m).
+    pub radius: f64,
+    /// Distance of the centre of mass behind the hinge's axis (m).
+    pub depth: f64,
+    /// ∫ r² dm (kg·m²).
+    pub rr: f64,
+    /// ∫ r z dm (kg·m²).
+    pub rz: f64,
+    /// ∫ z² dm (kg·m²).
+    pub zz: f64,
+}
+
+impl Masses {
+    /// [∫ (r − R)² dm, ∫ (r − R)(z − Z) dm, ∫ (z − Z)² dm] about the centre of mass (kg·m²).
+    pub fn about_centre(&self) -> [f64; 3] {
+        let Masses { mass, radius, depth, rr, rz, zz } = *self;
+        [rr - mass * radius * radius, rz - mass * radius * depth, zz - mass * depth * depth]
+    }
+}
+
+impl Outline {
+    /// The outline through stations that go outwards from the root.
+    ///
+    /// # Errors
+    /// [`OutlineError`] if they do not, or if they are no wing.
+    pub fn new(stations: Vec<Station>) -> Result<Outline, OutlineError> {
+        let [first, .., _] = stations[..] else { return Err(OutlineError::TooFew(stations.len())) };
+        if first.span != 0.0 {
+            return Err(OutlineError::NotAtRoot(first.span));
+        }
+        if let Some(i) = (1..stations.len()).find(|&i| stations[i].span <= stations[i - 1].span) {
+            return Err(OutlineError::NotOutwards(i + 1));
+        }
+        if let Some(i) = stations.iter().position(|station| station.leading + station.trailing < 0.0) {
+            return Err(OutlineError::NegativeChord(i + 1));
+        }
+        let outline = Outline { stations };
+        if outline.integral(|_, leading, trailing| leading + trailing) > 0.0 {
+            Ok(outline)
+        } else {
+            Err(OutlineError::NoArea)
+        }
+    }
+
+    /// Distance from root to tip (m).
+    pub fn length(&self) -> f64 {
+        self.stations[self.stations.len() - 1].span
+    }
+
+    /// Leading and trailing edge (m), as in [`Station`], at a distance from the root (m) within the wing.
+    pub fn edges(&self, span: f64) -> [f64; 2] {
+        let after = self.stations.partition_point(|station| station.span <= span);
+        let after = after.clamp(1, self.stations.len() - 1);
+        let [a, b] = [self.stations[after - 1], self.stations[after]];
+        let share = (span - a.span) / (b.span - a.span);
+        [a.leading + share * (b.leading - a.leading), a.trailing + share * (b.trailing - a.trailing)]
+    }
+
+    /// The chord (m) at a distance from the root (m).
+    pub fn chord(&self, span: f64) -> f64 {
+        self.edges(span).iter().sum()
+    }
+
+    /// Largest distance from the hinge's axis (m).
+    pub fn width(&self) -> f64 {
+        self.stations
+            .iter()
+            .map(|station| station.leading.abs().max(station.trailing.abs()))
+            .fold(0.0, f64::max)
+    }
+
+    /// ∫ f(span, leading, trailing) d span: exact where f is a polynomial of at most 11th degree.
+    pub fn integral(&self, f: impl Fn(f64, f64, f64) -> f64) -> f64 {
+        self.lengths(|span, leading, trailing, _| f(span, leading, trailing))
+    }
+
+    /// The same with the length of the leading edge per span as another argument.
+    fn lengths(&self, f: impl Fn(f64, f64, f64, f64) -> f64) -> f64 {
+        let rule = gauss_legendre(6);
+        let piece = |ends: &[Station]| {
+            let [a, b] = [ends[0], ends[1]];
+            let width = b.span - a.span;
+            let edge = ((b.leading - a.leading) / width).hypot(1.0);
+            let at = |share: f64, one: f64, other: f64| one + share * (other - one);
+            let value = |x: f64| {
+                f(at(x, a.span, b.span), at(x, a.leading, b.leading), at(x, a.trailing, b.trailing), edge)
+            };
+            width * rule.iter().map(|node| node.weight * value(node.x)).sum::<f64>()
+        };
+        self.stations.windows(2).map(piece).sum()
+    }
+}
+
+impl Wing {
+    /// Area (m²).
+    pub fn area(&self) -> f64 {
+        self.outline.integral(|_, leading, trailing| leading + trailing)
+    }
+
+    /// ∫ rⁿ c d span, r being the distance from the stroke axis (m^(n+2)).
+    pub fn area_moment(&self, power: i32) -> f64 {
+        self.outline
+            .integral(|span, leading, trailing| (self.offset + span).powi(power) * (leading + trailing))
+    }
+
+    /// ∫∫ |z|ⁿ dA about the hinge's axis (m^(n+2)).
+    pub fn width_moment(&self, power: i32) -> f64 {
+        let one_side = |edge: f64| edge.signum() * edge.abs().powi(power + 1) / f64::from(power + 1);
+        self.outline.integral(|_, leading, trailing| one_side(leading) + one_side(trailing))
+    }
+
+    /// Inertia of the air that moves with the wing about the stroke axis (kg·m²), by strips: ∫ π/4 ρ c² r² d span.
+    pub fn added_inertia(&self) -> f64 {
+        let strips = self.outline.integral(|span, leading, trailing| {
+            let (chord, radius) = (leading + trailing, self.offset + span);
+            chord * chord * radius * radius
+        });
+        core::f64::consts::FRAC_PI_4 * self.air_density * strips
+    }
+
+    /// Mass and moments of mass, if the material is known.
+    pub fn masses(&self) -> Option<Masses> {
+        let Material { membrane, spar, weighed } = self.material?;
+        // Of a piece of the span: the membrane between the edges, and the spar on the leading edge.
+        let moment = |power_r: i32, power_z: i32| {
+            self.outline.lengths(|span, leading, trailing, edge| {
+                let n = power_z + 1;
+                let sheet = (trailing.powi(n) - (-leading).powi(n)) / f64::from(n);
+                let line = edge * (-leading).powi(power_z);
+                (self.offset + span).powi(power_r) * (membrane * sheet + spar * line)
+            })
+        };
+        let scale = weighed.map_or(1.0, |weighed| weighed / moment(0, 0));
+        let mass = scale * moment(0, 0);
+        Some(Masses {
+            mass,
+            radius: scale * moment(1, 0) / mass,
+            depth: scale * moment(0, 1) / mass,
+            rr: scale * moment(2, 0),
+            rz: scale * moment(1, 1),
+            zz: scale * moment(0, 2),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rectangle(leading: f64, trailing: f64) -> Outline {
+        let station = |span| Station { span, leading, trailing };
+        Outline::new(vec![station(0.0), station(4e-3), station(10e-3)]).unwrap()
+    }
+
+    fn wing(material: Material) -> Wing {
+        Wing { outline: rectangle(1e-3, 2e-3), offset: 2e-3, material: Some(material), air_density: 1.2 }
+    }
+
+    fn close(found: f64, expected: f64) {
+        assert!((found - expected).abs() < 1e-13 * expected.abs(), "{found} against {expected}");
+    }
+
+    #[test]
+    fn a_rectangle_has_its_moments() {
+        let wing = wing(Material { membrane: 0.02, spar: 0.0, weighed: None });
+        close(wing.area(), 30e-6);
+        close(wing.area_moment(2), 3e-3 * (12e-3_f64.powi(3) - 2e-3_f64.powi(3)) / 3.0);
+        close(wing.width_moment(2), 10e-3 * (1e-9 + 8e-9) / 3.0);
+        close(wing.width_moment(3), 10e-3 * (1e-12 + 16e-12) / 4.0);
+        close(
+            wing.added_inertia(),
+            core::f64::consts::FRAC_PI_4 * 1.2 * 9e-6 * (12e-3_f64.powi(3) - 8e-9) / 3.0,
+        );
+        let masses = wing.masses().unwrap();
+        close(masses.mass, 0.6e-6);
+        close(masses.radius, 7e-3);
+        close(masses.depth, 0.5e-3);
+        let [span, product, chord] = masses.about_centre();
+        close(span, 0.6e-6 * 1e-4 / 12.0);
+        close(chord, 0.6e-6 * 9e-6 / 12.0);
+        assert!(product.abs() < 1e-24, "{product}");
+    }
+
+    #[test]
+    fn a_weighed_wing_keeps_its_shares() {
+        let material = Material { membrane: 0.02, spar: 1e-4, weighed: None };
+        let before = wing(material).masses().unwrap();
+        close(before.mass, 0.6e-6 + 1e-6);
+        let after = wing(Material { weighed: Some(0.8e-6), ..material }).masses().unwrap();
+        close(after.mass, 0.8e-6);
+        close(after.rr, 0.5 * before.rr);
+        close(after.depth, before.depth);
+    }
+
+    #[test]
+    fn other_stations_are_refused() {
+        let station = |span, leading, trailing| Station { span, leading, trailing };
+        let refused = |stations: &[Station], error| assert_eq!(Outline::new(stations.to_vec()), Err(error));
+        refused(&[station(0.0, 0.0, 1.0)], OutlineError::TooFew(1));
+        refused(&[station(1.0, 0.0, 1.0), station(2.0, 0.0, 1.0)], OutlineError::NotAtRoot(1.0));
+        refused(&[station(0.0, 0.0, 1.0), station(0.0, 0.0, 1.0)], OutlineError::NotOutwards(2));
+        refused(&[station(0.0, 0.0, 1.0), station(1.0, 0.0, -1.0)], OutlineError::NegativeChord(2));
+        refused(&[station(0.0, 0.0, 0.0), station(1.0, 0.0, 0.0)], OutlineError::NoArea);
+    }
+}

@@ -1,0 +1,96 @@
+//! Outlines of wings from CSV files.
+
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use flap_core::aero::{Outline, OutlineError, Station};
+
+use crate::notation::units;
+
+/// The columns, in the order of [`Station`].
+const COLUMNS: [&str; 3] = ["span", "leading_edge", "trailing_edge"];
+
+/// A file that is no outline.
+#[derive(Debug, thiserror::Error)]
+pub enum OutlineFileError {
+    /// The file cannot be read.
+    #[error("{}: cannot be read: {cause}", path.display())]
+    Io {
+        /// The path as given.
+        path: PathBuf,
+        /// The error of the operating system.
+        #[source]
+        cause: io::Error,
+    },
+    /// A line is no row of a table.
+    #[error("{}:{line}: {reason}", path.display())]
+    Line {
+        /// The path as given.
+        path: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// The mistake.
+        reason: String,
+    },
+    /// The stations are no outline.
+    #[error("{}: {cause}", path.display())]
+    Outline {
+        /// The path as given.
+        path: PathBuf,
+        /// The mistake; stations count from 1.
+        #[source]
+        cause: OutlineError,
+    },
+}
+
+impl OutlineFileError {
+    /// Advice.
+    pub fn help(&self) -> &'static str {
+        "the file has the columns span, leading_edge and trailing_edge, each with a unit in brackets, such as \
+         `span [mm]`: distances from the root, ahead of the hinge's axis, and behind it"
+    }
+}
+
+/// Reads the outline in a CSV file with the columns `span`, `leading_edge` and `trailing_edge`. A unit in brackets
+/// behind a name is that of the column; without one, numbers are in metres.
+///
+/// # Errors
+/// [`OutlineFileError`] if the file cannot be read or is no outline.
+pub fn read(path: &Path) -> Result<Outline, OutlineFileError> {
+    let file = File::open(path).map_err(|cause| OutlineFileError::Io { path: path.to_owned(), cause })?;
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(file);
+    let wrong = |line: u64, reason: String| OutlineFileError::Line { path: path.to_owned(), line, reason };
+    let headings = reader.headers().map_err(|error| wrong(1, error.to_string()))?.clone();
+    let columns = COLUMNS.map(|name| find(&headings, name));
+    let [Some(span), Some(leading), Some(trailing)] = columns else {
+        let missing = COLUMNS.iter().zip(&columns).find(|(_, column)| column.is_none());
+        let missing = missing.map_or("", |(name, _)| *name);
+        return Err(wrong(1, format!("there is no column `{missing}`")));
+    };
+    let mut stations = Vec::new();
+    for record in reader.records() {
+        let record = record
+            .map_err(|error| wrong(error.position().map_or(0, csv::Position::line), error.to_string()))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let number = |(place, unit): &(usize, String)| {
+            let text = record.get(*place).unwrap_or_default();
+            units::parse_as(&format!("{text} {unit}"), "m")
+                .map_err(|error| wrong(line, error.message(&format!("`{text}` in the column {}", place + 1))))
+        };
+        stations.push(Station {
+            span: number(&span)?,
+            leading: number(&leading)?,
+            trailing: number(&trailing)?,
+        });
+    }
+    Outline::new(stations).map_err(|cause| OutlineFileError::Outline { path: path.to_owned(), cause })
+}
+
+/// Place and unit of the column called `name`.
+fn find(headings: &csv::StringRecord, name: &str) -> Option<(usize, String)> {
+    headings.iter().enumerate().find_map(|(place, heading)| {
+        let (found, unit) = heading.split_once('[').unwrap_or((heading, "m]"));
+        (found.trim() == name).then(|| (place, unit.trim_end_matches(']').trim().to_owned()))
+    })
+}

@@ -1,0 +1,129 @@
+//! `flap wing`: outlines into devices.
+
+use std::fmt::Write as _;
+use std::fs;
+
+use crate::support::Folder;
+
+/// An outline whose edges are given in mm at 101 stations of a span (mm).
+fn outline(span: f64, edges: impl Fn(f64) -> [f64; 2]) -> String {
+    let mut text = "# drawn by hand\nspan [mm],leading_edge [mm],trailing_edge [mm]\n".to_owned();
+    for station in 0..=100 {
+        let x = f64::from(station) / 100.0;
+        let [leading, trailing] = edges(x);
+        let _ = writeln!(text, "{},{leading},{trailing}", x * span);
+    }
+    text
+}
+
+/// The value of a parameter in a device, in SI units.
+fn value(folder: &Folder, device: &str, name: &str) -> f64 {
+    let line = device.lines().find(|line| line.starts_with(&format!("{name} = "))).expect(name);
+    let text = line.split(['=', '#']).nth(1).unwrap().trim();
+    fs::write(folder.path("one.toml"), format!("preset = \"jafferis2016\"\n[params]\n{name} = {text}\n"))
+        .unwrap();
+    flap_sweep::notation::units::parse_as(text.trim_matches('"'), unit(name)).unwrap()
+}
+
+fn unit(name: &str) -> &'static str {
+    let models = flap_core::simulate::all();
+    let mut parameters = models.iter().flat_map(|model| model.parameters());
+    parameters.find(|parameter| parameter.name == name).unwrap().unit
+}
+
+/// A quarter of an ellipse behind the axis: its integrals are known.
+#[test]
+fn an_elliptic_wing_has_its_integrals() {
+    let folder = Folder::new();
+    let (span, chord) = (15e-3, 5e-3);
+    fs::write(folder.path("ellipse.csv"), outline(15.0, |x| [0.0, 5.0 * (1.0 - x * x).sqrt()])).unwrap();
+    let arguments = ["wing", "ellipse.csv", "--preset", "jafferis2016", "--mass", "0.5 mg"];
+    let device = folder.ends_with(0, &arguments).stdout;
+    let area = std::f64::consts::FRAC_PI_4 * span * chord;
+    let close = |name: &str, expected: f64| {
+        let found = value(&folder, &device, name);
+        assert!((found / expected - 1.0).abs() < 2e-3, "{name}: {found:e}, not {expected:e}");
+    };
+    close("wing_area", area);
+    close("wing_length", span);
+    // Second moments of a quarter of an ellipse: area/4 times the square of the half axis.
+    close("wing_radius_2", 0.5);
+    close("wing_width_2", 0.5);
+    close("wing_width", chord);
+    close("wing_inertia_stroke", 0.5e-6 * span * span / 4.0);
+    close("wing_inertia_hinge", 0.5e-6 * chord * chord / 4.0);
+    // ∫ r z dm = σ a² b²/8.
+    close("wing_inertia_product", 0.5e-6 / area * span * span * chord * chord / 8.0);
+    // ∫ r³ c/∫ r² c = (2/15)/(π/16) of the span; ∫∫ z³/∫∫ z² the same of the chord.
+    close("pressure_radius", 2.0 / 15.0 / (std::f64::consts::PI / 16.0) * span);
+    close("rotation_pressure_width", 2.0 / 15.0 / (std::f64::consts::PI / 16.0) * chord);
+    fs::write(folder.path("wing.toml"), device).unwrap();
+    folder.ends(0, "run wing.toml").prints("status = periodic");
+}
+
+/// The outline of the four-bar's own wing gives its rows back, but for the straight lines between the stations.
+#[test]
+fn the_outline_of_a_preset_gives_its_rows() {
+    let folder = Folder::new();
+    let chord = |x: f64| 8.3 * (1.0 + x - 2.0 * x.powi(4));
+    fs::write(folder.path("own.csv"), outline(24.0, |x| [0.25 * chord(x), 0.75 * chord(x)])).unwrap();
+    let arguments = ["wing", "own.csv", "--preset", "arabagi2013-75hz", "--offset", "4 mm"];
+    let ended = folder.ends_with(0, &arguments);
+    ended.says("stay those of the preset");
+    assert!(ended.stdout.contains("chord_table = \"on\""), "{}", ended.stdout);
+    fs::write(folder.path("wing.toml"), &ended.stdout).unwrap();
+    let measure = |what: &str, name: &str| {
+        let text = folder.ends(0, &format!("run {what}")).stdout;
+        let line = text.lines().find(|line| line.starts_with(&format!("{name} = "))).unwrap().to_owned();
+        line.split([' ', '=']).filter(|word| !word.is_empty()).nth(1).unwrap().parse::<f64>().unwrap()
+    };
+    for name in ["lift_mean_mn", "stroke_pp_deg", "power_mean_mw"] {
+        let (own, preset) = (measure("wing.toml", name), measure("arabagi2013-75hz", name));
+        assert!((own / preset - 1.0).abs() < 0.02, "{name}: {own} against {preset}");
+    }
+}
+
+#[test]
+fn materials_give_masses() {
+    let folder = Folder::new();
+    fs::write(folder.path("wing.csv"), outline(32.0, |_| [0.0, 8.0])).unwrap();
+    let options =
+        ["--thickness", "2 um", "--density", "1400 kg/m^3", "--spar", "20 mg/m", "--offset", "10 mm"];
+    let arguments = [&["wing", "wing.csv", "--preset", "ozaki2018-large"][..], &options].concat();
+    let device = folder.ends_with(0, &arguments).stdout;
+    let (membrane, spar) = (2e-6 * 1400.0 * 32e-3 * 8e-3, 20e-6 * 32e-3);
+    let mass = value(&folder, &device, "wing_mass");
+    assert!((mass / (membrane + spar) - 1.0).abs() < 1e-9, "{mass:e}");
+    let centre = value(&folder, &device, "mass_centre_chord");
+    assert!((centre / -(membrane * 4e-3 / (membrane + spar)) - 1.0).abs() < 1e-9, "{centre:e}");
+    assert!((value(&folder, &device, "mass_centre_span") / 16e-3 - 1.0).abs() < 1e-9);
+    fs::write(folder.path("wing.toml"), device).unwrap();
+    folder.ends(0, "check wing.toml").prints("wing_mass");
+}
+
+#[test]
+fn mistakes_are_told_with_their_place() {
+    let folder = Folder::new();
+    let told = |text: &str, message: &str| {
+        fs::write(folder.path("wing.csv"), text).unwrap();
+        folder.ends(2, "wing wing.csv --preset jafferis2016").says(message).says("span [mm]");
+    };
+    let head = "span [mm],leading_edge [mm],trailing_edge [mm]\n";
+    told("span,chord\n0,1\n", "wing.csv:1: there is no column `leading_edge`");
+    told(&format!("{head}0,0,one\n1,0,2\n"), "wing.csv:2: ");
+    told(&format!("{head}0,0,1\n1,0\n"), "wing.csv");
+    told(&format!("{head}0,0,1\n"), "an outline has at least two stations, not 1");
+    told(&format!("{head}1,0,1\n2,0,1\n"), "an outline begins at 0, the wing's root");
+    told(&format!("{head}0,0,1\n2,0,1\n1,0,1\n"), "station 3 is not farther out");
+    told(&format!("{head}0,0,1\n2,0,-1\n"), "the chord is negative at station 2");
+    told(&format!("{head}0,0,0\n2,0,0\n"), "the wing has no area");
+    folder.ends(2, "wing nothing.csv --preset jafferis2016").says("nothing.csv: cannot be read");
+    fs::write(folder.path("wing.csv"), outline(15.0, |_| [0.0, 5.0])).unwrap();
+    folder
+        .ends_with(2, &["wing", "wing.csv", "--preset", "jafferis2016", "--thickness", "2 um"])
+        .says("go together");
+    folder
+        .ends_with(2, &["wing", "wing.csv", "--preset", "jafferis2016", "--mass", "0 mg"])
+        .says("a wing has a mass");
+    folder.ends_with(2, &["wing", "wing.csv", "--preset", "jaferis2016"]).says("jafferis2016");
+}
