@@ -3,6 +3,8 @@
 from os import PathLike
 from typing import Any, Callable, SupportsFloat, SupportsIndex, final, overload
 
+import numpy as np
+
 __all__ = [
     "Diagnostic",
     "Grid",
@@ -287,10 +289,13 @@ def evaluate(
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
     measures: list[str] | None = None,
+    gradient: list[str] | None = None,
+    begin: np.ndarray[Any, np.dtype[np.float64]] | None = None,
+    states: bool = False,
     keywords: dict[str, Any] | None = None,
 ) -> dict[str, Any]:
     """Runs a batch of points; see `flapwing.evaluate`. `columns` has a one-dimensional array of float64, or a list of text,
-    for each parameter that varies, all as long.
+    for each parameter that varies, all as long. `begin` has a row of state components per point, nan for a point at rest.
     """
 
 def respond(
@@ -303,6 +308,7 @@ def respond(
     step: SupportsFloat | str | None = None,
     tolerance: SupportsFloat | str | None = None,
     unstable: bool = False,
+    states: bool = False,
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
     keywords: dict[str, Any] | None = None,
