@@ -20,6 +20,7 @@ __all__ = [
     "part",
     "presets",
     "printed",
+    "quantity",
     "read",
     "resonance",
     "respond",
@@ -33,6 +34,7 @@ __all__ = [
     "track",
     "trajectory",
     "unit_of",
+    "value",
     "words",
 ]
 
@@ -188,6 +190,12 @@ def measures(name: str, /) -> list[tuple[str, str, str]]:
 
 def states(name: str, /) -> list[str]:
     """The names of the states of a preset's or a model's equations of motion, with their units at the end."""
+
+def value(model: str, parameter: str, value: SupportsFloat | str, /) -> float:
+    """The value in SI units of a parameter of a preset or a model: of a number, or of text with a unit."""
+
+def quantity(name: str, text: str, unit: str, /) -> float:
+    """The number of `unit` in a text such as `"3 mm"`, which must measure the same."""
 
 def settings() -> list[str]:
     """The names of the solver settings, in the order of the signature of `flapwing.run`."""
