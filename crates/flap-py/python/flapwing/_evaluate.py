@@ -66,7 +66,7 @@ def evaluate(
         parameter. They replace those of a grid's ``[gradient]``. A derivative costs about three drive periods of work.
     begin : Table, dict or DataFrame, optional
         The state in which each motion begins, at the start of a drive period: columns of the components (`states`), one
-        row per point, in rad and rad/s. A row with nan begins at rest, as all do by default. It decides which motion is
+        row per point, in the units of their names. A row with nan begins at rest, as all do by default. It decides which motion is
         found where a design has several.
     states : bool, optional
         Add columns of the state at the beginning of a drive period of the motion that was found, for `begin`.

@@ -1,0 +1,19 @@
+"""Fits of parameters to readings, with their uncertainty.
+
+- `_columns`, `_readings`, `_noise`: data, in the units of the model
+- `_free`: free parameters, and the coordinates in which they are looked for
+- `_model`, `_branch`: readings of the model at many sets of parameters, in batches; branches of hysteresis
+- `_search`, `_together`: least squares from several starts, side by side
+- `_identify`, `_profile`, `_goodness`: what the data tell, intervals, and whether the model is good
+- `_held`, `_predict`, `_result`, `_report`: what a user sees
+"""
+
+from __future__ import annotations
+
+from ._fit import fit
+from ._free import Free
+from ._predict import NextMeasurements, Prediction
+from ._readings import Readings
+from ._result import Estimate, Fit
+
+__all__ = ["Estimate", "Fit", "Free", "NextMeasurements", "Prediction", "Readings", "fit"]
