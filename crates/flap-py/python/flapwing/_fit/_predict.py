@@ -9,8 +9,10 @@ import numpy as np
 
 from .. import _arguments
 from . import _noise
+from ._branch import Way
 from ._columns import Names, parameter_cells
 from ._model import Answer, Asked, Model
+from ._readings import DataSet
 from ._search import FINE
 from ._types import Array
 
@@ -99,19 +101,25 @@ def _column(names: Names, values: list[Any], name: str) -> Any:
     return [str(value) for value in values] if name in names.options else np.array(values, np.float64)
 
 
-def answers(model: Model, points: Mapping[str, Any], measure: str, x: Array) -> Answer:
-    """A measure at other operating points."""
+def answers(
+    model: Model, points: Mapping[str, Any], measure: str, x: Array, place: int = 0, like: DataSet | None = None
+) -> Answer:
+    """A measure at other operating points, with the parameters of a data set, and on its way if it is `like` that."""
     count = len(next(iter(points.values())))
     if not model.names.is_measure(measure):
         model.names.meaning("the prediction", measure)
         raise ValueError(f"`{measure}` is no measure\nflapwing.measures({model.names.model!r}) lists them")
-    asked = Asked(np.zeros(count, np.intp), np.arange(count), [measure] * count)
-    return model.answers(points, asked, (), [x], rtol=FINE)[0]
+    asked = Asked(np.full(count, place, np.intp), np.arange(count), [measure] * count)
+    ways = []
+    if like is not None and like.branch is not None:
+        ways = [Way(like.along, like.branch == "down", np.arange(count))]
+    return model.answers(points, asked, ways, [x], rtol=FINE)[0]
 
 
-def predict(model: Model, points: dict[str, Any], measure: str, x: Array, covariance: Array, quantile: float) -> Prediction:
+def predict(
+    model: Model, points: dict[str, Any], measure: str, answer: Answer, covariance: Array, quantile: float
+) -> Prediction:
     """A measure at other operating points, with bands by the covariance of the coordinates."""
-    answer = answers(model, points, measure, x)
     known = np.where(np.isfinite(covariance), covariance, 0.0)
     error = np.sqrt(np.maximum(0.0, np.einsum("ij,jk,ik->i", answer.slopes, known, answer.slopes)))
     lost = ~np.isfinite(np.diag(covariance))

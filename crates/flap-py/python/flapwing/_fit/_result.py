@@ -147,11 +147,10 @@ class Fit:
         with np.errstate(invalid="ignore"):
             return np.asarray(self._covariance / np.outer(errors, errors))
 
-    def predict(self, points: Any, measure: str) -> Prediction:
+    def predict(self, points: Any, measure: str, *, data_set: str | None = None) -> Prediction:
         """A measure at other operating points, with 95 % bands.
 
-        Bands are of the model's value, without the noise of a reading. Parameters that data sets do not share are those
-        of the first one.
+        Bands are of the model's value, without the noise of a reading.
 
         Parameters
         ----------
@@ -159,6 +158,9 @@ class Fit:
             Columns of parameters, as in `Readings`. Those that all data have in common need not be given.
         measure : str
             A measure, also one that was not read.
+        data_set : str, optional
+            The data set whose own parameters hold, and on whose branch motions are. Default: the parameters of the first
+            one, and motions from rest.
 
         Returns
         -------
@@ -171,7 +173,15 @@ class Fit:
             Unknown columns, units or measures.
         """
         given = self._points("points", points)
-        return _predict.predict(self._model, given, measure, self._x, self._covariance, self._quantile)
+        place, like = 0, None
+        if data_set is not None:
+            known = [one.name for one in self._sets]
+            if data_set not in known:
+                raise ValueError(f"there is no data set {data_set!r}\nchoose among {', '.join(known)}")
+            place = known.index(data_set)
+            like = self._sets[place]
+        answer = _predict.answers(self._model, given, measure, self._x, place, like)
+        return _predict.predict(self._model, given, measure, answer, self._covariance, self._quantile)
 
     def next_measurements(
         self, candidates: Any, for_: str | Mapping[str, Any], *, count: int = 5, measures: list[str] | None = None
