@@ -26,7 +26,7 @@ FOURTH = "added_inertia_stroke"
 NOISE = 0.03
 
 
-def truth() -> dict[str, float]:
+def truth() -> dict[str, Any]:
     """The true parameters."""
     return {name: ratio * float(flapwing.params(PRESET)[name].value or 0) for name, ratio in TRUE.items()}
 

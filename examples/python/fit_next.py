@@ -23,6 +23,7 @@ MEASURE = "stroke_pp_deg"
 NOISE, FIRST, EACH, MOST = 0.03, 8, 2, 40
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
+Rows = np.ndarray[Any, np.dtype[np.intp]]
 
 
 def main() -> None:
@@ -31,7 +32,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
 
-    truth = {name: ratio * float(flapwing.params(PRESET)[name].value or 0) for name, ratio in TRUE.items()}
+    truth: dict[str, Any] = {name: ratio * float(flapwing.params(PRESET)[name].value or 0) for name, ratio in TRUE.items()}
     frequency, voltage = np.meshgrid(np.linspace(70.0, 150.0, 33), [100.0, 120.0, 140.0, 160.0])
     candidates = {"drive_frequency": frequency.ravel(), "drive_voltage_pp": voltage.ravel()}
     table = flapwing.evaluate(PRESET, candidates, measures=[MEASURE], gradient=list(TRUE), **truth)
@@ -40,12 +41,12 @@ def main() -> None:
     slopes = table.gradient[:, 0] * list(truth.values()) / (NOISE * exact)[:, np.newaxis]
     place = list(TRUE).index(TARGET)
 
-    def error(rows: Array) -> float:
+    def error(rows: Rows) -> float:
         return float(np.sqrt(np.linalg.inv(slopes[rows].T @ slopes[rows])[place, place]))
 
     number = {point: row for row, point in enumerate(zip(*(values.tolist() for values in candidates.values())))}
 
-    def plan(rows: Array, readings: Array) -> Array:
+    def plan(rows: Rows, readings: Array) -> Rows:
         """The rows to be measured next."""
         data = {name: values[rows] for name, values in candidates.items()}
         found = flapwing.fit(PRESET, {**data, MEASURE: readings}, list(TRUE), sigma="3 %", starts=1, profile=False)

@@ -99,7 +99,7 @@ class Names:
         if self.is_measure(name):
             return Meaning("measure", name, self._factor(place, header, name, unit))
         for measure in self.measures:
-            if ending and _flapwing.split_unit(measure)[0] == stem:
+            if (ending or unit) and _flapwing.split_unit(measure)[0] == stem:
                 return Meaning("measure", measure, self._factor(place, header, measure, unit or ending))
         return None
 

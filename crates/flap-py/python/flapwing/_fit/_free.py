@@ -153,7 +153,8 @@ def _coordinates(name: str, free: Free, names: Names, sets: Sequence[DataSet]) -
         ends = sorted((nominal / _REACH, nominal * _REACH))
         low, high = ends[0] if low is None else low, ends[1] if high is None else high
     if not low < high:
-        raise ValueError(f"free[{name!r}]: the lower bound {low:g} is not less than the upper one {high:g} {names.unit(name)}\nexchange them".rstrip())
+        told = f"free[{name!r}]: the lower bound {low:g} is not less than the upper one {high:g} {names.unit(name)}"
+        raise ValueError(f"{told.rstrip()}\nexchange them")
     log = low * high > 0
     if not log:
         # Shares of zero are zero: derivatives need a value beside it.

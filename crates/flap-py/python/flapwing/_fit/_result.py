@@ -127,7 +127,7 @@ class Fit:
         self._covariance, self._information, self._guesses = covariance, information, dict(guesses)
 
     @property
-    def values(self) -> dict[str, float]:
+    def values(self) -> dict[str, Any]:
         """The fitted values of parameters that all data sets share, in SI units: ``run(design, **fit.values)``."""
         space = self._model.space
         return {
