@@ -21,7 +21,7 @@ import numpy as np
 
 PRESET = "jafferis2016"
 # Ratios of the true parameters to the preset.
-TRUE = {"hinge_stiffness": 1.15, "wing_inertia_stroke": 0.93, "drag_max": 0.90}
+TRUE = {"hinge_stiffness": 1.15, "wing_inertia_stroke": 0.93, "drag_coefficient_max": 0.90}
 FOURTH = "added_inertia_stroke"
 NOISE = 0.03
 

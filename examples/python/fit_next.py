@@ -17,8 +17,8 @@ import flapwing
 import numpy as np
 
 PRESET = "jafferis2016"
-TRUE = {"hinge_stiffness": 1.15, "wing_inertia_stroke": 0.93, "drag_max": 0.90}
-TARGET = "drag_max"
+TRUE = {"hinge_stiffness": 1.15, "wing_inertia_stroke": 0.93, "drag_coefficient_max": 0.90}
+TARGET = "drag_coefficient_max"
 MEASURE = "stroke_pp_deg"
 NOISE, FIRST, EACH, MOST = 0.03, 8, 2, 40
 

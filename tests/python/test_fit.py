@@ -9,7 +9,7 @@ import pandas
 import pytest
 
 PRESET = "jafferis2016"
-TRUE = {"hinge_stiffness": 1.15, "wing_inertia_stroke": 0.93, "drag_max": 0.90}
+TRUE = {"hinge_stiffness": 1.15, "wing_inertia_stroke": 0.93, "drag_coefficient_max": 0.90}
 TRUTH = {name: ratio * flapwing.params(PRESET)[name].value for name, ratio in TRUE.items()}
 FREQUENCY, VOLTAGE = np.tile(np.linspace(70.0, 150.0, 15), 2), np.repeat([120.0, 160.0], 15)
 POINTS = {"drive_frequency": FREQUENCY, "drive_voltage_pp": VOLTAGE}
@@ -45,7 +45,7 @@ def test_the_report_tells_all(found):
     report = str(found)
     for told in ["hinge_stiffness", "chi-square", "best known", "worst known", "correlations", "set 1", "right-hand sides"]:
         assert told in report
-    assert "<table>" in found._repr_html_() and "drag_max" in repr(found)
+    assert "<table>" in found._repr_html_() and "drag_coefficient_max" in repr(found)
     np.testing.assert_allclose(np.diag(found.correlations), 1.0)
     errors = [one.error for one in found.estimates.values()]
     np.testing.assert_allclose(np.sqrt(np.diag(found.covariance)), errors)
@@ -79,7 +79,7 @@ def test_parameters_that_cannot_be_told_are_named():
     assert known == {
         "hinge_stiffness": True,
         "wing_inertia_stroke": False,
-        "drag_max": True,
+        "drag_coefficient_max": True,
         "added_inertia_stroke": False,
         "vehicle_mass": False,
     }
@@ -89,7 +89,7 @@ def test_parameters_that_cannot_be_told_are_named():
 
 def test_products_that_cannot_be_told_are_named():
     """Lengths of a tail that no equation has alone: the drag is the product of the air's density and all coefficients."""
-    free = ["air_density", "drag_max", "drag_min", "lift_max"]
+    free = ["air_density", "drag_coefficient_max", "drag_coefficient_min", "lift_coefficient_max"]
     data = readings(["stroke_pp_deg", "pitch_amplitude_deg"])
     result = flapwing.fit(PRESET, data, free, sigma="3 %", starts=1, profile=False, rotation_pressure_width=0.0)
     assert len(result.indistinct) == 1
@@ -98,7 +98,7 @@ def test_products_that_cannot_be_told_are_named():
 
 def test_a_wrong_model_is_told():
     """Data by another drag law: chi-square is poor, and residuals have a pattern."""
-    data = readings(["stroke_pp_deg", "pitch_amplitude_deg"], noise=0.02, drag_min=1.5)
+    data = readings(["stroke_pp_deg", "pitch_amplitude_deg"], noise=0.02, drag_coefficient_min=1.5)
     result = flapwing.fit(PRESET, data, list(TRUE), sigma="2 %", starts=1, profile=False)
     assert result.goodness.p < 1e-6 and result.goodness.is_structured
     assert "POOR" in str(result) and "STRUCTURED" in str(result)
@@ -110,7 +110,7 @@ def test_readings_of_another_robot_are_told():
     table = flapwing.evaluate("arabagi2013-75hz", points)
     draw = np.random.default_rng(1)
     data = {name: table[name] * (1 + draw.normal(0.0, 0.02, 40)) for name in ("stroke_pp_deg", "pitch_amplitude_deg")}
-    free = {"hinge_stiffness": None, "wing_inertia_stroke": (1e-11, 1e-9), "drag_max": None, "force_factor": (0.05, 3.0)}
+    free = {"hinge_stiffness": None, "wing_inertia_stroke": (1e-11, 1e-9), "drag_coefficient_max": None, "force_factor": (0.05, 3.0)}
     result = flapwing.fit(PRESET, {**points, **data}, free, sigma="2 %", starts=2, profile=False)
     assert result.goodness.p < 1e-6 and result.goodness.is_structured
 
@@ -158,7 +158,7 @@ def test_sigma_is_a_column_or_an_argument():
         flapwing.Readings(data, sigma=1.5),
     ]
     errors = {
-        flapwing.fit(PRESET, one, list(TRUE), starts=1, profile=False).estimates["drag_max"].error for one in given
+        flapwing.fit(PRESET, one, list(TRUE), starts=1, profile=False).estimates["drag_coefficient_max"].error for one in given
     }
     assert max(errors) == pytest.approx(min(errors), rel=1e-6)
 
@@ -169,13 +169,13 @@ def test_data_sets_share_parameters_or_have_their_own():
         flapwing.Readings(readings(hinge_stiffness=TRUTH["hinge_stiffness"] * factor, seed=seed), name=name)
         for seed, (name, factor) in enumerate({"soft": 0.9, "stiff": 1.2}.items())
     ]
-    free = {"hinge_stiffness": flapwing.Free(per_set=True), "drag_max": None}
+    free = {"hinge_stiffness": flapwing.Free(per_set=True), "drag_coefficient_max": None}
     result = flapwing.fit(PRESET, sets, free, sigma="3 %", starts=1, wing_inertia_stroke=TRUTH["wing_inertia_stroke"])
-    assert list(result.estimates) == ["hinge_stiffness of soft", "hinge_stiffness of stiff", "drag_max"]
+    assert list(result.estimates) == ["hinge_stiffness of soft", "hinge_stiffness of stiff", "drag_coefficient_max"]
     for name, factor in {"soft": 0.9, "stiff": 1.2}.items():
         one = result.estimates[f"hinge_stiffness of {name}"]
         assert abs(one.value - factor * TRUTH["hinge_stiffness"]) < 4 * one.error
-    assert list(result.values) == ["drag_max"]
+    assert list(result.values) == ["drag_coefficient_max"]
     soft, stiff = (result.predict({"drive_frequency": [100.0], "drive_voltage_pp": 160.0}, "stroke_pp_deg", data_set=name) for name in ("soft", "stiff"))
     assert soft.value[0] != stiff.value[0]
 
@@ -226,15 +226,15 @@ def test_predictions_have_bands(found):
 def test_next_measurements_shrink_the_error(found):
     """The error that is expected after two more readings is that of a fit with them."""
     candidates = {"drive_frequency": np.linspace(70.0, 150.0, 17), "drive_voltage_pp": 160.0}
-    told = found.next_measurements(candidates, "drag_max", count=2)
-    assert told.now == pytest.approx(found.estimates["drag_max"].error, rel=1e-3)
+    told = found.next_measurements(candidates, "drag_coefficient_max", count=2)
+    assert told.now == pytest.approx(found.estimates["drag_coefficient_max"].error, rel=1e-3)
     assert told.now > told.errors[0] > told.errors[1]
     extra = {name: np.array([point[name] for point in told.points]) for name in POINTS}
     data = readings()
     exact = flapwing.evaluate(PRESET, extra, measures=["stroke_pp_deg"], **found.values)["stroke_pp_deg"]
     more = {**{name: np.concatenate([data[name], extra[name]]) for name in POINTS}, "stroke_pp_deg": np.concatenate([data["stroke_pp_deg"], exact])}
     again = flapwing.fit(PRESET, more, list(TRUE), sigma="3 %", starts=1, profile=False)
-    assert again.estimates["drag_max"].error == pytest.approx(told.errors[1], rel=0.02)
+    assert again.estimates["drag_coefficient_max"].error == pytest.approx(told.errors[1], rel=0.02)
     prediction = {"measure": "lift_mean_mn", "drive_frequency": 110.0, "drive_voltage_pp": 160.0}
     assert found.next_measurements(candidates, prediction, count=1).errors[0] < found.predict(
         {name: [value] for name, value in prediction.items() if name != "measure"}, "lift_mean_mn"
@@ -272,14 +272,14 @@ def test_readings_without_a_settled_motion_are_told():
 
 def test_progress_is_told_and_can_end_a_fit():
     told = []
-    flapwing.fit(PRESET, readings(), ["drag_max"], sigma="3 %", starts=2, profile=False, progress=lambda done, points: told.append(done))
+    flapwing.fit(PRESET, readings(), ["drag_coefficient_max"], sigma="3 %", starts=2, profile=False, progress=lambda done, points: told.append(done))
     assert told == sorted(told) and told[-1] > 30
 
     def stop(done, points):
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        flapwing.fit(PRESET, readings(), ["drag_max"], sigma="3 %", starts=2, progress=stop)
+        flapwing.fit(PRESET, readings(), ["drag_coefficient_max"], sigma="3 %", starts=2, progress=stop)
 
 
 def test_readings_can_be_pickled():

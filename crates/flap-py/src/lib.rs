@@ -48,7 +48,7 @@ mod _flapwing {
         grid_text::text_of,
         labels::{printed, scale, split_unit, unit_of, words},
         listing::{measures, params},
-        quantity::{quantity, value},
+        quantity::{parameter, quantity, value},
         read::read,
         resonance::resonance,
         respond::respond,

@@ -19,6 +19,14 @@ pub(crate) fn value(
     parameters::value_of(&model.parameters()[index], value)
 }
 
+/// The name of a parameter of a preset or a model, which may be given by its former name.
+#[pyfunction]
+#[pyo3(signature = (model, parameter, /))]
+pub(crate) fn parameter(model: &Bound<'_, PyAny>, parameter: &str) -> PyResult<&'static str> {
+    let model = listing::model(model)?;
+    Ok(model.parameters()[parameters::index(model, parameter)?].name)
+}
+
 /// The number of `unit` in a text such as `"3 mm"`, which must measure the same.
 #[pyfunction]
 #[pyo3(signature = (name, text, unit, /))]

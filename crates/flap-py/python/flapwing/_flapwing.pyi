@@ -16,6 +16,7 @@ __all__ = [
     "impulse",
     "lift",
     "measures",
+    "parameter",
     "params",
     "part",
     "presets",
@@ -193,6 +194,9 @@ def states(name: str, /) -> list[str]:
 
 def value(model: str, parameter: str, value: SupportsFloat | str, /) -> float:
     """The value in SI units of a parameter of a preset or a model: of a number, or of text with a unit."""
+
+def parameter(model: str, parameter: str, /) -> str:
+    """The name of a parameter of a preset or a model, which may be given by its former name."""
 
 def quantity(name: str, text: str, unit: str, /) -> float:
     """The number of `unit` in a text such as `"3 mm"`, which must measure the same."""

@@ -65,6 +65,10 @@ class Names:
         self.measures[name] = ""
         return True
 
+    def parameter(self, name: str) -> str:
+        """The name of a parameter, which may be given by its former name; a ValueError with the nearest name for another."""
+        return name if name in self.parameters else _flapwing.parameter(self.model, name)
+
     def unit(self, name: str) -> str:
         """The unit of a parameter or a measure."""
         return self.parameters[name] if name in self.parameters else self.measures[name]
@@ -93,7 +97,7 @@ class Names:
     def _found(self, place: str, header: str, name: str, unit: str | None) -> Meaning | None:
         stem, ending = _flapwing.split_unit(name)
         for candidate, own in ((name, None), (stem, ending)):
-            candidate = _SHORT.get(candidate, candidate)
+            candidate = self._renamed(_SHORT.get(candidate, candidate))
             if candidate in self.parameters:
                 return Meaning("parameter", candidate, self._factor(place, header, candidate, unit or own))
         if self.is_measure(name):
@@ -102,6 +106,12 @@ class Names:
             if (ending or unit) and _flapwing.split_unit(measure)[0] == stem:
                 return Meaning("measure", measure, self._factor(place, header, measure, unit or ending))
         return None
+
+    def _renamed(self, name: str) -> str:
+        try:
+            return self.parameter(name)
+        except ValueError:
+            return name
 
     def _factor(self, place: str, header: str, name: str, unit: str | None) -> float:
         wanted = self.unit(name)

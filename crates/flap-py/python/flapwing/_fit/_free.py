@@ -111,20 +111,17 @@ def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[st
     if not listed:
         raise ValueError("`free` is empty\nname one parameter at least")
     coordinates = []
-    for name, given in listed.items():
-        _check(name, names, sets, keywords)
+    taken = {names.parameter(name) for name in keywords if name not in _flapwing.settings()}
+    for name, given in ((names.parameter(name), given) for name, given in listed.items()):
+        _check(name, names, sets, taken)
         coordinates += _coordinates(name, _free_of(name, given), names, sets)
     return Space(coordinates)
 
 
-def _check(name: str, names: Names, sets: Sequence[DataSet], keywords: Mapping[str, Any]) -> None:
-    _flapwing.check(names.grid, keywords={}, measures=None)
-    if name not in names.parameters:
-        # The message with the nearest name.
-        _flapwing.value(names.model, name, 0.0)
+def _check(name: str, names: Names, sets: Sequence[DataSet], taken: set[str]) -> None:
     if name in names.options:
         raise ValueError(f"`{name}` is a choice, and cannot be fitted\nfit once for each of its options: {', '.join(names.options[name])}")
-    if name in keywords:
+    if name in taken:
         raise ValueError(f"`{name}` is free and set by a keyword\nkeep one of them")
     for one in sets:
         if name in one.points:

@@ -7,6 +7,7 @@ from typing import Any, Callable, Mapping, Sequence, SupportsIndex
 
 import numpy as np
 
+from .. import _flapwing
 from .._evaluate import evaluate
 from .._table import Table
 from ._branch import Way, states_along
@@ -58,7 +59,10 @@ class Model:
         told: Callable[[int], object] | None = None,
     ) -> None:
         self.names, self.space, self.threads, self.told = names, space, threads, told
-        self.keywords = {name: value for name, value in keywords.items() if value is not None}
+        settings = _flapwing.settings()
+        self.keywords = {
+            name if name in settings else names.parameter(name): value for name, value in keywords.items() if value is not None
+        }
         self.points, self.ways = _points(names, sets)
         self.asked = _asked(sets)
         #: Points run so far, and right-hand sides evaluated for them.

@@ -125,7 +125,7 @@ def _resolved(readings: Readings, name: str, names: Names, sigma: Any) -> DataSe
             raise ValueError(f"{name} has `{meaning.name}` twice, once as `{header}`\nkeep one of the columns")
         read = parameter_cells if meaning.kind == "parameter" else measure_cells
         target[meaning.name] = read(names, name, header, meaning, cells)
-    for parameter, value in readings.params.items():
+    for parameter, value in ((names.parameter(given), value) for given, value in readings.params.items()):
         if parameter in points:
             raise ValueError(f"{name} has `{parameter}` as a column and as an argument\nkeep one of them")
         if parameter in names.options:
