@@ -19,7 +19,12 @@ import numpy as np
 from scipy.optimize import least_squares
 
 PRESET = "jafferis2016"
-TRUE = {"hinge_stiffness": 1.15, "wing_inertia_stroke": 0.93, "drag_coefficient_max": 0.90, "transmission_stiffness": 1.05}
+TRUE = {
+    "hinge_stiffness": 1.15,
+    "wing_inertia_stroke": 0.93,
+    "drag_coefficient_max": 0.90,
+    "transmission_stiffness": 1.05,
+}
 MEASURES = ["stroke_pp_deg", "pitch_amplitude_deg"]
 NOISE = 0.02
 STEP, RTOL = 1e-3, 1e-8

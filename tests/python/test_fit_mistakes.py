@@ -19,18 +19,36 @@ def changed(**columns):
         ([], "there are no data\ngive columns"),
         ({"drive_frequency": [], "stroke_pp_deg": []}, "the data set is empty"),
         ({"drive_frequency": [90.0]}, "set 1 has no column of a measure\nadd one"),
-        (changed(strok_pp_deg=[1, 2, 3, 4]), "set 1 has the column `strok_pp_deg`, which is neither a parameter nor a measure, did you mean `stroke_pp_deg`?\nrename or remove it"),
-        (changed(stroke_pp_deg=[60, 62, np.nan, 59]), "set 1, column `stroke_pp_deg`, row 3 is nan, and readings are finite numbers\nremove the row"),
+        (
+            changed(strok_pp_deg=[1, 2, 3, 4]),
+            "set 1 has the column `strok_pp_deg`, which is neither a parameter nor a measure, did you mean `stroke_pp_deg`?\nrename or remove it",
+        ),
+        (
+            changed(stroke_pp_deg=[60, 62, np.nan, 59]),
+            "set 1, column `stroke_pp_deg`, row 3 is nan, and readings are finite numbers\nremove the row",
+        ),
         (changed(stroke_pp_deg=[60, 62, None, 59]), "set 1, column `stroke_pp_deg`, row 3 is None, which is no number"),
         (changed(stroke_pp_deg=["60 deg", "62 mm", "61 deg", "59 deg"]), "set 1, column `stroke_pp_deg`, row 2: "),
         (changed(drive_frequency=["90 Hz", "100 V", "110 Hz", "120 Hz"]), "set 1, column `drive_frequency`, row 2: "),
-        ({"drive_frequency (furlong)": DATA["drive_frequency"], "stroke_pp_deg": DATA["stroke_pp_deg"]}, "set 1, column `drive_frequency (furlong)`: "),
-        (changed(stroke_pp_deg=[60, 60, 60, 60]), "set 1: all 4 readings of `stroke_pp_deg` are 60, and tell nothing about parameters\nremove the column"),
+        (
+            {"drive_frequency (furlong)": DATA["drive_frequency"], "stroke_pp_deg": DATA["stroke_pp_deg"]},
+            "set 1, column `drive_frequency (furlong)`: ",
+        ),
+        (
+            changed(stroke_pp_deg=[60, 60, 60, 60]),
+            "set 1: all 4 readings of `stroke_pp_deg` are 60, and tell nothing about parameters\nremove the column",
+        ),
         (changed(frequency_hz=[1, 2, 3, 4]), "set 1 has `drive_frequency` twice, once as `frequency_hz`\nkeep one"),
         (changed(stroke_pp_deg=[60, 62]), "columns differ in length: `drive_frequency` has 4, `stroke_pp_deg` has 2\n"),
-        ({name: values[:1] for name, values in DATA.items()}, "2 free parameters and only 1 reading: hinge_stiffness, drag_coefficient_max\na fit needs more readings than parameters"),
+        (
+            {name: values[:1] for name, values in DATA.items()},
+            "2 free parameters and only 1 reading: hinge_stiffness, drag_coefficient_max\na fit needs more readings than parameters",
+        ),
         ({name: values[:2] for name, values in DATA.items()}, "2 free parameters and only 2 readings"),
-        (changed(stroke_pp_deg_sigma=[1, 1, 0, 1]), "set 1, standard error of `stroke_pp_deg`, row 3: it must be more than zero"),
+        (
+            changed(stroke_pp_deg_sigma=[1, 1, 0, 1]),
+            "set 1, standard error of `stroke_pp_deg`, row 3: it must be more than zero",
+        ),
         ([flapwing.Readings(DATA, name="a"), flapwing.Readings(DATA, name="a")], "data sets share a name: a, a\n"),
     ],
 )
@@ -46,14 +64,42 @@ def test_data_that_are_refused(data, says):
         ([], ValueError, "`free` is empty\nname one"),
         ("drag_coefficient_max", TypeError, "`free` is str\nit must be a list"),
         (["drag_coefficient_mx"], ValueError, "did you mean `drag_coefficient_max`?"),
-        (["actuator_stiffness"], ValueError, "`actuator_stiffness` is a choice, and cannot be fitted\nfit once for each of its options"),
-        (["drive_frequency"], ValueError, "`drive_frequency` is free, and set 1 has it as a parameter of its operating points\nkeep one"),
-        (["actuator_mass"], ValueError, "`actuator_mass` is zero in the design, so its bounds are not known\ngive free="),
-        ({"drag_coefficient_max": (5.0, 3.0)}, ValueError, "free['drag_coefficient_max']: the lower bound 5 is not less than the upper one 3\nexchange them"),
+        (
+            ["actuator_stiffness"],
+            ValueError,
+            "`actuator_stiffness` is a choice, and cannot be fitted\nfit once for each of its options",
+        ),
+        (
+            ["drive_frequency"],
+            ValueError,
+            "`drive_frequency` is free, and set 1 has it as a parameter of its operating points\nkeep one",
+        ),
+        (
+            ["actuator_mass"],
+            ValueError,
+            "`actuator_mass` is zero in the design, so its bounds are not known\ngive free=",
+        ),
+        (
+            {"drag_coefficient_max": (5.0, 3.0)},
+            ValueError,
+            "free['drag_coefficient_max']: the lower bound 5 is not less than the upper one 3\nexchange them",
+        ),
         ({"hinge_stiffness": ("1 mm", "2 mm")}, ValueError, "free['hinge_stiffness']: "),
-        ({"drag_coefficient_max": 3.0}, TypeError, "free['drag_coefficient_max'] is float\nit must be a pair of bounds"),
-        ({"drag_coefficient_max": flapwing.Free(prior=(4.0, 0.0))}, ValueError, "free['drag_coefficient_max']: the error of the prior is 0.0\n"),
-        ({"drag_coefficient_max": flapwing.Free(prior=4.0)}, TypeError, "free['drag_coefficient_max']: `prior` is float\n"),
+        (
+            {"drag_coefficient_max": 3.0},
+            TypeError,
+            "free['drag_coefficient_max'] is float\nit must be a pair of bounds",
+        ),
+        (
+            {"drag_coefficient_max": flapwing.Free(prior=(4.0, 0.0))},
+            ValueError,
+            "free['drag_coefficient_max']: the error of the prior is 0.0\n",
+        ),
+        (
+            {"drag_coefficient_max": flapwing.Free(prior=4.0)},
+            TypeError,
+            "free['drag_coefficient_max']: `prior` is float\n",
+        ),
     ],
 )
 def test_free_parameters_that_are_refused(free, error, says):
@@ -74,8 +120,16 @@ def test_free_parameters_that_are_refused(free, error, says):
         ({"hold_out": 1.5}, ValueError, "`hold_out` is 1.5\nit must be a share"),
         ({"hold_out": "nowhere"}, ValueError, "`hold_out` names 'nowhere', and the data sets are set 1\n"),
         ({"hold_out": {"drive_frequency": (1, 2)}}, ValueError, "`hold_out` holds none of the 4 readings out\n"),
-        ({"hold_out": {"drive_voltage_pp": (1, 2)}}, ValueError, "`hold_out` names `drive_voltage_pp`, and set 1 has no such column"),
-        ({"drag_coefficient_max": 3.0}, ValueError, "`drag_coefficient_max` is free and set by a keyword\nkeep one of them"),
+        (
+            {"hold_out": {"drive_voltage_pp": (1, 2)}},
+            ValueError,
+            "`hold_out` names `drive_voltage_pp`, and set 1 has no such column",
+        ),
+        (
+            {"drag_coefficient_max": 3.0},
+            ValueError,
+            "`drag_coefficient_max` is free and set by a keyword\nkeep one of them",
+        ),
         ({"drag_mix": 3.0}, ValueError, "has no parameter `drag_mix`"),
         ({"profile": 3}, TypeError, "`profile` is int"),
     ],
@@ -129,7 +183,11 @@ def test_readings_that_are_refused(tmp_path):
 
 
 def test_what_results_refuse():
-    data = {"drive_frequency": [90.0, 100.0, 110.0, 120.0], "drive_voltage_pp": [120.0, 120.0, 160.0, 160.0], "stroke_pp_deg": [52, 51, 60, 59]}
+    data = {
+        "drive_frequency": [90.0, 100.0, 110.0, 120.0],
+        "drive_voltage_pp": [120.0, 120.0, 160.0, 160.0],
+        "stroke_pp_deg": [52, 51, 60, 59],
+    }
     found = flapwing.fit(PRESET, data, ["drag_coefficient_max"], sigma="3 %", starts=1, profile=False)
     for call, says in [
         (lambda: found.predict({"drive_frequency": [100]}, "stroke_pp_deg"), "points lacks `drive_voltage_pp`, of which the data have 2 values\nadd a column"),

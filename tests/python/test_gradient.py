@@ -42,7 +42,10 @@ def test_columns_tell_what_they_are():
     assert told["of"] == MEASURES and told["with_respect_to"] == BY and told["per"] == "SI unit"
     assert table.units["d_lift_mean_mn_per_si_hinge_stiffness"] == "mN/(N*m/rad)"
     assert table.units["d_stroke_pp_deg_per_si_drive_frequency"] == "deg/Hz"
-    assert table.docs["d_lift_mean_mn_per_si_hinge_stiffness"] == "change of lift_mean_mn mN per SI unit of hinge_stiffness"
+    assert (
+        table.docs["d_lift_mean_mn_per_si_hinge_stiffness"]
+        == "change of lift_mean_mn mN per SI unit of hinge_stiffness"
+    )
     np.testing.assert_array_equal(table["d_stroke_pp_deg_per_si_drive_frequency"], table.gradient[:, 1, 1])
     np.testing.assert_array_equal(pickle.loads(pickle.dumps(table[2:5])).gradient, table.gradient[2:5])
 
@@ -100,7 +103,11 @@ def test_what_is_refused(keywords, error, says):
 
 
 def test_derivatives_by_what_formulas_decide_are_refused():
-    grid = {"preset": PRESET, "derived": {"hinge_stiffness": "1e-6 * drive_frequency"}, "measure": {"high": "lift_mean_mn > 3"}}
+    grid = {
+        "preset": PRESET,
+        "derived": {"hinge_stiffness": "1e-6 * drive_frequency"},
+        "measure": {"high": "lift_mean_mn > 3"},
+    }
     with pytest.raises(ValueError, match="is derived from other parameters\nname those: derivatives by them include"):
         flapwing.evaluate(grid, COLUMNS, gradient=["hinge_stiffness"])
     with pytest.raises(ValueError, match="`high` is true or false, and has no derivatives\nleave it out of `measures`"):

@@ -11,7 +11,10 @@ PRESET = "ozaki2018-large"
 
 @pytest.fixture(scope="module")
 def found():
-    points = {"drive_frequency": np.tile(np.linspace(95.0, 120.0, 8), 2), "drive_voltage_pp": np.repeat([60.0, 80.0], 8)}
+    points = {
+        "drive_frequency": np.tile(np.linspace(95.0, 120.0, 8), 2),
+        "drive_voltage_pp": np.repeat([60.0, 80.0], 8),
+    }
     rows = flapwing.evaluate(PRESET, points, measures=["stroke_pp_deg", "lift_mean_mn"])
     draw = np.random.default_rng(1)
     data = {name: rows[name] * draw.normal(1.0, 0.02, 16) for name in ("stroke_pp_deg", "lift_mean_mn")}
@@ -33,7 +36,9 @@ def test_all_parts_are_drawn(found):
     assert len(stroke.containers) == 2 and len(stroke.collections) >= 2
     assert parts[2].get_xlabel() == "hinge_stiffness (µN·m/rad)"
     low, high = (one.get_xdata()[0] for one in parts[2].lines[-2:])
-    assert [low, high] == pytest.approx([1e6 * found.estimates["hinge_stiffness"].low, 1e6 * found.estimates["hinge_stiffness"].high])
+    assert [low, high] == pytest.approx(
+        [1e6 * found.estimates["hinge_stiffness"].low, 1e6 * found.estimates["hinge_stiffness"].high]
+    )
     assert parts[4].texts[1].get_text() == f"{found.correlations[0, 1]:+.2f}"
 
 
@@ -43,5 +48,8 @@ def test_one_part_can_be_drawn(found, show, count):
 
 
 def test_mistakes_are_told(found):
-    assert message(ValueError, plot.fit, found, "bands") == "`show` is 'bands'\nit must be one of data, profiles, correlations"
+    assert (
+        message(ValueError, plot.fit, found, "bands")
+        == "`show` is 'bands'\nit must be one of data, profiles, correlations"
+    )
     assert message(TypeError, plot.fit, 3) == "`result` is int\nit must be what flapwing.fit returns"

@@ -5,15 +5,16 @@
 - `_model`, `_branch`: readings of the model at many sets of parameters, in batches; branches of hysteresis
 - `_search`, `_together`: least squares from several starts, side by side
 - `_identify`, `_profile`, `_goodness`: what the data tell, intervals, and whether the model is good
-- `_held`, `_predict`, `_result`, `_report`: what a user sees
+- `_estimate`, `_held`, `_predict`, `_device`, `_result`, `_report`: predictions, files and reports of the result
 """
 
 from __future__ import annotations
 
+from ._estimate import Estimate
 from ._fit import fit
 from ._free import Free
 from ._predict import NextMeasurements, Prediction
 from ._readings import Readings
-from ._result import Estimate, Fit
+from ._result import Fit
 
 __all__ = ["Estimate", "Fit", "Free", "NextMeasurements", "Prediction", "Readings", "fit"]

@@ -33,8 +33,8 @@ def states_along(
 ) -> dict[str, Array] | None:
     """The states from which motions on the ways begin; None if there are no ways.
 
-    Of `columns`, each has the points `times` over, for so many sets of parameters; states have the components `names`. The ways of all of them are followed
-    side by side, a point of each in a batch.
+    Of `columns`, each has the points `times` over, for so many sets of parameters; states have the components `names`. The
+    ways of all of them are followed side by side, a point of each in a batch.
     """
     if not ways:
         return None
@@ -48,8 +48,7 @@ def states_along(
         for position, (_, (_, along, value)) in enumerate(here):
             batch[along][position] = value
         states = {
-            name: np.array([last[number][name] if number in last else np.nan for number, _ in here])
-            for name in names
+            name: np.array([last[number][name] if number in last else np.nan for number, _ in here]) for name in names
         }
         table = run(batch, states=True, begin=states)
         for position, (number, (place, along, value)) in enumerate(here):

@@ -164,7 +164,9 @@ def _is_number(text: str) -> bool:
 def _number(place: str, header: str, row: int, cell: Any) -> float:
     told = f"{place}, column `{header}`, row {row + 1}"
     if isinstance(cell, (bool, np.bool_)) or cell is None:
-        raise ValueError(f"{told} is {cell}, which is no number\nremove the row, or put the other measures into a data set of their own")
+        raise ValueError(
+            f"{told} is {cell}, which is no number\nremove the row, or put the other measures into a data set of their own"
+        )
     try:
         number = float(cell)
     except (TypeError, ValueError):

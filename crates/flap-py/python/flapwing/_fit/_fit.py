@@ -12,10 +12,11 @@ from .._progress import Progress, shown
 from .._types import Design, Value
 from . import _free, _goodness, _identify, _profile, _readings, _search
 from ._columns import Names
+from ._estimate import Effort, Estimate, Unsettled
 from ._held import held_out, held_rows
 from ._model import Answer, Model
 from ._readings import DataSet
-from ._result import Effort, Estimate, Fit, Unsettled
+from ._result import Fit
 from ._search import FINE, Found, Target
 from ._types import Array, Mask
 
@@ -120,8 +121,15 @@ def fit(
 
 
 def _finish(
-    model: Model, sets: list[DataSet], target: Target, best: Found, guesses: dict[str, float], held: Mask, profile: bool, indistinct: list[str]
-) -> Fit:  # fmt: skip
+    model: Model,
+    sets: list[DataSet],
+    target: Target,
+    best: Found,
+    guesses: dict[str, float],
+    held: Mask,
+    profile: bool,
+    indistinct: list[str],
+) -> Fit:
     """The result from the best of the searches."""
     target, found, answer = _settle(model, sets, target, best, guesses)
     covariance = _covariance(model, target, found, answer)
@@ -130,12 +138,12 @@ def _finish(
     quantile = _quantile(sigma_known, readings - len(model.space))
     profiles = None
     if profile:
-        profiles, better = _profile.profiles(model, target, found, covariance, 1.0, quantile)
+        profiles, better = _profile.profiles(model, target, found, covariance, quantile)
         if better is not None:
             # A lower valley on the way: the fit is there.
             target, found, answer = _settle(model, sets, target, better, guesses)
             covariance = _covariance(model, target, found, answer)
-            profiles, _ = _profile.profiles(model, target, found, covariance, 1.0, quantile)
+            profiles, _ = _profile.profiles(model, target, found, covariance, quantile)
     counted = target.used & np.isfinite(answer.values)
     difference = np.where(np.isfinite(answer.values), answer.values - target.measured, np.nan)
     units = {measure: model.names.unit(measure) for one in sets for measure in one.measured}
@@ -279,7 +287,8 @@ def _check_count(model: Model, sets: list[DataSet], readings: int) -> None:
     priors = sum(one.prior is not None for one in model.space.coordinates)
     if readings + priors <= len(model.space):
         counted = f"{readings} reading{'s' * (readings != 1)}" + (f" and {priors} priors" if priors else "")
+        parameters = f"{len(model.space)} free parameter{'s' * (len(model.space) != 1)}"
         raise ValueError(
-            f"{len(model.space)} free parameter{'s' * (len(model.space) != 1)} and only {counted}: {', '.join(model.space.labels)}\n"
+            f"{parameters} and only {counted}: {', '.join(model.space.labels)}\n"
             "a fit needs more readings than parameters: free fewer of them, add readings, or give priors"
         )

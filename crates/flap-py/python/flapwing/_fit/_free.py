@@ -106,7 +106,10 @@ class Space:
 def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[str, Any]) -> Space:
     """The coordinates of a call."""
     if isinstance(free, str) or not (isinstance(free, Mapping) or hasattr(free, "__iter__")):
-        raise TypeError(f'`free` is {type(free).__name__}\nit must be a list of parameters, or a dictionary with their bounds: {{"hinge_stiffness": (1e-6, 3e-6)}}')
+        raise TypeError(
+            f"`free` is {type(free).__name__}\n"
+            'it must be a list of parameters, or a dictionary with their bounds: {"hinge_stiffness": (1e-6, 3e-6)}'
+        )
     listed: dict[str, Any] = dict(free) if isinstance(free, Mapping) else dict.fromkeys(free)
     if not listed:
         raise ValueError("`free` is empty\nname one parameter at least")
@@ -120,12 +123,16 @@ def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[st
 
 def _check(name: str, names: Names, sets: Sequence[DataSet], taken: set[str]) -> None:
     if name in names.options:
-        raise ValueError(f"`{name}` is a choice, and cannot be fitted\nfit once for each of its options: {', '.join(names.options[name])}")
+        raise ValueError(
+            f"`{name}` is a choice, and cannot be fitted\nfit once for each of its options: {', '.join(names.options[name])}"
+        )
     if name in taken:
         raise ValueError(f"`{name}` is free and set by a keyword\nkeep one of them")
     for one in sets:
         if name in one.points:
-            raise ValueError(f"`{name}` is free, and {one.name} has it as a parameter of its operating points\nkeep one of them")
+            raise ValueError(
+                f"`{name}` is free, and {one.name} has it as a parameter of its operating points\nkeep one of them"
+            )
 
 
 def _free_of(name: str, given: Any) -> Free:
@@ -135,7 +142,9 @@ def _free_of(name: str, given: Any) -> Free:
         return given
     if isinstance(given, (tuple, list)) and len(given) == 2:
         return Free(given[0], given[1])
-    raise TypeError(f"free[{name!r}] is {type(given).__name__}\nit must be a pair of bounds, a flapwing.Free, or None for the bounds by default")
+    raise TypeError(
+        f"free[{name!r}] is {type(given).__name__}\nit must be a pair of bounds, a flapwing.Free, or None for the bounds by default"
+    )
 
 
 def _coordinates(name: str, free: Free, names: Names, sets: Sequence[DataSet]) -> list[Coordinate]:
@@ -145,7 +154,9 @@ def _coordinates(name: str, free: Free, names: Names, sets: Sequence[DataSet]) -
     if nominal is None or nominal == 0.0:
         if low is None or high is None:
             told = "not set" if nominal is None else "zero"
-            raise ValueError(f"`{name}` is {told} in the design, so its bounds are not known\ngive free={{{name!r}: (low, high)}}")
+            raise ValueError(
+                f"`{name}` is {told} in the design, so its bounds are not known\ngive free={{{name!r}: (low, high)}}"
+            )
     else:
         ends = sorted((nominal / _REACH, nominal * _REACH))
         low, high = ends[0] if low is None else low, ends[1] if high is None else high
@@ -180,7 +191,9 @@ def _value(names: Names, name: str, given: Any) -> float | None:
 
 def _prior(names: Names, name: str, given: Any) -> tuple[float, float]:
     if not isinstance(given, (tuple, list)) or len(given) != 2:
-        raise TypeError(f'free[{name!r}]: `prior` is {type(given).__name__}\nit must be a value and its standard error: ("1.5 uN*m/rad", "5 %")')
+        raise TypeError(
+            f'free[{name!r}]: `prior` is {type(given).__name__}\nit must be a value and its standard error: ("1.5 uN*m/rad", "5 %")'
+        )
     mean = _value(names, name, given[0])
     assert mean is not None
     text = given[1].strip() if isinstance(given[1], str) else ""

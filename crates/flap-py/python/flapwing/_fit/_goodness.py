@@ -80,7 +80,15 @@ def of_residuals(
             p_runs, p_neighbours = _runs(noise), _neighbours(noise)
             found.append(
                 Residuals(
-                    one.name, measure, units[measure], values[part].copy(), scaled[part].copy(), rms, int(counts.sum()), p_runs, p_neighbours
+                    one.name,
+                    measure,
+                    units[measure],
+                    values[part].copy(),
+                    scaled[part].copy(),
+                    rms,
+                    int(counts.sum()),
+                    p_runs,
+                    p_neighbours,
                 )
             )
     limit = _SIGNIFICANT / max(1, 2 * len(found))

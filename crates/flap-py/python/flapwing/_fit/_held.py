@@ -6,9 +6,9 @@ from typing import Any, Mapping, Sequence
 
 import numpy as np
 
+from ._estimate import HeldOut
 from ._model import Answer
 from ._readings import DataSet
-from ._result import HeldOut
 from ._search import Target
 from ._types import Array, Mask
 
@@ -50,7 +50,9 @@ def _in_ranges(ranges: Mapping[Any, Any], sets: Sequence[DataSet]) -> Mask:
             if not isinstance(values, np.ndarray):
                 raise ValueError(f"`hold_out` names `{name}`, and {one.name} has no such column of numbers\n{_ALLOWED}")
             if not isinstance(given, (tuple, list)) or len(given) != 2:
-                raise TypeError(f"hold_out[{name!r}] is {type(given).__name__}\nit must be a range (from, to) in SI units")
+                raise TypeError(
+                    f"hold_out[{name!r}] is {type(given).__name__}\nit must be a range (from, to) in SI units"
+                )
             inside &= (values >= float(given[0])) & (values <= float(given[1]))
         parts += [inside] * len(one.measured)
     return np.concatenate(parts)

@@ -94,7 +94,11 @@ def together(space: Space, direction: Array) -> str:
             continue
         way = "up" if scaled[place] > 0 else "down"
         one = space.coordinates[place]
-        size = f"{abs(scaled[place]):.2g} %" if one.log else f"{0.01 * abs(scaled[place]) * one.width:.2g} {one.unit}".rstrip()
+        size = (
+            f"{abs(scaled[place]):.2g} %"
+            if one.log
+            else f"{0.01 * abs(scaled[place]) * one.width:.2g} {one.unit}".rstrip()
+        )
         named.append(f"{one.label} {way} by {size}")
     return " with ".join([named[0], ", ".join(named[1:])]) if len(named) > 1 else named[0]
 

@@ -16,7 +16,6 @@ from ._free import Space
 from ._readings import DataSet
 from ._types import Array, Mask, Places
 
-
 #: The tolerance of the integration for states from which motions begin.
 _NEARBY = 1e-4
 
@@ -61,7 +60,9 @@ class Model:
         self.names, self.space, self.threads, self.told = names, space, threads, told
         settings = _flapwing.settings()
         self.keywords = {
-            name if name in settings else names.parameter(name): value for name, value in keywords.items() if value is not None
+            name if name in settings else names.parameter(name): value
+            for name, value in keywords.items()
+            if value is not None
         }
         self.points, self.ways = _points(names, sets)
         self.asked = _asked(sets)
@@ -99,9 +100,7 @@ class Model:
 
     def _run(self, keywords: Mapping[str, Any], measures: list[str]) -> Callable[..., Table]:
         def run(columns: Mapping[str, Any], **options: Any) -> Table:
-            table = evaluate(
-                self.names.grid, columns, measures=measures, threads=self.threads, **options, **keywords
-            )
+            table = evaluate(self.names.grid, columns, measures=measures, threads=self.threads, **options, **keywords)
             self.ran += len(table)
             self.rhs_evals += int(table.meta["rhs_evals"])
             if self.told is not None:

@@ -36,22 +36,17 @@ UNKNOWN = Noise("unknown")
 
 def of(name: str, given: Any, measure: str, unit: str) -> Noise:
     """The standard error of a measure from a number in its unit, or text such as ``"1 deg"`` or ``"3 %"``."""
-    if isinstance(given, str):
-        text = given.strip()
-        relative = text.endswith("%")
-        try:
-            size = float(text[:-1]) / 100 if relative else _flapwing.quantity(name, text, unit)
-        except ValueError as error:
-            if not relative:
-                raise
-            raise ValueError(f"`{name}` is {given!r}\nit must be a number in {unit or 'the unit of the measure'}, or text such as \"3 %\"") from error
+    wanted = f'it must be a number in {unit or "the unit of the measure"}, or text such as "3 %"'
+    relative = isinstance(given, str) and given.strip().endswith("%")
+    if isinstance(given, str) and not relative:
+        size = _flapwing.quantity(name, given, unit)
     else:
         try:
-            size, relative = float(given), False
-        except (TypeError, ValueError):
-            raise TypeError(
-                f"`{name}` is {type(given).__name__}\nit must be a number in {unit or 'the unit of the measure'}, or text such as \"3 %\""
-            ) from None
+            size = float(given.strip()[:-1]) / 100 if isinstance(given, str) else float(given)
+        except ValueError:
+            raise ValueError(f"`{name}` is {given!r}\n{wanted}") from None
+        except TypeError:
+            raise TypeError(f"`{name}` is {type(given).__name__}\n{wanted}") from None
     if not (size > 0 and np.isfinite(size)):
         raise ValueError(f"`{name}` is {given!r} for {measure}\nstandard errors are more than zero and finite")
     return Noise("relative" if relative else "absolute", size)

@@ -35,7 +35,10 @@ class Prediction:
     def __str__(self) -> str:
         heads = [*self.points, f"{self.measure} ({self.unit})" if self.unit else self.measure, "from", "to"]
         rows = [
-            [*(_cell(values[row]) for values in self.points.values()), *(f"{number[row]:.5g}" for number in (self.value, self.low, self.high))]
+            [
+                *(_cell(values[row]) for values in self.points.values()),
+                *(f"{number[row]:.5g}" for number in (self.value, self.low, self.high)),
+            ]
             for row in range(len(self.value))
         ]
         return table(heads, rows)
@@ -55,7 +58,11 @@ class NextMeasurements:
     errors: list[float]
 
     def __str__(self) -> str:
-        heads = [*(self.points[0] if self.points else []), "measure", f"error of {self.target} after" + (f" ({self.unit})" if self.unit else "")]
+        heads = [
+            *(self.points[0] if self.points else []),
+            "measure",
+            f"error of {self.target} after" + (f" ({self.unit})" if self.unit else ""),
+        ]
         rows = [
             [*(_cell(value) for value in point.values()), measure, f"{error:.3g}"]
             for point, measure, error in zip(self.points, self.measures, self.errors)
@@ -66,7 +73,9 @@ class NextMeasurements:
 def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """Lines of columns."""
     widths = [max(len(line[place]) for line in [heads, *rows]) for place in range(len(heads))]
-    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in [heads, *rows])
+    return "\n".join(
+        "  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in [heads, *rows]
+    )
 
 
 def _cell(value: Any) -> str:
@@ -81,7 +90,9 @@ def points_of(names: Names, place: str, given: Any) -> dict[str, Any]:
         listed = [given[row] for row in range(len(given))]
         return {name: _column(names, [point[name] for point in listed], name) for name in given.varied}
     found = _arguments.columns_of(place, given)
-    lists = {name: [cells] if isinstance(cells, str) or np.ndim(cells) == 0 else list(cells) for name, cells in found.items()}
+    lists = {
+        name: [cells] if isinstance(cells, str) or np.ndim(cells) == 0 else list(cells) for name, cells in found.items()
+    }
     length = max((len(cells) for cells in lists.values()), default=0)
     points: dict[str, Any] = {}
     for header, cells in lists.items():
@@ -89,11 +100,15 @@ def points_of(names: Names, place: str, given: Any) -> dict[str, Any]:
         if meaning.kind != "parameter":
             raise ValueError(f"{place} has the column `{header}`, a measure\ngive parameters of operating points only")
         if len(cells) not in (1, length):
-            raise ValueError(f"{place}: `{header}` has {len(cells)} cells for {length} points\ngive one for each, or one for all")
+            raise ValueError(
+                f"{place}: `{header}` has {len(cells)} cells for {length} points\ngive one for each, or one for all"
+            )
         values = parameter_cells(names, place, header, meaning, cells)
         points[meaning.name] = values if len(values) == length else np.resize(np.asarray(values), length)
     if not points or not length:
-        raise ValueError(f"{place} has no points\ngive columns of parameters, such as {{'drive_frequency': [100, 110]}}")
+        raise ValueError(
+            f"{place} has no points\ngive columns of parameters, such as {{'drive_frequency': [100, 110]}}"
+        )
     return {name: values if np.asarray(values).dtype.kind == "f" else list(values) for name, values in points.items()}
 
 

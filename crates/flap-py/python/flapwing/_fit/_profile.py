@@ -51,16 +51,74 @@ class _Side:
     best: Found | None
 
 
+@dataclass(frozen=True)
+class _Walks:
+    """What walks from a fit have in common."""
+
+    space: Space
+    target: Target
+    found: Found
+    covariance: Array
+    height: float
+
+    def side(self, ask: Ask, held: int, way: float) -> _Side:
+        """The profile to one side, up to the height or to the end of the range."""
+        here = self.found.x[held]
+        end = self.space.high[held] if way > 0 else self.space.low[held]
+        error = np.sqrt(self.covariance[held, held])
+        # Others move with it as the derivatives at the estimate say.
+        with np.errstate(invalid="ignore", divide="ignore"):
+            slope = self.covariance[:, held] / self.covariance[held, held]
+        slope = np.where(np.isfinite(slope), slope, 0.0)
+        step = self.height * error if np.isfinite(error) and error > 0 else np.inf
+        inner, outer = (0.0, 0.0), None
+        side = _Side([], [], float(here), False, None)
+        best: Found | None = None
+        reached = here
+        # The cost is to be known to a part of its rise.
+        tolerance = float(np.clip(0.02 / max(self.found.cost, 1e-300), 1e-8, 1e-3))
+        for _ in range(_TRIES):
+            limit = abs(end - here)
+            step = min(step, limit)
+            x = np.clip(self.found.x + slope * way * step, self.space.low, self.space.high)
+            x[held] = here + way * step
+            tried = minimise(ask, self.space, self.target, x, held, steps=6, tolerance=tolerance)
+            if tried.cost < self.found.cost - 1e-3 and (best is None or tried.cost < best.cost):
+                best = tried
+            rise = float(np.sqrt(max(0.0, 2.0 * (tried.cost - self.found.cost))))
+            side.x.append(float(here + way * step))
+            side.height.append(rise)
+            if rise < self.height and step >= limit:
+                return _Side(side.x, side.height, float(end), True, best)
+            reached = here + way * step
+            if abs(rise - self.height) < _NEAR * self.height:
+                reached = here + way * step * self.height / rise
+                break
+            if rise < self.height:
+                inner = (step, rise)
+            else:
+                outer = (step, rise)
+            if outer is None:
+                step = step * min(4.0, self.height / max(rise, 0.25 * self.height)) * 1.02
+            else:
+                share = (self.height - inner[1]) / (outer[1] - inner[1])
+                step = inner[0] + np.clip(share, 0.1, 0.9) * (outer[0] - inner[0])
+                reached = here + way * (inner[0] + share * (outer[0] - inner[0]))
+        if outer is None and side.height[-1] < (1 - _NEAR) * self.height:
+            # It hardly rises.
+            reached, is_open = end, True
+        else:
+            is_open = False
+        return _Side(side.x, side.height, float(reached), is_open, best)
+
+
 def profiles(
-    model: Model, target: Target, found: Found, covariance: Array, variance: float, height: float
+    model: Model, target: Target, found: Found, covariance: Array, height: float
 ) -> tuple[list[Profile], Found | None]:
     """The profiles of all coordinates up to `height` standard errors; and a better fit, if one came up."""
     space = model.space
-    sides = [
-        partial(_side, space=space, target=target, found=found, covariance=covariance, variance=variance, height=height, held=held, way=way)
-        for held in range(len(space))
-        for way in (-1.0, 1.0)
-    ]  # fmt: skip
+    walks = _Walks(space, target, found, covariance, height)
+    sides = [partial(walks.side, held=held, way=way) for held in range(len(space)) for way in (-1.0, 1.0)]
 
     def answer(xs: list[Array]) -> list[Answer]:
         return model.at(xs, rtol=FINE)
@@ -81,50 +139,3 @@ def profiles(
         else:
             made.append(Profile(values, rise[order], low, high, below.is_open, above.is_open))
     return made, better
-
-
-def _side(
-    ask: Ask, *, space: Space, target: Target, found: Found, covariance: Array, variance: float, height: float, held: int, way: float
-) -> _Side:  # fmt: skip
-    here = found.x[held]
-    end = space.high[held] if way > 0 else space.low[held]
-    error = np.sqrt(variance * covariance[held, held])
-    # Others move with it as the derivatives at the estimate say.
-    with np.errstate(invalid="ignore", divide="ignore"):
-        slope = covariance[:, held] / covariance[held, held]
-    slope = np.where(np.isfinite(slope), slope, 0.0)
-    step = height * error if np.isfinite(error) and error > 0 else np.inf
-    inner, outer = (0.0, 0.0), None
-    side = _Side([], [], float(here), False, None)
-    best: Found | None = None
-    reached = here
-    # The cost is to be known to a part of its rise.
-    tolerance = float(np.clip(0.02 * variance / max(found.cost, 1e-300), 1e-8, 1e-3))
-    for _ in range(_TRIES):
-        limit = abs(end - here)
-        step = min(step, limit)
-        x = np.clip(found.x + slope * way * step, space.low, space.high)
-        x[held] = here + way * step
-        tried = minimise(ask, space, target, x, held, steps=6, tolerance=tolerance)
-        if tried.cost < found.cost - 1e-3 * variance and (best is None or tried.cost < best.cost):
-            best = tried
-        rise = float(np.sqrt(max(0.0, 2.0 * (tried.cost - found.cost) / variance)))
-        side.x.append(float(here + way * step))
-        side.height.append(rise)
-        if rise < height and step >= limit:
-            return _Side(side.x, side.height, float(end), True, best)
-        reached = here + way * step
-        if abs(rise - height) < _NEAR * height:
-            reached = here + way * step * height / rise
-            break
-        if rise < height:
-            inner = (step, rise)
-        else:
-            outer = (step, rise)
-        if outer is None:
-            step = step * min(4.0, height / max(rise, 0.25 * height)) * 1.02
-        else:
-            share = (height - inner[1]) / (outer[1] - inner[1])
-            step = inner[0] + np.clip(share, 0.1, 0.9) * (outer[0] - inner[0])
-            reached = here + way * (inner[0] + share * (outer[0] - inner[0]))
-    return _Side(side.x, side.height, float(reached), False, best)

@@ -58,7 +58,9 @@ class Readings:
         **params: Value,
     ) -> None:
         if branch not in (None, "up", "down"):
-            raise ValueError(f'`branch` is {branch!r}\nit must be "up" or "down": the way on which the readings were taken')
+            raise ValueError(
+                f'`branch` is {branch!r}\nit must be "up" or "down": the way on which the readings were taken'
+            )
         if isinstance(columns, (str, os.PathLike)):
             self.name = name or Path(columns).name
             self.columns: dict[str, list[Any]] = _of_file(columns)
@@ -72,7 +74,9 @@ class Readings:
             told = ", ".join(f"`{header}` has {length}" for header, length in lengths.items())
             raise ValueError(f"columns differ in length: {told}\ngive each one cell per row")
         if not lengths or not next(iter(lengths.values())):
-            raise ValueError(f"{self.name or 'the data set'} is empty\ngive columns of parameters and measures with a row per reading")
+            raise ValueError(
+                f"{self.name or 'the data set'} is empty\ngive columns of parameters and measures with a row per reading"
+            )
 
     def __repr__(self) -> str:
         rows = len(next(iter(self.columns.values())))
@@ -175,11 +179,15 @@ def _of_file(path: str | os.PathLike[str]) -> dict[str, list[Any]]:
     headers = [header.strip() for header in lines[0]]
     for number, line in enumerate(lines[1:], 1):
         if len(line) != len(headers):
-            raise ValueError(f"{os.fspath(path)}, row {number} has {len(line)} cells, and the header has {len(headers)}\nadd or remove cells")
+            raise ValueError(
+                f"{os.fspath(path)}, row {number} has {len(line)} cells, and the header has {len(headers)}\nadd or remove cells"
+            )
     return {header: [line[place].strip() for line in lines[1:]] for place, header in enumerate(headers)}
 
 
 def _listed(header: str, cells: Any) -> list[Any]:
     if isinstance(cells, (str, bytes)) or not hasattr(cells, "__iter__"):
-        raise TypeError(f"column `{header}` is {type(cells).__name__}\nit must be a list, an array or a Series with a cell per row")
+        raise TypeError(
+            f"column `{header}` is {type(cells).__name__}\nit must be a list, an array or a Series with a cell per row"
+        )
     return list(np.asarray(cells).tolist() if isinstance(cells, np.ndarray) else cells)

@@ -10,7 +10,8 @@ import numpy as np
 from ._predict import table
 
 if TYPE_CHECKING:
-    from ._result import Estimate, Fit
+    from ._estimate import Estimate
+    from ._result import Fit
 
 #: Unsettled readings that are listed.
 _LISTED = 5
@@ -28,7 +29,12 @@ def text(fit: Fit) -> str:
 
 def html(fit: Fit) -> str:
     """The report for notebooks."""
-    parts = [_html_table(*_estimates(fit)), _paragraphs(_remarks(fit)), _paragraphs(_quality(fit)), _html_table(*_residuals(fit))]
+    parts = [
+        _html_table(*_estimates(fit)),
+        _paragraphs(_remarks(fit)),
+        _paragraphs(_quality(fit)),
+        _html_table(*_residuals(fit)),
+    ]
     parts.append(_paragraphs(fit.combinations))
     if len(fit.estimates) > 1:
         parts.append(_html_table(*_correlations(fit)))
@@ -72,7 +78,9 @@ def _remarks(fit: Fit) -> list[str]:
     if fit.unsettled:
         listed = ", ".join(f"{one.set} row {one.row} ({one.status})" for one in fit.unsettled[:_LISTED])
         more = f" and {len(fit.unsettled) - _LISTED} more" if len(fit.unsettled) > _LISTED else ""
-        told.append(f"{len(fit.unsettled)} readings do not count, because the motion does not settle there: {listed}{more}")
+        told.append(
+            f"{len(fit.unsettled)} readings do not count, because the motion does not settle there: {listed}{more}"
+        )
     if fit.without_slopes:
         told.append(f"{fit.without_slopes} readings have no derivatives at the estimate, and do not narrow the errors")
     if not fit.converged:
@@ -101,7 +109,8 @@ def _quality(fit: Fit) -> list[str]:
     if fit.held_out is not None:
         rms = ", ".join(f"{value:.3g} ({name})" for name, value in fit.held_out.rms.items())
         lines.append(
-            f"{fit.held_out.count} readings held out: rms error of prediction {rms}; {100 * fit.held_out.covered:.0f} % in their 95 % bands"
+            f"{fit.held_out.count} readings held out: rms error of prediction {rms}; "
+            f"{100 * fit.held_out.covered:.0f} % in their 95 % bands"
         )
     return lines
 
@@ -124,5 +133,6 @@ def _correlations(fit: Fit) -> tuple[list[str], list[list[str]]]:
 def _course(fit: Fit) -> list[str]:
     one = fit.effort
     return [
-        f"{one.agreed} of {one.starts} starts ended at this fit; {one.points:,} points with {one.rhs_evals:.3g} right-hand sides in {one.seconds:.1f} s"
+        f"{one.agreed} of {one.starts} starts ended at this fit; "
+        f"{one.points:,} points with {one.rhs_evals:.3g} right-hand sides in {one.seconds:.1f} s"
     ]

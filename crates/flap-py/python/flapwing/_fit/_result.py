@@ -2,75 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import os
 from typing import Any, Mapping
 
 import numpy as np
 
-from . import _noise, _predict, _report
+from .. import _arguments
+from . import _device, _noise, _predict, _report
+from ._estimate import Effort, Estimate, HeldOut, Unsettled
 from ._goodness import Goodness
 from ._model import Model
 from ._predict import NextMeasurements, Prediction
-from ._profile import Profile
 from ._readings import DataSet
 from ._types import Array
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """The estimate of a parameter."""
-
-    parameter: str
-    unit: str
-    #: In SI units.
-    value: float
-    #: Standard error, by the derivatives at the estimate.
-    error: float
-    #: Ends of the 95 % interval, by the profile likelihood if it was computed.
-    low: float
-    high: float
-    profile: Profile | None
-    #: True if the estimate is at an end of its range.
-    at_bound: bool
-
-    @property
-    def is_known(self) -> bool:
-        """True if the data bound the parameter on both sides."""
-        flat = self.profile is not None and self.profile.is_flat
-        return not flat and bool(np.isfinite(self.error))
-
-
-@dataclass(frozen=True)
-class Unsettled:
-    """A reading that does not count, because the model's motion does not settle there."""
-
-    set: str
-    measure: str
-    row: int
-    status: str
-
-
-@dataclass(frozen=True)
-class HeldOut:
-    """Readings that were held out, and predicted."""
-
-    count: int
-    #: Root of the mean square of the errors of prediction by measure, in its unit.
-    rms: dict[str, float]
-    #: The share of the readings in their 95 % bands, noise included.
-    covered: float
-
-
-@dataclass(frozen=True)
-class Effort:
-    """The work of a fit."""
-
-    starts: int
-    #: Starts whose search ended at the best fit.
-    agreed: int
-    points: int
-    rhs_evals: int
-    seconds: float
 
 
 class Fit:
@@ -119,7 +63,12 @@ class Fit:
         converged: bool,
     ) -> None:
         self.estimates, self.combinations, self.indistinct = estimates, combinations, indistinct
-        self.goodness, self.unsettled, self.without_slopes, self.converged = goodness, unsettled, without_slopes, converged
+        self.goodness, self.unsettled, self.without_slopes, self.converged = (
+            goodness,
+            unsettled,
+            without_slopes,
+            converged,
+        )
         self.sigma_known = sigma_known
         self.held_out: HeldOut | None = None
         self.effort = Effort(1, 1, 0, 0, 0.0)
@@ -130,9 +79,7 @@ class Fit:
     def values(self) -> dict[str, Any]:
         """The fitted values of parameters that all data sets share, in SI units: ``run(design, **fit.values)``."""
         space = self._model.space
-        return {
-            one.parameter: self.estimates[one.label].value for one in space.coordinates if one.of_set is None
-        }
+        return {one.parameter: self.estimates[one.label].value for one in space.coordinates if one.of_set is None}
 
     @property
     def covariance(self) -> Array:
@@ -217,9 +164,13 @@ class Fit:
         noises = {}
         for measure in measures if measures is not None else list(known):
             if measure not in known:
-                raise ValueError(f"the data have no readings of `{measure}`, so their error is not known\nchoose among {', '.join(known)}")
+                raise ValueError(
+                    f"the data have no readings of `{measure}`, so their error is not known\nchoose among {', '.join(known)}"
+                )
             noise = known[measure]
-            noises[measure] = noise if np.ndim(noise.size) == 0 else _noise.Noise(noise.kind, float(np.median(noise.size)))
+            noises[measure] = (
+                noise if np.ndim(noise.size) == 0 else _noise.Noise(noise.kind, float(np.median(noise.size)))
+            )
         rows, chosen, errors, now = _predict.next_measurements(
             self._model, points, noises, self._x, self._information, target, int(count), self._guesses
         )
@@ -227,23 +178,52 @@ class Fit:
             name, unit, now, [{key: values[row] for key, values in points.items()} for row in rows], chosen, errors
         )
 
+    def device(self, path: str | os.PathLike[str], *, data_set: str | None = None, overwrite: bool = False) -> None:
+        """Write the design with the fitted parameters, their standard errors and correlations as a device.
+
+        ``{"device": "mybee.toml"}`` begins a grid with it, and ``[sample] of = "device"`` draws builds from its errors.
+
+        Parameters
+        ----------
+        path : str or path
+            The file.
+        data_set : str, optional
+            The data set whose own parameters are written, if data sets do not share all.
+        overwrite : bool
+            Replace a file that is there.
+
+        Raises
+        ------
+        FileExistsError
+            The file is there, without `overwrite`.
+        ValueError
+            Data sets have parameters of their own, and `data_set` is not one of them.
+        """
+        _device.write(self, path, data_set, _arguments.flag("overwrite", overwrite))
+
     def _target(self, for_: str | Mapping[str, Any]) -> tuple[Array, str, str]:
         """What is wanted, as derivatives by the coordinates."""
         space = self._model.space
         if isinstance(for_, str):
             if for_ not in space.labels:
-                raise ValueError(f"`{for_}` was not fitted\nchoose among {', '.join(space.labels)}, or give a prediction")
+                raise ValueError(
+                    f"`{for_}` was not fitted\nchoose among {', '.join(space.labels)}, or give a prediction"
+                )
             place = space.labels.index(for_)
             target = np.zeros(len(space))
             target[place] = space.slopes(self._x)[place]
             return target, for_, space.coordinates[place].unit
         if not isinstance(for_, Mapping) or "measure" not in for_:
-            raise ValueError('`for_` must name a parameter, or be a prediction: {"measure": "lift_mean_mn", "drive_frequency": 110}')
+            raise ValueError(
+                '`for_` must name a parameter, or be a prediction: {"measure": "lift_mean_mn", "drive_frequency": 110}'
+            )
         measure = str(for_["measure"])
         points = self._points("for_", {name: value for name, value in for_.items() if name != "measure"})
         answer = _predict.answers(self._model, points, measure, self._x)
         if len(answer.values) != 1 or not np.isfinite(answer.values[0]) or answer.gaps[0]:
-            raise ValueError(f"`{measure}` has no derivatives at this point, or there are several\nchoose another point")
+            raise ValueError(
+                f"`{measure}` has no derivatives at this point, or there are several\nchoose another point"
+            )
         return answer.slopes[0], measure, self._model.names.unit(measure)
 
     def _points(self, place: str, given: Any) -> dict[str, Any]:

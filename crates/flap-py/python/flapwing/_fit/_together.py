@@ -19,9 +19,7 @@ class _Ended(Exception):
     """The searches end, because the one that answers has."""
 
 
-def together(
-    searches: Sequence[Callable[[Ask], Found]], answer: Callable[[list[Array]], list[Answer]]
-) -> list[Found]:
+def together(searches: Sequence[Callable[[Ask], Found]], answer: Callable[[list[Array]], list[Answer]]) -> list[Found]:
     """The results of the searches, each of which asks for the model one set of coordinates at a time.
 
     Searches run in threads; `answer` is called in this one, with the questions of all searches that have not ended. So

@@ -94,7 +94,14 @@ def _data(result: Fit, measure: str, ax: Axes) -> None:
             colour = next(colours)
             label = _label(one.name if len(sets) > 1 else "", dict(zip(others, key)), result)
             ax.errorbar(
-                values[mine], one.measured[measure][mine], np.nan_to_num(sigma[mine]), fmt="o", ms=3, lw=0.8, color=colour, label=label
+                values[mine],
+                one.measured[measure][mine],
+                np.nan_to_num(sigma[mine]),
+                fmt="o",
+                ms=3,
+                lw=0.8,
+                color=colour,
+                label=label,
             )
             points: dict[str, Any] = {along: np.linspace(values[mine].min(), values[mine].max(), _CURVE)}
             points.update({name: [cell] * _CURVE for name, cell in zip(others, key)})
