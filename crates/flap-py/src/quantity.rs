@@ -9,11 +9,7 @@ use crate::{listing, parameters};
 /// The value in SI units of a parameter of a preset or a model: of a number, or of text with a unit.
 #[pyfunction]
 #[pyo3(signature = (model, parameter, value, /))]
-pub(crate) fn value(
-    model: &Bound<'_, PyAny>,
-    parameter: &str,
-    value: &Bound<'_, PyAny>,
-) -> PyResult<f64> {
+pub(crate) fn value(model: &Bound<'_, PyAny>, parameter: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let model = listing::model(model)?;
     let index = parameters::index(model, parameter)?;
     parameters::value_of(&model.parameters()[index], value)
@@ -36,6 +32,7 @@ pub(crate) fn quantity(name: &str, text: &str, unit: &str) -> PyResult<f64> {
         PyValueError::new_err(format!("{}{help}", error.message(&format!("`{name}`"))))
     };
     let value = units::parse_as(text, unit).map_err(told)?;
-    let one = if unit.is_empty() { 1.0 } else { units::parse_as(&format!("1 {unit}"), unit).map_err(told)? };
+    let one =
+        if unit.is_empty() { 1.0 } else { units::parse_as(&format!("1 {unit}"), unit).map_err(told)? };
     Ok(value / one)
 }

@@ -1,7 +1,7 @@
 //! Changes of a plan that keep it true.
 
 use flap_core::parameter::Kind;
-use flap_core::simulate::{Setting, SettingKind, SolverSettings};
+use flap_core::simulate::{Motions, Setting, SettingKind, SolverSettings};
 
 use crate::notation::expression;
 use crate::notation::value::{self, ValueError};
@@ -270,7 +270,7 @@ impl Plan {
             return Err(ChangeError::AtResonance);
         }
         let motions = self.simulator().motions();
-        motions.map(|motions| motions.states()).map_err(|error| ChangeError::NoMotions(error.to_string()))
+        motions.map(Motions::states).map_err(|error| ChangeError::NoMotions(error.to_string()))
     }
 
     /// Checks that `parameter` may be set or varied.
