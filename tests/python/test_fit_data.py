@@ -133,3 +133,18 @@ def test_readings_without_a_settled_motion_are_told():
 def test_readings_can_be_pickled():
     one = flapwing.Readings(readings(), name="first", sigma="3 %")
     assert pickle.loads(pickle.dumps(one)).columns.keys() == one.columns.keys()
+
+
+def test_readings_that_a_design_excludes_are_told():
+    grid = {"preset": PRESET, "where": {"within_the_amplifier": "drive_frequency < 145"}}
+    result = flapwing.fit(grid, readings(), ["hinge_stiffness"], sigma="3 %", starts=1, profile=False)
+    assert [(one.row, one.status) for one in result.unsettled] == [(15, "excluded"), (30, "excluded")]
+    assert result.goodness.freedom == 27
+
+
+def test_a_design_without_motions_is_told():
+    grid = {"preset": PRESET, "solver": {"max_cycles": 1}}
+    with pytest.raises(
+        ValueError, match="too few readings have a settled motion .*: the others are unsettled\ngive other"
+    ):
+        flapwing.fit(grid, readings(), ["hinge_stiffness"], sigma="3 %", starts=1, profile=False)

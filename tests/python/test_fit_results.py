@@ -25,6 +25,10 @@ def test_the_report_tells_all(found):
         assert told in report
     assert "<table>" in found._repr_html_() and "drag_coefficient_max" in repr(found)
     np.testing.assert_allclose(np.diag(found.correlations), 1.0)
+    # The worst known combination of parameters is nearly the one of the largest errors.
+    worst = float(found.combinations[1].split("known to ")[1].split(" %")[0])
+    shares = [100 * one.error / one.value for one in found.estimates.values()]
+    assert 0.7 * max(shares) < worst <= 1.1 * max(shares)
     errors = [one.error for one in found.estimates.values()]
     np.testing.assert_allclose(np.sqrt(np.diag(found.covariance)), errors)
 
@@ -62,6 +66,9 @@ def test_next_measurements_shrink_the_error(found):
         ).error[0]
     )
     assert "error now" in str(told)
+    axes = {"drive_frequency": {"from": 70, "to": 150, "n": 17}, "drive_voltage_pp": ["160 V"]}
+    grid = flapwing.Grid({"preset": PRESET, "axes": axes})
+    assert found.next_measurements(grid, "drag_coefficient_max", count=2).points == told.points
 
 
 def test_progress_is_told_and_can_end_a_fit():

@@ -10,7 +10,7 @@ import numpy as np
 from .. import _arguments
 from .._progress import Progress, shown
 from .._types import Design, Value
-from . import _free, _goodness, _identify, _profile, _readings, _search
+from . import _errors, _free, _goodness, _identify, _profile, _readings, _search
 from ._columns import Names
 from ._estimate import Effort, Estimate, Unsettled
 from ._held import held_out, held_rows
@@ -110,8 +110,8 @@ def fit(
         measured = np.concatenate([values for one in sets for values in one.measured.values()])
         held = held_rows(hold_out, sets, seed, len(measured))
         _check_count(model, sets, len(measured) - int(held.sum()))
-        guesses = _first_guesses(sets)
-        target = Target(measured, _sigmas(sets, np.full(len(measured), np.nan), guesses), ~held, loss)
+        guesses = _errors.first_guesses(sets)
+        target = Target(measured, _errors.sigmas(sets, np.full(len(measured), np.nan), guesses), ~held, loss)
         indistinct = _identify.indistinct(model, target, seed)
         ends = _search.from_all(model, target, _search.starts(model, target, int(starts), seed))
         made = _finish(model, sets, target, ends[0], guesses, held, _arguments.flag("profile", profile), indistinct)
@@ -135,6 +135,12 @@ def _finish(
     covariance = _covariance(model, target, found, answer)
     sigma_known = all(noise.kind != "unknown" for one in sets for noise in one.noise.values())
     readings = int((target.used & np.isfinite(answer.values)).sum()) + len(model.space.prior(found.x)[0])
+    if readings <= len(model.space):
+        statuses = ", ".join(sorted(set(answer.status[~np.isfinite(answer.values)].tolist())))
+        raise ValueError(
+            f"too few readings have a settled motion at the best parameters found: the others are {statuses}\n"
+            "give other bounds, or look at the design with flapwing.evaluate"
+        )
     quantile = _quantile(sigma_known, readings - len(model.space))
     profiles = None
     if profile:
@@ -182,8 +188,8 @@ def _settle(
         found = _search.polish(model, target, found.x)
         answer = model.at([found.x], rtol=FINE)[0]
         used = target.used & np.isfinite(answer.values)
-        _new_guesses(sets, target, used, answer, len(model.space), guesses)
-        sigma = _sigmas(sets, answer.values, guesses)
+        _errors.new_guesses(sets, target, used, answer, len(model.space), guesses)
+        sigma = _errors.sigmas(sets, answer.values, guesses)
         is_same = bool(np.allclose(sigma, target.sigma, rtol=0.01) and (used == target.used).all())
         if is_same:
             break
@@ -222,39 +228,6 @@ def _unsettled(sets: list[DataSet], answer: Answer, held: Mask) -> list[Unsettle
     places = [(one.name, measure, row + 1) for one in sets for measure in one.measured for row in range(len(one))]
     lost = np.flatnonzero(~np.isfinite(answer.values) & ~held)
     return [Unsettled(*places[reading], str(answer.status[reading])) for reading in lost]
-
-
-def _first_guesses(sets: list[DataSet]) -> dict[str, float]:
-    """Standard errors of measures for which none is known, before a fit: a share of the largest reading."""
-    largest: dict[str, float] = {}
-    for one in sets:
-        for measure, values in one.measured.items():
-            largest[measure] = max(largest.get(measure, 0.0), float(np.abs(values).max()))
-    return {measure: 0.03 * size or 1.0 for measure, size in largest.items()}
-
-
-def _new_guesses(
-    sets: list[DataSet], target: Target, used: Mask, answer: Answer, parameters: int, guesses: dict[str, float]
-) -> None:
-    """Standard errors of such measures, from the residuals."""
-    which = np.array([measure for one in sets for measure in one.measured for _ in range(len(one))])
-    freedom = max(1, int(used.sum()) - parameters) / max(1, int(used.sum()))
-    for measure in guesses:
-        mine = used & (which == measure)
-        residuals = (answer.values - target.measured)[mine]
-        if len(residuals):
-            robust = 1.4826 * float(np.median(np.abs(residuals)))
-            spread = float(np.sqrt(np.mean(residuals**2))) if target.loss == "linear" else robust
-            guesses[measure] = max(spread / np.sqrt(freedom), 1e-9 * float(np.abs(target.measured[mine]).max()), 1e-300)
-
-
-def _sigmas(sets: list[DataSet], values: Array, guesses: Mapping[str, float]) -> Array:
-    parts, begin = [], 0
-    for one in sets:
-        for measure, measured in one.measured.items():
-            parts.append(one.noise[measure].of(values[begin : begin + len(one)], measured, guesses[measure]))
-            begin += len(one)
-    return np.concatenate(parts)
 
 
 def _quantile(sigma_known: bool, freedom: int) -> float:

@@ -6,7 +6,7 @@ from typing import Sequence
 
 import numpy as np
 
-from ._free import Space
+from ._free import Coordinate, Space
 from ._model import Model
 from ._search import NOTHING, Target, sobol
 from ._types import Array
@@ -94,23 +94,30 @@ def together(space: Space, direction: Array) -> str:
             continue
         way = "up" if scaled[place] > 0 else "down"
         one = space.coordinates[place]
-        size = (
-            f"{abs(scaled[place]):.2g} %"
-            if one.log
-            else f"{0.01 * abs(scaled[place]) * one.width:.2g} {one.unit}".rstrip()
-        )
+        size = _size(one, 0.01 * abs(float(scaled[place])))
         named.append(f"{one.label} {way} by {size}")
     return " with ".join([named[0], ", ".join(named[1:])]) if len(named) > 1 else named[0]
 
 
 def combinations(space: Space, jacobian: Array, labels: Sequence[str]) -> list[str]:
-    """The best and the worst known combination of parameters, in words."""
+    """The best and the worst known combination of parameters, in words: the error is that of the parameter named first."""
     if len(space) < 2:
         return []
     _, sizes, directions = np.linalg.svd(jacobian, full_matrices=False)
     told = []
     for label, place in zip(labels, (0, -1)):
-        size = sizes[place] * np.abs(directions[place]).max()
-        error = f"known to {100 / size:.2g} %" if size > NOTHING * sizes[0] else "not known at all"
-        told.append(f"{label}: {together(space, directions[place])}, {error}")
+        direction = directions[place]
+        if sizes[place] <= NOTHING * sizes[0]:
+            error = "not known at all"
+        else:
+            largest = int(np.argmax(np.abs(direction)))
+            error = f"known to {_size(space.coordinates[largest], abs(direction[largest]) / sizes[place])}"
+        told.append(f"{label}: {together(space, direction)}, {error}")
     return told
+
+
+def _size(one: Coordinate, change: float) -> str:
+    """A change of a coordinate in words."""
+    if not one.log:
+        return f"{change * one.width:.2g} {one.unit}".rstrip()
+    return f"{100 * change:.2g} %" if change < 1 else f"{100 * change:.0f} %"

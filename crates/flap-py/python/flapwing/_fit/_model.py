@@ -123,9 +123,16 @@ class Model:
     def _split(self, table: Table, asked: Asked, rows: int, xs: Sequence[Array], slopes: bool) -> list[Answer]:
         measures = list(dict.fromkeys(asked.measure))
         which = np.array([measures.index(name) for name in asked.measure], np.intp)
-        values = np.stack([table[name] for name in measures], axis=-1).reshape(len(xs), rows, len(measures))
-        status = table["status"].reshape(len(xs), rows)
-        gradient = table.gradient.reshape(len(xs), rows, len(measures), -1) if slopes else None
+
+        def whole(found: Any, empty: Any) -> Any:
+            """All rows: conditions of a design may have excluded some."""
+            everything = np.full((len(xs) * rows, *found.shape[1:]), empty, dtype=found.dtype)
+            everything[table["point"].astype(np.intp)] = found
+            return everything.reshape(len(xs), rows, *found.shape[1:])
+
+        values = whole(np.stack([table[name] for name in measures], axis=-1), np.nan)
+        status = whole(table["status"].astype("U11"), "excluded")
+        gradient = whole(table.gradient, np.nan) if slopes else None
         answers = []
         for place, x in enumerate(xs):
             found = np.zeros((len(asked.row), len(self.space)))
