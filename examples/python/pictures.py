@@ -1,6 +1,6 @@
 """Makes the pictures of docs/plots.md, in some ten seconds:
 
-    pip install "./crates/flap-py[plot]"
+    pip install "./crates/flap-py[plot,fit]"
     python examples/python/pictures.py             # into docs/pictures
     python examples/python/pictures.py elsewhere
 
@@ -18,6 +18,7 @@ matplotlib.use("Agg")  # files, no windows
 
 import flapwing
 import matplotlib.pyplot as plt
+import numpy as np
 from flapwing import plot
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -90,6 +91,14 @@ def hysteresis() -> Axes:
     return plot.hysteresis(table)
 
 
+def fit() -> Figure:
+    """A fit of hinge and drag to synthetic readings."""
+    points = {"drive_frequency": np.tile(np.linspace(70, 150, 15), 2), "drive_voltage_pp": np.repeat([120.0, 160.0], 15)}
+    rows = flapwing.evaluate("jafferis2016", points, hinge_stiffness="1.3 uN*m/rad")
+    readings = {**points, "stroke_pp_deg": rows["stroke_pp_deg"] * np.random.default_rng(1).normal(1, 0.02, 30)}
+    return plot.fit(flapwing.fit("jafferis2016", readings, ["hinge_stiffness", "drag_coefficient_max"], sigma="2 %", starts=2))
+
+
 def tornado() -> Axes:
     """Sensitivities of the lift of the large direct drive."""
     return plot.tornado("ozaki2018-large", "lift_mean_mn", top=10)
@@ -112,6 +121,7 @@ def main() -> None:
         "trajectory": trajectory(),
         "hysteresis": hysteresis(),
         "tornado": tornado(),
+        "fit": fit(),
     }
     for name, picture in pictures.items():
         figure = picture.get_figure(root=True)

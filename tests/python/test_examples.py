@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 EXAMPLES = Path(__file__).parents[2] / "examples/python"
-SCRIPTS = ["dask_cluster", "fit_bimorph", "pareto_pymoo", "sobol_indices", "xarray_map"]
+SCRIPTS = ["dask_cluster", "fit_bimorph", "fit_cost", "fit_coverage", "fit_next", "pareto_pymoo", "sobol_indices", "xarray_map"]
 ELSEWHERE = ["pictures"]  # in plot/test_page.py
 NOTEBOOK = "first_steps.ipynb"
 
@@ -362,3 +362,24 @@ def test_notebook_runs(tmp_path):
     ]:
         assert said in shown
     assert "the same as the sweep in memory: True" in shown
+
+
+def test_intervals_of_fits_cover_the_truth():
+    told = run("fit_coverage", "--experiments", 2)
+    inside = re.findall(r"in its 95 % interval in (\d) of 2", told)
+    assert len(inside) == 3 and sum(map(int, inside)) >= 4
+    assert "added_inertia_stroke named as one that cannot be told in 2 of 2" in told
+
+
+def test_exact_derivatives_take_less_work_than_differences():
+    told = run("fit_cost", "--starts", 2)
+    work = {name: (float(rhs), float(cost)) for name, rhs, cost in re.findall(
+        r"^(exact|central|forward) \w+.*? +([\d.e+]+) +[\d.]+ +\d+ +([\d.]+)$", told, re.MULTILINE
+    )}  # fmt: skip
+    assert 4.0 * work["exact"][0] < work["central"][0] and 2.5 * work["exact"][0] < work["forward"][0]
+    assert work["exact"][1] == pytest.approx(work["central"][1], rel=1e-3)
+
+
+def test_planned_readings_are_fewer_than_those_at_random():
+    told = run("fit_next", "--trials", 5)
+    assert int(re.search(r"in (\d) of 5 trials", told)[1]) >= 3

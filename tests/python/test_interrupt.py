@@ -20,6 +20,9 @@ ENDLESS = {"max_cycles": 10**9, "newton": False, "settle_tol": 1e-300}
 #: A grid with a point that does not end.
 GRID = {"preset": PRESET, "axes": {"drive_frequency": [90, 100]}, "solver": ENDLESS}
 
+#: Readings of a stroke.
+READINGS = {"drive_frequency": [90.0, 95.0, 100.0] * 20, "stroke_pp_deg": [40.0, 41.0, 42.0] * 20}
+
 #: Long after a second (s), so that busy machines pass.
 SOON = 5
 
@@ -50,6 +53,8 @@ def ctrl_c():
         lambda _: flapwing.evaluate(PRESET, {"drive_frequency": [90.0] * 1000}, threads=2, **ENDLESS),
         lambda _: flapwing.respond(PRESET, start=90, stop=100, step=1, **ENDLESS),
         lambda _: flapwing.respond("jafferis2016", start=60, stop=200, step=0.001),
+        lambda _: flapwing.fit(PRESET, READINGS, ["hinge_stiffness"], **ENDLESS),
+        lambda _: flapwing.fit(PRESET, READINGS, ["hinge_stiffness"], starts=10_000),
         lambda _: flapwing.sweep(GRID),
         lambda folder: flapwing.sweep(GRID, out=folder / "rows.csv"),
         lambda folder: flapwing.sweep(GRID, out=folder / "rows.parquet"),

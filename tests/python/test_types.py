@@ -16,7 +16,7 @@ pytest.importorskip("matplotlib")
 
 REPOSITORY = Path(__file__).parents[2]
 PACKAGE = Path(flapwing.__file__).parent
-PAGES = ["README.md", "crates/flap-py/README.md", "docs/python.md", "docs/plots.md"]
+PAGES = ["README.md", "crates/flap-py/README.md", "docs/python.md", "docs/fit.md", "docs/plots.md"]
 NOTEBOOK = "examples/python/first_steps.ipynb"
 
 
@@ -88,7 +88,7 @@ def test_optional_packages_are_imported_only_where_they_are_used():
     """The package itself needs NumPy alone: others are imported by the functions that convert to them."""
     code = (
         "import sys\n"
-        "for name in ['pandas', 'polars', 'pyarrow', 'xarray', 'matplotlib', 'tqdm', 'distributed']:\n"
+        "for name in ['pandas', 'polars', 'pyarrow', 'scipy', 'xarray', 'matplotlib', 'tqdm', 'distributed']:\n"
         "    sys.modules[name] = None\n"
         "import flapwing\n"
         "table = flapwing.evaluate('ozaki2018-large', {'drive_frequency': [100.0, 105.0]})\n"

@@ -3,6 +3,7 @@
 use flap_core::simulate::Simulator;
 use flap_sweep::notation::nearest;
 use flap_sweep::table::layout::split_unit;
+use numpy::PyReadonlyArray2;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -37,6 +38,15 @@ pub(crate) fn state(model: &dyn Simulator, begin: &Bound<'_, PyAny>) -> PyResult
         values[index] = factor * convert::quantity(&format!("begin[{name:?}]"), unit, factor == 1.0, &value)?;
     }
     Ok(values)
+}
+
+/// The states in the rows of an array; `None` for a row with a component that is not known.
+pub(crate) fn rows(begin: &PyReadonlyArray2<'_, f64>) -> Vec<Option<Vec<f64>>> {
+    let rows = begin.as_array();
+    rows.rows()
+        .into_iter()
+        .map(|row| row.iter().all(|y| y.is_finite()).then(|| row.iter().copied().collect()))
+        .collect()
 }
 
 /// The place of a component among the states, and the factor from the unit of its name to that of the state.

@@ -1,18 +1,23 @@
 //! A batch of points, given as columns of parameters.
 
 use flap_core::parameter::Kind;
+use flap_sweep::plan::gradient::NoShares;
 use flap_sweep::plan::{ChangeError, Plan};
-use numpy::{PyArray1, PyArrayMethods};
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::{design, parameters, sweep};
+use crate::{begin, design, parameters, sweep};
 
 /// Runs a batch of points; see `flapwing.evaluate`. `columns` has a one-dimensional array of float64, or a list of text,
-/// for each parameter that varies, all as long.
+/// for each parameter that varies, all as long. `begin` has a row of state components per point, nan for a point at rest.
 #[pyfunction]
-#[pyo3(signature = (design, columns, /, *, threads=None, progress=None, measures=None, keywords=None))]
+#[pyo3(signature = (
+    design, columns, /, *, threads=None, progress=None, measures=None, gradient=None, begin=None, states=false,
+    keywords=None
+))]
+#[expect(clippy::too_many_arguments, reason = "one per keyword")]
 pub(crate) fn evaluate<'py>(
     py: Python<'py>,
     design: &Bound<'py, PyAny>,
@@ -20,6 +25,9 @@ pub(crate) fn evaluate<'py>(
     threads: Option<&Bound<'py, PyAny>>,
     progress: Option<Py<PyAny>>,
     measures: Option<Vec<String>>,
+    gradient: Option<Vec<String>>,
+    begin: Option<PyReadonlyArray2<'py, f64>>,
+    states: bool,
     keywords: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let options = sweep::options(threads)?;
@@ -48,7 +56,16 @@ pub(crate) fn evaluate<'py>(
     if let Some(measures) = measures {
         plan = with_columns(plan, &measures)?;
     }
-    let plan = plan.crossed_with(given).map_err(|error| refused(&error))?;
+    let mut plan = plan.crossed_with(given).map_err(|error| refused(&error))?;
+    if let Some(names) = gradient {
+        plan = with_slopes(plan, &names)?;
+    }
+    if let Some(begin) = begin {
+        plan = plan.begun_at(begin::rows(&begin)).map_err(|error| refused(&error))?;
+    }
+    if states {
+        plan = plan.with_states().map_err(|error| refused(&error))?;
+    }
     sweep::into_columns(py, &plan, &options, progress, None)
 }
 
@@ -106,10 +123,42 @@ fn with_columns(plan: Plan, names: &[String]) -> PyResult<Plan> {
     })
 }
 
+/// The plan whose rows have derivatives by these parameters.
+fn with_slopes(plan: Plan, names: &[String]) -> PyResult<Plan> {
+    let mut by = Vec::with_capacity(names.len());
+    for name in names {
+        let index = parameters::index(plan.simulator(), name)?;
+        if by.contains(&index) {
+            return Err(PyValueError::new_err(format!("`gradient` names {name} twice\nkeep one of them")));
+        }
+        by.push(index);
+    }
+    plan.with_slopes(by).map_err(|error| match &error {
+        ChangeError::NoShares(_, reason) => {
+            let help = match reason {
+                NoShares::Unset(_) => "\ngive it a value, as a column or as a keyword".to_owned(),
+                other if other.help().is_empty() => String::new(),
+                other => format!("\n{}", other.help()),
+            };
+            PyValueError::new_err(format!("{error}{help}"))
+        }
+        ChangeError::NoSlope(_) => PyValueError::new_err(format!("{error}\nleave it out of `measures`")),
+        _ => refused(&error),
+    })
+}
+
 /// The exception for columns that a plan does not take.
 fn refused(error: &ChangeError) -> PyErr {
     match error {
         ChangeError::TooManyPoints(_) => PyValueError::new_err("too many points"),
+        ChangeError::AtResonance => PyValueError::new_err(
+            "the grid runs each design at its own resonance, where rows have no derivatives and begin nowhere else\n\
+             give drive_frequency a number, or follow it",
+        ),
+        ChangeError::States(states, points) => {
+            let message = format!("`begin` has {states} rows for {points} points\nit must have one for each");
+            PyValueError::new_err(message)
+        }
         other => design::refused("a column", other),
     }
 }

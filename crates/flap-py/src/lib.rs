@@ -22,6 +22,7 @@ mod listing;
 mod motion;
 mod parameters;
 mod point;
+mod quantity;
 mod read;
 mod records;
 mod resonance;
@@ -47,6 +48,7 @@ mod _flapwing {
         grid_text::text_of,
         labels::{printed, scale, split_unit, unit_of, words},
         listing::{measures, params},
+        quantity::{parameter, quantity, value},
         read::read,
         resonance::resonance,
         respond::respond,

@@ -20,7 +20,7 @@ const STROKE: &str = "stroke_amplitude_deg";
 
 /// Follows responses; see `flapwing.respond`.
 #[pyfunction]
-#[pyo3(signature = (design, along, /, *, start=None, stop=None, step=None, tolerance=None, unstable=false, threads=None, progress=None, keywords=None))]
+#[pyo3(signature = (design, along, /, *, start=None, stop=None, step=None, tolerance=None, unstable=false, states=false, threads=None, progress=None, keywords=None))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]
 pub(crate) fn respond<'py>(
     py: Python<'py>,
@@ -31,6 +31,7 @@ pub(crate) fn respond<'py>(
     step: Option<&Bound<'py, PyAny>>,
     tolerance: Option<&Bound<'py, PyAny>>,
     unstable: bool,
+    states: bool,
     threads: Option<&Bound<'py, PyAny>>,
     progress: Option<Py<PyAny>>,
     keywords: Option<&Bound<'py, PyDict>>,
@@ -64,7 +65,10 @@ pub(crate) fn respond<'py>(
         PyValueError::new_err(if help.is_empty() { message } else { format!("{message}: {help}") })
     })?;
 
-    let plan = plan.following(along);
+    let mut plan = plan.following(along);
+    if states {
+        plan = plan.with_states().map_err(|error| PyValueError::new_err(error.to_string()))?;
+    }
     let responses = Responses::of(&plan).ok_or_else(|| PyValueError::new_err("no parameter is followed"))?;
     let stroke = plan.rows().columns().iter().position(|column| column.name == STROKE);
     let stroke = stroke.ok_or_else(|| PyValueError::new_err("the model measures no stroke"))?;

@@ -10,6 +10,7 @@ use flap_core::simulate::SolverSettings;
 use flap_sweep::files::job::{self, Begin, Job, Outcome};
 use flap_sweep::files::session::SessionOptions;
 use flap_sweep::plan::Plan;
+use flap_sweep::plan::gradient::{Gradient, Per, column_name};
 use flap_sweep::run::identity::Identity;
 use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{self, Parcel, RunError, RunOptions, Summary};
@@ -170,6 +171,21 @@ fn work(
     })
 }
 
+/// The derivatives of rows, as a dictionary: their measures and parameters, and the column of each pair.
+fn slopes<'py>(py: Python<'py>, plan: &Plan, gradient: &Gradient) -> PyResult<Bound<'py, PyDict>> {
+    let known: Vec<&str> = plan.measured().collect();
+    let of: Vec<&str> = gradient.of.iter().map(|&of| known[of]).collect();
+    let by: Vec<&str> = gradient.with_respect_to.iter().map(|&by| plan.parameters()[by].name).collect();
+    let columns = of.iter().flat_map(|of| by.iter().map(move |by| column_name(of, by, gradient.per)));
+    let columns: Vec<String> = columns.collect();
+    let dict = PyDict::new(py);
+    dict.set_item("per", if gradient.per == Per::Cent { "per cent" } else { "SI unit" })?;
+    dict.set_item("columns", columns)?;
+    dict.set_item("of", of)?;
+    dict.set_item("with_respect_to", by)?;
+    Ok(dict)
+}
+
 /// The origin of rows, as a dictionary: versions, model, solver settings, and the text of the grid.
 pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> PyResult<Bound<'py, PyDict>> {
     let identity = Identity::of(plan, options);
@@ -194,6 +210,9 @@ pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> P
     dict.set_item("grid", &plan.source().text)?;
     if let Some(along) = plan.followed() {
         dict.set_item("along", plan.parameters()[along.parameter].name)?;
+    }
+    if let Some(gradient) = plan.gradient() {
+        dict.set_item("gradient", slopes(py, plan, gradient)?)?;
     }
     Ok(dict)
 }

@@ -3,7 +3,7 @@
 `presets` lists published designs and `params` their parameters. `run` simulates one design, `trajectory` returns its
 motion and `resonance` its resonances. `sweep` runs a whole grid and `evaluate` a batch of points. `respond` follows
 designs up and down in frequency. `chirp` and `impulse` drive a design in other ways; `track` and `lift` are about wings
-that were filmed. Results are a `Table`, whose columns are NumPy arrays; it converts to pandas, polars, Arrow and xarray.
+that were filmed. `fit` fits parameters to readings. Results are a `Table`, whose columns are NumPy arrays; it converts to pandas, polars, Arrow and xarray.
 
 A design is the name of a preset, a grid file, its text, a dictionary or a `Grid`. Parameters and solver settings are
 keywords of every call.
@@ -13,6 +13,7 @@ Pictures are in `flapwing.plot`, which needs matplotlib.
 
 from ._evaluate import evaluate
 from ._experiments import chirp, impulse, lift, track
+from ._fit import Fit, Free, Readings, fit
 from ._flapwing import Diagnostic, Grid, GridError, __version__, presets
 from ._listing import Parameter, measures, params, states
 from ._point import resonance, run, trajectory
@@ -22,13 +23,17 @@ from ._table import Table
 
 __all__ = [
     "Diagnostic",
+    "Fit",
+    "Free",
     "Grid",
     "GridError",
     "Parameter",
+    "Readings",
     "Table",
     "__version__",
     "chirp",
     "evaluate",
+    "fit",
     "impulse",
     "lift",
     "measures",

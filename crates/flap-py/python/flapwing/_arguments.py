@@ -97,6 +97,21 @@ def state(design: Design, begin: Any) -> dict[str, Any] | None:
     return {name: float(begin[name][0]) for name in names}
 
 
+def states(design: Design, begin: Any) -> np.ndarray[Any, np.dtype[np.float64]] | None:
+    """States as the rows of an array, from columns of components; None for motions from rest."""
+    if begin is None:
+        return None
+    found = columns_of("begin", begin)
+    names = _flapwing.states(_model(design))
+    missing = [name for name in names if name not in found]
+    if missing:
+        raise ValueError(f"`begin` lacks the columns {', '.join(missing)}\nrows of a call with states=True have them")
+    listed = [numbers(f"begin[{name!r}]", found[name]) for name in names]
+    if len({len(values) for values in listed}) > 1:
+        raise ValueError("the columns of `begin` differ in length\nthey must have a component of a state for each point")
+    return np.column_stack(listed)
+
+
 def _model(design: Design) -> str:
     """The model of a design, or its preset, whose states are the same."""
     if isinstance(design, str):
@@ -111,14 +126,26 @@ def _model(design: Design) -> str:
 
 def measures(names: Any) -> list[str] | None:
     """Names of measures as a list."""
+    return _names("measures", names, "lift_mean_mn")
+
+
+def gradient(names: Any) -> list[str] | None:
+    """Names of parameters as a list, of one at least."""
+    listed = _names("gradient", names, "hinge_stiffness")
+    if listed == []:
+        raise ValueError('`gradient` is empty\nit must be a list of names such as ["hinge_stiffness"]')
+    return listed
+
+
+def _names(argument: str, names: Any, example: str) -> list[str] | None:
     if names is None:
         return None
     if isinstance(names, str) or not hasattr(names, "__iter__"):
-        raise refused("measures", names, 'it must be a list of names such as ["lift_mean_mn"]')
+        raise refused(argument, names, f'it must be a list of names such as ["{example}"]')
     listed = list(names)
     for name in listed:
         if not isinstance(name, str):
-            raise refused("measures", name, 'its entries must be names such as "lift_mean_mn"')
+            raise refused(argument, name, f'its entries must be names such as "{example}"')
     return [str(name) for name in listed]
 
 

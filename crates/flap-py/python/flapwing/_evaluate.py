@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Mapping, SupportsIndex
+from typing import TYPE_CHECKING, Any, Mapping, Sequence, SupportsIndex
 
 import numpy as np
 
@@ -29,6 +29,9 @@ def evaluate(
     progress: Progress = False,
     client: Client | None = None,
     measures: Measures | None = None,
+    gradient: Sequence[str] | None = None,
+    begin: Mapping[str, Any] | Table | pandas.DataFrame | polars.DataFrame | pyarrow.Table | None = None,
+    states: bool = False,
     **keywords: Value,
 ) -> Table:
     """Run a batch of design points, given as columns of parameters.
@@ -57,6 +60,16 @@ def evaluate(
         Run the points on the workers of a Dask cluster, which need the same build of flapwing. Rows are the same.
     measures : list of str, optional
         The measures of the rows, in place of all of them or of those that the grid's ``[output]`` chooses.
+    gradient : list of str, optional
+        Parameters by which rows have derivatives of their measures while the motion stays settled. `Table.gradient` is
+        an array of them, of the shape n x measures x parameters: in the unit of the measure's column per SI unit of the
+        parameter. They replace those of a grid's ``[gradient]``. A derivative costs about three drive periods of work.
+    begin : Table, dict or DataFrame, optional
+        The state in which each motion begins, at the start of a drive period: columns of the components (`states`), one
+        row per point, in the units of their names. A row with nan begins at rest, as all do by default. It decides which motion is
+        found where a design has several.
+    states : bool, optional
+        Add columns of the state at the beginning of a drive period of the motion that was found, for `begin`.
     **keywords : float or str
         Parameters of all points and solver settings, as for `run`; a name must not be a column too.
 
@@ -67,13 +80,15 @@ def evaluate(
         ``[where]`` excludes have no row, but count in the column `point`. With axes, `dims` begins with the dimension
         `row`. A value that is out of range, infinite or not a number makes a row with the status
         ``"invalid"``, and so do parameters that are impossible together; ``table.meta["invalid"]`` gives the reason for
-        the first few.
+        the first few. With `gradient`, a derivative that is not known is nan, and the column ``gradient_gap`` has the
+        reason.
 
     Raises
     ------
     ValueError
         Unknown preset, parameter, option or unit; columns of different lengths, or with masked values; a parameter
-        that is a column and a keyword; a missing parameter of a model. GridError if there are mistakes in a grid.
+        that is a column and a keyword; a missing parameter of a model; derivatives by a choice, a whole number or a
+        derived parameter. GridError if there are mistakes in a grid.
     TypeError
         A value of the wrong type.
 
@@ -85,21 +100,53 @@ def evaluate(
     >>> again = flapwing.evaluate("ozaki2018-large", rows[1:], rtol=1e-8, measures=["lift_mean_mn"])
     >>> again.columns[:4]
     ['point', 'drive_frequency', 'status', 'lift_mean_mn']
+
+    A function for ``scipy.optimize.minimize(…, jac=True)``: minus the lift, and its derivatives.
+
+    >>> def negative_lift(x):
+    ...     columns = {"hinge_stiffness": x[:1], "drive_frequency": x[1:]}
+    ...     table = flapwing.evaluate("ozaki2018-large", columns, measures=["lift_mean_mn"], gradient=list(columns))
+    ...     return -table["lift_mean_mn"][0], -table.gradient[0, 0]
+    >>> value, slopes = negative_lift(np.array([1e-4, 105.0]))
+    >>> slopes.shape
+    (2,)
     """
     given = _given(columns)
-    chosen = _arguments.measures(measures)
+    slopes = _arguments.gradient(gradient)
+    options: dict[str, Any] = {
+        "measures": _arguments.measures(measures),
+        "gradient": slopes,
+        "begin": _arguments.states(design, begin),
+        "states": _arguments.flag("states", states),
+        "keywords": dict(keywords),
+    }
     with shown(progress) as show:
         if client is None:
-            native = _flapwing.evaluate(
-                design, given, threads=threads, progress=show, measures=chosen, keywords=dict(keywords)
-            )
+            native = _flapwing.evaluate(design, given, threads=threads, progress=show, **options)
         else:
             from ._scatter import scattered
 
-            call = {"design": design, "measures": chosen, "keywords": dict(keywords)}
-            native = scattered(_arguments.cluster(client), call, given, threads, show)
+            native = scattered(_arguments.cluster(client), design, options, given, threads, show)
+    if slopes is not None:
+        native = {**native, "units": _units(native)}
     # Without axes rows are just rows.
     return Table._of(native if len(native["axes"]) > 1 else {**native, "axes": []}, set=keywords)
+
+
+def _units(native: dict[str, Any]) -> dict[str, str]:
+    """The units of derivatives per SI unit, by column."""
+    told = native["meta"]["gradient"]
+    measures = {name: unit for name, unit, *_ in native["columns"]}
+    parameters = {name: unit for name, _, unit, *_ in _flapwing.params(native["meta"]["model"])}
+    pairs = [(of, by) for of in told["of"] for by in told["with_respect_to"]]
+    return {column: _per(measures[of], parameters[by]) for column, (of, by) in zip(told["columns"], pairs)}
+
+
+def _per(unit: str, other: str) -> str:
+    """One unit divided by another."""
+    if not other:
+        return unit
+    return f"{unit or '1'}/{other if other.isalnum() else f'({other})'}"
 
 
 def _given(columns: Any) -> dict[str, Any]:

@@ -3,6 +3,8 @@
 from os import PathLike
 from typing import Any, Callable, SupportsFloat, SupportsIndex, final, overload
 
+import numpy as np
+
 __all__ = [
     "Diagnostic",
     "Grid",
@@ -14,10 +16,12 @@ __all__ = [
     "impulse",
     "lift",
     "measures",
+    "parameter",
     "params",
     "part",
     "presets",
     "printed",
+    "quantity",
     "read",
     "resonance",
     "respond",
@@ -31,6 +35,7 @@ __all__ = [
     "track",
     "trajectory",
     "unit_of",
+    "value",
     "words",
 ]
 
@@ -187,6 +192,15 @@ def measures(name: str, /) -> list[tuple[str, str, str]]:
 def states(name: str, /) -> list[str]:
     """The names of the states of a preset's or a model's equations of motion, with their units at the end."""
 
+def value(model: str, parameter: str, value: SupportsFloat | str, /) -> float:
+    """The value in SI units of a parameter of a preset or a model: of a number, or of text with a unit."""
+
+def parameter(model: str, parameter: str, /) -> str:
+    """The name of a parameter of a preset or a model, which may be given by its former name."""
+
+def quantity(name: str, text: str, unit: str, /) -> float:
+    """The number of `unit` in a text such as `"3 mm"`, which must measure the same."""
+
 def settings() -> list[str]:
     """The names of the solver settings, in the order of the signature of `flapwing.run`."""
 
@@ -287,10 +301,13 @@ def evaluate(
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
     measures: list[str] | None = None,
+    gradient: list[str] | None = None,
+    begin: np.ndarray[Any, np.dtype[np.float64]] | None = None,
+    states: bool = False,
     keywords: dict[str, Any] | None = None,
 ) -> dict[str, Any]:
     """Runs a batch of points; see `flapwing.evaluate`. `columns` has a one-dimensional array of float64, or a list of text,
-    for each parameter that varies, all as long.
+    for each parameter that varies, all as long. `begin` has a row of state components per point, nan for a point at rest.
     """
 
 def respond(
@@ -303,6 +320,7 @@ def respond(
     step: SupportsFloat | str | None = None,
     tolerance: SupportsFloat | str | None = None,
     unstable: bool = False,
+    states: bool = False,
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
     keywords: dict[str, Any] | None = None,

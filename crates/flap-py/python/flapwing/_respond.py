@@ -22,6 +22,7 @@ def respond(
     step: Value | None = None,
     tolerance: Value | None = None,
     unstable: bool = False,
+    states: bool = False,
     threads: SupportsIndex | None = None,
     progress: Progress = False,
     **keywords: Value,
@@ -46,6 +47,8 @@ def respond(
         Largest error of the ends of bistable bands. Default: a sixteenth of the shortest step.
     unstable : bool, optional
         Continue the branches around the ends of bistable bands: adds the unstable orbits between them.
+    states : bool, optional
+        Add columns of the state at the beginning of a drive period of each motion, for `begin` of `evaluate`.
     threads : int, optional
         Threads, 1 or more. Default: one per core. Rows do not depend on it.
     progress : bool or function, optional
@@ -88,6 +91,7 @@ def respond(
             step=step,
             tolerance=tolerance,
             unstable=_arguments.flag("unstable", unstable),
+            states=_arguments.flag("states", states),
             threads=threads,
             progress=show,
             keywords=dict(keywords),

@@ -19,42 +19,54 @@ if TYPE_CHECKING:
 MOST_REASONS = 5
 
 
-def task(call: dict[str, Any], given: dict[str, Any], threads: SupportsIndex | None) -> dict[str, Any]:
+def task(
+    design: Any, options: dict[str, Any], given: dict[str, Any], threads: SupportsIndex | None
+) -> dict[str, Any]:
     """The task of a worker: the rows of a stretch of the columns."""
     # Arrays may lie anywhere in a message.
     given = {
         name: np.require(values, requirements=["C", "A"]) if isinstance(values, np.ndarray) else values
         for name, values in given.items()
     }
-    options = {"measures": call["measures"], "keywords": call["keywords"]}
-    return _flapwing.evaluate(call["design"], given, threads=threads, **options)
+    if options["begin"] is not None:
+        options = {**options, "begin": np.require(options["begin"], requirements=["C", "A"])}
+    return _flapwing.evaluate(design, given, threads=threads, **options)
+
+
+def _stretch(options: dict[str, Any], begin: int, end: int) -> dict[str, Any]:
+    """The options for some of the points."""
+    states = options["begin"]
+    return options if states is None else {**options, "begin": states[begin:end]}
 
 
 def scattered(
     client: Client,
-    call: dict[str, Any],
+    design: Any,
+    options: dict[str, Any],
     given: dict[str, Any],
     threads: SupportsIndex | None,
     show: Callable[[int, int], object] | None,
 ) -> dict[str, Any]:
     """The rows of the columns `given`, computed by the workers of a cluster."""
     # Mistakes are told here, and rows are empty: their columns and axes are those of all.
-    nothing = task(call, {name: values[:0] for name, values in given.items()}, 1)
+    nothing = task(design, _stretch(options, 0, 0), {name: values[:0] for name, values in given.items()}, 1)
     lengths = {name: len(values) for name, values in given.items()}
     length = next(iter(lengths.values()))
-    if len(set(lengths.values())) > 1:
-        return task(call, given, 1)
     each = int(np.prod([len(next(iter(axis.values()))) for axis in nothing["axes"][1:]]))
+    states = options["begin"]
+    if len(set(lengths.values())) > 1 or (states is not None and len(states) != length * each):
+        return task(design, options, given, 1)
     workers = max(1, sum(client.nthreads().values()))
     most = max(1, TASK_POINTS // max(1, each))
     size = max(1, min(most, -(-length // (TASKS_PER_THREAD * workers))))
-    call = {**call, "design": _sent(call["design"])}
+    design = _sent(design)
     count = 1 if threads is None else threads
     begins = range(0, length, size)
     futures = [
         client.submit(
             task,
-            call,
+            design,
+            _stretch(options, begin * each, (begin + size) * each),
             {name: values[begin : begin + size] for name, values in given.items()},
             count,
             pure=False,

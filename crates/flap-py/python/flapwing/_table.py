@@ -208,6 +208,20 @@ class Table:
         return {str(status): int(count) for status, count in zip(statuses, counts)}
 
     @property
+    def gradient(self) -> np.ndarray[Any, np.dtype[np.float64]]:
+        """Derivatives of the measures, of the shape rows x measures x parameters.
+
+        ``meta["gradient"]`` has the names of both, in order, and that of each column. Derivatives are in the unit of the
+        measure's column per SI unit of the parameter; of a grid's ``[gradient]``, per per cent of it. One that is not
+        known is nan, and the column ``gradient_gap`` has the reason.
+        """
+        told = self.meta.get("gradient")
+        if told is None:
+            raise ValueError('the table has no derivatives\ngive evaluate the argument gradient=["hinge_stiffness"]')
+        columns = [self._column(name).cells for name in told["columns"]]
+        return np.stack(columns, axis=-1).reshape(len(self), len(told["of"]), len(told["with_respect_to"]))
+
+    @property
     def periodic(self) -> Table:
         """The rows whose motion is periodic: those that have measures."""
         return self[self["status"] == "periodic"]

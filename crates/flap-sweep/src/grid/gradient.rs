@@ -1,6 +1,6 @@
 //! The section `[gradient]`: columns with the derivatives of measures by parameters.
 
-use flap_core::parameter::{Kind as ParameterKind, Parameter, Range};
+use flap_core::parameter::Parameter;
 use flap_core::simulate::Simulator;
 use toml::Spanned;
 use toml::de::DeValue;
@@ -11,7 +11,7 @@ use super::table::{self, Entry};
 use super::value;
 use crate::notation::expression::Kind;
 use crate::plan::formula::Derived;
-use crate::plan::gradient::Gradient;
+use crate::plan::gradient::{Gradient, Per, check};
 
 const KEYS: [&str; 2] = ["of", "with_respect_to"];
 
@@ -49,7 +49,7 @@ pub(super) fn read(
     let with_respect_to = listed(with_respect_to, problems, |name, item, problems| {
         parameter(name, item, names, derived, problems)
     });
-    Some(Gradient { of, with_respect_to })
+    Some(Gradient { of, with_respect_to, per: Per::Cent })
 }
 
 /// The indices of the names in a list, which `index` finds or reports.
@@ -110,27 +110,13 @@ fn parameter(
             .did_you_mean(name, names.parameters.iter().map(|parameter| parameter.name));
         return None;
     };
-    let mut refuse = |reason: String, help: &str| {
-        let diagnostic = problems.report(item.span(), reason);
-        if !help.is_empty() {
-            diagnostic.help(help);
-        }
-        None
+    let is_derived = derived.parameters().any(|derived| derived == index);
+    let Err(reason) = check(&names.parameters[index], is_derived, names.unset[index]) else {
+        return Some(index);
     };
-    if derived.parameters().any(|derived| derived == index) {
-        return refuse(
-            format!("`{name}` is derived from other parameters"),
-            "name those: derivatives by them include what follows from them",
-        );
+    let diagnostic = problems.report(item.span(), format!("`{name}` {reason}"));
+    if !reason.help().is_empty() {
+        diagnostic.help(reason.help());
     }
-    match (&names.parameters[index].kind, names.unset[index]) {
-        (ParameterKind::Choice(_), _) => refuse(format!("`{name}` is a choice, and has no shares"), ""),
-        (ParameterKind::Number(Range::Whole(..)), _) => {
-            refuse(format!("`{name}` is a whole number, and has no shares"), "")
-        }
-        (_, Some(follows)) => {
-            refuse(format!("`{name}` is not set: it follows {follows}"), "set it under [params]")
-        }
-        _ => Some(index),
-    }
+    None
 }

@@ -1,13 +1,15 @@
 //! Changes of a plan that keep it true.
 
 use flap_core::parameter::Kind;
-use flap_core::simulate::{Setting, SettingKind, SolverSettings};
+use flap_core::simulate::{Motions, Setting, SettingKind, SolverSettings};
 
+use crate::notation::expression;
 use crate::notation::value::{self, ValueError};
 use crate::plan::Plan;
 use crate::plan::along::Along;
 use crate::plan::axes::TooManyPoints;
 use crate::plan::axis::{Axis, Values};
+use crate::plan::gradient::{self, Gradient, NoShares, Per};
 use crate::plan::selection::{Selection, Shard};
 use crate::plan::value::Value;
 
@@ -43,6 +45,21 @@ pub enum ChangeError {
     /// Rows have no such measure, or it is named twice.
     #[error("there is no measure `{0}`, or it is named twice")]
     NoColumn(String),
+    /// Rows have no derivatives by this parameter.
+    #[error("`{0}` {1}")]
+    NoShares(&'static str, NoShares),
+    /// The measure is true or false.
+    #[error("`{0}` is true or false, and has no derivatives")]
+    NoSlope(String),
+    /// Rows at the resonance of each design have neither derivatives nor a state from which they begin.
+    #[error("each design runs at its own resonance")]
+    AtResonance,
+    /// The model has single rows only, for this reason.
+    #[error("{0}")]
+    NoMotions(String),
+    /// There must be a state for each of so many points.
+    #[error("{0} states for {1} points")]
+    States(usize, u64),
     /// The solver takes no such settings.
     #[error("`{0}` is out of its range")]
     Solver(&'static str),
@@ -93,6 +110,65 @@ impl Plan {
             columns.push(index.ok_or_else(|| ChangeError::NoColumn(name.clone()))?);
         }
         self.space.output.columns = Some(columns);
+        Ok(self)
+    }
+
+    /// The plan whose rows have derivatives of their measures by these parameters, per SI unit of each: of the columns that
+    /// [`Plan::with_columns`] chose, or of all measures that are numbers.
+    ///
+    /// # Errors
+    /// [`ChangeError::NoShares`] or [`ChangeError::NoSlope`] for a parameter or a measure without derivatives,
+    /// [`ChangeError::AtResonance`], [`ChangeError::NoMotions`].
+    pub fn with_slopes(mut self, by: Vec<usize>) -> Result<Plan, ChangeError> {
+        self.check_motions()?;
+        for &parameter in &by {
+            let known = &self.parameters()[parameter];
+            let is_derived = self.derived().parameters().any(|derived| derived == parameter);
+            let is_varied = self.axes().varied().any(|varied| varied == parameter);
+            let follows = match self.base()[parameter] {
+                Value::Follows(follows) if !is_varied => Some(follows),
+                Value::Given(_) | Value::Follows(_) | Value::Resonance => None,
+            };
+            gradient::check(known, is_derived, follows)
+                .map_err(|reason| ChangeError::NoShares(known.name, reason))?;
+        }
+        let models = self.rows().columns().len();
+        let is_number = |of: usize| match of.checked_sub(models) {
+            None => true,
+            Some(place) => self.measures()[place].kind() == expression::Kind::Number,
+        };
+        let all = 0..models + self.measures().len();
+        let of: Vec<usize> = match &self.output().columns {
+            Some(chosen) => chosen.iter().copied().filter(|of| all.contains(of)).collect(),
+            None => all.filter(|&of| is_number(of)).collect(),
+        };
+        if let Some(flag) = of.iter().find(|&&of| !is_number(of)) {
+            return Err(ChangeError::NoSlope(self.measures()[flag - models].name.clone()));
+        }
+        self.space.gradient = Some(Gradient { of, with_respect_to: by, per: Per::Unit });
+        Ok(self)
+    }
+
+    /// The plan whose motions begin at these states, one per point; at rest where there is `None`. All points are run.
+    ///
+    /// # Errors
+    /// [`ChangeError::States`] if there are fewer or more, [`ChangeError::AtResonance`], [`ChangeError::NoMotions`].
+    pub fn begun_at(mut self, states: Vec<Option<Vec<f64>>>) -> Result<Plan, ChangeError> {
+        self.check_motions()?;
+        if states.len() as u64 != self.len() {
+            return Err(ChangeError::States(states.len(), self.len()));
+        }
+        self.begins = states;
+        self.selection = Selection::All;
+        Ok(self)
+    }
+
+    /// The plan whose rows have the state at the beginning of a drive period of the motion, from which others can begin.
+    ///
+    /// # Errors
+    /// [`ChangeError::AtResonance`], [`ChangeError::NoMotions`].
+    pub fn with_states(mut self) -> Result<Plan, ChangeError> {
+        self.states = self.check_motions()?;
         Ok(self)
     }
 
@@ -186,6 +262,15 @@ impl Plan {
     pub fn with_all_points(mut self) -> Plan {
         self.selection = Selection::All;
         self
+    }
+
+    /// The components of the states of the model's motions.
+    fn check_motions(&self) -> Result<&'static [&'static str], ChangeError> {
+        if self.resonance().is_some() {
+            return Err(ChangeError::AtResonance);
+        }
+        let motions = self.simulator().motions();
+        motions.map(Motions::states).map_err(|error| ChangeError::NoMotions(error.to_string()))
     }
 
     /// Checks that `parameter` may be set or varied.

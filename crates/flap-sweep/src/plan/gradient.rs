@@ -1,5 +1,7 @@
 //! Derivatives of measures, as columns of rows.
 
+use flap_core::parameter::{Kind, Parameter, Range};
+
 /// The derivatives that rows have: of each of some measures by each of some parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Gradient {
@@ -7,6 +9,17 @@ pub struct Gradient {
     pub of: Vec<usize>,
     /// Indices into the model's parameter table.
     pub with_respect_to: Vec<usize>,
+    /// The change of the parameter that they are per.
+    pub per: Per,
+}
+
+/// The change of a parameter that derivatives are per.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Per {
+    /// One per cent of the parameter.
+    Cent,
+    /// One of its SI unit.
+    Unit,
 }
 
 impl Gradient {
@@ -26,12 +39,63 @@ impl Gradient {
     }
 }
 
-/// The name of the column with the change of the measure `of` per per cent of the parameter `by`.
+/// The name of the column with the change of the measure `of` per per cent or per SI unit of the parameter `by`.
 ///
 /// ```
-/// use flap_sweep::plan::gradient::column_name;
-/// assert_eq!(column_name("lift_mean_mn", "hinge_stiffness"), "d_lift_mean_mn_per_pct_hinge_stiffness");
+/// use flap_sweep::plan::gradient::{Per, column_name};
+/// let of_lift = |per| column_name("lift_mean_mn", "hinge_stiffness", per);
+/// assert_eq!(of_lift(Per::Cent), "d_lift_mean_mn_per_pct_hinge_stiffness");
+/// assert_eq!(of_lift(Per::Unit), "d_lift_mean_mn_per_si_hinge_stiffness");
 /// ```
-pub fn column_name(of: &str, by: &str) -> String {
-    format!("d_{of}_per_pct_{by}")
+pub fn column_name(of: &str, by: &str, per: Per) -> String {
+    match per {
+        Per::Cent => format!("d_{of}_per_pct_{by}"),
+        Per::Unit => format!("d_{of}_per_si_{by}"),
+    }
+}
+
+/// The reason why rows cannot have derivatives by a parameter, as the end of a sentence about it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoShares {
+    /// Formulas decide it.
+    #[error("is derived from other parameters")]
+    Derived,
+    /// It is a named option.
+    #[error("is a choice, and has no shares")]
+    Choice,
+    /// It is a count.
+    #[error("is a whole number, and has no shares")]
+    Whole,
+    /// It has no value of its own, and follows those that are told.
+    #[error("is not set: it follows {0}")]
+    Unset(&'static str),
+}
+
+impl NoShares {
+    /// The remedy in a grid file; empty if there is none.
+    pub fn help(self) -> &'static str {
+        match self {
+            NoShares::Derived => "name those: derivatives by them include what follows from them",
+            NoShares::Choice | NoShares::Whole => "",
+            NoShares::Unset(_) => "set it under [params]",
+        }
+    }
+}
+
+/// Checks that rows can have derivatives by `parameter`, which is derived or follows others, or has a value.
+///
+/// # Errors
+/// The reason why not.
+pub(crate) fn check(
+    parameter: &Parameter,
+    is_derived: bool,
+    follows: Option<&'static str>,
+) -> Result<(), NoShares> {
+    match (&parameter.kind, follows) {
+        _ if is_derived => Err(NoShares::Derived),
+        (Kind::Choice(_), _) => Err(NoShares::Choice),
+        (Kind::Number(Range::Whole(..)), _) => Err(NoShares::Whole),
+        (_, Some(follows)) => Err(NoShares::Unset(follows)),
+        _ => Ok(()),
+    }
 }

@@ -23,6 +23,10 @@ pub struct Plan {
     pub(super) space: Space,
     pub(super) selection: Selection,
     pub(super) followed: Option<Along>,
+    /// One state per point from which its motion begins; `None` for a motion from rest. Empty if all begin at rest.
+    pub(super) begins: Vec<Option<Vec<f64>>>,
+    /// The components of the state that rows have; empty if they have none.
+    pub(super) states: &'static [&'static str],
 }
 
 /// The contents of a grid file that has passed every check.
@@ -64,7 +68,7 @@ pub(crate) struct Space {
 impl Plan {
     /// The plan of a design space, of which all points are run.
     pub(crate) fn new(space: Space) -> Plan {
-        Plan { space, selection: Selection::All, followed: None }
+        Plan { space, selection: Selection::All, followed: None, begins: Vec::new(), states: &[] }
     }
 
     /// The model.
@@ -170,6 +174,11 @@ impl Plan {
         self.followed.as_ref()
     }
 
+    /// The components of the state at the beginning of a motion's period that rows have; empty if they have none.
+    pub fn states(&self) -> &'static [&'static str] {
+        self.states
+    }
+
     /// Number of points.
     pub fn len(&self) -> u64 {
         self.axes().points()
@@ -182,7 +191,9 @@ impl Plan {
 
     /// Point number `index`, which must be less than [`Plan::len`].
     pub fn point(&self, index: u64) -> Point {
-        Point::at_rest(index, self.values(index, None))
+        let place = usize::try_from(index).unwrap_or(usize::MAX);
+        let begin = self.begins.get(place).cloned().flatten();
+        Point { begin, ..Point::at_rest(index, self.values(index, None)) }
     }
 
     /// The values of point number `index` with one parameter larger by a `share` of itself. Derived parameters follow it.

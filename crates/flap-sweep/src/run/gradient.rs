@@ -4,13 +4,12 @@ use flap_core::simulate::{Change, Interrupt, NoSlope, Point, PointRun, Row};
 
 use super::options::RunOptions;
 use crate::plan::Plan;
-use crate::plan::gradient::Gradient;
+use crate::plan::gradient::{Gradient, Per};
 
 /// The share that changes for the derivatives of the plan's own measures, which are computed from those and need not be as small.
 const OWN_SHARE: f64 = 1e-5;
 
-/// Adds the derivatives that `plan` asks for to the measures of the row of `point`, which has the plan's own: changes per per
-/// cent of the parameter, and at the end the reason why one is not known, as its place in [`NoSlope::ALL`]; NaN if all are.
+/// Adds the derivatives that `plan` asks for to the measures of the row of `point`, which has the plan's own, and at the end the reason why one is not known, as its place in [`NoSlope::ALL`]; NaN if all are.
 /// False if it was interrupted.
 pub(super) fn add(
     plan: &Plan,
@@ -46,7 +45,7 @@ pub(super) fn add(
     true
 }
 
-/// The derivatives in the order of their columns, each a change per per cent.
+/// The derivatives in the order of their columns.
 fn derivatives(
     plan: &Plan,
     gradient: &Gradient,
@@ -64,7 +63,10 @@ fn derivatives(
             None => slopes[by][of],
             Some(place) => own_slopes[by][place],
         };
-        slope.map(|slope| 0.01 * slope)
+        slope.map(|slope| match gradient.per {
+            Per::Cent => 0.01 * slope,
+            Per::Unit => slope / point.values[parameter],
+        })
     });
     pairs.collect()
 }

@@ -7,7 +7,7 @@ pub use super::column::{Cell, Column, Kind};
 use super::fixed::{CURVE, Fixed, POINT, RUN, STATUS};
 use crate::notation::expression;
 use crate::plan::Plan;
-use crate::plan::gradient::column_name;
+use crate::plan::gradient::{Per, column_name};
 
 /// The columns of the rows of a plan:
 /// `point`, the varied parameters, the derived ones, `status`, the measures, then `cycles`, `residual`, `period`,
@@ -30,6 +30,8 @@ enum Behind {
     Measure(Measure),
     /// On the course of the run.
     Run(&'static Fixed),
+    /// A component of the state at the beginning of the motion's period, with its place.
+    State(usize, &'static str),
 }
 
 /// The place of a motion on a curve: its branch, and the value of the parameter that is followed.
@@ -68,13 +70,14 @@ impl Layout {
         let measures: Vec<Behind> = measures.collect();
         let derivatives = derivatives(plan, measures.len());
         let run = RUN.iter().map(Behind::Run);
-        let behind = match &plan.output().columns {
+        let mut behind: Vec<Behind> = match &plan.output().columns {
             Some(chosen) => {
                 let all: Vec<Behind> = measures.into_iter().chain(run).collect();
                 chosen.iter().map(|&index| all[index].clone()).chain(derivatives).collect()
             }
             None => measures.into_iter().chain(derivatives).chain(run).collect(),
         };
+        behind.extend(plan.states().iter().enumerate().map(|(place, name)| Behind::State(place, name)));
         let followed = plan.followed().map(|along| &parameters[along.parameter]);
         Layout { varied, followed, behind }
     }
@@ -83,7 +86,7 @@ impl Layout {
     pub fn measures(&self) -> impl Iterator<Item = &Measure> {
         self.behind.iter().filter_map(|behind| match behind {
             Behind::Measure(measure) => Some(measure),
-            Behind::Run(_) => None,
+            Behind::Run(_) | Behind::State(..) => None,
         })
     }
 
@@ -129,6 +132,7 @@ impl Layout {
             .chain(self.behind.iter().map(|behind| match behind {
                 Behind::Measure(measure) => Entry::Measure(measure),
                 Behind::Run(fixed) => Entry::Fixed(fixed),
+                Behind::State(place, name) => Entry::State(*place, name),
             }))
     }
 }
@@ -143,8 +147,12 @@ fn derivatives(plan: &Plan, before: usize) -> Vec<Behind> {
     };
     let columns = gradient.pairs().map(|(of, by)| {
         let ((of, unit), by) = (name(of), plan.parameters()[by].name);
-        let doc = format!("change of {of} {unit} per per cent of {by}").replace("  ", " ");
-        Column::new(&column_name(of, by), "", Kind::Number, &doc)
+        let change = match gradient.per {
+            Per::Cent => "per cent",
+            Per::Unit => "SI unit",
+        };
+        let doc = format!("change of {of} {unit} per {change} of {by}").replace("  ", " ");
+        Column::new(&column_name(of, by, gradient.per), "", Kind::Number, &doc)
     });
     let gap = Column::new(
         GRADIENT_GAP,
@@ -184,6 +192,8 @@ enum Entry<'l> {
     /// The parameter that rises and falls along a curve.
     Followed(&'static Parameter),
     Measure(&'l Measure),
+    /// A component of the state at the beginning of the motion's period, with its place.
+    State(usize, &'static str),
 }
 
 impl Entry<'_> {
@@ -196,6 +206,10 @@ impl Entry<'_> {
                 Column::new("branch", "", Kind::Text, doc)
             }
             Entry::Measure(measure) => measure.column.clone(),
+            Entry::State(_, name) => {
+                let doc = "state at the beginning of a drive period of the motion";
+                Column::new(name, split_unit(name).1, Kind::Number, doc)
+            }
         }
     }
 
@@ -205,6 +219,7 @@ impl Entry<'_> {
             Entry::Parameter(index, parameter) => Cell::of_parameter(parameter, point.values[*index]),
             Entry::Branch => Cell::Text(place.map_or("", |(branch, _)| branch)),
             Entry::Followed(_) => Cell::Number(place.map_or(f64::NAN, |(_, value)| value)),
+            Entry::State(place, _) => Cell::Number(row.state.get(*place).copied().unwrap_or(f64::NAN)),
             Entry::Measure(measure) => {
                 let value = measure.value(&row.measures);
                 match measure.column.kind {

@@ -22,6 +22,7 @@ except ImportError as _missing:
     ) from _missing
 del _matplotlib
 
+from ._fit import fit
 from ._front import non_dominated
 from ._heatmap import heatmap
 from ._hysteresis import hysteresis
@@ -35,6 +36,7 @@ from ._wing_path import WingPath, wing_path
 __all__ = [
     "Sensitivity",
     "WingPath",
+    "fit",
     "heatmap",
     "hysteresis",
     "label",

@@ -1,0 +1,95 @@
+"""A fit as a device: a file of parameters with standard errors and correlations, which designs and grids begin with."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import _flapwing
+
+if TYPE_CHECKING:
+    from ._result import Fit
+
+#: Correlations nearer to 1 than this are written as this: a matrix of rounded numbers stays positive definite.
+_NEAREST = 0.999999
+
+
+def write(fit: Fit, path: str | os.PathLike[str], data_set: str | None, overwrite: bool) -> None:
+    """Writes the device of a fit to a file that is not there yet."""
+    text = text_of(fit, data_set)
+    try:
+        with open(path, "w" if overwrite else "x", encoding="utf-8") as file:
+            file.write(text)
+    except FileExistsError:
+        raise FileExistsError(f"{os.fspath(path)} is there already\ngive another path, or overwrite=True") from None
+
+
+def text_of(fit: Fit, data_set: str | None) -> str:
+    """The text of a device."""
+    fitted = _fitted(fit, data_set)
+    names = fit._model.names
+    base = {name: value for name, value, *_ in _flapwing.params(names.grid.preset)}
+    good = fit.goodness
+    readings = sum(one.count for one in good.residuals)
+    quality = f"chi-square {good.chi_square:.4g} for {good.freedom} degrees of freedom"
+    lines = [
+        f'description = "fitted to {readings} readings, {quality}"',
+        f'preset = "{names.grid.preset}"',
+        "",
+        "[params]",
+    ]
+    own = {name: value for name, value in _set(fit).items() if name not in fitted and not _same(value, base.get(name))}
+    lines += [f"{name} = {_cell(value)}" for name, value in own.items()]
+    place = {label: number for number, label in enumerate(fit.estimates)}
+    known = []
+    for name, label in fitted.items():
+        one = fit.estimates[label]
+        if np.isfinite(one.error) and one.error > 0:
+            known.append((name, place[label]))
+            doubt = "" if one.is_known else ", but not fixed by the data"
+            lines.append(f'{name} = {{ value = {one.value!r}, sd = {one.error!r}, source = "fitted{doubt}" }}')
+        else:
+            lines.append(f'{name} = {{ value = {one.value!r}, source = "not fixed by the data of the fit" }}')
+    correlations = fit.correlations
+    for number, (name, row) in enumerate(known):
+        for other, column in known[:number]:
+            coefficient = float(np.clip(correlations[row, column], -_NEAREST, _NEAREST))
+            lines += ["", "[[correlation]]", f'between = ["{other}", "{name}"]', f"coefficient = {coefficient!r}"]
+    return "\n".join(lines) + "\n"
+
+
+def _fitted(fit: Fit, data_set: str | None) -> dict[str, str]:
+    """The label of each fitted parameter; of those that data sets do not share, the label of one set."""
+    known = [one.name for one in fit._sets]
+    if data_set is not None and data_set not in known:
+        raise ValueError(f"there is no data set {data_set!r}\nchoose among {', '.join(known)}")
+    labels = {}
+    for one in fit._model.space.coordinates:
+        if one.of_set is not None and data_set is None:
+            raise ValueError(f"data sets have a `{one.parameter}` each\ngive data_set=, one of {', '.join(known)}")
+        if one.of_set is None or known[one.of_set] == data_set:
+            labels[one.parameter] = one.label
+    return labels
+
+
+def _set(fit: Fit) -> dict[str, Any]:
+    """The parameters of the design, with those that the call set."""
+    model = fit._model
+    given = {
+        name: value if name in model.names.options else _flapwing.value(model.names.model, name, value)
+        for name, value in model.keywords.items()
+        if name in model.names.parameters
+    }
+    return {**model.names.nominal, **given}
+
+
+def _same(value: Any, other: Any) -> bool:
+    if isinstance(value, float) and np.isnan(value):
+        return True
+    return bool(value == other)
+
+
+def _cell(value: Any) -> str:
+    return f'"{value}"' if isinstance(value, str) else repr(float(value))

@@ -1,0 +1,267 @@
+"""Fits of parameters to readings."""
+
+from __future__ import annotations
+
+import time
+from typing import Any, Mapping, Sequence, SupportsIndex
+
+import numpy as np
+
+from .. import _arguments
+from .._progress import Progress, shown
+from .._types import Design, Value
+from . import _errors, _free, _goodness, _identify, _profile, _readings, _search
+from ._columns import Names
+from ._estimate import Effort, Estimate, Unsettled
+from ._held import held_out, held_rows
+from ._model import Answer, Model
+from ._readings import DataSet
+from ._result import Fit
+from ._search import FINE, Found, Target
+from ._types import Array, Mask
+
+#: Losses of `scipy.optimize.least_squares`.
+_LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
+
+#: Rounds in which standard errors that depend on the fit are made anew.
+_ROUNDS = 4
+
+
+def fit(
+    design: Design,
+    data: Any,
+    /,
+    free: Sequence[str] | Mapping[str, Any],
+    *,
+    sigma: Any = None,
+    loss: str = "linear",
+    starts: int = 8,
+    seed: int = 0,
+    hold_out: Any = None,
+    profile: bool = True,
+    threads: SupportsIndex | None = None,
+    progress: Progress = False,
+    **keywords: Value,
+) -> Fit:
+    """Fit parameters of a design to readings, and say how well the data know them.
+
+    Nonlinear least squares (`scipy.optimize.least_squares`) with derivatives of the settled motions, from several starts.
+    Needs SciPy.
+
+    Parameters
+    ----------
+    design : str, path, dict or Grid
+        A preset, or a grid without axes.
+    data : dict, Table, DataFrame, path of a CSV file, or Readings; or a list of these
+        One or several data sets: parameters of the operating points, and measures. See `Readings`.
+    free : list of str, or dict
+        The parameters to be fitted; a dictionary gives each its bounds ``(low, high)``, a `Free`, or None. Values are in SI
+        units or text with a unit. Default: from a third of the design's value to three times it.
+    sigma : float, str or dict, optional
+        The standard error of readings that have none of their own: a number in the measure's unit, ``"1 deg"``, or ``"3 %"``
+        of the model's value; a dictionary by measure. Without any, it is estimated from the residuals.
+    loss : {"linear", "soft_l1", "huber", "cauchy", "arctan"}
+        The loss: all but the first make outliers count less.
+    starts : int
+        Searches, the first from the design's values, others from the best points of a Sobol' sequence.
+    seed : int
+        Of the Sobol' sequence and of a random `hold_out`.
+    hold_out : float, str, list of str or dict, optional
+        Readings that are predicted and not fitted: a share of them, the names of data sets, or ranges of parameters such as
+        ``{"drive_frequency": (110, 120)}``.
+    profile : bool
+        Compute intervals by the profile likelihood. False: from the derivatives at the estimate, which is quicker.
+    threads : int, optional
+        Threads, 1 or more. Default: one per core. Results do not depend on it.
+    progress : bool or function, optional
+        Show the points run, or call a function with their number twice.
+    **keywords : float or str
+        Parameters of all data and solver settings.
+
+    Returns
+    -------
+    Fit
+        Estimates, errors, intervals, and the quality of the fit. `print` it.
+
+    Raises
+    ------
+    ValueError
+        Data without readings, with unknown columns or units, with cells that are no numbers, or with fewer readings than
+        free parameters; bounds in the wrong order; unknown parameters.
+    TypeError
+        A value of the wrong type.
+    ImportError
+        SciPy is not installed.
+
+    Examples
+    --------
+    >>> data = {"frequency_hz": [100, 104, 108, 112, 116, 120], "stroke_pp_deg": [69.6, 78.8, 86.1, 90.4, 91.1, 88.3]}
+    >>> found = flapwing.fit("ozaki2018-large", data, ["hinge_stiffness"], sigma="1 deg", starts=2)
+    >>> found.estimates["hinge_stiffness"].unit
+    'N*m/rad'
+    """
+    _check(loss, starts, seed)
+    begun = time.perf_counter()
+    names = Names(_with_keywords(design, keywords))
+    sets = _readings.resolve(data, names, sigma)
+    space = _free.space(free, names, sets, keywords)
+    with shown(progress) as show:
+        model = Model(names, sets, space, keywords, threads, None if show is None else lambda ran: show(ran, ran))
+        measured = np.concatenate([values for one in sets for values in one.measured.values()])
+        held = held_rows(hold_out, sets, seed, len(measured))
+        _check_count(model, sets, len(measured) - int(held.sum()))
+        guesses = _errors.first_guesses(sets)
+        target = Target(measured, _errors.sigmas(sets, np.full(len(measured), np.nan), guesses), ~held, loss)
+        indistinct = _identify.indistinct(model, target, seed)
+        ends = _search.from_all(model, target, _search.starts(model, target, int(starts), seed))
+        made = _finish(model, sets, target, ends[0], guesses, held, _arguments.flag("profile", profile), indistinct)
+    agreed = sum(one.cost <= ends[0].cost * 1.02 + 0.1 for one in ends)
+    made.effort = Effort(len(ends), agreed, model.ran, model.rhs_evals, time.perf_counter() - begun)
+    return made
+
+
+def _finish(
+    model: Model,
+    sets: list[DataSet],
+    target: Target,
+    best: Found,
+    guesses: dict[str, float],
+    held: Mask,
+    profile: bool,
+    indistinct: list[str],
+) -> Fit:
+    """The result from the best of the searches."""
+    target, found, answer = _settle(model, sets, target, best, guesses)
+    covariance = _covariance(model, target, found, answer)
+    sigma_known = all(noise.kind != "unknown" for one in sets for noise in one.noise.values())
+    readings = int((target.used & np.isfinite(answer.values)).sum()) + len(model.space.prior(found.x)[0])
+    if readings <= len(model.space):
+        statuses = ", ".join(sorted(set(answer.status[~np.isfinite(answer.values)].tolist())))
+        raise ValueError(
+            f"too few readings have a settled motion at the best parameters found: the others are {statuses}\n"
+            "give other bounds, or look at the design with flapwing.evaluate"
+        )
+    quantile = _quantile(sigma_known, readings - len(model.space))
+    profiles = None
+    if profile:
+        profiles, better = _profile.profiles(model, target, found, covariance, quantile)
+        if better is not None:
+            # A lower valley on the way: the fit is there.
+            target, found, answer = _settle(model, sets, target, better, guesses)
+            covariance = _covariance(model, target, found, answer)
+            profiles, _ = _profile.profiles(model, target, found, covariance, quantile)
+    counted = target.used & np.isfinite(answer.values)
+    difference = np.where(np.isfinite(answer.values), answer.values - target.measured, np.nan)
+    units = {measure: model.names.unit(measure) for one in sets for measure in one.measured}
+    scaled = np.where(counted, difference / target.sigma, np.nan)
+    residuals = _goodness.of_residuals(sets, units, difference, scaled, counted)
+    priors = model.space.prior(found.x)[0]
+    jacobian = target.jacobian(model.space, found.x, answer)
+    made = Fit(
+        model=model,
+        sets=sets,
+        x=found.x,
+        covariance=covariance,
+        information=jacobian.T @ jacobian,
+        estimates=_estimates(model, found.x, covariance, profiles, quantile),
+        quantile=quantile,
+        sigma_known=sigma_known,
+        guesses=guesses,
+        combinations=_identify.combinations(model.space, jacobian, ("best known", "worst known")),
+        indistinct=indistinct,
+        goodness=_goodness.goodness(residuals, priors, len(model.space), sigma_known),
+        unsettled=_unsettled(sets, answer, held),
+        without_slopes=int((answer.gaps & counted).sum()),
+        converged=found.converged,
+    )
+    if held.any():
+        made.held_out = held_out(sets, target, answer, held, covariance, quantile)
+    return made
+
+
+def _settle(
+    model: Model, sets: list[DataSet], target: Target, best: Found, guesses: dict[str, float]
+) -> tuple[Target, Found, Answer]:
+    """The last search, with the standard errors that go with its end, and without readings that do not settle there."""
+    found = best
+    for _ in range(_ROUNDS):
+        found = _search.polish(model, target, found.x)
+        answer = model.at([found.x], rtol=FINE)[0]
+        used = target.used & np.isfinite(answer.values)
+        _errors.new_guesses(sets, target, used, answer, len(model.space), guesses)
+        sigma = _errors.sigmas(sets, answer.values, guesses)
+        is_same = bool(np.allclose(sigma, target.sigma, rtol=0.01) and (used == target.used).all())
+        if is_same:
+            break
+        target = Target(target.measured, sigma, used, target.loss)
+    return target, found, answer
+
+
+def _covariance(model: Model, target: Target, found: Found, answer: Answer) -> Array:
+    residuals = target.residuals(model.space, found.x, answer)
+    weights = np.sqrt(_search.weights(residuals, target.loss))
+    return _search.spread(target.jacobian(model.space, found.x, answer) * weights[:, np.newaxis])
+
+
+def _estimates(
+    model: Model, x: Array, covariance: Array, profiles: list[_profile.Profile] | None, quantile: float
+) -> dict[str, Estimate]:
+    estimates = {}
+    for place, one in enumerate(model.space.coordinates):
+        error = float(np.sqrt(covariance[place, place]))
+        value = float(one.value(x[place]))
+        known = None if profiles is None else profiles[place]
+        if known is not None:
+            low, high = known.low, known.high
+        elif np.isfinite(error):
+            low, high = sorted(float(one.value(x[place] + way * quantile * error)) for way in (-1, 1))
+        else:
+            low, high = one.low, one.high
+        reach = 1e-3 * (model.space.high[place] - model.space.low[place])
+        at_bound = bool(min(x[place] - model.space.low[place], model.space.high[place] - x[place]) < reach)
+        size = error * abs(one.slope(x[place])) if np.isfinite(error) else np.inf
+        estimates[one.label] = Estimate(one.parameter, one.unit, value, size, float(low), float(high), known, at_bound)
+    return estimates
+
+
+def _unsettled(sets: list[DataSet], answer: Answer, held: Mask) -> list[Unsettled]:
+    places = [(one.name, measure, row + 1) for one in sets for measure in one.measured for row in range(len(one))]
+    lost = np.flatnonzero(~np.isfinite(answer.values) & ~held)
+    return [Unsettled(*places[reading], str(answer.status[reading])) for reading in lost]
+
+
+def _quantile(sigma_known: bool, freedom: int) -> float:
+    from scipy.stats import norm, t
+
+    return float(norm.ppf(0.975) if sigma_known else t.ppf(0.975, max(1, freedom)))
+
+
+def _with_keywords(design: Design, keywords: Mapping[str, Any]) -> Any:
+    """The design, once the keywords have been checked with it."""
+    from .._flapwing import check
+
+    check(design, keywords=dict(keywords))
+    return design
+
+
+def _check(loss: Any, starts: Any, seed: Any) -> None:
+    try:
+        import scipy.optimize  # noqa: F401
+    except ImportError:
+        raise ImportError("flapwing.fit needs SciPy: pip install scipy") from None
+    if loss not in _LOSSES:
+        raise ValueError(f"`loss` is {loss!r}\nit must be one of {', '.join(_LOSSES)}")
+    for name, value, least in (("starts", starts, 1), ("seed", seed, 0)):
+        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
+            raise ValueError(f"`{name}` is {value!r}\nit must be a whole number, {least} or more")
+
+
+def _check_count(model: Model, sets: list[DataSet], readings: int) -> None:
+    priors = sum(one.prior is not None for one in model.space.coordinates)
+    if readings + priors <= len(model.space):
+        counted = f"{readings} reading{'s' * (readings != 1)}" + (f" and {priors} priors" if priors else "")
+        parameters = f"{len(model.space)} free parameter{'s' * (len(model.space) != 1)}"
+        raise ValueError(
+            f"{parameters} and only {counted}: {', '.join(model.space.labels)}\n"
+            "a fit needs more readings than parameters: free fewer of them, add readings, or give priors"
+        )

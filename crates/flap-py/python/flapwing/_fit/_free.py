@@ -1,0 +1,206 @@
+"""The free parameters of a fit, and the coordinates in which they are looked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Mapping, Sequence
+
+import numpy as np
+
+from .. import _flapwing
+from .._types import Value
+from ._columns import Names
+from ._readings import DataSet
+from ._types import Array
+
+#: Bounds of a parameter that has none, as factors on its value in the design.
+_REACH = 3.0
+
+
+@dataclass(frozen=True)
+class Free:
+    """A free parameter of `fit`.
+
+    Attributes
+    ----------
+    low, high : float or str, optional
+        Bounds, in SI units or with a unit. Default: a third of the design's value, and three times it.
+    prior : (value, error), optional
+        What is known of it beforehand, and its standard error: in SI units, with a unit, or the error as ``"5 %"``.
+    per_set : bool
+        True if each data set has a value of its own, as of a wing that was changed between experiments.
+    """
+
+    low: Value | None = None
+    high: Value | None = None
+    prior: tuple[Value, Value] | None = None
+    per_set: bool = False
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """A free parameter, of all data sets or of one."""
+
+    parameter: str
+    #: The place of the data set that it is of; None for all.
+    of_set: int | None
+    label: str
+    unit: str
+    #: Logarithmic if both bounds have the same sign.
+    log: bool
+    low: float
+    high: float
+    nominal: float
+    prior: tuple[float, float] | None
+
+    def value(self, x: Any) -> Any:
+        """The value in SI units at a coordinate: 0 at the design's value."""
+        return self.nominal * np.exp(x) if self.log else self.nominal + self.width * x
+
+    def at(self, value: float) -> float:
+        """The coordinate of a value."""
+        return float(np.log(value / self.nominal) if self.log else (value - self.nominal) / self.width)
+
+    def slope(self, x: float) -> float:
+        """The change of the value per change of the coordinate."""
+        return float(self.value(x) if self.log else self.width)
+
+    @property
+    def width(self) -> float:
+        """Half of the range: the unit of a coordinate that is not logarithmic."""
+        return 0.5 * (self.high - self.low)
+
+
+class Space:
+    """The coordinates of a fit."""
+
+    def __init__(self, coordinates: Sequence[Coordinate]) -> None:
+        self.coordinates = list(coordinates)
+        self.parameters = list(dict.fromkeys(one.parameter for one in coordinates))
+        self.low = np.array([one.at(one.low) for one in coordinates])
+        self.high = np.array([one.at(one.high) for one in coordinates])
+        self.labels = [one.label for one in coordinates]
+
+    def __len__(self) -> int:
+        return len(self.coordinates)
+
+    def values(self, x: Array) -> Array:
+        """Values in SI units."""
+        return np.array([one.value(place) for one, place in zip(self.coordinates, x)])
+
+    def slopes(self, x: Array) -> Array:
+        """The change of each value per change of its coordinate."""
+        return np.array([one.slope(place) for one, place in zip(self.coordinates, x)])
+
+    def prior(self, x: Array) -> tuple[Array, Array]:
+        """The residuals of what is known beforehand, and their derivatives."""
+        known = [(place, one) for place, one in enumerate(self.coordinates) if one.prior is not None]
+        residuals, slopes = np.zeros(len(known)), np.zeros((len(known), len(self)))
+        for row, (place, one) in enumerate(known):
+            mean, error = one.prior or (0.0, 1.0)
+            residuals[row] = (one.value(x[place]) - mean) / error
+            slopes[row, place] = one.slope(x[place]) / error
+        return residuals, slopes
+
+
+def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[str, Any]) -> Space:
+    """The coordinates of a call."""
+    if isinstance(free, str) or not (isinstance(free, Mapping) or hasattr(free, "__iter__")):
+        raise TypeError(
+            f"`free` is {type(free).__name__}\n"
+            'it must be a list of parameters, or a dictionary with their bounds: {"hinge_stiffness": (1e-6, 3e-6)}'
+        )
+    listed: dict[str, Any] = dict(free) if isinstance(free, Mapping) else dict.fromkeys(free)
+    if not listed:
+        raise ValueError("`free` is empty\nname one parameter at least")
+    coordinates = []
+    taken = {names.parameter(name) for name in keywords if name not in _flapwing.settings()}
+    for name, given in ((names.parameter(name), given) for name, given in listed.items()):
+        _check(name, names, sets, taken)
+        coordinates += _coordinates(name, _free_of(name, given), names, sets)
+    return Space(coordinates)
+
+
+def _check(name: str, names: Names, sets: Sequence[DataSet], taken: set[str]) -> None:
+    if name in names.options:
+        raise ValueError(
+            f"`{name}` is a choice, and cannot be fitted\nfit once for each of its options: {', '.join(names.options[name])}"
+        )
+    if name in taken:
+        raise ValueError(f"`{name}` is free and set by a keyword\nkeep one of them")
+    for one in sets:
+        if name in one.points:
+            raise ValueError(
+                f"`{name}` is free, and {one.name} has it as a parameter of its operating points\nkeep one of them"
+            )
+
+
+def _free_of(name: str, given: Any) -> Free:
+    if given is None:
+        return Free()
+    if isinstance(given, Free):
+        return given
+    if isinstance(given, (tuple, list)) and len(given) == 2:
+        return Free(given[0], given[1])
+    raise TypeError(
+        f"free[{name!r}] is {type(given).__name__}\nit must be a pair of bounds, a flapwing.Free, or None for the bounds by default"
+    )
+
+
+def _coordinates(name: str, free: Free, names: Names, sets: Sequence[DataSet]) -> list[Coordinate]:
+    nominal = names.nominal.get(name)
+    nominal = float(nominal) if isinstance(nominal, (int, float)) and np.isfinite(nominal) else None
+    low, high = (_value(names, name, bound) for bound in (free.low, free.high))
+    if nominal is None or nominal == 0.0:
+        if low is None or high is None:
+            told = "not set" if nominal is None else "zero"
+            raise ValueError(
+                f"`{name}` is {told} in the design, so its bounds are not known\ngive free={{{name!r}: (low, high)}}"
+            )
+    else:
+        ends = sorted((nominal / _REACH, nominal * _REACH))
+        low, high = ends[0] if low is None else low, ends[1] if high is None else high
+    if not low < high:
+        told = f"free[{name!r}]: the lower bound {low:g} is not less than the upper one {high:g} {names.unit(name)}"
+        raise ValueError(f"{told.rstrip()}\nexchange them")
+    log = low * high > 0
+    if not log:
+        # Shares of zero are zero: derivatives need a value beside it.
+        low, high = (1e-9 * (high - low) if low == 0 else low), (-1e-9 * (high - low) if high == 0 else high)
+        log = False
+    if nominal is None or not low <= nominal <= high:
+        nominal = float(np.sign(low) * np.sqrt(low * high)) if log else 0.5 * (low + high)
+    prior = None if free.prior is None else _prior(names, name, free.prior)
+    unit = names.unit(name)
+    if not free.per_set or len(sets) == 1:
+        return [Coordinate(name, None, name, unit, log, low, high, nominal, prior)]
+    return [
+        Coordinate(name, place, f"{name} of {one.name}", unit, log, low, high, nominal, prior)
+        for place, one in enumerate(sets)
+    ]
+
+
+def _value(names: Names, name: str, given: Any) -> float | None:
+    if given is None:
+        return None
+    try:
+        return _flapwing.value(names.model, name, given)
+    except (TypeError, ValueError) as error:
+        raise type(error)(f"free[{name!r}]: {error}") from None
+
+
+def _prior(names: Names, name: str, given: Any) -> tuple[float, float]:
+    if not isinstance(given, (tuple, list)) or len(given) != 2:
+        raise TypeError(
+            f'free[{name!r}]: `prior` is {type(given).__name__}\nit must be a value and its standard error: ("1.5 uN*m/rad", "5 %")'
+        )
+    mean = _value(names, name, given[0])
+    assert mean is not None
+    text = given[1].strip() if isinstance(given[1], str) else ""
+    try:
+        error = abs(mean) * float(text[:-1]) / 100 if text.endswith("%") else _value(names, name, given[1])
+    except ValueError as mistake:
+        raise ValueError(f"free[{name!r}]: the error of the prior is {given[1]!r}\n{mistake}") from None
+    if error is None or not error > 0:
+        raise ValueError(f"free[{name!r}]: the error of the prior is {given[1]!r}\nit must be more than zero")
+    return mean, error

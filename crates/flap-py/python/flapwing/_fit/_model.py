@@ -1,0 +1,188 @@
+"""The model of a fit: readings at many sets of parameters, in one batch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Callable, Mapping, Sequence, SupportsIndex
+
+import numpy as np
+
+from .. import _flapwing
+from .._evaluate import evaluate
+from .._table import Table
+from ._branch import Way, states_along
+from ._columns import Names
+from ._free import Space
+from ._readings import DataSet
+from ._types import Array, Mask, Places
+
+#: The tolerance of the integration for states from which motions begin.
+_NEARBY = 1e-4
+
+
+@dataclass(frozen=True)
+class Asked:
+    """Measures at operating points: one number for each."""
+
+    #: The data set of each, for parameters of one set.
+    of_set: Places
+    #: The operating point of each, a place in the columns of points.
+    row: Places
+    measure: list[str]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The model at one set of parameters."""
+
+    #: Values, nan where the motion does not settle.
+    values: Array
+    #: Derivatives by the coordinates; zero where they are not known.
+    slopes: Array
+    #: The status of each motion.
+    status: np.ndarray[Any, Any]
+    #: True where a derivative is not known.
+    gaps: Mask
+
+
+class Model:
+    """The readings of data sets as functions of the free parameters."""
+
+    def __init__(
+        self,
+        names: Names,
+        sets: Sequence[DataSet],
+        space: Space,
+        keywords: Mapping[str, Any],
+        threads: SupportsIndex | None = None,
+        told: Callable[[int], object] | None = None,
+    ) -> None:
+        self.names, self.space, self.threads, self.told = names, space, threads, told
+        settings = _flapwing.settings()
+        self.keywords = {
+            name if name in settings else names.parameter(name): value
+            for name, value in keywords.items()
+            if value is not None
+        }
+        self.points, self.ways = _points(names, sets)
+        self.asked = _asked(sets)
+        #: Points run so far, and right-hand sides evaluated for them.
+        self.ran = 0
+        self.rhs_evals = 0
+
+    def at(self, xs: Sequence[Array], *, slopes: bool = True, rtol: float | None = None) -> list[Answer]:
+        """The readings at several sets of coordinates."""
+        return self.answers(self.points, self.asked, self.ways, xs, slopes=slopes, rtol=rtol)
+
+    def answers(
+        self,
+        points: Mapping[str, Any],
+        asked: Asked,
+        ways: Sequence[Way],
+        xs: Sequence[Array],
+        *,
+        slopes: bool = True,
+        rtol: float | None = None,
+    ) -> list[Answer]:
+        """What is asked about other points, at several sets of coordinates."""
+        rows = _length(points)
+        columns = {name: _repeated(values, len(xs)) for name, values in points.items()}
+        columns.update(self._free(asked, rows, xs))
+        keywords = {name: value for name, value in self.keywords.items() if name not in columns}
+        if rtol is not None:
+            keywords.setdefault("rtol", rtol)
+        measures = list(dict.fromkeys(asked.measure))
+        # A state near the motion is enough to begin from.
+        nearby = self._run({**keywords, "rtol": max(_NEARBY, float(keywords.get("rtol", 0.0)))}, measures[:1])
+        begin = states_along(ways, columns, rows, len(xs), self.names.states, nearby)
+        table = self._run(keywords, measures)(columns, begin=begin, gradient=self.space.parameters if slopes else None)
+        return self._split(table, asked, rows, xs, slopes)
+
+    def _run(self, keywords: Mapping[str, Any], measures: list[str]) -> Callable[..., Table]:
+        def run(columns: Mapping[str, Any], **options: Any) -> Table:
+            table = evaluate(self.names.grid, columns, measures=measures, threads=self.threads, **options, **keywords)
+            self.ran += len(table)
+            self.rhs_evals += int(table.meta["rhs_evals"])
+            if self.told is not None:
+                self.told(self.ran)
+            return table
+
+        return run
+
+    def _free(self, asked: Asked, rows: int, xs: Sequence[Array]) -> dict[str, Array]:
+        """Columns of the free parameters."""
+        of_row = np.zeros(rows, np.intp)
+        of_row[asked.row] = asked.of_set
+        columns = {name: np.empty((len(xs), rows)) for name in self.space.parameters}
+        for place, x in enumerate(xs):
+            for coordinate, value in zip(self.space.coordinates, self.space.values(x)):
+                where = slice(None) if coordinate.of_set is None else of_row == coordinate.of_set
+                columns[coordinate.parameter][place, where] = value
+        return {name: values.ravel() for name, values in columns.items()}
+
+    def _split(self, table: Table, asked: Asked, rows: int, xs: Sequence[Array], slopes: bool) -> list[Answer]:
+        measures = list(dict.fromkeys(asked.measure))
+        which = np.array([measures.index(name) for name in asked.measure], np.intp)
+
+        def whole(found: Any, empty: Any) -> Any:
+            """All rows: conditions of a design may have excluded some."""
+            everything = np.full((len(xs) * rows, *found.shape[1:]), empty, dtype=found.dtype)
+            everything[table["point"].astype(np.intp)] = found
+            return everything.reshape(len(xs), rows, *found.shape[1:])
+
+        values = whole(np.stack([table[name] for name in measures], axis=-1), np.nan)
+        status = whole(table["status"].astype("U11"), "excluded")
+        gradient = whole(table.gradient, np.nan) if slopes else None
+        answers = []
+        for place, x in enumerate(xs):
+            found = np.zeros((len(asked.row), len(self.space)))
+            gaps = np.zeros(len(asked.row), np.bool_)
+            if gradient is not None:
+                by = gradient[place, asked.row, which]
+                for column, (one, factor) in enumerate(zip(self.space.coordinates, self.space.slopes(x))):
+                    mine = True if one.of_set is None else asked.of_set == one.of_set
+                    slope = by[:, self.space.parameters.index(one.parameter)] * factor
+                    found[:, column] = np.where(mine, slope, 0.0)
+                settled = np.isfinite(values[place, asked.row, which])
+                gaps = ~np.isfinite(found).all(axis=1) & settled
+                found = np.nan_to_num(found, nan=0.0, posinf=0.0, neginf=0.0)
+            answers.append(Answer(values[place, asked.row, which], found, status[place, asked.row], gaps))
+        return answers
+
+
+def _repeated(values: Any, times: int) -> Any:
+    return np.tile(values, times) if isinstance(values, np.ndarray) else list(values) * times
+
+
+def _length(points: Mapping[str, Any]) -> int:
+    return len(next(iter(points.values())))
+
+
+def _points(names: Names, sets: Sequence[DataSet]) -> tuple[dict[str, Any], list[Way]]:
+    """The operating points of all data sets as columns, and the ways on which some were taken."""
+    varied = list(dict.fromkeys(name for one in sets for name in one.points)) or ["drive_frequency"]
+    points: dict[str, Any] = {}
+    for name in varied:
+        parts = [one.points.get(name, [names.nominal[name]] * len(one)) for one in sets]
+        if name in names.options:
+            points[name] = [cell for part in parts for cell in part]
+        else:
+            points[name] = np.concatenate([np.asarray(part, np.float64) for part in parts])
+    ways, begin = [], 0
+    for one in sets:
+        if one.branch is not None:
+            ways.append(Way(one.along, one.branch == "down", np.arange(begin, begin + len(one))))
+        begin += len(one)
+    return points, ways
+
+
+def _asked(sets: Sequence[DataSet]) -> Asked:
+    of_set, row, measure = [], [], []
+    begin = 0
+    for place, one in enumerate(sets):
+        for name in one.measured:
+            of_set += [place] * len(one)
+            row += list(range(begin, begin + len(one)))
+            measure += [name] * len(one)
+        begin += len(one)
+    return Asked(np.array(of_set, np.intp), np.array(row, np.intp), measure)

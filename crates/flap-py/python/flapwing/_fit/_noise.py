@@ -1,0 +1,52 @@
+"""The standard errors of readings: given, as a share of the value, or unknown."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .. import _flapwing
+from ._types import Array
+
+
+@dataclass(frozen=True)
+class Noise:
+    """The standard errors of the readings of a measure."""
+
+    #: ``"absolute"``, ``"relative"`` to the model's value, or ``"unknown"``: estimated from the residuals.
+    kind: str
+    #: In the measure's unit, or a share.
+    size: Array | float = 1.0
+
+    def of(self, values: Array, measured: Array, guess: float) -> Array:
+        """Standard errors where the model has these values; `guess` stands for those that are not known."""
+        if self.kind == "unknown":
+            return np.full(len(measured), guess)
+        if self.kind == "absolute":
+            return np.broadcast_to(self.size, len(measured)).astype(np.float64)
+        # Near zero a share is no error: none is less than a hundredth of that of the largest value.
+        size = np.where(np.isfinite(values), np.abs(values), np.abs(measured))
+        return np.asarray(self.size * np.maximum(size, 0.01 * np.abs(measured).max()))
+
+
+UNKNOWN = Noise("unknown")
+
+
+def of(name: str, given: Any, measure: str, unit: str) -> Noise:
+    """The standard error of a measure from a number in its unit, or text such as ``"1 deg"`` or ``"3 %"``."""
+    wanted = f'it must be a number in {unit or "the unit of the measure"}, or text such as "3 %"'
+    relative = isinstance(given, str) and given.strip().endswith("%")
+    if isinstance(given, str) and not relative:
+        size = _flapwing.quantity(name, given, unit)
+    else:
+        try:
+            size = float(given.strip()[:-1]) / 100 if isinstance(given, str) else float(given)
+        except ValueError:
+            raise ValueError(f"`{name}` is {given!r}\n{wanted}") from None
+        except TypeError:
+            raise TypeError(f"`{name}` is {type(given).__name__}\n{wanted}") from None
+    if not (size > 0 and np.isfinite(size)):
+        raise ValueError(f"`{name}` is {given!r} for {measure}\nstandard errors are more than zero and finite")
+    return Noise("relative" if relative else "absolute", size)

@@ -1,0 +1,138 @@
+"""A fit as text."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ._predict import table
+
+if TYPE_CHECKING:
+    from ._estimate import Estimate
+    from ._result import Fit
+
+#: Unsettled readings that are listed.
+_LISTED = 5
+
+
+def text(fit: Fit) -> str:
+    """The report."""
+    lines = [table(*_estimates(fit)), *_remarks(fit), "", *_quality(fit), "", table(*_residuals(fit)), ""]
+    if fit.combinations:
+        lines += [*fit.combinations]
+    if len(fit.estimates) > 1:
+        lines += ["correlations:", table(*_correlations(fit))]
+    return "\n".join([*lines, *_course(fit)])
+
+
+def html(fit: Fit) -> str:
+    """The report for notebooks."""
+    parts = [
+        _html_table(*_estimates(fit)),
+        _paragraphs(_remarks(fit)),
+        _paragraphs(_quality(fit)),
+        _html_table(*_residuals(fit)),
+    ]
+    parts.append(_paragraphs(fit.combinations))
+    if len(fit.estimates) > 1:
+        parts.append(_html_table(*_correlations(fit)))
+    return "".join([*parts, _paragraphs(_course(fit))])
+
+
+def _paragraphs(lines: list[str]) -> str:
+    return "".join(f"<p>{escape(line)}</p>" for line in lines)
+
+
+def _html_table(heads: list[str], rows: list[list[str]]) -> str:
+    def row(cells: list[str], tag: str) -> str:
+        return "<tr>" + "".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
+
+    return "<table>" + row(heads, "th") + "".join(row(cells, "td") for cells in rows) + "</table>"
+
+
+def _estimates(fit: Fit) -> tuple[list[str], list[list[str]]]:
+    heads = ["parameter", "unit", "value", "error", "error %", "95 % from", "to", ""]
+    rows = []
+    for name, one in fit.estimates.items():
+        share = 100 * one.error / abs(one.value) if one.value else np.inf
+        low = f"{one.low:.5g}" if one.profile is None or not one.profile.open_below else "open"
+        high = f"{one.high:.5g}" if one.profile is None or not one.profile.open_above else "open"
+        rows.append([name, one.unit, f"{one.value:.5g}", f"{one.error:.2g}", f"{share:.2g}", low, high, _verdict(one)])
+    return heads, rows
+
+
+def _verdict(one: Estimate) -> str:
+    if one.profile is not None and one.profile.is_flat:
+        both = one.profile.open_below and one.profile.open_above
+        side = "" if both else ": no lower limit" if one.profile.open_below else ": no upper limit"
+        return f"not fixed by the data{side}"
+    if not one.is_known:
+        return "not fixed by the data"
+    return "at the end of its range" if one.at_bound else ""
+
+
+def _remarks(fit: Fit) -> list[str]:
+    told = [f"cannot be told by such data: {one}" for one in fit.indistinct]
+    if fit.unsettled:
+        listed = ", ".join(f"{one.set} row {one.row} ({one.status})" for one in fit.unsettled[:_LISTED])
+        more = f" and {len(fit.unsettled) - _LISTED} more" if len(fit.unsettled) > _LISTED else ""
+        told.append(
+            f"{len(fit.unsettled)} readings do not count, because the motion does not settle there: {listed}{more}"
+        )
+    if fit.without_slopes:
+        told.append(f"{fit.without_slopes} readings have no derivatives at the estimate, and do not narrow the errors")
+    if not fit.converged:
+        told.append("the search has not converged: give more starts, or narrower bounds")
+    return told
+
+
+def _quality(fit: Fit) -> list[str]:
+    good = fit.goodness
+    told = f"chi-square {good.chi_square:.1f} for {good.freedom} degrees of freedom"
+    if not fit.sigma_known:
+        lines = [f"{told}: standard errors are estimated from the residuals, so it says nothing of the model"]
+    elif good.p < 0.01:
+        lines = [f"{told}, p = {good.p:.2g}: POOR, the model lacks something or the standard errors are too small"]
+    elif good.p > 0.99:
+        lines = [f"{told}, p = {good.p:.4f}: the standard errors given are too large"]
+    else:
+        lines = [f"{told}, p = {good.p:.2f}: the model agrees with the data"]
+    for one in good.residuals:
+        if one.is_structured:
+            p = min(one.p_runs, one.p_neighbours)
+            lines.append(
+                f"residuals of {one.measure} in {one.set} are STRUCTURED (p = {p:.1g}): neighbours err alike, so the model lacks "
+                "something there, and errors and intervals are too small"
+            )
+    if fit.held_out is not None:
+        rms = ", ".join(f"{value:.3g} ({name})" for name, value in fit.held_out.rms.items())
+        lines.append(
+            f"{fit.held_out.count} readings held out: rms error of prediction {rms}; "
+            f"{100 * fit.held_out.covered:.0f} % in their 95 % bands"
+        )
+    return lines
+
+
+def _residuals(fit: Fit) -> tuple[list[str], list[list[str]]]:
+    heads = ["data set", "measure", "readings", "rms", "largest", "unit"]
+    rows = []
+    for one in fit.goodness.residuals:
+        largest = float(np.nanmax(np.abs(one.values))) if np.isfinite(one.values).any() else np.nan
+        rows.append([one.set, one.measure, str(one.count), f"{one.rms:.3g}", f"{largest:.3g}", one.unit])
+    return heads, rows
+
+
+def _correlations(fit: Fit) -> tuple[list[str], list[list[str]]]:
+    names = list(fit.estimates)
+    rows = [[name, *(f"{value:+.2f}" for value in row)] for name, row in zip(names, fit.correlations)]
+    return ["", *(str(number + 1) for number in range(len(names)))], rows
+
+
+def _course(fit: Fit) -> list[str]:
+    one = fit.effort
+    return [
+        f"{one.agreed} of {one.starts} starts ended at this fit; "
+        f"{one.points:,} points with {one.rhs_evals:.3g} right-hand sides in {one.seconds:.1f} s"
+    ]

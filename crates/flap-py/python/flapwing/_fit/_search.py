@@ -1,0 +1,186 @@
+"""The search for the best parameters: nonlinear least squares from several starts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import Callable, Sequence
+
+import numpy as np
+
+from ._free import Space
+from ._model import Answer, Model
+from ._together import Ask, together
+from ._types import Array, Mask
+
+#: Tolerances of the integration: of the first looks, of the searches from all starts, and of the last one.
+LOOK, COARSE, FINE = 1e-4, 1e-5, 1e-6
+
+#: Coordinates that are looked at, per start.
+_LOOKS = 4
+
+#: Steps of a search.
+_STEPS = 40
+
+
+@dataclass(frozen=True)
+class Target:
+    """The readings, and how they count."""
+
+    measured: Array
+    sigma: Array
+    #: The readings that count.
+    used: Mask
+    loss: str
+
+    def residuals(self, space: Space, x: Array, answer: Answer) -> Array:
+        """Model less reading in standard errors, then what is known beforehand.
+
+        A reading where the motion does not settle counts as that of a wing at rest: so large that the search avoids it.
+        """
+        values = np.where(np.isfinite(answer.values), answer.values, 0.0)
+        residuals = ((values - self.measured) / self.sigma)[self.used]
+        return np.concatenate([residuals, space.prior(x)[0]])
+
+    def jacobian(self, space: Space, x: Array, answer: Answer) -> Array:
+        """The derivatives of the residuals by the coordinates."""
+        return np.concatenate([(answer.slopes / self.sigma[:, np.newaxis])[self.used], space.prior(x)[1]])
+
+
+@dataclass(frozen=True)
+class Found:
+    """The end of a search."""
+
+    x: Array
+    #: Half of the sum of the losses.
+    cost: float
+    jacobian: Array
+    converged: bool
+    steps: int
+
+
+def minimise(
+    ask: Ask, space: Space, target: Target, begin: Array, held: int | None, steps: int = _STEPS, tolerance: float = 1e-8
+) -> Found:
+    """The best coordinates near `begin`; `held` is one that stays as it is there."""
+    from scipy.optimize import least_squares
+
+    moving = np.array([place for place in range(len(space)) if place != held], np.intp)
+    whole = begin.copy()
+    seen: dict[bytes, Answer] = {}
+
+    def answer(part: Array) -> tuple[Array, Answer]:
+        x = whole.copy()
+        x[moving] = part
+        key = x.tobytes()
+        if key not in seen:
+            seen.clear()
+            seen[key] = ask(x)
+        return x, seen[key]
+
+    def residuals(part: Array) -> Array:
+        return target.residuals(space, *answer(part))
+
+    def jacobian(part: Array) -> Array:
+        return target.jacobian(space, *answer(part))[:, moving]
+
+    if not len(moving):
+        x, known = answer(whole[moving])
+        jacobian_there = target.jacobian(space, x, known)
+        return Found(x, cost_of(target.residuals(space, x, known), target.loss), jacobian_there, True, 1)
+    # Inside of the bounds, as the method wants it.
+    inside = np.clip(begin, space.low + 1e-9, space.high - 1e-9)
+    ended = least_squares(
+        residuals, inside[moving], jacobian, (space.low[moving], space.high[moving]), loss=target.loss, x_scale="jac",
+        ftol=tolerance, xtol=1e-7, gtol=1e-9, max_nfev=steps,
+    )  # fmt: skip
+    x, known = answer(ended.x)
+    return Found(x, float(ended.cost), target.jacobian(space, x, known), bool(ended.status > 0), int(ended.nfev))
+
+
+def starts(model: Model, target: Target, count: int, seed: int) -> list[Array]:
+    """Coordinates from which to search: the design's own, and the best of points of a scrambled Sobol' sequence."""
+    space = model.space
+    own = np.clip(np.zeros(len(space)), space.low, space.high)
+    if count == 1:
+        return [own]
+    looks = [own, *sobol(space, _LOOKS * count, seed)]
+    answers = model.at(looks, slopes=False, rtol=LOOK)
+    costs = [cost_of(target.residuals(space, x, answer), target.loss) for x, answer in zip(looks, answers)]
+    best = sorted(range(1, len(looks)), key=lambda place: costs[place])[: count - 1]
+    return [own, *(looks[place] for place in best)]
+
+
+def sobol(space: Space, count: int, seed: int) -> list[Array]:
+    """Coordinates spread over the bounds."""
+    from scipy.stats import qmc
+
+    power = int(np.ceil(np.log2(max(count, 1))))
+    drawn = qmc.Sobol(len(space), scramble=True, seed=seed).random_base2(power)[:count]
+    return list(space.low + (space.high - space.low) * drawn)
+
+
+def cost_of(residuals: Array, loss: str) -> float:
+    """Half of the sum of the losses of residuals."""
+    square = residuals**2
+    losses: dict[str, Callable[[Array], Array]] = {
+        "linear": lambda z: z,
+        "soft_l1": lambda z: 2 * (np.sqrt(1 + z) - 1),
+        "huber": lambda z: np.where(z <= 1, z, 2 * np.sqrt(z) - 1),
+        "cauchy": np.log1p,
+        "arctan": np.arctan,
+    }
+    return float(0.5 * np.sum(losses[loss](square)))
+
+
+def from_all(model: Model, target: Target, begins: Sequence[Array]) -> list[Found]:
+    """The ends of the searches from all starts, side by side, the best one first."""
+    searches = [
+        partial(minimise, space=model.space, target=target, begin=begin, held=None, steps=25, tolerance=1e-3)
+        for begin in begins
+    ]
+    found = together(searches, lambda xs: model.at(xs, rtol=COARSE))
+    return sorted(found, key=lambda one: one.cost)
+
+
+def polish(model: Model, target: Target, begin: Array) -> Found:
+    """The best coordinates near `begin`, at the tolerance of the last search."""
+
+    def ask(x: Array) -> Answer:
+        return model.at([x], rtol=FINE)[0]
+
+    return minimise(ask, model.space, target, begin, None)
+
+
+def spread(jacobian: Array) -> Array:
+    """The covariance of coordinates from the derivatives of residuals: infinite along what changes no residual."""
+    lengths = np.linalg.norm(jacobian, axis=0)
+    lengths[lengths == 0.0] = 1.0
+    _, sizes, directions = np.linalg.svd(jacobian / lengths, full_matrices=True)
+    sizes = np.concatenate([sizes, np.zeros(len(directions) - len(sizes))])
+    known = sizes > NOTHING * sizes[0]
+    scaled = directions[known] / sizes[known, np.newaxis] / lengths
+    covariance: Array = scaled.T @ scaled
+    lost = np.sum(directions[~known] ** 2, axis=0) > 1e-4
+    covariance[lost, :] = np.nan
+    covariance[:, lost] = np.nan
+    covariance[lost, lost] = np.inf
+    return covariance
+
+
+#: The smallest singular value, in units of the largest, of a direction that changes something. Derivatives are known to about
+#: 1e-4 of their size.
+NOTHING = 3e-4
+
+
+def weights(residuals: Array, loss: str) -> Array:
+    """The weight of each residual by a loss: the derivative of the loss by the square."""
+    square = residuals**2
+    derivatives: dict[str, Callable[[Array], Array]] = {
+        "linear": np.ones_like,
+        "soft_l1": lambda z: 1 / np.sqrt(1 + z),
+        "huber": lambda z: np.where(z <= 1, 1.0, 1 / np.sqrt(np.maximum(z, 1.0))),
+        "cauchy": lambda z: 1 / (1 + z),
+        "arctan": lambda z: 1 / (1 + z**2),
+    }
+    return np.asarray(derivatives[loss](square))

@@ -1,0 +1,168 @@
+"""Fits: readings with the model's bands, profiles of the parameters, and their correlations."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from .._fit import Estimate, Fit
+from .._flapwing import printed, scale, words
+from . import _style
+
+#: The pictures that there are.
+_PARTS = ("data", "profiles", "correlations")
+
+#: Points of a curve.
+_CURVE = 80
+
+
+def fit(result: Fit, show: str | None = None) -> Figure:
+    """Draw a fit: readings with the model's 95 % bands, profiles of the parameters, and correlations.
+
+    Parameters
+    ----------
+    result : Fit
+        What `flapwing.fit` returned.
+    show : {"data", "profiles", "correlations"}, optional
+        One of the three pictures. Default: all of them.
+
+    Returns
+    -------
+    matplotlib Figure
+        Bands are of the model's value, without the noise of a reading. A profile that does not reach the dashed line on one
+        side is open there: the data do not bound the parameter.
+
+    Raises
+    ------
+    ValueError
+        `show` is another word, or profiles were not computed.
+    TypeError
+        `result` is no `Fit`.
+    """
+    if not isinstance(result, Fit):
+        raise TypeError(f"`result` is {type(result).__name__}\nit must be what flapwing.fit returns")
+    if show is not None and show not in _PARTS:
+        raise ValueError(f"`show` is {show!r}\nit must be one of {', '.join(_PARTS)}")
+    profiled = [(name, one) for name, one in result.estimates.items() if one.profile is not None]
+    if show == "profiles" and not profiled:
+        raise ValueError("profiles were not computed\ncall flapwing.fit with profile=True")
+    has_pairs = len(result.estimates) > 1
+    shown = [show] if show else ["data", *(["profiles"] if profiled else []), *(["correlations"] if has_pairs else [])]
+    measures = list(dict.fromkeys(measure for one in result._sets for measure in one.measured))
+    with _style.style():
+        heights = {"data": 2.9 * len(measures), "profiles": 2.6 * _rows(len(profiled)), "correlations": 3.2}
+        figure = _style.new_figure(7.2, sum(heights[part] for part in shown))
+        parts = figure.subfigures(len(shown), 1, height_ratios=[heights[part] for part in shown], squeeze=False)[:, 0]
+        for part, name in zip(parts, shown):
+            if name == "data":
+                for ax, measure in zip(part.subplots(len(measures), 1, squeeze=False)[:, 0], measures):
+                    _data(result, measure, ax)
+            elif name == "profiles":
+                _profiles(profiled, result._quantile, part)
+            else:
+                _correlations(result, part)
+    return figure
+
+
+def _rows(count: int) -> int:
+    return -(-count // 3)
+
+
+def _data(result: Fit, measure: str, ax: Axes) -> None:
+    """The readings of a measure with the model's bands, over the parameter with most values."""
+    sets = [one for one in result._sets if measure in one.measured]
+    numbers = {name: values for one in sets for name, values in one.points.items() if isinstance(values, np.ndarray)}
+    if not numbers:
+        raise ValueError("the data have no operating points to draw over")
+    along = max(numbers, key=lambda name: len(np.unique(numbers[name])))
+    colours = iter(_style.COLOURS * 10)
+    residuals = {(one.set, one.measure): one for one in result.goodness.residuals}
+    for one in sets:
+        values = np.asarray(one.points[along], np.float64)
+        others = {name: column for name, column in one.points.items() if name != along}
+        noise = residuals[one.name, measure]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            sigma = np.abs(noise.values / noise.scaled)
+        for key in dict.fromkeys(zip(*(list(column) for column in others.values()))) if others else [()]:
+            mine = np.ones(len(one), np.bool_)
+            for column, cell in zip(others.values(), key):
+                mine &= np.asarray(column) == cell
+            colour = next(colours)
+            label = _label(one.name if len(sets) > 1 else "", dict(zip(others, key)), result)
+            ax.errorbar(
+                values[mine],
+                one.measured[measure][mine],
+                np.nan_to_num(sigma[mine]),
+                fmt="o",
+                ms=3,
+                lw=0.8,
+                color=colour,
+                label=label,
+            )
+            points: dict[str, Any] = {along: np.linspace(values[mine].min(), values[mine].max(), _CURVE)}
+            points.update({name: [cell] * _CURVE for name, cell in zip(others, key)})
+            band = result.predict(points, measure, data_set=one.name)
+            ax.plot(points[along], band.value, color=colour, lw=1.2)
+            ax.fill_between(points[along], band.low, band.high, color=colour, alpha=0.25, lw=0)
+    ax.set_xlabel(_named(along, result._model.names.unit(along)))
+    ax.set_ylabel(_named(measure, result._model.names.unit(measure)))
+    if len(ax.get_legend_handles_labels()[1]) and any(ax.get_legend_handles_labels()[1]):
+        ax.legend()
+
+
+def _label(name: str, others: dict[str, Any], result: Fit) -> str:
+    """The data set, and the parameters that differ in it."""
+    varied = {
+        parameter: value
+        for parameter, value in others.items()
+        if len(set(np.asarray(result._model.points[parameter]).tolist())) > 1
+    }
+    told = [f"{value:g} {printed(result._model.names.unit(parameter))}".rstrip() if not isinstance(value, str) else value
+            for parameter, value in varied.items()]  # fmt: skip
+    return ", ".join([*([name] if name else []), *told])
+
+
+def _named(name: str, unit: str) -> str:
+    told = words(name, unit)
+    return f"{told} ({printed(unit)})" if unit else told
+
+
+def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) -> None:
+    """How far the cost rises as a parameter is held beside its estimate."""
+    rows = _rows(len(profiled))
+    axes = part.subplots(rows, min(3, len(profiled)), squeeze=False).ravel()
+    for ax, (name, one) in zip(axes, profiled):
+        profile = one.profile
+        assert profile is not None
+        factor, unit = scale(one.unit, float(np.abs(profile.value).max()))
+        ax.plot(factor * profile.value, np.abs(profile.rise), "o-", ms=3, color=_style.BLUE)
+        ax.axvline(factor * one.value, color=_style.GREY, lw=0.8)
+        ax.axhline(height, color=_style.VERMILLION, lw=0.8, ls="--")
+        for value, is_open in ((profile.low, profile.open_below), (profile.high, profile.open_above)):
+            if not is_open:
+                ax.axvline(factor * value, color=_style.VERMILLION, lw=0.8, ls=":")
+        ax.set_xlabel(f"{name} ({unit})" if unit else name)
+        ax.set_ylim(bottom=0)
+    axes[0].set_ylabel("rise, standard errors")
+    for ax in axes[len(profiled) :]:
+        ax.remove()
+
+
+def _correlations(result: Fit, part: Any) -> None:
+    """The correlations as numbers in a map."""
+    names = list(result.estimates)
+    values = result.correlations
+    ax = part.subplots()
+    ax.imshow(np.nan_to_num(values), cmap=mpl.colormaps["RdBu_r"], vmin=-1, vmax=1)
+    ax.grid(False)
+    ax.set_xticks(range(len(names)), names, rotation=30, ha="right")
+    ax.set_yticks(range(len(names)), names)
+    for row in range(len(names)):
+        for column in range(len(names)):
+            text = f"{values[row, column]:+.2f}" if np.isfinite(values[row, column]) else "?"
+            dark = abs(np.nan_to_num(values[row, column])) > 0.6
+            ax.text(column, row, text, ha="center", va="center", color="white" if dark else _style.DARK)

@@ -1,0 +1,38 @@
+//! Quantities out of text, for data that a user brings.
+
+use flap_sweep::notation::units;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::{listing, parameters};
+
+/// The value in SI units of a parameter of a preset or a model: of a number, or of text with a unit.
+#[pyfunction]
+#[pyo3(signature = (model, parameter, value, /))]
+pub(crate) fn value(model: &Bound<'_, PyAny>, parameter: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let model = listing::model(model)?;
+    let index = parameters::index(model, parameter)?;
+    parameters::value_of(&model.parameters()[index], value)
+}
+
+/// The name of a parameter of a preset or a model, which may be given by its former name.
+#[pyfunction]
+#[pyo3(signature = (model, parameter, /))]
+pub(crate) fn parameter(model: &Bound<'_, PyAny>, parameter: &str) -> PyResult<&'static str> {
+    let model = listing::model(model)?;
+    Ok(model.parameters()[parameters::index(model, parameter)?].name)
+}
+
+/// The number of `unit` in a text such as `"3 mm"`, which must measure the same.
+#[pyfunction]
+#[pyo3(signature = (name, text, unit, /))]
+pub(crate) fn quantity(name: &str, text: &str, unit: &str) -> PyResult<f64> {
+    let told = |error: units::UnitError| {
+        let help = error.help().map_or_else(String::new, |help| format!("\n{help}"));
+        PyValueError::new_err(format!("{}{help}", error.message(&format!("`{name}`"))))
+    };
+    let value = units::parse_as(text, unit).map_err(told)?;
+    let one =
+        if unit.is_empty() { 1.0 } else { units::parse_as(&format!("1 {unit}"), unit).map_err(told)? };
+    Ok(value / one)
+}

@@ -1,0 +1,122 @@
+"""Fits find parameters, and say how well they are known."""
+
+import flapwing
+import numpy as np
+import pytest
+from fits import PRESET, TRUE, TRUTH, readings
+
+
+@pytest.fixture(scope="module")
+def found():
+    return flapwing.fit(PRESET, readings(), list(TRUE), sigma="3 %", starts=3)
+
+
+def test_a_fit_finds_the_truth(found):
+    for name, value in TRUTH.items():
+        one = found.estimates[name]
+        assert one.is_known and not one.at_bound
+        assert abs(one.value - value) < 3.5 * one.error
+        assert one.low < one.value < one.high
+        # Well known parameters have profiles that are about straight.
+        assert one.high - one.low == pytest.approx(2 * 1.96 * one.error, rel=0.15)
+    assert found.converged and found.indistinct == [] and found.unsettled == []
+    assert found.goodness.freedom == 27 and 0.001 < found.goodness.p < 0.999 and not found.goodness.is_structured
+    assert found.effort.agreed >= 2
+    row = flapwing.run(PRESET, drive_frequency=100.0, drive_voltage_pp=160.0, **found.values)
+    assert row["status"] == "periodic"
+
+
+def test_a_fit_is_the_same_for_any_number_of_threads():
+    one, two = (
+        flapwing.fit(PRESET, readings(), list(TRUE), sigma="3 %", starts=2, profile=False, threads=threads)
+        for threads in (1, 2)
+    )
+    assert one.values == two.values
+
+
+def test_intervals_cover_the_truth():
+    """A small version of examples/python/fit_coverage.py: of 24 intervals 95 % should hold the truth. If they do, 18
+    or fewer of them are as good as impossible."""
+    inside = 0
+    for seed in range(8):
+        result = flapwing.fit(PRESET, readings(seed=seed), list(TRUE), sigma="3 %", starts=1, seed=seed)
+        inside += sum(one.low <= TRUTH[name] <= one.high for name, one in result.estimates.items())
+    assert 19 <= inside
+
+
+def test_parameters_that_cannot_be_told_are_named():
+    """Only the sum of the two inertias is in the equations, and a vehicle's mass moves no wing."""
+    free = [*TRUE, "added_inertia_stroke", "vehicle_mass"]
+    result = flapwing.fit(PRESET, readings(), free, sigma="3 %", starts=1)
+    assert len(result.indistinct) == 2
+    assert "vehicle_mass changes no reading" in result.indistinct
+    assert any("added_inertia_stroke" in told and "wing_inertia_stroke" in told for told in result.indistinct)
+    known = {name: one.is_known for name, one in result.estimates.items()}
+    assert known == {
+        "hinge_stiffness": True,
+        "wing_inertia_stroke": False,
+        "drag_coefficient_max": True,
+        "added_inertia_stroke": False,
+        "vehicle_mass": False,
+    }
+    assert result.estimates["vehicle_mass"].profile.is_flat
+    assert "cannot be told by such data" in str(result) and "not fixed by the data" in str(result)
+
+
+def test_products_that_cannot_be_told_are_named():
+    """Lengths of a tail that no equation has alone: the drag is the product of the air's density and all coefficients."""
+    free = ["air_density", "drag_coefficient_max", "drag_coefficient_min", "lift_coefficient_max"]
+    data = readings(["stroke_pp_deg", "pitch_amplitude_deg"])
+    result = flapwing.fit(PRESET, data, free, sigma="3 %", starts=1, profile=False, rotation_pressure_width=0.0)
+    assert len(result.indistinct) == 1
+    assert all(
+        f"{name} down by 1 %" in result.indistinct[0] or f"{name} up by 1 %" in result.indistinct[0] for name in free
+    )
+
+
+def test_a_wrong_model_is_told():
+    """Data by another drag law: chi-square is poor, and residuals have a pattern."""
+    data = readings(["stroke_pp_deg", "pitch_amplitude_deg"], noise=0.02, drag_coefficient_min=1.5)
+    result = flapwing.fit(PRESET, data, list(TRUE), sigma="2 %", starts=1, profile=False)
+    assert result.goodness.p < 1e-6 and result.goodness.is_structured
+    assert "POOR" in str(result) and "STRUCTURED" in str(result)
+
+
+def test_readings_of_another_robot_are_told():
+    """Data by the four-bar model."""
+    points = {
+        "drive_frequency": np.tile(np.linspace(60.0, 90.0, 20), 2),
+        "drive_voltage_pp": np.repeat([120.0, 150.0], 20),
+    }
+    table = flapwing.evaluate("arabagi2013-75hz", points)
+    draw = np.random.default_rng(1)
+    data = {name: table[name] * (1 + draw.normal(0.0, 0.02, 40)) for name in ("stroke_pp_deg", "pitch_amplitude_deg")}
+    free = {
+        "hinge_stiffness": None,
+        "wing_inertia_stroke": (1e-11, 1e-9),
+        "drag_coefficient_max": None,
+        "force_factor": (0.05, 3.0),
+    }
+    result = flapwing.fit(PRESET, {**points, **data}, free, sigma="2 %", starts=2, profile=False)
+    assert result.goodness.p < 1e-6 and result.goodness.is_structured
+
+
+def test_errors_that_are_not_known_are_estimated():
+    data = readings(["stroke_pp_deg", "pitch_amplitude_deg"], noise=0.01)
+    result = flapwing.fit(PRESET, data, list(TRUE), starts=1)
+    assert not result.sigma_known and np.isnan(result.goodness.p)
+    assert result.goodness.chi_square == pytest.approx(result.goodness.freedom, rel=0.05)
+    assert "estimated from the residuals" in str(result)
+    for name, value in TRUTH.items():
+        assert abs(result.estimates[name].value - value) < 4 * result.estimates[name].error
+
+
+def test_outliers_count_less_with_a_robust_loss():
+    data = readings()
+    data["stroke_pp_deg"] = data["stroke_pp_deg"].copy()
+    data["stroke_pp_deg"][[3, 20]] *= 1.6
+    off = {}
+    for loss in ("linear", "cauchy"):
+        result = flapwing.fit(PRESET, data, list(TRUE), sigma="3 %", loss=loss, starts=1, profile=False)
+        off[loss] = sum(abs(np.log(result.values[name] / value)) for name, value in TRUTH.items())
+    assert off["cauchy"] < 0.5 * off["linear"]

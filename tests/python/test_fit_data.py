@@ -1,0 +1,150 @@
+"""Data of fits: their units, their errors, several sets, branches, and what is held out."""
+
+import csv
+import pickle
+
+import flapwing
+import numpy as np
+import pandas
+import pytest
+from fits import FREQUENCY, PRESET, TRUE, TRUTH, VOLTAGE, readings
+
+
+def test_data_have_units(tmp_path):
+    """One data set as arrays in SI units, as text with units, with units in the names, as a DataFrame and as a file."""
+    data = readings(noise=0.0)
+    kilohertz = [f"{value / 1000} kHz" for value in data["drive_frequency"]]
+    stroke = np.radians(data["stroke_pp_deg"])
+    forms = [
+        data,
+        {"frequency_hz": data["drive_frequency"], "drive_voltage_pp": VOLTAGE, "stroke_pp_rad": stroke},
+        {
+            "drive_frequency (kHz)": data["drive_frequency"] / 1000,
+            "drive_voltage_pp_v": VOLTAGE,
+            "stroke_pp [rad]": stroke,
+        },
+        pandas.DataFrame(
+            {"drive_frequency": kilohertz, "drive_voltage_pp": VOLTAGE, "stroke_pp_deg": data["stroke_pp_deg"]}
+        ),
+    ]
+    path = tmp_path / "measured.csv"
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        file.write("# by the camera\n")
+        csv.writer(file).writerows([data, *zip(*data.values())])
+    forms.append(path)
+    values = []
+    for form in forms:
+        result = flapwing.fit(PRESET, form, ["hinge_stiffness"], sigma="1 deg", starts=1, profile=False, **{
+            name: TRUTH[name] for name in TRUE if name != "hinge_stiffness"
+        })  # fmt: skip
+        values.append(result.values["hinge_stiffness"])
+    np.testing.assert_allclose(values, TRUTH["hinge_stiffness"], rtol=1e-4)
+
+
+def test_sigma_is_a_column_or_an_argument():
+    data = readings(noise=0.0)
+    given = [
+        flapwing.Readings({**data, "stroke_pp_deg_sigma": np.full(30, 1.5)}),
+        flapwing.Readings(data, sigma={"stroke_pp_deg": "1.5 deg"}),
+        flapwing.Readings(data, sigma=1.5),
+    ]
+    errors = {
+        flapwing.fit(PRESET, one, list(TRUE), starts=1, profile=False).estimates["drag_coefficient_max"].error
+        for one in given
+    }
+    assert max(errors) == pytest.approx(min(errors), rel=1e-6)
+
+
+def test_data_sets_share_parameters_or_have_their_own():
+    """Two wings with hinges of their own."""
+    sets = [
+        flapwing.Readings(readings(hinge_stiffness=TRUTH["hinge_stiffness"] * factor, seed=seed), name=name)
+        for seed, (name, factor) in enumerate({"soft": 0.9, "stiff": 1.2}.items())
+    ]
+    free = {"hinge_stiffness": flapwing.Free(per_set=True), "drag_coefficient_max": None}
+    result = flapwing.fit(PRESET, sets, free, sigma="3 %", starts=1, wing_inertia_stroke=TRUTH["wing_inertia_stroke"])
+    assert list(result.estimates) == ["hinge_stiffness of soft", "hinge_stiffness of stiff", "drag_coefficient_max"]
+    for name, factor in {"soft": 0.9, "stiff": 1.2}.items():
+        one = result.estimates[f"hinge_stiffness of {name}"]
+        assert abs(one.value - factor * TRUTH["hinge_stiffness"]) < 4 * one.error
+    assert list(result.values) == ["drag_coefficient_max"]
+    soft, stiff = (
+        result.predict({"drive_frequency": [100.0], "drive_voltage_pp": 160.0}, "stroke_pp_deg", data_set=name)
+        for name in ("soft", "stiff")
+    )
+    assert soft.value[0] != stiff.value[0]
+
+
+def test_what_is_known_beforehand_counts():
+    data = {name: values[:3] for name, values in readings().items()}
+    free = {name: flapwing.Free(prior=(value, "2 %")) for name, value in TRUTH.items()}
+    result = flapwing.fit(PRESET, data, free, sigma="3 %", starts=1, profile=False)
+    assert result.goodness.freedom == 3
+    for name, value in TRUTH.items():
+        assert result.estimates[name].error <= 0.0201 * value
+
+
+@pytest.mark.parametrize("hold_out", [0.2, {"drive_frequency": (100, 115)}, "second", ["second"]])
+def test_readings_can_be_held_out(hold_out):
+    sets = [
+        flapwing.Readings(readings(), name="first"),
+        flapwing.Readings(
+            readings(seed=2, points={"drive_frequency": FREQUENCY[:15], "drive_voltage_pp": VOLTAGE[15:]}),
+            name="second",
+        ),
+    ]
+    result = flapwing.fit(PRESET, sets, list(TRUE), sigma="3 %", starts=1, profile=False, hold_out=hold_out)
+    assert result.held_out.count in (6, 9, 15)
+    assert result.held_out.rms["stroke_pp_deg"] < 4 and result.held_out.covered > 0.7
+    assert result.goodness.freedom == 45 - result.held_out.count - 3
+    assert "held out" in str(result)
+
+
+#: A design with two motions at some frequencies.
+BISTABLE = {"drive_voltage_pp": "160 V"}
+
+
+def test_readings_are_on_the_branch_of_their_experiment():
+    """The two ways differ by up to 89 degrees. A fit that looked for motions from rest would be far off."""
+    curve = flapwing.respond(PRESET, start=104, stop=134, step=2, hinge_stiffness="0.7486 uN*m/rad", **BISTABLE)
+    sets = []
+    for way in ("up", "down"):
+        rows = curve[curve["branch"] == way]
+        columns = {"drive_frequency": rows["drive_frequency"], "stroke_pp_deg": rows["stroke_pp_deg"]}
+        sets.append(flapwing.Readings(columns, name=way, branch=way, sigma="2 %"))
+    assert np.abs(np.subtract(sets[0].columns["stroke_pp_deg"], sets[1].columns["stroke_pp_deg"])).max() > 50
+    free = {"hinge_stiffness": ("0.73 uN*m/rad", "0.77 uN*m/rad")}
+    result = flapwing.fit(PRESET, sets, free, starts=1, profile=False, **BISTABLE)
+    assert result.values["hinge_stiffness"] == pytest.approx(0.7486e-6, rel=2e-3)
+    assert result.goodness.chi_square < 1
+
+
+def test_readings_without_a_settled_motion_are_told():
+    """A drive frequency that is no frequency, among others that are."""
+    data = {name: values.copy() for name, values in readings().items()}
+    data["drive_frequency"][4] = -70.0
+    result = flapwing.fit(PRESET, data, ["hinge_stiffness"], sigma="3 %", starts=1, profile=False)
+    assert [(one.set, one.measure, one.row, one.status) for one in result.unsettled] == [
+        ("set 1", "stroke_pp_deg", 5, "invalid")
+    ]
+    assert "1 readings do not count" in str(result) and result.goodness.freedom == 28
+
+
+def test_readings_can_be_pickled():
+    one = flapwing.Readings(readings(), name="first", sigma="3 %")
+    assert pickle.loads(pickle.dumps(one)).columns.keys() == one.columns.keys()
+
+
+def test_readings_that_a_design_excludes_are_told():
+    grid = {"preset": PRESET, "where": {"within_the_amplifier": "drive_frequency < 145"}}
+    result = flapwing.fit(grid, readings(), ["hinge_stiffness"], sigma="3 %", starts=1, profile=False)
+    assert [(one.row, one.status) for one in result.unsettled] == [(15, "excluded"), (30, "excluded")]
+    assert result.goodness.freedom == 27
+
+
+def test_a_design_without_motions_is_told():
+    grid = {"preset": PRESET, "solver": {"max_cycles": 1}}
+    with pytest.raises(
+        ValueError, match="too few readings have a settled motion .*: the others are unsettled\ngive other"
+    ):
+        flapwing.fit(grid, readings(), ["hinge_stiffness"], sigma="3 %", starts=1, profile=False)

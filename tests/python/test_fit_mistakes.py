@@ -1,0 +1,212 @@
+"""Mistakes in data and arguments of fits: each message has the place, and help on its second line."""
+
+import flapwing
+import numpy as np
+import pytest
+
+PRESET = "jafferis2016"
+DATA = {"drive_frequency": [90.0, 100.0, 110.0, 120.0], "stroke_pp_deg": [60.0, 62.0, 61.0, 59.0]}
+
+
+def changed(**columns):
+    return {**DATA, **columns}
+
+
+@pytest.mark.parametrize(
+    ("data", "says"),
+    [
+        ({}, "the data set is empty\ngive columns"),
+        ([], "there are no data\ngive columns"),
+        ({"drive_frequency": [], "stroke_pp_deg": []}, "the data set is empty"),
+        ({"drive_frequency": [90.0]}, "set 1 has no column of a measure\nadd one"),
+        (
+            changed(strok_pp_deg=[1, 2, 3, 4]),
+            "set 1 has the column `strok_pp_deg`, which is neither a parameter nor a measure, did you mean `stroke_pp_deg`?\nrename or remove it",
+        ),
+        (
+            changed(stroke_pp_deg=[60, 62, np.nan, 59]),
+            "set 1, column `stroke_pp_deg`, row 3 is nan, and readings are finite numbers\nremove the row",
+        ),
+        (changed(stroke_pp_deg=[60, 62, None, 59]), "set 1, column `stroke_pp_deg`, row 3 is None, which is no number"),
+        (changed(stroke_pp_deg=["60 deg", "62 mm", "61 deg", "59 deg"]), "set 1, column `stroke_pp_deg`, row 2: "),
+        (changed(drive_frequency=["90 Hz", "100 V", "110 Hz", "120 Hz"]), "set 1, column `drive_frequency`, row 2: "),
+        (
+            {"drive_frequency (furlong)": DATA["drive_frequency"], "stroke_pp_deg": DATA["stroke_pp_deg"]},
+            "set 1, column `drive_frequency (furlong)`: ",
+        ),
+        (
+            changed(stroke_pp_deg=[60, 60, 60, 60]),
+            "set 1: all 4 readings of `stroke_pp_deg` are 60, and tell nothing about parameters\nremove the column",
+        ),
+        (changed(frequency_hz=[1, 2, 3, 4]), "set 1 has `drive_frequency` twice, once as `frequency_hz`\nkeep one"),
+        (changed(stroke_pp_deg=[60, 62]), "columns differ in length: `drive_frequency` has 4, `stroke_pp_deg` has 2\n"),
+        (
+            {name: values[:1] for name, values in DATA.items()},
+            "2 free parameters and only 1 reading: hinge_stiffness, drag_coefficient_max\na fit needs more readings than parameters",
+        ),
+        ({name: values[:2] for name, values in DATA.items()}, "2 free parameters and only 2 readings"),
+        (
+            changed(stroke_pp_deg_sigma=[1, 1, 0, 1]),
+            "set 1, standard error of `stroke_pp_deg`, row 3: it must be more than zero",
+        ),
+        ([flapwing.Readings(DATA, name="a"), flapwing.Readings(DATA, name="a")], "data sets share a name: a, a\n"),
+    ],
+)
+def test_data_that_are_refused(data, says):
+    with pytest.raises(ValueError) as caught:
+        flapwing.fit(PRESET, data, ["hinge_stiffness", "drag_coefficient_max"])
+    assert says in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("free", "error", "says"),
+    [
+        ([], ValueError, "`free` is empty\nname one"),
+        ("drag_coefficient_max", TypeError, "`free` is str\nit must be a list"),
+        (["drag_coefficient_mx"], ValueError, "did you mean `drag_coefficient_max`?"),
+        (
+            ["actuator_stiffness"],
+            ValueError,
+            "`actuator_stiffness` is a choice, and cannot be fitted\nfit once for each of its options",
+        ),
+        (
+            ["drive_frequency"],
+            ValueError,
+            "`drive_frequency` is free, and set 1 has it as a parameter of its operating points\nkeep one",
+        ),
+        (
+            ["actuator_mass"],
+            ValueError,
+            "`actuator_mass` is zero in the design, so its bounds are not known\ngive free=",
+        ),
+        (
+            {"drag_coefficient_max": (5.0, 3.0)},
+            ValueError,
+            "free['drag_coefficient_max']: the lower bound 5 is not less than the upper one 3\nexchange them",
+        ),
+        ({"hinge_stiffness": ("1 mm", "2 mm")}, ValueError, "free['hinge_stiffness']: "),
+        (
+            {"drag_coefficient_max": 3.0},
+            TypeError,
+            "free['drag_coefficient_max'] is float\nit must be a pair of bounds",
+        ),
+        (
+            {"drag_coefficient_max": flapwing.Free(prior=(4.0, 0.0))},
+            ValueError,
+            "free['drag_coefficient_max']: the error of the prior is 0.0\n",
+        ),
+        (
+            {"drag_coefficient_max": flapwing.Free(prior=4.0)},
+            TypeError,
+            "free['drag_coefficient_max']: `prior` is float\n",
+        ),
+    ],
+)
+def test_free_parameters_that_are_refused(free, error, says):
+    with pytest.raises(error) as caught:
+        flapwing.fit(PRESET, DATA, free)
+    assert says in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("keywords", "error", "says"),
+    [
+        ({"loss": "square"}, ValueError, "`loss` is 'square'\nit must be one of linear"),
+        ({"starts": 0}, ValueError, "`starts` is 0\nit must be a whole number, 1 or more"),
+        ({"seed": -1}, ValueError, "`seed` is -1\n"),
+        ({"sigma": -1.0}, ValueError, "`sigma` is -1.0 for stroke_pp_deg\nstandard errors are more than zero"),
+        ({"sigma": "3 mm"}, ValueError, "`sigma`"),
+        ({"sigma": "x %"}, ValueError, "`sigma` is 'x %'\nit must be"),
+        ({"hold_out": 1.5}, ValueError, "`hold_out` is 1.5\nit must be a share"),
+        ({"hold_out": "nowhere"}, ValueError, "`hold_out` names 'nowhere', and the data sets are set 1\n"),
+        ({"hold_out": {"drive_frequency": (1, 2)}}, ValueError, "`hold_out` holds none of the 4 readings out\n"),
+        (
+            {"hold_out": {"drive_voltage_pp": (1, 2)}},
+            ValueError,
+            "`hold_out` names `drive_voltage_pp`, and set 1 has no such column",
+        ),
+        (
+            {"drag_coefficient_max": 3.0},
+            ValueError,
+            "`drag_coefficient_max` is free and set by a keyword\nkeep one of them",
+        ),
+        ({"drag_mix": 3.0}, ValueError, "has no parameter `drag_mix`"),
+        ({"profile": 3}, TypeError, "`profile` is int"),
+    ],
+)
+def test_arguments_that_are_refused(keywords, error, says):
+    with pytest.raises(error) as caught:
+        flapwing.fit(PRESET, DATA, ["drag_coefficient_max"], **keywords)
+    assert says in str(caught.value)
+
+
+def test_former_names_work_with_a_warning():
+    with pytest.warns(FutureWarning, match="`drag_max` is called `drag_coefficient_max` now"):
+        found = flapwing.fit(PRESET, DATA, ["drag_max"], sigma="3 %", starts=1, profile=False)
+    assert list(found.values) == ["drag_coefficient_max"]
+
+
+def test_designs_that_are_refused():
+    grid = {"preset": PRESET, "axes": {"drive_frequency": [100, 110]}}
+    with pytest.raises(ValueError, match="the design has 2 points, and a fit is about one\nleave out its axes"):
+        flapwing.fit(grid, DATA, ["drag_coefficient_max"])
+    with pytest.raises(ValueError, match="did you mean `jafferis2016`"):
+        flapwing.fit("jafferis2017", DATA, ["drag_coefficient_max"])
+    derived = {"preset": PRESET, "derived": {"drag_coefficient_max": "3 * drag_coefficient_min"}}
+    with pytest.raises(ValueError, match="`drag_coefficient_max` is a column, and the grid varies or derives it"):
+        flapwing.fit(derived, DATA, ["drag_coefficient_max"])
+
+
+def test_readings_that_are_refused(tmp_path):
+    with pytest.raises(ValueError, match="`branch` is 'left'\nit must be"):
+        flapwing.Readings(DATA, branch="left")
+    with pytest.raises(ValueError, match="set 1 is on the way up along `drive_frequency`, and has no column of it"):
+        flapwing.fit(PRESET, flapwing.Readings({"stroke_pp_deg": [1.0, 2.0]}, branch="up"), ["drag_coefficient_max"])
+    with pytest.raises(ValueError, match="set 1 has `drive_frequency` as a column and as an argument"):
+        flapwing.fit(PRESET, flapwing.Readings(DATA, drive_frequency=3.0), ["drag_coefficient_max"])
+    with pytest.raises(TypeError, match="column `drive_frequency` is float\nit must be a list"):
+        flapwing.Readings({"drive_frequency": 3.0})
+    with pytest.raises(TypeError, match="`data` is int"):
+        flapwing.Readings(3)
+    path = tmp_path / "rows.csv"
+    path.write_text("frequency_hz,stroke_pp_deg\n100,60\n110\n", encoding="utf-8")
+    with pytest.raises(ValueError, match="row 2 has 1 cells, and the header has 2\nadd or remove cells"):
+        flapwing.Readings(path)
+    path.write_text("frequency_hz,stroke_pp_deg\n100,60\n110,many\n120,50\n", encoding="utf-8")
+    with pytest.raises(ValueError, match="rows.csv, column `stroke_pp_deg`, row 2: "):
+        flapwing.fit(PRESET, path, ["drag_coefficient_max"])
+    path.write_text("", encoding="utf-8")
+    with pytest.raises(ValueError, match="rows.csv is empty\nits first line has the names"):
+        flapwing.Readings(path)
+    with pytest.raises(FileNotFoundError):
+        flapwing.Readings(tmp_path / "none.csv")
+
+
+def test_what_results_refuse():
+    data = {
+        "drive_frequency": [90.0, 100.0, 110.0, 120.0],
+        "drive_voltage_pp": [120.0, 120.0, 160.0, 160.0],
+        "stroke_pp_deg": [52, 51, 60, 59],
+    }
+    found = flapwing.fit(PRESET, data, ["drag_coefficient_max"], sigma="3 %", starts=1, profile=False)
+    for call, says in [
+        (lambda: found.predict({"drive_frequency": [100]}, "stroke_pp_deg"), "points lacks `drive_voltage_pp`, of which the data have 2 values\nadd a column"),
+        (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "stroke_pq_deg"), "did you mean `stroke_pp_deg`"),
+        (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120, "drag_coefficient_max": 3}, "stroke_pp_deg"), "points has `drag_coefficient_max`, which was fitted\nleave it out"),
+        (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "stroke_pp_deg", data_set="x"), "there is no data set 'x'\nchoose among set 1"),
+        (lambda: found.predict({}, "stroke_pp_deg"), "points has no points\n"),
+        (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_min"), "`drag_coefficient_min` was not fitted\nchoose among drag_coefficient_max"),
+        (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, {"drive_frequency": 3}), "`for_` must name a parameter"),
+        (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_max", count=0), "`count` is 0\n"),
+        (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_max", measures=["lift_mean_mn"]), "the data have no readings of `lift_mean_mn`"),
+    ]:  # fmt: skip
+        with pytest.raises(ValueError) as caught:
+            call()
+        assert says in str(caught.value)
+
+
+def test_scipy_is_needed_and_told(monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "scipy", None)
+    monkeypatch.setitem(__import__("sys").modules, "scipy.optimize", None)
+    with pytest.raises(ImportError, match="flapwing.fit needs SciPy: pip install scipy"):
+        flapwing.fit(PRESET, DATA, ["drag_coefficient_max"])

@@ -1,0 +1,130 @@
+"""Results of fits: reports, predictions, plans, devices."""
+
+import flapwing
+import numpy as np
+import pytest
+from fits import POINTS, PRESET, TRUE, TRUTH, readings
+
+
+@pytest.fixture(scope="module")
+def found():
+    return flapwing.fit(PRESET, readings(), list(TRUE), sigma="3 %", starts=3)
+
+
+def test_the_report_tells_all(found):
+    report = str(found)
+    for told in [
+        "hinge_stiffness",
+        "chi-square",
+        "best known",
+        "worst known",
+        "correlations",
+        "set 1",
+        "right-hand sides",
+    ]:
+        assert told in report
+    assert "<table>" in found._repr_html_() and "drag_coefficient_max" in repr(found)
+    np.testing.assert_allclose(np.diag(found.correlations), 1.0)
+    # The worst known combination of parameters is nearly the one of the largest errors.
+    worst = float(found.combinations[1].split("known to ")[1].split(" %")[0])
+    shares = [100 * one.error / one.value for one in found.estimates.values()]
+    assert 0.7 * max(shares) < worst <= 1.1 * max(shares)
+    errors = [one.error for one in found.estimates.values()]
+    np.testing.assert_allclose(np.sqrt(np.diag(found.covariance)), errors)
+
+
+def test_predictions_have_bands(found):
+    points = {"drive_frequency": [90.0, 110.0, 130.0], "drive_voltage_pp": 140.0}
+    told = found.predict(points, "lift_mean_mn")
+    exact = flapwing.evaluate(PRESET, points, measures=["lift_mean_mn"], **TRUTH)["lift_mean_mn"]
+    assert told.unit == "mN" and (told.error > 0).all()
+    assert (np.abs(told.value - exact) < 4 * told.error).all()
+    np.testing.assert_allclose(told.high - told.value, 1.96 * told.error, rtol=1e-3)
+    assert "lift_mean_mn (mN)" in str(told)
+
+
+def test_next_measurements_shrink_the_error(found):
+    """The error that is expected after two more readings is that of a fit with them."""
+    candidates = {"drive_frequency": np.linspace(70.0, 150.0, 17), "drive_voltage_pp": 160.0}
+    told = found.next_measurements(candidates, "drag_coefficient_max", count=2)
+    assert told.now == pytest.approx(found.estimates["drag_coefficient_max"].error, rel=1e-3)
+    assert told.now > told.errors[0] > told.errors[1]
+    extra = {name: np.array([point[name] for point in told.points]) for name in POINTS}
+    data = readings()
+    exact = flapwing.evaluate(PRESET, extra, measures=["stroke_pp_deg"], **found.values)["stroke_pp_deg"]
+    more = {
+        **{name: np.concatenate([data[name], extra[name]]) for name in POINTS},
+        "stroke_pp_deg": np.concatenate([data["stroke_pp_deg"], exact]),
+    }
+    again = flapwing.fit(PRESET, more, list(TRUE), sigma="3 %", starts=1, profile=False)
+    assert again.estimates["drag_coefficient_max"].error == pytest.approx(told.errors[1], rel=0.02)
+    prediction = {"measure": "lift_mean_mn", "drive_frequency": 110.0, "drive_voltage_pp": 160.0}
+    assert (
+        found.next_measurements(candidates, prediction, count=1).errors[0]
+        < found.predict(
+            {name: [value] for name, value in prediction.items() if name != "measure"}, "lift_mean_mn"
+        ).error[0]
+    )
+    assert "error now" in str(told)
+    axes = {"drive_frequency": {"from": 70, "to": 150, "n": 17}, "drive_voltage_pp": ["160 V"]}
+    grid = flapwing.Grid({"preset": PRESET, "axes": axes})
+    assert found.next_measurements(grid, "drag_coefficient_max", count=2).points == told.points
+
+
+def test_progress_is_told_and_can_end_a_fit():
+    told = []
+    flapwing.fit(
+        PRESET,
+        readings(),
+        ["drag_coefficient_max"],
+        sigma="3 %",
+        starts=2,
+        profile=False,
+        progress=lambda done, points: told.append(done),
+    )
+    assert told == sorted(told) and told[-1] > 30
+
+    def stop(done, points):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        flapwing.fit(PRESET, readings(), ["drag_coefficient_max"], sigma="3 %", starts=2, progress=stop)
+
+
+def test_a_fit_is_a_device(found, tmp_path):
+    """The file has the estimates, their errors and correlations: builds drawn from it have them too."""
+    found.device(tmp_path / "mybee.toml")
+    with pytest.raises(FileExistsError, match="is there already\ngive another path, or overwrite=True"):
+        found.device(tmp_path / "mybee.toml")
+    found.device(tmp_path / "mybee.toml", overwrite=True)
+    grid = tmp_path / "grid.toml"
+    grid.write_text('device = "mybee.toml"\n', encoding="utf-8")
+    design = flapwing.Grid(grid)[0]
+    for name, value in found.values.items():
+        assert design[name] == value
+    points = {"drive_frequency": [90.0, 110.0], "drive_voltage_pp": 150.0}
+    again = flapwing.evaluate(grid, points, measures=["stroke_pp_deg"])
+    expected = flapwing.evaluate(PRESET, points, measures=["stroke_pp_deg"], **found.values)
+    np.testing.assert_array_equal(again["stroke_pp_deg"], expected["stroke_pp_deg"])
+    grid.write_text(
+        'device = "mybee.toml"\n[sample]\nmethod = "random"\nof = "device"\nn = 4000\nseed = 1\n', encoding="utf-8"
+    )
+    drawn = np.array([[build[name] for name in found.estimates] for build in flapwing.Grid(grid)])
+    np.testing.assert_allclose(np.corrcoef(drawn.T), found.correlations, atol=0.06)
+    np.testing.assert_allclose(drawn.std(axis=0), [one.error for one in found.estimates.values()], rtol=0.06)
+
+
+def test_a_device_says_what_is_not_known(tmp_path):
+    sets = [flapwing.Readings(readings(seed=seed), name=name) for seed, name in enumerate(["one", "two"])]
+    free = {"hinge_stiffness": flapwing.Free(per_set=True), "vehicle_mass": None}
+    result = flapwing.fit(PRESET, sets, free, sigma="3 %", starts=1, profile=False, drag_coefficient_max=4.0, rtol=1e-6)
+    with pytest.raises(ValueError, match="data sets have a `hinge_stiffness` each\ngive data_set=, one of one, two"):
+        result.device(tmp_path / "bee.toml")
+    result.device(tmp_path / "bee.toml", data_set="two")
+    text = (tmp_path / "bee.toml").read_text(encoding="utf-8")
+    assert "drag_coefficient_max = 4.0\n" in text and "rtol" not in text
+    assert 'source = "not fixed by the data of the fit"' in text
+    (tmp_path / "grid.toml").write_text('device = "bee.toml"\n', encoding="utf-8")
+    assert (
+        flapwing.Grid(tmp_path / "grid.toml")[0]["hinge_stiffness"] == result.estimates["hinge_stiffness of two"].value
+    )
