@@ -33,6 +33,9 @@ pub(crate) use sweep::{CheckArgs, SweepArgs};
 #[derive(Parser)]
 #[command(name = "flap", version, long_version = long_version(), max_term_width = 100, after_help = EXIT_CODES)]
 pub(crate) struct Args {
+    /// Print neither progress nor notes: stderr gets warnings and errors alone
+    #[arg(long, short, global = true)]
+    pub(crate) quiet: bool,
     #[command(subcommand)]
     pub(crate) command: Command,
 }

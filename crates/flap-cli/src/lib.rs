@@ -34,7 +34,11 @@ use flap_core::simulate::Simulator;
 /// Returns its exit code; a command line with mistakes ends the process. Only the first call of a process sets the models.
 pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
     models::set(models);
-    let ended = match Args::parse().command {
+    let args = Args::parse();
+    if args.quiet {
+        console::be_quiet();
+    }
+    let ended = match args.command {
         Command::Sweep(args) => cmd::sweep::run(&args),
         Command::Resume(args) => cmd::resume::run(&args),
         Command::Rerun(args) => cmd::rerun::run(&args),
