@@ -25,6 +25,7 @@ mod rerun;
 mod resonance;
 mod respond;
 mod resume;
+mod schema;
 mod shards;
 mod streams;
 mod studies;

@@ -90,6 +90,8 @@ pub(crate) enum Command {
     Explain(ExplainArgs),
     /// List the models and their presets
     Models,
+    /// Print a JSON schema of grid files, for editors that complete their keys
+    Schema(SchemaArgs),
     /// Print a script that completes commands and options in a shell
     Completions(CompletionsArgs),
     /// Write manual pages
@@ -131,6 +133,16 @@ pub(crate) struct ExplainArgs {
     /// Names of parameters, columns or statuses
     #[arg(value_name = "NAME", required = true)]
     pub(crate) names: Vec<String>,
+}
+
+#[derive(clap::Args)]
+#[command(
+    after_help = "Example:\n  flap schema > flap.schema.json     (and #:schema ./flap.schema.json as the first line of a grid)"
+)]
+pub(crate) struct SchemaArgs {
+    /// Only the parameters of this preset's model, with the preset's values as defaults
+    #[arg(long, value_name = "PRESET")]
+    pub(crate) preset: Option<String>,
 }
 
 #[derive(clap::Args)]

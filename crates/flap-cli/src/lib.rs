@@ -61,6 +61,7 @@ pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
         Command::Models => cmd::models::run(),
         Command::Completions(args) => cmd::completions::run(&args),
         Command::Man(args) => cmd::man::run(&args),
+        Command::Schema(args) => cmd::schema::run(&args),
     };
     let exit = ended.unwrap_or_else(failure::Failure::report);
     ExitCode::from(exit as u8)
