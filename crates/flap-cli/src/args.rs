@@ -156,7 +156,7 @@ pub(crate) struct CompletionsArgs {
 const COMPLETIONS_HELP: &str = "\
 Examples:
   flap completions bash > ~/.local/share/bash-completion/completions/flap
-  flap completions zsh > ~/.zfunc/_flap        (with fpath+=~/.zfunc before compinit in ~/.zshrc)
+  source <(flap completions zsh)               (in ~/.zshrc, behind compinit)
   flap completions fish > ~/.config/fish/completions/flap.fish
   flap completions powershell >> $PROFILE";
 

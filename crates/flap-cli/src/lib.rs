@@ -12,6 +12,7 @@
 
 mod args;
 mod cmd;
+mod complete;
 mod console;
 mod data;
 mod failure;
@@ -34,6 +35,7 @@ use flap_core::simulate::Simulator;
 /// Returns its exit code; a command line with mistakes ends the process. Only the first call of a process sets the models.
 pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
     models::set(models);
+    complete::answer();
     let args = Args::parse();
     if args.quiet {
         console::be_quiet();
@@ -59,9 +61,9 @@ pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
         Command::Params(args) => cmd::params::run(&args),
         Command::Explain(args) => cmd::explain::run(&args),
         Command::Models => cmd::models::run(),
+        Command::Schema(args) => cmd::schema::run(&args),
         Command::Completions(args) => cmd::completions::run(&args),
         Command::Man(args) => cmd::man::run(&args),
-        Command::Schema(args) => cmd::schema::run(&args),
     };
     let exit = ended.unwrap_or_else(failure::Failure::report);
     ExitCode::from(exit as u8)
