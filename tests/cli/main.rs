@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
 
 mod again;
+mod completion;
 mod damage;
 mod deviations;
 mod devices;
@@ -25,6 +26,7 @@ mod rerun;
 mod resonance;
 mod respond;
 mod resume;
+mod schema;
 mod shards;
 mod streams;
 mod studies;

@@ -145,3 +145,46 @@ fn a_sweep_in_the_background_ignores_ctrl_c() {
     send("TERM", &child);
     assert_eq!(wait(&mut child), Some(130));
 }
+
+/// The folder for commands that are quiet, with a stroke of its own and results.
+fn folder_of_quiet_commands() -> Folder {
+    let folder = Folder::with_grid(&frequencies(3));
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    folder
+}
+
+#[test]
+fn quiet_commands_print_neither_progress_nor_notes() {
+    let folder = folder_of_quiet_commands();
+    for arguments in [
+        "sweep grid.toml --out a.csv",
+        "sweep grid.toml --out a.csv",
+        "resume a.csv",
+        "sweep grid.toml --shard 1/2 --out 1of2.csv",
+        "sweep grid.toml --shard 2/2 --out 2of2.csv",
+        "merge --force a.csv 1of2.csv 2of2.csv",
+        "convert a.csv b.csv.zst",
+        "rerun a.csv --status unsettled --out c.csv",
+        "top rows.csv --by lift_mean_mn",
+        "run ozaki2018-large --trajectory motion.csv",
+        "respond ozaki2018-large --from 100Hz --to 102Hz --step 1Hz --out response.csv",
+        "resonance ozaki2018-large",
+        "man pages",
+    ] {
+        let loud = folder.ends(0, &arguments.replace(".csv", ".loud.csv").replace("rows.loud", "rows"));
+        let quiet = folder.ends(0, &format!("{arguments} --quiet"));
+        assert_eq!(quiet.stderr, "", "{arguments} --quiet; without: {}", loud.stderr);
+    }
+    let quiet = folder.ends(0, "-q sweep grid.toml --out -");
+    assert_eq!((quiet.stdout.lines().count(), quiet.stderr.as_str()), (4, ""));
+}
+
+#[test]
+fn quiet_commands_print_warnings_and_errors() {
+    let folder = folder_of_quiet_commands();
+    folder.ends(2, "explain nothing --quiet").says("error: there is no parameter");
+    let far = folder.ends(0, "run ozaki2018-large --set wing_length=17 --quiet");
+    far.says("warning: wing_length");
+    std::fs::write(folder.path("grid.toml"), "preset = 3\n").unwrap();
+    folder.ends(2, "check grid.toml -q").says("`preset` must be text in quotes");
+}

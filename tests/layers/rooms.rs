@@ -28,8 +28,8 @@ const CRATES: &[(&str, &[&str])] = &[
     (
         "flap-cli",
         &[
-            "args", "models", "console", "table", "progress", "failure", "signals", "job", "data", "cmd",
-            "plot", "lib", "main",
+            "args", "models", "complete", "console", "table", "progress", "failure", "signals", "job",
+            "data", "cmd", "plot", "lib", "main",
         ],
     ),
 ];

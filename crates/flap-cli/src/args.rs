@@ -35,6 +35,9 @@ pub(crate) use wing::WingArgs;
 #[derive(Parser)]
 #[command(name = "flap", version, long_version = long_version(), max_term_width = 100, after_help = EXIT_CODES)]
 pub(crate) struct Args {
+    /// Print neither progress nor notes: stderr gets warnings and errors alone
+    #[arg(long, short, global = true)]
+    pub(crate) quiet: bool,
     #[command(subcommand)]
     pub(crate) command: Command,
 }
@@ -91,6 +94,8 @@ pub(crate) enum Command {
     Explain(ExplainArgs),
     /// List the models and their presets
     Models,
+    /// Print a JSON schema of grid files, for editors that complete their keys
+    Schema(SchemaArgs),
     /// Print a script that completes commands and options in a shell
     Completions(CompletionsArgs),
     /// Write manual pages
@@ -135,6 +140,16 @@ pub(crate) struct ExplainArgs {
 }
 
 #[derive(clap::Args)]
+#[command(
+    after_help = "Example:\n  flap schema > flap.schema.json     (and #:schema ./flap.schema.json as the first line of a grid)"
+)]
+pub(crate) struct SchemaArgs {
+    /// Only the parameters of this preset's model, with the preset's values as defaults
+    #[arg(long, value_name = "PRESET")]
+    pub(crate) preset: Option<String>,
+}
+
+#[derive(clap::Args)]
 #[command(after_help = COMPLETIONS_HELP)]
 pub(crate) struct CompletionsArgs {
     /// The shell
@@ -145,7 +160,7 @@ pub(crate) struct CompletionsArgs {
 const COMPLETIONS_HELP: &str = "\
 Examples:
   flap completions bash > ~/.local/share/bash-completion/completions/flap
-  flap completions zsh > ~/.zfunc/_flap        (with fpath+=~/.zfunc before compinit in ~/.zshrc)
+  source <(flap completions zsh)               (in ~/.zshrc, behind compinit)
   flap completions fish > ~/.config/fish/completions/flap.fish
   flap completions powershell >> $PROFILE";
 

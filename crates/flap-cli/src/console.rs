@@ -1,8 +1,21 @@
 //! The two streams: results go to stdout, everything else to stderr.
 
 use std::io::{self, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstyle::{AnsiColor, Style};
+
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// From now on, stderr gets warnings and errors alone: neither notes nor progress.
+pub(crate) fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
+/// True if the user wants neither notes nor progress.
+pub(crate) fn is_quiet() -> bool {
+    QUIET.load(Ordering::Relaxed)
+}
 
 /// Writes results to stdout.
 pub(crate) fn results(text: &str) -> io::Result<()> {
@@ -14,7 +27,7 @@ pub(crate) fn results(text: &str) -> io::Result<()> {
 /// Warns the user of a damage or of a probable mistake. The work goes on.
 pub(crate) fn warn(text: &str) {
     let style = Style::new().bold().fg_color(Some(AnsiColor::BrightYellow.into()));
-    say(&format!("{style}warning{style:#}: {text}"));
+    complain(&format!("{style}warning{style:#}: {text}"));
 }
 
 /// A word of a command to be copied into a shell: in quotes if it has characters that shells interpret.
@@ -27,8 +40,15 @@ pub(crate) fn shell_word(word: &str) -> String {
     }
 }
 
-/// Prints a line to stderr. If stderr is closed, the line is lost.
+/// Prints a note to stderr, unless the user wants none. If stderr is closed, the line is lost.
 pub(crate) fn say(text: &str) {
+    if !is_quiet() {
+        complain(text);
+    }
+}
+
+/// Prints a warning or an error to stderr. If stderr is closed, the line is lost.
+pub(crate) fn complain(text: &str) {
     let _ = writeln!(anstream::stderr(), "{text}");
 }
 

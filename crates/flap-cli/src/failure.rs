@@ -143,7 +143,7 @@ impl Failure {
                 Exit::Usage
             }
             Failure::Grid(mistakes) => {
-                console::say(&diagnostic::render(&mistakes, true));
+                console::complain(&diagnostic::render(&mistakes, true));
                 Exit::Usage
             }
             Failure::System(message, help) => {
@@ -171,7 +171,7 @@ fn complain(message: &str, help: &[String]) {
     for line in help {
         let _ = write!(text, "\n{advice}help{advice:#}: {line}");
     }
-    console::say(&shortened(&text));
+    console::complain(&shortened(&text));
 }
 
 /// A failed write to stdout.

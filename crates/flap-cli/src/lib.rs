@@ -12,6 +12,7 @@
 
 mod args;
 mod cmd;
+mod complete;
 mod console;
 mod data;
 mod failure;
@@ -34,7 +35,12 @@ use flap_core::simulate::Simulator;
 /// Returns its exit code; a command line with mistakes ends the process. Only the first call of a process sets the models.
 pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
     models::set(models);
-    let ended = match Args::parse().command {
+    complete::answer();
+    let args = Args::parse();
+    if args.quiet {
+        console::be_quiet();
+    }
+    let ended = match args.command {
         Command::Sweep(args) => cmd::sweep::run(&args),
         Command::Resume(args) => cmd::resume::run(&args),
         Command::Rerun(args) => cmd::rerun::run(&args),
@@ -56,6 +62,7 @@ pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
         Command::Params(args) => cmd::params::run(&args),
         Command::Explain(args) => cmd::explain::run(&args),
         Command::Models => cmd::models::run(),
+        Command::Schema(args) => cmd::schema::run(&args),
         Command::Completions(args) => cmd::completions::run(&args),
         Command::Man(args) => cmd::man::run(&args),
     };

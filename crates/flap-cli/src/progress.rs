@@ -17,14 +17,16 @@ pub(crate) struct Bar {
 }
 
 impl Bar {
-    /// A bar that counts `units`, such as "points". Hidden unless stderr is a terminal.
+    /// A bar that counts `units`, such as "points". Hidden unless stderr is a terminal, and if the user wants no progress.
     pub(crate) fn new(units: &'static str) -> Bar {
         let template =
             format!("{{wide_bar}} {{human_pos}} of {{human_len}} {units}, {{rate}} {units}/s, {{eta}} left");
         let style = ProgressStyle::with_template(&template)
             .unwrap_or_else(|_| ProgressStyle::default_bar())
             .with_key("rate", write_rate);
-        let drawn = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr()).with_style(style);
+        let target =
+            if console::is_quiet() { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let drawn = ProgressBar::with_draw_target(None, target).with_style(style);
         Bar { drawn, units, moved: false, stopping: false }
     }
 

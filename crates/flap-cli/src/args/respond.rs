@@ -13,7 +13,7 @@ pub(crate) struct RespondArgs {
     pub(crate) what: String,
 
     /// The parameter that rises and falls
-    #[arg(short, long, value_name = "NAME", default_value = "drive_frequency")]
+    #[arg(short, long, value_name = "PARAMETER", default_value = "drive_frequency")]
     pub(crate) along: String,
 
     /// Its first value: a number in SI units, or with a unit [default: the first value of the grid file's axis]

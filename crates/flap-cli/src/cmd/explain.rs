@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use flap_core::parameter::Parameter;
-use flap_core::simulate::{Rows as _, Simulator, Status};
+use flap_core::simulate::{Simulator, Status};
 use flap_sweep::notation::text;
-use flap_sweep::resonance::{AtResonance, Range};
+use flap_sweep::resonance::measures;
 use flap_sweep::table::layout::fixed_columns;
 
 use super::params::allowed;
@@ -75,12 +75,9 @@ fn of_model(model: &'static dyn Simulator) -> impl Iterator<Item = Entry> {
         kind: format!("the former name of {}, a parameter of {}", parameter.name, model.name()),
         text: of_parameter(model, index, parameter),
     });
-    let resonance = AtResonance::new(model, Range::default());
     let own = model.columns().len();
-    let added = resonance.map(|resonance| resonance.columns()[own..].to_vec()).unwrap_or_default();
-    let added = added.into_iter().map(|column| (column, " with drive_frequency = \"resonance\""));
-    let columns = model.columns().iter().cloned().map(|column| (column, "")).chain(added);
-    let columns = columns.map(move |(column, when)| {
+    let columns = measures(model).into_iter().enumerate().map(move |(place, column)| {
+        let when = if place < own { "" } else { " with drive_frequency = \"resonance\"" };
         let unit =
             if column.unit.is_empty() { String::new() } else { format!("  unit      {}\n", column.unit) };
         Entry {

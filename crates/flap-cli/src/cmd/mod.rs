@@ -25,6 +25,7 @@ pub(crate) mod respond;
 pub(crate) mod resume;
 pub(crate) mod run;
 mod samples;
+pub(crate) mod schema;
 mod shown;
 pub(crate) mod sweep;
 pub(crate) mod top;

@@ -13,7 +13,7 @@ use crate::notation::expression::Kind;
 use crate::plan::formula::Derived;
 use crate::plan::gradient::{Gradient, Per, check};
 
-const KEYS: [&str; 2] = ["of", "with_respect_to"];
+pub(super) const KEYS: [&str; 2] = ["of", "with_respect_to"];
 
 /// The derivatives that the section asks for. `names` has the measures of rows, and `derived` the parameters that others
 /// decide.

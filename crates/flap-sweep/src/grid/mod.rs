@@ -22,6 +22,7 @@ mod range;
 mod read;
 mod resonance;
 mod sample;
+pub mod schema;
 mod solver;
 mod syntax;
 mod table;

@@ -14,7 +14,7 @@ use crate::plan::Output;
 use crate::table::fixed::{POINT, RUN, STATUS};
 use crate::table::format::Format;
 
-const KEYS: [&str; 2] = ["path", "columns"];
+pub(super) const KEYS: [&str; 2] = ["path", "columns"];
 
 /// A model, and the names of the columns that rows measure, the user's own included.
 type Measured<'m> = (&'static dyn Simulator, &'m [String]);

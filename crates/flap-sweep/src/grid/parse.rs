@@ -22,7 +22,7 @@ use crate::plan::{Plan, PointsFile, Source, Space, Value};
 use crate::resonance::AtResonance;
 
 /// The keys at the top of a grid file.
-const KEYS: [&str; 15] = [
+pub(super) const KEYS: [&str; 15] = [
     "description",
     "preset",
     "device",

@@ -9,8 +9,8 @@ use super::value;
 use crate::plan::axes::Axes;
 use crate::plan::axis::Values;
 
-const KEYS: [&str; 5] = ["from", "to", "n", "step", "scale"];
-const SCALES: [&str; 2] = ["linear", "log"];
+pub(super) const KEYS: [&str; 5] = ["from", "to", "n", "step", "scale"];
+pub(super) const SCALES: [&str; 2] = ["linear", "log"];
 
 /// A `to` that the steps miss by less than this fraction of a step counts as hit: 0.1 is no binary fraction.
 const HIT: f64 = 1e-9;

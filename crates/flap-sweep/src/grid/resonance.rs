@@ -10,10 +10,10 @@ use super::value;
 use crate::plan::Value;
 use crate::resonance::{AtResonance, DRIVE_FREQUENCY, Objective, Range};
 
-const KEYS: [&str; 4] = ["of", "from", "to", "tolerance"];
+pub(super) const KEYS: [&str; 4] = ["of", "from", "to", "tolerance"];
 
 /// The word for a drive frequency that is to be the resonance.
-const WORD: &str = "resonance";
+pub(super) const WORD: &str = "resonance";
 
 /// True if this sets the drive frequency to the resonance.
 pub(super) fn is_asked_for(entry: &Entry<'_>) -> bool {

@@ -1,6 +1,6 @@
 //! The section `[sample]`: points spread over the design space, or listed in a file. They make one axis.
 
-mod distribution;
+pub(super) mod distribution;
 mod file;
 
 use std::sync::Arc;
@@ -17,9 +17,11 @@ use crate::plan::PointsFile;
 use crate::plan::axis::{Axis, Values};
 use crate::plan::sample::{Design, Method};
 
-const KEYS: [&str; 5] = ["method", "n", "seed", "of", "parameters"];
-const FILE_KEYS: [&str; 2] = ["method", "path"];
-const METHODS: [&str; 4] = ["sobol", "latin-hypercube", "random", "file"];
+pub(super) const KEYS: [&str; 5] = ["method", "n", "seed", "of", "parameters"];
+pub(super) const FILE_KEYS: [&str; 2] = ["method", "path"];
+pub(super) const METHODS: [&str; 4] = ["sobol", "latin-hypercube", "random", "file"];
+/// Samples of something else than listed parameters.
+pub(super) const OF: [&str; 1] = ["device"];
 
 /// The sample of the section, and the file that lists its points, if one does. `base` has the values of parameters that
 /// are not sampled, and their standard errors.
@@ -103,7 +105,7 @@ fn of_device(
     base: &Base,
     lookup: &mut Lookup<'_>,
 ) -> Option<Placed> {
-    value::option("of", &["device"], of.value, lookup.problems)?;
+    value::option("of", &OF, of.value, lookup.problems)?;
     if let Some(below) = below {
         lookup
             .problems

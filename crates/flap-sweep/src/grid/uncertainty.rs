@@ -10,8 +10,8 @@ use super::table::{self, Entry};
 use super::value;
 use crate::plan::uncertainty::{Correlation, Uncertainty};
 
-const VALUE_KEYS: [&str; 4] = ["value", "sd", "relative_sd", "source"];
-const CORRELATION_KEYS: [&str; 2] = ["between", "coefficient"];
+pub(super) const VALUE_KEYS: [&str; 4] = ["value", "sd", "relative_sd", "source"];
+pub(super) const CORRELATION_KEYS: [&str; 2] = ["between", "coefficient"];
 
 /// The value of an entry of `[params]` and its standard error, if it has one. The value is `None`, with a report, if it makes
 /// no sense.

@@ -17,5 +17,5 @@ mod target;
 
 pub use error::SearchError;
 pub use range::{Objective, Range};
-pub use rows::{AtResonance, RESONANCE_HZ, RESONANCE_MARGIN_HZ};
+pub use rows::{AtResonance, RESONANCE_HZ, RESONANCE_MARGIN_HZ, measures};
 pub use target::DRIVE_FREQUENCY;

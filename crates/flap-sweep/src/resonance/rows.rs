@@ -23,6 +23,12 @@ pub const RESONANCE_HZ: &str = "resonance_hz";
 /// The column with the resonance's distance from the nearer end of the range.
 pub const RESONANCE_MARGIN_HZ: &str = "resonance_margin_hz";
 
+/// The measures that rows of a model can have: its own, then those of designs at their resonance.
+pub fn measures(model: &'static dyn Simulator) -> Vec<Column> {
+    let at_resonance = AtResonance::new(model, Range::default());
+    at_resonance.map_or_else(|| model.columns().to_vec(), |rows| rows.columns)
+}
+
 impl AtResonance {
     /// The resonances of designs of `model`; `None` if that has no drive frequency or does not measure the objective.
     pub fn new(model: &'static dyn Simulator, range: Range) -> Option<AtResonance> {

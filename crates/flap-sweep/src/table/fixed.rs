@@ -10,7 +10,7 @@ pub(crate) struct Fixed {
     /// Its name.
     pub(crate) name: &'static str,
     pub(super) kind: Kind,
-    pub(super) doc: &'static str,
+    pub(crate) doc: &'static str,
     pub(super) cell: fn(&Point, &Row) -> Cell<'static>,
 }
 

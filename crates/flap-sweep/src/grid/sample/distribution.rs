@@ -10,8 +10,8 @@ use crate::plan::Value;
 use crate::plan::axis::Values;
 use crate::plan::sample::Distribution;
 
-const KEYS: [&str; 6] = ["from", "to", "scale", "mean", "sd", "relative_sd"];
-const SCALES: [&str; 2] = ["linear", "log"];
+pub(in crate::grid) const KEYS: [&str; 6] = ["from", "to", "scale", "mean", "sd", "relative_sd"];
+pub(in crate::grid) const SCALES: [&str; 2] = ["linear", "log"];
 const TOO_WIDE: &str = "the range is too wide for 64-bit floats";
 const NOTE: &str = "distributions look like { from = 1, to = 5 }, { from = 1, to = 5, scale = \"log\" }, \
                     { mean = 3, sd = 0.1 }, { relative_sd = \"5 %\" } or [1, 2, 5]";

@@ -1,0 +1,166 @@
+//! Completion in a shell: the shell runs the command with the words so far, which prints candidates for the last one.
+//!
+//! The names of models that a program brings, and of columns of a file in the working directory, are known only then.
+
+use std::env;
+use std::ffi::OsStr;
+use std::path::Path;
+
+use clap::{Arg, Command, CommandFactory as _};
+use clap_complete::CompleteEnv;
+use clap_complete::engine::{
+    ArgValueCandidates, ArgValueCompleter, CompletionCandidate, PathCompleter, ValueCompleter as _,
+};
+use flap_core::parameter::{Kind, Parameter};
+use flap_core::simulate::{Simulator, Status};
+use flap_sweep::files::integrity::{self, OnDamage};
+use flap_sweep::grid;
+use flap_sweep::resonance;
+use flap_sweep::table::layout::fixed_columns;
+
+use crate::args::Args;
+use crate::models;
+
+/// The environment variable with which a shell asks for candidates.
+pub(crate) const VARIABLE: &str = "COMPLETE";
+
+/// Prints candidates and ends the process, if a shell asks for them.
+pub(crate) fn answer() {
+    CompleteEnv::with_factory(command).var(VARIABLE).complete();
+}
+
+/// The command line, whose arguments know their candidates by the names of their values.
+fn command() -> Command {
+    Args::command().mut_subcommands(|command| command.mut_args(with_candidates))
+}
+
+fn with_candidates(arg: Arg) -> Arg {
+    let value = arg.get_value_names().and_then(|names| names.first()).map(ToString::to_string);
+    match value.as_deref().unwrap_or_default() {
+        "PRESET" => arg.add(ArgValueCandidates::new(presets)),
+        "MODEL|PRESET" => arg.add(ArgValueCandidates::new(models_and_presets)),
+        "PRESET|FILE" => arg.add(ArgValueCompleter::new(presets_and_files)),
+        "PARAMETER" => arg.add(ArgValueCandidates::new(parameters)),
+        "NAME=VALUE" => arg.add(ArgValueCompleter::new(assignments)),
+        "COLUMN" | "COLUMN,..." => arg.add(ArgValueCandidates::new(columns)),
+        "COLUMN=VALUE|COMPARISON" => arg.add(ArgValueCandidates::new(conditions)),
+        "STATUS,..." => arg.add(ArgValueCandidates::new(statuses)),
+        "NAME" => arg.add(ArgValueCandidates::new(names)),
+        _ => arg,
+    }
+}
+
+/// A name with the first line of its meaning.
+fn candidate(name: &str, meaning: &str) -> CompletionCandidate {
+    CompletionCandidate::new(name).help(meaning.lines().next().map(|line| line.to_owned().into()))
+}
+
+fn presets() -> Vec<CompletionCandidate> {
+    let presets = models::all().iter().flat_map(|model| model.presets());
+    presets.map(|preset| candidate(preset.name, preset.doc)).collect()
+}
+
+fn models_and_presets() -> Vec<CompletionCandidate> {
+    let models = models::all().iter().map(|model| candidate(model.name(), model.doc()));
+    models.chain(presets()).collect()
+}
+
+fn presets_and_files(word: &OsStr) -> Vec<CompletionCandidate> {
+    let mut found = begun(word, presets());
+    found.extend(PathCompleter::any().complete(word));
+    found
+}
+
+fn statuses() -> Vec<CompletionCandidate> {
+    Status::ALL.iter().map(|status| candidate(status.name(), status.describe())).collect()
+}
+
+/// The parameters of the models that the command line is about.
+fn parameters() -> Vec<CompletionCandidate> {
+    each_parameter(|parameter| vec![candidate(parameter.name, parameter.doc)])
+}
+
+/// Parameters before an equals sign; behind it, the options of a choice.
+fn assignments(word: &OsStr) -> Vec<CompletionCandidate> {
+    let is_named = word.to_string_lossy().contains('=');
+    let candidates = each_parameter(|parameter| match parameter.kind {
+        Kind::Choice(options) if is_named => {
+            options.iter().map(|option| candidate(&format!("{}={option}", parameter.name), "")).collect()
+        }
+        _ => vec![candidate(&format!("{}=", parameter.name), parameter.doc)],
+    });
+    begun(word, candidates)
+}
+
+fn each_parameter(candidates: impl Fn(&Parameter) -> Vec<CompletionCandidate>) -> Vec<CompletionCandidate> {
+    let parameters = mentioned_models().into_iter().flat_map(Simulator::parameters);
+    distinct(parameters.flat_map(candidates))
+}
+
+/// The columns of the results on the command line; without those, the columns that rows of the models can have.
+fn columns() -> Vec<CompletionCandidate> {
+    if let Some(names) = words().find_map(|word| columns_of(&word)) {
+        return names.iter().map(|name| candidate(name, "")).collect();
+    }
+    let measures = mentioned_models().into_iter().flat_map(resonance::measures);
+    let measures = measures.map(|measure| candidate(&measure.name, &measure.doc));
+    let fixed = fixed_columns().into_iter().map(|column| candidate(&column.name, &column.doc));
+    distinct(measures.chain(fixed))
+}
+
+fn conditions() -> Vec<CompletionCandidate> {
+    let columns = columns().into_iter();
+    columns.map(|column| candidate(&format!("{}=", column.get_value().display()), "")).collect()
+}
+
+/// All that `flap explain` explains.
+fn names() -> Vec<CompletionCandidate> {
+    distinct(parameters().into_iter().chain(columns()).chain(statuses()))
+}
+
+/// The candidates that begin like the word.
+fn begun(word: &OsStr, mut candidates: Vec<CompletionCandidate>) -> Vec<CompletionCandidate> {
+    let word = word.to_string_lossy();
+    candidates.retain(|candidate| candidate.get_value().to_string_lossy().starts_with(&*word));
+    candidates
+}
+
+/// The candidates without those whose name an earlier one has.
+fn distinct(candidates: impl Iterator<Item = CompletionCandidate>) -> Vec<CompletionCandidate> {
+    let mut kept: Vec<CompletionCandidate> = Vec::new();
+    for candidate in candidates {
+        if kept.iter().all(|other| other.get_value() != candidate.get_value()) {
+            kept.push(candidate);
+        }
+    }
+    kept
+}
+
+/// The words of the command line that is completed, behind the name of the command.
+fn words() -> impl Iterator<Item = String> {
+    let words = env::args_os().map(|word| word.to_string_lossy().into_owned());
+    words.skip_while(|word| word != "--").skip(2)
+}
+
+/// The model of the preset, model or grid on the command line; without one, all models.
+fn mentioned_models() -> Vec<&'static dyn Simulator> {
+    let mentioned = words().find_map(|word| {
+        let named = models::preset(&word).map(|(model, _)| model).or_else(|| models::by_name(&word));
+        named.or_else(|| model_of_grid(&word))
+    });
+    mentioned.map_or_else(|| models::all().to_vec(), |model| vec![model])
+}
+
+fn model_of_grid(word: &str) -> Option<&'static dyn Simulator> {
+    let path = Path::new(word);
+    let is_grid = path.extension().is_some_and(|ending| ending == "toml") && path.is_file();
+    is_grid.then(|| grid::read(path, models::all()).ok().map(|plan| plan.simulator())).flatten()
+}
+
+/// The columns of results, if the word names some.
+fn columns_of(word: &str) -> Option<Vec<String>> {
+    let path = Path::new(word);
+    let is_results = path.is_file() && path.extension().is_none_or(|ending| ending != "toml");
+    let opened = is_results.then(|| integrity::open(path, OnDamage::Tolerate).ok()).flatten()?;
+    Some(opened.reader.names().to_vec())
+}
