@@ -1,0 +1,169 @@
+"""Lift per watt over eight parameters, under limits: exact derivatives beside a genetic algorithm.
+
+Maximises the lift per watt of the bimorph of Jafferis et al. over drive, transmission, hinge and actuator. The plates'
+strain, stroke and pitch have limits, and two wings must carry the vehicle. SLSQP takes the derivatives of settled rows;
+differential evolution of pymoo takes values alone. Both are counted: designs, right-hand sides, seconds.
+
+    python gradient_design.py
+    python gradient_design.py --starts 8 --generations 120
+
+Needs SciPy and pymoo: pip install scipy pymoo
+
+D. Kraft, "A software package for sequential quadratic programming", DFVLR-FB 88-28 (1988).
+R. Storn and K. Price, "Differential evolution", J. Global Optim. 11 (1997) 341-359.
+"""
+
+import argparse
+import time
+from dataclasses import dataclass
+from typing import Any
+
+import flapwing
+import numpy as np
+from pymoo.algorithms.soo.nonconvex.de import DE
+from pymoo.core.problem import Problem
+from pymoo.optimize import minimize as evolve
+from scipy.optimize import minimize
+
+PRESET = "jafferis2016-improved"
+# Lowest and highest values, as shares of the preset's.
+VARIABLES = {
+    "drive_voltage_pp": (0.6, 1.3),
+    "drive_frequency": (0.7, 1.3),
+    "transmission_ratio": (0.8, 1.3),
+    "transmission_stiffness": (0.7, 1.3),
+    "hinge_stiffness": (0.6, 1.6),
+    "piezo_thickness": (0.8, 1.25),
+    "shim_thickness": (0.7, 1.4),
+    "actuator_width": (0.8, 1.25),
+}
+# Largest values, and the least lift.
+LIMITS = {"strain_surface_max": 8e-4, "stroke_pp_deg": 110.0, "pitch_peak_deg": 80.0}
+LIFT_MGF = 200.0
+MEASURES = ["efficiency_gf_per_w", *LIMITS, "vehicle_lift_mgf"]
+
+# Rows with the measures, and with what they cost.
+DESIGN = {"preset": PRESET, "output": {"columns": [*MEASURES, "rhs_evals"]}}
+
+BASE = {name: value for name, value in flapwing.Grid({"preset": PRESET})[0].items() if name in VARIABLES}
+LOWEST, HIGHEST = np.array([VARIABLES[name] for name in VARIABLES]).T
+
+
+@dataclass
+class Count:
+    """Designs and right-hand sides of a search."""
+
+    designs: int = 0
+    rhs: int = 0
+
+
+def rows(shares: Any, count: Count, gradient: bool) -> Any:
+    """The rows of designs given as shares of the preset's values, one design per line of `shares`."""
+    columns = {name: BASE[name] * shares[:, place] for place, name in enumerate(VARIABLES)}
+    table = flapwing.evaluate(
+        DESIGN, columns, gradient=list(VARIABLES) if gradient else None
+    )
+    count.designs += len(table)
+    count.rhs += int(np.nansum(table["rhs_evals"]))
+    return table
+
+
+def excesses(table: Any) -> Any:
+    """What must not be more than zero: one column per limit."""
+    columns = [table[name] / limit - 1 for name, limit in LIMITS.items()]
+    return np.column_stack([*columns, 1 - table["vehicle_lift_mgf"] / LIFT_MGF])
+
+
+class NoDerivative(Exception):
+    """A design on the way whose motion does not settle, or whose derivatives are not known."""
+
+
+class Search:
+    """Objective and limits with their derivatives, computed once per design."""
+
+    def __init__(self) -> None:
+        self.count = Count()
+        self.at: Any = None
+        self.known: Any = None
+
+    def row(self, x: Any) -> Any:
+        """[-lift per watt, room to each limit] and the derivatives of all by the shares."""
+        if self.at is None or not np.array_equal(self.at, x):
+            table = rows(x[None, :], self.count, gradient=True)
+            slopes = table.gradient[0, : len(MEASURES)] * np.array([BASE[name] for name in VARIABLES])
+            values = np.concatenate([-table["efficiency_gf_per_w"], -excesses(table)[0]])
+            signs = np.array([-1.0, *(-1 / limit for limit in LIMITS.values()), 1 / LIFT_MGF])
+            if not (np.isfinite(values).all() and np.isfinite(slopes).all()):
+                raise NoDerivative
+            self.at, self.known = x.copy(), (values, slopes * signs[:, None])
+        return self.known
+
+    def best(self, start: Any) -> Any:
+        """The best design that SLSQP finds from a start; `None` where derivatives end."""
+        room = {"type": "ineq", "fun": lambda x: self.row(x)[0][1:], "jac": lambda x: self.row(x)[1][1:]}
+        try:
+            return minimize(
+                lambda x: (self.row(x)[0][0], self.row(x)[1][0]),
+                start,
+                jac=True,
+                bounds=np.column_stack([LOWEST, HIGHEST]),
+                constraints=[room],
+                method="SLSQP",
+                options={"maxiter": 60, "ftol": 1e-5},
+            )
+        except NoDerivative:
+            return None
+
+
+class Wing(Problem):  # type: ignore[misc, unused-ignore]
+    """The same without derivatives, a generation at a time."""
+
+    def __init__(self) -> None:
+        super().__init__(n_var=len(VARIABLES), n_obj=1, n_ieq_constr=len(LIMITS) + 1, xl=LOWEST, xu=HIGHEST)
+        self.count = Count()
+
+    def _evaluate(self, x: Any, out: dict[str, Any], *_args: Any, **_kwargs: Any) -> None:
+        table = rows(x, self.count, gradient=False)
+        # Motions that do not settle are as bad as can be.
+        out["F"] = np.nan_to_num(-table["efficiency_gf_per_w"], nan=0.0)
+        out["G"] = np.nan_to_num(excesses(table), nan=10.0)
+
+
+def told(name: str, shares: Any, count: Count, seconds: float) -> None:
+    """Prints a design and what it has cost."""
+    table = rows(shares[None, :], Count(), gradient=False)
+    measures = ", ".join(f"{table[measure][0]:.4g} {measure}" for measure in MEASURES)
+    print(f"{name}: {measures}")
+    print(f"  {count.designs} designs, {count.rhs / 1e6:.2f} million right-hand sides, {seconds:.1f} s")
+    for variable, share in zip(VARIABLES, shares):
+        print(f"  {variable} = {BASE[variable] * share:.4g} ({share:.3f} of the preset)")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--starts", type=int, default=4, help="starts of SLSQP: the preset, and random designs")
+    parser.add_argument("--generations", type=int, default=80, help="generations of 64 designs")
+    arguments = parser.parse_args()
+
+    clock = time.perf_counter()
+    search = Search()
+    spread = np.random.default_rng(1).uniform(0.25, 0.75, (arguments.starts - 1, len(VARIABLES)))
+    starts = [np.ones(len(VARIABLES)), *(LOWEST + (HIGHEST - LOWEST) * spread)]
+    ends = [end for end in map(search.best, starts) if end is not None and search_is_feasible(end)]
+    best = min(ends, key=lambda end: float(end.fun))
+    told("SLSQP with derivatives", best.x, search.count, time.perf_counter() - clock)
+
+    clock = time.perf_counter()
+    wing = Wing()
+    found = evolve(wing, DE(pop_size=64), ("n_gen", arguments.generations), seed=1)
+    told("differential evolution", found.X, wing.count, time.perf_counter() - clock)
+
+
+def search_is_feasible(end: Any) -> bool:
+    """True if all limits are kept to a thousandth."""
+    table = rows(end.x[None, :], Count(), gradient=False)
+    return bool((excesses(table) < 1e-3).all())
+
+
+if __name__ == "__main__":
+    main()
