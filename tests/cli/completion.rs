@@ -57,7 +57,10 @@ fn names_are_completed() {
         ("flap schema --preset ozaki2018-l", "ozaki2018-large ozaki2018-large-kw-swapped"),
         ("flap run ozaki2018-large --set hinge_s", "hinge_stiffness="),
         ("flap run ozaki2018-large --set transmission_", ""),
-        ("flap run jafferis2016 --set transmission_", "transmission_ratio= transmission_stiffness="),
+        (
+            "flap run jafferis2016 --set transmission_",
+            "transmission_ratio= transmission_stiffness= transmission_growth=",
+        ),
         ("flap run grid.toml --set transmission_", ""),
         ("flap run grid.toml --set centre_of_pressure=f", "centre_of_pressure=folded"),
         ("flap respond jafferis2016 --along transmission_r", "transmission_ratio"),

@@ -80,11 +80,100 @@ fn parameters_are_listed_with_units_and_values() {
     };
     for text in [&model.stdout, &preset.stdout] {
         assert!(line(text, "drive_frequency").contains(" Hz "));
-        assert!(line(text, "hinge_stiffness").contains(" N*m/rad "));
         assert!(line(text, "lift_mean_mn").contains(" mN "));
+        assert!(line(text, "floquet_max").contains("factor by which a change of the motion grows"));
+        assert!(line(text, "resonance_hz").contains(" Hz "));
+        for column in ["residual", "cycles", "error_estimate"] {
+            line(text, column);
+        }
+        for title in ["hinge", "measures", "columns of every model"] {
+            assert!(text.lines().any(|line| line == title), "{title} is missing in\n{text}");
+        }
     }
+    assert!(line(&model.stdout, "hinge_stiffness").contains(" N*m/rad "));
+    assert!(line(&preset.stdout, "hinge_stiffness").contains(" 86.4 uN*m/rad "), "{}", preset.stdout);
     assert!(line(&model.stdout, "PARAMETER").contains("UNIT"));
     assert!(line(&preset.stdout, "PARAMETER").contains("VALUE"));
+}
+
+/// The output of `flap params` in a terminal of 80 characters.
+fn narrow(arguments: &str) -> String {
+    let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_flap"));
+    let output = command.env("COLUMNS", "80").args(arguments.split(' ')).output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn parameters_fit_the_terminal() {
+    for model in flap_core::simulate::all() {
+        for what in model.presets().iter().map(|preset| preset.name).chain([model.name()]) {
+            let short = narrow(&format!("params {what}"));
+            let long = narrow(&format!("params {what} --long"));
+            for line in short.lines().chain(long.lines()) {
+                assert!(line.chars().count() <= 80, "{what}: {line}");
+            }
+            // The words of every meaning stand there, whatever line they are in.
+            let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+            for parameter in model.parameters() {
+                let end = parameter.doc.trim_end_matches('.').split(' ').next_back().unwrap();
+                assert!(words(&long).contains(end), "{what}: {} in\n{long}", parameter.doc);
+            }
+            assert!(short.len() < long.len());
+        }
+    }
+    for line in narrow("explain drag_coefficient_max mode_stroke_hz").lines() {
+        assert!(line.chars().count() <= 80, "{line}");
+    }
+}
+
+#[test]
+fn long_lists_have_symbols_and_allowed_values() {
+    let folder = Folder::new();
+    let long = folder.ends(0, "params jafferis2016 --long").stdout;
+    let line = long.lines().find(|line| line.starts_with("hinge_stiffness ")).unwrap();
+    assert!(line.contains(". Symbol: kappa_wh. Allowed: more than zero"), "{line}");
+}
+
+#[test]
+fn programs_read_parameters_and_columns() {
+    let folder = Folder::new();
+    let csv = folder.ends(0, "params jafferis2016 --format csv").stdout;
+    assert!(csv.starts_with("kind,group,name,value,unit,symbol,allowed,meaning\n"), "{csv}");
+    assert!(csv.contains("\nparameter,hinge,hinge_stiffness,1.4972"), "{csv}");
+    let json = folder.ends(0, "params jafferis2016 --format json").stdout;
+    let list: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let list = list.as_array().unwrap();
+    assert_eq!(list.len(), csv.lines().count() - 1);
+    let find = |name: &str| list.iter().find(|entry| entry["name"] == name).unwrap();
+    let model = flap_core::simulate::all().iter().find(|model| model.name() == "bimorph").unwrap();
+    let values = (model.presets()[0].values)();
+    for (parameter, value) in model.parameters().iter().zip(values) {
+        let entry = find(parameter.name);
+        assert_eq!((&entry["kind"], &entry["meaning"]), (&"parameter".into(), &parameter.doc.into()));
+        if let Some(number) = entry["value"].as_f64() {
+            assert_eq!(number.to_bits(), value.to_bits(), "{entry}");
+        }
+    }
+    assert_eq!(find("floquet_max")["kind"], "run");
+    assert_eq!(find("resonance_hz")["kind"], "resonance");
+    assert_eq!(find("lift_mean_mn")["unit"], "mN");
+    assert!(find("lift_mean_mn")["value"].is_null());
+}
+
+#[test]
+fn names_are_explained_in_one_model() {
+    let folder = Folder::new();
+    let one = folder.ends(0, "explain hinge_stiffness cycles --model ozaki2018-large").stdout;
+    assert!(one.starts_with("hinge_stiffness: a parameter of direct-drive\n"), "{one}");
+    assert!(
+        !one.contains("four-bar") && one.contains("cycles: a column of the rows of every model"),
+        "{one}"
+    );
+    let other = folder.ends(2, "explain transmission_ratio --model four-bar");
+    other.says("the model four-bar has no `transmission_ratio`");
+    other.says("other models have it: `flap explain transmission_ratio`");
+    folder.ends(2, "explain cycles --model four-baar").says("did you mean `four-bar`?");
 }
 
 #[test]

@@ -97,6 +97,7 @@ impl Folder {
             .args(arguments)
             .write_stdin(stdin)
             .current_dir(self.0.path())
+            .env_remove("COLUMNS")
             .timeout(Duration::from_secs(120))
             .output()
             .unwrap();

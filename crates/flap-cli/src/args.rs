@@ -114,11 +114,22 @@ Exit codes:
   101  a mistake in flap itself";
 
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  flap params direct-drive\n  flap params ozaki2018-large")]
+#[command(
+    after_help = "Examples:\n  flap params direct-drive\n  flap params ozaki2018-large\n  flap params jafferis2016 --long\n  \
+                  flap params jafferis2016 --format csv > parameters.csv"
+)]
 pub(crate) struct ParamsArgs {
     /// A model, or a preset to list with its values
     #[arg(value_name = "MODEL|PRESET")]
     pub(crate) what: String,
+
+    /// Print whole meanings, not their first sentences, and the symbols and allowed values of parameters
+    #[arg(long)]
+    pub(crate) long: bool,
+
+    /// Output format: csv and json have all texts, and numbers in SI units
+    #[arg(long, value_enum, default_value_t = Listing::Table)]
+    pub(crate) format: Listing,
 }
 
 #[derive(clap::Args)]
@@ -132,8 +143,13 @@ pub(crate) struct NewArgs {
 }
 
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  flap explain hinge_stiffness\n  flap explain floquet_max unsettled")]
+#[command(after_help = "Examples:\n  flap explain hinge_stiffness\n  flap explain floquet_max unsettled\n  \
+                  flap explain hinge_stiffness --model four-bar")]
 pub(crate) struct ExplainArgs {
+    /// Only the meaning in this model, or in that of this preset
+    #[arg(long, value_name = "MODEL|PRESET")]
+    pub(crate) model: Option<String>,
+
     /// Names of parameters, columns or statuses
     #[arg(value_name = "NAME", required = true)]
     pub(crate) names: Vec<String>,

@@ -1,5 +1,6 @@
 //! The two streams: results go to stdout, everything else to stderr.
 
+use std::env;
 use std::io::{self, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -15,6 +16,13 @@ pub(crate) fn be_quiet() {
 /// True if the user wants neither notes nor progress.
 pub(crate) fn is_quiet() -> bool {
     QUIET.load(Ordering::Relaxed)
+}
+
+/// The number of characters in a line of stdout: that of the terminal, else that of the variable COLUMNS. `None` without both, as
+/// in a pipe, where lines have any length.
+pub(crate) fn width() -> Option<usize> {
+    let terminal = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
+    terminal.or_else(|| env::var("COLUMNS").ok()?.parse().ok()).filter(|width| *width > 0)
 }
 
 /// Writes results to stdout.

@@ -8,27 +8,38 @@ use flap_sweep::notation::text;
 use flap_sweep::resonance::measures;
 use flap_sweep::table::layout::fixed_columns;
 
-use super::params::allowed;
+use super::params::{allowed, of_name, wrapped};
 use crate::args::ExplainArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::models;
 
 pub(crate) fn run(args: &ExplainArgs) -> Result<Exit, Failure> {
-    let pages = args.names.iter().map(|name| page(name)).collect::<Result<Vec<String>, Failure>>()?;
+    let models = match &args.model {
+        None => models::all().to_vec(),
+        Some(name) => vec![of_name(name)?.0],
+    };
+    let pages =
+        args.names.iter().map(|name| page(name, &models)).collect::<Result<Vec<String>, Failure>>()?;
     console::results(&pages.join("\n"))?;
     Ok(Exit::Done)
 }
 
 /// All that is known of a name: it may be a parameter of several models, and a column of others.
-fn page(name: &str) -> Result<String, Failure> {
+fn page(name: &str, models: &[&'static dyn Simulator]) -> Result<String, Failure> {
     let mut page = String::new();
-    for entry in entries().into_iter().filter(|entry| entry.name == name) {
-        let Entry { kind, text, .. } = entry;
-        let _ = write!(page, "{name}: {kind}\n{text}");
+    for entry in entries(models).into_iter().filter(|entry| entry.name == name) {
+        let _ = writeln!(page, "{name}: {}", entry.kind);
+        for line in entry.text.lines() {
+            let _ = writeln!(page, "{}", wrapped(line, line.len() - line.trim_start().len()));
+        }
     }
     if page.is_empty() {
-        let entries = entries();
+        if models.len() < models::all().len() && self::page(name, models::all()).is_ok() {
+            let failure = Failure::usage(format!("the model {} has no `{name}`", models[0].name()));
+            return Err(failure.help(format!("other models have it: `flap explain {name}`")));
+        }
+        let entries = entries(models);
         let failure = Failure::usage(format!("there is no parameter, column or status `{name}`"));
         let names = entries.iter().map(|entry| entry.name.as_str());
         return Err(failure.nearest(name, names, "`flap params MODEL` lists parameters and columns"));
@@ -45,8 +56,8 @@ struct Entry {
     text: String,
 }
 
-/// Everything that can be explained.
-fn entries() -> Vec<Entry> {
+/// Everything that can be explained of these models.
+fn entries(models: &[&'static dyn Simulator]) -> Vec<Entry> {
     let statuses = Status::ALL.map(|status| Entry {
         name: status.name().to_owned(),
         kind: "a status of rows".to_owned(),
@@ -57,7 +68,7 @@ fn entries() -> Vec<Entry> {
         kind: "a column of the rows of every model".to_owned(),
         text: format!("  {}\n", column.doc),
     });
-    let models = models::all().iter().flat_map(|&model| of_model(model));
+    let models = models.iter().flat_map(|&model| of_model(model));
     statuses.into_iter().chain(fixed).chain(models).collect()
 }
 

@@ -10,6 +10,7 @@ mod gradient;
 mod grid;
 mod impulse;
 pub(crate) mod lift;
+mod listed;
 mod look;
 pub(crate) mod man;
 pub(crate) mod merge;

@@ -1,53 +1,132 @@
-//! `flap params`: the parameters and the output columns of a model.
+//! `flap params`: the parameters of a model, and the columns of its rows.
 
-use flap_core::parameter::{Kind, Parameter};
+use std::fmt::Write as _;
+
+use flap_core::parameter::{Kind, Parameter, Preset};
 use flap_core::simulate::Simulator;
 use flap_sweep::notation::text;
+use flap_sweep::notation::units::prefixed;
+use flap_sweep::resonance;
+use flap_sweep::table::layout::fixed_columns;
 
-use crate::args::ParamsArgs;
+use super::listed;
+use crate::args::{Listing, ParamsArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::models;
 use crate::table::Table;
 
 pub(crate) fn run(args: &ParamsArgs) -> Result<Exit, Failure> {
-    let page = if let Some((model, preset)) = models::preset(&args.what) {
-        let head = format!("{}: {}\nmodel {}: {}\n", preset.name, preset.doc, model.name(), model.doc());
-        head + "\n" + &values(model, &(preset.values)()) + "\n" + &columns(model)
-    } else if let Some(model) = models::by_name(&args.what) {
-        let presets: Vec<&str> = model.presets().iter().map(|preset| preset.name).collect();
-        let head = format!("{}: {}\npresets: {}\n", model.name(), model.doc(), presets.join(", "));
-        head + "\n" + &parameters(model) + "\n" + &columns(model)
-    } else {
-        return Err(unknown(&args.what));
+    let (model, preset) = of_name(&args.what)?;
+    let entries: Vec<Entry> = parameters(model, preset).into_iter().chain(columns(model)).collect();
+    let rows = || entries.iter().map(Entry::row).collect::<Vec<_>>();
+    let page = match args.format {
+        Listing::Table => head(model, preset) + &listing(&entries, args.long),
+        Listing::Csv => listed::csv(&NAMES.map(str::to_owned), &rows())?,
+        Listing::Json => listed::objects(&NAMES.map(str::to_owned), &rows())?,
     };
     console::results(&page)?;
     Ok(Exit::Done)
 }
 
-/// The parameter table with the values of a preset.
-fn values(model: &dyn Simulator, values: &[f64]) -> String {
-    let mut table = Table::with_headings(&["parameter", "value", "unit", "symbol", "meaning", "allowed"]);
-    for (parameter, &value) in model.parameters().iter().zip(values) {
-        let value = if value.is_nan() { "-".to_owned() } else { text::value(parameter, value) };
-        let [name, unit, symbol, doc, allowed] = cells(parameter);
-        table.row([name, value, unit, symbol, doc, allowed]);
-    }
-    table.text()
+/// The model of that name, or that of the preset of that name, with the preset.
+pub(super) fn of_name(name: &str) -> Result<(&'static dyn Simulator, Option<&'static Preset>), Failure> {
+    let preset = models::preset(name).map(|(model, preset)| (model, Some(preset)));
+    let found = preset.or_else(|| models::by_name(name).map(|model| (model, None)));
+    found.ok_or_else(|| {
+        let names = models::all().iter().map(|model| model.name()).chain(models::presets());
+        let failure = Failure::usage(format!("there is no model or preset `{name}`"));
+        failure.nearest(name, names, "`flap models` lists models and presets")
+    })
 }
 
-/// The parameter table without values.
-fn parameters(model: &dyn Simulator) -> String {
-    let mut table = Table::with_headings(&["parameter", "unit", "symbol", "meaning", "allowed"]);
-    for parameter in model.parameters() {
-        table.row(cells(parameter));
-    }
-    table.text()
+/// The first lines.
+fn head(model: &dyn Simulator, preset: Option<&Preset>) -> String {
+    let lines = if let Some(preset) = preset {
+        [format!("{}: {}", preset.name, preset.doc), format!("model {}: {}", model.name(), model.doc())]
+    } else {
+        let presets: Vec<&str> = model.presets().iter().map(|preset| preset.name).collect();
+        [format!("{}: {}", model.name(), model.doc()), format!("presets: {}", presets.join(", "))]
+    };
+    lines.map(|line| wrapped(&line, 0) + "\n").concat() + "\n"
 }
 
-fn cells(parameter: &Parameter) -> [String; 5] {
-    [parameter.name, parameter.unit, parameter.symbol, parameter.doc, &allowed(parameter)]
-        .map(ToOwned::to_owned)
+/// A parameter, or a column of rows.
+struct Entry {
+    /// Parameter, or the kind of column.
+    kind: &'static str,
+    /// The title above it and its like.
+    group: &'static str,
+    name: String,
+    /// The value in the preset, in SI units; empty without one.
+    value: String,
+    /// The same with a prefix and the unit; or the unit, without a preset.
+    shown: String,
+    unit: &'static str,
+    symbol: &'static str,
+    allowed: String,
+    meaning: String,
+    /// More about a parameter, in sentences.
+    more: String,
+}
+
+const NAMES: [&str; 8] = ["kind", "group", "name", "value", "unit", "symbol", "allowed", "meaning"];
+
+impl Entry {
+    /// The cells below [`NAMES`].
+    fn row(&self) -> Vec<String> {
+        let Entry { kind, group, name, value, unit, symbol, allowed, meaning, .. } = self;
+        [kind, group, name.as_str(), value, unit, symbol, allowed, meaning].map(str::to_owned).into()
+    }
+}
+
+fn parameters(model: &dyn Simulator, preset: Option<&Preset>) -> Vec<Entry> {
+    let values = preset.map(|preset| (preset.values)());
+    let entry = |(place, parameter): (usize, &Parameter)| {
+        let value = values.as_ref().map(|values| values[place]);
+        let given = value.filter(|value| !value.is_nan());
+        Entry {
+            kind: "parameter",
+            group: parameter.group,
+            name: parameter.name.to_owned(),
+            value: given.map_or_else(String::new, |value| text::value(parameter, value)),
+            shown: match (value, given) {
+                (_, Some(value)) => shown(parameter, value),
+                (Some(_), None) => "-".to_owned(),
+                (None, None) => parameter.unit.to_owned(),
+            },
+            unit: parameter.unit,
+            symbol: parameter.symbol,
+            allowed: allowed(parameter),
+            meaning: parameter.doc.to_owned(),
+            more: more(parameter),
+        }
+    };
+    model.parameters().iter().enumerate().map(entry).collect()
+}
+
+/// A value with a prefix and its unit, or the name of an option.
+fn shown(parameter: &Parameter, value: f64) -> String {
+    match parameter.kind {
+        Kind::Choice(_) => text::value(parameter, value),
+        _ => prefixed(value, parameter.unit),
+    }
+}
+
+/// Symbol, allowed values and history of a parameter.
+fn more(parameter: &Parameter) -> String {
+    let mut text = String::new();
+    if !parameter.symbol.is_empty() {
+        let _ = write!(text, ". Symbol: {}", parameter.symbol);
+    }
+    let _ = write!(text, ". Allowed: {}", allowed(parameter));
+    if !parameter.former.is_empty() {
+        let _ = write!(text, ". Former name: {}", parameter.former);
+    }
+    if parameter.is_fitted {
+        text += ". The published value is a fit to one vehicle";
+    }
+    text
 }
 
 /// The allowed values, in words.
@@ -59,17 +138,77 @@ pub(super) fn allowed(parameter: &Parameter) -> String {
     }
 }
 
-/// The output columns.
-fn columns(model: &dyn Simulator) -> String {
-    let mut table = Table::with_headings(&["column", "unit", "meaning"]);
-    for column in model.columns() {
-        table.row([column.name.clone(), column.unit.to_owned(), column.doc.clone()]);
-    }
-    table.text()
+/// The columns of rows: measures, those of designs at their resonance, and those that do not depend on the model.
+fn columns(model: &'static dyn Simulator) -> Vec<Entry> {
+    let entry = |kind, group, name: String, unit: &'static str, meaning: String| Entry {
+        kind,
+        group,
+        name,
+        value: String::new(),
+        shown: unit.to_owned(),
+        unit,
+        symbol: "",
+        allowed: String::new(),
+        meaning,
+        more: String::new(),
+    };
+    let own = model.columns().len();
+    let measures = resonance::measures(model).into_iter().enumerate().map(|(place, column)| {
+        let (kind, group) = if place < own {
+            ("measure", "measures")
+        } else {
+            ("resonance", "measures with drive_frequency = \"resonance\"")
+        };
+        entry(kind, group, column.name, column.unit, column.doc)
+    });
+    let run = fixed_columns();
+    let run =
+        run.into_iter().map(|column| entry("run", "columns of every model", column.name, "", column.doc));
+    measures.chain(run).collect()
 }
 
-fn unknown(name: &str) -> Failure {
-    let names = models::all().iter().map(|model| model.name()).chain(models::presets());
-    let failure = Failure::usage(format!("there is no model or preset `{name}`"));
-    failure.nearest(name, names, "`flap models` lists models and presets")
+/// Parameters, then columns, below the titles of their groups, in lines that fit the terminal.
+fn listing(entries: &[Entry], long: bool) -> String {
+    let is_parameter = |entry: &&Entry| entry.kind == "parameter";
+    let has_values = entries.iter().any(|entry| !entry.value.is_empty());
+    let second = if has_values { "value" } else { "unit" };
+    let parameters = page("parameter", second, entries.iter().filter(is_parameter), long);
+    let columns = page("column", "unit", entries.iter().filter(|entry| !is_parameter(entry)), long);
+    parameters + "\n" + &columns
+}
+
+fn page<'e>(first: &str, second: &str, entries: impl Iterator<Item = &'e Entry>, long: bool) -> String {
+    let mut table = Table::with_headings(&[first, second, "meaning"]);
+    let mut group = "";
+    for entry in entries {
+        if entry.group != group {
+            group = entry.group;
+            table.title(group);
+        }
+        let meaning = if long {
+            entry.meaning.trim_end_matches('.').to_owned() + &entry.more
+        } else {
+            first_sentence(&entry.meaning).to_owned()
+        };
+        table.row([entry.name.clone(), entry.shown.clone(), meaning]);
+    }
+    table.text_within(console::width())
+}
+
+/// The text up to the end of its first sentence: a full stop before a capital letter.
+fn first_sentence(text: &str) -> &str {
+    let ends = text.match_indices(". ").map(|(end, _)| end);
+    let mut ends = ends.filter(|end| text[end + 2..].starts_with(char::is_uppercase));
+    text[..ends.next().unwrap_or(text.len())].trim_end_matches('.')
+}
+
+/// The text in lines that fit the terminal, each but the first behind `indent` blanks.
+pub(super) fn wrapped(text: &str, indent: usize) -> String {
+    let blanks = " ".repeat(indent);
+    console::width().map_or_else(
+        || text.to_owned(),
+        |width| {
+            textwrap::fill(text, textwrap::Options::new(width.max(indent + 20)).subsequent_indent(&blanks))
+        },
+    )
 }

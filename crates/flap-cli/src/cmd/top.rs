@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 use csv::StringRecord;
 use flap_core::simulate::Status;
 use flap_sweep::notation::text::count;
-use serde::Serializer as _;
 
-use super::shown::{Shown, json};
+use super::listed;
+use super::shown::Shown;
 use crate::args::{Aim, Listing, LookArgs, TopArgs};
 use crate::console;
 use crate::data::filter::Filters;
@@ -57,16 +57,8 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
     console::say(&format!("{shown} with the {direction} {} of {of}{}", args.by, left_out.text()));
     match format {
         Listing::Table => console::results(&table(&names, &units, &rows))?,
-        Listing::Csv => {
-            let mut writer = csv::Writer::from_writer(Vec::new());
-            let written = writer
-                .write_record(&names)
-                .and_then(|()| rows.iter().try_for_each(|row| writer.write_record(row)));
-            let bytes = written.ok().and_then(|()| writer.into_inner().ok());
-            let bytes = bytes.ok_or_else(|| Failure::Bug("rows are no comma-separated values".to_owned()))?;
-            console::results(&String::from_utf8_lossy(&bytes))?;
-        }
-        Listing::Json => console::results(&objects(&names, &rows)?)?,
+        Listing::Csv => console::results(&listed::csv(&names, &rows)?)?,
+        Listing::Json => console::results(&listed::objects(&names, &rows)?)?,
     }
     Ok(Exit::Done)
 }
@@ -164,17 +156,4 @@ fn table(names: &[String], units: &[String], rows: &[Vec<String>]) -> String {
         table.row(row.iter().zip(&shown).map(|(cell, shown)| shown.cell(cell)).collect::<Vec<_>>());
     }
     table.text()
-}
-
-/// The rows as a list of JSON objects.
-fn objects(names: &[String], rows: &[Vec<String>]) -> Result<String, Failure> {
-    let object = |row: &Vec<String>| {
-        let mut bytes = Vec::new();
-        let cells = names.iter().zip(row.iter().map(|cell| json(cell)));
-        serde_json::Serializer::new(&mut bytes).collect_map(cells)?;
-        Ok(format!("  {}", String::from_utf8_lossy(&bytes)))
-    };
-    let objects: Result<Vec<String>, serde_json::Error> = rows.iter().map(object).collect();
-    let objects = objects.map_err(|error| Failure::Bug(error.to_string()))?;
-    Ok(format!("[\n{}\n]\n", objects.join(",\n")))
 }
