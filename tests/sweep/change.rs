@@ -1,7 +1,9 @@
 //! Changes of plans: what is refused leaves no plan that is untrue.
 
-use flap_core::simulate::SolverSettings;
+use flap_core::simulate::{SolverSettings, all};
+use flap_sweep::grid;
 use flap_sweep::notation::value::ValueError;
+use flap_sweep::plan::gradient::NoShares;
 use flap_sweep::plan::{ChangeError, Plan, Value};
 
 use crate::fake::{index, plan};
@@ -98,4 +100,44 @@ fn solver_settings_are_those_that_a_grid_file_may_have() {
     }
     let finer = default.with_rtol(1e-9);
     assert_eq!(*plan(GRID).with_solver(finer).unwrap().solver(), finer);
+}
+
+#[test]
+fn derivatives_and_states_are_those_of_models_with_motions() {
+    for error in [
+        refused(plan(GRID).with_slopes(vec![0])),
+        refused(plan(GRID).begun_at(vec![])),
+        refused(plan(GRID).with_states()),
+    ] {
+        assert!(matches!(error, ChangeError::NoMotions(_)), "{error:?}");
+    }
+    let flies = |rest: &str| {
+        let text = format!("preset = \"ozaki2018-large\"\n{rest}");
+        grid::parse("grid.toml", &text, all()).unwrap_or_else(|mistakes| panic!("{mistakes:?}"))
+    };
+    let place =
+        |name: &str| flies("").parameters().iter().position(|parameter| parameter.name == name).unwrap();
+    let begun = flies("axes.drive_frequency = [100, 105]").begun_at(vec![None, Some(vec![0.1; 4])]).unwrap();
+    assert_eq!((begun.point(0).begin, begun.point(1).begin), (None, Some(vec![0.1; 4])));
+    assert_eq!(refused(flies("").begun_at(vec![])), ChangeError::States(0, 1));
+    assert_eq!(flies("").with_states().unwrap().states().len(), 4);
+
+    let stiffness = place("hinge_stiffness");
+    let slopes =
+        flies("output.columns = [\"lift_mean_mn\", \"cycles\"]").with_slopes(vec![stiffness]).unwrap();
+    assert_eq!(slopes.gradient().map(|gradient| gradient.len()), Some(1));
+    for (grid, name, reason) in [
+        ("derived.hinge_stiffness = \"1e-6 * drive_frequency\"", "hinge_stiffness", NoShares::Derived),
+        ("", "lift_sign", NoShares::Choice),
+    ] {
+        let parameter = flies("").parameters()[place(name)].name;
+        assert_eq!(
+            refused(flies(grid).with_slopes(vec![place(name)])),
+            ChangeError::NoShares(parameter, reason)
+        );
+    }
+    let flag = flies("[measure]\nhigh = \"lift_mean_mn > 3\"\n[output]\ncolumns = [\"high\"]");
+    assert_eq!(refused(flag.with_slopes(vec![stiffness])), ChangeError::NoSlope("high".to_owned()));
+    let resonant = flies("params.drive_frequency = \"resonance\"\n[resonance]\nfrom = 95\nto = 120");
+    assert_eq!(refused(resonant.with_slopes(vec![stiffness])), ChangeError::AtResonance);
 }
