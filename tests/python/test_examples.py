@@ -14,7 +14,7 @@ import pytest
 
 EXAMPLES = Path(__file__).parents[2] / "examples/python"
 SCRIPTS = ["dask_cluster", "fit_bimorph", "fit_cost", "fit_coverage", "fit_next", "pareto_pymoo", "sobol_indices", "xarray_map"]
-ELSEWHERE = ["pictures"]  # in plot/test_page.py
+ELSEWHERE = ["four_panels", "pictures"]  # in plot/test_page.py
 NOTEBOOK = "first_steps.ipynb"
 
 

@@ -17,7 +17,7 @@ def test_hysteresis_loop():
     assert_array_equal(down.get_xdata(), [7, 6, 5, 4, 3, np.nan, 2, 1])
     assert_array_equal(unstable.get_ydata(), [14, 8, 3])
     assert unstable.get_linestyle() == "--"
-    assert legend(ax) == ["bistable, 3 to 5 Hz", "way up", "way down", "unstable orbits"]
+    assert legend(ax) == ["bistable, 3 to 5 Hz", "up", "down", "unstable"]
     band = ax.patches[0].get_extents().transformed(ax.transData.inverted())
     assert (band.x0, band.x1) == (pytest.approx(3.0), pytest.approx(5.0))
     # Two jumps, and an arrow on each way.
@@ -28,7 +28,7 @@ def test_hysteresis_loop():
 def test_a_response_without_hysteresis_has_no_band():
     table = flapwing.respond("ozaki2018-large", start=100, stop=120, step=5)
     ax = drawn(plot.hysteresis(table, "lift_mean_mn"))
-    assert legend(ax) == ["way up", "way down"]
+    assert legend(ax) == ["up", "down"]
     rows = table["branch"] == "up"
     assert_array_equal(ax.lines[0].get_xdata(), table["drive_frequency"][rows])
     assert_array_equal(ax.lines[0].get_ydata(), table["lift_mean_mn"][rows])

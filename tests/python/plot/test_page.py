@@ -43,15 +43,17 @@ def test_pictures_of_the_page_are_there_and_small(page):
     assert shown == set(files)
     sizes = [path.stat().st_size for path in files.values()]
     assert max(sizes) < 80_000 and sum(sizes) < 500_000
-    script = (REPOSITORY / "examples" / "python" / "pictures.py").read_text(encoding="utf-8")
+    scripts = (REPOSITORY / "examples" / "python" / f"{name}.py" for name in ("pictures", "four_panels"))
+    script = "".join(path.read_text(encoding="utf-8") for path in scripts)
     for name in files:
         function = name.split("py-")[1].split(".")[0].replace("-", "_")
         assert f"def {function}(" in script
 
 
 def test_the_pictures_of_the_page_are_made(tmp_path):
-    """By the script that makes them, all of them and no others."""
-    script = REPOSITORY / "examples/python/pictures.py"
-    subprocess.run([sys.executable, "-W", "error", script, tmp_path], check=True, capture_output=True, text=True)
+    """By the scripts that make them, all of them and no others."""
+    for script, out in (("pictures", tmp_path), ("four_panels", tmp_path / "py-four-panels.png")):
+        command = [sys.executable, "-W", "error", REPOSITORY / f"examples/python/{script}.py", out]
+        subprocess.run(command, check=True, capture_output=True, text=True)
     kept = {picture.name for picture in (REPOSITORY / "docs/pictures").glob("py-*")}
     assert {picture.name for picture in tmp_path.iterdir()} == kept

@@ -95,7 +95,7 @@ def test_more_than_two_objectives_ring_the_front(sweep):
     costs = np.column_stack([sweep["strain_surface_max"], -sweep["lift_mean_mn"], -sweep["efficiency_gf_per_w"]])
     assert len(ax.lines[0].get_xdata()) == plot.non_dominated(costs).sum()
     assert ax.lines[0].get_linestyle() == "None"
-    assert "Efficiency (more)" in ax.texts[0].get_text()
+    assert "Efficiency (more)" in ax.get_legend().get_title().get_text()
 
 
 def test_pareto_mistakes(sweep):

@@ -1,5 +1,9 @@
 """Animations of a wing."""
 
+import re
+from base64 import b64decode
+from io import BytesIO
+
 import flapwing
 import numpy as np
 import pytest
@@ -69,3 +73,24 @@ def test_wing_path_mistakes(motion):
     assert "two frames" in message(ValueError, plot.wing_path, motion, frames=1)
     assert "1 or -1" in message(ValueError, plot.wing_path, motion, pitch_sign=2)
     assert "Did you mean `lift_mn`?" in message(ValueError, plot.wing_path, motion, lift="lift_m")
+
+
+def test_small_strokes_are_readable():
+    phase = np.linspace(0.0, 2.0 * np.pi, 101)
+    table = {"time_s": phase / 754.0, "stroke_deg": 0.3 * np.sin(phase), "pitch_deg": 2.0 * np.cos(phase)}
+    animation = plot.wing_path(table, frames=20, frequency=754.0 / (2.0 * np.pi))
+    along = animation._scene.leading[:, 0]
+    assert np.ptp(along) == pytest.approx(2.5, rel=1e-2)
+    ticks = [text.get_text() for text in animation._scene.figure.axes[0].get_xticklabels()]
+    assert ticks == ["−0.2°", "0°", "0.2°"]
+    animation._draw_was_started = True
+
+
+def test_a_notebook_keeps_at_most_a_megabyte(motion):
+    animation = plot.wing_path(motion, frames=150)
+    animation._scene.figure.set_dpi(250)
+    page = animation._repr_html_()
+    gif = b64decode(re.search(r'src="data:image/gif;base64,(.*?)"', page)[1])
+    assert len(gif) <= 1_000_000
+    with Image.open(BytesIO(gif)) as image:
+        assert image.n_frames == 150 and image.width > 200

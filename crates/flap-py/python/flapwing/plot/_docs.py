@@ -11,9 +11,17 @@ _PARAGRAPHS = {
 where, **slices
         Columns and the value that rows must have, a number in SI units or a word: the slice of a grid with more axes.
         In the mapping `where`, or as keywords such as ``drive_voltage_pp=100``.""",
+    "%(legend)s": """\
+legend : bool or str
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,
+        and inside axes that are given.""",
+    "%(colorbar)s": """\
+colorbar : bool or matplotlib Axes
+        False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.""",
     "%(axes)s": """\
 ax : matplotlib Axes, optional
-        Axes to draw in; by default those of a new figure.
+        Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
+        By default those of a new figure.
 
     Returns
     -------

@@ -10,7 +10,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgba
 from matplotlib.patches import Patch
 
-from . import _style
+from . import _legend, _scales, _style
 from ._data import Data, Shown, distinct, edges, scattered
 from ._docs import completed
 
@@ -34,10 +34,12 @@ def heatmap(
     y: str | None = None,
     xscale: str | None = None,
     yscale: str | None = None,
-    cmap: str = "viridis",
+    cmap: str | None = None,
     vmin: float | None = None,
     vmax: float | None = None,
     where: Mapping[str, Any] | None = None,
+    legend: bool | str = True,
+    colorbar: bool | Axes = True,
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
@@ -57,11 +59,15 @@ def heatmap(
         or else the last of them along x.
     xscale, yscale : {"linear", "log"}, optional
         By default logarithmic if the values are in constant ratio.
-    cmap : str
-        A colour map of matplotlib.
+    cmap : str, optional
+        A colour map of matplotlib. By default viridis; for values of both signs a map that is white at zero, with a
+        line there.
     vmin, vmax : float, optional
-        The ends of the colours, in the unit of the colour bar; by default those of the values.
+        The ends of the colours, in the unit of the colour bar; by default those of the values. An arrow of the colour
+        bar says that there are values beyond an end.
     %(where)s
+    %(legend)s
+    %(colorbar)s
     %(axes)s
 
     Raises
@@ -82,6 +88,8 @@ def heatmap(
     >>> [float(end) for end in ax.get_xlim()]
     [85.0, 105.0]
     """
+    _legend.check(legend)
+    _style.check_bar(colorbar)
     whole = Data.of(table)
     data = whole.slice(where, slices)
     data.numbers(value)
@@ -97,22 +105,26 @@ def heatmap(
     measured = data.measured()
     values = np.where((rows >= 0) & measured[rows], shown.values[rows], np.nan)
 
-    with _style.style():
+    colours = _scales.colours(values, cmap, vmin, vmax)
+
+    given = ax is not None
+    with _style.style(ax):
         ax = _style.axes_of(ax, 6.4, 4.4)
         ax.grid(False)
-        mesh = ax.pcolormesh(
-            across.edges, up.edges, np.ma.masked_invalid(values), cmap=cmap, vmin=vmin, vmax=vmax, rasterized=True
-        )
-        _style.colour_bar(ax, mesh, label=shown.label, pad=0.02)
-        legend = []
+        masked = np.ma.masked_invalid(values)
+        mesh = ax.pcolormesh(across.edges, up.edges, masked, cmap=colours.cmap, norm=colours.norm, rasterized=True)
+        if colours.signed and min(values.shape) > 1:
+            look: Any = {"colors": _style.DARK, "linewidths": _style.width(0.6)}
+            ax.contour(across.centres, up.centres, masked, [0.0], **look)
+        colours.bar(ax, mesh, colorbar, shown.label)
+        missing = []
         for name, mask in _missing(data, rows, values).items():
-            legend.append(_fill(ax, across.edges, up.edges, mask, name))
+            missing.append(_fill(ax, across.edges, up.edges, mask, name))
         across.finish(ax, "x")
         up.finish(ax, "y")
-        if legend:
-            _style.legend_above(
-                ax, 1.005, handles=legend, ncols=3, borderaxespad=0.2, handlelength=1.6, handleheight=1.1
-            )
+        if missing:
+            look = {"handles": missing, "handlelength": 1.6, "handleheight": 1.1}
+            _legend.legend(ax, legend, given, inside="upper left", ncols=3, borderaxespad=0.2, **look)
     return ax
 
 
@@ -125,11 +137,12 @@ class _Axis:
         self.count = len(self.keys)
         if self.shown.text:
             self.log, self.edges = False, np.arange(self.count + 1) - 0.5
+            self.centres = np.arange(self.count, dtype=float)
             return
         if scale not in (None, "linear", "log"):
             raise ValueError(f'a scale is "linear" or "log", not {scale!r}')
-        values = self.keys.astype(float) * self.shown.factor
-        self.log = _in_ratio(values) if scale is None else scale == "log"
+        self.centres = values = self.keys.astype(float) * self.shown.factor
+        self.log = _scales.in_ratio(values) if scale is None else scale == "log"
         if self.log and values[0] <= 0:
             raise ValueError(f"`{name}` cannot have a logarithmic scale: its smallest value is {self.keys[0]:g}")
         self.edges = edges(values, self.log)
@@ -149,16 +162,8 @@ class _Axis:
             return
         if self.log:
             (ax.set_xscale if which == "x" else ax.set_yscale)("log")
-            _readable_log_ticks(axis, self.edges)
+            _scales.show_log_ticks(axis, self.edges[0], self.edges[-1])
         (ax.set_xlim if which == "x" else ax.set_ylim)(self.edges[0], self.edges[-1])
-
-
-def _in_ratio(values: np.ndarray) -> bool:
-    """True for three or more values in constant ratio."""
-    if len(values) < 3 or values[0] <= 0:
-        return False
-    ratios = values[1:] / values[:-1]
-    return bool(np.ptp(ratios) < 1e-6 * ratios[0])
 
 
 def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
@@ -228,17 +233,3 @@ def _runs(across: np.ndarray, up: np.ndarray, mask: np.ndarray) -> list[list[tup
             left, right, low, high = across[first], across[behind], up[row], up[row + 1]
             outlines.append([(left, low), (right, low), (right, high), (left, high)])
     return outlines
-
-
-def _readable_log_ticks(axis: Any, ends: np.ndarray) -> None:
-    """Plain numbers at round places: a decade's powers alone would leave a short axis without any."""
-    from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
-
-    low, high = float(ends[0]), float(ends[-1])
-    subs = [1.0, 2.0, 5.0] if high / low < 300 else [1.0]
-    if high / low < 8:
-        subs = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0]
-    ticks = [tick for tick in LogLocator(subs=subs).tick_values(low, high) if low <= tick <= high]
-    axis.set_major_locator(FixedLocator(ticks))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axis.set_minor_formatter(NullFormatter())

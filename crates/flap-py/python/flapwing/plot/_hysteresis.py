@@ -7,12 +7,15 @@ from typing import Any, Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
-from . import _style
+from . import _legend, _style
 from ._data import Data, Shown, distinct, listed
 from ._docs import completed
 
 # Ways that differ by less than this share of the measure's range have come to the same motion.
 _SAME = 0.01
+
+# The branches' colours, as in `flap plot`.
+_COLOURS = {"up": _style.BLUE, "down": _style.VERMILLION, "unstable": _style.DARK}
 
 
 @completed
@@ -23,6 +26,7 @@ def hysteresis(
     along: str | None = None,
     curve: int | None = None,
     where: Mapping[str, Any] | None = None,
+    legend: bool | str = True,
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
@@ -41,6 +45,7 @@ def hysteresis(
     curve : int, optional
         The number of the design in the column ``curve``, if there are several.
     %(where)s
+    %(legend)s
     %(axes)s
 
     Raises
@@ -48,6 +53,7 @@ def hysteresis(
     ValueError
         Several designs, with their parameters; an unknown column or value; no ways.
     """
+    _legend.check(legend)
     data = Data.of(table)
     if "branch" not in data:
         raise ValueError("a table of `respond` is needed, with a column `branch`")
@@ -71,13 +77,15 @@ def hysteresis(
     common, differ = _different(up, down, _SAME * size)
     bands = _bands(common, differ)
 
-    with _style.style():
+    given = ax is not None
+    with _style.style(ax):
         ax = _style.axes_of(ax)
         for i, (low, high) in enumerate(bands):
-            text = f"bistable, {_ends(low, high, x)}" if len(bands) == 1 else "bistable"
+            text = f"bistable, {_ends(low, high, x)}" if len(bands) == 1 and not given else "bistable"
             ax.axvspan(low, high, color="#f3e3b3", alpha=0.75, linewidth=0, label=text if i == 0 else f"_{text}")
-        looks = {"up": (_style.VERMILLION, 3.0, "o"), "down": (_style.BLUE, 1.2, "s")}
-        for name, (colour, width, marker) in looks.items():
+        # The branch down often lies on the branch up, which must be seen below it.
+        for name, width in (("up", 1.9), ("down", 0.8)):
+            colour = _COLOURS[name]
             way = ways[name]
             if not way.x.size:
                 continue
@@ -87,29 +95,29 @@ def hysteresis(
                 xs,
                 ys,
                 color=colour,
-                linewidth=width,
-                marker=marker,
-                markersize=1.2 * width if name == "up" else 2.4,
-                label=f"way {name}",
+                linewidth=_style.width(width),
+                marker="o",
+                markersize=_style.size(0.6 if name == "up" else 0.4),
+                label=name,
             )
             for i in jumps:
-                _arrow(ax, way.x[i], way.y[i], way.x[i + 1], way.y[i + 1], colour, "--")
+                _jump(ax, way, i, colour)
             _along_the_way(ax, way, colour, bands, jumps)
         unstable = ways["unstable"]
         if unstable.x.size:
             ax.plot(
                 unstable.x,
                 unstable.y,
-                color=_style.DARK,
-                linewidth=1.2,
+                color=_COLOURS["unstable"],
+                linewidth=_style.width(0.75),
                 linestyle=(0, (4, 2.5)),
-                label="unstable orbits",
+                label="unstable",
             )
         _mark(ax, data, x, branches)
         ax.set_xlabel(x.label)
         ax.set_ylabel(shown.label)
         ax.margins(x=0.02, y=0.08)
-        _style.legend_above(ax, ncols=2, borderaxespad=0.1)
+        _legend.legend(ax, legend, given, ncols=2, borderaxespad=0.1)
     return ax
 
 
@@ -166,21 +174,11 @@ def _with_gaps(x: np.ndarray, y: np.ndarray, after: list[int]) -> tuple[np.ndarr
     return np.insert(x, places, np.nan), np.insert(y, places, np.nan)
 
 
-def _arrow(ax: Axes, x0: float, y0: float, x1: float, y1: float, colour: str, linestyle: str) -> None:
-    ax.annotate(
-        "",
-        xy=(x1, y1),
-        xytext=(x0, y0),
-        arrowprops={
-            "arrowstyle": "-|>",
-            "color": colour,
-            "linestyle": linestyle,
-            "linewidth": 1.1,
-            "mutation_scale": 13,
-            "shrinkA": 2,
-            "shrinkB": 2,
-        },
-    )
+def _jump(ax: Axes, way: _Way, i: int, colour: str) -> None:
+    """A light vertical arrow, halfway between the rows around a jump: nothing was measured along it."""
+    x = 0.5 * (way.x[i] + way.x[i + 1])
+    look = {"arrowstyle": "->", "color": colour, "linestyle": (0, (3, 3)), "alpha": 0.7, "shrinkA": 0, "shrinkB": 0}
+    ax.annotate("", xy=(x, way.y[i + 1]), xytext=(x, way.y[i]), arrowprops={**look, "linewidth": _style.width(0.5)})
 
 
 def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, float]], jumps: list[int]) -> None:
@@ -195,7 +193,14 @@ def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, fl
     i = min(max(place, 1), count - 2)
     if not np.isfinite(way.y[i - 1 : i + 2]).all() or {i - 1, i} & set(jumps):
         return
-    head = {"arrowstyle": "-|>", "color": colour, "linewidth": 0, "mutation_scale": 20, "shrinkA": 0, "shrinkB": 0}
+    head = {
+        "arrowstyle": "-|>",
+        "color": colour,
+        "linewidth": 0,
+        "mutation_scale": _style.size(3.0),
+        "shrinkA": 0,
+        "shrinkB": 0,
+    }
     ax.annotate("", xy=(way.x[i + 1], way.y[i + 1]), xytext=(way.x[i - 1], way.y[i - 1]), arrowprops=head)
 
 
@@ -203,9 +208,16 @@ def _mark(ax: Axes, data: Data, x: Shown, branches: np.ndarray) -> None:
     """Marks above the axes where a way has no periodic motion."""
     without = ~data.measured()
     shown = False
-    for place, (name, colour) in enumerate((("up", _style.VERMILLION), ("down", _style.BLUE))):
+    for place, name in enumerate(("up", "down")):
         mask = without & (branches == name)
         if mask.any():
             label = "_" if shown else "no periodic motion"
-            _style.marks(ax, x.values[mask], 0.985 - 0.025 * place, markersize=5, color=colour, label=label)
+            _style.marks(
+                ax,
+                x.values[mask],
+                0.985 - 0.025 * place,
+                markersize=_style.size(0.8),
+                color=_COLOURS[name],
+                label=label,
+            )
             shown = True

@@ -7,7 +7,7 @@ from typing import Any, Mapping, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from . import _style
+from . import _legend, _scales, _style
 from ._data import Data, distinct
 from ._docs import completed
 from ._front import non_dominated
@@ -20,8 +20,10 @@ def pareto(
     maximize: str | Sequence[str] = (),
     minimize: str | Sequence[str] = (),
     color: str | None = None,
-    cmap: str = "viridis",
+    cmap: str | None = None,
     where: Mapping[str, Any] | None = None,
+    legend: bool | str = True,
+    colorbar: bool | Axes = True,
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
@@ -39,9 +41,11 @@ def pareto(
         The objectives, two or more in all. The first two are drawn: what is minimised first along x.
     color : str, optional
         A column for the points' colours: numbers with a colour bar, words with a legend.
-    cmap : str
-        A colour map of matplotlib, for numbers.
+    cmap : str, optional
+        A colour map of matplotlib, for numbers; by default as for `heatmap`.
     %(where)s
+    %(legend)s
+    %(colorbar)s
     %(axes)s
 
     Raises
@@ -57,6 +61,8 @@ def pareto(
     >>> ax.lines[0].get_label()
     'front (2 of 3 designs)'
     """
+    _legend.check(legend)
+    _style.check_bar(colorbar)
     data = Data.of(table).slice(where, slices)
     smaller = [minimize] if isinstance(minimize, str) else list(minimize)
     larger = [maximize] if isinstance(maximize, str) else list(maximize)
@@ -74,9 +80,11 @@ def pareto(
     data, front = data.rows(there), non_dominated(costs[there])
     x, y = data.shown(names[0]), data.shown(names[1])
 
-    with _style.style():
+    given = ax is not None
+    with _style.style(ax):
         ax = _style.axes_of(ax, 6.4, 4.4)
-        _points(ax, data, x.values, y.values, color, cmap)
+        size = _style.size(0.62 if len(data) <= 2000 else 0.4)
+        _points(ax, data, x.values, y.values, size, color, cmap, colorbar)
         order = np.flatnonzero(front)
         order = order[np.lexsort((y.values[order], x.values[order]))]
         plural = "design" if len(data) == 1 else "designs"
@@ -84,47 +92,49 @@ def pareto(
             x.values[order],
             y.values[order],
             color=_style.DARK,
-            linewidth=1.1,
+            linewidth=_style.width(0.6),
             linestyle="-" if len(objectives) == 2 else "none",
             drawstyle="steps-post" if names[0] in smaller else "steps-pre",
+            # Rings around the points, behind them: the points' colours stay visible.
             marker="o",
-            markersize=4.5 if len(order) <= 60 else 3.0,
+            markersize=size + _style.size(0.35),
             markerfacecolor="none",
-            markeredgewidth=0.9,
+            markeredgewidth=_style.width(0.4),
+            zorder=0.9,
             label=f"front ({len(order)} of {len(data)} {plural})",
         )
         for label, shown, which in ((ax.set_xlabel, x, names[0]), (ax.set_ylabel, y, names[1])):
             label(f"{shown.label}, {'less' if which in smaller else 'more'} is better")
         handles, _ = ax.get_legend_handles_labels()
-        # Above the axes: no corner is free of points for certain.
-        _style.legend_above(ax, handles=handles, ncols=4, borderaxespad=0.2)
-        if len(objectives) > 2:
-            others = [name for name in objectives if name not in names]
-            said = ", ".join(f"{data.shown(name).words} ({'less' if name in smaller else 'more'})" for name in others)
-            ax.annotate(
-                f"objectives not drawn: {said}",
-                (1.0, 1.0),
-                xycoords="axes fraction",
-                xytext=(0, 22),
-                textcoords="offset points",
-                ha="right",
-                fontsize=8.5,
-            )
+        others = [name for name in objectives if name not in names]
+        said = ", ".join(f"{data.shown(name).words} ({'less' if name in smaller else 'more'})" for name in others)
+        title: Any = {"title": f"the front is also that of: {said}", "alignment": "left"} if others else {}
+        # Inside, in the corner that no design reaches if there is a front.
+        corner = f"{'lower' if names[1] in smaller else 'upper'} {'left' if names[0] in smaller else 'right'}"
+        _legend.legend(ax, legend, given, inside=corner, handles=handles, ncols=4, borderaxespad=0.2, **title)
     return ax
 
 
-def _points(ax: Axes, data: Data, x: np.ndarray, y: np.ndarray, color: str | None, cmap: str) -> None:
+def _points(
+    ax: Axes,
+    data: Data,
+    x: np.ndarray,
+    y: np.ndarray,
+    size: float,
+    color: str | None,
+    cmap: str | None,
+    colorbar: bool | Axes,
+) -> None:
     """The designs as points, in the colours of a column."""
-    look: dict[str, Any] = {"s": 14 if len(x) <= 2000 else 6, "linewidths": 0, "alpha": 0.85, "rasterized": True}
+    look: dict[str, Any] = {"s": size**2, "linewidths": 0, "alpha": 0.9, "rasterized": True}
     if color is None:
         ax.scatter(x, y, color="#9ab8cf", **look)
         return
     shown = data.shown(color)
     if not shown.text:
-        points = ax.scatter(x, y, c=shown.values, cmap=cmap, **look)
-        bar = _style.colour_bar(ax, points, label=shown.label, pad=0.02)
-        if bar.solids is not None:
-            bar.solids.set_alpha(1.0)
+        colours = _scales.colours(shown.values, cmap, log=_scales.in_ratio(distinct(shown.values)))
+        points = ax.scatter(x, y, c=shown.values, cmap=colours.cmap, norm=colours.norm, **{**look, "alpha": None})
+        colours.bar(ax, points, colorbar, shown.label)
         return
     words = distinct(data[color])
     for word, shade in zip(words, _style.shades(words, True)):

@@ -11,7 +11,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from . import _style
+from . import _legend, _scales, _style
 from ._data import Data, Shown, distinct, edges, scattered, unknown
 from ._docs import completed
 
@@ -31,6 +31,8 @@ def response(
     x: str | None = None,
     by: str | None = None,
     where: Mapping[str, Any] | None = None,
+    legend: bool | str = True,
+    colorbar: bool | Axes = True,
     ax: Axes | None = None,
     **slices: Any,
 ) -> Axes | Figure:
@@ -49,8 +51,10 @@ def response(
     by : str, optional
         The parameter with a line for each value; by default the remaining axis of the grid, if there is one.
     %(where)s
+    %(legend)s
+    %(colorbar)s
     ax : matplotlib Axes, optional
-        Axes to draw in, if `y` is one measure; by default those of a new figure.
+        Axes to draw in, if `y` is one measure, in the look of their figure; by default those of a new figure.
 
     Returns
     -------
@@ -74,6 +78,8 @@ def response(
     >>> [line.get_ydata().tolist() for line in ax.lines]
     [[20.0, 40.0], [35.0, 60.0]]
     """
+    _legend.check(legend)
+    _style.check_bar(colorbar)
     whole = Data.of(table)
     data = whole.slice(where, slices)
     several = y is not None and not isinstance(y, str)
@@ -93,7 +99,7 @@ def response(
         data[by]
     data.one_row_for([x] if by is None else [x, by])
 
-    with _style.style():
+    with _style.style(ax):
         if ax is not None:
             axes = [ax]
         elif len(measures) == 1:
@@ -104,10 +110,9 @@ def response(
         family = _Family(data, whole, x, by)
         for each, name in zip(axes, measures):
             family.draw(each, name)
-            if each is axes[0]:
-                family.mark(each)
+        (family.mark_inside if ax is not None else family.mark)(axes[0])
         axes[-1].set_xlabel(family.x.label)
-        family.explain(axes)
+        family.explain(axes, ax is not None, legend, colorbar)
         if len(axes) > 1:
             _style.figure_of(axes[0]).align_ylabels(axes)
     return _style.figure_of(axes[0]) if several else _style.axes_of(axes[0])
@@ -145,29 +150,26 @@ class _Family:
             ys = np.where(there & measured[rows], shown.values[rows], np.nan)
             alone = _alone(ys)
             text = None if self.by is None else self.by.value(value)
-            ax.plot(xs, ys, color=colour, label=text, marker="o", markersize=3.5, markevery=list(np.flatnonzero(alone)))
+            ax.plot(
+                xs,
+                ys,
+                color=colour,
+                label=text,
+                marker="o",
+                markersize=_style.size(0.6),
+                markevery=list(np.flatnonzero(alone)),
+            )
         ax.set_ylabel(shown.label)
         ax.margins(x=0.02)
 
     def mark(self, ax: Axes) -> None:
         """Marks above the axes, a row of them for each line, where rows have no measures."""
-        without = ~self.data.measured()
-        marked = [rows[(rows >= 0) & without[rows]] for rows in self.rows]
-        lines = [(rows, colour) for rows, colour in zip(marked, self.colours) if rows.size]
+        lines = self._not_periodic()
         if not lines:
             return
         step = min(0.022, 0.16 / len(lines))
         for place, (rows, colour) in enumerate(lines):
-            _style.marks(
-                ax,
-                self.x.values[rows],
-                1.02 + place * step,
-                markersize=4.5,
-                markeredgewidth=1.1,
-                color=colour,
-                clip_on=False,
-                label="_not periodic",
-            )
+            self._strokes(ax, rows, 1.02 + place * step, colour, clip_on=False)
         statuses = self.data["status"].astype(str)[np.concatenate([rows for rows, _ in lines])]
         counts = ", ".join(f"{np.sum(statuses == status)} {status}" for status in distinct(statuses))
         ax.annotate(
@@ -178,35 +180,67 @@ class _Family:
             textcoords="offset points",
             ha="right",
             va="bottom",
-            fontsize=8.5,
+            fontsize="medium",
             color=_style.DARK,
         )
 
-    def explain(self, axes: list[Axes]) -> None:
+    def mark_inside(self, ax: Axes) -> None:
+        """The same marks along the lower edge, inside; the limits leave room for them."""
+        lines = self._not_periodic()
+        if not lines:
+            return
+        step = min(0.035, 0.2 / len(lines))
+        low, high = ax.get_ylim()
+        ax.set_ylim(high - (high - low) / (1.0 - step * (len(lines) + 0.5)), high)
+        for place, (rows, colour) in enumerate(lines):
+            self._strokes(ax, rows, (place + 0.75) * step, colour)
+
+    def _not_periodic(self) -> list[tuple[np.ndarray, Any]]:
+        """Rows without measures, for each line that has some, with its colour."""
+        without = ~self.data.measured()
+        marked = [rows[(rows >= 0) & without[rows]] for rows in self.rows]
+        return [(rows, colour) for rows, colour in zip(marked, self.colours) if rows.size]
+
+    def _strokes(self, ax: Axes, rows: np.ndarray, height: float, colour: Any, **options: Any) -> None:
+        look = {"markersize": _style.size(0.75), "markeredgewidth": _style.width(0.7), "color": colour}
+        _style.marks(ax, self.x.values[rows], height, label="_not periodic", **look, **options)
+
+    def explain(self, axes: list[Axes], given: bool, legend: bool | str, colorbar: bool | Axes) -> None:
         """A legend, or a colour bar for many numbers."""
+        handles: list[Any] = []
+        if given and self._not_periodic():
+            look: Any = {"marker": "|", "linestyle": "none", "color": _style.DARK}
+            handles = [Line2D([], [], label="no periodic motion", markersize=_style.size(0.75), **look)]
         if self.by is None:
+            if handles:
+                _legend.legend(axes[0], legend, given, handles=handles)
             return
         if self.by.text or len(self.values) <= _style.LEGEND_LINES:
             handles = [
                 Line2D([], [], color=colour, label=self.by.value(value))
                 for value, colour in zip(self.values, self.colours)
-            ]
-            # Beside the axes: a family of responses leaves no corner free.
-            axes[0].legend(
-                handles=handles,
-                title=_wrapped(self.by.label),
-                loc="upper left",
-                bbox_to_anchor=(1.01, 1.0),
-                borderaxespad=0.0,
-                alignment="left",
-            )
+            ] + handles
+            # Beside new axes: a family of responses leaves no corner free.
+            beside = {"loc": "upper left", "bbox_to_anchor": (1.01, 1.0)}
+            title = self.by.label if given else _wrapped(self.by.label)
+            look = {"handles": handles, "title": title, "alignment": "left", "borderaxespad": 0.0}
+            _legend.legend(axes[0], legend, given, outside=beside, **look)
             return
+        if handles:
+            _legend.legend(axes[0], legend, given, handles=handles)
         numbers = self.values.astype(float) * self.by.factor
+        log = _scales.in_ratio(numbers)
         colours = ListedColormap(self.colours)
-        mappable = ScalarMappable(BoundaryNorm(edges(numbers), colours.N), colours)
-        bar = _style.colour_bar(axes, mappable, label=self.by.label, spacing="proportional")
-        shown = numbers[:: -(-len(numbers) // 12)]
-        bar.set_ticks(list(shown), labels=[f"{number:.4g}" for number in shown])
+        mappable = ScalarMappable(BoundaryNorm(edges(numbers, log), colours.N), colours)
+        spacing = "uniform" if log else "proportional"
+        bar = _style.colour_bar(axes, mappable, colorbar, label=self.by.label, spacing=spacing)
+        if bar is None:
+            return
+        # Two lines of text for each number at least, for numbers that are evenly spaced along the bar.
+        height = 72.0 * bar.ax.get_window_extent().height / _style.figure_of(axes[0]).dpi
+        room = max(2, min(12, int(height / (2.0 * bar.ax.yaxis.get_ticklabels()[0].get_fontsize()))))
+        shown = numbers[:: -(-len(numbers) // room)]
+        bar.set_ticks(list(shown), labels=[f"{number:{'.3g' if log else '.4g'}}" for number in shown])
         bar.minorticks_off()
 
 

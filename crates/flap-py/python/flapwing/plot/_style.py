@@ -24,47 +24,59 @@ if TYPE_CHECKING:
 else:
     Drawn = Axes
 
-# Okabe and Ito's colours, which readers with any colour vision tell apart.
-BLUE, VERMILLION, GREEN, PURPLE, SKY, ORANGE = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00"
-COLOURS = [BLUE, VERMILLION, GREEN, PURPLE, SKY, ORANGE, "#000000"]
+# Okabe and Ito's colours, which readers with any colour vision tell apart, in the order of `flap plot`.
+BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"
+COLOURS = [BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY, "#000000"]
 DARK, GREY, LIGHT = "#222222", "#777777", "#d9d9d9"
 
 # More lines than this get a colour bar in place of a legend.
 LEGEND_LINES = 8
 
+# Sizes of texts are left to `font.size`, on which those of matplotlib's other settings depend.
 _SETTINGS: Any = {
     "axes.axisbelow": True,
     "axes.edgecolor": "#444444",
     "axes.grid": True,
-    "axes.labelsize": 10,
-    "axes.linewidth": 0.8,
     "axes.spines.right": False,
     "axes.spines.top": False,
-    "axes.titlesize": 11,
-    "figure.dpi": 100,
     "font.size": 9.5,
     "grid.color": "#e4e4e4",
     "grid.linewidth": 0.7,
-    "legend.fontsize": 9,
     "legend.framealpha": 0.9,
     "legend.frameon": False,
-    "legend.title_fontsize": 9,
     "lines.linewidth": 1.6,
-    "xtick.labelsize": 9,
-    "ytick.labelsize": 9,
 }
 
 
 @contextmanager
-def style() -> Iterator[None]:
-    """The look of flap's pictures, for as long as one is made."""
-    with mpl.rc_context(_SETTINGS):
+def style(ax: Axes | None = None) -> Iterator[None]:
+    """The look of flap's pictures, for as long as one is made.
+
+    Settings that the user has changed stay as they are. Axes that are given keep the look of their figure.
+    """
+    own = {} if ax is not None else {name: value for name, value in _SETTINGS.items() if _is_default(name)}
+    with mpl.rc_context(own):
         try:
             yield
         finally:
             interactive = mpl.is_interactive()
     # In a notebook the first figure turns this on, and without it no other would be shown.
     mpl.interactive(interactive)
+
+
+def _is_default(name: str) -> bool:
+    settings: Any = mpl.rcParams
+    return bool(settings[name] == mpl.rcParamsDefault[name])
+
+
+def width(factor: float) -> float:
+    """A width of lines, as a multiple of the user's."""
+    return factor * float(mpl.rcParams["lines.linewidth"])
+
+
+def size(factor: float) -> float:
+    """A size of markers, as a multiple of the user's."""
+    return factor * float(mpl.rcParams["lines.markersize"])
 
 
 def new_figure(width: float = 6.4, height: float = 4.0) -> Figure:
@@ -85,17 +97,23 @@ def figure_of(ax: Axes) -> Figure:
     return figure
 
 
-def colour_bar(ax: Axes | list[Axes], mappable: Any, **options: Any) -> Any:
-    """A colour bar beside axes, for a map or points in colours."""
+def colour_bar(ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes = True, **options: Any) -> Any:
+    """A colour bar, for a map or points in colours: none, one that takes its room from `ax`, or in axes of its own."""
+    if wanted is False:
+        return None
     first = ax[0] if isinstance(ax, list) else ax
-    bar = figure_of(first).colorbar(mappable, ax=ax, **options)
+    if wanted is True:
+        bar = figure_of(first).colorbar(mappable, ax=ax, pad=0.02, **options)
+    else:
+        bar = figure_of(first).colorbar(mappable, cax=wanted, **options)
     bar.ax.grid(False)
     return bar
 
 
-def legend_above(ax: Axes, height: float = 1.0, **options: Any) -> None:
-    """A legend above axes, from their left edge; `height` is in heights of the axes."""
-    ax.legend(loc="lower left", bbox_to_anchor=(0.0, height), **options)
+def check_bar(wanted: object) -> None:
+    """Raises if the option `colorbar` of a picture has a value that it cannot have."""
+    if not isinstance(wanted, (bool, Axes)):
+        raise TypeError(f"`colorbar` is True, False or axes of matplotlib to draw it in, not {wanted!r}")
 
 
 def marks(ax: Axes, x: np.ndarray, height: float, **options: Any) -> None:

@@ -8,7 +8,7 @@ from typing import Any, Iterable, Mapping, NamedTuple, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from . import _labels, _style
+from . import _labels, _legend, _style
 from ._data import unknown
 from ._docs import completed
 
@@ -123,6 +123,7 @@ def tornado(
     *,
     change: float = 0.05,
     top: int = 12,
+    legend: bool | str = True,
     ax: Axes | None = None,
     **fixed: Any,
 ) -> _style.Drawn:
@@ -136,6 +137,7 @@ def tornado(
         As for `sensitivities`.
     top : int
         The largest number of parameters that are drawn.
+    %(legend)s
     %(axes)s
         The horizontal axis is the change of the measure in percent of the design's own.
 
@@ -144,6 +146,7 @@ def tornado(
     ValueError
         As `sensitivities`; no sensitivities; a measure that is zero for the design itself.
     """
+    _legend.check(legend)
     if isinstance(design, str):
         if measure is None:
             raise TypeError("`measure` is needed: a measure of the model, such as lift_mean_mn")
@@ -160,7 +163,8 @@ def tornado(
     high = np.array([100.0 * (each.high - base) / abs(base) for each in shown])
     places = np.arange(len(shown))
 
-    with _style.style():
+    given = ax is not None
+    with _style.style(ax):
         ax = _style.axes_of(ax, 6.8, 1.5 + 0.32 * len(shown))
         ax.grid(False, axis="y")
         less, more = _names_of_changes(shown)
@@ -170,7 +174,7 @@ def tornado(
             bars = ax.barh(places, ends, height=np.where(thin, 0.28, 0.62), color=colour, label=name)
             for bar, above in zip(bars, thin):
                 bar.set_zorder(1.6 if above else 1.5)
-        ax.axvline(0.0, color=_style.DARK, linewidth=0.9)
+        ax.axvline(0.0, color=_style.DARK, linewidth=_style.width(0.6))
         ax.set_yticks(places, labels=[_named(each) for each in shown])
         ax.tick_params(axis="y", length=0)
         ax.set_ylim(len(shown) - 0.4, -0.6)
@@ -188,13 +192,12 @@ def tornado(
                     xytext=(4, 0),
                     textcoords="offset points",
                     va="center",
-                    fontsize=8,
+                    fontsize="small",
                     color=_style.DARK,
                 )
         left = f"; {len(found) - len(shown)} smaller ones not shown" if len(found) > len(shown) else ""
-        _style.legend_above(
-            ax, ncols=2, borderaxespad=0.1, title=f"each parameter alone{left}", alignment="left"
-        )
+        title = f"each parameter alone{left}"
+        _legend.legend(ax, legend, given, ncols=2, borderaxespad=0.1, title=title, alignment="left")
     return ax
 
 

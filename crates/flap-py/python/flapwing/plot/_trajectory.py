@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from . import _labels, _style
+from . import _labels, _legend, _style
 from ._data import Data
 
 _ANGLES = ("stroke_deg", "pitch_deg")
@@ -21,6 +21,7 @@ def trajectory(
     *,
     portrait: Sequence[str] | None = ...,
     time: str = ...,
+    legend: bool | str = ...,
     ax: None = ...,
 ) -> Figure: ...
 @overload
@@ -30,6 +31,7 @@ def trajectory(
     *,
     portrait: Sequence[str] | None = ...,
     time: str = ...,
+    legend: bool | str = ...,
     ax: Axes,
 ) -> Axes: ...
 def trajectory(
@@ -38,6 +40,7 @@ def trajectory(
     *,
     portrait: Sequence[str] | None = None,
     time: str = "time_s",
+    legend: bool | str = True,
     ax: Axes | None = None,
 ) -> Figure | Axes:
     """Draw signals over time, and beside them the phase portraits: each angle against its rate.
@@ -53,6 +56,9 @@ def trajectory(
         is no column of the table is the slope of the samples.
     time : str
         The column of the time.
+    legend : bool or str
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is above new axes, and
+        inside axes that are given.
     ax : matplotlib Axes, optional
         Axes to draw signals of one unit in, without a portrait.
 
@@ -74,6 +80,7 @@ def trajectory(
     >>> [each.get_xlabel() for each in trajectory(table).axes]
     ['Time (ms)', 'Stroke (°)', 'Pitch (°)']
     """
+    _legend.check(legend)
     data = Data.of(table)
     names = [signals] if isinstance(signals, str) else list(signals)
     if not names:
@@ -90,7 +97,7 @@ def trajectory(
         portraits = []
     rates = {name: _rate(data, name, t) for name in portraits}
 
-    with _style.style():
+    with _style.style(ax):
         if ax is not None:
             over_time, beside = [ax], list[Axes]()
         else:
@@ -106,14 +113,14 @@ def trajectory(
                 each.set_ylabel(data.shown(members[0]).label)
             else:
                 each.set_ylabel(_labels.titled(_common([data.shown(name).words for name in members]), unit))
-                _style.legend_above(each, ncols=3, borderaxespad=0.1)
+                _legend.legend(each, legend, ax is not None, ncols=3, borderaxespad=0.1)
             each.margins(x=0.0)
         over_time[-1].set_xlabel(x.label)
         for each, name in zip(beside, portraits):
             shown = data.shown(name)
             rate, unit = rates[name]
             each.plot(shown.values, rate, color=colours[name])
-            each.plot(shown.values[:1], rate[:1], "o", color=colours[name], markersize=4, label="start")
+            each.plot(shown.values[:1], rate[:1], "o", color=colours[name], markersize=_style.size(0.7), label="start")
             _direction(each, shown.values, rate, colours[name])
             each.set_xlabel(shown.label)
             each.set_ylabel(_labels.titled(f"{shown.words} rate", unit))

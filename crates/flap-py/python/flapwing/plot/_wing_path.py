@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from base64 import b64encode
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -14,11 +15,20 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
-from . import _labels, _style
+from . import _labels, _legend, _style
 from ._data import Data
 
 # Chords of the past that are shown, and how far apart they are, in cycles.
 _PAST, _APART = 9, 1.0 / 36.0
+
+# Distances of ticks, in degrees of the stroke.
+_STEPS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 90)
+
+# Strokes that are drawn larger than they are, peak to peak (rad).
+_SMALL = np.radians(11.0)
+
+# The largest GIF that a notebook keeps (bytes).
+_NOTEBOOK = 1_000_000
 
 
 class WingPath(FuncAnimation):
@@ -52,7 +62,7 @@ class WingPath(FuncAnimation):
                 options["fps"] = fps
             super().save(os.fspath(filename), writer=writer, **options)
 
-    def _save_gif(self, filename: str | os.PathLike[str], fps: int, dpi: float | str) -> None:
+    def _save_gif(self, file: str | os.PathLike[str] | BytesIO, fps: int, dpi: float | str) -> None:
         """One palette for all frames makes a third of the size, and one drawing for each half of the time."""
         from PIL import Image
 
@@ -69,10 +79,19 @@ class WingPath(FuncAnimation):
                 palette = _palette(image)
             images.append(image.quantize(palette=palette, dither=Image.Dither.NONE))
         first, *others = images
-        first.save(filename, format="GIF", save_all=True, append_images=others, duration=round(1000 / fps), loop=0)
+        first.save(file, format="GIF", save_all=True, append_images=others, duration=round(1000 / fps), loop=0)
 
     def _repr_html_(self) -> str:
-        return str(self.to_jshtml())
+        dpi = float(self._scene.figure.dpi)
+        while True:
+            with BytesIO() as buffer:
+                self._save_gif(buffer, fps=25, dpi=dpi)
+                gif = buffer.getvalue()
+            if len(gif) <= _NOTEBOOK or dpi < 20.0:
+                break
+            # Sizes grow with the number of pixels, or a little less.
+            dpi *= max(0.5, min(0.9, (_NOTEBOOK / len(gif)) ** 0.5))
+        return f'<img src="data:image/gif;base64,{b64encode(gif).decode()}" alt="One cycle of the wing">'
 
 
 def wing_path(
@@ -80,9 +99,10 @@ def wing_path(
     *,
     frames: int = 48,
     frequency: float | None = None,
-    radius: float = 3.0,
+    radius: float | None = None,
     lift: str | None = "lift_mn",
     pitch_sign: int | None = None,
+    legend: bool | str = True,
     ax: Axes | None = None,
 ) -> WingPath:
     """Animate the last cycle of a motion: the wing's chord seen from its tip, moving along the stroke.
@@ -99,26 +119,30 @@ def wing_path(
         Frames of the cycle, evenly spaced.
     frequency : float, optional
         Cycles per second (Hz); by default the rate at which the motion repeats.
-    radius : float
-        Distance of the drawn chord from the stroke's axis, in chords.
+    radius : float, optional
+        Distance of the drawn chord from the stroke's axis, in chords. By default 3. Strokes of less than 11 degrees, peak
+        to peak, have a larger one, such that the leading edge moves by 2.5 chords.
     lift : str or None
         The column that the arrow shows; None for no arrow. There is no arrow if the default column is missing.
     pitch_sign : {1, -1}, optional
         1 if a positive pitch has the trailing edge lag a wing that moves to positive stroke, -1 if it leads; by
         default as the model of the table has it.
+    legend : bool or str
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is above the axes.
     ax : matplotlib Axes, optional
-        Axes to draw the wing in, without the curves below.
+        Axes to draw the wing in, without the curves below; the legend is inside.
 
     Returns
     -------
     WingPath
-        A matplotlib ``FuncAnimation``; `save` knows ``.gif`` and ``.html``, and notebooks show ``_repr_html_``.
+        A matplotlib ``FuncAnimation``; `save` knows ``.gif`` and ``.html``. Notebooks show a GIF of at most 1 MB.
 
     Raises
     ------
     ValueError
         An unknown column; a motion that does not repeat, or less than one cycle of it.
     """
+    _legend.check(legend)
     data = Data.of(table)
     if frames < 2:
         raise ValueError(f"an animation has two frames or more, not {frames}")
@@ -128,8 +152,11 @@ def wing_path(
         data[lift]
     cycle = _Cycle(data, frames, frequency, lift if lift is not None and lift in data else None)
     sign = _pitch_sign(data) if pitch_sign is None else pitch_sign
-    with _style.style():
-        return WingPath(_Scene(cycle, sign, radius, ax))
+    if radius is None:
+        swept = float(np.radians(np.ptp(cycle.stroke)))
+        radius = 2.5 / swept if 0.0 < swept < _SMALL else 3.0
+    with _style.style(ax):
+        return WingPath(_Scene(cycle, sign, radius, legend, ax))
 
 
 def _palette(image: Any) -> Any:
@@ -168,56 +195,62 @@ class _Cycle:
 class _Scene:
     """The parts of the picture: those drawn once, and those that every frame moves."""
 
-    def __init__(self, cycle: _Cycle, sign: int, radius: float, ax: Axes | None) -> None:
+    def __init__(self, cycle: _Cycle, sign: int, radius: float, legend: bool | str, ax: Axes | None) -> None:
         self.cycle = cycle
         along = np.radians(cycle.stroke) * radius
         tilt = np.radians(cycle.pitch) * sign
         self.leading = np.column_stack([along, np.zeros_like(along)])
         self.trailing = np.column_stack([along - np.sin(tilt), -np.cos(tilt)])
+        self.given = ax is not None
         below: Axes | None = None
         if ax is None:
             figure = _style.new_figure(6.4, 5.0)
             ax, below = figure.subplots(2, 1, height_ratios=[2.2, 1.0])
         self.figure: Figure = _style.figure_of(ax)
-        self._set_up(ax, radius)
+        self._set_up(ax, radius, legend)
         self.now = None if below is None else self._curves(below)
         if below is not None:
             # The layout is the same in all frames, and finding it takes longer than drawing one.
             self.figure.draw_without_rendering()
             self.figure.set_layout_engine(None)
 
-    def _set_up(self, ax: Axes, radius: float) -> None:
+    def _set_up(self, ax: Axes, radius: float, legend: bool | str) -> None:
         reach = np.abs(np.concatenate([self.leading[:, 0], self.trailing[:, 0]])).max() + 0.25
         ax.set_aspect("equal")
         ax.set_xlim(-max(reach, 2.0), max(reach, 2.0))
         ax.set_ylim(-1.2, 1.2 if self.cycle.lift is not None else 0.75)
         ax.grid(False)
-        for side in ("left", "bottom"):
-            ax.spines[side].set_visible(False)
+        ax.spines[:].set_visible(False)
         ax.set_yticks([])
         low, high = self.cycle.stroke.min(), self.cycle.stroke.max()
         room = 0.12 * (ax.get_xlim()[1] - ax.get_xlim()[0])
-        step = next((step for step in (1, 2, 5, 10, 15, 30, 60, 90) if np.radians(step) * radius >= room), 180)
+        step = next((step for step in _STEPS if np.radians(step) * radius >= room), 180)
         degrees = np.arange(np.ceil(low / step) * step, high + 1e-9, step)
-        ax.set_xticks(np.radians(degrees) * radius, labels=[f"{degree:.0f}°".replace("-", "−") for degree in degrees])
+        ax.set_xticks(
+            np.radians(degrees) * radius, labels=[f"{_labels.number(round(degree, 6) + 0.0)}°" for degree in degrees]
+        )
         ax.set_xlabel("Stroke, at the leading edge")
         ends = [self.leading[:, 0].min(), self.leading[:, 0].max()]
-        ax.plot(ends, [0.0, 0.0], color="#bbbbbb", linewidth=1.0, linestyle=(0, (4, 3)))
-        self.past = LineCollection([], colors=[], linewidths=1.6, capstyle="round")
+        ax.plot(ends, [0.0, 0.0], color="#bbbbbb", linewidth=_style.width(0.6), linestyle=(0, (4, 3)))
+        self.past = LineCollection([], colors=[], linewidths=_style.width(1.0), capstyle="round")
         ax.add_collection(self.past)
-        (self.chord,) = ax.plot([], [], color=_style.BLUE, linewidth=3.2, solid_capstyle="round", label="chord")
-        (self.edge,) = ax.plot([], [], "o", color=_style.DARK, markersize=7, label="leading edge")
+        (self.chord,) = ax.plot(
+            [], [], color=_style.BLUE, linewidth=_style.width(2.0), solid_capstyle="round", label="chord"
+        )
+        (self.edge,) = ax.plot([], [], "o", color=_style.DARK, markersize=_style.size(1.15), label="leading edge")
         self.arrow: Any = None
         handles = [self.edge, self.chord]
         if self.cycle.lift is not None:
             peak = float(np.abs(self.cycle.lift).max())
             self.per_unit = 1.1 / peak if peak > 0 else 0.0
             text = f"{self.cycle.lift_words.lower()}, up to {_labels.number(peak)} {self.cycle.lift_unit}"
-            (self.shaft,) = ax.plot([], [], color=_style.VERMILLION, linewidth=2.0, label=text.strip())
-            (self.head,) = ax.plot([], [], "^", color=_style.VERMILLION, markersize=7)
+            (self.shaft,) = ax.plot([], [], color=_style.VERMILLION, linewidth=_style.width(1.25), label=text.strip())
+            (self.head,) = ax.plot([], [], "^", color=_style.VERMILLION, markersize=_style.size(1.15))
             self.arrow = self.shaft
             handles.append(self.shaft)
-        ax.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, borderaxespad=0.1)
+        above = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0)}
+        look: dict[str, Any] = {"handles": handles, "ncols": 3, "borderaxespad": 0.1}
+        _legend.legend(ax, legend, self.given, inside="lower left", outside=above, **look)
 
     def _curves(self, ax: Axes) -> Any:
         phase = np.append(self.cycle.phase, 1.0)
@@ -230,7 +263,7 @@ class _Scene:
         ax.set_xlabel(f"Cycle (of {_labels.number(self.cycle.seconds * 1e3)} ms)")
         ax.set_ylabel("Angle (°)")
         ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
-        return ax.axvline(0.0, color=_style.DARK, linewidth=1.0)
+        return ax.axvline(0.0, color=_style.DARK, linewidth=_style.width(0.6))
 
     def draw(self, frame: int) -> list[Any]:
         """Moves everything to a frame."""

@@ -1,0 +1,90 @@
+"""Scales of axes and of colours."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import Colormap, ListedColormap, LogNorm, Normalize
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
+
+from . import _style
+
+#: The colour maps of numbers, and of those with both signs.
+SEQUENTIAL, DIVERGING = "viridis", "RdBu_r"
+
+# Numbers have both signs if the smaller side is at least this share of the larger one.
+_BOTH_SIGNS = 0.02
+
+
+class Colours(NamedTuple):
+    """The colours of numbers."""
+
+    cmap: str | Colormap
+    norm: Normalize
+    #: The ends of the colour bar with an arrow, for there are numbers beyond: "neither", "min", "max" or "both".
+    extend: str
+    #: True for a diverging map around zero.
+    signed: bool
+
+    def bar(self, ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes, label: str) -> None:
+        """The colour bar, with a line at zero between both signs."""
+        bar = _style.colour_bar(ax, mappable, wanted, label=label, extend=self.extend)
+        if bar is None:
+            return
+        if self.signed:
+            bar.ax.axhline(0.0, color=_style.DARK, linewidth=_style.width(0.6))
+        if isinstance(self.norm, LogNorm):
+            ticks = log_ticks(float(self.norm.vmin or 0.0), float(self.norm.vmax or 1.0))
+            bar.set_ticks(ticks, labels=[f"{tick:g}" for tick in ticks])
+            bar.minorticks_off()
+
+
+def colours(
+    values: np.ndarray, cmap: str | None, vmin: float | None = None, vmax: float | None = None, log: bool = False
+) -> Colours:
+    """The colours of numbers from `vmin` to `vmax`, by default from the smallest to the largest.
+
+    Without a `cmap`, numbers of both signs get a diverging map whose middle is zero.
+    """
+    finite = values[np.isfinite(values)]
+    smallest, largest = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    low, high = smallest if vmin is None else vmin, largest if vmax is None else vmax
+    below, above = bool(finite.size) and smallest < low, bool(finite.size) and largest > high
+    extend = {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}[below, above]
+    if cmap is None and low < 0 < high and min(-low, high) > _BOTH_SIGNS * max(-low, high):
+        return Colours(_diverging(low, high), Normalize(low, high), extend, True)
+    norm = LogNorm(low, high) if log and low > 0 else Normalize(low, high)
+    return Colours(cmap or SEQUENTIAL, norm, extend, False)
+
+
+def _diverging(low: float, high: float) -> Colormap:
+    """The part of the diverging map from `low` to `high`: its middle is zero, and equal sizes are equally strong."""
+    size = max(-low, high)
+    places = 0.5 + 0.5 * np.linspace(low, high, 257) / size
+    return ListedColormap(mpl.colormaps[DIVERGING](places), name="signed")
+
+
+def in_ratio(values: np.ndarray) -> bool:
+    """True for three or more rising values in constant ratio."""
+    if len(values) < 3 or values[0] <= 0:
+        return False
+    ratios = values[1:] / values[:-1]
+    return bool(np.ptp(ratios) < 1e-6 * ratios[0])
+
+
+def log_ticks(low: float, high: float) -> list[float]:
+    """Round numbers on a logarithmic scale: a decade's powers alone would leave a short one without any."""
+    subs = [1.0, 2.0, 5.0] if high / low < 300 else [1.0]
+    if high / low < 8:
+        subs = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0]
+    return [float(tick) for tick in LogLocator(subs=subs).tick_values(low, high) if low <= tick <= high]
+
+
+def show_log_ticks(axis: Any, low: float, high: float) -> None:
+    """Plain numbers at round places of a logarithmic axis."""
+    axis.set_major_locator(FixedLocator(log_ticks(low, high)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())

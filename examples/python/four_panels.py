@@ -1,0 +1,76 @@
+"""Four pictures in one figure for a paper, 7 inches wide with letters of 7 points:
+
+    pip install "./crates/flap-py[plot]"
+    python examples/python/four_panels.py              # writes docs/pictures/py-four-panels.png
+    python examples/python/four_panels.py figure.pdf   # any format of matplotlib
+
+Each function of `flapwing.plot` draws in the axes that it is given, with the letters and lines of the script's settings.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")  # files, no windows
+
+import flapwing
+import matplotlib.pyplot as plt
+from flapwing import plot
+from matplotlib.figure import Figure
+
+REPOSITORY = Path(__file__).parents[2]
+
+PAPER = {
+    "font.size": 7.0,
+    "axes.linewidth": 0.6,
+    "lines.linewidth": 1.0,
+    "lines.markersize": 4.0,
+    "legend.framealpha": 0.85,
+    "legend.edgecolor": "none",
+    "legend.fontsize": 6.5,
+    "legend.title_fontsize": 6.5,
+}
+
+
+def four_panels() -> Figure:
+    """A response, a map, a Pareto front and a hysteresis loop in 7 by 5 inches."""
+    large = flapwing.sweep(REPOSITORY / "examples" / "ozaki_large.toml")
+    softened = {"hinge_stiffness": "0.7486 uN*m/rad", "drive_voltage_pp": "160 V"}
+    loop = flapwing.respond("jafferis2016", start="115 Hz", stop="135 Hz", step="1 Hz", unstable=True, **softened)
+
+    figure, ((a, b), (c, d)) = plt.subplots(2, 2, figsize=(7.0, 5.0), layout="constrained")
+    plot.response(large[large["drive_voltage_pp"] % 20 == 0], "lift_mean_mn", hinge_stiffness=9e-5, ax=a)
+    plot.heatmap(large, "efficiency_gf_per_w", drive_voltage_pp=100, ax=b)
+    plot.pareto(large, maximize="lift_mean_mn", minimize="power_mean_mw", color="drive_frequency", ax=c)
+    plot.hysteresis(loop, ax=d)
+    for letter, ax in zip("abcd", (a, b, c, d)):
+        ax.set_title(letter, loc="left", fontweight="bold", fontsize=8.0)
+    return figure
+
+
+def main() -> None:
+    """Writes the figure."""
+    parser = argparse.ArgumentParser(description="Makes a figure of four panels.")
+    parser.add_argument("file", nargs="?", type=Path, default=REPOSITORY / "docs" / "pictures" / "py-four-panels.png")
+    file = parser.parse_args().file
+    with plt.rc_context(PAPER):
+        figure = four_panels()
+        figure.savefig(file, dpi=150)
+    if file.suffix == ".png":
+        reduce(file)
+
+
+def reduce(path: Path) -> None:
+    """Makes a PNG smaller: few colours are enough for a chart."""
+    from PIL import Image
+
+    with Image.open(path) as image:
+        few = image.convert("RGB").quantize(256, dither=Image.Dither.NONE)
+    few.save(path, optimize=True)
+
+
+if __name__ == "__main__":
+    main()
