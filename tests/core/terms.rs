@@ -2,6 +2,7 @@
 //! dielectric loss, charge recovery, hinge strain.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::fmt::Write as _;
 
 use flap_core::model::Model;
 use flap_core::model::bimorph::{Bimorph, Constants, Law, Params};
@@ -347,16 +348,18 @@ fn hinge_strain_is_that_of_an_arc() {
     }
 }
 
-/// The terms of the table in docs/terms.md: a name, the parameters, and the model that alone has it.
-const SHOWN: [(&str, &[(&str, f64)], Option<&str>); 8] = [
-    ("`stroke_loss_factor` 0.1", &[("stroke_loss_factor", 0.1)], None),
-    ("`hinge_loss_factor` 0.1", &[("hinge_loss_factor", 0.1)], None),
-    ("`hinge_damping` 1 nN·m·s", &[("hinge_damping", 1e-9)], None),
-    ("`dielectric_loss` 0.13", &[("dielectric_loss", 0.13)], None),
-    ("`charge_recovery` 0.58", &[("charge_recovery", 0.58)], None),
-    ("`transmission_growth` 4.4 rad/mm³", &[("transmission_growth", 4.4e9)], Some("bimorph")),
-    ("`drive_offset` 20 V", &[("drive_offset", 20.0)], Some("bimorph")),
-    ("`plate_ratio` 0.9", &[("plate_ratio", 0.9)], Some("bimorph")),
+/// A term of the table in docs/terms.md: its label, the parameter and its value, and the model that alone has it.
+type Shown = (&'static str, (&'static str, f64), Option<&'static str>);
+
+const SHOWN: [Shown; 8] = [
+    ("`stroke_loss_factor` 0.1", ("stroke_loss_factor", 0.1), None),
+    ("`hinge_loss_factor` 0.1", ("hinge_loss_factor", 0.1), None),
+    ("`hinge_damping` 1 nN·m·s", ("hinge_damping", 1e-9), None),
+    ("`dielectric_loss` 0.13", ("dielectric_loss", 0.13), None),
+    ("`charge_recovery` 0.58", ("charge_recovery", 0.58), None),
+    ("`transmission_growth` 4.4 rad/mm³", ("transmission_growth", 4.4e9), Some("bimorph")),
+    ("`drive_offset` 20 V", ("drive_offset", 20.0), Some("bimorph")),
+    ("`plate_ratio` 0.9", ("plate_ratio", 0.9), Some("bimorph")),
 ];
 
 /// The changes of measures by each term at each preset.
@@ -375,16 +378,14 @@ fn table_of_terms() -> String {
     ] {
         let design = Design::new(name);
         let before = design.measures(columns);
-        for (term, changes, owner) in SHOWN {
+        for (term, change, owner) in SHOWN {
             let is_absent = owner.is_some_and(|owner| owner != design.model.name());
             // The four-bar's own damping is not zero.
-            if is_absent
-                || changes.iter().any(|(name, _)| name.ends_with("_damping") && design.value(name) > 0.0)
-            {
+            if is_absent || (change.0.ends_with("_damping") && design.value(change.0) > 0.0) {
                 continue;
             }
-            let after = design.clone().with(changes).measures(columns);
-            table += &format!("| `{name}` | {term} |");
+            let after = design.clone().with(&[change]).measures(columns);
+            write!(table, "| `{name}` | {term} |").unwrap();
             for (after, before) in after.into_iter().zip(before) {
                 let percent = 100.0 * (after / before - 1.0);
                 // No sign for what rounds to nothing.

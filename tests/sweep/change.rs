@@ -3,7 +3,7 @@
 use flap_core::simulate::{SolverSettings, all};
 use flap_sweep::grid;
 use flap_sweep::notation::value::ValueError;
-use flap_sweep::plan::gradient::NoShares;
+use flap_sweep::plan::gradient::{Gradient, NoShares};
 use flap_sweep::plan::{ChangeError, Plan, Value};
 
 use crate::fake::{index, plan};
@@ -125,7 +125,7 @@ fn derivatives_and_states_are_those_of_models_with_motions() {
     let stiffness = place("hinge_stiffness");
     let slopes =
         flies("output.columns = [\"lift_mean_mn\", \"cycles\"]").with_slopes(vec![stiffness]).unwrap();
-    assert_eq!(slopes.gradient().map(|gradient| gradient.len()), Some(1));
+    assert_eq!(slopes.gradient().map(Gradient::len), Some(1));
     for (grid, name, reason) in [
         ("derived.hinge_stiffness = \"1e-6 * drive_frequency\"", "hinge_stiffness", NoShares::Derived),
         ("", "lift_sign", NoShares::Choice),

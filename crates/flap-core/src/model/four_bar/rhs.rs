@@ -118,7 +118,7 @@ pub fn mass_matrix<R: Real>(c: &Constants<R>, inertia: R, sin: R, cos: R) -> [R;
 /// ⎣M₁₂ M₂₂⎦ ⎣φ̈⎦   ⎣Q_φ − dφ̇ − k_rot φ + ½J_d sin 2φ θ̇²                  ⎦
 /// ```
 ///
-/// D is the [`stroke_damping`].
+/// D is the viscous damping of the stroke with that of the loss factor of the drive spring, D + γ k_eff δ′²/ω.
 #[inline(always)]
 pub fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: R, y: &[R; 4]) -> Balance<R> {
     let [_, phi, theta_dot, phi_dot] = *y;
