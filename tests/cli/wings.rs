@@ -74,8 +74,9 @@ fn the_outline_of_a_preset_gives_its_rows() {
     fs::write(folder.path("wing.toml"), &ended.stdout).unwrap();
     let measure = |what: &str, name: &str| {
         let text = folder.ends(0, &format!("run {what}")).stdout;
-        let line = text.lines().find(|line| line.starts_with(&format!("{name} = "))).unwrap().to_owned();
-        line.split([' ', '=']).filter(|word| !word.is_empty()).nth(1).unwrap().parse::<f64>().unwrap()
+        let mut lines = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
+        let line = lines.find(|line| line.first() == Some(&name)).unwrap();
+        line[1].parse::<f64>().unwrap()
     };
     for name in ["lift_mean_mn", "stroke_pp_deg", "power_mean_mw"] {
         let (own, preset) = (measure("wing.toml", name), measure("arabagi2013-75hz", name));

@@ -7,7 +7,7 @@
 //! - [`num`]: the numbers that models and integrators compute with, scalars or SIMD lanes
 //! - [`ode`]: Dormand-Prince 5(4), for one run or for many in lanes
 //! - [`parameter`]: names, units, ranges and meaning of a design point's numbers
-//! - [`drive`], [`piezo`], [`linkage`], [`aero`], [`modes`], [`quadrature`]: components that models share
+//! - [`quadrature`], [`drive`], [`piezo`], [`linkage`], [`aero`], [`modes`]: components that models share
 //! - [`model`]: the papers' models: parameters → constants → equations of motion → signals
 //! - [`measure`]: measures of a motion, the same for every model
 //! - [`simulate`]: design points in, rows out

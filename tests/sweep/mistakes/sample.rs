@@ -29,7 +29,7 @@ fn keys_of_samples() {
   help: list them under [sample.parameters]: wing_area = { from = "50 mm^2", to = "60 mm^2" }
 4:8 |-1| `seed` must be a whole number from 0 to 2^64 - 1
 5:1 |size| unknown key `size` in [sample] (unknown key)
-  note: keys in [sample]: method, n, seed, parameters
+  note: keys in [sample]: method, n, seed, of, parameters
 "#,
     );
     check(

@@ -5,7 +5,7 @@ use std::ops::Range;
 use flap_core::parameter::Parameter;
 use toml::de::DeValue;
 
-use super::params::Lookup;
+use super::lookup::Lookup;
 use super::problems::Problems;
 use super::range;
 use super::table::{self, Entry};

@@ -6,7 +6,7 @@ use flap_core::parameter::Kind as ParameterKind;
 
 use super::axes::Placed;
 use super::formula::{self, Names};
-use super::params::Lookup;
+use super::lookup::Lookup;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use crate::notation::expression::{Expression, Kind};

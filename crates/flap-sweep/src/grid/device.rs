@@ -8,7 +8,8 @@ use flap_core::simulate::Simulator;
 use toml::de::DeTable;
 
 use super::companion;
-use super::params::{self, Lookup};
+use super::lookup::Lookup;
+use super::params;
 use super::preset;
 use super::problems::Problems;
 use super::syntax;

@@ -12,6 +12,7 @@ pub mod diagnostic;
 mod former;
 mod formula;
 mod gradient;
+mod lookup;
 mod measures;
 mod output;
 mod params;

@@ -9,6 +9,7 @@ use toml::de::DeTable;
 use super::device::{Base, Reader, Shelf};
 use super::diagnostic::Mistakes;
 use super::formula::{self, Names};
+use super::lookup::Lookup;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::{
@@ -140,7 +141,7 @@ fn read_points(
 ) -> Points {
     let (simulator, device) = (base.simulator, base.values.clone());
     let set = base.set(root, models, problems);
-    let mut lookup = params::Lookup { simulator, models, problems };
+    let mut lookup = Lookup { simulator, models, problems };
     let mut axes = axes::read(table::find(root, "axes"), &mut lookup);
     axes.extend(zip::read(table::find(root, "zip"), &mut lookup));
     let sample = sample::read(table::find(root, "sample"), &base, &mut lookup);

@@ -9,7 +9,7 @@ use toml::de::DeInteger;
 
 use super::axes::{self, Placed};
 use super::device::Base;
-use super::params::Lookup;
+use super::lookup::Lookup;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;

@@ -4,7 +4,7 @@ use flap_core::parameter::{Kind, Parameter};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::params::Lookup;
+use super::lookup::Lookup;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
@@ -21,9 +21,14 @@ pub(super) fn of_parameter(
     problems: &mut Problems,
 ) -> (Option<f64>, Option<f64>) {
     match entry.value.get_ref() {
-        DeValue::Table(table) => of_table(parameter, entry, table, problems),
+        DeValue::Table(table) if !is_range(table) => of_table(parameter, entry, table, problems),
         _ => (value::of_parameter(parameter, entry.value, problems), None),
     }
+}
+
+/// True of a range, which an axis takes.
+fn is_range(table: &DeTable<'_>) -> bool {
+    ["from", "to", "values"].into_iter().any(|key| table.contains_key(key))
 }
 
 fn of_table(

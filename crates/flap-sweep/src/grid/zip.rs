@@ -6,7 +6,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::axes::{self, Placed};
-use super::params::Lookup;
+use super::lookup::Lookup;
 use super::table::{self, Entry};
 use crate::plan::axis::Axis;
 

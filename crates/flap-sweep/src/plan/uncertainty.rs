@@ -78,7 +78,9 @@ mod tests {
 
     fn uncertainty(coefficients: [f64; 3]) -> Uncertainty {
         let mut uncertainty = Uncertainty::default();
-        [7, 2, 5].into_iter().for_each(|parameter| uncertainty.set(parameter, Some(1.0)));
+        for parameter in [7, 2, 5] {
+            uncertainty.set(parameter, Some(1.0));
+        }
         for (between, coefficient) in [[2, 5], [2, 7], [5, 7]].into_iter().zip(coefficients) {
             uncertainty.correlate(Correlation { between, coefficient });
         }

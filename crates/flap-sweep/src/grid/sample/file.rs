@@ -8,7 +8,7 @@ use flap_core::parameter::Parameter;
 
 use super::super::axes::Placed;
 use super::super::companion;
-use super::super::params::Lookup;
+use super::super::lookup::Lookup;
 use super::super::table::{self, Entry};
 use super::super::value::text as text_of;
 use crate::notation::units;
