@@ -23,23 +23,27 @@ from matplotlib.figure import Figure
 
 REPOSITORY = Path(__file__).parents[2]
 
-PAPER = {
-    "font.size": 7.0,
-    "axes.linewidth": 0.6,
-    "lines.linewidth": 1.0,
-    "lines.markersize": 4.0,
-    "legend.framealpha": 0.85,
-    "legend.edgecolor": "none",
-    "legend.fontsize": 6.5,
-    "legend.title_fontsize": 6.5,
-}
+
+def use_style_of_paper() -> None:
+    """Small letters and thin lines."""
+    plt.rc("font", size=7.0)
+    plt.rc("axes", linewidth=0.6)
+    plt.rc("lines", linewidth=1.0, markersize=4.0)
+    plt.rc("legend", framealpha=0.85, edgecolor="none", fontsize=6.5, title_fontsize=6.5)
 
 
 def four_panels() -> Figure:
     """A response, a map, a Pareto front and a hysteresis loop in 7 by 5 inches."""
     large = flapwing.sweep(REPOSITORY / "examples" / "ozaki_large.toml")
-    softened = {"hinge_stiffness": "0.7486 uN*m/rad", "drive_voltage_pp": "160 V"}
-    loop = flapwing.respond("jafferis2016", start="115 Hz", stop="135 Hz", step="1 Hz", unstable=True, **softened)
+    loop = flapwing.respond(
+        "jafferis2016",
+        start="115 Hz",
+        stop="135 Hz",
+        step="1 Hz",
+        unstable=True,
+        hinge_stiffness="0.7486 uN*m/rad",
+        drive_voltage_pp="160 V",
+    )
 
     figure, ((a, b), (c, d)) = plt.subplots(2, 2, figsize=(7.0, 5.0), layout="constrained")
     plot.response(large[large["drive_voltage_pp"] % 20 == 0], "lift_mean_mn", hinge_stiffness=9e-5, ax=a)
@@ -56,7 +60,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Makes a figure of four panels.")
     parser.add_argument("file", nargs="?", type=Path, default=REPOSITORY / "docs" / "pictures" / "py-four-panels.png")
     file = parser.parse_args().file
-    with plt.rc_context(PAPER):
+    with plt.rc_context():
+        use_style_of_paper()
         figure = four_panels()
         figure.savefig(file, dpi=150)
     if file.suffix == ".png":
