@@ -32,6 +32,7 @@ from ._response import response
 from ._tornado import Sensitivity, sensitivities, tornado
 from ._trajectory import trajectory
 from ._wing_path import WingPath, wing_path
+from ._wrench import wrench
 
 __all__ = [
     "Sensitivity",
@@ -47,4 +48,5 @@ __all__ = [
     "tornado",
     "trajectory",
     "wing_path",
+    "wrench",
 ]
