@@ -123,7 +123,7 @@ fn report(error: &VehicleError, section: &Entry<'_>, wings: &[WingTable<'_>], pr
         VehicleError::NoWings | VehicleError::ManyWings(_) | VehicleError::NoLoads(_) => None,
     };
     let names = wings.iter().filter_map(|(_, entries)| table::find(entries, "name"));
-    let place = names.filter(|name| name.value.get_ref().as_str() == wanted.map(String::as_str)).last();
+    let place = names.rev().find(|name| name.value.get_ref().as_str() == wanted.map(String::as_str));
     let span = place.map_or(section.key_span.clone(), |name| name.value.span());
     problems.report(span, error.to_string());
 }

@@ -17,7 +17,7 @@ pub const COMPONENTS: [&str; 6] = [FORCES[0], FORCES[1], FORCES[2], TORQUES[0], 
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ControlError {
     /// The motion of its wings has no derivatives.
-    #[error("the vehicle does not settle on an orbit of one drive period: it is {}{}", status.name(), because(reason))]
+    #[error("the vehicle does not settle on an orbit of one drive period: it is {}{}", status.name(), because(reason.as_deref()))]
     NotPeriodic {
         /// Status of its row.
         status: Status,
@@ -42,8 +42,8 @@ pub enum ControlError {
     Unfinished(#[from] Unfinished),
 }
 
-fn because(reason: &Option<String>) -> String {
-    reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default()
+fn because(reason: Option<&str>) -> String {
+    reason.map(|reason| format!(" ({reason})")).unwrap_or_default()
 }
 
 /// A vehicle at an operating point.
