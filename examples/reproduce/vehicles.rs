@@ -10,14 +10,15 @@ use crate::table::{Group, Paper};
 
 pub(crate) const PAPER: Paper = Paper {
     title: "Torques of vehicles",
-    preface: "Sources: Ma, Felton and Wood (IROS 2012); Finio, Galloway and Wood (IROS 2011); Gravish and Wood (APS March \
-              Meeting 2016, Y40.9); Weber, Dhingra and Fuller (arXiv 2407.00217, 2604.22121); Jimbo, Ozaki, Ohta and \
-              Hamaguchi (arXiv 2407.06500); Fuller (RA-L 2019). Only their abstracts and first pages were at hand. None of \
-              these pages gives wings, actuators and voltages of its robot fully, and few give torques, so that mostly \
-              signs, trends and shares can be compared. Unless a row says otherwise the vehicle is flap's own: two wings \
-              of `jafferis2016` (200 V, 120 Hz), shoulders 1.5 mm left and right of the middle, torques about a point 2 mm \
-              below them. x points forward, y to the left, z up; roll > 0 lifts the left side, pitch > 0 lowers the nose, \
-              yaw > 0 turns it to the left.",
+    preface: "Sources: Ma, Felton and Wood (IROS 2012); Finio, Galloway and Wood (IROS 2011); Gravish and Wood (APS \
+              March Meeting 2016, Y40.9); Weber, Dhingra and Fuller (arXiv 2407.00217, 2604.22121); Jimbo, Ozaki, \
+              Ohta and Hamaguchi (arXiv 2407.06500); Fuller (RA-L 2019). Only their abstracts and first pages were \
+              at hand. None of these pages gives wings, actuators and voltages of its robot fully, and few give \
+              torques, so that mostly signs, trends and shares can be compared. Unless a row says otherwise the \
+              vehicle is flap's own ([vehicle.md](vehicle.md)): two wings of `jafferis2016` (200 V, 120 Hz), \
+              shoulders 1.5 mm left and right of the middle, torques about a point 2 mm below them. x points \
+              forward, y to the left, z up; roll > 0 lifts the left side, pitch > 0 lowers the nose, yaw > 0 turns \
+              it to the left.",
     groups: &[
         Group {
             title: "One torque for each drive",
@@ -45,8 +46,8 @@ pub(crate) const PAPER: Paper = Paper {
             title: "Four wings",
             preface: "Jimbo and others: a robot of 1.52 g whose wings, in four pairs, are tilted; here one wing of \
                       `ozaki2018-large` stands for each pair, 10 mm before or behind and left or right of the middle, \
-                      tilted by 10°: those in front backward, those behind forward. Fuller: a robot of 143 mg; here four wings \
-                      of `jafferis2016`. Both layouts are assumed.",
+                      tilted by 10°: those in front backward, those behind forward. Fuller: a robot of 143 mg; here four \
+                      wings of `jafferis2016`. Both layouts are assumed.",
             quick: true,
             claims: tilted::claims,
         },
