@@ -13,8 +13,7 @@ use super::lookup::Lookup;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::{
-    axes, conditions, derived, former, gradient, measures, output, params, resonance, sample, solver, syntax,
-    zip,
+    axes, conditions, derived, former, gradient, measures, output, resonance, sample, solver, syntax, zip,
 };
 use crate::plan::axes::Axes;
 use crate::plan::axis::Axis;
