@@ -174,6 +174,20 @@ fn the_page_on_devices_works() {
     assert_eq!(grids.len(), 3);
 }
 
+/// The commands of the page on vehicles work with its grid.
+#[test]
+fn the_page_on_vehicles_works() {
+    let folder = Folder::new();
+    let page = document("docs/vehicle.md");
+    fs::write(folder.path("vehicle.toml"), &blocks(&page, "toml")[0]).unwrap();
+    let mut commands = 0;
+    for line in blocks(&page, "sh").iter().flat_map(|block| block.lines()) {
+        folder.ends_with(0, &words(line.strip_prefix("flap ").unwrap()));
+        commands += 1;
+    }
+    assert_eq!(commands, 7);
+}
+
 /// The commands of the page on wings work with its outline, for every model.
 #[test]
 #[cfg(unix)]

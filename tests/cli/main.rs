@@ -32,4 +32,5 @@ mod streams;
 mod studies;
 mod support;
 mod sweep;
+mod vehicle;
 mod wings;

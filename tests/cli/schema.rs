@@ -38,6 +38,7 @@ fn grids() -> Vec<(String, String)> {
         "docs/studies.md",
         "docs/questions.md",
         "docs/devices.md",
+        "docs/vehicle.md",
     ];
     let blocks = pages.into_iter().flat_map(|page| {
         let blocks = blocks(&document(page), "toml").into_iter();

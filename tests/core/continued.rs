@@ -17,6 +17,7 @@ const SOLVER: SolverSettings = SolverSettings {
     accuracy: 1e-3,
     newton: true,
     progressive: true,
+    loads: false,
 };
 
 /// Every preset of a model.

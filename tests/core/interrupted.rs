@@ -21,6 +21,7 @@ const ENDLESS: SolverSettings = SolverSettings {
     accuracy: 1e-3,
     newton: false,
     progressive: false,
+    loads: false,
 };
 
 /// Points that are interrupted when `until` says so of how often that was asked, and of the rows so far.

@@ -13,6 +13,7 @@ pub(crate) const QUICK: SolverSettings = SolverSettings {
     accuracy: 1e-3,
     newton: true,
     progressive: true,
+    loads: false,
 };
 
 /// Points given in order; rows kept by index.

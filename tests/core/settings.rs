@@ -15,6 +15,7 @@ const OTHERS: SolverSettings = SolverSettings {
     accuracy: 6e-2,
     newton: false,
     progressive: false,
+    loads: false,
 };
 
 #[test]

@@ -113,6 +113,7 @@ const MARCH: SolverSettings = SolverSettings {
     accuracy: f64::INFINITY,
     newton: true,
     progressive: true,
+    loads: false,
 };
 
 /// Any change counts as none, so that the motion has settled after two periods; a third is integrated with responses to

@@ -21,6 +21,7 @@ const CRATES: &[(&str, &[&str])] = &[
             "measure",
             "simulate",
             "resonance",
+            "vehicle",
             "lib",
         ],
     ),

@@ -11,6 +11,7 @@ mod results;
 mod run;
 mod sweep;
 mod values;
+mod vehicle;
 mod wing;
 
 use std::path::PathBuf;
@@ -29,6 +30,7 @@ pub(crate) use respond::RespondArgs;
 pub(crate) use results::{ConvertArgs, MergeArgs, RerunArgs, ResumeArgs, VerifyArgs};
 pub(crate) use run::{Drive, Format, ResonanceArgs, RunArgs};
 pub(crate) use sweep::{CheckArgs, SweepArgs};
+pub(crate) use vehicle::VehicleArgs;
 pub(crate) use wing::WingArgs;
 
 /// Sweeps of insect-scale flapping-wing designs: a grid file goes in, one row per design point comes out.
@@ -69,6 +71,8 @@ pub(crate) enum Command {
     Run(RunArgs),
     /// Follow the response of designs up and down in frequency or another parameter, and find hysteresis
     Respond(RespondArgs),
+    /// Compute the force and torque of a vehicle, what each drive does to them, and trims
+    Vehicle(VehicleArgs),
     /// List the best rows of results
     Top(TopArgs),
     /// Summarize results: statuses, percentiles, and the best value of each axis

@@ -49,6 +49,7 @@ pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
         Command::Verify(args) => cmd::verify::run(&args),
         Command::Run(args) => cmd::run::run(&args),
         Command::Respond(args) => cmd::respond::run(&args),
+        Command::Vehicle(args) => cmd::vehicle::run(&args),
         Command::Top(args) => cmd::top::run(&args),
         Command::Describe(args) => cmd::describe::run(&args),
         #[cfg(feature = "plots")]

@@ -12,6 +12,7 @@
 //! - [`measure`]: measures of a motion, the same for every model
 //! - [`simulate`]: design points in, rows out
 //! - [`resonance`]: the resonances of a design point
+//! - [`vehicle`]: several wings, whose forces and torques add up
 
 pub mod aero;
 pub mod drive;
@@ -26,6 +27,7 @@ pub mod piezo;
 pub mod quadrature;
 pub mod resonance;
 pub mod simulate;
+pub mod vehicle;
 
 /// A hash of the sources of this crate, in hexadecimal digits: builds with the same one compute the same rows.
 pub const SOURCES: &str = env!("FLAP_SOURCES");

@@ -189,8 +189,9 @@ fn slopes<'py>(py: Python<'py>, plan: &Plan, gradient: &Gradient) -> PyResult<Bo
 /// The origin of rows, as a dictionary: versions, model, solver settings, and the text of the grid.
 pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> PyResult<Bound<'py, PyDict>> {
     let identity = Identity::of(plan, options);
-    let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton, progressive } =
-        *plan.solver();
+    let SolverSettings {
+        rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton, progressive, ..
+    } = *plan.solver();
     let solver = PyDict::new(py);
     solver.set_item("rtol", rtol)?;
     solver.set_item("atol", atol)?;

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use flap_core::measure::cycle::{Signals, Totals, finish};
+use flap_core::measure::cycle::{Signals, Sums, finish};
 use flap_core::model::bimorph::{Bimorph, Params};
 use flap_core::model::{Model, SignalCycle};
 use flap_core::num::PerLane;
@@ -46,7 +46,7 @@ pub(super) fn cycle(p: &Params, y: [f64; 4], rtol: f64) -> ([SignalCycle; SIGNAL
     let start = start(p, y);
     let model = Bimorph::default();
     let observer = Signals::<_, SIGNALS>::all(&model);
-    let mut totals = Observer::<Bimorph, 4>::nothing(&observer).map(|one| Totals::<f64>::fill((), &one));
+    let mut totals = Sums::<f64, SIGNALS>::fill((), &Observer::<Bimorph, 4>::nothing(&observer));
     let outcome = solve::<_, f64, 4>(
         &Bimorph::default(),
         &tolerances(rtol),

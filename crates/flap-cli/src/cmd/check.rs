@@ -200,8 +200,9 @@ fn at_resonance(range: &Range) -> String {
 }
 
 fn solver(settings: &SolverSettings) -> String {
-    let SolverSettings { rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton, progressive } =
-        *settings;
+    let SolverSettings {
+        rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton, progressive, ..
+    } = *settings;
     let [rtol, atol, settle_tol, accuracy] = [rtol, atol, settle_tol, accuracy].map(text::float);
     format!(
         "rtol = {rtol}, atol = {atol}, settle_tol = {settle_tol}, max_cycles = {max_cycles}, \

@@ -31,5 +31,6 @@ mod shown;
 pub(crate) mod sweep;
 pub(crate) mod top;
 pub(crate) mod track;
+pub(crate) mod vehicle;
 pub(crate) mod verify;
 pub(crate) mod wing;

@@ -46,6 +46,10 @@ crate::per_lane! {
     }
 }
 
+/// Sums over S signals so far, and the time integrals of the load at the wing's shoulder, see
+/// [`Load::at_shoulder`](crate::model::Load::at_shoulder).
+pub type Sums<R, const S: usize> = ([Totals<R>; S], [R; 6]);
+
 /// Sums up the S signals of a model along a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Signals<'a, M, const S: usize> {
@@ -53,25 +57,33 @@ pub struct Signals<'a, M, const S: usize> {
     /// True to look for largest and smallest values and positive parts, which takes most of the work. If false, they have
     /// no meaning.
     extrema: bool,
+    /// True to integrate the load too. If false, it is zero.
+    loads: bool,
 }
 
 impl<'a, M, const S: usize> Signals<'a, M, S> {
     /// Sums up everything.
     pub fn all(model: &'a M) -> Self {
-        Signals { model, extrema: true }
+        Signals { model, extrema: true, loads: false }
     }
 
     /// Sums up means and first harmonics.
     pub fn means(model: &'a M) -> Self {
-        Signals { model, extrema: false }
+        Signals { model, extrema: false, loads: false }
+    }
+
+    /// The same, with the load if `loads` says so.
+    #[must_use]
+    pub fn with_loads(self, loads: bool) -> Self {
+        Signals { loads, ..self }
     }
 }
 
 impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<'_, M, S> {
-    type Totals<R: Lanes> = [Totals<R>; S];
+    type Totals<R: Lanes> = Sums<R, S>;
 
     #[inline(always)]
-    fn nothing(&self) -> [Totals<f64>; S] {
+    fn nothing(&self) -> Sums<f64, S> {
         let nothing = Totals {
             integral: 0.0,
             square: 0.0,
@@ -81,7 +93,7 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
             max: f64::NEG_INFINITY,
             min: f64::INFINITY,
         };
-        [nothing; S]
+        ([nothing; S], [0.0; 6])
     }
 
     #[inline(always)]
@@ -90,7 +102,7 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
         c: &M::Constants<R>,
         attempt: &Attempt<'_, R, N>,
         accepted: R::Mask,
-        totals: &mut [Totals<R>; S],
+        (totals, load): &mut Sums<R, S>,
     ) {
         let model = self.model;
         let Attempt { t, h, side, step } = *attempt;
@@ -152,7 +164,38 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
                 min: R::select(accepted, new.min, old.min),
             };
         }
+        if self.loads {
+            let sums = impulse(model, c, attempt);
+            for i in 0..6 {
+                load[i] = R::select(accepted, load[i] + sums[i], load[i]);
+            }
+        }
     }
+}
+
+/// The time integral of the load over a step. In a function of its own, see [`slope`].
+#[inline(always)]
+fn impulse<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
+    model: &M,
+    c: &M::Constants<R>,
+    attempt: &Attempt<'_, R, N>,
+) -> [R; 6] {
+    attempt.h.apart(
+        #[inline(always)]
+        || {
+            let Attempt { t, h, side, step } = *attempt;
+            let mut sums = [h.lit(0.0); 6];
+            for stage in [0, 2, 3, 4, 5] {
+                let u = input(model, c, h.mul_add(h.lit(C[stage]), t));
+                let load = model.load(c, Instant { input: &u, side, y: &step.y[stage], dy: &step.k[stage] });
+                let load = load.at_shoulder();
+                for i in 0..6 {
+                    sums[i] = load[i].mul_add(h * B[stage], sums[i]);
+                }
+            }
+            sums
+        },
+    )
 }
 
 /// The range of a signal within a step, and its positive part.
@@ -229,10 +272,10 @@ fn signals<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
     )
 }
 
-/// The `signals` over a cycle of `period` seconds, from its totals.
+/// The `signals` over a cycle of `period` seconds, from its sums.
 pub fn finish<const S: usize>(
     signals: &[Signal; S],
-    totals: &[Totals<f64>; S],
+    (totals, _): &Sums<f64, S>,
     period: f64,
 ) -> [SignalCycle; S] {
     core::array::from_fn(|i| {

@@ -1,6 +1,7 @@
 //! The definition of a model: all that rows of a sweep need.
 
 use super::energy::EnergyBalance;
+use super::load::Load;
 use super::signal::{Signal, SignalCycle};
 use crate::aero::Wing;
 use crate::drive::DriveConstants;
@@ -70,8 +71,11 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + Clone + PartialEq + 's
     const SIGNALS: [Signal; S];
     /// Columns computed from the signals.
     const DERIVED: &'static [Derived<Self, Self::Constants<f64>, S>];
-    /// True if the signals depend on the derivatives of the states, [`Instant::dy`]. If not, they may be NaN there.
+    /// True if the signals depend on the derivatives of the states, [`Instant::dy`]. If not, they may be NaN between the
+    /// stages of a step.
     const SIGNALS_OF_SLOPES: bool = true;
+    /// True if the [`load`](Model::load) of the wing is known.
+    const LOADS: bool = false;
     /// The balance of energy over an orbit, if rows are to be held to it.
     const ENERGY: Option<EnergyBalance> = None;
 
@@ -100,6 +104,13 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + Clone + PartialEq + 's
 
     /// The signals at an instant, in SI units.
     fn signals<R: Lanes>(&self, c: &Self::Constants<R>, at: Instant<'_, R, Self::Input<R>, N>) -> [R; S];
+
+    /// The load of the air on the wing at an instant, for vehicles.
+    #[inline(always)]
+    fn load<R: Lanes>(&self, c: &Self::Constants<R>, at: Instant<'_, R, Self::Input<R>, N>) -> Load<R> {
+        let _ = c;
+        Load::unknown(at.side)
+    }
 
     /// Number of parts into which each step is divided to find the largest and smallest values of the signals. More than one
     /// if signals change faster than the motion, which chooses the steps.

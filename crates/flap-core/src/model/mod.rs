@@ -12,6 +12,7 @@ mod definition;
 pub mod direct_drive;
 mod energy;
 pub mod four_bar;
+mod load;
 mod motions;
 mod readings;
 mod signal;
@@ -20,6 +21,7 @@ mod units;
 
 pub use definition::{Derived, Description, Instant, Model};
 pub use energy::EnergyBalance;
+pub use load::Load;
 pub use motions::{Imposed, Motions};
 pub use signal::{Measure, Signal, SignalCycle, position};
 pub use stroke_and_pitch::Balance;

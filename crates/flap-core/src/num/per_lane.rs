@@ -4,8 +4,8 @@ use super::lanes::Lanes;
 
 /// A group of numbers, one set per lane.
 ///
-/// Implemented by numbers, by [`per_lane!`](crate::per_lane) for structs of groups, by arrays of groups, and by
-/// `()` for none at all.
+/// Implemented by numbers, by [`per_lane!`](crate::per_lane) for structs of groups, by arrays and pairs of groups, and
+/// by `()` for none at all.
 pub trait PerLane<R: Lanes>: Copy {
     /// One lane's set.
     type One: Copy;
@@ -62,6 +62,31 @@ impl<R: Lanes> PerLane<R> for () {
     #[inline(always)]
     fn is_finite((): &()) -> bool {
         true
+    }
+}
+
+impl<R: Lanes, P: PerLane<R>, Q: PerLane<R>> PerLane<R> for (P, Q) {
+    type One = (P::One, Q::One);
+
+    #[inline(always)]
+    fn fill(token: R::Token, one: &Self::One) -> Self {
+        (P::fill(token, &one.0), Q::fill(token, &one.1))
+    }
+
+    #[inline(always)]
+    fn set(&mut self, lane: usize, one: &Self::One) {
+        self.0.set(lane, &one.0);
+        self.1.set(lane, &one.1);
+    }
+
+    #[inline(always)]
+    fn get(&self, lane: usize) -> Self::One {
+        (self.0.get(lane), self.1.get(lane))
+    }
+
+    #[inline(always)]
+    fn is_finite(one: &Self::One) -> bool {
+        P::is_finite(&one.0) && Q::is_finite(&one.1)
     }
 }
 

@@ -5,6 +5,7 @@ use super::estimate::Compared;
 use super::orbit_row;
 use super::row::Row;
 use super::search::Search;
+use super::settings::SolverSettings;
 use super::status::Status;
 use crate::model::Model;
 use crate::ode::Start;
@@ -24,14 +25,17 @@ pub(super) fn judge<M: Model<N, S>, const N: usize, const S: usize>(
     start: &Start<M::Constants<f64>, N>,
     periods: &Compared<S>,
     last: Option<Row>,
-    accuracy: f64,
+    solver: &SolverSettings,
 ) -> Verdict<N> {
-    let (row, audit) = orbit_row::measured(search, model, start, periods);
+    let (row, audit) = orbit_row::measured(search, model, solver, start, periods);
     if row.status != Status::Periodic {
         return Verdict::Done(last.map_or(row, |last| orbit_row::charged(last, search)));
     }
-    let again =
-        if periods.slides { None } else { search.refine(row.error_estimate.max(audit.abs()), accuracy) };
+    let again = if periods.slides {
+        None
+    } else {
+        search.refine(row.error_estimate.max(audit.abs()), solver.accuracy)
+    };
     match again {
         Some(y) => Verdict::Again(row, y),
         None => Verdict::Done(row),

@@ -9,7 +9,7 @@ use super::error::{RequestError, Unfinished};
 use super::request::{ChirpRequest, ChirpResponse, Trajectory};
 use super::sampler::Sampler;
 use super::single::{PointRun, Question};
-use crate::measure::cycle::{Signals, Totals, finish};
+use crate::measure::cycle::{Signals, Sums, finish};
 use crate::model::{Measure, Model, Motions};
 use crate::num::{PerLane, Scalar};
 use crate::ode::Start;
@@ -44,7 +44,7 @@ impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Question<
             let (model, constants) = model.chirped(&start.constants, frequency, rate);
             let cycle = Start { constants, y, span, ..start };
             let observer = Signals::<M, S>::all(&model);
-            let mut totals = Observer::<M, N>::nothing(&observer).map(|one| Totals::<R>::fill((), &one));
+            let mut totals = Sums::<R, S>::fill((), &Observer::<M, N>::nothing(&observer));
             sampler.begin_cycle(span);
             let outcome = solve_until::<M, R, N>(
                 &model,
@@ -68,7 +68,7 @@ impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Question<
             Unfinished::check(outcome.ending, interrupted)?;
 
             let mut row = vec![time, time + span, 1.0 / span];
-            let cycle = finish(&M::SIGNALS, &totals.map(|total| total.get(0)), span);
+            let cycle = finish(&M::SIGNALS, &totals.get(0), span);
             for (signal, cycle) in M::SIGNALS.iter().zip(&cycle) {
                 row.extend(
                     measures(signal.measures).map(|measure| cycle.measure(measure) * signal.unit.factor),

@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 
 use super::settings::SolverSettings;
-use crate::measure::cycle::{Signals, Totals};
+use crate::measure::cycle::{Signals, Sums};
 use crate::model::Model;
 use crate::num::{PerLane, Scalar};
 use crate::ode::ensemble::Observer;
@@ -11,7 +11,7 @@ use crate::ode::solve::solve_until;
 use crate::ode::{Interrupt, Ode, Outcome, Start};
 
 /// The state and the totals at the end of a period, unless it failed.
-pub(super) type Measured<const N: usize, const S: usize> = (Option<([f64; N], [Totals<f64>; S])>, Outcome);
+pub(super) type Measured<const N: usize, const S: usize> = (Option<([f64; N], Sums<f64, S>)>, Outcome);
 
 /// The state at the end of a drive period from `start`, and totals of what `signals` asks for, unless it fails.
 pub(super) fn cycle<M, R, const N: usize, const S: usize>(
@@ -26,7 +26,7 @@ where
     R: Scalar,
 {
     let mut end = None;
-    let mut totals = Observer::<M, N>::nothing(signals).map(|one| Totals::<R>::fill((), &one));
+    let mut totals = Sums::<R, S>::fill((), &Observer::<M, N>::nothing(signals));
     let outcome = solve_until::<M, R, N>(
         model,
         &solver.tolerances(),
@@ -43,7 +43,7 @@ where
             ControlFlow::Break(())
         },
     );
-    (end.map(|end| (end, totals.map(|total| total.get(0)))), outcome)
+    (end.map(|end| (end, totals.get(0))), outcome)
 }
 
 /// The state at the end of a drive period from `start`, unless the period fails or is interrupted.

@@ -4,7 +4,7 @@
 //! factor have. The second is found from the first by one period and the monodromy matrix. The error of the method
 //! goes about as its tolerance, so the difference of the two, divided by that factor, is about the error of the first.
 
-use crate::measure::cycle::Totals;
+use crate::measure::cycle::Sums;
 use crate::model::{Model, SignalCycle};
 use crate::ode::{Ending, Outcome};
 
@@ -24,13 +24,13 @@ pub(super) const MANY_SWITCHES: u64 = 16;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Compared<const S: usize> {
     /// Totals of the orbit's period, unless it failed.
-    pub(super) fine: Option<[Totals<f64>; S]>,
+    pub(super) fine: Option<Sums<f64, S>>,
     /// The ending of the orbit's period.
     pub(super) ending: Ending,
     /// The orbit slides along the switching surface.
     pub(super) slides: bool,
     /// Totals of the other period, unless that failed.
-    pub(super) coarse: Option<[Totals<f64>; S]>,
+    pub(super) coarse: Option<Sums<f64, S>>,
 }
 
 impl<const S: usize> Compared<S> {
@@ -40,7 +40,7 @@ impl<const S: usize> Compared<S> {
     }
 
     /// Takes the totals of the orbit's period, unless it failed.
-    pub(super) fn take_fine(&mut self, totals: Option<[Totals<f64>; S]>, outcome: Outcome) {
+    pub(super) fn take_fine(&mut self, totals: Option<Sums<f64, S>>, outcome: Outcome) {
         self.fine = totals;
         self.ending = outcome.ending;
         self.slides = outcome.switches > MANY_SWITCHES;

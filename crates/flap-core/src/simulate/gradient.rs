@@ -18,8 +18,9 @@ use super::begin::begin;
 use super::error::Unfinished;
 use super::estimate::MANY_SWITCHES;
 use super::orbit_row::measures;
+use super::settings::SolverSettings;
 use super::single::{PointRun, Question};
-use crate::measure::cycle::{Signals, Totals, finish};
+use crate::measure::cycle::{Signals, Sums, finish};
 use crate::model::Model;
 use crate::num::{Kernel, Scalar, Simd};
 use crate::ode::ensemble::Unobserved;
@@ -61,7 +62,7 @@ impl Change {
     pub const SHARE: f64 = 1e-8;
 
     /// True if it changes nothing. NaN stands for a parameter that follows others.
-    fn is_none(&self) -> bool {
+    pub fn is_none(&self) -> bool {
         let mut both = self.ahead.iter().zip(&self.behind);
         both.all(|(ahead, behind)| ahead.total_cmp(behind).is_eq())
     }
@@ -126,7 +127,8 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M,
         start.tighten = TIGHTEN;
         let (legs, outcome) = record::<M, R, N>(model, &run.solver.tolerances(), &start, run.interrupted);
         let sides = self.changes.iter().map(|change| sides(model, change)).collect();
-        let orbit = Orbit { model, start: &start, legs: &legs, changes: self.changes, sides };
+        let orbit =
+            Orbit { model, solver: run.solver, start: &start, legs: &legs, changes: self.changes, sides };
         let mut gradient = if outcome.ending != Ending::Stopped {
             orbit.without(NoSlope::Lost)
         } else if outcome.switches > MANY_SWITCHES {
@@ -175,6 +177,7 @@ fn in_range(parameters: &[Parameter], values: &[f64]) -> bool {
 /// A period of an orbit, to be repeated with changes.
 struct Orbit<'a, M: Model<N, S>, const N: usize, const S: usize> {
     model: &'a M,
+    solver: &'a SolverSettings,
     start: &'a Start<M::Constants<f64>, N>,
     legs: &'a [Leg],
     changes: &'a [Change],
@@ -191,7 +194,8 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Kernel for Orbit<'_, M, N, 
         let ends = replay(simd, model, &Unobserved, legs, &starts);
         let Some(moves) = self.moves(&ends) else { return self.without(NoSlope::Fold) };
         let measured = self.along(&moves);
-        let cycles = replay(simd, model, &Signals::all(model), legs, &measured);
+        let signals = Signals::all(model).with_loads(self.solver.loads);
+        let cycles = replay(simd, model, &signals, legs, &measured);
         self.gradient(&measured, &cycles)
     }
 }
@@ -249,13 +253,13 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
     fn gradient(
         &self,
         starts: &[Start<M::Constants<f64>, N>],
-        cycles: &[Repeated<[Totals<f64>; S], N>],
+        cycles: &[Repeated<Sums<f64, S>, N>],
     ) -> Gradient {
         let measured = starts.iter().zip(cycles).map(|(start, cycle)| {
-            measures::<M, N, S>(self.model, &start.constants, &cycle.totals, start.span)
+            measures::<M, N, S>(self.model, self.solver, &start.constants, &cycle.totals, start.span)
         });
         let measured: Vec<Vec<f64>> = measured.collect();
-        let sizes = sizes::<M, N, S>(&cycles[0].totals, &measured[0], self.start.span);
+        let sizes = sizes::<M, N, S>(self.solver, &cycles[0].totals, &measured[0], self.start.span);
         let slopes = self.sides.iter().zip(self.changes).enumerate().map(|(i, (side, change))| {
             let [ahead, behind] = [2 * i + 1, 2 * i + 2];
             let meets = cycles[0].meets && cycles[ahead].meets && cycles[behind].meets;
@@ -285,14 +289,17 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
 
     /// No derivatives, for this reason.
     fn without(&self, reason: NoSlope) -> Gradient {
-        let columns = M::SIGNALS.iter().map(|signal| signal.measures.len()).sum::<usize>() + M::DERIVED.len();
+        let signals: usize = M::SIGNALS.iter().map(|signal| signal.measures.len()).sum();
+        let columns = signals + M::DERIVED.len() + if self.solver.loads { 6 } else { 0 };
         Gradient { slopes: vec![vec![Err(reason); columns]; self.changes.len()], rhs_evals: 0 }
     }
 }
 
-/// The sizes of the columns: a mean of almost nothing errs by the rounding of its signal.
+/// The sizes of the columns: a mean of almost nothing errs by the rounding of its signal, and components of a force or a
+/// moment by that of the others.
 fn sizes<M: Model<N, S>, const N: usize, const S: usize>(
-    totals: &[Totals<f64>; S],
+    solver: &SolverSettings,
+    totals: &Sums<f64, S>,
     measured: &[f64],
     period: f64,
 ) -> Vec<f64> {
@@ -303,6 +310,13 @@ fn sizes<M: Model<N, S>, const N: usize, const S: usize>(
         sizes.extend(signal.measures.iter().map(|_| size * signal.unit.factor.abs()));
     }
     sizes.extend(measured[sizes.len()..].iter().map(|value| value.abs()));
+    if solver.loads {
+        let loads = sizes.len() - 6;
+        for part in [loads..loads + 3, loads + 3..loads + 6] {
+            let largest = sizes[part.clone()].iter().copied().fold(0.0, f64::max);
+            sizes[part].fill(largest);
+        }
+    }
     sizes
 }
 

@@ -178,7 +178,8 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
         let fine = orbits.iter().map(|run| run.search.orbit(&run.start)).collect();
         let mut compared = vec![Compared::new(); orbits.len()];
         let mut next = vec![None; orbits.len()];
-        for PeriodEnd { position, end, outcome } in self.periods(&Signals::all(self.model), fine) {
+        let signals = Signals::all(self.model).with_loads(self.solver.loads);
+        for PeriodEnd { position, end, outcome } in self.periods(&signals, fine) {
             let search = &mut orbits[position].search;
             search.charge(outcome);
             next[position] = search.confirm(end.as_ref().map(|(y, _)| y));
@@ -202,7 +203,7 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
                 continue;
             }
             let Searched { index, start, search, last } = &mut run;
-            match judge(search, self.model, start, &compared, last.take(), self.solver.accuracy) {
+            match judge(search, self.model, start, &compared, last.take(), self.solver) {
                 Verdict::Done(row) => self.jobs.done(*index, row),
                 Verdict::Again(row, y) => {
                     *last = Some(row);

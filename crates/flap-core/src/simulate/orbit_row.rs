@@ -3,24 +3,30 @@
 use super::estimate::{Compared, LEAST, estimate};
 use super::row::Row;
 use super::search::Search;
+use super::settings::SolverSettings;
 use super::status::Status;
-use crate::measure::cycle::{Totals, finish};
+use crate::measure::cycle::{Sums, finish};
 use crate::model::{Measure, Model, SignalCycle};
 use crate::ode::{Ending, Start};
 
-/// The measures of a periodic cycle, one per column.
+/// The measures of a periodic cycle, one per column, and the mean load if `solver` asks for it.
 pub(super) fn measures<M: Model<N, S>, const N: usize, const S: usize>(
     model: &M,
+    solver: &SolverSettings,
     c: &M::Constants<f64>,
-    totals: &[Totals<f64>; S],
+    totals: &Sums<f64, S>,
     period: f64,
 ) -> Vec<f64> {
-    values(model, c, &on_orbit::<M, N, S>(totals, period))
+    let mut measures = values(model, c, &on_orbit::<M, N, S>(totals, period));
+    if solver.loads {
+        measures.extend(totals.1.map(|sum| sum / period));
+    }
+    measures
 }
 
 /// The signals of a periodic cycle.
 fn on_orbit<M: Model<N, S>, const N: usize, const S: usize>(
-    totals: &[Totals<f64>; S],
+    totals: &Sums<f64, S>,
     period: f64,
 ) -> [SignalCycle; S] {
     let mut cycle = finish(&M::SIGNALS, totals, period);
@@ -64,6 +70,7 @@ pub(super) fn unsettled<const N: usize>(search: &Search<N>, last: Option<Row>) -
 pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
     search: &Search<N>,
     model: &M,
+    solver: &SolverSettings,
     start: &Start<M::Constants<f64>, N>,
     periods: &Compared<S>,
 ) -> (Row, f64) {
@@ -74,9 +81,10 @@ pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
     };
     let mut row = row(search, status);
     let mut audit = f64::NAN;
-    let cycle = |totals: &[Totals<f64>; S]| on_orbit::<M, N, S>(totals, start.span);
-    if let Some(fine) = periods.fine.as_ref().map(cycle) {
-        row.measures = values(model, &start.constants, &fine);
+    let cycle = |totals: &Sums<f64, S>| on_orbit::<M, N, S>(totals, start.span);
+    if let Some(totals) = &periods.fine {
+        row.measures = measures(model, solver, &start.constants, totals, start.span);
+        let fine = cycle(totals);
         let coarse = periods.coarse.as_ref().map(cycle);
         row.error_estimate =
             estimate::<M, N, S>(&fine, coarse.as_ref(), periods.slides).max(LEAST * search.rtol());

@@ -26,9 +26,16 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M,
         Unfinished::check(outcome.ending, interrupted)?;
         let all = all.ok_or(Unfinished::Interrupted)?;
         let varied = outcome.rhs_evals * (N as u64 + 1);
-        let (totals, outcome) = cycle::<M, R, N, S>(model, solver, &start, &Signals::all(model), interrupted);
+        let (totals, outcome) = cycle::<M, R, N, S>(
+            model,
+            solver,
+            &start,
+            &Signals::all(model).with_loads(solver.loads),
+            interrupted,
+        );
         Unfinished::check(outcome.ending, interrupted)?;
-        let measures = totals.map(|(_, totals)| measures(model, &start.constants, &totals, start.span));
+        let measures =
+            totals.map(|(_, totals)| measures(model, solver, &start.constants, &totals, start.span));
         Ok(Period {
             end: all[..N].to_vec(),
             responses: (0..N)

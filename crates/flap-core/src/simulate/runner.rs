@@ -196,6 +196,10 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Simulator f
         M::wing(wing)
     }
 
+    fn has_loads(&self) -> bool {
+        M::LOADS
+    }
+
     fn motions(&self) -> Result<&dyn Motions, Unfinished> {
         Ok(self)
     }

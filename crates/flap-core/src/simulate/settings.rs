@@ -24,6 +24,9 @@ pub struct SolverSettings {
     pub newton: bool,
     /// Newton's iteration begins at looser tolerances.
     pub progressive: bool,
+    /// Rows have the mean load of the air at the wing's shoulder behind their measures, see
+    /// [`Load::at_shoulder`](crate::model::Load::at_shoulder): N and N·m. For vehicles, not for grid files.
+    pub loads: bool,
 }
 
 impl SolverSettings {
@@ -37,6 +40,7 @@ impl SolverSettings {
         accuracy: 1e-3,
         newton: true,
         progressive: true,
+        loads: false,
     };
 
     /// The settings by name. Grid files, the command line and Python accept these names.

@@ -61,15 +61,13 @@ where
             Next::Vary(y) => point.vary::<R, K>(&y),
             Next::Measure => match point.measure::<R>() {
                 Err(next) => next,
-                Ok(periods) => {
-                    match judge(&mut point.search, model, start, &periods, last.take(), solver.accuracy) {
-                        Verdict::Done(row) => return Settled { search: point.search, row },
-                        Verdict::Again(row, y) => {
-                            last = Some(row);
-                            Next::Vary(y)
-                        }
+                Ok(periods) => match judge(&mut point.search, model, start, &periods, last.take(), solver) {
+                    Verdict::Done(row) => return Settled { search: point.search, row },
+                    Verdict::Again(row, y) => {
+                        last = Some(row);
+                        Next::Vary(y)
                     }
-                }
+                },
             },
             Next::Done => break,
         };
@@ -121,8 +119,10 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Settling<'_, M, N, S> {
     /// step, if the orbit turns out not to be one.
     fn measure<R: Scalar>(&mut self) -> Result<Compared<S>, Next<N>> {
         let mut periods = Compared::new();
-        let fine =
-            self.search.orbit(self.start).map(|fine| self.cycle::<R>(&fine, &Signals::all(self.model)));
+        let fine = self
+            .search
+            .orbit(self.start)
+            .map(|fine| self.cycle::<R>(&fine, &Signals::all(self.model).with_loads(self.solver.loads)));
         if let Some((end, outcome)) = fine {
             if let Some(next) = self.search.confirm(end.as_ref().map(|(y, _)| y)) {
                 return Err(next);

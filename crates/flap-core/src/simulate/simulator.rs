@@ -53,6 +53,11 @@ pub trait Simulator: Rows {
         Vec::new()
     }
 
+    /// True if rows have the load of the air on the wing if [`SolverSettings::loads`] asks for it.
+    fn has_loads(&self) -> bool {
+        false
+    }
+
     /// The row of a point from rest, see [`Rows::run_point`].
     ///
     /// # Errors

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use flap_core::parameter::Preset;
 use flap_core::simulate::Simulator;
+use flap_core::vehicle::Vehicle;
 use toml::de::DeTable;
 
 use super::companion;
@@ -25,6 +26,8 @@ const KEYS: [&str; 5] = ["description", "preset", "device", "params", "correlati
 /// The design that a grid begins with.
 pub(super) struct Base {
     pub(super) simulator: &'static dyn Simulator,
+    /// The vehicle if it is one: the simulator then.
+    pub(super) vehicle: Option<&'static Vehicle>,
     /// The preset at the root.
     pub(super) preset: &'static Preset,
     pub(super) values: Vec<Value>,
@@ -79,6 +82,7 @@ impl Reader<'_> {
             let values = Value::of_preset(simulator, preset);
             return Some(Base {
                 simulator,
+                vehicle: None,
                 preset,
                 values,
                 uncertainty: Uncertainty::default(),

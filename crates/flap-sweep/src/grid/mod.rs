@@ -29,6 +29,7 @@ mod syntax;
 mod table;
 mod uncertainty;
 mod value;
+mod vehicle;
 mod written;
 mod zip;
 

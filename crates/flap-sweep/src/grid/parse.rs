@@ -13,7 +13,8 @@ use super::lookup::Lookup;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::{
-    axes, conditions, derived, former, gradient, measures, output, resonance, sample, solver, syntax, zip,
+    axes, conditions, derived, former, gradient, measures, output, resonance, sample, solver, syntax,
+    vehicle, zip,
 };
 use crate::plan::axes::Axes;
 use crate::plan::axis::Axis;
@@ -22,12 +23,13 @@ use crate::plan::{Plan, PointsFile, Source, Space, Value};
 use crate::resonance::AtResonance;
 
 /// The keys at the top of a grid file.
-pub(super) const KEYS: [&str; 15] = [
+pub(super) const KEYS: [&str; 16] = [
     "description",
     "preset",
     "device",
     "params",
     "correlation",
+    "vehicle",
     "resonance",
     "axes",
     "zip",
@@ -73,7 +75,9 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     let document = root.get_ref();
     let root = table::entries(document);
     let base = reader.base(&root, &mut problems);
-    report_unknown_keys(&root, base.as_ref().map(|base| base.simulator), &mut problems);
+    let model = base.as_ref().map(|base| base.simulator);
+    let base = base.and_then(|base| vehicle::read(&root, base, reader, &mut problems));
+    report_unknown_keys(&root, model, &mut problems);
     let solver = solver::read(table::find(&root, "solver"), &mut problems);
     let output_entry = table::find(&root, "output");
     // Without a model there are no parameters and columns to check against.
@@ -81,7 +85,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         output::read(output_entry, None, &mut problems);
         return Err(problems.into_mistakes());
     };
-    let (simulator, preset) = (base.simulator, base.preset);
+    let (simulator, vehicle, preset) = (base.simulator, base.vehicle, base.preset);
     let Points { base, axes, sample_file, resonance, derived, conditions, mut names } =
         read_points(&root, base, reader.models, &mut problems);
     names.are_measured = true;
@@ -102,6 +106,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     })?;
     Ok(Plan::new(Space {
         simulator,
+        vehicle,
         resonance,
         preset: preset.name,
         base: base.values,
@@ -151,7 +156,8 @@ fn read_points(
     let drafts = derived::drafts(table::find(root, "derived"), &mut lookup);
     derived::report_repeats(&drafts, &axes, &set, problems);
 
-    let resonance = resonance::read(root, simulator, &mut base.values, problems);
+    let is_vehicle = base.vehicle.is_some();
+    let resonance = resonance::read(root, simulator, is_vehicle, &mut base.values, problems);
 
     let mut unset: Vec<Option<&str>> = base.values.iter().map(|value| formula::followed(*value)).collect();
     let varied = axes.iter().flat_map(|placed| placed.axis.parameters()).map(|(parameter, _)| *parameter);

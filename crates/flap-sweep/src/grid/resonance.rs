@@ -24,6 +24,7 @@ pub(super) fn is_asked_for(entry: &Entry<'_>) -> bool {
 pub(super) fn read(
     root: &[Entry<'_>],
     simulator: &'static dyn Simulator,
+    is_vehicle: bool,
     base: &mut [Value],
     problems: &mut Problems,
 ) -> Option<AtResonance> {
@@ -42,6 +43,13 @@ pub(super) fn read(
         }
         return None;
     };
+    if is_vehicle {
+        problems
+            .report(asked.value.span(), "vehicles are not run at their resonance")
+            .note("wings that differ have resonances that differ")
+            .help("vary drive_frequency under [axes], or give it the number that `flap resonance` prints for one wing");
+        return None;
+    }
     let range = section.map_or_else(Range::default, |section| range(section, problems));
     let resonance = AtResonance::new(simulator, range);
     if resonance.is_none() {

@@ -4,6 +4,7 @@
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Point, Rows, Simulator, SolverSettings};
+use flap_core::vehicle::Vehicle;
 
 use crate::plan::along::Along;
 use crate::plan::axes::Axes;
@@ -33,6 +34,8 @@ pub struct Plan {
 pub(crate) struct Space {
     /// The model.
     pub(crate) simulator: &'static dyn Simulator,
+    /// The vehicle if the simulator is one.
+    pub(crate) vehicle: Option<&'static Vehicle>,
     /// The search for resonances if each design is run at its own.
     pub(crate) resonance: Option<AtResonance>,
     /// Name of the preset that the parameters start from.
@@ -74,6 +77,11 @@ impl Plan {
     /// The model.
     pub fn simulator(&self) -> &'static dyn Simulator {
         self.space.simulator
+    }
+
+    /// The vehicle, if the points are vehicles: the simulator then.
+    pub fn vehicle(&self) -> Option<&'static Vehicle> {
+        self.space.vehicle
     }
 
     /// The model's parameter table.

@@ -15,9 +15,12 @@ pub enum Value {
 }
 
 impl Value {
-    /// The values of a preset of `model`, one per parameter.
+    /// The values of a preset of `model`, one per parameter; of parameters that it does not have, their defaults.
     pub(crate) fn of_preset(model: &dyn Simulator, preset: &Preset) -> Vec<Value> {
-        let values = model.parameters().iter().zip((preset.values)());
+        let given = (preset.values)();
+        // A vehicle has more parameters than its model.
+        let more = model.parameters().iter().skip(given.len()).map(|parameter| parameter.default);
+        let values = model.parameters().iter().zip(given.iter().copied().chain(more));
         let value = |(parameter, value): (&Parameter, f64)| match parameter.kind {
             Kind::Following(_, follows) if value.is_nan() => Value::Follows(follows),
             Kind::Following(..) | Kind::Number(_) | Kind::Choice(_) => Value::Given(value),

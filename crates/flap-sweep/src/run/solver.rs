@@ -18,6 +18,9 @@ pub(crate) struct SolverFields {
     /// False for results of versions that did not know it.
     #[serde(default)]
     progressive: bool,
+    /// Vehicles set it for themselves.
+    #[serde(skip)]
+    loads: bool,
 }
 
 /// The accuracy of results whose files do not record it.

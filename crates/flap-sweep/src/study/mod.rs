@@ -1,5 +1,6 @@
-//! Studies of a plan: response curves, deviations of parameters, surveys.
+//! Studies of a plan: response curves, control effectiveness of vehicles, deviations of parameters, surveys.
 
+pub mod control;
 pub mod deviation;
 pub mod response;
 pub mod survey;

@@ -106,6 +106,8 @@ crate::per_lane! {
         pub b_l: R,
         /// Force on the wing per coefficient and ẋ² (kg/m): ½ρA_w r̂₂²R²T².
         pub force: R,
+        /// Spanwise centre of pressure R_cp (m).
+        pub pressure_radius: R,
 
         /// Transmission ratio T (rad/m).
         pub ratio: R,
@@ -217,6 +219,7 @@ impl Constants<f64> {
             b_2,
             b_l: p.lift_coefficient_max,
             force,
+            pressure_radius: p.pressure_radius,
 
             ratio,
             ratio_growth: p.transmission_growth / ratio,

@@ -5,14 +5,14 @@ use super::constants::Constants;
 use super::dynamics::Bimorph;
 use super::params::Params;
 use super::rhs::{
-    Plate, charging_power, currents, double_angle, leakage, lift_and_drag, plate_forces, plates,
+    Plate, charging_power, currents, double_angle, leakage, lift_and_drag, load, plate_forces, plates,
     stroke_damping, tip_drag,
 };
 use super::transmission::{Law, Transmission, stroke};
 use super::wing;
 use crate::aero::Wing;
 use crate::drive::{Drive, DriveConstants, Shape, StrokeMode, Wave, Waveform};
-use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Model, Motions, Signal};
+use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Load, Model, Motions, Signal};
 use crate::modes::Mode;
 use crate::num::Lanes;
 use crate::ode::Start;
@@ -29,6 +29,7 @@ impl Model<4, S> for Bimorph {
     const SIGNALS: [Signal; S] = columns::SIGNALS;
     const SIGNALS_OF_SLOPES: bool = false;
     const DERIVED: &'static [Derived<Bimorph, Constants<f64>, S>] = columns::DERIVED;
+    const LOADS: bool = true;
     const ENERGY: Option<EnergyBalance> = Some(columns::ENERGY);
 
     fn variant(&self, values: &[f64]) -> Bimorph {
@@ -95,6 +96,13 @@ impl Model<4, S> for Bimorph {
             f_2,
             power_1 + power_2 - charging_power(c, plates),
         ]
+    }
+
+    #[inline(always)]
+    fn load<R: Lanes>(&self, c: &Constants<R>, at: Instant<'_, R, [Plate<R>; 2], 4>) -> Load<R> {
+        let [x, x_dot, psi, psi_dot] = *at.y;
+        let rate = Transmission::at(c, self.law, x).times(x_dot);
+        load(c, stroke(c, self.law, x), x_dot, rate, [psi, psi_dot])
     }
 
     /// Currents follow the edges of the force's transition, (6), which the drive crosses in a fraction of a step.

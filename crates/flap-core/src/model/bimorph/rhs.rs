@@ -11,6 +11,7 @@ use core::f64::consts::FRAC_2_PI;
 use super::constants::{Constants, EXPONENT_MAX};
 use super::transmission::{Law, Transmission};
 use crate::drive::Wave;
+use crate::model::Load;
 use crate::num::Real;
 
 /// A plate under a voltage: its force g at zero strain, and the derivatives of that with respect to the voltage.
@@ -198,6 +199,33 @@ pub(super) fn stroke_damping<R: Real>(
 pub fn lift_and_drag<R: Real>(c: &Constants<R>, rate: R, sin_2psi: R, cos_2psi: R) -> [R; 2] {
     let force = c.force * rate.abs() * rate;
     [force * c.b_l * sin_2psi, force * drag_coefficient(c, cos_2psi)]
+}
+
+/// The load of the air on the wing at a stroke, of which lift and drag act at R_cp; see [`lift_and_drag`] for the rate.
+///
+/// ```text
+/// M_L = R_cp L     M_D = R_cp D     M_s = C_D ẋ|ẋ| − C_C |ψ̇| ψ̇
+/// ```
+#[inline(always)]
+pub(super) fn load<R: Real>(
+    c: &Constants<R>,
+    stroke: R,
+    x_dot: R,
+    rate: R,
+    [psi, psi_dot]: [R; 2],
+) -> Load<R> {
+    let (sin, cos) = psi.sin_cos();
+    let (sin_2psi, cos_2psi) = double_angle(sin, cos);
+    let [lift, drag] = lift_and_drag(c, rate, sin_2psi, cos_2psi);
+    Load {
+        stroke,
+        lift,
+        drag,
+        lift_moment: c.pressure_radius * lift,
+        drag_moment: c.pressure_radius * drag,
+        span_moment: hinge_drag(c, psi, x_dot, sin, cos) * rate.abs() * rate
+            - c.c_c * psi_dot.abs() * psi_dot,
+    }
 }
 
 /// Charges of the two plates (C). Not in the paper: the reciprocal of (6).

@@ -4,12 +4,12 @@ use super::columns::{self, S};
 use super::constants::Constants;
 use super::dynamics::DirectDrive;
 use super::params::Params;
-use super::rhs::{added_mass, aerodynamics, current, lift};
+use super::rhs::{added_mass, aerodynamics, current, lift, load};
 use super::wing;
 use crate::aero::Wing;
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::stroke_and_pitch as states;
-use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Model, Motions, Signal};
+use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Load, Model, Motions, Signal};
 use crate::modes::Mode;
 use crate::num::Lanes;
 use crate::ode::Start;
@@ -25,6 +25,7 @@ impl Model<4, S> for DirectDrive {
     const STATES: [&'static str; 4] = states::NAMES;
     const SIGNALS: [Signal; S] = columns::SIGNALS;
     const DERIVED: &'static [Derived<DirectDrive, Constants<f64>, S>] = columns::DERIVED;
+    const LOADS: bool = true;
     const ENERGY: Option<EnergyBalance> = Some(columns::ENERGY);
 
     fn variant(&self, values: &[f64]) -> DirectDrive {
@@ -79,6 +80,16 @@ impl Model<4, S> for DirectDrive {
             current,
             (drive.value - c.drive.bias) * (current - c.c_p * drive.rate),
         ]
+    }
+
+    #[inline(always)]
+    fn load<R: Lanes>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> Load<R> {
+        let Instant { input: drive, side, y, dy } = at;
+        let y = states::state(&self.drive, drive, y);
+        let (sin, cos) = y[1].sin_cos();
+        let air = aerodynamics(c, self.flow, side, &y, sin, cos);
+        let added = added_mass(c, sin, cos, &states::slope(&self.drive, drive, dy));
+        load(c, &air, &added, &y, [sin, cos])
     }
 }
 

@@ -10,7 +10,7 @@ use core::f64::consts::FRAC_PI_2;
 use super::constants::Constants;
 use super::params::FlowDirection;
 use crate::drive::Wave;
-use crate::model::Balance;
+use crate::model::{Balance, Load};
 use crate::num::Real;
 
 /// Translational and rotational aerodynamics at one state.
@@ -22,6 +22,8 @@ pub struct Aerodynamics<R> {
     pub drag: R,
     /// Moment about the stroke axis M_tr,y (N·m), (25).
     pub stroke_moment: R,
+    /// Moment of the lift ∫ X dF_tr,Lift (N·m): not in the paper, nor in the equations of motion.
+    pub lift_moment: R,
     /// Moment about the span axis M_tr,x′ (N·m), (23) with corrected sign.
     pub pitch_moment: R,
     /// Rotational drag moment M_rot (N·m), (32).
@@ -64,6 +66,7 @@ pub fn aerodynamics<R: Real>(
         lift: c_lift * pressure.force,
         drag: c_drag * pressure.force,
         stroke_moment: -(c_drag * pressure.stroke),
+        lift_moment: c_lift * pressure.stroke,
         pitch_moment: c_normal * pressure.pitch,
         rotation_moment: -(c.rotation * psi_dot * psi_dot.abs()),
     }
@@ -170,7 +173,7 @@ pub fn balance<R: Real>(c: &Constants<R>, flow: FlowDirection, side: R, y: &[R; 
     let air = aerodynamics(c, flow, side, y, sin, cos);
 
     let both = phi_dot * psi_dot;
-    let gyroscopic = c.gyroscopic * (c.a11 * phi_dot * cos - c.a12 * psi_dot) * sin;
+    let gyroscopic = gyroscopic(c, &[phi_dot, psi_dot], sin, cos);
     let q1 = (c.a11 - c.m_s * 2.0) * both * sin * cos + c.m12 * psi_dot * psi_dot * sin + air.stroke_moment
         - c.k_phi * phi
         + psi_dot * gyroscopic
@@ -185,6 +188,13 @@ pub fn balance<R: Real>(c: &Constants<R>, flow: FlowDirection, side: R, y: &[R; 
     let m12 = (c.m12 - c.a12) * cos;
     let m22 = c.m22 + c.a22;
     Balance { mass: [m11, m12, m22], stroke_moment: q1, pitch_moment: q2 }
+}
+
+/// The moment e that the Lagrangian form of the added mass adds to the stroke per pitch rate, and takes from the pitch per
+/// stroke rate.
+#[inline(always)]
+fn gyroscopic<R: Real>(c: &Constants<R>, [phi_dot, psi_dot]: &[R; 2], sin: R, cos: R) -> R {
+    c.gyroscopic * (c.a11 * *phi_dot * cos - c.a12 * *psi_dot) * sin
 }
 
 /// The added-mass force and moments (28)–(30) at known accelerations.
@@ -217,6 +227,36 @@ pub fn added_mass<R: Real>(c: &Constants<R>, sin: R, cos: R, dy: &[R; 4]) -> Add
 #[inline(always)]
 pub fn lift<R: Real>(c: &Constants<R>, air: &Aerodynamics<R>, added: &AddedMassLoad<R>, sin: R) -> R {
     air.lift - c.lift_sign * added.force * sin
+}
+
+/// The load of the air on the wing.
+///
+/// The added mass pushes along the wing's normal, which is (cos ψ e_t − sin ψ e_z):
+///
+/// ```text
+/// L = F_tr,Lift − F_am sin ψ     D = F_tr,Drag − F_am cos ψ     M_s = M_tr,x′ + M_rot + M_am,x′
+/// M_L = ∫ X dF_tr,Lift − M_am,y″ sin ψ     M_D = −M_tr,y − M_am,y″ cos ψ
+/// ```
+///
+/// The Lagrangian form of the added mass adds −ψ̇ e to M_D and −φ̇ e to M_s, see [`balance`].
+#[inline(always)]
+pub(super) fn load<R: Real>(
+    c: &Constants<R>,
+    air: &Aerodynamics<R>,
+    added: &AddedMassLoad<R>,
+    y: &[R; 4],
+    [sin, cos]: [R; 2],
+) -> Load<R> {
+    let [phi, _, phi_dot, psi_dot] = *y;
+    let gyroscopic = gyroscopic(c, &[phi_dot, psi_dot], sin, cos);
+    Load {
+        stroke: phi,
+        lift: lift(c, air, added, sin),
+        drag: air.drag - added.force * cos,
+        lift_moment: air.lift_moment - c.lift_sign * added.chord_moment * sin,
+        drag_moment: -air.stroke_moment - added.chord_moment * cos - psi_dot * gyroscopic,
+        span_moment: air.pitch_moment + air.rotation_moment + added.span_moment - phi_dot * gyroscopic,
+    }
 }
 
 /// Current into the actuator j_A (A), (39) with the reciprocal coupling: C_p V̇ + Γ φ̇. Dielectric loss adds to it.

@@ -6,6 +6,7 @@
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI};
 
 use super::constants::{Air, Constants};
+use crate::model::Load;
 use crate::num::Real;
 
 /// Forces and moments of the air on a wing that translates and rotates.
@@ -17,6 +18,8 @@ pub struct Aerodynamics<R> {
     pub drag: R,
     /// Its moment about the stroke axis (N·m), (16).
     pub stroke_moment: R,
+    /// Moment of the translational lift Σ r L_t (N·m): not in the paper, nor in the equations of motion.
+    pub lift_moment: R,
     /// Moment of translational lift and drag about the rotation axis (N·m), (16), (17).
     pub pitch_moment: R,
     /// Rotational lift L_r (N), (6).
@@ -100,6 +103,7 @@ pub fn aerodynamics<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], sin: R, cos:
         lift: -(c_l * directed.force),
         drag: c_d * directed.force,
         stroke_moment: -(c_d * directed.radius),
+        lift_moment: -(c_l * directed.radius),
         pitch_moment: -((c_d * cos + c_l * sin) * pressure),
         rotation_lift: air.rotation_force * rotation * sin,
         rotation_stroke_moment: air.rotation_stroke * rotation * cos,
@@ -115,6 +119,39 @@ pub fn aerodynamics<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], sin: R, cos:
 pub fn side_of<R: Real>(phi: R, phi_dot: R) -> [R; 2] {
     let (sin, cos) = (phi * 2.0).sin_cos();
     [sin, phi_dot * 2.0 * cos]
+}
+
+/// The load of the air on the wing at a state with derivative `dy`, on one `side`.
+///
+/// Rotational force and added mass push along the wing's normal, which is (cos φ e_t + sin φ e_z). With the normal
+/// acceleration of a strip, r A + κc φ̈ and A = θ̈ cos φ − θ̇φ̇ sin φ:
+///
+/// ```text
+/// N = L_r/sin φ − Σ m_a (r A + κc φ̈)     L = L_t + N sin φ     D = D_t − N cos φ     m_a = π/4 ρ c²Δr
+/// ```
+///
+/// The moments have r in every sum. M_s is −Q_φ, with κc in the sums of the added mass: φ > 0 moves the trailing edge with
+/// the stroke. The equations of motion have the added mass in the wing's centre of mass instead, (19).
+#[inline(always)]
+pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
+    let [theta, phi, _, _] = *y;
+    let [theta_dot, phi_dot, theta_ddot, phi_ddot] = *dy;
+    let (sin, cos) = phi.sin_cos();
+    let air = aerodynamics(c, side, y, sin, cos);
+    let normal = theta_ddot * cos - theta_dot * phi_dot * sin;
+    let Air { added_stroke, added_pitch, added_stroke_2, added_pitch_1, added_span, .. } = c.air;
+    let rotation = -(phi_dot.abs() * phi_dot);
+    let force = c.air.rotation_force * rotation - (added_stroke * normal + added_pitch * phi_ddot);
+    let moment = c.air.rotation_stroke * rotation - (added_stroke_2 * normal + added_pitch_1 * phi_ddot);
+    let added_pitch_moment = -(added_pitch_1 * normal + added_span * phi_ddot);
+    Load {
+        stroke: theta,
+        lift: air.lift + force * sin,
+        drag: air.drag - force * cos,
+        lift_moment: air.lift_moment + moment * sin,
+        drag_moment: -air.stroke_moment - moment * cos,
+        span_moment: -(air.pitch_moment + air.rotation_pitch_moment + added_pitch_moment),
+    }
 }
 
 /// Lift of the added mass L_a (N), (7) with corrected sign, at known accelerations.

@@ -111,6 +111,12 @@ crate::per_lane! {
         pub added_stroke: R,
         /// Added-mass force per acceleration of the pitch (kg·m), (7).
         pub added_pitch: R,
+        /// Its moment about the shoulder per acceleration of the stroke (kg·m²): π/4 ρ Σ r²c²Δr.
+        pub added_stroke_2: R,
+        /// The same per acceleration of the pitch (kg·m²): π/4 ρ Σ r κc³Δr.
+        pub added_pitch_1: R,
+        /// Its moment about the rotation axis per acceleration of the pitch (kg·m²): π/4 ρ Σ κ²c⁴Δr.
+        pub added_span: R,
     }
 }
 
@@ -322,9 +328,10 @@ fn air(p: &Params, cuts: &[Cut]) -> Air<f64> {
     let i_2 = (behind * behind * behind * behind + before * before * before * before) / 4.0;
     let drag = dynamic * p.rotation_drag;
     let added = FRAC_PI_4 * p.air_density;
-    let pitch_sign = match p.am_sign {
-        AddedMassSign::Corrected => 1.0,
-        AddedMassSign::Printed => -1.0,
+    // The mid-chord behind the rotation axis, in chords.
+    let behind_axis = match p.am_sign {
+        AddedMassSign::Corrected => 0.5 - p.axis_position,
+        AddedMassSign::Printed => p.axis_position - 0.5,
     };
     Air {
         lift_offset: p.lift_offset,
@@ -344,6 +351,9 @@ fn air(p: &Params, cuts: &[Cut]) -> Air<f64> {
         rotation_stroke: drag * i_1 * sum(cuts, |r, c| r * c * c * c),
         rotation_pitch: drag * i_2 * sum(cuts, |_, c| c * c * c * c),
         added_stroke: added * sum(cuts, |r, c| r * c * c),
-        added_pitch: pitch_sign * added * (0.5 - p.axis_position) * sum(cuts, |_, c| c * c * c),
+        added_pitch: behind_axis * added * sum(cuts, |_, c| c * c * c),
+        added_stroke_2: added * sum(cuts, |r, c| r * r * c * c),
+        added_pitch_1: behind_axis * added * sum(cuts, |r, c| r * c * c * c),
+        added_span: behind_axis * behind_axis * added * sum(cuts, |_, c| c * c * c * c),
     }
 }

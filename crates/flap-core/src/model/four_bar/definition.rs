@@ -1,6 +1,6 @@
 //! Rows and single motions of the four-bar model.
 
-use super::aerodynamics::{added_mass_lift, aerodynamics};
+use super::aerodynamics::{added_mass_lift, aerodynamics, load};
 use super::columns::{self, S};
 use super::constants::Constants;
 use super::dynamics::FourBar;
@@ -12,7 +12,7 @@ use super::wing;
 use crate::aero::Wing;
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::stroke_and_pitch as states;
-use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Model, Motions, Signal};
+use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Load, Model, Motions, Signal};
 use crate::modes::Mode;
 use crate::num::Lanes;
 use crate::ode::Start;
@@ -28,6 +28,7 @@ impl Model<4, S> for FourBar {
     const STATES: [&'static str; 4] = states::NAMES;
     const SIGNALS: [Signal; S] = columns::SIGNALS;
     const DERIVED: &'static [Derived<FourBar, Constants<f64>, S>] = columns::DERIVED;
+    const LOADS: bool = true;
     const ENERGY: Option<EnergyBalance> = Some(columns::ENERGY);
 
     fn variant(&self, values: &[f64]) -> FourBar {
@@ -90,6 +91,13 @@ impl Model<4, S> for FourBar {
             swing * (current - charging_current(&c.actuator, drive)),
             driving_force(&c.actuator, swing) * slider_rate,
         ]
+    }
+
+    #[inline(always)]
+    fn load<R: Lanes>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> Load<R> {
+        let Instant { input: drive, side, y, dy } = at;
+        let y = states::state(&self.drive, drive, y);
+        load(c, side, &y, &states::slope(&self.drive, drive, dy))
     }
 }
 

@@ -7,6 +7,7 @@ mod model;
 mod parameter;
 mod part;
 mod sections;
+mod vehicle;
 
 use flap_core::parameter::Preset;
 use flap_core::simulate::Simulator;
@@ -32,6 +33,7 @@ fn root(models: &[&'static dyn Simulator], defaults: Option<&Preset>) -> Value {
     let properties = part::properties(KEYS, |key| match key {
         "description" | "device" => part::text(sections::about(key)),
         "preset" => sections::preset(models),
+        "vehicle" => vehicle::section(models),
         "resonance" => sections::resonance(),
         "where" => sections::conditions(),
         "measure" => sections::measures(),
@@ -72,10 +74,10 @@ fn by_preset(models: &[&'static dyn Simulator], only: bool) -> Value {
     let Some((model, others)) = models.split_first() else { return begins };
     let presets: Vec<&str> = model.presets().iter().map(|preset| preset.name).collect();
     let mut is_named = json!({"properties": {"preset": {"enum": presets}}});
-    let mut rules = part::to(model.name());
+    // The parameters and columns of a vehicle have the names of its wings in them.
+    let mut rules = json!({"if": {"not": {"required": ["vehicle"]}}, "then": part::to(model.name())});
     if only {
-        rules["if"] = begins["if"].clone();
-        rules["else"] = begins["else"].clone();
+        rules = json!({"allOf": [rules, begins]});
     } else {
         is_named["required"] = json!(["preset"]);
     }

@@ -15,6 +15,7 @@ pub(super) fn about(section: &str) -> &'static str {
         "device" => "The file of your own design to start from, in place of a preset.",
         "params" => "Single values that replace those of the preset or device.",
         "correlation" => "Correlations between parameters that have standard errors.",
+        "vehicle" => "Wings that make a vehicle, with their places and what differs between them.",
         "resonance" => {
             "The search for the resonance of each design. It needs drive_frequency = \"resonance\" under [params]."
         }

@@ -1,0 +1,43 @@
+//! `flap vehicle`.
+
+use super::look::Listing;
+use super::options::{PointArgs, SolverArgs};
+use super::values::assignment;
+
+#[derive(clap::Args)]
+#[command(after_help = VEHICLE_HELP)]
+pub(crate) struct VehicleArgs {
+    #[command(flatten)]
+    pub(crate) point: PointArgs,
+
+    /// Inputs, separated by commas: parameters of the vehicle, or words [default: amplitude, bias and, with
+    /// drive_shape = "harmonics", second_harmonic, each of all wings and as a left-right difference]
+    #[arg(short, long, value_name = "NAME,...", value_delimiter = ',')]
+    pub(crate) inputs: Vec<String>,
+
+    /// Find the inputs near the point that give this force (mN) or torque (uN*m). May be repeated
+    #[arg(short, long, value_name = "COLUMN=VALUE", value_parser = assignment)]
+    pub(crate) trim: Vec<(String, String)>,
+
+    /// Output format: csv and json have the matrix with all digits
+    #[arg(long, value_enum, default_value_t = Listing::Table)]
+    pub(crate) format: Listing,
+
+    #[command(flatten)]
+    pub(crate) solver: SolverArgs,
+}
+
+const VEHICLE_HELP: &str = "\
+Prints the mean force and torque of a vehicle at a point of a grid file with [vehicle], their changes with each input, and \
+the combinations of inputs that make them (singular values). Derivatives are exact, those of the settled motion.
+
+Words for inputs: amplitude, bias, frequency, second_harmonic, second_phase, third_harmonic; with _difference behind for left \
+minus right, or with the name of a wing in front, as in left_amplitude.
+Components: force_forward, force_left, force_up (mN); torque_roll, torque_pitch, torque_yaw (uN*m). Roll > 0 lifts the left \
+side, pitch > 0 lowers the nose, yaw > 0 turns the nose to the left.
+
+Examples:
+  flap vehicle vehicle.toml
+  flap vehicle vehicle.toml --inputs amplitude_difference,bias,second_harmonic_difference
+  flap vehicle vehicle.toml --inputs amplitude,amplitude_difference,bias --trim torque_roll=0.5 --trim torque_pitch=0
+  flap vehicle vehicle.toml --set left_wing_area=\"54 mm^2\" --format csv";

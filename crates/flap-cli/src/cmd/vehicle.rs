@@ -1,0 +1,228 @@
+//! `flap vehicle`: control effectiveness and trims.
+
+use std::fmt::Write as _;
+
+use flap_core::simulate::never;
+use flap_core::vehicle::Vehicle;
+use flap_sweep::notation::text;
+use flap_sweep::study::control::{
+    COMPONENTS, ControlError, Effectiveness, Flight, Input, InputError, Target, TrimError, trim,
+};
+
+use super::listed;
+use super::point::Chosen;
+use crate::args::{Listing, VehicleArgs};
+use crate::console;
+use crate::failure::{Exit, Failure};
+use crate::table::{Table, six_digits};
+
+/// Headings of the components.
+const HEADINGS: [&str; 6] = ["forward", "left", "up", "roll", "pitch", "yaw"];
+
+/// The share of a combination below which an input or a component is not named.
+const SMALL: f64 = 0.1;
+
+/// The share of the largest singular value below which a combination does nothing.
+const NOTHING: f64 = 1e-9;
+
+pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
+    let chosen = Chosen::new(&args.point, &args.solver)?;
+    let Some(vehicle) = chosen.plan.vehicle() else {
+        let failure = Failure::usage(format!("{} describes one wing, not a vehicle", args.point.what));
+        return Err(failure.help("add [vehicle] and [[vehicle.wings]] to a grid file: see docs/vehicle.md"));
+    };
+    let inputs = inputs(vehicle, &chosen, &args.inputs)?;
+    if let Some(input) = inputs.iter().find(|input| is_derived(&chosen, input)) {
+        let failure = Failure::usage(format!("`{}` is derived from other parameters", input.name));
+        return Err(failure.help("name those that it is derived from, or remove it from [derived]"));
+    }
+    if chosen.plan.derived().parameters().next().is_some() {
+        console::warn("[derived] parameters keep their values while inputs change");
+    }
+    let flight = Flight { vehicle, solver: chosen.plan.solver(), interrupted: &never };
+    let targets = targets(&args.trim)?;
+    let mut page = String::new();
+    let found = if targets.is_empty() {
+        flight.effectiveness(&chosen.values, &inputs, None)?
+    } else {
+        let found = trim(&flight, &chosen.values, &inputs, &targets)?;
+        let _ = writeln!(page, "trimmed in {}\n", text::count(found.steps as u64, "step"));
+        found.at
+    };
+    let names: Vec<String> =
+        ["input", "unit", "value"].into_iter().chain(COMPONENTS).map(str::to_owned).collect();
+    console::results(&match args.format {
+        Listing::Table => format!("{}\n\n{page}{}", title(&chosen, vehicle), table(&found)),
+        Listing::Csv => listed::csv(&names, &cells(&found))?,
+        Listing::Json => listed::objects(&names, &cells(&found))?,
+    })?;
+    Ok(Exit::Done)
+}
+
+fn title(chosen: &Chosen, vehicle: &Vehicle) -> String {
+    let wings: Vec<&str> = vehicle.mounts().iter().map(|mount| mount.name.as_str()).collect();
+    let wings_are = if wings.len() == 1 { "wing" } else { "wings" };
+    format!("{}: a vehicle with the {wings_are} {}", chosen.title(), wings.join(", "))
+}
+
+/// The inputs that the command line names, or the usual ones.
+fn inputs(vehicle: &Vehicle, chosen: &Chosen, names: &[String]) -> Result<Vec<Input>, Failure> {
+    if names.is_empty() {
+        let parameters = chosen.plan.parameters().iter().zip(&chosen.values);
+        let shape = parameters.filter(|(parameter, _)| parameter.name == "drive_shape");
+        let has_harmonics = shape
+            .filter_map(|(parameter, value)| text::option(parameter, *value))
+            .any(|shape| shape == "harmonics");
+        return Ok(Input::usual(vehicle, has_harmonics));
+    }
+    let mut inputs: Vec<Input> = Vec::new();
+    for name in names {
+        let input = Input::of(vehicle, name).map_err(|error| {
+            let failure = Failure::usage(format!("--inputs: {error}"));
+            match error {
+                InputError::Unknown(_) => {
+                    let known = Input::names(vehicle);
+                    let known = known.iter().map(String::as_str);
+                    failure.nearest(name, known, "`flap vehicle --help` lists words for inputs")
+                }
+                InputError::Choice(_) => failure,
+            }
+        })?;
+        if inputs.iter().any(|other| other.parameter == input.parameter) {
+            return Err(Failure::usage(format!("--inputs: `{name}` is named twice")));
+        }
+        inputs.push(input);
+    }
+    Ok(inputs)
+}
+
+fn is_derived(chosen: &Chosen, input: &Input) -> bool {
+    chosen.plan.derived().parameters().any(|derived| derived == input.parameter)
+}
+
+/// The targets of the command line.
+fn targets(given: &[(String, String)]) -> Result<Vec<Target>, Failure> {
+    let mut targets: Vec<Target> = Vec::new();
+    for (name, value) in given {
+        let is_named = |component: &str| {
+            component == name || component.rsplit_once('_').is_some_and(|(short, _)| short == name)
+        };
+        let Some(component) = COMPONENTS.iter().position(|component| is_named(component)) else {
+            let failure = Failure::usage(format!("--trim: there is no component `{name}`"));
+            return Err(failure.nearest(name, COMPONENTS, "components are force_forward to torque_yaw"));
+        };
+        let number = value.trim().parse().ok().filter(|number: &f64| number.is_finite());
+        let Some(value) = number else {
+            let unit = if component < 3 { "mN" } else { "uN*m" };
+            let failure = Failure::usage(format!("--trim {name}={value}: `{value}` is not a number"));
+            return Err(failure.help(format!("write a number in {unit}, without the unit")));
+        };
+        if targets.iter().any(|target| target.component == component) {
+            return Err(Failure::usage(format!("--trim: `{name}` is given twice")));
+        }
+        targets.push(Target { component, value });
+    }
+    Ok(targets)
+}
+
+/// Force and torque, the matrix, and the combinations of inputs.
+fn table(found: &Effectiveness) -> String {
+    let mut here = Table::with_headings(&["mean", "unit", HEADINGS[0], HEADINGS[1], HEADINGS[2]]);
+    let row = |name: &str, unit: &str, numbers: &[f64]| {
+        let numbers = numbers.iter().map(|number| six_digits(tidy(*number)));
+        [name.to_owned(), unit.to_owned()].into_iter().chain(numbers).collect::<Vec<_>>()
+    };
+    here.row(row("force", "mN", &found.wrench[..3]));
+    let mut torque = Table::with_headings(&["mean", "unit", HEADINGS[3], HEADINGS[4], HEADINGS[5]]);
+    torque.row(row("torque", "uN*m", &found.wrench[3..]));
+
+    let headings = ["input", "value", "unit"].into_iter().chain(HEADINGS).chain(["makes"]);
+    let mut matrix = Table::with_headings(&headings.collect::<Vec<_>>());
+    for (j, input) in found.inputs.iter().enumerate() {
+        let column: Vec<f64> = found.matrix.column(j).iter().copied().collect();
+        let mut cells = vec![input.name.clone(), six_digits(found.values[j]), input.unit.to_owned()];
+        cells.extend(column.iter().map(|slope| six_digits(tidy(*slope))));
+        cells.push(made(&column));
+        matrix.row(cells);
+    }
+    let modes = found.modes();
+    let largest = modes.first().map_or(0.0, |mode| mode.size);
+    let mut combinations = Table::with_headings(&["size", "inputs", "force and torque"]);
+    for mode in modes.iter().filter(|mode| mode.size > NOTHING * largest) {
+        let inputs = named(&mode.inputs, |i| found.inputs[i].name.clone());
+        combinations.row([
+            six_digits(mode.size),
+            inputs,
+            named(&mode.components, |i| HEADINGS[i].to_owned()),
+        ]);
+    }
+    format!(
+        "{}\n{}\nChange of force (mN) and torque (uN*m) per unit of each input:\n\n{}\n\
+         Combinations of one unit of inputs in all, the strongest first (1 uN*m counts as 1 mN):\n\n{}",
+        here.text(),
+        torque.text(),
+        matrix.text(),
+        combinations.text()
+    )
+}
+
+/// The number; zero if it is nothing but rounding beside 1 mN or 1 uN·m.
+fn tidy(number: f64) -> f64 {
+    if number.abs() < 1e-12 { 0.0 } else { number }
+}
+
+/// The component of force and that of torque that an input changes most.
+fn made(column: &[f64]) -> String {
+    let largest = |from: usize| {
+        let of = (from..from + 3).max_by(|&one, &other| column[one].abs().total_cmp(&column[other].abs()))?;
+        let size = column.iter().fold(0.0, |one: f64, other| one.max(other.abs()));
+        (column[of].abs() > SMALL * size && size > 0.0).then_some((column[of].abs(), HEADINGS[of]))
+    };
+    let mut made: Vec<(f64, &str)> = [largest(0), largest(3)].into_iter().flatten().collect();
+    made.sort_by(|(one, _), (other, _)| other.total_cmp(one));
+    made.iter().map(|(_, name)| *name).collect::<Vec<_>>().join(", ")
+}
+
+/// The largest shares of a vector, with their names.
+fn named(shares: &[f64], name: impl Fn(usize) -> String) -> String {
+    let mut places: Vec<usize> = (0..shares.len()).filter(|&i| shares[i].abs() >= SMALL).collect();
+    places.sort_by(|&one, &other| shares[other].abs().total_cmp(&shares[one].abs()));
+    places.iter().map(|&i| format!("{:+.2} {}", shares[i], name(i))).collect::<Vec<_>>().join(" ")
+}
+
+/// The matrix with all digits.
+fn cells(found: &Effectiveness) -> Vec<Vec<String>> {
+    let mut rows = Vec::new();
+    let head = ["mean".to_owned(), String::new(), String::new()];
+    rows.push(head.into_iter().chain(found.wrench.map(text::float)).collect());
+    for (j, input) in found.inputs.iter().enumerate() {
+        let head = [input.name.clone(), input.unit.to_owned(), text::float(found.values[j])];
+        rows.push(
+            head.into_iter().chain(found.matrix.column(j).iter().map(|slope| text::float(*slope))).collect(),
+        );
+    }
+    rows
+}
+
+impl From<ControlError> for Failure {
+    fn from(error: ControlError) -> Failure {
+        match error {
+            ControlError::Unfinished(error) => error.into(),
+            error => Failure::usage(error.to_string()),
+        }
+    }
+}
+
+impl From<TrimError> for Failure {
+    fn from(error: TrimError) -> Failure {
+        let help = match &error {
+            TrimError::FewInputs { .. } => "name more --inputs, or fewer --trim",
+            TrimError::NotReached { .. } => "choose other --inputs, or targets nearer to the point",
+            TrimError::Control(_) => "",
+        };
+        match error {
+            TrimError::Control(error) => error.into(),
+            error => Failure::usage(error.to_string()).help(help),
+        }
+    }
+}

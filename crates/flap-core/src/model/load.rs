@@ -1,0 +1,57 @@
+//! The load of the air on a wing: force and moment at its shoulder.
+
+use crate::num::Real;
+
+/// The load of the air on a wing at an instant, in directions that move with the wing.
+///
+/// The shoulder is the point where the span axis crosses the stroke axis. Moments count from there.
+#[derive(Clone, Copy, Debug)]
+pub struct Load<R> {
+    /// Stroke angle (rad).
+    pub stroke: R,
+    /// Force along the stroke axis (N), positive upwards: ∫ dL.
+    pub lift: R,
+    /// Force across the span in the stroke plane (N), positive against a positive stroke: ∫ dD.
+    pub drag: R,
+    /// Moment of the lift (N·m): ∫ r dL, with the distance r from the stroke axis along the span.
+    pub lift_moment: R,
+    /// Moment of the drag about the stroke axis (N·m): ∫ r dD.
+    pub drag_moment: R,
+    /// Moment about the span axis (N·m), positive if it moves the trailing edge against a positive stroke.
+    pub span_moment: R,
+}
+
+impl<R: Real> Load<R> {
+    /// A load of which nothing is known.
+    pub fn unknown(number: R) -> Load<R> {
+        let unknown = number.lit(f64::NAN);
+        Load {
+            stroke: unknown,
+            lift: unknown,
+            drag: unknown,
+            lift_moment: unknown,
+            drag_moment: unknown,
+            span_moment: unknown,
+        }
+    }
+
+    /// Force (N) and moment (N·m) at the shoulder in axes that do not move: x in the direction of a positive stroke, y along
+    /// the span at zero stroke, z along the stroke axis upwards. That is a right-handed system for a left wing.
+    ///
+    /// ```text
+    /// span e_s = (sin φ, cos φ, 0)     motion e_t = (cos φ, −sin φ, 0)
+    /// F = L e_z − D e_t     M = M_L e_t + M_D e_z + M_s e_s
+    /// ```
+    #[inline(always)]
+    pub fn at_shoulder(&self) -> [R; 6] {
+        let (sin, cos) = self.stroke.sin_cos();
+        [
+            -(self.drag * cos),
+            self.drag * sin,
+            self.lift,
+            self.lift_moment * cos + self.span_moment * sin,
+            self.span_moment * cos - self.lift_moment * sin,
+            self.drag_moment,
+        ]
+    }
+}

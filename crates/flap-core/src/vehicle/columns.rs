@@ -1,0 +1,111 @@
+//! The columns of a vehicle's rows, from those of its wings.
+
+use super::geometry::{FORCES, TORQUES, Wrench};
+use super::mount::Mount;
+use crate::simulate::Column;
+
+/// First parts of the names of columns that rows have of each wing.
+const OF_WINGS: [&str; 7] =
+    ["stroke_", "pitch_", "lift_mean_mn", "strain_", "hinge_strain", "field_max", "tip_"];
+
+/// Standard gravity (m/s²).
+const GRAVITY: f64 = 9.80665;
+
+/// The columns.
+pub(super) struct Columns {
+    pub(super) all: Vec<Column>,
+    sources: Vec<Source>,
+}
+
+/// The origin of a column's values.
+enum Source {
+    /// A component of force (mN) or torque (uN·m).
+    Wrench(usize),
+    /// Lift over weight.
+    LiftToWeight,
+    /// Grams-force over watts, from this column of the wings.
+    Efficiency(usize),
+    /// The sum of a column over the wings.
+    Sum(usize),
+    /// A column of one wing.
+    Wing(usize, usize),
+}
+
+impl Columns {
+    pub(super) fn new(model: &[Column], mounts: &[Mount]) -> Columns {
+        let mut columns = Columns { all: Vec::new(), sources: Vec::new() };
+        let words = [
+            "mean force of the air on the wings, forward",
+            "mean force of the air on the wings, to the left",
+            "mean force of the air on the wings, upwards",
+            "mean torque about the x axis, which lifts the left side",
+            "mean torque about the y axis, which lowers the nose",
+            "mean torque about the z axis, which turns the nose to the left",
+        ];
+        for (i, (name, doc)) in FORCES.into_iter().chain(TORQUES).zip(words).enumerate() {
+            columns.add(
+                name.to_owned(),
+                if i < 3 { "mN" } else { "uN*m" },
+                doc.to_owned(),
+                Source::Wrench(i),
+            );
+        }
+        let doc = "force_up_mn over the weight of total_mass; empty where that is not known";
+        columns.add("lift_to_weight".to_owned(), "", doc.to_owned(), Source::LiftToWeight);
+        for (i, column) in model.iter().enumerate() {
+            if is_sum(column) {
+                let doc = format!("sum over the wings: {}", column.doc);
+                columns.add(column.name.clone(), column.unit, doc, Source::Sum(i));
+            }
+        }
+        if let Some(power) = model.iter().position(|column| column.name == "power_mean_mw") {
+            let doc = "force_up_mn in grams-force over power_mean_mw; empty where that is not more than zero";
+            columns.add("efficiency_gf_per_w".to_owned(), "gf/W", doc.to_owned(), Source::Efficiency(power));
+        }
+        for (wing, mount) in mounts.iter().enumerate() {
+            for (i, column) in model.iter().enumerate() {
+                if OF_WINGS.iter().any(|first| column.name.starts_with(first))
+                    && !column.name.ends_with("_per_v")
+                {
+                    let doc = format!("wing {}: {}", mount.name, column.doc);
+                    columns.add(
+                        format!("{}_{}", mount.name, column.name),
+                        column.unit,
+                        doc,
+                        Source::Wing(wing, i),
+                    );
+                }
+            }
+        }
+        columns
+    }
+
+    /// The values of a vehicle's columns, from its wrench and from the measures of its wings.
+    pub(super) fn values(&self, wrench: &Wrench, total_mass: f64, wings: &[&[f64]]) -> Vec<f64> {
+        let Wrench { force, torque } = wrench;
+        let sum = |column: usize| wings.iter().map(|measures| measures[column]).sum::<f64>();
+        let value = |source: &Source| match *source {
+            Source::Wrench(i) if i < 3 => force[i] * 1e3,
+            Source::Wrench(i) => torque[i - 3] * 1e6,
+            Source::LiftToWeight => force[2] / (total_mass * GRAVITY),
+            Source::Efficiency(power) => {
+                let watts = sum(power) * 1e-3;
+                if watts > 0.0 { force[2] / GRAVITY * 1e3 / watts } else { f64::NAN }
+            }
+            Source::Sum(column) => sum(column),
+            Source::Wing(wing, column) => wings[wing][column],
+        };
+        self.sources.iter().map(value).collect()
+    }
+
+    fn add(&mut self, name: String, unit: &'static str, doc: String, source: Source) {
+        self.all.push(Column { name, unit, doc });
+        self.sources.push(source);
+    }
+}
+
+/// True if the column of a vehicle is the sum of those of its wings: of powers and currents.
+fn is_sum(column: &Column) -> bool {
+    let is_power = column.name.starts_with("power_") && column.unit == "mW";
+    is_power || (column.name.starts_with("current") && column.unit == "mA")
+}

@@ -1,0 +1,65 @@
+//! Forces and torques of wings in the axes of the body.
+
+use core::ops::Add;
+
+use nalgebra::{Rotation3, Vector3};
+
+/// The columns of the force (mN), along the body's axes.
+pub const FORCES: [&str; 3] = ["force_forward_mn", "force_left_mn", "force_up_mn"];
+/// The columns of the torque (uN·m), about the body's axes.
+pub const TORQUES: [&str; 3] = ["torque_roll_unm", "torque_pitch_unm", "torque_yaw_unm"];
+
+/// The place of a wing: its shoulder and its stroke plane.
+pub(super) struct Place {
+    /// Position of the shoulder (m).
+    pub(super) position: [f64; 3],
+    /// Roll, pitch and yaw of the stroke plane (rad).
+    pub(super) plane: [f64; 3],
+}
+
+/// A force (N) and a torque (N·m).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wrench {
+    pub(super) force: Vector3<f64>,
+    pub(super) torque: Vector3<f64>,
+}
+
+impl Wrench {
+    /// No force and no torque.
+    pub(super) const ZERO: Wrench =
+        Wrench { force: Vector3::new(0.0, 0.0, 0.0), torque: Vector3::new(0.0, 0.0, 0.0) };
+
+    /// The load at the shoulder of a wing, about the origin of the body's axes.
+    ///
+    /// ```text
+    /// F = Q f     M = Q m + p × F     Q = R_z(yaw) R_y(pitch) R_x(roll)
+    /// ```
+    ///
+    /// A mirrored wing is the image of that one behind the plane of x and z.
+    pub(super) fn of_wing(load: &[f64; 6], place: &Place, mirrored: bool) -> Wrench {
+        let [roll, pitch, yaw] = place.plane;
+        let turned = Rotation3::from_euler_angles(roll, pitch, yaw);
+        let force = turned * Vector3::new(load[0], load[1], load[2]);
+        let torque =
+            turned * Vector3::new(load[3], load[4], load[5]) + Vector3::from(place.position).cross(&force);
+        if mirrored {
+            let image = Vector3::new(1.0, -1.0, 1.0);
+            Wrench { force: force.component_mul(&image), torque: -torque.component_mul(&image) }
+        } else {
+            Wrench { force, torque }
+        }
+    }
+
+    /// The same about another point (m).
+    pub(super) fn about(self, point: [f64; 3]) -> Wrench {
+        Wrench { force: self.force, torque: self.torque - Vector3::from(point).cross(&self.force) }
+    }
+}
+
+impl Add for Wrench {
+    type Output = Wrench;
+
+    fn add(self, other: Wrench) -> Wrench {
+        Wrench { force: self.force + other.force, torque: self.torque + other.torque }
+    }
+}

@@ -1,0 +1,138 @@
+//! Derivatives of a vehicle's measures, from those of its wings.
+
+use super::layout::Vehicle;
+use crate::simulate::{
+    Change, Gradient, Motions, NoSlope, Period, PointRun, RequestError, SolverSettings, Trajectory,
+    TrajectoryRequest, Unfinished,
+};
+
+impl Motions for Vehicle {
+    fn states(&self) -> &'static [&'static str] {
+        self.states
+    }
+
+    fn meanings(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn period(&self, _run: &PointRun<'_>, _begin: &[f64]) -> Result<Period, Unfinished> {
+        Err(Unfinished::NoMotions { model: "of a vehicle" })
+    }
+
+    fn trajectory_from(
+        &self,
+        _run: &PointRun<'_>,
+        _begin: Option<&[f64]>,
+        _request: &TrajectoryRequest,
+    ) -> Result<Trajectory, Unfinished> {
+        Err(Unfinished::NoMotions { model: "of a vehicle" })
+    }
+
+    /// The vehicle's measures are linear in the wings', but for efficiency and lift over weight: their differences along the
+    /// wings' derivatives are derivatives too.
+    fn gradient(
+        &self,
+        run: &PointRun<'_>,
+        state: &[f64],
+        changes: &[Change],
+    ) -> Result<Gradient, Unfinished> {
+        let states = self.states.len() / self.mounts.len();
+        if state.len() != self.states.len() {
+            return Err(RequestError::Begin { begin: state.to_vec(), states: self.states.len() }.into());
+        }
+        let solver = SolverSettings { loads: true, ..*run.solver };
+        let mut wings = Vec::new();
+        let mut rhs_evals = 0;
+        for wing in 0..self.mounts.len() {
+            let state = &state[wing * states..(wing + 1) * states];
+            let wing = self.wing_slopes(run, &solver, wing, state, changes)?;
+            rhs_evals += wing.rhs_evals;
+            wings.push(wing);
+        }
+        let here: Vec<&[f64]> = wings.iter().map(|wing| wing.measures.as_slice()).collect();
+        let here = self.measures(run.values, &here);
+        let slopes = changes.iter().enumerate().map(|(i, change)| {
+            let moved = |values: &[f64], size: f64| {
+                let measures: Vec<Vec<f64>> = wings.iter().map(|wing| wing.moved(i, size)).collect();
+                let measures: Vec<&[f64]> = measures.iter().map(Vec::as_slice).collect();
+                self.measures(values, &measures)
+            };
+            let (ahead, behind) = (moved(&change.ahead, change.size), moved(&change.behind, -change.size));
+            let trouble = wings.iter().find_map(|wing| wing.trouble(i));
+            let nothing = wings.iter().all(|wing| wing.slopes[i].is_none()) && ahead == behind;
+            let slope = |j: usize| {
+                if nothing {
+                    return Err(NoSlope::Zero);
+                }
+                let slope = (ahead[j] - behind[j]) / (2.0 * change.size);
+                match trouble {
+                    Some(trouble) if slope.is_nan() && !here[j].is_nan() => Err(trouble),
+                    _ => Ok(slope),
+                }
+            };
+            (0..here.len()).map(slope).collect()
+        });
+        Ok(Gradient { slopes: slopes.collect(), rhs_evals })
+    }
+}
+
+/// A wing's measures, and its derivatives along each change; `None` along those that do not concern it.
+struct WingSlopes {
+    measures: Vec<f64>,
+    slopes: Vec<Option<Vec<Result<f64, NoSlope>>>>,
+    rhs_evals: u64,
+}
+
+impl WingSlopes {
+    /// The measures after a step along a change.
+    fn moved(&self, change: usize, size: f64) -> Vec<f64> {
+        let Some(slopes) = &self.slopes[change] else { return self.measures.clone() };
+        let moved = |(measure, slope): (&f64, &Result<f64, NoSlope>)| match slope {
+            Ok(slope) => measure + size * slope,
+            Err(_) => f64::NAN,
+        };
+        self.measures.iter().zip(slopes).map(moved).collect()
+    }
+
+    /// The reason why a derivative along a change is not known, if there is one.
+    fn trouble(&self, change: usize) -> Option<NoSlope> {
+        self.slopes[change].iter().flatten().find_map(|slope| slope.err())
+    }
+}
+
+impl Vehicle {
+    fn wing_slopes(
+        &self,
+        run: &PointRun<'_>,
+        solver: &SolverSettings,
+        wing: usize,
+        state: &[f64],
+        changes: &[Change],
+    ) -> Result<WingSlopes, Unfinished> {
+        let motions = self.model.motions()?;
+        let values = self.table.of_wing(run.values, wing)?;
+        let run = PointRun { solver, values: &values, ..*run };
+        let measures = motions.period(&run, state)?;
+        // A side out of range differs from the point in no number: its derivative is told to be at the edge.
+        let side = |side: &[f64]| {
+            self.table.of_wing(side, wing).unwrap_or_else(|_| vec![f64::INFINITY; values.len()])
+        };
+        let own: Vec<Change> = changes
+            .iter()
+            .map(|change| Change {
+                ahead: side(&change.ahead),
+                behind: side(&change.behind),
+                size: change.size,
+            })
+            .collect();
+        let concerned: Vec<Change> = own.iter().filter(|change| !change.is_none()).cloned().collect();
+        let gradient = motions.gradient(&run, state, &concerned)?;
+        let mut slopes = gradient.slopes.into_iter();
+        let slopes = own.iter().map(|change| if change.is_none() { None } else { slopes.next() }).collect();
+        Ok(WingSlopes {
+            measures: measures.measures,
+            slopes,
+            rhs_evals: gradient.rhs_evals + measures.rhs_evals,
+        })
+    }
+}

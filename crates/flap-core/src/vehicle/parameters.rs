@@ -1,0 +1,161 @@
+//! The parameters of a vehicle: those of its model for all wings, its own, those of single wings, and differences.
+
+use super::geometry::Place;
+use super::mount::{DIFFERENCE, Mount, VehicleError};
+use crate::parameter::Range::{Any, Positive};
+use crate::parameter::{Invalid, Kind, Parameter};
+
+/// Groups of lists of parameters.
+const VEHICLE: &str = "vehicle";
+
+/// The parameters of a place.
+#[rustfmt::skip]
+const PLACE: [(&str, &str, &str); 6] = [
+    ("position_x", "m", "Position of the shoulder, forward"),
+    ("position_y", "m", "Position of the shoulder, to the left; of a mirrored wing to the right"),
+    ("position_z", "m", "Position of the shoulder, upwards"),
+    ("plane_roll", "rad", "Roll of the stroke plane, which lifts the wing's tip"),
+    ("plane_pitch", "rad", "Pitch of the stroke plane, which lowers its front"),
+    ("plane_yaw", "rad", "Yaw of the stroke plane, which turns its front away from the wing's side"),
+];
+
+/// The parameters of the vehicle as a whole.
+#[rustfmt::skip]
+const WHOLE: [Parameter; 4] = [
+    Parameter::new("about_x", "m", "", Kind::Number(Any), "Point about which torques are taken, such as the centre of mass: forward.").group(VEHICLE).default(0.0),
+    Parameter::new("about_y", "m", "", Kind::Number(Any), "Point about which torques are taken, to the left.").group(VEHICLE).default(0.0),
+    Parameter::new("about_z", "m", "", Kind::Number(Any), "Point about which torques are taken, upwards.").group(VEHICLE).default(0.0),
+    Parameter::new("total_mass", "kg", "", Kind::Following(Positive, "not known"), "Mass of the whole vehicle, for lift_to_weight.").group(VEHICLE),
+];
+
+/// The parameter table of a vehicle.
+pub(super) struct Table {
+    pub(super) parameters: &'static [Parameter],
+    /// Number of the model's parameters, which come first.
+    shared: usize,
+    /// The model's parameters that wings may have of their own.
+    own: Vec<usize>,
+    /// Number of wings.
+    wings: usize,
+    mirrored: Vec<bool>,
+    has_differences: bool,
+}
+
+/// True if wings may have a value of their own of this parameter of the model.
+pub(super) fn may_differ(parameter: &Parameter) -> bool {
+    !matches!(parameter.kind, Kind::Choice(_)) && parameter.name != "drive_frequency"
+}
+
+impl Table {
+    pub(super) fn new(model: &'static [Parameter], mounts: &[Mount]) -> Result<Table, VehicleError> {
+        let own: Vec<usize> = (0..model.len()).filter(|&index| may_differ(&model[index])).collect();
+        let mut parameters = [model, &WHOLE].concat();
+        for mount in mounts {
+            let name =
+                |rest: &str| -> &'static str { Box::leak(format!("{}_{rest}", mount.name).into_boxed_str()) };
+            let group = Box::leak(format!("wing {}", mount.name).into_boxed_str());
+            let text = |text: String| -> &'static str { Box::leak(text.into_boxed_str()) };
+            let mut of_wing = Vec::new();
+            for (rest, unit, doc) in PLACE {
+                let doc = text(format!("{doc}: of the wing {}.", mount.name));
+                let place = Parameter::new(name(rest), unit, "", Kind::Number(Any), doc);
+                of_wing.push(place.group(group).default(0.0));
+            }
+            for parameter in own.iter().map(|&index| &model[index]) {
+                let (Kind::Number(range) | Kind::Following(range, _)) = parameter.kind else { continue };
+                let doc = text(format!("{} of the wing {} alone.", parameter.name, mount.name));
+                let kind = Kind::Following(range, parameter.name);
+                of_wing
+                    .push(Parameter::new(name(parameter.name), parameter.unit, "", kind, doc).group(group));
+            }
+            if let Some(clash) =
+                of_wing.iter().find(|one| parameters.iter().any(|other| other.name == one.name))
+            {
+                return Err(VehicleError::Clash {
+                    wing: mount.name.clone(),
+                    parameter: clash.name.to_owned(),
+                });
+            }
+            parameters.extend(of_wing);
+        }
+        let mirrored: Vec<bool> = mounts.iter().map(|mount| mount.mirrored).collect();
+        let has_differences = mirrored.contains(&true) && mirrored.contains(&false);
+        if has_differences {
+            for parameter in own.iter().map(|&index| &model[index]) {
+                let name = Box::leak(format!("{DIFFERENCE}_{}", parameter.name).into_boxed_str());
+                let doc = format!(
+                    "Left-right difference of {}: half of it is added to the wings that are not mirrored, and taken from \
+                     those that are.",
+                    parameter.name
+                );
+                let difference = Parameter::new(
+                    name,
+                    parameter.unit,
+                    "",
+                    Kind::Number(Any),
+                    Box::leak(doc.into_boxed_str()),
+                );
+                parameters.push(difference.group("left-right differences").default(0.0));
+            }
+        }
+        let parameters: &'static [Parameter] = Box::leak(parameters.into_boxed_slice());
+        Ok(Table { parameters, shared: model.len(), own, wings: mounts.len(), mirrored, has_differences })
+    }
+
+    /// The number of the first parameter of a wing.
+    fn begin(&self, wing: usize) -> usize {
+        self.shared + WHOLE.len() + wing * (PLACE.len() + self.own.len())
+    }
+
+    /// The point about which torques are taken (m).
+    pub(super) fn about(&self, values: &[f64]) -> [f64; 3] {
+        core::array::from_fn(|i| values[self.shared + i])
+    }
+
+    /// The mass of the whole vehicle (kg); not a number if it is not known.
+    pub(super) fn total_mass(&self, values: &[f64]) -> f64 {
+        values[self.shared + 3]
+    }
+
+    /// The place of a wing.
+    pub(super) fn place(&self, values: &[f64], wing: usize) -> Place {
+        let begin = self.begin(wing);
+        Place {
+            position: core::array::from_fn(|i| values[begin + i]),
+            plane: core::array::from_fn(|i| values[begin + 3 + i]),
+        }
+    }
+
+    /// The values of a wing's own design point.
+    ///
+    /// # Errors
+    /// If a difference takes a value out of its range, or is one of a parameter that follows others.
+    pub(super) fn of_wing(&self, values: &[f64], wing: usize) -> Result<Vec<f64>, Invalid> {
+        let mut own_values = values[..self.shared].to_vec();
+        let own = self.begin(wing) + PLACE.len();
+        let differences = self.begin(self.wings);
+        let share = if self.mirrored[wing] { -0.5 } else { 0.5 };
+        for (i, &index) in self.own.iter().enumerate() {
+            let value = &mut own_values[index];
+            if !values[own + i].is_nan() {
+                *value = values[own + i];
+            }
+            let difference = if self.has_differences { values[differences + i] } else { 0.0 };
+            if difference == 0.0 {
+                continue;
+            }
+            let parameter = &self.parameters[index];
+            if value.is_nan() {
+                return Err(Invalid::new(format!(
+                    "{DIFFERENCE}_{0} needs a value of {0}, which follows other parameters",
+                    parameter.name
+                )));
+            }
+            *value += share * difference;
+            if let Kind::Number(range) | Kind::Following(range, _) = parameter.kind {
+                Invalid::unless_within(parameter.name, *value, range)?;
+            }
+        }
+        Ok(own_values)
+    }
+}

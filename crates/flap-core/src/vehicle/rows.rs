@@ -1,0 +1,218 @@
+//! Rows of a vehicle, from those of its wings.
+
+use std::collections::{HashMap, VecDeque};
+
+use super::layout::Vehicle;
+use super::mount::MOST_WINGS;
+use crate::num::InstructionSet;
+use crate::parameter::{Invalid, Parameter, Preset};
+use crate::simulate::{
+    Column, Jobs, LaneUse, Motions, Point, PointRun, Row, Rows, Simulator, SolverSettings, Status, Unfinished,
+};
+
+impl Rows for Vehicle {
+    fn columns(&self) -> &[Column] {
+        &self.columns.all
+    }
+
+    fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs) {
+        let solver = SolverSettings { loads: true, ..*solver };
+        let mut wings =
+            WingJobs { vehicle: self, jobs, waiting: VecDeque::new(), begun: HashMap::new(), next: 0 };
+        self.model.run(set, &solver, &mut wings);
+    }
+
+    fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row {
+        let mut wings = match Wings::new(self, run.values.to_vec(), begin) {
+            Ok(wings) => wings,
+            Err(invalid) => return Row::invalid(invalid),
+        };
+        let solver = SolverSettings { loads: true, ..*run.solver };
+        for design in 0..wings.designs.len() {
+            let Design { values, begin, .. } = &wings.designs[design];
+            let run = PointRun { solver: &solver, values, ..*run };
+            wings.designs[design].row = Some(self.model.run_point(&run, begin.as_deref()));
+        }
+        wings.row(self).unwrap_or_else(|| Row::invalid("interrupted"))
+    }
+}
+
+impl Simulator for Vehicle {
+    fn name(&self) -> &'static str {
+        self.model.name()
+    }
+
+    fn doc(&self) -> &'static str {
+        self.model.doc()
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        self.table.parameters
+    }
+
+    fn presets(&self) -> &'static [Preset] {
+        &[]
+    }
+
+    fn motions(&self) -> Result<&dyn Motions, Unfinished> {
+        Ok(self)
+    }
+}
+
+/// A design of one or several wings of a vehicle at a point.
+struct Design {
+    values: Vec<f64>,
+    begin: Option<Vec<f64>>,
+    row: Option<Row>,
+}
+
+/// The wings of a vehicle at a point.
+struct Wings {
+    values: Vec<f64>,
+    designs: Vec<Design>,
+    /// The design of each wing.
+    of_wing: Vec<usize>,
+}
+
+impl Wings {
+    /// The wings at a point. Equal ones are one design.
+    fn new(vehicle: &Vehicle, values: Vec<f64>, begin: Option<&[f64]>) -> Result<Wings, Invalid> {
+        let states = vehicle.states.len() / vehicle.mounts.len();
+        let mut wings = Wings { values, designs: Vec::new(), of_wing: Vec::new() };
+        for (wing, mount) in vehicle.mounts.iter().enumerate() {
+            let values = vehicle
+                .table
+                .of_wing(&wings.values, wing)
+                .map_err(|invalid| Invalid::new(format!("wing {}: {}", mount.name, invalid.into_reason())))?;
+            let begin = begin.map(|all| all.iter().copied().skip(wing * states).take(states).collect());
+            let design = Design { values, begin, row: None };
+            let same = wings.designs.iter().position(|other| other.is(&design));
+            wings.of_wing.push(same.unwrap_or(wings.designs.len()));
+            if same.is_none() {
+                wings.designs.push(design);
+            }
+        }
+        Ok(wings)
+    }
+
+    /// The row of the vehicle, once all wings have theirs.
+    fn row(&self, vehicle: &Vehicle) -> Option<Row> {
+        let rows: Option<Vec<&Row>> =
+            self.of_wing.iter().map(|&design| self.designs[design].row.as_ref()).collect();
+        let rows = rows?;
+        let severity = |row: &Row| Status::ALL.iter().position(|status| *status == row.status);
+        // The first of the wings that fare worst.
+        let worst = (0..rows.len()).rev().max_by_key(|&wing| severity(rows[wing]))?;
+        let largest = |value: fn(&Row) -> f64| rows.iter().map(|row| value(row)).fold(f64::NAN, f64::max);
+        let settled = rows.iter().all(|row| !row.measures.is_empty());
+        let known = rows.iter().all(|row| !row.state.is_empty());
+        let all = |is_known: bool, value: fn(&Row) -> f64| if is_known { largest(value) } else { f64::NAN };
+        Some(Row {
+            status: rows[worst].status,
+            measures: if settled {
+                let measures: Vec<&[f64]> = rows.iter().map(|row| row.measures.as_slice()).collect();
+                vehicle.measures(&self.values, &measures)
+            } else {
+                Vec::new()
+            },
+            cycles: self.designs.iter().filter_map(|design| design.row.as_ref()).map(|row| row.cycles).sum(),
+            residual: all(known, |row| row.residual),
+            period: if rows.iter().all(|row| row.period > 0) {
+                rows.iter().map(|row| row.period).max().unwrap_or(0)
+            } else {
+                0
+            },
+            floquet_max: all(settled, |row| row.floquet_max),
+            error_estimate: all(settled, |row| row.error_estimate),
+            state: if known {
+                rows.iter().flat_map(|row| row.state.iter().copied()).collect()
+            } else {
+                Vec::new()
+            },
+            rhs_evals: self
+                .designs
+                .iter()
+                .filter_map(|design| design.row.as_ref())
+                .map(|row| row.rhs_evals)
+                .sum(),
+            reason: rows[worst]
+                .reason
+                .as_ref()
+                .map(|reason| format!("wing {}: {reason}", vehicle.mounts[worst].name)),
+        })
+    }
+}
+
+impl Design {
+    /// True of the same bits.
+    fn is(&self, other: &Design) -> bool {
+        let same = |one: &[f64], other: &[f64]| {
+            one.len() == other.len() && one.iter().zip(other).all(|(a, b)| a.to_bits() == b.to_bits())
+        };
+        let begins = match (&self.begin, &other.begin) {
+            (Some(one), Some(other)) => same(one, other),
+            (None, None) => true,
+            _ => false,
+        };
+        begins && same(&self.values, &other.values)
+    }
+}
+
+/// The wings of a vehicle's points as points of the model.
+struct WingJobs<'a> {
+    vehicle: &'a Vehicle,
+    jobs: &'a mut dyn Jobs,
+    /// Wings to be run: the number of their vehicle's point, and that of their design.
+    waiting: VecDeque<Point>,
+    /// The points that have been taken from `jobs` and have no row yet, by their number: their index there, and their wings.
+    begun: HashMap<u64, (u64, Wings)>,
+    /// The number of the next point.
+    next: u64,
+}
+
+impl Jobs for WingJobs<'_> {
+    fn next(&mut self, idle: bool) -> Option<Point> {
+        while self.waiting.is_empty() {
+            let Point { index, values, begin } = self.jobs.next(idle)?;
+            let wings = match Wings::new(self.vehicle, values, begin.as_deref()) {
+                Ok(wings) => wings,
+                Err(invalid) => {
+                    self.jobs.done(index, Row::invalid(invalid));
+                    continue;
+                }
+            };
+            let first = self.next * MOST_WINGS as u64;
+            for (number, design) in (first..).zip(&wings.designs) {
+                let Design { values, begin, .. } = design;
+                self.waiting.push_back(Point { index: number, values: values.clone(), begin: begin.clone() });
+            }
+            self.begun.insert(self.next, (index, wings));
+            self.next += 1;
+        }
+        self.waiting.pop_front()
+    }
+
+    fn done(&mut self, index: u64, row: Row) {
+        let most = MOST_WINGS as u64;
+        let number = index / most;
+        let Some((index_there, wings)) = self.begun.get_mut(&number) else { return };
+        if let Some(design) =
+            usize::try_from(index % most).ok().and_then(|design| wings.designs.get_mut(design))
+        {
+            design.row = Some(row);
+        }
+        if let Some(row) = wings.row(self.vehicle) {
+            let index_there = *index_there;
+            self.begun.remove(&number);
+            self.jobs.done(index_there, row);
+        }
+    }
+
+    fn interrupted(&self) -> bool {
+        self.jobs.interrupted()
+    }
+
+    fn occupied(&mut self, lanes: &LaneUse) {
+        self.jobs.occupied(lanes);
+    }
+}

@@ -1,0 +1,238 @@
+//! Vehicles: grid files with `[vehicle]`, and `flap vehicle`.
+
+use std::fs;
+
+use crate::support::Folder;
+#[cfg(unix)]
+use crate::support::{send, sweep_until, wait};
+
+const HEAD: &str = "\
+preset = \"jafferis2016\"
+
+[vehicle]
+about = [0, 0, \"-3 mm\"]
+total_mass = \"85 mg\"
+
+[[vehicle.wings]]
+name = \"left\"
+position = [0, \"2 mm\", 0]
+
+[[vehicle.wings]]
+name = \"right\"
+position = [0, \"2 mm\", 0]
+mirrored = true
+";
+
+const AXES: &str = "\
+[params]
+drive_frequency = \"100 Hz\"
+[axes]
+left_drive_voltage_pp = { from = \"150 V\", to = \"200 V\", n = 6 }
+difference_drive_offset = { from = \"-20 V\", to = \"20 V\", n = 5 }
+";
+
+fn folder() -> Folder {
+    Folder::with_grid(&format!("{HEAD}{AXES}"))
+}
+
+/// The column of results as numbers.
+fn column(folder: &Folder, file: &str, name: &str) -> Vec<f64> {
+    let text = folder.read(file);
+    let mut lines = text.lines();
+    let place = lines.next().unwrap().split(',').position(|column| column == name).expect(name);
+    lines.map(|line| line.split(',').nth(place).unwrap().parse().unwrap_or(f64::NAN)).collect()
+}
+
+#[test]
+fn rows_have_force_torque_and_the_wings() {
+    let folder = folder();
+    folder.ends(0, "sweep grid.toml --out all.csv");
+    let [roll, lift] = ["torque_roll_unm", "force_up_mn"].map(|name| column(&folder, "all.csv", name));
+    assert_eq!(roll.len(), 30);
+    // Less drive on the left lowers the left side.
+    assert!(roll[2] < -1.0 && roll[27].abs() < 1e-3, "{roll:?}");
+    let ratio = column(&folder, "all.csv", "lift_to_weight");
+    assert!((ratio[0] - lift[0] * 1e-3 / (85e-6 * 9.80665)).abs() < 1e-12);
+    let strokes = ["left_stroke_pp_deg", "right_stroke_pp_deg"].map(|name| column(&folder, "all.csv", name));
+    assert!(strokes[0][0] < strokes[1][0]);
+}
+
+/// Threads, shards, formats and an interruption do not change a byte.
+#[test]
+fn rows_have_the_same_bytes_however_they_are_made() {
+    let folder = folder();
+    folder.ends(0, "sweep grid.toml --out all.csv --threads 2");
+    folder.ends(0, "sweep grid.toml --out one.csv --threads 1");
+    assert_eq!(folder.read("all.csv"), folder.read("one.csv"));
+    folder.ends(0, "sweep grid.toml --out part1.csv --shard 1/2");
+    folder.ends(0, "sweep grid.toml --out part2.csv --shard 2/2");
+    folder.ends(0, "merge merged.csv part1.csv part2.csv");
+    assert_eq!(folder.read("all.csv"), folder.read("merged.csv"));
+    folder.ends(0, "sweep grid.toml --out rows.parquet");
+    folder.ends(0, "convert rows.parquet converted.csv");
+    assert_eq!(folder.read("all.csv"), folder.read("converted.csv"));
+    folder.ends(0, "verify all.csv merged.csv rows.parquet");
+}
+
+/// A sweep that was interrupted goes on to the same bytes.
+#[test]
+#[cfg(unix)]
+fn an_interrupted_sweep_goes_on() {
+    let axes = "[axes]\nleft_drive_voltage_pp = { from = 100, to = 200, n = 3000 }\n";
+    let folder = Folder::with_grid(&format!("{HEAD}{axes}"));
+    let mut child = sweep_until(&folder, 1);
+    send("INT", &child);
+    assert_eq!(wait(&mut child), Some(130));
+    assert!(folder.read("grid.csv").lines().count() < 3000);
+    folder.ends(0, "resume grid.csv");
+    folder.ends(0, "sweep grid.toml --out whole.csv");
+    assert!(folder.read("grid.csv") == folder.read("whole.csv"));
+}
+
+/// A wing with a design of its own is one with the parameters in which that differs.
+#[test]
+fn a_wing_has_a_design_of_its_own() {
+    let folder = Folder::new();
+    fs::write(
+        folder.path("worn.toml"),
+        "preset = \"jafferis2016\"\n[params]\nhinge_stiffness = \"1.3 uN*m/rad\"\n",
+    )
+    .unwrap();
+    let with = |key: &str| HEAD.replacen("name = \"left\"", &format!("name = \"left\"\n{key}"), 1);
+    for (file, text) in [
+        ("device.toml", with("device = \"worn.toml\"")),
+        ("params.toml", with("params = { hinge_stiffness = \"1.3 uN*m/rad\" }")),
+        ("flat.toml", format!("{HEAD}[params]\nleft_hinge_stiffness = \"1.3 uN*m/rad\"\n")),
+    ] {
+        fs::write(folder.path(file), text).unwrap();
+        folder.ends(0, &format!("sweep {file} --out {file}.csv"));
+    }
+    let row = |file: &str| folder.read(&format!("{file}.toml.csv"));
+    assert_eq!(row("device"), row("params"));
+    assert_eq!(
+        column(&folder, "flat.toml.csv", "torque_roll_unm"),
+        column(&folder, "device.toml.csv", "torque_roll_unm")
+    );
+    assert!(column(&folder, "flat.toml.csv", "torque_roll_unm")[0].abs() > 1e-3);
+    // Results know the device, wherever the file is.
+    fs::remove_file(folder.path("worn.toml")).unwrap();
+    folder.ends(0, "rerun device.toml.csv --status periodic --rtol 1e-7 --out again.csv");
+}
+
+/// The matrix is that of derivatives as columns.
+#[test]
+fn the_matrix_of_inputs_is_that_of_derivatives() {
+    let gradient = "[params]\ndrive_offset = \"5 V\"\n[gradient]\nof = [\"torque_pitch_unm\"]\nwith_respect_to = [\"drive_offset\"]\n";
+    let folder = Folder::with_grid(&format!("{HEAD}{gradient}"));
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    let slope = column(&folder, "rows.csv", "d_torque_pitch_unm_per_pct_drive_offset")[0] / 0.05;
+    let text = folder.ends(0, "vehicle grid.toml --inputs bias --format csv").stdout;
+    let cells: Vec<&str> = text.lines().nth(2).unwrap().split(',').collect();
+    assert_eq!(&cells[..3], ["bias", "V", "5.0"], "{text}");
+    let found: f64 = cells[7].parse().unwrap();
+    assert!((found / slope - 1.0).abs() < 1e-6, "{found}, not {slope}");
+    folder.ends(0, "vehicle grid.toml").prints("amplitude_difference").prints("roll").prints("+1.00 bias");
+    folder.ends(0, "vehicle grid.toml --format json").prints("\"torque_yaw_unm\"");
+}
+
+#[test]
+fn trims_reach_their_targets() {
+    let folder = Folder::with_grid(HEAD);
+    let inputs = "--inputs amplitude,amplitude_difference,bias";
+    let targets = "--trim force_up=2.1 --trim torque_roll_unm=0.3 --trim torque_pitch=-0.2";
+    let text = folder.ends(0, &format!("vehicle grid.toml {inputs} {targets} --format csv")).stdout;
+    let mean: Vec<f64> =
+        text.lines().nth(1).unwrap().split(',').skip(3).map(|cell| cell.parse().unwrap()).collect();
+    for (place, target) in [(2, 2.1), (3, 0.3), (4, -0.2)] {
+        assert!((mean[place] - target).abs() < 1e-5, "{mean:?}");
+    }
+    // The inputs that it prints give that wrench.
+    let value = |line: usize| text.lines().nth(line).unwrap().split(',').nth(2).unwrap().to_owned();
+    let set = format!(
+        "--set drive_voltage_pp={} --set difference_drive_voltage_pp={} --set drive_offset={}",
+        value(2),
+        value(3),
+        value(4)
+    );
+    let run = folder.ends(0, &format!("run grid.toml {set}")).stdout;
+    let lift = run.lines().find(|line| line.starts_with("force_up_mn")).unwrap();
+    assert!(lift.contains("2.1 ") || lift.contains("2.09999") || lift.contains("2.10000"), "{lift}");
+    folder.refuses(
+        &format!("vehicle grid.toml {inputs} --trim force_up=50"),
+        "the targets are not reached: force_up_mn",
+    );
+    folder.refuses(
+        "vehicle grid.toml --inputs bias --trim force_up=2 --trim torque_roll=0",
+        "2 targets need as many inputs, not 1",
+    );
+}
+
+/// Grid files with mistakes, each with what is said of it.
+#[test]
+fn mistakes_in_vehicles_are_told_with_their_place() {
+    let wing = "[[vehicle.wings]]\nname = \"left\"\n";
+    for (text, told) in [
+        ("[vehicle]\nabout = [0, 0, 0]\n", "grid.toml:3:2: a vehicle has one wing or more"),
+        ("[vehicle]\nwings = []\n", "grid.toml:4:9: `wings` must be a list of tables"),
+        ("[vehicle]\nwings = [{}]\n", "grid.toml:4:10: the wing has no `name`"),
+        ("[vehicle]\nwing = 1\n", "unknown key `wing` in [vehicle]"),
+        (&format!("{wing}mirrored = \"y\"\n"), "grid.toml:5:12: `mirrored` must be true or false"),
+        (&format!("{wing}{wing}"), "grid.toml:6:8: two wings are called `left`"),
+        ("[[vehicle.wings]]\nname = \"Left\"\n", "grid.toml:4:8: `Left` is no name of a wing"),
+        (&format!("{wing}position = [1, 2]\n"), "`position` must be a list of three lengths"),
+        (&format!("{wing}position = [\"1 V\", 0, 0]\n"), "`V` is a voltage"),
+        (
+            &format!("{wing}plane = {{ dihedral = \"5 deg\" }}\n"),
+            "unknown key `dihedral` in the plane of a wing",
+        ),
+        (
+            &format!("{wing}params = {{ wing_mass = \"1 mg\" }}\n"),
+            "it is a parameter of the model direct-drive and four-bar",
+        ),
+        (
+            &format!("{wing}params = {{ drive_frequency = 120 }}\n"),
+            "`drive_frequency` cannot differ between wings",
+        ),
+        (
+            &format!("{wing}params = {{ drive_shape = \"square\" }}\n"),
+            "`drive_shape` cannot differ between wings",
+        ),
+        (&format!("{wing}params = {{ wing_area = -1 }}\n"), "`left_wing_area` must be more than zero"),
+        (&format!("{wing}preset = \"ozaki2018-large\"\n"), "the wing `left` is of the model direct-drive"),
+        (&format!("{wing}device = \"nothing.toml\"\n"), "grid.toml:5:10: nothing.toml: "),
+        (
+            &format!("{wing}[params]\ndrive_frequency = \"resonance\"\n"),
+            "vehicles are not run at their resonance",
+        ),
+        (
+            &format!("{wing}[axes]\ndifference_drive_offset = [1, 2]\n"),
+            "has no parameter `difference_drive_offset`",
+        ),
+        (&format!("{wing}[axes]\nright_drive_offset = [1, 2]\n"), "did you mean `left_drive_offset`?"),
+    ] {
+        let folder = Folder::with_grid(&format!("preset = \"jafferis2016\"\n\n{text}"));
+        let ended = folder.ends(2, "check grid.toml");
+        // Some have a place in front.
+        let (place, message) =
+            told.split_once(": ").filter(|_| told.starts_with("grid.toml")).unwrap_or(("", told));
+        ended.says(place).says(message);
+    }
+    let other = format!("preset = \"ozaki2018-large\"\n\n{wing}preset = \"ozaki2018-small\"\n");
+    let folder = Folder::with_grid(&other);
+    folder.ends(2, "check grid.toml").says("the wing `left` flaps at 209 Hz, the vehicle at 109 Hz");
+    let folder = Folder::with_grid(&format!("{other}[params]\ndrive_frequency = 150\n"));
+    folder.ends(0, "run grid.toml").prints("force_up_mn");
+}
+
+#[test]
+fn what_a_vehicle_cannot_do_is_told() {
+    let folder = Folder::with_grid(HEAD);
+    folder.refuses("vehicle jafferis2016", "jafferis2016 describes one wing, not a vehicle");
+    folder.refuses("vehicle grid.toml --inputs bais", "the vehicle has no input `bais`");
+    folder.refuses("vehicle grid.toml --inputs bias,drive_offset", "`drive_offset` is named twice");
+    folder.refuses("vehicle grid.toml --inputs drive_shape", "`drive_shape` is a choice, not an input");
+    folder.refuses("vehicle grid.toml --trim torque_up=1", "there is no component `torque_up`");
+    folder.refuses("vehicle grid.toml --trim torque_yaw=far", "`far` is not a number");
+    folder.refuses("run grid.toml --trajectory motion.csv", "the model of a vehicle has no single motions");
+    folder.refuses("resonance grid.toml", "has no chirps, impulses, given motions or natural frequencies");
+}

@@ -1,0 +1,270 @@
+//! Vehicles: symmetries, sums, derivatives.
+
+use flap_core::num::InstructionSet;
+use flap_core::parameter::Parameter;
+use flap_core::simulate::{Change, PointRun, Row, Rows, Simulator, SolverSettings, Status, by_name, preset};
+use flap_core::vehicle::{FORCES, Mount, TORQUES, Vehicle, VehicleError};
+
+use crate::rows;
+
+fn mounts(wings: &[(&str, bool)]) -> Vec<Mount> {
+    wings.iter().map(|(name, mirrored)| Mount { name: (*name).to_owned(), mirrored: *mirrored }).collect()
+}
+
+/// A vehicle with wings like those of a preset.
+struct Flier {
+    vehicle: &'static Vehicle,
+    values: Vec<f64>,
+}
+
+impl Flier {
+    fn new(name: &str, wings: &[(&str, bool)]) -> Flier {
+        let (model, preset) = preset(name).unwrap();
+        let vehicle = Vehicle::of(model, &mounts(wings)).unwrap();
+        let mut values = (preset.values)();
+        values.extend(vehicle.parameters()[values.len()..].iter().map(|parameter| parameter.default));
+        Flier { vehicle, values }
+    }
+
+    /// A pair of wings, 4 mm from the middle.
+    fn pair(name: &str) -> Flier {
+        let pair = Flier::new(name, &[("left", false), ("right", true)]);
+        pair.with(&[("left_position_y", 4e-3), ("right_position_y", 4e-3)])
+    }
+
+    fn place(&self, name: &str) -> usize {
+        Parameter::index(self.vehicle.parameters(), name).expect(name)
+    }
+
+    fn with(mut self, changes: &[(&str, f64)]) -> Flier {
+        for (name, value) in changes {
+            let place = self.place(name);
+            self.values[place] = *value;
+        }
+        self
+    }
+
+    fn row(&self) -> Row {
+        let solver = SolverSettings::DEFAULT;
+        self.vehicle.run_point(&PointRun::new(InstructionSet::best(), &solver, &self.values), None)
+    }
+
+    fn measure(&self, row: &Row, name: &str) -> f64 {
+        let place = self.vehicle.columns().iter().position(|column| column.name == name).expect(name);
+        row.measures[place]
+    }
+
+    /// Force (mN) and torque (uN·m).
+    fn wrench(&self) -> [[f64; 3]; 2] {
+        let row = self.row();
+        assert_eq!(row.status, Status::Periodic, "{:?}", row.reason);
+        [FORCES, TORQUES].map(|names| names.map(|name| self.measure(&row, name)))
+    }
+}
+
+const PRESETS: [(&str, &str); 3] = [
+    ("jafferis2016", "drive_voltage_pp"),
+    ("ozaki2018-large", "drive_voltage_pp"),
+    ("arabagi2013-75hz", "drive_voltage_pp"),
+];
+
+fn assert_near(found: [[f64; 3]; 2], expected: [[f64; 3]; 2], tolerance: f64, what: &str) {
+    for (found, expected) in found.into_iter().zip(expected) {
+        let size = expected.iter().map(|part| part.abs()).fold(1e-3, f64::max);
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found - expected).abs() <= tolerance * size, "{what}: {found}, not {expected}");
+        }
+    }
+}
+
+#[test]
+fn one_wing_at_the_origin_has_the_lift_of_its_row() {
+    for (name, _) in PRESETS {
+        let flier = Flier::new(name, &[("wing", false)]);
+        let (model, preset) = preset(name).unwrap();
+        let values = (preset.values)();
+        let solver = SolverSettings::DEFAULT;
+        let alone = model.run_point(&PointRun::new(InstructionSet::best(), &solver, &values), None);
+        let column = |name: &str| model.columns().iter().position(|column| column.name == name).unwrap();
+        let row = flier.row();
+        let lift = alone.measures[column("lift_mean_mn")];
+        assert!((flier.measure(&row, "force_up_mn") / lift - 1.0).abs() < 1e-14, "{name}");
+        for own in ["stroke_pp_deg", "pitch_pp_deg"] {
+            assert_eq!(flier.measure(&row, &format!("wing_{own}")), alone.measures[column(own)], "{name}");
+        }
+        assert_eq!(flier.measure(&row, "power_mean_mw"), alone.measures[column("power_mean_mw")], "{name}");
+    }
+}
+
+#[test]
+fn mirrored_wings_with_equal_drives_have_no_roll_yaw_and_side_force() {
+    for (name, _) in PRESETS {
+        let tilted = [
+            ("left_plane_pitch", 0.1),
+            ("right_plane_pitch", 0.1),
+            ("left_plane_roll", 0.2),
+            ("right_plane_roll", 0.2),
+        ];
+        let [force, torque] =
+            Flier::pair(name).with(&tilted).with(&[("about_x", 1e-3), ("about_z", -2e-3)]).wrench();
+        assert_eq!((force[1], torque[0], torque[2]), (0.0, 0.0, 0.0), "{name}");
+        assert!(force[2] > 0.01 && torque[1].abs() > 1e-6, "{name}: {force:?} {torque:?}");
+    }
+}
+
+#[test]
+fn swapped_wings_turn_roll_yaw_and_side_force_about() {
+    for (name, amplitude) in PRESETS {
+        let pair = Flier::pair(name);
+        let less = 0.9 * pair.values[pair.place(amplitude)];
+        let left = Flier::pair(name).with(&[(&format!("left_{amplitude}"), less)]).wrench();
+        let right = Flier::pair(name).with(&[(&format!("right_{amplitude}"), less)]).wrench();
+        assert!(left[1][0] < -1e-3, "{name}: less drive on the left lowers it: {left:?}");
+        let image = [[right[0][0], -right[0][1], right[0][2]], [-right[1][0], right[1][1], -right[1][2]]];
+        assert_near(left, image, 1e-13, name);
+        // The same as a difference about the mean.
+        let mean = 0.95 * pair.values[pair.place(amplitude)];
+        let difference = -0.1 * pair.values[pair.place(amplitude)];
+        let other =
+            pair.with(&[(amplitude, mean), (&format!("difference_{amplitude}"), difference)]).wrench();
+        assert_near(other, left, 1e-6, name);
+    }
+}
+
+/// A vehicle that is turned as a whole has its wrench turned.
+#[test]
+fn a_turned_vehicle_has_its_wrench_turned() {
+    let wings = [("one", false), ("two", false)];
+    let flier = || {
+        Flier::new("jafferis2016", &wings).with(&[("two_drive_voltage_pp", 150.0), ("two_position_x", -2e-3)])
+    };
+    let here = flier().with(&[("one_position_y", 3e-3), ("one_position_z", 1e-3)]).wrench();
+    let angle: f64 = 0.7;
+    let (sin, cos) = angle.sin_cos();
+    let turned = flier()
+        .with(&[("one_plane_yaw", angle), ("two_plane_yaw", angle)])
+        .with(&[("one_position_x", -sin * 3e-3), ("one_position_y", cos * 3e-3), ("one_position_z", 1e-3)])
+        .with(&[("two_position_x", -cos * 2e-3), ("two_position_y", -sin * 2e-3)])
+        .wrench();
+    let expected = here.map(|[x, y, z]| [cos * x - sin * y, sin * x + cos * y, z]);
+    assert_near(turned, expected, 1e-12, "yaw");
+}
+
+/// The torque about another point is that of the force there.
+#[test]
+fn torques_are_taken_about_a_point() {
+    let [force, torque] = Flier::pair("jafferis2016").with(&[("left_drive_voltage_pp", 180.0)]).wrench();
+    let moved = Flier::pair("jafferis2016")
+        .with(&[("left_drive_voltage_pp", 180.0), ("about_x", 1e-3), ("about_y", 2e-3), ("about_z", 3e-3)])
+        .wrench();
+    let [a, b, c] = [1.0, 2.0, 3.0];
+    let [x, y, z] = force;
+    // mm times mN is uN·m.
+    let expected = [torque[0] - (b * z - c * y), torque[1] - (c * x - a * z), torque[2] - (a * y - b * x)];
+    assert_near(moved, [force, expected], 1e-12, "about");
+}
+
+/// Rows of lanes are those of scalars, whatever the order of the wings' points.
+#[test]
+fn lanes_and_scalars_have_the_same_bits() {
+    let flier = Flier::pair("ozaki2018-large").with(&[("left_drive_voltage_pp", 90.0)]);
+    let frequency = flier.place("drive_frequency");
+    let points: Vec<Vec<f64>> = (0..20)
+        .map(|i| {
+            let mut values = flier.values.clone();
+            values[frequency] = 95.0 + f64::from(i);
+            values
+        })
+        .collect();
+    let lanes = rows::of(flier.vehicle, &points, InstructionSet::best(), &SolverSettings::DEFAULT);
+    for (row, values) in lanes.iter().zip(points) {
+        let alone = Flier { values, ..flier }.row();
+        assert_eq!(row.status, alone.status);
+        let bits = |row: &Row| row.measures.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(row), bits(&alone));
+        assert_eq!(row.state, alone.state);
+    }
+}
+
+/// Derivatives of forces and torques by drives of one wing, by differences, and by places.
+#[test]
+fn derivatives_are_those_of_differences() {
+    let solver = SolverSettings::DEFAULT.with_rtol(1e-9);
+    let flier = Flier::pair("jafferis2016").with(&[
+        ("left_drive_voltage_pp", 190.0),
+        ("left_plane_pitch", 0.1),
+        ("right_position_x", 1e-3),
+        ("total_mass", 100e-6),
+    ]);
+    let run = |values: &[f64]| {
+        flier.vehicle.run_point(&PointRun::new(InstructionSet::best(), &solver, values), None)
+    };
+    let row = run(&flier.values);
+    let names = [
+        ("left_drive_voltage_pp", 1.0),
+        ("difference_drive_voltage_pp", 1.0),
+        ("drive_offset", 1.0),
+        ("right_position_x", 1e-4),
+        ("left_plane_pitch", 1e-2),
+        ("about_z", 1e-4),
+    ];
+    let moved = |name: &str, size: f64| {
+        let mut values = flier.values.clone();
+        values[flier.place(name)] += size;
+        values
+    };
+    let changes: Vec<Change> = names
+        .iter()
+        .map(|&(name, size)| Change {
+            ahead: moved(name, 1e-6 * size),
+            behind: moved(name, -1e-6 * size),
+            size: 1e-6 * size,
+        })
+        .collect();
+    let point = PointRun::new(InstructionSet::best(), &solver, &flier.values);
+    let gradient = flier.vehicle.motions().unwrap().gradient(&point, &row.state, &changes).unwrap();
+    for ((name, size), slopes) in names.iter().zip(&gradient.slopes) {
+        let (ahead, behind) = (run(&moved(name, 0.1 * size)), run(&moved(name, -0.1 * size)));
+        for (j, column) in flier.vehicle.columns().iter().enumerate() {
+            if !FORCES.iter().chain(&TORQUES).any(|known| *known == column.name)
+                && column.name != "lift_to_weight"
+            {
+                continue;
+            }
+            let expected = (ahead.measures[j] - behind.measures[j]) / (0.2 * size);
+            let found = slopes[j].unwrap();
+            let scale = row.measures[j].abs().max(0.05) / size;
+            assert!(
+                (found - expected).abs() < 1e-4 * scale,
+                "{} by {name}: {found}, not {expected}",
+                column.name
+            );
+        }
+    }
+}
+
+#[test]
+fn impossible_vehicles_are_told() {
+    let bimorph = by_name("bimorph").unwrap();
+    let error = |wings: &[(&str, bool)]| Vehicle::of(bimorph, &mounts(wings)).err();
+    assert_eq!(error(&[]), Some(VehicleError::NoWings));
+    assert_eq!(error(&[("a", false), ("a", true)]), Some(VehicleError::SameName("a".to_owned())));
+    assert_eq!(error(&[("Left", false)]), Some(VehicleError::Name("Left".to_owned())));
+    assert_eq!(error(&[("difference", false)]), Some(VehicleError::Name("difference".to_owned())));
+    let clash = error(&[("a", false), ("a_drive", true)]);
+    assert_eq!(clash, None, "{clash:?}");
+    let clash = error(&[("about", false)]);
+    assert_eq!(clash, None, "{clash:?}");
+    let seventeen: Vec<String> = (0..17).map(|i| format!("w{i}")).collect();
+    let seventeen: Vec<(&str, bool)> = seventeen.iter().map(|name| (name.as_str(), false)).collect();
+    assert_eq!(error(&seventeen), Some(VehicleError::ManyWings(17)));
+}
+
+/// A wing that is impossible makes the row invalid, with its name.
+#[test]
+fn an_impossible_wing_is_named() {
+    let row = Flier::pair("jafferis2016").with(&[("difference_drive_voltage_pp", 1000.0)]).row();
+    assert_eq!(row.status, Status::Invalid);
+    let reason = row.reason.unwrap();
+    assert_eq!(reason, "wing right: drive_voltage_pp is -300: not zero or more");
+}
