@@ -119,12 +119,12 @@ Exit codes:
 
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  flap params direct-drive\n  flap params ozaki2018-large\n  flap params jafferis2016 --long\n  \
+    after_help = "Examples:\n  flap params direct-drive\n  flap params ozaki2018-large\n  flap params mybee.toml\n  flap params jafferis2016 --long\n  \
                   flap params jafferis2016 --format csv > parameters.csv"
 )]
 pub(crate) struct ParamsArgs {
-    /// A model, or a preset to list with its values
-    #[arg(value_name = "MODEL|PRESET")]
+    /// A model; or a preset, a device or a grid file, to list with its values
+    #[arg(value_name = "MODEL|PRESET|FILE")]
     pub(crate) what: String,
 
     /// Print whole meanings, not their first sentences, and the symbols and allowed values of parameters

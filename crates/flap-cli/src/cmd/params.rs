@@ -1,6 +1,7 @@
 //! `flap params`: the parameters of a model, and the columns of its rows.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
 use flap_core::parameter::{Kind, Parameter, Preset};
 use flap_core::simulate::Simulator;
@@ -9,7 +10,7 @@ use flap_sweep::notation::units::prefixed;
 use flap_sweep::resonance;
 use flap_sweep::table::layout::fixed_columns;
 
-use super::listed;
+use super::{listed, point};
 use crate::args::{Listing, ParamsArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
@@ -17,16 +18,44 @@ use crate::models;
 use crate::table::Table;
 
 pub(crate) fn run(args: &ParamsArgs) -> Result<Exit, Failure> {
-    let (model, preset) = of_name(&args.what)?;
-    let entries: Vec<Entry> = parameters(model, preset).into_iter().chain(columns(model)).collect();
+    let subject = subject(&args.what)?;
+    let model = subject.model;
+    let parameters = parameters(model, subject.values.as_deref());
+    let entries: Vec<Entry> = parameters.into_iter().chain(columns(model)).collect();
     let rows = || entries.iter().map(Entry::row).collect::<Vec<_>>();
     let page = match args.format {
-        Listing::Table => head(model, preset) + &listing(&entries, args.long),
+        Listing::Table => head(&subject) + &listing(&entries, args.long),
         Listing::Csv => listed::csv(&NAMES.map(str::to_owned), &rows())?,
         Listing::Json => listed::objects(&NAMES.map(str::to_owned), &rows())?,
     };
     console::results(&page)?;
     Ok(Exit::Done)
+}
+
+/// A model, perhaps with the values of a design.
+struct Subject {
+    model: &'static dyn Simulator,
+    /// One value per parameter, if there is a design.
+    values: Option<Vec<f64>>,
+    /// The first line about it.
+    about: String,
+}
+
+/// The model, the preset, or the device or grid file called `what`.
+fn subject(what: &str) -> Result<Subject, Failure> {
+    let path = Path::new(what);
+    if path.extension().is_some() || path.components().count() > 1 {
+        let plan = point::plan(what)?;
+        let values = plan.base().iter().map(|value| value.in_point()).collect();
+        let about = format!("{what}: from {}", plan.preset());
+        return Ok(Subject { model: plan.simulator(), values: Some(values), about });
+    }
+    let (model, preset) = of_name(what)?;
+    let about = match preset {
+        Some(preset) => format!("{}: {}", preset.name, preset.doc),
+        None => format!("{}: {}", model.name(), model.doc()),
+    };
+    Ok(Subject { model, values: preset.map(|preset| (preset.values)()), about })
 }
 
 /// The model of that name, or that of the preset of that name, with the preset.
@@ -41,14 +70,14 @@ pub(super) fn of_name(name: &str) -> Result<(&'static dyn Simulator, Option<&'st
 }
 
 /// The first lines.
-fn head(model: &dyn Simulator, preset: Option<&Preset>) -> String {
-    let lines = if let Some(preset) = preset {
-        [format!("{}: {}", preset.name, preset.doc), format!("model {}: {}", model.name(), model.doc())]
+fn head(Subject { model, values, about }: &Subject) -> String {
+    let second = if values.is_some() {
+        format!("model {}: {}", model.name(), model.doc())
     } else {
         let presets: Vec<&str> = model.presets().iter().map(|preset| preset.name).collect();
-        [format!("{}: {}", model.name(), model.doc()), format!("presets: {}", presets.join(", "))]
+        format!("presets: {}", presets.join(", "))
     };
-    lines.map(|line| wrapped(&line, 0) + "\n").concat() + "\n"
+    [about, &second].map(|line| wrapped(line, 0) + "\n").concat() + "\n"
 }
 
 /// A parameter, or a column of rows.
@@ -58,9 +87,9 @@ struct Entry {
     /// The title above it and its like.
     group: &'static str,
     name: String,
-    /// The value in the preset, in SI units; empty without one.
+    /// The value in the design, in SI units; empty without one.
     value: String,
-    /// The same with a prefix and the unit; or the unit, without a preset.
+    /// The same with a prefix and the unit; or the unit, without a design.
     shown: String,
     unit: &'static str,
     symbol: &'static str,
@@ -80,10 +109,9 @@ impl Entry {
     }
 }
 
-fn parameters(model: &dyn Simulator, preset: Option<&Preset>) -> Vec<Entry> {
-    let values = preset.map(|preset| (preset.values)());
+fn parameters(model: &dyn Simulator, values: Option<&[f64]>) -> Vec<Entry> {
     let entry = |(place, parameter): (usize, &Parameter)| {
-        let value = values.as_ref().map(|values| values[place]);
+        let value = values.map(|values| values[place]);
         let given = value.filter(|value| !value.is_nan());
         Entry {
             kind: "parameter",
