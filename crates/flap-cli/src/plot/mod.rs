@@ -17,6 +17,7 @@ mod response;
 mod scale;
 mod slices;
 mod trajectory;
+mod turned;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
