@@ -55,6 +55,20 @@ def test_sigma_is_a_column_or_an_argument():
     assert max(errors) == pytest.approx(min(errors), rel=1e-6)
 
 
+def test_sigma_is_a_share_in_a_column_too():
+    data = readings(noise=0.0)
+    given = [
+        flapwing.Readings(data, sigma="3 %"),
+        flapwing.Readings({**data, "stroke_pp_deg_sigma": ["3 %"] * 30}),
+        flapwing.Readings({**data, "stroke_pp_deg_sigma (%)": np.full(30, 3.0)}),
+    ]
+    errors = {
+        flapwing.fit(PRESET, one, list(TRUE), starts=1, profile=False).estimates["drag_coefficient_max"].error
+        for one in given
+    }
+    assert max(errors) == pytest.approx(min(errors), rel=1e-6)
+
+
 def test_data_sets_share_parameters_or_have_their_own():
     """Two wings with hinges of their own."""
     sets = [
@@ -127,7 +141,7 @@ def test_readings_without_a_settled_motion_are_told():
     assert [(one.set, one.measure, one.row, one.status) for one in result.unsettled] == [
         ("set 1", "stroke_pp_deg", 5, "invalid")
     ]
-    assert "1 readings do not count" in str(result) and result.goodness.freedom == 28
+    assert "1 reading does not count" in str(result) and result.goodness.freedom == 28
 
 
 def test_readings_can_be_pickled():

@@ -207,20 +207,33 @@ def _estimates(
     model: Model, x: Array, covariance: Array, profiles: list[_profile.Profile] | None, quantile: float
 ) -> dict[str, Estimate]:
     estimates = {}
-    for place, one in enumerate(model.space.coordinates):
+    space = model.space
+    for place, one in enumerate(space.coordinates):
         error = float(np.sqrt(covariance[place, place]))
         value = float(one.value(x[place]))
         known = None if profiles is None else profiles[place]
         if known is not None:
-            low, high = known.low, known.high
-        elif np.isfinite(error):
-            low, high = sorted(float(one.value(x[place] + way * quantile * error)) for way in (-1, 1))
+            low, high, open_below, open_above = known.low, known.high, known.open_below, known.open_above
         else:
-            low, high = one.low, one.high
-        reach = 1e-3 * (model.space.high[place] - model.space.low[place])
-        at_bound = bool(min(x[place] - model.space.low[place], model.space.high[place] - x[place]) < reach)
+            reach = quantile * error if np.isfinite(error) else np.inf
+            below, above = max(x[place] - reach, space.low[place]), min(x[place] + reach, space.high[place])
+            ends = [(one.value(below), below == space.low[place]), (one.value(above), above == space.high[place])]
+            (low, open_below), (high, open_above) = sorted(ends)
+        near = 1e-3 * (space.high[place] - space.low[place])
+        at_bound = bool(min(x[place] - space.low[place], space.high[place] - x[place]) < near)
         size = error * abs(one.slope(x[place])) if np.isfinite(error) else np.inf
-        estimates[one.label] = Estimate(one.parameter, one.unit, value, size, float(low), float(high), known, at_bound)
+        estimates[one.label] = Estimate(
+            one.parameter,
+            one.unit,
+            value,
+            size,
+            float(low),
+            float(high),
+            bool(open_below),
+            bool(open_above),
+            known,
+            at_bound,
+        )
     return estimates
 
 

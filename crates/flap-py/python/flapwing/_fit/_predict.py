@@ -8,9 +8,9 @@ from typing import Any, Mapping, Sequence
 import numpy as np
 
 from .. import _arguments
-from . import _noise
+from . import _cells, _noise
 from ._branch import Way
-from ._columns import Names, parameter_cells
+from ._columns import Names
 from ._model import Answer, Asked, Model
 from ._readings import DataSet
 from ._search import FINE
@@ -103,7 +103,7 @@ def points_of(names: Names, place: str, given: Any) -> dict[str, Any]:
             raise ValueError(
                 f"{place}: `{header}` has {len(cells)} cells for {length} points\ngive one for each, or one for all"
             )
-        values = parameter_cells(names, place, header, meaning, cells)
+        values = _cells.parameters(names, place, header, meaning, cells)
         points[meaning.name] = values if len(values) == length else np.resize(np.asarray(values), length)
     if not points or not length:
         raise ValueError(
