@@ -47,7 +47,7 @@ mod _flapwing {
         grid::Grid,
         grid_text::text_of,
         labels::{printed, scale, split_unit, unit_of, words},
-        listing::{measures, params},
+        listing::{measures, params, uncertainty},
         quantity::{parameter, quantity, value},
         read::read,
         resonance::resonance,
