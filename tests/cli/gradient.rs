@@ -54,7 +54,9 @@ fn rows_with_derivatives_have_the_same_bytes_however_they_are_made() {
     folder.ends(0, "convert rows.parquet again.csv");
     assert!(one == folder.read("again.csv"));
     folder.ends(0, "sweep grid.toml --out swept.parquet");
-    assert!(fs::read(folder.path("swept.parquet")).unwrap() == fs::read(folder.path("rows.parquet")).unwrap());
+    assert!(
+        fs::read(folder.path("swept.parquet")).unwrap() == fs::read(folder.path("rows.parquet")).unwrap()
+    );
 }
 
 /// The change of a measure per per cent of what `grid` multiplies by a factor: two-sided differences of rows, extrapolated.

@@ -23,6 +23,11 @@ def test_data_have_units(tmp_path):
             "drive_voltage_pp_v": VOLTAGE,
             "stroke_pp [rad]": stroke,
         },
+        {
+            "Frequency (Hz)": data["drive_frequency"],
+            "Drive voltage pp (V)": VOLTAGE,
+            "Stroke pp (deg)": data["stroke_pp_deg"],
+        },
         pandas.DataFrame(
             {"drive_frequency": kilohertz, "drive_voltage_pp": VOLTAGE, "stroke_pp_deg": data["stroke_pp_deg"]}
         ),
@@ -98,7 +103,10 @@ def test_what_is_known_beforehand_counts():
         assert result.estimates[name].error <= 0.0201 * value
 
 
-@pytest.mark.parametrize("hold_out", [0.2, {"drive_frequency": (100, 115)}, "second", ["second"]])
+@pytest.mark.parametrize(
+    "hold_out",
+    [0.2, {"drive_frequency": (100, 115)}, {"drive_frequency": ("100 Hz", "0.115 kHz")}, "second", ["second"]],
+)
 def test_readings_can_be_held_out(hold_out):
     sets = [
         flapwing.Readings(readings(), name="first"),

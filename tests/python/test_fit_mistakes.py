@@ -202,6 +202,10 @@ def test_free_parameters_that_are_refused(free, error, says):
         ({"sigma": "x %"}, ValueError, "`sigma` is 'x %'\nit must be"),
         ({"hold_out": 1.5}, ValueError, "`hold_out` is 1.5\nit must be a share"),
         ({"hold_out": "nowhere"}, ValueError, "`hold_out` names 'nowhere', and the data sets are set 1\n"),
+        ({"hold_out": {"drive_frequency": ("1 mm", "2 mm")}}, ValueError, "hold_out['drive_frequency']: `mm` is a length"),
+        ({"hold_out": {"drive_frequency": (120, 110)}}, ValueError, "hold_out['drive_frequency']: 120 is more than 110\n"),
+        ({"hold_out": {"drive_frequency": 100}}, TypeError, "hold_out['drive_frequency'] is int\nit must be a range"),
+        ({"hold_out": {"drive_shape": (1, 2)}}, ValueError, "`hold_out` names `drive_shape`, which is no parameter with"),
         ({"hold_out": {"drive_frequency": (1, 2)}}, ValueError, "`hold_out` holds none of the 4 readings out\n"),
         (
             {"hold_out": {"drive_voltage_pp": (1, 2)}},
@@ -287,7 +291,8 @@ def test_what_results_refuse():
     found = flapwing.fit(PRESET, data, ["drag_coefficient_max"], sigma="3 %", starts=1, profile=False)
     for call, says in [
         (lambda: found.predict({"drive_frequency": [100]}, "stroke_pp_deg"), "points lacks `drive_voltage_pp`, of which the data have 2 values\nadd a column"),
-        (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "stroke_pq_deg"), "did you mean `stroke_pp_deg`"),
+        (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "stroke_pq_deg"), "there is no measure `stroke_pq_deg`, did you mean `stroke_pp_deg`?\nflapwing.measures('bimorph') lists"),
+        (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "power"), "there is no measure `power`, did you mean `power_mean_mw`?"),
         (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120, "drag_coefficient_max": 3}, "stroke_pp_deg"), "points has `drag_coefficient_max`, which was fitted\nleave it out"),
         (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "stroke_pp_deg", data_set="x"), "there is no data set 'x'\nchoose among set 1"),
         (lambda: found.predict({}, "stroke_pp_deg"), "points has no points\n"),

@@ -37,6 +37,12 @@ class Meaning:
     is_share: bool = False
 
 
+def _hint(name: str, known: list[str]) -> str:
+    """The nearest of the known names, for messages; empty if none is near."""
+    near = difflib.get_close_matches(name, known, n=1) or [other for other in known if other.startswith(f"{name}_")]
+    return f", did you mean `{near[0]}`?" if near else ""
+
+
 class Names:
     """The names of a design: its parameters and measures with their units."""
 
@@ -77,6 +83,9 @@ class Names:
         match = _IN_BRACKETS.fullmatch(header)
         name, unit = (match[1], match[2]) if match else (header, None)
         name = name.strip().replace(" ", "_")
+        if name.lower() != name and not self._is_known(name):
+            # "Stroke pp (deg)"
+            name = name.lower()
         for mark, rest in (("sigma_", name.removeprefix("sigma_")), ("_sigma", name.removesuffix("_sigma"))):
             if rest != name and mark in name:
                 is_share = unit == "%"
@@ -85,14 +94,23 @@ class Names:
                     return Meaning("sigma", found.name, 0.01 if is_share else found.factor, is_share)
         found = self._found(place, header, name, unit)
         if found is None:
-            known = [*self.parameters, *self.measures]
-            near = difflib.get_close_matches(name, known, n=1)
-            hint = f", did you mean `{near[0]}`?" if near else ""
             raise ValueError(
-                f"{place} has the column `{header}`, which is neither a parameter nor a measure{hint}\n"
+                f"{place} has the column `{header}`, which is neither a parameter nor a measure"
+                f"{_hint(name, [*self.parameters, *self.measures])}\n"
                 f"rename or remove it: flapwing.params({self.model!r}) and flapwing.measures({self.model!r}) list the names"
             )
         return found
+
+    def check_measure(self, name: str) -> None:
+        """A ValueError with the nearest name for what is no measure."""
+        if not self.is_measure(name):
+            raise ValueError(
+                f"there is no measure `{name}`{_hint(name, list(self.measures))}\n"
+                f"flapwing.measures({self.model!r}) lists them"
+            )
+
+    def _is_known(self, name: str) -> bool:
+        return name in self.parameters or self.is_measure(name)
 
     def _found(self, place: str, header: str, name: str, unit: str | None) -> Meaning | None:
         stem, ending = _flapwing.split_unit(name)

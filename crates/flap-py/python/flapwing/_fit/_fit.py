@@ -68,7 +68,7 @@ def fit(
         Of the Sobol' sequence and of a random `hold_out`.
     hold_out : float, str, list of str or dict, optional
         Readings that are predicted and not fitted: a share of them, the names of data sets, or ranges of parameters such as
-        ``{"drive_frequency": (110, 120)}``.
+        ``{"drive_frequency": (110, 120)}``, in SI units or as text with a unit.
     profile : bool
         Compute intervals by the profile likelihood. False: from the derivatives at the estimate, which is quicker.
     threads : int, optional
@@ -108,7 +108,7 @@ def fit(
     with shown(progress) as show:
         model = Model(names, sets, space, keywords, threads, None if show is None else lambda ran: show(ran, ran))
         measured = np.concatenate([values for one in sets for values in one.measured.values()])
-        held = held_rows(hold_out, sets, seed, len(measured))
+        held = held_rows(hold_out, sets, seed, len(measured), names)
         _check_count(model, sets, len(measured) - int(held.sum()))
         guesses = _errors.first_guesses(sets)
         target = Target(measured, _errors.sigmas(sets, np.full(len(measured), np.nan), guesses), ~held, loss)

@@ -121,9 +121,7 @@ def answers(
 ) -> Answer:
     """A measure at other operating points, with the parameters of a data set, and on its way if it is `like` that."""
     count = len(next(iter(points.values())))
-    if not model.names.is_measure(measure):
-        model.names.meaning("the prediction", measure)
-        raise ValueError(f"`{measure}` is no measure\nflapwing.measures({model.names.model!r}) lists them")
+    model.names.check_measure(measure)
     asked = Asked(np.full(count, place, np.intp), np.arange(count), [measure] * count)
     ways = []
     if like is not None and like.branch is not None:
