@@ -141,14 +141,22 @@ fn commands_take_a_device_for_a_preset() {
     folder.ends(2, "params none.toml").says("none.toml: there is no such file");
 }
 
+/// A grid that begins with this device is refused with a message at a place.
+#[track_caller]
+fn refused(folder: &Folder, device: &str, message: &str, place: &str) {
+    fs::write(folder.path("mybee.toml"), device).unwrap();
+    folder.ends(2, "check grid.toml").says(message).says(place);
+}
+
+/// A device with lines below `[params]`.
+fn params(lines: &str) -> String {
+    format!("preset = \"jafferis2016\"\n[params]\n{lines}\n")
+}
+
 #[test]
 fn mistakes_in_devices_are_told_with_their_place() {
     let folder = folder();
-    let told = |text: &str, message: &str, place: &str| {
-        fs::write(folder.path("mybee.toml"), text).unwrap();
-        folder.ends(2, "check grid.toml").says(message).says(place);
-    };
-    let params = |line: &str| format!("preset = \"jafferis2016\"\n[params]\n{line}\n");
+    let told = |text: &str, message: &str, place: &str| refused(&folder, text, message, place);
     told("device = \"grid2.toml\"\n", "grid2.toml: ", "mybee.toml:1:10");
     told(
         "device = \"mybee.toml\"\n",
@@ -187,6 +195,12 @@ fn mistakes_in_devices_are_told_with_their_place() {
     );
     told("preset = \"jafferis2016\"\n[parms]\n", "unknown key `parms` in a device", "did you mean `params`?");
     told(&params("wing_aera = 1"), "has no parameter `wing_aera`", "did you mean `wing_area`?");
+}
+
+#[test]
+fn mistakes_in_standard_errors_are_told_with_their_place() {
+    let folder = folder();
+    let told = |text: &str, message: &str, place: &str| refused(&folder, text, message, place);
     told(&params("wing_area = { sd = \"1 mm^2\" }"), "`wing_area` has no `value`", "mybee.toml:3:13");
     told(&params("wing_area = { value = 5e-5, sd = \"2 %\" }"), "not a share of its value", "relative_sd");
     told(
@@ -211,6 +225,19 @@ fn mistakes_in_devices_are_told_with_their_place() {
         "mybee.toml:3",
     );
     told(&params("wing_area = { value = 5e-5, note = \"x\" }"), "unknown key `note` of a value", "source");
+    // A sample of a device without errors.
+    let sample = "preset = \"jafferis2016\"\n[sample]\nmethod = \"random\"\nn = 5\nof = \"device\"\n";
+    fs::write(folder.path("grid.toml"), sample).unwrap();
+    folder
+        .ends(2, "check grid.toml")
+        .says("no parameter of the device has a standard error")
+        .says("grid.toml:5:6");
+}
+
+#[test]
+fn mistakes_in_correlations_are_told_with_their_place() {
+    let folder = folder();
+    let told = |text: &str, message: &str, place: &str| refused(&folder, text, message, place);
     let pair = |pair: &str, coefficient: &str| {
         let values =
             "wing_area = { value = 5e-5, sd = 1e-6 }\nhinge_stiffness = { value = 2e-6, sd = 1e-7 }\n";
@@ -242,11 +269,4 @@ fn mistakes_in_devices_are_told_with_their_place() {
     let text = pair("[\"wing_area\", \"hinge_stiffness\"]", "0.9")
         .replace("[[correlation]]", &format!("{three}[[correlation]]"));
     told(&text, "the correlations contradict each other", "mybee.toml");
-    // A sample of a device without errors.
-    let sample = "preset = \"jafferis2016\"\n[sample]\nmethod = \"random\"\nn = 5\nof = \"device\"\n";
-    fs::write(folder.path("grid.toml"), sample).unwrap();
-    folder
-        .ends(2, "check grid.toml")
-        .says("no parameter of the device has a standard error")
-        .says("grid.toml:5:6");
 }
