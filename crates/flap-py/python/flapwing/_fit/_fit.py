@@ -51,7 +51,7 @@ def fit(
     Parameters
     ----------
     design : str, path, dict or Grid
-        A preset, or a grid without axes.
+        A preset, a device, or a grid without axes.
     data : dict, Table, DataFrame, path of a CSV file, or Readings; or a list of these
         One or several data sets: parameters of the operating points, and measures. See `Readings`.
     free : list of str, or dict
