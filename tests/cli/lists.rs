@@ -274,6 +274,6 @@ fn no_color_turns_colours_off() {
 fn parameters_of_a_file_have_its_values() {
     let folder = Folder::with_grid("preset = \"jafferis2016\"\n[params]\nwing_area = \"50 mm^2\"\n");
     let ended = folder.ends(0, "params grid.toml");
-    ended.prints("grid.toml: from jafferis2016").prints("50 mm^2");
+    ended.prints("grid.toml: begins with jafferis2016").prints("50 mm^2");
     folder.refuses("params nothing.toml", "nothing.toml: there is no such file");
 }

@@ -119,7 +119,7 @@ Exit codes:
 
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  flap params direct-drive\n  flap params ozaki2018-large\n  flap params mybee.toml\n  flap params jafferis2016 --long\n  \
+    after_help = "Examples:\n  flap params direct-drive\n  flap params ozaki2018-large\n  flap params jafferis2016 --long\n  \
                   flap params jafferis2016 --format csv > parameters.csv"
 )]
 pub(crate) struct ParamsArgs {

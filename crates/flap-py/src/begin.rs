@@ -69,11 +69,11 @@ fn component(states: &[&str], name: &str) -> PyResult<(usize, f64)> {
     Err(PyValueError::new_err(message))
 }
 
-/// The names of the states of a preset's or a model's equations of motion, with their units at the end.
+/// The names of the states of a design's or a model's equations of motion, with their units at the end.
 #[pyfunction]
-#[pyo3(signature = (name, /))]
-pub(crate) fn states(name: &Bound<'_, PyAny>) -> PyResult<Vec<&'static str>> {
-    let model = crate::listing::model(name)?;
+#[pyo3(signature = (design, /))]
+pub(crate) fn states(design: &Bound<'_, PyAny>) -> PyResult<Vec<&'static str>> {
+    let model = crate::listing::model(design)?;
     let motions = model.motions().map_err(|reason| error::unfinished(&reason))?;
     Ok(motions.states().to_vec())
 }

@@ -48,7 +48,7 @@ mod _flapwing {
         grid::Grid,
         grid_text::text_of,
         labels::{better, printed, scale, split_unit, unit_of, words},
-        listing::{measures, params},
+        listing::{measures, params, uncertainty},
         picture::{bars, colours, correlations, is_signed, line_shades, usual_measure, ways},
         quantity::{parameter, quantity, value},
         read::read,

@@ -5,7 +5,7 @@ use flap_core::simulate::{self, Simulator};
 use flap_sweep::notation::text;
 use pyo3::prelude::*;
 
-use crate::parameters;
+use crate::grid;
 
 /// Name, value, unit, symbol, meaning, allowed, options.
 type Listed =
@@ -18,11 +18,11 @@ pub(crate) enum Value {
     Option(&'static str),
 }
 
-/// The parameters of a preset or a model; see `flapwing.params`.
+/// The parameters of a design or a model; see `flapwing.params`.
 #[pyfunction]
-#[pyo3(signature = (name, /))]
-pub(crate) fn params(name: &Bound<'_, PyAny>) -> PyResult<Vec<Listed>> {
-    let (model, values) = find(name)?;
+#[pyo3(signature = (design, /))]
+pub(crate) fn params(design: &Bound<'_, PyAny>) -> PyResult<Vec<Listed>> {
+    let (model, values) = find(design)?;
     let listed = model.parameters().iter().zip(values).map(|(parameter, value)| {
         let (allowed, options) = match parameter.kind {
             Kind::Number(range) => (range.describe(), Vec::new()),
@@ -41,25 +41,40 @@ pub(crate) fn params(name: &Bound<'_, PyAny>) -> PyResult<Vec<Listed>> {
     Ok(listed.collect())
 }
 
-/// The measures of a preset or a model: names, each with unit and meaning; see `flapwing.measures`.
+/// The measures of a design or a model: names, each with unit and meaning; see `flapwing.measures`.
 #[pyfunction]
-#[pyo3(signature = (name, /))]
-pub(crate) fn measures(name: &Bound<'_, PyAny>) -> PyResult<Vec<(String, &'static str, String)>> {
-    let (model, _) = find(name)?;
+#[pyo3(signature = (design, /))]
+pub(crate) fn measures(design: &Bound<'_, PyAny>) -> PyResult<Vec<(String, &'static str, String)>> {
+    let (model, _) = find(design)?;
     Ok(model.columns().iter().map(|column| (column.name.clone(), column.unit, column.doc.clone())).collect())
 }
 
-/// The model of a preset, or the model itself.
-pub(crate) fn model(name: &Bound<'_, PyAny>) -> PyResult<&'static dyn Simulator> {
-    Ok(find(name)?.0)
+/// The standard errors of the parameters of a design in SI units, by name, and the correlations: two names and a coefficient.
+#[pyfunction]
+#[pyo3(signature = (design, /))]
+pub(crate) fn uncertainty(
+    design: &Bound<'_, PyAny>,
+) -> PyResult<(Vec<(&'static str, f64)>, Vec<(&'static str, &'static str, f64)>)> {
+    let plan = grid::plan(design)?;
+    let name = |index: usize| plan.parameters()[index].name;
+    let known = plan.uncertainty();
+    let errors = known.errors().iter().map(|(index, error)| (name(*index), *error)).collect();
+    let correlations =
+        known.correlations().iter().map(|one| (name(one.between[0]), name(one.between[1]), one.coefficient));
+    Ok((errors, correlations.collect()))
 }
 
-/// The model of a preset with its values, or a model with none.
-fn find(name: &Bound<'_, PyAny>) -> PyResult<(&'static dyn Simulator, Vec<f64>)> {
-    let model = name.extract::<String>().ok().and_then(|name| simulate::by_name(&name));
+/// The model of a design, or the model itself.
+pub(crate) fn model(design: &Bound<'_, PyAny>) -> PyResult<&'static dyn Simulator> {
+    Ok(find(design)?.0)
+}
+
+/// The model of a preset or another design with its values, or a model with none.
+fn find(design: &Bound<'_, PyAny>) -> PyResult<(&'static dyn Simulator, Vec<f64>)> {
+    let model = design.extract::<String>().ok().and_then(|name| simulate::by_name(&name));
     if let Some(model) = model {
         return Ok((model, vec![f64::NAN; model.parameters().len()]));
     }
-    let (model, preset) = parameters::find_preset(name)?;
-    Ok((model, (preset.values)()))
+    let plan = grid::plan(design)?;
+    Ok((plan.simulator(), plan.point(0).values))
 }

@@ -191,14 +191,17 @@ def presets() -> list[str]:
         Names that `run` takes, such as ``"ozaki2018-large"``.
     """
 
-def params(name: str, /) -> list[tuple[str, float | str | None, str, str, str, str, list[str]]]:
-    """The parameters of a preset or a model; see `flapwing.params`."""
+def params(design: Any, /) -> list[tuple[str, float | str | None, str, str, str, str, list[str]]]:
+    """The parameters of a design or a model; see `flapwing.params`."""
 
-def measures(name: str, /) -> list[tuple[str, str, str]]:
-    """The measures of a preset or a model: names, each with unit and meaning; see `flapwing.measures`."""
+def measures(design: Any, /) -> list[tuple[str, str, str]]:
+    """The measures of a design or a model: names, each with unit and meaning; see `flapwing.measures`."""
 
-def states(name: str, /) -> list[str]:
-    """The names of the states of a preset's or a model's equations of motion, with their units at the end."""
+def uncertainty(design: Any, /) -> tuple[list[tuple[str, float]], list[tuple[str, str, float]]]:
+    """The standard errors of the parameters of a design in SI units, by name, and the correlations: two names and a coefficient."""
+
+def states(design: Any, /) -> list[str]:
+    """The names of the states of a design's or a model's equations of motion, with their units at the end."""
 
 def value(model: str, parameter: str, value: SupportsFloat | str, /) -> float:
     """The value in SI units of a parameter of a preset or a model: of a number, or of text with a unit."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from . import _flapwing
+from ._types import Design
 
 __all__ = ["Parameter", "measures", "params", "states"]
 
@@ -28,13 +29,14 @@ class Parameter(NamedTuple):
     options: tuple[str, ...]
 
 
-def params(name: str, /) -> dict[str, Parameter]:
-    """The parameters of a preset, with their values, or of a model, without.
+def params(design: Design, /) -> dict[str, Parameter]:
+    """The parameters of a design, with their values, or of a model, without.
 
     Parameters
     ----------
-    name : str
-        A preset, such as ``"ozaki2018-large"``, or a model, such as ``"direct-drive"``.
+    design : str, path, dict or Grid
+        A preset, such as ``"ozaki2018-large"``, a device or a grid (see `Grid`; of its first point), or a model, such as
+        ``"direct-drive"``.
 
     Returns
     -------
@@ -44,23 +46,23 @@ def params(name: str, /) -> dict[str, Parameter]:
     Raises
     ------
     ValueError
-        There is no such preset or model.
+        There is no such preset or model. GridError if there are mistakes in a device or a grid.
 
     Examples
     --------
     >>> flapwing.params("ozaki2018-large")["drive_frequency"].unit
     'Hz'
     """
-    listed = (Parameter(*row[:-1], options=tuple(row[-1])) for row in _flapwing.params(name))
+    listed = (Parameter(*row[:-1], options=tuple(row[-1])) for row in _flapwing.params(design))
     return {parameter.name: parameter for parameter in listed}
 
 
-def measures(name: str, /) -> dict[str, tuple[str, str]]:
-    """The measures in rows of a preset or a model: the unit and the meaning of each column.
+def measures(design: Design, /) -> dict[str, tuple[str, str]]:
+    """The measures in rows of a design or a model: the unit and the meaning of each column.
 
     Parameters
     ----------
-    name : str
+    design : str, path, dict or Grid
         As for `params`.
 
     Returns
@@ -78,15 +80,15 @@ def measures(name: str, /) -> dict[str, tuple[str, str]]:
     >>> flapwing.measures("ozaki2018-large")["lift_mean_mn"][0]
     'mN'
     """
-    return {column: (unit, doc) for column, unit, doc in _flapwing.measures(name)}
+    return {column: (unit, doc) for column, unit, doc in _flapwing.measures(design)}
 
 
-def states(name: str, /) -> dict[str, str]:
-    """The states of the equations of motion of a preset or a model: the components of `begin`, each with its unit.
+def states(design: Design, /) -> dict[str, str]:
+    """The states of the equations of motion of a design or a model: the components of `begin`, each with its unit.
 
     Parameters
     ----------
-    name : str
+    design : str, path, dict or Grid
         As for `params`.
 
     Returns
@@ -104,4 +106,4 @@ def states(name: str, /) -> dict[str, str]:
     >>> flapwing.states("ozaki2018-large")["pitch_rate"]
     'rad/s'
     """
-    return dict(_flapwing.split_unit(state) for state in _flapwing.states(name))
+    return dict(_flapwing.split_unit(state) for state in _flapwing.states(design))
