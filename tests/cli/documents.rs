@@ -284,7 +284,9 @@ fn commands_in_the_table_of_the_readme_work() {
     let text = document("README.md");
     let folder = Folder::new();
     fs::create_dir(folder.path("examples")).unwrap();
-    fs::copy(root().join("examples/ozaki_large.toml"), folder.path("examples/ozaki_large.toml")).unwrap();
+    for name in ["ozaki_large.toml", "vehicle.toml"] {
+        fs::copy(root().join("examples").join(name), folder.path("examples").join(name)).unwrap();
+    }
     let table = text.split("## I want to").nth(1).unwrap().split("\n## ").next().unwrap();
     let commands = table.split('`').filter_map(|code| code.strip_prefix("flap "));
     let commands: Vec<&str> = commands.filter(|command| command.contains(' ')).collect();

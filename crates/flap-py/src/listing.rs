@@ -11,6 +11,12 @@ use crate::grid;
 type Listed =
     (&'static str, Option<Value>, &'static str, &'static str, &'static str, String, Vec<&'static str>);
 
+/// A parameter and its standard error in SI units.
+type StandardError = (&'static str, f64);
+
+/// Two parameters and the coefficient of their correlation.
+type Correlated = (&'static str, &'static str, f64);
+
 /// A number, or the name of an option.
 #[derive(IntoPyObject)]
 pub(crate) enum Value {
@@ -52,9 +58,7 @@ pub(crate) fn measures(design: &Bound<'_, PyAny>) -> PyResult<Vec<(String, &'sta
 /// The standard errors of the parameters of a design in SI units, by name, and the correlations: two names and a coefficient.
 #[pyfunction]
 #[pyo3(signature = (design, /))]
-pub(crate) fn uncertainty(
-    design: &Bound<'_, PyAny>,
-) -> PyResult<(Vec<(&'static str, f64)>, Vec<(&'static str, &'static str, f64)>)> {
+pub(crate) fn uncertainty(design: &Bound<'_, PyAny>) -> PyResult<(Vec<StandardError>, Vec<Correlated>)> {
     let plan = grid::plan(design)?;
     let name = |index: usize| plan.parameters()[index].name;
     let known = plan.uncertainty();
