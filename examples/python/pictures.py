@@ -119,6 +119,25 @@ def tornado() -> Axes:
     return plot.tornado("ozaki2018-large", "lift_mean_mn", top=10)
 
 
+def vehicle() -> flapwing.Vehicle:
+    """Two bimorph wings beside each other, 2 mm above the centre of mass."""
+    place = ["0 mm", "1.5 mm", "0 mm"]
+    wings = [flapwing.Wing("left", position=place), flapwing.Wing("right", position=place, mirrored=True)]
+    return flapwing.Vehicle("jafferis2016", wings, about=["0 mm", "0 mm", "-2 mm"])
+
+
+def wrench() -> Axes | Figure:
+    """Changes of the vehicle's force and torque with its amplitudes and biases."""
+    inputs = ["drive_voltage_pp", "difference_drive_voltage_pp", "drive_offset", "difference_drive_offset"]
+    return plot.wrench(flapwing.evaluate(vehicle(), {"drive_frequency": [120.0]}, gradient=inputs))
+
+
+def wrench_course() -> Axes | Figure:
+    """Force and torque over the bias, with more amplitude on the left."""
+    course = {**vehicle(), "axes": {"drive_offset": {"from": "-60 V", "to": "60 V", "step": "5 V"}}}
+    return plot.wrench(flapwing.sweep(course, difference_drive_voltage_pp="20 V"))
+
+
 def main() -> None:
     """Writes all pictures to a folder."""
     parser = argparse.ArgumentParser(description="Makes the pictures of docs/plots.md.")
@@ -141,6 +160,8 @@ def main() -> None:
         "hysteresis": hysteresis(),
         "tornado": tornado(),
         "fit": fit(),
+        "wrench": wrench(),
+        "wrench-course": wrench_course(),
     }
     for name, picture in pictures.items():
         figure = picture.get_figure(root=True)

@@ -9,13 +9,14 @@ mod jafferis;
 mod ozaki;
 mod points;
 mod table;
+mod vehicles;
 
 use std::io::{self, Write};
 
 use claim::{Claim, Verdict};
 use table::{Paper, paragraph, section, summary};
 
-const PAPERS: [Paper; 3] = [jafferis::PAPER, ozaki::PAPER, arabagi::PAPER];
+const PAPERS: [Paper; 4] = [jafferis::PAPER, ozaki::PAPER, arabagi::PAPER, vehicles::PAPER];
 
 const HEAD: &str = "\
 # Statements of the papers, and results of flap

@@ -23,6 +23,8 @@ SCRIPTS = [
     "pareto_pymoo",
     "sobol_indices",
     "tolerance_linear",
+    "vehicle_torques",
+    "wrench_map",
     "xarray_map",
 ]
 ELSEWHERE = ["four_panels", "pictures"]  # in plot/test_page.py
@@ -440,3 +442,35 @@ def test_linear_tolerances_part_from_samples_where_measures_bend():
         assert all(0.94 < ratio < 1.06 for ratio in ratios[1, hertz])
     assert all(0.85 < ratio < 1.05 for ratio in ratios[5, 95])
     assert all(ratio < 0.85 for ratio in ratios[5, 120])
+
+
+def test_each_drive_makes_its_torque():
+    told = run("vehicle_torques")
+    rows = {name.strip(): list(map(float, cells.split())) for name, cells in re.findall(
+        r"^(\w[\w ,]*?) {2,}((?:-?\d+\.\d+ *){4})$", told, re.MULTILINE
+    )}  # fmt: skip
+    assert len(rows) == 7 and all(3 > row[3] > 2 for row in rows.values())
+    assert rows["sine"][:3] == [0, 0, 0]
+    split = next(name for name in rows if name.startswith("split cycle,") and name.endswith("deg"))
+    for torque, (one, other) in enumerate(
+        [("more on the left", "more on the right"), ("bias backward", "bias forward"), (split, "split cycle, swapped")]
+    ):
+        for name, sign in ((one, 1), (other, -1)):
+            others = [abs(rows[name][i]) for i in range(3) if i != torque]
+            assert sign * rows[name][torque] > 0.3 and max(others) < 0.2 * abs(rows[name][torque]), name
+
+
+def test_wrench_map_is_near_to_a_quadratic_one(tmp_path):
+    out = tmp_path / "map.csv"
+    told = run("wrench_map", "--size", "small", "--out", out)
+    assert re.match(r"256 combinations of 4 inputs in [\d.]+ s: {'periodic': 256}", told)
+    table = {name: list(map(float, cells.split())) for name, cells in re.findall(
+        r"^(\w[\w ()]*?) {2,}((?:-?\d+\.\d+ *){4})$", told, re.MULTILINE
+    )}  # fmt: skip
+    # Each input makes its own: lift, roll, pitch, yaw.
+    inputs = load("wrench_map").INPUTS
+    matrix = np.array([table[name] for name in inputs])
+    assert (np.abs(matrix).argmax(axis=0) == range(4)).all()
+    assert (np.array(table["left over (rms)"]) < 0.1 * np.array(table["range"])).all()
+    rows = flapwing.read(out)
+    assert len(rows) == 256 and list(rows)[1:5] == list(inputs)

@@ -23,7 +23,12 @@ pub(crate) fn write(grid: &Bound<'_, PyDict>) -> PyResult<String> {
             // A table of columns that change together.
             let brackets = if name == "zip" { ["[[", "]]"] } else { ["[", "]"] };
             let [open, close] = brackets;
-            tables.push(format!("\n{open}{name}{close}\n{}", lines(&table, &name)?));
+            let (plain, blocks) = split(&table)?;
+            tables.push(format!("\n{open}{name}{close}\n{}", lines(&plain, &name)?));
+            for (key, block) in blocks {
+                let place = format!("{name}.{key}");
+                tables.push(format!("\n[[{place}]]\n{}", lines(&block, &place)?));
+            }
         } else if let Some(blocks) = dictionaries(&value)? {
             for block in blocks {
                 tables.push(format!("\n[[{name}]]\n{}", lines(&block, &name)?));
@@ -34,6 +39,24 @@ pub(crate) fn write(grid: &Bound<'_, PyDict>) -> PyResult<String> {
     }
     head.append(&mut tables);
     Ok(head.concat())
+}
+
+/// A table's entries without its lists of dictionaries, such as the wings of a vehicle, and these.
+#[expect(clippy::type_complexity, reason = "a table and its blocks")]
+fn split<'py>(
+    table: &Bound<'py, PyDict>,
+) -> PyResult<(Bound<'py, PyDict>, Vec<(String, Bound<'py, PyDict>)>)> {
+    let (plain, mut blocks) = (PyDict::new(table.py()), Vec::new());
+    for (key, value) in table {
+        match dictionaries(&value)? {
+            Some(found) => {
+                let name = name(&key)?;
+                blocks.extend(found.into_iter().map(|block| (name.clone(), block)));
+            }
+            None => plain.set_item(key, value)?,
+        }
+    }
+    Ok((plain, blocks))
 }
 
 /// The dictionaries of a list, if it is a list of nothing else.

@@ -29,7 +29,7 @@ def test_without_matplotlib_the_error_says_what_to_install():
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
-@pytest.mark.parametrize("name", ["", "._correlations", "._front", "._heatmap", "._histogram", "._labels", "._pareto", "._response", "._scatter", "._trajectory"])
+@pytest.mark.parametrize("name", ["", "._correlations", "._front", "._heatmap", "._histogram", "._labels", "._pareto", "._response", "._scatter", "._trajectory", "._wrench"])
 def test_examples_in_docstrings(name):
     module = importlib.import_module(f"flapwing.plot{name}")
     result = doctest.testmod(module)

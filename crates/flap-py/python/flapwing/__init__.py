@@ -5,7 +5,7 @@ motion and `resonance` its resonances. `sweep` runs a whole grid and `evaluate` 
 designs up and down in frequency. `chirp` and `impulse` drive a design in other ways; `track` and `lift` are about wings
 that were filmed. `fit` fits parameters to readings. Results are a `Table`, whose columns are NumPy arrays; it converts to pandas, polars, Arrow and xarray.
 
-A design is the name of a preset, a grid file, its text, a dictionary or a `Grid`. Parameters and solver settings are
+A design is the name of a preset, a grid file, its text, a dictionary, a `Grid`, or a `Vehicle` of several wings. Parameters and solver settings are
 keywords of every call.
 
 Pictures are in `flapwing.plot`, which needs matplotlib.
@@ -20,6 +20,7 @@ from ._point import resonance, run, trajectory
 from ._respond import respond
 from ._sweep import read, sweep
 from ._table import Table
+from ._vehicle import Vehicle, Wing
 
 __all__ = [
     "Diagnostic",
@@ -30,6 +31,8 @@ __all__ = [
     "Parameter",
     "Readings",
     "Table",
+    "Vehicle",
+    "Wing",
     "__version__",
     "chirp",
     "evaluate",

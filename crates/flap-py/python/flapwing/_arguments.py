@@ -8,7 +8,6 @@ from typing import Any, Mapping
 import numpy as np
 
 from . import _flapwing
-from ._flapwing import Grid
 from ._table import Table
 from ._types import Design
 
@@ -90,7 +89,7 @@ def state(design: Design, begin: Any) -> dict[str, Any] | None:
         raise refused("begin", begin, allowed)
     if len(begin) != 1:
         raise ValueError(f"`begin` has {len(begin)} rows\nchoose one of them: table[-1:] is the last")
-    names = _flapwing.states(_model(design))
+    names = _flapwing.states(design)
     missing = [name for name in names if name not in begin]
     if missing:
         raise ValueError(f"`begin` lacks the columns {', '.join(missing)}\na trajectory of the same model has them")
@@ -102,7 +101,7 @@ def states(design: Design, begin: Any) -> np.ndarray[Any, np.dtype[np.float64]] 
     if begin is None:
         return None
     found = columns_of("begin", begin)
-    names = _flapwing.states(_model(design))
+    names = _flapwing.states(design)
     missing = [name for name in names if name not in found]
     if missing:
         raise ValueError(f"`begin` lacks the columns {', '.join(missing)}\nrows of a call with states=True have them")
@@ -110,18 +109,6 @@ def states(design: Design, begin: Any) -> np.ndarray[Any, np.dtype[np.float64]] 
     if len({len(values) for values in listed}) > 1:
         raise ValueError("the columns of `begin` differ in length\nthey must have a component of a state for each point")
     return np.column_stack(listed)
-
-
-def _model(design: Design) -> str:
-    """The model of a design, or its preset, whose states are the same."""
-    if isinstance(design, str):
-        try:
-            _flapwing.states(design)
-        except ValueError:
-            pass
-        else:
-            return design
-    return Grid(design).model
 
 
 def measures(names: Any) -> list[str] | None:

@@ -111,7 +111,7 @@ def evaluate(
     >>> slopes.shape
     (2,)
     """
-    given = _given(columns)
+    given = _given(design, columns)
     slopes = _arguments.gradient(gradient)
     options: dict[str, Any] = {
         "measures": _arguments.measures(measures),
@@ -128,16 +128,16 @@ def evaluate(
 
             native = scattered(_arguments.cluster(client), design, options, given, threads, show)
     if slopes is not None:
-        native = {**native, "units": _units(native)}
+        native = {**native, "units": _units(design, native)}
     # Without axes rows are just rows.
     return Table._of(native if len(native["axes"]) > 1 else {**native, "axes": []}, set=keywords)
 
 
-def _units(native: dict[str, Any]) -> dict[str, str]:
+def _units(design: Design, native: dict[str, Any]) -> dict[str, str]:
     """The units of derivatives per SI unit, by column."""
     told = native["meta"]["gradient"]
     measures = {name: unit for name, unit, *_ in native["columns"]}
-    parameters = {name: unit for name, _, unit, *_ in _flapwing.params(native["meta"]["model"])}
+    parameters = {name: unit for name, _, unit, *_ in _flapwing.params(design)}
     pairs = [(of, by) for of in told["of"] for by in told["with_respect_to"]]
     return {column: _per(measures[of], parameters[by]) for column, (of, by) in zip(told["columns"], pairs)}
 
@@ -149,11 +149,11 @@ def _per(unit: str, other: str) -> str:
     return f"{unit or '1'}/{other if other.isalnum() else f'({other})'}"
 
 
-def _given(columns: Any) -> dict[str, Any]:
+def _given(design: Design, columns: Any) -> dict[str, Any]:
     """The parameters by name, each with an array of float64 or a list of what else there is, all as long."""
     given: dict[str, Any] = {}
     constants: dict[str, Any] = {}
-    found = _parameters(columns) if isinstance(columns, Table) else _arguments.columns_of("columns", columns)
+    found = _parameters(design, columns) if isinstance(columns, Table) else _arguments.columns_of("columns", columns)
     for name, values in found.items():
         _refuse_masked(name, values)
         if isinstance(values, (str, bytes)) or np.ndim(values) == 0:
@@ -168,10 +168,10 @@ def _given(columns: Any) -> dict[str, Any]:
     return given or {name: [value] for name, value in constants.items()}
 
 
-def _parameters(table: Table) -> dict[str, Any]:
-    """The columns of a table that are parameters of its model, or of any."""
+def _parameters(design: Design, table: Table) -> dict[str, Any]:
+    """The columns of a table that are parameters of its model, of any, or of the vehicle that is run."""
     models = [table.meta["model"]] if table.meta.get("model") else _flapwing.presets()
-    known = {name for model in models for name, *_ in _flapwing.params(model)}
+    known = {name for model in [*models, design] for name, *_ in _flapwing.params(model)}
     found = {name: table[name] for name in table if name in known}
     if not found:
         raise ValueError(f"`columns` has no column of a parameter, only {', '.join(table)}\nadd one, or give a dictionary")

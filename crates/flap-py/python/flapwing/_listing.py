@@ -15,7 +15,8 @@ class Parameter(NamedTuple):
 
     #: Name in grids, on the command line and as a keyword.
     name: str
-    #: Value in the preset, in SI units, or the name of an option. None if it is not set and follows others.
+    #: Value in the design, in SI units, or the name of an option. None if it is not set and follows others, or if a grid
+    #: varies it.
     value: float | str | None
     #: SI unit; ``""`` for pure numbers and options.
     unit: str
@@ -34,14 +35,14 @@ def params(design: Design, /) -> dict[str, Parameter]:
 
     Parameters
     ----------
-    design : str, path, dict or Grid
-        A preset, such as ``"ozaki2018-large"``, a device or a grid (see `Grid`; of its first point), or a model, such as
+    design : str, path, dict, Grid or Vehicle
+        A preset, such as ``"ozaki2018-large"``, a device, a grid or a `Vehicle` (of its first point), or a model, such as
         ``"direct-drive"``.
 
     Returns
     -------
     dict of str to Parameter
-        By name, in the order of the model's table.
+        By name, in the order of the model's table. Those of a vehicle follow those of its model.
 
     Raises
     ------
@@ -62,7 +63,7 @@ def measures(design: Design, /) -> dict[str, tuple[str, str]]:
 
     Parameters
     ----------
-    design : str, path, dict or Grid
+    design : str, path, dict, Grid or Vehicle
         As for `params`.
 
     Returns
@@ -88,8 +89,8 @@ def states(design: Design, /) -> dict[str, str]:
 
     Parameters
     ----------
-    design : str, path, dict or Grid
-        As for `params`.
+    design : str, path, dict, Grid or Vehicle
+        As for `params`. A vehicle has those of each wing, with the wing's name in front.
 
     Returns
     -------

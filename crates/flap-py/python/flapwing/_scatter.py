@@ -89,14 +89,13 @@ def scattered(
 
 def _sent(design: Any) -> Any:
     """The design as workers take it: a name as it is, and a grid whose files are where this process looks for them."""
-    if isinstance(design, str):
-        try:
-            _flapwing.states(design)
-        except ValueError:
-            pass
-        else:
-            return design
-    grid = Grid(design)
+    if isinstance(design, str) and design in _flapwing.presets():
+        return design
+    try:
+        grid = Grid(design)
+    except ValueError:
+        _flapwing.states(design)  # a model; for anything else the same error
+        return design
     return Grid._named(os.path.abspath(grid.name), grid.text)
 
 

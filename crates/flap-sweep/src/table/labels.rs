@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use flap_core::simulate;
+use flap_core::vehicle::FORCES;
 
 use super::layout;
 
@@ -67,9 +68,10 @@ pub fn titled(words: &str, unit: &str) -> String {
     if unit.is_empty() { words.to_owned() } else { format!("{words} ({unit})") }
 }
 
-/// First words of names of measures that are benefits or costs.
-const BETTER: [(&str, Direction); 8] = [
+/// First words of names of measures that are benefits or costs; of two that fit, the longer one comes first.
+const BETTER: [(&str, Direction); 9] = [
     ("lift", Direction::Larger),
+    ("force_up", Direction::Larger),
     ("efficiency", Direction::Larger),
     ("power", Direction::Smaller),
     ("current", Direction::Smaller),
@@ -79,10 +81,15 @@ const BETTER: [(&str, Direction); 8] = [
     ("force", Direction::Smaller),
 ];
 
-/// The better direction of a column, by the first word of its name.
+/// The better direction of a column, by the first words of its name.
 fn better(column: &str) -> Option<Direction> {
-    let first = column.split('_').next()?;
-    BETTER.iter().find(|(word, _)| *word == first).map(|(_, direction)| *direction)
+    // Forces and torques of a vehicle along its other axes are to be what is wanted, not large or small.
+    if column != "force_up_mn" && FORCES.contains(&column) {
+        return None;
+    }
+    let begins =
+        |words: &str| column.strip_prefix(words).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'));
+    BETTER.iter().find(|(words, _)| begins(words)).map(|(_, direction)| *direction)
 }
 
 /// Words of names that stand behind a comma in a label.
@@ -103,7 +110,8 @@ const QUALIFIERS: [(&str, &str); 13] = [
 ];
 
 /// Nouns that names of measures put before their adjectives: `power_drag_mean_mw` is a drag power.
-const NOUNS: [&str; 8] = ["lift", "drag", "power", "current", "force", "efficiency", "strain", "field"];
+const NOUNS: [&str; 9] =
+    ["lift", "drag", "power", "current", "force", "torque", "efficiency", "strain", "field"];
 
 fn qualifier(word: &str) -> Option<&'static str> {
     QUALIFIERS.iter().find(|(known, _)| *known == word).map(|(_, text)| *text)
@@ -258,6 +266,8 @@ mod tests {
             ("energy_audit", "", "Energy audit"),
             ("drag_coefficient_max", "", "Drag coefficient, largest"),
             ("force_factor", "", "Force factor"),
+            ("force_up_mn", "mN", "Up force (mN)"),
+            ("torque_roll_unm", "uN*m", "Roll torque (µN·m)"),
             ("lift_slope", "", "Lift slope"),
             ("mode_1_hz", "Hz", "Mode 1 (Hz)"),
             ("mean", "", "Mean"),
@@ -281,6 +291,9 @@ mod tests {
         assert_eq!(of("lift_mean_mn").better, Some(Direction::Larger));
         assert_eq!(of("power_mean_mw").better, Some(Direction::Smaller));
         assert_eq!(of("drive_frequency").better, None);
+        assert_eq!(of("force_up_mn").better, Some(Direction::Larger));
+        assert_eq!(of("force_left_mn").better, None);
+        assert_eq!(of("torque_yaw_unm").better, None);
         assert_eq!(of("").better, None);
     }
 

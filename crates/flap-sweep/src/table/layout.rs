@@ -233,7 +233,7 @@ impl Entry<'_> {
 }
 
 /// Endings of names, each with its unit in words; of two that fit, the longer one comes first.
-const ENDINGS: [(&str, &str); 29] = [
+const ENDINGS: [(&str, &str); 30] = [
     ("_gf_per_w", "gf/W"),
     ("_deg_per_v", "deg/V"),
     ("_v_per_um", "V/um"),
@@ -248,6 +248,7 @@ const ENDINGS: [(&str, &str); 29] = [
     ("_gf", "gf"),
     ("_mn", "mN"),
     ("_un", "uN"),
+    ("_unm", "uN*m"),
     ("_mw", "mW"),
     ("_uw", "uW"),
     ("_ma", "mA"),

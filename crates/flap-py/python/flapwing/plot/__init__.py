@@ -35,6 +35,7 @@ from ._scatter import scatter
 from ._tornado import Sensitivity, sensitivities, tornado
 from ._trajectory import trajectory
 from ._wing_path import WingPath, wing_path
+from ._wrench import wrench
 
 __all__ = [
     "RankCorrelation",
@@ -54,4 +55,5 @@ __all__ = [
     "tornado",
     "trajectory",
     "wing_path",
+    "wrench",
 ]

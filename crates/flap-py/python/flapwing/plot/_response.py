@@ -90,7 +90,7 @@ def response(
         raise ValueError("`ax` is for one measure; several make a figure of their own")
     for name in measures:
         data.numbers(name)
-    x = _along(data, by) if x is None else x
+    x = along(data, by) if x is None else x
     if by is None:
         by = _family(data, x)
         if by is not None and not data.on_a_grid(by) and len(distinct(data[by])) > _MOST_SAMPLED:
@@ -113,7 +113,7 @@ def response(
         else:
             figure = _style.new_figure(6.4, 1.2 + 2.1 * len(measures))
             axes = list(np.atleast_1d(figure.subplots(len(measures), 1, sharex=True)))
-        family = _Family(data, whole, x, by)
+        family = Family(data, whole, x, by)
         for each, name in zip(axes, measures):
             family.draw(each, name)
         (family.mark_inside if ax is not None else family.mark)(axes[0])
@@ -124,7 +124,7 @@ def response(
     return _style.figure_of(axes[0]) if several else _style.axes_of(axes[0])
 
 
-class _Family:
+class Family:
     """The lines of one picture: their rows and colours are the same for every measure."""
 
     def __init__(self, data: Data, whole: Data, x: str, by: str | None) -> None:
@@ -250,7 +250,7 @@ class _Family:
         bar.minorticks_off()
 
 
-def _along(data: Data, by: str | None) -> str:
+def along(data: Data, by: str | None) -> str:
     """The parameter along the horizontal axis if none is named."""
     axes = [name for name in data.axes() if by is None or name != data.axis(by)]
     if "drive_frequency" in data and ("drive_frequency" in axes or not axes):

@@ -1,0 +1,233 @@
+"""Vehicles: several wings of one model, as entries of a grid."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Iterable, Iterator, Mapping, Sequence
+
+from . import _flapwing
+from ._arguments import refused
+from ._flapwing import Grid
+from ._types import Value
+
+__all__ = ["Vehicle", "Wing"]
+
+#: The axes of the body, and the angles of a stroke plane.
+_AXES, _ANGLES = "x, y and z", ("roll", "pitch", "yaw")
+
+
+class _Entries(Mapping[str, Any]):
+    """Entries of a grid file, by key."""
+
+    _held: dict[str, Any]
+
+    def __getitem__(self, key: str) -> Any:
+        return self._held[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._held)
+
+    def __len__(self) -> int:
+        return len(self._held)
+
+
+class Wing(_Entries):
+    """A wing of a `Vehicle`: the entries of a table ``[[vehicle.wings]]``.
+
+    Parameters
+    ----------
+    name : str
+        The name, which begins the names of the wing's parameters and columns: ``left_drive_voltage_pp``,
+        ``left_stroke_pp_deg``.
+    position : sequence of three numbers or texts, optional
+        The place of the shoulder along x (forward), y (to the left) and z (up): numbers in metres, or text with units
+        such as ``"4 mm"``. By default zero.
+    plane : dict, optional
+        The angles `roll`, `pitch` and `yaw` of the stroke plane: numbers in radians, or text such as ``"10 deg"``.
+    mirrored : bool, optional
+        True for a wing on the right: the image of the wing at `position`, behind the plane of x and z.
+    preset, device : str, path, optional
+        The design of the wing, if it is not that of the vehicle: a preset by its name, or a device file by its path.
+    params : dict, optional
+        Parameters that this wing has of its own.
+
+    Raises
+    ------
+    TypeError
+        A value of the wrong type. Other mistakes are told by `Vehicle`, with their place.
+
+    Examples
+    --------
+    >>> wing = flapwing.Wing("right", position=["0 mm", "1.5 mm", "0 mm"], mirrored=True, params={"hinge_stiffness": 1.4e-6})
+    >>> wing["mirrored"], wing["position"]
+    (True, ['0 mm', '1.5 mm', '0 mm'])
+    """
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        position: Sequence[Value] | None = None,
+        plane: Mapping[str, Value] | None = None,
+        mirrored: bool = False,
+        preset: str | None = None,
+        device: str | os.PathLike[str] | None = None,
+        params: Mapping[str, Value] | None = None,
+    ) -> None:
+        if not isinstance(name, str):
+            raise refused("name", name, 'it must be the name of a wing, such as "left"')
+        if not isinstance(mirrored, bool):
+            raise refused("mirrored", mirrored, "it must be True or False")
+        self._held = {"name": name}
+        if mirrored:
+            self._held["mirrored"] = True
+        if position is not None:
+            self._held["position"] = _vector("position", position)
+        if plane is not None:
+            self._held["plane"] = _table("plane", plane, 'angles such as {"pitch": "10 deg"}', _ANGLES)
+        if preset is not None:
+            if not isinstance(preset, str):
+                raise refused("preset", preset, "it must be the name of a preset")
+            self._held["preset"] = preset
+        if device is not None:
+            if not isinstance(device, (str, os.PathLike)):
+                raise refused("device", device, "it must be the path of a device file")
+            self._held["device"] = os.fspath(device)
+        if params is not None:
+            self._held["params"] = _table("params", params, 'parameters such as {"hinge_stiffness": 1.4e-6}')
+
+    def __repr__(self) -> str:
+        return f"flapwing.Wing({', '.join(f'{key}={value!r}' for key, value in self._held.items())})"
+
+
+class Vehicle(_Entries):
+    """A vehicle: several wings of one model, whose mean forces and torques add up.
+
+    A vehicle is a design, and goes wherever one is named::
+
+        vehicle = Vehicle("jafferis2016", [left, right], about=["0 mm", "0 mm", "-2 mm"])
+        run(vehicle, drive_offset="10 V")["torque_pitch_unm"]
+        evaluate(vehicle, {"difference_drive_voltage_pp": [-20.0, 0.0, 20.0]})
+        sweep({**vehicle, "axes": {"left_drive_voltage_pp": ["180 V", "200 V"]}})
+
+    It is a mapping of the entries of a grid file with a section ``[vehicle]``, so that a dictionary with more sections is
+    a grid. Parameters of the model hold for all wings; ``left_NAME`` is that of the wing `left` alone, and
+    ``difference_NAME`` left minus right, of which the wings that are not mirrored get half. Wings do not feel each other,
+    and the body is held still. Axes of the body: x forward, y to the left, z up.
+
+    Parameters
+    ----------
+    design : str, path or dict
+        The design of the wings: a preset by its name; a device file by its path; or entries of a grid, such as
+        ``{"preset": "jafferis2016", "params": {"drive_voltage_pp": "180 V"}}``.
+    wings : sequence of Wing or dict
+        The wings, one or more: each a `Wing`, or a dictionary of the same entries.
+    about : sequence of three numbers or texts, optional
+        The point about which torques are taken, such as the centre of mass: numbers in metres, or text with units.
+        By default the origin.
+    total_mass : float or str, optional
+        The mass of the whole vehicle, for `lift_to_weight`: a number in kilograms, or text such as ``"85 mg"``.
+
+    Raises
+    ------
+    GridError
+        Mistakes in the entries: all of them, each with its place, what is allowed and the nearest name.
+    ValueError
+        `design` has a vehicle already.
+    TypeError
+        A value of the wrong type.
+    OSError
+        A device cannot be read.
+
+    Examples
+    --------
+    >>> place = ["0 mm", "1.5 mm", "0 mm"]
+    >>> wings = [flapwing.Wing("left", position=place), flapwing.Wing("right", position=place, mirrored=True)]
+    >>> vehicle = flapwing.Vehicle("jafferis2016", wings, about=["0 mm", "0 mm", "-2 mm"], total_mass="85 mg")
+    >>> vehicle
+    <flapwing.Vehicle of jafferis2016: left, right (mirrored)>
+    >>> row = flapwing.run(vehicle, difference_drive_voltage_pp="20 V")
+    >>> row["torque_roll_unm"] > 0
+    True
+    """
+
+    def __init__(
+        self,
+        design: str | os.PathLike[str] | Mapping[str, Any],
+        wings: Iterable[Wing | Mapping[str, Any]],
+        *,
+        about: Sequence[Value] | None = None,
+        total_mass: Value | None = None,
+    ) -> None:
+        self._held = _design(design)
+        vehicle: dict[str, Any] = {}
+        if about is not None:
+            vehicle["about"] = _vector("about", about)
+        if total_mass is not None:
+            vehicle["total_mass"] = total_mass
+        vehicle["wings"] = [_wing(place, wing) for place, wing in enumerate(_listed(wings))]
+        self._held["vehicle"] = vehicle
+        # Mistakes are told here, with their place.
+        self._preset = Grid(self._held).preset
+
+    def __repr__(self) -> str:
+        wings = [
+            f"{wing['name']} (mirrored)" if wing.get("mirrored") else str(wing["name"])
+            for wing in self._held["vehicle"]["wings"]
+        ]
+        return f"<flapwing.Vehicle of {self._preset}: {', '.join(wings)}>"
+
+
+def _design(design: Any) -> dict[str, Any]:
+    """The entries of a grid that name the design of the wings."""
+    if isinstance(design, Mapping):
+        if "vehicle" in design:
+            raise ValueError("`design` has a vehicle already\nit must be the design of the wings alone")
+        return dict(design)
+    if isinstance(design, str) and design in _flapwing.presets():
+        return {"preset": design}
+    if isinstance(design, os.PathLike) or (isinstance(design, str) and os.path.exists(design)):
+        return {"device": os.fspath(design)}
+    if isinstance(design, str):
+        # Told as a mistake in a grid, with the presets there are; a path as a file that is not there.
+        return {"device" if design.endswith(".toml") or os.path.basename(design) != design else "preset": design}
+    allowed = "it must be the name of a preset, the path of a device, or a dictionary of grid entries"
+    raise refused("design", design, allowed)
+
+
+def _listed(wings: Any) -> list[Any]:
+    """The wings as a list."""
+    if isinstance(wings, (str, bytes, Mapping)) or not isinstance(wings, Iterable):
+        raise refused("wings", wings, "it must be a list of wings: flapwing.Wing, or dictionaries")
+    listed = list(wings)
+    if not listed:
+        raise ValueError('`wings` is empty\na vehicle has one wing or more, such as flapwing.Wing("left")')
+    return listed
+
+
+def _wing(place: int, wing: Any) -> dict[str, Any]:
+    """The entries of a wing."""
+    if not isinstance(wing, Mapping):
+        raise refused(f"wings[{place}]", wing, "it must be a flapwing.Wing, or a dictionary of its entries")
+    return dict(wing)
+
+
+def _vector(name: str, given: Any) -> list[Any]:
+    """Three lengths."""
+    allowed = f'it must be three lengths along {_AXES}, such as ["0 mm", "4 mm", "0 mm"]'
+    if isinstance(given, (str, bytes, Mapping)) or not isinstance(given, Iterable):
+        raise refused(name, given, allowed)
+    listed = list(given)
+    if len(listed) != 3:
+        raise ValueError(f"`{name}` has {len(listed)} entries\n{allowed}")
+    return listed
+
+
+def _table(name: str, given: Any, example: str, keys: Sequence[str] | None = None) -> dict[str, Any]:
+    """A dictionary, with no keys but these."""
+    if not isinstance(given, Mapping):
+        raise refused(name, given, f"it must be a dictionary of {example}")
+    for key in given:
+        if keys is not None and key not in keys:
+            raise ValueError(f"`{name}` has no entry {key!r}\nits entries are {', '.join(keys)}")
+    return dict(given)

@@ -1,0 +1,213 @@
+"""Forces and torques of a vehicle: their changes with inputs as a map, or their course over one input."""
+
+from __future__ import annotations
+
+from typing import Any, Mapping, NamedTuple, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from . import _labels, _style
+from ._data import Data, scattered
+from ._docs import completed
+from ._response import Family, along
+
+#: Columns of the force (mN) and of the torque (µN·m).
+FORCES = ("force_forward_mn", "force_left_mn", "force_up_mn")
+TORQUES = ("torque_roll_unm", "torque_pitch_unm", "torque_yaw_unm")
+
+# Changes that are a smaller share of their input's largest are shown as nearly nothing.
+_LEAST = 1e-3
+
+
+class _Effects(NamedTuple):
+    """Changes of force and torque with inputs."""
+
+    #: Columns of force and torque, one for each row of the values.
+    outputs: list[str]
+    #: Names of inputs with their units, one for each column.
+    inputs: list[tuple[str, str]]
+    values: np.ndarray
+
+
+@completed
+def wrench(
+    table: Any,
+    *,
+    inputs: Sequence[str] | None = None,
+    x: str | None = None,
+    where: Mapping[str, Any] | None = None,
+    colorbar: bool | Axes = True,
+    ax: Axes | None = None,
+    **slices: Any,
+) -> Axes | Figure:
+    """Draw what inputs do to the force and torque of a vehicle.
+
+    Derivatives are drawn as a map: an input in each column, force and torque in rows, the change per unit of the input as
+    a number. Colours compare the changes of one input with each other: which force or torque it makes. 1 µN·m counts as
+    1 mN, and ``≈0`` stands for less than a thousandth of the input's largest change. Rows over one parameter are drawn as
+    six small panels, three forces above three torques.
+
+    Parameters
+    ----------
+    table : Table, array, data frame, mapping of columns, or path
+        One row of `evaluate` with ``gradient=``; or what ``flap vehicle --format csv`` prints; or an array of derivatives
+        with six rows (force forward, left, up in mN; torque in roll, pitch, yaw in µN·m) and a column for each of
+        `inputs`. Any other results of a vehicle become panels.
+    inputs : list of str, optional
+        The inputs to show, in order. Of an array, the names of its columns.
+    x : str, optional
+        The parameter along the panels; by default the grid's axis.
+    %(where)s
+    %(colorbar)s
+    ax : matplotlib Axes, optional
+        Axes to draw the map in, in the look of their figure; by default those of a new figure.
+
+    Returns
+    -------
+    matplotlib Axes, or Figure of the panels
+
+    Raises
+    ------
+    ValueError
+        No column of a force or torque; several rows with derivatives, or several axes of panels; an unknown input; an
+        array of another shape.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> effects = np.array([[0, 0], [0, 3e-4], [7e-3, 0], [0, 7e-3], [0, 0], [0, 0]])
+    >>> ax = wrench(effects, inputs=["amplitude", "amplitude_difference"])
+    >>> [label.get_text() for label in ax.get_yticklabels()][3]
+    'Roll torque (µN·m)'
+    """
+    _style.check_bar(colorbar)
+    effects = _of_array(table, inputs)
+    if effects is None:
+        data = Data.of(table).slice(where, slices)
+        effects = _of_gradient(data, inputs) or _of_command(data, inputs)
+        if effects is None:
+            if ax is not None:
+                raise ValueError("`ax` is for a map of derivatives; panels make a figure of their own")
+            return _panels(data, x)
+    return _map(effects, colorbar, ax)
+
+
+def _of_array(table: Any, inputs: Sequence[str] | None) -> _Effects | None:
+    """The effects in an array, whose columns are named."""
+    if not isinstance(table, (np.ndarray, list, tuple)):
+        return None
+    values = np.asarray(table, dtype=float)
+    if values.ndim != 2 or values.shape[0] != 6:
+        raise ValueError(f"the array has the shape {values.shape}; force and torque need six rows, one column per input")
+    names = [] if inputs is None else list(inputs)
+    if len(names) != values.shape[1]:
+        raise ValueError(f"`inputs` names {len(names)} columns of the array, which has {values.shape[1]}")
+    return _Effects([*FORCES, *TORQUES], [(name, "") for name in names], values)
+
+
+def _of_gradient(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
+    """The effects in the one row of a table with derivatives."""
+    told = data.meta.get("gradient")
+    if not told:
+        return None
+    if len(data) != 1:
+        raise ValueError(f"the table has {len(data)} rows with derivatives: choose one, such as table[:1]")
+    outputs = [name for name in (*FORCES, *TORQUES) if name in told["of"]]
+    if not outputs:
+        raise ValueError(f"the table has derivatives of {', '.join(told['of'])}, and of no force or torque")
+    names = dict(zip(((of, by) for of in told["of"] for by in told["with_respect_to"]), told["columns"]))
+    by = _chosen(inputs, told["with_respect_to"])
+    values = np.array([[float(data[names[of, name]][0]) for name in by] for of in outputs])
+    return _Effects(outputs, [(name, _per(data.unit(names[outputs[0], name]))) for name in by], values)
+
+
+def _per(unit: str) -> str:
+    """The unit below the line: that of the input."""
+    return unit.partition("/")[2].strip("()")
+
+
+def _of_command(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
+    """The effects in a table of `flap vehicle`: a row for each input, after one of the means."""
+    if "input" not in data:
+        return None
+    names = [str(name) for name in data["input"]]
+    outputs = [name for name in (*FORCES, *TORQUES) if name in data]
+    if not outputs:
+        raise ValueError("the table has no column of a force or torque")
+    places = [names.index(name) for name in _chosen(inputs, [name for name in names if name != "mean"])]
+    units = [str(unit) for unit in data["unit"]] if "unit" in data else [""] * len(names)
+    values = np.array([[float(data[output][place]) for place in places] for output in outputs])
+    return _Effects(outputs, [(names[place], units[place]) for place in places], values)
+
+
+def _chosen(inputs: Sequence[str] | None, known: Sequence[str]) -> list[str]:
+    """The inputs to show."""
+    for name in inputs or ():
+        if name not in known:
+            raise ValueError(f"there is no input `{name}`. There are: {', '.join(known)}")
+    return list(known if inputs is None else inputs)
+
+
+def _map(effects: _Effects, colorbar: bool | Axes, ax: Axes | None) -> Axes:
+    """The map of the effects, with their numbers."""
+    values = effects.values
+    sizes = np.abs(values)
+    largest = np.max(np.where(np.isfinite(sizes), sizes, 0.0), axis=0)
+    shares = values / np.where(largest > 0, largest, 1.0)
+    with _style.style(ax):
+        ax = _style.axes_of(ax, 2.4 + 1.15 * len(effects.inputs), 3.6)
+        ax.grid(False)
+        mesh = ax.imshow(shares, cmap="RdBu_r", vmin=-1.0, vmax=1.0, aspect="auto")
+        for row, column in np.ndindex(values.shape):
+            share = abs(float(shares[row, column]))
+            colour = "white" if share > 0.6 else _style.DARK
+            text = _cell(float(values[row, column]), share)
+            ax.text(column, row, text, ha="center", va="center", color=colour, fontsize="small")
+        ax.set_xticks(range(len(effects.inputs)), labels=[_input(*each) for each in effects.inputs])
+        ax.set_yticks(range(len(effects.outputs)), labels=[_labels.label(name) for name in effects.outputs])
+        for line in np.arange(0.5, len(effects.inputs) - 1):
+            ax.axvline(line, color="white", linewidth=_style.width(1.0))
+        ax.tick_params(length=0)
+        _style.colour_bar(ax, mesh, colorbar, label="Share of the input's largest change")
+    return ax
+
+
+def _input(name: str, unit: str) -> str:
+    """An input with its unit, on short lines."""
+    text = _labels.words(name, unit).replace(", ", ",\n").replace(" ", "\n", 1)
+    return f"{text}\nper {_labels.printed(unit)}" if unit else text
+
+
+def _cell(value: float, share: float) -> str:
+    """A change, in three digits."""
+    if not np.isfinite(value):
+        return "?"
+    if value == 0.0:
+        return "0"
+    return "≈0" if share < _LEAST else _labels.number(float(f"{value:.3g}"))
+
+
+def _panels(data: Data, x: str | None) -> Figure:
+    """Forces over torques, each over one parameter."""
+    outputs = [name for name in (*FORCES, *TORQUES) if name in data]
+    if len(outputs) != 6:
+        raise ValueError(f"the table has no columns {', '.join({*FORCES, *TORQUES} - set(outputs))}: it is of no vehicle")
+    x = along(data, None) if x is None else x
+    if not data.on_a_grid(x):
+        raise scattered(x)
+    data.numbers(x)
+    data.one_row_for([x])
+    with _style.style():
+        figure = _style.new_figure(7.2, 3.9)
+        axes = figure.subplots(2, 3, sharex=True)
+        family = Family(data, data, x, None)
+        for each, name in zip(axes.flat, outputs):
+            family.draw(each, name)
+            each.axhline(0.0, color=_style.GREY, linewidth=_style.width(0.5), zorder=1)
+        family.mark(axes[0, 2])
+        for each in axes[1]:
+            each.set_xlabel(family.x.label)
+        figure.align_ylabels(axes)
+    return figure

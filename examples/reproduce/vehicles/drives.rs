@@ -1,0 +1,81 @@
+//! A torque for each drive.
+
+use flap_core::drive::Shape;
+
+use super::flier::{Flier, rounded, shown, torques};
+use crate::claim::{Claim, between, said};
+
+/// Share of the amplitude by which each drive is changed.
+const SHARE: f64 = 0.2;
+const SENSOR: &str = "Finio and others, I";
+const PREDICTED: &str = "torques of a robotic fly that flaps asymmetrically, predicted:";
+
+pub(super) fn claims() -> Vec<Claim> {
+    let pair = Flier::pair();
+    let volts = pair.value("drive_voltage_pp");
+    // The amplitude is half the voltage peak to peak; half the difference is added on the left.
+    let difference = 2.0 * SHARE * volts;
+    let bias = SHARE * 0.5 * volts;
+    let roll = torques(&pair.point(&[("difference_drive_voltage_pp", difference)]));
+    let pitch = torques(&pair.point(&[("drive_offset", bias)]));
+    let (phase, yaw) = split_cycle();
+    let largest = |torques: [f64; 3], of: usize| (0..3).all(|i| torques[i].abs() <= torques[of].abs());
+    vec![
+        said(
+            "Ma and others, abstract",
+            "both wings are moved independently, which makes a roll torque",
+            "roll",
+        )
+        .holds(
+            largest(roll, 0) && roll[0] > 0.0,
+            format!("{} with {difference:.0} V more on the left", shown(roll)),
+        ),
+        said("Ma and others, abstract", "and a pitch torque", "pitch").holds(
+            largest(pitch, 1) && pitch[1] < 0.0,
+            format!(
+                "{} with a bias of {bias:.0} V, which moves both strokes forward and lifts the nose",
+                shown(pitch)
+            ),
+        ),
+        said("Ma and others, abstract", "and, by split cycles, a yaw torque", "yaw").holds(
+            largest(yaw, 2),
+            format!("{} with a second harmonic of {SHARE} that leads by {phase:.0}°", shown(yaw)),
+        ),
+        said("Ma and others", "sizes of the torques", "drawn")
+            .cannot_be_checked("neither the sizes nor the voltages are in the text at hand", ""),
+        said("Ma and others, abstract", "peak lift of the vehicle, of 70 mg", "1.3 mN").cannot_be_checked(
+            "the voltage is not in the text at hand, and its wings and actuators are others",
+            format!("{:.2} mN at {volts:.0} V", pair.point(&[]).get("force_up_mn")),
+        ),
+        of_size("roll", roll[0]),
+        of_size("pitch", pitch[1]),
+        of_size("yaw", yaw[2]),
+    ]
+}
+
+/// The claim about the size of a torque.
+fn of_size(name: &str, torque: f64) -> Claim {
+    said(SENSOR, format!("{PREDICTED} {name}"), "1 to 10 µN·m").is(
+        &between(1.0, 10.0),
+        torque.abs(),
+        format!("{} µN·m", rounded(torque.abs())),
+    )
+}
+
+/// The phase (degrees, in steps of 15) at which a second harmonic makes the largest yaw, and the torques there.
+fn split_cycle() -> (f64, [f64; 3]) {
+    let pair = Flier::pair().choose("drive_shape", Shape::Harmonics as usize);
+    let phases: Vec<f64> = (0..24).map(|i| 15.0 * f64::from(i)).collect();
+    let points: Vec<_> = phases
+        .iter()
+        .map(|phase| {
+            vec![
+                ("difference_drive_second_harmonic", 2.0 * SHARE),
+                ("drive_second_phase", phase.to_radians()),
+            ]
+        })
+        .collect();
+    let settled = pair.settle(&points);
+    let found = phases.into_iter().zip(settled.iter().map(torques));
+    found.max_by(|a, b| a.1[2].total_cmp(&b.1[2])).expect("there are phases")
+}

@@ -1,0 +1,93 @@
+//! Vehicles with wings of a preset.
+
+use flap_core::parameter::Parameter;
+use flap_core::simulate::{Simulator as _, preset};
+use flap_core::vehicle::{Mount, TORQUES, Vehicle};
+
+use crate::points::{Bench, Settled};
+
+/// Parameters that differ from the vehicle's own, by name.
+pub(super) type Changes = Vec<(&'static str, f64)>;
+
+/// A vehicle, and the values of its parameters.
+pub(super) struct Flier {
+    bench: Bench,
+    values: Vec<f64>,
+}
+
+impl Flier {
+    /// A vehicle with these wings of a preset, mirrored or not.
+    pub(super) fn new(name: &str, wings: &[(&str, bool)]) -> Flier {
+        let (model, preset) = preset(name).expect("flap has this preset");
+        let mounts: Vec<Mount> =
+            wings.iter().map(|&(name, mirrored)| Mount { name: name.to_owned(), mirrored }).collect();
+        let vehicle = Vehicle::of(model, &mounts).expect("these wings make a vehicle");
+        let mut values = (preset.values)();
+        values.extend(vehicle.parameters()[values.len()..].iter().map(|parameter| parameter.default));
+        // Kinks of the bimorph let a motion settle no further.
+        Flier { bench: Bench { model: vehicle, ..Bench::new(model.name(), 1e-4) }, values }
+    }
+
+    /// Two wings of `jafferis2016`.
+    pub(super) fn pair() -> Flier {
+        Flier::new("jafferis2016", &[("left", false), ("right", true)]).with(&[
+            ("left_position_y", 1.5e-3),
+            ("right_position_y", 1.5e-3),
+            ("about_z", -2e-3),
+        ])
+    }
+
+    /// The same with other values.
+    pub(super) fn with(mut self, changes: &[(&str, f64)]) -> Flier {
+        self.values = self.changed(changes);
+        self
+    }
+
+    /// The same with an option of a choice.
+    pub(super) fn choose(self, name: &'static str, option: usize) -> Flier {
+        self.with(&[(name, f64::from(u32::try_from(option).expect("options are few")))])
+    }
+
+    /// A value of the vehicle.
+    pub(super) fn value(&self, name: &str) -> f64 {
+        self.values[self.place(name)]
+    }
+
+    /// A point for each list of changes, settled.
+    pub(super) fn settle(&self, points: &[Changes]) -> Vec<Settled> {
+        self.bench.settle(points.iter().map(|changes| self.changed(changes)).collect())
+    }
+
+    /// One point.
+    pub(super) fn point(&self, changes: &[(&'static str, f64)]) -> Settled {
+        self.settle(&[changes.to_vec()]).remove(0)
+    }
+
+    fn changed(&self, changes: &[(&str, f64)]) -> Vec<f64> {
+        let mut values = self.values.clone();
+        for (name, value) in changes {
+            values[self.place(name)] = *value;
+        }
+        values
+    }
+
+    fn place(&self, name: &str) -> usize {
+        Parameter::index(self.bench.model.parameters(), name).unwrap_or_else(|| panic!("no parameter {name}"))
+    }
+}
+
+/// Roll, pitch and yaw (µN·m).
+pub(super) fn torques(point: &Settled) -> [f64; 3] {
+    TORQUES.map(|column| point.get(column))
+}
+
+/// Three torques in words.
+pub(super) fn shown([roll, pitch, yaw]: [f64; 3]) -> String {
+    format!("roll {}, pitch {}, yaw {} µN·m", rounded(roll), rounded(pitch), rounded(yaw))
+}
+
+/// A torque with two decimals. What rounds to zero has no sign.
+pub(super) fn rounded(torque: f64) -> String {
+    let text = format!("{torque:.2}");
+    if text == "-0.00" { "0.00".to_owned() } else { text }
+}

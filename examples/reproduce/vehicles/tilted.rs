@@ -1,0 +1,95 @@
+//! Vehicles of four wings.
+
+use nalgebra::{Matrix4, Vector4};
+
+use super::flier::{Flier, rounded, shown, torques};
+use crate::claim::{Claim, said};
+
+/// The wings of four, and which of them are mirrored.
+const WINGS: [(&str, bool); 4] =
+    [("front_left", false), ("front_right", true), ("back_left", false), ("back_right", true)];
+/// Their voltages.
+const VOLTAGES: [&str; 4] = [
+    "front_left_drive_voltage_pp",
+    "front_right_drive_voltage_pp",
+    "back_left_drive_voltage_pp",
+    "back_right_drive_voltage_pp",
+];
+/// The tilt of a wing (degrees).
+const TILT: f64 = 10.0;
+/// Standard gravity (m/s²).
+const GRAVITY: f64 = 9.80665;
+
+pub(super) fn claims() -> Vec<Claim> {
+    let [flat, tilted] = [0.0, TILT].map(|tilt| effects(&direct_drive(tilt.to_radians())));
+    // A volt more on one diagonal, a volt less on the other.
+    let diagonals = Vector4::new(1.0, -1.0, -1.0, 1.0);
+    let [of_flat, of_tilted] = [flat, tilted].map(|effects| effects * diagonals);
+    let values = tilted.singular_values();
+    let share = values.min() / values.max();
+    let payload = payload();
+    vec![
+        said("2407.06500, abstract", "tilted wings make yaw from amplitudes alone", "yaw").holds(
+            of_tilted.iamax() == 3 && of_tilted[3].abs() > of_flat[3].abs(),
+            format!(
+                "{} and {:.2} mN of lift per volt on the diagonals; yaw {} µN·m without the tilt",
+                shown([of_tilted[1], of_tilted[2], of_tilted[3]]),
+                of_tilted[0] + 0.0,
+                rounded(of_flat[3])
+            ),
+        ),
+        said(
+            "2407.06500, abstract",
+            "four amplitudes control lift, roll, pitch and yaw at the same time",
+            "four",
+        )
+        .holds(
+            share > 1e-3,
+            format!("smallest singular value {share:.3} of the largest, 1 mN counting as 1 µN·m"),
+        ),
+        said("2407.06500", "torques and tilt", "drawn")
+            .cannot_be_checked("they are not in the text at hand", ""),
+        said("Fuller, abstract", "payload of four wings", "> 260 mg")
+            .holds(payload > 260.0, format!("{payload:.0} mg at 200 V, 120 Hz")),
+    ]
+}
+
+/// Four direct drives around the middle, tilted towards it along x (rad).
+fn direct_drive(tilt: f64) -> Flier {
+    Flier::new("ozaki2018-large", &WINGS).with(&[
+        ("front_left_position_x", 10e-3),
+        ("front_right_position_x", 10e-3),
+        ("back_left_position_x", -10e-3),
+        ("back_right_position_x", -10e-3),
+        ("front_left_position_y", 10e-3),
+        ("front_right_position_y", 10e-3),
+        ("back_left_position_y", 10e-3),
+        ("back_right_position_y", 10e-3),
+        ("front_left_plane_pitch", -tilt),
+        ("front_right_plane_pitch", -tilt),
+        ("back_left_plane_pitch", tilt),
+        ("back_right_plane_pitch", tilt),
+    ])
+}
+
+/// Changes of lift (mN), roll, pitch and yaw (µN·m), in rows, per volt of each wing, in columns.
+fn effects(flier: &Flier) -> Matrix4<f64> {
+    let volts = flier.value("drive_voltage_pp");
+    let points: Vec<_> =
+        VOLTAGES.iter().flat_map(|name| [-1.0, 1.0].map(|step| vec![(*name, volts + step)])).collect();
+    let settled = flier.settle(&points);
+    let of_point = |point: &crate::points::Settled| {
+        let [roll, pitch, yaw] = torques(point);
+        [point.get("force_up_mn"), roll, pitch, yaw]
+    };
+    Matrix4::from_fn(|row, wing| {
+        let [less, more] = [0, 1].map(|side| of_point(&settled[2 * wing + side])[row]);
+        0.5 * (more - less)
+    })
+}
+
+/// The payload (mg) of four bimorph wings that carry 143 mg.
+fn payload() -> f64 {
+    let lift = Flier::new("jafferis2016", &WINGS).point(&[]).get("force_up_mn");
+    lift / GRAVITY * 1e3 - 143.0
+}
