@@ -13,6 +13,7 @@ turns it to the left.
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
 import flapwing
 import numpy as np
@@ -39,7 +40,7 @@ def best_phase(robot: flapwing.Vehicle) -> float:
     return float(degrees[np.nanargmax(rows["torque_yaw_unm"])])
 
 
-def drives(preset: str, phase: float) -> dict[str, dict[str, float]]:
+def drives(preset: str, phase: float) -> dict[str, dict[str, Any]]:
     """Parameters of each drive, by its name."""
     volts = flapwing.params(preset)["drive_voltage_pp"].value
     assert isinstance(volts, float)

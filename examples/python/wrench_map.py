@@ -73,7 +73,7 @@ def main() -> None:
     names = ["lift (mN)", "roll (uN*m)", "pitch (uN*m)", "yaw (uN*m)"]
     print(f"{'INPUT':<34}" + "".join(f"{name:>14}" for name in names))
     for name, row in zip(INPUTS, coefficients[1:5]):
-        print(f"{name:<34}" + "".join(f"{value:14.3f}" for value in row))
+        print(f"{name:<34}" + "".join(f"{round(value, 3) + 0.0:14.3f}" for value in row))
     print(f"{'left over (rms)':<34}" + "".join(f"{value:14.3f}" for value in errors))
     print(f"{'range':<34}" + "".join(f"{value:14.3f}" for value in ranges))
 

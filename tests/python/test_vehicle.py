@@ -82,7 +82,7 @@ def test_wings_may_be_dictionaries_and_have_designs_of_their_own(tmp_path):
     assert values["right_position_y"].value == 1.5e-3 and values["left_wing_area"].value == 55e-6
     assert values["left_plane_pitch"].value == pytest.approx(np.radians(5.0), rel=1e-15)
     of_grid = flapwing.Vehicle({"preset": "jafferis2016", "params": {"hinge_stiffness": "1.4 uN*m/rad"}}, wings)
-    assert flapwing.run(robot) == flapwing.run(of_grid)
+    same(flapwing.sweep(robot), flapwing.sweep(of_grid))
     assert robot["vehicle"]["wings"][1]["device"] == str(device)
 
 
@@ -90,12 +90,12 @@ def test_derivatives_of_torques_are_those_of_differences():
     robot = pair()
     inputs = ["difference_drive_voltage_pp", "drive_offset", "left_hinge_stiffness", "about_z"]
     columns = {"drive_voltage_pp": [200.0], "left_hinge_stiffness": [1.5e-6]}
-    options = {"measures": [*FORCES, *TORQUES], "rtol": 1e-8}
+    options = {"measures": [*FORCES, *TORQUES], "rtol": 1e-8, "settle_tol": 1e-9}
     table = flapwing.evaluate(robot, columns, gradient=inputs, **options)
     assert table.gradient.shape == (1, 6, 4)
     assert table.units["d_torque_roll_unm_per_si_difference_drive_voltage_pp"] == "uN*m/V"
     values = {"difference_drive_voltage_pp": 0.0, "drive_offset": 0.0, "left_hinge_stiffness": 1.5e-6, "about_z": -2e-3}
-    steps = {"difference_drive_voltage_pp": 0.1, "drive_offset": 0.1, "left_hinge_stiffness": 1e-9, "about_z": 1e-4}
+    steps = {"difference_drive_voltage_pp": 0.5, "drive_offset": 0.5, "left_hinge_stiffness": 1e-9, "about_z": 1e-4}
     for place, name in enumerate(inputs):
         around = {**columns, name: [values[name] - steps[name], values[name] + steps[name]]}
         around = {key: np.resize(column, 2) for key, column in around.items()}
@@ -103,7 +103,7 @@ def test_derivatives_of_torques_are_those_of_differences():
         for output, column in enumerate([*FORCES, *TORQUES]):
             difference = np.diff(rows[column])[0] / (2 * steps[name])
             scale = np.abs(table.gradient[0, :, place]).max()
-            assert table.gradient[0, output, place] == pytest.approx(difference, rel=1e-3, abs=1e-4 * scale), (column, name)
+            assert table.gradient[0, output, place] == pytest.approx(difference, rel=1e-3, abs=2e-4 * scale), (column, name)
 
 
 def test_states_of_a_vehicle_begin_its_motions():
@@ -142,7 +142,7 @@ def test_keywords_go_over_the_grid_of_a_vehicle(tmp_path):
     robot = {**pair(), "axes": {"drive_offset": ["-10 V", "10 V"]}}
     out = tmp_path / "rows.csv"
     table = flapwing.sweep(robot, out=out, drive_voltage_pp="180 V", left_wing_area="55 mm^2", measures=TORQUES)
-    assert len(table) == 2 and list(table)[-len(TORQUES) - 7 :][:3] == TORQUES
+    assert len(table) == 2 and list(table)[-3:] == TORQUES
     assert "left_wing_area" in flapwing.read(out).meta["grid"]
 
 

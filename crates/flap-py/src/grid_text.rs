@@ -41,11 +41,11 @@ pub(crate) fn write(grid: &Bound<'_, PyDict>) -> PyResult<String> {
     Ok(head.concat())
 }
 
+/// Tables of a list, each with the key of the list.
+type Blocks<'py> = Vec<(String, Bound<'py, PyDict>)>;
+
 /// A table's entries without its lists of dictionaries, such as the wings of a vehicle, and these.
-#[expect(clippy::type_complexity, reason = "a table and its blocks")]
-fn split<'py>(
-    table: &Bound<'py, PyDict>,
-) -> PyResult<(Bound<'py, PyDict>, Vec<(String, Bound<'py, PyDict>)>)> {
+fn split<'py>(table: &Bound<'py, PyDict>) -> PyResult<(Bound<'py, PyDict>, Blocks<'py>)> {
     let (plain, mut blocks) = (PyDict::new(table.py()), Vec::new());
     for (key, value) in table {
         match dictionaries(&value)? {

@@ -49,7 +49,7 @@ def test_an_array_is_a_map_with_its_numbers():
     assert labels(ax.yaxis) == ROWS
     assert cells(ax) == [
         ["0", "≈0"],
-        ["3×10⁻⁴", "0"],
+        ["0.0003", "0"],
         ["0", "0"],
         ["0.00712", "0"],
         ["0", "−0.05"],

@@ -82,6 +82,26 @@ impl NoShares {
     }
 }
 
+/// The typical size of a parameter (SI), of which a small share changes it: its value or, if that is zero, that of a voltage, an
+/// angle, a share or a length; `None` if it is not known.
+pub(crate) fn typical(parameters: &[Parameter], values: &[f64], index: usize) -> Option<f64> {
+    let value = values[index];
+    if value != 0.0 && value.is_finite() {
+        return Some(value.abs());
+    }
+    let of = |name: &str| Parameter::index(parameters, name).map(|index| values[index]);
+    let parameter = &parameters[index];
+    let shared = parameter.name.strip_prefix("difference_").and_then(of);
+    let size = match (shared, parameter.unit) {
+        (Some(shared), _) if shared != 0.0 && shared.is_finite() => shared.abs(),
+        (_, "V") => of("drive_voltage_pp")?.abs(),
+        (_, "" | "rad") => 1.0,
+        (_, "m") => 1e-3,
+        _ => return None,
+    };
+    Some(size).filter(|size| *size > 0.0 && size.is_finite())
+}
+
 /// Checks that rows can have derivatives by `parameter`, which is derived or follows others, or has a value.
 ///
 /// # Errors

@@ -204,16 +204,16 @@ impl Plan {
         Point { begin, ..Point::at_rest(index, self.values(index, None)) }
     }
 
-    /// The values of point number `index` with one parameter larger by a `share` of itself. Derived parameters follow it.
-    pub(crate) fn changed(&self, index: u64, parameter: usize, share: f64) -> Vec<f64> {
-        self.values(index, Some((parameter, share)))
+    /// The values of point number `index` with one parameter `moved`. Derived parameters follow it.
+    pub(crate) fn changed(&self, index: u64, parameter: usize, moved: impl Fn(f64) -> f64) -> Vec<f64> {
+        self.values(index, Some((parameter, &moved)))
     }
 
-    fn values(&self, index: u64, change: Option<(usize, f64)>) -> Vec<f64> {
+    fn values(&self, index: u64, change: Option<(usize, &dyn Fn(f64) -> f64)>) -> Vec<f64> {
         let mut values: Vec<f64> = self.base().iter().map(|value| value.in_point()).collect();
         self.axes().fill(index, &mut values);
-        if let Some((parameter, share)) = change {
-            values[parameter] *= 1.0 + share;
+        if let Some((parameter, moved)) = change {
+            values[parameter] = moved(values[parameter]);
         }
         self.derived().fill(&mut values, &[]);
         values

@@ -4,7 +4,7 @@ use flap_core::simulate::{Change, Interrupt, NoSlope, Point, PointRun, Row};
 
 use super::options::RunOptions;
 use crate::plan::Plan;
-use crate::plan::gradient::{Gradient, Per};
+use crate::plan::gradient::{Gradient, Per, typical};
 
 /// The share that changes for the derivatives of the plan's own measures, which are computed from those and need not be as small.
 const OWN_SHARE: f64 = 1e-5;
@@ -19,10 +19,9 @@ pub(super) fn add(
     interrupted: Interrupt<'_>,
 ) -> bool {
     let Some(gradient) = plan.gradient().filter(|_| !row.measures.is_empty()) else { return true };
-    let changes = gradient.with_respect_to.iter().map(|&parameter| Change {
-        ahead: plan.changed(point.index, parameter, Change::SHARE),
-        behind: plan.changed(point.index, parameter, -Change::SHARE),
-        size: Change::SHARE,
+    let changes = gradient.with_respect_to.iter().map(|&parameter| {
+        let changed = |share| changed(plan, gradient.per, point, parameter, share);
+        Change { ahead: changed(Change::SHARE), behind: changed(-Change::SHARE), size: Change::SHARE }
     });
     let changes: Vec<Change> = changes.collect();
     let run = PointRun::new(options.instructions, plan.solver(), &point.values).until(interrupted);
@@ -45,6 +44,27 @@ pub(super) fn add(
     true
 }
 
+/// The size of a parameter at a point, whose shares are changed: its value or, for changes per unit of one that is zero, a
+/// typical one. Zero if none is known.
+fn size(plan: &Plan, per: Per, point: &Point, parameter: usize) -> f64 {
+    let value = point.values[parameter];
+    if value == 0.0 && per == Per::Unit {
+        typical(plan.parameters(), &point.values, parameter).unwrap_or(0.0)
+    } else {
+        value
+    }
+}
+
+/// The values of a point with one parameter larger by a share of its size.
+fn changed(plan: &Plan, per: Per, point: &Point, parameter: usize, share: f64) -> Vec<f64> {
+    let size = size(plan, per, point, parameter);
+    plan.changed(
+        point.index,
+        parameter,
+        |value| if value == 0.0 { share * size } else { value * (1.0 + share) },
+    )
+}
+
 /// The derivatives in the order of their columns.
 fn derivatives(
     plan: &Plan,
@@ -54,7 +74,8 @@ fn derivatives(
     slopes: &[Vec<Result<f64, NoSlope>>],
 ) -> Vec<Result<f64, NoSlope>> {
     let own_slopes = gradient.with_respect_to.iter().zip(slopes);
-    let own_slopes = own_slopes.map(|(&parameter, slopes)| own(plan, point, parameter, measures, slopes));
+    let own_slopes =
+        own_slopes.map(|(&parameter, slopes)| own(plan, gradient.per, point, parameter, measures, slopes));
     let own_slopes: Vec<Vec<Result<f64, NoSlope>>> = own_slopes.collect();
     let by = |parameter: usize| gradient.with_respect_to.iter().position(|other| *other == parameter);
     let pairs = gradient.pairs().map(|(of, parameter)| {
@@ -65,7 +86,7 @@ fn derivatives(
         };
         slope.map(|slope| match gradient.per {
             Per::Cent => 0.01 * slope,
-            Per::Unit => slope / point.values[parameter],
+            Per::Unit => slope / size(plan, gradient.per, point, parameter),
         })
     });
     pairs.collect()
@@ -74,6 +95,7 @@ fn derivatives(
 /// The derivatives of the plan's own measures by one parameter, from those of the model's.
 fn own(
     plan: &Plan,
+    per: Per,
     point: &Point,
     parameter: usize,
     measures: &[f64],
@@ -82,7 +104,7 @@ fn own(
     let count = slopes.len();
     let trouble = slopes.iter().filter_map(|slope| slope.err()).min();
     let moved = |share: f64| {
-        let values = plan.changed(point.index, parameter, share);
+        let values = changed(plan, per, point, parameter, share);
         let slopes = slopes.iter().map(|slope| slope.unwrap_or(f64::NAN));
         let mut moved: Vec<f64> =
             measures.iter().zip(slopes).map(|(measure, slope)| slope.mul_add(share, *measure)).collect();

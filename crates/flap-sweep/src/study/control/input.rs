@@ -3,6 +3,8 @@
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::vehicle::Vehicle;
 
+use crate::plan::gradient;
+
 /// Words for the parameters of a drive: each with the names that models have for it.
 pub const WORDS: [(&str, &[&str]); 6] = [
     ("amplitude", &["drive_voltage_pp"]),
@@ -89,22 +91,7 @@ impl Input {
 
     /// The typical size of a parameter (SI), from which changes are measured; `None` if it is not known.
     pub(super) fn typical(&self, vehicle: &Vehicle, values: &[f64]) -> Option<f64> {
-        let value = values[self.parameter];
-        if value != 0.0 && value.is_finite() {
-            return Some(value.abs());
-        }
-        let parameters = parameters(vehicle);
-        let of = |name: &str| Parameter::index(parameters, name).map(|index| values[index]);
-        let parameter = &parameters[self.parameter];
-        let shared = parameter.name.strip_prefix("difference_").and_then(of);
-        let size = match (shared, parameter.unit) {
-            (Some(shared), _) if shared != 0.0 && shared.is_finite() => shared.abs(),
-            (_, "V") => of("drive_voltage_pp")?.abs(),
-            (_, "" | "rad") => 1.0,
-            (_, "m") => 1e-3,
-            _ => return None,
-        };
-        Some(size).filter(|size| *size > 0.0 && size.is_finite())
+        gradient::typical(parameters(vehicle), values, self.parameter)
     }
 }
 
