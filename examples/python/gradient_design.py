@@ -1,4 +1,4 @@
-"""Lift per watt over eight parameters, under limits: exact derivatives beside a genetic algorithm.
+"""Lift per watt over eight parameters, under limits: exact derivatives beside differential evolution.
 
 Maximises the lift per watt of the bimorph of Jafferis et al. over drive, transmission, hinge and actuator. The plates'
 strain, stroke and pitch have limits, and two wings must carry the vehicle. SLSQP takes the derivatives of settled rows;
@@ -15,6 +15,7 @@ R. Storn and K. Price, "Differential evolution", J. Global Optim. 11 (1997) 341-
 
 import argparse
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -45,8 +46,9 @@ MEASURES = ["efficiency_gf_per_w", *LIMITS, "vehicle_lift_mgf"]
 # Rows with the measures, and with what they cost.
 DESIGN = {"preset": PRESET, "output": {"columns": [*MEASURES, "rhs_evals"]}}
 
-BASE = {name: value for name, value in flapwing.Grid({"preset": PRESET})[0].items() if name in VARIABLES}
-LOWEST, HIGHEST = np.array([VARIABLES[name] for name in VARIABLES]).T
+VALUES = flapwing.Grid({"preset": PRESET})[0]
+BASE = {name: float(VALUES[name]) for name in VARIABLES}
+LOWEST, HIGHEST = np.array(list(VARIABLES.values())).T
 
 
 @dataclass
@@ -60,9 +62,7 @@ class Count:
 def rows(shares: Any, count: Count, gradient: bool) -> Any:
     """The rows of designs given as shares of the preset's values, one design per line of `shares`."""
     columns = {name: BASE[name] * shares[:, place] for place, name in enumerate(VARIABLES)}
-    table = flapwing.evaluate(
-        DESIGN, columns, gradient=list(VARIABLES) if gradient else None
-    )
+    table = flapwing.evaluate(DESIGN, columns, gradient=list(VARIABLES) if gradient else None)
     count.designs += len(table)
     count.rhs += int(np.nansum(table["rhs_evals"]))
     return table
@@ -90,7 +90,7 @@ class Search:
         """[-lift per watt, room to each limit] and the derivatives of all by the shares."""
         if self.at is None or not np.array_equal(self.at, x):
             table = rows(x[None, :], self.count, gradient=True)
-            slopes = table.gradient[0, : len(MEASURES)] * np.array([BASE[name] for name in VARIABLES])
+            slopes = table.gradient[0] * np.array([BASE[name] for name in VARIABLES])
             values = np.concatenate([-table["efficiency_gf_per_w"], -excesses(table)[0]])
             signs = np.array([-1.0, *(-1 / limit for limit in LIMITS.values()), 1 / LIFT_MGF])
             if not (np.isfinite(values).all() and np.isfinite(slopes).all()):
@@ -129,14 +129,29 @@ class Wing(Problem):  # type: ignore[misc, unused-ignore]
         out["G"] = np.nan_to_num(excesses(table), nan=10.0)
 
 
-def told(name: str, shares: Any, count: Count, seconds: float) -> None:
-    """Prints a design and what it has cost."""
-    table = rows(shares[None, :], Count(), gradient=False)
-    measures = ", ".join(f"{table[measure][0]:.4g} {measure}" for measure in MEASURES)
-    print(f"{name}: {measures}")
-    print(f"  {count.designs} designs, {count.rhs / 1e6:.2f} million right-hand sides, {seconds:.1f} s")
-    for variable, share in zip(VARIABLES, shares):
-        print(f"  {variable} = {BASE[variable] * share:.4g} ({share:.3f} of the preset)")
+def keeps_the_limits(end: Any) -> bool:
+    """True if the end of a search keeps all limits to a thousandth."""
+    return bool((excesses(rows(end.x[None, :], Count(), gradient=False)) < 1e-3).all())
+
+
+def by_derivatives(starts: int) -> tuple[Any, Count]:
+    """The best of SLSQP's ends, and the work: from the preset, and from random designs."""
+    search = Search()
+    spread = np.random.default_rng(1).uniform(0.25, 0.75, (starts - 1, len(VARIABLES)))
+    begins = [np.ones(len(VARIABLES)), *(LOWEST + (HIGHEST - LOWEST) * spread)]
+    ends = [end for end in map(search.best, begins) if end is not None and keeps_the_limits(end)]
+    if not ends:
+        raise SystemExit("no start ends at a design that keeps the limits: give more --starts")
+    return min(ends, key=lambda end: float(end.fun)).x, search.count
+
+
+def by_evolution(generations: int) -> tuple[Any, Count]:
+    """The best design of differential evolution, and the work."""
+    wing = Wing()
+    found = evolve(wing, DE(pop_size=64), ("n_gen", generations), seed=1)
+    if found.X is None:
+        raise SystemExit("no design keeps the limits: give more --generations")
+    return found.X, wing.count
 
 
 def main() -> None:
@@ -145,24 +160,22 @@ def main() -> None:
     parser.add_argument("--generations", type=int, default=80, help="generations of 64 designs")
     arguments = parser.parse_args()
 
-    clock = time.perf_counter()
-    search = Search()
-    spread = np.random.default_rng(1).uniform(0.25, 0.75, (arguments.starts - 1, len(VARIABLES)))
-    starts = [np.ones(len(VARIABLES)), *(LOWEST + (HIGHEST - LOWEST) * spread)]
-    ends = [end for end in map(search.best, starts) if end is not None and search_is_feasible(end)]
-    best = min(ends, key=lambda end: float(end.fun))
-    told("SLSQP with derivatives", best.x, search.count, time.perf_counter() - clock)
-
-    clock = time.perf_counter()
-    wing = Wing()
-    found = evolve(wing, DE(pop_size=64), ("n_gen", arguments.generations), seed=1)
-    told("differential evolution", found.X, wing.count, time.perf_counter() - clock)
-
-
-def search_is_feasible(end: Any) -> bool:
-    """True if all limits are kept to a thousandth."""
-    table = rows(end.x[None, :], Count(), gradient=False)
-    return bool((excesses(table) < 1e-3).all())
+    searches: dict[str, Callable[[], tuple[Any, Count]]] = {
+        "SLSQP with derivatives": lambda: by_derivatives(arguments.starts),
+        "differential evolution": lambda: by_evolution(arguments.generations),
+    }
+    for name, search in searches.items():
+        clock = time.perf_counter()
+        shares, count = search()
+        seconds = time.perf_counter() - clock
+        table = rows(shares[None, :], Count(), gradient=False)
+        print(f"{name}: {count.designs} designs, {count.rhs / 1e6:.2f} million right-hand sides, {seconds:.1f} s")
+        told = {name: f"at most {limit:g}" for name, limit in LIMITS.items()}
+        told["vehicle_lift_mgf"] = f"at least {LIFT_MGF:g}"
+        for measure in MEASURES:
+            print(f"  {measure:24} {table[measure][0]:10.5g} {table.units[measure]:5} {told.get(measure, '')}".rstrip())
+        for variable, share in zip(VARIABLES, shares):
+            print(f"  {variable:24} {BASE[variable] * share:10.4g} {share:6.3f} of the preset")
 
 
 if __name__ == "__main__":

@@ -67,6 +67,21 @@ def pareto(large: flapwing.Table) -> Axes:
     return plot.pareto(large, maximize="lift_mean_mn", minimize="power_mean_mw", color="drive_frequency")
 
 
+def scatter(builds: flapwing.Table) -> Axes:
+    """Lift, strain and stroke of two thousand builds of the bimorph."""
+    return plot.scatter(builds)
+
+
+def histogram(builds: flapwing.Table) -> Axes:
+    """The lift of these builds, with percentiles."""
+    return plot.histogram(builds, "vehicle_lift_mgf")
+
+
+def correlations(builds: flapwing.Table) -> Axes:
+    """Rank correlations of the parameters that differ from build to build with the lift."""
+    return plot.tornado(builds, "vehicle_lift_mgf")
+
+
 def trajectory() -> Figure:
     """Two cycles of the bimorph."""
     return plot.trajectory(flapwing.trajectory("jafferis2016"), ["stroke_deg", "pitch_deg", "lift_mn"])
@@ -131,12 +146,16 @@ def main() -> None:
     folder.mkdir(parents=True, exist_ok=True)
 
     large = flapwing.sweep(REPOSITORY / "examples" / "ozaki_large.toml")
+    builds = flapwing.sweep(REPOSITORY / "examples" / "jafferis_tolerance.toml")
     pictures = {
         "response": response(),
         "measures": measures(),
         "heatmap": heatmap(large),
         "gaps": gaps(),
         "pareto": pareto(large),
+        "scatter": scatter(builds),
+        "histogram": histogram(builds),
+        "correlations": correlations(builds),
         "trajectory": trajectory(),
         "hysteresis": hysteresis(),
         "tornado": tornado(),
@@ -148,7 +167,7 @@ def main() -> None:
         figure = picture.get_figure(root=True)
         assert figure is not None
         save(figure, folder / f"py-{name}.png")
-    wing_path().save(folder / "py-wing-path.gif", dpi=64)
+    wing_path().save(folder / "py-wing-path.gif", dpi=56)
     plt.close("all")
 
 

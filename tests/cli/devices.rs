@@ -132,16 +132,31 @@ fn commands_take_a_device_for_a_preset() {
     folder.ends(0, "resonance mybee.toml");
     folder.ends(0, "respond mybee.toml --from 110 --to 130 --step 5 --out curves.csv");
     folder.ends(0, "check mybee.toml").prints("hinge_stiffness");
+    let listed = folder.ends(0, "params mybee.toml");
+    listed.prints("mybee.toml: begins with jafferis2016\n");
+    listed.prints("hinge_stiffness           2 uN*m/rad ± 100 nN*m/rad");
+    listed.prints("drive_voltage_pp          160 V");
+    // Numbers as they are for other programs.
+    folder.ends(0, "params mybee.toml --format csv").prints(",hinge_stiffness,2e-6,N*m/rad,");
+    folder.ends(2, "params none.toml").says("none.toml: there is no such file");
+}
+
+/// A grid that begins with this device is refused with a message at a place.
+#[track_caller]
+fn refused(folder: &Folder, device: &str, message: &str, place: &str) {
+    fs::write(folder.path("mybee.toml"), device).unwrap();
+    folder.ends(2, "check grid.toml").says(message).says(place);
+}
+
+/// A device with lines below `[params]`.
+fn params(lines: &str) -> String {
+    format!("preset = \"jafferis2016\"\n[params]\n{lines}\n")
 }
 
 #[test]
 fn mistakes_in_devices_are_told_with_their_place() {
     let folder = folder();
-    let told = |text: &str, message: &str, place: &str| {
-        fs::write(folder.path("mybee.toml"), text).unwrap();
-        folder.ends(2, "check grid.toml").says(message).says(place);
-    };
-    let params = |line: &str| format!("preset = \"jafferis2016\"\n[params]\n{line}\n");
+    let told = |text: &str, message: &str, place: &str| refused(&folder, text, message, place);
     told("device = \"grid2.toml\"\n", "grid2.toml: ", "mybee.toml:1:10");
     told(
         "device = \"mybee.toml\"\n",
@@ -156,7 +171,36 @@ fn mistakes_in_devices_are_told_with_their_place() {
     told("preset = \"jafferis2016\"\ndevice = \"a.toml\"\n", "not with both", "mybee.toml:1:1");
     told("[params]\nwing_area = 1\n", "`preset` is missing", "mybee.toml");
     told(&params("wing_area = \"-1 mm^2\""), "`wing_area` must be more than zero", "mybee.toml:3:13");
+    fs::write(folder.path("other.toml"), "device = \"mybee.toml\"\n").unwrap();
+    told(
+        "device = \"other.toml\"\n",
+        "the device begins with itself: mybee.toml → other.toml → mybee.toml",
+        "other.toml:1:10",
+    );
+    told(
+        &params("vehicle_mass = \"-80 mg\""),
+        "`vehicle_mass` must be zero or more, not -8e-5 kg",
+        "mybee.toml:3:16",
+    );
+    told(&params("wing_area = nan"), "`wing_area` cannot be `nan`: values are finite", "mybee.toml:3:13");
+    told(
+        &params("wing_area = \"50 mm\""),
+        "`mm` is a length, but `wing_area` is in m^2",
+        "help: use m^2, mm^2, um^2",
+    );
+    told(
+        "preset = \"jafferis2016\"\nauthor = \"me\"\n",
+        "unknown key `author` in a device",
+        "mybee.toml:2:1",
+    );
+    told("preset = \"jafferis2016\"\n[parms]\n", "unknown key `parms` in a device", "did you mean `params`?");
     told(&params("wing_aera = 1"), "has no parameter `wing_aera`", "did you mean `wing_area`?");
+}
+
+#[test]
+fn mistakes_in_standard_errors_are_told_with_their_place() {
+    let folder = folder();
+    let told = |text: &str, message: &str, place: &str| refused(&folder, text, message, place);
     told(&params("wing_area = { sd = \"1 mm^2\" }"), "`wing_area` has no `value`", "mybee.toml:3:13");
     told(&params("wing_area = { value = 5e-5, sd = \"2 %\" }"), "not a share of its value", "relative_sd");
     told(
@@ -164,6 +208,12 @@ fn mistakes_in_devices_are_told_with_their_place() {
         "`sd` must come to more than zero",
         "mybee.toml:3:34",
     );
+    told(
+        &params("wing_area = { value = 5e-5, sd = -1e-6 }"),
+        "`sd` must come to more than zero, not -1e-6",
+        "mybee.toml:3:34",
+    );
+    told(&params("wing_area = { value = 5e-5, sd = nan }"), "`sd` cannot be `nan`", "mybee.toml:3:34");
     told(
         &params("wing_area = { value = 5e-5, sd = 1e-6, relative_sd = 0.1 }"),
         "not both",
@@ -175,6 +225,19 @@ fn mistakes_in_devices_are_told_with_their_place() {
         "mybee.toml:3",
     );
     told(&params("wing_area = { value = 5e-5, note = \"x\" }"), "unknown key `note` of a value", "source");
+    // A sample of a device without errors.
+    let sample = "preset = \"jafferis2016\"\n[sample]\nmethod = \"random\"\nn = 5\nof = \"device\"\n";
+    fs::write(folder.path("grid.toml"), sample).unwrap();
+    folder
+        .ends(2, "check grid.toml")
+        .says("no parameter of the device has a standard error")
+        .says("grid.toml:5:6");
+}
+
+#[test]
+fn mistakes_in_correlations_are_told_with_their_place() {
+    let folder = folder();
+    let told = |text: &str, message: &str, place: &str| refused(&folder, text, message, place);
     let pair = |pair: &str, coefficient: &str| {
         let values =
             "wing_area = { value = 5e-5, sd = 1e-6 }\nhinge_stiffness = { value = 2e-6, sd = 1e-7 }\n";
@@ -188,16 +251,22 @@ fn mistakes_in_devices_are_told_with_their_place() {
     );
     told(&pair("[\"wing_area\", \"wing_area\"]", "0.1"), "names one parameter twice", "mybee.toml:6:11");
     told(&pair("[\"wing_area\", \"hinge_stiffness\"]", "1"), "must be between -1 and 1", "mybee.toml:7:15");
+    told(
+        &pair("[\"wing_area\", \"hinge_stiffness\"]", "1.5"),
+        "must be between -1 and 1, not 1.5",
+        "mybee.toml:7:15",
+    );
+    told(
+        &pair("[\"wing_area\", \"hinge_stiffness\"]", "nan"),
+        "`coefficient` cannot be `nan`",
+        "mybee.toml:7:15",
+    );
+    let twice = pair("[\"wing_area\", \"hinge_stiffness\"]", "0.5")
+        + "[[correlation]]\nbetween = [\"hinge_stiffness\", \"wing_area\"]\ncoefficient = 0.4\n";
+    told(&twice, "the correlation of these two parameters is given twice", "mybee.toml:9:11");
     let three = "piezo_thickness = { value = 1e-4, sd = 1e-6 }\n[[correlation]]\nbetween = [\"wing_area\", \"piezo_thickness\"]\n\
                  coefficient = 0.9\n[[correlation]]\nbetween = [\"hinge_stiffness\", \"piezo_thickness\"]\ncoefficient = -0.9\n";
     let text = pair("[\"wing_area\", \"hinge_stiffness\"]", "0.9")
         .replace("[[correlation]]", &format!("{three}[[correlation]]"));
     told(&text, "the correlations contradict each other", "mybee.toml");
-    // A sample of a device without errors.
-    let sample = "preset = \"jafferis2016\"\n[sample]\nmethod = \"random\"\nn = 5\nof = \"device\"\n";
-    fs::write(folder.path("grid.toml"), sample).unwrap();
-    folder
-        .ends(2, "check grid.toml")
-        .says("no parameter of the device has a standard error")
-        .says("grid.toml:5:6");
 }

@@ -238,7 +238,9 @@ fn commands_in_the_results_page_work() {
 fn commands_in_the_page_on_plots_work() {
     let folder = Folder::new();
     fs::create_dir(folder.path("examples")).unwrap();
-    fs::copy(root().join("examples/ozaki_large.toml"), folder.path("examples/ozaki_large.toml")).unwrap();
+    for grid in ["examples/ozaki_large.toml", "examples/jafferis_tolerance.toml"] {
+        fs::copy(root().join(grid), folder.path(grid)).unwrap();
+    }
     let page = document("docs/plots.md");
     let mut commands = 0;
     for block in blocks(&page, "sh") {
@@ -282,7 +284,9 @@ fn commands_in_the_table_of_the_readme_work() {
     let text = document("README.md");
     let folder = Folder::new();
     fs::create_dir(folder.path("examples")).unwrap();
-    fs::copy(root().join("examples/ozaki_large.toml"), folder.path("examples/ozaki_large.toml")).unwrap();
+    for name in ["ozaki_large.toml", "vehicle.toml"] {
+        fs::copy(root().join("examples").join(name), folder.path("examples").join(name)).unwrap();
+    }
     let table = text.split("## I want to").nth(1).unwrap().split("\n## ").next().unwrap();
     let commands = table.split('`').filter_map(|code| code.strip_prefix("flap "));
     let commands: Vec<&str> = commands.filter(|command| command.contains(' ')).collect();

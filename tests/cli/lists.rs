@@ -268,3 +268,12 @@ fn no_color_turns_colours_off() {
     assert!(!is_coloured(&stderr(&[("NO_COLOR", "1")])));
     assert!(!is_coloured(&stderr(&[])), "a file has none");
 }
+
+/// The values of a device or a grid file stand in place of a preset's.
+#[test]
+fn parameters_of_a_file_have_its_values() {
+    let folder = Folder::with_grid("preset = \"jafferis2016\"\n[params]\nwing_area = \"50 mm^2\"\n");
+    let ended = folder.ends(0, "params grid.toml");
+    ended.prints("grid.toml: begins with jafferis2016").prints("50 mm^2");
+    folder.refuses("params nothing.toml", "nothing.toml: there is no such file");
+}

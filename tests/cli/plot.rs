@@ -1,8 +1,10 @@
 //! Pictures and pages of results.
 
+mod drawn;
 mod mistakes;
 mod pages;
 mod pictures;
+mod samples;
 
 use std::fmt::Write as _;
 use std::fs;

@@ -137,6 +137,23 @@ fn an_interrupted_sweep_goes_on() {
     }
 }
 
+/// Rows with derivatives go on as others do.
+#[test]
+fn an_interrupted_sweep_of_derivatives_goes_on() {
+    let gradient = "\n[gradient]\nof = [\"lift_mean_mn\"]\nwith_respect_to = [\"hinge_stiffness\", \"drive_frequency\"]\n";
+    for ending in ["csv", "parquet"] {
+        let folder = Folder::with_grid(&(frequencies(1500) + gradient));
+        folder.ends(0, &format!("sweep grid.toml --out whole.{ending}"));
+        let out = format!("rows.{ending}");
+        let mut child = begin(&folder, &out);
+        send("INT", &child);
+        assert_eq!(wait(&mut child), Some(130), "{ending}");
+        let ended = folder.ends(0, &format!("resume {out}"));
+        assert!(!ended.stderr.contains("0 of 1500 points"), "{}", ended.stderr);
+        assert_same(&folder, ending);
+    }
+}
+
 #[test]
 fn a_full_disk_loses_nothing() {
     for (ending, blocks) in [("csv", 200), ("csv.zst", 20), ("parquet", 20)] {

@@ -25,7 +25,10 @@ const CRATES: &[(&str, &[&str])] = &[
             "lib",
         ],
     ),
-    ("flap-sweep", &["notation", "resonance", "plan", "table", "grid", "run", "study", "files", "lib"]),
+    (
+        "flap-sweep",
+        &["notation", "resonance", "plan", "table", "picture", "grid", "run", "study", "files", "lib"],
+    ),
     (
         "flap-cli",
         &[

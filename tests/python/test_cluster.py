@@ -15,6 +15,30 @@ distributed = pytest.importorskip("distributed")
 LONG = 'preset = "ozaki2018-large"\n[axes]\ndrive_voltage_pp = [60, 80]\ndrive_frequency = { from = 95, to = 120, n = 4000 }\n'
 
 
+#: Rows with derivatives: by derived parameters too, of a formula, and with points that have none.
+SLOPES = """\
+preset = "ozaki2018-large"
+
+[axes]
+drive_voltage_pp = [60, 100]
+lift_sign = ["corrected", "printed"]
+drive_frequency = { from = "95 Hz", to = "115 Hz", n = 5 }
+
+[derived]
+air_density = "preset.air_density * (drive_voltage_pp / preset.drive_voltage_pp)^0.1"
+
+[measure]
+lift_per_stroke = "lift_mean_mn / stroke_pp_deg"
+
+[gradient]
+of = ["lift_mean_mn", "stroke_lag_deg", "lift_per_stroke"]
+with_respect_to = ["hinge_stiffness", "hinge_damping", "drive_frequency", "drive_voltage_pp"]
+
+[output]
+columns = ["lift_mean_mn", "stroke_lag_deg", "lift_per_stroke"]
+"""
+
+
 @pytest.fixture(scope="module")
 def client():
     """Two worker processes on this machine."""
@@ -130,3 +154,39 @@ def test_a_batch_has_the_rows_of_one_machine(client, tmp_path, monkeypatch):
     assert rows["drive_frequency"].tolist() == [100, 105] * 2
     with pytest.raises(ValueError, match="columns differ in length"):
         flapwing.evaluate("ozaki2018-large", {"drive_frequency": [100.0], "wing_length": [0.03, 0.031]}, client=client)
+
+
+def test_derivatives_have_the_bytes_of_one_machine(client, flap, tmp_path):
+    grid = tmp_path / "slopes.toml"
+    grid.write_text(SLOPES, encoding="utf-8")
+    table = flapwing.sweep(grid, client=client, out=tmp_path / "cluster.csv")
+    flap("sweep", grid, "--out", tmp_path / "command.csv")
+    assert (tmp_path / "cluster.csv").read_bytes() == (tmp_path / "command.csv").read_bytes()
+    flapwing.sweep(grid, client=client, out=tmp_path / "cluster.parquet")
+    flapwing.sweep(grid, out=tmp_path / "local.parquet")
+    assert (tmp_path / "cluster.parquet").read_bytes() == (tmp_path / "local.parquet").read_bytes()
+    # The damping is zero in the preset: derivatives by a share of it are nan, with their reason.
+    assert table.gradient.shape == (20, 3, 4)
+    assert np.isfinite(table.gradient[:, :, [0, 2, 3]]).all() and np.isnan(table.gradient[:, :, 1]).all()
+    assert (table["gradient_gap"] == "zero").all()
+    np.testing.assert_array_equal(flapwing.read(tmp_path / "cluster.parquet").gradient, table.gradient)
+
+
+@pytest.mark.parametrize("axes", [{}, {"drive_voltage_pp": [60, 80]}])
+def test_derivatives_of_a_batch_are_those_of_one_machine(client, axes):
+    grid = {"preset": "ozaki2018-large", "axes": axes}
+    columns = {
+        "drive_frequency": np.linspace(96.0, 118.0, 40),
+        "hinge_stiffness": np.linspace(8e-5, 1e-4, 40),
+        "air_density": np.where(np.arange(40) % 13 == 7, -1.0, 1.2),
+    }
+    options = {"measures": ["lift_mean_mn", "stroke_pp_deg"], "gradient": ["hinge_stiffness", "drive_frequency"]}
+    far, near = (flapwing.evaluate(grid, columns, client=there, states=True, **options) for there in (client, None))
+    assert far.counts["invalid"] == 3 * len(axes.get("drive_voltage_pp", [0]))
+    assert far.meta == near.meta and far.units == near.units and far.columns == near.columns
+    assert far.gradient.shape == (len(near), 2, 2) and np.isfinite(far.gradient).sum() > 0.9 * far.gradient.size
+    np.testing.assert_array_equal(far.gradient, near.gradient)
+    again, here = (flapwing.evaluate(grid, columns, client=there, begin=near, **options) for there in (client, None))
+    np.testing.assert_array_equal(again.gradient, here.gradient)
+    with pytest.raises(ValueError, match="`lift_sign` is a choice"):
+        flapwing.evaluate(grid, columns, gradient=["lift_sign"], client=client)

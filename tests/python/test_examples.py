@@ -13,8 +13,20 @@ import numpy as np
 import pytest
 
 EXAMPLES = Path(__file__).parents[2] / "examples/python"
-SCRIPTS = ["dask_cluster", "fit_bimorph", "fit_cost", "fit_coverage", "fit_next", "pareto_pymoo", "sobol_indices", "xarray_map"]
-SCRIPTS += ["vehicle_torques", "wrench_map"]
+SCRIPTS = [
+    "dask_cluster",
+    "fit_bimorph",
+    "fit_cost",
+    "fit_coverage",
+    "fit_next",
+    "gradient_design",
+    "pareto_pymoo",
+    "sobol_indices",
+    "tolerance_linear",
+    "vehicle_torques",
+    "wrench_map",
+    "xarray_map",
+]
 ELSEWHERE = ["four_panels", "pictures"]  # in plot/test_page.py
 NOTEBOOK = "first_steps.ipynb"
 
@@ -384,6 +396,52 @@ def test_exact_derivatives_take_less_work_than_differences():
 def test_planned_readings_are_fewer_than_those_at_random():
     told = run("fit_next", "--trials", 5)
     assert int(re.search(r"in (\d) of 5 trials", told)[1]) >= 3
+
+
+def designs(printed):
+    """The printed designs: by search, its number of designs and right-hand sides (millions), measures and parameters."""
+    found = {}
+    for block in re.split(r"^(?=\S)", printed, flags=re.MULTILINE)[1:]:
+        name, count, work = re.match(r"(.+): (\d+) designs, ([\d.]+) million right-hand sides", block).groups()
+        cells = {name: float(value) for name, value in re.findall(r"^  (\w+) +(\S+)", block, re.MULTILINE)}
+        found[name] = (int(count), float(work), cells)
+    return found
+
+
+def test_derivatives_find_a_better_design_in_less_work():
+    example = load("gradient_design")
+    found = designs(run("gradient_design", "--starts", 1, "--generations", 20))
+    exact, evolved = found["SLSQP with derivatives"], found["differential evolution"]
+    assert exact[0] < 0.1 * evolved[0] and exact[1] < 0.3 * evolved[1]
+    assert exact[2]["efficiency_gf_per_w"] > evolved[2]["efficiency_gf_per_w"] > 15
+    for _, _, cells in found.values():
+        # The printed design is within its bounds and limits, and `run` says the same of it.
+        design = {name: cells[name] for name in example.VARIABLES}
+        for name, (lowest, highest) in example.VARIABLES.items():
+            assert lowest * 0.999 < design[name] / example.BASE[name] < highest * 1.001
+        for name, limit in example.LIMITS.items():
+            assert cells[name] < 1.001 * limit
+        assert cells["vehicle_lift_mgf"] > 0.999 * example.LIFT_MGF
+        row = flapwing.run(example.PRESET, **design)
+        assert row["efficiency_gf_per_w"] == pytest.approx(cells["efficiency_gf_per_w"], rel=0.01)
+    preset = flapwing.run(example.PRESET)
+    assert exact[2]["efficiency_gf_per_w"] > 1.15 * preset["efficiency_gf_per_w"]
+
+
+def test_linear_tolerances_part_from_samples_where_measures_bend():
+    printed = run("tolerance_linear", "--builds", 512)
+    ratios = {}
+    for block in printed.split("relative standard deviations for deviations of ")[1:]:
+        rows = re.findall(r"^ *(\d+) Hz +(\w+) +[\d.]+% +[\d.]+% +([\d.]+)( +they part)?$", block, re.MULTILINE)
+        assert len(rows) == 12
+        deviation = float(re.match(r"[\d.]+", block)[0])
+        for hertz, _, ratio, parts in rows:
+            assert bool(parts) == (abs(float(ratio) - 1) >= 0.1) or float(ratio) in (0.9, 1.1)
+            ratios.setdefault((deviation, int(hertz)), []).append(float(ratio))
+    for hertz in (95, 105):
+        assert all(0.94 < ratio < 1.06 for ratio in ratios[1, hertz])
+    assert all(0.85 < ratio < 1.05 for ratio in ratios[5, 95])
+    assert all(ratio < 0.85 for ratio in ratios[5, 120])
 
 
 def test_each_drive_makes_its_torque():

@@ -23,6 +23,11 @@ def test_data_have_units(tmp_path):
             "drive_voltage_pp_v": VOLTAGE,
             "stroke_pp [rad]": stroke,
         },
+        {
+            "Frequency (Hz)": data["drive_frequency"],
+            "Drive voltage pp (V)": VOLTAGE,
+            "Stroke pp (deg)": data["stroke_pp_deg"],
+        },
         pandas.DataFrame(
             {"drive_frequency": kilohertz, "drive_voltage_pp": VOLTAGE, "stroke_pp_deg": data["stroke_pp_deg"]}
         ),
@@ -47,6 +52,20 @@ def test_sigma_is_a_column_or_an_argument():
         flapwing.Readings({**data, "stroke_pp_deg_sigma": np.full(30, 1.5)}),
         flapwing.Readings(data, sigma={"stroke_pp_deg": "1.5 deg"}),
         flapwing.Readings(data, sigma=1.5),
+    ]
+    errors = {
+        flapwing.fit(PRESET, one, list(TRUE), starts=1, profile=False).estimates["drag_coefficient_max"].error
+        for one in given
+    }
+    assert max(errors) == pytest.approx(min(errors), rel=1e-6)
+
+
+def test_sigma_is_a_share_in_a_column_too():
+    data = readings(noise=0.0)
+    given = [
+        flapwing.Readings(data, sigma="3 %"),
+        flapwing.Readings({**data, "stroke_pp_deg_sigma": ["3 %"] * 30}),
+        flapwing.Readings({**data, "stroke_pp_deg_sigma (%)": np.full(30, 3.0)}),
     ]
     errors = {
         flapwing.fit(PRESET, one, list(TRUE), starts=1, profile=False).estimates["drag_coefficient_max"].error
@@ -84,7 +103,10 @@ def test_what_is_known_beforehand_counts():
         assert result.estimates[name].error <= 0.0201 * value
 
 
-@pytest.mark.parametrize("hold_out", [0.2, {"drive_frequency": (100, 115)}, "second", ["second"]])
+@pytest.mark.parametrize(
+    "hold_out",
+    [0.2, {"drive_frequency": (100, 115)}, {"drive_frequency": ("100 Hz", "0.115 kHz")}, "second", ["second"]],
+)
 def test_readings_can_be_held_out(hold_out):
     sets = [
         flapwing.Readings(readings(), name="first"),
@@ -127,7 +149,7 @@ def test_readings_without_a_settled_motion_are_told():
     assert [(one.set, one.measure, one.row, one.status) for one in result.unsettled] == [
         ("set 1", "stroke_pp_deg", 5, "invalid")
     ]
-    assert "1 readings do not count" in str(result) and result.goodness.freedom == 28
+    assert "1 reading does not count" in str(result) and result.goodness.freedom == 28
 
 
 def test_readings_can_be_pickled():

@@ -50,6 +50,58 @@ def changed(**columns):
             "set 1, standard error of `stroke_pp_deg`, row 3: it must be more than zero",
         ),
         ([flapwing.Readings(DATA, name="a"), flapwing.Readings(DATA, name="a")], "data sets share a name: a, a\n"),
+        (
+            {"drive_frequency (mm)": DATA["drive_frequency"], "stroke_pp_deg": DATA["stroke_pp_deg"]},
+            "set 1, column `drive_frequency (mm)`: `mm` is a length, but `drive_frequency (mm)` is in Hz\nuse Hz, kHz",
+        ),
+        (
+            {"drive_frequency": DATA["drive_frequency"], "stroke_pp_mm": DATA["stroke_pp_deg"]},
+            "set 1, column `stroke_pp_mm`: `mm` is a length, but `stroke_pp_mm` is in deg\nuse deg, rad, mrad",
+        ),
+        (
+            {"drive_frequency": DATA["drive_frequency"], "stroke_pp (%)": DATA["stroke_pp_deg"]},
+            "set 1, column `stroke_pp (%)`: per cent is no unit of `stroke_pp_deg`, which is in deg\n",
+        ),
+        (
+            changed(stroke_pp_deg=["60 %", "62 %", "61 %", "59 %"]),
+            "set 1, column `stroke_pp_deg`, row 1: `stroke_pp_deg` is in deg, and `60 %` is a share\nwrite readings in deg",
+        ),
+        (
+            changed(stroke_pp_deg=["60", "", "61", "59"]),
+            "set 1, column `stroke_pp_deg`, row 2: the cell is empty, and a reading needs a number\nremove the row",
+        ),
+        (
+            changed(stroke_pp_deg=["60", "n/a", "61", "59"]),
+            "set 1, column `stroke_pp_deg`, row 2: 'n/a' is no number\nwrite a number, or text with a unit; or remove",
+        ),
+        (
+            changed(drive_frequency=[90.0, np.nan, 110.0, 120.0]),
+            "set 1, column `drive_frequency`, row 2 is nan, and readings are finite numbers\nremove the row",
+        ),
+        (changed(stroke_pp_deg=[60, np.inf, 61, 59]), "set 1, column `stroke_pp_deg`, row 2 is inf, and readings are"),
+        (
+            {"drive_frequency": [90.0, 100.0], "stroke_pp_deg": [0.0, 0.0]},
+            "set 1: all 2 readings of `stroke_pp_deg` are 0, and tell nothing about parameters\nremove the column",
+        ),
+        (
+            changed(stroke_pp_deg_sigma=[1, -1, 1, 1]),
+            "set 1, standard error of `stroke_pp_deg`, row 2: it must be more than zero\nleave the column out",
+        ),
+        (
+            changed(stroke_pp_deg_sigma=["3 %", "1 deg", "3 %", "3 %"]),
+            "set 1, column `stroke_pp_deg_sigma`, row 1: `stroke_pp_deg` is in deg, and `3 %` is a share\n",
+        ),
+        (
+            changed(stroke_pp_deg_sigma=[1, np.nan, 1, 1]),
+            "set 1, column `stroke_pp_deg_sigma`, row 2 is nan, and readings are finite numbers\n",
+        ),
+        (
+            flapwing.Readings(DATA, sigma={"lift_mean_mn": 0.1}, name="Monday"),
+            "`sigma` of Monday names `lift_mean_mn`, of which there are no readings\nchoose among stroke_pp_deg",
+        ),
+        (flapwing.Readings(DATA, sigma=0), "`sigma` is 0 for stroke_pp_deg\nstandard errors are more than zero"),
+        (flapwing.Readings(DATA, drive_voltage="160 V"), "did you mean `drive_voltage_pp`?"),
+        (flapwing.Readings(DATA, drive_voltage_pp="160 mm"), "`mm` is a length, but `drive_voltage_pp` is in V"),
     ],
 )
 def test_data_that_are_refused(data, says):
@@ -86,6 +138,29 @@ def test_data_that_are_refused(data, says):
         ),
         ({"hinge_stiffness": ("1 mm", "2 mm")}, ValueError, "free['hinge_stiffness']: "),
         (
+            {"drag_coefficient_max": (3.0, 3.0)},
+            ValueError,
+            "the lower bound 3 is not less than the upper one 3\ngive a range, or set the parameter by a keyword: fit(",
+        ),
+        (
+            {"hinge_stiffness": flapwing.Free(low="9 uN*m/rad")},
+            ValueError,
+            "the lower bound 9e-06 N*m/rad is not less than the upper one 4.4916e-06 N*m/rad (by default)\ngive both",
+        ),
+        ({"hinge_stiffness": (np.nan, 2e-6)}, ValueError, "free['hinge_stiffness']: `hinge_stiffness` cannot be nan"),
+        (
+            {"hinge_stiffness": (-1e-6, 2e-6)},
+            ValueError,
+            "free['hinge_stiffness']: `hinge_stiffness` must be more than",
+        ),
+        (
+            {"drag_coefficient_max": flapwing.Free(2.0, 3.0, prior=(4.0, "3 %"))},
+            ValueError,
+            "free['drag_coefficient_max']: the prior 4 is outside of the bounds 2 to 3\ngive bounds that hold it",
+        ),
+        (["hinge_stiffness", "hinge_stiffness"], ValueError, "`free` names `hinge_stiffness` twice\nremove one"),
+        ([3], TypeError, "`free` has an entry that is int\nit must have names"),
+        (
             {"drag_coefficient_max": 3.0},
             TypeError,
             "free['drag_coefficient_max'] is float\nit must be a pair of bounds",
@@ -116,9 +191,21 @@ def test_free_parameters_that_are_refused(free, error, says):
         ({"seed": -1}, ValueError, "`seed` is -1\n"),
         ({"sigma": -1.0}, ValueError, "`sigma` is -1.0 for stroke_pp_deg\nstandard errors are more than zero"),
         ({"sigma": "3 mm"}, ValueError, "`sigma`"),
+        ({"sigma": 0.0}, ValueError, "`sigma` is 0.0 for stroke_pp_deg\nstandard errors are more than zero and finite"),
+        ({"sigma": np.nan}, ValueError, "`sigma` is nan for stroke_pp_deg\nstandard errors are more than zero"),
+        ({"sigma": [1, 1, 1, 1]}, TypeError, "errors of single readings are a column stroke_pp_deg_sigma"),
+        (
+            {"sigma": {"stroke": 1.0}},
+            ValueError,
+            "`sigma` names `stroke`, of which there are no readings\nchoose among stroke_pp_deg",
+        ),
         ({"sigma": "x %"}, ValueError, "`sigma` is 'x %'\nit must be"),
         ({"hold_out": 1.5}, ValueError, "`hold_out` is 1.5\nit must be a share"),
         ({"hold_out": "nowhere"}, ValueError, "`hold_out` names 'nowhere', and the data sets are set 1\n"),
+        ({"hold_out": {"drive_frequency": ("1 mm", "2 mm")}}, ValueError, "hold_out['drive_frequency']: `mm` is a length"),
+        ({"hold_out": {"drive_frequency": (120, 110)}}, ValueError, "hold_out['drive_frequency']: 120 is more than 110\n"),
+        ({"hold_out": {"drive_frequency": 100}}, TypeError, "hold_out['drive_frequency'] is int\nit must be a range"),
+        ({"hold_out": {"drive_shape": (1, 2)}}, ValueError, "`hold_out` names `drive_shape`, which is no parameter with"),
         ({"hold_out": {"drive_frequency": (1, 2)}}, ValueError, "`hold_out` holds none of the 4 readings out\n"),
         (
             {"hold_out": {"drive_voltage_pp": (1, 2)}},
@@ -178,8 +265,21 @@ def test_readings_that_are_refused(tmp_path):
     path.write_text("", encoding="utf-8")
     with pytest.raises(ValueError, match="rows.csv is empty\nits first line has the names"):
         flapwing.Readings(path)
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(
+        FileNotFoundError, match="there is no file .*none.csv\ngive the path of a CSV file, a dictionary"
+    ):
         flapwing.Readings(tmp_path / "none.csv")
+    path.write_text("frequency_hz;stroke_pp_deg\n100;60,5\n110;61,5\n", encoding="utf-8")
+    with pytest.raises(
+        ValueError, match="has semicolons between its columns\nsave it with commas and decimal points, or"
+    ):
+        flapwing.Readings(path)
+    path.write_text("frequency_hz,stroke_pp_deg,stroke_pp_deg\n100,60,61\n", encoding="utf-8")
+    with pytest.raises(ValueError, match="has two columns called `stroke_pp_deg`\nrename or remove one"):
+        flapwing.Readings(path)
+    path.write_bytes("frequency_hz,stroke_pp (°)\n100,60\n".encode("latin-1"))
+    with pytest.raises(ValueError, match="is no text in UTF-8\nsave it as CSV in UTF-8"):
+        flapwing.Readings(path)
 
 
 def test_what_results_refuse():
@@ -191,7 +291,8 @@ def test_what_results_refuse():
     found = flapwing.fit(PRESET, data, ["drag_coefficient_max"], sigma="3 %", starts=1, profile=False)
     for call, says in [
         (lambda: found.predict({"drive_frequency": [100]}, "stroke_pp_deg"), "points lacks `drive_voltage_pp`, of which the data have 2 values\nadd a column"),
-        (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "stroke_pq_deg"), "did you mean `stroke_pp_deg`"),
+        (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "stroke_pq_deg"), "there is no measure `stroke_pq_deg`, did you mean `stroke_pp_deg`?\nflapwing.measures('bimorph') lists"),
+        (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "power"), "there is no measure `power`, did you mean `power_mean_mw`?"),
         (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120, "drag_coefficient_max": 3}, "stroke_pp_deg"), "points has `drag_coefficient_max`, which was fitted\nleave it out"),
         (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "stroke_pp_deg", data_set="x"), "there is no data set 'x'\nchoose among set 1"),
         (lambda: found.predict({}, "stroke_pp_deg"), "points has no points\n"),
@@ -210,3 +311,21 @@ def test_scipy_is_needed_and_told(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "scipy.optimize", None)
     with pytest.raises(ImportError, match="flapwing.fit needs SciPy: pip install scipy"):
         flapwing.fit(PRESET, DATA, ["drag_coefficient_max"])
+
+
+def test_bounds_that_leave_out_the_design_are_searched_from_their_middle():
+    free = {"hinge_stiffness": ("3 uN*m/rad", "12 uN*m/rad")}
+    found = flapwing.fit(PRESET, DATA, free, sigma="3 %", starts=1, profile=False)
+    assert 3e-6 <= found.values["hinge_stiffness"] <= 12e-6
+    assert found._model.space.coordinates[0].nominal == pytest.approx(6e-6)
+
+
+def test_one_operating_point_fixes_nothing_and_is_told():
+    """Readings of one point, many times: the interval ends with the range, and the report says so."""
+    data = {"drive_frequency": [150.0] * 4, "stroke_pp_deg": [30.0, 31.0, 29.0, 30.5]}
+    for profile in (False, True):
+        found = flapwing.fit(PRESET, data, ["pressure_max"], sigma="50 %", starts=1, profile=profile)
+        one = found.estimates["pressure_max"]
+        assert not one.is_known and (one.open_below or one.open_above)
+        assert "open" in str(found) and "not fixed by the data" in str(found)
+        assert 0.151 / 3.0001 < one.low < one.high < 0.151 * 3.0001

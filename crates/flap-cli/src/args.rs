@@ -123,8 +123,8 @@ Exit codes:
                   flap params jafferis2016 --format csv > parameters.csv"
 )]
 pub(crate) struct ParamsArgs {
-    /// A model, or a preset to list with its values
-    #[arg(value_name = "MODEL|PRESET")]
+    /// A model; or a preset, a device or a grid file, to list with its values
+    #[arg(value_name = "MODEL|PRESET|FILE")]
     pub(crate) what: String,
 
     /// Print whole meanings, not their first sentences, and the symbols and allowed values of parameters

@@ -39,6 +39,7 @@ fn with_candidates(arg: Arg) -> Arg {
     match value.as_deref().unwrap_or_default() {
         "PRESET" => arg.add(ArgValueCandidates::new(presets)),
         "MODEL|PRESET" => arg.add(ArgValueCandidates::new(models_and_presets)),
+        "MODEL|PRESET|FILE" => arg.add(ArgValueCompleter::new(models_presets_and_files)),
         "PRESET|FILE" => arg.add(ArgValueCompleter::new(presets_and_files)),
         "PARAMETER" => arg.add(ArgValueCandidates::new(parameters)),
         "NAME=VALUE" => arg.add(ArgValueCompleter::new(assignments)),
@@ -63,6 +64,12 @@ fn presets() -> Vec<CompletionCandidate> {
 fn models_and_presets() -> Vec<CompletionCandidate> {
     let models = models::all().iter().map(|model| candidate(model.name(), model.doc()));
     models.chain(presets()).collect()
+}
+
+fn models_presets_and_files(word: &OsStr) -> Vec<CompletionCandidate> {
+    let mut found = begun(word, models_and_presets());
+    found.extend(PathCompleter::any().complete(word));
+    found
 }
 
 fn presets_and_files(word: &OsStr) -> Vec<CompletionCandidate> {

@@ -1,6 +1,6 @@
 //! Labels of columns, for pictures.
 
-use flap_sweep::table::labels::{self, Label, Scale};
+use flap_sweep::table::labels::{self, Direction, Label, Scale};
 use flap_sweep::table::layout;
 use pyo3::prelude::*;
 
@@ -40,4 +40,15 @@ pub(crate) fn unit_of(name: &str) -> &'static str {
 #[pyo3(signature = (name, /))]
 pub(crate) fn split_unit(name: &str) -> (&str, &'static str) {
     layout::split_unit(name)
+}
+
+/// The better direction of a column: 1 for a benefit such as lift, -1 for a cost such as power, 0 for neither.
+#[pyfunction]
+#[pyo3(signature = (name, /))]
+pub(crate) fn better(name: &str) -> i8 {
+    match labels::of(name).better {
+        Some(Direction::Larger) => 1,
+        Some(Direction::Smaller) => -1,
+        None => 0,
+    }
 }

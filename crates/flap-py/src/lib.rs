@@ -21,6 +21,7 @@ mod labels;
 mod listing;
 mod motion;
 mod parameters;
+mod picture;
 mod point;
 mod quantity;
 mod read;
@@ -46,8 +47,9 @@ mod _flapwing {
         film::track,
         grid::Grid,
         grid_text::text_of,
-        labels::{printed, scale, split_unit, unit_of, words},
-        listing::{measures, params},
+        labels::{better, printed, scale, split_unit, unit_of, words},
+        listing::{measures, params, uncertainty},
+        picture::{bars, colours, correlations, is_signed, line_shades, usual_measure, ways},
         quantity::{parameter, quantity, value},
         read::read,
         resonance::resonance,

@@ -5,11 +5,17 @@ use flap_core::simulate::{self, Simulator};
 use flap_sweep::notation::text;
 use pyo3::prelude::*;
 
-use crate::{grid, parameters};
+use crate::grid;
 
 /// Name, value, unit, symbol, meaning, allowed, options.
 type Listed =
     (&'static str, Option<Value>, &'static str, &'static str, &'static str, String, Vec<&'static str>);
+
+/// A parameter and its standard error in SI units.
+type StandardError = (&'static str, f64);
+
+/// Two parameters and the coefficient of their correlation.
+type Correlated = (&'static str, &'static str, f64);
 
 /// A number, or the name of an option.
 #[derive(IntoPyObject)]
@@ -49,26 +55,30 @@ pub(crate) fn measures(design: &Bound<'_, PyAny>) -> PyResult<Vec<(String, &'sta
     Ok(model.columns().iter().map(|column| (column.name.clone(), column.unit, column.doc.clone())).collect())
 }
 
+/// The standard errors of the parameters of a design in SI units, by name, and the correlations: two names and a coefficient.
+#[pyfunction]
+#[pyo3(signature = (design, /))]
+pub(crate) fn uncertainty(design: &Bound<'_, PyAny>) -> PyResult<(Vec<StandardError>, Vec<Correlated>)> {
+    let plan = grid::plan(design)?;
+    let name = |index: usize| plan.parameters()[index].name;
+    let known = plan.uncertainty();
+    let errors = known.errors().iter().map(|(index, error)| (name(*index), *error)).collect();
+    let correlations =
+        known.correlations().iter().map(|one| (name(one.between[0]), name(one.between[1]), one.coefficient));
+    Ok((errors, correlations.collect()))
+}
+
 /// The model of a design, or the model itself.
 pub(crate) fn model(design: &Bound<'_, PyAny>) -> PyResult<&'static dyn Simulator> {
     Ok(find(design)?.0)
 }
 
-/// The model of a design with its values, or a model with none. Of a grid, the values of all points; parameters that
-/// differ from point to point have none.
+/// The model of a preset or another design with its values, or a model with none.
 fn find(design: &Bound<'_, PyAny>) -> PyResult<(&'static dyn Simulator, Vec<f64>)> {
     let model = design.extract::<String>().ok().and_then(|name| simulate::by_name(&name));
     if let Some(model) = model {
         return Ok((model, vec![f64::NAN; model.parameters().len()]));
     }
-    if grid::name(design)?.is_some() {
-        let (model, preset) = parameters::find_preset(design)?;
-        return Ok((model, (preset.values)()));
-    }
     let plan = grid::plan(design)?;
-    let mut values = plan.point(0).values;
-    for index in plan.differing() {
-        values[index] = f64::NAN;
-    }
-    Ok((plan.simulator(), values))
+    Ok((plan.simulator(), plan.point(0).values))
 }

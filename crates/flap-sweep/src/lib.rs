@@ -8,6 +8,7 @@
 //! - [`resonance`]: rows of designs that are each run at their own resonance
 //! - [`plan`]: the design space: axes, samples, derived parameters, conditions, selections
 //! - [`table`]: the columns of rows, rows as text, formats of files
+//! - [`picture`]: the choices that pictures of the command and of Python share
 //! - [`grid`]: grid files into plans, with diagnostics
 //! - [`run`]: the parallel runner, which hands rows to sinks in point order
 //! - [`study`]: response curves, deviations of parameters, surveys of a plan
@@ -16,6 +17,7 @@
 pub mod files;
 pub mod grid;
 pub mod notation;
+pub mod picture;
 pub mod plan;
 pub mod resonance;
 pub mod run;

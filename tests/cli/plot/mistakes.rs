@@ -72,17 +72,36 @@ fn mistakes_are_told() {
         ),
         (
             &["sweep.csv", "--kind", "response", "--color", "cycles"],
-            &["--color needs --kind map or pareto, and this picture is a response"],
+            &["--color needs --kind map, scatter or pareto, and this picture is a response"],
         ),
         (&["sweep.csv", "--y-aim", "min"], &["--x-aim and --y-aim need --kind pareto"]),
         (&["sweep.csv", "--kind", "trajectory"], &["needs a column time_s"]),
+        (
+            &["sweep.csv", "--kind", "histogram", "--y", "lift_mean_mn"],
+            &["--y needs another kind", "--x names the measure of a histogram or a tornado"],
+        ),
+        (
+            &[
+                "sweep.csv",
+                "--kind",
+                "tornado",
+                "--where",
+                "drive_voltage_pp=60",
+                "--where",
+                "drive_frequency=90",
+            ],
+            &["no parameter has several values"],
+        ),
+        (&["sweep.csv", "--kind", "tornado", "--html", "a.html"], &["a page has no tornado"]),
         (&["sweep.csv", "--kind", "hysteresis"], &["needs a column `branch`"]),
         (&["sweep.csv", "--out", "picture.pdf"], &["pictures end in .svg or .png"]),
         (&["sweep.csv", "--out", "picture.html"], &["--html picture.html writes a page"]),
         (&["sweep.csv", "--size", "10x10"], &["expected WxH"]),
         (
             &["sweep.csv", "--kind", "pie"],
-            &["[possible values: response, map, pareto, trajectory, hysteresis]"],
+            &[
+                "[possible values: response, map, scatter, histogram, tornado, pareto, trajectory, hysteresis]",
+            ],
         ),
         (&["empty.csv"], &["empty.csv has no columns"]),
         (&["bare.csv"], &["bare.csv has no rows"]),

@@ -3,52 +3,9 @@
 use std::fmt::Write as _;
 use std::fs;
 
+use super::drawn::drawn;
 use super::{HEADER, count, folder, refused};
 use crate::support::{Folder, frequencies};
-
-/// A picture, and the messages about it.
-struct Drawn {
-    svg: String,
-    said: String,
-}
-
-fn drawn(folder: &Folder, arguments: &str) -> Drawn {
-    let ended = folder.flap(&format!("plot {arguments} --force --out out.svg"));
-    assert_eq!((ended.code, ended.stdout.as_str()), (0, ""), "{arguments}\n{}", ended.stderr);
-    Drawn { svg: folder.read("out.svg"), said: ended.stderr }
-}
-
-impl Drawn {
-    /// Texts of the SVG.
-    fn texts(&self) -> Vec<String> {
-        let parts = self.svg.split("<text").skip(1);
-        parts.map(|part| part.split_once('>').unwrap().1.split_once('<').unwrap().0.to_owned()).collect()
-    }
-
-    /// Fails the test unless these are among the texts.
-    #[track_caller]
-    fn has(&self, wanted: &[&str]) -> &Drawn {
-        let texts = self.texts();
-        for text in wanted {
-            assert!(texts.iter().any(|found| found == text), "{text} is not among {texts:?}");
-        }
-        self
-    }
-
-    /// Fails the test unless this was said.
-    #[track_caller]
-    fn says(&self, text: &str) -> &Drawn {
-        assert!(self.said.contains(text), "{text} is not in {}", self.said);
-        self
-    }
-
-    /// Fails the test unless `part` stands in the SVG so many times.
-    #[track_caller]
-    fn counts(&self, part: &str, times: usize) -> &Drawn {
-        assert_eq!(count(&self.svg, part), times, "{part} in {}", self.svg);
-        self
-    }
-}
 
 #[test]
 fn a_family_of_responses() {
@@ -113,16 +70,20 @@ fn a_front_of_two_measures() {
     let folder = folder();
     drawn(&folder, "sweep.csv --kind pareto")
         .says("pareto in out.svg")
-        .has(&["Lift, mean (mN)", "Power, mean (mW)", "designs (10)", "not dominated (3)"])
-        .has(&["better: x larger, y smaller · 2 of 12 designs without values"])
-        // The points, those of the front once more, and the sign in the legend.
+        // The cost across, the benefit up.
+        .has(&["Power, mean (mW), less is better", "Lift, mean (mN), more is better"])
+        .has(&["designs", "front (3 of 10", "2 of 12 designs without values"])
+        // The points, a ring around those of the front, and the sign in the legend.
         .counts("<circle", 10 + 3 + 1);
-    drawn(&folder, "sweep.csv --kind pareto --x-aim min --y-aim min")
-        .has(&["not dominated (1)", "better: x smaller, y smaller · 2 of 12 designs without values"]);
+    drawn(&folder, "sweep.csv --kind pareto --x-aim min --y-aim min").has(&[
+        "front (1 of 10",
+        "Lift, mean (mN), less is better",
+        "2 of 12 designs without values",
+    ]);
     drawn(&folder, "sweep.csv --x lift_mean_mn --y stroke_amplitude_deg --color drive_frequency").has(&[
         "Drive frequency (Hz)",
-        "Lift, mean (mN)",
-        "Stroke, amplitude (°)",
+        "Lift, mean (mN), more is better",
+        "Stroke, amplitude (°), more is better",
     ]);
 }
 
@@ -131,21 +92,23 @@ fn a_hysteresis_loop() {
     let folder = folder();
     let picture = drawn(&folder, "response.csv");
     picture.says("hysteresis in out.svg").has(&[
-        "rising",
-        "falling",
+        "up",
+        "down",
         "unstable",
         "Drive frequency (Hz)",
         "Stroke, amplitude (°)",
     ]);
-    picture.counts("<path", 3);
+    picture.has(&["shaded: bistable, 120 to 120 Hz"]);
+    // A line for each branch, none across its jump; an arrow and its head for each jump.
+    picture.counts("<path", 3 + 2 * 2);
     let dashed = picture
         .svg
         .split("<path")
         .skip(1)
         .filter(|path| path.split('>').next().unwrap().contains("dasharray"));
-    assert_eq!(dashed.count(), 1);
+    assert_eq!(dashed.count(), 1 + 2, "the unstable branch and two jumps");
     drawn(&folder, "response.csv --where branch=up --y lift_mean_mn")
-        .has(&["rising", "Lift, mean (mN)", "Branch up"])
+        .has(&["up", "Lift, mean (mN)", "Branch up"])
         .counts("<path", 1);
 }
 
@@ -216,7 +179,7 @@ fn pictures_do_not_depend_on_the_format_of_results() {
     }
     let titled = |name: &str| drawn(&folder, &format!("{name} --title same"));
     let first = titled("rows.csv");
-    first.has(&["Drive frequency (Hz)", "Stroke, amplitude (°)", "90", "100", "same"]);
+    first.has(&["Drive frequency (Hz)", "Stroke, peak to peak (°)", "90", "100", "same"]);
     // The library counts its clips.
     assert_eq!(first.svg, titled("rows.csv.zst").svg);
     assert_eq!(first.svg, titled("rows.parquet").svg);

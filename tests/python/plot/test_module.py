@@ -29,7 +29,7 @@ def test_without_matplotlib_the_error_says_what_to_install():
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
-@pytest.mark.parametrize("name", ["", "._front", "._heatmap", "._labels", "._pareto", "._response", "._trajectory", "._wrench"])
+@pytest.mark.parametrize("name", ["", "._correlations", "._front", "._heatmap", "._histogram", "._labels", "._pareto", "._response", "._scatter", "._trajectory", "._wrench"])
 def test_examples_in_docstrings(name):
     module = importlib.import_module(f"flapwing.plot{name}")
     result = doctest.testmod(module)
@@ -42,6 +42,6 @@ def test_everything_has_a_docstring():
         assert text and "%(" not in text, "a paragraph is missing"
 
 
-@pytest.mark.parametrize("function", [plot.heatmap, plot.hysteresis, plot.pareto, plot.response])
+@pytest.mark.parametrize("function", [plot.heatmap, plot.histogram, plot.hysteresis, plot.pareto, plot.response, plot.scatter])
 def test_help_explains_slices(function):
     assert "\n    where, **slices\n        Columns and the value that rows must have," in function.__doc__

@@ -27,7 +27,7 @@ pub(crate) struct PlotArgs {
     #[arg(short, long, value_enum)]
     pub(crate) kind: Option<PictureKind>,
 
-    /// Column of the horizontal axis
+    /// Column of the horizontal axis; the measure of a histogram or a tornado
     #[arg(short, long, value_name = "COLUMN")]
     pub(crate) x: Option<String>,
 
@@ -39,7 +39,7 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_name = "COLUMN")]
     pub(crate) by: Option<String>,
 
-    /// Column shown as the colour of the cells of a map or of the points of a Pareto picture
+    /// Column shown as the colour of the cells of a map, or of the points of a scatter or a Pareto picture
     #[arg(long, value_name = "COLUMN")]
     pub(crate) color: Option<String>,
 
@@ -96,6 +96,12 @@ pub(crate) enum PictureKind {
     Response,
     /// A measure as the colour of cells over two parameters
     Map,
+    /// Two measures of every design as points, in the colours of a third
+    Scatter,
+    /// The number of designs over a measure, with the percentiles 5, 50 and 95
+    Histogram,
+    /// The rank correlation (Spearman) of each parameter that varies with a measure, as bars
+    Tornado,
     /// Two measures of every design, and the Pareto front: the designs that no other design beats in both
     Pareto,
     /// Stroke and pitch over time, and their phase portrait: rates over angles
@@ -119,15 +125,21 @@ pub(crate) struct Size {
 }
 
 const PLOT_HELP: &str = "\
-The default of --kind is `hysteresis` for results of `flap respond`, `trajectory` for a motion, `response` for a sweep of \
-one parameter or of the drive frequency and others, `map` for other sweeps of two or more parameters, `pareto` for a \
-random sample.
+The default of --kind is `hysteresis` for results of `flap respond`, `trajectory` for a motion, `scatter` for a sample, \
+`response` for a sweep of one parameter or of the drive frequency and others, `map` for other sweeps of two or more \
+parameters. With measures as --x and --y it is `pareto`, or `scatter` for a sample and for a sweep of one parameter.
+
+Without names of columns, a scatter or a Pareto picture shows the mean lift over the mean power, a scatter in the colours \
+of the stroke from peak to peak; a histogram or a tornado shows the mean lift. Another measure of the file takes the place \
+of one that is missing. An axis that is crossed with a sample is fixed at its middle value.
 
 Examples:
   flap plot sweep.csv
   flap plot sweep.csv --y lift_mean_mn --by hinge_stiffness --where drive_voltage_pp=100 --out lift.svg
   flap plot sweep.csv --kind map --color efficiency_gf_per_w --out map.png
   flap plot sweep.csv --kind pareto --x lift_mean_mn --y power_mean_mw --color drive_frequency
+  flap plot sample.csv --kind histogram --x lift_mean_mn --out lift.png
+  flap plot sample.csv --kind tornado --x efficiency_gf_per_w
   flap plot loop.csv --y stroke_pp_deg --out loop.png --size 700x500
   flap plot sweep.parquet --html sweep.html";
 

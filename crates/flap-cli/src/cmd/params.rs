@@ -1,6 +1,7 @@
 //! `flap params`: the parameters of a model, and the columns of its rows.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
 use flap_core::parameter::{Kind, Parameter, Preset};
 use flap_core::simulate::Simulator;
@@ -9,7 +10,7 @@ use flap_sweep::notation::units::prefixed;
 use flap_sweep::resonance;
 use flap_sweep::table::layout::fixed_columns;
 
-use super::listed;
+use super::{listed, point};
 use crate::args::{Listing, ParamsArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
@@ -17,11 +18,11 @@ use crate::models;
 use crate::table::Table;
 
 pub(crate) fn run(args: &ParamsArgs) -> Result<Exit, Failure> {
-    let (model, preset) = of_name(&args.what)?;
-    let entries: Vec<Entry> = parameters(model, preset).into_iter().chain(columns(model)).collect();
+    let values = Values::of(&args.what)?;
+    let entries: Vec<Entry> = parameters(&values).into_iter().chain(columns(values.model)).collect();
     let rows = || entries.iter().map(Entry::row).collect::<Vec<_>>();
     let page = match args.format {
-        Listing::Table => head(model, preset) + &listing(&entries, args.long),
+        Listing::Table => head(&values.lines) + &listing(&entries, args.long),
         Listing::Csv => listed::csv(&NAMES.map(str::to_owned), &rows())?,
         Listing::Json => listed::objects(&NAMES.map(str::to_owned), &rows())?,
     };
@@ -40,15 +41,52 @@ pub(super) fn of_name(name: &str) -> Result<(&'static dyn Simulator, Option<&'st
     })
 }
 
+/// A model with the values of its parameters, if a preset or a device has some.
+struct Values {
+    model: &'static dyn Simulator,
+    /// The first lines of the page.
+    lines: [String; 2],
+    /// In SI units, NaN for a parameter that is not set; none of a model.
+    numbers: Option<Vec<f64>>,
+    /// Indices of parameters with their standard errors.
+    errors: Vec<(usize, f64)>,
+}
+
+impl Values {
+    /// Of a model, a preset, a device or a grid file: of the first point of that.
+    fn of(what: &str) -> Result<Values, Failure> {
+        let is_named = models::preset(what).is_some() || models::by_name(what).is_some();
+        let path = Path::new(what);
+        if !is_named && (path.exists() || path.extension().is_some()) {
+            let plan = point::plan(what)?;
+            let model = plan.simulator();
+            let lines = [format!("{what}: begins with {}", plan.preset()), of_model(model)];
+            let errors = plan.uncertainty().errors().to_vec();
+            return Ok(Values { model, lines, numbers: Some(plan.point(0).values), errors });
+        }
+        let (model, preset) = of_name(what)?;
+        let lines = if let Some(preset) = preset {
+            [format!("{}: {}", preset.name, preset.doc), of_model(model)]
+        } else {
+            let presets: Vec<&str> = model.presets().iter().map(|preset| preset.name).collect();
+            [format!("{}: {}", model.name(), model.doc()), format!("presets: {}", presets.join(", "))]
+        };
+        Ok(Values { model, lines, numbers: preset.map(|preset| (preset.values)()), errors: Vec::new() })
+    }
+
+    /// The standard error of a parameter.
+    fn error(&self, parameter: usize) -> Option<f64> {
+        self.errors.iter().find(|(index, _)| *index == parameter).map(|(_, error)| *error)
+    }
+}
+
+fn of_model(model: &dyn Simulator) -> String {
+    format!("model {}: {}", model.name(), model.doc())
+}
+
 /// The first lines.
-fn head(model: &dyn Simulator, preset: Option<&Preset>) -> String {
-    let lines = if let Some(preset) = preset {
-        [format!("{}: {}", preset.name, preset.doc), format!("model {}: {}", model.name(), model.doc())]
-    } else {
-        let presets: Vec<&str> = model.presets().iter().map(|preset| preset.name).collect();
-        [format!("{}: {}", model.name(), model.doc()), format!("presets: {}", presets.join(", "))]
-    };
-    lines.map(|line| wrapped(&line, 0) + "\n").concat() + "\n"
+fn head(lines: &[String; 2]) -> String {
+    lines.iter().map(|line| wrapped(line, 0) + "\n").collect::<String>() + "\n"
 }
 
 /// A parameter, or a column of rows.
@@ -58,9 +96,9 @@ struct Entry {
     /// The title above it and its like.
     group: &'static str,
     name: String,
-    /// The value in the preset, in SI units; empty without one.
+    /// The value in the preset or device, in SI units; empty without one.
     value: String,
-    /// The same with a prefix and the unit; or the unit, without a preset.
+    /// The same with a prefix, the unit and the standard error; or the unit, without a preset.
     shown: String,
     unit: &'static str,
     symbol: &'static str,
@@ -80,10 +118,10 @@ impl Entry {
     }
 }
 
-fn parameters(model: &dyn Simulator, preset: Option<&Preset>) -> Vec<Entry> {
-    let values = preset.map(|preset| (preset.values)());
+fn parameters(of: &Values) -> Vec<Entry> {
     let entry = |(place, parameter): (usize, &Parameter)| {
-        let value = values.as_ref().map(|values| values[place]);
+        let value = of.numbers.as_ref().map(|numbers| numbers[place]);
+        let error = of.error(place).map(|error| shown(parameter, error));
         let given = value.filter(|value| !value.is_nan());
         Entry {
             kind: "parameter",
@@ -91,7 +129,10 @@ fn parameters(model: &dyn Simulator, preset: Option<&Preset>) -> Vec<Entry> {
             name: parameter.name.to_owned(),
             value: given.map_or_else(String::new, |value| text::value(parameter, value)),
             shown: match (value, given) {
-                (_, Some(value)) => shown(parameter, value),
+                (_, Some(value)) => match &error {
+                    Some(error) => format!("{} ± {error}", shown(parameter, value)),
+                    None => shown(parameter, value),
+                },
                 (Some(_), None) => "-".to_owned(),
                 (None, None) => parameter.unit.to_owned(),
             },
@@ -102,7 +143,7 @@ fn parameters(model: &dyn Simulator, preset: Option<&Preset>) -> Vec<Entry> {
             more: more(parameter),
         }
     };
-    model.parameters().iter().enumerate().map(entry).collect()
+    of.model.parameters().iter().enumerate().map(entry).collect()
 }
 
 /// A value with a prefix and its unit, or the name of an option.

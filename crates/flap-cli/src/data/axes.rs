@@ -1,6 +1,8 @@
 //! The axes of a sweep: the parameters that its results vary.
 
-use super::columns::Table;
+use flap_sweep::picture::sample::rank_correlation;
+
+use super::columns::{Cells, Table};
 use super::levels::{Levels, Values};
 
 /// The parameters that a file varies.
@@ -9,30 +11,72 @@ pub(crate) struct Axes {
     pub(crate) columns: Vec<usize>,
     /// True for a sample: most of its values are different, so that they form no grid.
     pub(crate) sampled: bool,
+    /// Those of `columns` that stand for a sample.
+    #[cfg(feature = "plots")]
+    pub(crate) sample: Vec<usize>,
 }
+
+/// A column with more than one value.
+type Varied = (usize, Levels);
 
 impl Axes {
     /// The axes among the columns from the second up to `end`.
     pub(crate) fn of(table: &Table, end: usize) -> Axes {
         let rows: Vec<usize> = (0..table.rows).collect();
-        let mut kept: Vec<(usize, Levels)> = Vec::new();
+        let (mut kept, mut others): (Vec<Varied>, Vec<Varied>) = (Vec::new(), Vec::new());
         for column in 1..end {
             let levels = Levels::of(table, column, &rows);
-            if levels.len() > 1 && !kept.iter().any(|(_, earlier)| levels.follow(earlier)) {
-                kept.push((column, levels));
+            if levels.len() < 2 {
+                continue;
             }
+            let follows = kept.iter().any(|(_, earlier)| levels.follow(earlier));
+            if follows { &mut others } else { &mut kept }.push((column, levels));
         }
-        let full = |levels: &Levels| levels.len() * 2 > table.rows && table.rows > 3;
-        // In a sample every column tells the rows apart, so that all others follow from the first.
-        let others = (1..end).any(|column| {
-            kept.iter().all(|(other, _)| *other != column) && Levels::of(table, column, &rows).len() > 1
-        });
-        let sampled = match &kept[..] {
-            [(_, only)] => others && full(only) && !is_even(only),
-            several => several.iter().any(|(_, levels)| full(levels)),
-        };
-        Axes { columns: kept.into_iter().map(|(column, _)| column).collect(), sampled }
+        let sample = sample(table, &kept, &others);
+        // A sample of one parameter alone is a curve over it.
+        let sampled = !sample.is_empty() && (kept.len() > 1 || !others.is_empty());
+        Axes {
+            columns: kept.into_iter().map(|(column, _)| column).collect(),
+            sampled,
+            #[cfg(feature = "plots")]
+            sample: if sampled { sample } else { Vec::new() },
+        }
     }
+}
+
+/// The kept columns that stand for a sample: those that the sidecar names, else those whose values look like one.
+fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
+    let full = |levels: &Levels| levels.len() * 2 > table.rows && table.rows > 3;
+    let looks_sampled = |(column, levels): &&Varied| {
+        if !table.sample.is_empty() {
+            let is_named = |column: usize| table.sample.contains(&table.columns[column].name);
+            let followers = others.iter().filter(|(_, other)| other.follow(levels));
+            return is_named(*column) || followers.map(|(other, _)| *other).any(is_named);
+        }
+        let is_alone = kept.len() == 1;
+        if full(levels) {
+            // In a sample every column tells the rows apart, so that all others follow from the first.
+            return !is_alone || (!others.is_empty() && !is_even(levels));
+        }
+        // A sample crossed with axes.
+        !is_alone
+            && levels.len() >= FEWEST
+            && others.iter().any(|other| is_mixed((*column, levels), other, table))
+    };
+    kept.iter().filter(looks_sampled).map(|(column, _)| *column).collect()
+}
+
+/// The fewest points of a sample that is recognised without its sidecar, if it is crossed with axes.
+const FEWEST: usize = 8;
+
+/// True if each of two columns follows from the other, but not their order, as in samples alone.
+fn is_mixed((column, levels): (usize, &Levels), (other, others): &Varied, table: &Table) -> bool {
+    let (Cells::Numbers(one), Cells::Numbers(two)) =
+        (&table.columns[column].cells, &table.columns[*other].cells)
+    else {
+        return false;
+    };
+    levels.follow(others) && !is_even(levels) && rank_correlation(one, two).abs() < 0.9
 }
 
 /// True for values with even steps or even ratios, as those of an axis often have.
@@ -61,5 +105,22 @@ mod tests {
         assert!(!Axes::of(&zip, 3).sampled, "an axis with another that moves along");
         let sample = table(&[("a", &[0.3, 0.1, 0.9, 0.7, 0.2]), ("b", &[0.6, 0.5, 0.25, 0.1, 0.8])]);
         assert!(Axes::of(&sample, 3).sampled);
+    }
+
+    #[test]
+    fn samples_are_crossed_with_axes() {
+        let twice =
+            |values: [f64; 8]| values.into_iter().flat_map(|value| [value, value]).collect::<Vec<_>>();
+        let a = twice([0.3, 0.1, 0.9, 0.7, 0.2, 0.45, 0.66, 0.81]);
+        let b = twice([0.6, 0.5, 0.25, 0.1, 0.8, 0.9, 0.33, 0.42]);
+        let f: Vec<f64> = (0..16).map(|row| f64::from(row % 2)).collect();
+        let mut crossed = table(&[("a", &a), ("b", &b), ("f", &f)]);
+        let axes = Axes::of(&crossed, 4);
+        assert_eq!((&axes.columns, axes.sampled), (&vec![1, 3], true));
+        // The sidecar knows better: these are designs of a list.
+        crossed.sample = vec!["other".to_owned()];
+        assert!(!Axes::of(&crossed, 4).sampled);
+        crossed.sample = vec!["b".to_owned()];
+        assert!(Axes::of(&crossed, 4).sampled);
     }
 }

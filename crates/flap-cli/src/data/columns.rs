@@ -11,6 +11,8 @@ pub(crate) struct Table {
     pub(crate) rows: usize,
     /// Rows of the file.
     pub(crate) of: usize,
+    /// Parameters of the sample, if the sidecar tells them.
+    pub(crate) sample: Vec<String>,
 }
 
 /// A column of a file.
@@ -82,7 +84,7 @@ pub(crate) mod tests {
         };
         let first = column("point", (0..rows).map(|row| row as f64).collect());
         let rest = columns.iter().map(|(name, values)| column(name, values.to_vec()));
-        Table { columns: std::iter::once(first).chain(rest).collect(), rows, of: rows }
+        Table { columns: std::iter::once(first).chain(rest).collect(), rows, of: rows, sample: Vec::new() }
     }
 
     /// Two axes, `f` of three values fastest, one that follows `v`, and one that is the same everywhere.

@@ -8,6 +8,8 @@ use flap_sweep::files::beside::sidecar_of;
 use flap_sweep::files::integrity::{self, Note, Opened};
 use flap_sweep::files::results::Reader;
 use flap_sweep::files::sidecar::Sidecar;
+use flap_sweep::plan::Plan;
+use flap_sweep::plan::axis::Values;
 use flap_sweep::table::labels;
 use flap_sweep::table::layout::Layout;
 
@@ -23,6 +25,8 @@ const MOST_ROWS: usize = 20_000_000;
 pub(crate) struct Source {
     reader: Reader,
     units: Units,
+    /// Parameters of the sample, if the sidecar tells them.
+    sample: Vec<String>,
     path: PathBuf,
     tells: bool,
 }
@@ -42,8 +46,10 @@ impl Source {
         if reader.names().iter().all(String::is_empty) {
             return Err(Failure::usage(format!("{} has no columns", path.display())));
         }
-        let units = Units::of(path, sidecar.as_ref());
-        Ok(Source { reader, units, path: path.to_owned(), tells })
+        let plan = plan_beside(path, sidecar.as_ref());
+        let units = Units::of(plan.as_ref());
+        let sample = plan.as_ref().map(sampled).unwrap_or_default();
+        Ok(Source { reader, units, sample, path: path.to_owned(), tells })
     }
 
     pub(crate) fn names(&self) -> &[String] {
@@ -132,7 +138,7 @@ impl Source {
             let unit = self.units.of_column(&name);
             Column { name, unit, cells: gathered.cells }
         });
-        Ok(Table { columns: columns.collect(), rows, of })
+        Ok(Table { columns: columns.collect(), rows, of, sample: self.sample })
     }
 }
 
@@ -201,20 +207,33 @@ fn code(cell: &str, words: &mut Vec<String>, codes: &mut HashMap<String, u32>) -
     code
 }
 
+/// The plan of results, if their sidecar has one that can be used.
+fn plan_beside(results: &Path, sidecar: Option<&Sidecar>) -> Option<Plan> {
+    let beside = sidecar_of(results);
+    let plan = job::plan_of(&beside, sidecar?).ok();
+    if plan.is_none() {
+        console::say(&format!(
+            "{} cannot be used: units are taken from the names of columns",
+            beside.display()
+        ));
+    }
+    plan
+}
+
+/// The parameters of a plan's sample.
+fn sampled(plan: &Plan) -> Vec<String> {
+    let parameters = plan.parameters();
+    let is_sampled = |values: &Values| matches!(values, Values::Sampled { .. } | Values::Correlated { .. });
+    let sampled = plan.axes().parameters().filter(|(_, values)| is_sampled(values));
+    sampled.map(|&(place, _)| parameters[place].name.to_owned()).collect()
+}
+
 /// The units of columns: those of the sidecar's plan, else those that models and endings of names tell.
 struct Units(BTreeMap<String, String>);
 
 impl Units {
-    fn of(results: &Path, sidecar: Option<&Sidecar>) -> Units {
-        let beside = sidecar_of(results);
-        let plan = sidecar.map(|sidecar| job::plan_of(&beside, sidecar));
-        if let Some(Err(_)) = plan {
-            console::say(&format!(
-                "{} cannot be used: units are taken from the names of columns",
-                beside.display()
-            ));
-        }
-        let columns = plan.and_then(Result::ok).map(|plan| Layout::of(&plan).columns()).unwrap_or_default();
+    fn of(plan: Option<&Plan>) -> Units {
+        let columns = plan.map(|plan| Layout::of(plan).columns()).unwrap_or_default();
         Units(columns.into_iter().map(|column| (column.name, column.unit.to_owned())).collect())
     }
 

@@ -4,9 +4,12 @@ use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
-use super::ink::{MISSING, rectangle, shade, text};
+use flap_sweep::picture::colours::MISSING;
+
+use super::ink::{rectangle, text};
 use super::panel::{Axis, BAR_MARGIN};
 use super::scale;
+use super::shades::Shades;
 
 /// Draws the colours from the smallest to the largest value on the right, and below them the label of `missing` values.
 pub(super) fn colour_bar(scene: &mut Scene, frame: &ComputedLayout, axis: &Axis, missing: Option<&str>) {
@@ -17,13 +20,20 @@ pub(super) fn colour_bar(scene: &mut Scene, frame: &ComputedLayout, axis: &Axis,
     let height = frame.plot_height() - if missing.is_some() { 34.0 } else { 0.0 };
     let slice = height / SLICES as f64;
     let numbers = 0..SLICES;
+    let shades = Shades::of(axis.range);
     scene.add(Primitive::RectBatch {
         x: vec![left; SLICES],
         y: numbers.clone().map(|i| top + height - (i + 1) as f64 * slice - 0.25).collect(),
         w: vec![16.0; SLICES],
         h: vec![slice + 0.5; SLICES],
-        fills: numbers.map(|i| Color::from(shade(i as f64 / (SLICES - 1) as f64))).collect(),
+        fills: numbers
+            .map(|i| Color::from(shades.colour(low + (high - low) * (i as f64 + 0.5) / SLICES as f64)))
+            .collect(),
     });
+    if shades.is_signed() {
+        let y = top + height * high / (high - low);
+        rectangle(scene, (left, y - 0.5), (16.0, 1.0), "#222222");
+    }
     let step = scale::step((low, high), (height / 50.0).clamp(2.0, 7.0));
     let mut widest = 0;
     for value in scale::ticks((low, high), step) {

@@ -7,14 +7,21 @@ use crate::failure::Failure;
 /// Kind and columns of a picture.
 pub(super) struct Columns {
     pub(super) kind: PictureKind,
-    /// Column of the horizontal axis.
+    /// Column of the horizontal axis; of a tornado, the measure.
     pub(super) x: usize,
-    /// Column of the vertical axis; of a trajectory, that of the time once more.
+    /// Column of the vertical axis. A trajectory, a histogram and a tornado have that of `x` once more.
     pub(super) y: usize,
     /// Column with one line for each of its values.
     pub(super) by: Option<usize>,
     /// Column shown as colour.
     pub(super) color: Option<usize>,
+}
+
+impl Columns {
+    /// Columns without lines and colours.
+    pub(super) fn plain(kind: PictureKind, x: usize, y: usize) -> Columns {
+        Columns { kind, x, y, by: None, color: None }
+    }
 }
 
 /// All that a picture shows.
@@ -23,6 +30,8 @@ pub(super) struct Chosen {
     /// The better directions of x and y.
     pub(super) aims: (Aim, Aim),
     pub(super) rows: Vec<usize>,
+    /// The columns of parameters, those of a sample first.
+    pub(super) parameters: Vec<usize>,
     pub(super) title: String,
     /// Filters and slices in words.
     pub(super) notes: Vec<String>,

@@ -1,76 +1,83 @@
 //! The branches of a response as its parameter rises and falls.
 
-use kuva::render::render::Scene;
+use flap_sweep::picture::branches::{BRANCHES, Comparison, Way, compared};
+use flap_sweep::picture::colours::BISTABLE;
+use kuva::render::annotations::ShadedRegion;
+use kuva::render::layout::ComputedLayout;
+use kuva::render::render::{Primitive, Scene};
 
 use super::chosen::Chosen;
 use super::ink::{self, Look};
+use super::label::{Label, digits};
 use super::panel::{Axis, Panel};
-use super::response::{family, ordered};
+use super::response::{Line, family, ordered};
 use super::scale;
 use crate::args::Size;
 use crate::console;
 use crate::data::columns::{Cells, Table};
 use crate::failure::Failure;
 
-/// The branches in the order of drawing, with their names in the legend.
-const BRANCHES: [(&str, &str); 3] = [("up", "rising"), ("down", "falling"), ("unstable", "unstable")];
-
 /// Most curves of a picture: more cannot be distinguished.
 const MOST_CURVES: usize = 10;
 
+/// The branches of one design, in the order of [`BRANCHES`], with places in shown units.
+struct Curve {
+    name: String,
+    branches: [Vec<(f64, f64)>; 3],
+    compared: Comparison,
+}
+
+/// A jump from one branch to the other: its ends and its colour.
+struct Jump {
+    x: f64,
+    from: f64,
+    to: f64,
+    colour: String,
+}
+
 /// Draws column `y` over column `x`, a line for each branch.
 pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    let (across, up) = (table.numbers(chosen.columns.x)?, table.numbers(chosen.columns.y)?);
     let (x, y) = (table.label(chosen.columns.x), table.label(chosen.columns.y));
-    let branch = table.find("branch")?;
-    let Cells::Words { codes, words } = &table.columns[branch].cells else {
-        return Err(Failure::usage("column `branch` holds other words than `up`, `down` and `unstable`"));
-    };
-    let curves = family(table, chosen)?;
-    let shown = scale::even(curves.len(), MOST_CURVES);
-    if shown.len() < curves.len() {
-        let (drawn, all) = (shown.len(), curves.len());
+    let lines = family(table, chosen)?;
+    let shown = scale::even(lines.len(), MOST_CURVES);
+    if shown.len() < lines.len() {
+        let (drawn, all) = (shown.len(), lines.len());
         console::say(&format!("{drawn} of {all} curves are drawn, evenly chosen; --where chooses one"));
     }
-
-    let mut plots = Vec::new();
-    let mut drawn: Vec<(f64, f64)> = Vec::new();
-    for (place, &number) in shown.iter().enumerate() {
-        let curve = &curves[number];
-        let mut named = false;
-        for (kind, (word, name)) in BRANCHES.iter().enumerate() {
-            let code = words.iter().position(|known| known == word);
-            let points: Vec<(f64, f64)> = (curve.rows.iter())
-                .filter(|&&row| Some(codes[row] as usize) == code)
-                .map(|&row| (across[row] * x.factor, up[row] * y.factor))
-                .collect();
-            let mut look = if chosen.columns.by.is_some() {
-                let name = if named { String::new() } else { curve.name.clone() };
-                Look::new(name, ink::line_colour(place, shown.len(), ordered(table, chosen)))
-            } else {
-                let colour = [ink::COLOURS[0], ink::COLOURS[1], "#444444"][kind];
-                Look::new(*name, colour)
-            };
-            look.dashed = kind == 2;
-            // The way down often lies on the way up, which must be seen below it.
-            look.width = [4.0, 1.8, 1.6][kind];
-            if chosen.columns.by.is_some() {
-                look.width = 1.8;
-            }
-            let lines = ink::line(&points, &look);
-            named |= !lines.is_empty();
-            plots.extend(lines);
-            drawn.extend(points);
-        }
-    }
+    let curves = (shown.iter())
+        .map(|&number| curve(table, chosen, &lines[number], (x.factor, y.factor)))
+        .collect::<Result<Vec<Curve>, Failure>>()?;
+    let drawn: Vec<(f64, f64)> = curves.iter().flat_map(|curve| curve.branches.concat()).collect();
     let Some([width, height]) = scale::extent(&drawn) else {
         return Err(chosen.nothing(table, chosen.columns.y));
     };
+
+    let (mut plots, mut jumps) = (Vec::new(), Vec::new());
+    for (place, curve) in curves.iter().enumerate() {
+        let mut named = false;
+        for kind in 0..BRANCHES.len() {
+            let mut look = if chosen.columns.by.is_some() {
+                let name = if named { String::new() } else { curve.name.clone() };
+                Look::new(name, ink::line_colour(place, curves.len(), ordered(table, chosen)))
+            } else {
+                Look::new(BRANCHES[kind].name, BRANCHES[kind].colour)
+            };
+            look.dashed = BRANCHES[kind].name == "unstable";
+            // The way down often lies on the way up, which must be seen below it.
+            look.width = if chosen.columns.by.is_some() { 1.8 } else { [4.0, 1.8, 1.6][kind] };
+            jumps.extend(curve.jumps(kind, &look.colour));
+            let lines = ink::line(&curve.with_gaps(kind), &look);
+            named |= !lines.is_empty();
+            plots.extend(lines);
+        }
+    }
     let mut notes = chosen.notes.clone();
     let missing = drawn.iter().filter(|point| !point.1.is_finite()).count();
     if missing > 0 {
         notes.push(format!("{missing} of {} points without a value", drawn.len()));
     }
+    let bands = if let [only] = &curves[..] { only.compared.bands.clone() } else { Vec::new() };
+    notes.extend(bistable(&bands, &x));
     if chosen.columns.by.is_some() {
         notes.push("dashed: unstable".to_owned());
     }
@@ -83,5 +90,89 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         legend: Some(chosen.columns.by.map_or_else(String::new, |by| table.label(by).text())),
         bar: false,
     };
-    Ok(panel.scene(size))
+    let mut layout = panel.layout(size);
+    for (low, high) in bands {
+        let region = ShadedRegion::vertical(low, high).with_color(BISTABLE).with_opacity(0.75);
+        layout = layout.with_shaded_region(region);
+    }
+    let frame = ComputedLayout::from_layout(&layout);
+    let mut scene = panel.scene_in(layout);
+    for jump in &jumps {
+        jump.draw(&mut scene, &frame);
+    }
+    Ok(scene)
+}
+
+/// The branches of a design, and the difference between its ways up and down.
+fn curve(table: &Table, chosen: &Chosen, line: &Line, factors: (f64, f64)) -> Result<Curve, Failure> {
+    let (x, y) = (table.numbers(chosen.columns.x)?, table.numbers(chosen.columns.y)?);
+    let branch = table.find("branch")?;
+    let Cells::Words { codes, words } = &table.columns[branch].cells else {
+        return Err(Failure::usage("column `branch` holds other words than `up`, `down` and `unstable`"));
+    };
+    let branches = BRANCHES.map(|branch| {
+        let code = words.iter().position(|known| known == branch.name);
+        let rows = line.rows.iter().filter(|&&row| Some(codes[row] as usize) == code);
+        rows.map(|&row| (x[row] * factors.0, y[row] * factors.1)).collect::<Vec<_>>()
+    });
+    let heights = scale::range(branches.iter().flatten().map(|point| point.1));
+    let range = heights.map_or(0.0, |(low, high)| high - low);
+    let [up, down] =
+        [0, 1].map(|kind: usize| -> (Vec<f64>, Vec<f64>) { branches[kind].iter().copied().unzip() });
+    let compared = compared(Way { x: &up.0, y: &up.1 }, Way { x: &down.0, y: &down.1 }, range);
+    Ok(Curve { name: line.name.clone(), branches, compared })
+}
+
+impl Curve {
+    /// The rows after which a branch jumps.
+    fn after(&self, kind: usize) -> &[usize] {
+        self.compared.jumps.get(kind).map_or(&[], Vec::as_slice)
+    }
+
+    /// The points of a branch, with a gap where it jumps: nothing was computed between.
+    fn with_gaps(&self, kind: usize) -> Vec<(f64, f64)> {
+        let mut points = Vec::new();
+        for (row, point) in self.branches[kind].iter().enumerate() {
+            points.push(*point);
+            if self.after(kind).contains(&row) {
+                points.push((f64::NAN, f64::NAN));
+            }
+        }
+        points
+    }
+
+    /// The jumps of a branch, halfway between the rows around them.
+    fn jumps(&self, kind: usize, colour: &str) -> impl Iterator<Item = Jump> {
+        let points = &self.branches[kind];
+        self.after(kind).iter().map(move |&row| Jump {
+            x: f64::midpoint(points[row].0, points[row + 1].0),
+            from: points[row].1,
+            to: points[row + 1].1,
+            colour: colour.to_owned(),
+        })
+    }
+}
+
+impl Jump {
+    /// A thin dashed arrow.
+    fn draw(&self, scene: &mut Scene, frame: &ComputedLayout) {
+        const HEAD: f64 = 5.0;
+        let (x, from, to) = (frame.map_x(self.x), frame.map_y(self.from), frame.map_y(self.to));
+        ink::dashes(scene, (x, from), (x, to), (&self.colour, 1.0));
+        let back = to - HEAD * (to - from).signum() * 1.4;
+        scene.add(Primitive::PolyLine {
+            points: vec![(x - HEAD, back), (x, to), (x + HEAD, back)],
+            stroke: self.colour.as_str().into(),
+            stroke_width: 1.0,
+            stroke_dasharray: None,
+        });
+    }
+}
+
+/// The note about bands with two stable motions.
+fn bistable(bands: &[(f64, f64)], x: &Label) -> Option<String> {
+    let ends = |&(low, high): &(f64, f64)| format!("{} to {}", digits(low, 6), digits(high, 6));
+    let listed: Vec<String> = bands.iter().map(ends).collect();
+    (!bands.is_empty())
+        .then(|| format!("shaded: bistable, {} {}", listed.join(" and "), x.unit).trim_end().to_owned())
 }

@@ -1,34 +1,21 @@
 //! Colours, lines, points and texts of pictures.
 
 use flap_sweep::notation::text::printable;
-use kuva::plot::{ColorMap, LinePlot, ScatterPlot};
+use flap_sweep::picture::colours;
+use kuva::plot::{LinePlot, ScatterPlot};
 use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::plots::Plot;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
-/// Colours that people with any colour vision tell apart (Okabe and Ito), the darker ones first.
-pub(super) const COLOURS: [&str; 7] =
-    ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"];
-
-/// The colour of cells and points without a value.
-pub(super) const MISSING: &str = "#c9c9c9";
-
-/// The colour of points in the background.
-pub(super) const PLAIN: &str = "#8a9199";
-
-/// A colour for `share` of the way from the smallest to the largest value: even in lightness, dark to light.
-pub(super) fn shade(share: f64) -> String {
-    ColorMap::Viridis.map(share)
-}
+use super::shades;
 
 /// The colour of line number `index` of `count`. Ordered ones go from dark to light.
 pub(super) fn line_colour(index: usize, count: usize, ordered: bool) -> String {
-    if ordered && count > 2 {
-        // The lightest yellow is hard to see on white.
-        return shade(0.9 * index as f64 / (count - 1) as f64);
+    match colours::shade(index, count) {
+        Some(share) if ordered => shades::sequential(share),
+        _ => colours::SERIES[index % colours::SERIES.len()].to_owned(),
     }
-    COLOURS[index % COLOURS.len()].to_owned()
 }
 
 /// A text for the library's labels, in which dollars begin formulas and control characters would make no XML.
@@ -97,6 +84,22 @@ pub(super) fn points(points: &[(f64, f64)], name: &str, colour: &str, size: f64)
         plot = plot.with_legend(plain(name));
     }
     Plot::Scatter(plot)
+}
+
+/// Rings, through which one sees what is below them.
+pub(super) fn rings(points: &[(f64, f64)], colour: &str, size: f64) -> Plot {
+    let plot = ScatterPlot::new().with_data(points.iter().copied()).with_color(colour).with_size(size);
+    Plot::Scatter(plot.with_marker_opacity(0.0).with_marker_stroke_width(0.8))
+}
+
+/// A dashed line between two places of a picture.
+pub(super) fn dashes(scene: &mut Scene, from: (f64, f64), to: (f64, f64), (colour, width): (&str, f64)) {
+    scene.add(Primitive::PolyLine {
+        points: vec![from, to],
+        stroke: Color::from(colour),
+        stroke_width: width,
+        stroke_dasharray: Some("4 3".to_owned()),
+    });
 }
 
 /// A text that begins, ends or is centred at a place.

@@ -61,17 +61,22 @@ impl Levels {
 
 /// A number with six digits at most.
 pub(super) fn short(value: f64) -> String {
+    digits(value, 6)
+}
+
+/// A number with so many digits at most, from 1 to 6; those before the point are all there.
+pub(super) fn digits(value: f64, most: u8) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value.is_nan() { "none".to_owned() } else { value.to_string().replace("-0", "0") };
     }
     let size = value.abs();
     if !(1e-4..1e6).contains(&size) {
-        let text = format!("{value:.4e}");
+        let text = format!("{value:.*e}", usize::from(most.min(5)) - 1);
         let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
         return format!("{}e{exponent}", trimmed(digits));
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 9")]
-    let decimals = (5.0 - size.log10().floor()).clamp(0.0, 9.0) as usize;
+    let decimals = (f64::from(most) - 1.0 - size.log10().floor()).clamp(0.0, 9.0) as usize;
     trimmed(&format!("{value:.decimals$}")).to_owned()
 }
 
@@ -113,5 +118,6 @@ mod tests {
         ] {
             assert_eq!(short(value), text);
         }
+        assert_eq!([digits(133.456, 4), digits(1.0 / 3.0, 4)], ["133.5", "0.3333"]);
     }
 }

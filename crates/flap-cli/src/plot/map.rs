@@ -4,11 +4,14 @@ use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene};
 
+use flap_sweep::picture::colours;
+
 use super::bar;
 use super::chosen::{Chosen, Columns};
 use super::ink;
 use super::panel::{Axis, Panel};
 use super::scale;
+use super::shades::Shades;
 use crate::args::Size;
 use crate::data::columns::Table;
 use crate::data::levels::{Levels, Values};
@@ -55,7 +58,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         Panel { title: chosen.title.clone(), notes, x, y, plots: Vec::new(), legend: None, bar: true };
     let frame = ComputedLayout::from_layout(&panel.layout(size));
     let mut scene = panel.scene(size);
-    scene.add(cells((&x_edges, &y_edges), &values, &frame, bar.range));
+    scene.add(cells((&x_edges, &y_edges), &values, &frame, &Shades::of(bar.range)));
     ink::frame_lines(&mut scene, &frame);
     bar::colour_bar(&mut scene, &frame, &bar, (missing > 0).then_some("no value"));
     Ok(scene)
@@ -74,7 +77,7 @@ fn grid(table: &Table, chosen: &Chosen, color: usize) -> Result<Grid, Failure> {
         let message =
             format!("a map of {} times {} cells is too large for a picture", across.len(), up.len());
         return Err(Failure::usage(message).help(
-            "draw a sample with --kind pareto, choose one value of an axis with --where, or write a page with --html",
+            "draw a sample with --kind scatter, choose one value of an axis with --where, or write a page with --html",
         ));
     }
     let mut values = vec![f64::NAN; cells];
@@ -110,12 +113,7 @@ fn edges(values: &[f64], log: bool) -> Vec<f64> {
     std::iter::once(ends.0).chain(between).chain([ends.1]).map(from).collect()
 }
 
-fn cells(
-    edges: (&[f64], &[f64]),
-    values: &[f64],
-    frame: &ComputedLayout,
-    (low, high): (f64, f64),
-) -> Primitive {
+fn cells(edges: (&[f64], &[f64]), values: &[f64], frame: &ComputedLayout, shades: &Shades) -> Primitive {
     let columns: Vec<f64> = edges.0.iter().map(|&edge| frame.map_x(edge)).collect();
     let rows: Vec<f64> = edges.1.iter().map(|&edge| frame.map_y(edge)).collect();
     let (mut x, mut y, mut w, mut h, mut fills) = (vec![], vec![], vec![], vec![], vec![]);
@@ -129,9 +127,9 @@ fn cells(
             w.push(sides[1] - sides[0] + if last.0 { 0.0 } else { 0.4 });
             h.push(ends[0] - ends[1] + if last.1 { 0.0 } else { 0.4 });
             fills.push(if value.is_finite() {
-                Color::from(ink::shade((value - low) / (high - low)))
+                Color::from(shades.colour(value))
             } else {
-                Color::from(ink::MISSING)
+                Color::from(colours::MISSING)
             });
         }
     }

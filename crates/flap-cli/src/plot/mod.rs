@@ -5,28 +5,37 @@ mod choose;
 mod chosen;
 mod encode;
 mod front;
+mod histogram;
 mod hysteresis;
 mod ink;
+mod kind;
 mod label;
 mod map;
 mod page;
 mod panel;
 mod pareto;
+mod pick;
+mod points;
 mod raster;
 mod response;
 mod scale;
+mod scatter;
+mod shades;
 mod slices;
+mod tornado;
 mod trajectory;
+mod turned;
+mod wishes;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use choose::Wishes;
 use chosen::Chosen;
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::results::Format;
 use flap_sweep::notation::text::printable;
 use kuva::render::render::Scene;
+use wishes::Wishes;
 
 use crate::args::{PictureKind, PlotArgs, Size};
 use crate::cmd::outputs;
@@ -65,7 +74,7 @@ fn picture(args: &PlotArgs, out: &Path) -> Result<(), Failure> {
     let wishes = Wishes::of(&source, args)?;
     let filters = Filters::of(&args.comparisons(), &source)?;
     let table = source.read(|column| wishes.wants(column), usize::MAX, |row| filters.keep(row))?;
-    let chosen = wishes.choose(&table, heading(args))?;
+    let chosen = choose::choose(&wishes, &table, heading(args))?;
     let scene = draw(&table, &chosen, args.size)?;
     let bytes = encode::bytes(scene, format).map_err(Failure::Bug)?;
     write(out, args.overwrite.force, &bytes)?;
@@ -77,6 +86,9 @@ fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
     match chosen.columns.kind {
         PictureKind::Response => response::draw(table, chosen, size),
         PictureKind::Map => map::draw(table, chosen, size),
+        PictureKind::Scatter => scatter::draw(table, chosen, size),
+        PictureKind::Histogram => histogram::draw(table, chosen, size),
+        PictureKind::Tornado => tornado::draw(table, chosen, size),
         PictureKind::Pareto => pareto::draw(table, chosen, size),
         PictureKind::Trajectory => trajectory::draw(table, chosen, size),
         PictureKind::Hysteresis => hysteresis::draw(table, chosen, size),

@@ -6,8 +6,9 @@ use std::collections::BTreeMap;
 
 use data::{Data, Kind, Start, Value};
 
-use super::choose::Wishes;
+use super::choose;
 use super::slices;
+use super::wishes::Wishes;
 use crate::args::{Aim, PictureKind, PlotArgs};
 use crate::console;
 use crate::data::axes::Axes;
@@ -59,7 +60,7 @@ fn start(wishes: &Wishes, table: &Table, axes: &Axes, args: &PlotArgs) -> Result
     let filters = (args.values().into_iter())
         .map(|(name, text)| Ok((name.clone(), filter(table, &name, &text)?)))
         .collect::<Result<BTreeMap<_, _>, Failure>>()?;
-    let columns = match wishes.columns(axes) {
+    let columns = match choose::columns(wishes, axes) {
         Ok(columns) => columns,
         // A page can always show something; what was asked for must be possible.
         Err(failure) if args.kind.is_some() => return Err(failure),
@@ -79,11 +80,16 @@ fn start(wishes: &Wishes, table: &Table, axes: &Axes, args: &PlotArgs) -> Result
         PictureKind::Map => Kind::Map,
         PictureKind::Pareto => {
             let sign = |aim: Aim| if aim == Aim::Max { "1" } else { "-1" };
-            let (x_aim, y_aim) = wishes.aims(&columns);
+            let (x_aim, y_aim) = choose::aims(wishes, &columns);
             best = format!("{},{}", sign(x_aim), sign(y_aim));
             Kind::Scatter
         }
         PictureKind::Response => Kind::Line,
+        PictureKind::Scatter => Kind::Scatter,
+        PictureKind::Histogram | PictureKind::Tornado => {
+            let message = format!("a page has no {}: --out draws one", columns.kind.name());
+            return Err(Failure::usage(message).help("a page has lines, points, fronts and maps"));
+        }
         PictureKind::Hysteresis => {
             by = by.or(wishes.branch());
             Kind::Line

@@ -108,8 +108,13 @@ impl Panel {
     }
 
     /// The panel as a picture of its own.
-    pub(super) fn scene(mut self, size: Size) -> Scene {
+    pub(super) fn scene(self, size: Size) -> Scene {
         let layout = self.layout(size);
+        self.scene_in(layout)
+    }
+
+    /// The panel in a layout that is [`Panel::layout`] with additions.
+    pub(super) fn scene_in(mut self, layout: Layout) -> Scene {
         if self.plots.is_empty() {
             // The library draws no ticks around nothing.
             let ends = [(self.x.range.0, self.y.range.0), (self.x.range.1, self.y.range.1)];

@@ -1,5 +1,6 @@
 //! Pareto pictures: two measures of every design, and the designs that no other design beats in both.
 
+use flap_sweep::picture::colours::DARK;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::Scene;
 
@@ -7,94 +8,46 @@ use super::bar;
 use super::chosen::Chosen;
 use super::front::front;
 use super::ink::{self, Look};
+use super::label::Label;
 use super::panel::{Axis, Panel};
+use super::points::Points;
 use super::scale;
 use crate::args::{Aim, Size};
 use crate::console;
 use crate::data::columns::Table;
 use crate::failure::Failure;
 
-/// Most points of a picture besides the front.
-const MOST_POINTS: usize = 20_000;
-
-/// Number of shades of coloured points.
-const SHADES: usize = 24;
-
 /// Draws column `y` over column `x`, with the front.
 pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    let (across, up) = (table.numbers(chosen.columns.x)?, table.numbers(chosen.columns.y)?);
-    let (x, y) = (table.label(chosen.columns.x), table.label(chosen.columns.y));
-    let rows: Vec<usize> =
-        chosen.rows.iter().copied().filter(|&row| across[row].is_finite() && up[row].is_finite()).collect();
-    let points: Vec<(f64, f64)> =
-        rows.iter().map(|&row| (across[row] * x.factor, up[row] * y.factor)).collect();
-    let Some([width, height]) = scale::extent(&points) else {
-        return Err(chosen.nothing(table, chosen.columns.y));
-    };
+    let points = Points::of(table, chosen)?;
     let (x_aim, y_aim) = chosen.aims;
-    let best = front(&points, (x_aim == Aim::Max, y_aim == Aim::Max));
-    let shown = scale::even(points.len(), MOST_POINTS);
-    if shown.len() < points.len() {
-        let (drawn, all) = (shown.len(), points.len());
+    let best = front(&points.places, (x_aim == Aim::Max, y_aim == Aim::Max));
+    let (drawn, all) = (points.shown.len(), points.places.len());
+    if drawn < all {
         console::say(&format!("{drawn} of {all} points are drawn, evenly chosen; the front is of all"));
     }
 
     let mut notes = chosen.notes.clone();
-    let word = |aim: Aim| if aim == Aim::Max { "larger" } else { "smaller" };
-    notes.push(format!("better: x {}, y {}", word(x_aim), word(y_aim)));
-    if rows.len() < chosen.rows.len() {
-        let missing = chosen.rows.len() - rows.len();
-        notes.push(format!("{missing} of {} designs without values", chosen.rows.len()));
-    }
-    let mut plots = Vec::new();
-    let bar = match chosen.columns.color {
-        None => {
-            let plain: Vec<(f64, f64)> = shown.iter().map(|&place| points[place]).collect();
-            plots.push(ink::points(&plain, &format!("designs ({})", points.len()), ink::PLAIN, 2.2));
-            None
-        }
-        Some(color) => {
-            let values = table.numbers(color)?;
-            let label = table.label(color);
-            let Some(range) = scale::range(rows.iter().map(|&row| values[row] * label.factor)) else {
-                return Err(chosen.nothing(table, color));
-            };
-            let (low, high) = scale::padded(range, 0.0);
-            let mut shades = vec![Vec::new(); SHADES + 1];
-            for &place in &shown {
-                let share = (values[rows[place]] * label.factor - low) / (high - low);
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "from 0 to SHADES"
-                )]
-                let shade =
-                    if share.is_finite() { (share * (SHADES - 1) as f64).round() as usize } else { SHADES };
-                shades[shade].push(points[place]);
-            }
-            for (shade, points) in shades.iter().enumerate().filter(|(_, points)| !points.is_empty()) {
-                let colour = match shade {
-                    SHADES => ink::MISSING.to_owned(),
-                    _ => ink::shade(shade as f64 / (SHADES - 1) as f64),
-                };
-                plots.push(ink::points(points, "", &colour, 2.6));
-            }
-            Some(Axis::linear(label.text(), (low, high)))
-        }
-    };
-    let line: Vec<(f64, f64)> = best.iter().map(|&place| points[place]).collect();
-    let name = if bar.is_some() { String::new() } else { format!("not dominated ({})", best.len()) };
+    notes.extend(points.note());
+    let (mut plots, bar) = points.plots(table, chosen, "designs")?;
+    let corners: Vec<(f64, f64)> = best.iter().map(|&place| points.places[place]).collect();
+    let name = format!("front ({} of {all} designs)", best.len());
+    let legend = if bar.is_some() { String::new() } else { name.clone() };
     if bar.is_some() {
-        notes.push(format!("orange line: the {} that none dominates", best.len()));
+        notes.push(format!("line: {name}"));
     }
-    let look = Look { marks: true, width: 1.8, ..Look::new(name, ink::COLOURS[1]) };
-    plots.extend(ink::line(&line, &look));
+    plots.push(ink::rings(&corners, DARK, 4.0));
+    plots.extend(ink::line(&steps(&corners, x_aim), &Look { width: 1.0, ..Look::new(legend, DARK) }));
 
+    let [width, height] = points.extent;
+    let axis = |column: usize, aim: Aim, range: (f64, f64)| {
+        Axis::linear(aimed(&table.label(column), aim), scale::padded(range, 0.04))
+    };
     let panel = Panel {
         title: chosen.title.clone(),
         notes,
-        x: Axis::linear(x.text(), scale::padded(width, 0.04)),
-        y: Axis::linear(y.text(), scale::padded(height, 0.04)),
+        x: axis(chosen.columns.x, x_aim, width),
+        y: axis(chosen.columns.y, y_aim, height),
         plots,
         legend: bar.is_none().then(String::new),
         bar: bar.is_some(),
@@ -105,4 +58,31 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         bar::colour_bar(&mut scene, &frame, bar, None);
     }
     Ok(scene)
+}
+
+/// A label that says which direction is better.
+fn aimed(label: &Label, aim: Aim) -> String {
+    format!("{}, {} is better", label.text(), if aim == Aim::Max { "more" } else { "less" })
+}
+
+/// The line that bounds the values which designs reach: from a corner on, it stays as good as that in the other measure.
+fn steps(corners: &[(f64, f64)], x_aim: Aim) -> Vec<(f64, f64)> {
+    let mut line: Vec<(f64, f64)> = corners.first().copied().into_iter().collect();
+    for two in corners.windows(2) {
+        let between = if x_aim == Aim::Min { (two[1].0, two[0].1) } else { (two[0].0, two[1].1) };
+        line.extend([between, two[1]]);
+    }
+    line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_pass_where_no_design_is() {
+        let corners = [(1.0, 1.0), (2.0, 3.0)];
+        assert_eq!(steps(&corners, Aim::Min), [(1.0, 1.0), (2.0, 1.0), (2.0, 3.0)]);
+        assert_eq!(steps(&corners, Aim::Max), [(1.0, 1.0), (1.0, 3.0), (2.0, 3.0)]);
+    }
 }

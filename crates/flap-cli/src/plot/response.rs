@@ -100,7 +100,7 @@ pub(super) fn family(table: &Table, chosen: &Chosen) -> Result<Vec<Line>, Failur
             levels.len(),
             chosen.rows.len()
         );
-        return Err(Failure::usage(message).help("draw a sample with --kind pareto"));
+        return Err(Failure::usage(message).help("draw a sample with --kind scatter"));
     }
     // The legend's heading has the unit.
     let label = table.label(by);
@@ -124,6 +124,6 @@ pub(super) fn ordered(table: &Table, chosen: &Chosen) -> bool {
 fn several(table: &Table, chosen: &Chosen) -> Failure {
     let name = &table.columns[chosen.columns.x].name;
     Failure::usage(format!("several rows of one line have the same {name}")).help(
-        "--by draws a line for each value of a column, --where chooses one value, --kind pareto draws points",
+        "--by draws a line for each value of a column, --where chooses one value, --kind scatter draws points",
     )
 }

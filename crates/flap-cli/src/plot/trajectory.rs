@@ -1,5 +1,6 @@
 //! Stroke and pitch over time, and their rates over them.
 
+use flap_sweep::picture::colours;
 use flap_sweep::table::labels;
 use kuva::render::figure::Figure;
 use kuva::render::render::Scene;
@@ -43,7 +44,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         if around.len() > MOST_POINTS {
             around.drain(..around.len() - MOST_POINTS);
         }
-        let look = |name: &str| Look { width: 1.8, ..Look::new(name, ink::COLOURS[place]) };
+        let look = |name: &str| Look { width: 1.8, ..Look::new(name, colours::SERIES[place]) };
         let motion = scale::thinned(&motion, MOST_POINTS);
         over_time.extend(ink::line(&motion, &look("")));
         portrait.extend(ink::line(&around, &look(name)));

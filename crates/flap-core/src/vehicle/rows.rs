@@ -50,8 +50,9 @@ impl Simulator for Vehicle {
         self.table.parameters
     }
 
+    /// Those of the model. They have no values for the vehicle's own parameters, which have their defaults.
     fn presets(&self) -> &'static [Preset] {
-        &[]
+        self.model.presets()
     }
 
     fn motions(&self) -> Result<&dyn Motions, Unfinished> {

@@ -10,11 +10,17 @@ __all__ = [
     "Grid",
     "GridError",
     "__version__",
+    "bars",
+    "better",
     "check",
     "chirp",
+    "colours",
+    "correlations",
     "evaluate",
     "impulse",
+    "is_signed",
     "lift",
+    "line_shades",
     "measures",
     "parameter",
     "params",
@@ -35,7 +41,9 @@ __all__ = [
     "track",
     "trajectory",
     "unit_of",
+    "usual_measure",
     "value",
+    "ways",
     "words",
 ]
 
@@ -188,6 +196,9 @@ def params(design: Any, /) -> list[tuple[str, float | str | None, str, str, str,
 
 def measures(design: Any, /) -> list[tuple[str, str, str]]:
     """The measures of a design or a model: names, each with unit and meaning; see `flapwing.measures`."""
+
+def uncertainty(design: Any, /) -> tuple[list[tuple[str, float]], list[tuple[str, str, float]]]:
+    """The standard errors of the parameters of a design in SI units, by name, and the correlations: two names and a coefficient."""
 
 def states(design: Any, /) -> list[str]:
     """The names of the states of a design's or a model's equations of motion, with their units at the end."""
@@ -364,3 +375,42 @@ def unit_of(name: str, /) -> str:
 
 def split_unit(name: str, /) -> tuple[str, str]:
     """A column's name without the unit that it ends in, and that unit; empty if there is none."""
+
+def better(name: str, /) -> int:
+    """The better direction of a column: 1 for a benefit such as lift, -1 for a cost such as power, 0 for neither."""
+
+def colours() -> dict[str, Any]:
+    """The colours of pictures: `series` is a list, `branches` has a colour for each branch, and `dark`, `plain`, `missing` and
+    `bistable` are one colour each.
+    """
+
+def line_shades(count: int, /) -> list[float] | None:
+    """The place in the sequential map of each of `count` lines that have an order; None for a line alone."""
+
+def is_signed(low: float, high: float, /) -> bool:
+    """True if numbers from `low` to `high` have both signs: then the map is a diverging one, with zero in its middle."""
+
+def usual_measure(role: str, columns: list[str], taken: list[str], /) -> str | None:
+    """The measure that is drawn if none is named: the usual one among `columns` for a part, which is "response", "benefit",
+    "cost" or "motion", and not in `taken`; None if there is none.
+    """
+
+def ways(
+    up: tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]],
+    down: tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]],
+    range: float,
+    /,
+) -> tuple[list[tuple[float, float]], list[int], list[int]]:
+    """The bands in which the ways up and down of a response differ, and the rows of each after which it jumps to the other.
+    `up` and `down` are pairs of the parameter and the measure, whose values differ by `range` in all.
+    """
+
+def bars(
+    values: np.ndarray[Any, Any], /
+) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any], list[tuple[int, float]]] | None:
+    """The ends of a histogram's bars, their heights, and the values at its percentiles; None if no value is finite."""
+
+def correlations(parameters: list[np.ndarray[Any, Any]], measure: np.ndarray[Any, Any], /) -> list[tuple[int, float]]:
+    """The rank correlation of each parameter with a measure, by falling size, with the place of the parameter. Those that follow
+    an earlier parameter, and those without a correlation, are left out.
+    """

@@ -36,7 +36,8 @@ def params(design: Design, /) -> dict[str, Parameter]:
     Parameters
     ----------
     design : str, path, dict, Grid or Vehicle
-        A preset, such as ``"ozaki2018-large"``; a grid or a `Vehicle`; or a model, such as ``"direct-drive"``.
+        A preset, such as ``"ozaki2018-large"``, a device, a grid or a `Vehicle` (of its first point), or a model, such as
+        ``"direct-drive"``.
 
     Returns
     -------
@@ -46,7 +47,7 @@ def params(design: Design, /) -> dict[str, Parameter]:
     Raises
     ------
     ValueError
-        There is no such preset or model. GridError if there are mistakes in a grid.
+        There is no such preset or model. GridError if there are mistakes in a device or a grid.
 
     Examples
     --------
@@ -63,7 +64,7 @@ def measures(design: Design, /) -> dict[str, tuple[str, str]]:
     Parameters
     ----------
     design : str, path, dict, Grid or Vehicle
-        As for `params`. Measures of a grid's own are not among them.
+        As for `params`.
 
     Returns
     -------

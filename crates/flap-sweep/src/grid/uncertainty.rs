@@ -103,9 +103,10 @@ pub(super) fn correlations(
         return;
     };
     let before = lookup.problems.count();
+    let mut pairs = Vec::new();
     for table in tables {
         match table.get_ref() {
-            DeValue::Table(entries) => correlation(entries, table, uncertainty, lookup),
+            DeValue::Table(entries) => pairs.extend(correlation(entries, table, &pairs, uncertainty, lookup)),
             _ => report_not_tables(table, lookup.problems),
         }
     }
@@ -124,15 +125,17 @@ fn report_not_tables(value: &Spanned<DeValue<'_>>, problems: &mut Problems) {
         .help("write [[correlation]] above `between` and `coefficient`, once for each pair");
 }
 
+/// Adds a correlation; returns its pair, which must not be one of `earlier` pairs of the file.
 fn correlation(
     table: &DeTable<'_>,
     place: &Spanned<DeValue<'_>>,
+    earlier: &[[usize; 2]],
     uncertainty: &mut Uncertainty,
     lookup: &mut Lookup<'_>,
-) {
+) -> Option<[usize; 2]> {
     let entries = table::entries(table);
     if !table::check_keys(&entries, &CORRELATION_KEYS, "in [[correlation]]", lookup.problems) {
-        return;
+        return None;
     }
     let (Some(between), Some(coefficient)) =
         (table::find(&entries, "between"), table::find(&entries, "coefficient"))
@@ -140,18 +143,24 @@ fn correlation(
         let message = "a correlation has two parameters and a coefficient";
         let help = "write between = [\"hinge_stiffness\", \"wing_area\"] and coefficient = 0.4";
         lookup.problems.report(place.span(), message).help(help);
-        return;
+        return None;
     };
     let number = value::number("coefficient", coefficient.value, lookup.problems);
-    let between = pair(between, uncertainty, lookup);
-    let (Some(coefficient_value), Some(between)) = (number, between) else { return };
-    if coefficient_value.abs() >= 1.0 {
-        let message =
-            format!("`coefficient` must be between -1 and 1, not {}", value::shown(coefficient_value));
+    let pair = pair(between, uncertainty, lookup)?;
+    let number = number?;
+    if number.abs() >= 1.0 {
+        let message = format!("`coefficient` must be between -1 and 1, not {}", value::shown(number));
         lookup.problems.report(coefficient.value.span(), message);
-        return;
+        return None;
     }
-    uncertainty.correlate(Correlation { between, coefficient: coefficient_value });
+    let [one, other] = pair;
+    if earlier.contains(&pair) || earlier.contains(&[other, one]) {
+        let message = "the correlation of these two parameters is given twice";
+        lookup.problems.report(between.value.span(), message).help("remove one of them");
+        return None;
+    }
+    uncertainty.correlate(Correlation { between: pair, coefficient: number });
+    Some(pair)
 }
 
 /// The two parameters, which must have standard errors.

@@ -110,8 +110,8 @@ fn line(parameter: &Parameter, value: Value, error: Option<f64>) -> String {
     }
 }
 
-/// The text of a device with the parameters of a wing, by name, in SI units, on top of a preset or a device called `base`. The
-/// values before stand behind them as comments.
+/// The text of a device with the parameters of a wing, by name, in SI units, on top of a preset or a device called `base`.
+/// Values are rounded to ten digits; those before stand behind them as comments, with a mark on a preset's fits.
 pub fn wing(plan: &Plan, base: &str, parameters: &[(&str, f64)]) -> String {
     let kind = if base == plan.preset() { "preset" } else { "device" };
     let mut page = format!("{kind} = \"{base}\"\n\n[params]\n");
@@ -125,8 +125,14 @@ pub fn wing(plan: &Plan, base: &str, parameters: &[(&str, f64)]) -> String {
             },
             Value::Follows(_) | Value::Resonance => "not set".to_owned(),
         };
-        let line = line(parameter, Value::Given(*value), None);
-        let _ = writeln!(page, "{:<56}# before: {before}", line.trim_end());
+        let line = line(parameter, Value::Given(rounded(*value)), None);
+        let fit = if parameter.is_fitted && kind == "preset" { ", a fit to one vehicle" } else { "" };
+        let _ = writeln!(page, "{:<56}# before: {before}{fit}", line.trim_end());
     }
     page
+}
+
+/// A number with ten digits: what is computed from an outline has no more.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
 }

@@ -1,12 +1,12 @@
 //! Deviations of a plan from its preset, which show a forgotten prefix.
 
-use flap_core::parameter::{Kind, Parameter};
+use flap_core::parameter::{Kind, Parameter, Preset};
 
 use crate::notation::text;
 use crate::notation::units;
-use crate::plan::Plan;
 use crate::plan::axis::Values;
 use crate::plan::sample::Distribution;
+use crate::plan::{Plan, Value};
 
 /// Factor from the preset's value beyond which a value is probably a mistake.
 pub const FAR: f64 = 100.0;
@@ -41,8 +41,10 @@ pub fn of_point(plan: &Plan, values: &[f64]) -> Vec<Deviation> {
 
 fn compare(plan: &Plan, values: Vec<Vec<f64>>) -> Vec<Deviation> {
     let preset = plan.simulator().presets().iter().find(|preset| preset.name == plan.preset());
-    let base = || plan.base().iter().map(|value| value.in_point()).collect();
-    let preset = preset.map_or_else(base, |preset| (preset.values)());
+    let preset = match preset {
+        Some(preset) => of_preset(plan, preset),
+        None => plan.base().iter().map(|value| value.in_point()).collect(),
+    };
     let all = plan.parameters().iter().zip(values).zip(preset);
     all.map(|((parameter, mut values), preset)| {
         values.dedup();
@@ -50,6 +52,20 @@ fn compare(plan: &Plan, values: Vec<Vec<f64>>) -> Vec<Deviation> {
     })
     .filter(|deviation| deviation.values.iter().any(|value| !value.is_nan() && *value != deviation.preset))
     .collect()
+}
+
+/// The values of the preset. A parameter that a wing has of its own has that of all wings.
+fn of_preset(plan: &Plan, preset: &Preset) -> Vec<f64> {
+    let parameters = plan.parameters();
+    let values: Vec<f64> =
+        Value::of_preset(plan.simulator(), preset).into_iter().map(Value::in_point).collect();
+    let own = parameters.iter().zip(&values).map(|(parameter, value)| match parameter.kind {
+        Kind::Following(_, shared) if value.is_nan() && plan.vehicle().is_some() => {
+            Parameter::index(parameters, shared).map_or(*value, |index| values[index])
+        }
+        _ => *value,
+    });
+    own.collect()
 }
 
 /// The ends of an axis; of a list the smallest and the largest value.

@@ -191,7 +191,7 @@ mod tests {
     fn texts_cannot_end_the_script() {
         let name = "a\"b\\c</script>&\n".to_owned();
         let column = columns::Column { name, unit: String::new(), cells: Cells::Unread };
-        let table = Table { columns: vec![column], rows: 0, of: 0 };
+        let table = Table { columns: vec![column], rows: 0, of: 0, sample: Vec::new() };
         let start = Start {
             kind: Kind::Scatter,
             x: 0,

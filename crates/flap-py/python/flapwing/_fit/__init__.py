@@ -1,6 +1,6 @@
 """Fits of parameters to readings, with their uncertainty.
 
-- `_columns`, `_readings`, `_noise`, `_errors`: data, in the units of the model, and their standard errors
+- `_file`, `_columns`, `_cells`, `_readings`, `_noise`, `_errors`: data, in the units of the model, and their standard errors
 - `_free`: free parameters, and the coordinates in which they are looked for
 - `_model`, `_branch`: readings of the model at many sets of parameters, in batches; branches of hysteresis
 - `_search`, `_together`: least squares from several starts, side by side

@@ -7,12 +7,9 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from .. import _flapwing
 from .._flapwing import Grid
 from .._types import Design
-from ._types import Array
 
 #: Columns of flap's own tables that are neither.
 COURSE = {
@@ -36,6 +33,14 @@ class Meaning:
     name: str
     #: The factor from the column's unit to that of the parameter (SI) or of the measure.
     factor: float
+    #: True for standard errors in per cent of the model's value.
+    is_share: bool = False
+
+
+def _hint(name: str, known: list[str]) -> str:
+    """The nearest of the known names, for messages; empty if none is near."""
+    near = difflib.get_close_matches(name, known, n=1) or [other for other in known if other.startswith(f"{name}_")]
+    return f", did you mean `{near[0]}`?" if near else ""
 
 
 class Names:
@@ -78,21 +83,34 @@ class Names:
         match = _IN_BRACKETS.fullmatch(header)
         name, unit = (match[1], match[2]) if match else (header, None)
         name = name.strip().replace(" ", "_")
+        if name.lower() != name and not self._is_known(name):
+            # "Stroke pp (deg)"
+            name = name.lower()
         for mark, rest in (("sigma_", name.removeprefix("sigma_")), ("_sigma", name.removesuffix("_sigma"))):
             if rest != name and mark in name:
-                found = self._found(place, header, rest, unit)
+                is_share = unit == "%"
+                found = self._found(place, header, rest, None if is_share else unit)
                 if found is not None and found.kind == "measure":
-                    return Meaning("sigma", found.name, found.factor)
+                    return Meaning("sigma", found.name, 0.01 if is_share else found.factor, is_share)
         found = self._found(place, header, name, unit)
         if found is None:
-            known = [*self.parameters, *self.measures]
-            near = difflib.get_close_matches(name, known, n=1)
-            hint = f", did you mean `{near[0]}`?" if near else ""
             raise ValueError(
-                f"{place} has the column `{header}`, which is neither a parameter nor a measure{hint}\n"
+                f"{place} has the column `{header}`, which is neither a parameter nor a measure"
+                f"{_hint(name, [*self.parameters, *self.measures])}\n"
                 f"rename or remove it: flapwing.params({self.model!r}) and flapwing.measures({self.model!r}) list the names"
             )
         return found
+
+    def check_measure(self, name: str) -> None:
+        """A ValueError with the nearest name for what is no measure."""
+        if not self.is_measure(name):
+            raise ValueError(
+                f"there is no measure `{name}`{_hint(name, list(self.measures))}\n"
+                f"flapwing.measures({self.model!r}) lists them"
+            )
+
+    def _is_known(self, name: str) -> bool:
+        return name in self.parameters or self.is_measure(name)
 
     def _found(self, place: str, header: str, name: str, unit: str | None) -> Meaning | None:
         stem, ending = _flapwing.split_unit(name)
@@ -117,63 +135,11 @@ class Names:
         wanted = self.unit(name)
         if unit is None or unit == wanted:
             return 1.0
+        if "%" in unit and wanted:
+            raise ValueError(
+                f"{place}, column `{header}`: per cent is no unit of `{name}`, which is in {wanted}\nconvert it"
+            )
         try:
             return _flapwing.quantity(header, f"1 {unit}", wanted)
         except ValueError as error:
             raise ValueError(f"{place}, column `{header}`: {error}") from None
-
-
-def parameter_cells(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Array | list[str]:
-    """A column of a parameter in SI units; of options, as they are."""
-    if meaning.name in names.options:
-        return [str(cell) for cell in cells]
-    numbers = []
-    for row, cell in enumerate(cells):
-        if isinstance(cell, str) and not _is_number(cell):
-            try:
-                numbers.append(_flapwing.value(names.model, meaning.name, cell))
-            except ValueError as error:
-                raise ValueError(f"{place}, column `{header}`, row {row + 1}: {error}") from None
-        else:
-            numbers.append(meaning.factor * _number(place, header, row, cell))
-    return np.array(numbers)
-
-
-def measure_cells(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Array:
-    """A column of a measure, in the measure's unit."""
-    numbers = []
-    for row, cell in enumerate(cells):
-        if isinstance(cell, str) and not _is_number(cell):
-            try:
-                numbers.append(_flapwing.quantity(header, cell, names.unit(meaning.name)))
-            except ValueError as error:
-                raise ValueError(f"{place}, column `{header}`, row {row + 1}: {error}") from None
-        else:
-            numbers.append(meaning.factor * _number(place, header, row, cell))
-    return np.array(numbers)
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
-
-
-def _number(place: str, header: str, row: int, cell: Any) -> float:
-    told = f"{place}, column `{header}`, row {row + 1}"
-    if isinstance(cell, (bool, np.bool_)) or cell is None:
-        raise ValueError(
-            f"{told} is {cell}, which is no number\nremove the row, or put the other measures into a data set of their own"
-        )
-    try:
-        number = float(cell)
-    except (TypeError, ValueError):
-        raise ValueError(f"{told} is {cell!r}, which is no number\nwrite a number, or text with a unit") from None
-    if not np.isfinite(number):
-        raise ValueError(
-            f"{told} is {number}, and readings are finite numbers\n"
-            "remove the row, or put the other measures into a data set of their own"
-        )
-    return number

@@ -40,8 +40,14 @@ def text_of(fit: Fit, data_set: str | None) -> str:
         "",
         "[params]",
     ]
-    own = {name: value for name, value in _set(fit).items() if name not in fitted and not _same(value, base.get(name))}
-    lines += [f"{name} = {_cell(value)}" for name, value in own.items()]
+    errors, pairs = _flapwing.uncertainty(names.grid)
+    # A value that is fitted or set anew has another error, or none.
+    kept = {name: error for name, error in errors if name not in fitted and name not in fit._model.keywords}
+    for name, value in _set(fit).items():
+        if name in kept:
+            lines.append(f"{name} = {{ value = {_cell(value)}, sd = {kept[name]!r} }}")
+        elif name not in fitted and not _same(value, base.get(name)):
+            lines.append(f"{name} = {_cell(value)}")
     place = {label: number for number, label in enumerate(fit.estimates)}
     known = []
     for name, label in fitted.items():
@@ -52,11 +58,13 @@ def text_of(fit: Fit, data_set: str | None) -> str:
             lines.append(f'{name} = {{ value = {one.value!r}, sd = {one.error!r}, source = "fitted{doubt}" }}')
         else:
             lines.append(f'{name} = {{ value = {one.value!r}, source = "not fixed by the data of the fit" }}')
+    coefficients = [pair for pair in pairs if pair[0] in kept and pair[1] in kept]
     correlations = fit.correlations
     for number, (name, row) in enumerate(known):
         for other, column in known[:number]:
-            coefficient = float(np.clip(correlations[row, column], -_NEAREST, _NEAREST))
-            lines += ["", "[[correlation]]", f'between = ["{other}", "{name}"]', f"coefficient = {coefficient!r}"]
+            coefficients.append((other, name, float(np.clip(correlations[row, column], -_NEAREST, _NEAREST))))
+    for first, second, coefficient in coefficients:
+        lines += ["", "[[correlation]]", f'between = ["{first}", "{second}"]', f"coefficient = {coefficient!r}"]
     return "\n".join(lines) + "\n"
 
 

@@ -22,6 +22,9 @@ class Estimate:
     #: Ends of the 95 % interval, by the profile likelihood if it was computed.
     low: float
     high: float
+    #: True where the interval goes on to the end of the range: the data do not bound the parameter there.
+    open_below: bool
+    open_above: bool
     profile: Profile | None
     #: True if the estimate is at an end of its range.
     at_bound: bool
@@ -29,8 +32,7 @@ class Estimate:
     @property
     def is_known(self) -> bool:
         """True if the data bound the parameter on both sides."""
-        flat = self.profile is not None and self.profile.is_flat
-        return not flat and bool(np.isfinite(self.error))
+        return not (self.open_below or self.open_above) and bool(np.isfinite(self.error))
 
 
 @dataclass(frozen=True)

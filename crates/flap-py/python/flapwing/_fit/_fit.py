@@ -51,7 +51,7 @@ def fit(
     Parameters
     ----------
     design : str, path, dict or Grid
-        A preset, or a grid without axes.
+        A preset, a device, or a grid without axes.
     data : dict, Table, DataFrame, path of a CSV file, or Readings; or a list of these
         One or several data sets: parameters of the operating points, and measures. See `Readings`.
     free : list of str, or dict
@@ -68,7 +68,7 @@ def fit(
         Of the Sobol' sequence and of a random `hold_out`.
     hold_out : float, str, list of str or dict, optional
         Readings that are predicted and not fitted: a share of them, the names of data sets, or ranges of parameters such as
-        ``{"drive_frequency": (110, 120)}``.
+        ``{"drive_frequency": (110, 120)}``, in SI units or as text with a unit.
     profile : bool
         Compute intervals by the profile likelihood. False: from the derivatives at the estimate, which is quicker.
     threads : int, optional
@@ -108,7 +108,7 @@ def fit(
     with shown(progress) as show:
         model = Model(names, sets, space, keywords, threads, None if show is None else lambda ran: show(ran, ran))
         measured = np.concatenate([values for one in sets for values in one.measured.values()])
-        held = held_rows(hold_out, sets, seed, len(measured))
+        held = held_rows(hold_out, sets, seed, len(measured), names)
         _check_count(model, sets, len(measured) - int(held.sum()))
         guesses = _errors.first_guesses(sets)
         target = Target(measured, _errors.sigmas(sets, np.full(len(measured), np.nan), guesses), ~held, loss)
@@ -207,20 +207,33 @@ def _estimates(
     model: Model, x: Array, covariance: Array, profiles: list[_profile.Profile] | None, quantile: float
 ) -> dict[str, Estimate]:
     estimates = {}
-    for place, one in enumerate(model.space.coordinates):
+    space = model.space
+    for place, one in enumerate(space.coordinates):
         error = float(np.sqrt(covariance[place, place]))
         value = float(one.value(x[place]))
         known = None if profiles is None else profiles[place]
         if known is not None:
-            low, high = known.low, known.high
-        elif np.isfinite(error):
-            low, high = sorted(float(one.value(x[place] + way * quantile * error)) for way in (-1, 1))
+            low, high, open_below, open_above = known.low, known.high, known.open_below, known.open_above
         else:
-            low, high = one.low, one.high
-        reach = 1e-3 * (model.space.high[place] - model.space.low[place])
-        at_bound = bool(min(x[place] - model.space.low[place], model.space.high[place] - x[place]) < reach)
+            reach = quantile * error if np.isfinite(error) else np.inf
+            below, above = max(x[place] - reach, space.low[place]), min(x[place] + reach, space.high[place])
+            ends = [(one.value(below), below == space.low[place]), (one.value(above), above == space.high[place])]
+            (low, open_below), (high, open_above) = sorted(ends)
+        near = 1e-3 * (space.high[place] - space.low[place])
+        at_bound = bool(min(x[place] - space.low[place], space.high[place] - x[place]) < near)
         size = error * abs(one.slope(x[place])) if np.isfinite(error) else np.inf
-        estimates[one.label] = Estimate(one.parameter, one.unit, value, size, float(low), float(high), known, at_bound)
+        estimates[one.label] = Estimate(
+            one.parameter,
+            one.unit,
+            value,
+            size,
+            float(low),
+            float(high),
+            bool(open_below),
+            bool(open_above),
+            known,
+            at_bound,
+        )
     return estimates
 
 

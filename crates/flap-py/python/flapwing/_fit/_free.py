@@ -24,7 +24,8 @@ class Free:
     Attributes
     ----------
     low, high : float or str, optional
-        Bounds, in SI units or with a unit. Default: a third of the design's value, and three times it.
+        Bounds, in SI units or with a unit. Default: a third of the design's value, and three times it. The first search
+        begins at the design's value, or in the middle of the bounds if it is outside of them.
     prior : (value, error), optional
         What is known of it beforehand, and its standard error: in SI units, with a unit, or the error as ``"5 %"``.
     per_set : bool
@@ -110,13 +111,20 @@ def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[st
             f"`free` is {type(free).__name__}\n"
             'it must be a list of parameters, or a dictionary with their bounds: {"hinge_stiffness": (1e-6, 3e-6)}'
         )
-    listed: dict[str, Any] = dict(free) if isinstance(free, Mapping) else dict.fromkeys(free)
+    listed: list[tuple[Any, Any]] = list(free.items()) if isinstance(free, Mapping) else [(name, None) for name in free]
     if not listed:
         raise ValueError("`free` is empty\nname one parameter at least")
-    coordinates = []
+    for name, _ in listed:
+        if not isinstance(name, str):
+            raise TypeError(
+                f"`free` has an entry that is {type(name).__name__}\nit must have names of parameters, which are text"
+            )
+    coordinates: list[Coordinate] = []
     taken = {names.parameter(name) for name in keywords if name not in _flapwing.settings()}
-    for name, given in ((names.parameter(name), given) for name, given in listed.items()):
+    for name, given in ((names.parameter(name), given) for name, given in listed):
         _check(name, names, sets, taken)
+        if any(one.parameter == name for one in coordinates):
+            raise ValueError(f"`free` names `{name}` twice\nremove one")
         coordinates += _coordinates(name, _free_of(name, given), names, sets)
     return Space(coordinates)
 
@@ -160,9 +168,7 @@ def _coordinates(name: str, free: Free, names: Names, sets: Sequence[DataSet]) -
     else:
         ends = sorted((nominal / _REACH, nominal * _REACH))
         low, high = ends[0] if low is None else low, ends[1] if high is None else high
-    if not low < high:
-        told = f"free[{name!r}]: the lower bound {low:g} is not less than the upper one {high:g} {names.unit(name)}"
-        raise ValueError(f"{told.rstrip()}\nexchange them")
+    _check_bounds(name, low, high, free, names.unit(name))
     log = low * high > 0
     if not log:
         # Shares of zero are zero: derivatives need a value beside it.
@@ -172,12 +178,32 @@ def _coordinates(name: str, free: Free, names: Names, sets: Sequence[DataSet]) -
         nominal = float(np.sign(low) * np.sqrt(low * high)) if log else 0.5 * (low + high)
     prior = None if free.prior is None else _prior(names, name, free.prior)
     unit = names.unit(name)
+    if prior is not None and not low <= prior[0] <= high:
+        told = f"free[{name!r}]: the prior {prior[0]:g} is outside of the bounds {low:g} to {high:g} {unit}"
+        raise ValueError(f"{told.rstrip()}\ngive bounds that hold it, some standard errors to both sides")
     if not free.per_set or len(sets) == 1:
         return [Coordinate(name, None, name, unit, log, low, high, nominal, prior)]
     return [
         Coordinate(name, place, f"{name} of {one.name}", unit, log, low, high, nominal, prior)
         for place, one in enumerate(sets)
     ]
+
+
+def _check_bounds(name: str, low: float, high: float, free: Free, unit: str) -> None:
+    if low < high:
+        return
+    lower, upper = (
+        f"{end:g} {unit}".rstrip() + " (by default)" * (given is None)
+        for end, given in ((low, free.low), (high, free.high))
+    )
+    told = f"free[{name!r}]: the lower bound {lower} is not less than the upper one {upper}"
+    if free.low is None or free.high is None:
+        help = "give both bounds"
+    elif low == high:
+        help = f"give a range, or set the parameter by a keyword: fit(..., {name}={low:g})"
+    else:
+        help = "exchange them"
+    raise ValueError(f"{told}\n{help}")
 
 
 def _value(names: Names, name: str, given: Any) -> float | None:

@@ -6,6 +6,8 @@ from typing import Any, Mapping, Sequence
 
 import numpy as np
 
+from .. import _flapwing
+from ._columns import Names
 from ._estimate import HeldOut
 from ._model import Answer
 from ._readings import DataSet
@@ -15,12 +17,12 @@ from ._types import Array, Mask
 _ALLOWED = 'it must be a share such as 0.2, names of data sets, or ranges of parameters such as {"drive_frequency": (110, 120)}'
 
 
-def held_rows(hold_out: Any, sets: Sequence[DataSet], seed: int, count: int) -> Mask:
+def held_rows(hold_out: Any, sets: Sequence[DataSet], seed: int, count: int, names: Names) -> Mask:
     """A mask of the readings that are held out."""
     if hold_out is None:
         return np.zeros(count, np.bool_)
     if isinstance(hold_out, Mapping):
-        held = _in_ranges(hold_out, sets)
+        held = _in_ranges(hold_out, sets, names)
     elif isinstance(hold_out, (int, float)) and not isinstance(hold_out, bool):
         if not 0 < hold_out < 1:
             raise ValueError(f"`hold_out` is {hold_out!r}\n{_ALLOWED}")
@@ -41,21 +43,36 @@ def held_rows(hold_out: Any, sets: Sequence[DataSet], seed: int, count: int) -> 
     return held
 
 
-def _in_ranges(ranges: Mapping[Any, Any], sets: Sequence[DataSet]) -> Mask:
+def _in_ranges(ranges: Mapping[Any, Any], sets: Sequence[DataSet], names: Names) -> Mask:
     parts = []
+    ends = {name: _range(name, given, names) for name, given in ranges.items()}
     for one in sets:
         inside = np.ones(len(one), np.bool_)
-        for name, given in ranges.items():
+        for name, (low, high) in ends.items():
             values = one.points.get(name)
             if not isinstance(values, np.ndarray):
                 raise ValueError(f"`hold_out` names `{name}`, and {one.name} has no such column of numbers\n{_ALLOWED}")
-            if not isinstance(given, (tuple, list)) or len(given) != 2:
-                raise TypeError(
-                    f"hold_out[{name!r}] is {type(given).__name__}\nit must be a range (from, to) in SI units"
-                )
-            inside &= (values >= float(given[0])) & (values <= float(given[1]))
+            inside &= (values >= low) & (values <= high)
         parts += [inside] * len(one.measured)
     return np.concatenate(parts)
+
+
+def _range(name: Any, given: Any, names: Names) -> tuple[float, float]:
+    """The ends of a range in SI units."""
+    place = f"hold_out[{name!r}]"
+    if not isinstance(given, (tuple, list)) or len(given) != 2:
+        raise TypeError(
+            f"{place} is {type(given).__name__}\nit must be a range (from, to) in SI units, or text with a unit"
+        )
+    if name not in names.parameters or name in names.options:
+        raise ValueError(f"`hold_out` names `{name}`, which is no parameter with a range\n{_ALLOWED}")
+    try:
+        low, high = (_flapwing.value(names.model, name, end) for end in given)
+    except (TypeError, ValueError) as error:
+        raise type(error)(f"{place}: {error}") from None
+    if low > high:
+        raise ValueError(f"{place}: {low:g} is more than {high:g}\nexchange them")
+    return low, high
 
 
 def held_out(

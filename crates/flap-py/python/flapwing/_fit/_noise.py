@@ -36,7 +36,10 @@ UNKNOWN = Noise("unknown")
 
 def of(name: str, given: Any, measure: str, unit: str) -> Noise:
     """The standard error of a measure from a number in its unit, or text such as ``"1 deg"`` or ``"3 %"``."""
-    wanted = f'it must be a number in {unit or "the unit of the measure"}, or text such as "3 %"'
+    wanted = (
+        f'it must be a number in {unit or "the unit of the measure"}, or text such as "3 %"; '
+        f"errors of single readings are a column {measure}_sigma"
+    )
     relative = isinstance(given, str) and given.strip().endswith("%")
     if isinstance(given, str) and not relative:
         size = _flapwing.quantity(name, given, unit)

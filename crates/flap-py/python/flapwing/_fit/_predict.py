@@ -8,9 +8,9 @@ from typing import Any, Mapping, Sequence
 import numpy as np
 
 from .. import _arguments
-from . import _noise
+from . import _cells, _noise
 from ._branch import Way
-from ._columns import Names, parameter_cells
+from ._columns import Names
 from ._model import Answer, Asked, Model
 from ._readings import DataSet
 from ._search import FINE
@@ -103,7 +103,7 @@ def points_of(names: Names, place: str, given: Any) -> dict[str, Any]:
             raise ValueError(
                 f"{place}: `{header}` has {len(cells)} cells for {length} points\ngive one for each, or one for all"
             )
-        values = parameter_cells(names, place, header, meaning, cells)
+        values = _cells.parameters(names, place, header, meaning, cells)
         points[meaning.name] = values if len(values) == length else np.resize(np.asarray(values), length)
     if not points or not length:
         raise ValueError(
@@ -121,9 +121,7 @@ def answers(
 ) -> Answer:
     """A measure at other operating points, with the parameters of a data set, and on its way if it is `like` that."""
     count = len(next(iter(points.values())))
-    if not model.names.is_measure(measure):
-        model.names.meaning("the prediction", measure)
-        raise ValueError(f"`{measure}` is no measure\nflapwing.measures({model.names.model!r}) lists them")
+    model.names.check_measure(measure)
     asked = Asked(np.full(count, place, np.intp), np.arange(count), [measure] * count)
     ways = []
     if like is not None and like.branch is not None:

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-import csv
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Mapping
+from typing import Any, Callable, Mapping
 
 import numpy as np
 
 from .. import _arguments, _flapwing
 from .._types import Value
-from . import _noise
-from ._columns import COURSE, Names, measure_cells, parameter_cells
+from . import _cells, _file, _noise
+from ._columns import COURSE, Names
 from ._noise import Noise
 from ._types import Array
+
+#: The forms that data may have, for messages.
+_ALLOWED = f"{_arguments.COLUMNS}, the path of a CSV file, or flapwing.Readings"
 
 
 class Readings:
@@ -27,7 +29,8 @@ class Readings:
         Columns of the operating points and of measures, or a CSV file of them. A column has the name of a parameter or a
         measure; its unit is SI or that of the measure, another one in the name (``drive_frequency_khz``,
         ``hinge_stiffness (uN*m/rad)``), or one in each cell (``"0.12 kHz"``). ``frequency_hz`` stands for
-        ``drive_frequency``. A column with ``_sigma`` behind the name of a measure has its standard errors.
+        ``drive_frequency``. A column with ``_sigma`` behind the name of a measure has its standard errors, in the measure's
+        unit or as ``"3 %"``.
     name : str, optional
         The name in reports. Default: that of the file, or the number of the data set.
     sigma : float, str or dict, optional
@@ -63,10 +66,14 @@ class Readings:
             )
         if isinstance(columns, (str, os.PathLike)):
             self.name = name or Path(columns).name
-            self.columns: dict[str, list[Any]] = _of_file(columns)
+            self.columns: dict[str, list[Any]] = dict(_file.columns_of(columns))
         else:
             self.name = name or ""
-            given: dict[str, Any] = _arguments.columns_of("data", columns)
+            try:
+                given: dict[str, Any] = _arguments.columns_of("data", columns)
+            except TypeError as error:
+                told = str(error).replace(_arguments.COLUMNS, _ALLOWED)
+                raise TypeError(told) from None
             self.columns = {header: _listed(header, cells) for header, cells in given.items()}
         self.sigma, self.branch, self.along, self.params = sigma, branch, along, params
         lengths = {header: len(cells) for header, cells in self.columns.items()}
@@ -100,6 +107,9 @@ class DataSet:
         return len(next(iter(self.measured.values())))
 
 
+_READERS = {"parameter": _cells.parameters, "measure": _cells.measures, "sigma": _cells.errors}
+
+
 def resolve(data: Any, names: Names, sigma: Any) -> list[DataSet]:
     """The data sets of a call."""
     listed = list(data) if isinstance(data, (list, tuple)) else [data]
@@ -111,13 +121,14 @@ def resolve(data: Any, names: Names, sigma: Any) -> list[DataSet]:
         sets.append(_resolved(readings, readings.name or f"set {number + 1}", names, sigma))
     if len({one.name for one in sets}) < len(sets):
         raise ValueError(f"data sets share a name: {', '.join(one.name for one in sets)}\ngive each one of its own")
+    _check_sigma("`sigma`", sigma, list(dict.fromkeys(measure for one in sets for measure in one.measured)))
     return sets
 
 
 def _resolved(readings: Readings, name: str, names: Names, sigma: Any) -> DataSet:
     points: dict[str, Array | list[str]] = {}
     measured: dict[str, Array] = {}
-    errors: dict[str, Array] = {}
+    errors: dict[str, Noise] = {}
     rows = len(next(iter(readings.columns.values())))
     for header, cells in readings.columns.items():
         if header in COURSE:
@@ -127,7 +138,7 @@ def _resolved(readings: Readings, name: str, names: Names, sigma: Any) -> DataSe
         target = places[meaning.kind]
         if meaning.name in target:
             raise ValueError(f"{name} has `{meaning.name}` twice, once as `{header}`\nkeep one of the columns")
-        read = parameter_cells if meaning.kind == "parameter" else measure_cells
+        read: Callable[..., Any] = _READERS[meaning.kind]
         target[meaning.name] = read(names, name, header, meaning, cells)
     for parameter, value in ((names.parameter(given), value) for given, value in readings.params.items()):
         if parameter in points:
@@ -139,12 +150,13 @@ def _resolved(readings: Readings, name: str, names: Names, sigma: Any) -> DataSe
     if not measured:
         raise ValueError(f"{name} has no column of a measure\nadd one, such as stroke_pp_deg")
     for measure, values in measured.items():
-        if rows >= 3 and np.ptp(values) == 0.0:
+        if np.ptp(values) == 0.0 and (rows >= 3 or values[0] == 0.0):
             raise ValueError(
                 f"{name}: all {rows} readings of `{measure}` are {values[0]:g}, and tell nothing about parameters\n"
                 "remove the column, or check where it comes from"
             )
     _check_along(name, readings, points)
+    _check_sigma(f"`sigma` of {name}", readings.sigma, list(measured))
     noise = {measure: _noise_of(name, measure, errors, readings.sigma, sigma, names) for measure in measured}
     return DataSet(name, points, measured, noise, readings.branch, readings.along)
 
@@ -157,32 +169,22 @@ def _check_along(name: str, readings: Readings, points: Mapping[str, Any]) -> No
         )
 
 
-def _noise_of(name: str, measure: str, errors: Mapping[str, Array], own: Any, common: Any, names: Names) -> Noise:
+def _check_sigma(place: str, given: Any, measured: list[str]) -> None:
+    for measure in given if isinstance(given, Mapping) else ():
+        if measure not in measured:
+            raise ValueError(
+                f"{place} names `{measure}`, of which there are no readings\nchoose among {', '.join(measured)}"
+            )
+
+
+def _noise_of(name: str, measure: str, errors: Mapping[str, Noise], own: Any, common: Any, names: Names) -> Noise:
     if measure in errors:
-        if not (errors[measure] > 0).all():
-            row = int(np.argmin(errors[measure] > 0)) + 1
-            raise ValueError(f"{name}, standard error of `{measure}`, row {row}: it must be more than zero")
-        return Noise("absolute", errors[measure])
+        return errors[measure]
     for given in (own, common):
         found = given.get(measure) if isinstance(given, Mapping) else given
         if found is not None:
             return _noise.of("sigma", found, measure, names.unit(measure))
     return _noise.UNKNOWN
-
-
-def _of_file(path: str | os.PathLike[str]) -> dict[str, list[Any]]:
-    """The columns of a CSV file; lines that begin with # are comments."""
-    with open(path, newline="", encoding="utf-8-sig") as file:
-        lines = [line for line in csv.reader(file) if line and not line[0].lstrip().startswith("#")]
-    if not lines:
-        raise ValueError(f"{os.fspath(path)} is empty\nits first line has the names of the columns")
-    headers = [header.strip() for header in lines[0]]
-    for number, line in enumerate(lines[1:], 1):
-        if len(line) != len(headers):
-            raise ValueError(
-                f"{os.fspath(path)}, row {number} has {len(line)} cells, and the header has {len(headers)}\nadd or remove cells"
-            )
-    return {header: [line[place].strip() for line in lines[1:]] for place, header in enumerate(headers)}
 
 
 def _listed(header: str, cells: Any) -> list[Any]:

@@ -57,16 +57,16 @@ def _estimates(fit: Fit) -> tuple[list[str], list[list[str]]]:
     rows = []
     for name, one in fit.estimates.items():
         share = 100 * one.error / abs(one.value) if one.value else np.inf
-        low = f"{one.low:.5g}" if one.profile is None or not one.profile.open_below else "open"
-        high = f"{one.high:.5g}" if one.profile is None or not one.profile.open_above else "open"
+        low = "open" if one.open_below else f"{one.low:.5g}"
+        high = "open" if one.open_above else f"{one.high:.5g}"
         rows.append([name, one.unit, f"{one.value:.5g}", f"{one.error:.2g}", f"{share:.2g}", low, high, _verdict(one)])
     return heads, rows
 
 
 def _verdict(one: Estimate) -> str:
-    if one.profile is not None and one.profile.is_flat:
-        both = one.profile.open_below and one.profile.open_above
-        side = "" if both else ": no lower limit" if one.profile.open_below else ": no upper limit"
+    if one.open_below or one.open_above:
+        both = one.open_below and one.open_above
+        side = "" if both else ": no lower limit" if one.open_below else ": no upper limit"
         return f"not fixed by the data{side}"
     if not one.is_known:
         return "not fixed by the data"
@@ -78,11 +78,13 @@ def _remarks(fit: Fit) -> list[str]:
     if fit.unsettled:
         listed = ", ".join(f"{one.set} row {one.row} ({one.status})" for one in fit.unsettled[:_LISTED])
         more = f" and {len(fit.unsettled) - _LISTED} more" if len(fit.unsettled) > _LISTED else ""
-        told.append(
-            f"{len(fit.unsettled)} readings do not count, because the motion does not settle there: {listed}{more}"
-        )
+        count = len(fit.unsettled)
+        subject = "1 reading does" if count == 1 else f"{count} readings do"
+        told.append(f"{subject} not count, because the motion does not settle there: {listed}{more}")
     if fit.without_slopes:
-        told.append(f"{fit.without_slopes} readings have no derivatives at the estimate, and do not narrow the errors")
+        count = fit.without_slopes
+        subject, verb = ("1 reading has", "does") if count == 1 else (f"{count} readings have", "do")
+        told.append(f"{subject} no derivatives at the estimate, and {verb} not narrow the errors")
     if not fit.converged:
         told.append("the search has not converged: give more starts, or narrower bounds")
     return told

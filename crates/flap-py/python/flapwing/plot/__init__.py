@@ -22,28 +22,35 @@ except ImportError as _missing:
     ) from _missing
 del _matplotlib
 
+from ._correlations import RankCorrelation, rank_correlations
 from ._fit import fit
 from ._front import non_dominated
 from ._heatmap import heatmap
+from ._histogram import histogram
 from ._hysteresis import hysteresis
 from ._labels import label
 from ._pareto import pareto
 from ._response import response
+from ._scatter import scatter
 from ._tornado import Sensitivity, sensitivities, tornado
 from ._trajectory import trajectory
 from ._wing_path import WingPath, wing_path
 from ._wrench import wrench
 
 __all__ = [
+    "RankCorrelation",
     "Sensitivity",
     "WingPath",
     "fit",
     "heatmap",
+    "histogram",
     "hysteresis",
     "label",
     "non_dominated",
     "pareto",
+    "rank_correlations",
     "response",
+    "scatter",
     "sensitivities",
     "tornado",
     "trajectory",

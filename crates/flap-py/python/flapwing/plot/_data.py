@@ -8,6 +8,7 @@ from typing import Any, Iterable, Mapping, Sequence
 
 import numpy as np
 
+from .._flapwing import usual_measure
 from . import _labels
 
 # Statuses whose rows have measures.
@@ -96,6 +97,28 @@ class Data:
             names = names[: names.index("status")]
             return [name for name in names if name not in _NOT_PARAMETERS]
         return []
+
+    def measures(self) -> list[str]:
+        """The numbers that were measured: right of the status, else those whose names end in a unit."""
+        names = list(self.columns)
+        if "status" in names:
+            names = names[names.index("status") + 1 :]
+        else:
+            names = [name for name in names if _labels.split_unit(name)[1]]
+        return [name for name in names if not is_text(self.columns[name])]
+
+    def usual(self, role: str, option: str, taken: Sequence[str] = ()) -> str:
+        """The measure that is drawn if none is named, as in `flap plot`: a "response", "benefit", "cost" or "motion"."""
+        found = usual_measure(role, self.measures(), list(taken))
+        if found is None:
+            raise ValueError(f"say which column to draw as `{option}`. There are: {', '.join(self.columns)}")
+        return found
+
+    def one_sample(self) -> None:
+        """Raises ValueError if a sample is crossed with axes, of which a value must be chosen."""
+        left = [name for name in self.axes() if self.on_a_grid(name)]
+        if left and len(left) < len(self.axes()):
+            raise ValueError(self.left_over(left))
 
     def axes(self) -> list[str]:
         """One parameter for each axis with more than one value; parameters that follow others are not axes."""
@@ -243,7 +266,7 @@ def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
 
 def scattered(name: str) -> ValueError:
     """The error for a parameter that has no axis, and is asked for as one."""
-    return ValueError(f"`{name}` is sampled, so that its values are not on an axis; plot.pareto draws such designs")
+    return ValueError(f"`{name}` is sampled, so that its values are not on an axis; plot.scatter draws such designs")
 
 
 def listed(values: Sequence[Any] | np.ndarray) -> str:

@@ -28,7 +28,7 @@ _UNDEFINED, _NO_ROW = "no value", "no row"
 @completed
 def heatmap(
     table: Any,
-    value: str,
+    value: str | None = None,
     *,
     x: str | None = None,
     y: str | None = None,
@@ -52,8 +52,8 @@ def heatmap(
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of a sweep over a grid.
-    value : str
-        The measure.
+    value : str, optional
+        The measure. By default the mean lift.
     x, y : str, optional
         The parameters along the axes: numbers or words. By default the two axes of the grid, with ``drive_frequency``
         or else the last of them along x.
@@ -92,6 +92,7 @@ def heatmap(
     _style.check_bar(colorbar)
     whole = Data.of(table)
     data = whole.slice(where, slices)
+    value = data.usual("benefit", "value") if value is None else value
     data.numbers(value)
     x, y = _two_axes(data, x, y)
     for name in (x, y):

@@ -7,21 +7,16 @@ from typing import Any, Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
+from .._flapwing import ways as _compared
 from . import _legend, _style
 from ._data import Data, Shown, distinct, listed
 from ._docs import completed
-
-# Ways that differ by less than this share of the measure's range have come to the same motion.
-_SAME = 0.01
-
-# The branches' colours, as in `flap plot`.
-_COLOURS = {"up": _style.BLUE, "down": _style.VERMILLION, "unstable": _style.DARK}
 
 
 @completed
 def hysteresis(
     table: Any,
-    y: str = "stroke_pp_deg",
+    y: str | None = None,
     *,
     along: str | None = None,
     curve: int | None = None,
@@ -38,8 +33,8 @@ def hysteresis(
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of `flapwing.respond` or ``flap respond --out``.
-    y : str
-        The measure.
+    y : str, optional
+        The measure. By default the stroke, peak to peak.
     along : str, optional
         The parameter that is followed; by default the column behind ``branch``.
     curve : int, optional
@@ -61,6 +56,7 @@ def hysteresis(
     if curve is not None:
         data = data.slice({"curve": curve}, {})
     _one_design(data)
+    y = data.usual("response", "y") if y is None else y
     data.numbers(y)
     if along is None:
         names = list(data.columns)
@@ -74,23 +70,22 @@ def hysteresis(
     if not up.x.size and not down.x.size:
         raise ValueError("the table has neither a way up nor a way down")
     size = float(np.nanmax(values) - np.nanmin(values)) if np.isfinite(values).any() else 0.0
-    common, differ = _different(up, down, _SAME * size)
-    bands = _bands(common, differ)
+    bands, *jumps = _compared((up.x, up.y), (down.x, down.y), size)
+    up.jumps, down.jumps = jumps
 
     given = ax is not None
     with _style.style(ax):
         ax = _style.axes_of(ax)
         for i, (low, high) in enumerate(bands):
             text = f"bistable, {_ends(low, high, x)}" if len(bands) == 1 and not given else "bistable"
-            ax.axvspan(low, high, color="#f3e3b3", alpha=0.75, linewidth=0, label=text if i == 0 else f"_{text}")
+            ax.axvspan(low, high, color=_style.BISTABLE, alpha=0.75, linewidth=0, label=text if i == 0 else f"_{text}")
         # The branch down often lies on the branch up, which must be seen below it.
         for name, width in (("up", 1.9), ("down", 0.8)):
-            colour = _COLOURS[name]
+            colour = _style.BRANCHES[name]
             way = ways[name]
             if not way.x.size:
                 continue
-            jumps = way.jumps(common, differ)
-            xs, ys = _with_gaps(way.x, way.y, jumps)
+            xs, ys = _with_gaps(way.x, way.y, way.jumps)
             ax.plot(
                 xs,
                 ys,
@@ -100,15 +95,15 @@ def hysteresis(
                 markersize=_style.size(0.6 if name == "up" else 0.4),
                 label=name,
             )
-            for i in jumps:
+            for i in way.jumps:
                 _jump(ax, way, i, colour)
-            _along_the_way(ax, way, colour, bands, jumps)
+            _along_the_way(ax, way, colour, bands)
         unstable = ways["unstable"]
         if unstable.x.size:
             ax.plot(
                 unstable.x,
                 unstable.y,
-                color=_COLOURS["unstable"],
+                color=_style.BRANCHES["unstable"],
                 linewidth=_style.width(0.75),
                 linestyle=(0, (4, 2.5)),
                 label="unstable",
@@ -125,15 +120,9 @@ class _Way:
     """A branch in the order in which it was followed."""
 
     def __init__(self, x: np.ndarray, y: np.ndarray) -> None:
-        self.x, self.y = x, y
-
-    def jumps(self, common: np.ndarray, differ: np.ndarray) -> list[int]:
-        """The rows after which this way jumps to the motion of the other: the ways differ there, and behind it no more."""
-        different = dict(zip(common.tolist(), differ.tolist()))
-        flags = [different.get(value, False) for value in self.x.tolist()]
-        return [
-            i for i in range(len(self.x) - 1) if flags[i] and not flags[i + 1] and np.isfinite(self.y[i : i + 2]).all()
-        ]
+        self.x, self.y = np.ascontiguousarray(x, float), np.ascontiguousarray(y, float)
+        self.jumps: list[int] = []
+        """The rows after which this way jumps to the motion of the other."""
 
 
 def _one_design(data: Data) -> None:
@@ -149,19 +138,6 @@ def _one_design(data: Data) -> None:
     raise ValueError(
         "\n".join([f"choose one of {len(curves)} designs: curve={curves[0]:g}, or by its parameters", *lines])
     )
-
-
-def _different(up: _Way, down: _Way, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
-    """The values that both ways have, rising, and whether the ways differ there."""
-    common, here, there = np.intersect1d(up.x, down.x, return_indices=True)
-    return common, np.abs(up.y[here] - down.y[there]) > tolerance
-
-
-def _bands(common: np.ndarray, differ: np.ndarray) -> list[tuple[float, float]]:
-    """First and last value of each run of values where the ways differ."""
-    flags = np.concatenate([[False], differ, [False]]).astype(int)
-    starts, ends = np.flatnonzero(np.diff(flags) == 1), np.flatnonzero(np.diff(flags) == -1) - 1
-    return [(float(common[a]), float(common[b])) for a, b in zip(starts, ends)]
 
 
 def _ends(low: float, high: float, x: Shown) -> str:
@@ -181,7 +157,7 @@ def _jump(ax: Axes, way: _Way, i: int, colour: str) -> None:
     ax.annotate("", xy=(x, way.y[i + 1]), xytext=(x, way.y[i]), arrowprops={**look, "linewidth": _style.width(0.5)})
 
 
-def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, float]], jumps: list[int]) -> None:
+def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, float]]) -> None:
     """An arrowhead on the line: where the ways are apart, else after a third of the way."""
     count = len(way.x)
     if count < 3:
@@ -191,7 +167,7 @@ def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, fl
         low, high = max(bands, key=lambda band: band[1] - band[0])
         place = int(np.argmin(np.abs(way.x - 0.5 * (low + high))))
     i = min(max(place, 1), count - 2)
-    if not np.isfinite(way.y[i - 1 : i + 2]).all() or {i - 1, i} & set(jumps):
+    if not np.isfinite(way.y[i - 1 : i + 2]).all() or {i - 1, i} & set(way.jumps):
         return
     head = {
         "arrowstyle": "-|>",
@@ -217,7 +193,7 @@ def _mark(ax: Axes, data: Data, x: Shown, branches: np.ndarray) -> None:
                 x.values[mask],
                 0.985 - 0.025 * place,
                 markersize=_style.size(0.8),
-                color=_COLOURS[name],
+                color=_style.BRANCHES[name],
                 label=label,
             )
             shown = True

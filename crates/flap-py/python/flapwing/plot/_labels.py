@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._flapwing import printed, scale, split_unit, unit_of, words
+from .._flapwing import better, printed, scale, split_unit, unit_of, words
 
-__all__ = ["label", "number", "printed", "readable", "titled", "unit_of", "words"]
+__all__ = ["better", "label", "lowered", "number", "printed", "readable", "split_unit", "titled", "unit_of", "words"]
 
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -46,6 +46,11 @@ def label(name: str, unit: str | None = None) -> str:
 def titled(text: str, unit: str) -> str:
     """Words and a unit, if there is one, in parentheses."""
     return f"{text} ({unit})" if unit else text
+
+
+def lowered(text: str) -> str:
+    """Words within a sentence: with a small first letter."""
+    return text[:1].lower() + text[1:]
 
 
 def number(value: float) -> str:

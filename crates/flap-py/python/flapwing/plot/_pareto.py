@@ -7,10 +7,11 @@ from typing import Any, Mapping, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from . import _legend, _scales, _style
-from ._data import Data, distinct
+from . import _legend, _style
+from ._data import Data
 from ._docs import completed
 from ._front import non_dominated
+from ._points import points
 
 
 @completed
@@ -38,7 +39,8 @@ def pareto(
     table : Table, data frame, mapping of columns, or path
         Results of any kind.
     maximize, minimize : str or sequence of str
-        The objectives, two or more in all. The first two are drawn: what is minimised first along x.
+        The objectives, two or more in all. The first two are drawn: what is minimised first along x. By default the mean
+        lift is maximised and the mean power minimised.
     color : str, optional
         A column for the points' colours: numbers with a colour bar, words with a legend.
     cmap : str, optional
@@ -66,6 +68,9 @@ def pareto(
     data = Data.of(table).slice(where, slices)
     smaller = [minimize] if isinstance(minimize, str) else list(minimize)
     larger = [maximize] if isinstance(maximize, str) else list(maximize)
+    if not smaller and not larger:
+        larger = [data.usual("benefit", "maximize")]
+        smaller = [data.usual("cost", "minimize", larger)]
     objectives = [*smaller, *larger]
     if len(objectives) < 2 or len(set(objectives)) < len(objectives):
         raise ValueError(f"two different objectives or more are needed, not {objectives}")
@@ -83,8 +88,7 @@ def pareto(
     given = ax is not None
     with _style.style(ax):
         ax = _style.axes_of(ax, 6.4, 4.4)
-        size = _style.size(0.62 if len(data) <= 2000 else 0.4)
-        _points(ax, data, x.values, y.values, size, color, cmap, colorbar)
+        size = points(ax, data, x.values, y.values, color, cmap, colorbar)
         order = np.flatnonzero(front)
         order = order[np.lexsort((y.values[order], x.values[order]))]
         plural = "design" if len(data) == 1 else "designs"
@@ -113,30 +117,3 @@ def pareto(
         corner = f"{'lower' if names[1] in smaller else 'upper'} {'left' if names[0] in smaller else 'right'}"
         _legend.legend(ax, legend, given, inside=corner, handles=handles, ncols=4, borderaxespad=0.2, **title)
     return ax
-
-
-def _points(
-    ax: Axes,
-    data: Data,
-    x: np.ndarray,
-    y: np.ndarray,
-    size: float,
-    color: str | None,
-    cmap: str | None,
-    colorbar: bool | Axes,
-) -> None:
-    """The designs as points, in the colours of a column."""
-    look: dict[str, Any] = {"s": size**2, "linewidths": 0, "alpha": 0.9, "rasterized": True}
-    if color is None:
-        ax.scatter(x, y, color="#9ab8cf", **look)
-        return
-    shown = data.shown(color)
-    if not shown.text:
-        colours = _scales.colours(shown.values, cmap, log=_scales.in_ratio(distinct(shown.values)))
-        points = ax.scatter(x, y, c=shown.values, cmap=colours.cmap, norm=colours.norm, **{**look, "alpha": None})
-        colours.bar(ax, points, colorbar, shown.label)
-        return
-    words = distinct(data[color])
-    for word, shade in zip(words, _style.shades(words, True)):
-        mask = data[color].astype(str) == word
-        ax.scatter(x[mask], y[mask], color=shade, label=str(word), **look)

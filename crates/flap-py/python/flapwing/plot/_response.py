@@ -15,8 +15,8 @@ from . import _legend, _scales, _style
 from ._data import Data, Shown, distinct, edges, scattered, unknown
 from ._docs import completed
 
-# The measures drawn by default: the first of these that the table has.
-_USUAL = ("stroke_pp_deg", "stroke_amplitude_deg", "lift_mean_mn", "lift_mean_gf", "vehicle_lift_mgf")
+# Most lines of a sample that nobody asked for: more cannot be distinguished.
+_MOST_SAMPLED = 16
 
 
 @overload
@@ -83,7 +83,7 @@ def response(
     whole = Data.of(table)
     data = whole.slice(where, slices)
     several = y is not None and not isinstance(y, str)
-    measures = [_usual(data)] if y is None else [y] if isinstance(y, str) else list(y)
+    measures = [data.usual("response", "y")] if y is None else [y] if isinstance(y, str) else list(y)
     if not measures:
         raise ValueError("`y` names no measure")
     if several and len(measures) > 1 and ax is not None:
@@ -91,7 +91,13 @@ def response(
     for name in measures:
         data.numbers(name)
     x = along(data, by) if x is None else x
-    by = _family(data, x) if by is None else by
+    if by is None:
+        by = _family(data, x)
+        if by is not None and not data.on_a_grid(by) and len(distinct(data[by])) > _MOST_SAMPLED:
+            raise ValueError(
+                f"`{by}` is sampled, so that {len(distinct(data[by]))} lines would cover each other: choose a value of "
+                f"`{x}` and draw plot.scatter, plot.histogram or plot.tornado; by={by!r} draws them all"
+            )
     if not data.on_a_grid(x):
         raise scattered(x)
     data.numbers(x)
@@ -242,14 +248,6 @@ class Family:
         shown = numbers[:: -(-len(numbers) // room)]
         bar.set_ticks(list(shown), labels=[f"{number:{'.3g' if log else '.4g'}}" for number in shown])
         bar.minorticks_off()
-
-
-def _usual(data: Data) -> str:
-    """The measure that is drawn if none is named."""
-    for name in _USUAL:
-        if name in data:
-            return name
-    raise ValueError(f"say which column to draw as `y`. There are: {', '.join(data.columns)}")
 
 
 def along(data: Data, by: str | None) -> str:

@@ -10,13 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Colormap, ListedColormap, LogNorm, Normalize
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
 
+from .._flapwing import is_signed
 from . import _style
 
 #: The colour maps of numbers, and of those with both signs.
 SEQUENTIAL, DIVERGING = "viridis", "RdBu_r"
-
-# Numbers have both signs if the smaller side is at least this share of the larger one.
-_BOTH_SIGNS = 0.02
 
 
 class Colours(NamedTuple):
@@ -54,7 +52,7 @@ def colours(
     low, high = smallest if vmin is None else vmin, largest if vmax is None else vmax
     below, above = bool(finite.size) and smallest < low, bool(finite.size) and largest > high
     extend = {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}[below, above]
-    if cmap is None and low < 0 < high and min(-low, high) > _BOTH_SIGNS * max(-low, high):
+    if cmap is None and is_signed(low, high):
         return Colours(_diverging(low, high), Normalize(low, high), extend, True)
     norm = LogNorm(low, high) if log and low > 0 else Normalize(low, high)
     return Colours(cmap or SEQUENTIAL, norm, extend, False)

@@ -11,6 +11,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from .. import _flapwing
+
 if TYPE_CHECKING:
 
     class Drawn(Axes):
@@ -24,10 +26,16 @@ if TYPE_CHECKING:
 else:
     Drawn = Axes
 
-# Okabe and Ito's colours, which readers with any colour vision tell apart, in the order of `flap plot`.
-BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"
-COLOURS = [BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY, "#000000"]
-DARK, GREY, LIGHT = "#222222", "#777777", "#d9d9d9"
+# The colours of `flap plot`: those of series are Okabe and Ito's, which readers with any colour vision tell apart.
+_TABLE: dict[str, Any] = _flapwing.colours()
+COLOURS: list[str] = _TABLE["series"]
+BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = COLOURS[:6]
+DARK: str = _TABLE["dark"]
+PLAIN: str = _TABLE["plain"]
+MISSING: str = _TABLE["missing"]
+BISTABLE: str = _TABLE["bistable"]
+BRANCHES: dict[str, str] = _TABLE["branches"]
+GREY = "#777777"
 
 # More lines than this get a colour bar in place of a legend.
 LEGEND_LINES = 8
@@ -126,6 +134,5 @@ def shades(values: Sequence[Any] | np.ndarray, text: bool) -> list[Any]:
     """A colour for each value: in an order for numbers, apart for words."""
     if text:
         return [COLOURS[i % len(COLOURS)] for i in range(len(values))]
-    if len(values) == 1:
-        return [BLUE]
-    return list(mpl.colormaps["viridis"](np.linspace(0.0, 0.88, len(values))))
+    places = _flapwing.line_shades(len(values))
+    return [BLUE] if places is None else list(mpl.colormaps["viridis"](places))

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+import os
 from typing import Any, Iterable, Mapping, NamedTuple, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
 
-from . import _labels, _legend, _style
+from . import _correlations, _labels, _legend, _style
 from ._data import unknown
 from ._docs import completed
 
@@ -117,7 +118,7 @@ def sensitivities(
 
 @completed
 def tornado(
-    design: str | Sequence[Sensitivity],
+    design: Any,
     measure: str | None = None,
     parameters: Mapping[str, float | tuple[float, float]] | Iterable[str] | None = None,
     *,
@@ -129,24 +130,30 @@ def tornado(
 ) -> _style.Drawn:
     """Draw how a measure changes with each parameter, as bars in the order of their length.
 
+    Of a preset, each parameter is changed by a little. Of a sample, bars show the rank correlation (Spearman) of each
+    parameter with the measure, from -1 to 1.
+
     Parameters
     ----------
-    design : str, or sequence of Sensitivity
-        A preset; or the result of `sensitivities`, and then no points are run.
+    design : str; sequence of Sensitivity; Table, data frame, mapping of columns, or path
+        A preset; or the result of `sensitivities`, and then no points are run; or the results of a sample.
     measure, parameters, change, **fixed
-        As for `sensitivities`.
+        As for `sensitivities`. Of a sample, as for `rank_correlations`, without `change`.
     top : int
         The largest number of parameters that are drawn.
     %(legend)s
     %(axes)s
-        The horizontal axis is the change of the measure in percent of the design's own.
+        The horizontal axis is the change of the measure in percent of the design's own, or the correlation.
 
     Raises
     ------
     ValueError
-        As `sensitivities`; no sensitivities; a measure that is zero for the design itself.
+        As `sensitivities` and `rank_correlations`; no sensitivities; a measure that is zero for the design itself.
     """
     _legend.check(legend)
+    if _is_table(design):
+        names = None if parameters is None else list(parameters)
+        return _correlations.draw(_correlations.rank_correlations(design, measure, names, **fixed), top, ax)
     if isinstance(design, str):
         if measure is None:
             raise TypeError("`measure` is needed: a measure of the model, such as lift_mean_mn")
@@ -181,7 +188,7 @@ def tornado(
         unit = _labels.printed(shown[0].measure_unit)
         words = _labels.words(shown[0].measure, shown[0].measure_unit)
         ax.set_xlabel(
-            f"Change of {words[:1].lower() + words[1:]} (% of {_labels.number(base)} {unit})".replace(" )", ")")
+            f"Change of {_labels.lowered(words)} (% of {_labels.number(base)} {unit})".replace(" )", ")")
         )
         for place, each in enumerate(shown):
             missing = [name for name, value in ((less, each.low), (more, each.high)) if math.isnan(value)]
@@ -199,6 +206,13 @@ def tornado(
         title = f"each parameter alone{left}"
         _legend.legend(ax, legend, given, ncols=2, borderaxespad=0.1, title=title, alignment="left")
     return ax
+
+
+def _is_table(design: Any) -> bool:
+    """True for results: a table of any kind, or the path of a file, whose name has an ending."""
+    if isinstance(design, str):
+        return bool(os.path.splitext(design)[1])
+    return isinstance(design, os.PathLike) or not isinstance(design, Sequence)
 
 
 def _ranges(

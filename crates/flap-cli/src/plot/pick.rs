@@ -1,0 +1,109 @@
+//! The columns of a picture of some kind.
+
+use super::chosen::Columns;
+use super::wishes::Wishes;
+use crate::args::PictureKind;
+use crate::data::axes::Axes;
+use crate::failure::Failure;
+
+/// The columns that are asked for, and usual ones where none is named.
+pub(super) fn columns(wishes: &Wishes, axes: &Axes, kind: PictureKind) -> Result<Columns, Failure> {
+    match kind {
+        PictureKind::Response => response(wishes, axes),
+        PictureKind::Map => map(wishes, axes),
+        PictureKind::Scatter => scatter(wishes),
+        PictureKind::Pareto => pareto(wishes),
+        PictureKind::Histogram | PictureKind::Tornado => {
+            let x = wishes.x.or(wishes.three[0]);
+            let x = x.ok_or_else(|| wishes.unclear("x", NO_MEASURES))?;
+            Ok(Columns::plain(kind, x, x))
+        }
+        PictureKind::Trajectory => trajectory(wishes),
+        PictureKind::Hysteresis => hysteresis(wishes, axes),
+    }
+}
+
+const NO_MEASURES: &str = "the file has no measures";
+const NO_VALUES: &str = "no parameter has more than one value";
+
+fn response(wishes: &Wishes, axes: &Axes) -> Result<Columns, Failure> {
+    let taken = [wishes.y, wishes.by];
+    let free = || axes.columns.iter().copied().filter(|column| !taken.contains(&Some(*column)));
+    let x = wishes.x.or_else(|| frequency(wishes, axes)).or_else(|| free().next_back());
+    let why = if axes.sampled { "the values of a sample are on no axis" } else { NO_VALUES };
+    let x = x.ok_or_else(|| wishes.unclear("x", why))?;
+    let y = wishes.y.or(wishes.response);
+    let y = y.ok_or_else(|| wishes.unclear("y", NO_MEASURES))?;
+    let by = wishes.by.or_else(|| if axes.sampled { None } else { free().find(|&column| column != x) });
+    Ok(Columns { by, ..Columns::plain(PictureKind::Response, x, y) })
+}
+
+fn map(wishes: &Wishes, axes: &Axes) -> Result<Columns, Failure> {
+    let free = |other: Option<usize>| {
+        let taken = [other, wishes.color];
+        axes.columns.iter().copied().filter(move |column| !taken.contains(&Some(*column)))
+    };
+    let x = wishes
+        .x
+        .or_else(|| frequency(wishes, axes).filter(|&f| wishes.y != Some(f)))
+        .or_else(|| free(wishes.y).next_back());
+    let x = x.ok_or_else(|| wishes.unclear("x", NO_VALUES))?;
+    let y = wishes.y.or_else(|| free(Some(x)).next());
+    let y = y.ok_or_else(|| wishes.unclear("y", "a map needs two parameters that vary"))?;
+    let color = wishes.color.or(wishes.three[0]);
+    let color = color.ok_or_else(|| wishes.unclear("color", NO_MEASURES))?;
+    Ok(Columns { color: Some(color), ..Columns::plain(PictureKind::Map, x, y) })
+}
+
+fn scatter(wishes: &Wishes) -> Result<Columns, Failure> {
+    let [benefit, cost, motion] = wishes.three;
+    let (x, y) = plane(wishes)?;
+    let left = [motion, benefit, cost].map(|column| column.filter(|column| ![x, y].contains(column)));
+    Ok(Columns {
+        color: wishes.color.or_else(|| wishes.free(left)),
+        ..Columns::plain(PictureKind::Scatter, x, y)
+    })
+}
+
+fn pareto(wishes: &Wishes) -> Result<Columns, Failure> {
+    let (x, y) = plane(wishes)?;
+    Ok(Columns { color: wishes.color, ..Columns::plain(PictureKind::Pareto, x, y) })
+}
+
+/// The columns across and up, by default the cost and the benefit.
+fn plane(wishes: &Wishes) -> Result<(usize, usize), Failure> {
+    let [benefit, cost, motion] = wishes.three;
+    let x = wishes.x.or_else(|| wishes.free([cost, motion, benefit]));
+    let x = x.ok_or_else(|| wishes.unclear("x", "the file has too few measures"))?;
+    let others = [benefit, cost, motion].map(|column| column.filter(|&column| column != x));
+    let y = wishes.y.or_else(|| wishes.free(others));
+    let y = y.ok_or_else(|| wishes.unclear("y", "the file has too few measures"))?;
+    Ok((x, y))
+}
+
+fn trajectory(wishes: &Wishes) -> Result<Columns, Failure> {
+    for name in ["time_s", "stroke_deg", "pitch_deg"] {
+        if wishes.place(name).is_none() {
+            let message = format!("a trajectory needs a column {name}, as `flap run --trajectory` writes it");
+            return Err(Failure::usage(message).help(wishes.listed()));
+        }
+    }
+    let time = wishes.place("time_s").unwrap_or(0);
+    Ok(Columns::plain(PictureKind::Trajectory, time, time))
+}
+
+fn hysteresis(wishes: &Wishes, axes: &Axes) -> Result<Columns, Failure> {
+    let Some(branch) = wishes.branch() else {
+        let message = "a picture of hysteresis needs a column `branch`, as `flap respond --out` writes it";
+        return Err(Failure::usage(message).help(wishes.listed()));
+    };
+    let x = wishes.x.unwrap_or(branch + 1);
+    let y = wishes.y.or(wishes.response);
+    let y = y.ok_or_else(|| wishes.unclear("y", NO_MEASURES))?;
+    let by = wishes.by.or_else(|| axes.columns.first().copied());
+    Ok(Columns { by, ..Columns::plain(PictureKind::Hysteresis, x, y) })
+}
+
+fn frequency(wishes: &Wishes, axes: &Axes) -> Option<usize> {
+    wishes.place("drive_frequency").filter(|column| axes.columns.contains(column))
+}

@@ -1,0 +1,92 @@
+//! Points of designs in the plane of two columns, in the colours of a third.
+
+use flap_sweep::picture::colours::{MISSING, PLAIN};
+use kuva::render::plots::Plot;
+
+use super::chosen::Chosen;
+use super::ink;
+use super::panel::Axis;
+use super::scale;
+use super::shades::Shades;
+use crate::data::columns::Table;
+use crate::failure::Failure;
+
+/// Most points of a picture besides a front.
+const MOST_POINTS: usize = 20_000;
+
+/// Number of shades of coloured points.
+const SHADES: usize = 24;
+
+/// The points of a picture.
+pub(super) struct Points {
+    /// The rows with a place, and their places in shown units.
+    rows: Vec<usize>,
+    pub(super) places: Vec<(f64, f64)>,
+    /// Ranges of the places.
+    pub(super) extent: [(f64, f64); 2],
+    /// Those of `places` that are drawn.
+    pub(super) shown: Vec<usize>,
+    /// Rows without a place.
+    pub(super) missing: usize,
+}
+
+impl Points {
+    /// The rows that have both columns.
+    pub(super) fn of(table: &Table, chosen: &Chosen) -> Result<Points, Failure> {
+        let (across, up) = (table.numbers(chosen.columns.x)?, table.numbers(chosen.columns.y)?);
+        let (x, y) = (table.label(chosen.columns.x), table.label(chosen.columns.y));
+        let has_place = |&row: &usize| across[row].is_finite() && up[row].is_finite();
+        let rows: Vec<usize> = chosen.rows.iter().copied().filter(has_place).collect();
+        let places: Vec<(f64, f64)> =
+            rows.iter().map(|&row| (across[row] * x.factor, up[row] * y.factor)).collect();
+        let Some(extent) = scale::extent(&places) else {
+            return Err(chosen.nothing(table, chosen.columns.y));
+        };
+        let shown = scale::even(places.len(), MOST_POINTS);
+        let missing = chosen.rows.len() - rows.len();
+        Ok(Points { rows, places, extent, shown, missing })
+    }
+
+    /// The note about rows without a place, if there are some.
+    pub(super) fn note(&self) -> Option<String> {
+        let all = self.rows.len() + self.missing;
+        (self.missing > 0).then(|| format!("{} of {all} designs without values", self.missing))
+    }
+
+    /// The points as one plot, called `name`, or in the colours of the chosen column as several with their colour bar.
+    pub(super) fn plots(
+        &self,
+        table: &Table,
+        chosen: &Chosen,
+        name: &str,
+    ) -> Result<(Vec<Plot>, Option<Axis>), Failure> {
+        let Some(color) = chosen.columns.color else {
+            let plain: Vec<(f64, f64)> = self.shown.iter().map(|&place| self.places[place]).collect();
+            return Ok((vec![ink::points(&plain, name, PLAIN, 2.2)], None));
+        };
+        let values = table.numbers(color)?;
+        let label = table.label(color);
+        let Some(range) = scale::range(self.rows.iter().map(|&row| values[row] * label.factor)) else {
+            return Err(chosen.nothing(table, color));
+        };
+        let (low, high) = scale::padded(range, 0.0);
+        let mut groups = vec![Vec::new(); SHADES + 1];
+        for &place in &self.shown {
+            let share = (values[self.rows[place]] * label.factor - low) / (high - low);
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to SHADES")]
+            let group =
+                if share.is_finite() { (share * (SHADES - 1) as f64).round() as usize } else { SHADES };
+            groups[group].push(self.places[place]);
+        }
+        let shades = Shades::of((low, high));
+        let plots =
+            groups.iter().enumerate().filter(|(_, points)| !points.is_empty()).map(|(group, points)| {
+                let colour = match group {
+                    SHADES => MISSING.to_owned(),
+                    _ => shades.colour(low + (high - low) * group as f64 / (SHADES - 1) as f64),
+                };
+                ink::points(points, "", &colour, 2.6)
+            });
+        Ok((plots.collect(), Some(Axis::linear(label.text(), (low, high)))))
+    }
+}

@@ -1,0 +1,89 @@
+//! Tornados of a sample: the rank correlation of each parameter with a measure.
+
+use flap_sweep::picture::colours::{DARK, SERIES};
+use flap_sweep::picture::sample::correlations;
+use kuva::render::layout::ComputedLayout;
+use kuva::render::render::{Scene, TextAnchor};
+
+use super::chosen::Chosen;
+use super::ink;
+use super::panel::{Axis, Panel};
+use crate::args::Size;
+use crate::console;
+use crate::data::columns::{Cells, Table};
+use crate::failure::Failure;
+
+/// Most bars of a picture.
+const MOST_BARS: usize = 20;
+
+/// The height of a bar, of the distance between two.
+const THICK: f64 = 0.62;
+
+/// Draws the correlations of the parameters with column `x`, the largest on top.
+pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
+    let measure = chosen.columns.x;
+    let values = table.numbers(measure)?;
+    let of_rows = |values: &[f64]| chosen.rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
+    let values = of_rows(values);
+    let designs = values.iter().filter(|value| value.is_finite()).count();
+    if designs == 0 {
+        return Err(chosen.nothing(table, measure));
+    }
+    let (places, columns): (Vec<usize>, Vec<Vec<f64>>) = (chosen.parameters.iter())
+        .filter_map(|&column| match &table.columns[column].cells {
+            Cells::Numbers(numbers) => Some((column, of_rows(numbers))),
+            _ => None,
+        })
+        .unzip();
+    let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let found = correlations(&columns, &values);
+    if found.is_empty() {
+        let message =
+            "no parameter has several values in the rows that are drawn: there is nothing to compare";
+        return Err(Failure::usage(message).help("--where chooses rows; a tornado needs a sample or a grid"));
+    }
+    let shown = &found[..found.len().min(MOST_BARS)];
+    if shown.len() < found.len() {
+        let (drawn, all) = (shown.len(), found.len());
+        console::say(&format!("the {drawn} largest of {all} correlations are drawn"));
+    }
+
+    let mut notes = chosen.notes.clone();
+    // Of independent columns, 95 % of the correlations are smaller.
+    let chance = 1.96 / (designs.max(2) as f64 - 1.0).sqrt();
+    notes.push(format!("{designs} designs; sizes below {chance:.2} may be chance"));
+    let words = table.label(measure).words;
+    let mut letters = words.chars();
+    let measured = letters.next().map(|first| first.to_lowercase().chain(letters).collect::<String>());
+    let panel = Panel {
+        title: chosen.title.clone(),
+        notes,
+        ..Panel::new(
+            Axis::linear(
+                format!("Rank correlation (Spearman) with {}", measured.unwrap_or_default()),
+                (-1.2, 1.2),
+            ),
+            Axis::linear(String::new(), (0.4, shown.len() as f64 + 0.6)),
+            Vec::new(),
+        )
+    };
+    let names = shown.iter().rev().map(|&(place, _)| ink::plain(&table.label(places[place]).words));
+    let layout = panel.layout(size).with_y_categories(names.collect());
+    let frame = ComputedLayout::from_layout(&layout);
+    let mut scene = panel.scene_in(layout);
+    let zero = frame.map_x(0.0);
+    for (line, &(_, size)) in shown.iter().rev().enumerate() {
+        let middle = frame.map_y(line as f64 + 1.0);
+        let half = (frame.map_y(line as f64 + 1.0 - THICK / 2.0) - middle).min(14.0);
+        let end = frame.map_x(size);
+        let colour = SERIES[usize::from(size > 0.0)];
+        ink::rectangle(&mut scene, (zero.min(end), middle - half), ((end - zero).abs(), 2.0 * half), colour);
+        let (at, anchor) =
+            if size > 0.0 { (end + 5.0, TextAnchor::Start) } else { (end - 5.0, TextAnchor::End) };
+        let text = format!("{size:+.2}").replace('-', "−");
+        ink::text(&mut scene, (at, middle + 4.2), &text, 12, anchor);
+    }
+    let (top, bottom) = (frame.margin_top, frame.margin_top + frame.plot_height());
+    ink::rectangle(&mut scene, (zero - 0.5, top), (1.0, bottom - top), DARK);
+    Ok(scene)
+}

@@ -1,0 +1,89 @@
+"""The number of designs over a measure, with percentiles."""
+
+from __future__ import annotations
+
+from typing import Any, Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from .._flapwing import bars
+from . import _labels, _style
+from ._data import Data
+from ._docs import completed
+
+# The share of the axes' height above the bars, where the percentiles are written.
+_ROOM = 0.28
+
+
+@completed
+def histogram(
+    table: Any,
+    measure: str | None = None,
+    *,
+    where: Mapping[str, Any] | None = None,
+    ax: Axes | None = None,
+    **slices: Any,
+) -> _style.Drawn:
+    """Draw the number of designs over a measure, with its percentiles 5, 50 and 95, such as the lift of a sample.
+
+    Designs without a periodic motion are left out. Bars are as wide as the rule of Freedman and Diaconis has it.
+
+    Parameters
+    ----------
+    table : Table, data frame, mapping of columns, or path
+        Results of any kind.
+    measure : str, optional
+        A column of numbers. By default the mean lift, or another measure of the table.
+    %(where)s
+    %(axes)s
+
+    Raises
+    ------
+    ValueError
+        An unknown column or value; a sample that is crossed with axes of which no value is chosen; no design that has
+        the measure.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> ax = histogram({"lift_mean_mn": np.linspace(1.0, 2.0, 101)})
+    >>> [text.get_text() for text in ax.texts]
+    ['5 %: 1.05 mN', '50 %: 1.5 mN', '95 %: 1.95 mN']
+    """
+    data = Data.of(table).slice(where, slices)
+    data.one_sample()
+    measure = data.usual("benefit", "measure") if measure is None else measure
+    data.numbers(measure)
+    shown = data.shown(measure)
+    found = bars(np.ascontiguousarray(np.where(data.measured(), shown.values, np.nan)))
+    if found is None:
+        raise ValueError(f"no row has a number for `{measure}`")
+    edges, counts, marked = found
+
+    with _style.style(ax):
+        ax = _style.axes_of(ax)
+        ax.bar(edges[:-1], counts, np.diff(edges), align="edge", color=_style.PLAIN, edgecolor="white", linewidth=0.4)
+        ax.set_ylim(0.0, counts.max() / (1.0 - _ROOM))
+        ax.margins(x=0.03)
+        middle = 0.5 * (edges[0] + edges[-1])
+        for line, (percent, value) in enumerate(marked):
+            # Each percentile has a line of text of its own, so that close ones do not cover each other.
+            top = 1.0 - _ROOM * line / len(marked)
+            ax.axvline(value, ymax=top, color=_style.DARK, linewidth=_style.width(0.6), linestyle=(0, (4, 3)))
+            ax.annotate(
+                f"{percent} %: {_labels.number(value)} {shown.unit}".rstrip(),
+                (value, top),
+                xycoords=("data", "axes fraction"),
+                xytext=(3 if value < middle else -3, -1),
+                textcoords="offset points",
+                ha="left" if value < middle else "right",
+                va="top",
+                fontsize="small",
+                color=_style.DARK,
+                # Lines of other percentiles end behind the text.
+                bbox={"facecolor": ax.get_facecolor(), "edgecolor": "none", "pad": 0.6},
+            )
+        ax.set_xlabel(shown.label)
+        ax.set_ylabel("Number of designs")
+    return ax

@@ -1,0 +1,103 @@
+//! The choices that pictures share with those of the command.
+
+use flap_sweep::picture::branches::{BRANCHES, Comparison, Way, compared};
+use flap_sweep::picture::measures::{Role, usual};
+use flap_sweep::picture::{colours as table, sample};
+use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// The colours of pictures: `series` is a list, `branches` has a colour for each branch, and `dark`, `plain`, `missing` and
+/// `bistable` are one colour each.
+#[pyfunction]
+pub(crate) fn colours(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let branches = PyDict::new(py);
+    for branch in BRANCHES {
+        branches.set_item(branch.name, branch.colour)?;
+    }
+    let found = PyDict::new(py);
+    found.set_item("series", table::SERIES)?;
+    found.set_item("branches", branches)?;
+    found.set_item("dark", table::DARK)?;
+    found.set_item("plain", table::PLAIN)?;
+    found.set_item("missing", table::MISSING)?;
+    found.set_item("bistable", table::BISTABLE)?;
+    Ok(found)
+}
+
+/// The place in the sequential map of each of `count` lines that have an order; None for a line alone.
+#[pyfunction]
+#[pyo3(signature = (count, /))]
+pub(crate) fn line_shades(count: usize) -> Option<Vec<f64>> {
+    (0..count).map(|index| table::shade(index, count)).collect()
+}
+
+/// True if numbers from `low` to `high` have both signs: then the map is a diverging one, with zero in its middle.
+#[pyfunction]
+#[pyo3(signature = (low, high, /))]
+pub(crate) fn is_signed(low: f64, high: f64) -> bool {
+    table::is_signed(low, high)
+}
+
+/// The measure that is drawn if none is named: the usual one among `columns` for a part, which is "response", "benefit",
+/// "cost" or "motion", and not in `taken`; None if there is none.
+#[pyfunction]
+#[pyo3(signature = (role, columns, taken, /))]
+#[expect(clippy::needless_pass_by_value, reason = "a list of Python's becomes a vector")]
+pub(crate) fn usual_measure(
+    role: &str,
+    columns: Vec<String>,
+    taken: Vec<String>,
+) -> PyResult<Option<String>> {
+    let role = Role::of(role).ok_or_else(|| PyValueError::new_err(format!("no part is called {role}")))?;
+    let [columns, taken] =
+        [&columns, &taken].map(|names| names.iter().map(String::as_str).collect::<Vec<_>>());
+    Ok(usual(role, &columns, &taken).map(|place| columns[place].to_owned()))
+}
+
+type Bands = Vec<(f64, f64)>;
+
+/// The bands in which the ways up and down of a response differ, and the rows of each after which it jumps to the other.
+/// `up` and `down` are pairs of the parameter and the measure, whose values differ by `range` in all.
+#[pyfunction]
+#[pyo3(signature = (up, down, range, /))]
+#[expect(clippy::needless_pass_by_value, reason = "arrays are handed over so")]
+pub(crate) fn ways(
+    up: (PyReadonlyArray1<'_, f64>, PyReadonlyArray1<'_, f64>),
+    down: (PyReadonlyArray1<'_, f64>, PyReadonlyArray1<'_, f64>),
+    range: f64,
+) -> PyResult<(Bands, Vec<usize>, Vec<usize>)> {
+    let way = Way { x: up.0.as_slice()?, y: up.1.as_slice()? };
+    let back = Way { x: down.0.as_slice()?, y: down.1.as_slice()? };
+    let Comparison { bands, jumps: [up, down] } = compared(way, back, range);
+    Ok((bands, up, down))
+}
+
+type Bars<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Vec<(u32, f64)>);
+
+/// The ends of a histogram's bars, their heights, and the values at its percentiles; None if no value is finite.
+#[pyfunction]
+#[pyo3(signature = (values, /))]
+#[expect(clippy::needless_pass_by_value, reason = "arrays are handed over so")]
+pub(crate) fn bars<'py>(py: Python<'py>, values: PyReadonlyArray1<'py, f64>) -> PyResult<Option<Bars<'py>>> {
+    let found = sample::histogram(values.as_slice()?);
+    Ok(found.map(|found| {
+        let counts = found.counts.iter().map(|&count| count as f64);
+        let marked = sample::MARKED.into_iter().zip(found.marked).collect();
+        (PyArray1::from_vec(py, found.edges), PyArray1::from_iter(py, counts), marked)
+    }))
+}
+
+/// The rank correlation of each parameter with a measure, by falling size, with the place of the parameter. Those that follow
+/// an earlier parameter, and those without a correlation, are left out.
+#[pyfunction]
+#[pyo3(signature = (parameters, measure, /))]
+#[expect(clippy::needless_pass_by_value, reason = "arrays are handed over so")]
+pub(crate) fn correlations(
+    parameters: Vec<PyReadonlyArray1<'_, f64>>,
+    measure: PyReadonlyArray1<'_, f64>,
+) -> PyResult<Vec<(usize, f64)>> {
+    let columns = parameters.iter().map(|column| column.as_slice()).collect::<Result<Vec<_>, _>>()?;
+    Ok(sample::correlations(&columns, measure.as_slice()?))
+}

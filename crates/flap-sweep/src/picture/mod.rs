@@ -1,0 +1,6 @@
+//! The choices that pictures of the command and of Python share: measures, colours, branches, numbers of a sample.
+
+pub mod branches;
+pub mod colours;
+pub mod measures;
+pub mod sample;

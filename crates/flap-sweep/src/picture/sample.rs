@@ -1,0 +1,170 @@
+//! Numbers that sum up a sample: percentiles, bars of a histogram, rank correlations.
+
+/// The percentiles that a histogram marks (percent).
+pub const MARKED: [u32; 3] = [5, 50, 95];
+
+/// The value below which this share (0 to 1) of the rising `values` lies, interpolated between two of them; NaN if there is
+/// none.
+pub fn percentile(values: &[f64], share: f64) -> f64 {
+    let Some(last) = values.len().checked_sub(1) else { return f64::NAN };
+    let place = share * last as f64;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to the last place")]
+    let below = place.floor() as usize;
+    let part = place - below as f64;
+    // The product of nought and an infinite difference is no number.
+    if part == 0.0 { values[below] } else { values[below] + part * (values[below + 1] - values[below]) }
+}
+
+/// The bars of a histogram, and the percentiles of its values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Histogram {
+    /// The ends of the bars, rising and evenly spaced, from the smallest to the largest value.
+    pub edges: Vec<f64>,
+    /// The number of values in each bar.
+    pub counts: Vec<usize>,
+    /// The values at the percentiles [`MARKED`].
+    pub marked: [f64; 3],
+}
+
+/// The histogram of the finite ones of `values`; none if there are none. Bars are as wide as the rule of Freedman and
+/// Diaconis has it, twice the spread of the middle half over the cube root of the number of values; there are 5 to 60 of
+/// them.
+pub fn histogram(values: &[f64]) -> Option<Histogram> {
+    const FEWEST: f64 = 5.0;
+    const MOST: f64 = 60.0;
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let (&low, &high) = (sorted.first()?, sorted.last()?);
+    let marked = MARKED.map(|percent| percentile(&sorted, f64::from(percent) / 100.0));
+    // Values that are equal but for rounding are one bar.
+    if high - low <= 1e-12 * high.abs().max(low.abs()) {
+        let half = if low == 0.0 { 0.5 } else { 0.05 * low.abs() };
+        return Some(Histogram { edges: vec![low - half, high + half], counts: vec![sorted.len()], marked });
+    }
+    let middle_half = percentile(&sorted, 0.75) - percentile(&sorted, 0.25);
+    let width = 2.0 * middle_half / (sorted.len() as f64).cbrt();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 5 to 60")]
+    let bars = ((high - low) / width).ceil().clamp(FEWEST, MOST) as usize;
+    let mut counts = vec![0; bars];
+    for value in &sorted {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to bars")]
+        let bar = ((value - low) / (high - low) * bars as f64) as usize;
+        // The largest value belongs to the last bar.
+        counts[bar.min(bars - 1)] += 1;
+    }
+    let edges = (0..=bars).map(|i| low + (high - low) * i as f64 / bars as f64).collect();
+    Some(Histogram { edges, counts, marked })
+}
+
+/// Spearman's rank correlation of two columns, from -1 to 1, over rows in which both are finite. Equal values share the mean
+/// of their ranks. NaN if there are fewer than three such rows, or if one column has the same value in all of them.
+pub fn rank_correlation(x: &[f64], y: &[f64]) -> f64 {
+    let (x, y): (Vec<f64>, Vec<f64>) =
+        x.iter().zip(y).filter(|(x, y)| x.is_finite() && y.is_finite()).map(|(x, y)| (*x, *y)).unzip();
+    if x.len() < 3 {
+        return f64::NAN;
+    }
+    let middle = (x.len() - 1) as f64 / 2.0;
+    let (x, y) = (ranks(&x), ranks(&y));
+    let product =
+        |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| (a - middle) * (b - middle)).sum() };
+    let size = (product(&x, &x) * product(&y, &y)).sqrt();
+    if size == 0.0 { f64::NAN } else { (product(&x, &y) / size).clamp(-1.0, 1.0) }
+}
+
+/// The rank of each value, from 0; equal values have the mean of their ranks.
+fn ranks(values: &[f64]) -> Vec<f64> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+    let mut ranks = vec![0.0; values.len()];
+    let mut first = 0;
+    for same in order.chunk_by(|&a, &b| values[a] == values[b]) {
+        let mean = first as f64 + (same.len() - 1) as f64 / 2.0;
+        for &place in same {
+            ranks[place] = mean;
+        }
+        first += same.len();
+    }
+    ranks
+}
+
+/// The rank correlation of each parameter with a measure, by falling size, with the index of the parameter. A parameter
+/// whose order is that of an earlier one, or its reverse, follows it and is left out, as is one without a correlation.
+pub fn correlations(parameters: &[&[f64]], measure: &[f64]) -> Vec<(usize, f64)> {
+    const SAME: f64 = 1.0 - 1e-9;
+    let mut found: Vec<(usize, f64)> = Vec::new();
+    for (place, column) in parameters.iter().enumerate() {
+        let size = rank_correlation(column, measure);
+        let follows =
+            |&(earlier, _): &(usize, f64)| rank_correlation(column, parameters[earlier]).abs() > SAME;
+        if size.is_finite() && !found.iter().any(follows) {
+            found.push((place, size));
+        }
+    }
+    found.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percentiles_are_interpolated() {
+        assert_eq!(percentile(&[1.0, 2.0, 3.0, 4.0], 0.5), 2.5);
+        assert_eq!(percentile(&[1.0, 2.0, 4.0], 0.5), 2.0);
+        assert_eq!(percentile(&[0.0, 1.0, f64::INFINITY], 0.5), 1.0);
+        assert_eq!(percentile(&[7.0], 0.95), 7.0);
+        assert!(percentile(&[], 0.5).is_nan());
+        let hundred: Vec<f64> = (0..=100).map(f64::from).collect();
+        assert_eq!([0.05, 0.95, 1.0].map(|share| percentile(&hundred, share)), [5.0, 95.0, 100.0]);
+    }
+
+    #[test]
+    fn bars_hold_all_values() {
+        let values: Vec<f64> = (0..=1000).map(|i| (f64::from(i) * 0.37).sin()).chain([f64::NAN]).collect();
+        let Histogram { edges, counts, marked } = histogram(&values).unwrap();
+        assert_eq!(counts.iter().sum::<usize>(), 1001);
+        assert_eq!(edges.len(), counts.len() + 1);
+        assert!((5..=60).contains(&counts.len()), "{counts:?}");
+        assert!(edges.is_sorted() && marked.is_sorted());
+        for (bar, count) in counts.iter().enumerate() {
+            let is_in = |value: &&f64| **value >= edges[bar] && **value < edges[bar + 1];
+            let within = values.iter().filter(is_in).count();
+            assert!(within.abs_diff(*count) <= 1, "bar {bar}: {within} and {count}");
+        }
+    }
+
+    #[test]
+    fn one_value_is_one_bar() {
+        let found = histogram(&[2.0, 2.0, f64::NAN]).unwrap();
+        assert_eq!(found, Histogram { edges: vec![1.9, 2.1], counts: vec![2], marked: [2.0; 3] });
+        assert_eq!(histogram(&[f64::NAN]), None);
+        // Most values are the same: the middle half has no width.
+        assert_eq!(histogram(&[0.0, 1.0, 1.0, 1.0, 1.0]).unwrap().counts.len(), 60);
+    }
+
+    /// Spearman (1904) by the formula 1 - 6 sum d² / (n (n² - 1)) for ranks without ties.
+    #[test]
+    fn rank_correlations_are_spearmans() {
+        // Ranks 1 to 5 against 2, 1, 4, 3, 5: the sum of d² is 4.
+        let found = rank_correlation(&[1.0, 2.0, 3.0, 4.0, 5.0], &[20.0, 10.0, 1e3, 30.0, 1e9]);
+        assert!((found - (1.0 - 6.0 * 4.0 / 120.0)).abs() < 1e-12, "{found}");
+        // Ties: the value of scipy.stats.spearmanr([1, 2, 2, 3], [1, 3, 2, 4]).
+        let found = rank_correlation(&[1.0, 2.0, 2.0, 3.0], &[1.0, 3.0, 2.0, 4.0]);
+        assert!((found - 0.948_683_298_050_513_8).abs() < 1e-12, "{found}");
+        assert_eq!(rank_correlation(&[1.0, 2.0, 3.0], &[3.0, 2.0, 1.0]), -1.0);
+        assert!(rank_correlation(&[1.0, 2.0, f64::NAN], &[3.0, 2.0, 1.0]).is_nan());
+        assert!(rank_correlation(&[1.0, 1.0, 1.0], &[3.0, 2.0, 1.0]).is_nan());
+    }
+
+    #[test]
+    fn parameters_that_follow_others_are_left_out() {
+        let a = [0.3, 0.1, 0.9, 0.7, 0.2];
+        let twice = a.map(|value| 2.0 * value);
+        let less = a.map(|value| -value);
+        let b = [0.6, 0.5, 0.25, 0.1, 0.8];
+        let found = correlations(&[&b, &a, &twice, &less, &[1.0; 5]], &a.map(f64::exp));
+        assert_eq!((found[0], found[1].0, found.len()), ((1, 1.0), 0, 2));
+    }
+}

@@ -1,0 +1,139 @@
+//! Pictures of samples: scatters, histograms, tornados.
+
+use std::fmt::Write as _;
+use std::fs;
+
+use super::drawn::drawn;
+use super::{HEADER, refused};
+use crate::support::Folder;
+
+/// A sample of voltage, frequency and stiffness: lift grows with the voltage, and does not depend on the stiffness.
+fn sample() -> String {
+    let mut text = HEADER.to_owned() + "\n";
+    let part = |place: u32, step: f64| (f64::from(place) * step).fract();
+    for point in 0..200 {
+        let (a, b, c) = (part(point, 0.618_033_988), part(point, 0.754_877_666), part(point, 0.569_840_291));
+        let (voltage, frequency, stiffness) = (60.0 + 40.0 * a, 90.0 + 30.0 * b, 1e-4 + 1e-5 * c);
+        let lift = voltage / 50.0 - frequency / 60.0;
+        let _ = writeln!(
+            text,
+            "{point},{voltage},{frequency},{stiffness},periodic,{},{lift},{},22,true",
+            voltage / 3.0,
+            voltage * frequency / 400.0
+        );
+    }
+    text
+}
+
+fn folder() -> Folder {
+    let folder = Folder::new();
+    fs::write(folder.path("sample.csv"), sample()).unwrap();
+    folder
+}
+
+#[test]
+fn a_sample_is_a_scatter_of_three_measures() {
+    let folder = folder();
+    drawn(&folder, "sample.csv")
+        .says("scatter in out.svg")
+        .has(&["Power, mean (mW)", "Lift, mean (mN)", "Stroke, amplitude (°)", "200 designs"])
+        .counts("<circle", 200);
+    // Whatever columns are named, there are points and no front.
+    for (columns, wanted) in [
+        ("--x drive_voltage_pp --y lift_mean_mn", "Drive voltage, peak to peak (V)"),
+        ("--x drive_voltage_pp --y drive_frequency --color lift_mean_mn", "Lift, mean (mN)"),
+        ("--y power_mean_mw", "Power, mean (mW)"),
+    ] {
+        drawn(&folder, &format!("sample.csv {columns}"))
+            .says("scatter in out.svg")
+            .has(&[wanted])
+            .counts("<circle", 200);
+    }
+    drawn(&folder, "sample.csv --kind pareto").says("pareto in out.svg");
+    drawn(&folder, "sample.csv --y-aim min").says("pareto in out.svg");
+    let ended = refused(&folder, &["sample.csv", "--by", "drive_voltage_pp"]);
+    ended.says("--x is not given, and the values of a sample are on no axis");
+    let ended = refused(&folder, &["sample.csv", "--by", "drive_voltage_pp", "--x", "drive_frequency"]);
+    ended.says("draw a sample with --kind scatter");
+}
+
+#[test]
+fn a_histogram_marks_percentiles() {
+    let folder = folder();
+    let picture = drawn(&folder, "sample.csv --kind histogram");
+    picture.says("histogram in out.svg").has(&["Lift, mean (mN)", "Number of designs", "200 designs"]);
+    for percent in ["5 %: ", "50 %: ", "95 %: "] {
+        assert!(picture.texts().iter().any(|text| text.starts_with(percent) && text.ends_with(" mN")));
+    }
+    picture.says("lift_mean_mn of 200 designs: 5 % below ");
+    // Of a hundred even numbers, and one row without a value.
+    let mut text = HEADER.to_owned() + "\n";
+    for point in 0..=100 {
+        let _ = writeln!(text, "{point},{point},90,1e-4,periodic,{point},1,2,22,true");
+    }
+    text += "101,101,90,1e-4,unsettled,,,,400,\n";
+    fs::write(folder.path("even.csv"), text).unwrap();
+    drawn(&folder, "even.csv --kind histogram --x stroke_amplitude_deg")
+        .has(&["5 %: 5 °", "50 %: 50 °", "95 %: 95 °", "101 designs · 1 of 102 without a value"])
+        .says("stroke_amplitude_deg of 101 designs: 5 % below 5 °, 50 % below 50 °, 95 % below 95 °");
+}
+
+#[test]
+fn a_tornado_has_the_rank_correlations_of_a_sample() {
+    let folder = folder();
+    let picture = drawn(&folder, "sample.csv --kind tornado");
+    picture.says("tornado in out.svg").has(&[
+        "Rank correlation (Spearman) with lift, mean",
+        "Drive voltage, peak to peak",
+        "Drive frequency",
+        "Hinge stiffness",
+        "200 designs; sizes below 0.14 may be chance",
+    ]);
+    let sizes: Vec<f64> = (picture.texts().iter())
+        // Ticks have one decimal.
+        .filter(|text| {
+            text.starts_with(['+', '−']) && text.split('.').nth(1).is_some_and(|part| part.len() == 2)
+        })
+        .map(|text| text.replace('−', "-").parse().unwrap())
+        .collect();
+    // From the bottom: the smallest first.
+    assert!(sizes.is_sorted_by(|a, b| a.abs() <= b.abs()), "{sizes:?}");
+    assert!(sizes.len() == 3 && sizes[2] > 0.7 && sizes[1] < -0.3 && sizes[0].abs() < 0.14, "{sizes:?}");
+}
+
+/// The sidecar tells which parameters are of the sample; other axes are fixed at their middle value.
+#[test]
+fn a_sample_may_be_crossed_with_an_axis() {
+    let folder = Folder::with_grid(
+        "preset = \"ozaki2018-large\"\n[axes]\ndrive_frequency = [100, 105, 110]\n[sample]\nn = 6\nmethod = \"sobol\"\n\
+         [sample.parameters]\nhinge_stiffness = { from = 8e-5, to = 1e-4 }\nair_density = { from = 1.1, to = 1.3 }\n",
+    );
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    for kind in ["scatter", "histogram", "tornado"] {
+        let picture = drawn(&folder, &format!("rows.csv --kind {kind}"));
+        picture.says("drawn: drive_frequency=105.0, the middle of 3 values; --where chooses another");
+    }
+    drawn(&folder, "rows.csv").says("scatter in out.svg").has(&["Drive frequency 105 Hz · 6 designs"]);
+    let picture = drawn(&folder, "rows.csv --kind tornado --where drive_frequency=110");
+    picture.has(&["Air density", "Hinge stiffness"]);
+}
+
+/// Designs along one axis are a curve, of which a front says nothing.
+#[test]
+fn two_measures_along_one_axis_are_no_front() {
+    let folder = Folder::new();
+    let mut text = HEADER.to_owned() + "\n";
+    for point in 0..20 {
+        let _ = writeln!(
+            text,
+            "{point},{},90,1e-4,periodic,{point},{point},{},22,true",
+            60 + point,
+            point * point
+        );
+    }
+    fs::write(folder.path("line.csv"), text).unwrap();
+    drawn(&folder, "line.csv --x power_mean_mw --y lift_mean_mn")
+        .says("scatter in out.svg")
+        .counts("<circle", 20);
+    drawn(&folder, "line.csv").says("response in out.svg");
+}

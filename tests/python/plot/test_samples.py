@@ -1,0 +1,130 @@
+"""Scatters, histograms and tornados of samples."""
+
+import flapwing
+import numpy as np
+import pytest
+from figures import HERTZ, drawn, fails, grid, message
+from flapwing import plot
+from numpy.testing import assert_allclose, assert_array_equal
+
+SAMPLE = {
+    "preset": "ozaki2018-large",
+    "sample": {
+        "n": 40,
+        "method": "sobol",
+        "parameters": {
+            "drive_voltage_pp": {"from": "60 V", "to": "100 V"},
+            "hinge_stiffness": {"from": "80 uN*m/rad", "to": "100 uN*m/rad"},
+        },
+    },
+}
+
+
+@pytest.fixture(scope="module")
+def sample():
+    """Forty designs that differ in voltage and hinge."""
+    return flapwing.sweep(SAMPLE)
+
+
+@pytest.fixture(scope="module")
+def crossed():
+    """Forty designs, each at three frequencies."""
+    return flapwing.sweep({**SAMPLE, "axes": {"drive_frequency": [100.0, 105.0, 110.0]}})
+
+
+def test_a_scatter_of_three_measures(sample):
+    ax = drawn(plot.scatter(sample))
+    places = np.column_stack([sample["power_mean_mw"], sample["lift_mean_mn"]])
+    assert_array_equal(ax.collections[0].get_offsets(), places)
+    assert_array_equal(ax.collections[0].get_array(), sample["stroke_pp_deg"])
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Power, mean (mW)", "Lift, mean (mN)")
+    assert ax.figure.axes[1].get_ylabel() == "Stroke, peak to peak (°)"
+    assert not ax.lines, "no front"
+
+
+def test_a_scatter_takes_other_columns(sample):
+    ax = drawn(plot.scatter(sample, "drive_voltage_pp", "lift_mean_mn", color="hinge_stiffness"))
+    assert ax.get_xlabel() == "Drive voltage, peak to peak (V)"
+    assert ax.figure.axes[1].get_ylabel() == "Hinge stiffness (µN·m/rad)"
+    ax = drawn(plot.scatter(sample, color="power_mean_mw"))
+    assert ax.get_xlabel() != "Power, mean (mW)"
+    table = fails(grid(centre_of_pressure=["folded", "directional"], drive_frequency=HERTZ), [2, 3])
+    ax = drawn(plot.scatter(table, color="centre_of_pressure"))
+    assert sum(len(each.get_offsets()) for each in ax.collections) == 8
+
+
+def test_a_histogram_marks_percentiles(sample):
+    ax = drawn(plot.histogram(sample))
+    lift = sample["lift_mean_mn"]
+    heights = [bar.get_height() for bar in ax.patches]
+    assert sum(heights) == 40
+    edges = [bar.get_x() for bar in ax.patches] + [ax.patches[-1].get_x() + ax.patches[-1].get_width()]
+    assert_allclose(heights, np.histogram(lift, edges)[0])
+    assert_allclose([line.get_xdata()[0] for line in ax.lines], np.percentile(lift, [5, 50, 95]), rtol=1e-12)
+    assert [text.get_text().split(":")[0] for text in ax.texts] == ["5 %", "50 %", "95 %"]
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Lift, mean (mN)", "Number of designs")
+    assert drawn(plot.histogram(sample, "power_mean_mw")).get_xlabel() == "Power, mean (mW)"
+
+
+def ranked(values):
+    """Ranks of distinct values."""
+    return np.argsort(np.argsort(values)).astype(float)
+
+
+def test_rank_correlations_are_those_of_ranks(sample):
+    found = plot.rank_correlations(sample, "power_mean_mw")
+    assert {each.parameter for each in found} == {"drive_voltage_pp", "hinge_stiffness"}
+    sizes = [abs(each.correlation) for each in found]
+    assert sizes == sorted(sizes, reverse=True)
+    for each in found:
+        pearson = np.corrcoef(ranked(sample[each.parameter]), ranked(sample["power_mean_mw"]))[0, 1]
+        assert each.correlation == pytest.approx(pearson, rel=1e-12)
+        assert (each.measure, each.designs) == ("power_mean_mw", 40)
+    (one,) = plot.rank_correlations(sample, parameters=["hinge_stiffness"])
+    assert one.parameter == "hinge_stiffness"
+
+
+def test_a_tornado_of_a_sample(sample, tmp_path):
+    ax = drawn(plot.tornado(sample))
+    found = plot.rank_correlations(sample)
+    assert_allclose([bar.get_width() for bar in ax.patches], [each.correlation for each in found])
+    names = [label.get_text() for label in ax.get_yticklabels()]
+    assert names == [plot.label(each.parameter, "") for each in found]
+    assert ax.get_xlabel() == (
+        "Rank correlation (Spearman) with lift, mean\n40 designs; sizes below 0.31 may be chance"
+    )
+    file = tmp_path / "sample.csv"
+    flapwing.sweep(SAMPLE, out=file)
+    for path in (file, str(file)):
+        assert len(plot.tornado(path, "power_mean_mw", ["hinge_stiffness"]).patches) == 1
+
+
+@pytest.mark.parametrize("function", [plot.scatter, plot.histogram, plot.tornado])
+def test_of_axes_beside_a_sample_a_value_is_chosen(crossed, function):
+    text = message(ValueError, function, crossed)
+    assert "drive_frequency (Hz): 100, 105, 110" in text and "hinge_stiffness" not in text
+    drawn(function(crossed, drive_frequency=105.0))
+
+
+def test_lines_and_cells_of_a_sample_are_refused(sample):
+    for function in (plot.response, plot.heatmap):
+        assert "plot.scatter draws such designs" in message(ValueError, function, sample, x="hinge_stiffness", **(
+            {"y": "drive_voltage_pp", "value": "lift_mean_mn"} if function is plot.heatmap else {}
+        ))  # fmt: skip
+
+
+def test_mistakes(sample):
+    assert "Did you mean `lift_mean_mn`?" in message(ValueError, plot.histogram, sample, "lift_mean_m")
+    assert "Did you mean `lift_mean_mn`?" in message(ValueError, plot.scatter, sample, y="lift_mean_m")
+    failed = fails(grid(drive_frequency=HERTZ), slice(None))
+    for function in (plot.scatter, plot.histogram, plot.tornado):
+        assert "no row has a number" in message(ValueError, function, failed)
+    same = grid(drive_frequency=[100.0])
+    assert "nothing to compare" in message(ValueError, plot.tornado, same)
+    assert "say which column" in message(ValueError, plot.histogram, {"point": np.arange(3.0)})
+
+
+def test_a_large_sample_makes_no_lines_unasked(crossed):
+    text = message(ValueError, plot.response, crossed)
+    assert "40 lines would cover each other" in text and "by='drive_voltage_pp' draws them all" in text
+    assert len(plot.response(crossed, by="drive_voltage_pp").lines) >= 40
