@@ -122,10 +122,10 @@ def test_lists_know_vehicles():
     assert flapwing.measures(robot)["torque_yaw_unm"][0] == "uN*m"
     parameters = flapwing.params(robot)
     assert parameters["difference_drive_offset"].unit == "V" and parameters["total_mass"].value == 85e-6
-    # A parameter that follows that of all wings, and one that a grid varies, have no value.
+    # A parameter that follows that of all wings has no value; one that a grid varies has that of the first point.
     assert parameters["left_drive_voltage_pp"].value is None
-    varied = flapwing.params({**robot, "axes": {"drive_offset": [0, 1]}})
-    assert varied["drive_offset"].value is None and varied["drive_voltage_pp"].value == 200.0
+    varied = flapwing.params({**robot, "axes": {"drive_offset": [1, 2]}})
+    assert varied["drive_offset"].value == 1.0 and varied["drive_voltage_pp"].value == 200.0
 
 
 def test_a_vehicle_is_a_mapping_of_entries():

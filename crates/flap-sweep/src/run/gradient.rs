@@ -61,7 +61,8 @@ fn changed(plan: &Plan, per: Per, point: &Point, parameter: usize, share: f64) -
     plan.changed(
         point.index,
         parameter,
-        |value| if value == 0.0 { share * size } else { value * (1.0 + share) },
+        // A zero that keeps its sign where no size is known.
+        |value| if value == 0.0 { value + share * size } else { value * (1.0 + share) },
     )
 }
 
