@@ -40,6 +40,7 @@ __all__ = [
     "text_of",
     "track",
     "trajectory",
+    "uncertainty",
     "unit_of",
     "usual_measure",
     "value",
