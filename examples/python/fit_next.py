@@ -1,4 +1,4 @@
-"""What to measure next: readings that `Fit.next_measurements` chooses beside readings at random.
+"""The next readings of a fit: those that `Fit.next_measurements` chooses beside readings at random.
 
 Each trial is a synthetic experiment with eight readings at random frequencies and voltages. A fit of three parameters says which
 two operating points to measure next, so that the error of the drag coefficient halves. Both are measured and fitted again,

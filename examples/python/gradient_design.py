@@ -69,7 +69,7 @@ def rows(shares: Any, count: Count, gradient: bool) -> Any:
 
 
 def excesses(table: Any) -> Any:
-    """What must not be more than zero: one column per limit."""
+    """The excess over each limit, a column each: not more than zero in an allowed design."""
     columns = [table[name] / limit - 1 for name, limit in LIMITS.items()]
     return np.column_stack([*columns, 1 - table["vehicle_lift_mgf"] / LIFT_MGF])
 

@@ -151,20 +151,26 @@ fn commands_in_the_grid_page_work() {
     assert_eq!(folder.read("fine.csv").lines().count(), 82);
 }
 
+/// Runs blocks of commands in a shell that finds `flap`.
+#[cfg(unix)]
+fn run_in_shell(folder: &Folder, blocks: &[String]) {
+    let flap = Path::new(env!("CARGO_BIN_EXE_flap")).parent().unwrap();
+    let paths = format!("{}:{}", flap.display(), std::env::var("PATH").unwrap());
+    for block in blocks {
+        let mut shell = std::process::Command::new("sh");
+        let ended =
+            shell.args(["-ec", block]).env("PATH", &paths).current_dir(folder.path("")).output().unwrap();
+        assert!(ended.status.success(), "{block}: {}", String::from_utf8_lossy(&ended.stderr));
+    }
+}
+
 /// The commands of the page on devices work, and its grids begin with its device.
 #[test]
 #[cfg(unix)]
 fn the_page_on_devices_works() {
     let folder = Folder::new();
     let page = document("docs/devices.md");
-    let flap = Path::new(env!("CARGO_BIN_EXE_flap")).parent().unwrap();
-    let paths = format!("{}:{}", flap.display(), std::env::var("PATH").unwrap());
-    for block in blocks(&page, "sh") {
-        let mut shell = std::process::Command::new("sh");
-        let ended =
-            shell.args(["-ec", &block]).env("PATH", &paths).current_dir(folder.path("")).output().unwrap();
-        assert!(ended.status.success(), "{block}: {}", String::from_utf8_lossy(&ended.stderr));
-    }
+    run_in_shell(&folder, &blocks(&page, "sh"));
     let grids = blocks(&page, "toml");
     fs::write(folder.path("mybee.toml"), &grids[0]).unwrap();
     for grid in &grids {
@@ -195,14 +201,7 @@ fn the_page_on_wings_works() {
     let folder = Folder::new();
     let page = document("docs/wings.md");
     fs::write(folder.path("outline.csv"), &blocks(&page, "csv")[0]).unwrap();
-    let flap = Path::new(env!("CARGO_BIN_EXE_flap")).parent().unwrap();
-    let paths = format!("{}:{}", flap.display(), std::env::var("PATH").unwrap());
-    for block in blocks(&page, "sh") {
-        let mut shell = std::process::Command::new("sh");
-        let ended =
-            shell.args(["-ec", &block]).env("PATH", &paths).current_dir(folder.path("")).output().unwrap();
-        assert!(ended.status.success(), "{block}: {}", String::from_utf8_lossy(&ended.stderr));
-    }
+    run_in_shell(&folder, &blocks(&page, "sh"));
     for preset in ["ozaki2018-small", "arabagi2013-75hz"] {
         let device = folder.ends(0, &format!("wing outline.csv --preset {preset}")).stdout;
         // The page says which parameters are written.

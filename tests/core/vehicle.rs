@@ -251,13 +251,25 @@ fn impossible_vehicles_are_told() {
     assert_eq!(error(&[("a", false), ("a", true)]), Some(VehicleError::SameName("a".to_owned())));
     assert_eq!(error(&[("Left", false)]), Some(VehicleError::Name("Left".to_owned())));
     assert_eq!(error(&[("difference", false)]), Some(VehicleError::Name("difference".to_owned())));
-    let clash = error(&[("a", false), ("a_drive", true)]);
-    assert_eq!(clash, None, "{clash:?}");
-    let clash = error(&[("about", false)]);
-    assert_eq!(clash, None, "{clash:?}");
     let seventeen: Vec<String> = (0..17).map(|i| format!("w{i}")).collect();
     let seventeen: Vec<(&str, bool)> = seventeen.iter().map(|name| (name.as_str(), false)).collect();
     assert_eq!(error(&seventeen), Some(VehicleError::ManyWings(17)));
+}
+
+/// Names of wings that begin like others, or like parameters, lead to names of parameters and columns of their own.
+#[test]
+fn parameters_and_columns_have_names_of_their_own() {
+    for wings in [[("a", false), ("a_drive", true)], [("about", false), ("wing", true)]] {
+        for (model, _) in PRESETS {
+            let vehicle = Flier::new(model, &wings).vehicle;
+            let mut names: Vec<&str> = vehicle.parameters().iter().map(|parameter| parameter.name).collect();
+            names.extend(vehicle.columns().iter().map(|column| column.name.as_str()));
+            let count = names.len();
+            names.sort_unstable();
+            names.dedup();
+            assert_eq!(names.len(), count, "{model}, {wings:?}");
+        }
+    }
 }
 
 /// A wing that is impossible makes the row invalid, with its name.

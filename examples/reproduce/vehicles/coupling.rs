@@ -7,7 +7,7 @@ use crate::claim::{Claim, assumed, between, said};
 const DIFFERENCES: [f64; 5] = [-40.0, -20.0, 0.0, 20.0, 40.0];
 const BIASES: [f64; 5] = [-20.0, -10.0, 0.0, 10.0, 20.0];
 
-/// What was commanded and what came of it.
+/// A pair of commands (V), and the torques and the lift that they make.
 struct Commanded {
     difference: f64,
     bias: f64,

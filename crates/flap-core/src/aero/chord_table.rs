@@ -54,32 +54,19 @@ impl ChordTable {
 
     /// A table of chords (m).
     pub const fn new(chord_table: Tabulated, chords: [f64; STATIONS]) -> ChordTable {
-        let [
-            chord_0,
-            chord_1,
-            chord_2,
-            chord_3,
-            chord_4,
-            chord_5,
-            chord_6,
-            chord_7,
-            chord_8,
-            chord_9,
-            chord_10,
-        ] = chords;
         ChordTable {
             chord_table,
-            chord_0,
-            chord_1,
-            chord_2,
-            chord_3,
-            chord_4,
-            chord_5,
-            chord_6,
-            chord_7,
-            chord_8,
-            chord_9,
-            chord_10,
+            chord_0: chords[0],
+            chord_1: chords[1],
+            chord_2: chords[2],
+            chord_3: chords[3],
+            chord_4: chords[4],
+            chord_5: chords[5],
+            chord_6: chords[6],
+            chord_7: chords[7],
+            chord_8: chords[8],
+            chord_9: chords[9],
+            chord_10: chords[10],
         }
     }
 

@@ -23,6 +23,8 @@ pub use definition::{Derived, Description, Instant, Model};
 pub use energy::EnergyBalance;
 pub use load::Load;
 pub use motions::{Imposed, Motions};
+pub(crate) use readings::{efficiency, grams_force};
 pub use signal::{Measure, Signal, SignalCycle, position};
 pub use stroke_and_pitch::Balance;
+pub(crate) use units::GRAVITY;
 pub use units::Unit;

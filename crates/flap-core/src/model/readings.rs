@@ -18,12 +18,12 @@ pub(super) fn lag_degrees(of: f64, behind: f64) -> f64 {
 }
 
 /// A force (N) in grams-force.
-pub(super) fn grams_force(force: f64) -> f64 {
+pub(crate) fn grams_force(force: f64) -> f64 {
     force / GRAVITY * 1e3
 }
 
 /// Lift over power; not a number where there is no power, or the air gives energy to the wing.
-pub(super) fn efficiency(lift: f64, power: f64) -> f64 {
+pub(crate) fn efficiency(lift: f64, power: f64) -> f64 {
     if power > 0.0 { lift / power } else { f64::NAN }
 }
 

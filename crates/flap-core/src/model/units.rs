@@ -28,4 +28,4 @@ impl Unit {
 pub(super) const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
 /// Standard gravity (m/s²): newtons per kilogram-force.
-pub(super) const GRAVITY: f64 = 9.80665;
+pub(crate) const GRAVITY: f64 = 9.80665;

@@ -2,14 +2,12 @@
 
 use super::geometry::{FORCES, TORQUES, Wrench};
 use super::mount::Mount;
+use crate::model::{GRAVITY, efficiency, grams_force};
 use crate::simulate::Column;
 
 /// First parts of the names of columns that rows have of each wing.
 const OF_WINGS: [&str; 7] =
     ["stroke_", "pitch_", "lift_mean_mn", "strain_", "hinge_strain", "field_max", "tip_"];
-
-/// Standard gravity (m/s²).
-const GRAVITY: f64 = 9.80665;
 
 /// The columns.
 pub(super) struct Columns {
@@ -17,7 +15,7 @@ pub(super) struct Columns {
     sources: Vec<Source>,
 }
 
-/// The origin of a column's values.
+/// The quantity from which a column is computed.
 enum Source {
     /// A component of force (mN) or torque (uN·m).
     Wrench(usize),
@@ -88,10 +86,7 @@ impl Columns {
             Source::Wrench(i) if i < 3 => force[i] * 1e3,
             Source::Wrench(i) => torque[i - 3] * 1e6,
             Source::LiftToWeight => force[2] / (total_mass * GRAVITY),
-            Source::Efficiency(power) => {
-                let watts = sum(power) * 1e-3;
-                if watts > 0.0 { force[2] / GRAVITY * 1e3 / watts } else { f64::NAN }
-            }
+            Source::Efficiency(power) => efficiency(grams_force(force[2]), sum(power) * 1e-3),
             Source::Sum(column) => sum(column),
             Source::Wing(wing, column) => wings[wing][column],
         };

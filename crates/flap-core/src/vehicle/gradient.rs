@@ -113,7 +113,7 @@ impl Vehicle {
         let values = self.table.of_wing(run.values, wing)?;
         let run = PointRun { solver, values: &values, ..*run };
         let measures = motions.period(&run, state)?;
-        // A side out of range differs from the point in no number: its derivative is told to be at the edge.
+        // A side that is out of range gets infinite values, which no parameter accepts: the reason is `NoSlope::Edge`.
         let side = |side: &[f64]| {
             self.table.of_wing(side, wing).unwrap_or_else(|_| vec![f64::INFINITY; values.len()])
         };

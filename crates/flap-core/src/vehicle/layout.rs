@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::columns::Columns;
 use super::geometry::Wrench;
-use super::mount::{Mount, VehicleError, check};
+use super::mount::{Mount, VehicleError, check, kept};
 use super::parameters::{self, Table};
 use crate::parameter::Parameter;
 use crate::simulate::Simulator;
@@ -85,8 +85,7 @@ impl Vehicle {
 /// Names of the states of all wings.
 fn states(model: &'static dyn Simulator, mounts: &[Mount]) -> &'static [&'static str] {
     let of_wing = model.motions().map_or(&[][..], |motions| motions.states());
-    let names = mounts.iter().flat_map(|mount| {
-        of_wing.iter().map(|state| &*Box::leak(format!("{}_{state}", mount.name).into_boxed_str()))
-    });
+    let names =
+        mounts.iter().flat_map(|mount| of_wing.iter().map(|state| kept(format!("{}_{state}", mount.name))));
     Box::leak(names.collect())
 }

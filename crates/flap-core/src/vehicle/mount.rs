@@ -8,6 +8,11 @@ pub(super) const MOST_WINGS: usize = 16;
 /// The first part of the names of left-right differences.
 pub(super) const DIFFERENCE: &str = "difference";
 
+/// Text that is kept for the life of the process, as vehicles are.
+pub(super) fn kept(text: String) -> &'static str {
+    Box::leak(text.into_boxed_str())
+}
+
 /// A wing of a vehicle: its name and its side.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mount {

@@ -1,7 +1,7 @@
 //! The parameters of a vehicle: those of its model for all wings, its own, those of single wings, and differences.
 
 use super::geometry::Place;
-use super::mount::{DIFFERENCE, Mount, VehicleError};
+use super::mount::{DIFFERENCE, Mount, VehicleError, kept};
 use crate::parameter::Range::{Any, Positive};
 use crate::parameter::{Invalid, Kind, Parameter};
 
@@ -51,19 +51,17 @@ impl Table {
         let own: Vec<usize> = (0..model.len()).filter(|&index| may_differ(&model[index])).collect();
         let mut parameters = [model, &WHOLE].concat();
         for mount in mounts {
-            let name =
-                |rest: &str| -> &'static str { Box::leak(format!("{}_{rest}", mount.name).into_boxed_str()) };
-            let group = Box::leak(format!("wing {}", mount.name).into_boxed_str());
-            let text = |text: String| -> &'static str { Box::leak(text.into_boxed_str()) };
+            let name = |rest: &str| kept(format!("{}_{rest}", mount.name));
+            let group = kept(format!("wing {}", mount.name));
             let mut of_wing = Vec::new();
             for (rest, unit, doc) in PLACE {
-                let doc = text(format!("{doc}: of the wing {}.", mount.name));
+                let doc = kept(format!("{doc}: of the wing {}.", mount.name));
                 let place = Parameter::new(name(rest), unit, "", Kind::Number(Any), doc);
                 of_wing.push(place.group(group).default(0.0));
             }
             for parameter in own.iter().map(|&index| &model[index]) {
                 let (Kind::Number(range) | Kind::Following(range, _)) = parameter.kind else { continue };
-                let doc = text(format!("{} of the wing {} alone.", parameter.name, mount.name));
+                let doc = kept(format!("{} of the wing {} alone.", parameter.name, mount.name));
                 let kind = Kind::Following(range, parameter.name);
                 of_wing
                     .push(Parameter::new(name(parameter.name), parameter.unit, "", kind, doc).group(group));
@@ -82,19 +80,13 @@ impl Table {
         let has_differences = mirrored.contains(&true) && mirrored.contains(&false);
         if has_differences {
             for parameter in own.iter().map(|&index| &model[index]) {
-                let name = Box::leak(format!("{DIFFERENCE}_{}", parameter.name).into_boxed_str());
-                let doc = format!(
+                let name = kept(format!("{DIFFERENCE}_{}", parameter.name));
+                let doc = kept(format!(
                     "Left-right difference of {}: half of it is added to the wings that are not mirrored, and taken from \
                      those that are.",
                     parameter.name
-                );
-                let difference = Parameter::new(
-                    name,
-                    parameter.unit,
-                    "",
-                    Kind::Number(Any),
-                    Box::leak(doc.into_boxed_str()),
-                );
+                ));
+                let difference = Parameter::new(name, parameter.unit, "", Kind::Number(Any), doc);
                 parameters.push(difference.group("left-right differences").default(0.0));
             }
         }

@@ -15,7 +15,7 @@ const HEAD: &str = "\
 # Name this file wherever a preset is named: `flap run mybee.toml`, or device = \"mybee.toml\" in a grid file.
 # A number is in SI units, or text with a unit. It may say how well it is known, and where it comes from:
 #   hinge_stiffness = { value = \"2.1 uN*m/rad\", sd = \"0.1 uN*m/rad\", source = \"bending test, 12 March\" }
-# What is not named here is that of the preset.
+# Parameters that are not named here have the values of the preset.
 ";
 
 /// The text of a device with all values of a plan before its axes are applied: every parameter with its unit, range and

@@ -1,4 +1,4 @@
-"""Whether residuals look like noise."""
+"""Tests of residuals: their size and their structure."""
 
 from __future__ import annotations
 

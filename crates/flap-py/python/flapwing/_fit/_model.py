@@ -84,7 +84,7 @@ class Model:
         slopes: bool = True,
         rtol: float | None = None,
     ) -> list[Answer]:
-        """What is asked about other points, at several sets of coordinates."""
+        """The answers at other points, at several sets of coordinates."""
         rows = _length(points)
         columns = {name: _repeated(values, len(xs)) for name, values in points.items()}
         columns.update(self._free(asked, rows, xs))

@@ -53,7 +53,7 @@ class _Side:
 
 @dataclass(frozen=True)
 class _Walks:
-    """What walks from a fit have in common."""
+    """The fit from which profiles begin: its target, its estimate, and the height at which they end."""
 
     space: Space
     target: Target

@@ -203,7 +203,7 @@ class Fit:
         _device.write(self, path, data_set, _arguments.flag("overwrite", overwrite))
 
     def _target(self, for_: str | Mapping[str, Any]) -> tuple[Array, str, str]:
-        """What is wanted, as derivatives by the coordinates."""
+        """The derivatives of a parameter or a prediction by the coordinates, with its name and unit."""
         space = self._model.space
         if isinstance(for_, str):
             if for_ not in space.labels:

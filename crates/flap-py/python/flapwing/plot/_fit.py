@@ -132,7 +132,7 @@ def _named(name: str, unit: str) -> str:
 
 
 def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) -> None:
-    """How far the cost rises as a parameter is held beside its estimate."""
+    """The profiles: the rise of the cost while a parameter is held beside its estimate."""
     rows = _rows(len(profiled))
     axes = part.subplots(rows, min(3, len(profiled)), squeeze=False).ravel()
     for ax, (name, one) in zip(axes, profiled):
