@@ -77,6 +77,8 @@ rm -- "$command"
 
 export PYTHONDONTWRITEBYTECODE=1
 python -m pytest --quiet -o "cache_dir=$work/pytest-cache" tests/python "$@"
+# Pages of results and the live page, in chromium: skipped where that is not installed.
+python -m pytest --quiet -o "cache_dir=$work/pytest-cache" tests/browser
 export MYPY_CACHE_DIR=$work/mypy-cache
 python -m mypy --config-file tests/python/mypy.ini crates/flap-py/python/flapwing
 python -m mypy --config-file tests/python/mypy.ini benches/peers/harness

@@ -16,6 +16,8 @@ mod gradient;
 mod inputs;
 mod irregular;
 mod lists;
+#[cfg(feature = "live")]
+mod live;
 mod look;
 mod mistakes;
 #[cfg(feature = "plots")]

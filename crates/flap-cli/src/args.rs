@@ -2,6 +2,8 @@
 
 mod film;
 mod filter;
+#[cfg(feature = "live")]
+mod live;
 mod look;
 mod options;
 #[cfg(feature = "plots")]
@@ -22,6 +24,8 @@ use clap_complete::Shell;
 pub(crate) use film::{LiftArgs, TrackArgs};
 pub(crate) use filter::Filter;
 use flap_sweep::run::identity;
+#[cfg(feature = "live")]
+pub(crate) use live::LiveArgs;
 pub(crate) use look::{DescribeArgs, Listing, LookArgs, TopArgs};
 pub(crate) use options::{Aim, PointArgs, ReadArgs, SolverArgs, WorkArgs};
 #[cfg(feature = "plots")]
@@ -73,6 +77,9 @@ pub(crate) enum Command {
     Respond(RespondArgs),
     /// Compute the force and torque of a vehicle, what each drive does to them, and trims
     Vehicle(VehicleArgs),
+    /// Open a page in the browser on which curves follow the parameters that you drag
+    #[cfg(feature = "live")]
+    Live(LiveArgs),
     /// List the best rows of results
     Top(TopArgs),
     /// Summarize results: statuses, percentiles, and the best value of each axis

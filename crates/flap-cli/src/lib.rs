@@ -50,6 +50,8 @@ pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
         Command::Run(args) => cmd::run::run(&args),
         Command::Respond(args) => cmd::respond::run(&args),
         Command::Vehicle(args) => cmd::vehicle::run(&args),
+        #[cfg(feature = "live")]
+        Command::Live(args) => cmd::live::run(&args),
         Command::Top(args) => cmd::top::run(&args),
         Command::Describe(args) => cmd::describe::run(&args),
         #[cfg(feature = "plots")]

@@ -19,6 +19,7 @@ mod grid;
 mod grid_text;
 mod labels;
 mod listing;
+mod live;
 mod motion;
 mod parameters;
 mod picture;
@@ -49,6 +50,7 @@ mod _flapwing {
         grid_text::text_of,
         labels::{better, printed, scale, split_unit, unit_of, words},
         listing::{measures, params, uncertainty},
+        live::LiveServer,
         picture::{bars, colours, correlations, is_signed, line_shades, usual_measure, ways},
         quantity::{parameter, quantity, value},
         read::read,

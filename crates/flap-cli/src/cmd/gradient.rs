@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use flap_core::parameter::{Kind, Range};
-use flap_core::simulate::{Change, NoSlope, Row, Status};
+use flap_core::simulate::{NoSlope, Row, Status};
+use flap_sweep::study::strongest;
 
 use super::point::Chosen;
 use crate::failure::Failure;
@@ -26,23 +26,13 @@ pub(crate) fn strongest(chosen: &Chosen, row: &Row, column: &str) -> Result<Stri
             "--gradient: the motion is {status}: only periodic ones have derivatives"
         )));
     }
-    let parameters = changing(chosen);
-    let changes = parameters.iter().map(|&index| Change {
-        ahead: chosen.changed(index, Change::SHARE),
-        behind: chosen.changed(index, -Change::SHARE),
-        size: Change::SHARE,
-    });
-    let changes: Vec<Change> = changes.collect();
-    let gradient = chosen.simulator().motions()?.gradient(&chosen.run(), &row.state, &changes)?;
-    let slopes = parameters.iter().zip(&gradient.slopes).map(|(&index, slopes)| (index, slopes[measure]));
-    let (mut known, unknown): (Vec<_>, Vec<_>) = slopes.partition(|(_, slope)| slope.is_ok());
-    let size = |slope: &Result<f64, NoSlope>| slope.map_or(0.0, f64::abs);
-    known.sort_by(|(_, one), (_, other)| size(other).total_cmp(&size(one)));
+    let fixed = chosen.set_parameters();
+    let slopes = strongest::slopes(&chosen.plan, chosen.simulator(), &chosen.run(), row, measure, fixed)?;
     let unit = columns[measure].unit;
     let value = row.measures[measure];
     let mut table = Table::with_headings(&["parameter", "value", "unit", "change per %", "% per %"]);
-    for (index, slope) in known.iter().take(LISTED) {
-        let (parameter, slope) = (&chosen.plan.parameters()[*index], slope.unwrap_or(f64::NAN));
+    for (index, slope) in slopes.known.iter().take(LISTED) {
+        let parameter = &chosen.plan.parameters()[*index];
         table.row([
             parameter.name.to_owned(),
             six_digits(chosen.values[*index]),
@@ -58,25 +48,11 @@ pub(crate) fn strongest(chosen: &Chosen, row: &Row, column: &str) -> Result<Stri
     );
     page += &table.text();
     for reason in NoSlope::ALL {
-        let of_reason = unknown.iter().filter(|(_, slope)| slope == &Err(reason));
+        let of_reason = slopes.unknown.iter().filter(|(_, other)| *other == reason);
         let names: Vec<&str> = of_reason.map(|(index, _)| chosen.plan.parameters()[*index].name).collect();
         if !names.is_empty() {
             let _ = writeln!(page, "not known ({}): {}", reason.name(), names.join(", "));
         }
     }
     Ok(page)
-}
-
-/// The parameters with a share that can change: numbers that are set, and neither zero, whole nor derived.
-fn changing(chosen: &Chosen) -> Vec<usize> {
-    let parameters = chosen.plan.parameters().iter().enumerate();
-    let changing = parameters.filter(|(index, parameter)| {
-        let value = chosen.values[*index];
-        let has_shares = match parameter.kind {
-            Kind::Choice(_) | Kind::Number(Range::Whole(..)) => false,
-            Kind::Number(_) | Kind::Following(..) => value.is_finite() && value != 0.0,
-        };
-        has_shares && !chosen.plan.derived().parameters().any(|derived| derived == *index)
-    });
-    changing.map(|(index, _)| index).collect()
 }

@@ -11,6 +11,8 @@ mod grid;
 mod impulse;
 pub(crate) mod lift;
 mod listed;
+#[cfg(feature = "live")]
+pub(crate) mod live;
 mod look;
 pub(crate) mod man;
 pub(crate) mod merge;

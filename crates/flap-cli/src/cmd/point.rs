@@ -100,12 +100,9 @@ impl Chosen {
         index.is_some()
     }
 
-    /// The values with one parameter larger by a `share` of itself, and derived parameters that follow it.
-    pub(crate) fn changed(&self, parameter: usize, share: f64) -> Vec<f64> {
-        let mut values = self.values.clone();
-        values[parameter] *= 1.0 + share;
-        self.plan.derived().fill(&mut values, &self.set);
-        values
+    /// The parameters that the command line sets.
+    pub(crate) fn set_parameters(&self) -> &[usize] {
+        &self.set
     }
 
     /// Model and preset in one line.

@@ -17,10 +17,6 @@ use crate::data::filter::Filters;
 use crate::data::source::Source;
 use crate::failure::Failure;
 
-const PAGE: &str = include_str!("assets/page.html");
-const STYLE: &str = include_str!("assets/page.css");
-const SCRIPT: &str = include_str!("assets/page.js");
-
 /// Most rows of a page: a browser draws them again and again while the user drags.
 const MOST_ROWS: usize = 1 << 17;
 
@@ -37,22 +33,7 @@ pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String
     }
     let json = Data::new(&table, &axes.columns, &start, wishes.branch()).json();
     let data = json.map_err(|error| Failure::Bug(error.to_string()))?;
-    // In this order: what is put in is not searched again.
-    let mut page = String::new();
-    for (number, part) in PAGE.split("{{").enumerate() {
-        let Some((name, rest)) = part.split_once("}}").filter(|_| number > 0) else {
-            page += part;
-            continue;
-        };
-        match name {
-            "title" => page += &escaped(heading),
-            "style" => page += STYLE,
-            "data" => page += &data,
-            _ => page += SCRIPT,
-        }
-        page += rest;
-    }
-    Ok(page)
+    Ok(flap_live::page::results(heading, &data))
 }
 
 /// The first view: that of the picture with the same arguments, if there is one.
@@ -112,30 +93,4 @@ fn filter(table: &Table, name: &str, text: &str) -> Result<Value, Failure> {
         Cells::Numbers(values) => Value::Number(values[rows[0]]),
         _ => Value::Word(text.to_owned()),
     })
-}
-
-/// A text as HTML.
-fn escaped(text: &str) -> String {
-    let mut out = String::new();
-    for letter in text.chars() {
-        match letter {
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '&' => out.push_str("&amp;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            _ => out.push(letter),
-        }
-    }
-    out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn titles_are_no_markup() {
-        assert_eq!(escaped("<b a=\"'\">&"), "&lt;b a=&quot;&#39;&quot;&gt;&amp;");
-    }
 }

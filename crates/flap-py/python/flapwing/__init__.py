@@ -3,7 +3,7 @@
 `presets` lists published designs and `params` their parameters. `run` simulates one design, `trajectory` returns its
 motion and `resonance` its resonances. `sweep` runs a whole grid and `evaluate` a batch of points. `respond` follows
 designs up and down in frequency. `chirp` and `impulse` drive a design in other ways; `track` and `lift` are about wings
-that were filmed. `fit` fits parameters to readings. Results are a `Table`, whose columns are NumPy arrays; it converts to pandas, polars, Arrow and xarray.
+that were filmed. `fit` fits parameters to readings. `live` shows a page with curves that follow the parameters. Results are a `Table`, whose columns are NumPy arrays; it converts to pandas, polars, Arrow and xarray.
 
 A design is the name of a preset, a grid file, its text, a dictionary, a `Grid`, or a `Vehicle` of several wings. Parameters and solver settings are
 keywords of every call.
@@ -16,6 +16,7 @@ from ._experiments import chirp, impulse, lift, track
 from ._fit import Fit, Free, Readings, fit
 from ._flapwing import Diagnostic, Grid, GridError, __version__, presets
 from ._listing import Parameter, measures, params, states
+from ._live import Live, live
 from ._point import resonance, run, trajectory
 from ._respond import respond
 from ._sweep import read, sweep
@@ -28,6 +29,7 @@ __all__ = [
     "Free",
     "Grid",
     "GridError",
+    "Live",
     "Parameter",
     "Readings",
     "Table",
@@ -39,6 +41,7 @@ __all__ = [
     "fit",
     "impulse",
     "lift",
+    "live",
     "measures",
     "params",
     "presets",

@@ -9,6 +9,7 @@ __all__ = [
     "Diagnostic",
     "Grid",
     "GridError",
+    "LiveServer",
     "__version__",
     "bars",
     "better",
@@ -243,6 +244,20 @@ def trajectory(
     once: bool = False,
 ) -> dict[str, Any]:
     """Samples the motion of one point; see `flapwing.trajectory`."""
+
+@final
+class LiveServer:
+    """A running server; see `flapwing.Live`."""
+
+    def __new__(
+        cls, design: Any, keywords: dict[str, Any], /, *, port: int, threads: SupportsIndex | None
+    ) -> LiveServer: ...
+    @property
+    def address(self) -> str:
+        """The address of the page, with its token."""
+
+    def stop(self) -> None:
+        """Ends the server."""
 
 def resonance(
     design: Any,

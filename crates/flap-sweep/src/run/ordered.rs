@@ -29,7 +29,7 @@ pub(crate) fn run<T: Send>(
     // A pool of our own: the global one belongs to the caller, and does not survive a fork.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(workers).build().map_err(RunError::Threads)?;
     let end = positions.end;
-    let queue = Queue::new(positions, options.window, workers, stop);
+    let queue = Queue::new(positions, options, workers, stop);
     pool.in_place_scope(|scope| {
         for _ in 0..workers {
             scope.spawn(|_| hand::work(&queue, worker));

@@ -21,7 +21,7 @@ use crate::table::layout::Layout;
 
 /// Runs the selected points of `plan` and writes the rows to `sink` in point order.
 ///
-/// Raising `stop` ends the sweep within a second: points in hand have half of it and are dropped then. The rows
+/// Raising `stop` ends the sweep within a second: points in hand have [`RunOptions::grace`] and are dropped then. The rows
 /// written are those of the first points selected. `progress` is called from this thread, several times a second.
 ///
 /// # Errors

@@ -14,13 +14,11 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::error::RunError;
+use super::options::RunOptions;
 use super::window::Window;
 
-/// Longest time between two looks of the collector for outcomes, and between two reports of progress.
-const TURN: Duration = Duration::from_millis(100);
-
-/// Time for units in hand after a stop: long enough for ordinary ones, and less than a second with the turns around it.
-const GRACE: Duration = Duration::from_millis(400);
+/// Shortest and longest time between two looks of the collector for outcomes, and between two reports of progress.
+const TURN: [Duration; 2] = [Duration::from_millis(10), Duration::from_millis(100)];
 
 /// The collector is woken early when this many outcomes are ready.
 const BATCH: usize = 64;
@@ -31,6 +29,8 @@ const MOST_AT_ONCE: usize = 1024;
 /// Units to run and their outcomes.
 pub(super) struct Queue<'a, T> {
     stop: &'a AtomicBool,
+    /// Time for units in hand after a stop.
+    grace: Duration,
     /// Units in hand are to be dropped.
     cancelled: AtomicBool,
     state: Mutex<State<T>>,
@@ -51,17 +51,24 @@ struct State<T> {
 }
 
 impl<'a, T> Queue<'a, T> {
-    /// The queue of `units`, of which at most `window` are run ahead of the last one written.
+    /// The queue of `units`, run with these options.
     pub(super) fn new(
         units: Range<u64>,
-        window: usize,
+        options: &RunOptions,
         workers: usize,
         stop: &'a AtomicBool,
     ) -> Queue<'a, T> {
-        let window = Window::new(units, window);
+        let (window, grace) = (Window::new(units, options.window), options.grace);
         let state = State { window, workers, aborted: false, stopped: None, failure: None };
         let cancelled = AtomicBool::new(false);
-        Queue { stop, cancelled, state: Mutex::new(state), room: Condvar::new(), outcomes: Condvar::new() }
+        Queue {
+            stop,
+            grace,
+            cancelled,
+            state: Mutex::new(state),
+            room: Condvar::new(),
+            outcomes: Condvar::new(),
+        }
     }
 
     /// Nothing panics while holding the lock and leaves the state halfway, so a poisoned lock is as good.
@@ -137,13 +144,13 @@ impl<'a, T> Queue<'a, T> {
         let mut state = self.lock();
         state.window.mark_written();
         if self.stop.load(Ordering::Relaxed)
-            && state.stopped.get_or_insert_with(Instant::now).elapsed() >= GRACE
+            && state.stopped.get_or_insert_with(Instant::now).elapsed() >= self.grace
         {
             self.cancelled.store(true, Ordering::Relaxed);
         }
         self.room.notify_all();
         if state.workers > 0 && !state.window.is_worth_taking(BATCH) {
-            let waited = self.outcomes.wait_timeout(state, TURN);
+            let waited = self.outcomes.wait_timeout(state, self.grace.clamp(TURN[0], TURN[1]));
             state = waited.unwrap_or_else(PoisonError::into_inner).0;
         }
         state.window.take(batch, MOST_AT_ONCE);

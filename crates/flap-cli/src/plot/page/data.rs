@@ -106,10 +106,9 @@ impl<'a> Data<'a> {
         }
     }
 
-    /// The JSON, as it may stand in a script: without `<`, so that no text ends the script or begins another.
+    /// The data as JSON.
     pub(super) fn json(&self) -> Result<String, serde_json::Error> {
-        let json = serde_json::to_string(self)?;
-        Ok(json.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026"))
+        serde_json::to_string(self)
     }
 }
 
@@ -185,25 +184,6 @@ fn distinct(values: &[f64]) -> Option<(Vec<usize>, Vec<f64>)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::columns;
-
-    #[test]
-    fn texts_cannot_end_the_script() {
-        let name = "a\"b\\c</script>&\n".to_owned();
-        let column = columns::Column { name, unit: String::new(), cells: Cells::Unread };
-        let table = Table { columns: vec![column], rows: 0, of: 0, sample: Vec::new() };
-        let start = Start {
-            kind: Kind::Scatter,
-            x: 0,
-            y: 0,
-            by: None,
-            color: None,
-            best: String::new(),
-            filters: BTreeMap::new(),
-        };
-        let json = Data::new(&table, &[], &start, None).json().unwrap();
-        assert!(json.contains("\"name\":\"a\\\"b\\\\c\\u003c/script\\u003e\\u0026\\n\""), "{json}");
-    }
 
     #[test]
     fn few_values_have_codes() {

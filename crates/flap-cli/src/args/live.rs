@@ -1,0 +1,36 @@
+//! `flap live`.
+
+use std::num::NonZeroUsize;
+
+use super::values::threads;
+
+#[derive(clap::Args)]
+#[command(after_help = LIVE_HELP)]
+pub(crate) struct LiveArgs {
+    /// A preset, a device or a grid file to begin with; `-` for a grid from stdin [default: the first preset]
+    #[arg(value_name = "PRESET|FILE")]
+    pub(crate) what: Option<String>,
+
+    /// Port of the server
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    pub(crate) port: u16,
+
+    /// Print the address without opening a browser
+    #[arg(long)]
+    pub(crate) no_open: bool,
+
+    /// Number of worker threads; it does not change the rows [default: one per core]
+    #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
+    pub(crate) threads: Option<NonZeroUsize>,
+}
+
+const LIVE_HELP: &str = "\
+Starts a server on this machine and prints the address of its page, with a token: who has the address can ask for rows. The \
+server listens on 127.0.0.1 alone, reads no files but the one named here, and writes none. Ctrl-C ends it. Without --port it \
+takes a free port.
+
+Examples:
+  flap live jafferis2016
+  flap live mybee.toml
+  flap live sweep.toml --no-open --port 8123
+  ssh -L 8123:127.0.0.1:8123 server flap live mybee.toml --no-open --port 8123     (the page of another machine)";

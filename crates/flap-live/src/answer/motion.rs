@@ -1,0 +1,35 @@
+//! One period of a design's settled motion.
+
+use std::sync::atomic::Ordering;
+
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{PointRun, TrajectoryRequest};
+use serde::Serialize;
+
+use super::{Desk, unfinished};
+use crate::request::{MOST_ROWS, MotionRequest, Refused};
+
+/// A motion: samples in rows, and the meaning of each column.
+#[derive(Serialize)]
+pub(crate) struct Motion {
+    columns: Vec<String>,
+    meanings: Vec<String>,
+    /// A number that is not finite is null.
+    rows: Vec<Vec<f64>>,
+}
+
+/// The motion of a design.
+pub(crate) fn motion(desk: &Desk<'_>, request: &MotionRequest) -> Result<Motion, Refused> {
+    let MotionRequest { design, samples } = request;
+    if *samples < 2 || *samples as usize > MOST_ROWS {
+        return Err(Refused::impossible(format!("a motion has 2 to {MOST_ROWS} samples, not {samples}")));
+    }
+    let plan = desk.opened.design(design)?;
+    let values = plan.point(0).values;
+    let interrupted = || desk.stop.load(Ordering::Relaxed);
+    let run = PointRun::new(InstructionSet::best(), plan.solver(), &values).until(&interrupted);
+    let motions = plan.simulator().motions().map_err(unfinished)?;
+    let request = TrajectoryRequest { cycles: 1, samples_per_cycle: *samples, settled: true };
+    let motion = motions.trajectory(&run, &request).map_err(unfinished)?;
+    Ok(Motion { columns: motion.columns, meanings: motions.meanings(), rows: motion.rows })
+}

@@ -1,0 +1,113 @@
+//! The numbers of a design beside the published ones, its natural frequencies, and the derivatives of a measure.
+
+use std::sync::atomic::Ordering;
+
+use flap_core::num::InstructionSet;
+use flap_core::simulate::{Point, PointRun, Row, Status};
+use flap_sweep::plan::{Plan, Verdict};
+use flap_sweep::study::strongest;
+use flap_sweep::table::layout::Layout;
+use serde::Serialize;
+use serde_json::Value;
+
+use super::Desk;
+use crate::request::{PointRequest, Refused};
+use crate::rows;
+
+/// The numbers of a design.
+#[derive(Serialize)]
+pub(crate) struct Numbers {
+    columns: Vec<String>,
+    row: Vec<Value>,
+    /// The row of the published design.
+    published: Vec<Value>,
+    /// The reason why the parameters are impossible, or why a sweep leaves the design out.
+    reason: Option<String>,
+    /// The natural frequencies, if the model has them.
+    modes: Option<Vec<Mode>>,
+    /// Derivatives of a measure, the largest first.
+    gradient: Option<Vec<Slope>>,
+    /// The reason why there are none.
+    gradient_reason: Option<String>,
+}
+
+#[derive(Serialize)]
+struct Mode {
+    name: &'static str,
+    frequency_hz: f64,
+}
+
+#[derive(Serialize)]
+struct Slope {
+    parameter: &'static str,
+    /// The change of the measure, in its unit, per per cent of the parameter.
+    per_percent: f64,
+}
+
+/// The numbers of a design.
+pub(crate) fn point(desk: &Desk<'_>, request: &PointRequest) -> Result<Numbers, Refused> {
+    let plan = desk.opened.design(&request.design)?;
+    let values = plan.point(0).values;
+    let interrupted = || desk.stop.load(Ordering::Relaxed);
+    let run = PointRun::new(InstructionSet::best(), plan.solver(), &values).until(&interrupted);
+    let mut reason = None;
+    let row = match plan.judge(&values) {
+        Verdict::Invalid(invalid) => Row::invalid(invalid),
+        verdict => {
+            if let Verdict::Excluded(unsatisfied) = verdict {
+                let names = unsatisfied.iter().map(|&number| plan.conditions()[number].name.as_str());
+                let names: Vec<&str> = names.collect();
+                reason = Some(format!("a sweep leaves this design out: {} does not hold", names.join(", ")));
+            }
+            let mut row = plan.rows().run_point(&run, None);
+            plan.add_own_measures(&values, &mut row.measures);
+            row
+        }
+    };
+    desk.go_on()?;
+    let (mut gradient, mut gradient_reason) = (None, None);
+    if let Some(measure) = &request.gradient {
+        match slopes(&plan, &run, &row, measure) {
+            Ok(slopes) => gradient = Some(slopes),
+            Err(reason) => gradient_reason = Some(reason),
+        }
+        desk.go_on()?;
+    }
+    let layout = Layout::of(&plan);
+    let cells = |row: &Row, values: Vec<f64>| -> Vec<Value> {
+        layout.cells(&Point::at_rest(0, values), row).into_iter().map(rows::value).collect()
+    };
+    Ok(Numbers {
+        columns: layout.names(),
+        reason: row.reason.clone().or(reason),
+        modes: modes(&plan, &values),
+        published: cells(desk.opened.published_row(), desk.opened.published()),
+        row: cells(&row, values),
+        gradient,
+        gradient_reason,
+    })
+}
+
+/// The natural frequencies of a design.
+fn modes(plan: &Plan, values: &[f64]) -> Option<Vec<Mode>> {
+    let modes = plan.simulator().experiments().ok()?.modes(values).ok()?;
+    let modes = modes.into_iter().filter(|mode| mode.frequency.is_finite());
+    Some(modes.map(|mode| Mode { name: mode.name, frequency_hz: mode.frequency }).collect())
+}
+
+/// The derivatives of a measure by all parameters that can change, or the reason why there are none.
+fn slopes(plan: &Plan, run: &PointRun<'_>, row: &Row, measure: &str) -> Result<Vec<Slope>, String> {
+    let columns = plan.simulator().columns();
+    let place = columns.iter().position(|column| column.name == measure);
+    let place = place.ok_or_else(|| format!("there is no measure `{measure}` with derivatives"))?;
+    if row.status != Status::Periodic {
+        return Err(format!("the motion is {}: only periodic ones have derivatives", row.status.name()));
+    }
+    let strongest = strongest::slopes(plan, plan.simulator(), run, row, place, &[]);
+    let known = strongest.map_err(|reason| reason.to_string())?.known;
+    let parameters = plan.parameters();
+    Ok(known
+        .into_iter()
+        .map(|(index, slope)| Slope { parameter: parameters[index].name, per_percent: 0.01 * slope })
+        .collect())
+}

@@ -1,0 +1,224 @@
+//! The design that the page begins with, and grid files of what the page shows.
+
+use std::fmt::Write as _;
+use std::sync::OnceLock;
+
+use flap_core::num::InstructionSet;
+use flap_core::parameter::Parameter;
+use flap_core::simulate::{PointRun, Row, SettingKind, Simulator, SolverSettings};
+use flap_sweep::grid;
+use flap_sweep::grid::diagnostic::{Diagnostic, Mistakes};
+use flap_sweep::notation::text;
+use flap_sweep::plan::{Plan, Value};
+use toml_edit::DocumentMut;
+
+use crate::request::{Along, By, Design, MOST_ROWS, Number, Refused};
+
+/// The sections of a grid file that every grid of the page keeps; others are about points and files.
+const KEPT: [&str; 4] = ["vehicle", "derived", "where", "measure"];
+
+/// The name of the page's grids in messages.
+const NAME: &str = "the grid of the page";
+
+/// The design that was opened.
+pub(crate) struct Opened {
+    /// The plan that was opened.
+    plan: Plan,
+    models: Vec<&'static dyn Simulator>,
+    /// The text of a grid with the preset and the sections kept, without parameters.
+    head: String,
+    /// The plan of `head`: published values.
+    published: Plan,
+    /// One value per parameter: those of the first point, NaN where a parameter follows others.
+    values: Vec<f64>,
+    /// The row of the published design, once it has been asked for.
+    published_row: OnceLock<Row>,
+}
+
+impl Opened {
+    /// The first design of a plan, with its formulas, conditions and settings.
+    ///
+    /// # Errors
+    /// The mistakes of the file without its points.
+    pub(crate) fn new(plan: Plan, models: &[&'static dyn Simulator]) -> Result<Opened, Mistakes> {
+        let head = head(&plan);
+        let published = grid::parse(NAME, &head, models)?;
+        let mut values = plan.point(0).values;
+        for (value, (published, given)) in values.iter_mut().zip(published.base().iter().zip(plan.base())) {
+            // A page has one drive frequency, not a search for each design.
+            if *given == Value::Resonance {
+                *value = published.in_point();
+            }
+        }
+        let models = models.to_vec();
+        Ok(Opened { plan, models, head, published, values, published_row: OnceLock::new() })
+    }
+
+    /// The plan that was opened.
+    pub(crate) fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The values of the design, one per parameter.
+    pub(crate) fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The published values, one per parameter.
+    pub(crate) fn published(&self) -> Vec<f64> {
+        self.published.point(0).values
+    }
+
+    /// The row of the published design, in the layout of the page's plans without axes.
+    pub(crate) fn published_row(&self) -> &Row {
+        self.published_row.get_or_init(|| {
+            let values = self.published();
+            let run = PointRun::new(InstructionSet::best(), self.published.solver(), &values);
+            let mut row = self.published.rows().run_point(&run, None);
+            self.published.add_own_measures(&values, &mut row.measures);
+            row
+        })
+    }
+
+    /// A grid file of the design, or of lines of it.
+    ///
+    /// # Errors
+    /// [`Refused::Impossible`] if it would have too many rows.
+    pub(crate) fn grid(
+        &self,
+        design: &Design,
+        x: Option<&Along>,
+        by: Option<&By>,
+    ) -> Result<String, Refused> {
+        let rows = x.map_or(1, |x| x.n as usize) * by.map_or(1, |by| by.values.len());
+        if rows > MOST_ROWS {
+            let error = format!("{rows} rows are too many for the page, which shows {MOST_ROWS} at most");
+            return Err(Refused::impossible(error));
+        }
+        let axes = [by.map(|by| by.name.as_str()), x.map(|x| x.name.as_str())];
+        let mut page = self.head.clone();
+        page += "\n[params]\n";
+        self.write_params(&mut page, design, &axes);
+        if x.is_some() || by.is_some() {
+            page += "\n[axes]\n";
+        }
+        if let Some(By { name, values }) = by {
+            let values: Vec<String> = values.iter().map(number).collect();
+            let _ = writeln!(page, "{} = [{}]", key(name), values.join(", "));
+        }
+        if let Some(Along { name, from, to, n }) = x {
+            let (from, to) = (number(from), number(to));
+            let _ = writeln!(page, "{} = {{ from = {from}, to = {to}, n = {n} }}", key(name));
+        }
+        Ok(page)
+    }
+
+    /// Lines for the parameters that are not published ones, but for those of `axes`.
+    fn write_params(&self, page: &mut String, design: &Design, axes: &[Option<&str>]) {
+        let derived: Vec<usize> = self.plan.derived().parameters().collect();
+        let published = self.published();
+        for (index, parameter) in self.plan.parameters().iter().enumerate() {
+            let (name, value) = (parameter.name, self.values[index]);
+            let is_as_published = value.to_bits() == published[index].to_bits() || value.is_nan();
+            let is_elsewhere =
+                axes.contains(&Some(name)) || design.contains_key(name) || derived.contains(&index);
+            if is_as_published || is_elsewhere {
+                continue;
+            }
+            let value = match text::option(parameter, value) {
+                Some(option) => format!("\"{option}\""),
+                None => text::float(value),
+            };
+            let _ = writeln!(page, "{name} = {value}");
+        }
+        for (name, value) in design {
+            if let Some(value) = value.as_ref().filter(|_| !axes.contains(&Some(name))) {
+                let _ = writeln!(page, "{} = {}", key(name), number(value));
+            }
+        }
+    }
+
+    /// The plan of a grid file of the page, checked as every grid file is.
+    ///
+    /// # Errors
+    /// [`Refused::Impossible`] with the first mistake.
+    pub(crate) fn plan_of(&self, grid: &str) -> Result<Plan, Refused> {
+        grid::parse(NAME, grid, &self.models).map_err(|mistakes| match mistakes.first() {
+            Some(first) => refused(first, self.plan.parameters()),
+            None => Refused::Fault("a grid was refused without a reason".to_owned()),
+        })
+    }
+
+    /// The plan of one design.
+    ///
+    /// # Errors
+    /// [`Refused::Impossible`] with the first mistake.
+    pub(crate) fn design(&self, design: &Design) -> Result<Plan, Refused> {
+        self.plan_of(&self.grid(design, None, None)?)
+    }
+}
+
+/// The beginning of every grid file of the page: preset, sections kept, solver settings.
+fn head(plan: &Plan) -> String {
+    let mut document: DocumentMut = plan.source().text.parse().unwrap_or_default();
+    let strays: Vec<String> = document.iter().map(|(key, _)| key.to_owned()).collect();
+    for key in strays.iter().filter(|key| !KEPT.contains(&key.as_str())) {
+        document.remove(key);
+    }
+    // What stood behind the last section says nothing of those kept.
+    document.set_trailing("");
+    let mut head = format!("preset = \"{}\"\n", plan.preset());
+    let kept = document.to_string();
+    if !kept.trim().is_empty() {
+        head += kept.trim_start();
+        head = head.trim_end().to_owned() + "\n";
+    }
+    let settings = plan.solver();
+    let changed: String = SolverSettings::TABLE
+        .iter()
+        .filter_map(|setting| setting_line(setting.name, setting.kind, settings))
+        .collect();
+    if !changed.is_empty() {
+        let _ = write!(head, "\n[solver]\n{changed}");
+    }
+    head
+}
+
+/// The line of a solver setting that differs from its default.
+fn setting_line(name: &str, kind: SettingKind, settings: &SolverSettings) -> Option<String> {
+    let default = &SolverSettings::DEFAULT;
+    let value = match kind {
+        SettingKind::Number { get, .. } => {
+            (get(settings) != get(default)).then(|| text::float(get(settings)))
+        }
+        SettingKind::Count { get, .. } => (get(settings) != get(default)).then(|| get(settings).to_string()),
+        SettingKind::Flag { get, .. } => (get(settings) != get(default)).then(|| get(settings).to_string()),
+    };
+    value.map(|value| format!("{name} = {value}\n"))
+}
+
+/// A name as a key of TOML: quoted unless it is a word.
+fn key(name: &str) -> String {
+    toml_edit::Key::new(name).display_repr().into_owned()
+}
+
+/// A number or a text as a value of TOML.
+fn number(value: &Number) -> String {
+    match value {
+        Number::Si(value) => text::float(*value),
+        Number::Text(text) => toml_edit::Value::from(text.as_str()).to_string(),
+    }
+}
+
+/// A mistake in a grid of the page, with the parameter that its line is about.
+fn refused(mistake: &Diagnostic, parameters: &[Parameter]) -> Refused {
+    let line = mistake.source.text.lines().nth(mistake.line().saturating_sub(1)).unwrap_or_default();
+    let name = line.split('=').next().unwrap_or_default().trim();
+    let parameter = parameters.iter().find(|parameter| parameter.name == name);
+    let help: Vec<&str> = mistake.notes.iter().chain(&mistake.help).map(String::as_str).collect();
+    Refused::Impossible {
+        error: mistake.message.clone(),
+        help: Some(help.join("; ")).filter(|help| !help.is_empty()),
+        parameter: parameter.map(|parameter| parameter.name.to_owned()),
+    }
+}

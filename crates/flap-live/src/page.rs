@@ -1,0 +1,95 @@
+//! Pages for a browser, each in one text with its style, code and data.
+
+/// The chart library's style and code, then those of all pages.
+const STYLES: [&str; 2] = [include_str!("../web/uplot/uPlot.min.css"), include_str!("../web/shared.css")];
+const SCRIPTS: [&str; 4] = [
+    include_str!("../web/uplot/uPlot.iife.min.js"),
+    include_str!("../web/shared.js"),
+    include_str!("../web/chart.js"),
+    include_str!("../web/chart-svg.js"),
+];
+
+/// The page of results, with this heading. `data` is JSON for its code.
+pub fn results(heading: &str, data: &str) -> String {
+    let scripts = [include_str!("../web/results.js")];
+    filled(include_str!("../web/results.html"), heading, include_str!("../web/results.css"), data, &scripts)
+}
+
+/// The live page, with this heading. `data` is JSON for its code.
+#[cfg(feature = "server")]
+pub(crate) fn live(heading: &str, data: &str) -> String {
+    let scripts = [
+        include_str!("../web/live-state.js"),
+        include_str!("../web/live-api.js"),
+        include_str!("../web/live-wing.js"),
+        include_str!("../web/live-panel.js"),
+        include_str!("../web/live-family.js"),
+        include_str!("../web/live-numbers.js"),
+        include_str!("../web/live-motion.js"),
+        include_str!("../web/live-pins.js"),
+        include_str!("../web/live-save.js"),
+        include_str!("../web/live-page.js"),
+    ];
+    filled(include_str!("../web/live.html"), heading, include_str!("../web/live.css"), data, &scripts)
+}
+
+/// A page with everything in its places.
+fn filled(html: &str, heading: &str, style: &str, data: &str, scripts: &[&str]) -> String {
+    let mut page = String::new();
+    // In this order: what is put in is not searched again.
+    for (number, part) in html.split("{{").enumerate() {
+        let Some((name, rest)) = part.split_once("}}").filter(|_| number > 0) else {
+            page += part;
+            continue;
+        };
+        match name {
+            "title" => page += &escaped(heading),
+            "style" => page.extend(STYLES.into_iter().chain([style]).flat_map(|text| [text, "\n"])),
+            "data" => page += &harmless(data),
+            _ => {
+                page += "\"use strict\";\n";
+                page.extend(SCRIPTS.iter().chain(scripts).flat_map(|text| [*text, "\n"]));
+            }
+        }
+        page += rest;
+    }
+    page
+}
+
+/// JSON as it may stand in a script: without `<`, so that no text ends the script or begins another.
+fn harmless(json: &str) -> String {
+    json.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
+}
+
+/// A text as HTML.
+fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for letter in text.chars() {
+        match letter {
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '&' => out.push_str("&amp;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            _ => out.push(letter),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn titles_are_no_markup() {
+        assert_eq!(escaped("<b a=\"'\">&"), "&lt;b a=&quot;&#39;&quot;&gt;&amp;");
+    }
+
+    #[test]
+    fn texts_cannot_end_the_script() {
+        let page = results("title", r#"{"name":"</script>&{{title}}"}"#);
+        assert!(page.contains(r#"{"name":"\u003c/script\u003e\u0026{{title}}"}"#));
+        assert_eq!(page.matches("</script>").count(), 2);
+    }
+}

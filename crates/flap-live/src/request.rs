@@ -1,0 +1,118 @@
+//! Requests of the live page.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+/// Most rows of one answer.
+pub(crate) const MOST_ROWS: usize = 4000;
+
+/// The parameters that differ from the design that was opened, by name. Null takes the value of a parameter away, so that it
+/// follows others.
+pub(crate) type Design = BTreeMap<String, Option<Number>>;
+
+/// A number in SI units, or text: a quantity with a unit, or an option.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum Number {
+    Si(f64),
+    Text(String),
+}
+
+/// The parameter along the horizontal axis: `n` values from the first to the last, evenly spaced.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Along {
+    pub(crate) name: String,
+    pub(crate) from: Number,
+    pub(crate) to: Number,
+    pub(crate) n: u32,
+}
+
+/// The parameter with a line for each of its values.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct By {
+    pub(crate) name: String,
+    pub(crate) values: Vec<Number>,
+}
+
+/// The place of a request among those of its page: a newer one cancels it.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Turn {
+    /// The page that asks, by a text of its own.
+    pub(crate) page: String,
+    pub(crate) number: u64,
+}
+
+/// Lines of rows.
+#[derive(Debug, Deserialize)]
+pub(crate) struct FamilyRequest {
+    #[serde(default)]
+    pub(crate) design: Design,
+    pub(crate) x: Along,
+    pub(crate) by: Option<By>,
+}
+
+/// The numbers of a design, and the derivatives of the measure `gradient`.
+#[derive(Debug, Deserialize)]
+pub(crate) struct PointRequest {
+    #[serde(default)]
+    pub(crate) design: Design,
+    pub(crate) gradient: Option<String>,
+}
+
+/// One period of a design's settled motion.
+#[derive(Debug, Deserialize)]
+pub(crate) struct MotionRequest {
+    #[serde(default)]
+    pub(crate) design: Design,
+    pub(crate) samples: u32,
+}
+
+/// The response of a design up and down.
+#[derive(Debug, Deserialize)]
+pub(crate) struct HysteresisRequest {
+    #[serde(default)]
+    pub(crate) design: Design,
+    pub(crate) x: Along,
+}
+
+/// A text to save.
+#[derive(Debug, Deserialize)]
+pub(crate) struct SaveRequest {
+    pub(crate) kind: SaveKind,
+    #[serde(default)]
+    pub(crate) design: Design,
+    pub(crate) x: Option<Along>,
+    pub(crate) by: Option<By>,
+}
+
+/// The kind of text to save.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum SaveKind {
+    Grid,
+    Device,
+    Python,
+}
+
+/// The reason why a request has no answer.
+#[derive(Debug)]
+pub(crate) enum Refused {
+    /// The request is not as it must be.
+    Malformed(String),
+    /// Values that are impossible, with advice and the parameter that they are about.
+    Impossible { error: String, help: Option<String>, parameter: Option<String> },
+    /// A newer request has come.
+    Superseded,
+    /// A mistake in flap itself.
+    Fault(String),
+}
+
+impl Refused {
+    /// Values that are impossible, for this reason.
+    pub(crate) fn impossible(error: impl Into<String>) -> Refused {
+        Refused::Impossible { error: error.into(), help: None, parameter: None }
+    }
+}

@@ -1,0 +1,134 @@
+//! The HTTP server of the live page, on this machine alone.
+
+mod answers;
+mod office;
+mod routes;
+
+use std::io;
+use std::net::{Ipv4Addr, TcpListener};
+use std::sync::Arc;
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use flap_core::simulate::Simulator;
+use flap_sweep::grid::diagnostic::Mistakes;
+use flap_sweep::plan::Plan;
+use flap_sweep::run::RunOptions;
+use tokio::net::TcpListener as Listener;
+use tokio::sync::oneshot::{self, Sender};
+
+use crate::guard::Guard;
+use crate::opened::Opened;
+use office::Office;
+
+/// Threads that wait for requests or compute; rows have workers besides.
+const MOST_BLOCKING: usize = 16;
+
+/// Options of a server.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LiveOptions {
+    /// The port; 0 for a free one.
+    pub port: u16,
+    /// Threads and instructions of rows.
+    pub run: RunOptions,
+}
+
+/// The reason why a server does not start.
+#[derive(Debug, thiserror::Error)]
+pub enum StartError {
+    /// The port cannot be opened.
+    #[error("cannot listen on port {0} of 127.0.0.1: {1}")]
+    Port(u16, #[source] io::Error),
+    /// The operating system gives no threads, or no random numbers.
+    #[error("cannot start the server: {0}")]
+    System(String),
+    /// The file has mistakes without its points.
+    #[error("the design cannot stand without its points")]
+    Design(Mistakes),
+}
+
+/// A running server. It ends when it is dropped.
+///
+/// ```
+/// use flap_live::{LiveOptions, Server};
+/// use flap_sweep::grid;
+///
+/// let models = flap_core::simulate::all();
+/// let plan = grid::parse("mine", "preset = \"ozaki2018-large\"", models).unwrap();
+/// let server = Server::start(plan, models, &LiveOptions::default()).unwrap();
+/// assert!(server.address().starts_with("http://127.0.0.1:"));
+/// ```
+#[derive(Debug)]
+pub struct Server {
+    address: String,
+    stop: Option<Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Server {
+    /// Starts a server of the live page for the first design of `plan`. Presets are looked up in `models`.
+    ///
+    /// # Errors
+    /// [`StartError`] if the port is taken, the file has mistakes without its points, or the system gives no threads.
+    pub fn start(
+        plan: Plan,
+        models: &[&'static dyn Simulator],
+        options: &LiveOptions,
+    ) -> Result<Server, StartError> {
+        let port = options.port;
+        let opened = Opened::new(plan, models).map_err(StartError::Design)?;
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port));
+        let listener = listener.map_err(|error| StartError::Port(port, error))?;
+        let system = |error: &dyn ToString| StartError::System(error.to_string());
+        let bound = listener.local_addr().map_err(|error| system(&error))?;
+        listener.set_nonblocking(true).map_err(|error| system(&error))?;
+        let guard = Guard::new(bound.port()).map_err(|error| system(&error))?;
+        let address = guard.address();
+        let run = RunOptions { grace: Duration::ZERO, ..options.run };
+        let office = Arc::new(Office::new(opened, guard, run));
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .enable_all()
+            .max_blocking_threads(MOST_BLOCKING)
+            .build()
+            .map_err(|error| system(&error))?;
+        let (stop, stopped) = oneshot::channel();
+        let serve = move || {
+            runtime.block_on(async {
+                // A listener that the operating system has opened is refused by nothing here.
+                let Ok(listener) = Listener::from_std(listener) else { return };
+                let server = axum::serve(listener, routes::routes(Arc::clone(&office)));
+                tokio::select! {
+                    _ = async { server.await } => {}
+                    _ = stopped => {}
+                }
+            });
+            office.stop();
+            runtime.shutdown_timeout(Duration::from_secs(1));
+        };
+        let thread = std::thread::Builder::new().name("flap-live".to_owned()).spawn(serve);
+        let thread = thread.map_err(|error| system(&error))?;
+        Ok(Server { address, stop: Some(stop), thread: Some(thread) })
+    }
+
+    /// The address of the page, with its token.
+    pub fn address(&self) -> &str {
+        &self.address
+    }
+
+    /// Ends the server: connections are closed, and work in hand is dropped.
+    pub fn stop(&mut self) {
+        // The other end is there as long as the thread runs.
+        if let Some(stop) = self.stop.take() {
+            let _ = stop.send(());
+        }
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}

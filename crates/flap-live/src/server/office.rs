@@ -1,0 +1,120 @@
+//! What all requests share, and the way from the text of a request to that of its answer.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use flap_sweep::run::RunOptions;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use tokio::sync::Semaphore;
+
+use crate::answer::{self, Desk};
+use crate::description::Description;
+use crate::guard::Guard;
+use crate::latest::Latest;
+use crate::opened::Opened;
+use crate::page;
+use crate::request::{Refused, Turn};
+
+/// Requests that are computed at the same time; others wait, so that memory is bounded.
+const MOST_AT_ONCE: usize = 4;
+
+/// What all requests share.
+pub(super) struct Office {
+    pub(super) guard: Guard,
+    opened: Opened,
+    run: RunOptions,
+    latest: Latest,
+    pub(super) seats: Semaphore,
+}
+
+/// The kinds of requests.
+#[derive(Clone, Copy)]
+pub(super) enum Kind {
+    Family,
+    Point,
+    Motion,
+    Hysteresis,
+    Save,
+}
+
+impl Kind {
+    /// The kind with this name in addresses.
+    pub(super) fn named(name: &str) -> Option<Kind> {
+        let kinds = [Kind::Family, Kind::Point, Kind::Motion, Kind::Hysteresis, Kind::Save];
+        kinds.into_iter().find(|kind| kind.name() == name)
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Kind::Family => "family",
+            Kind::Point => "point",
+            Kind::Motion => "motion",
+            Kind::Hysteresis => "hysteresis",
+            Kind::Save => "save",
+        }
+    }
+}
+
+/// The flag of a request. It is raised when the request is dropped, since nobody waits for the answer then.
+pub(super) struct Wanted(Arc<AtomicBool>);
+
+impl Drop for Wanted {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Wanted {
+    /// The flag, for the thread that computes.
+    pub(super) fn flag(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.0)
+    }
+}
+
+impl Office {
+    pub(super) fn new(opened: Opened, guard: Guard, run: RunOptions) -> Office {
+        Office { guard, opened, run, latest: Latest::default(), seats: Semaphore::new(MOST_AT_ONCE) }
+    }
+
+    /// Cancels all requests.
+    pub(super) fn stop(&self) {
+        self.latest.stop();
+    }
+
+    /// The page.
+    pub(super) fn page(&self) -> Result<String, Refused> {
+        let data = serde_json::to_string(&Description::of(&self.opened));
+        let data = data.map_err(|error| Refused::Fault(error.to_string()))?;
+        Ok(page::live(&format!("{} · flap live", self.opened.plan().source().name), &data))
+    }
+
+    /// Begins a request: older ones of its kind and page are cancelled.
+    pub(super) fn begin(&self, kind: Kind, body: &[u8]) -> Result<Wanted, Refused> {
+        if let Kind::Save = kind {
+            return Ok(Wanted(Arc::default()));
+        }
+        let Turn { page, number } = read(body)?;
+        self.latest.begin(&page, kind.name(), number).map(Wanted).ok_or(Refused::Superseded)
+    }
+
+    /// The answer to a request, as JSON.
+    pub(super) fn answer(&self, kind: Kind, body: &[u8], stop: &AtomicBool) -> Result<Vec<u8>, Refused> {
+        let desk = Desk { opened: &self.opened, options: self.run, stop };
+        match kind {
+            Kind::Family => written(&answer::family(&desk, &read(body)?)?),
+            Kind::Point => written(&answer::point(&desk, &read(body)?)?),
+            Kind::Motion => written(&answer::motion(&desk, &read(body)?)?),
+            Kind::Hysteresis => written(&answer::hysteresis(&desk, &read(body)?)?),
+            Kind::Save => written(&answer::save(&desk, &read(body)?)?),
+        }
+    }
+}
+
+fn read<T: DeserializeOwned>(body: &[u8]) -> Result<T, Refused> {
+    serde_json::from_slice(body).map_err(|error| Refused::Malformed(error.to_string()))
+}
+
+fn written(answer: &impl Serialize) -> Result<Vec<u8>, Refused> {
+    serde_json::to_vec(answer).map_err(|error| Refused::Fault(error.to_string()))
+}

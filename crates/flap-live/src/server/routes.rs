@@ -1,0 +1,89 @@
+//! The addresses of the server.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::Router;
+use axum::body::{Body, to_bytes};
+use axum::extract::{Path, Request, State};
+use axum::http::header::CONTENT_LENGTH;
+use axum::http::{HeaderMap, Method, StatusCode, Uri};
+use axum::response::Response;
+use axum::routing::any;
+use tokio::time::timeout;
+
+use super::answers;
+use super::office::{Kind, Office};
+use crate::request::Refused;
+
+/// Most bytes of a request.
+const MOST_BYTES: usize = 64 * 1024;
+
+/// Longest time for the bytes of a request to come.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// The addresses: the page, and its requests.
+pub(super) fn routes(office: Arc<Office>) -> Router {
+    Router::new()
+        .route("/", any(page))
+        .route("/api/{kind}", any(api))
+        .fallback(async || answers::refusal(StatusCode::NOT_FOUND, "there is nothing at this address"))
+        .with_state(office)
+}
+
+async fn page(State(office): State<Arc<Office>>, method: Method, uri: Uri, headers: HeaderMap) -> Response {
+    if let Err(intruder) = office.guard.check(&uri, &headers, true) {
+        return answers::turned_away(&intruder);
+    }
+    if method != Method::GET && method != Method::HEAD {
+        return answers::refusal(StatusCode::METHOD_NOT_ALLOWED, "the page is there for GET alone");
+    }
+    office.page().map_or_else(answers::refused, answers::page)
+}
+
+async fn api(State(office): State<Arc<Office>>, Path(kind): Path<String>, request: Request) -> Response {
+    let (head, body) = request.into_parts();
+    if let Err(intruder) = office.guard.check(&head.uri, &head.headers, false) {
+        return answers::turned_away(&intruder);
+    }
+    let Some(kind) = Kind::named(&kind) else {
+        return answers::refusal(StatusCode::NOT_FOUND, "there is no such request");
+    };
+    if head.method != Method::POST {
+        return answers::refusal(StatusCode::METHOD_NOT_ALLOWED, "requests are there for POST alone");
+    }
+    match read(&head.headers, body).await {
+        Ok(body) => answer(office, kind, body).await,
+        Err(refusal) => refusal,
+    }
+}
+
+/// The bytes of a request, or the answer to one that is too large or does not come.
+async fn read(headers: &HeaderMap, body: Body) -> Result<Vec<u8>, Response> {
+    let too_large = || answers::refusal(StatusCode::PAYLOAD_TOO_LARGE, "a request has 64 KiB at most");
+    let length = headers.get(CONTENT_LENGTH).and_then(|length| length.to_str().ok()?.parse::<usize>().ok());
+    if length.is_some_and(|length| length > MOST_BYTES) {
+        return Err(too_large());
+    }
+    match timeout(PATIENCE, to_bytes(body, MOST_BYTES)).await {
+        Ok(Ok(body)) => Ok(body.into()),
+        Ok(Err(_)) => Err(too_large()),
+        Err(_) => Err(answers::refusal(StatusCode::REQUEST_TIMEOUT, "the request did not come to its end")),
+    }
+}
+
+/// The answer to a request, which another thread computes.
+async fn answer(office: Arc<Office>, kind: Kind, body: Vec<u8>) -> Response {
+    // Dropped with this future if the page gives up.
+    let wanted = match office.begin(kind, &body) {
+        Ok(wanted) => wanted,
+        Err(refused) => return answers::refused(refused),
+    };
+    let Ok(_seat) = office.seats.acquire().await else {
+        return answers::refusal(StatusCode::SERVICE_UNAVAILABLE, "the server ends");
+    };
+    let (worker, stop) = (Arc::clone(&office), wanted.flag());
+    let worked = tokio::task::spawn_blocking(move || worker.answer(kind, &body, &stop)).await;
+    let answered = worked.unwrap_or_else(|error| Err(Refused::Fault(error.to_string())));
+    answered.map_or_else(answers::refused, answers::json)
+}

@@ -1,0 +1,165 @@
+// The response family: coarse while a slider moves, fine when it rests.
+
+const FINE = 81;
+const FEWEST = 9, MOST = 33;
+/** Time in which a coarse family is to be there, in milliseconds. */
+const SOON = 45;
+
+const family = {
+  chart: null,
+  n: 17, // values of x of a coarse family
+  isBusy: false,
+  isStale: false,
+  isUpDown: false,
+  rested: null, // the lines of the last fine family, and their text
+  ghost: [],
+  gaps: [],
+  onDrawn: () => {},
+};
+
+/** The parameters that the chart may vary: numbers that no formula gives. */
+const variable = () => opened.parameters.filter(({ kind }) => kind === "number" || kind === "following");
+
+family.request = (n) => ({ design: state.design, x: { ...state.x, n }, by: family.isUpDown ? null : state.by });
+
+/** A coarse family as soon as possible; the newest one if several are wanted. */
+family.move = async () => {
+  family.isStale = true;
+  if (family.isBusy) return;
+  family.isBusy = true;
+  while (family.isStale) {
+    family.isStale = false;
+    const begun = panel.moved, sent = performance.now();
+    panel.moved = undefined;
+    const answer = await family.ask("family", family.request(family.n));
+    if (!answer) continue;
+    const took = performance.now() - sent;
+    if (took > SOON) family.n = Math.max(FEWEST, Math.floor(family.n * 0.75));
+    else if (took < SOON / 2) family.n = Math.min(MOST, family.n + 4);
+    family.draw(answer, false);
+    if (begun !== undefined) {
+      requestAnimationFrame(() => performance.measure("flap-slider-to-picture", { start: begun, end: performance.now() }));
+    }
+  }
+  family.isBusy = false;
+};
+
+/** The fine family, and up and down if that is shown. */
+family.rest = async () => {
+  if (family.isBusy || family.isStale) return;
+  const kind = family.isUpDown ? "hysteresis" : "family";
+  byId("chart").setAttribute("aria-busy", "true");
+  const answer = await family.ask(kind, family.request(FINE));
+  byId("chart").removeAttribute("aria-busy");
+  if (answer) family.draw(answer, true);
+};
+
+family.ask = async (kind, body) => {
+  try {
+    const answer = await server.ask(kind, body);
+    if (answer) family.complain(null);
+    return answer;
+  } catch (error) {
+    family.complain(error);
+    return null;
+  }
+};
+
+family.complain = (error) => {
+  panel.complain(error);
+  const text = error && error.status !== 0 ? [error.message, error.help].filter(Boolean).join(". ") : "";
+  byId("banner").hidden = !text && !server.isGone;
+  if (text) byId("banner").textContent = text;
+};
+
+/** Lines of an answer: one for each value of the lines' parameter, or one up and one down. */
+const linesOf = ({ columns, rows }) => {
+  const place = (name) => columns.indexOf(name);
+  const along = parameterOf.get(state.x.name), by = family.isUpDown || !state.by ? null : parameterOf.get(state.by.name);
+  const [x, y, status, stable] = [along.name, state.measure, "status", "stable"].map(place);
+  const key = family.isUpDown ? place("branch") : by ? place(by.name) : -1;
+  const lines = new Map(), gaps = [];
+  for (const row of rows) {
+    const value = key < 0 ? "" : row[key];
+    if (!lines.has(value)) {
+      const name = family.isUpDown ? value : by ? shownValue(by, value) : "";
+      lines.set(value, { key: String(value), name, x: [], y: [], rows: [], value });
+    }
+    const line = lines.get(value), number = isNumber(row[y]) ? row[y] : null;
+    line.x.push(row[x] * along.factor);
+    line.y.push(number);
+    line.rows.push({ status: row[status], stable: row[stable], x: row[x], by: key < 0 ? null : value });
+    if (row[status] !== "periodic") gaps.push({ x: row[x] * along.factor, text: row[status] });
+  }
+  const list = [...lines.values()];
+  list.forEach((line, i) => { line.color = lineColour(i, list.length); line.marks = line.x.length < 12; });
+  if (family.isUpDown) for (const line of list) if (line.key === "down") line.dash = [7, 4];
+  // One list of x for all lines where they have the same: the chart then joins nothing.
+  for (const line of list) if (line.x.length === list[0].x.length && line.x.every((value, i) => value === list[0].x[i])) line.x = list[0].x;
+  if (family.isUpDown) for (const line of list) if (line.x.length > 1 && line.x[0] > line.x[1]) for (const part of ["x", "y", "rows"]) line[part] = [...line[part]].reverse();
+  return { lines: list, gaps };
+};
+
+/** Ranges of x where the ways up and down differ by more than a hundredth of the largest value. */
+const bistable = (lines) => {
+  const [up, down] = ["up", "down"].map((key) => lines.find((line) => line.key === key));
+  if (!up || !down) return [];
+  const largest = Math.max(...up.y.concat(down.y).filter(isNumber).map(Math.abs));
+  const bands = [];
+  up.x.forEach((x, i) => {
+    const j = down.x.findIndex((other) => Math.abs(other - x) < 1e-9 * Math.abs(x));
+    const differs = j >= 0 && isNumber(up.y[i]) && isNumber(down.y[j]) && Math.abs(up.y[i] - down.y[j]) > 0.01 * largest;
+    if (!differs) return;
+    const last = bands[bands.length - 1], before = up.x[Math.max(i - 1, 0)];
+    if (last && last.to === before) last.to = x; else bands.push({ from: x, to: x });
+  });
+  return bands;
+};
+
+family.draw = (answer, isFine) => {
+  family.answer = answer;
+  const { lines, gaps } = linesOf(answer);
+  const text = JSON.stringify([state.design, state.x, state.by, state.measure, family.isUpDown]);
+  if (isFine) {
+    const isSameView = family.rested && family.rested.view === JSON.stringify([state.x, state.measure, family.isUpDown]);
+    if (family.rested && family.rested.text !== text) family.ghost = isSameView ? family.rested.lines : [];
+    family.rested = { lines, text, view: JSON.stringify([state.x, state.measure, family.isUpDown]) };
+  }
+  const shown = isFine ? family.ghost : (family.rested && family.rested.view === JSON.stringify([state.x, state.measure, family.isUpDown]) ? family.rested.lines : []);
+  const ghosts = shown.map((line) => ({ ...line, key: `ghost ${line.key}`, ghost: true, marks: false, width: 1.5, dash: [3, 3] }));
+  family.gaps = gaps;
+  family.lines = lines;
+  family.bands = family.isUpDown ? bistable(lines) : [];
+  family.paint([...ghosts, ...lines]);
+  family.tell(null);
+  family.onDrawn(isFine);
+};
+
+/** Paints lines with the marker of the design. */
+family.paint = (lines) => {
+  const along = parameterOf.get(state.x.name), measure = measureOf.get(state.measure);
+  const here = valueIn(state.design, along.name), value = numbers.value(state.measure);
+  family.chart.view = state.view;
+  family.chart.draw({
+    x: { label: along.label, unit: along.unit, log: state.log.x }, y: { label: measure.label, unit: measure.unit, log: state.log.y },
+    lines, gaps: family.gaps, bands: family.bands,
+    marker: isNumber(here) && isNumber(value) ? { x: here * along.factor, y: value } : null,
+  });
+};
+
+/** The line below the chart: the mark under the pointer, or the points without a settled motion. */
+family.tell = (mark) => {
+  const along = parameterOf.get(state.x.name), measure = measureOf.get(state.measure);
+  let text = "";
+  if (mark) {
+    const { status, stable } = mark.row;
+    text = `${measure.label} ${shortNumber(mark.y)} ${measure.unit} at ${digits(mark.x, 5)} ${along.unit}${mark.name ? `, ${mark.name}` : ""}: ${status}${stable === false ? ", not stable" : ""}`;
+  } else if (family.bands.length > 0) {
+    text = `Two motions between ${family.bands.map(({ from, to }) => `${digits(from, 5)} and ${digits(to, 5)} ${along.unit}`).join("; ")}`;
+  } else if (family.gaps.length > 0) {
+    const counts = {};
+    for (const gap of family.gaps) counts[gap.text] = (counts[gap.text] ?? 0) + 1;
+    text = `▾ no settled motion: ${Object.entries(counts).map(([status, count]) => `${count} ${status}`).join(", ")}`;
+  }
+  byId("tip").textContent = text;
+};

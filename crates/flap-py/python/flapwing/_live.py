@@ -1,0 +1,160 @@
+"""The live page: curves that follow the parameters that one drags, in the browser or in a notebook."""
+
+from __future__ import annotations
+
+import html
+import operator
+import webbrowser
+from types import TracebackType
+from typing import Any, SupportsIndex
+
+from . import _arguments, _flapwing
+from ._types import Design, Value
+
+__all__ = ["Live", "live"]
+
+#: Code of the widget: the page in a frame.
+_SCRIPT = """
+function render({ model, el }) {
+  const frame = document.createElement("iframe");
+  const show = () => {
+    frame.src = model.get("address");
+    frame.height = model.get("height");
+  };
+  frame.title = "flap live";
+  frame.style.cssText = "width: 100%; border: 0";
+  model.on("change", show);
+  show();
+  el.append(frame);
+}
+export default { render };
+"""
+
+
+class Live:
+    """A running server of the live page; see `live`. It ends with `stop`, with its `with` block, or with Python.
+
+    Attributes
+    ----------
+    address : str
+        The address of the page, with its token: who has it can ask for rows.
+    """
+
+    def __init__(self, server: _flapwing.LiveServer) -> None:
+        self._server = server
+        self.address: str = server.address
+
+    def __repr__(self) -> str:
+        return f"Live({self.address!r})"
+
+    def __enter__(self) -> Live:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.stop()
+
+    def _repr_html_(self) -> str:
+        """The page in a cell of a notebook."""
+        return (
+            f'<iframe title="flap live" src="{html.escape(self.address)}" height="800" '
+            'style="width: 100%; border: 0"></iframe>'
+        )
+
+    def widget(self, height: SupportsIndex = 800) -> Any:
+        """The page as a widget of a notebook (Jupyter, Visual Studio Code, marimo), which may stand in other widgets.
+
+        Parameters
+        ----------
+        height : int, optional
+            Height in pixels: more than 0. Default 800.
+
+        Returns
+        -------
+        anywidget.AnyWidget
+            The widget. The notebook's browser must run on the machine of the server, or reach its port.
+
+        Raises
+        ------
+        ImportError
+            There is no anywidget: ``pip install anywidget``.
+        ValueError
+            A height of 0 or less.
+        """
+        try:
+            import anywidget
+            import traitlets
+        except ImportError:
+            raise ImportError("the widget needs anywidget: pip install anywidget") from None
+        pixels = operator.index(height)
+        if pixels <= 0:
+            raise ValueError(f"`height` is {pixels}\nit must be more than 0")
+
+        class Page(anywidget.AnyWidget):  # type: ignore[misc, unused-ignore]
+            _esm = _SCRIPT
+            address = traitlets.Unicode().tag(sync=True)
+            height = traitlets.Int().tag(sync=True)
+
+        return Page(address=self.address, height=pixels)
+
+    def stop(self) -> None:
+        """Ends the server. The page says that it is gone."""
+        self._server.stop()
+
+
+def live(
+    design: Design,
+    /,
+    *,
+    port: SupportsIndex = 0,
+    open_browser: bool = False,
+    threads: SupportsIndex | None = None,
+    **keywords: Value,
+) -> Live:
+    """Starts the live page of a design: curves follow the parameters while one drags them.
+
+    It is the page of the command ``flap live``. In a notebook the result shows the page in its cell. The server answers this
+    machine alone, reads no files and writes none.
+
+    Parameters
+    ----------
+    design : str, path, dict, Grid or Vehicle
+        A preset, a device or a grid. Of a grid with several points the page begins with the first, and shows its axes.
+    port : int, optional
+        Port of the server, from 1 to 65535. Default 0: a free one.
+    open_browser : bool, optional
+        Open the page in a browser. Default False.
+    threads : int, optional
+        Number of worker threads: at least 1. Default: one per core.
+    **keywords : float or str
+        Parameters of the model and solver settings, as for `run`.
+
+    Returns
+    -------
+    Live
+        The running server, with the `address` of its page.
+
+    Raises
+    ------
+    ValueError, GridError, TypeError
+        As for `run`; also a port that is none.
+    OSError
+        The port is taken.
+
+    Examples
+    --------
+    >>> with flapwing.live("jafferis2016", hinge_stiffness="1.6 uN*m/rad") as page:
+    ...     page.address.startswith("http://127.0.0.1:")
+    True
+    """
+    try:
+        number = operator.index(port)
+    except TypeError:
+        raise _arguments.refused("port", port, "it must be a whole number") from None
+    if not 0 <= number <= 65535:
+        raise ValueError(f"`port` is {number}\nit must be from 1 to 65535, or 0 for a free one")
+    page = Live(_flapwing.LiveServer(design, dict(keywords), port=number, threads=threads))
+    if open_browser:
+        webbrowser.open(page.address)
+    return page

@@ -1,0 +1,68 @@
+//! The parameters by which a measure of a settled motion changes most.
+
+use flap_core::parameter::{Kind, Range};
+use flap_core::simulate::{Change, NoSlope, PointRun, Row, Simulator, Unfinished};
+
+use crate::plan::Plan;
+
+/// The derivatives of a measure by all parameters that can change.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slopes {
+    /// Indices of parameters, each with the change of the measure, in its unit, per relative change of the parameter; the
+    /// largest first.
+    pub known: Vec<(usize, f64)>,
+    /// Indices of parameters whose derivatives are not known, with the reason.
+    pub unknown: Vec<(usize, NoSlope)>,
+}
+
+/// The derivatives of the measure number `measure` at the periodic `row` of a point that `simulator`, the plan's model,
+/// made in `run`. Derived parameters follow, but for those in `fixed`, which have values of their own.
+///
+/// # Errors
+/// As [`Motions::gradient`](flap_core::simulate::Motions::gradient).
+pub fn slopes(
+    plan: &Plan,
+    simulator: &dyn Simulator,
+    run: &PointRun<'_>,
+    row: &Row,
+    measure: usize,
+    fixed: &[usize],
+) -> Result<Slopes, Unfinished> {
+    let parameters = changing(plan, run.values);
+    let changed = |parameter: usize, share: f64| {
+        let mut values = run.values.to_vec();
+        values[parameter] *= 1.0 + share;
+        plan.derived().fill(&mut values, fixed);
+        values
+    };
+    let changes = parameters.iter().map(|&index| Change {
+        ahead: changed(index, Change::SHARE),
+        behind: changed(index, -Change::SHARE),
+        size: Change::SHARE,
+    });
+    let changes: Vec<Change> = changes.collect();
+    let gradient = simulator.motions()?.gradient(run, &row.state, &changes)?;
+    let (mut known, mut unknown) = (Vec::new(), Vec::new());
+    for (index, slopes) in parameters.into_iter().zip(gradient.slopes) {
+        match slopes[measure] {
+            Ok(slope) => known.push((index, slope)),
+            Err(reason) => unknown.push((index, reason)),
+        }
+    }
+    known.sort_by(|(_, one), (_, other)| other.abs().total_cmp(&one.abs()));
+    Ok(Slopes { known, unknown })
+}
+
+/// The parameters with a share that can change: numbers that are set, and neither zero, whole nor derived.
+fn changing(plan: &Plan, values: &[f64]) -> Vec<usize> {
+    let parameters = plan.parameters().iter().enumerate();
+    let changing = parameters.filter(|(index, parameter)| {
+        let value = values[*index];
+        let has_shares = match parameter.kind {
+            Kind::Choice(_) | Kind::Number(Range::Whole(..)) => false,
+            Kind::Number(_) | Kind::Following(..) => value.is_finite() && value != 0.0,
+        };
+        has_shares && !plan.derived().parameters().any(|derived| derived == *index)
+    });
+    changing.map(|(index, _)| index).collect()
+}

@@ -1,0 +1,236 @@
+//! `flap live`: its rows are those of a sweep, newer requests cancel older ones, and nobody but the page is answered.
+
+mod foreign;
+mod server;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::time::Duration;
+
+use serde_json::{Value, json};
+use server::Live;
+
+use crate::support::{Folder, send, wait};
+
+/// A grid with everything that the page keeps: a derived parameter, a condition, a measure, a setting.
+const GRID: &str = r#"
+description = "a grid for the page"
+preset = "ozaki2018-large"
+
+[params]
+air_density = "1.2 kg/m^3"
+
+[axes]
+hinge_stiffness = ["90 uN*m/rad", "110 uN*m/rad"]
+drive_frequency = { from = "95 Hz", to = "119 Hz", step = "6 Hz" }
+
+[derived]
+actuator_length = "200 * hinge_length_of_actuator"
+
+[solver]
+rtol = 1e-7
+"#;
+
+/// The rows of a CSV file, each with its cells by column.
+fn table(text: &str) -> Vec<BTreeMap<String, String>> {
+    let mut lines = text.lines();
+    let columns: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let row = |line: &str| {
+        columns.iter().map(|&name| name.to_owned()).zip(line.split(',').map(str::to_owned)).collect()
+    };
+    lines.map(row).collect()
+}
+
+/// Fails unless the rows of an answer are those of a sweep's file, bit for bit.
+#[track_caller]
+fn assert_same_rows(answer: &Value, csv: &str) {
+    let rows = table(csv);
+    let columns: Vec<&str> =
+        answer["columns"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
+    assert_eq!(columns.join(","), csv.lines().next().unwrap());
+    let answered = answer["rows"].as_array().unwrap();
+    assert_eq!(answered.len(), rows.len());
+    for (cells, row) in answered.iter().zip(&rows) {
+        for (cell, name) in cells.as_array().unwrap().iter().zip(&columns) {
+            let text = row[*name].as_str();
+            match cell {
+                Value::Null => assert_eq!(text, "", "{name}"),
+                Value::Number(number) => {
+                    let parsed: f64 = text.parse().unwrap();
+                    assert_eq!(number.as_f64().unwrap().to_bits(), parsed.to_bits(), "{name}");
+                }
+                Value::Bool(flag) => assert_eq!(text, flag.to_string(), "{name}"),
+                Value::String(word) => assert_eq!(text, word, "{name}"),
+                other => panic!("{name}: {other}"),
+            }
+        }
+    }
+}
+
+/// Saves the grid of a family, sweeps it, and compares the rows with those of the page.
+fn check_family(arguments: &[&str], folder: &Folder, family: &Value) {
+    let live = Live::start(folder, arguments);
+    let mut wanted = family.clone();
+    let answer = live.answer("family", wanted.clone());
+    wanted["kind"] = json!("grid");
+    let saved = live.answer("save", wanted);
+    fs::write(folder.path("family.toml"), saved["text"].as_str().unwrap()).unwrap();
+    folder.ends(0, "check family.toml");
+    folder.ends(0, "sweep family.toml --out family.csv --force");
+    assert_same_rows(&answer, &folder.read("family.csv"));
+}
+
+#[test]
+fn rows_of_the_page_are_those_of_a_sweep() {
+    for (preset, frequencies) in
+        [("jafferis2016", [90, 150]), ("ozaki2018-small", [170, 240]), ("arabagi2013-75hz", [60, 90])]
+    {
+        let family = json!({
+            "design": { "air_density": "1.1 kg/m^3" },
+            "x": { "name": "drive_frequency", "from": frequencies[0], "to": frequencies[1], "n": 9 },
+            "by": { "name": "drive_voltage_pp", "values": [30.0, "0.06 kV"] },
+        });
+        check_family(&[preset], &Folder::new(), &family);
+    }
+}
+
+#[test]
+fn a_grid_keeps_its_formulas_and_settings() {
+    let grid = GRID.replace("200 * hinge_length_of_actuator", "0.02 + 0 * air_density")
+        + "\n[where]\nslow = \"drive_frequency < 118\"\n\n[measure]\nlift_per_stroke = \"lift_mean_mn / stroke_amplitude_deg\"\n";
+    let folder = Folder::with_grid(&grid);
+    let family = json!({
+        "x": { "name": "drive_frequency", "from": 95.0, "to": 119.0, "n": 5 },
+        "by": { "name": "hinge_stiffness", "values": ["90 uN*m/rad", 110e-6] },
+    });
+    check_family(&["grid.toml"], &folder, &family);
+    // The page shows the very rows that the grid itself gives.
+    folder.ends(0, "sweep grid.toml --out grid.csv");
+    assert_eq!(folder.read("family.csv"), folder.read("grid.csv"));
+    let columns = folder.read("grid.csv").lines().next().unwrap().to_owned();
+    for name in ["actuator_length", "lift_per_stroke"] {
+        assert!(columns.split(',').any(|column| column == name), "{name}");
+    }
+}
+
+#[test]
+fn a_device_is_saved_whole() {
+    let folder = Folder::new();
+    fs::write(
+        folder.path("bee.toml"),
+        "preset = \"jafferis2016\"\n[params]\nhinge_stiffness = { value = \"2.2 uN*m/rad\", sd = \"0.1 uN*m/rad\" }\n",
+    )
+    .unwrap();
+    let live = Live::start(&folder, &["bee.toml"]);
+    let design = json!({ "wing_area": "50 mm^2" });
+    let saved = live.answer("save", json!({ "kind": "device", "design": design }));
+    fs::write(folder.path("saved.toml"), saved["text"].as_str().unwrap()).unwrap();
+    let ended = folder.ends(0, "params saved.toml --format csv");
+    assert!(ended.stdout.contains("hinge_stiffness,2.2e-6,"), "{}", ended.stdout);
+    assert!(ended.stdout.contains("wing_area,5e-5,"));
+
+    let point = live.answer("point", json!({ "design": design, "gradient": "lift_mean_mn" }));
+    let place =
+        |name: &str| point["columns"].as_array().unwrap().iter().position(|column| column == name).unwrap();
+    let lift = point["row"][place("lift_mean_mn")].as_f64().unwrap();
+    let printed = folder.ends(0, "run saved.toml").stdout;
+    let line = printed.lines().find(|line| line.starts_with("lift_mean_mn")).unwrap();
+    let shown: f64 = line.split_whitespace().nth(1).unwrap().parse().unwrap();
+    assert!((shown / lift - 1.0).abs() < 1e-5, "{line}");
+    assert_ne!(point["row"], point["published"]);
+    assert_eq!(point["modes"].as_array().unwrap().len(), 2);
+    let slopes: Vec<f64> = point["gradient"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|slope| slope["per_percent"].as_f64().unwrap().abs())
+        .collect();
+    assert!(slopes.len() > 10 && slopes.is_sorted_by(|one, next| one >= next), "{slopes:?}");
+}
+
+#[test]
+fn motion_and_hysteresis_are_those_of_the_commands() {
+    let folder = Folder::new();
+    let live = Live::start(&folder, &["ozaki2018-large"]);
+    let motion = live.answer("motion", json!({ "samples": 50 }));
+    folder.ends(0, "run ozaki2018-large --trajectory motion.csv --cycles 1 --samples 50");
+    assert_same_rows(&motion, &folder.read("motion.csv"));
+
+    let x = json!({ "name": "drive_frequency", "from": 100.0, "to": 120.0, "n": 6 });
+    let curve = live.answer("hysteresis", json!({ "x": x }));
+    folder.ends(
+        0,
+        "respond ozaki2018-large --along drive_frequency --from 100 --to 120 --step 4 --out curve.csv",
+    );
+    assert_same_rows(&curve, &folder.read("curve.csv"));
+}
+
+#[test]
+fn impossible_values_are_refused_with_their_parameter() {
+    let folder = Folder::new();
+    let live = Live::start(&folder, &["jafferis2016"]);
+    let x = json!({ "name": "drive_frequency", "from": 100.0, "to": 120.0, "n": 3 });
+    for (design, parameter, text) in [
+        (json!({ "hinge_stiffness": -1.0 }), Some("hinge_stiffness"), "more than zero"),
+        (json!({ "hinge_stiffness": "1 V" }), Some("hinge_stiffness"), "voltage"),
+        (json!({ "drive_shape": "cosine" }), Some("drive_shape"), "cosine"),
+        (json!({ "hinge_stifness": 1.0 }), None, "hinge_stifness"),
+    ] {
+        let (status, answer) = live.ask("family", json!({ "design": design, "x": x }));
+        assert_eq!(status, 422, "{answer}");
+        assert_eq!(answer["parameter"].as_str(), parameter, "{answer}");
+        assert!(answer["error"].as_str().unwrap().contains(text), "{answer}");
+    }
+    let too_many = json!({ "x": { "name": "drive_frequency", "from": 1.0, "to": 2.0, "n": 4001 } });
+    assert_eq!(live.ask("family", too_many).0, 422);
+    // Parameters that are impossible together make a row, as in a sweep.
+    let whole =
+        live.answer("family", json!({ "design": { "drive_rise": 0.9, "drive_shape": "square" }, "x": x }));
+    let place = whole["columns"].as_array().unwrap().iter().position(|name| name == "status").unwrap();
+    assert_eq!(whole["rows"][0][place], "invalid");
+}
+
+#[test]
+fn a_newer_request_cancels_the_older_one() {
+    let folder = Folder::new();
+    let live = Live::start(&folder, &["jafferis2016", "--threads", "1"]);
+    // A motion at tight tolerances over many frequencies takes seconds.
+    let slow = json!({
+        "page": "one", "number": 1, "x": { "name": "drive_frequency", "from": 60.0, "to": 200.0, "n": 1000 },
+        "by": { "name": "drive_voltage_pp", "values": [150.0, 200.0, 250.0, 260.0] },
+    });
+    let quick = json!({
+        "page": "one", "number": 2, "x": { "name": "drive_frequency", "from": 100.0, "to": 110.0, "n": 2 },
+    });
+    let (older, newer, late) = std::thread::scope(|scope| {
+        let older = scope.spawn(|| live.send(live.request("family", &slow.to_string()).as_bytes()).unwrap());
+        std::thread::sleep(Duration::from_millis(100));
+        let newer = live.send(live.request("family", &quick.to_string()).as_bytes()).unwrap();
+        let late = live.send(live.request("family", &slow.to_string()).as_bytes()).unwrap();
+        (older.join().unwrap(), newer, late)
+    });
+    assert_eq!(older.status, 409, "{older:?}");
+    assert_eq!(newer.status, 200, "{newer:?}");
+    assert_eq!(late.status, 409, "an older request that comes late");
+}
+
+#[test]
+#[cfg(unix)]
+fn ctrl_c_ends_it() {
+    let folder = Folder::new();
+    let mut live = Live::start(&folder, &["ozaki2018-small"]);
+    send("INT", &live.child);
+    assert_eq!(wait(&mut live.child), Some(0));
+    assert!(std::net::TcpStream::connect(("127.0.0.1", live.port)).is_err());
+}
+
+#[test]
+fn mistakes_of_the_command_line() {
+    let folder = Folder::new();
+    let live = Live::start(&folder, &["ozaki2018-small"]);
+    let port = live.port.to_string();
+    let ended = folder.flap_with(&["live", "ozaki2018-small", "--no-open", "--port", &port]);
+    assert_eq!(ended.code, 2);
+    ended.says("cannot listen on port").says("name another port");
+    folder.refuses("live nosuch", "there is no preset and no file `nosuch`");
+}

@@ -1,0 +1,193 @@
+//! Requests of strangers, and requests that are broken: each gets a proper status, and the server goes on.
+
+use serde_json::json;
+
+use super::server::Live;
+use crate::support::Folder;
+
+/// Random numbers that are the same in every run (SplitMix64).
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self, sides: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        usize::try_from((mixed ^ (mixed >> 31)) % sides as u64).unwrap()
+    }
+
+    fn pick<'t>(&mut self, list: &[&'t str]) -> &'t str {
+        list[self.roll(list.len())]
+    }
+}
+
+/// A text that stands in a file beside the grid, and that no answer may have.
+const SECRET: &str = "kept to ourselves";
+
+#[test]
+fn a_thousand_broken_and_foreign_requests() {
+    let folder = Folder::new();
+    std::fs::write(folder.path("secret.toml"), SECRET).unwrap();
+    let live = Live::start(&folder, &["ozaki2018-large"]);
+    let good = json!({
+        "page": "p", "number": 1, "design": { "air_density": 1.1 },
+        "x": { "name": "drive_frequency", "from": 100.0, "to": 110.0, "n": 2 }, "by": null, "samples": 9, "kind": "grid",
+    })
+    .to_string();
+    let mut dice = Dice(20);
+    let mut statuses = std::collections::BTreeMap::new();
+    for round in 0..1000 {
+        let (bytes, allowed) = broken(&live, &good, &mut dice, round);
+        let answer = if allowed.is_empty() { live.cut_off(&bytes) } else { live.send(&bytes) };
+        let Some(answer) = answer else {
+            // What is no HTTP at all may be hung up on; what is cut off has nobody to answer.
+            assert!(allowed.is_empty(), "request {round} got no answer: {}", String::from_utf8_lossy(&bytes));
+            *statuses.entry(0).or_insert(0) += 1;
+            continue;
+        };
+        let shown = String::from_utf8_lossy(&bytes[..bytes.len().min(300)]).into_owned();
+        assert!(
+            allowed.contains(&answer.status) || (allowed.is_empty() && answer.status >= 400),
+            "request {round}: {} {}, not one of {allowed:?}: {shown}",
+            answer.status,
+            answer.body
+        );
+        assert!(!answer.body.contains(SECRET), "{shown}");
+        *statuses.entry(answer.status).or_insert(0) += 1;
+    }
+    for status in [400, 401, 403, 404, 405, 413, 422] {
+        assert!(statuses.contains_key(&status), "no request was answered {status}: {statuses:?}");
+    }
+    let (status, _) = live.ask("family", serde_json::from_str(&good).unwrap());
+    assert_eq!(status, 200, "the server goes on");
+    assert_eq!(folder.names(), ["secret.toml"], "nothing is written");
+}
+
+/// The bytes of a request, and the statuses that it may get; none if it may be hung up on.
+fn broken(live: &Live, good: &str, dice: &mut Dice, round: usize) -> (Vec<u8>, Vec<u16>) {
+    let kind = dice.pick(&["family", "point", "motion", "hysteresis", "save"]);
+    let whole = live.request(kind, good);
+    let own = format!("127.0.0.1:{}", live.port);
+    match round % 12 {
+        0 => (whole.replace(&live.token, "").into_bytes(), vec![401]),
+        1 => {
+            let wrong = format!("{:032x}", dice.roll(usize::MAX));
+            (whole.replace(&live.token, &wrong).into_bytes(), vec![401])
+        }
+        2 => {
+            let host =
+                dice.pick(&["evil.example", "127.0.0.1:1", "localhost", "169.254.0.1", "[::1]", "0.0.0.0"]);
+            (whole.replacen(&own, host, 1).into_bytes(), vec![403])
+        }
+        3 => {
+            let origin = dice.pick(&[
+                "http://evil.example",
+                "null",
+                "https://127.0.0.1",
+                "file://",
+                "http://localhost:1",
+            ]);
+            let header = format!("Origin: {origin}\r\nConnection:");
+            (whole.replacen("Connection:", &header, 1).into_bytes(), vec![403])
+        }
+        4 => {
+            let size = 65_537 + dice.roll(200_000);
+            (live.request(kind, &" ".repeat(size)).into_bytes(), vec![413])
+        }
+        // The body ends early, in JSON or in HTTP.
+        5 => (live.request(kind, &good[..dice.roll(good.len() - 1)]).into_bytes(), vec![400]),
+        6 => (whole.as_bytes()[..dice.roll(whole.len() - 1)].to_vec(), Vec::new()),
+        7 => {
+            let path = dice.pick(&[
+                "/secret.toml",
+                "/../secret.toml",
+                "/api/..%2fsecret",
+                "/%2e%2e/secret.toml",
+                "/api/",
+                "/x",
+            ]);
+            let to = format!("POST {path} HTTP");
+            (whole.replacen(&format!("POST /api/{kind} HTTP"), &to, 1).into_bytes(), vec![404])
+        }
+        8 => {
+            let method = dice.pick(&["GET", "PUT", "DELETE", "PATCH", "OPTIONS"]);
+            (whole.replacen("POST", method, 1).into_bytes(), vec![405])
+        }
+        9 => {
+            let value = dice.pick(&[
+                "-1",
+                "1e308",
+                "-1e308",
+                "\"\"",
+                "\"1 V\"",
+                "\"secret.toml\"",
+                "\"1e999 kg/m^3\"",
+                "\"nan\"",
+            ]);
+            let body = good.replacen("1.1", value, 1).replacen(
+                "\"number\":1",
+                &format!("\"number\":{}", round + 2),
+                1,
+            );
+            // A density of 1e308 is allowed, and makes rows without motion; a motion is refused then.
+            let fine = if value == "1e308" { vec![200, 422] } else { vec![422] };
+            (live.request(kind, &body).into_bytes(), fine)
+        }
+        10 => {
+            let body = dice.pick(&[
+                "",
+                "null",
+                "[]",
+                "7",
+                "{}",
+                "\"family\"",
+                "{\"page\":1}",
+                "{\"page\":\"p\",\"number\":-1}",
+                "\u{0}",
+            ]);
+            (live.request(kind, body).into_bytes(), vec![400])
+        }
+        _ => {
+            let noise: Vec<u8> =
+                (0..=dice.roll(400)).map(|_| u8::try_from(dice.roll(256)).unwrap()).collect();
+            (noise, Vec::new())
+        }
+    }
+}
+
+#[test]
+fn a_request_that_stops_halfway_is_given_up() {
+    let folder = Folder::new();
+    let live = Live::start(&folder, &["ozaki2018-large"]);
+    let whole = live.request("family", "{\"page\":\"p\",");
+    let waits = whole.replace("Content-Length: 12", "Content-Length: 100");
+    assert_ne!(whole, waits);
+    assert_eq!(live.send(waits.as_bytes()).unwrap().status, 408);
+}
+
+#[test]
+fn the_page_comes_with_its_token_alone() {
+    let folder = Folder::new();
+    let live = Live::start(&folder, &["ozaki2018-large"]);
+    let get = |path: &str, more: &str| {
+        let request = format!(
+            "GET {path} HTTP/1.1\r\nHost: localhost:{}\r\n{more}Connection: close\r\n\r\n",
+            live.port
+        );
+        live.send(request.as_bytes()).unwrap()
+    };
+    let page = get(&format!("/?token={}", live.token), "");
+    assert_eq!(page.status, 200);
+    for header in [
+        "content-security-policy: default-src 'none'",
+        "cache-control: no-store",
+        "referrer-policy: no-referrer",
+    ] {
+        assert!(page.headers.to_lowercase().contains(header), "{}", page.headers);
+    }
+    assert_eq!(get("/", "").status, 401);
+    assert_eq!(get("/?token=", "").status, 401);
+    assert_eq!(get(&format!("/?token={}", live.token), "Origin: http://evil.example\r\n").status, 403);
+    let large = format!("X-Large: {}\r\n", "a".repeat(1 << 20));
+    assert!(get("/", &large).status >= 400);
+}

@@ -1,0 +1,81 @@
+"""The live page from Python: a server with the rows of `sweep`, a cell of a notebook, a widget."""
+
+import json
+import urllib.error
+import urllib.request
+
+import flapwing
+import pytest
+
+
+def ask(page, kind, body, token=None):
+    """The answer of a server to a request of its page."""
+    base, own = page.address.split("/?token=")
+    body = {"page": "a page", "number": 1, **body}
+    headers = {"X-Flap-Token": token or own, "Content-Type": "application/json"}
+    request = urllib.request.Request(f"{base}/api/{kind}", json.dumps(body).encode(), headers)
+    with urllib.request.urlopen(request, timeout=60) as answer:
+        return json.load(answer)
+
+
+FAMILY = {
+    "design": {"air_density": 1.1},
+    "x": {"name": "drive_frequency", "from": 100.0, "to": 116.0, "n": 5},
+    "by": {"name": "drive_voltage_pp", "values": [60.0, 80.0]},
+}
+
+
+def test_rows_of_the_page_are_those_of_a_sweep():
+    with flapwing.live("ozaki2018-large", hinge_stiffness="120 uN*m/rad", rtol=1e-7, threads=1) as page:
+        answer = ask(page, "family", FAMILY)
+        line = ask(page, "save", {"kind": "python", **FAMILY})["text"]
+    found = {}
+    exec(line, found)  # the line that the page offers
+    table = found["table"]
+    assert answer["columns"] == list(table.columns)
+    for name, column in zip(answer["columns"], zip(*answer["rows"])):
+        assert list(column) == table[name].tolist(), name
+    grid = {
+        "preset": "ozaki2018-large",
+        "axes": {"drive_voltage_pp": [60.0, 80.0], "drive_frequency": {"from": 100.0, "to": 116.0, "n": 5}},
+    }
+    same = flapwing.sweep(grid, hinge_stiffness="120 uN*m/rad", rtol=1e-7, air_density=1.1)
+    assert (same["lift_mean_mn"] == table["lift_mean_mn"]).all()
+
+
+def test_a_server_ends():
+    page = flapwing.live("ozaki2018-small")
+    assert ask(page, "motion", {"samples": 9})["columns"][0] == "time_s"
+    page.stop()
+    with pytest.raises(urllib.error.URLError):
+        ask(page, "motion", {"samples": 9})
+    page.stop()
+
+
+def test_strangers_are_turned_away():
+    with flapwing.live("ozaki2018-small") as page:
+        with pytest.raises(urllib.error.HTTPError, match="401"):
+            ask(page, "motion", {"samples": 9}, token="0" * 32)
+
+
+def test_the_page_stands_in_a_cell_and_in_a_widget():
+    with flapwing.live("ozaki2018-small") as page:
+        assert f'src="{page.address}"' in page._repr_html_()
+        widget = page.widget(height=500)
+        assert (widget.address, widget.height) == (page.address, 500)
+        assert "iframe" in str(widget._esm)
+        with pytest.raises(ValueError, match="more than 0"):
+            page.widget(height=0)
+
+
+def test_mistakes():
+    with flapwing.live("ozaki2018-small") as page:
+        port = int(page.address.split(":")[2].split("/")[0])
+        with pytest.raises(OSError, match="cannot listen on port"):
+            flapwing.live("ozaki2018-small", port=port)
+    with pytest.raises(ValueError, match="it must be from 1 to 65535"):
+        flapwing.live("ozaki2018-small", port=70000)
+    with pytest.raises(TypeError, match="it must be a whole number"):
+        flapwing.live("ozaki2018-small", port="8000")
+    with pytest.raises(ValueError, match="must be more than zero"):
+        flapwing.live("ozaki2018-small", air_density=-1)
