@@ -2,16 +2,24 @@
 
 /// The chart library's style and code, then those of all pages.
 const STYLES: [&str; 2] = [include_str!("../web/uplot/uPlot.min.css"), include_str!("../web/shared.css")];
-const SCRIPTS: [&str; 4] = [
+const SCRIPTS: [&str; 5] = [
     include_str!("../web/uplot/uPlot.iife.min.js"),
     include_str!("../web/shared.js"),
     include_str!("../web/chart.js"),
+    include_str!("../web/chart-points.js"),
     include_str!("../web/chart-svg.js"),
 ];
 
 /// The page of results, with this heading. `data` is JSON for its code.
 pub fn results(heading: &str, data: &str) -> String {
-    let scripts = [include_str!("../web/results.js")];
+    let scripts = [
+        include_str!("../web/results-data.js"),
+        include_str!("../web/results-state.js"),
+        include_str!("../web/results-scene.js"),
+        include_str!("../web/results-table.js"),
+        include_str!("../web/results-controls.js"),
+        include_str!("../web/results-page.js"),
+    ];
     filled(include_str!("../web/results.html"), heading, include_str!("../web/results.css"), data, &scripts)
 }
 

@@ -1,21 +1,25 @@
-// A chart of lines on uPlot, which both pages use.
+// A chart of lines, points or cells on uPlot, which both pages use.
 //
-//   const chart = new Chart(element, { height, name, onPoint(mark), onPin(mark), onView(view) });
-//   chart.draw({ x: { label, unit, log }, y, lines, gaps, bands, marker });
+//   const chart = new Chart(element, { height, name, onPoint(mark), onPin(mark), onSelect(rows), onView(view) });
+//   chart.draw({ x: { label, unit, log }, y, lines, points, cells, extent, legend, bar, gaps, bands, marker });
 //   lines:  [{ key, name, color, x, y, rows, dash, width, ghost, marks }]   null in y is a gap
+//   points, cells: see chart-points.js; extent: { x: [low, high], y } of them
+//   legend: [{ name, color }]        entries besides the lines; bar: { label, unit, low, high, log } of shades
 //   gaps:   [{ x, text, color }]     values of x without a value of y
 //   bands:  [{ from, to, name }]     shaded ranges of x
 //   marker: { x, y } or null         a ring
 //
 // A mark is { key, row, x, y, name }. `view` is { x: [low, high] or null, y }; null shows everything. Drag zooms, Shift and
 // drag moves, the wheel zooms, a double click shows everything. Keys: arrows go along a line and from line to line, Enter
-// pins, + and - zoom, Shift and arrows move, Escape shows everything.
+// pins, + and - zoom, Shift and arrows move, Escape shows everything. With `chart.drag = "select"` a drag selects rows.
 
 class Chart {
   constructor(parent, options = {}) {
     this.options = options;
     this.view = { x: null, y: null };
+    this.drag = "zoom";
     this.hidden = new Set();
+    this.selectedRows = new Set();
     this.box = element("div", { class: "chart-box" });
     this.legend = element("div", { class: "legend" });
     parent.append(this.box, this.legend);
@@ -33,7 +37,7 @@ class Chart {
   /** Draws a scene. Scenes of the same shape keep the plot and change its data alone. */
   draw(scene) {
     this.scene = scene;
-    const shape = JSON.stringify([scene.x, scene.y, scene.lines.length]);
+    const shape = JSON.stringify([scene.x, scene.y, scene.lines.length, Boolean(scene.extent)]);
     const data = this.data();
     if (!this.plot || shape !== this.shape) {
       this.plot?.destroy();
@@ -52,7 +56,9 @@ class Chart {
 
   /** Columns for uPlot: x, then y of each line, null where there is none. */
   data() {
-    const { lines, x, y } = this.scene;
+    const { x, y, extent } = this.scene;
+    // The extent of points and cells is a line that is not seen.
+    const lines = extent ? [...this.scene.lines, extent] : this.scene.lines;
     if (lines.length === 0) return [[0, 1]];
     const positive = (list, log) => (log ? list.map((value) => (value > 0 ? value : null)) : list);
     const isShared = lines.every((line) => line.x === lines[0].x);
@@ -66,7 +72,7 @@ class Chart {
   }
 
   settings() {
-    const { x, y, lines } = this.scene;
+    const { x, y, lines, extent, cells } = this.scene;
     const font = "12px system-ui, sans-serif";
     const axis = (scale, side) => ({ scale, side, label: titled(scale === "x" ? x : y), font, labelFont: font, labelSize: 22,
       size: scale === "y" ? 62 : 40,
@@ -77,11 +83,11 @@ class Chart {
       ...this.size(), legend: { show: false }, padding: [10, 14, 0, 0],
       cursor: { drag: { x: true, y: true, setScale: false, uni: 12 }, points: { size: 8 }, bind: { dblclick: () => () => this.setView({ x: null, y: null }, true) } },
       scales: {
-        x: { time: false, distr: x.log ? 3 : 1, range: (_, low, high) => this.view.x ?? Chart.range(low, high, x.log, 0) },
-        y: { distr: y.log ? 3 : 1, range: (_, low, high) => this.view.y ?? Chart.range(low, high, y.log, 0.06) },
+        x: { time: false, distr: x.log ? 3 : 1, range: (_, low, high) => this.view.x ?? Chart.range(low, high, x.log, this.scene.points ? 0.02 : 0) },
+        y: { distr: y.log ? 3 : 1, range: (_, low, high) => this.view.y ?? Chart.range(low, high, y.log, cells ? 0 : 0.06) },
       },
       axes: [axis("x", 2), axis("y", 3)],
-      series: [{}, ...lines.map((line, i) => ({ stroke: () => this.scene.lines[i].color, width: line.width ?? 2, pxAlign: 0, points: { show: false, size: 5 } }))],
+      series: [{}, ...[...lines, ...(extent ? [{ color: "transparent", width: 0 }] : [])].map((line, i) => ({ stroke: () => this.scene.lines[i]?.color ?? "transparent", width: line.width ?? 2, pxAlign: 0, points: { show: false, size: 5 } }))],
       hooks: { drawAxes: [() => this.paintBehind()], draw: [() => this.paintBefore()], setCursor: [() => this.pointed()], setSelect: [() => this.selected()] },
     };
   }
@@ -92,7 +98,7 @@ class Chart {
     if (log) return low === high ? [low / 2, high * 2] : [low / (high / low) ** margin, high * (high / low) ** margin];
     if (low === high) { const around = high === 0 ? 1 : 0.05 * Math.abs(high); return [low - around, high + around]; }
     const room = margin * (high - low);
-    return [margin > 0 && low >= 0 && low < 0.3 * high ? 0 : low - room, high + room];
+    return [margin > 0.05 && low >= 0 && low < 0.3 * high ? 0 : low - room, high + room];
   }
 
   size() {
@@ -104,14 +110,19 @@ class Chart {
     if (this.plot && (this.plot.width !== width || this.plot.height !== height)) this.plot.setSize({ width, height });
   }
 
-  /** Bands under the lines. */
+  /** Bands, cells and points under the lines. */
   paintBehind() {
     const { plot, scene } = this, { ctx, bbox } = plot;
+    ctx.save();
+    ctx.beginPath(); ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height); ctx.clip();
+    if (scene.cells) paintCells(this);
+    if (scene.points) paintPoints(this);
     for (const { from, to } of scene.bands ?? []) {
       const [left, right] = [from, to].map((value) => Math.min(Math.max(plot.valToPos(value, "x", true), bbox.left), bbox.left + bbox.width));
       ctx.fillStyle = styleColour("--band");
       ctx.fillRect(left, bbox.top, Math.max(right - left, 2), bbox.height);
     }
+    ctx.restore();
   }
 
   /** Gaps and the marker, over the lines. */
@@ -124,6 +135,7 @@ class Chart {
       ctx.fillStyle = color ?? styleColour("--soft");
       ctx.beginPath(); ctx.moveTo(at - 4 * ratio, foot); ctx.lineTo(at + 4 * ratio, foot); ctx.lineTo(at, foot - 7 * ratio); ctx.fill();
     }
+    if (this.selectedRows.size > 0) paintSelected(this, this.selectedRows);
     ctx.strokeStyle = styleColour("--ink");
     ctx.lineWidth = 2 * ratio;
     if (scene.marker && Number.isFinite(scene.marker.y)) {
@@ -150,6 +162,8 @@ class Chart {
   }
 
   nearest(left, top) {
+    if (this.scene.cells) return cellAt(this, left, top);
+    if (this.scene.points) return nearestPoint(this, left, top);
     let best = null, least = 30 * 30;
     for (const line of this.scene.lines) {
       if (line.ghost || this.hidden.has(line.key)) continue;
@@ -185,11 +199,26 @@ class Chart {
   selected() {
     const { select } = this.plot;
     if (select.width < 8 && select.height < 8) return;
+    if (this.drag === "select") {
+      const value = (scale, at) => this.plot.posToVal(at, scale);
+      const x = [value("x", select.left), value("x", select.left + select.width)], y = [value("y", select.top + select.height), value("y", select.top)];
+      this.plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+      this.wasDragged = true;
+      this.options.onSelect?.(rowsWithin(this.scene, x, y));
+      return;
+    }
+    this.wasDragged = true;
     const view = { ...this.view };
     if (select.width >= 8) view.x = [this.plot.posToVal(select.left, "x"), this.plot.posToVal(select.left + select.width, "x")];
     if (select.height >= 8) view.y = [this.plot.posToVal(select.top + select.height, "y"), this.plot.posToVal(select.top, "y")];
     this.plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
     this.setView(view, true);
+  }
+
+  /** Marks the rows of a set. */
+  select(rows) {
+    this.selectedRows = rows;
+    this.plot?.redraw(false);
   }
 
   /** Shows a part of the plane; `byUser` tells `onView`. */
@@ -234,7 +263,8 @@ class Chart {
       addEventListener("mousemove", move);
       addEventListener("mouseup", end);
     }, true);
-    over.addEventListener("click", () => this.options.onPin?.(this.mark));
+    over.addEventListener("mousedown", () => { this.wasDragged = false; });
+    over.addEventListener("click", () => { if (!this.wasDragged) this.options.onPin?.(this.mark); });
     over.addEventListener("keydown", (event) => this.pressed(event));
   }
 
@@ -251,6 +281,12 @@ class Chart {
 
   /** Goes along a line, or to the line above or below. */
   step(right, up) {
+    const { points } = this.scene;
+    if (points && points.x.length > 0) {
+      const at = this.mark?.key === "point" ? (this.mark.index + (right || up) + points.x.length) % points.x.length : 0;
+      this.tell(pointMark(points, at));
+      return;
+    }
     const lines = this.scene.lines.filter((line) => !line.ghost && !this.hidden.has(line.key));
     if (lines.length === 0) return;
     let place = lines.findIndex((line) => line.key === this.mark?.key);
@@ -268,10 +304,17 @@ class Chart {
 
   writeLegend() {
     const entries = this.scene.lines.filter((line) => line.name && !line.ghost);
-    const text = JSON.stringify(entries.map((line) => [line.key, line.name, line.color, this.hidden.has(line.key)]));
+    const { legend = [], bar } = this.scene;
+    const text = JSON.stringify([entries.map((line) => [line.key, line.name, line.color, this.hidden.has(line.key)]), legend, bar]);
     if (text === this.legendText) return;
     this.legendText = text;
-    this.legend.replaceChildren(...entries.map((line) => {
+    const fixed = legend.map(({ name, color }) => {
+      const swatch = element("i");
+      swatch.style.background = color;
+      return element("span", {}, swatch, name);
+    });
+    const shades = bar ? [element("span", { class: "shades" }, titled(bar), " ", shortNumber(bar.low), element("b"), shortNumber(bar.high), bar.log ? " (log)" : "")] : [];
+    this.legend.replaceChildren(...shades, ...fixed, ...entries.map((line) => {
       const swatch = element("i");
       swatch.style.background = line.color;
       const button = element("button", { type: "button", "aria-pressed": String(!this.hidden.has(line.key)) }, swatch, line.name);
@@ -303,8 +346,11 @@ class Chart {
     return new Promise((done) => { out.toBlob(done, "image/png"); });
   }
 
+  /** Names and colours below a picture. */
   entries() {
-    return this.scene.lines.filter((line) => line.name && !line.ghost && !this.hidden.has(line.key));
+    const { lines, legend = [], bar } = this.scene;
+    const shades = bar ? [{ name: `${titled(bar)} ${shortNumber(bar.low)}`, color: viridis(0) }, { name: shortNumber(bar.high), color: viridis(1) }] : [];
+    return [...shades, ...legend, ...lines.filter((line) => line.name && !line.ghost && !this.hidden.has(line.key))];
   }
 
   /** The picture as SVG: lines as paths. */

@@ -32,7 +32,7 @@ family.move = async () => {
     const begun = panel.moved, sent = performance.now();
     panel.moved = undefined;
     const answer = await family.ask("family", family.request(family.n));
-    if (!answer) continue;
+    if (!answer || !family.isWanted(answer)) continue;
     const took = performance.now() - sent;
     if (took > SOON) family.n = Math.max(FEWEST, Math.floor(family.n * 0.75));
     else if (took < SOON / 2) family.n = Math.min(MOST, family.n + 4);
@@ -51,19 +51,26 @@ family.rest = async () => {
   byId("chart").setAttribute("aria-busy", "true");
   const answer = await family.ask(kind, family.request(FINE));
   byId("chart").removeAttribute("aria-busy");
-  if (answer) family.draw(answer, true);
+  if (answer && family.isWanted(answer)) family.draw(answer, true);
 };
 
-family.ask = async (kind, body) => {
+/** An answer with its kind and request; null if there is none. */
+family.ask = async (kind, request) => {
+  const sent = structuredClone(request); // the state may change while the server works
   try {
-    const answer = await server.ask(kind, body);
-    if (answer) family.complain(null);
-    return answer;
+    const answer = await server.ask(kind, sent);
+    if (!answer) return null;
+    family.complain(null);
+    return { ...answer, kind, request: sent };
   } catch (error) {
     family.complain(error);
     return null;
   }
 };
+
+/** Whether the axes are still those of an answer's request. */
+family.isWanted = ({ kind, request }) => kind === (family.isUpDown ? "hysteresis" : "family")
+  && request.x.name === state.x.name && (kind === "hysteresis" || request.by?.name === state.by?.name);
 
 family.complain = (error) => {
   panel.complain(error);
@@ -118,8 +125,8 @@ const bistable = (lines) => {
 
 family.draw = (answer, isFine) => {
   family.answer = answer;
-  const { lines, gaps } = linesOf(answer);
-  const text = JSON.stringify([state.design, state.x, state.by, state.measure, family.isUpDown]);
+  const { lines, gaps } = linesOf(answer), { design, x: { n, ...along } } = answer.request;
+  const text = JSON.stringify([design, along, state.by, state.measure, family.isUpDown]);
   if (isFine) {
     const isSameView = family.rested && family.rested.view === JSON.stringify([state.x, state.measure, family.isUpDown]);
     if (family.rested && family.rested.text !== text) family.ghost = isSameView ? family.rested.lines : [];

@@ -4,17 +4,19 @@ const MAIN_NUMBERS = ["lift_mean_mn", "power_mean_mw", "efficiency_gf_per_w", "s
   "strain_surface_max", "hinge_strain_max", "field_max_v_per_um", "floquet_max", "error_estimate"];
 const MOST_SLOPES = 10;
 
-const numbers = { answer: null };
+const numbers = { answer: null, design: "" };
 
 /** A measure of the design; undefined before it is known. */
 numbers.value = (name) => (numbers.answer ? numbers.answer.row[numbers.answer.columns.indexOf(name)] : undefined);
 
 /** Asks for the numbers, with derivatives when the design rests. */
 numbers.ask = async (isRest) => {
+  const design = { ...state.design }, measure = state.measure;
   try {
-    const answer = await server.ask("point", { design: state.design, gradient: isRest ? state.measure : null });
+    const answer = await server.ask("point", { design, gradient: isRest ? measure : null });
     if (!answer) return;
     numbers.answer = answer;
+    numbers.design = JSON.stringify([design, measure]);
     numbers.show(isRest);
   } catch (error) { if (error.status !== 422 && error.status !== 0) byId("main-numbers").textContent = error.message; }
 };

@@ -12,6 +12,12 @@ const fromSlider = ({ low, high, log, whole }, place) => {
   return whole ? Math.round(value) : Number(value.toPrecision(6));
 };
 
+/** What stands for a parameter that is not set. */
+const followed = ({ allowed }) => {
+  const rule = allowed.split("if not set, ")[1] ?? "";
+  return rule === "" || rule.startsWith("nothing") ? "not set" : rule;
+};
+
 const parameterRow = (parameter) => {
   const { name, kind } = parameter, id = `p-${name}`;
   const row = element("div", { class: "parameter", "data-name": name });
@@ -23,14 +29,14 @@ const parameterRow = (parameter) => {
     element("span", { class: "symbol" }, parameter.symbol), reset, ask));
   const inputs = element("div", { class: "inputs" });
   let slider = null, field;
-  const isFixed = kind === "derived" || name === undefined;
+  const isFixed = kind === "derived";
   if (kind === "choice") {
     field = element("select", { id, style: "grid-column: 1 / 4" }, ...parameter.options.map((option) => element("option", { value: option }, option)));
     field.onchange = () => panel.set(name, field.value, true);
     inputs.append(field);
   } else {
     slider = element("input", { type: "range", min: "0", max: String(STEPS), step: "1", "aria-label": `${parameter.label}, slider`, disabled: isFixed });
-    field = element("input", { id, inputmode: "decimal", disabled: isFixed, placeholder: kind === "following" ? "not set" : "" });
+    field = element("input", { id, inputmode: "decimal", disabled: isFixed, placeholder: kind === "following" ? followed(parameter) : "" });
     slider.oninput = () => { panel.moved ??= performance.now(); panel.set(name, fromSlider(parameter, Number(slider.value)), false); };
     slider.onchange = () => panel.onRest();
     field.onchange = () => panel.typed(name);

@@ -42,7 +42,8 @@ const drawWing = () => {
   if (wing === null) return;
   const original = wingShape({}) ?? wing;
   const { width, height, left, across } = WING_VIEW;
-  const scale = across / Math.max(original.length + original.offset, wing.length + wing.offset);
+  const widest = Math.max(...[original, wing].flatMap((shape) => outline(shape).map(([, y]) => Math.abs(y))));
+  const scale = Math.min(across / Math.max(original.length + original.offset, wing.length + wing.offset), 54 / widest);
   const path = (shape) => outline(shape).map(([x, y], i) => `${i ? "L" : "M"}${(left + x * scale).toFixed(1)} ${(22 - y * scale).toFixed(1)}`).join("") + "Z";
   const picture = drawn("svg", { viewBox: `0 0 ${width} ${height}` },
     drawn("path", { d: path(original), fill: "none", stroke: "var(--soft)", "stroke-dasharray": "3 3" }),

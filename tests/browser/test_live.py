@@ -1,0 +1,568 @@
+"""The page of `flap live` in a browser: sliders, rows, files, the address, the keyboard, errors."""
+
+import csv
+import json
+import math
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.select import Select
+from selenium.webdriver.support.wait import WebDriverWait
+
+COMMAND = os.environ.get("FLAP") or str(Path(__file__).parents[2] / "target/debug/flap")
+
+# A soft hinge: two motions between 124 and 128 Hz at 160 V.
+BISTABLE = """\
+preset = "jafferis2016"
+[params]
+hinge_stiffness = "0.7486 uN*m/rad"
+drive_voltage_pp = "160 V"
+[axes]
+drive_frequency = { from = "118 Hz", to = "132 Hz", step = "1 Hz" }
+"""
+
+# The picture, the numbers and the motion are those of the state.
+AT_REST = """
+return family.rested !== null && !family.isBusy
+  && family.rested.text === JSON.stringify([state.design, state.x, state.by, state.measure, family.isUpDown])
+  && numbers.design === JSON.stringify([state.design, state.measure])
+"""
+
+
+def command(*arguments, code=0):
+    """Runs `flap`."""
+    ended = subprocess.run([COMMAND, *map(str, arguments)], capture_output=True, text=True, check=False)
+    assert ended.returncode == code, ended.stderr
+    return ended
+
+
+class Server:
+    """A server of the page, in a process of its own."""
+
+    def __init__(self, opened, port=0):
+        arguments = [COMMAND, "live", str(opened), "--no-open", "--port", str(port)]
+        self.process = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.address = self.process.stdout.readline().strip()
+        assert self.address.startswith("http://127.0.0.1:"), "the command has not printed an address"
+
+    @property
+    def port(self):
+        return int(self.address.split(":")[2].split("/")[0])
+
+    def stop(self):
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+        self.process.wait(timeout=20)
+        self.process.stdout.close()
+
+
+class Page:
+    """The page in the browser."""
+
+    def __init__(self, browser):
+        self.browser = browser
+
+    def open(self, address):
+        self.browser.get("about:blank")
+        self.browser.get(address)
+        return self.rest()
+
+    def script(self, text, *arguments):
+        return self.browser.execute_script(text, *arguments)
+
+    def wait(self, text, *arguments, seconds=20):
+        """Waits until a script says yes."""
+        WebDriverWait(self.browser, seconds, poll_frequency=0.03).until(lambda _: self.script(text, *arguments), text)
+
+    def rest(self):
+        self.wait(AT_REST)
+        return self
+
+    def find(self, selector):
+        return self.browser.find_element(By.CSS_SELECTOR, selector)
+
+    def click(self, selector):
+        self.find(selector).click()
+
+    def text(self, selector):
+        return self.script("return document.querySelector(arguments[0]).textContent", selector)
+
+    def row(self, name):
+        return self.find(f'.parameter[data-name="{name}"]')
+
+    def slider(self, name):
+        self.script("panel.focus(arguments[0])", name)
+        return self.row(name).find_element(By.CSS_SELECTOR, "input[type=range]")
+
+    def type(self, selector, text):
+        field = self.find(selector)
+        field.send_keys(Keys.CONTROL, "a")
+        field.send_keys(text, Keys.ENTER)
+
+    def give(self, name, text):
+        """Types the value of a parameter."""
+        self.script("panel.focus(arguments[0])", name)
+        self.type(f"#p-{name}", text)
+
+    def design(self):
+        return self.script("return state.design")
+
+    def rows(self):
+        """Names of the columns, and the rows behind the picture."""
+        return self.script("return [family.answer.columns, family.answer.rows]")
+
+    def saved(self, kind):
+        """The text of a kind in the dialog."""
+        if not self.script("return byId('save-dialog').open"):
+            self.click("#save")
+        self.script("saving.text = ''")
+        self.click(f'#save-dialog [data-kind="{kind}"]')
+        self.wait("return saving.text !== ''")
+        return self.script("return saving.text")
+
+    def number(self, name):
+        """A number of the design, as its cell shows it."""
+        return self.text(f'#main-numbers [data-name="{name}"] .value')
+
+
+@pytest.fixture(scope="module")
+def server():
+    made = Server("jafferis2016")
+    yield made
+    made.stop()
+
+
+@pytest.fixture
+def page(browser, server):
+    browser.get_log("browser")
+    opened = Page(browser).open(server.address)
+    yield opened
+    noise = [entry["message"] for entry in browser.get_log("browser") if " 422 " not in entry["message"]]
+    assert noise == [], "the console is not empty"
+
+
+@pytest.fixture
+def other(browser):
+    """Opens the page of something else."""
+    servers = []
+
+    def start(opened):
+        servers.append(Server(opened))
+        return Page(browser).open(servers[-1].address)
+
+    yield start
+    for each in servers:
+        each.stop()
+
+
+def rows_of(path):
+    """Names and rows of a file of results: numbers, texts, True and False, and None."""
+
+    def cell(text):
+        if text in ("", "true", "false"):
+            return {"": None, "true": True, "false": False}[text]
+        try:
+            return float(text)
+        except ValueError:
+            return text
+
+    with open(path, encoding="utf-8", newline="") as file:
+        names, *lines = csv.reader(line for line in file if not line.startswith("#"))
+    return names, [[cell(text) for text in line] for line in lines]
+
+
+def assert_same(found, expected):
+    """Rows that agree bit for bit."""
+    names, rows = found
+    assert names == expected[0]
+    assert len(rows) == len(expected[1])
+    for one, other_one in zip(rows, expected[1]):
+        for name, a, b in zip(names, one, other_one):
+            both_missing = b is None and (a is None or a == "")
+            assert both_missing or a == b or (isinstance(b, float) and math.isinf(b) and a in (None, "inf")), (name, a, b)
+
+
+# ---- sliders ----
+
+
+def test_a_slider_moves_the_family_and_marks_its_parameter(page):
+    before = page.rows()
+    assert len(before[1]) == 5 * 81
+    slider = page.slider("hinge_stiffness")
+    slider.send_keys(*[Keys.ARROW_RIGHT] * 20)
+    page.rest()
+    assert page.rows()[1] != before[1]
+    assert list(page.design()) == ["hinge_stiffness"]
+    assert "changed" in page.row("hinge_stiffness").get_attribute("class")
+    assert page.number("lift_mean_mn") != ""
+    change = page.text('#main-numbers [data-name="lift_mean_mn"] .change')
+    assert change.endswith("%") and change[0] in "+−"
+    assert page.script("return family.ghost.length") == 5
+    assert page.script("return performance.getEntriesByName('flap-slider-to-picture').length") > 0
+
+
+def test_the_picture_ends_at_the_last_of_many_fast_steps(page):
+    page.script("""
+      window.drawn_widths = [];
+      const slider = panel.rows.get("wing_length").slider, before = family.draw;
+      family.draw = (answer, isFine) => { window.drawn_widths.push(answer.request.design.wing_length); before(answer, isFine); };
+      window.step = 502;
+      const move = () => {
+        slider.value = window.step;
+        slider.dispatchEvent(new Event("input", { bubbles: true }));
+        window.step += 2;
+        if (window.step <= 900) setTimeout(move, 2); else slider.dispatchEvent(new Event("change", { bubbles: true }));
+      };
+      move();
+    """)
+    page.wait("return window.step > 900")
+    page.rest()
+    last = page.design()["wing_length"]
+    drawn = page.script("return window.drawn_widths")
+    assert drawn == sorted(drawn)
+    assert drawn[-1] == last
+    assert len(drawn) < 200, "requests in between are left out"
+    assert page.script("return family.answer.request.design.wing_length") == last
+
+
+def test_a_measure_and_axes_are_chosen(page):
+    Select(page.find("#measure")).select_by_value("stroke_amplitude_deg")
+    page.rest()
+    assert page.script("return family.chart.scene.y.label") == "Stroke, amplitude"
+    Select(page.find("#x")).select_by_value("hinge_stiffness")
+    page.rest()
+    assert page.rows()[0][2] == "hinge_stiffness"
+    page.type("#x-from", "1")
+    page.type("#x-to", "3")
+    page.rest()
+    along = [row[2] for row in page.rows()[1]]
+    assert (min(along), max(along)) == (pytest.approx(1e-6), pytest.approx(3e-6))
+    page.type("#by-values", "100, 0.15 kV")
+    page.rest()
+    names = page.script("return family.lines.map((line) => line.name)")
+    assert names == ["100 V", "150 V"]
+    page.click("#log-x")
+    page.click("#log-y")
+    assert page.script("return family.chart.scene.x.log && family.chart.scene.y.log")
+
+
+def test_points_without_a_motion_are_gaps(page):
+    page.give("drive_voltage_pp", "1e5")
+    page.type("#by-values", "100, 4000")
+    page.rest()
+    statuses = page.script("return family.answer.rows.map((row) => row[family.answer.columns.indexOf('status')])")
+    gaps = page.script("return family.gaps.length")
+    assert gaps == sum(status != "periodic" for status in statuses) > 0
+    assert "no settled motion" in page.text("#tip")
+
+
+def test_parameters_that_follow_others_can_be_set_and_unset(other):
+    page = other("ozaki2018-large")
+    assert "drive_voltage_pp" in page.find("#p-drive_bias").get_attribute("placeholder")
+    page.give("drive_bias", "60")
+    page.rest()
+    assert page.design() == {"drive_bias": 60}
+    page.type("#p-drive_bias", "")
+    page.give("drive_bias", Keys.BACKSPACE)
+    page.rest()
+    assert page.design() == {}
+
+
+# ---- what is shown is what the sweep gives ----
+
+
+def test_the_saved_grid_gives_the_rows_shown(page, tmp_path):
+    page.give("wing_length", "18")
+    Select(page.find("#p-drive_shape")).select_by_value("square")
+    page.type("#by-values", "120, 180")
+    page.rest()
+    shown = page.rows()
+    grid = tmp_path / "family.toml"
+    grid.write_text(page.saved("grid"), encoding="utf-8")
+    command("check", grid)
+    command("sweep", grid, "--out", tmp_path / "rows.csv")
+    assert_same(shown, rows_of(tmp_path / "rows.csv"))
+
+
+def test_the_saved_device_and_line_have_the_design(page, tmp_path):
+    page.give("wing_length", "18")
+    page.rest()
+    shown = page.number("lift_mean_mn")
+    device = tmp_path / "design.toml"
+    device.write_text(page.saved("device"), encoding="utf-8")
+    ended = command("run", device).stdout
+    value = next(line.split()[1] for line in ended.splitlines() if line.split()[:1] == ["lift_mean_mn"])
+    assert float(value) == pytest.approx(float(shown.split()[0]), rel=1e-4)
+
+    line = page.saved("python")
+    compile(line, "family.py", "exec")
+    assert "0.018" in line and "flapwing.sweep" in line
+    flapwing = pytest.importorskip("flapwing", exc_type=ImportError)
+    assert flapwing is not None
+    found = {}
+    exec(line, found)  # the line that the page offers
+    assert len(found["table"]) == 5 * 81
+
+
+def test_files_and_pictures_are_downloaded(page, tmp_path):
+    page.browser.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})
+    text = page.saved("grid")
+    page.click("#download")
+    page.click('#save-dialog [data-kind="svg"]')
+    page.click('#save-dialog [data-kind="png"]')
+    names = ["family.toml", "family.svg", "family.png"]
+    until = time.monotonic() + 20
+    while not all((tmp_path / name).exists() for name in names):
+        assert time.monotonic() < until, sorted(path.name for path in tmp_path.iterdir())
+        time.sleep(0.05)
+    assert (tmp_path / "family.toml").read_text(encoding="utf-8") == text
+    assert (tmp_path / "family.svg").read_text(encoding="utf-8").startswith("<svg")
+    assert (tmp_path / "family.png").read_bytes().startswith(b"\x89PNG")
+
+
+# ---- the address ----
+
+
+def test_a_reload_keeps_the_design(page):
+    page.give("wing_length", "19")
+    Select(page.find("#measure")).select_by_value("power_mean_mw")
+    page.rest()
+    page.click("#pin")
+    rows = page.rows()
+    page.browser.refresh()
+    page.rest()
+    assert page.design() == {"wing_length": 0.019}
+    assert page.rows() == rows
+    assert page.script("return state.measure") == "power_mean_mw"
+    assert page.script("return state.pins.length") == 1
+
+
+def test_the_back_button_undoes_a_step(page):
+    page.give("wing_length", "19")
+    page.rest()
+    page.give("wing_length", "20")
+    page.rest()
+    page.browser.back()
+    page.wait("return state.design.wing_length === 0.019")
+    page.rest()
+    assert page.find("#p-wing_length").get_attribute("value") == "19"
+    page.browser.forward()
+    page.wait("return state.design.wing_length === 0.02")
+
+
+def test_an_address_with_nonsense_opens_the_page(page, server):
+    page.open(server.address + "#%7B%22design%22%3A%7B%22no_such%22%3A1%2C%22wing_length%22%3A%7B%7D%7D%2C%22pins%22%3A7%7D")
+    assert page.design() == {}
+    page.open(server.address + "#%")
+    assert page.design() == {}
+
+
+# ---- the panel ----
+
+
+def test_search_and_reset(page):
+    page.find("#search").send_keys("hinge stiff")
+    shown = page.script("return [...document.querySelectorAll('.parameter')].filter((row) => row.offsetParent).map((row) => row.dataset.name)")
+    assert shown == ["hinge_stiffness"]
+    page.type("#search", "")
+    page.find("#search").clear()
+    page.script("byId('search').value = ''; panel.search()")
+    page.give("wing_length", "19")
+    page.give("air_density", "1")
+    page.rest()
+    page.row("wing_length").find_element(By.CSS_SELECTOR, "[aria-label^='Reset']").click()
+    page.rest()
+    assert page.design() == {"air_density": 1}
+    page.click("#reset-all")
+    page.rest()
+    assert page.design() == {}
+    assert page.find("#p-air_density").get_attribute("value") == "1.2"
+
+
+def test_the_keyboard_alone_changes_and_pins_a_design(page):
+    names = []
+    for _ in range(12):
+        ActionChains(page.browser).send_keys(Keys.TAB).perform()
+        names.append(page.script("return document.activeElement.getAttribute('aria-label') ?? document.activeElement.id"))
+        if names[-1].endswith("slider"):
+            break
+    assert names[-1].endswith("slider"), names
+    ActionChains(page.browser).send_keys(Keys.ARROW_LEFT, Keys.ARROW_LEFT).perform()
+    page.rest()
+    assert len(page.design()) == 1
+    for label, expected in [("#pin", "return state.pins.length === 1"), ("#reset-all", "return Object.keys(state.design).length === 0")]:
+        page.script("document.querySelector(arguments[0]).focus()", label)
+        ActionChains(page.browser).send_keys(Keys.ENTER).perform()
+        page.wait(expected)
+    page.script("document.querySelector('#chart .u-over').focus()")
+    ActionChains(page.browser).send_keys(Keys.ARROW_RIGHT).perform()
+    page.wait("return byId('tip').textContent.includes('Lift, mean')")
+    page.script("document.querySelector('.parameter [aria-label^=Help]').focus()")
+    ActionChains(page.browser).send_keys(Keys.ENTER).perform()
+    assert page.script("return !document.querySelector('.parameter .help').hidden")
+
+
+def test_every_field_has_a_name(page):
+    nameless = page.script("""
+      return [...document.querySelectorAll("input, select, button, canvas")].filter((part) =>
+        !(part.getAttribute("aria-label") || part.textContent.trim() || part.labels?.length || part.closest(".u-wrap"))).map((part) => part.outerHTML)
+    """)
+    assert nameless == []
+
+
+def test_a_bar_leads_to_its_parameter(page):
+    bars = page.browser.find_elements(By.CSS_SELECTOR, "#gradient .slope")
+    assert len(bars) == 10
+    sizes = page.script("return numbers.answer.gradient.slice(0, 10).map((slope) => Math.abs(slope.per_percent))")
+    assert sizes == sorted(sizes, reverse=True)
+    bars[0].click()
+    name = page.script("return numbers.answer.gradient[0].parameter")
+    assert page.script("return document.activeElement.closest('.parameter').dataset.name") == name
+
+
+# ---- motion, hysteresis, pins ----
+
+
+def test_the_motion_is_that_of_the_point_under_the_pointer(page):
+    page.wait("return motion.signals !== null && motion.signals !== undefined")
+    assert page.text("#motion-of") == "of the design"
+    before = page.script("return motion.signals.stroke_deg")
+    place = page.script("""
+      const line = family.lines[4], i = 20, plot = family.chart.plot;
+      return [plot.valToPos(line.x[i], "x") - plot.over.clientWidth / 2, plot.valToPos(line.y[i], "y") - plot.over.clientHeight / 2]
+    """)
+    over = page.find("#chart .u-over")
+    ActionChains(page.browser).move_to_element_with_offset(over, *map(round, place)).perform()
+    page.wait("return byId('motion-of').textContent.includes('250 V')")
+    assert page.script("return motion.signals.stroke_deg") != before
+    assert page.script("return motion.design.drive_voltage_pp") == 250
+    ActionChains(page.browser).move_to_element(page.find("h1")).perform()
+    page.wait("return byId('motion-of').textContent === 'of the design'")
+
+
+def test_the_wing_stands_still_and_goes_on(page):
+    page.wait("return motion.signals !== null && motion.signals !== undefined")
+    page.click("#play")
+    still = page.script("return motion.share")
+    time.sleep(0.2)
+    assert page.script("return motion.share") == still
+    page.click("#play")
+    page.wait("return motion.share !== arguments[0]", still)
+
+
+def test_reduced_motion_is_respected(browser, server):
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-reduced-motion", "value": "reduce"}]})
+    try:
+        page = Page(browser).open(server.address)
+        assert page.text("#play") == "Play"
+        assert page.script("return motion.share") == 0
+    finally:
+        browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+
+
+def test_up_and_down_of_a_bistable_design(other, tmp_path):
+    grid = tmp_path / "soft.toml"
+    grid.write_text(BISTABLE, encoding="utf-8")
+    page = other(grid)
+    page.click("#hysteresis")
+    page.rest()
+    assert page.script("return family.lines.map((line) => line.key)") == ["up", "down"]
+    bands = page.script("return family.bands")
+    assert len(bands) == 1
+    assert 123 < bands[0]["from"] < bands[0]["to"] < 129
+    assert "Two motions" in page.text("#tip")
+    page.click("#hysteresis")
+    page.rest()
+    assert page.script("return family.bands") == []
+
+
+def test_pins_stand_side_by_side(page):
+    page.give("wing_length", "19")
+    page.rest()
+    page.click("#pin")
+    page.give("wing_length", "15")
+    page.rest()
+    page.click("#pin")
+    page.wait("return document.querySelectorAll('#pin-table thead th').length === 4")
+    page.wait("return ![...document.querySelectorAll('#pin-table tbody tr')].some((row) => row.textContent.includes('–'))")
+    first = page.script("return [...document.querySelectorAll('#pin-table tbody tr')][0].innerText")
+    assert "19 mm" in first and "15 mm" in first
+    page.click("#pin-table [aria-label='restore A']")
+    page.rest()
+    assert page.design() == {"wing_length": 0.019}
+    page.click("#pin-table [aria-label='remove A']")
+    page.wait("return state.pins.length === 1 && state.pins[0].name === 'B'")
+
+
+# ---- errors ----
+
+
+def test_impossible_values_are_marked_and_the_picture_stays(page):
+    rows = page.rows()
+    page.give("wing_length", "-3")
+    page.wait("return byId('p-wing_length').getAttribute('aria-invalid') === 'true'")
+    problem = page.row("wing_length").find_element(By.CSS_SELECTOR, ".problem")
+    assert "must be more than zero" in problem.text
+    assert page.rows() == rows
+    page.give("wing_length", "3 cats")
+    page.wait("return document.querySelector('.parameter[data-name=wing_length] .problem').textContent.includes('cats')")
+    page.give("wing_length", "0.019 m")
+    page.rest()
+    assert page.script("return byId('p-wing_length').getAttribute('aria-invalid')") is None
+    assert page.script("return byId('banner').hidden")
+
+
+def test_the_page_waits_for_its_server(browser):
+    server = Server("jafferis2016")
+    page = Page(browser).open(server.address)
+    port = server.port
+    server.stop()
+    page.give("wing_length", "19")
+    page.wait("return !byId('banner').hidden && byId('banner').textContent.includes('server')")
+    assert page.script("return family.lines.length") == 5
+    server = Server("jafferis2016", port)
+    try:
+        page.wait("return byId('banner').textContent.includes('address') || byId('banner').hidden")
+        page.open(server.address + "#" + page.script("return location.hash.slice(1)"))
+        assert page.design() == {"wing_length": 0.019}
+    finally:
+        server.stop()
+        browser.get_log("browser")
+
+
+def test_nothing_is_fetched_from_elsewhere(browser, server):
+    page = Page(browser).open(server.address)
+    page.script("family.chart.png()")
+    names = page.script("return performance.getEntriesByType('resource').map((entry) => entry.name)")
+    own = server.address.split("?")[0]
+    assert names and all(name.startswith(own + "api/") for name in names), names
+    assert "http" not in json.dumps(page.script("return [...document.querySelectorAll('[src],link[href]')].map((part) => part.src || part.href)")).replace(own, "")
+
+
+@pytest.mark.parametrize("width, height", [(1600, 1000), (1024, 768), (768, 1024), (375, 800)])
+def test_the_page_fits_its_width(browser, server, width, height):
+    size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    try:
+        page = Page(browser).open(server.address)
+        assert page.script("return document.documentElement.scrollWidth <= innerWidth")
+        assert page.script("return family.chart.plot.width > 0.4 * Math.min(innerWidth, 900)")
+    finally:
+        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
+@pytest.mark.parametrize("preset", ["ozaki2018-large", "arabagi2013-75hz"])
+def test_every_model_has_a_page(other, preset):
+    page = other(preset)
+    page.slider("wing_length").send_keys(*[Keys.ARROW_RIGHT] * 3)
+    page.rest()
+    assert list(page.design()) == ["wing_length"]
+    assert len(page.rows()[1]) == 5 * 81
+    page.wait("return motion.signals !== null && motion.signals !== undefined && motion.charts.length >= 3")
