@@ -30,6 +30,10 @@ const CRATES: &[(&str, &[&str])] = &[
         &["notation", "resonance", "plan", "table", "picture", "grid", "run", "study", "files", "lib"],
     ),
     (
+        "flap-live",
+        &["page", "request", "latest", "rows", "opened", "description", "answer", "guard", "server", "lib"],
+    ),
+    (
         "flap-cli",
         &[
             "args", "models", "complete", "console", "table", "progress", "failure", "signals", "job",

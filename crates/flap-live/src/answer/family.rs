@@ -5,7 +5,7 @@ use std::time::Instant;
 use flap_sweep::run;
 use serde::Serialize;
 
-use super::{Desk, failed};
+use super::desk::{Desk, failed};
 use crate::request::{FamilyRequest, Refused};
 use crate::rows::Rows;
 

@@ -6,7 +6,7 @@ use flap_sweep::plan::{Along, Plan};
 use flap_sweep::run::Summary;
 use flap_sweep::study::response::Responses;
 
-use super::{Desk, failed};
+use super::desk::{Desk, failed};
 use crate::request::{HysteresisRequest, MOST_ROWS, Number, Refused};
 use crate::rows::Rows;
 

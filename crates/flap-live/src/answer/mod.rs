@@ -1,5 +1,6 @@
 //! Answers to requests, one file for each kind.
 
+mod desk;
 mod family;
 mod hysteresis;
 mod motion;
@@ -7,44 +8,9 @@ mod point;
 mod python;
 mod save;
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
-use flap_core::simulate::Unfinished;
-use flap_sweep::run::{RunError, RunOptions};
-
+pub(crate) use desk::Desk;
 pub(crate) use family::family;
 pub(crate) use hysteresis::hysteresis;
 pub(crate) use motion::motion;
 pub(crate) use point::point;
 pub(crate) use save::save;
-
-use crate::opened::Opened;
-use crate::request::Refused;
-
-/// What every answer is made with.
-pub(crate) struct Desk<'a> {
-    pub(crate) opened: &'a Opened,
-    pub(crate) options: RunOptions,
-    /// Raised by a newer request.
-    pub(crate) stop: &'a AtomicBool,
-}
-
-impl Desk<'_> {
-    /// [`Refused::Superseded`] if a newer request has come.
-    fn go_on(&self) -> Result<(), Refused> {
-        if self.stop.load(Ordering::Relaxed) { Err(Refused::Superseded) } else { Ok(()) }
-    }
-}
-
-/// The reason why a run gave no rows.
-fn failed(error: &RunError) -> Refused {
-    Refused::Fault(error.to_string())
-}
-
-/// The reason why there is no motion.
-fn unfinished(reason: Unfinished) -> Refused {
-    match reason {
-        Unfinished::Interrupted => Refused::Superseded,
-        other => Refused::impossible(other.to_string()),
-    }
-}

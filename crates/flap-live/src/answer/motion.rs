@@ -6,7 +6,7 @@ use flap_core::num::InstructionSet;
 use flap_core::simulate::{PointRun, TrajectoryRequest};
 use serde::Serialize;
 
-use super::{Desk, unfinished};
+use super::desk::{Desk, unfinished};
 use crate::request::{MOST_ROWS, MotionRequest, Refused};
 
 /// A motion: samples in rows, and the meaning of each column.

@@ -10,7 +10,7 @@ use flap_sweep::table::layout::Layout;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::Desk;
+use super::desk::Desk;
 use crate::request::{PointRequest, Refused};
 use crate::rows;
 

@@ -3,7 +3,8 @@
 use flap_sweep::grid;
 use serde::Serialize;
 
-use super::{Desk, python};
+use super::desk::Desk;
+use super::python;
 use crate::request::{Refused, SaveKind, SaveRequest};
 
 /// A text, and the name of its file.

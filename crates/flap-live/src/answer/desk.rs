@@ -1,0 +1,37 @@
+//! What every answer is made with, and the reasons why there is none.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use flap_core::simulate::Unfinished;
+use flap_sweep::run::{RunError, RunOptions};
+
+use crate::opened::Opened;
+use crate::request::Refused;
+
+/// What every answer is made with.
+pub(crate) struct Desk<'a> {
+    pub(crate) opened: &'a Opened,
+    pub(crate) options: RunOptions,
+    /// Raised by a newer request.
+    pub(crate) stop: &'a AtomicBool,
+}
+
+impl Desk<'_> {
+    /// [`Refused::Superseded`] if a newer request has come.
+    pub(super) fn go_on(&self) -> Result<(), Refused> {
+        if self.stop.load(Ordering::Relaxed) { Err(Refused::Superseded) } else { Ok(()) }
+    }
+}
+
+/// The reason why a run gave no rows.
+pub(super) fn failed(error: &RunError) -> Refused {
+    Refused::Fault(error.to_string())
+}
+
+/// The reason why there is no motion.
+pub(super) fn unfinished(reason: Unfinished) -> Refused {
+    match reason {
+        Unfinished::Interrupted => Refused::Superseded,
+        other => Refused::impossible(other.to_string()),
+    }
+}
