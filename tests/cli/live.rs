@@ -10,6 +10,7 @@ use std::time::Duration;
 use serde_json::{Value, json};
 use server::Live;
 
+use crate::documents::{blocks, document};
 use crate::support::{Folder, send, wait};
 
 /// A grid with everything that the page keeps: a derived parameter, a condition, a measure, a setting.
@@ -222,6 +223,36 @@ fn ctrl_c_ends_it() {
     send("INT", &live.child);
     assert_eq!(wait(&mut live.child), Some(0));
     assert!(std::net::TcpStream::connect(("127.0.0.1", live.port)).is_err());
+}
+
+#[test]
+fn commands_and_grids_of_the_page_on_it_work() {
+    let text = document("docs/live.md");
+    let folder = Folder::new();
+    fs::create_dir(folder.path("examples")).unwrap();
+    fs::write(folder.path("examples/ozaki_large.toml"), document("examples/ozaki_large.toml")).unwrap();
+    let lines: Vec<String> = blocks(&text, "sh")
+        .iter()
+        .flat_map(|block| block.lines().map(str::to_owned).collect::<Vec<_>>())
+        .collect();
+    assert!(lines.len() >= 3);
+    for line in lines {
+        let words = line.strip_prefix("flap live ").unwrap().split(' ');
+        // The port may be taken where the test runs.
+        let words: Vec<&str> = words.filter(|word| !["--no-open", "--port", "8123"].contains(word)).collect();
+        let live = Live::start(&folder, &words);
+        live.answer("save", json!({ "kind": "grid" }));
+    }
+    let live = Live::start(&folder, &["jafferis2016"]);
+    let saved = live.answer(
+        "save",
+        json!({
+            "kind": "grid", "design": { "hinge_stiffness": 1.6e-6 },
+            "x": { "name": "drive_frequency", "from": 72, "to": 168, "n": 81 },
+            "by": { "name": "drive_voltage_pp", "values": [50, 100, 150, 200, 250] },
+        }),
+    );
+    assert_eq!(saved["text"].as_str().unwrap(), blocks(&text, "toml")[0]);
 }
 
 #[test]

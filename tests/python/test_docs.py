@@ -38,7 +38,7 @@ def test_public_functions_say_what_they_take_give_and_raise():
                 assert heading in thing.__doc__, (name, heading)
 
 
-@pytest.mark.parametrize(("page", "least"), [("docs/python.md", 6), ("docs/fit.md", 6), ("README.md", 2)])
+@pytest.mark.parametrize(("page", "least"), [("docs/python.md", 6), ("docs/live.md", 1), ("docs/fit.md", 6), ("README.md", 2)])
 def test_python_in_the_pages_runs(page, least, tmp_path, monkeypatch):
     pytest.importorskip("matplotlib").use("Agg")
     monkeypatch.chdir(tmp_path)

@@ -11,7 +11,7 @@
 //! - [`picture`]: the choices that pictures of the command and of Python share
 //! - [`grid`]: grid files into plans, with diagnostics
 //! - [`run`]: the parallel runner, which hands rows to sinks in point order
-//! - [`study`]: response curves, deviations of parameters, surveys of a plan
+//! - [`study`]: response curves, deviations of parameters, strongest parameters, surveys of a plan
 //! - [`files`]: result files: formats, sidecars, journals, checksums; resumed, merged, run again
 
 pub mod files;
