@@ -1,5 +1,9 @@
 //! Requests of strangers, and requests that are broken: each gets a proper status, and the server goes on.
 
+use std::io::{Read, Write};
+use std::net::TcpStream;
+use std::time::Duration;
+
 use serde_json::json;
 
 use super::server::Live;
@@ -163,6 +167,27 @@ fn a_request_that_stops_halfway_is_given_up() {
     let waits = whole.replace("Content-Length: 12", "Content-Length: 100");
     assert_ne!(whole, waits);
     assert_eq!(live.send(waits.as_bytes()).unwrap().status, 408);
+}
+
+#[test]
+fn connections_that_send_half_a_head_do_not_block_others() {
+    let folder = Folder::new();
+    let live = Live::start(&folder, &["ozaki2018-large"]);
+    let idle: Vec<TcpStream> = (0..300)
+        .map(|_| {
+            let mut stream = TcpStream::connect(("127.0.0.1", live.port)).unwrap();
+            stream.write_all(b"GET / HTTP/1.1\r\nHost: a").unwrap();
+            stream
+        })
+        .collect();
+    // More than the server takes at a time: the answer comes when the first have been given up.
+    live.answer("save", json!({ "kind": "grid" }));
+    for mut stream in idle {
+        stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+        let mut rest = Vec::new();
+        let _ = stream.read_to_end(&mut rest);
+        assert!(!rest.starts_with(b"HTTP/1.1 200"));
+    }
 }
 
 #[test]

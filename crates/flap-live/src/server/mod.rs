@@ -1,6 +1,7 @@
 //! The HTTP server of the live page, on this machine alone.
 
 mod answers;
+mod connections;
 mod office;
 mod routes;
 
@@ -20,6 +21,9 @@ use tokio::sync::oneshot::{self, Sender};
 use crate::guard::Guard;
 use crate::opened::Opened;
 use office::Office;
+
+/// Longest time for the head of a request to come, and for its body.
+const PATIENCE: Duration = Duration::from_secs(5);
 
 /// Threads that wait for requests or compute; rows have workers besides.
 const MOST_BLOCKING: usize = 16;
@@ -96,11 +100,9 @@ impl Server {
             runtime.block_on(async {
                 // A listener that the operating system has opened is refused by nothing here.
                 let Ok(listener) = Listener::from_std(listener) else { return };
-                let server = axum::serve(listener, routes::routes(Arc::clone(&office)));
-                tokio::select! {
-                    _ = async { server.await } => {}
-                    _ = stopped => {}
-                }
+                tokio::spawn(connections::serve(listener, routes::routes(Arc::clone(&office))));
+                // Sent by `stop`; an error says that the server has been dropped.
+                let _ = stopped.await;
             });
             office.stop();
             runtime.shutdown_timeout(Duration::from_secs(1));

@@ -1,7 +1,6 @@
 //! The addresses of the server.
 
 use std::sync::Arc;
-use std::time::Duration;
 
 use axum::Router;
 use axum::body::{Body, to_bytes};
@@ -12,15 +11,12 @@ use axum::response::Response;
 use axum::routing::any;
 use tokio::time::timeout;
 
-use super::answers;
 use super::office::{Kind, Office};
+use super::{PATIENCE, answers};
 use crate::request::Refused;
 
 /// Most bytes of a request.
 const MOST_BYTES: usize = 64 * 1024;
-
-/// Longest time for the bytes of a request to come.
-const PATIENCE: Duration = Duration::from_secs(5);
 
 /// The addresses: the page, and its requests.
 pub(super) fn routes(office: Arc<Office>) -> Router {

@@ -1,0 +1,40 @@
+//! Connections: as many as the server can hold, each with a limit on the time that a request takes to come.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::Router;
+use hyper::server::conn::http1;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::service::TowerToHyperService;
+use tokio::net::TcpListener;
+use tokio::sync::Semaphore;
+use tokio::time::sleep;
+
+use super::PATIENCE;
+
+/// Connections at the same time; others wait until one has ended.
+const MOST_CONNECTIONS: usize = 128;
+
+/// Pause after a connection that could not be taken, as when too many files are open.
+const PAUSE: Duration = Duration::from_millis(20);
+
+/// Answers connections by `routes`, for ever.
+pub(super) async fn serve(listener: TcpListener, routes: Router) {
+    let places = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    loop {
+        let Ok(place) = Arc::clone(&places).acquire_owned().await else { return };
+        let Ok((stream, _)) = listener.accept().await else {
+            sleep(PAUSE).await;
+            continue;
+        };
+        let service = TowerToHyperService::new(routes.clone());
+        tokio::spawn(async move {
+            let mut protocol = http1::Builder::new();
+            protocol.timer(TokioTimer::new()).header_read_timeout(PATIENCE);
+            // A connection that fails concerns its browser alone, which asks again.
+            let _ = protocol.serve_connection(TokioIo::new(stream), service).await;
+            drop(place);
+        });
+    }
+}
