@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::support::{Folder, quick};
 
-fn root() -> PathBuf {
+pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 

@@ -10,7 +10,7 @@ use std::time::Duration;
 use serde_json::{Value, json};
 use server::Live;
 
-use crate::documents::{blocks, document};
+use crate::documents::{blocks, document, examples};
 use crate::support::{Folder, send, wait};
 
 /// A grid with everything that the page keeps: a derived parameter, a condition, a measure, a setting.
@@ -140,6 +140,8 @@ fn a_device_is_saved_whole() {
     assert!((shown / lift - 1.0).abs() < 1e-5, "{line}");
     assert_ne!(point["row"], point["published"]);
     assert_eq!(point["modes"].as_array().unwrap().len(), 2);
+    assert_eq!(point["published_modes"].as_array().unwrap().len(), 2);
+    assert_ne!(point["modes"], point["published_modes"]);
     let slopes: Vec<f64> = point["gradient"]
         .as_array()
         .unwrap()
@@ -147,6 +149,72 @@ fn a_device_is_saved_whole() {
         .map(|slope| slope["per_percent"].as_f64().unwrap().abs())
         .collect();
     assert!(slopes.len() > 10 && slopes.is_sorted_by(|one, next| one >= next), "{slopes:?}");
+}
+
+#[test]
+fn every_example_has_a_first_view() {
+    let folder = Folder::new();
+    for (name, grid) in examples() {
+        let live = Live::start(&folder, &[grid.to_str().unwrap()]);
+        let data = live.data();
+        let view = &data["view"];
+        let measures: Vec<&Value> =
+            data["measures"].as_array().unwrap().iter().map(|measure| &measure["name"]).collect();
+        assert!(measures.contains(&&view["measure"]), "{name}: {}", view["measure"]);
+        let mut x = view["x"].clone();
+        x["n"] = json!(2);
+        let family = live.answer("family", json!({ "x": x, "by": view["by"] }));
+        let columns = family["columns"].as_array().unwrap();
+        for measure in measures {
+            assert!(columns.contains(measure), "{name}: {measure}");
+        }
+        let point = live.answer("point", json!({}));
+        assert!(point["columns"].as_array().unwrap().contains(&view["measure"]));
+    }
+}
+
+#[test]
+fn saved_designs_keep_standard_errors_and_correlations() {
+    let folder = Folder::new();
+    let device = "preset = \"jafferis2016\"\n[params]\n\
+                  hinge_stiffness = { value = \"2.2 uN*m/rad\", sd = \"0.1 uN*m/rad\" }\n\
+                  wing_area = { value = \"55 mm^2\", sd = \"1 mm^2\" }\n\
+                  [[correlation]]\nbetween = [\"hinge_stiffness\", \"wing_area\"]\ncoefficient = 0.5\n";
+    fs::write(folder.path("bee.toml"), device).unwrap();
+    let live = Live::start(&folder, &["bee.toml"]);
+    let saved = |design: Value| {
+        let saved = live.answer("save", json!({ "kind": "device", "design": design }));
+        saved["text"].as_str().unwrap().to_owned()
+    };
+    let whole = saved(json!({ "wing_length": 0.016 }));
+    for part in ["sd = \"0.1 uN*m/rad\"", "sd = \"1 mm^2\"", "coefficient = 0.5"] {
+        assert!(whole.contains(part), "{part}: {whole}");
+    }
+    // A value that is given anew is as exact as it is.
+    let changed = saved(json!({ "wing_area": "50 mm^2" }));
+    assert!(changed.contains("sd = \"0.1 uN*m/rad\""), "{changed}");
+    assert!(!changed.contains("mm^2\", sd") && !changed.contains("correlation]"), "{changed}");
+    let x = json!({ "name": "hinge_stiffness", "from": 2e-6, "to": 3e-6, "n": 3 });
+    let family = live.answer("save", json!({ "kind": "grid", "x": x }));
+    fs::write(folder.path("family.toml"), family["text"].as_str().unwrap()).unwrap();
+    folder.ends(0, "check family.toml");
+}
+
+#[test]
+fn the_saved_response_is_that_of_the_page() {
+    let folder = Folder::new();
+    let live = Live::start(&folder, &["ozaki2018-large"]);
+    let x = json!({ "name": "drive_frequency", "from": 100.0, "to": 120.0, "n": 8 });
+    let curve = live.answer("hysteresis", json!({ "x": x }));
+    let saved = live.answer("save", json!({ "kind": "grid", "updown": true, "x": x }));
+    assert_eq!(saved["name"], "response.toml");
+    let text = saved["text"].as_str().unwrap();
+    fs::write(folder.path("response.toml"), text).unwrap();
+    let command = text.lines().next().unwrap().strip_prefix("# flap ").unwrap();
+    folder.ends(0, command);
+    assert_same_rows(&curve, &folder.read("response.csv"));
+    let line = live.answer("save", json!({ "kind": "python", "updown": true, "x": x }));
+    assert!(line["text"].as_str().unwrap().contains("flapwing.respond("), "{line}");
 }
 
 #[test]
@@ -184,6 +252,10 @@ fn impossible_values_are_refused_with_their_parameter() {
     }
     let too_many = json!({ "x": { "name": "drive_frequency", "from": 1.0, "to": 2.0, "n": 4001 } });
     assert_eq!(live.ask("family", too_many).0, 422);
+    let (status, answer) =
+        live.ask("family", json!({ "x": { "name": "drive_frequency", "from": 100, "to": 100.0, "n": 9 } }));
+    assert_eq!(status, 422);
+    assert!(answer["error"].as_str().unwrap().contains("two different ends"), "{answer}");
     // Parameters that are impossible together make a row, as in a sweep.
     let whole =
         live.answer("family", json!({ "design": { "drive_rise": 0.9, "drive_shape": "square" }, "x": x }));

@@ -119,6 +119,7 @@ impl<'a> Description<'a> {
             },
         );
         let has_motions = simulator.motions().is_ok();
+        let measures = measures(opened.published_plan());
         Description {
             version: env!("CARGO_PKG_VERSION"),
             title: &plan.source().name,
@@ -126,8 +127,8 @@ impl<'a> Description<'a> {
             model: simulator.name(),
             doc: simulator.doc(),
             parameters: parameters.collect(),
-            measures: measures(plan),
-            view: view(plan, opened.values()),
+            view: view(plan, opened.values(), &measures),
+            measures,
             can: Can { motion: has_motions, modes: simulator.experiments().is_ok(), gradient: has_motions },
         }
     }
@@ -260,7 +261,7 @@ fn measures(plan: &Plan) -> Vec<MeasureText> {
 }
 
 /// The first view: the axes of a grid, or the drive frequency for some voltages.
-fn view<'a>(plan: &'a Plan, values: &[f64]) -> View<'a> {
+fn view<'a>(plan: &'a Plan, values: &[f64], measures: &[MeasureText]) -> View<'a> {
     let parameters = plan.parameters();
     let is_number = |index: usize| !matches!(parameters[index].kind, Kind::Choice(_));
     let place = |name: &str| parameters.iter().position(|parameter| parameter.name == name);
@@ -281,11 +282,9 @@ fn view<'a>(plan: &'a Plan, values: &[f64]) -> View<'a> {
         let index = place(DRIVE_VOLTAGE).filter(|index| *index != x && usable(index))?;
         Some((index, [0.25, 0.5, 0.75, 1.0, 1.25].map(|share| share * values[index]).to_vec()))
     });
-    let columns = Layout::of(plan).names();
-    let measure = ["lift_mean_mn", "stroke_amplitude_deg"]
-        .into_iter()
-        .find(|name| columns.iter().any(|column| column == name));
-    let first = || plan.rows().columns().first().map_or_else(String::new, |column| column.name.clone());
+    let usual = ["lift_mean_mn", "force_up_mn", "stroke_amplitude_deg"];
+    let measure = usual.into_iter().find(|name| measures.iter().any(|measure| measure.name == *name));
+    let first = || measures.first().map_or_else(String::new, |measure| measure.name.clone());
     View {
         x: Axis { name: parameters[x].name, from, to, n: 81 },
         by: by.map(|(index, values)| Lines { name: parameters[index].name, values }),

@@ -9,6 +9,7 @@ use flap_core::simulate::{PointRun, Row, SettingKind, Simulator, SolverSettings}
 use flap_sweep::grid;
 use flap_sweep::grid::diagnostic::{Diagnostic, Mistakes};
 use flap_sweep::notation::text;
+use flap_sweep::plan::uncertainty::Correlation;
 use flap_sweep::plan::{Plan, Value};
 use toml_edit::DocumentMut;
 
@@ -64,6 +65,11 @@ impl Opened {
         &self.values
     }
 
+    /// The plan of the published design, with the formulas and measures of the one that was opened.
+    pub(crate) fn published_plan(&self) -> &Plan {
+        &self.published
+    }
+
     /// The published values, one per parameter.
     pub(crate) fn published(&self) -> Vec<f64> {
         self.published.point(0).values
@@ -95,6 +101,10 @@ impl Opened {
             let error = format!("{rows} rows are too many for the page, which shows {MOST_ROWS} at most");
             return Err(Refused::impossible(error));
         }
+        if let Some(x) = x.filter(|x| x.n > 1 && number(&x.from) == number(&x.to)) {
+            let error = format!("`{}` must have two different ends, not {} twice", x.name, number(&x.from));
+            return Err(Refused::Impossible { error, help: None, parameter: Some(x.name.clone()) });
+        }
         let axes = [by.map(|by| by.name.as_str()), x.map(|x| x.name.as_str())];
         let mut page = self.head.clone();
         page += "\n[params]\n";
@@ -110,31 +120,57 @@ impl Opened {
             let (from, to) = (number(from), number(to));
             let _ = writeln!(page, "{} = {{ from = {from}, to = {to}, n = {n} }}", key(name));
         }
+        self.write_correlations(&mut page, design, &axes);
         Ok(page)
     }
 
-    /// Lines for the parameters that are not published ones, but for those of `axes`.
+    /// True if a parameter has the value that was opened: neither the design nor an axis nor a formula gives it another one.
+    fn is_as_opened(&self, index: usize, design: &Design, axes: &[Option<&str>]) -> bool {
+        let name = self.plan.parameters()[index].name;
+        !axes.contains(&Some(name))
+            && !design.contains_key(name)
+            && !self.plan.derived().parameters().any(|derived| derived == index)
+    }
+
+    /// Lines for the parameters that are not published ones, but for those of `axes`. Values that were opened keep their
+    /// standard errors.
     fn write_params(&self, page: &mut String, design: &Design, axes: &[Option<&str>]) {
-        let derived: Vec<usize> = self.plan.derived().parameters().collect();
         let published = self.published();
         for (index, parameter) in self.plan.parameters().iter().enumerate() {
             let (name, value) = (parameter.name, self.values[index]);
-            let is_as_published = value.to_bits() == published[index].to_bits() || value.is_nan();
-            let is_elsewhere =
-                axes.contains(&Some(name)) || design.contains_key(name) || derived.contains(&index);
-            if is_as_published || is_elsewhere {
+            let error = self.plan.uncertainty().error(index);
+            let is_as_published = value.to_bits() == published[index].to_bits() && error.is_none();
+            if is_as_published || value.is_nan() || !self.is_as_opened(index, design, axes) {
                 continue;
             }
             let value = match text::option(parameter, value) {
                 Some(option) => format!("\"{option}\""),
                 None => text::float(value),
             };
-            let _ = writeln!(page, "{name} = {value}");
+            let _ = match error {
+                Some(error) => writeln!(page, "{name} = {{ value = {value}, sd = {} }}", text::float(error)),
+                None => writeln!(page, "{name} = {value}"),
+            };
         }
         for (name, value) in design {
             if let Some(value) = value.as_ref().filter(|_| !axes.contains(&Some(name))) {
                 let _ = writeln!(page, "{} = {}", key(name), number(value));
             }
+        }
+    }
+
+    /// The correlations between values that were opened.
+    fn write_correlations(&self, page: &mut String, design: &Design, axes: &[Option<&str>]) {
+        for Correlation { between, coefficient } in self.plan.uncertainty().correlations() {
+            if !between.iter().all(|&index| self.is_as_opened(index, design, axes)) {
+                continue;
+            }
+            let [one, other] = between.map(|index| self.plan.parameters()[index].name);
+            let coefficient = text::float(*coefficient);
+            let _ = write!(
+                page,
+                "\n[[correlation]]\nbetween = [\"{one}\", \"{other}\"]\ncoefficient = {coefficient}\n"
+            );
         }
     }
 

@@ -86,6 +86,9 @@ pub(crate) struct SaveRequest {
     pub(crate) design: Design,
     pub(crate) x: Option<Along>,
     pub(crate) by: Option<By>,
+    /// The response up and down along x, not the rows of a sweep.
+    #[serde(default)]
+    pub(crate) updown: bool,
 }
 
 /// The kind of text to save.

@@ -82,6 +82,17 @@ impl Live {
         (answer.status, serde_json::from_str(&answer.body).expect("JSON"))
     }
 
+    /// The data of the page.
+    pub(super) fn data(&self) -> Value {
+        let Live { port, token, .. } = self;
+        let get =
+            format!("GET /?token={token} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nConnection: close\r\n\r\n");
+        let page = self.send(get.as_bytes()).expect("the page").body;
+        let (_, data) = page.split_once("id=\"data\">").expect("the data");
+        let (data, _) = data.split_once("</script>").expect("an end of the data");
+        serde_json::from_str(data).expect("JSON")
+    }
+
     /// The answer to a request that has one.
     #[track_caller]
     pub(super) fn answer(&self, kind: &str, body: Value) -> Value {

@@ -25,6 +25,8 @@ pub(crate) struct Numbers {
     reason: Option<String>,
     /// The natural frequencies, if the model has them.
     modes: Option<Vec<Mode>>,
+    /// Those of the published design.
+    published_modes: Option<Vec<Mode>>,
     /// Derivatives of a measure, the largest first.
     gradient: Option<Vec<Slope>>,
     /// The reason why there are none.
@@ -77,11 +79,13 @@ pub(crate) fn point(desk: &Desk<'_>, request: &PointRequest) -> Result<Numbers, 
     let cells = |row: &Row, values: Vec<f64>| -> Vec<Value> {
         layout.cells(&Point::at_rest(0, values), row).into_iter().map(rows::value).collect()
     };
+    let published = desk.opened.published();
     Ok(Numbers {
         columns: layout.names(),
         reason: row.reason.clone().or(reason),
         modes: modes(&plan, &values),
-        published: cells(desk.opened.published_row(), desk.opened.published()),
+        published_modes: modes(&plan, &published),
+        published: cells(desk.opened.published_row(), published),
         row: cells(&row, values),
         gradient,
         gradient_reason,

@@ -1,14 +1,24 @@
-//! A grid file as a line of Python.
+//! A grid file as lines of Python.
 
 use flap_sweep::notation::text;
 use toml_edit::{DocumentMut, Item, TableLike, Value};
 
 use crate::request::Refused;
 
-/// The lines that run a grid in Python.
-pub(super) fn line(grid: &str) -> Result<String, Refused> {
+/// The lines that sweep a grid.
+pub(super) fn sweep(grid: &str) -> Result<String, Refused> {
+    Ok(format!("import flapwing\n\ntable = flapwing.sweep({})\n", dictionary(grid)?))
+}
+
+/// The lines that follow the response of a grid along its axis `along`.
+pub(super) fn respond(grid: &str, along: &str) -> Result<String, Refused> {
+    let (grid, along) = (dictionary(grid)?, quoted(along));
+    Ok(format!("import flapwing\n\ncurve = flapwing.respond({grid}, {along})\n"))
+}
+
+fn dictionary(grid: &str) -> Result<String, Refused> {
     let document: DocumentMut = grid.parse().map_err(|_| Refused::Fault("a grid is no TOML".to_owned()))?;
-    Ok(format!("import flapwing\n\ntable = flapwing.sweep({})\n", table(document.as_table())))
+    Ok(table(document.as_table()))
 }
 
 fn table(table: &dyn TableLike) -> String {
@@ -57,8 +67,10 @@ mod tests {
     #[test]
     fn a_grid_becomes_a_dictionary() {
         let grid = "preset = \"a\"\n[solver]\nnewton = false\n[params]\n[axes]\nv = [1.0, 2e-9]\nf = { from = 1.0, n = 3 }\n";
-        let line = line(grid).unwrap();
-        let dictionary = r#"{"preset": "a", "solver": {"newton": False}, "axes": {"v": [1.0, 2e-09], "f": {"from": 1.0, "n": 3}}}"#;
+        let line = sweep(grid).unwrap();
+        let dictionary = r#"{"preset": "a", "solver": {"newton": False}, "axes": {"v": [1.0, 2e-9], "f": {"from": 1.0, "n": 3}}}"#;
         assert_eq!(line, format!("import flapwing\n\ntable = flapwing.sweep({dictionary})\n"));
+        let line = respond(grid, "f").unwrap();
+        assert_eq!(line, format!("import flapwing\n\ncurve = flapwing.respond({dictionary}, \"f\")\n"));
     }
 }

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::desk::Desk;
 use super::python;
-use crate::request::{Refused, SaveKind, SaveRequest};
+use crate::request::{Along, Refused, SaveKind, SaveRequest};
 
 /// A text, and the name of its file.
 #[derive(Serialize)]
@@ -16,14 +16,23 @@ pub(crate) struct Saved {
 
 /// The text that was asked for, checked as every grid file is.
 pub(crate) fn save(desk: &Desk<'_>, request: &SaveRequest) -> Result<Saved, Refused> {
-    let SaveRequest { kind, design, x, by } = request;
-    let text = desk.opened.grid(design, x.as_ref(), by.as_ref())?;
+    let SaveRequest { kind, design, x, by, updown } = request;
+    let followed = x.as_ref().filter(|_| *updown);
+    let by = by.as_ref().filter(|_| followed.is_none());
+    let text = desk.opened.grid(design, x.as_ref(), by)?;
     let plan = desk.opened.plan_of(&text)?;
-    Ok(match kind {
-        SaveKind::Grid => {
+    Ok(match (kind, followed) {
+        (SaveKind::Grid, None) => {
             Saved { name: "family.toml", text: format!("# flap sweep family.toml --out family.csv\n{text}") }
         }
-        SaveKind::Device => Saved { name: "design.toml", text: grid::device(&plan) },
-        SaveKind::Python => Saved { name: "family.py", text: python::line(&text)? },
+        (SaveKind::Grid, Some(Along { name, .. })) => {
+            let command = format!("flap respond response.toml --along {name} --out response.csv");
+            Saved { name: "response.toml", text: format!("# {command}\n{text}") }
+        }
+        (SaveKind::Device, _) => Saved { name: "design.toml", text: grid::device(&plan) },
+        (SaveKind::Python, None) => Saved { name: "family.py", text: python::sweep(&text)? },
+        (SaveKind::Python, Some(Along { name, .. })) => {
+            Saved { name: "response.py", text: python::respond(&text, name)? }
+        }
     })
 }
