@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 use flap_sweep::notation::units;
+#[cfg(feature = "plots")]
 use flap_sweep::table::labels;
 
 use super::columns;
