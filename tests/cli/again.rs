@@ -48,9 +48,11 @@ fn rows_of_another_grid_or_shard_are_not_replaced_unasked() {
     fs::write(folder.path("grid.toml"), quick(3)).unwrap();
     folder
         .ends(2, "sweep grid.toml --shard 1/2 --out grid.csv")
-        .says("with other rows: the rows are of all points, not shard 1/2\n");
+        .says("with other rows: the rows cover all points, not shard 1/2\n");
     folder.rewrite_sidecar("grid.csv", |sidecar| sidecar.build = "0123456789abcdef".to_owned());
-    folder.ends(2, "sweep grid.toml").says("with other rows: the rows are by build 0123456789abcdef of flap");
+    folder
+        .ends(2, "sweep grid.toml")
+        .says("with other rows: the rows were computed by build 0123456789abcdef of flap");
     assert_eq!(folder.read("grid.csv"), rows);
 }
 
@@ -99,7 +101,7 @@ fn a_grid_may_come_from_stdin() {
         (nameless.code, nameless.stderr.as_str()),
         (
             2,
-            "error: a grid from stdin gives the rows no name\n\
+            "error: a grid from stdin needs a name for its results\n\
              help: name their file: --out FILE, or `path` in [output] of the grid\n"
         )
     );

@@ -22,7 +22,7 @@ fn a_sweep_tells_what_it_left_out() {
     let folder = Folder::with_grid(GRID);
     folder
         .ends(0, "sweep --grid grid.toml --out o.csv")
-        .says("1 point is excluded by [where]; not satisfied: low 1\n");
+        .says("1 point is excluded by [where]: condition `low` fails at 1 point\n");
     let text = folder.read("o.csv");
     let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(
@@ -98,7 +98,7 @@ other = "drive_frequency > 102"
     for part in [
         "100 points of bimorph",
         "\naxis 2: Latin hypercube, seed 3\n",
-        "\n40 points are excluded by [where]; not satisfied: low 25, other 15\n",
+        "\n40 points are excluded by [where]: condition `low` fails at 25 points, condition `other` fails at 15 points\n",
         "  one of folded, directional",
         ", from 4e-5",
         "(excluded)\n",

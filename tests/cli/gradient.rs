@@ -140,7 +140,10 @@ fn mistakes_in_the_section_are_told_with_their_place() {
             "`lift_mean_mn` is listed twice",
         ),
         (("\"hinge_stiffness\",", "\"air_density\","), "`air_density` is derived from other parameters"),
-        (("\"hinge_stiffness\",", "\"drive_shape\","), "`drive_shape` is a choice, and has no shares"),
+        (
+            ("\"hinge_stiffness\",", "\"drive_shape\","),
+            "`drive_shape` has fixed values, so there is no derivative by it",
+        ),
         (
             ("\"hinge_stiffness\",", "\"drive_bias\","),
             "`drive_bias` is not set: it follows half of drive_voltage_pp",

@@ -1,5 +1,6 @@
 //! `flap check`, `flap params`, `flap models` and help.
 
+use std::fs;
 use std::time::{Duration, Instant};
 
 use flap_core::simulate::Status;
@@ -27,8 +28,8 @@ AXIS  PARAMETER         FROM   TO     COUNT  UNIT
 1     drive_voltage_pp  100.0  150.0  2      V
 2     drive_frequency   60.0   200.0  15     Hz
 
-first point, 0: drive_voltage_pp = 100.0 V, drive_frequency = 60.0 Hz
-last point, 29: drive_voltage_pp = 150.0 V, drive_frequency = 200.0 Hz
+first point, 0: drive_voltage_pp = 100 V, drive_frequency = 60 Hz
+last point, 29: drive_voltage_pp = 150 V, drive_frequency = 200 Hz
 
 OTHER THAN THE PRESET  HERE             PRESET  RATIO
 drive_voltage_pp       100 V to 150 V   100 V   1 to 1.5
@@ -102,6 +103,33 @@ fn narrow(arguments: &str) -> String {
     let output = command.env("COLUMNS", "80").args(arguments.split(' ')).output().unwrap();
     assert!(output.status.success(), "{output:?}");
     String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn tables_fit_the_terminal() {
+    let folder = Folder::with_grid(
+        "preset = \"ozaki2018-large\"\n[axes]\nhinge_stiffness = [6e-5, 9e-5]\ndrive_frequency = [95, 110]\n",
+    );
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    let [grid, rows] = ["grid.toml", "rows.csv"].map(|name| folder.path(name).display().to_string());
+    for arguments in [
+        "run ozaki2018-large",
+        "resonance ozaki2018-large",
+        "models",
+        &format!("check {grid}"),
+        &format!("describe {rows}"),
+        &format!("top {rows} --by lift_mean_mn --columns power_mean_mw,stroke_pp_deg,pitch_pp_deg"),
+    ] {
+        let text = narrow(arguments);
+        // A path of the user's is as long as it is.
+        for line in text.lines().filter(|line| !line.contains('/')) {
+            assert!(line.chars().count() <= 80, "{arguments}: {line}");
+        }
+        assert!(
+            folder.ends(0, arguments).stdout.lines().any(|line| line.chars().count() > 80),
+            "{arguments} in a pipe"
+        );
+    }
 }
 
 #[test]
@@ -195,7 +223,7 @@ fn former_names_still_work_with_a_warning() {
     let folder = Folder::with_grid(&grid("drag_max"));
     let former = folder.ends(0, "sweep grid.toml --out former.csv");
     former.says("`drag_max` is called `drag_coefficient_max` now; the former name still works");
-    std::fs::write(folder.path("new.toml"), grid("drag_coefficient_max")).unwrap();
+    fs::write(folder.path("new.toml"), grid("drag_coefficient_max")).unwrap();
     let new = folder.ends(0, "sweep new.toml --out new.csv");
     assert!(!new.stderr.contains("former"), "{}", new.stderr);
     assert_eq!(folder.read("former.csv"), folder.read("new.csv"));
@@ -203,10 +231,64 @@ fn former_names_still_work_with_a_warning() {
     run.says("`drag_max` is called `drag_coefficient_max` now");
     let told = folder.ends(0, "explain lift_max").stdout;
     assert!(told.contains("the former name of lift_coefficient_max"), "{told}");
-    std::fs::write(folder.path("both.toml"), grid("drag_max") + "drag_coefficient_max = 3.0\n").unwrap();
+    fs::write(folder.path("both.toml"), grid("drag_max") + "drag_coefficient_max = 3.0\n").unwrap();
     folder
         .ends(2, "check both.toml")
         .says("`drag_coefficient_max` is set twice: `drag_max` is its former name");
+}
+
+/// Every column of every kind of table has its meaning.
+#[test]
+fn all_columns_are_explained() {
+    let folder = Folder::with_grid(
+        "preset = \"jafferis2016\"\n[axes]\nhinge_stiffness = [1.5e-6]\n[gradient]\nof = [\"lift_mean_mn\"]\n\
+         with_respect_to = [\"piezo_thickness\"]\n",
+    );
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    folder.ends(0, "run jafferis2016 --trajectory motion.csv");
+    folder.ends(0, "respond jafferis2016 --from 100 --to 104 --step 2 --out loop.csv");
+    folder.ends(
+        0,
+        "run jafferis2016 --drive chirp --chirp-from 100 --chirp-to 101 --chirp-rate 50 --envelope chirp.csv",
+    );
+    fs::write(folder.path("resonance.csv"), folder.ends(0, "resonance jafferis2016 --format csv").stdout)
+        .unwrap();
+    let vehicle =
+        fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/vehicle.toml")).unwrap();
+    fs::write(folder.path("vehicle.toml"), vehicle).unwrap();
+    folder.ends(0, "sweep vehicle.toml --out vehicle.csv");
+    for file in ["rows.csv", "motion.csv", "loop.csv", "chirp.csv", "resonance.csv", "vehicle.csv"] {
+        let header = folder.read(file).lines().next().unwrap().to_owned();
+        let own = ["meaning"];
+        let names: Vec<&str> = header.split(',').filter(|name| !own.contains(name)).collect();
+        folder.ends(0, &format!("explain {}", names.join(" ")));
+    }
+    let told = folder.ends(0, "explain d_lift_mean_mn_per_pct_piezo_thickness").stdout;
+    assert!(told.contains("  change of lift_mean_mn (mN) per 1 % of piezo_thickness\n"), "{told}");
+    for name in [
+        "rtol",
+        "max_cycles",
+        "about_x",
+        "difference_drive_offset",
+        "left_drive_voltage_pp",
+        "left_stroke_pp_deg",
+    ] {
+        folder.ends(0, &format!("explain {name}"));
+    }
+}
+
+#[test]
+fn one_unknown_name_does_not_hide_others() {
+    let folder = Folder::new();
+    let ended = folder.ends(2, "explain branch foo rtol bar");
+    assert!(
+        ended.stdout.starts_with("branch: ") && ended.stdout.contains("\nrtol: a setting of [solver]"),
+        "{}",
+        ended.stdout
+    );
+    ended.says("status `foo`").says("status `bar`");
+    let nearest = folder.ends(2, "explain lift_coefficient_ma lift_ma").stderr;
+    assert!(!nearest.contains("did you mean `lift_max`?"), "former names are no advice: {nearest}");
 }
 
 #[test]
@@ -220,7 +302,7 @@ fn names_are_explained() {
         parameter.contains("  unit      N*m/rad\n  symbol    k_w\n  allowed   more than zero"),
         "{parameter}"
     );
-    assert!(parameter.contains(" in ozaki2018-large\n"), "{parameter}");
+    assert!(parameter.contains("  86.4 uN*m/rad in ozaki2018-large\n"), "{parameter}");
 
     let measure = folder.ends(0, "explain lift_mean_mn resonance_hz").stdout;
     assert!(
@@ -235,13 +317,14 @@ fn names_are_explained() {
         fixed.starts_with("floquet_max: a column of the rows of every model\n  factor by which"),
         "{fixed}"
     );
+    assert!(fixed.contains("below 1 the motion is stable, near 1 it settles slowly"), "{fixed}");
     for status in Status::ALL {
         let told = folder.ends(0, &format!("explain {}", status.name())).stdout;
         assert_eq!(told, format!("{}: a status of rows\n  {}\n", status.name(), status.describe()));
     }
 
     let unknown = folder.ends(2, "explain lift_meen_mn").stderr;
-    assert!(unknown.contains("there is no parameter, column or status `lift_meen_mn`"), "{unknown}");
+    assert!(unknown.contains("there is no parameter, column, setting or status `lift_meen_mn`"), "{unknown}");
     assert!(unknown.contains("did you mean `lift_mean_mn`?"), "{unknown}");
 }
 

@@ -148,7 +148,8 @@ fn conditions_choose_rows() {
 
     for (condition, message, help) in [
         ("drive_frequency=95 V", "`V` is a voltage, but drive_frequency is in Hz\n", "help: use Hz"),
-        ("drive_frequency>95Hz", "`95Hz` is not a number\n", "written without it: drive_frequency>95"),
+        ("drive_frequency>95V", "`V` is a voltage, but drive_frequency is in Hz\n", "help: use Hz"),
+        ("cycles>1.2.3", "`1.2.3` is not a number\n", "help: a number stands beside a column"),
         (
             "drive_frequency",
             "this is a number, not a condition\n",
@@ -214,7 +215,8 @@ fn columns_that_cannot_be_ranked_are_named() {
     folder.refuses("describe rows.csv --by lift_mean_mn", "no periodic row of rows.csv has a value of lift");
     folder.refuses("top rows.csv --by status --all", "column `status` holds words such as `unsettled`");
     folder.refuses("top rows.csv --by lift_men_mn", "did you mean `lift_mean_mn`?");
-    folder.refuses("describe rows.csv --columns status", "column `status` holds words, not numbers");
+    folder.refuses("describe rows.csv --by status --all", "column `status` holds words, not numbers");
+    folder.refuses("top rows.csv --by residual -n 0", "expected a whole number of 1 or more");
     folder.refuses("top rows.csv", "--by <COLUMN>");
     // Nothing is periodic, and that is told.
     folder.ends(0, "describe rows.csv").prints("unsettled  3     100.0 %\n");
@@ -276,6 +278,99 @@ fn the_best_value_of_each_axis_is_told() {
         .prints("largest efficiency_gf_per_w: ");
 }
 
+/// In a sample every parameter tells the rows apart, and each has its best values.
+#[test]
+fn all_parameters_of_a_sample_are_described() {
+    let folder = swept(
+        "preset = \"ozaki2018-large\"\n[sample]\nmethod = \"sobol\"\nn = 20\n[sample.parameters]\n\
+         hinge_stiffness = { from = 8e-5, to = 1e-4 }\nair_density = { from = 1.1, to = 1.3 }\n\
+         [derived]\nstroke_damping = \"1e-6 * hinge_stiffness\"\n",
+    );
+    let axes = |description: &Value| {
+        let axes = description["best"][0]["axes"].as_array().unwrap();
+        axes.iter().map(|axis| axis["axis"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let with_sidecar = json(&folder, "describe rows.csv");
+    let mut names = axes(&with_sidecar);
+    names.sort();
+    assert_eq!(names, ["air_density", "hinge_stiffness"], "a derived parameter is not of the sample");
+    assert!(with_sidecar["best"][0]["axes"].as_array().unwrap().iter().all(|axis| axis["values"] == 20));
+    fs::remove_file(folder.path("rows.csv.meta.toml")).unwrap();
+    assert!(axes(&json(&folder, "describe rows.csv")).len() >= 2);
+}
+
+#[test]
+fn words_are_counted() {
+    let grid =
+        GRID.replace("max_cycles = 20\nnewton = false\n", "") + "[measure]\nstrong = \"lift_mean_mn > 2\"\n";
+    let folder = swept(&grid);
+    let lift = column(&cells(&folder.read("rows.csv")), "lift_mean_mn");
+    let strong = lift.iter().filter(|lift| **lift > 2.0).count();
+    assert!(strong > 0 && strong < 30);
+    let counts = &json(&folder, "describe rows.csv --columns strong")["words"][0]["counts"];
+    let rows = |value: &str| {
+        counts.as_array().unwrap().iter().find(|count| count["value"] == value).unwrap()["rows"].clone()
+    };
+    assert_eq!((rows("true"), rows("false")), (Value::from(strong), Value::from(30 - strong)));
+    folder.ends(0, "describe rows.csv --columns strong").prints("COLUMN  VALUE  ROWS  SHARE\n");
+    folder.ends(0, "describe rows.csv --columns strong --format csv").prints("words,strong,,true,");
+}
+
+#[test]
+fn a_file_without_numbers_is_told() {
+    let folder = Folder::new();
+    fs::write(folder.path("semicolons.csv"), "a;b\n1;2\n").unwrap();
+    folder.ends(2, "describe semicolons.csv").says(
+        "error: semicolons.csv has no column of numbers\n\
+         help: cells are separated by commas, and the first line has `;`: is that the separator?\n",
+    );
+}
+
+#[test]
+fn comparisons_take_units() {
+    let folder = periodic();
+    let count = |condition: &str| {
+        let arguments =
+            ["top", "rows.csv", "--by", "lift_mean_mn", "-n", "99", "--format", "csv", "--where", condition];
+        folder.ends_with(0, &arguments).stdout.lines().count() - 1
+    };
+    assert_eq!(count("drive_frequency > 0.11 kHz"), count("drive_frequency > 110"));
+    assert_eq!(count("hinge_stiffness < 90 uN*m/rad"), 10);
+    assert_eq!(count("90 uN*m/rad < hinge_stiffness and drive_frequency < 100 Hz"), 4);
+    let refused = |condition: &str, message: &str| {
+        folder.ends_with(2, &["top", "rows.csv", "--by", "lift_mean_mn", "--where", condition]).says(message);
+    };
+    refused("drive_frequency > 95 V", "`V` is a voltage, but drive_frequency is in Hz");
+    refused("95 Hz + 1 < drive_frequency", "`95 Hz` is not compared with a column");
+    refused(
+        "hinge_stiffness=90",
+        "help: a number without a unit is in N*m/rad: did you mean --where hinge_stiffness='90 uN*m/rad'?",
+    );
+    refused(
+        "drive_frequency > 1 kHz",
+        "help: drive_frequency is in Hz, such as 95 Hz; a number may have its unit",
+    );
+}
+
+#[test]
+fn former_names_of_columns_are_understood() {
+    let folder = swept("preset = \"jafferis2016\"\n[axes]\ndrag_coefficient_max = [3.0, 3.3, 3.6]\n");
+    let note = "warning: `drag_max` is called `drag_coefficient_max` now; the former name still works\n";
+    for arguments in [
+        "top rows.csv --by drag_max",
+        "top rows.csv --by lift_mean_mn --where drag_max=3.3",
+        "top rows.csv --by lift_mean_mn --where drag_max>3.1",
+        "describe rows.csv --by drag_max",
+    ] {
+        let ended = folder.ends(0, arguments);
+        assert_eq!(ended.stderr.matches(note).count(), 1, "{arguments}: {}", ended.stderr);
+    }
+    // Results of earlier versions have the former names.
+    let text = folder.read("rows.csv").replace("drag_coefficient_max", "drag_max");
+    fs::write(folder.path("old.csv"), text).unwrap();
+    folder.ends(0, "top old.csv --by drag_coefficient_max").prints("drag_max");
+}
+
 #[test]
 fn responses_and_motions_are_described_too() {
     let folder = Folder::new();
@@ -285,6 +380,7 @@ fn responses_and_motions_are_described_too() {
     folder.ends(0, "describe loop.csv").prints("branch").prints("up     down");
     folder.ends(0, "run ozaki2018-large --trajectory motion.csv");
     folder.ends(0, "describe motion.csv --columns stroke_deg").prints("stroke_deg  °     401");
+    folder.ends(0, "describe motion.csv --columns stroke_rad").prints("stroke_rad  rad   401");
     let top = folder.ends(0, "top motion.csv --by stroke_deg -n 1 --format csv");
     assert!(top.stdout.starts_with("time_s,stroke_deg\n"), "{}", top.stdout);
     top.says("1 row with the largest stroke_deg of 401 rows\n");

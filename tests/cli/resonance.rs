@@ -89,7 +89,7 @@ fn impossible_motions_and_searches_are_refused() {
             "run ozaki2018-small --drive impulse --impulse 20mm",
             "write a number with a unit, such as `20 deg`",
         ),
-        ("run ozaki2018-small --drive impulse --impulse 0deg", "any finite number but zero"),
+        ("run ozaki2018-small --drive impulse --impulse 0deg", "must be finite and not zero"),
         ("run ozaki2018-small --drive impulse --duration 0s", "cannot be sampled"),
         ("run ozaki2018-small --drive impulse --duration 1e9s", "cannot be sampled"),
         (

@@ -20,10 +20,8 @@ fn a_line_per_design_says_where_it_is_bistable() {
     assert_eq!(ended.code, 0, "{}", ended.stderr);
     let lines: Vec<&str> = ended.stdout.lines().collect();
     assert_eq!(lines.len(), 2, "{}", ended.stdout);
-    assert!(lines[0].starts_with("drive_voltage_pp = 80.0 V: no hysteresis above "), "{}", lines[0]);
-    assert!(
-        lines[1].starts_with("drive_voltage_pp = 160.0 V: bistable from 124.25 to 127.625 Hz, jump of 5")
-    );
+    assert!(lines[0].starts_with("drive_voltage_pp = 80 V: no hysteresis from "), "{}", lines[0]);
+    assert!(lines[1].starts_with("drive_voltage_pp = 160 V: bistable from 124.25 to 127.625 Hz, jump of 5"));
     assert!(ended.stderr.contains("2 curves in curves.csv"), "{}", ended.stderr);
 
     let text = folder.read("curves.csv");
@@ -143,8 +141,11 @@ fn a_preset_follows_any_number() {
         "drive_frequency=105 Hz",
     ]);
     assert_eq!(ended.code, 0, "{}", ended.stderr);
-    assert!(ended.stdout.starts_with("no hysteresis above "), "{}", ended.stdout);
-    assert!(ended.stdout.ends_with(" deg from 60 to 80 V\n"), "{}", ended.stdout);
+    assert!(
+        ended.stdout.starts_with("no hysteresis from 60 to 80 V (branches agree to "),
+        "{}",
+        ended.stdout
+    );
 }
 
 #[test]
@@ -165,7 +166,7 @@ fn mistakes_are_told() {
             "jafferis2016 --from 1 --to 2 --step 1V".to_owned(),
             "--step 1V: `V` is a voltage, but the value is in Hz",
         ),
-        ("jafferis2016 --from 1 --to 2 --step 1e999".to_owned(), "is too large for a 64-bit float"),
+        ("jafferis2016 --from 1 --to 2 --step 1e999".to_owned(), "`1e999` is too large for "),
         (
             "jafferis2016 --from 130 --to 120 --step 1".to_owned(),
             "`drive_frequency` cannot rise from 130 to 120 in steps of 1",
@@ -218,11 +219,11 @@ fn each_design_is_run_at_its_own_resonance() {
         // A single point is run at its resonance too, and is the same.
         let one = folder.flap(&format!("run grid.toml --point {index}"));
         assert_eq!(one.code, 0, "{}", one.stderr);
-        assert!(
-            one.stderr.contains(&format!("drive_frequency = {} Hz, the resonance", row[4])),
-            "{}",
-            one.stderr
-        );
+        let said = one.stderr.lines().find_map(|line| {
+            line.strip_prefix("drive_frequency = ")?.strip_suffix(" Hz, the resonance")?.parse::<f64>().ok()
+        });
+        let resonance: f64 = row[4].parse().unwrap();
+        assert!(said.is_some_and(|said| (said / resonance - 1.0).abs() < 1e-5), "{}", one.stderr);
         let lift: f64 = row[3].parse().unwrap();
         let line = one.stdout.lines().find(|line| line.starts_with("lift_mean_mn")).unwrap();
         let printed: f64 = line.split_whitespace().nth(1).unwrap().parse().unwrap();

@@ -296,7 +296,7 @@ fn a_changed_grid_is_not_resumed() {
 fn another_shard_is_not_resumed() {
     let folder = unfinished();
     let ended = folder.ends(2, "sweep --grid grid.toml --out grid.csv --shard 2/3 --resume");
-    let message = "grid.csv cannot be resumed: the rows are of all points, not shard 2/3\n";
+    let message = "grid.csv cannot be resumed: the rows cover all points, not shard 2/3\n";
     ended.says(message);
 }
 
@@ -312,7 +312,8 @@ fn rows_edited_meanwhile_are_not_resumed() {
 #[test]
 fn there_may_be_nothing_to_resume() {
     let folder = Folder::with_grid(&quick(10));
-    folder.ends(2, "resume grid.csv").says("grid.csv.meta.toml: cannot be read");
+    folder.ends(2, "resume grid.csv").says("error: grid.csv does not exist\n");
+    folder.ends(2, "convert grid.csv grid.parquet").says("error: grid.csv does not exist\n");
 
     // A job script may always say --resume.
     folder.ends(0, "sweep --grid grid.toml --resume");

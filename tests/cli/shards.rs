@@ -109,7 +109,7 @@ fn shards_that_do_not_belong_together_are_refused() {
         let ended = folder.ends(2, &format!("merge merged.csv {shards}"));
         assert_eq!(ended.stderr, message, "{shards}");
     }
-    folder.ends(2, "merge merged.csv missing.csv").says("missing.csv.meta.toml: cannot be read");
+    folder.ends(2, "merge merged.csv missing.csv").says("missing.csv does not exist");
     assert!(!folder.path("merged.csv").exists());
 }
 
@@ -169,7 +169,7 @@ fn shards_of_another_build_are_refused() {
     folder.rewrite_sidecar("grid.2of3.csv", |sidecar| sidecar.build = "fed0".to_owned());
     let ended = folder.ends(2, merge);
     let message = format!(
-        "error: grid.2of3.csv does not belong to grid.1of3.csv: the rows are by build fed0 of flap {}, not build {build}\n",
+        "error: grid.2of3.csv does not belong to grid.1of3.csv: the rows were computed by build fed0 of flap {}, not build {build}\n",
         env!("CARGO_PKG_VERSION")
     );
     assert!(ended.stderr.starts_with(&message), "{}", ended.stderr);
@@ -188,5 +188,5 @@ fn results_of_another_build_are_not_gone_on_with() {
     folder.rewrite_sidecar("whole.csv", |sidecar| sidecar.build = "fed0".to_owned());
     folder
         .ends(2, "sweep --grid grid.toml --out whole.csv --resume")
-        .says("whole.csv cannot be resumed: the rows are by build fed0");
+        .says("whole.csv cannot be resumed: the rows were computed by build fed0");
 }

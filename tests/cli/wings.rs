@@ -125,6 +125,6 @@ fn mistakes_are_told_with_their_place() {
         .says("go together");
     folder
         .ends_with(2, &["wing", "wing.csv", "--preset", "jafferis2016", "--mass", "0 mg"])
-        .says("a wing has a mass");
+        .says("the mass must be more than zero");
     folder.ends_with(2, &["wing", "wing.csv", "--preset", "jaferis2016"]).says("jafferis2016");
 }

@@ -118,7 +118,10 @@ fn motions_that_are_not_followed_say_why() {
     let period = model.motions().unwrap().period(&PointRun::new(set, &SOLVER, &values), &begin);
     let error = period.unwrap_err();
     assert_eq!(error, RequestError::Begin { begin: begin.to_vec(), states: 4 }.into());
-    assert_eq!(error.to_string(), "the motion cannot begin at [0.0, 0.0, 0.0]: a state is 4 finite numbers");
+    assert_eq!(
+        error.to_string(),
+        "the motion cannot begin at [0.0, 0.0, 0.0]: the state needs 4 finite numbers"
+    );
 }
 
 #[test]

@@ -84,7 +84,7 @@ def test_not_finite(name, value):
 @pytest.mark.parametrize(
     ("value", "says"),
     [
-        ("100", "has no unit"),
+        ("100", "needs a unit"),
         ("100 V", "`V` is a voltage, but `drive_frequency` is in Hz"),
         ("100 hz", "did you mean `Hz`?"),
         ("nan Hz", "values are finite"),

@@ -44,7 +44,7 @@ def test_columns_tell_what_they_are():
     assert table.units["d_stroke_pp_deg_per_si_drive_frequency"] == "deg/Hz"
     assert (
         table.docs["d_lift_mean_mn_per_si_hinge_stiffness"]
-        == "change of lift_mean_mn mN per SI unit of hinge_stiffness"
+        == "change of lift_mean_mn (mN) per SI unit of hinge_stiffness"
     )
     np.testing.assert_array_equal(table["d_stroke_pp_deg_per_si_drive_frequency"], table.gradient[:, 1, 1])
     np.testing.assert_array_equal(pickle.loads(pickle.dumps(table[2:5])).gradient, table.gradient[2:5])
@@ -88,7 +88,7 @@ def test_missing_derivatives_have_a_reason():
     ("keywords", "error", "says"),
     [
         ({"gradient": ["hinge_stiffnes"]}, ValueError, "did you mean `hinge_stiffness`?"),
-        ({"gradient": ["lift_sign"]}, ValueError, "`lift_sign` is a choice, and has no shares"),
+        ({"gradient": ["lift_sign"]}, ValueError, "`lift_sign` has fixed values, so there is no derivative by it"),
         ({"gradient": BY + BY[:1]}, ValueError, "`gradient` names hinge_stiffness twice"),
         ({"gradient": "hinge_stiffness"}, TypeError, "`gradient` is str\nit must be a list of names"),
         ({"gradient": []}, ValueError, "`gradient` is empty"),

@@ -45,8 +45,8 @@ fn mistakes_are_named_after_the_file() {
     fs::write(&path, "\nprest = 1\n").expect("written");
     let message = error(&path).to_string();
     let lines: Vec<&str> = message.lines().collect();
-    assert_eq!(lines[0], format!("{}:1:1: `preset` is missing", path.display()));
-    assert_eq!(lines[1], format!("{}:2:1: unknown key `prest` at the top of a grid file", path.display()));
+    assert_eq!(lines[0], format!("{}:2:1: unknown key `prest` at the top of a grid file", path.display()));
+    assert!(!message.contains("missing"), "one slip is one mistake: {message}");
 }
 
 #[test]

@@ -238,9 +238,15 @@ fn other_versions_and_machines_do_not_go_on() {
     let plan = plan(Fake::leak(Fault::None, 8), 1000);
     let ours = Identity::of(&plan, &often().run);
     for (identity, change) in [
-        (Identity { flap: "0.0.1".to_owned(), ..ours.clone() }, "the rows are by flap 0.0.1, not "),
-        (Identity { build: "fed0".to_owned(), ..ours.clone() }, "the rows are by build fed0 of flap "),
-        (Identity { build: String::new(), ..ours.clone() }, "the rows are by an unknown build of flap "),
+        (Identity { flap: "0.0.1".to_owned(), ..ours.clone() }, "the rows were computed by flap 0.0.1, not "),
+        (
+            Identity { build: "fed0".to_owned(), ..ours.clone() },
+            "the rows were computed by build fed0 of flap ",
+        ),
+        (
+            Identity { build: String::new(), ..ours.clone() },
+            "the rows were computed by an unknown build of flap ",
+        ),
         (Identity { arithmetic: "other".to_owned(), ..ours.clone() }, "the arithmetic is other, not "),
         (Identity { grid: String::new(), ..ours.clone() }, "the grid file differs"),
     ] {

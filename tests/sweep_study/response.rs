@@ -80,7 +80,7 @@ fn a_soft_hinge_is_bistable_where_the_reference_is() {
         let bands: Vec<_> = verdict.bistable().collect();
         let Some([from, to]) = band else {
             assert!(bands.is_empty(), "{volts} V: {verdict}");
-            assert!(verdict.to_string().starts_with("no hysteresis above"));
+            assert!(verdict.to_string().starts_with("no hysteresis from"));
             continue;
         };
         assert_eq!(bands.len(), 1, "{volts} V: {verdict}");

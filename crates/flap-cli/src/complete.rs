@@ -12,7 +12,7 @@ use clap_complete::engine::{
     ArgValueCandidates, ArgValueCompleter, CompletionCandidate, PathCompleter, ValueCompleter as _,
 };
 use flap_core::parameter::{Kind, Parameter};
-use flap_core::simulate::{Simulator, Status};
+use flap_core::simulate::{Simulator, SolverSettings, Status};
 use flap_sweep::files::integrity::{self, OnDamage};
 use flap_sweep::grid;
 use flap_sweep::resonance;
@@ -122,7 +122,8 @@ fn conditions() -> Vec<CompletionCandidate> {
 
 /// All that `flap explain` explains.
 fn names() -> Vec<CompletionCandidate> {
-    distinct(parameters().into_iter().chain(columns()).chain(statuses()))
+    let settings = SolverSettings::TABLE.iter().map(|setting| candidate(setting.name, setting.doc));
+    distinct(parameters().into_iter().chain(columns()).chain(settings).chain(statuses()))
 }
 
 /// The candidates that begin like the word.

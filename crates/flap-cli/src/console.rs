@@ -1,7 +1,9 @@
 //! The two streams: results go to stdout, everything else to stderr.
 
+use std::collections::BTreeSet;
 use std::env;
 use std::io::{self, Write};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstyle::{AnsiColor, Style};
@@ -36,6 +38,23 @@ pub(crate) fn results(text: &str) -> io::Result<()> {
 pub(crate) fn warn(text: &str) {
     let style = Style::new().bold().fg_color(Some(AnsiColor::BrightYellow.into()));
     complain(&format!("{style}warning{style:#}: {text}"));
+}
+
+/// Warns the user as [`warn`] does, but of the same thing only once.
+pub(crate) fn warn_once(text: &str) {
+    static WARNED: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let is_new = WARNED.lock().is_ok_and(|mut warned| warned.insert(text.to_owned()));
+    if is_new {
+        warn(text);
+    }
+}
+
+/// A long line of help in lines that fit the terminal, those from the second on below the first word.
+pub(crate) fn help_lines(text: &str) -> String {
+    const MARGIN: &str = "      ";
+    let terminal = terminal_size::terminal_size_of(io::stderr()).map(|(width, _)| usize::from(width.0));
+    let width = terminal.filter(|width| *width > 40).unwrap_or(100) - MARGIN.len();
+    textwrap::wrap(text, width).join(&format!("\n{MARGIN}"))
 }
 
 /// A word of a command to be copied into a shell: in quotes if it has characters that shells interpret.

@@ -1,19 +1,25 @@
 //! Text in aligned columns.
 
 use std::fmt::Write as _;
+use std::ops::Range;
 
 use anstyle::Style;
-use flap_core::parameter::Parameter;
+use flap_core::parameter::{Kind, Parameter};
 use flap_sweep::notation::text;
+use flap_sweep::notation::units::prefixed;
 
 /// The number with six digits, for people to read.
 pub(crate) fn six_digits(number: f64) -> String {
     format!("{number:.5e}").parse().map_or_else(|_| String::new(), text::float)
 }
 
-/// A parameter with its value and unit, such as `drive_frequency = 120.0 Hz`.
+/// A parameter with its value and unit to six digits, such as `hinge_stiffness = 1.52 uN*m/rad`.
 pub(crate) fn assignment(parameter: &Parameter, value: f64) -> String {
-    format!("{} = {} {}", parameter.name, text::value(parameter, value), parameter.unit).trim_end().to_owned()
+    let value = match parameter.kind {
+        Kind::Choice(_) => text::value(parameter, value),
+        _ => prefixed(value, parameter.unit),
+    };
+    format!("{} = {value}", parameter.name)
 }
 
 /// Rows of cells, aligned on the left. A row may have fewer cells than others.
@@ -22,6 +28,8 @@ pub(crate) struct Table {
     rows: Vec<Vec<String>>,
     /// Titles of groups, each with the number of rows above it.
     titles: Vec<(usize, String)>,
+    /// Number of the first columns that every part of a wide table has; 1 if it is 0.
+    keys: usize,
 }
 
 /// The least width of a column whose cells are wrapped.
@@ -35,7 +43,12 @@ impl Table {
 
     /// A table with a first row of names of columns, as they are written.
     pub(crate) fn with_names(names: Vec<String>) -> Table {
-        Table { rows: vec![names], titles: Vec::new() }
+        Table { rows: vec![names], ..Table::default() }
+    }
+
+    /// The same, of which every part has this number of the first columns if it is too wide.
+    pub(crate) fn with_keys(self, keys: usize) -> Table {
+        Table { keys, ..self }
     }
 
     /// Adds a row.
@@ -48,19 +61,48 @@ impl Table {
         self.titles.push((self.rows.len(), title.to_owned()));
     }
 
-    /// The text: one line per row, two blanks between columns.
-    pub(crate) fn text(&self) -> String {
-        self.text_within(None)
+    /// The text, with two blanks between columns: one line per row or, with a `width`, in lines of so many characters. Then the
+    /// cells of the last column are wrapped. If there is no room for that, the columns stand in several tables, one below the
+    /// other, each with the first column or with those of [`Table::with_keys`].
+    pub(crate) fn text_within(&self, width: Option<usize>) -> String {
+        let widths = self.widths();
+        let parts = width.map_or_else(Vec::new, |width| parts(&widths, self.keys.max(1), width));
+        match parts.as_slice() {
+            [] | [_] => self.whole_within(&widths, width),
+            parts => {
+                let texts: Vec<String> = (parts.iter().cloned())
+                    .map(|columns| {
+                        let part = self.part(columns);
+                        part.whole_within(&part.widths(), width)
+                    })
+                    .collect();
+                texts.join("\n")
+            }
+        }
     }
 
-    /// The text in lines of `width` characters: the cells of the last column are wrapped.
-    pub(crate) fn text_within(&self, width: Option<usize>) -> String {
+    /// The widths of the columns.
+    fn widths(&self) -> Vec<usize> {
         let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
         let width_of =
             |row: &Vec<String>, column: usize| row.get(column).map_or(0, |cell| cell.chars().count());
-        let widths: Vec<usize> = (0..columns)
+        (0..columns)
             .map(|column| self.rows.iter().map(|row| width_of(row, column)).max().unwrap_or(0))
-            .collect();
+            .collect()
+    }
+
+    /// The table with the first columns and these.
+    fn part(&self, columns: Range<usize>) -> Table {
+        let cells = |row: &Vec<String>| {
+            let rest = row.iter().skip(columns.start).take(columns.len());
+            row.iter().take(self.keys.max(1)).chain(rest).cloned().collect()
+        };
+        Table { rows: self.rows.iter().map(cells).collect(), titles: self.titles.clone(), keys: self.keys }
+    }
+
+    /// The whole table, with the cells of its last column in lines.
+    fn whole_within(&self, widths: &[usize], width: Option<usize>) -> String {
+        let columns = widths.len();
         let indent: usize = widths.iter().take(columns.saturating_sub(1)).map(|width| width + 2).sum();
         let room = width.map_or(usize::MAX, |width| width.saturating_sub(indent).max(LEAST));
         let mut text = String::new();
@@ -69,7 +111,7 @@ impl Table {
                 let bold = Style::new().bold();
                 let _ = writeln!(text, "\n{bold}{title}{bold:#}");
             }
-            let padded = row.iter().zip(&widths).map(|(cell, &width)| format!("{cell:width$}"));
+            let padded = row.iter().zip(widths).map(|(cell, &width)| format!("{cell:width$}"));
             let line = padded.collect::<Vec<_>>().join("  ");
             let line = line.trim_end();
             let (begin, last) =
@@ -81,16 +123,52 @@ impl Table {
     }
 }
 
+/// The columns behind the first `keys`, in as many tables as fit into `width`. A last column may be wrapped to [`LEAST`].
+fn parts(widths: &[usize], keys: usize, width: usize) -> Vec<Range<usize>> {
+    let mut parts: Vec<Range<usize>> = Vec::new();
+    let first: usize = widths.iter().take(keys).map(|width| width + 2).sum();
+    let (mut begin, mut used) = (keys, first);
+    for (column, &own) in widths.iter().enumerate().skip(keys) {
+        let is_last = column + 1 == widths.len();
+        let least = if is_last { own.min(LEAST) } else { own };
+        if column > begin && used + least > width {
+            parts.push(begin..column);
+            (begin, used) = (column, first);
+        }
+        used += own + 2;
+    }
+    parts.push(begin..widths.len());
+    parts
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn wide_tables_are_folded() {
+        let mut table = Table::with_headings(&["axis", "from", "to", "meaning"]);
+        table.row(["frequency", "a long beginning", "a long end", "of the drive"].map(str::to_owned));
+        let wanted = "AXIS       FROM              TO\nfrequency  a long beginning  a long end\n\n\
+                      AXIS       MEANING\nfrequency  of the drive\n";
+        assert_eq!(table.text_within(Some(40)), wanted);
+        assert!(table.text_within(Some(40)).lines().all(|line| line.len() <= 40));
+        assert_eq!(
+            table.text_within(None).lines().count(),
+            2,
+            "without a width, tables are as wide as they are"
+        );
+    }
 
     #[test]
     fn columns_are_aligned_by_characters() {
         let mut table = Table::with_headings(&["name", "unit", "meaning"]);
         table.row(["capacitance".into(), "µF".into(), "of a plate".into()]);
         table.row(["span".into(), String::new(), String::new()]);
-        assert_eq!(table.text(), "NAME         UNIT  MEANING\ncapacitance  µF    of a plate\nspan\n");
+        assert_eq!(
+            table.text_within(None),
+            "NAME         UNIT  MEANING\ncapacitance  µF    of a plate\nspan\n"
+        );
     }
 
     #[test]
@@ -104,6 +182,6 @@ mod tests {
             "NAME         MEANING\n\nplates\n\
              capacitance  capacitance of a\n             plate in µF, both\n             plates\n"
         );
-        assert_eq!(table.text().lines().count(), 4, "without a width, lines have any length");
+        assert_eq!(table.text_within(None).lines().count(), 4, "without a width, lines have any length");
     }
 }

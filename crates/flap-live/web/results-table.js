@@ -7,7 +7,7 @@ const showTable = () => {
   const rows = selected.length > 0 ? selected : one === null ? [] : [one];
   byId("rows-title").textContent = selected.length > 0
     ? `${selected.length} selected rows${selected.length > MOST_SHOWN_ROWS ? `, the first ${MOST_SHOWN_ROWS}` : ""}`
-    : shown.pinned !== null ? "The row that was clicked" : "The row pointed at";
+    : shown.pinned !== null ? "Row that was clicked" : "Row under the pointer";
   if (rows.length === 0) { byId("table").replaceChildren(); return; }
   const head = element("tr", {}, ...columns.map(({ label, name, unit }) => element("th", { scope: "col", title: name }, label, element("small", {}, unit || "\u00a0"))));
   const body = rows.slice(0, MOST_SHOWN_ROWS).map((row) => element("tr", {}, ...columns.map((column) => element("td", {}, shownCell(column, row)))));

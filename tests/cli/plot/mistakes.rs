@@ -52,9 +52,11 @@ fn mistakes_are_told() {
     )
     .unwrap();
     let cases: &[(&[&str], &[&str])] = &[
+        (&["sweep.csv", "--y", "lift_men_mn"], &["no column `lift_men_mn`", "did you mean `lift_mean_mn`?"]),
+        (&["sweep.csv", "--y", "xyz"], &["no column `xyz`", "the columns are point, "]),
         (
-            &["sweep.csv", "--y", "lift_men_mn"],
-            &["no column `lift_men_mn`", "did you mean `lift_mean_mn`?", "the columns are point, "],
+            &["sweep.csv", "--where", "hinge_stiffness=90"],
+            &["no row has hinge_stiffness = 90", "did you mean --where hinge_stiffness='90 uN*m/rad'?"],
         ),
         (&["sweep.csv", "--where", "drive_voltage_p=60"], &["did you mean `drive_voltage_pp`?"]),
         (
@@ -78,7 +80,7 @@ fn mistakes_are_told() {
         (&["sweep.csv", "--kind", "trajectory"], &["needs a column time_s"]),
         (
             &["sweep.csv", "--kind", "histogram", "--y", "lift_mean_mn"],
-            &["--y needs another kind", "--x names the measure of a histogram or a tornado"],
+            &["a histogram has no --y; name its measure with --x"],
         ),
         (
             &[
@@ -92,7 +94,10 @@ fn mistakes_are_told() {
             ],
             &["no parameter has several values"],
         ),
-        (&["sweep.csv", "--kind", "tornado", "--html", "a.html"], &["a page has no tornado"]),
+        (
+            &["sweep.csv", "--kind", "tornado", "--html", "a.html"],
+            &["--html cannot show a tornado; use --out FILE.png"],
+        ),
         (&["sweep.csv", "--kind", "hysteresis"], &["needs a column `branch`"]),
         (&["sweep.csv", "--out", "picture.pdf"], &["pictures end in .svg or .png"]),
         (&["sweep.csv", "--out", "picture.html"], &["--html picture.html writes a page"]),
@@ -105,7 +110,14 @@ fn mistakes_are_told() {
         ),
         (&["empty.csv"], &["empty.csv has no columns"]),
         (&["bare.csv"], &["bare.csv has no rows"]),
-        (&["other.csv"], &["neither of a sweep nor of a motion", "--x and --y", "the columns are a, b"]),
+        (
+            &["other.csv"],
+            &[
+                "cannot tell what to draw: this is neither a sweep nor a motion",
+                "--x and --y",
+                "the columns are a, b",
+            ],
+        ),
         (&["failed.csv"], &["none of 2 rows has a value of stroke_amplitude_deg"]),
         (&["failed.csv", "--kind", "pareto"], &["there is nothing to draw"]),
     ];

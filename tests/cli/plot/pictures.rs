@@ -73,8 +73,8 @@ fn a_front_of_two_measures() {
         // The cost across, the benefit up.
         .has(&["Power, mean (mW), less is better", "Lift, mean (mN), more is better"])
         .has(&["designs", "front (3 of 10", "2 of 12 designs without values"])
-        // The points, a ring around those of the front, and the sign in the legend.
-        .counts("<circle", 10 + 3 + 1);
+        // The points, a ring around those of the front, and the same marks in the legend.
+        .counts("<circle", 10 + 3 + 2);
     drawn(&folder, "sweep.csv --kind pareto --x-aim min --y-aim min").has(&[
         "front (1 of 10",
         "Lift, mean (mN), less is better",
@@ -85,6 +85,21 @@ fn a_front_of_two_measures() {
         "Lift, mean (mN), more is better",
         "Stroke, amplitude (°), more is better",
     ]);
+}
+
+/// Many rings would merge and hide the colours of the points.
+#[test]
+fn a_front_of_many_designs_is_a_line_alone() {
+    let folder = Folder::new();
+    let row = |point: u32| {
+        format!("{point},{},{},1e-4,periodic,20,{point},{point},22,true\n", 60 + point % 7, 90 + point)
+    };
+    for (designs, rings) in [(40, 40 + 1), (41, 0)] {
+        let text = format!("{HEADER}\n") + &(0..designs).map(row).collect::<String>();
+        fs::write(folder.path("many.csv"), text).unwrap();
+        let picture = drawn(&folder, "many.csv --kind pareto");
+        picture.counts("<circle", designs as usize + 1 + rings);
+    }
 }
 
 #[test]
@@ -131,11 +146,11 @@ fn slices_are_told() {
     let folder = folder();
     let sliced = "sweep.csv --x drive_voltage_pp --y lift_mean_mn --by status";
     drawn(&folder, sliced)
-        .says("drawn: drive_frequency=110.0, the middle of 4 values; --where chooses another")
+        .says("drawn: drive_frequency = 110 Hz, the middle of 4 values; --where chooses another")
         .has(&["Drive frequency 110 Hz · 2 of 3 points without a value"]);
     let picture = drawn(&folder, &format!("{sliced} --where drive_frequency=0.12kHz"));
     assert!(!picture.said.contains("drawn:"), "{}", picture.said);
-    picture.has(&["Drive frequency 0.12kHz"]);
+    picture.has(&["Drive frequency 120 Hz"]);
 }
 
 /// Comparisons leave rows out before anything is drawn.

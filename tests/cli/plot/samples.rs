@@ -52,9 +52,22 @@ fn a_sample_is_a_scatter_of_three_measures() {
     drawn(&folder, "sample.csv --kind pareto").says("pareto in out.svg");
     drawn(&folder, "sample.csv --y-aim min").says("pareto in out.svg");
     let ended = refused(&folder, &["sample.csv", "--by", "drive_voltage_pp"]);
-    ended.says("--x is not given, and the values of a sample are on no axis");
+    ended.says("--x is not given, and a sample has no axes");
     let ended = refused(&folder, &["sample.csv", "--by", "drive_voltage_pp", "--x", "drive_frequency"]);
     ended.says("draw a sample with --kind scatter");
+}
+
+/// Lines and cells need axes.
+#[test]
+fn a_sample_has_no_lines_and_no_cells() {
+    let folder = folder();
+    for (kind, form) in [("response", "lines"), ("map", "cells")] {
+        let ended = refused(&folder, &["sample.csv", "--kind", kind]);
+        ended.says(&format!("a sample has no axes: its designs form no {form} over "));
+        ended.says("draw a sample with --kind scatter, histogram or tornado");
+    }
+    refused(&folder, &["sample.csv", "--kind", "response", "--x", "power_mean_mw"])
+        .says("its designs form no lines over power_mean_mw");
 }
 
 #[test]
@@ -98,6 +111,9 @@ fn a_tornado_has_the_rank_correlations_of_a_sample() {
         .collect();
     // From the bottom: the smallest first.
     assert!(sizes.is_sorted_by(|a, b| a.abs() <= b.abs()), "{sizes:?}");
+    let ends: Vec<String> =
+        picture.texts().into_iter().filter(|text| ["−1.0", "1.0"].contains(&text.as_str())).collect();
+    assert_eq!(ends, ["−1.0", "1.0"], "the axis ends at 1");
     assert!(sizes.len() == 3 && sizes[2] > 0.7 && sizes[1] < -0.3 && sizes[0].abs() < 0.14, "{sizes:?}");
 }
 
@@ -111,8 +127,9 @@ fn a_sample_may_be_crossed_with_an_axis() {
     folder.ends(0, "sweep grid.toml --out rows.csv");
     for kind in ["scatter", "histogram", "tornado"] {
         let picture = drawn(&folder, &format!("rows.csv --kind {kind}"));
-        picture.says("drawn: drive_frequency=105.0, the middle of 3 values; --where chooses another");
+        picture.says("drawn: drive_frequency = 105 Hz, the middle of 3 values; --where chooses another");
     }
+    drawn(&folder, "rows.csv --kind response").says("response in out.svg");
     drawn(&folder, "rows.csv").says("scatter in out.svg").has(&["Drive frequency 105 Hz · 6 designs"]);
     let picture = drawn(&folder, "rows.csv --kind tornado --where drive_frequency=110");
     picture.has(&["Air density", "Hinge stiffness"]);

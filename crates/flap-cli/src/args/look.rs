@@ -7,6 +7,7 @@ use clap::ValueEnum;
 
 use super::filter::{Filter, filter};
 use super::options::{Aim, ReadArgs};
+use super::values;
 
 #[derive(clap::Args)]
 #[command(after_help = TOP_HELP)]
@@ -16,7 +17,7 @@ pub(crate) struct TopArgs {
     pub(crate) by: String,
 
     /// Number of rows
-    #[arg(short = 'n', long, value_name = "N", default_value = "10")]
+    #[arg(short = 'n', long, value_name = "N", default_value = "10", value_parser = values::rows)]
     pub(crate) rows: NonZeroUsize,
 
     /// More columns to list, separated by commas
@@ -46,7 +47,8 @@ pub(crate) struct DescribeArgs {
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     pub(crate) by: Vec<String>,
 
-    /// Columns whose percentiles are listed, separated by commas [default: all behind the parameters]
+    /// Columns whose percentiles are listed, separated by commas; of a column of words, such as true and false, each is
+    /// counted [default: all behind the parameters]
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     pub(crate) columns: Vec<String>,
 
@@ -78,7 +80,7 @@ pub(crate) struct LookArgs {
     pub(crate) aim: Option<Aim>,
 
     /// Use only rows with this value (a number as in the file, a number with a unit, or a word), or for which this
-    /// comparison holds: 'lift_mean_mn > 1 and cycles < 100'. May be repeated
+    /// comparison holds: 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. May be repeated
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
     pub(crate) filters: Vec<Filter>,
 

@@ -31,8 +31,9 @@ pub(super) fn line_density(text: &str) -> Result<f64, String> {
 
 /// A mass (kg) of more than zero.
 pub(super) fn mass(text: &str) -> Result<f64, String> {
-    size(text, "kg", "0.6 mg")
-        .and_then(|mass| if mass > 0.0 { Ok(mass) } else { Err("a wing has a mass".to_owned()) })
+    size(text, "kg", "0.6 mg").and_then(|mass| {
+        if mass > 0.0 { Ok(mass) } else { Err("the mass must be more than zero".to_owned()) }
+    })
 }
 
 /// A quantity of zero or more in an SI unit.
@@ -45,6 +46,11 @@ fn size(text: &str, unit: &str, example: &str) -> Result<f64, String> {
 pub(super) fn threads(text: &str) -> Result<NonZeroUsize, String> {
     let number = text.parse::<NonZeroUsize>().ok().filter(|number| number.get() <= 1024);
     number.ok_or_else(|| "expected a whole number from 1 to 1024".to_owned())
+}
+
+/// A number of rows of 1 or more.
+pub(super) fn rows(text: &str) -> Result<NonZeroUsize, String> {
+    text.parse().map_err(|_| "expected a whole number of 1 or more".to_owned())
 }
 
 /// A finite number greater than 0.

@@ -14,6 +14,7 @@ use flap_sweep::resonance::Range;
 use flap_sweep::study::deviation;
 use flap_sweep::study::survey;
 
+use super::params::wrapped;
 use super::{far, grid};
 use crate::args::CheckArgs;
 use crate::console;
@@ -52,17 +53,17 @@ fn page(plan: &Plan) -> String {
     }
     let trial = estimate::of(plan, runs);
     if let Some(invalid) = trial.invalid {
-        let _ = write!(page, "\n{invalid}\n");
+        let _ = write!(page, "\n{}\n", wrapped(&invalid, 0));
     }
     if let Some(time) = trial.time {
-        let _ = write!(page, "\n{time}\n");
+        let _ = write!(page, "\n{}\n", wrapped(&time, 0));
     }
     page
 }
 
 /// One line per varied parameter; parameters that move together have the same axis number.
 fn axes(plan: &Plan) -> String {
-    let mut table = Table::with_headings(&["axis", "parameter", "from", "to", "count", "unit"]);
+    let mut table = Table::with_headings(&["axis", "parameter", "from", "to", "count", "unit"]).with_keys(2);
     for (number, axis) in plan.axes().as_slice().iter().enumerate() {
         for (index, values) in axis.parameters() {
             let parameter = &plan.parameters()[*index];
@@ -77,7 +78,7 @@ fn axes(plan: &Plan) -> String {
             ]);
         }
     }
-    table.text()
+    table.text_within(console::width())
 }
 
 /// One line per parameter with another value than the preset; empty if there is none.
@@ -91,7 +92,7 @@ fn deviations(plan: &Plan) -> String {
         let name = deviation.parameter.name.to_owned();
         table.row([name, deviation.shown(), deviation.preset_shown(), deviation.ratio()]);
     }
-    "\n".to_owned() + &table.text()
+    "\n".to_owned() + &table.text_within(console::width())
 }
 
 /// The first and the last value of an axis, or the distribution of a sample.
@@ -179,7 +180,8 @@ fn ends(plan: &Plan) -> String {
             Verdict::Excluded(_) => " (excluded)".to_owned(),
             Verdict::Invalid(invalid) => format!(" (invalid: {invalid})"),
         };
-        let _ = writeln!(text, "{which} point, {index}: {}{verdict}", shown.collect::<Vec<_>>().join(", "));
+        let line = format!("{which} point, {index}: {}{verdict}", shown.collect::<Vec<_>>().join(", "));
+        let _ = writeln!(text, "{}", wrapped(&line, 2));
     }
     text
 }
@@ -193,10 +195,10 @@ fn at_resonance(range: &Range) -> String {
         || "one and a half times the upper natural frequency".to_owned(),
         |to| format!("{to} Hz"),
     );
-    format!(
-        "drive_frequency: that of the largest {}, from {from} to {to}, within {tolerance} Hz\n",
-        of.name()
-    )
+    let of = of.name();
+    let line =
+        format!("drive_frequency: that of the largest {of}, from {from} to {to}, within {tolerance} Hz");
+    wrapped(&line, 2) + "\n"
 }
 
 fn solver(settings: &SolverSettings) -> String {
@@ -204,8 +206,9 @@ fn solver(settings: &SolverSettings) -> String {
         rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton, progressive, ..
     } = *settings;
     let [rtol, atol, settle_tol, accuracy] = [rtol, atol, settle_tol, accuracy].map(text::float);
-    format!(
+    let line = format!(
         "rtol = {rtol}, atol = {atol}, settle_tol = {settle_tol}, max_cycles = {max_cycles}, \
-         max_steps = {max_steps}, accuracy = {accuracy}, newton = {newton}, progressive = {progressive}\n"
-    )
+         max_steps = {max_steps}, accuracy = {accuracy}, newton = {newton}, progressive = {progressive}"
+    );
+    wrapped(&line, 0) + "\n"
 }

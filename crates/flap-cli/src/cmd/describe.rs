@@ -4,11 +4,13 @@ mod best;
 mod description;
 mod show;
 mod spread;
+mod words;
 
 use best::Best;
 use description::{Count, Description};
 use flap_core::simulate::Status;
 use spread::Spread;
+use words::Words;
 
 use crate::args::{Aim, DescribeArgs, LookArgs};
 use crate::console;
@@ -29,7 +31,7 @@ pub(crate) fn run(args: &DescribeArgs) -> Result<Exit, Failure> {
     let asked = Asked::of(args, &source)?;
     let table = source.read_kept(|column| asked.wants(column), usize::MAX, |row| filters.keep(row))?;
     if table.rows == 0 {
-        return Err(args.look.no_rows());
+        return Err(args.look.no_rows(&filters));
     }
     let description = describe(&table, &asked, args)?;
     console::results(&show::text(&description, *format)?)?;
@@ -79,12 +81,16 @@ fn describe(table: &Table, asked: &Asked, args: &DescribeArgs) -> Result<Descrip
         None => (Vec::new(), (0..table.rows).collect()),
     };
     let (columns, are_named) = &asked.columns;
-    let mut spreads = Vec::new();
+    let (mut spreads, mut words) = (Vec::new(), Vec::new());
     for &column in columns {
-        // Columns of words have no percentiles; that matters only if the user named them.
-        if *are_named || matches!(table.columns[column].cells, Cells::Numbers(_)) {
-            spreads.push(Spread::of(&table.columns[column], table.numbers(column)?, &rows));
+        if let Cells::Numbers(numbers) = &table.columns[column].cells {
+            spreads.push(Spread::of(&table.columns[column], numbers, &rows));
+        } else if *are_named {
+            words.push(Words::of(table, column, &rows)?);
         }
+    }
+    if spreads.is_empty() && words.is_empty() && asked.status.is_none() {
+        return Err(without_numbers(args, table));
     }
     let axes = Axes::of(table, asked.status.unwrap_or(0));
     let mut best = Vec::new();
@@ -96,7 +102,20 @@ fn describe(table: &Table, asked: &Asked, args: &DescribeArgs) -> Result<Descrip
         }
         best.extend(found);
     }
-    Ok(Description { rows: table.of, statuses, columns: spreads, best })
+    Ok(Description { rows: table.of, statuses, columns: spreads, words, best })
+}
+
+/// The failure of a file that has nothing to describe.
+fn without_numbers(args: &DescribeArgs, table: &Table) -> Failure {
+    let failure = Failure::usage(format!("{} has no column of numbers", args.look.results.display()));
+    let other = [";", "\t", "|"].into_iter().find(|mark| table.columns[0].name.contains(mark));
+    match other {
+        Some(mark) => failure.help(format!(
+            "cells are separated by commas, and the first line has `{}`: is that the separator?",
+            mark.escape_default()
+        )),
+        None => failure,
+    }
 }
 
 /// The number of rows of each status, and the rows to be described: those that are periodic, or `all`.

@@ -53,7 +53,7 @@ pub(crate) fn run(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
             );
         }
     }
-    let page = format!("{}\n\n{}", chosen.title(), table.text());
+    let page = format!("{}\n\n{}", chosen.title(), table.text_within(console::width()));
 
     match &args.trajectory {
         Some(path) if path.as_os_str() == "-" => {

@@ -88,5 +88,5 @@ fn summary(forces: &Trajectory) -> String {
         let max = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         table.row([column.clone(), six_digits(mean), six_digits(min), six_digits(max)]);
     }
-    table.text()
+    table.text_within(console::width())
 }

@@ -1,17 +1,19 @@
 //! Failures that commands on rows share.
 
 use crate::args::LookArgs;
+use crate::data::filter::Filters;
 use crate::failure::Failure;
 
 impl LookArgs {
     /// The failure if no row is left.
-    pub(super) fn no_rows(&self) -> Failure {
+    pub(super) fn no_rows(&self, filters: &Filters) -> Failure {
         let file = self.results.display();
         if self.filters.is_empty() {
             return Failure::usage(format!("{file} has no rows"));
         }
-        Failure::usage(format!("no row of {file} satisfies --where"))
-            .help("`flap describe` shows the range of each column")
+        let failure = Failure::usage(format!("no row of {file} satisfies --where"));
+        let failure = filters.advice().into_iter().fold(failure, Failure::help);
+        failure.help("`flap describe` shows the range of each column")
     }
 
     /// The failure if no row that is used has a value of the column called `name`.

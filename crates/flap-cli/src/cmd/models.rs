@@ -13,6 +13,6 @@ pub(crate) fn run() -> Result<Exit, Failure> {
             table.row([format!("  {}", preset.name), preset.doc.to_owned()]);
         }
     }
-    console::results(&table.text())?;
+    console::results(&table.text_within(console::width()))?;
     Ok(Exit::Done)
 }

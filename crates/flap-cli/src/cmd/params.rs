@@ -147,7 +147,7 @@ fn parameters(of: &Values) -> Vec<Entry> {
 }
 
 /// A value with a prefix and its unit, or the name of an option.
-fn shown(parameter: &Parameter, value: f64) -> String {
+pub(super) fn shown(parameter: &Parameter, value: f64) -> String {
     match parameter.kind {
         Kind::Choice(_) => text::value(parameter, value),
         _ => prefixed(value, parameter.unit),

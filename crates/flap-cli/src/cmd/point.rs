@@ -14,6 +14,7 @@ use crate::args::{PointArgs, SolverArgs};
 use crate::console;
 use crate::failure::Failure;
 use crate::models;
+use crate::table::six_digits;
 
 /// A design point and its plan.
 pub(crate) struct Chosen {
@@ -77,7 +78,7 @@ impl Chosen {
             Failure::usage(format!("the resonance of this point was not found: {reason}"))
         })?;
         self.values[index] = found;
-        console::say(&format!("{DRIVE_FREQUENCY} = {found} Hz, the resonance"));
+        console::say(&format!("{DRIVE_FREQUENCY} = {} Hz, the resonance", six_digits(found)));
         Ok(())
     }
 

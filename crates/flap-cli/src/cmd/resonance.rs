@@ -153,7 +153,7 @@ fn table(lines: &[Line]) -> String {
     for line in lines {
         table.row(line.cells(six_digits));
     }
-    table.text()
+    table.text_within(console::width())
 }
 
 fn write_lines(lines: &[Line]) -> io::Result<()> {
@@ -185,7 +185,7 @@ fn comment_on_driven(driven: &DrivenPeaks) {
         console::say(&format!(
             "the settled stroke is larger at the end of the range, {} Hz, than at any peak within: search further \
              with --from and --to",
-            text::float(frequency)
+            six_digits(frequency)
         ));
     } else if driven.peaks.is_empty() {
         let [from, to] = driven.range.map(six_digits);

@@ -10,6 +10,7 @@ use flap_sweep::notation::text::{self, count};
 use flap_sweep::study::deviation;
 
 use super::motion::{write_csv, write_file};
+use super::params::wrapped;
 use super::point::Chosen;
 use super::{far, gradient, impulse, outputs, samples};
 use crate::args::{Drive, PointArgs, RunArgs};
@@ -26,10 +27,11 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     for record in args.waveform.iter().chain(&args.stroke) {
         inputs.add("the record", record);
     }
+    let measure = args.gradient.as_deref().map(|column| gradient::measure(&chosen, column)).transpose()?;
     outputs::check_tables(&inputs, [args.trajectory.as_deref(), args.envelope.as_deref()])?;
     samples::apply(&mut chosen, args)?;
     match args.drive {
-        Drive::Steady => steady(&chosen, args),
+        Drive::Steady => steady(&chosen, args, measure),
         Drive::Chirp => chirp(&chosen, args),
         Drive::Impulse => impulse::run(&chosen, args),
     }
@@ -54,7 +56,7 @@ fn refuse_strays(args: &RunArgs) -> Result<(), Failure> {
 }
 
 /// Runs the point's own drive until the motion settles.
-fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
+fn steady(chosen: &Chosen, args: &RunArgs, measure: Option<usize>) -> Result<Exit, Failure> {
     let Chosen { plan, values, .. } = chosen;
     if let Some(path) = &args.trajectory {
         check_length(args)?;
@@ -80,8 +82,8 @@ fn steady(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
         return Err(Failure::usage(format!("the parameters are impossible together: {reason}")));
     }
     console::results(&page(chosen, &row))?;
-    if let Some(column) = &args.gradient {
-        console::results(&format!("\n{}", gradient::strongest(chosen, &row, column)?))?;
+    if let Some(measure) = measure {
+        console::results(&format!("\n{}", gradient::strongest(chosen, &row, measure)?))?;
     }
     if row.status == Status::Unsettled {
         console::say(&longer(chosen, args));
@@ -155,13 +157,14 @@ fn page(chosen: &Chosen, row: &Row) -> String {
     let residual = if row.residual.is_nan() { "none".to_owned() } else { six_digits(row.residual) };
     let Row { cycles, period, rhs_evals, .. } = row;
     let multiplier = if row.floquet_max.is_nan() { "none".to_owned() } else { six_digits(row.floquet_max) };
-    let _ = write!(page, "\nstatus = {}, cycles = {cycles}, residual = {residual}, ", row.status.name());
+    let mut course = format!("status = {}, cycles = {cycles}, residual = {residual}, ", row.status.name());
     let stable = row.stable().map_or_else(|| "none".to_owned(), |stable| stable.to_string());
-    let _ = write!(page, "period = {period}, floquet_max = {multiplier}, stable = {stable}, ");
+    let _ = write!(course, "period = {period}, floquet_max = {multiplier}, stable = {stable}, ");
     if !row.error_estimate.is_nan() {
-        let _ = write!(page, "error_estimate = {}, ", six_digits(row.error_estimate));
+        let _ = write!(course, "error_estimate = {}, ", six_digits(row.error_estimate));
     }
-    let _ = writeln!(page, "rhs_evals = {rhs_evals}");
+    let _ = write!(course, "rhs_evals = {rhs_evals}");
+    let _ = writeln!(page, "\n{}", wrapped(&course, 0));
     if !row.measures.is_empty() {
         let mut table = Table::with_headings(&["column", "value", "unit", "meaning"]);
         let columns = chosen.plan.simulator().columns();
@@ -176,7 +179,7 @@ fn page(chosen: &Chosen, row: &Row) -> String {
             table.row([own.name.clone(), value, String::new(), "[measure] in the grid file".to_owned()]);
         }
         page += "\n";
-        page += &table.text();
+        page += &table.text_within(console::width());
     }
     page
 }

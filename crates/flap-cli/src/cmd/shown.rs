@@ -21,6 +21,15 @@ impl Shown {
         Shown { factor, unit }
     }
 
+    /// For numbers in the column of this name: if the name ends in the unit, the numbers keep it.
+    pub(super) fn of_column(name: &str, unit: &str, numbers: impl IntoIterator<Item = f64>) -> Shown {
+        let (_, ending) = split_unit(name);
+        if !ending.is_empty() && ending == unit {
+            return Shown { factor: 1.0, unit: labels::printed(unit) };
+        }
+        Shown::new(unit, numbers)
+    }
+
     /// The unit as it is printed; empty for none.
     pub(super) fn unit(&self) -> &str {
         &self.unit
@@ -76,6 +85,8 @@ mod tests {
         assert_eq!(heading("stroke_pp_deg", "deg", 80.0), "stroke_pp_deg");
         assert_eq!(heading("hinge_stiffness", "N*m/rad", 6e-5), "hinge_stiffness (µN·m/rad)");
         assert_eq!(heading("status", "", f64::NAN), "status");
+        let stroke = Shown::of_column("stroke_rad", "rad", [0.7]);
+        assert_eq!((stroke.unit(), stroke.number(0.7).as_str()), ("rad", "0.7"));
     }
 
     #[test]

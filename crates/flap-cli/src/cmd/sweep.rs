@@ -48,7 +48,7 @@ fn default_path(plan: &Plan, args: &SweepArgs) -> Result<PathBuf, Failure> {
     let whole = match (&plan.output().path, args.grid()) {
         (Some(path), _) => path.clone(),
         (None, Some(grid)) if grid::is_stdin(grid) => {
-            let failure = Failure::usage("a grid from stdin gives the rows no name");
+            let failure = Failure::usage("a grid from stdin needs a name for its results");
             return Err(failure.help("name their file: --out FILE, or `path` in [output] of the grid"));
         }
         (None, grid) => {

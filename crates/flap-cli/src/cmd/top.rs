@@ -21,11 +21,12 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
     let filters = Filters::of(filters, &source)?;
     let columns = columns(args, &source)?;
     let by = source.find(&args.by)?;
+    let ranking = source.names()[by].clone();
     let status = source.names().iter().position(|name| name == "status").filter(|_| !all);
     let units: Vec<String> = columns.iter().map(|&column| source.unit(column)).collect();
     let names: Vec<String> = columns.iter().map(|&column| source.names()[column].clone()).collect();
 
-    let aim = aim.unwrap_or_else(|| Aim::of(&args.by));
+    let aim = aim.unwrap_or_else(|| Aim::of(&ranking));
     let mut best = Best { most: args.rows.get(), aim, rows: Vec::new() };
     let mut left_out = LeftOut::default();
     let mut row = StringRecord::new();
@@ -35,7 +36,7 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
             continue;
         }
         kept += 1;
-        let value = value(&args.by, row.get(by).unwrap_or_default())?;
+        let value = value(&ranking, row.get(by).unwrap_or_default())?;
         if status.is_some_and(|status| row.get(status) != Some(Status::Periodic.name())) {
             left_out.other_statuses += 1;
         } else if value.is_nan() {
@@ -46,7 +47,7 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
         }
     }
     if ranked == 0 {
-        return Err(if kept == 0 { args.look.no_rows() } else { args.look.without(&args.by) });
+        return Err(if kept == 0 { args.look.no_rows(&filters) } else { args.look.without(&ranking) });
     }
     let rows = best.sorted();
     let direction = if aim == Aim::Max { "largest" } else { "smallest" };
@@ -54,7 +55,7 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
         count(rows.len() as u64, "row"),
         count(ranked, if status.is_some() { "periodic row" } else { "row" }),
     );
-    console::say(&format!("{shown} with the {direction} {} of {of}{}", args.by, left_out.text()));
+    console::say(&format!("{shown} with the {direction} {ranking} of {of}{}", left_out.text()));
     match format {
         Listing::Table => console::results(&table(&names, &units, &rows))?,
         Listing::Csv => console::results(&listed::csv(&names, &rows)?)?,
@@ -148,12 +149,14 @@ impl LeftOut {
 /// The rows as aligned columns.
 fn table(names: &[String], units: &[String], rows: &[Vec<String>]) -> String {
     let shown: Vec<Shown> = (units.iter().enumerate())
-        .map(|(place, unit)| Shown::new(unit, rows.iter().filter_map(|row| row[place].parse().ok())))
+        .map(|(place, unit)| {
+            Shown::of_column(&names[place], unit, rows.iter().filter_map(|row| row[place].parse().ok()))
+        })
         .collect();
     let headings = names.iter().zip(&shown).map(|(name, shown)| shown.heading(name));
     let mut table = Table::with_names(headings.collect());
     for row in rows {
         table.row(row.iter().zip(&shown).map(|(cell, shown)| shown.cell(cell)).collect::<Vec<_>>());
     }
-    table.text()
+    table.text_within(console::width())
 }

@@ -156,13 +156,14 @@ fn table(found: &Effectiveness) -> String {
             named(&mode.components, |i| HEADINGS[i].to_owned()),
         ]);
     }
+    let width = console::width();
     format!(
         "{}\n{}\nChange of force (mN) and torque (uN*m) per unit of each input:\n\n{}\n\
-         Combinations of one unit of inputs in all, the strongest first (1 uN*m counts as 1 mN):\n\n{}",
-        here.text(),
-        torque.text(),
-        matrix.text(),
-        combinations.text()
+         Strongest combinations of inputs (each of unit length; 1 µN·m counts as 1 mN):\n\n{}",
+        here.text_within(width),
+        torque.text_within(width),
+        matrix.text_within(width),
+        combinations.text_within(width)
     )
 }
 

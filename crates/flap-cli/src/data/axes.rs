@@ -14,6 +14,8 @@ pub(crate) struct Axes {
     /// Those of `columns` that stand for a sample.
     #[cfg(feature = "plots")]
     pub(crate) sample: Vec<usize>,
+    /// All parameters of a sample: each of its columns tells the rows apart, so that the others follow from the first.
+    pub(crate) members: Vec<usize>,
 }
 
 /// A column with more than one value.
@@ -35,13 +37,39 @@ impl Axes {
         let sample = sample(table, &kept, &others);
         // A sample of one parameter alone is a curve over it.
         let sampled = !sample.is_empty() && (kept.len() > 1 || !others.is_empty());
+        let members = if sampled { members(table, &sample, &kept, &others) } else { Vec::new() };
         Axes {
+            members,
             columns: kept.into_iter().map(|(column, _)| column).collect(),
             sampled,
             #[cfg(feature = "plots")]
             sample: if sampled { sample } else { Vec::new() },
         }
     }
+
+    /// The columns whose best values are worth telling: the axes, and all parameters of a sample.
+    pub(crate) fn listed(&self) -> Vec<usize> {
+        let mut listed = [self.columns.as_slice(), &self.members].concat();
+        listed.sort_unstable();
+        listed.dedup();
+        listed
+    }
+}
+
+/// The parameters of a sample: those that the sidecar names, else the columns that follow from those that stand for it.
+fn members(table: &Table, sample: &[usize], kept: &[Varied], others: &[Varied]) -> Vec<usize> {
+    let standing = || kept.iter().filter(|(column, _)| sample.contains(column));
+    let is_member = |(column, levels): &&Varied| {
+        if table.sample.is_empty() {
+            standing().any(|(_, first)| levels.follow(first))
+        } else {
+            table.sample.contains(&table.columns[*column].name)
+        }
+    };
+    let mut members: Vec<usize> =
+        standing().chain(others.iter().filter(is_member)).map(|(column, _)| *column).collect();
+    members.sort_unstable();
+    members
 }
 
 /// The kept columns that stand for a sample: those that the sidecar names, else those whose values look like one.
@@ -117,6 +145,7 @@ mod tests {
         let mut crossed = table(&[("a", &a), ("b", &b), ("f", &f)]);
         let axes = Axes::of(&crossed, 4);
         assert_eq!((&axes.columns, axes.sampled), (&vec![1, 3], true));
+        assert_eq!((&axes.members, axes.listed()), (&vec![1, 2], vec![1, 2, 3]));
         // The sidecar knows better: these are designs of a list.
         crossed.sample = vec!["other".to_owned()];
         assert!(!Axes::of(&crossed, 4).sampled);

@@ -2,7 +2,9 @@
 
 use flap_sweep::notation::nearest;
 
+use crate::console;
 use crate::failure::Failure;
+use crate::models;
 
 /// Columns of a file. Columns that the picture does not need have no cells.
 pub(crate) struct Table {
@@ -51,23 +53,50 @@ impl Table {
             Cells::Numbers(values) => Ok(values),
             Cells::Words { .. } => {
                 let message = format!("column `{}` holds words, not numbers", column.name);
-                Err(Failure::usage(message).help("--by and --where take words"))
+                Err(Failure::usage(message).help("name a column of numbers; --where takes words too"))
             }
             Cells::Unread => Err(Failure::Bug(format!("column `{}` was not read", column.name))),
         }
     }
 }
 
-/// The position of a column that the user named.
+/// The position of a column that the user named, now or by the former name of a parameter.
 pub(crate) fn find<'n>(names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Result<usize, Failure> {
-    names.clone().position(|known| known == name).ok_or_else(|| {
-        let failure = Failure::usage(format!("there is no column `{name}`"));
-        let failure = match nearest(name, names.clone()) {
-            Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
-            None => failure,
-        };
-        failure.help(format!("the columns are {}", names.collect::<Vec<_>>().join(", ")))
-    })
+    let found = names.clone().position(|known| known == name);
+    found.or_else(|| renamed(names.clone(), name)).ok_or_else(|| unknown(names, name))
+}
+
+/// The position of the column of a parameter that has, or had, another name than the user knows.
+pub(crate) fn renamed<'n>(mut names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Option<usize> {
+    let parameters = models::all().iter().flat_map(|model| model.parameters());
+    for parameter in parameters.filter(|parameter| !parameter.former.is_empty()) {
+        if parameter.former == name
+            && let Some(place) = names.clone().position(|known| known == parameter.name)
+        {
+            console::warn_once(&parameter.renamed());
+            return Some(place);
+        }
+        // Results of earlier versions have former names.
+        if parameter.name == name
+            && let Some(place) = names.position(|known| known == parameter.former)
+        {
+            return Some(place);
+        }
+    }
+    None
+}
+
+fn unknown<'n>(names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Failure {
+    let failure = Failure::usage(format!("there is no column `{name}`"));
+    match nearest(name, names.clone()) {
+        Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
+        None => failure.help(listed(names)),
+    }
+}
+
+/// The names of the columns, as lines of help.
+pub(crate) fn listed<'n>(names: impl Iterator<Item = &'n str>) -> String {
+    console::help_lines(&format!("the columns are {}", names.collect::<Vec<_>>().join(", ")))
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Conditions on rows, checked row by row.
 
+use std::cell::OnceCell;
 use std::sync::LazyLock;
 
 use csv::StringRecord;
@@ -7,7 +8,10 @@ use flap_core::simulate::Status;
 use flap_sweep::notation::expression::{Expression, ExpressionError, Kind, Meaning, Problem, Scope};
 use flap_sweep::notation::units;
 
+#[cfg(feature = "plots")]
+use super::columns::Table;
 use super::source::Source;
+use super::{columns, quantity};
 use crate::args::Filter;
 use crate::failure::Failure;
 
@@ -16,12 +20,32 @@ pub(crate) struct Filters(Vec<Test>);
 
 /// A condition on the cells of a row.
 enum Test {
-    /// The cell in this column is this number.
-    Number(usize, f64),
+    Number(Number),
     /// The cell in this column is this word.
     Word(usize, String),
-    /// A comparison, with the names of all columns.
-    Comparison(Expression, Vec<String>),
+    Comparison(Comparison),
+}
+
+/// The cell in a column is a number.
+struct Number {
+    column: usize,
+    name: String,
+    unit: String,
+    wanted: f64,
+    /// True if the user wrote no unit.
+    is_bare: bool,
+    /// The number in the first row.
+    first: OnceCell<f64>,
+}
+
+/// A comparison of columns.
+struct Comparison {
+    expression: Expression,
+    /// Names and units of all columns.
+    names: Vec<String>,
+    units: Vec<String>,
+    /// The numbers of the columns that it reads, in the first row.
+    first: OnceCell<Vec<f64>>,
 }
 
 impl Filters {
@@ -29,14 +53,22 @@ impl Filters {
     pub(crate) fn of(filters: &[Filter], source: &Source) -> Result<Filters, Failure> {
         let test = |filter: &Filter| match filter {
             Filter::Equal(name, text) => {
-                let column = source.find(name)?;
-                let number = number(name, &source.unit(column), text)?;
-                Ok(number
-                    .map_or_else(|| Test::Word(column, text.clone()), |number| Test::Number(column, number)))
+                let (column, first) = (source.find(name)?, OnceCell::new());
+                let unit = source.unit(column);
+                Ok(match number(name, &unit, text)? {
+                    Some(wanted) => {
+                        let (name, is_bare) = (source.names()[column].clone(), text.parse::<f64>().is_ok());
+                        Test::Number(Number { column, name, unit, wanted, is_bare, first })
+                    }
+                    None => Test::Word(column, text.clone()),
+                })
             }
             Filter::Comparison(text) => {
                 let names = source.names().to_vec();
-                Ok(Test::Comparison(comparison(text, &names)?, names))
+                let units = (0..names.len()).map(|column| source.unit(column)).collect();
+                let plain = quantity::without_units(text, &names, |column| source.unit(column))?;
+                let expression = comparison(text, &plain, &names)?;
+                Ok(Test::Comparison(Comparison { expression, names, units, first: OnceCell::new() }))
             }
         };
         filters.iter().map(test).collect::<Result<_, _>>().map(Filters)
@@ -46,17 +78,23 @@ impl Filters {
     pub(crate) fn keep(&self, row: &StringRecord) -> Result<bool, Failure> {
         for test in &self.0 {
             let holds = match test {
-                Test::Number(column, wanted) => {
-                    cell(row, *column).parse().is_ok_and(|value| is_same(value, *wanted))
+                Test::Number(Number { column, wanted, first, .. }) => {
+                    let value: Option<f64> = cell(row, *column).parse().ok();
+                    value.is_some_and(|value| {
+                        first.get_or_init(|| value);
+                        is_same(value, *wanted)
+                    })
                 }
                 Test::Word(column, word) => cell(row, *column) == word,
-                Test::Comparison(expression, names) => {
+                Test::Comparison(Comparison { expression, names, first, .. }) => {
                     let mut values = vec![f64::NAN; names.len()];
                     for column in expression.reads() {
                         values[column] = value(&names[column], cell(row, column))?;
                     }
                     // NaN stands for a comparison with an empty cell.
-                    expression.value(&values) == 1.0
+                    let holds = expression.value(&values) == 1.0;
+                    first.get_or_init(|| values);
+                    holds
                 }
             };
             if !holds {
@@ -65,6 +103,70 @@ impl Filters {
         }
         Ok(true)
     }
+
+    /// Advice where no row satisfies the conditions: the units of the columns, and numbers that they have.
+    pub(crate) fn advice(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        for test in &self.0 {
+            match test {
+                Test::Number(Number { name, unit, wanted, is_bare, first, .. }) => {
+                    let usual = first.get().copied().unwrap_or(f64::NAN);
+                    let line = Some(*wanted)
+                        .filter(|_| *is_bare)
+                        .and_then(|wanted| meant(name, unit, wanted, usual));
+                    lines.extend(line.or_else(|| in_unit(name, unit, usual)));
+                }
+                Test::Word(..) => {}
+                Test::Comparison(Comparison { expression, names, units, first }) => {
+                    let values = first.get().map_or(&[][..], Vec::as_slice);
+                    for column in expression.reads() {
+                        let usual = values.get(column).copied().unwrap_or(f64::NAN);
+                        lines.extend(in_unit(&names[column], &units[column], usual));
+                    }
+                }
+            }
+        }
+        lines.dedup();
+        lines
+    }
+
+    /// Reads the rows of `source` that satisfy the conditions, of which there must be some, as [`Source::read_kept`] does.
+    #[cfg(feature = "plots")]
+    pub(crate) fn read(
+        &self,
+        source: Source,
+        wanted: impl Fn(usize) -> bool,
+        most: usize,
+    ) -> Result<Table, Failure> {
+        let name = source.path().display().to_string();
+        let mut rows = 0_u64;
+        let table = source.read_kept(wanted, most, |row| {
+            rows += 1;
+            self.keep(row)
+        })?;
+        if table.rows == 0 && rows > 0 {
+            let failure = Failure::usage(format!("no row of {name} satisfies --where"));
+            return Err(self.advice().into_iter().fold(failure, Failure::help));
+        }
+        if table.rows == 0 {
+            return Err(Failure::usage(format!("{name} has no rows: there is nothing to draw")));
+        }
+        Ok(table)
+    }
+}
+
+/// The question whether a number without a unit was meant to have a prefix; `usual` is a number of the column.
+pub(crate) fn meant(name: &str, unit: &str, wanted: f64, usual: f64) -> Option<String> {
+    let meant = units::meant(wanted, usual, unit).filter(|meant| *meant != wanted)?;
+    let text = units::prefixed(meant, unit);
+    Some(format!("a number without a unit is in {unit}: did you mean --where {name}='{text}'?"))
+}
+
+/// The unit of a column, with a number that it has; `None` without a unit.
+fn in_unit(name: &str, unit: &str, usual: f64) -> Option<String> {
+    let example =
+        if usual.is_finite() { format!(", such as {}", units::prefixed(usual, unit)) } else { String::new() };
+    (!unit.is_empty()).then(|| format!("{name} is in {unit}{example}; a number may have its unit"))
 }
 
 /// The text of a cell.
@@ -105,7 +207,9 @@ struct Names<'n>(&'n [String]);
 
 impl Scope for Names<'_> {
     fn meaning(&self, name: &str) -> Option<Meaning> {
-        let column = self.0.iter().position(|known| known == name)?;
+        let known = self.0.iter().map(String::as_str);
+        let column =
+            known.clone().position(|known| known == name).or_else(|| columns::renamed(known, name))?;
         Some(match name {
             "status" => Meaning::Choice(column, STATUSES.as_slice()),
             "branch" => Meaning::Choice(column, BRANCHES),
@@ -119,16 +223,16 @@ impl Scope for Names<'_> {
     }
 }
 
-/// The comparison that `text` is.
-fn comparison(text: &str, names: &[String]) -> Result<Expression, Failure> {
+/// The comparison that the user wrote as `text`, and that is `plain` without units.
+fn comparison(text: &str, plain: &str, names: &[String]) -> Result<Expression, Failure> {
     let refused = |error: ExpressionError| {
         let failure = Failure::usage(format!("--where {text}: {}", error.message()));
         match &error.problem {
             Problem::Expected("the name of an option in quotes") => failure.help("write COLUMN=WORD"),
             Problem::Expected("an operator") | Problem::BadNumber(_) => failure
-                .help("numbers are in the unit of the column and written without it: drive_frequency>95"),
+                .help("a number stands beside a column, with its unit or without: drive_frequency > 95 Hz"),
             Problem::UnknownName { nearest: None, .. } => {
-                failure.help(format!("the columns are {}", names.join(", ")))
+                failure.help(columns::listed(names.iter().map(String::as_str)))
             }
             Problem::Mismatch(_) => {
                 failure.help("write COLUMN=VALUE, or a comparison such as lift_mean_mn>1")
@@ -136,14 +240,14 @@ fn comparison(text: &str, names: &[String]) -> Result<Expression, Failure> {
             _ => error.help().into_iter().fold(failure, Failure::help),
         }
     };
-    let expression = Expression::parse(text, &Names(names)).map_err(|errors| {
+    let expression = Expression::parse(plain, &Names(names)).map_err(|errors| {
         errors.into_iter().next().map_or_else(|| Failure::usage(format!("--where {text}")), &refused)
     })?;
     match expression.kind() {
         Kind::Condition => Ok(expression),
         Kind::Number => {
             let problem = Problem::Mismatch(Kind::Condition);
-            Err(refused(ExpressionError { span: 0..text.len(), problem }))
+            Err(refused(ExpressionError { span: 0..plain.len(), problem }))
         }
     }
 }

@@ -77,27 +77,10 @@ impl Source {
         Ok(found)
     }
 
-    /// Reads the rows that `keep` keeps, of which there must be some, as [`Source::read_kept`] does.
+    /// The file.
     #[cfg(feature = "plots")]
-    pub(crate) fn read(
-        self,
-        wanted: impl Fn(usize) -> bool,
-        most: usize,
-        keep: impl FnMut(&StringRecord) -> Result<bool, Failure>,
-    ) -> Result<Table, Failure> {
-        let name = self.path.display().to_string();
-        let (mut rows, mut keep) = (0_u64, keep);
-        let table = self.read_kept(wanted, most, |row| {
-            rows += 1;
-            keep(row)
-        })?;
-        if table.rows == 0 && rows > 0 {
-            return Err(Failure::usage(format!("no row of {name} satisfies --where")));
-        }
-        if table.rows == 0 {
-            return Err(Failure::usage(format!("{name} has no rows: there is nothing to draw")));
-        }
-        Ok(table)
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Reads the rows that `keep` keeps, with the cells of `wanted` columns. Of more than `most` such rows, it holds every second

@@ -1,5 +1,6 @@
 //! Results that commands read, and the plans in their sidecars.
 
+use std::io::ErrorKind;
 use std::path::Path;
 
 use flap_sweep::files::beside::sidecar_of;
@@ -31,6 +32,11 @@ pub(crate) fn read_sidecar(results: &Path, on_damage: OnDamage) -> Result<Sideca
         read => read,
     };
     sidecar.map_err(|error| {
+        let is_missing =
+            matches!(&error, ReadError::Io { source, .. } if source.kind() == ErrorKind::NotFound);
+        if is_missing && !results.exists() {
+            return Failure::usage(format!("{} does not exist", results.display()));
+        }
         let help = if matches!(error, ReadError::Damaged { .. }) { IGNORE_HELP } else { SIDECAR_HELP };
         Failure::from(error).help(help)
     })

@@ -8,7 +8,8 @@ use super::wishes::Wishes;
 use crate::args::{Aim, Filter, PictureKind};
 use crate::console;
 use crate::data::axes::Axes;
-use crate::data::columns::Table;
+use crate::data::columns::{Column, Table};
+use crate::data::{filter, quantity};
 use crate::failure::Failure;
 
 /// Chooses kind, columns and rows.
@@ -18,22 +19,36 @@ pub(super) fn choose(wishes: &Wishes, table: &Table, title: String) -> Result<Ch
     let columns = columns(wishes, &axes)?;
     let label = |column: usize| table.label(column);
     let mut notes: Vec<String> = (wishes.filters.iter().zip(&wishes.values))
-        .map(|(&column, (_, value))| match value.parse() {
-            Ok(number) => format!("{} {}", label(column).words, label(column).value(number)),
-            Err(_) => format!("{} {value}", label(column).words),
-        })
+        .map(|(&column, (_, value))| format!("{} {}", label(column).words, shown(table, column, value)))
         .collect();
     notes.extend(wishes.args.comparisons().into_iter().map(|filter| match filter {
-        Filter::Comparison(text) | Filter::Equal(_, text) => text,
+        Filter::Comparison(text) | Filter::Equal(_, text) => quantity::printed(&text),
     }));
     let slice = slices::sliced(table, &left(&columns, &axes), rows);
-    for Taken { typed, of, .. } in &slice.taken {
-        console::say(&format!("drawn: {typed}, the middle of {of} values; --where chooses another"));
+    for Taken { name, value, of, .. } in &slice.taken {
+        console::say(&format!("drawn: {name} = {value}, the middle of {of} values; --where chooses another"));
     }
     notes.extend(slice.taken.into_iter().map(|taken| taken.shown));
     let mut parameters: Vec<usize> = (1..wishes.end).collect();
     parameters.sort_by_key(|&column| !table.sample.contains(&table.columns[column].name));
-    Ok(Chosen { aims: aims(wishes, &columns), columns, rows: slice.rows, parameters, title, notes })
+    Ok(Chosen {
+        aims: aims(wishes, &columns),
+        columns,
+        rows: slice.rows,
+        parameters,
+        sampled: axes.sampled,
+        title,
+        notes,
+    })
+}
+
+/// A value that the user typed, in the unit that the picture shows.
+fn shown(table: &Table, column: usize, typed: &str) -> String {
+    let Column { name, unit, .. } = &table.columns[column];
+    match filter::number(name, unit, typed) {
+        Ok(Some(number)) => table.label(column).value(number),
+        _ => typed.to_owned(),
+    }
 }
 
 /// Chooses kind and columns.

@@ -32,6 +32,8 @@ pub(super) struct Chosen {
     pub(super) rows: Vec<usize>,
     /// The columns of parameters, those of a sample first.
     pub(super) parameters: Vec<usize>,
+    /// True if the designs are those of a sample.
+    pub(super) sampled: bool,
     pub(super) title: String,
     /// Filters and slices in words.
     pub(super) notes: Vec<String>,

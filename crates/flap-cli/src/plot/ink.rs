@@ -86,10 +86,13 @@ pub(super) fn points(points: &[(f64, f64)], name: &str, colour: &str, size: f64)
     Plot::Scatter(plot)
 }
 
+/// The width of the line of a ring.
+pub(super) const RING_WIDTH: f64 = 0.8;
+
 /// Rings, through which one sees what is below them.
 pub(super) fn rings(points: &[(f64, f64)], colour: &str, size: f64) -> Plot {
     let plot = ScatterPlot::new().with_data(points.iter().copied()).with_color(colour).with_size(size);
-    Plot::Scatter(plot.with_marker_opacity(0.0).with_marker_stroke_width(0.8))
+    Plot::Scatter(plot.with_marker_opacity(0.0).with_marker_stroke_width(RING_WIDTH))
 }
 
 /// A dashed line between two places of a picture.

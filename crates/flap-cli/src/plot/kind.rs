@@ -23,7 +23,7 @@ fn suitable(wishes: &Wishes, axes: &Axes) -> Result<PictureKind, Failure> {
     if motion && wishes.x.is_none() && wishes.y.is_none() {
         return Ok(PictureKind::Trajectory);
     }
-    // The values of a sample are on no axis: they make points, no lines and no cells.
+    // A sample has no axes: its designs make points, not lines or cells.
     if axes.sampled && wishes.by.is_none() {
         return Ok(if has_aims(wishes) { PictureKind::Pareto } else { PictureKind::Scatter });
     }
@@ -31,7 +31,7 @@ fn suitable(wishes: &Wishes, axes: &Axes) -> Result<PictureKind, Failure> {
         return Ok(of_columns(wishes, axes, x, y));
     }
     if wishes.end == 0 {
-        let message = "the file is neither of a sweep nor of a motion: name the columns to draw";
+        let message = "cannot tell what to draw: this is neither a sweep nor a motion";
         return Err(Failure::usage(message).help("name columns with --x and --y").help(wishes.listed()));
     }
     let frequency = wishes.place("drive_frequency").is_some_and(|column| axes.columns.contains(&column));
@@ -79,17 +79,13 @@ fn refuse_strays(wishes: &Wishes, kind: PictureKind) -> Result<(), Failure> {
             "another kind, which has an axis for it",
         ),
     ];
+    if matches!(kind, Histogram | Tornado) && wishes.y.is_some() {
+        return Err(Failure::usage(format!("a {} has no --y; name its measure with --x", kind.name())));
+    }
     match strays.iter().find(|(is_given, kinds, ..)| *is_given && !kinds.contains(&kind)) {
-        Some((_, kinds, option, home)) => {
+        Some((_, _, option, home)) => {
             let message = format!("{option} {home}, and this picture is a {}", kind.name());
-            let failure = Failure::usage(message).help("name the kind with --kind");
-            let is_measure =
-                matches!(kind, Histogram | Tornado) && kinds.contains(&Response) && *option == "--y needs";
-            Err(if is_measure {
-                failure.help("--x names the measure of a histogram or a tornado")
-            } else {
-                failure
-            })
+            Err(Failure::usage(message).help("name the kind with --kind"))
         }
         None => Ok(()),
     }

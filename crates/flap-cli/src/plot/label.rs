@@ -64,6 +64,13 @@ pub(super) fn short(value: f64) -> String {
     digits(value, 6)
 }
 
+/// The numbers with four digits, or with as many more as tell them apart, six at most.
+pub(super) fn distinct(values: &[f64]) -> Vec<String> {
+    let texts = |most: u8| values.iter().map(|&value| digits(value, most)).collect::<Vec<_>>();
+    let is_distinct = |texts: &Vec<String>| texts.windows(2).all(|two| two[0] != two[1]);
+    [4, 5].map(texts).into_iter().find(is_distinct).unwrap_or_else(|| texts(6))
+}
+
 /// A number with so many digits at most, from 1 to 6; those before the point are all there.
 pub(super) fn digits(value: f64, most: u8) -> String {
     if value == 0.0 || !value.is_finite() {
@@ -119,5 +126,7 @@ mod tests {
             assert_eq!(short(value), text);
         }
         assert_eq!([digits(133.456, 4), digits(1.0 / 3.0, 4)], ["133.5", "0.3333"]);
+        assert_eq!(distinct(&[0.349_774, 0.5]), ["0.3498", "0.5"]);
+        assert_eq!(distinct(&[0.349_774, 0.349_781]), ["0.34977", "0.34978"]);
     }
 }

@@ -73,7 +73,7 @@ fn picture(args: &PlotArgs, out: &Path) -> Result<(), Failure> {
     let source = Source::open(&args.results, &args.read, true)?;
     let wishes = Wishes::of(&source, args)?;
     let filters = Filters::of(&args.comparisons(), &source)?;
-    let table = source.read(|column| wishes.wants(column), usize::MAX, |row| filters.keep(row))?;
+    let table = filters.read(source, |column| wishes.wants(column), usize::MAX)?;
     let chosen = choose::choose(&wishes, &table, heading(args))?;
     let scene = draw(&table, &chosen, args.size)?;
     let bytes = encode::bytes(scene, format).map_err(Failure::Bug)?;

@@ -25,7 +25,7 @@ pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String
     let source = Source::open(&args.results, &args.read, tells)?;
     let wishes = Wishes::of(&source, args)?;
     let comparisons = Filters::of(&args.comparisons(), &source)?;
-    let table = source.read(|_| true, MOST_ROWS, |row| comparisons.keep(row))?;
+    let table = comparisons.read(source, |_| true, MOST_ROWS)?;
     let axes = Axes::of(&table, wishes.end);
     let start = start(&wishes, &table, &axes, args)?;
     if table.of > table.rows {
@@ -39,7 +39,9 @@ pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String
 /// The first view: that of the picture with the same arguments, if there is one.
 fn start(wishes: &Wishes, table: &Table, axes: &Axes, args: &PlotArgs) -> Result<Start, Failure> {
     let filters = (args.values().into_iter())
-        .map(|(name, text)| Ok((name.clone(), filter(table, &name, &text)?)))
+        .map(|(name, text)| {
+            Ok((table.columns[table.find(&name)?].name.clone(), filter(table, &name, &text)?))
+        })
         .collect::<Result<BTreeMap<_, _>, Failure>>()?;
     let columns = match choose::columns(wishes, axes) {
         Ok(columns) => columns,
@@ -68,7 +70,7 @@ fn start(wishes: &Wishes, table: &Table, axes: &Axes, args: &PlotArgs) -> Result
         PictureKind::Response => Kind::Line,
         PictureKind::Scatter => Kind::Scatter,
         PictureKind::Histogram | PictureKind::Tornado => {
-            let message = format!("a page has no {}: --out draws one", columns.kind.name());
+            let message = format!("--html cannot show a {}; use --out FILE.png", columns.kind.name());
             return Err(Failure::usage(message).help("a page has lines, points, fronts and maps"));
         }
         PictureKind::Hysteresis => {

@@ -126,7 +126,12 @@ impl Panel {
 
 fn with_ticks(layout: Layout, axis: &Axis, across: bool, size: Size) -> Layout {
     if axis.log {
-        return if across { layout.with_log_x() } else { layout.with_log_y() };
+        let format = TickFormat::Custom(Arc::new(super::label::short));
+        return if across {
+            layout.with_log_x().with_x_tick_format(format)
+        } else {
+            layout.with_log_y().with_y_tick_format(format)
+        };
     }
     let range = axis.range;
     let count =

@@ -26,14 +26,33 @@ pub(super) fn columns(wishes: &Wishes, axes: &Axes, kind: PictureKind) -> Result
 const NO_MEASURES: &str = "the file has no measures";
 const NO_VALUES: &str = "no parameter has more than one value";
 
+/// Why a picture over axes has none.
+fn no_values(axes: &Axes) -> &'static str {
+    if axes.sampled { "a sample has no axes" } else { NO_VALUES }
+}
+
+/// Refuses a sample where there must be an axis: its designs form no lines and no cells.
+fn refuse_sample(wishes: &Wishes, axes: &Axes, columns: &[usize], form: &str) -> Result<(), Failure> {
+    let stray = columns.iter().find(|&&column| axes.members.contains(&column) || column >= wishes.end);
+    match stray.filter(|_| axes.sampled) {
+        Some(&column) => {
+            let name = wishes.name(column);
+            let message = format!("a sample has no axes: its designs form no {form} over {name}");
+            Err(Failure::usage(message).help("draw a sample with --kind scatter, histogram or tornado"))
+        }
+        None => Ok(()),
+    }
+}
+
 fn response(wishes: &Wishes, axes: &Axes) -> Result<Columns, Failure> {
     let taken = [wishes.y, wishes.by];
     let free = || axes.columns.iter().copied().filter(|column| !taken.contains(&Some(*column)));
     let x = wishes.x.or_else(|| frequency(wishes, axes)).or_else(|| free().next_back());
-    let why = if axes.sampled { "the values of a sample are on no axis" } else { NO_VALUES };
+    let why = no_values(axes);
     let x = x.ok_or_else(|| wishes.unclear("x", why))?;
     let y = wishes.y.or(wishes.response);
     let y = y.ok_or_else(|| wishes.unclear("y", NO_MEASURES))?;
+    refuse_sample(wishes, axes, &[x], "lines")?;
     let by = wishes.by.or_else(|| if axes.sampled { None } else { free().find(|&column| column != x) });
     Ok(Columns { by, ..Columns::plain(PictureKind::Response, x, y) })
 }
@@ -47,8 +66,9 @@ fn map(wishes: &Wishes, axes: &Axes) -> Result<Columns, Failure> {
         .x
         .or_else(|| frequency(wishes, axes).filter(|&f| wishes.y != Some(f)))
         .or_else(|| free(wishes.y).next_back());
-    let x = x.ok_or_else(|| wishes.unclear("x", NO_VALUES))?;
+    let x = x.ok_or_else(|| wishes.unclear("x", no_values(axes)))?;
     let y = wishes.y.or_else(|| free(Some(x)).next());
+    refuse_sample(wishes, axes, &[Some(x), y].into_iter().flatten().collect::<Vec<_>>(), "cells")?;
     let y = y.ok_or_else(|| wishes.unclear("y", "a map needs two parameters that vary"))?;
     let color = wishes.color.or(wishes.three[0]);
     let color = color.ok_or_else(|| wishes.unclear("color", NO_MEASURES))?;

@@ -14,6 +14,9 @@ use crate::failure::Failure;
 /// Most points of a picture besides a front.
 const MOST_POINTS: usize = 20_000;
 
+/// The radius of points without colours.
+pub(super) const SIZE: f64 = 2.2;
+
 /// Number of shades of coloured points.
 const SHADES: usize = 24;
 
@@ -62,7 +65,7 @@ impl Points {
     ) -> Result<(Vec<Plot>, Option<Axis>), Failure> {
         let Some(color) = chosen.columns.color else {
             let plain: Vec<(f64, f64)> = self.shown.iter().map(|&place| self.places[place]).collect();
-            return Ok((vec![ink::points(&plain, name, PLAIN, 2.2)], None));
+            return Ok((vec![ink::points(&plain, name, PLAIN, SIZE)], None));
         };
         let values = table.numbers(color)?;
         let label = table.label(color);

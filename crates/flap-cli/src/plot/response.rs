@@ -104,12 +104,13 @@ pub(super) fn family(table: &Table, chosen: &Chosen) -> Result<Vec<Line>, Failur
     }
     // The legend's heading has the unit.
     let label = table.label(by);
-    let name = |place: usize| match &levels.values {
-        Values::Numbers(values) => super::label::short(values[place] * label.factor),
-        Values::Words(words) => words[place].clone(),
+    let names = match &levels.values {
+        Values::Numbers(values) => {
+            super::label::distinct(&values.iter().map(|value| value * label.factor).collect::<Vec<_>>())
+        }
+        Values::Words(words) => words.clone(),
     };
-    let mut lines: Vec<Line> =
-        (0..levels.len()).map(|place| Line { name: name(place), rows: Vec::new() }).collect();
+    let mut lines: Vec<Line> = names.into_iter().map(|name| Line { name, rows: Vec::new() }).collect();
     for (&row, &code) in chosen.rows.iter().zip(&levels.codes) {
         lines[code].rows.push(row);
     }

@@ -28,11 +28,19 @@ pub(super) fn filtered(table: &Table, filters: &[(String, String)]) -> Result<Ve
         if kept.is_empty() {
             let message = format!("no row has {name} = {text}");
             let levels = Levels::of(table, column, &rows);
-            return Err(Failure::usage(message).help(listed(table, column, &levels)));
+            let failure = Failure::usage(message).help(listed(table, column, &levels));
+            return Err(slip(table, column, text).into_iter().fold(failure, Failure::help));
         }
         rows = kept;
     }
     Ok(rows)
+}
+
+/// The question whether a number without a unit was meant to have a prefix.
+fn slip(table: &Table, column: usize, text: &str) -> Option<String> {
+    let Column { name, unit, .. } = &table.columns[column];
+    let usual = *table.numbers(column).ok()?.first()?;
+    filter::meant(name, unit, text.parse().ok()?, usual)
 }
 
 /// The values of a column, a dozen at most.
@@ -60,8 +68,10 @@ pub(super) struct Slice {
 pub(super) struct Taken {
     /// The value as it is shown: `Drive voltage 70 V`.
     pub(super) shown: String,
-    /// The value as it is typed: `drive_voltage_pp=70.0`.
-    pub(super) typed: String,
+    /// The column.
+    pub(super) name: String,
+    /// The value in the unit that is shown: `70 V`.
+    pub(super) value: String,
     /// The number of values of the axis.
     pub(super) of: usize,
 }
@@ -76,11 +86,12 @@ pub(super) fn sliced(table: &Table, axes: &[usize], mut rows: Vec<usize>) -> Sli
         }
         let middle = levels.len() / 2;
         let name = &table.columns[axis].name;
-        let value = levels.typed(middle);
         let label = table.label(axis);
+        let value = levels.text(middle, &label);
         taken.push(Taken {
-            shown: format!("{} {}", label.words, levels.text(middle, &label)),
-            typed: format!("{name}={value}"),
+            shown: format!("{} {value}", label.words),
+            name: name.clone(),
+            value,
             of: levels.len(),
         });
         rows = rows
@@ -104,7 +115,8 @@ mod tests {
         let slice = sliced(&table, &[2], (0..6).collect());
         assert_eq!(slice.rows, [1, 4]);
         assert_eq!(slice.taken.len(), 1);
-        assert_eq!((slice.taken[0].typed.as_str(), slice.taken[0].of), ("f=20.0", 3));
+        let Taken { name, value, of, .. } = &slice.taken[0];
+        assert_eq!((name.as_str(), value.as_str(), *of), ("f", "20 Hz", 3));
         assert_eq!(slice.taken[0].shown, "F 20 Hz");
         assert!(sliced(&table, &[], (0..6).collect()).taken.is_empty());
     }

@@ -2,8 +2,9 @@
 
 use flap_sweep::picture::colours::{DARK, SERIES};
 use flap_sweep::picture::sample::correlations;
+use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
-use kuva::render::render::{Scene, TextAnchor};
+use kuva::render::render::{Primitive, Scene, TextAnchor};
 
 use super::chosen::Chosen;
 use super::ink;
@@ -18,6 +19,9 @@ const MOST_BARS: usize = 20;
 
 /// The height of a bar, of the distance between two.
 const THICK: f64 = 0.62;
+
+/// The size from which a bar has its number inside.
+const LONG: f64 = 0.82;
 
 /// Draws the correlations of the parameters with column `x`, the largest on top.
 pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
@@ -49,9 +53,13 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     }
 
     let mut notes = chosen.notes.clone();
-    // Of independent columns, 95 % of the correlations are smaller.
-    let chance = 1.96 / (designs.max(2) as f64 - 1.0).sqrt();
-    notes.push(format!("{designs} designs; sizes below {chance:.2} may be chance"));
+    if chosen.sampled {
+        // Of independent columns, 95 % of the correlations are smaller.
+        let chance = 1.96 / (designs.max(2) as f64 - 1.0).sqrt();
+        notes.push(format!("{designs} designs; sizes below {chance:.2} may be chance"));
+    } else {
+        notes.push(format!("{designs} designs"));
+    }
     let words = table.label(measure).words;
     let mut letters = words.chars();
     let measured = letters.next().map(|first| first.to_lowercase().chain(letters).collect::<String>());
@@ -61,7 +69,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         ..Panel::new(
             Axis::linear(
                 format!("Rank correlation (Spearman) with {}", measured.unwrap_or_default()),
-                (-1.2, 1.2),
+                (-1.0, 1.0),
             ),
             Axis::linear(String::new(), (0.4, shown.len() as f64 + 0.6)),
             Vec::new(),
@@ -78,10 +86,20 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         let end = frame.map_x(size);
         let colour = SERIES[usize::from(size > 0.0)];
         ink::rectangle(&mut scene, (zero.min(end), middle - half), ((end - zero).abs(), 2.0 * half), colour);
-        let (at, anchor) =
-            if size > 0.0 { (end + 5.0, TextAnchor::Start) } else { (end - 5.0, TextAnchor::End) };
-        let text = format!("{size:+.2}").replace('-', "−");
-        ink::text(&mut scene, (at, middle + 4.2), &text, 12, anchor);
+        // Beside the bar, or inside where it ends near the frame.
+        let is_inside = size.abs() > LONG;
+        let is_right = (size > 0.0) != is_inside;
+        let (side, anchor) = if is_right { (5.0, TextAnchor::Start) } else { (-5.0, TextAnchor::End) };
+        scene.add(Primitive::Text {
+            x: end + side,
+            y: middle + 4.2,
+            content: format!("{size:+.2}").replace('-', "−"),
+            size: 12,
+            anchor,
+            rotate: None,
+            bold: is_inside,
+            color: is_inside.then(|| Color::from("#ffffff")),
+        });
     }
     let (top, bottom) = (frame.margin_top, frame.margin_top + frame.plot_height());
     ink::rectangle(&mut scene, (zero - 0.5, top), (1.0, bottom - top), DARK);

@@ -54,7 +54,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     if ticking > MOST_POINTS {
         notes.push(format!("phase portrait: the last {MOST_POINTS} of {ticking} samples"));
         console::say(&format!(
-            "of {ticking} samples, extremes are drawn over time, the last {MOST_POINTS} in the phase portrait"
+            "too many samples ({ticking}): the time plot keeps the extremes, the phase portrait the last {MOST_POINTS}"
         ));
     }
     let (Some([span, angles]), Some([around, rates])) = (scale::extent(&motions), scale::extent(&loops))

@@ -3,6 +3,7 @@
 use flap_sweep::picture::measures::{Role, usual};
 
 use crate::args::PlotArgs;
+use crate::data::columns;
 use crate::data::source::Source;
 use crate::failure::Failure;
 
@@ -99,6 +100,6 @@ impl<'a> Wishes<'a> {
 
     /// The columns, as help.
     pub(super) fn listed(&self) -> String {
-        format!("the columns are {}", self.names.join(", "))
+        columns::listed(self.names.iter().map(String::as_str))
     }
 }

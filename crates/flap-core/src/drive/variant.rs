@@ -75,7 +75,7 @@ impl Drive {
         if self.prescribes_stroke() {
             return Err(Invalid::together(
                 &["stroke_mode", "drive_shape"],
-                "stroke_mode is \"prescribed\": a square wave is no motion of a wing, choose another drive_shape",
+                "stroke_mode is \"prescribed\": a wing cannot follow a square wave; choose another drive_shape",
             ));
         }
         if waveform.drive_rise > 0.5 {

@@ -48,7 +48,7 @@ impl LeadingEdge {
 /// If the distance is longer than the chord, or the chord is not a positive number.
 pub fn pitch_from_projection(distance: f64, chord: f64) -> Result<f64, Invalid> {
     if !(chord.is_finite() && chord > 0.0) {
-        return Err(Invalid::new(format!("a chord of {chord} is not possible: it is more than zero")));
+        return Err(Invalid::new(format!("the chord must be more than zero, not {chord}")));
     }
     if distance.is_nan() || distance.abs() > chord {
         return Err(Invalid::new(format!(

@@ -79,10 +79,12 @@ pub enum RequestError {
         rate: f64,
     },
     /// An impulse that gives the stroke a rate of zero, or one that is not finite.
-    #[error("an impulse cannot give the stroke a rate of {0} rad/s: any finite number but zero")]
+    #[error("the stroke rate of an impulse must be finite and not zero, not {0} rad/s")]
     StrokeRate(f64),
     /// No time, or no intervals, to sample.
-    #[error("a motion cannot be sampled over {duration} s in {intervals} intervals: both are more than zero")]
+    #[error(
+        "the duration and the number of intervals must be more than zero, not {duration} s and {intervals} intervals"
+    )]
     Sampling {
         /// Length of the motion (s).
         duration: f64,
@@ -98,7 +100,7 @@ pub enum RequestError {
         pitch: f64,
     },
     /// A state to begin with that is not one finite number for each of the model's states.
-    #[error("the motion cannot begin at {begin:?}: a state is {states} finite numbers")]
+    #[error("the motion cannot begin at {begin:?}: the state needs {states} finite numbers")]
     Begin {
         /// The numbers given.
         begin: Vec<f64>,

@@ -227,6 +227,10 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Motions for
         &M::STATES
     }
 
+    fn trajectory_columns(&self) -> Vec<String> {
+        sampler::columns::<M, N, S>()
+    }
+
     fn meanings(&self) -> Vec<String> {
         sampler::meanings::<M, N, S>()
     }

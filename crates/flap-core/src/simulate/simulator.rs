@@ -93,6 +93,9 @@ pub trait Motions: Sync {
     /// Names of the states with their units, in the order of a state: the columns of a trajectory behind `time_s`.
     fn states(&self) -> &'static [&'static str];
 
+    /// The names of the columns of a trajectory: time, states, and what else is seen over time.
+    fn trajectory_columns(&self) -> Vec<String>;
+
     /// The meaning of each column of a trajectory in one line, in the order of the columns.
     fn meanings(&self) -> Vec<String>;
 

@@ -37,8 +37,7 @@ impl Status {
         match self {
             Status::Periodic => "settled on an orbit of one drive period; the row has measures",
             Status::Unstable => {
-                "on an orbit of one drive period that motions leave; only in the branches that `flap respond --unstable` \
-                 continues"
+                "an unstable orbit: motions near it move away; only in the branches that `flap respond --unstable` continues"
             }
             Status::Subharmonic => {
                 "settled on an orbit of 2 to 8 drive periods, one of which differs from the next: no measures"

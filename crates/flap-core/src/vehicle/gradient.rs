@@ -11,6 +11,10 @@ impl Motions for Vehicle {
         self.states
     }
 
+    fn trajectory_columns(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     fn meanings(&self) -> Vec<String> {
         Vec::new()
     }

@@ -76,7 +76,7 @@ def respond(
     --------
     >>> curve = flapwing.respond("ozaki2018-large", start=100, stop=120, step=5)
     >>> curve.meta["verdicts"]
-    ['no hysteresis above 1.1e-9 deg from 100 to 120 Hz']
+    ['no hysteresis from 100 to 120 Hz (branches agree to 1.1e-9 deg)']
     """
     if not isinstance(along, str):
         raise _arguments.refused("along", along, 'it must be the name of a parameter, such as "drive_frequency"')

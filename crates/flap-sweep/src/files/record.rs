@@ -63,7 +63,7 @@ pub enum RecordError {
         cell: String,
     },
     /// No column has one of the headings wanted.
-    #[error("{name}: there is no column {}; the file has {}", wanted.join(" or "), headings.join(", "))]
+    #[error("{name}: there is no column {}; {}", wanted.join(" or "), known(headings))]
     Missing {
         /// The file.
         name: String,
@@ -180,6 +180,15 @@ impl Record {
 
 /// Largest difference of the same number in two units, as a share of the column's largest number.
 const SAME: f64 = 1e-6;
+
+/// The headings of a file in words.
+fn known(headings: &[String]) -> String {
+    if headings.iter().all(String::is_empty) {
+        "the file has no columns".to_owned()
+    } else {
+        format!("the file has {}", headings.join(", "))
+    }
+}
 
 /// The first of the headings that is there twice.
 fn repeated(headings: &[String]) -> Option<&String> {

@@ -12,6 +12,7 @@ pub mod diagnostic;
 mod former;
 mod formula;
 mod gradient;
+mod keys;
 mod lookup;
 mod measures;
 mod output;

@@ -9,6 +9,7 @@ use toml::de::DeTable;
 use super::device::{Base, Reader, Shelf};
 use super::diagnostic::Mistakes;
 use super::formula::{self, Names};
+use super::keys::KEYS;
 use super::lookup::Lookup;
 use super::problems::Problems;
 use super::table::{self, Entry};
@@ -21,26 +22,6 @@ use crate::plan::axis::Axis;
 use crate::plan::formula::{Condition, Derived};
 use crate::plan::{Plan, PointsFile, Source, Space, Value};
 use crate::resonance::AtResonance;
-
-/// The keys at the top of a grid file.
-pub(super) const KEYS: [&str; 16] = [
-    "description",
-    "preset",
-    "device",
-    "params",
-    "correlation",
-    "vehicle",
-    "resonance",
-    "axes",
-    "zip",
-    "sample",
-    "derived",
-    "where",
-    "measure",
-    "gradient",
-    "solver",
-    "output",
-];
 
 /// Checks the grid file `text` and makes its plan. Presets are looked up in `models`; `name` is for messages.
 ///

@@ -3,9 +3,11 @@
 use flap_core::parameter::Preset;
 use flap_core::simulate::Simulator;
 
+use super::keys::KEYS;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
+use crate::notation::nearest;
 
 type Chosen = (&'static dyn Simulator, &'static Preset);
 
@@ -18,6 +20,10 @@ pub(super) fn read(
     let all: Vec<Chosen> =
         models.iter().flat_map(|model| model.presets().iter().map(|preset| (*model, preset))).collect();
     let Some(entry) = table::find(root, "preset") else {
+        if root.iter().any(|entry| is_slip(entry.key)) {
+            // The unknown key is reported, with the one that was meant.
+            return None;
+        }
         let message = if root.is_empty() { "the file is empty" } else { "`preset` is missing" };
         let diagnostic = problems.report(0..0, message).note(list(&all));
         if let Some((_, first)) = all.first() {
@@ -35,6 +41,12 @@ pub(super) fn read(
             .did_you_mean(name, all.iter().map(|(_, preset)| preset.name));
     }
     chosen
+}
+
+/// True if a key at the top of the file is a slip for one that says what to start from.
+fn is_slip(key: &str) -> bool {
+    let meant = nearest(key, KEYS).filter(|_| !KEYS.contains(&key));
+    meant.is_some_and(|meant| ["preset", "device"].contains(&meant))
 }
 
 fn list(all: &[Chosen]) -> String {

@@ -199,9 +199,15 @@ fn integer_as_float(integer: &DeInteger<'_>) -> Result<f64, UnitError> {
     if integer.radix() == 10 {
         return decimal(integer.as_str());
     }
-    i128::from_str_radix(integer.as_str(), integer.radix())
-        .map(|whole| whole as f64)
-        .map_err(|_| UnitError { span: 0..0, problem: Problem::TooLarge })
+    i128::from_str_radix(integer.as_str(), integer.radix()).map(|whole| whole as f64).map_err(|_| {
+        let prefix = match integer.radix() {
+            16 => "0x",
+            8 => "0o",
+            _ => "0b",
+        };
+        let problem = Problem::TooLarge(format!("{prefix}{}", integer.as_str()));
+        UnitError { span: 0..0, problem }
+    })
 }
 
 fn decimal(text: &str) -> Result<f64, UnitError> {

@@ -58,7 +58,11 @@ pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     let decimal = number.shifted(unit.shift).map_err(at_number)?;
     // Multiplying and dividing by 1 changes nothing: decimal units stay exact.
     let value = decimal * unit.above / unit.below;
-    if value.is_finite() { Ok(value) } else { Err(at_number(Problem::TooLarge)) }
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(at_number(Problem::TooLarge(text[start..unit_span.end].to_owned())))
+    }
 }
 
 /// Moves an error along by `start` bytes.

@@ -54,6 +54,31 @@ pub fn column_name(of: &str, by: &str, per: Per) -> String {
     }
 }
 
+/// Measure, parameter and change in the name of a column, as [`column_name`] writes it; `None` for other names.
+///
+/// ```
+/// use flap_sweep::plan::gradient::{Per, parts};
+/// let found = parts("d_lift_mean_mn_per_pct_hinge_stiffness");
+/// assert_eq!(found, Some(("lift_mean_mn", "hinge_stiffness", Per::Cent)));
+/// assert_eq!(parts("lift_mean_mn"), None);
+/// ```
+pub fn parts(column: &str) -> Option<(&str, &str, Per)> {
+    let rest = column.strip_prefix("d_")?;
+    [("_per_pct_", Per::Cent), ("_per_si_", Per::Unit)]
+        .into_iter()
+        .find_map(|(between, per)| rest.split_once(between).map(|(of, by)| (of, by, per)))
+}
+
+/// The meaning of the column with the change of the measure `of`, which has this unit, by the parameter `by`.
+pub fn meaning(of: &str, unit: &str, by: &str, per: Per) -> String {
+    let change = match per {
+        Per::Cent => "1 %",
+        Per::Unit => "SI unit",
+    };
+    let unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
+    format!("change of {of}{unit} per {change} of {by}")
+}
+
 /// The reason why rows cannot have derivatives by a parameter, as the end of a sentence about it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoShares {
@@ -61,10 +86,10 @@ pub enum NoShares {
     #[error("is derived from other parameters")]
     Derived,
     /// It is a named option.
-    #[error("is a choice, and has no shares")]
+    #[error("has fixed values, so there is no derivative by it")]
     Choice,
     /// It is a count.
-    #[error("is a whole number, and has no shares")]
+    #[error("has fixed values, so there is no derivative by it")]
     Whole,
     /// It has no value of its own, and follows those that are told.
     #[error("is not set: it follows {0}")]

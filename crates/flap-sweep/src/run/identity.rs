@@ -91,12 +91,12 @@ impl Identity {
                 differences.push(format!("{what} {own}, not {others}"));
             }
         };
-        compare("the rows are of", &self.selection, &other.selection);
-        compare("the rows are by flap", &self.flap, &other.flap);
+        compare("the rows cover", &self.selection, &other.selection);
+        compare("the rows were computed by flap", &self.flap, &other.flap);
         compare("the arithmetic is", &self.arithmetic, &other.arithmetic);
         if self.flap == other.flap && self.build != other.build {
             let (own, others) = (build_text(&self.build), build_text(&other.build));
-            differences.push(format!("the rows are by {own} of flap {}, not {others}", self.flap));
+            differences.push(format!("the rows were computed by {own} of flap {}, not {others}", self.flap));
         }
         differences
     }

@@ -58,7 +58,8 @@ pub(crate) const RUN: [Fixed; 7] = [
     Fixed {
         name: "floquet_max",
         kind: Kind::Number,
-        doc: "factor by which a change of the motion grows or decays per orbit in the end",
+        doc: "factor by which a change of the motion grows or decays per orbit in the end: below 1 the motion is stable, near 1 it \
+              settles slowly",
         cell: |_, row| Cell::Number(row.floquet_max),
     },
     Fixed {

@@ -70,7 +70,7 @@ impl Format {
 #[derive(Debug, thiserror::Error)]
 pub enum FormatError {
     /// It ends in something else, or has no ending.
-    #[error("{name}: the ending of a file's name says its format, and must be {allowed}")]
+    #[error("{name}: the file name must end in {allowed}")]
     Unknown {
         /// The file.
         name: String,
@@ -117,7 +117,7 @@ mod tests {
             "a.csv.meta.toml",
         ] {
             let error = Format::of(Path::new(name)).unwrap_err().to_string();
-            let rule = "the ending of a file's name says its format, and must be";
+            let rule = "the file name must end in";
             assert_eq!(error, format!("{name}: {rule} {}", Format::ENDINGS));
         }
         assert!(Format::require_csv(Path::new("a.CSV")).is_ok());

@@ -7,7 +7,7 @@ pub use super::column::{Cell, Column, Kind};
 use super::fixed::{CURVE, Fixed, POINT, RUN, STATUS};
 use crate::notation::expression;
 use crate::plan::Plan;
-use crate::plan::gradient::{Per, column_name};
+use crate::plan::gradient::{column_name, meaning};
 
 /// The columns of the rows of a plan:
 /// `point`, the varied parameters, the derived ones, `status`, the measures, then `cycles`, `residual`, `period`,
@@ -147,25 +147,28 @@ fn derivatives(plan: &Plan, before: usize) -> Vec<Behind> {
     };
     let columns = gradient.pairs().map(|(of, by)| {
         let ((of, unit), by) = (name(of), plan.parameters()[by].name);
-        let change = match gradient.per {
-            Per::Cent => "per cent",
-            Per::Unit => "SI unit",
-        };
-        let doc = format!("change of {of} {unit} per {change} of {by}").replace("  ", " ");
+        let doc = meaning(of, unit, by, gradient.per);
         Column::new(&column_name(of, by, gradient.per), "", Kind::Number, &doc)
     });
-    let gap = Column::new(
-        GRADIENT_GAP,
-        "",
-        Kind::Text,
-        "reason why a derivative of the row is not known; empty if all are",
-    );
-    let columns = columns.chain([gap]).enumerate();
+    let columns = columns.chain([gradient_gap()]).enumerate();
     columns.map(|(place, column)| Behind::Measure(Measure { index: before + place, column })).collect()
 }
 
 /// The column with the reason why derivatives of a row are missing.
-const GRADIENT_GAP: &str = "gradient_gap";
+fn gradient_gap() -> Column {
+    let doc = "reason why a derivative of the row is not known; empty if all are";
+    Column::new("gradient_gap", "", Kind::Text, doc)
+}
+
+/// The column with the branch of a curve.
+fn branch() -> Column {
+    Column::new(
+        "branch",
+        "",
+        Kind::Text,
+        "the way that the motion is on: up, down, or unstable between the two",
+    )
+}
 
 /// The word for the reason with this place among all.
 fn gap(place: f64) -> &'static str {
@@ -180,6 +183,11 @@ fn gap(place: f64) -> &'static str {
 pub fn fixed_columns() -> Vec<Column> {
     let fixed = [&POINT, &CURVE, &STATUS].into_iter().chain(&RUN);
     fixed.map(|fixed| Column::new(fixed.name, "", fixed.kind, fixed.doc)).collect()
+}
+
+/// The columns that rows of every model may have: `branch` of curves, `gradient_gap` of rows with derivatives.
+pub fn special_columns() -> [Column; 2] {
+    [branch(), gradient_gap()]
 }
 
 /// A column of a layout.
@@ -201,10 +209,7 @@ impl Entry<'_> {
         match self {
             Entry::Fixed(Fixed { name, kind, doc, .. }) => Column::new(name, "", *kind, doc),
             Entry::Parameter(_, parameter) | Entry::Followed(parameter) => Column::of_parameter(parameter),
-            Entry::Branch => {
-                let doc = "the way that the motion is on: up, down, or unstable between the two";
-                Column::new("branch", "", Kind::Text, doc)
-            }
+            Entry::Branch => branch(),
             Entry::Measure(measure) => measure.column.clone(),
             Entry::State(_, name) => {
                 let doc = "state at the beginning of a drive period of the motion";

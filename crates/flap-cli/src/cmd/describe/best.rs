@@ -73,7 +73,9 @@ impl Best {
             aim: if aim == Aim::Max { "max" } else { "min" },
             value: numbers[row],
             point: point(table, row),
-            axes: axes.columns.iter().map(|&axis| Axis::of(table, axis, &ranked, axes.sampled)).collect(),
+            axes: (axes.listed().into_iter())
+                .map(|axis| Axis::of(table, axis, &ranked, axes.sampled))
+                .collect(),
         }))
     }
 }

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::best::Best;
 use super::spread::Spread;
+use super::words::Words;
 
 /// All that is said of results.
 #[derive(Serialize)]
@@ -11,6 +12,8 @@ pub(super) struct Description {
     pub(super) rows: usize,
     pub(super) statuses: Vec<Count>,
     pub(super) columns: Vec<Spread>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) words: Vec<Words>,
     pub(super) best: Vec<Best>,
 }
 

@@ -6,8 +6,10 @@ use flap_sweep::notation::text;
 
 use super::best::{Axis, Best, Place};
 use super::description::Description;
+use super::words::{WordCount, Words};
 use crate::args::Listing;
 use crate::cmd::shown::Shown;
+use crate::console;
 use crate::failure::Failure;
 use crate::table::Table;
 
@@ -32,18 +34,29 @@ fn page(description: &Description) -> String {
             let share = 100.0 * status.rows as f64 / description.rows as f64;
             table.row([status.status.clone(), status.rows.to_string(), format!("{share:.1} %")]);
         }
-        tables.push(table.text());
+        tables.push(table.text_within(console::width()));
     }
     if !description.columns.is_empty() {
         let mut table =
             Table::with_headings(&["column", "unit", "rows", "min", "5 %", "median", "95 %", "max"]);
         for spread in &description.columns {
             let numbers = spread.percentiles().map(|(_, number)| number);
-            let shown = Shown::new(&spread.unit, numbers);
+            let shown = Shown::of_column(&spread.column, &spread.unit, numbers);
             let head = [spread.column.clone(), shown.unit().to_owned(), spread.count.to_string()];
             table.row(head.into_iter().chain(numbers.map(|number| shown.number(number))).collect::<Vec<_>>());
         }
-        tables.push(table.text());
+        tables.push(table.text_within(console::width()));
+    }
+    if description.words.iter().any(|words| !words.counts.is_empty()) {
+        let mut table = Table::with_headings(&["column", "value", "rows", "share"]);
+        for Words { column, counts } in &description.words {
+            let all: usize = counts.iter().map(|count| count.rows).sum();
+            for WordCount { value, rows } in counts {
+                let share = 100.0 * *rows as f64 / all as f64;
+                table.row([column.clone(), value.clone(), rows.to_string(), format!("{share:.1} %")]);
+            }
+        }
+        tables.push(table.text_within(console::width()));
     }
     tables.extend(description.best.iter().map(best));
     tables.join("\n")
@@ -51,7 +64,7 @@ fn page(description: &Description) -> String {
 
 /// A line with the best row, and a line per axis.
 fn best(best: &Best) -> String {
-    let shown = Shown::new(&best.unit, [best.value]);
+    let shown = Shown::of_column(&best.column, &best.unit, [best.value]);
     let direction = if best.aim == "max" { "largest" } else { "smallest" };
     let value = format!("{} {}", shown.number(best.value), shown.unit());
     let mut text = format!("{direction} {}: {} at point {}\n", best.column, value.trim_end(), best.point);
@@ -63,13 +76,13 @@ fn best(best: &Best) -> String {
     for axis in &best.axes {
         table.row(line(axis));
     }
-    let _ = write!(text, "{}", table.text());
+    let _ = write!(text, "{}", table.text_within(console::width()));
     text
 }
 
 fn line(axis: &Axis) -> [String; 8] {
     let number = |place: &Place| if let Place::Number(number) = place { *number } else { f64::NAN };
-    let shown = Shown::new(&axis.unit, axis.range.iter().map(number));
+    let shown = Shown::of_column(&axis.name, &axis.unit, axis.range.iter().map(number));
     let text = |place: &Place| match place {
         Place::Number(number) => shown.number(*number),
         Place::Word(word) => word.clone(),
@@ -106,6 +119,11 @@ fn csv(description: &Description) -> Option<String> {
         line(["columns", &spread.column, "", "count", &spread.count.to_string()])?;
         for (name, number) in spread.percentiles() {
             line(["columns", &spread.column, "", name, &text::float(number)])?;
+        }
+    }
+    for Words { column, counts } in &description.words {
+        for WordCount { value, rows } in counts {
+            line(["words", column, "", value, &rows.to_string()])?;
         }
     }
     for best in &description.best {

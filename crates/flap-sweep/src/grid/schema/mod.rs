@@ -13,7 +13,7 @@ use flap_core::parameter::Preset;
 use flap_core::simulate::Simulator;
 use serde_json::{Value, json};
 
-use super::parse::KEYS;
+use super::keys::KEYS;
 
 /// The schema of grid files with the presets of these models (draft 2020-12).
 pub fn of_models(models: &[&'static dyn Simulator]) -> Value {

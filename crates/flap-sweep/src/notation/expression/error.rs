@@ -32,7 +32,7 @@ pub enum Problem {
     #[error("`{0}` is not a number")]
     BadNumber(String),
     /// A number beyond the largest 64-bit float.
-    #[error("the number is too large for a 64-bit float")]
+    #[error("the number is too large (largest about 1.8e308)")]
     TooLarge,
     /// Text without the quote that ends it.
     #[error("a closing quote is missing")]

@@ -153,7 +153,7 @@ fn mistakes_say_what_and_where() {
         ),
         ("1e", &[("1e", "`1e` is not a number; numbers look like 12, 0.5 or 1.5e-6; products need a `*`")]),
         (".", &[(".", "`.` is not a number; numbers look like 12, 0.5 or 1.5e-6; products need a `*`")]),
-        ("1e999", &[("1e999", "the number is too large for a 64-bit float")]),
+        ("1e999", &[("1e999", "the number is too large (largest about 1.8e308)")]),
         ("60 Hz", &[("Hz", OPERATOR)]),
         ("(60 Hz)", &[("Hz", OPERATOR)]),
         ("x +", &[("", "expected a number, a name or `(`")]),

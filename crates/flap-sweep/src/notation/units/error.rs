@@ -21,10 +21,10 @@ pub enum Problem {
     BadNumber(String),
     /// The number is infinite or not a number.
     NotFinite(String),
-    /// The value is beyond the largest 64-bit float.
-    TooLarge,
-    /// The value is not zero but too small for a 64-bit float.
-    TooSmall,
+    /// The number, as written, is beyond the largest 64-bit float.
+    TooLarge(String),
+    /// The number, as written, is not zero but too small for a 64-bit float.
+    TooSmall(String),
     /// A number without a unit where there must be one.
     NoUnit {
         /// The SI unit wanted.
@@ -63,9 +63,11 @@ impl UnitError {
             Problem::NoNumber => format!("{what} must start with a number"),
             Problem::BadNumber(text) => format!("`{text}` is not a number"),
             Problem::NotFinite(text) => format!("{what} cannot be `{text}`: values are finite"),
-            Problem::TooLarge => format!("{what} is too large for a 64-bit float"),
-            Problem::TooSmall => format!("{what} is too small for a 64-bit float, but not zero"),
-            Problem::NoUnit { .. } => format!("{what} is written as text but has no unit"),
+            Problem::TooLarge(text) => format!("`{text}` is too large for {what} (largest about 1.8e308)"),
+            Problem::TooSmall(text) => {
+                format!("`{text}` is too small for {what} (smallest but zero about 4.9e-324)")
+            }
+            Problem::NoUnit { .. } => format!("{what} needs a unit"),
             Problem::UnknownUnit { unit, .. } => format!("unknown unit `{unit}`"),
             Problem::BadUnit(expected) => format!("malformed unit: expected {expected}"),
             Problem::Mismatch { unit, measures, wanted, .. } => {
@@ -96,7 +98,7 @@ impl UnitError {
             Problem::UnknownUnit { usual, .. } | Problem::Mismatch { usual, .. } => {
                 Some(format!("use {}", usual.join(", ")))
             }
-            Problem::NotFinite(_) | Problem::TooLarge | Problem::TooSmall => None,
+            Problem::NotFinite(_) | Problem::TooLarge(_) | Problem::TooSmall(_) => None,
         }
     }
 }

@@ -8,6 +8,8 @@ use super::error::{Problem, UnitError};
 /// A number as written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Number<'t> {
+    /// All of it.
+    text: &'t str,
     /// Sign, digits and point.
     mantissa: &'t str,
     exponent: i64,
@@ -54,7 +56,7 @@ pub(crate) fn scan(text: &str) -> Result<(Number<'_>, usize), UnitError> {
         let run = text.find(char::is_whitespace).unwrap_or(text.len());
         return Err(UnitError { span: 0..run, problem: Problem::BadNumber(text[..run].to_owned()) });
     }
-    Ok((Number { mantissa, exponent }, end))
+    Ok((Number { text: &text[..end], mantissa, exponent }, end))
 }
 
 /// An exponent with more digits than an `i64` holds is as good as any other that overflows a float.
@@ -73,9 +75,9 @@ impl Number<'_> {
         let text = format!("{}e{}", self.mantissa, self.exponent + i64::from(shift));
         let value: f64 = text.parse().map_err(|_| Problem::BadNumber(self.mantissa.to_owned()))?;
         if value.is_infinite() {
-            Err(Problem::TooLarge)
+            Err(Problem::TooLarge(self.text.to_owned()))
         } else if value == 0.0 && self.mantissa.contains(|c: char| ('1'..='9').contains(&c)) {
-            Err(Problem::TooSmall)
+            Err(Problem::TooSmall(self.text.to_owned()))
         } else {
             Ok(value)
         }
@@ -130,10 +132,10 @@ mod tests {
     #[test]
     fn ends_of_the_float_range() {
         let shifted = |text: &str, shift| scan(text).expect(text).0.shifted(shift);
-        assert_eq!(shifted("1e400", 0), Err(Problem::TooLarge));
+        assert_eq!(shifted("1e400", 0), Err(Problem::TooLarge("1e400".to_owned())));
         assert_eq!(shifted("1e400", -100), Ok(1e300));
-        assert_eq!(shifted("1e-400", 0), Err(Problem::TooSmall));
-        assert_eq!(shifted("1e99999999999999999999", 0), Err(Problem::TooLarge));
+        assert_eq!(shifted("1e-400", 0), Err(Problem::TooSmall("1e-400".to_owned())));
+        assert!(matches!(shifted("1e99999999999999999999", 0), Err(Problem::TooLarge(_))));
         assert_eq!(shifted("0.0e-400", 0), Ok(0.0));
     }
 }

@@ -66,12 +66,7 @@ fn mistakes_say_what_and_where() {
         ("2 A*m^4", "V", "A*m^4", "`A*m^4` is m^4*A, but the value is in V; use V, mV, kV"),
         ("200 rad/s", "Hz", "rad/s", "`rad/s` is an angular rate, but the value is in Hz; use Hz, kHz"),
         ("2 V", "", "V", "`V` is a voltage, but the value is a pure number; write a bare number, or use %"),
-        (
-            "200",
-            "V",
-            "200",
-            "the value is written as text but has no unit; add a unit: V, mV, kV; or write a bare number in V",
-        ),
+        ("200", "V", "200", "the value needs a unit; add a unit: V, mV, kV; or write a bare number in V"),
         (
             "1e-3e m",
             "m",
@@ -85,8 +80,8 @@ fn mistakes_say_what_and_where() {
             "the value must start with a number; write a bare number, or a number with its unit such as \"200 V\"",
         ),
         ("nan V", "V", "nan", "the value cannot be `nan`: values are finite"),
-        ("1e400 V", "V", "1e400", "the value is too large for a 64-bit float"),
-        ("1e-330 V", "V", "1e-330", "the value is too small for a 64-bit float, but not zero"),
+        ("1e400 V", "V", "1e400", "`1e400` is too large for the value (largest about 1.8e308)"),
+        ("1e-330 V", "V", "1e-330", "`1e-330` is too small for the value (smallest but zero about 4.9e-324)"),
         (
             "2 N m",
             "N*m",

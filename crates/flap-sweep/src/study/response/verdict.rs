@@ -7,6 +7,7 @@ use flap_core::simulate::{Row, Status};
 
 use super::compare::{Comparison, compare, sizes};
 use super::curve::Curve;
+use crate::table::labels::{self, Scale};
 
 /// The verdict on a curve.
 #[derive(Clone, Debug, PartialEq)]
@@ -128,7 +129,12 @@ impl fmt::Display for Verdict {
         }
         if self.bistable().next().is_none() {
             let Verdict { range, difference, unit, .. } = self;
-            write!(f, "no hysteresis above {} deg {}", digits(*difference), span(*range, unit))?;
+            write!(
+                f,
+                "no hysteresis {} (branches agree to {} deg)",
+                span(*range, unit),
+                digits(*difference)
+            )?;
         }
         for (i, band) in self.bands.iter().enumerate() {
             if i > 0 || self.bistable().next().is_none() {
@@ -159,10 +165,16 @@ fn describe((status, period): (Status, u32)) -> String {
     }
 }
 
-/// `from 121.5 to 136 Hz`, or `at 121 Hz`.
+/// `from 121.5 to 136 Hz`, or `at 14 mm`.
 fn span([from, to]: [f64; 2], unit: &str) -> String {
+    let Scale { factor, unit } = labels::scale(unit, from.abs().max(to.abs()));
+    let [from, to] = [from, to].map(|value| six_digits(value * factor));
     let text = if from == to { format!("at {from} {unit}") } else { format!("from {from} to {to} {unit}") };
     text.trim_end().to_owned()
+}
+
+fn six_digits(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 /// Two significant digits of a small number, two decimals of others.

@@ -1,0 +1,45 @@
+//! The words of a column, such as true and false: how often each is there.
+
+use serde::Serialize;
+
+use crate::data::columns::Table;
+use crate::data::levels::{Levels, Values};
+use crate::failure::Failure;
+
+/// Most different words that are counted.
+const MOST: usize = 100;
+
+/// The words of a column.
+#[derive(Serialize)]
+pub(super) struct Words {
+    pub(super) column: String,
+    pub(super) counts: Vec<WordCount>,
+}
+
+/// The number of rows with a word.
+#[derive(Serialize)]
+pub(super) struct WordCount {
+    pub(super) value: String,
+    pub(super) rows: usize,
+}
+
+impl Words {
+    /// The words in these rows of a column without numbers, the most frequent first.
+    pub(super) fn of(table: &Table, column: usize, rows: &[usize]) -> Result<Words, Failure> {
+        let name = table.columns[column].name.clone();
+        let levels = Levels::of(table, column, rows);
+        let Values::Words(words) = &levels.values else {
+            return Err(Failure::Bug(format!("column `{name}` holds numbers")));
+        };
+        if words.len() > MOST {
+            let message = format!("column `{name}` holds {} different words, not numbers", words.len());
+            return Err(Failure::usage(message).help("name columns of numbers, or of few words"));
+        }
+        let count = |place: usize| levels.codes.iter().filter(|&&code| code == place).count();
+        let counts = words.iter().enumerate();
+        let counts = counts.map(|(place, word)| WordCount { value: word.clone(), rows: count(place) });
+        let mut counts: Vec<WordCount> = counts.collect();
+        counts.sort_by_key(|count| std::cmp::Reverse(count.rows));
+        Ok(Words { column: name, counts })
+    }
+}

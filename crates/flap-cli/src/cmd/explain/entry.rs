@@ -1,0 +1,112 @@
+//! A name and its meaning.
+
+use std::fmt::Write as _;
+
+use flap_core::parameter::Parameter;
+use flap_core::simulate::{Column, Simulator};
+
+use crate::cmd::params::{allowed, shown};
+
+/// A name and its meaning.
+pub(super) struct Entry {
+    pub(super) name: String,
+    /// Whatever it names, as in `a column of trajectories of`.
+    what: String,
+    /// The models that have it; none if it does not depend on the model.
+    models: Vec<&'static str>,
+    /// The end of the kind.
+    rest: String,
+    /// Indented lines.
+    pub(super) text: String,
+    /// True for the former name of a parameter.
+    pub(super) is_former: bool,
+}
+
+impl Entry {
+    /// A name that does not depend on the model.
+    pub(super) fn new(name: impl Into<String>, what: impl Into<String>, text: String) -> Entry {
+        let (name, what) = (name.into(), what.into());
+        Entry { name, what, models: Vec::new(), rest: String::new(), text, is_former: false }
+    }
+
+    /// A name of a model.
+    pub(super) fn of(
+        model: &'static str,
+        name: impl Into<String>,
+        what: impl Into<String>,
+        text: String,
+    ) -> Entry {
+        Entry { models: vec![model], ..Entry::new(name, what, text) }
+    }
+
+    /// The same with more words behind the model.
+    pub(super) fn with_rest(self, rest: impl Into<String>) -> Entry {
+        Entry { rest: rest.into(), ..self }
+    }
+
+    /// The same as a former name.
+    pub(super) fn former(self) -> Entry {
+        Entry { is_former: true, ..self }
+    }
+
+    /// Whatever it names, with the models that have it.
+    pub(super) fn kind(&self) -> String {
+        let Entry { what, models, rest, .. } = self;
+        let of = if models.is_empty() { String::new() } else { format!(" of {}", models.join(", ")) };
+        format!("{what}{of}{rest}")
+    }
+
+    /// Adds an entry to others; those that say the same of several models become one.
+    pub(super) fn add(self, others: &mut Vec<Entry>) {
+        let same = |other: &&mut Entry| {
+            (&other.name, &other.what, &other.rest, &other.text)
+                == (&self.name, &self.what, &self.rest, &self.text)
+        };
+        match others.iter_mut().find(same) {
+            Some(other) => other.models.extend(self.models),
+            None => others.push(self),
+        }
+    }
+}
+
+/// Meaning and unit of a column.
+pub(super) fn of_column(doc: &str, unit: &str) -> String {
+    let unit = if unit.is_empty() { String::new() } else { format!("  unit      {unit}\n") };
+    format!("  {doc}\n{unit}")
+}
+
+/// The same of a measured column.
+pub(super) fn of_measure(column: &Column) -> String {
+    of_column(&column.doc, column.unit)
+}
+
+/// Meaning, unit, symbol, range and published values of a parameter.
+pub(super) fn of_parameter(model: &dyn Simulator, index: usize, parameter: &Parameter) -> String {
+    let mut page = of_table(parameter);
+    if parameter.is_fitted {
+        page += "  The published value is a fit to one vehicle: measure or fit it for another.\n";
+    }
+    for preset in model.presets() {
+        let value = (preset.values)()[index];
+        let value = if value.is_nan() { "not set".to_owned() } else { shown(parameter, value) };
+        let _ = writeln!(page, "  {value} in {}", preset.name);
+    }
+    page
+}
+
+/// Meaning, unit, symbol, range and group of a parameter.
+pub(super) fn of_table(parameter: &Parameter) -> String {
+    let mut page = format!("  {}\n", parameter.doc);
+    let allowed = allowed(parameter);
+    for (what, value) in [
+        ("unit", parameter.unit),
+        ("symbol", parameter.symbol),
+        ("allowed", allowed.as_str()),
+        ("group", parameter.group),
+    ] {
+        if !value.is_empty() {
+            let _ = writeln!(page, "  {what:<8}  {value}");
+        }
+    }
+    page
+}

@@ -1,0 +1,88 @@
+//! Everything that can be explained by its name alone.
+
+use flap_core::simulate::{SettingKind, Simulator, SolverSettings, Status};
+use flap_sweep::resonance::measures;
+use flap_sweep::table::layout::{fixed_columns, special_columns, split_unit};
+
+use super::composed;
+use super::entry::{Entry, of_column, of_measure, of_parameter};
+use super::tables::TABLES;
+
+/// Everything that can be explained of these models.
+pub(super) fn entries(models: &[&'static dyn Simulator]) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = Vec::new();
+    for status in Status::ALL {
+        let text = format!("  {}\n", status.describe());
+        entries.push(Entry::new(status.name(), "a status of rows", text));
+    }
+    for column in fixed_columns() {
+        let kind = "a column of the rows of every model";
+        entries.push(Entry::new(column.name, kind, of_column(&column.doc, "")));
+    }
+    for column in special_columns() {
+        let kind = match column.name.as_str() {
+            "branch" => "a column of response curves (`flap respond --out`)",
+            _ => "a column of rows with derivatives ([gradient] in a grid file)",
+        };
+        entries.push(Entry::new(column.name, kind, of_column(&column.doc, "")));
+    }
+    entries.extend(settings());
+    entries.extend(models.iter().flat_map(|&model| of_model(model)));
+    for &model in models {
+        of_trajectory(model, &mut entries);
+    }
+    for (kind, columns) in TABLES {
+        for (name, doc) in *columns {
+            entries.push(Entry::new(*name, *kind, of_column(doc, split_unit(name).1)));
+        }
+    }
+    for &model in models {
+        composed::of_vehicles(model, &mut entries);
+    }
+    entries
+}
+
+/// The settings of the solver.
+fn settings() -> impl Iterator<Item = Entry> {
+    SolverSettings::TABLE.iter().map(|setting| {
+        let default = SolverSettings::DEFAULT;
+        let value = match setting.kind {
+            SettingKind::Number { get, .. } => format!("{:?}", get(&default)),
+            SettingKind::Count { get, .. } => get(&default).to_string(),
+            SettingKind::Flag { get, .. } => get(&default).to_string(),
+        };
+        let follows = setting.follows.map(|follows| format!(" ({follows})")).unwrap_or_default();
+        let text = format!("  {}\n  default   {value}{follows}\n", setting.doc);
+        Entry::new(setting.name, "a setting of [solver] in a grid file", text)
+    })
+}
+
+/// The parameters and columns of a model.
+fn of_model(model: &'static dyn Simulator) -> impl Iterator<Item = Entry> {
+    let table = || model.parameters().iter().enumerate();
+    let parameters = table().map(move |(index, parameter)| {
+        Entry::of(model.name(), parameter.name, "a parameter", of_parameter(model, index, parameter))
+    });
+    let renamed = table().filter(|(_, parameter)| !parameter.former.is_empty());
+    let renamed = renamed.map(move |(index, parameter)| {
+        let what = format!("the former name of {}, a parameter", parameter.name);
+        Entry::of(model.name(), parameter.former, what, of_parameter(model, index, parameter)).former()
+    });
+    let own = model.columns().len();
+    let columns = measures(model).into_iter().enumerate().map(move |(place, column)| {
+        let text = of_measure(&column);
+        let entry = Entry::of(model.name(), column.name, "a measure", text);
+        if place < own { entry } else { entry.with_rest(" with drive_frequency = \"resonance\"") }
+    });
+    parameters.chain(renamed).chain(columns)
+}
+
+/// The columns of a model's trajectories.
+fn of_trajectory(model: &'static dyn Simulator, entries: &mut Vec<Entry>) {
+    let Ok(motions) = model.motions() else { return };
+    for (name, doc) in motions.trajectory_columns().into_iter().zip(motions.meanings()) {
+        let text = of_column(&doc, split_unit(&name).1);
+        let entry = Entry::of(model.name(), name, "a column of motions", text);
+        entry.with_rest(" (`flap run --trajectory`)").add(entries);
+    }
+}
