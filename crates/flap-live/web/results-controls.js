@@ -55,7 +55,7 @@ const filterRow = (filter, number) => {
   select.value = String(filter.place);
   select.onchange = () => { shown.filters[number] = filterOf(Number(select.value)); showControls(); refresh(true); };
   const bounds = element("div", { class: "bounds" }), row = element("div", { class: "filter" }, select, bounds);
-  const fields = {};
+  const fields = {}, problems = element("p", { class: "problem", role: "alert", hidden: true });
   const write = () => { for (const side of ["low", "high"]) { fields[side].box.value = shortNumber(filter[side] * column.factor); fields[side].slider.value = String(1000 * (filter[side] - least) / (most - least || 1)); } };
   const set = (side, value) => {
     filter[side] = side === "low" ? Math.min(value, filter.high) : Math.max(value, filter.low);
@@ -65,7 +65,15 @@ const filterRow = (filter, number) => {
   for (const [side, words] of [["low", "at least"], ["high", "at most"]]) {
     const box = element("input", { inputmode: "decimal", "aria-label": `${column.title}, ${words}` });
     const slider = element("input", { type: "range", min: "0", max: "1000", step: "1", "aria-label": `${column.title}, ${words}, slider` });
-    box.onchange = () => { const value = Number(box.value); if (Number.isFinite(value) && box.value.trim() !== "") set(side, value / column.factor); else write(); rememberShown(true); };
+    box.onchange = () => {
+      const { number, problem } = box.value.trim() === "" ? { number: null } : typedNumber(box.value, column.unit);
+      box.setAttribute("aria-invalid", String(Boolean(problem)));
+      problems.textContent = problem ?? "";
+      problems.hidden = !problem;
+      if (problem) return;
+      if (number === null) write(); else set(side, number / column.factor);
+      rememberShown(true);
+    };
     slider.oninput = () => {
       // The ends of a slider are the least and the largest value exactly.
       const at = Number(slider.value);
@@ -77,7 +85,7 @@ const filterRow = (filter, number) => {
   bounds.append(fields.low.box, fields.high.box);
   const remove = element("button", { type: "button" }, "Remove");
   remove.onclick = () => { shown.filters.splice(number, 1); showControls(); refresh(true); byId("add").focus(); };
-  row.append(fields.low.slider, fields.high.slider, remove);
+  row.append(problems, fields.low.slider, fields.high.slider, remove);
   write();
   return row;
 };
@@ -89,6 +97,7 @@ const listenToControls = () => {
       view[name] = ["kind", "best"].includes(name) ? value : value === "" ? null : Number(value);
       if (name === "kind" && view.kind === "map") chooseMapAxes(view);
       view.zoom = { x: null, y: null };
+      if (["kind", "by"].includes(name)) view.hidden = [];
       if (["kind", "x", "y", "by"].includes(name)) chooseSlices();
       showControls();
       refresh(true);

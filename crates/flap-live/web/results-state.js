@@ -2,7 +2,7 @@
 
 const first = results.start;
 const freshView = () => ({ kind: first.kind, x: first.x, y: first.y, by: first.by, color: first.color, best: first.best,
-  log: { x: false, y: false, color: false }, zoom: { x: null, y: null } });
+  log: { x: false, y: false, color: false }, zoom: { x: null, y: null }, hidden: [] });
 
 const shown = { views: [], two: false, active: 0, slices: {}, filters: [], pinned: null, hover: null, selected: new Set() };
 
@@ -74,6 +74,7 @@ const takeOverShown = (found) => {
       const range = view?.zoom?.[axis];
       if (Array.isArray(range) && range.length === 2 && range.every(Number.isFinite)) into.zoom[axis] = range;
     }
+    if (Array.isArray(view?.hidden)) into.hidden = view.hidden.filter((group) => typeof group === "string");
   });
   shown.two = Boolean(found.two);
   for (const { place: at, levels } of slicedAxes) {
