@@ -13,7 +13,7 @@ const evenTicks = (low, high, most) => {
   }
 };
 
-/** Ticks of a logarithmic axis: 1, 2 and 5 in each decade, fewer over many decades, and even ones within a decade. */
+/** Ticks of a logarithmic axis: 1, 2 and 5 in each decade, more where there is room, fewer over many decades, and even ones within a decade. */
 const logTicks = (low, high, most) => {
   if (high / low < 10) return evenTicks(low, high, most);
   const first = Math.floor(Math.log10(low)), last = Math.ceil(Math.log10(high));
@@ -21,7 +21,7 @@ const logTicks = (low, high, most) => {
     const powers = Array.from({ length: last - first + 1 }, (_, i) => first + i).filter((power) => power % stride === 0);
     return powers.flatMap((power) => times.map((part) => Number(`${part}e${power}`))).filter((value) => value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9));
   };
-  const fine = [ticks([1, 2, 5], 1), ticks([1, 3], 1), ticks([1], 1)].find((list) => list.length <= most + 1);
+  const fine = [ticks([1, 2, 3, 5, 7], 1), ticks([1, 2, 5], 1), ticks([1, 3], 1), ticks([1], 1)].find((list) => list.length <= most + 1);
   if (fine && fine.length > 1) return fine;
   return ticks([1], Math.max(Math.ceil((last - first) / most), 1));
 };
