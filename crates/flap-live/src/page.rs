@@ -34,7 +34,9 @@ pub fn results(heading: &str, data: &str) -> String {
 pub(crate) fn live(heading: &str, data: &str) -> String {
     let scripts = [
         include_str!("../web/live-state.js"),
+        include_str!("../web/live-banner.js"),
         include_str!("../web/live-api.js"),
+        include_str!("../web/live-symbol.js"),
         include_str!("../web/live-wing.js"),
         include_str!("../web/live-panel.js"),
         include_str!("../web/live-family.js"),
