@@ -37,11 +37,14 @@ const tickLabel = (value, precision, hasPower) => {
   return times === "1" ? ten : `${times}·${ten}`;
 };
 
-/** Labels of ticks: with four digits, or with as many more as tell neighbours apart; very small and large ones with powers of ten. */
+/** Most letters of a number without a power of ten. */
+const MOST_LETTERS = 7;
+
+/** Labels of ticks: with four digits, or with as many more as tell neighbours apart; those of long numbers with powers of ten. */
 const tickLabels = (values) => {
-  const hasPower = values.some((value) => value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e5));
+  const isLong = values.some((value) => tickLabel(Math.abs(value), 4, false).length > MOST_LETTERS);
   for (let precision = 4; ; precision++) {
-    const labels = values.map((value) => tickLabel(value, precision, hasPower));
+    const labels = values.map((value) => tickLabel(value, precision, isLong));
     if (precision === 12 || new Set(labels).size === values.length) return labels;
   }
 };

@@ -211,6 +211,14 @@ class Chart {
     if (!isSame) this.options.onPoint?.(mark);
   }
 
+  /** The mark again after its line has changed: at the same x, or the nearest. */
+  markAgain() {
+    const line = this.scene.lines.find(({ key }) => key === this.mark?.key);
+    const at = line ? Chart.closest(line.x, this.mark.x) : -1, isThere = at >= 0 && line.y[at] !== null && line.y[at] !== undefined;
+    this.mark = isThere ? this.markOf(line, at) : null;
+    return this.mark;
+  }
+
   // ---- Zoom and movement. ----
 
   selected() {

@@ -140,7 +140,7 @@ family.draw = (answer, isFine) => {
   family.lines = lines;
   family.bands = family.isUpDown ? bistable(lines) : [];
   family.paint([...ghosts, ...lines]);
-  family.tell(null);
+  family.tell(family.chart.markAgain());
   family.onDrawn(isFine);
 };
 

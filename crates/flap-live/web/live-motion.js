@@ -7,11 +7,13 @@ const CYCLE = 0.6;
 const SIGNALS = [["Angles", "°", ["stroke_deg", "pitch_deg"]], ["Forces", "mN", ["lift_mn", "drag_mn"]],
   ["Power", "mW", ["power_mw"]], ["Current", "mA", ["current_ma", "current_1_ma", "current_2_ma"]]];
 
+const hasMotion = opened.can.motion && !isVehicle;
+
 const motion = { answer: null, charts: [], share: 0, last: 0, isPlaying: true, design: {} };
 
 /** Asks for the motion of a design; `title` says which. */
 motion.ask = async (design, title) => {
-  if (!opened.can.motion) return;
+  if (!hasMotion) return;
   try {
     const answer = await server.ask("motion", { design, samples: SAMPLES });
     if (!answer) return;
@@ -158,9 +160,9 @@ motion.frame = (now) => {
 };
 
 motion.start = () => {
-  if (!opened.can.motion) {
+  if (!hasMotion) {
     byId("motion").classList.add("without");
-    byId("motion-of").textContent = "There is no single motion to show: the numbers are those of several wings.";
+    byId("motion-of").textContent = `There is no single motion to show${isVehicle ? ": the numbers are those of several wings" : ""}.`;
     return;
   }
   const button = byId("play");

@@ -29,7 +29,8 @@ const numberRow = (name, label, unit, value, published) => {
   const text = value === null || value === undefined ? "–" : typeof value === "number" ? `${digits(value, 5)} ${unit}` : String(value);
   const both = isNumber(value) && isNumber(published) && published !== 0;
   const share = both ? 100 * (value - published) / Math.abs(published) : 0;
-  const shown = both && Math.abs(share) >= 0.005 ? `${share > 0 ? "+" : "−"}${digits(Math.abs(share), 3)} %` : "";
+  // A difference from almost nothing says nothing in per cent.
+  const shown = both && Math.abs(share) >= 0.005 && Math.abs(share) < 1e4 ? `${share > 0 ? "+" : "−"}${digits(Math.abs(share), 3)} %` : "";
   return element("div", { class: "number", "data-name": name },
     element("span", { title: measureOf.get(name)?.doc ?? "" }, label), element("span", { class: "value" }, text), element("span", { class: "change", title: "difference from the published design" }, shown));
 };

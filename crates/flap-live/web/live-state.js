@@ -4,6 +4,9 @@ const opened = JSON.parse(byId("data").textContent);
 const parameterOf = new Map(opened.parameters.map((parameter) => [parameter.name, parameter]));
 const measureOf = new Map(opened.measures.map((measure) => [measure.name, measure]));
 
+/** Several wings on a body: numbers of them together, and no single motion. */
+const isVehicle = measureOf.has("torque_roll_unm");
+
 const freshState = () => ({
   design: {}, // changed parameters alone: SI numbers, options, or null for one that is taken away
   x: { name: opened.view.x.name, from: opened.view.x.from, to: opened.view.x.to },
