@@ -311,6 +311,13 @@ def test_statuses_stand_apart_in_the_legend_and_at_the_foot(open_page):
     assert page.script("return shown.hover") == gap[0]
 
 
+def test_a_filter_that_is_wide_open_leaves_out_nothing(open_page):
+    page = open_page("unsettled", UNSETTLED, "--y", "lift_mean_mn")
+    page.click("#add")
+    page.script("const select = document.querySelector('.filter select'); select.value = placeOf.get('lift_mean_mn'); select.onchange()")
+    assert page.text("#status").startswith("60 of 60 rows")
+
+
 def test_statuses_have_marks_of_their_own(page):
     marks = page.script("return [Object.values(STATUS_MARKS).map(({ shape }) => shape), Object.values(STATUS_MARKS).map(({ light }) => light)]")
     assert all(len(set(each)) == len(each) for each in marks)

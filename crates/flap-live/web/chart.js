@@ -84,7 +84,7 @@ class Chart {
     const axis = (scale, side) => ({ scale, side, label: titled(scale === "x" ? x : y), font, labelFont: font, labelSize: 22,
       size: (_, labels) => (scale === "x" ? 40 : Math.max(44, 16 + 7 * Math.max(...(labels ?? []).map((label) => label.length), 0))),
       splits: (plot, _, low, high) => {
-        const room = scale === "x" ? plot.bbox.width / 80 : plot.bbox.height / 36;
+        const room = scale === "x" ? plot.bbox.width / 80 : plot.bbox.height / 42;
         return ((scale === "x" ? x : y).log ? logTicks : evenTicks)(low, high, Math.max(room / uPlot.pxRatio, 2));
       },
       filter: (_, ticks) => ticks,

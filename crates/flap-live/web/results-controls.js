@@ -44,13 +44,13 @@ const sliceRow = ({ place, levels }) => {
 
 /** A filter from the least to the largest value of a column. */
 const filterOf = (place) => {
-  const [low, high] = extentOf(columns[place].cells) ?? [0, 1];
+  const [low, high] = columns[place].extent ?? [0, 1];
   return { place, low, high };
 };
 
 /** A filter: its column, two bounds to be typed, and a slider for each. Bounds do not cross. */
 const filterRow = (filter, number) => {
-  const column = columns[filter.place], [least, most] = extentOf(column.cells) ?? [0, 1];
+  const column = columns[filter.place], [least, most] = column.extent ?? [0, 1];
   const select = element("select", { "aria-label": "Column of the filter" }, ...numberPlaces.map((place) => element("option", { value: String(place) }, columns[place].title)));
   select.value = String(filter.place);
   select.onchange = () => { shown.filters[number] = filterOf(Number(select.value)); showControls(); refresh(true); };

@@ -6,11 +6,11 @@ const axisOf = (place, log) => ({ label: columns[place].label, unit: columns[pla
 /** Most lines of a picture. */
 const MOST_LINES = 60;
 
-/** Entries of the legend for rows without a settled motion. */
+/** Entries of the legend for rows without a settled motion. Unstable orbits of a response have a line of their own. */
 const statusEntries = (rows) => {
   if (statusPlace === undefined) return [];
   const { cells, words } = columns[statusPlace], counts = new Map();
-  for (const row of rows) { const status = words?.[cells[row]]; if (status && status !== "periodic") counts.set(status, (counts.get(status) ?? 0) + 1); }
+  for (const row of rows) { const status = words?.[cells[row]]; if (status && status !== "periodic" && !(status === "unstable" && results.branch !== null)) counts.set(status, (counts.get(status) ?? 0) + 1); }
   return [...counts].map(([status, count]) => ({ name: `${count} ${status.replace("_", " ")}`, ...statusMark(status) }));
 };
 

@@ -38,7 +38,11 @@ const visibleRows = () => {
     const slice = shown.slices[place];
     if (slice !== null && slice !== undefined) tests.push({ cells: columns[place].cells, low: levels[slice], high: levels[slice] });
   }
-  for (const { place, low, high } of shown.filters) tests.push({ cells: columns[place].cells, low, high });
+  for (const { place, low, high } of shown.filters) {
+    const { cells, extent } = columns[place];
+    // A filter that is wide open leaves out nothing, rows without a value neither.
+    if (extent && (low > extent[0] || high < extent[1])) tests.push({ cells, low, high });
+  }
   const rows = new Int32Array(results.rows);
   let count = 0;
   for (let row = 0; row < results.rows; row++) {
