@@ -534,3 +534,12 @@ def test_large_steps_of_a_filter_are_drawn_at_once(page):
     page.script("const slider = document.querySelector('.filter input[type=range]'); slider.value = 400; slider.oninput()")
     page.wait("return performance.getEntriesByName('flap-filter-to-picture').length > 0")
     assert time.monotonic() - begun < 5
+
+
+def test_a_value_between_two_gaps_is_a_point(open_page):
+    page = open_page("unsettled", UNSETTLED, "--y", "lift_mean_mn")
+    cases = [[1, None, 2, None, 3, 4], [None, 1, None], [1, 2], [5], [None], [1, 2, None, 3]]
+    assert [page.script("return alone(arguments[0])", case) for case in cases] == [[0, 2], [1], None, [0], None, [3]]
+    svg = page.browser.execute_async_script("charts[0].svg().then(arguments[0])")
+    lines = page.script("return charts[0].scene.lines.map(({ y }) => (alone(y) ?? []).length)")
+    assert svg.count("h0") == sum(lines) > 0

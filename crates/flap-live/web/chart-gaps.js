@@ -27,3 +27,17 @@ const gapAt = ({ plot, scene }, left, top) => {
   if (best === null) return null;
   return { key: "gap", name: best.name, index: text, row: best.row, x: best.x, y: null, gaps: scene.gaps.filter(({ x }) => x === best.x) };
 };
+
+/** The places of values between two gaps: no line leads to them, so they are points. `undefined` is no gap but a place of other lines. */
+const alone = (values) => {
+  const places = [];
+  let before = null, last = -1; // the value before the last one, and the place of the last one
+  for (let i = 0; i <= values.length; i++) {
+    const value = i === values.length ? null : values[i];
+    if (value === undefined) continue;
+    if (last >= 0 && values[last] !== null && before === null && value === null) places.push(last);
+    before = last < 0 ? null : values[last];
+    last = i;
+  }
+  return places.length > 0 ? places : null;
+};

@@ -56,8 +56,9 @@ const svgOfChart = (chart) => {
       if (usable) path += `${isDown ? "L" : "M"}${at2(toX(value))} ${at2(toY(y[i]))}`;
       isDown = usable;
     });
+    path = path.replace(/(M[^ML]+)(?=M|$)/g, "$1h0"); // a value between two gaps is a dot
     page.append(drawn("path", { d: path, fill: "none", stroke: color, "stroke-width": width ?? 2, "stroke-dasharray": (dash ?? []).join(" "),
-      opacity: ghost ? 0.35 : 1, "stroke-linejoin": "round", "clip-path": "url(#inside)" }));
+      opacity: ghost ? 0.35 : 1, "stroke-linejoin": "round", "stroke-linecap": "round", "clip-path": "url(#inside)" }));
   }
   const shapeAt = (shape, fill, x, y) => page.append(drawn("path", { d: shape, fill, transform: `translate(${at2(x)} ${at2(y)})` }));
   for (const { gap, at, lane } of placedGaps(chart)) shapeAt(gap.shape, gap.color, box.left + at, bottom - GAP_FOOT - lane * GAP_LANE);

@@ -82,7 +82,7 @@ class Chart {
     const { x, y, lines, extent, cells } = this.scene;
     const font = PICTURE_LETTERS;
     const axis = (scale, side) => ({ scale, side, label: titled(scale === "x" ? x : y), font, labelFont: font, labelSize: 22,
-      size: (_, labels) => (scale === "x" ? 40 : Math.max(44, 16 + 7 * Math.max(...(labels ?? []).map((label) => label.length), 0))),
+      size: (_, labels) => (scale === "x" ? 40 : Math.max(46, 24 + 7.5 * Math.max(...(labels ?? []).map((label) => label.length), 0))),
       splits: (plot, _, low, high) => {
         const room = scale === "x" ? plot.bbox.width / 80 : plot.bbox.height / 42;
         return ((scale === "x" ? x : y).log ? logTicks : evenTicks)(low, high, Math.max(room / uPlot.pxRatio, 2));
@@ -99,7 +99,7 @@ class Chart {
         y: { distr: y.log ? 3 : 1, range: (_, low, high) => this.view.y ?? Chart.range(low, high, y.log, cells ? 0 : 0.06) },
       },
       axes: [axis("x", 2), axis("y", 3)],
-      series: [{}, ...[...lines, ...(extent ? [{ color: "transparent", width: 0 }] : [])].map((line, i) => ({ stroke: () => this.scene.lines[i]?.color ?? "transparent", width: line.width ?? 2, pxAlign: 0, points: { show: false, size: 5 } }))],
+      series: [{}, ...[...lines, ...(extent ? [{ color: "transparent", width: 0 }] : [])].map((line, i) => ({ stroke: () => this.scene.lines[i]?.color ?? "transparent", width: line.width ?? 2, pxAlign: 0, points: { show: false, size: 5, filter: (plot, place, show) => (show || place > lines.length ? null : alone(plot.data[place])) } }))],
       hooks: { drawAxes: [() => this.paintBehind()], draw: [() => this.paintBefore()], setCursor: [() => this.pointed()], setSelect: [() => this.selected()] },
     };
   }
