@@ -686,3 +686,13 @@ def test_a_vehicle_has_a_page(other):
     assert {"force_up_mn", "torque_roll_unm", "lift_to_weight"} <= set(shown)
     assert not page.find(".scene").is_displayed() and not page.find("#play").is_displayed()
     assert page.find("#motion-of").text.startswith("There is no single motion")
+
+
+def test_pictures_of_a_dark_page_are_light(browser, server):
+    with screen(browser, 1600, 1000, "dark"):
+        page = LivePage(browser).open(server.address)
+        dark = page.script("return getComputedStyle(document.body).backgroundColor")
+        svg = browser.execute_async_script("family.chart.svg().then(arguments[0])")
+        assert 'fill="#ffffff"' in svg.split("<clipPath")[0]
+        assert all(f">{volts} V</text>" in svg for volts in (50, 100, 150, 200, 250))
+        assert page.script("return getComputedStyle(document.body).backgroundColor") == dark != "rgb(255, 255, 255)"

@@ -150,6 +150,7 @@ class Chart {
       ctx.fill(new Path2D(shape));
       ctx.restore();
     }
+    ctx.setLineDash([]); // the last line may have been dashed
     if (this.selectedRows.size > 0) paintSelected(this, this.selectedRows);
     ctx.strokeStyle = styleColour("--ink");
     ctx.lineWidth = 2 * ratio;
