@@ -4,8 +4,8 @@ import base64
 import csv
 import io
 import json
+import math
 import struct
-import time
 import xml.etree.ElementTree as ElementTree
 import zlib
 
@@ -528,12 +528,31 @@ def test_nothing_is_fetched_from_elsewhere(page):
     page.browser.get_log("browser")  # the refusal itself
 
 
-def test_large_steps_of_a_filter_are_drawn_at_once(page):
+def test_a_large_page_draws_soon(browser, tmp_path):
+    """126,000 rows: the first picture, lines of all slices, and steps of a filter."""
+    axes = [(voltage, frequency, hinge) for voltage in range(40, 100, 2) for frequency in range(95, 137) for hinge in range(60, 160)]
+    lines = (f"{v},{f},{h}e-6,periodic,{math.sin(0.1 * f) * v * h:.6g}" for v, f, h in axes)
+    text = "drive_voltage_pp,drive_frequency,hinge_stiffness,status,lift_mean_mn\n" + "\n".join(lines) + "\n"
+    (tmp_path / "large.csv").write_text(text, encoding="utf-8")
+    command("plot", tmp_path / "large.csv", "--html", tmp_path / "large.html", "--x", "drive_frequency", "--y", "lift_mean_mn", "--by", "drive_voltage_pp")
+    page = Results(browser).open((tmp_path / "large.html").as_uri())
+    page.wait("return performance.getEntriesByName('flap-first-picture').length > 0")
+    assert page.script("return results.rows") == len(axes) == 126_000
+    assert page.script("return performance.getEntriesByName('flap-first-picture')[0].duration") < 2000
+    took = page.browser.execute_async_script("""
+      const begun = performance.now();
+      for (const { place } of slicedAxes) shown.slices[place] = null;
+      refresh(false);
+      requestAnimationFrame(() => arguments[0](performance.now() - begun));
+    """)
+    assert took < 2000
+    assert "60 of 3000 lines are drawn" in page.text("#status")
     page.click("#add")
-    begun = time.monotonic()
-    page.script("const slider = document.querySelector('.filter input[type=range]'); slider.value = 400; slider.oninput()")
-    page.wait("return performance.getEntriesByName('flap-filter-to-picture').length > 0")
-    assert time.monotonic() - begun < 5
+    for step in (200, 400, 600):
+        page.script("const slider = document.querySelector('.filter input[type=range]'); slider.value = arguments[0]; slider.oninput()", step)
+        page.wait("return performance.getEntriesByName('flap-filter-to-picture').length > 0")
+    times = page.script("return performance.getEntriesByName('flap-filter-to-picture').map((entry) => entry.duration)")
+    assert min(times) < 500
 
 
 def test_a_value_between_two_gaps_is_a_point(open_page):
