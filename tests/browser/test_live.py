@@ -696,3 +696,10 @@ def test_pictures_of_a_dark_page_are_light(browser, server):
         assert 'fill="#ffffff"' in svg.split("<clipPath")[0]
         assert all(f">{volts} V</text>" in svg for volts in (50, 100, 150, 200, 250))
         assert page.script("return getComputedStyle(document.body).backgroundColor") == dark != "rgb(255, 255, 255)"
+
+
+def test_pictures_of_the_documentation_are_there_and_small():
+    text = (ROOT / "docs/live.md").read_text(encoding="utf-8")
+    names = {path.name for path in (ROOT / "docs/pictures").glob("live*")}
+    assert names and all(f"](pictures/{name})" in text for name in names)
+    assert all((ROOT / "docs/pictures" / name).stat().st_size < 60_000 for name in names)
