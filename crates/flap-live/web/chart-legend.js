@@ -50,7 +50,8 @@ const writeLegend = (chart) => {
 /** The entries of the legend of a picture: { name, colors } or, for statuses, { name, color, shape }. */
 const pictureEntries = ({ scene, hidden }) => {
   const { lines, title, legend = [], bar, statuses = [] } = scene;
-  const shades = bar ? [{ name: `${titled(bar)} from ${shortNumber(bar.low)} to ${shortNumber(bar.high)}${bar.log ? " (log)" : ""}`, colors: Array.from({ length: 11 }, (_, i) => viridis(i / 10)) }] : [];
+  const shadesOf = () => Array.from({ length: 11 }, (_, i) => viridis(i / 10));
+  const shades = bar ? [{ name: `${titled(bar)} from ${shortNumber(bar.low)} to ${shortNumber(bar.high)}${bar.log ? " (log)" : ""}`, colors: shadesOf() }] : [];
   const shown = groupedLines(lines).filter((line) => !hidden.has(groupOf(line)));
   const heading = title && shown.length > 0 ? [{ name: `${title}:`, colors: [] }] : [];
   const coloured = [...legend, ...shown.map(({ name, color }) => ({ name, color }))].map(({ name, color }) => ({ name, colors: [color] }));

@@ -99,9 +99,15 @@ class Chart {
         y: { distr: y.log ? 3 : 1, range: (_, low, high) => this.view.y ?? Chart.range(low, high, y.log, cells ? 0 : 0.06) },
       },
       axes: [axis("x", 2), axis("y", 3)],
-      series: [{}, ...[...lines, ...(extent ? [{ color: "transparent", width: 0 }] : [])].map((line, i) => ({ stroke: () => this.scene.lines[i]?.color ?? "transparent", width: line.width ?? 2, pxAlign: 0, points: { show: false, size: 5, filter: (plot, place, show) => (show || place > lines.length ? null : alone(plot.data[place])) } }))],
+      series: [{}, ...lines.map((line, i) => this.series(i, line.width ?? 2)), ...(extent ? [this.series(lines.length, 0)] : [])],
       hooks: { drawAxes: [() => this.paintBehind()], draw: [() => this.paintBefore()], setCursor: [() => this.pointed()], setSelect: [() => this.selected()] },
     };
+  }
+
+  /** The series of a line. Values between two gaps are points, in lines without marks too. */
+  series(place, width) {
+    const filter = (plot, at, isMarked) => (isMarked || place >= this.scene.lines.length ? null : alone(plot.data[at]));
+    return { stroke: () => this.scene.lines[place]?.color ?? "transparent", width, pxAlign: 0, points: { show: false, size: 5, filter } };
   }
 
   /** The range of an axis, with a margin; from zero if the values come near it. */

@@ -1,6 +1,8 @@
 // The numbers of the design, beside those of the published one; and the derivatives of the measure.
 
-const MAIN_NUMBERS = ["lift_to_weight", "force_up_mn", "force_forward_mn", "force_left_mn", "torque_roll_unm", "torque_pitch_unm", "torque_yaw_unm", "lift_mean_mn", "power_mean_mw", "efficiency_gf_per_w", "stroke_amplitude_deg", "pitch_amplitude_deg",
+const MAIN_NUMBERS = ["lift_to_weight", "force_up_mn", "force_forward_mn", "force_left_mn",
+  "torque_roll_unm", "torque_pitch_unm", "torque_yaw_unm",
+  "lift_mean_mn", "power_mean_mw", "efficiency_gf_per_w", "stroke_amplitude_deg", "pitch_amplitude_deg",
   "strain_surface_max", "hinge_strain_max", "field_max_v_per_um", "floquet_max", "error_estimate"];
 const MOST_SLOPES = 10;
 
