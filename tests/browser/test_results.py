@@ -560,5 +560,7 @@ def test_a_value_between_two_gaps_is_a_point(open_page):
     cases = [[1, None, 2, None, 3, 4], [None, 1, None], [1, 2], [5], [None], [1, 2, None, 3]]
     assert [page.script("return alone(arguments[0])", case) for case in cases] == [[0, 2], [1], None, [0], None, [3]]
     svg = page.browser.execute_async_script("charts[0].svg().then(arguments[0])")
-    lines = page.script("return charts[0].scene.lines.map(({ y }) => (alone(y) ?? []).length)")
-    assert svg.count("h0") == sum(lines) > 0
+    lines = page.script("charts[0].scene.lines.forEach((line) => { line.marks = false; }); return charts[0].scene.lines.map(({ y }) => (alone(y) ?? []).length)")
+    assert svg.count("<circle") > sum(lines) > 0
+    svg = page.browser.execute_async_script("const lines = charts[0].scene.lines; charts[0].restyle = () => {}; charts[0].svg().then(arguments[0])")
+    assert svg.count("<circle") == sum(lines)

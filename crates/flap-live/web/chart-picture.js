@@ -17,16 +17,18 @@ const onPaper = async (chart, work) => {
   }
 };
 
-/** The entries of the legend in rows that are as wide as the picture: { entry, left, row }. */
+/** The entries of the legend in rows that are as wide as the picture, statuses below: { entry, left, row, words }. */
 const placedEntries = (chart, left) => {
   const pen = document.createElement("canvas").getContext("2d"), end = chart.plot.width - 8;
   pen.font = PICTURE_LETTERS;
-  let at = left, row = 0;
+  let at = left, row = 0, wasStatus = false;
   return pictureEntries(chart).map((entry) => {
     const across = swatchWidth(entry);
     // A tenth more: the letters of another program may be wider.
     const width = across + 1.1 * pen.measureText(entry.name).width;
-    if (at > left && at + width > end) { at = left; row++; }
+    const isApart = entry.shape && !wasStatus;
+    wasStatus = Boolean(entry.shape);
+    if (at > left && (isApart || at + width > end)) { at = left; row++; }
     const placed = { entry, left: at, row, words: at + across };
     at += width + 14;
     return placed;

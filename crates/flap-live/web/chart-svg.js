@@ -3,6 +3,13 @@
 /** Most points that are circles in a file. */
 const MOST_CIRCLES = 20000;
 
+/** Values of lines that are marked: all of lines with marks, and those between two gaps: { line, place }. */
+const svgMarks = ({ scene, hidden }) => scene.lines.filter((line) => !line.ghost && !hidden.has(groupOf(line))).flatMap((line) => {
+  const isDrawn = (place) => line.y[place] !== null && !(scene.y.log && line.y[place] <= 0) && !(scene.x.log && line.x[place] <= 0);
+  const places = line.marks ? line.x.map((_, place) => place) : alone(line.y) ?? [];
+  return places.filter(isDrawn).map((place) => ({ line, place }));
+});
+
 const svgOfChart = (chart) => {
   const { plot, scene } = chart, ratio = uPlot.pxRatio;
   const box = { left: plot.bbox.left / ratio, top: plot.bbox.top / ratio, width: plot.bbox.width / ratio, height: plot.bbox.height / ratio };
@@ -56,9 +63,11 @@ const svgOfChart = (chart) => {
       if (usable) path += `${isDown ? "L" : "M"}${at2(toX(value))} ${at2(toY(y[i]))}`;
       isDown = usable;
     });
-    path = path.replace(/(M[^ML]+)(?=M|$)/g, "$1h0"); // a value between two gaps is a dot
     page.append(drawn("path", { d: path, fill: "none", stroke: color, "stroke-width": width ?? 2, "stroke-dasharray": (dash ?? []).join(" "),
-      opacity: ghost ? 0.35 : 1, "stroke-linejoin": "round", "stroke-linecap": "round", "clip-path": "url(#inside)" }));
+      opacity: ghost ? 0.35 : 1, "stroke-linejoin": "round", "clip-path": "url(#inside)" }));
+  }
+  for (const { line, place } of svgMarks(chart)) {
+    page.append(drawn("circle", { cx: at2(toX(line.x[place])), cy: at2(toY(line.y[place])), r: 2, fill: back, stroke: line.color, "clip-path": "url(#inside)" }));
   }
   const shapeAt = (shape, fill, x, y) => page.append(drawn("path", { d: shape, fill, transform: `translate(${at2(x)} ${at2(y)})` }));
   for (const { gap, at, lane } of placedGaps(chart)) shapeAt(gap.shape, gap.color, box.left + at, bottom - GAP_FOOT - lane * GAP_LANE);
