@@ -1,9 +1,7 @@
 """The page of `flap live` in a browser: sliders, rows, files, the address, the keyboard, errors."""
 
-import csv
 import json
 import math
-import os
 import signal
 import subprocess
 import time
@@ -14,9 +12,9 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.select import Select
-from selenium.webdriver.support.wait import WebDriverWait
+from support import COMMAND, Page, command, downloaded, rows_of, screen
 
-COMMAND = os.environ.get("FLAP") or str(Path(__file__).parents[2] / "target/debug/flap")
+ROOT = Path(__file__).parents[2]
 
 # A soft hinge: two motions between 124 and 128 Hz at 160 V.
 BISTABLE = """\
@@ -34,13 +32,6 @@ return family.rested !== null && !family.isBusy
   && family.rested.text === JSON.stringify([state.design, state.x, state.by, state.measure, family.isUpDown])
   && numbers.design === JSON.stringify([state.design, state.measure])
 """
-
-
-def command(*arguments, code=0):
-    """Runs `flap`."""
-    ended = subprocess.run([COMMAND, *map(str, arguments)], capture_output=True, text=True, check=False)
-    assert ended.returncode == code, ended.stderr
-    return ended
 
 
 class Server:
@@ -63,36 +54,10 @@ class Server:
         self.process.stdout.close()
 
 
-class Page:
-    """The page in the browser."""
+class LivePage(Page):
+    """The live page."""
 
-    def __init__(self, browser):
-        self.browser = browser
-
-    def open(self, address):
-        self.browser.get("about:blank")
-        self.browser.get(address)
-        return self.rest()
-
-    def script(self, text, *arguments):
-        return self.browser.execute_script(text, *arguments)
-
-    def wait(self, text, *arguments, seconds=20):
-        """Waits until a script says yes."""
-        WebDriverWait(self.browser, seconds, poll_frequency=0.03).until(lambda _: self.script(text, *arguments), text)
-
-    def rest(self):
-        self.wait(AT_REST)
-        return self
-
-    def find(self, selector):
-        return self.browser.find_element(By.CSS_SELECTOR, selector)
-
-    def click(self, selector):
-        self.find(selector).click()
-
-    def text(self, selector):
-        return self.script("return document.querySelector(arguments[0]).textContent", selector)
+    ready = AT_REST
 
     def row(self, name):
         return self.find(f'.parameter[data-name="{name}"]')
@@ -101,15 +66,14 @@ class Page:
         self.script("panel.focus(arguments[0])", name)
         return self.row(name).find_element(By.CSS_SELECTOR, "input[type=range]")
 
-    def type(self, selector, text):
-        field = self.find(selector)
-        field.send_keys(Keys.CONTROL, "a")
-        field.send_keys(text, Keys.ENTER)
-
     def give(self, name, text):
         """Types the value of a parameter."""
         self.script("panel.focus(arguments[0])", name)
         self.type(f"#p-{name}", text)
+
+    def meaning(self, name):
+        """What the search of the panel looks through."""
+        return self.script("const { name, label, doc } = parameterOf.get(arguments[0]); return `${name} ${label} ${doc}`.toLowerCase()", name)
 
     def design(self):
         return self.script("return state.design")
@@ -142,7 +106,7 @@ def server():
 @pytest.fixture
 def page(browser, server):
     browser.get_log("browser")
-    opened = Page(browser).open(server.address)
+    opened = LivePage(browser).open(server.address)
     yield opened
     noise = [entry["message"] for entry in browser.get_log("browser") if " 422 " not in entry["message"]]
     assert noise == [], "the console is not empty"
@@ -155,27 +119,11 @@ def other(browser):
 
     def start(opened):
         servers.append(Server(opened))
-        return Page(browser).open(servers[-1].address)
+        return LivePage(browser).open(servers[-1].address)
 
     yield start
     for each in servers:
         each.stop()
-
-
-def rows_of(path):
-    """Names and rows of a file of results: numbers, texts, True and False, and None."""
-
-    def cell(text):
-        if text in ("", "true", "false"):
-            return {"": None, "true": True, "false": False}[text]
-        try:
-            return float(text)
-        except ValueError:
-            return text
-
-    with open(path, encoding="utf-8", newline="") as file:
-        names, *lines = csv.reader(line for line in file if not line.startswith("#"))
-    return names, [[cell(text) for text in line] for line in lines]
 
 
 def assert_same(found, expected):
@@ -263,6 +211,45 @@ def test_points_without_a_motion_are_gaps(page):
     assert "no settled motion" in page.text("#tip")
 
 
+def test_a_gap_under_the_pointer_tells_its_status(page):
+    page.type("#by-values", "100, 4000")
+    page.rest()
+    page.script("""
+      const gap = { x: family.lines[0].x[40], text: "unsettled", name: "100 V", row: { ...family.lines[0].rows[40], status: "unsettled" } };
+      family.gaps = [gap, { ...gap, text: "step_limit", name: "4000 V" }];
+      family.repaint();
+    """)
+    place = page.script("""
+      const chart = family.chart, [{ at, lane }] = placedGaps(chart);
+      return [at - chart.plot.over.clientWidth / 2, chart.plot.over.clientHeight / 2 - GAP_FOOT - lane * GAP_LANE];
+    """)
+    ActionChains(page.browser).move_to_element_with_offset(page.find("#chart .u-over"), *map(round, place)).perform()
+    page.wait("return byId('tip').textContent.startsWith('No settled motion at')")
+    assert page.text("#tip").endswith("100 V unsettled, 4000 V step limit")
+    assert page.script("return [...document.querySelectorAll('#chart .statuses span')].map((entry) => entry.textContent)") == ["1 unsettled", "1 step limit"]
+
+
+def test_logarithmic_axes_have_labels(page):
+    page.click("#log-x")
+    page.click("#log-y")
+    for axis in (0, 1):
+        labels = page.script("return family.chart.plot.axes[arguments[0]]._values", axis)
+        assert len(labels) >= 4 and max(map(len, labels)) <= 7, labels
+
+
+def test_small_charts_have_two_ticks_at_least(page):
+    page.wait("return motion.charts.length >= 3")
+    ticks = page.script("return motion.charts.map(({ plot }) => plot.axes[1]._splits.filter((tick) => tick >= plot.scales.y.min && tick <= plot.scales.y.max).length)")
+    assert min(ticks) >= 2
+
+
+def test_a_coarse_curve_says_so(page):
+    page.script("family.draw(family.answer, false)")
+    assert page.text("#tip").endswith("coarse, refining …")
+    page.script("family.draw(family.answer, true)")
+    assert "coarse" not in page.text("#tip")
+
+
 def test_parameters_that_follow_others_can_be_set_and_unset(other):
     page = other("ozaki2018-large")
     assert "drive_voltage_pp" in page.find("#p-drive_bias").get_attribute("placeholder")
@@ -312,19 +299,14 @@ def test_the_saved_device_and_line_have_the_design(page, tmp_path):
 
 
 def test_files_and_pictures_are_downloaded(page, tmp_path):
-    page.browser.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})
+    page.downloads(tmp_path)
     text = page.saved("grid")
     page.click("#download")
     page.click('#save-dialog [data-kind="svg"]')
     page.click('#save-dialog [data-kind="png"]')
-    names = ["family.toml", "family.svg", "family.png"]
-    until = time.monotonic() + 20
-    while not all((tmp_path / name).exists() for name in names):
-        assert time.monotonic() < until, sorted(path.name for path in tmp_path.iterdir())
-        time.sleep(0.05)
-    assert (tmp_path / "family.toml").read_text(encoding="utf-8") == text
-    assert (tmp_path / "family.svg").read_text(encoding="utf-8").startswith("<svg")
-    assert (tmp_path / "family.png").read_bytes().startswith(b"\x89PNG")
+    assert downloaded(tmp_path / "family.toml").decode() == text
+    assert downloaded(tmp_path / "family.svg").startswith(b"<svg")
+    assert downloaded(tmp_path / "family.png").startswith(b"\x89PNG")
 
 
 # ---- the address ----
@@ -342,6 +324,44 @@ def test_a_reload_keeps_the_design(page):
     assert page.rows() == rows
     assert page.script("return state.measure") == "power_mean_mw"
     assert page.script("return state.pins.length") == 1
+
+
+def test_the_address_holds_up_and_down_and_lines_switched_off(page):
+    page.click("#chart .legend button")
+    assert page.script("return family.chart.plot.series.filter(({ show }) => show === false).length") == 1
+    page.browser.refresh()
+    page.rest()
+    assert page.script("return state.hidden.length") == 1
+    assert page.find("#chart .legend button").get_attribute("aria-pressed") == "false"
+    page.click("#reset-all")
+    page.rest()
+    assert page.find("#chart .legend button").get_attribute("aria-pressed") == "true"
+    page.click("#hysteresis")
+    page.rest()
+    page.browser.refresh()
+    page.rest()
+    assert page.find("#hysteresis").get_attribute("aria-pressed") == "true"
+    assert page.script("return family.lines.map((line) => line.key)") == ["up", "down"]
+    asked = page.script("""
+      const asked = [], before = server.ask;
+      server.ask = (kind, body) => { asked.push([kind, body]); return { name: "x", text: "y" }; };
+      saving.ask("grid");
+      server.ask = before;
+      return asked;
+    """)
+    assert asked[0][0] == "save" and asked[0][1]["updown"] is True and "by" not in asked[0][1]
+
+
+def test_an_address_of_another_preset_says_so(page, server):
+    page.give("wing_length", "19")
+    page.rest()
+    text = page.script("return location.hash")
+    assert "jafferis2016" in text
+    page.open(server.address + text.replace("jafferis2016", "ozaki2018-large"))
+    assert "preset ozaki2018-large" in page.text("#banner")
+    page.click("#reset-all")
+    page.rest()
+    assert not page.find("#banner").is_displayed()
 
 
 def test_the_back_button_undoes_a_step(page):
@@ -370,10 +390,9 @@ def test_an_address_with_nonsense_opens_the_page(page, server):
 def test_search_and_reset(page):
     page.find("#search").send_keys("hinge stiff")
     shown = page.script("return [...document.querySelectorAll('.parameter')].filter((row) => row.offsetParent).map((row) => row.dataset.name)")
-    assert shown == ["hinge_stiffness"]
+    assert "hinge_stiffness" in shown
+    assert all({"hinge", "stiff"} <= {word for word in ("hinge", "stiff") if word in meaning} for meaning in map(page.meaning, shown))
     page.type("#search", "")
-    page.find("#search").clear()
-    page.script("byId('search').value = ''; panel.search()")
     page.give("wing_length", "19")
     page.give("air_density", "1")
     page.rest()
@@ -407,6 +426,33 @@ def test_the_keyboard_alone_changes_and_pins_a_design(page):
     page.script("document.querySelector('.parameter [aria-label^=Help]').focus()")
     ActionChains(page.browser).send_keys(Keys.ENTER).perform()
     assert page.script("return !document.querySelector('.parameter .help').hidden")
+
+
+def test_skip_buttons_come_first(page):
+    for label, expected in [("To the chart", "return document.activeElement.classList.contains('u-over')"), ("To the measure", "return document.activeElement.id === 'measure'")]:
+        page.script("document.activeElement.blur(); getSelection().removeAllRanges(); scrollTo(0, 0)")
+        names = page.script("return [...document.querySelectorAll('button, input, select, a')].slice(0, 3).map((part) => part.textContent)")
+        assert names == ["To the chart", "To the measure", "To the numbers"]
+        page.script("[...document.querySelectorAll('.skip button')].find((button) => button.textContent === arguments[0]).focus()", label)
+        assert page.script("return document.activeElement.getBoundingClientRect().width > 50"), "seen while it has the keyboard"
+        ActionChains(page.browser).send_keys(Keys.ENTER).perform()
+        assert page.script(expected)
+
+
+def test_symbols_are_printed_with_subscripts(page):
+    html = page.script("return ['kappa_wh', 'I_zz', 'tan delta', 'f_31,max', 'R'].map((text) => symbolOf(text).innerHTML)")
+    assert html == ["κ<sub>wh</sub>", "I<sub>zz</sub>", "tan δ", "f<sub>31,max</sub>", "R"]
+    assert page.script("return document.querySelectorAll('.symbol sub').length") > 5
+
+
+def test_natural_frequencies_show_their_difference(page):
+    page.script("""
+      const [mode] = numbers.answer.modes;
+      numbers.answer.published_modes = [{ name: mode.name, frequency_hz: mode.frequency_hz / 1.1 }];
+      numbers.show(true);
+      window.modeName = mode.name;
+    """)
+    assert page.text(f"#main-numbers [data-name='{page.script('return window.modeName')}'] .change") == "+10 %"
 
 
 def test_every_field_has_a_name(page):
@@ -460,7 +506,7 @@ def test_the_wing_stands_still_and_goes_on(page):
 def test_reduced_motion_is_respected(browser, server):
     browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-reduced-motion", "value": "reduce"}]})
     try:
-        page = Page(browser).open(server.address)
+        page = LivePage(browser).open(server.address)
         assert page.text("#play") == "Play"
         assert page.script("return motion.share") == 0
     finally:
@@ -519,9 +565,49 @@ def test_impossible_values_are_marked_and_the_picture_stays(page):
     assert page.script("return byId('banner').hidden")
 
 
+def test_numbers_and_motion_of_an_earlier_design_are_marked(page):
+    page.wait("return motion.signals !== null && motion.signals !== undefined")
+    before = page.number("lift_mean_mn")
+    page.give("wing_length", "-3")
+    for part in ("numbers", "motion"):
+        page.wait("return byId(arguments[0]).classList.contains('old')", part)
+        assert "last possible design" in page.text(f"#{part} .old-note")
+    assert page.number("lift_mean_mn") == before
+    message = page.row("wing_length").find_element(By.CSS_SELECTOR, ".problem").text
+    assert page.script("return document.body.innerText").count(message) == 1
+    page.give("wing_length", "19")
+    page.rest()
+    page.wait("return !document.querySelector('.old')")
+    assert not page.find("#numbers .old-note").is_displayed()
+
+
+def test_an_ambiguous_comma_is_refused_with_words(page):
+    page.give("wing_length", "1,400")
+    problem = page.row("wing_length").find_element(By.CSS_SELECTOR, ".problem")
+    assert "may be 1400 or 1.4" in problem.text
+    assert page.design() == {}
+    page.give("wing_length", "18,5")
+    page.rest()
+    assert page.design() == {"wing_length": pytest.approx(0.0185)}
+    assert not problem.is_displayed()
+
+
+def test_ends_of_the_axis_are_typed_with_units_or_refused_with_words(page):
+    page.type("#x-from", "0.1 kHz")
+    page.rest()
+    assert page.script("return state.x.from") == pytest.approx(100)
+    for text, words in [("1,400", "may be 1400 or 1.4"), ("5 cats", "is not a unit"), ("many", "number"), (page.find("#x-to").get_attribute("value"), "must differ")]:
+        page.type("#x-from", text)
+        assert words in page.text("#x-problem"), text
+        assert page.script("return state.x.from") == pytest.approx(100)
+    page.type("#x-from", "")
+    assert page.find("#x-from").get_attribute("value") == "100"
+    assert not page.find("#x-problem").is_displayed()
+
+
 def test_the_page_waits_for_its_server(browser):
     server = Server("jafferis2016")
-    page = Page(browser).open(server.address)
+    page = LivePage(browser).open(server.address)
     port = server.port
     server.stop()
     page.give("wing_length", "19")
@@ -538,7 +624,7 @@ def test_the_page_waits_for_its_server(browser):
 
 
 def test_nothing_is_fetched_from_elsewhere(browser, server):
-    page = Page(browser).open(server.address)
+    page = LivePage(browser).open(server.address)
     page.script("family.chart.png()")
     names = page.script("return performance.getEntriesByType('resource').map((entry) => entry.name)")
     own = server.address.split("?")[0]
@@ -548,14 +634,39 @@ def test_nothing_is_fetched_from_elsewhere(browser, server):
 
 @pytest.mark.parametrize("width, height", [(1600, 1000), (1024, 768), (768, 1024), (375, 800)])
 def test_the_page_fits_its_width(browser, server, width, height):
-    size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
-    try:
-        page = Page(browser).open(server.address)
+    with screen(browser, width, height):
+        page = LivePage(browser).open(server.address)
         assert page.script("return document.documentElement.scrollWidth <= innerWidth")
         assert page.script("return family.chart.plot.width > 0.4 * Math.min(innerWidth, 900)")
-    finally:
-        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+        outside = page.script("""
+          return [...document.querySelectorAll(".parameter .unit, .number .value, .slope .name")].filter((part) =>
+            part.offsetParent && part.scrollWidth > part.clientWidth + 1 && getComputedStyle(part).display !== "inline").map((part) => part.textContent)
+        """)
+        assert outside == []
+
+
+def test_the_chart_stays_in_sight_on_a_phone(browser, server):
+    with screen(browser, 390, 844, mobile=True):
+        page = LivePage(browser).open(server.address)
+        page.script("panel.rows.get('air_density').row.closest('details').open = true; panel.rows.get('air_density').row.scrollIntoView({ block: 'center' })")
+        top, bottom = page.script("const { top, bottom } = byId('chart').getBoundingClientRect(); return [top, bottom]")
+        field = page.script("return panel.rows.get('air_density').slider.getBoundingClientRect().top")
+        assert -1 <= top and bottom < field < 844
+
+
+def test_two_fingers_zoom_the_chart(browser, server):
+    with screen(browser, 390, 844, mobile=True):
+        page = LivePage(browser).open(server.address)
+        page.script("byId('chart').scrollIntoView({ block: 'start' })")
+        x, y, low, high = page.script("""
+          const { left, top, width, height } = document.querySelector("#chart .u-over").getBoundingClientRect(), { min, max } = family.chart.plot.scales.x;
+          return [left + width / 2, top + height / 2, min, max];
+        """)
+        page.fingers("touchStart", (x - 30, y), (x + 30, y))
+        page.fingers("touchMove", (x - 60, y), (x + 60, y))
+        page.fingers("touchEnd")
+        zoomed = page.script("return state.view.x")
+        assert zoomed[1] - zoomed[0] == pytest.approx((high - low) / 2, rel=0.05)
 
 
 @pytest.mark.parametrize("preset", ["ozaki2018-large", "arabagi2013-75hz"])
@@ -566,3 +677,29 @@ def test_every_model_has_a_page(other, preset):
     assert list(page.design()) == ["wing_length"]
     assert len(page.rows()[1]) == 5 * 81
     page.wait("return motion.signals !== null && motion.signals !== undefined && motion.charts.length >= 3")
+
+
+def test_a_vehicle_has_a_page(other):
+    page = other(ROOT / "examples/vehicle.toml")
+    assert page.text("h1") == "vehicle.toml"
+    shown = page.script("return [...document.querySelectorAll('#main-numbers .number')].map((row) => row.dataset.name)")
+    assert {"force_up_mn", "torque_roll_unm", "lift_to_weight"} <= set(shown)
+    assert not page.find(".scene").is_displayed() and not page.find("#play").is_displayed()
+    assert page.find("#motion-of").text.startswith("There is no single motion")
+
+
+def test_pictures_of_a_dark_page_are_light(browser, server):
+    with screen(browser, 1600, 1000, "dark"):
+        page = LivePage(browser).open(server.address)
+        dark = page.script("return getComputedStyle(document.body).backgroundColor")
+        svg = browser.execute_async_script("family.chart.svg().then(arguments[0])")
+        assert 'fill="#ffffff"' in svg.split("<clipPath")[0]
+        assert all(f">{volts} V</text>" in svg for volts in (50, 100, 150, 200, 250))
+        assert page.script("return getComputedStyle(document.body).backgroundColor") == dark != "rgb(255, 255, 255)"
+
+
+def test_pictures_of_the_documentation_are_there_and_small():
+    text = (ROOT / "docs/live.md").read_text(encoding="utf-8")
+    names = {path.name for path in (ROOT / "docs/pictures").glob("live*")}
+    assert names and all(f"](pictures/{name})" in text for name in names)
+    assert all((ROOT / "docs/pictures" / name).stat().st_size < 60_000 for name in names)

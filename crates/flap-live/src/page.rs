@@ -2,11 +2,17 @@
 
 /// The chart library's style and code, then those of all pages.
 const STYLES: [&str; 2] = [include_str!("../web/uplot/uPlot.min.css"), include_str!("../web/shared.css")];
-const SCRIPTS: [&str; 5] = [
+const SCRIPTS: [&str; 11] = [
     include_str!("../web/uplot/uPlot.iife.min.js"),
     include_str!("../web/shared.js"),
+    include_str!("../web/typed.js"),
     include_str!("../web/chart.js"),
+    include_str!("../web/chart-axes.js"),
     include_str!("../web/chart-points.js"),
+    include_str!("../web/chart-gaps.js"),
+    include_str!("../web/chart-fingers.js"),
+    include_str!("../web/chart-legend.js"),
+    include_str!("../web/chart-picture.js"),
     include_str!("../web/chart-svg.js"),
 ];
 
@@ -28,7 +34,9 @@ pub fn results(heading: &str, data: &str) -> String {
 pub(crate) fn live(heading: &str, data: &str) -> String {
     let scripts = [
         include_str!("../web/live-state.js"),
+        include_str!("../web/live-banner.js"),
         include_str!("../web/live-api.js"),
+        include_str!("../web/live-symbol.js"),
         include_str!("../web/live-wing.js"),
         include_str!("../web/live-panel.js"),
         include_str!("../web/live-family.js"),

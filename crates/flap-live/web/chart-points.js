@@ -123,12 +123,28 @@ const pointMark = ({ x, y, rows }, at) => ({ key: "point", name: "", index: at, 
 
 /** The mark of the cell at a place of the plot. */
 const cellAt = (chart, left, top) => {
-  const { plot, scene } = chart, { edgesX, edgesY, i, j, rows } = scene.cells;
+  const { plot, scene } = chart, { edgesX, edgesY } = scene.cells;
   const place = (edges, value) => edges.findIndex((edge, at) => at + 1 < edges.length && value >= Math.min(edge, edges[at + 1]) && value < Math.max(edge, edges[at + 1]));
   const [column, row] = [place(edgesX, plot.posToVal(left, "x")), place(edgesY, plot.posToVal(top, "y"))];
-  scene.cells.byPlace ??= new Map(rows.map((_, at) => [i[at] * 65536 + j[at], at]));
-  const at = scene.cells.byPlace.get(column * 65536 + row);
-  return at === undefined ? null : { key: "cell", name: "", index: at, row: rows[at], x: plot.posToVal(left, "x"), y: plot.posToVal(top, "y") };
+  const at = cellsByPlace(scene.cells).get(column * 65536 + row);
+  return at === undefined ? null : cellMark(scene.cells, at);
+};
+const cellsByPlace = (cells) => (cells.byPlace ??= new Map(cells.rows.map((_, at) => [cells.i[at] * 65536 + cells.j[at], at])));
+const cellMark = ({ edgesX, edgesY, i, j, rows }, at) => {
+  const middle = (edges, place) => (edges[place] + edges[place + 1]) / 2;
+  return { key: "cell", name: "", index: at, row: rows[at], x: middle(edgesX, i[at]), y: middle(edgesY, j[at]) };
+};
+
+/** The mark of the next cell to the right or upwards that has a row; the same one at the edge. */
+const cellStep = (cells, mark, right, up) => {
+  if (mark?.key !== "cell") return cellMark(cells, 0);
+  const across = cells.edgesX.length - 1, along = cells.edgesY.length - 1;
+  let [column, row] = [cells.i[mark.index] + right, cells.j[mark.index] + up];
+  for (; column >= 0 && column < across && row >= 0 && row < along; column += right, row += up) {
+    const at = cellsByPlace(cells).get(column * 65536 + row);
+    if (at !== undefined) return cellMark(cells, at);
+  }
+  return cellMark(cells, mark.index);
 };
 
 /** The rows of all marks within a part of the plane. */

@@ -3,14 +3,21 @@
 /** Most points that are circles in a file. */
 const MOST_CIRCLES = 20000;
 
+/** Values of lines that are marked: all of lines with marks, and those between two gaps: { line, place }. */
+const svgMarks = ({ scene, hidden }) => scene.lines.filter((line) => !line.ghost && !hidden.has(groupOf(line))).flatMap((line) => {
+  const isDrawn = (place) => line.y[place] !== null && !(scene.y.log && line.y[place] <= 0) && !(scene.x.log && line.x[place] <= 0);
+  const places = line.marks ? line.x.map((_, place) => place) : alone(line.y) ?? [];
+  return places.filter(isDrawn).map((place) => ({ line, place }));
+});
+
 const svgOfChart = (chart) => {
   const { plot, scene } = chart, ratio = uPlot.pxRatio;
   const box = { left: plot.bbox.left / ratio, top: plot.bbox.top / ratio, width: plot.bbox.width / ratio, height: plot.bbox.height / ratio };
   const [right, bottom] = [box.left + box.width, box.top + box.height];
   const toX = (value) => box.left + plot.valToPos(value, "x"), toY = (value) => box.top + plot.valToPos(value, "y");
   const at2 = (value) => value.toFixed(2);
-  const [ink, soft, line, back] = ["--ink", "--soft", "--line", "--back"].map(styleColour);
-  const entries = chart.entries(), height = plot.height + (entries.length > 0 ? 24 : 0);
+  const [ink, soft, faint, back] = ["--ink", "--soft", "--line", "--back"].map(styleColour);
+  const placed = placedEntries(chart, box.left), height = plot.height + legendHeight(placed);
   const page = drawn("svg", { xmlns: "http://www.w3.org/2000/svg", viewBox: `0 0 ${plot.width} ${height}`, width: plot.width, height,
     "font-family": "system-ui, sans-serif", "font-size": 12 });
   const text = (x, y, words, more = {}) => page.append(drawn("text", { x: at2(x), y: at2(y), fill: soft, "text-anchor": "middle", ...more }, words));
@@ -21,7 +28,7 @@ const svgOfChart = (chart) => {
       const words = axis._values?.[i];
       if (value === null || value < plot.scales[scale].min || value > plot.scales[scale].max) return;
       const [x1, y1, x2, y2] = scale === "x" ? [toX(value), box.top, toX(value), bottom] : [box.left, toY(value), right, toY(value)];
-      page.append(drawn("line", { x1: at2(x1), y1: at2(y1), x2: at2(x2), y2: at2(y2), stroke: line }));
+      page.append(drawn("line", { x1: at2(x1), y1: at2(y1), x2: at2(x2), y2: at2(y2), stroke: faint }));
       if (scale === "x") text(x1, bottom + 18, words ?? "");
       else text(box.left - 8, y1 + 4, words ?? "", { "text-anchor": "end" });
     });
@@ -47,8 +54,9 @@ const svgOfChart = (chart) => {
   } else if (points) {
     points.rows.forEach((_, at) => page.append(drawn("circle", { cx: at2(toX(points.x[at])), cy: at2(toY(points.y[at])), r: points.size / 2, fill: unpackedColour(points.colors[at]), "clip-path": "url(#inside)" })));
   }
-  for (const { x, y, color, width, dash, ghost, key } of scene.lines) {
-    if (chart.hidden.has(key)) continue;
+  for (const line of scene.lines) {
+    const { x, y, color, width, dash, ghost } = line;
+    if (!line.ghost && chart.hidden.has(groupOf(line))) continue;
     let path = "", isDown = false;
     x.forEach((value, i) => {
       const usable = y[i] !== null && y[i] !== undefined && !(scene.y.log && y[i] <= 0) && !(scene.x.log && value <= 0);
@@ -58,18 +66,19 @@ const svgOfChart = (chart) => {
     page.append(drawn("path", { d: path, fill: "none", stroke: color, "stroke-width": width ?? 2, "stroke-dasharray": (dash ?? []).join(" "),
       opacity: ghost ? 0.35 : 1, "stroke-linejoin": "round", "clip-path": "url(#inside)" }));
   }
-  for (const gap of scene.gaps ?? []) {
-    const x = toX(gap.x);
-    page.append(drawn("path", { d: `M${at2(x - 4)} ${at2(bottom)}h8l-4 -7z`, fill: gap.color ?? soft }));
+  for (const { line, place } of svgMarks(chart)) {
+    page.append(drawn("circle", { cx: at2(toX(line.x[place])), cy: at2(toY(line.y[place])), r: 2, fill: back, stroke: line.color, "clip-path": "url(#inside)" }));
   }
+  const shapeAt = (shape, fill, x, y) => page.append(drawn("path", { d: shape, fill, transform: `translate(${at2(x)} ${at2(y)})` }));
+  for (const { gap, at, lane } of placedGaps(chart)) shapeAt(gap.shape, gap.color, box.left + at, bottom - GAP_FOOT - lane * GAP_LANE);
   if (scene.marker && Number.isFinite(scene.marker.y)) {
     page.append(drawn("circle", { cx: at2(toX(scene.marker.x)), cy: at2(toY(scene.marker.y)), r: 6, fill: "none", stroke: ink, "stroke-width": 2 }));
   }
-  let left = box.left;
-  for (const { name, color } of entries) {
-    page.append(drawn("rect", { x: at2(left), y: plot.height + 6, width: 16, height: 4, fill: color }));
-    text(left + 21, plot.height + 12, name, { "text-anchor": "start", fill: ink });
-    left += 36 + 7 * name.length;
+  for (const { entry: { name, colors, color, shape }, left, row, words } of placed) {
+    const middle = plot.height + row * ENTRY_HEIGHT + 8, width = colors?.length === 1 ? SWATCH : SHADE;
+    if (shape) shapeAt(shape, color, left + 5, middle);
+    else colors.forEach((fill, i) => page.append(drawn("rect", { x: at2(left + i * width), y: middle - 2, width, height: 4, fill })));
+    text(words, middle + 4, name, { "text-anchor": "start", fill: ink });
   }
   return new XMLSerializer().serializeToString(page);
 };

@@ -1,17 +1,19 @@
 // A chart of lines, points or cells on uPlot, which both pages use.
 //
-//   const chart = new Chart(element, { height, name, onPoint(mark), onPin(mark), onSelect(rows), onView(view) });
-//   chart.draw({ x: { label, unit, log }, y, lines, points, cells, extent, legend, bar, gaps, bands, marker });
-//   lines:  [{ key, name, color, x, y, rows, dash, width, ghost, marks }]   null in y is a gap
+//   const chart = new Chart(element, { height, name, onPoint(mark), onPin(mark), onSelect(rows), onView(view), onHidden(groups), onScheme() });
+//   chart.draw({ x: { label, unit, log }, y, lines, points, cells, extent, title, legend, bar, statuses, gaps, bands, marker });
+//   lines:  [{ key, group, name, color, x, y, rows, dash, width, ghost, marks }]   null in y is a gap; the legend switches groups
 //   points, cells: see chart-points.js; extent: { x: [low, high], y } of them
-//   legend: [{ name, color }]        entries besides the lines; bar: { label, unit, low, high, log } of shades
-//   gaps:   [{ x, text, color }]     values of x without a value of y
+//   title:  what the lines differ in; legend: [{ name, color }] of points and cells; bar: { label, unit, low, high, log } of shades
+//   statuses: [{ name, color, shape }] of rows without a settled motion
+//   gaps:   [{ x, text, color, shape, row, name }]   values of x without a value of y, with the status
 //   bands:  [{ from, to, name }]     shaded ranges of x
 //   marker: { x, y } or null         a ring
 //
-// A mark is { key, row, x, y, name }. `view` is { x: [low, high] or null, y }; null shows everything. Drag zooms, Shift and
+// A mark is { key, row, x, y, name }; that of a gap has the key "gap" and all gaps at its x. `view` is { x: [low, high] or null, y }; null shows everything. Drag zooms, Shift and
 // drag moves, the wheel zooms, a double click shows everything. Keys: arrows go along a line and from line to line, Enter
-// pins, + and - zoom, Shift and arrows move, Escape shows everything. With `chart.drag = "select"` a drag selects rows.
+// pins, + and - zoom, Shift and arrows move, Escape shows everything. With `chart.drag = "select"` a drag selects rows. Two
+// fingers zoom and move. `onScheme` draws the scene again after its colours have changed.
 
 class Chart {
   constructor(parent, options = {}) {
@@ -29,9 +31,14 @@ class Chart {
     this.mark = null;
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.box);
-    this.scheme = window.matchMedia("(prefers-color-scheme: dark)");
-    this.repaint = () => this.plot?.redraw(false);
-    this.scheme.addEventListener("change", this.repaint);
+    this.repaint = () => this.restyle();
+    darkScheme.addEventListener("change", this.repaint);
+  }
+
+  /** Draws everything in the colours of the scheme, which has changed. */
+  restyle() {
+    if (this.options.onScheme) this.options.onScheme();
+    else this.plot?.redraw(false);
   }
 
   /** Draws a scene. Scenes of the same shape keep the plot and change its data alone. */
@@ -47,11 +54,11 @@ class Chart {
     }
     scene.lines.forEach((line, i) => {
       const series = this.plot.series[i + 1];
-      Object.assign(series, { show: !this.hidden.has(line.key), width: line.width ?? 2, dash: line.dash, alpha: line.ghost ? 0.35 : 1 });
+      Object.assign(series, { show: line.ghost || !this.hidden.has(groupOf(line)), width: line.width ?? 2, dash: line.dash, alpha: line.ghost ? 0.35 : 1 });
       series.points.show = () => line.marks ?? false;
     });
     this.plot.setData(data);
-    this.writeLegend();
+    writeLegend(this);
   }
 
   /** Columns for uPlot: x, then y of each line, null where there is none. */
@@ -73,12 +80,17 @@ class Chart {
 
   settings() {
     const { x, y, lines, extent, cells } = this.scene;
-    const font = "12px system-ui, sans-serif";
+    const font = PICTURE_LETTERS;
     const axis = (scale, side) => ({ scale, side, label: titled(scale === "x" ? x : y), font, labelFont: font, labelSize: 22,
-      size: scale === "y" ? 62 : 40,
+      size: (_, labels) => (scale === "x" ? 40 : Math.max(46, 24 + 7.5 * Math.max(...(labels ?? []).map((label) => label.length), 0))),
+      splits: (plot, _, low, high) => {
+        const room = scale === "x" ? plot.bbox.width / 80 : plot.bbox.height / 42;
+        return ((scale === "x" ? x : y).log ? logTicks : evenTicks)(low, high, Math.max(room / uPlot.pxRatio, 2));
+      },
+      filter: (_, ticks) => ticks,
       stroke: () => styleColour("--soft"), grid: { stroke: () => styleColour("--line"), width: 1 },
       ticks: { stroke: () => styleColour("--line"), width: 1 },
-      values: (_, values) => values.map((value) => (value === null || value === undefined ? "" : shortNumber(value))) });
+      values: (_, ticks) => tickLabels(ticks) });
     return {
       ...this.size(), legend: { show: false }, padding: [10, 14, 0, 0],
       cursor: { drag: { x: true, y: true, setScale: false, uni: 12 }, points: { size: 8 }, bind: { dblclick: () => () => this.setView({ x: null, y: null }, true) } },
@@ -87,9 +99,15 @@ class Chart {
         y: { distr: y.log ? 3 : 1, range: (_, low, high) => this.view.y ?? Chart.range(low, high, y.log, cells ? 0 : 0.06) },
       },
       axes: [axis("x", 2), axis("y", 3)],
-      series: [{}, ...[...lines, ...(extent ? [{ color: "transparent", width: 0 }] : [])].map((line, i) => ({ stroke: () => this.scene.lines[i]?.color ?? "transparent", width: line.width ?? 2, pxAlign: 0, points: { show: false, size: 5 } }))],
+      series: [{}, ...lines.map((line, i) => this.series(i, line.width ?? 2)), ...(extent ? [this.series(lines.length, 0)] : [])],
       hooks: { drawAxes: [() => this.paintBehind()], draw: [() => this.paintBefore()], setCursor: [() => this.pointed()], setSelect: [() => this.selected()] },
     };
+  }
+
+  /** The series of a line. Values between two gaps are points, in lines without marks too. */
+  series(place, width) {
+    const filter = (plot, at, isMarked) => (isMarked || place >= this.scene.lines.length ? null : alone(plot.data[at]));
+    return { stroke: () => this.scene.lines[place]?.color ?? "transparent", width, pxAlign: 0, points: { show: false, size: 5, filter } };
   }
 
   /** The range of an axis, with a margin; from zero if the values come near it. */
@@ -130,11 +148,15 @@ class Chart {
     const { plot, scene } = this, { ctx, bbox } = plot, ratio = uPlot.pxRatio;
     ctx.save();
     ctx.beginPath(); ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height); ctx.clip();
-    for (const { x, color } of scene.gaps ?? []) {
-      const at = plot.valToPos(x, "x", true), foot = bbox.top + bbox.height;
-      ctx.fillStyle = color ?? styleColour("--soft");
-      ctx.beginPath(); ctx.moveTo(at - 4 * ratio, foot); ctx.lineTo(at + 4 * ratio, foot); ctx.lineTo(at, foot - 7 * ratio); ctx.fill();
+    for (const { gap: { color, shape }, at, lane } of placedGaps(this)) {
+      ctx.save();
+      ctx.translate(bbox.left + at * ratio, bbox.top + bbox.height - (GAP_FOOT + lane * GAP_LANE) * ratio);
+      ctx.scale(ratio, ratio);
+      ctx.fillStyle = color;
+      ctx.fill(new Path2D(shape));
+      ctx.restore();
     }
+    ctx.setLineDash([]); // the last line may have been dashed
     if (this.selectedRows.size > 0) paintSelected(this, this.selectedRows);
     ctx.strokeStyle = styleColour("--ink");
     ctx.lineWidth = 2 * ratio;
@@ -164,9 +186,11 @@ class Chart {
   nearest(left, top) {
     if (this.scene.cells) return cellAt(this, left, top);
     if (this.scene.points) return nearestPoint(this, left, top);
+    const gap = gapAt(this, left, top);
+    if (gap) return gap;
     let best = null, least = 30 * 30;
     for (const line of this.scene.lines) {
-      if (line.ghost || this.hidden.has(line.key)) continue;
+      if (line.ghost || this.hidden.has(groupOf(line))) continue;
       const middle = Chart.closest(line.x, this.plot.posToVal(left, "x"));
       for (let i = Math.max(middle - 2, 0); i <= Math.min(middle + 2, line.x.length - 1); i++) {
         if (line.y[i] === null || line.y[i] === undefined) continue;
@@ -189,9 +213,17 @@ class Chart {
   }
 
   tell(mark) {
-    const isSame = mark?.key === this.mark?.key && mark?.index === this.mark?.index && mark?.y === this.mark?.y;
+    const isSame = mark?.key === this.mark?.key && mark?.index === this.mark?.index && mark?.y === this.mark?.y && mark?.x === this.mark?.x;
     this.mark = mark;
     if (!isSame) this.options.onPoint?.(mark);
+  }
+
+  /** The mark again after its line has changed: at the same x, or the nearest. */
+  markAgain() {
+    const line = this.scene.lines.find(({ key }) => key === this.mark?.key);
+    const at = line ? Chart.closest(line.x, this.mark.x) : -1, isThere = at >= 0 && line.y[at] !== null && line.y[at] !== undefined;
+    this.mark = isThere ? this.markOf(line, at) : null;
+    return this.mark;
   }
 
   // ---- Zoom and movement. ----
@@ -266,6 +298,7 @@ class Chart {
     over.addEventListener("mousedown", () => { this.wasDragged = false; });
     over.addEventListener("click", () => { if (!this.wasDragged) this.options.onPin?.(this.mark); });
     over.addEventListener("keydown", (event) => this.pressed(event));
+    listenToFingers(this, over);
   }
 
   pressed(event) {
@@ -281,13 +314,17 @@ class Chart {
 
   /** Goes along a line, or to the line above or below. */
   step(right, up) {
-    const { points } = this.scene;
+    const { points, cells } = this.scene;
+    const show = (mark) => {
+      this.plot.setCursor({ left: this.plot.valToPos(mark.x, "x"), top: this.plot.valToPos(mark.y, "y") }, false);
+      this.tell(mark);
+    };
+    if (cells) return show(cellStep(cells, this.mark, right, up));
     if (points && points.x.length > 0) {
       const at = this.mark?.key === "point" ? (this.mark.index + (right || up) + points.x.length) % points.x.length : 0;
-      this.tell(pointMark(points, at));
-      return;
+      return show(pointMark(points, at));
     }
-    const lines = this.scene.lines.filter((line) => !line.ghost && !this.hidden.has(line.key));
+    const lines = this.scene.lines.filter((line) => !line.ghost && !this.hidden.has(groupOf(line)));
     if (lines.length === 0) return;
     let place = lines.findIndex((line) => line.key === this.mark?.key);
     const begins = place < 0;
@@ -296,69 +333,20 @@ class Chart {
     if (full.length === 0) return;
     const before = begins ? -1 : full.findIndex((i) => i >= this.mark.index);
     const next = full[Math.min(Math.max(before + right, 0), full.length - 1)];
-    this.plot.setCursor({ left: this.plot.valToPos(line.x[next], "x"), top: this.plot.valToPos(line.y[next], "y") }, false);
-    this.tell(this.markOf(line, next));
-  }
-
-  // ---- Legend. ----
-
-  writeLegend() {
-    const entries = this.scene.lines.filter((line) => line.name && !line.ghost);
-    const { legend = [], bar } = this.scene;
-    const text = JSON.stringify([entries.map((line) => [line.key, line.name, line.color, this.hidden.has(line.key)]), legend, bar]);
-    if (text === this.legendText) return;
-    this.legendText = text;
-    const fixed = legend.map(({ name, color }) => {
-      const swatch = element("i");
-      swatch.style.background = color;
-      return element("span", {}, swatch, name);
-    });
-    const shades = bar ? [element("span", { class: "shades" }, titled(bar), " ", shortNumber(bar.low), element("b"), shortNumber(bar.high), bar.log ? " (log)" : "")] : [];
-    this.legend.replaceChildren(...shades, ...fixed, ...entries.map((line) => {
-      const swatch = element("i");
-      swatch.style.background = line.color;
-      const button = element("button", { type: "button", "aria-pressed": String(!this.hidden.has(line.key)) }, swatch, line.name);
-      button.onclick = () => {
-        if (!this.hidden.delete(line.key)) this.hidden.add(line.key);
-        this.draw(this.scene);
-      };
-      return button;
-    }));
+    show(this.markOf(line, next));
   }
 
   // ---- Pictures. ----
 
   /** The picture as a PNG, with its legend. */
-  png() {
-    const { canvas } = this.plot.ctx, ratio = uPlot.pxRatio, entries = this.entries();
-    const out = document.createElement("canvas"), foot = (entries.length > 0 ? 24 : 0) * ratio;
-    out.width = canvas.width; out.height = canvas.height + foot;
-    const pen = out.getContext("2d");
-    pen.fillStyle = styleColour("--back"); pen.fillRect(0, 0, out.width, out.height);
-    pen.drawImage(canvas, 0, 0);
-    pen.font = `${12 * ratio}px system-ui, sans-serif`;
-    let left = 62 * ratio;
-    for (const { name, color } of entries) {
-      pen.fillStyle = color; pen.fillRect(left, canvas.height + 8 * ratio, 16 * ratio, 4 * ratio);
-      pen.fillStyle = styleColour("--ink"); pen.fillText(name, left + 21 * ratio, canvas.height + 14 * ratio);
-      left += pen.measureText(name).width + 36 * ratio;
-    }
-    return new Promise((done) => { out.toBlob(done, "image/png"); });
-  }
-
-  /** Names and colours below a picture. */
-  entries() {
-    const { lines, legend = [], bar } = this.scene;
-    const shades = bar ? [{ name: `${titled(bar)} ${shortNumber(bar.low)}`, color: viridis(0) }, { name: shortNumber(bar.high), color: viridis(1) }] : [];
-    return [...shades, ...legend, ...lines.filter((line) => line.name && !line.ghost && !this.hidden.has(line.key))];
-  }
+  png() { return pngOfChart(this); }
 
   /** The picture as SVG: lines as paths. */
-  svg() { return svgOfChart(this); }
+  svg() { return onPaper(this, () => svgOfChart(this)); }
 
   destroy() {
     this.observer.disconnect();
-    this.scheme.removeEventListener("change", this.repaint);
+    darkScheme.removeEventListener("change", this.repaint);
     this.plot?.destroy();
     this.box.remove();
     this.legend.remove();

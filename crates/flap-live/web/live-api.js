@@ -52,7 +52,7 @@ const server = {
       try {
         const answer = await fetch("/api/save", { method: "POST", headers: { "X-Flap-Token": this.token }, body: JSON.stringify({ kind: "grid" }) });
         this.isGone = false;
-        if (answer.status === 401) byId("banner").textContent = "Another server answers now: open the address that it printed.";
+        if (answer.status === 401) banner.say("server", "Another server answers now: open the address that it printed.");
         else this.onBack();
       } catch { setTimeout(look, 1000); }
     };

@@ -10,7 +10,8 @@ const family = {
   n: 17, // values of x of a coarse family
   isBusy: false,
   isStale: false,
-  isUpDown: false,
+  isFine: false, // the lines are those of a design that rests
+  get isUpDown() { return state.updown; },
   rested: null, // the lines of the last fine family, and their text
   ghost: [],
   gaps: [],
@@ -73,10 +74,10 @@ family.isWanted = ({ kind, request }) => kind === (family.isUpDown ? "hysteresis
   && request.x.name === state.x.name && (kind === "hysteresis" || request.by?.name === state.by?.name);
 
 family.complain = (error) => {
-  panel.complain(error);
-  const text = error && error.status !== 0 ? [error.message, error.help].filter(Boolean).join(". ") : "";
-  byId("banner").hidden = !text && !server.isGone;
-  if (text) byId("banner").textContent = text;
+  // What is about a changed parameter stands at its field alone.
+  const isOfField = error !== null && error.parameter in state.design && panel.rows.has(error.parameter);
+  panel.complain(isOfField ? error : null);
+  banner.say("error", error === null || error.status === 0 || isOfField ? "" : [error.message, error.help].filter(Boolean).join(". "));
 };
 
 /** Lines of an answer: one for each value of the lines' parameter, or one up and one down. */
@@ -90,16 +91,16 @@ const linesOf = ({ columns, rows }) => {
     const value = key < 0 ? "" : row[key];
     if (!lines.has(value)) {
       const name = family.isUpDown ? value : by ? shownValue(by, value) : "";
-      lines.set(value, { key: String(value), name, x: [], y: [], rows: [], value });
+      lines.set(value, { key: String(value), group: String(value), name, x: [], y: [], rows: [], value });
     }
     const line = lines.get(value), number = isNumber(row[y]) ? row[y] : null;
     line.x.push(row[x] * along.factor);
     line.y.push(number);
     line.rows.push({ status: row[status], stable: row[stable], x: row[x], by: key < 0 ? null : value });
-    if (row[status] !== "periodic") gaps.push({ x: row[x] * along.factor, text: row[status] });
+    if (row[status] !== "periodic") gaps.push({ x: row[x] * along.factor, text: row[status], name: line.name, row: line.rows[line.rows.length - 1] });
   }
   const list = [...lines.values()];
-  list.forEach((line, i) => { line.color = lineColour(i, list.length); line.marks = line.x.length < 12; });
+  list.forEach((line, i) => Object.assign(line, { place: i, of: list.length, marks: line.x.length < 12 }));
   if (family.isUpDown) for (const line of list) if (line.key === "down") line.dash = [7, 4];
   // One list of x for all lines where they have the same: the chart then joins nothing.
   for (const line of list) if (line.x.length === list[0].x.length && line.x.every((value, i) => value === list[0].x[i])) line.x = list[0].x;
@@ -125,6 +126,7 @@ const bistable = (lines) => {
 
 family.draw = (answer, isFine) => {
   family.answer = answer;
+  family.isFine = isFine;
   const { lines, gaps } = linesOf(answer), { design, x: { n, ...along } } = answer.request;
   const text = JSON.stringify([design, along, state.by, state.measure, family.isUpDown]);
   if (isFine) {
@@ -138,35 +140,48 @@ family.draw = (answer, isFine) => {
   family.lines = lines;
   family.bands = family.isUpDown ? bistable(lines) : [];
   family.paint([...ghosts, ...lines]);
-  family.tell(null);
+  family.tell(family.chart.markAgain());
   family.onDrawn(isFine);
 };
 
-/** Paints lines with the marker of the design. */
+/** Paints lines in the colours of the scheme, with the marker of the design. */
 family.paint = (lines) => {
+  for (const line of lines) line.color = lineColour(line.place, line.of);
   const along = parameterOf.get(state.x.name), measure = measureOf.get(state.measure);
   const here = valueIn(state.design, along.name), value = numbers.value(state.measure);
+  const by = family.isUpDown || !state.by ? null : parameterOf.get(state.by.name);
   family.chart.view = state.view;
+  family.chart.hidden = new Set(state.hidden);
   family.chart.draw({
     x: { label: along.label, unit: along.unit, log: state.log.x }, y: { label: measure.label, unit: measure.unit, log: state.log.y },
-    lines, gaps: family.gaps, bands: family.bands,
+    lines, title: by?.label, bands: family.bands,
+    gaps: family.gaps.map((gap) => ({ ...gap, ...statusMark(gap.text) })),
+    statuses: statusCounts(family.gaps).map(([status, count]) => ({ name: `${count} ${status.replace("_", " ")}`, ...statusMark(status) })),
     marker: isNumber(here) && isNumber(value) ? { x: here * along.factor, y: value } : null,
   });
 };
 
-/** The line below the chart: the mark under the pointer, or the points without a settled motion. */
+/** How many gaps have each status. */
+const statusCounts = (gaps) => {
+  const counts = new Map();
+  for (const { text } of gaps) counts.set(text, (counts.get(text) ?? 0) + 1);
+  return [...counts];
+};
+
+/** The line below the chart: the mark under the pointer, or the points without a settled motion; and whether more is to come. */
 family.tell = (mark) => {
   const along = parameterOf.get(state.x.name), measure = measureOf.get(state.measure);
   let text = "";
-  if (mark) {
+  if (mark?.key === "gap") {
+    const each = mark.gaps.map((gap) => `${gap.name ? `${gap.name} ` : ""}${gap.text.replace("_", " ")}`);
+    text = `No settled motion at ${digits(mark.x, 5)} ${along.unit}: ${each.join(", ")}`;
+  } else if (mark) {
     const { status, stable } = mark.row;
     text = `${measure.label} ${shortNumber(mark.y)} ${measure.unit} at ${digits(mark.x, 5)} ${along.unit}${mark.name ? `, ${mark.name}` : ""}: ${status}${stable === false ? ", not stable" : ""}`;
   } else if (family.bands.length > 0) {
     text = `Two motions between ${family.bands.map(({ from, to }) => `${digits(from, 5)} and ${digits(to, 5)} ${along.unit}`).join("; ")}`;
   } else if (family.gaps.length > 0) {
-    const counts = {};
-    for (const gap of family.gaps) counts[gap.text] = (counts[gap.text] ?? 0) + 1;
-    text = `▾ no settled motion: ${Object.entries(counts).map(([status, count]) => `${count} ${status}`).join(", ")}`;
+    text = `${family.gaps.length} of ${family.answer.rows.length} points have no settled motion: the marks at the foot`;
   }
-  byId("tip").textContent = text;
+  byId("tip").textContent = [text, family.isFine ? "" : "coarse, refining …"].filter(Boolean).join(" · ");
 };

@@ -7,20 +7,24 @@ const CYCLE = 0.6;
 const SIGNALS = [["Angles", "°", ["stroke_deg", "pitch_deg"]], ["Forces", "mN", ["lift_mn", "drag_mn"]],
   ["Power", "mW", ["power_mw"]], ["Current", "mA", ["current_ma", "current_1_ma", "current_2_ma"]]];
 
+const hasMotion = opened.can.motion && !isVehicle;
+
 const motion = { answer: null, charts: [], share: 0, last: 0, isPlaying: true, design: {} };
 
 /** Asks for the motion of a design; `title` says which. */
 motion.ask = async (design, title) => {
-  if (!opened.can.motion) { byId("motion-of").textContent = "The model has no single motions."; return; }
+  if (!hasMotion) return;
   try {
     const answer = await server.ask("motion", { design, samples: SAMPLES });
     if (!answer) return;
     Object.assign(motion, { answer, design, signals: null });
     byId("motion-of").textContent = title;
+    markOld("motion", "");
     motion.showSignals();
   } catch (error) {
-    motion.answer = null;
-    byId("motion-of").textContent = error.status === 0 ? "" : error.message;
+    if (error.status === 0) return;
+    const last = error.parameter ? "possible design" : "design with a settled motion";
+    markOld("motion", motion.answer ? `This is the last ${last}.` : `There is no ${last} yet.`);
   }
 };
 
@@ -38,6 +42,7 @@ motion.showSignals = () => {
   if (motion.charts.length !== shown.length) {
     for (const chart of motion.charts) chart.destroy();
     byId("series").replaceChildren();
+    byId("series").dataset.count = String(shown.length);
     motion.charts = shown.map(([name]) => {
       const place = element("div");
       byId("series").append(place);
@@ -108,9 +113,11 @@ const paintAbove = (now, wing) => {
   pen.strokeStyle = styleColour("--accent"); pen.lineWidth = 1.5; pen.stroke();
   pen.strokeStyle = styleColour("--ink"); pen.lineWidth = 2.5;
   pen.beginPath(); pen.moveTo(rootX, rootY); pen.lineTo(rootX + reach * alongX, rootY + reach * alongY); pen.stroke();
-  pen.fillStyle = styleColour("--soft"); pen.font = "12px system-ui, sans-serif";
-  pen.fillText(`from above · stroke ${now.stroke_deg.toFixed(0)}°`, 8, 16);
+  caption("above-caption", `from above · stroke ${now.stroke_deg.toFixed(0)}°`);
 };
+
+/** Writes below a picture, if it is something new. */
+const caption = (id, words) => { if (byId(id).textContent !== words) byId(id).textContent = words; };
 
 const paintTip = (now, wing) => {
   const { pen, width, height } = penOf(byId("tip-view"));
@@ -128,10 +135,7 @@ const paintTip = (now, wing) => {
   const [middleX, middleY] = [(x + endX) / 2, (y + endY) / 2], unit = height * 0.42 / strongest;
   arrow(pen, middleX, middleY, 0, -now.lift_mn * unit, "#009e73");
   if (motion.signals.drag_mn) arrow(pen, middleX, middleY, now.drag_mn * unit * dragSign(), 0, "#d55e00");
-  pen.fillStyle = styleColour("--soft"); pen.font = "12px system-ui, sans-serif";
-  pen.fillText(`from the tip · pitch ${now.pitch_deg.toFixed(0)}°`, 8, 16);
-  pen.fillStyle = "#009e73"; pen.fillText("lift", 8, height - 10);
-  pen.fillStyle = "#d55e00"; pen.fillText("drag", 36, height - 10);
+  caption("tip-caption", `from the tip · pitch ${now.pitch_deg.toFixed(0)}°`);
 };
 
 /** The sign with which drag points against the motion. */
@@ -156,6 +160,11 @@ motion.frame = (now) => {
 };
 
 motion.start = () => {
+  if (!hasMotion) {
+    byId("motion").classList.add("without");
+    byId("motion-of").textContent = `There is no single motion to show${isVehicle ? ": the numbers are those of several wings" : ""}.`;
+    return;
+  }
   const button = byId("play");
   const show = () => { button.textContent = motion.isPlaying ? "Pause" : "Play"; };
   motion.isPlaying = !window.matchMedia("(prefers-reduced-motion: reduce)").matches;

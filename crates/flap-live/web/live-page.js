@@ -16,6 +16,8 @@ const showControls = () => {
   byId("measure").value = state.measure;
   byId("x").value = along.name;
   byId("x-unit").textContent = along.unit;
+  for (const end of ["from", "to"]) byId(`x-${end}`).removeAttribute("aria-invalid");
+  byId("x-problem").hidden = true;
   byId("x-from").value = digits(state.x.from * along.factor, 6);
   byId("x-to").value = digits(state.x.to * along.factor, 6);
   byId("by").value = by ? by.name : "";
@@ -36,6 +38,13 @@ const rangeAround = ({ name, low, high }) => {
 /** Numbers of a list that the user has typed, in SI units; text with a unit stays text. */
 const typedList = (text, factor) => text.split(/[,;\s]+(?=[-+.\d])/).map((part) => part.trim()).filter(Boolean).map((part) => (Number.isFinite(Number(part)) ? Number(part) / factor : part));
 
+/** Says what is wrong with an end of the axis; the axis stays as it is. */
+const refuseEnd = (field, words) => {
+  field.setAttribute("aria-invalid", "true");
+  byId("x-problem").textContent = words;
+  byId("x-problem").hidden = false;
+};
+
 const listen = () => {
   const viewed = () => { state.view = { x: null, y: null }; showControls(); changed(true); };
   byId("measure").onchange = () => { state.measure = byId("measure").value; viewed(); };
@@ -47,13 +56,18 @@ const listen = () => {
   };
   for (const end of ["from", "to"]) {
     byId(`x-${end}`).onchange = () => {
-      const number = Number(byId(`x-${end}`).value), field = byId(`x-${end}`);
-      field.toggleAttribute("aria-invalid", !Number.isFinite(number));
-      if (Number.isFinite(number)) { state.x[end] = number / parameterOf.get(state.x.name).factor; viewed(); } else field.setAttribute("aria-invalid", "true");
+      const field = byId(`x-${end}`), { unit, factor } = parameterOf.get(state.x.name);
+      if (field.value.trim() === "") return showControls();
+      const { number, problem } = typedNumber(field.value, unit), value = number / factor;
+      const isSame = !problem && value === state.x[end === "from" ? "to" : "from"];
+      if (problem || isSame) return refuseEnd(field, problem ?? "“from” and “to” must differ");
+      state.x[end] = value;
+      viewed();
     };
   }
   byId("by").onchange = () => {
     const name = byId("by").value;
+    state.hidden = [];
     if (!name) state.by = null;
     else {
       const { from, to } = rangeAround(parameterOf.get(name));
@@ -64,13 +78,13 @@ const listen = () => {
   };
   byId("by-values").onchange = () => { state.by.values = typedList(byId("by-values").value, parameterOf.get(state.by.name).factor); viewed(); };
   for (const axis of ["x", "y"]) byId(`log-${axis}`).onchange = () => { state.log[axis] = byId(`log-${axis}`).checked; state.view = { x: null, y: null }; redraw(); remember(true); };
-  byId("hysteresis").onclick = () => { family.isUpDown = !family.isUpDown; family.ghost = []; showControls(); rest(); };
+  byId("hysteresis").onclick = () => { state.updown = !state.updown; state.hidden = []; family.ghost = []; showControls(); rest(); };
   byId("pin").onclick = () => { pins.add(); remember(true); };
   addEventListener("popstate", restore);
 };
 
 /** Draws the last rows again, as after a change of the axes alone. */
-const redraw = () => { if (family.answer) family.draw(family.answer, false); };
+const redraw = () => { if (family.answer) family.draw(family.answer, family.isFine); };
 
 /** What follows a change: a coarse family at once, everything else when the design rests. */
 const changed = (isRest) => {
@@ -100,7 +114,9 @@ const showMotion = settled((mark) => {
 
 /** Takes over the address, as after a reload or the back button. */
 const restore = () => {
-  takeOver(stateOfAddress());
+  const found = stateOfAddress();
+  banner.say("address", foreignAddress(found));
+  takeOver(found);
   panel.show();
   showControls();
   pins.show();
@@ -108,6 +124,10 @@ const restore = () => {
 };
 
 const start = () => {
+  // The heading may be the path of a file: its name is enough.
+  const name = opened.title.split(/[\\/]/).pop();
+  Object.assign(byId("title"), { textContent: name, title: opened.title });
+  document.title = name;
   byId("about").textContent = `${opened.doc} · model ${opened.model}, preset ${opened.preset} · flap ${opened.version}`;
   panel.build();
   panel.onChange = changed;
@@ -117,11 +137,15 @@ const start = () => {
     name: "Response family. Arrow keys go along the lines.",
     onPoint: (mark) => { family.tell(mark); showMotion(mark); },
     onView: (view) => { state.view = view; remember(true); },
+    onHidden: (groups) => { state.hidden = groups; remember(true); },
+    onScheme: () => { if (family.lines) family.repaint(); },
   });
   family.repaint = () => family.paint([...family.ghost.map((line) => ({ ...line, key: `ghost ${line.key}`, ghost: true, marks: false, width: 1.5, dash: [3, 3] })), ...family.lines]);
-  server.onGone = () => { byId("banner").hidden = false; byId("banner").textContent = "The server is gone: the page shows what it had, and goes on when the server is there again."; };
-  server.onBack = () => { byId("banner").hidden = true; changed(true); };
+  server.onGone = () => banner.say("server", "The server is gone: the page shows what it had, and goes on when the server is there again.");
+  server.onBack = () => { banner.say("server", ""); changed(true); };
   listen();
+  for (const button of document.querySelectorAll(".skip button")) button.onclick = () => document.querySelector(button.dataset.to).focus();
+  byId("all").open = window.matchMedia("(min-width: 1181px)").matches;
   saving.start();
   motion.start();
   restore();

@@ -2,7 +2,8 @@
 
 const STEPS = 1000;
 
-const panel = { rows: new Map(), onChange: () => {} };
+/** `refused`: what is wrong with the texts of fields that were not understood. */
+const panel = { rows: new Map(), refused: new Map(), onChange: () => {} };
 
 /** The place of a value on a slider, and back. */
 const toSlider = ({ low, high, log }, value) =>
@@ -26,7 +27,7 @@ const parameterRow = (parameter) => {
   const help = element("p", { class: "help", hidden: true }, `${parameter.doc} Allowed: ${parameter.allowed}. Name: ${name}.${parameter.fitted ? " The published value is a fit to one vehicle." : ""}`);
   const problem = element("p", { class: "problem", role: "alert", hidden: true });
   row.append(element("div", { class: "name" }, element("label", { for: id }, parameter.label),
-    element("span", { class: "symbol" }, parameter.symbol), reset, ask));
+    symbolOf(parameter.symbol), reset, ask));
   const inputs = element("div", { class: "inputs" });
   let slider = null, field;
   const isFixed = kind === "derived";
@@ -60,7 +61,7 @@ panel.build = () => {
     element("details", { open: first.includes(group) && parameters.length < 16 || group === "drive", "data-group": group }, element("summary", {}, group || "parameters"), ...parameters.map(parameterRow))));
   byId("search").oninput = panel.search;
   byId("panel").onsubmit = (event) => event.preventDefault();
-  byId("reset-all").onclick = () => { state.design = {}; panel.show(); panel.onChange(true); };
+  byId("reset-all").onclick = () => { state.design = {}; state.hidden = []; banner.say("address", ""); panel.show(); panel.onChange(true); };
 };
 
 /** Shows the parameters that have all words of the search in their names, symbols or meanings. */
@@ -90,13 +91,19 @@ panel.set = (name, value, isRest) => {
 panel.typed = (name) => {
   const parameter = parameterOf.get(name), text = panel.rows.get(name).field.value.trim();
   if (text === "") return panel.set(name, parameter.kind === "following" ? null : parameter.value, true);
-  const number = Number(text.replace(",", "."));
-  panel.set(name, Number.isFinite(number) ? number / parameter.factor : text, true);
+  const { number, rest, problem } = splitNumber(text);
+  if (problem && /^[-+−.\d]/.test(text)) {
+    panel.refused.set(name, problem);
+    panel.complain(null);
+    return;
+  }
+  panel.set(name, problem ? text : rest === "" ? number / parameter.factor : `${number} ${rest}`, true);
 };
 
 panel.showOne = (name) => {
   const parameter = parameterOf.get(name), { row, slider, field, reset } = panel.rows.get(name);
   const value = valueIn(state.design, name), isChanged = name in state.design;
+  panel.refused.delete(name);
   row.classList.toggle("changed", isChanged);
   reset.hidden = !isChanged;
   if (isNumber(value)) {
@@ -110,15 +117,15 @@ panel.showOne = (name) => {
 
 panel.show = () => { for (const name of panel.rows.keys()) panel.showOne(name); };
 
-/** Marks the field that the server has refused; none if all is well. */
+/** Marks the field that the server has refused, and those that were not understood. */
 panel.complain = (error) => {
   for (const [name, { field, problem }] of panel.rows) {
-    const isIt = error !== null && error.parameter === name;
-    field.toggleAttribute("aria-invalid", isIt);
-    if (isIt) field.setAttribute("aria-invalid", "true");
-    problem.hidden = !isIt;
-    problem.textContent = isIt ? [error.message, error.help].filter(Boolean).join(". ") : "";
-    if (isIt) problem.closest("details").open = true;
+    const ofServer = error !== null && error.parameter === name ? [error.message, error.help].filter(Boolean).join(". ") : "";
+    const words = panel.refused.get(name) ?? ofServer;
+    if (words) field.setAttribute("aria-invalid", "true"); else field.removeAttribute("aria-invalid");
+    problem.hidden = !words;
+    if (problem.textContent !== words) problem.textContent = words;
+    if (words) problem.closest("details").open = true;
   }
 };
 

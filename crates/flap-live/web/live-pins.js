@@ -43,10 +43,12 @@ pins.show = () => {
   const parameterRows = changed.map((name) => element("tr", {}, element("td", {}, parameterOf.get(name).label),
     ...shownPins.map(({ design }) => element("td", {}, shownValue(parameterOf.get(name), valueIn(design, name))))));
   const answers = shownPins.map(({ design }, i) => (i < state.pins.length ? pins.rows.get(pinKey(design)) : numbers.answer));
-  const measureRows = [state.measure, ...MAIN_NUMBERS.filter((name) => name !== state.measure)].filter((name) => measureOf.has(name)).slice(0, 7).map((name) => {
+  const valueOf = (answer, name) => answer?.row[answer.columns.indexOf(name)];
+  const isKnown = (name) => answers.some((answer) => isNumber(valueOf(answer, name)));
+  const measureRows = [state.measure, ...MAIN_NUMBERS.filter((name) => name !== state.measure && isKnown(name))].filter((name) => measureOf.has(name)).slice(0, 7).map((name) => {
     const { label, unit } = measureOf.get(name);
     return element("tr", {}, element("td", {}, unit ? `${label} (${unit})` : label), ...answers.map((answer) => {
-      const value = answer?.row[answer.columns.indexOf(name)];
+      const value = valueOf(answer, name);
       return element("td", {}, isNumber(value) ? digits(value, 5) : "–");
     }));
   });

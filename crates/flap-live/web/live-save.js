@@ -4,8 +4,9 @@ const saving = { name: "", text: "" };
 
 saving.ask = async (kind) => {
   if (kind === "png") return download("family.png", await family.chart.png());
-  if (kind === "svg") return download("family.svg", family.chart.svg(), "image/svg+xml");
-  const view = kind === "device" ? {} : { x: { ...state.x, n: FINE }, by: state.by };
+  if (kind === "svg") return download("family.svg", await family.chart.svg(), "image/svg+xml");
+  const along = { x: { ...state.x, n: FINE } };
+  const view = kind === "device" ? {} : state.updown ? { ...along, updown: true } : { ...along, by: state.by };
   try {
     Object.assign(saving, await server.ask("save", { kind, design: state.design, ...view }));
     byId("saved").textContent = saving.text;

@@ -4,6 +4,9 @@ const opened = JSON.parse(byId("data").textContent);
 const parameterOf = new Map(opened.parameters.map((parameter) => [parameter.name, parameter]));
 const measureOf = new Map(opened.measures.map((measure) => [measure.name, measure]));
 
+/** Several wings on a body: numbers of them together, and no single motion. */
+const isVehicle = measureOf.has("torque_roll_unm");
+
 const freshState = () => ({
   design: {}, // changed parameters alone: SI numbers, options, or null for one that is taken away
   x: { name: opened.view.x.name, from: opened.view.x.from, to: opened.view.x.to },
@@ -11,6 +14,8 @@ const freshState = () => ({
   measure: opened.view.measure,
   log: { x: false, y: false },
   view: { x: null, y: null },
+  updown: false, // the ways up and down in place of the family
+  hidden: [], // lines that the legend has switched off
   pins: [],
 });
 const state = freshState();
@@ -34,6 +39,13 @@ const change = (name, value) => {
 const isNumber = (value) => typeof value === "number" && Number.isFinite(value);
 const isRange = (range) => range === null || (Array.isArray(range) && range.length === 2 && range.every(isNumber));
 
+/** Words about an address that was made with another preset. */
+const foreignAddress = (found) => {
+  const preset = found && typeof found === "object" ? found.preset : undefined;
+  if (typeof preset !== "string" || preset === opened.preset) return "";
+  return `The address was made with the preset ${preset}: what it says is shown with ${opened.preset}, which this page has.`;
+};
+
 /** Takes over what an address says, but for what this model does not have. */
 const takeOver = (found) => {
   Object.assign(state, freshState());
@@ -48,15 +60,17 @@ const takeOver = (found) => {
   if (measureOf.has(found.measure)) state.measure = found.measure;
   if (log) state.log = { x: Boolean(log.x), y: Boolean(log.y) };
   if (view && isRange(view.x ?? null) && isRange(view.y ?? null)) state.view = { x: view.x ?? null, y: view.y ?? null };
+  state.updown = found.updown === true;
+  if (Array.isArray(found.hidden)) state.hidden = found.hidden.filter((group) => typeof group === "string");
   if (Array.isArray(found.pins)) {
     state.pins = found.pins.filter((pin) => pin && typeof pin.name === "string").map((pin) => ({ name: pin.name, design: knownDesign(pin.design) }));
   }
 };
 
-/** Writes what differs from the first view into the address. */
+/** Writes the preset and what differs from the first view into the address. */
 const remember = (isStep) => {
   const fresh = freshState();
   const told = Object.fromEntries(Object.entries(state).filter(([key, value]) => JSON.stringify(value) !== JSON.stringify(fresh[key])));
   if (Object.keys(told).length === 0 && !location.hash) return;
-  writeAddress(told, isStep);
+  writeAddress({ preset: opened.preset, ...told }, isStep);
 };

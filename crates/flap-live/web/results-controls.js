@@ -44,18 +44,18 @@ const sliceRow = ({ place, levels }) => {
 
 /** A filter from the least to the largest value of a column. */
 const filterOf = (place) => {
-  const [low, high] = extentOf(columns[place].cells) ?? [0, 1];
+  const [low, high] = columns[place].extent ?? [0, 1];
   return { place, low, high };
 };
 
 /** A filter: its column, two bounds to be typed, and a slider for each. Bounds do not cross. */
 const filterRow = (filter, number) => {
-  const column = columns[filter.place], [least, most] = extentOf(column.cells) ?? [0, 1];
+  const column = columns[filter.place], [least, most] = column.extent ?? [0, 1];
   const select = element("select", { "aria-label": "Column of the filter" }, ...numberPlaces.map((place) => element("option", { value: String(place) }, columns[place].title)));
   select.value = String(filter.place);
   select.onchange = () => { shown.filters[number] = filterOf(Number(select.value)); showControls(); refresh(true); };
   const bounds = element("div", { class: "bounds" }), row = element("div", { class: "filter" }, select, bounds);
-  const fields = {};
+  const fields = {}, problems = element("p", { class: "problem", role: "alert", hidden: true });
   const write = () => { for (const side of ["low", "high"]) { fields[side].box.value = shortNumber(filter[side] * column.factor); fields[side].slider.value = String(1000 * (filter[side] - least) / (most - least || 1)); } };
   const set = (side, value) => {
     filter[side] = side === "low" ? Math.min(value, filter.high) : Math.max(value, filter.low);
@@ -65,7 +65,15 @@ const filterRow = (filter, number) => {
   for (const [side, words] of [["low", "at least"], ["high", "at most"]]) {
     const box = element("input", { inputmode: "decimal", "aria-label": `${column.title}, ${words}` });
     const slider = element("input", { type: "range", min: "0", max: "1000", step: "1", "aria-label": `${column.title}, ${words}, slider` });
-    box.onchange = () => { const value = Number(box.value); if (Number.isFinite(value) && box.value.trim() !== "") set(side, value / column.factor); else write(); rememberShown(true); };
+    box.onchange = () => {
+      const { number, problem } = box.value.trim() === "" ? { number: null } : typedNumber(box.value, column.unit);
+      box.setAttribute("aria-invalid", String(Boolean(problem)));
+      problems.textContent = problem ?? "";
+      problems.hidden = !problem;
+      if (problem) return;
+      if (number === null) write(); else set(side, number / column.factor);
+      rememberShown(true);
+    };
     slider.oninput = () => {
       // The ends of a slider are the least and the largest value exactly.
       const at = Number(slider.value);
@@ -77,7 +85,7 @@ const filterRow = (filter, number) => {
   bounds.append(fields.low.box, fields.high.box);
   const remove = element("button", { type: "button" }, "Remove");
   remove.onclick = () => { shown.filters.splice(number, 1); showControls(); refresh(true); byId("add").focus(); };
-  row.append(fields.low.slider, fields.high.slider, remove);
+  row.append(problems, fields.low.slider, fields.high.slider, remove);
   write();
   return row;
 };
@@ -89,6 +97,7 @@ const listenToControls = () => {
       view[name] = ["kind", "best"].includes(name) ? value : value === "" ? null : Number(value);
       if (name === "kind" && view.kind === "map") chooseMapAxes(view);
       view.zoom = { x: null, y: null };
+      if (["kind", "by"].includes(name)) view.hidden = [];
       if (["kind", "x", "y", "by"].includes(name)) chooseSlices();
       showControls();
       refresh(true);

@@ -12,10 +12,12 @@ const bytesOf = (text) => {
 
 /** A column with its cells: numbers by row, NaN for none; of words, their codes. */
 const columnOf = (column) => {
-  let cells = null;
+  let cells = null, extent = null;
   return {
     ...column,
     words: column.words ?? null,
+    /** The least and the largest value; null if there is none. */
+    get extent() { return (extent ??= [extentOf(this.cells)])[0]; },
     get cells() {
       if (cells) return cells;
       const raw = new TYPES[column.type](bytesOf(column.data));

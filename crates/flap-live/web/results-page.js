@@ -7,19 +7,26 @@ const refresh = (isStep) => {
   const rows = visibleRows(), parts = [`${rows.length} of ${results.rows} rows shown`];
   if (results.of > results.rows) parts.push(`the file has ${results.of}: every ${results.stride}th is in this page`);
   if (results.single) parts.push("measures to seven digits");
+  shown.rows = rows;
   for (const i of shown.two ? [0, 1] : [0]) {
-    const view = shown.views[i], { scene, without, problem } = sceneOf(view, rows);
-    charts[i].view = view.zoom;
-    charts[i].selectedRows = marked();
-    charts[i].draw(scene);
+    const { without, problem } = drawView(i);
     if (without) parts.push(`${without} without a value`);
     if (problem) parts.push(problem);
   }
-  byId("status").textContent = parts.join(" · ");
-  shown.rows = rows;
+  byId("status").textContent = [...new Set(parts)].join(" · ");
   showTable();
   showTip(activeView());
   rememberShown(isStep);
+};
+
+/** Draws a view of the rows that are shown. */
+const drawView = (i) => {
+  const view = shown.views[i], { scene, without, problem } = sceneOf(view, shown.rows), chart = charts[i];
+  chart.view = view.zoom;
+  chart.hidden = new Set(view.hidden);
+  chart.selectedRows = marked();
+  chart.draw(scene);
+  return { without, problem };
 };
 
 let isWaiting = false;
@@ -44,10 +51,12 @@ const mark = () => {
 
 const makeChart = (i) => new Chart(byId(`chart-${i}`), {
   name: `Picture ${i + 1} of the rows. Arrow keys go from mark to mark.`,
-  onPoint: (mark) => { shown.hover = mark ? mark.row : null; showTip(shown.views[i]); if (shown.selected.size === 0 && shown.pinned === null) showTable(); },
+  onPoint: (mark) => { shown.hover = mark ? mark.row : null; showTip(shown.views[i]); },
   onPin: (pinned) => { shown.pinned = pinned ? pinned.row : null; shown.selected = new Set(); mark(); },
   onSelect: (rows) => { shown.selected = new Set(rows); shown.pinned = null; mark(); },
   onView: (view) => { shown.views[i].zoom = view; rememberShown(true); },
+  onHidden: (groups) => { shown.views[i].hidden = groups; rememberShown(true); },
+  onScheme: () => { if (!byId(`chart-${i}`).hidden) drawView(i); },
 });
 
 const listenToTools = () => {
@@ -59,7 +68,7 @@ const listenToTools = () => {
   byId("whole").onclick = () => { for (const view of shown.views) view.zoom = { x: null, y: null }; refresh(true); };
   byId("csv").onclick = () => download("rows.csv", csvOf(shown.selected.size > 0 ? shown.selected : shown.rows), "text/csv");
   byId("png").onclick = async () => download("picture.png", await charts[shown.active].png());
-  byId("svg").onclick = () => download("picture.svg", charts[shown.active].svg(), "image/svg+xml");
+  byId("svg").onclick = async () => download("picture.svg", await charts[shown.active].svg(), "image/svg+xml");
 };
 
 const restoreShown = () => {

@@ -2,7 +2,7 @@
 
 const first = results.start;
 const freshView = () => ({ kind: first.kind, x: first.x, y: first.y, by: first.by, color: first.color, best: first.best,
-  log: { x: false, y: false, color: false }, zoom: { x: null, y: null } });
+  log: { x: false, y: false, color: false }, zoom: { x: null, y: null }, hidden: [] });
 
 const shown = { views: [], two: false, active: 0, slices: {}, filters: [], pinned: null, hover: null, selected: new Set() };
 
@@ -38,7 +38,11 @@ const visibleRows = () => {
     const slice = shown.slices[place];
     if (slice !== null && slice !== undefined) tests.push({ cells: columns[place].cells, low: levels[slice], high: levels[slice] });
   }
-  for (const { place, low, high } of shown.filters) tests.push({ cells: columns[place].cells, low, high });
+  for (const { place, low, high } of shown.filters) {
+    const { cells, extent } = columns[place];
+    // A filter that is wide open leaves out nothing, rows without a value neither.
+    if (extent && (low > extent[0] || high < extent[1])) tests.push({ cells, low, high });
+  }
   const rows = new Int32Array(results.rows);
   let count = 0;
   for (let row = 0; row < results.rows; row++) {
@@ -74,6 +78,7 @@ const takeOverShown = (found) => {
       const range = view?.zoom?.[axis];
       if (Array.isArray(range) && range.length === 2 && range.every(Number.isFinite)) into.zoom[axis] = range;
     }
+    if (Array.isArray(view?.hidden)) into.hidden = view.hidden.filter((group) => typeof group === "string");
   });
   shown.two = Boolean(found.two);
   for (const { place: at, levels } of slicedAxes) {

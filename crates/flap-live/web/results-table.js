@@ -3,11 +3,12 @@
 const MOST_SHOWN_ROWS = 100;
 
 const showTable = () => {
-  const selected = [...shown.selected], one = shown.pinned ?? shown.hover;
-  const rows = selected.length > 0 ? selected : one === null ? [] : [one];
+  const selected = [...shown.selected];
+  const rows = selected.length > 0 ? selected : shown.pinned === null ? [] : [shown.pinned];
+  byId("rows").hidden = rows.length === 0;
   byId("rows-title").textContent = selected.length > 0
     ? `${selected.length} selected rows${selected.length > MOST_SHOWN_ROWS ? `, the first ${MOST_SHOWN_ROWS}` : ""}`
-    : shown.pinned !== null ? "Row that was clicked" : "Row under the pointer";
+    : "Row that was clicked";
   if (rows.length === 0) { byId("table").replaceChildren(); return; }
   const head = element("tr", {}, ...columns.map(({ label, name, unit }) => element("th", { scope: "col", title: name }, label, element("small", {}, unit || "\u00a0"))));
   const body = rows.slice(0, MOST_SHOWN_ROWS).map((row) => element("tr", {}, ...columns.map((column) => element("td", {}, shownCell(column, row)))));

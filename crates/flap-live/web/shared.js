@@ -38,6 +38,10 @@ const titled = ({ label, unit }) => (unit ? `${label} (${unit})` : label);
 /** The value of a variable of the style, in light or dark. */
 const styleColour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
+/** The scheme of the system, but for pictures to save: those are light. */
+const darkScheme = window.matchMedia("(prefers-color-scheme: dark)");
+const isDark = () => darkScheme.matches && !document.documentElement.classList.contains("paper");
+
 // Colours that differ for colour-blind readers too (Okabe and Ito), and viridis for many lines.
 const FEW_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
 const VIRIDIS = [[68, 1, 84], [72, 36, 117], [65, 68, 135], [53, 95, 141], [42, 120, 142], [33, 145, 140],
@@ -47,9 +51,29 @@ const viridis = (share) => {
   const low = Math.min(Math.floor(place), VIRIDIS.length - 2);
   return `rgb(${VIRIDIS[low].map((part, i) => Math.round(part + (VIRIDIS[low + 1][i] - part) * (place - low)))})`;
 };
+/** The shades that can be told from a light or dark ground: all have a contrast of 3 at least. */
+const READABLE = { light: [0, 0.58], dark: [0.36, 1] };
 /** The colour of line `index` of `count`: shades by value if there are many. */
-const lineColour = (index, count) =>
-  count <= FEW_COLOURS.length ? FEW_COLOURS[index] : viridis(0.9 * index / (count - 1));
+const lineColour = (index, count) => {
+  if (count <= FEW_COLOURS.length) return FEW_COLOURS[index];
+  const [low, high] = isDark() ? READABLE.dark : READABLE.light;
+  return viridis(low + (high - low) * index / (count - 1));
+};
+
+// Rows without a settled motion: each status has a shape, around the middle of a box of 10, and a grey.
+const STATUS_MARKS = {
+  subharmonic: { shape: "M-3 -3H3V3H-3Z", light: "#4a4f55", dark: "#d5d9de" },
+  unsettled: { shape: "M-4 3.5H4L0 -3.5Z", light: "#7d848c", dark: "#a3aab2" },
+  diverged: { shape: "M-4 -3L-3 -4L0 -1L3 -4L4 -3L1 0L4 3L3 4L0 1L-3 4L-4 3L-1 0Z", light: "#5d6670", dark: "#bcc3ca" },
+  step_limit: { shape: "M0 -4.5L4.5 0L0 4.5L-4.5 0Z", light: "#9aa1a8", dark: "#868e97" },
+  invalid: { shape: "M-4 -1.2H4V1.2H-4Z", light: "#b9bec4", dark: "#6a727b" },
+  unstable: { shape: "M3.5 0A3.5 3.5 0 1 1 -3.5 0A3.5 3.5 0 1 1 3.5 0Z", light: "#8b9299", dark: "#959da5" },
+};
+/** The shape and the colour of a status. */
+const statusMark = (status) => {
+  const { shape, light, dark } = STATUS_MARKS[status] ?? STATUS_MARKS.unsettled;
+  return { shape, color: isDark() ? dark : light };
+};
 
 /** Saves a text or a blob as a file. */
 const download = (name, content, type = "text/plain") => {

@@ -1,0 +1,122 @@
+"""Pictures of both pages for the documentation, taken in a headless browser.
+
+    python benches/pages/pictures.py [--flap target/release/flap] [FOLDER]
+
+Writes live.png (a wide window, light), live-dark.png (a tablet's width, dark) and cli-page.png (the page of results) to FOLDER,
+docs/pictures if none is given. Needs Debian's packages chromium and chromium-driver, and the Python packages selenium and pillow.
+The pictures have few colours, so that each is smaller than 60 kB.
+"""
+
+import argparse
+import base64
+import io
+import signal
+import subprocess
+import tempfile
+from pathlib import Path
+
+from live import AT_REST, browser
+from PIL import Image
+from selenium.webdriver.support.wait import WebDriverWait
+
+ROOT = Path(__file__).parents[2]
+LARGEST = 60_000
+# The distance of two colours that are kept, among red, green and blue from 0 to 255.
+APART = 16
+
+# A moment of the cycle at which stroke, pitch and forces are seen.
+STILL = """
+if (motion.isPlaying) byId("play").click();
+motion.share = 0.18;
+"""
+DRAWN = "return motion.signals && motion.charts.length > 0 && numbers.answer.gradient !== null"
+
+
+def window(driver, width, height, scheme):
+    size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    features = [{"name": "prefers-color-scheme", "value": scheme}]
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
+
+
+def in_few_colours(picture, count):
+    """A picture in its most frequent colours: those of areas, lines and letters, none close to another."""
+    kept = []
+    for _, colour in sorted(picture.getcolors(picture.width * picture.height), reverse=True):
+        if all(sum((a - b) ** 2 for a, b in zip(colour, other)) >= APART**2 for other in kept):
+            kept.append(colour)
+        if len(kept) == count:
+            break
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([part for colour in kept for part in colour])
+    return picture.quantize(palette=palette, dither=Image.Dither.NONE)
+
+
+def save(driver, path):
+    """The window as a PNG of as many colours as fit."""
+    driver.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
+    shot = driver.execute_cdp_cmd("Page.captureScreenshot", {"format": "png"})["data"]
+    picture = Image.open(io.BytesIO(base64.b64decode(shot))).convert("RGB")
+    for colours in (128, 64, 32, 24, 16):
+        in_few_colours(picture, colours).save(path, optimize=True)
+        if path.stat().st_size < LARGEST:
+            print(f"{path.name}: {path.stat().st_size} bytes, {colours} colours")
+            return
+    raise SystemExit(f"{path.name} is too large")
+
+
+def live(driver, flap, folder):
+    """The live page of the bimorph, with a stiffer hinge in place of the published one."""
+    arguments = [flap, "live", "jafferis2016", "--no-open"]
+    server = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    try:
+        address = server.stdout.readline().strip()
+        for name, width, height, scheme in [("live", 1600, 780, "light"), ("live-dark", 820, 1180, "dark")]:
+            window(driver, width, height, scheme)
+            driver.get("about:blank")
+            driver.get(address)
+            wait = WebDriverWait(driver, 60)
+            wait.until(lambda _: driver.execute_script(AT_REST))
+            driver.execute_script("panel.set('hinge_stiffness', 1.6e-6, true)")
+            wait.until(lambda _: driver.execute_script("return family.ghost.length > 0 && family.isFine && " + DRAWN.removeprefix("return ")))
+            driver.execute_script(STILL)
+            save(driver, folder / f"{name}.png")
+    finally:
+        server.send_signal(signal.SIGINT)
+        server.wait()
+
+
+def results(driver, flap, folder):
+    """The page of the example in docs/plots.md, with a row that was clicked."""
+    with tempfile.TemporaryDirectory() as name:
+        place = Path(name)
+        subprocess.run([flap, "sweep", ROOT / "examples/ozaki_large.toml", "--out", "ozaki_large.csv", "--quiet"], cwd=place, check=True)
+        subprocess.run([flap, "plot", "ozaki_large.csv", "--html", "ozaki_large.html"], cwd=place, check=True, capture_output=True)
+        window(driver, 1300, 800, "light")
+        driver.get((place / "ozaki_large.html").as_uri())
+        WebDriverWait(driver, 60).until(lambda _: driver.execute_script("return charts.length === 2 && charts[0].plot !== null"))
+        driver.execute_script("""
+          byId("two").click();
+          byId("kind").value = "map"; byId("kind").onchange();
+          const { rows } = charts[0].scene.lines[5];
+          shown.pinned = rows[13]; mark();
+        """)
+        save(driver, folder / "cli-page.png")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--flap", default="target/release/flap", help="the command")
+    parser.add_argument("folder", nargs="?", type=Path, default=ROOT / "docs/pictures")
+    arguments = parser.parse_args()
+    flap = Path(arguments.flap).resolve()
+    driver = browser()
+    try:
+        live(driver, flap, arguments.folder)
+        results(driver, flap, arguments.folder)
+    finally:
+        driver.quit()
+
+
+if __name__ == "__main__":
+    main()
