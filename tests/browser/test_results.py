@@ -460,7 +460,7 @@ def test_arrow_keys_go_from_mark_to_mark(page):
     row = page.script("return shown.hover")
     assert not page.find("#rows").is_displayed()
     page.keys(Keys.ENTER)
-    assert page.text("#rows-title") == "The row that was clicked"
+    assert page.text("#rows-title") == "Row that was clicked"
     assert page.script("return shown.pinned") == row
     assert page.find("#rows").is_displayed()
     whole = page.range("x")
