@@ -9,7 +9,7 @@ use kuva::render::render::{Primitive, Scene, TextAnchor};
 
 use super::chosen::Chosen;
 use super::label::digits;
-use super::panel::{Axis, Panel};
+use super::panel::{Axis, LETTER, Panel};
 use super::shades::Shades;
 use super::wishes::{INPUT, MEAN};
 use super::{bar, ink};
@@ -25,6 +25,9 @@ const LEAST: f64 = 1e-3;
 
 /// The share beyond which a colour is so dark that its number is white.
 const DARK: f64 = 0.6;
+
+/// The size of the numbers.
+const SIZE: u32 = 12;
 
 /// Draws the change of force and torque per unit of each input.
 pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
@@ -58,52 +61,70 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let frame = ComputedLayout::from_layout(&layout);
     let mut scene = panel.scene_in(layout);
     let shades = Shades::of((-1.0, 1.0));
+    let mut cells = Vec::new();
     for (line, &row) in rows.iter().rev().enumerate() {
         let changes: Vec<f64> = columns.iter().map(|column| column[row]).collect();
         let finite = changes.iter().filter(|change| change.is_finite());
         let largest = finite.fold(0.0, |largest: f64, change| largest.max(change.abs()));
-        for (place, change) in changes.into_iter().enumerate() {
-            let share = if largest > 0.0 { change / largest } else { change };
-            cell(&mut scene, &frame, (place, line), (change, share), &shades);
-        }
+        let share = |change: f64| if largest > 0.0 { change / largest } else { change };
+        cells.extend(changes.into_iter().enumerate().map(|(place, change)| Cell {
+            sides: [0.5, 1.5].map(|edge| frame.map_x(place as f64 + edge)),
+            ends: [1.5, 0.5].map(|edge| frame.map_y(line as f64 + edge)),
+            change,
+            share: share(change),
+        }));
     }
+    cells.iter().for_each(|cell| cell.fill(&mut scene, &shades));
+    cells.iter().for_each(|cell| cell.number(&mut scene));
     ink::frame_lines(&mut scene, &frame);
     let label = "Share of the input's largest change".to_owned();
     bar::colour_bar(&mut scene, &frame, &Axis::linear(label, (-1.0, 1.0)), None);
     Ok(scene)
 }
 
-/// A cell with its number, in the colour of its share of the largest in its line.
-fn cell(
-    scene: &mut Scene,
-    frame: &ComputedLayout,
-    (place, line): (usize, usize),
-    (change, share): (f64, f64),
-    shades: &Shades,
-) {
-    let sides = [0.5, 1.5].map(|edge| frame.map_x(place as f64 + edge));
-    let ends = [1.5, 0.5].map(|edge| frame.map_y(line as f64 + edge));
-    let fill = if share.is_finite() { shades.colour(share) } else { MISSING.to_owned() };
-    ink::rectangle(scene, (sides[0], ends[0]), (sides[1] - sides[0], ends[1] - ends[0] - 1.0), &fill);
-    let content = if change.is_nan() {
-        "?".to_owned()
-    } else if change == 0.0 {
-        "0".to_owned()
-    } else if share.abs() < LEAST {
-        "≈0".to_owned()
-    } else {
-        digits(change, 3).replace('-', "−")
-    };
-    scene.add(Primitive::Text {
-        x: f64::midpoint(sides[0], sides[1]),
-        y: f64::midpoint(ends[0], ends[1]) + 4.2,
-        content,
-        size: 12,
-        anchor: TextAnchor::Middle,
-        rotate: None,
-        bold: false,
-        color: (share.abs() > DARK).then(|| Color::from("#ffffff")),
-    });
+/// A cell: the change of a component, and its share of the largest of its input.
+struct Cell {
+    sides: [f64; 2],
+    ends: [f64; 2],
+    change: f64,
+    share: f64,
+}
+
+impl Cell {
+    fn fill(&self, scene: &mut Scene, shades: &Shades) {
+        let Cell { sides, ends, share, .. } = self;
+        let fill = if share.is_finite() { shades.colour(*share) } else { MISSING.to_owned() };
+        ink::rectangle(scene, (sides[0], ends[0]), (sides[1] - sides[0], ends[1] - ends[0] - 1.0), &fill);
+    }
+
+    fn number(&self, scene: &mut Scene) {
+        let Cell { sides, ends, share, .. } = self;
+        scene.add(Primitive::Text {
+            x: f64::midpoint(sides[0], sides[1]),
+            y: f64::midpoint(ends[0], ends[1]) + 4.2,
+            content: self.text(),
+            size: SIZE,
+            anchor: TextAnchor::Middle,
+            rotate: None,
+            bold: false,
+            color: (share.abs() > DARK).then(|| Color::from("#ffffff")),
+        });
+    }
+
+    /// The change in three digits, or in as few as fit.
+    fn text(&self) -> String {
+        let Cell { sides, change, share, .. } = *self;
+        if change.is_nan() {
+            return "?".to_owned();
+        }
+        if change != 0.0 && share.abs() < LEAST {
+            return "≈0".to_owned();
+        }
+        let text = digits(change, 3);
+        let is_wide = |text: &str| text.len() as f64 * LETTER * f64::from(SIZE) > sides[1] - sides[0] - 4.0;
+        let text = if is_wide(&text) { format!("{change:.1e}") } else { text };
+        text.replace('-', "−")
+    }
 }
 
 /// An input with the unit that its changes are per.
