@@ -275,7 +275,7 @@ fn seventeen_wings_are_too_many() {
     let folder = Folder::with_grid(&text);
     folder
         .ends(2, "check grid.toml")
-        .says("grid.toml:34:1: ")
+        .says("--> grid.toml:34:1")
         .says("a vehicle has at most 16 wings, not 17")
         .says("help: remove this wing");
 }

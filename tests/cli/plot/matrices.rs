@@ -23,7 +23,7 @@ fn a_matrix_has_its_numbers_in_cells() {
         .says("matrix in out.svg")
         .has(&["Amplitude, per V", "Bias, per V", "forward", "left", "up", "roll", "pitch", "yaw"])
         .has(&["0.0112", "−0.004", "−0.025", "5.37", "≈0", "0"])
-        .has(&["Share of the input's largest change"])
+        .has(&["Share of the input&apos;s largest change"])
         // The cells, 64 slices and the zero of the colour bar, background, clip and frame.
         .counts("<rect", 18 + 64 + 1 + 3);
     assert!(!picture.texts().contains(&"mean".to_owned()));
