@@ -74,8 +74,13 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
             share: share(change),
         }));
     }
-    cells.iter().for_each(|cell| cell.fill(&mut scene, &shades));
-    cells.iter().for_each(|cell| cell.number(&mut scene));
+    // Numbers lie above the colours of neighbours.
+    for cell in &cells {
+        cell.fill(&mut scene, &shades);
+    }
+    for cell in &cells {
+        cell.number(&mut scene);
+    }
     ink::frame_lines(&mut scene, &frame);
     let label = "Share of the input's largest change".to_owned();
     bar::colour_bar(&mut scene, &frame, &Axis::linear(label, (-1.0, 1.0)), None);

@@ -12,6 +12,9 @@ use super::table::{self, Entry};
 use crate::notation::expression::{Expression, Kind};
 use crate::plan::formula::Derived;
 
+/// A parameter that is set, and where.
+pub(super) type Place = (usize, Range<usize>);
+
 /// An entry of the section that is about a parameter.
 pub(super) struct Draft<'t> {
     pub(super) parameter: usize,
@@ -41,7 +44,7 @@ pub(super) fn drafts<'t>(entry: Option<&Entry<'t>>, lookup: &mut Lookup<'_>) -> 
 pub(super) fn report_repeats(
     drafts: &[Draft<'_>],
     axes: &[Placed],
-    set: &[(&str, &[(usize, Range<usize>)])],
+    set: &[(&str, &[Place])],
     problems: &mut Problems,
 ) {
     for Draft { parameter, entry } in drafts {
