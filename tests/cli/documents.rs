@@ -180,18 +180,28 @@ fn the_page_on_devices_works() {
     assert_eq!(grids.len(), 3);
 }
 
+/// Runs the arguments of a line; what is printed goes to the file behind `>`, if there is one.
+fn run_line(folder: &Folder, line: &str) {
+    let (arguments, file) = line.split_once(" > ").map_or((line, None), |(one, other)| (one, Some(other)));
+    let printed = folder.ends_with(0, &words(arguments)).stdout;
+    if let Some(file) = file {
+        fs::write(folder.path(file), printed).unwrap();
+    }
+}
+
 /// The commands of the page on vehicles work with its grid.
 #[test]
+#[cfg(feature = "plots")]
 fn the_page_on_vehicles_works() {
     let folder = Folder::new();
     let page = document("docs/vehicle.md");
     fs::write(folder.path("vehicle.toml"), &blocks(&page, "toml")[0]).unwrap();
     let mut commands = 0;
     for line in blocks(&page, "sh").iter().flat_map(|block| block.lines()) {
-        folder.ends_with(0, &words(line.strip_prefix("flap ").unwrap()));
+        run_line(&folder, line.strip_prefix("flap ").unwrap());
         commands += 1;
     }
-    assert_eq!(commands, 7);
+    assert_eq!(commands, 8);
 }
 
 /// The commands of the page on wings work with its outline, for every model.
@@ -237,7 +247,7 @@ fn commands_in_the_results_page_work() {
 fn commands_in_the_page_on_plots_work() {
     let folder = Folder::new();
     fs::create_dir(folder.path("examples")).unwrap();
-    for grid in ["examples/ozaki_large.toml", "examples/jafferis_tolerance.toml"] {
+    for grid in ["examples/ozaki_large.toml", "examples/jafferis_tolerance.toml", "examples/vehicle.toml"] {
         fs::copy(root().join(grid), folder.path(grid)).unwrap();
     }
     let page = document("docs/plots.md");
@@ -247,11 +257,11 @@ fn commands_in_the_page_on_plots_work() {
             let Some(arguments) = line.split('#').next().unwrap().trim().strip_prefix("flap ") else {
                 continue;
             };
-            folder.ends_with(0, &words(arguments));
+            run_line(&folder, arguments);
             commands += 1;
         }
     }
-    assert!(commands >= 10, "{commands} commands found");
+    assert!(commands >= 12, "{commands} commands found");
     let pictures: Vec<&str> =
         page.split("](pictures/cli-").skip(1).map(|rest| rest.split(')').next().unwrap()).collect();
     assert!(pictures.len() >= 6, "{pictures:?}");

@@ -4,6 +4,7 @@
 
 mod again;
 mod completion;
+mod control;
 mod damage;
 mod deviations;
 mod devices;

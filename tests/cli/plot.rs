@@ -1,6 +1,7 @@
 //! Pictures and pages of results.
 
 mod drawn;
+mod matrices;
 mod mistakes;
 mod pages;
 mod pictures;

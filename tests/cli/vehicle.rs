@@ -1,12 +1,13 @@
 //! Vehicles: grid files with `[vehicle]`, and `flap vehicle`.
 
+use std::fmt::Write as _;
 use std::fs;
 
 use crate::support::Folder;
 #[cfg(unix)]
 use crate::support::{send, sweep_until, wait};
 
-const HEAD: &str = "\
+pub(crate) const HEAD: &str = "\
 preset = \"jafferis2016\"
 
 [vehicle]
@@ -208,6 +209,40 @@ fn mistakes_in_vehicles_are_told_with_their_place() {
             &format!("{wing}[axes]\ndifference_drive_offset = [1, 2]\n"),
             "has no parameter `difference_drive_offset`",
         ),
+        (
+            &format!("{wing}[axes]\ndifference_drive_offset = [1, 2]\n"),
+            "a left-right difference needs wings on both sides",
+        ),
+        (
+            &format!("{wing}[axes]\nleft_drive_frequency = [100, 110]\n"),
+            "help: the frequency is common to all wings: write `drive_frequency`",
+        ),
+        (
+            &format!("{wing}[axes]\nleft_drive_shape = [\"square\"]\n"),
+            "help: choices are common to all wings: write `drive_shape`",
+        ),
+        (
+            &format!("{wing}[params]\nleft_drive_phase = \"30 deg\"\n"),
+            "help: a drive has no phase of its own",
+        ),
+        (&format!("{wing}plane = [0, 0, 0]\n"), "help: write plane = { roll = \"5 deg\""),
+        (&format!("{wing}plane = {{ dihedral = \"5 deg\" }}\n"), "help: write plane = { roll = \"5 deg\""),
+        (&format!("{wing}position = [nan, 0, 0]\n"), "help: write a finite number in m, or text with a unit"),
+        ("[[vehicle.wings]]\nname = \"Left\"\n", "help: write a name such as \"left\""),
+        (&format!("{wing}{wing}"), "help: give each wing a name of its own"),
+        ("[vehicle]\nwings = []\n", "help: write [[vehicle.wings]]"),
+        (
+            &format!("[vehicle]\ntotal_mass = 0\n{wing}"),
+            "help: write total_mass = \"85 mg\", or leave it out",
+        ),
+        (
+            &format!("[vehicle]\ntotal_mass = nan\n{wing}"),
+            "help: write total_mass = \"85 mg\", or leave it out",
+        ),
+        (
+            &format!("{wing}position = [0, \"1 mm\", 0]\n[derived]\nleft_position_y = \"0.001\"\n"),
+            "`left_position_y` is derived and set in [vehicle]",
+        ),
         (&format!("{wing}[axes]\nright_drive_offset = [1, 2]\n"), "did you mean `left_drive_offset`?"),
     ] {
         let folder = Folder::with_grid(&format!("preset = \"jafferis2016\"\n\n{text}"));
@@ -220,8 +255,61 @@ fn mistakes_in_vehicles_are_told_with_their_place() {
     let other = format!("preset = \"ozaki2018-large\"\n\n{wing}preset = \"ozaki2018-small\"\n");
     let folder = Folder::with_grid(&other);
     folder.ends(2, "check grid.toml").says("the wing `left` flaps at 209 Hz, the vehicle at 109 Hz");
-    let folder = Folder::with_grid(&format!("{other}[params]\ndrive_frequency = 150\n"));
-    folder.ends(0, "run grid.toml").prints("force_up_mn");
+    for set in [
+        "[params]\ndrive_frequency = 150\n",
+        "[[zip]]\ndrive_frequency = [150, 160]\ndrive_voltage_pp = [60, 70]\n",
+        "[sample]\nmethod = \"random\"\nn = 2\n[sample.parameters]\ndrive_frequency = { from = 140, to = 160 }\n",
+    ] {
+        let folder = Folder::with_grid(&format!("{other}{set}"));
+        folder.ends(0, "run grid.toml").prints("force_up_mn");
+    }
+}
+
+/// The wing that is one too many is the place of the mistake.
+#[test]
+fn seventeen_wings_are_too_many() {
+    let mut text = "preset = \"jafferis2016\"\n".to_owned();
+    for wing in 0..17 {
+        let _ = writeln!(text, "[[vehicle.wings]]\nname = \"w{wing}\"");
+    }
+    let folder = Folder::with_grid(&text);
+    folder
+        .ends(2, "check grid.toml")
+        .says("--> grid.toml:34:1")
+        .says("a vehicle has at most 16 wings, not 17")
+        .says("help: remove this wing");
+}
+
+/// A wing with a preset or a device has all of its numbers but those of the drive, also those that the grid's design has too.
+#[test]
+fn a_wing_keeps_its_design_when_the_grid_changes() {
+    let with = |key: &str| HEAD.replacen("mirrored = true", &format!("mirrored = true\n{key}"), 1);
+    let set = "[params]\nhinge_stiffness = \"1.2 uN*m/rad\"\ndrive_voltage_pp = 180\n";
+    let folder = Folder::with_grid(&format!("{}{set}", with("preset = \"jafferis2016\"")));
+    folder.ends(0, "sweep grid.toml --out preset.csv");
+    let own = "params = { hinge_stiffness = \"1.4972 uN*m/rad\" }";
+    fs::write(folder.path("own.toml"), format!("{}{set}", with(own))).unwrap();
+    folder.ends(0, "sweep own.toml --out own.csv");
+    let roll = |file: &str| column(&folder, file, "torque_roll_unm")[0];
+    assert!((roll("preset.csv") / roll("own.csv") - 1.0).abs() < 1e-6);
+    assert!(roll("own.csv").abs() > 1e-2);
+    // What reaches no wing is told.
+    let both = with("preset = \"jafferis2016\"").replacen(
+        "name = \"left\"",
+        "name = \"left\"\npreset = \"jafferis2016\"",
+        1,
+    );
+    fs::write(folder.path("both.toml"), format!("{both}{set}")).unwrap();
+    for command in ["check both.toml", "sweep both.toml"] {
+        let ended = folder.ends(0, command);
+        ended.says("both.toml: `hinge_stiffness` reaches no wing: each has a `hinge_stiffness` of its own");
+        assert!(!ended.stderr.contains("drive_voltage_pp"), "{}", ended.stderr);
+    }
+}
+
+#[test]
+fn a_check_lists_the_wings() {
+    folder().ends(0, "check grid.toml").prints("a vehicle of 2 wings: left, right (mirrored)");
 }
 
 #[test]
@@ -233,6 +321,17 @@ fn what_a_vehicle_cannot_do_is_told() {
     folder.refuses("vehicle grid.toml --inputs drive_shape", "`drive_shape` is a choice, not an input");
     folder.refuses("vehicle grid.toml --trim torque_up=1", "there is no component `torque_up`");
     folder.refuses("vehicle grid.toml --trim torque_yaw=far", "`far` is not a number");
-    folder.refuses("run grid.toml --trajectory motion.csv", "the model of a vehicle has no single motions");
-    folder.refuses("resonance grid.toml", "has no chirps, impulses, given motions or natural frequencies");
+    for (command, taker) in [
+        ("run grid.toml --trajectory motion.csv", "`flap run` with --trajectory"),
+        ("run grid.toml --drive chirp", "`flap run` with --drive chirp"),
+        ("run grid.toml --drive impulse", "`flap run` with --drive impulse"),
+        ("respond grid.toml --from 90 --to 100 --step 5", "`flap respond`"),
+        ("resonance grid.toml", "`flap resonance`"),
+        ("new grid.toml", "a device, which `flap new` writes,"),
+    ] {
+        let ended = folder.ends(2, command);
+        ended.says(&format!("grid.toml is a vehicle of 2 wings: {taker} takes one wing"));
+        ended.says("help: remove [vehicle] from the file");
+        assert_eq!(ended.stdout, "");
+    }
 }

@@ -106,6 +106,26 @@ def test_derivatives_of_torques_are_those_of_differences():
             assert table.gradient[0, output, place] == pytest.approx(difference, rel=1e-3, abs=2e-4 * scale), (column, name)
 
 
+def test_derivatives_at_almost_nothing_are_those_at_zero():
+    robot = pair()
+    options = {"measures": [*FORCES, *TORQUES], "gradient": ["drive_offset"]}
+    almost = float(np.linspace(-0.3, 0.3, 7)[3])
+    assert almost != 0.0
+    found = [flapwing.evaluate(robot, {"drive_offset": [value]}, **options).gradient[0, 4, 0] for value in (0.0, almost, 1e-9)]
+    assert found[0] < -0.01
+    assert found[1] == pytest.approx(found[0], rel=1e-6) and found[2] == pytest.approx(found[0], rel=1e-6)
+    # A wing's own value that is not set is that of all wings.
+    own = flapwing.evaluate(robot, {"drive_offset": [5.0]}, measures=TORQUES, gradient=["left_drive_offset"])
+    given = flapwing.evaluate(robot, {"drive_offset": [5.0], "left_drive_offset": [5.0]}, measures=TORQUES, gradient=["left_drive_offset"])
+    np.testing.assert_allclose(own.gradient, given.gradient, rtol=1e-9, atol=1e-12)
+
+
+def test_values_that_reach_no_wing_are_warned_of():
+    wings = [flapwing.Wing("left", preset="jafferis2016"), flapwing.Wing("right", mirrored=True, preset="jafferis2016")]
+    with pytest.warns(UserWarning, match="`hinge_stiffness` reaches no wing"):
+        flapwing.sweep({**flapwing.Vehicle("jafferis2016", wings), "params": {"hinge_stiffness": 1.2e-6}})
+
+
 def test_states_of_a_vehicle_begin_its_motions():
     robot = pair()
     names = list(flapwing.states(robot))
@@ -192,8 +212,12 @@ def test_mistakes_of_wings_are_told(options, error, says):
 
 
 def test_a_vehicle_has_no_single_motion():
-    with pytest.raises(ValueError, match="vehicle"):
-        flapwing.trajectory(pair())
+    says = "the design is a vehicle of 2 wings, and this takes one wing"
+    for call in (flapwing.trajectory, flapwing.resonance, flapwing.chirp, flapwing.impulse):
+        with pytest.raises(ValueError, match=says):
+            call(pair())
+    with pytest.raises(ValueError, match=says):
+        flapwing.respond(pair(), "drive_frequency", start=90.0, stop=100.0, step=5.0)
 
 
 def test_the_examples_are_vehicles():

@@ -118,7 +118,7 @@ impl<'a> Description<'a> {
                 ..ParameterText::new(parameter, *value, published)
             },
         );
-        let has_motions = simulator.motions().is_ok();
+        let has_motions = simulator.motions().is_ok() && plan.vehicle().is_none();
         let measures = measures(opened.published_plan());
         Description {
             version: env!("CARGO_PKG_VERSION"),
@@ -129,7 +129,11 @@ impl<'a> Description<'a> {
             parameters: parameters.collect(),
             view: view(plan, opened.values(), &measures),
             measures,
-            can: Can { motion: has_motions, modes: simulator.experiments().is_ok(), gradient: has_motions },
+            can: Can {
+                motion: has_motions,
+                modes: simulator.experiments().is_ok(),
+                gradient: simulator.motions().is_ok(),
+            },
         }
     }
 }

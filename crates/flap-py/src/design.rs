@@ -2,6 +2,7 @@
 
 use flap_core::simulate;
 
+use flap_sweep::notation::text;
 use flap_sweep::plan::{ChangeError, Plan};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -49,6 +50,16 @@ pub(crate) fn plan_of_model(
     let (solver, keywords) = Keywords::take(keywords)?;
     let plan = grid::of_preset(design.py(), preset.name)?;
     set(with_solver(plan, &solver)?, &keywords).map(Some)
+}
+
+/// Refuses a vehicle, where a call takes one wing.
+pub(crate) fn check_one_wing(plan: &Plan) -> PyResult<()> {
+    let Some(vehicle) = plan.vehicle() else { return Ok(()) };
+    let wings = text::count(vehicle.mounts().len() as u64, "wing");
+    Err(PyValueError::new_err(format!(
+        "the design is a vehicle of {wings}, and this takes one wing\nname the design of the wing: a preset, a device or a grid \
+         without `vehicle`"
+    )))
 }
 
 /// The plan with the solver settings of keywords over its own.

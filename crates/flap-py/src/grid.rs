@@ -214,6 +214,7 @@ pub(crate) fn plan(source: &Bound<'_, PyAny>) -> PyResult<Plan> {
 /// The plan, with a warning for each former name that its grid uses.
 fn with_warnings(py: Python<'_>, plan: Plan) -> PyResult<Plan> {
     plan.renamed().iter().try_for_each(|parameter| parameters::warn_renamed(py, parameter))?;
+    plan.unreached().iter().try_for_each(|parameter| parameters::warn_unreached(py, parameter))?;
     Ok(plan)
 }
 

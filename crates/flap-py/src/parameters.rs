@@ -6,7 +6,7 @@ use flap_core::parameter::{Kind, Parameter, Preset};
 use flap_core::simulate::{self, Simulator};
 use flap_sweep::notation::nearest;
 use flap_sweep::notation::value::{self, UnitOf, ValueError};
-use pyo3::exceptions::{PyFutureWarning, PyValueError};
+use pyo3::exceptions::{PyFutureWarning, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
@@ -46,6 +46,12 @@ pub(crate) fn index(simulator: &dyn Simulator, name: &str) -> PyResult<usize> {
 pub(crate) fn warn_renamed(py: Python<'_>, parameter: &Parameter) -> PyResult<()> {
     let text = CString::new(parameter.renamed())?;
     PyErr::warn(py, &py.get_type::<PyFutureWarning>(), &text, 2)
+}
+
+/// Warns of a parameter of all wings of a vehicle that each wing has of its own.
+pub(crate) fn warn_unreached(py: Python<'_>, parameter: &Parameter) -> PyResult<()> {
+    let text = CString::new(format!("`{0}` reaches no wing: each has a `{0}` of its own", parameter.name))?;
+    PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 2)
 }
 
 /// The value of `parameter` in a design point: a number in SI units, or the index of an option.

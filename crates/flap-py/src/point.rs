@@ -41,6 +41,7 @@ impl Chosen {
         };
         let mut chosen = Chosen { plan, values, sampled: None, invalid };
         if let Some(wave) = wave {
+            design::check_one_wing(&chosen.plan)?;
             chosen.drive_by(wave, keywords.contains(DRIVE_FREQUENCY)?)?;
         }
         Ok(chosen)
@@ -56,6 +57,7 @@ impl Chosen {
 
     /// The point for a motion: possible, and with a drive frequency, which is searched if it is to be the resonance.
     pub(crate) fn for_motion(self, py: Python<'_>) -> PyResult<Chosen> {
+        design::check_one_wing(&self.plan)?;
         let mut chosen = self.possible()?;
         let Some(resonance) = chosen.plan.resonance() else { return Ok(chosen) };
         let Some(index) = chosen.parameter(DRIVE_FREQUENCY).filter(|index| chosen.values[*index].is_nan())

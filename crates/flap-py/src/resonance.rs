@@ -12,7 +12,7 @@ use pyo3::types::{IntoPyDict, PyDict, PyList, PyString};
 
 use crate::point::Chosen;
 use crate::watch::interruptible;
-use crate::{convert, error};
+use crate::{convert, design, error};
 
 /// Samples of a free motion per period of the first mode.
 const SAMPLES: u32 = 200;
@@ -34,6 +34,7 @@ pub(crate) fn resonance<'py>(
     spectrum_window: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let chosen = Chosen::new(design, keywords, point, None)?.possible()?;
+    design::check_one_wing(&chosen.plan)?;
     let (simulator, solver, values) = (chosen.plan.simulator(), chosen.plan.solver(), &chosen.values);
     let frequency = |name, value: Option<&Bound<'py, PyAny>>| {
         value.map(|value| convert::quantity(name, "Hz", true, value)).transpose()

@@ -38,6 +38,7 @@ pub(crate) fn respond<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let options = sweep::options(threads)?;
     let plan = design::plan(design, keywords)?;
+    design::check_one_wing(&plan)?;
     if plan.resonance().is_some() {
         let message =
             "the grid runs each design at its own resonance: give drive_frequency a number, or follow it";

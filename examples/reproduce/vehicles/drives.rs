@@ -4,6 +4,7 @@ use flap_core::drive::Shape;
 
 use super::flier::{Flier, rounded, shown, torques};
 use crate::claim::{Claim, between, said};
+use crate::points::Settled;
 
 /// Share of the amplitude by which each drive is changed.
 const SHARE: f64 = 0.2;
@@ -16,7 +17,8 @@ pub(super) fn claims() -> Vec<Claim> {
     // The amplitude is half the voltage peak to peak; half the difference is added on the left.
     let difference = 2.0 * SHARE * volts;
     let bias = SHARE * 0.5 * volts;
-    let roll = torques(&pair.point(&[("difference_drive_voltage_pp", difference)]));
+    let rolling = rolls(&pair, difference);
+    let roll = torques(&rolling[0]);
     let pitch = torques(&pair.point(&[("drive_offset", bias)]));
     let (phase, yaw) = split_cycle();
     let largest = |torques: [f64; 3], of: usize| (0..3).all(|i| torques[i].abs() <= torques[of].abs());
@@ -47,18 +49,44 @@ pub(super) fn claims() -> Vec<Claim> {
             "the voltage is not in the text at hand, and its wings and actuators are others",
             format!("{:.2} mN at {volts:.0} V", pair.point(&[]).get("force_up_mn")),
         ),
-        of_size("roll", roll[0]),
-        of_size("pitch", pitch[1]),
-        of_size("yaw", yaw[2]),
+        of_size("roll", roll[0], &with_less(&rolling, difference)),
+        of_size("pitch", pitch[1], ""),
+        of_size("yaw", yaw[2], ""),
     ]
 }
 
 /// The claim about the size of a torque.
-fn of_size(name: &str, torque: f64) -> Claim {
+fn of_size(name: &str, torque: f64, besides: &str) -> Claim {
     said(SENSOR, format!("{PREDICTED} {name}"), "1 to 10 µN·m").is(
         &between(1.0, 10.0),
         torque.abs(),
-        format!("{} µN·m", rounded(torque.abs())),
+        format!("{} µN·m{besides}", rounded(torque.abs())),
+    )
+}
+
+/// Shares of a difference that are computed beside it.
+const PARTS: [f64; 3] = [0.5, 0.625, 0.75];
+
+/// Points with a difference of the drives, and with parts of it.
+fn rolls(pair: &Flier, difference: f64) -> Vec<Settled> {
+    let points =
+        [1.0].iter().chain(&PARTS).map(|part| vec![("difference_drive_voltage_pp", part * difference)]);
+    pair.settle(&points.collect::<Vec<_>>())
+}
+
+/// The roll torques of smaller differences in words, and the lift of the wing with less drive.
+fn with_less(points: &[Settled], difference: f64) -> String {
+    let parts = PARTS.iter().zip(&points[1..]);
+    let torques =
+        parts.map(|(part, point)| format!("{} with {:.0} V", rounded(torques(point)[0]), part * difference));
+    let lift = |point: &Settled| rounded(point.get("right_lift_mean_mn"));
+    format!(
+        " with {difference:.0} V more on the left, which lies beyond a steep drop of the right wing's lift ({} mN with {:.0} V, {} mN with \
+         {difference:.0} V): {}",
+        lift(&points[1]),
+        PARTS[0] * difference,
+        lift(&points[0]),
+        torques.collect::<Vec<_>>().join(", ")
     )
 }
 

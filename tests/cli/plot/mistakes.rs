@@ -105,7 +105,7 @@ fn mistakes_are_told() {
         (
             &["sweep.csv", "--kind", "pie"],
             &[
-                "[possible values: response, map, scatter, histogram, tornado, pareto, trajectory, hysteresis]",
+                "[possible values: response, map, scatter, histogram, tornado, pareto, trajectory, hysteresis, matrix]",
             ],
         ),
         (&["empty.csv"], &["empty.csv has no columns"]),

@@ -108,6 +108,8 @@ pub(crate) enum PictureKind {
     Trajectory,
     /// The branches up and down of a response, unstable orbits dashed
     Hysteresis,
+    /// What each input of a vehicle does to force and torque, as `flap vehicle --format csv` writes it
+    Matrix,
 }
 
 impl PictureKind {
@@ -125,7 +127,8 @@ pub(crate) struct Size {
 }
 
 const PLOT_HELP: &str = "\
-The default of --kind is `hysteresis` for results of `flap respond`, `trajectory` for a motion, `scatter` for a sample, \
+The default of --kind is `hysteresis` for results of `flap respond`, `trajectory` for a motion, `matrix` for what `flap vehicle \
+--format csv` writes, `scatter` for a sample, \
 `response` for a sweep of one parameter or of the drive frequency and others, `map` for other sweeps of two or more \
 parameters. With measures as --x and --y it is `pareto`, or `scatter` for a sample and for a sweep of one parameter.
 

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::SolverSettings;
+use flap_core::vehicle::Vehicle;
 use flap_sweep::notation::text;
 use flap_sweep::plan::axis::Values;
 use flap_sweep::plan::sample::{Distribution, Method};
@@ -32,6 +33,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
 fn page(plan: &Plan) -> String {
     let points = text::count(plan.len(), "point");
     let mut page = format!("{points} of {} from {}\n", plan.simulator().name(), plan.preset());
+    page += &plan.vehicle().map(wings).unwrap_or_default();
     if !plan.axes().as_slice().is_empty() {
         page += "\n";
         page += &axes(plan);
@@ -59,6 +61,16 @@ fn page(plan: &Plan) -> String {
         let _ = write!(page, "\n{}\n", wrapped(&time, 0));
     }
     page
+}
+
+/// A line with the wings of a vehicle.
+fn wings(vehicle: &Vehicle) -> String {
+    let named = vehicle
+        .mounts()
+        .iter()
+        .map(|mount| if mount.mirrored { format!("{} (mirrored)", mount.name) } else { mount.name.clone() });
+    let named: Vec<String> = named.collect();
+    format!("a vehicle of {}: {}\n", text::count(named.len() as u64, "wing"), named.join(", "))
 }
 
 /// One line per varied parameter; parameters that move together have the same axis number.

@@ -25,6 +25,13 @@ pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
     for parameter in plan.renamed() {
         console::warn(&format!("{}: {}", plan.source().name, parameter.renamed()));
     }
+    for parameter in plan.unreached() {
+        console::warn(&format!(
+            "{}: `{1}` reaches no wing: each has a `{1}` of its own",
+            plan.source().name,
+            parameter.name
+        ));
+    }
     Ok(plan)
 }
 

@@ -9,6 +9,7 @@ use crate::failure::{Exit, Failure};
 
 pub(crate) fn run(args: &NewArgs) -> Result<Exit, Failure> {
     let plan = point::plan(&args.what)?;
+    point::check_one_wing(&plan, &args.what, "a device, which `flap new` writes,")?;
     console::results(&grid::device(&plan))?;
     Ok(Exit::Done)
 }

@@ -5,7 +5,9 @@ use std::path::Path;
 use flap_core::num::InstructionSet;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, Rows, Simulator};
+use flap_core::vehicle::why_absent;
 use flap_sweep::grid;
+use flap_sweep::notation::text;
 use flap_sweep::notation::value::{self, UnitOf, ValueError};
 use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
@@ -41,7 +43,7 @@ impl Chosen {
         let mut set = Vec::new();
         for (name, value) in &point.set {
             let index = find_parameter(plan.parameters(), name)?;
-            values[index] = self::value(&plan.parameters()[index], "--set", value)?;
+            values[index] = self::value(&plan.parameters()[index], &set_option(name), value)?;
             set.push(index);
         }
         plan.derived().fill(&mut values, &set);
@@ -129,6 +131,14 @@ pub(super) fn plan(what: &str) -> Result<Plan, Failure> {
     Err(failure.nearest(what, models::presets(), "`flap models` lists models and presets"))
 }
 
+/// Refuses a vehicle where `command` takes one wing.
+pub(super) fn check_one_wing(plan: &Plan, what: &str, command: &str) -> Result<(), Failure> {
+    let Some(vehicle) = plan.vehicle() else { return Ok(()) };
+    let wings = text::count(vehicle.mounts().len() as u64, "wing");
+    let failure = Failure::usage(format!("{what} is a vehicle of {wings}: {command} takes one wing"));
+    Err(failure.help("remove [vehicle] from the file, with what is about single wings and differences"))
+}
+
 /// The plan with the settings of the command line over those of the grid file.
 pub(super) fn with_solver(plan: Plan, args: &SolverArgs) -> Result<Plan, Failure> {
     let mut settings = *plan.solver();
@@ -152,8 +162,16 @@ pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usi
     found.ok_or_else(|| {
         let names = parameters.iter().map(|parameter| parameter.name);
         let failure = Failure::usage(format!("there is no parameter `{name}`"));
+        if let Some(reason) = why_absent(parameters, name) {
+            return failure.help(reason);
+        }
         failure.nearest(name, names, "`flap params` lists the parameters of a model")
     })
+}
+
+/// The option that sets a parameter, up to its value.
+pub(super) fn set_option(name: &str) -> String {
+    format!("--set {name}=")
 }
 
 /// The value of a parameter from the text given with `option`.
@@ -162,6 +180,7 @@ pub(super) fn value(parameter: &Parameter, option: &str, text: &str) -> Result<f
     value::of_text(parameter, text, UnitOf::TextOrSi).map_err(|error| {
         let message = error.message(parameter.name, text);
         let failure = Failure::usage(match error {
+            ValueError::NoQuantity(_) if option.ends_with('=') => format!("{option}{text}: {message}"),
             ValueError::NoQuantity(_) => format!("{option} {text}: {message}"),
             ValueError::NoOption { .. } | ValueError::OutOfRange { .. } => message,
         });

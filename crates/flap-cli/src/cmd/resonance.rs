@@ -8,7 +8,7 @@ use flap_sweep::files::csv_sink;
 use flap_sweep::notation::text;
 use flap_sweep::resonance::driven::{self, DrivenPeaks, Gap, PeakSearch};
 
-use super::point::Chosen;
+use super::point::{Chosen, check_one_wing};
 use crate::args::{Format, ResonanceArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
@@ -26,6 +26,7 @@ const RIVAL: f64 = 0.95;
 pub(crate) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
     let chosen = Chosen::new(&args.point, &args.solver)?;
     let Chosen { plan, values, .. } = &chosen;
+    check_one_wing(plan, &args.point.what, "`flap resonance`")?;
     let simulator = plan.simulator();
     let experiments = simulator.experiments()?;
     let modes = experiments.modes(values)?;

@@ -19,6 +19,7 @@ use crate::job::{self, Begin, Lines, Verdicts};
 
 pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     let plan = point::plan(&args.what)?;
+    point::check_one_wing(&plan, &args.what, "`flap respond`")?;
     let plan = point::with_solver(plan, &args.solver)?;
     if plan.resonance().is_some() {
         let failure = Failure::usage(format!(
@@ -122,7 +123,7 @@ fn set(plan: Plan, along: &Along, name: &str, value: &str) -> Result<Plan, Failu
     if index == along.parameter {
         return Err(twice("varied"));
     }
-    let value = point::value(&plan.parameters()[index], "--set", value)?;
+    let value = point::value(&plan.parameters()[index], &point::set_option(name), value)?;
     plan.with_parameter(index, value).map_err(|error| match error {
         ChangeError::Varied(_) => twice("varied"),
         ChangeError::Derived(_) => twice("derived"),

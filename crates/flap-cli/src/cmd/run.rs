@@ -11,7 +11,7 @@ use flap_sweep::study::deviation;
 
 use super::motion::{write_csv, write_file};
 use super::params::wrapped;
-use super::point::Chosen;
+use super::point::{Chosen, check_one_wing};
 use super::{far, gradient, impulse, outputs, samples};
 use crate::args::{Drive, PointArgs, RunArgs};
 use crate::console::{self, shell_word};
@@ -21,6 +21,9 @@ use crate::table::{Table, six_digits};
 pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     let mut chosen = Chosen::new(&args.point, &args.solver)?;
     refuse_strays(args)?;
+    if let Some(option) = of_one_wing(args) {
+        check_one_wing(&chosen.plan, &args.point.what, &format!("`flap run` with {option}"))?;
+    }
     far::warn(&deviation::of_point(&chosen.plan, &chosen.values));
     let mut inputs = Inputs::new();
     inputs.add_plan(&chosen.plan);
@@ -35,6 +38,18 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
         Drive::Chirp => chirp(&chosen, args),
         Drive::Impulse => impulse::run(&chosen, args),
     }
+}
+
+/// The option that follows the motion of a wing, if there is one.
+fn of_one_wing(args: &RunArgs) -> Option<&'static str> {
+    let options = [
+        (args.drive == Drive::Chirp, "--drive chirp"),
+        (args.drive == Drive::Impulse, "--drive impulse"),
+        (args.trajectory.is_some(), "--trajectory"),
+        (args.waveform.is_some(), "--waveform"),
+        (args.stroke.is_some(), "--stroke"),
+    ];
+    options.into_iter().find_map(|(is_given, option)| is_given.then_some(option))
 }
 
 /// Refuses options of another drive.

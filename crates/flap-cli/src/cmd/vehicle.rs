@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use flap_core::simulate::never;
-use flap_core::vehicle::Vehicle;
+use flap_core::simulate::{NoSlope, never};
+use flap_core::vehicle::{Vehicle, why_absent};
 use flap_sweep::notation::text;
 use flap_sweep::study::control::{
     COMPONENTS, ControlError, Effectiveness, Flight, Input, InputError, Target, TrimError, trim,
@@ -42,8 +42,15 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
     let flight = Flight { vehicle, solver: chosen.plan.solver(), interrupted: &never };
     let targets = targets(&args.trim)?;
     let mut page = String::new();
+    let at_point = |inputs: &[Input]| flight.effectiveness(&chosen.values, inputs, None);
+    let here = if args.inputs.is_empty() {
+        Some(at_point(&inputs)?.without_idle(&flight, &chosen.values))
+    } else {
+        None
+    };
+    let inputs = here.as_ref().map_or(inputs, |here| here.inputs.clone());
     let found = if targets.is_empty() {
-        flight.effectiveness(&chosen.values, &inputs, None)?
+        here.map_or_else(|| at_point(&inputs), Ok)?
     } else {
         let found = trim(&flight, &chosen.values, &inputs, &targets)?;
         let _ = writeln!(page, "trimmed in {}\n", text::count(found.steps as u64, "step"));
@@ -81,6 +88,9 @@ fn inputs(vehicle: &Vehicle, chosen: &Chosen, names: &[String]) -> Result<Vec<In
             let failure = Failure::usage(format!("--inputs: {error}"));
             match error {
                 InputError::Unknown(_) => {
+                    if let Some(reason) = why_absent(chosen.plan.parameters(), name) {
+                        return failure.help(reason);
+                    }
                     let known = Input::names(vehicle);
                     let known = known.iter().map(String::as_str);
                     failure.nearest(name, known, "`flap vehicle --help` lists words for inputs")
@@ -207,10 +217,20 @@ fn cells(found: &Effectiveness) -> Vec<Vec<String>> {
 
 impl From<ControlError> for Failure {
     fn from(error: ControlError) -> Failure {
-        match error {
-            ControlError::Unfinished(error) => error.into(),
-            error => Failure::usage(error.to_string()),
-        }
+        let help = match &error {
+            ControlError::Unfinished(error) => return error.clone().into(),
+            ControlError::NotPeriodic { .. } => {
+                "choose another point with --point, or other values with --set: `flap run` shows the row"
+            }
+            ControlError::NoSize(_) => "give it a value with --set, or leave it out of --inputs",
+            ControlError::NoSlope { reason: NoSlope::Edge, .. } => {
+                "the input is at an end of its range: give it another value with --set, or leave it out of --inputs"
+            }
+            ControlError::NoSlope { .. } => {
+                "docs/grid.md explains the word: choose another point, or leave the input out of --inputs"
+            }
+        };
+        Failure::usage(error.to_string()).help(help)
     }
 }
 

@@ -64,10 +64,10 @@ pub(super) fn aims(wishes: &Wishes, columns: &Columns) -> (Aim, Aim) {
 
 /// The axes that a picture has no place for.
 fn left(columns: &Columns, axes: &Axes) -> Vec<usize> {
-    use PictureKind::{Histogram, Pareto, Scatter, Tornado, Trajectory};
+    use PictureKind::{Histogram, Matrix, Pareto, Scatter, Tornado, Trajectory};
     let shown = [Some(columns.x), Some(columns.y), columns.by];
     let is_left = |column: &usize| match columns.kind {
-        Pareto | Trajectory => false,
+        Pareto | Trajectory | Matrix => false,
         // All designs of a grid; of a sample that is crossed with axes, all its points.
         Scatter | Histogram | Tornado => axes.sampled && !axes.sample.contains(column),
         _ => true,

@@ -19,6 +19,9 @@ fn suitable(wishes: &Wishes, axes: &Axes) -> Result<PictureKind, Failure> {
     if wishes.branch().is_some() {
         return Ok(PictureKind::Hysteresis);
     }
+    if wishes.matrix().is_some() {
+        return Ok(PictureKind::Matrix);
+    }
     let motion = ["time_s", "stroke_deg", "pitch_deg"].iter().all(|name| wishes.place(name).is_some());
     if motion && wishes.x.is_none() && wishes.y.is_none() {
         return Ok(PictureKind::Trajectory);

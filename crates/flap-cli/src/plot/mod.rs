@@ -11,6 +11,7 @@ mod ink;
 mod kind;
 mod label;
 mod map;
+mod matrix;
 mod page;
 mod panel;
 mod pareto;
@@ -92,6 +93,7 @@ fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
         PictureKind::Pareto => pareto::draw(table, chosen, size),
         PictureKind::Trajectory => trajectory::draw(table, chosen, size),
         PictureKind::Hysteresis => hysteresis::draw(table, chosen, size),
+        PictureKind::Matrix => matrix::draw(table, chosen, size),
     }
 }
 

@@ -69,7 +69,7 @@ fn start(wishes: &Wishes, table: &Table, axes: &Axes, args: &PlotArgs) -> Result
         }
         PictureKind::Response => Kind::Line,
         PictureKind::Scatter => Kind::Scatter,
-        PictureKind::Histogram | PictureKind::Tornado => {
+        PictureKind::Histogram | PictureKind::Tornado | PictureKind::Matrix => {
             let message = format!("--html cannot show a {}; use --out FILE.png", columns.kind.name());
             return Err(Failure::usage(message).help("a page has lines, points, fronts and maps"));
         }

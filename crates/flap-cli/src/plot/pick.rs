@@ -20,6 +20,7 @@ pub(super) fn columns(wishes: &Wishes, axes: &Axes, kind: PictureKind) -> Result
         }
         PictureKind::Trajectory => trajectory(wishes),
         PictureKind::Hysteresis => hysteresis(wishes, axes),
+        PictureKind::Matrix => matrix(wishes),
     }
 }
 
@@ -110,6 +111,14 @@ fn trajectory(wishes: &Wishes) -> Result<Columns, Failure> {
     }
     let time = wishes.place("time_s").unwrap_or(0);
     Ok(Columns::plain(PictureKind::Trajectory, time, time))
+}
+
+fn matrix(wishes: &Wishes) -> Result<Columns, Failure> {
+    let Some(input) = wishes.matrix() else {
+        let message = "a matrix needs the columns input, unit, value and force and torque, as `flap vehicle --format csv` writes them";
+        return Err(Failure::usage(message).help(wishes.listed()));
+    };
+    Ok(Columns::plain(PictureKind::Matrix, input, input))
 }
 
 fn hysteresis(wishes: &Wishes, axes: &Axes) -> Result<Columns, Failure> {

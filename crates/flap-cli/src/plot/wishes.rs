@@ -1,6 +1,7 @@
 //! The wishes of the user, as columns of the file, and the measures that are drawn if none is named.
 
 use flap_sweep::picture::measures::{Role, usual};
+use flap_sweep::study::control::COMPONENTS;
 
 use crate::args::PlotArgs;
 use crate::data::columns;
@@ -10,6 +11,12 @@ use crate::failure::Failure;
 /// Columns that some kinds need.
 const NEEDED: [&str; 6] =
     ["time_s", "stroke_deg", "pitch_deg", "stroke_rate_rad_s", "pitch_rate_rad_s", "branch"];
+
+/// The column of `flap vehicle` with the names of inputs.
+pub(super) const INPUT: &str = "input";
+
+/// The name in that column of the row of means.
+pub(super) const MEAN: &str = "mean";
 
 /// The wishes of the user, as columns of the file.
 pub(super) struct Wishes<'a> {
@@ -79,7 +86,15 @@ impl<'a> Wishes<'a> {
         // Behind `branch` is the parameter that rises and falls.
         some || self.filters.contains(&column)
             || column <= self.end + 1
+            || self.matrix().is_some()
             || NEEDED.contains(&self.names[column].as_str())
+    }
+
+    /// The column with the inputs of a vehicle, if the file has a line for each.
+    pub(super) fn matrix(&self) -> Option<usize> {
+        let has = |name: &str| self.place(name).is_some();
+        let is_matrix = has("unit") && has("value") && COMPONENTS.iter().all(|name| has(name));
+        self.place(INPUT).filter(|_| is_matrix)
     }
 
     /// The first of these columns that is not among those asked for.

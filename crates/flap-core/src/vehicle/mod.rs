@@ -12,9 +12,11 @@ mod geometry;
 mod gradient;
 mod layout;
 mod mount;
+mod names;
 mod parameters;
 mod rows;
 
 pub use geometry::{FORCES, TORQUES};
 pub use layout::Vehicle;
-pub use mount::{Mount, VehicleError};
+pub use mount::{MOST_WINGS, Mount, VehicleError};
+pub use names::{of_all_wings, standing, why_absent};

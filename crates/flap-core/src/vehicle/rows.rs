@@ -7,7 +7,8 @@ use super::mount::MOST_WINGS;
 use crate::num::InstructionSet;
 use crate::parameter::{Invalid, Parameter, Preset};
 use crate::simulate::{
-    Column, Jobs, LaneUse, Motions, Point, PointRun, Row, Rows, Simulator, SolverSettings, Status, Unfinished,
+    Column, Experiments, Jobs, LaneUse, Motions, Point, PointRun, Row, Rows, Simulator, SolverSettings,
+    Status, Unfinished,
 };
 
 impl Rows for Vehicle {
@@ -57,6 +58,10 @@ impl Simulator for Vehicle {
 
     fn motions(&self) -> Result<&dyn Motions, Unfinished> {
         Ok(self)
+    }
+
+    fn experiments(&self) -> Result<&dyn Experiments, Unfinished> {
+        Err(Unfinished::NoExperiments { model: "of a vehicle" })
     }
 }
 

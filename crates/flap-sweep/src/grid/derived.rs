@@ -12,6 +12,9 @@ use super::table::{self, Entry};
 use crate::notation::expression::{Expression, Kind};
 use crate::plan::formula::Derived;
 
+/// A parameter that is set, and where.
+pub(super) type Place = (usize, Range<usize>);
+
 /// An entry of the section that is about a parameter.
 pub(super) struct Draft<'t> {
     pub(super) parameter: usize,
@@ -37,18 +40,18 @@ pub(super) fn drafts<'t>(entry: Option<&Entry<'t>>, lookup: &mut Lookup<'_>) -> 
     drafts
 }
 
-/// Reports derived parameters that are set or varied as well.
+/// Reports derived parameters that are varied as well, or `set` in the way that goes before each list.
 pub(super) fn report_repeats(
     drafts: &[Draft<'_>],
     axes: &[Placed],
-    set: &[(usize, Range<usize>)],
+    set: &[(&str, &[Place])],
     problems: &mut Problems,
 ) {
     for Draft { parameter, entry } in drafts {
         let varied = axes.iter().flat_map(|placed| placed.axis.parameters().iter().zip(&placed.keys));
         let varied = varied.filter(|((other, _), _)| other == parameter).map(|(_, key)| (key, "varied"));
-        let fixed =
-            set.iter().filter(|(other, _)| other == parameter).map(|(_, key)| (key, "set under [params]"));
+        let fixed = set.iter().flat_map(|(how, set)| set.iter().map(move |(other, key)| (other, key, *how)));
+        let fixed = fixed.filter(|(other, ..)| *other == parameter).map(|(_, key, how)| (key, how));
         for (key, how) in varied.chain(fixed) {
             problems
                 .report(entry.key_span.clone(), format!("`{}` is derived and {how}", entry.key))

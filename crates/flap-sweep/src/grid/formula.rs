@@ -2,6 +2,7 @@
 
 use flap_core::parameter::{Kind as ParameterKind, Parameter};
 use flap_core::simulate::Column;
+use flap_core::vehicle::of_all_wings;
 
 use super::problems::Problems;
 use super::table::{self, Entry};
@@ -52,7 +53,14 @@ impl Names {
         Parameter::index(self.parameters, name)
     }
 
+    /// The parameter whose value one has: a wing's own that is not set has that of all wings.
+    pub(super) fn standing(&self, index: usize) -> usize {
+        let shared = of_all_wings(self.parameters, index).filter(|_| self.unset[index].is_some());
+        shared.unwrap_or(index)
+    }
+
     fn of_parameter(&self, index: usize) -> Meaning {
+        let index = self.standing(index);
         match (&self.parameters[index].kind, self.unset[index]) {
             (ParameterKind::Choice(options), _) => Meaning::Choice(index, options),
             (_, Some(follows)) => Meaning::Unset(follows),
@@ -65,7 +73,8 @@ impl Names {
         if let ParameterKind::Choice(_) = self.parameters[index].kind {
             return None;
         }
-        let value = design[index];
+        let shared = of_all_wings(self.parameters, index).filter(|_| design[index].given().is_none());
+        let value = design[shared.unwrap_or(index)];
         value.given().map(Meaning::Constant).or_else(|| followed(value).map(Meaning::Unset))
     }
 

@@ -111,7 +111,7 @@ fn parameter(
         return None;
     };
     let is_derived = derived.parameters().any(|derived| derived == index);
-    let Err(reason) = check(&names.parameters[index], is_derived, names.unset[index]) else {
+    let Err(reason) = check(&names.parameters[index], is_derived, names.unset[names.standing(index)]) else {
         return Some(index);
     };
     let diagnostic = problems.report(item.span(), format!("`{name}` {reason}"));

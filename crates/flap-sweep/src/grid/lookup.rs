@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::Simulator;
+use flap_core::vehicle::why_absent;
 
 use super::problems::Problems;
 use super::table::Entry;
@@ -42,8 +43,12 @@ impl Lookup<'_> {
         let diagnostic = self
             .problems
             .report(span, format!("model `{model}` has no parameter `{name}`"))
-            .label("unknown parameter")
-            .did_you_mean(name, known.iter().map(|parameter| parameter.name));
+            .label("unknown parameter");
+        if let Some(reason) = why_absent(known, name) {
+            diagnostic.help(reason);
+            return;
+        }
+        diagnostic.did_you_mean(name, known.iter().map(|parameter| parameter.name));
         if !owners.is_empty() {
             diagnostic.note(format!("it is a parameter of the model {}", owners.join(" and ")));
         }

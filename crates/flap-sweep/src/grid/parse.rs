@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Rows, Simulator};
+use flap_core::vehicle::of_all_wings;
 use toml::de::DeTable;
 
 use super::device::{Base, Reader, Shelf};
@@ -13,6 +14,7 @@ use super::keys::KEYS;
 use super::lookup::Lookup;
 use super::problems::Problems;
 use super::table::{self, Entry};
+use super::vehicle::Told;
 use super::{
     axes, conditions, derived, former, gradient, measures, output, resonance, sample, solver, syntax,
     vehicle, zip,
@@ -66,9 +68,10 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         output::read(output_entry, None, &mut problems);
         return Err(problems.into_mistakes());
     };
+    let (base, told) = base;
     let (simulator, vehicle, preset) = (base.simulator, base.vehicle, base.preset);
-    let Points { base, axes, sample_file, resonance, derived, conditions, mut names } =
-        read_points(&root, base, reader.models, &mut problems);
+    let Points { base, axes, sample_file, resonance, derived, conditions, unreached, mut names } =
+        read_points(&root, base, told, reader.models, &mut problems);
     names.are_measured = true;
     let own = measures::read(table::find(&root, "measure"), &mut names, &mut problems);
     let gradient = table::find(&root, "gradient");
@@ -102,6 +105,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         solver,
         output,
         renamed: former::used(document, simulator.parameters()),
+        unreached,
         source: (*source).clone(),
     }))
 }
@@ -114,6 +118,8 @@ struct Points {
     resonance: Option<AtResonance>,
     derived: Derived,
     conditions: Vec<Condition>,
+    /// Parameters of all wings that the grid sets, and that each wing has of its own.
+    unreached: Vec<&'static Parameter>,
     names: Names,
 }
 
@@ -121,6 +127,7 @@ struct Points {
 fn read_points(
     root: &[Entry<'_>],
     mut base: Base,
+    told: Told,
     models: &[&'static dyn Simulator],
     problems: &mut Problems,
 ) -> Points {
@@ -129,20 +136,34 @@ fn read_points(
     let mut lookup = Lookup { simulator, models, problems };
     let mut axes = axes::read(table::find(root, "axes"), &mut lookup);
     axes.extend(zip::read(table::find(root, "zip"), &mut lookup));
-    let sample = sample::read(table::find(root, "sample"), &base, &mut lookup);
+    let means = means(&base, &axes);
+    let sample = sample::read(table::find(root, "sample"), &base, &means, &mut lookup);
     let (sampled, sample_file) = sample.map_or((None, None), |(placed, file)| (Some(placed), file));
     axes.extend(sampled);
     axes.sort_by_key(|placed| placed.span.start);
     axes::report_repeats(&axes, &set, &mut lookup);
     let drafts = derived::drafts(table::find(root, "derived"), &mut lookup);
-    derived::report_repeats(&drafts, &axes, &set, problems);
+    derived::report_repeats(
+        &drafts,
+        &axes,
+        &[("set under [params]", &set), ("set in [vehicle]", &told.set)],
+        problems,
+    );
+    let moved = axes.iter().flat_map(|placed| placed.axis.parameters()).map(|(parameter, _)| *parameter);
+    let moved: Vec<usize> = moved.chain(drafts.iter().map(|draft| draft.parameter)).collect();
+    let chosen: Vec<usize> =
+        set.iter().map(|(parameter, _)| *parameter).chain(moved.iter().copied()).collect();
+    told.report_frequencies(simulator.parameters(), |parameter| chosen.contains(&parameter), problems);
+    let unreached = base.vehicle.map_or_else(Vec::new, |vehicle| {
+        let is_own = |own: usize| base.values[own].given().is_some() || moved.contains(&own);
+        vehicle::unreached(vehicle, &chosen, is_own)
+    });
 
     let is_vehicle = base.vehicle.is_some();
     let resonance = resonance::read(root, simulator, is_vehicle, &mut base.values, problems);
 
     let mut unset: Vec<Option<&str>> = base.values.iter().map(|value| formula::followed(*value)).collect();
-    let varied = axes.iter().flat_map(|placed| placed.axis.parameters()).map(|(parameter, _)| *parameter);
-    for parameter in varied.chain(drafts.iter().map(|draft| draft.parameter)) {
+    for parameter in moved {
         unset[parameter] = None;
     }
     let (parameters, preset) = (simulator.parameters(), Value::of_preset(simulator, base.preset));
@@ -152,7 +173,22 @@ fn read_points(
     let names = Names { parameters, preset, device, unset, columns, are_measured: false, own: Vec::new() };
     let derived = derived::read(&drafts, &names, problems);
     let conditions = conditions::read(table::find(root, "where"), &names, problems);
-    Points { base, axes, sample_file, resonance, derived, conditions, names }
+    Points { base, axes, sample_file, resonance, derived, conditions, unreached, names }
+}
+
+/// The values of parameters that are not sampled, which are the means of normal distributions that name none. A wing's own
+/// parameter that is not set has the value of all wings, unless an axis varies that.
+fn means(base: &Base, axes: &[axes::Placed]) -> Vec<Value> {
+    let is_varied = |parameter: usize| {
+        axes.iter().flat_map(|placed| placed.axis.parameters()).any(|(varied, _)| *varied == parameter)
+    };
+    let mean = |index: usize| {
+        let own = base.values[index];
+        let shared = of_all_wings(base.simulator.parameters(), index);
+        let shared = shared.filter(|&shared| own.given().is_none() && !is_varied(shared));
+        shared.map_or(own, |shared| base.values[shared])
+    };
+    (0..base.values.len()).map(mean).collect()
 }
 
 fn report_unknown_keys(root: &[Entry<'_>], model: Option<&'static dyn Simulator>, problems: &mut Problems) {

@@ -62,6 +62,11 @@ impl Problems {
         self.add(Diagnostic::new(Arc::clone(source), span, &message.into()))
     }
 
+    /// The mistake that was reported last, for more help.
+    pub(super) fn newest(&mut self) -> Option<&mut Diagnostic> {
+        self.last.as_mut().or(self.found.last_mut())
+    }
+
     fn add(&mut self, diagnostic: Diagnostic) -> &mut Diagnostic {
         if self.found.len() == MOST_KEPT {
             self.only_counted += 1;

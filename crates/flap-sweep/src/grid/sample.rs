@@ -13,9 +13,9 @@ use super::lookup::Lookup;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
-use crate::plan::PointsFile;
 use crate::plan::axis::{Axis, Values};
 use crate::plan::sample::{Design, Method};
+use crate::plan::{PointsFile, Value};
 
 pub(super) const KEYS: [&str; 5] = ["method", "n", "seed", "of", "parameters"];
 pub(super) const FILE_KEYS: [&str; 2] = ["method", "path"];
@@ -23,13 +23,14 @@ pub(super) const METHODS: [&str; 4] = ["sobol", "latin-hypercube", "random", "fi
 /// Samples of something else than listed parameters.
 pub(super) const OF: [&str; 1] = ["device"];
 
-/// The sample of the section, and the file that lists its points, if one does. `base` has the values of parameters that
-/// are not sampled, and their standard errors.
+/// The sample of the section, and the file that lists its points, if one does. `base` has the standard errors of parameters,
+/// `means` their values where they are not sampled.
 ///
 /// A parameter whose distribution is wrong still takes part, without values, in the checks that follow.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
     base: &Base,
+    means: &[Value],
     lookup: &mut Lookup<'_>,
 ) -> Option<(Placed, Option<PointsFile>)> {
     let section = entry?;
@@ -84,7 +85,7 @@ pub(super) fn read(
     let mut axis = Vec::new();
     let mut keys = Vec::new();
     for (dimension, (index, parameter, entry)) in found.into_iter().enumerate() {
-        let distribution = distribution::read(parameter, base.values[index], entry, lookup.problems);
+        let distribution = distribution::read(parameter, means[index], entry, lookup.problems);
         let values = distribution.map_or_else(axes::none, |distribution| Values::Sampled {
             design: Arc::clone(&design),
             dimension,

@@ -1,8 +1,10 @@
 //! The section `[vehicle]`: wings, their places, and what differs between them.
 
+use std::ops::Range;
+
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::Simulator as _;
-use flap_core::vehicle::{Mount, Vehicle, VehicleError};
+use flap_core::vehicle::{MOST_WINGS, Mount, Vehicle, VehicleError};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -22,14 +24,44 @@ pub(super) const PLANE_KEYS: [&str; 3] = ["roll", "pitch", "yaw"];
 /// The axes of the body, last parts of names of parameters.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// The group of the parameters that wings share with the grid even where they have a design of their own.
+const DRIVE: &str = "drive";
+
+/// What other sections of a grid file must know of this one.
+#[derive(Default)]
+pub(super) struct Told {
+    /// The parameters that the section sets, and where.
+    pub(super) set: Vec<(usize, Range<usize>)>,
+    /// Wings whose designs have another drive frequency than the grid's, each as a place and a message.
+    frequencies: Vec<(Range<usize>, String)>,
+}
+
+impl Told {
+    /// Reports wings of other drive frequencies, unless the grid `sets` that of all wings.
+    pub(super) fn report_frequencies(
+        self,
+        parameters: &[Parameter],
+        sets: impl Fn(usize) -> bool,
+        problems: &mut Problems,
+    ) {
+        if Parameter::index(parameters, DRIVE_FREQUENCY).is_some_and(sets) {
+            return;
+        }
+        for (span, message) in self.frequencies {
+            let help = "the wings of a vehicle have one frequency: set drive_frequency under [params]";
+            problems.report(span, message).help(help);
+        }
+    }
+}
+
 /// Makes a vehicle of the design `base` if the section is there. `None`, with a report, if it cannot be made.
 pub(super) fn read(
     root: &[Entry<'_>],
     base: Base,
     reader: Reader<'_>,
     problems: &mut Problems,
-) -> Option<Base> {
-    let Some(section) = table::find(root, "vehicle") else { return Some(base) };
+) -> Option<(Base, Told)> {
+    let Some(section) = table::find(root, "vehicle") else { return Some((base, Told::default())) };
     let entries = table::section(section, problems);
     table::check_keys(&entries, &KEYS, "in [vehicle]", problems);
     let wings = wings(section, &entries, problems)?;
@@ -42,8 +74,7 @@ pub(super) fn read(
         }
     };
     let shared = base.values.len();
-    let mut own =
-        Own { vehicle, sets_frequency: sets_frequency(root), shared: base, problems, models: reader };
+    let mut own = Own { vehicle, shared: base, told: Told::default(), problems, models: reader };
     let of_vehicle = |parameter: &Parameter| match parameter.kind {
         Kind::Following(_, follows) if parameter.default.is_nan() => Value::Follows(follows),
         _ => Value::Given(parameter.default),
@@ -58,7 +89,23 @@ pub(super) fn read(
     for (index, wing) in wings.iter().enumerate() {
         own.wing(index, wing);
     }
-    Some(Base { simulator: vehicle, vehicle: Some(vehicle), ..own.shared })
+    Some((Base { simulator: vehicle, vehicle: Some(vehicle), ..own.shared }, own.told))
+}
+
+/// The parameters of all wings among those `chosen` by the grid that reach no wing: each has one of its own, as `is_own` says
+/// of a parameter of the vehicle.
+pub(super) fn unreached(
+    vehicle: &'static Vehicle,
+    chosen: &[usize],
+    is_own: impl Fn(usize) -> bool,
+) -> Vec<&'static Parameter> {
+    let shared = vehicle.model().parameters().iter().enumerate();
+    let reaches_none = |parameter: &Parameter| {
+        let own = |wing| vehicle.own_parameter(wing, parameter.name);
+        (0..vehicle.mounts().len()).all(|wing| own(wing).is_some_and(&is_own))
+    };
+    let unreached = shared.filter(|(index, parameter)| chosen.contains(index) && reaches_none(parameter));
+    unreached.map(|(_, parameter)| parameter).collect()
 }
 
 /// A wing's table, and its entries.
@@ -123,25 +170,32 @@ fn report(error: &VehicleError, section: &Entry<'_>, wings: &[WingTable<'_>], pr
         VehicleError::NoWings | VehicleError::ManyWings(_) | VehicleError::NoLoads(_) => None,
     };
     let names = wings.iter().filter_map(|(_, entries)| table::find(entries, "name"));
-    let place = names.rev().find(|name| name.value.get_ref().as_str() == wanted.map(String::as_str));
-    let span = place.map_or(section.key_span.clone(), |name| name.value.span());
-    problems.report(span, error.to_string());
+    let mut named =
+        names.filter(|name| name.value.get_ref().as_str() == wanted.map(String::as_str)).collect::<Vec<_>>();
+    let one_too_many = match error {
+        VehicleError::ManyWings(_) => wings.get(MOST_WINGS).map(|(item, _)| item.span()),
+        _ => None,
+    };
+    let last = named.pop().map(|name| name.value.span());
+    let span = one_too_many.or(last).unwrap_or(section.key_span.clone());
+    let diagnostic = problems.report(span, error.to_string()).help(error.help());
+    if let (VehicleError::SameName(_), Some(first)) = (error, named.first()) {
+        diagnostic.related(first.value.span(), "the first of them");
+    }
 }
 
-/// True if the grid sets or varies the drive frequency of all wings.
-fn sets_frequency(root: &[Entry<'_>]) -> bool {
-    ["params", "axes", "derived"].iter().any(|section| {
-        let section = table::find(root, section).and_then(|entry| entry.value.get_ref().as_table());
-        section.is_some_and(|table| table.contains_key(DRIVE_FREQUENCY))
-    })
+/// True if a wing sets the parameter itself.
+fn sets(entries: &[Entry<'_>], parameter: &str) -> bool {
+    let params = table::find(entries, "params").and_then(|entry| entry.value.get_ref().as_table());
+    params.is_some_and(|params| params.contains_key(parameter))
 }
 
 /// The values of a vehicle, in which those of its wings are put.
 struct Own<'o> {
     vehicle: &'static Vehicle,
-    sets_frequency: bool,
     /// The design of all wings, with the values of the vehicle.
     shared: Base,
+    told: Told,
     problems: &'o mut Problems,
     models: Reader<'o>,
 }
@@ -151,10 +205,18 @@ impl Own<'_> {
     fn number(&mut self, name: &str, entry: &Entry<'_>) {
         let parameters = self.vehicle.parameters();
         let Some(index) = Parameter::index(parameters, name) else { return };
+        let help = if name == "total_mass" {
+            "write total_mass = \"85 mg\", or leave it out if it is not known".to_owned()
+        } else {
+            format!("write a finite number in {}, or text with a unit", parameters[index].unit)
+        };
         let (value, error) = uncertainty::of_parameter(&parameters[index], entry, self.problems);
         if let Some(value) = value {
             self.shared.values[index] = Value::Given(value);
+        } else if let Some(newest) = self.problems.newest().filter(|newest| newest.help.is_empty()) {
+            newest.help(help);
         }
+        self.told.set.push((index, entry.key_span.clone()));
         self.shared.uncertainty.set(index, error);
     }
 
@@ -181,12 +243,7 @@ impl Own<'_> {
             self.vector(entry, |axis| format!("{name}_position_{axis}"));
         }
         if let Some(entry) = table::find(entries, "plane") {
-            let angles = table::section(entry, self.problems);
-            if table::check_keys(&angles, &PLANE_KEYS, "in the plane of a wing", self.problems) {
-                for angle in &angles {
-                    self.number(&format!("{name}_plane_{}", angle.key), angle);
-                }
-            }
+            self.plane(name, entry);
         }
         if table::find(entries, "preset").is_some() || table::find(entries, "device").is_some() {
             self.design(index, entries);
@@ -198,7 +255,29 @@ impl Own<'_> {
         }
     }
 
-    /// The preset or the device of a wing: its numbers that differ from those of all wings.
+    /// Orientation of a wing's stroke plane.
+    fn plane(&mut self, wing: &str, entry: &Entry<'_>) {
+        const HELP: &str = "write plane = { roll = \"5 deg\", pitch = \"0 deg\", yaw = \"0 deg\" }, or those that are not zero";
+        let Some(angles) = entry.value.get_ref().as_table() else {
+            let found = table::kind(entry.value.get_ref());
+            let message = format!("`plane` must be a table of angles, not {found}");
+            self.problems.report(entry.value.span(), message).help(HELP);
+            return;
+        };
+        for angle in table::entries(angles) {
+            if PLANE_KEYS.contains(&angle.key) {
+                self.number(&format!("{wing}_plane_{}", angle.key), &angle);
+                continue;
+            }
+            let place = "in the plane of a wing";
+            let diagnostic = table::report_unknown_key(&angle, &PLANE_KEYS, place, self.problems);
+            if diagnostic.help.is_empty() {
+                diagnostic.help(HELP);
+            }
+        }
+    }
+
+    /// The preset or the device of a wing: all of its numbers but those of the drive.
     fn design(&mut self, index: usize, entries: &[Entry<'_>]) {
         let Some(begin) = table::find(entries, "preset").or_else(|| table::find(entries, "device")) else {
             return;
@@ -219,29 +298,40 @@ impl Own<'_> {
         }
         for (place, parameter) in model.parameters().iter().enumerate() {
             let (own, shared) = (design.values[place], self.shared.values[place]);
-            if own == shared {
+            if parameter.name == DRIVE_FREQUENCY && own != shared {
+                let shown = |value: Value| value.given().map_or_else(String::new, value::shown);
+                let (own, shared) = (shown(own), shown(shared));
+                let message = format!("the wing `{name}` flaps at {own} Hz, the vehicle at {shared} Hz");
+                self.told.frequencies.push((span.clone(), message));
+            }
+            if parameter.group == DRIVE {
                 continue;
             }
-            if Vehicle::may_differ(parameter) {
-                if let (Value::Given(_), Some(target)) =
-                    (own, self.vehicle.own_parameter(index, parameter.name))
-                {
+            if !Vehicle::may_differ(parameter) {
+                if own != shared {
+                    let message =
+                        format!("the wing `{name}` has another `{}` than the vehicle", parameter.name);
+                    let help = "choices are the same for all wings of a vehicle";
+                    self.problems.report(span.clone(), message).help(help);
+                }
+                continue;
+            }
+            let Some(target) = self.vehicle.own_parameter(index, parameter.name) else { continue };
+            match (own, shared) {
+                (Value::Given(_), _) => {
                     self.shared.values[target] = own;
                     self.shared.uncertainty.set(target, design.uncertainty.error(place));
                 }
-            } else if parameter.name != DRIVE_FREQUENCY {
-                let message = format!("the wing `{name}` has another `{}` than the vehicle", parameter.name);
-                let help = "choices are the same for all wings of a vehicle";
-                self.problems.report(span.clone(), message).help(help);
-            } else if !self.sets_frequency {
-                let shown = |value: Value| value.given().map_or_else(String::new, value::shown);
-                let message = format!(
-                    "the wing `{name}` flaps at {} Hz, the vehicle at {} Hz",
-                    shown(own),
-                    shown(shared)
-                );
-                let help = "the wings of a vehicle have one frequency: set drive_frequency under [params]";
-                self.problems.report(span.clone(), message).help(help);
+                (_, Value::Given(_)) if !sets(entries, parameter.name) => {
+                    let message = format!(
+                        "`{0}` is not set in the design of the wing `{name}`, but set in that of the vehicle",
+                        parameter.name
+                    );
+                    let help =
+                        format!("give it a value under [vehicle.wings.params]: {} = ...", parameter.name);
+                    self.problems.report(span.clone(), message).help(help);
+                }
+                _ => {}
             }
         }
         self.shared.devices.extend(design.devices);

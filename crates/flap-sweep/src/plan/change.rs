@@ -2,6 +2,7 @@
 
 use flap_core::parameter::Kind;
 use flap_core::simulate::{Motions, Setting, SettingKind, SolverSettings};
+use flap_core::vehicle::of_all_wings;
 
 use crate::notation::expression;
 use crate::notation::value::{self, ValueError};
@@ -124,11 +125,14 @@ impl Plan {
         for &parameter in &by {
             let known = &self.parameters()[parameter];
             let is_derived = self.derived().parameters().any(|derived| derived == parameter);
-            let is_varied = self.axes().varied().any(|varied| varied == parameter);
-            let follows = match self.base()[parameter] {
-                Value::Follows(follows) if !is_varied => Some(follows),
+            let is_varied = |parameter| self.axes().varied().any(|varied| varied == parameter);
+            let follows = |parameter: usize| match self.base()[parameter] {
+                Value::Follows(follows) if !is_varied(parameter) => Some(follows),
                 Value::Given(_) | Value::Follows(_) | Value::Resonance => None,
             };
+            // A wing's own parameter that is not set has the value of all wings.
+            let follows = follows(parameter)
+                .and_then(|own| of_all_wings(self.parameters(), parameter).map_or(Some(own), follows));
             gradient::check(known, is_derived, follows)
                 .map_err(|reason| ChangeError::NoShares(known.name, reason))?;
         }

@@ -1,6 +1,8 @@
 //! Derivatives of measures, as columns of rows.
 
 use flap_core::parameter::{Kind, Parameter, Range};
+use flap_core::simulate::Simulator;
+use flap_core::vehicle::standing;
 
 /// The derivatives that rows have: of each of some measures by each of some parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -107,24 +109,63 @@ impl NoShares {
     }
 }
 
-/// The typical size of a parameter (SI), of which a small share changes it: its value or, if that is zero, that of a voltage, an
-/// angle, a share or a length; `None` if it is not known.
-pub(crate) fn typical(parameters: &[Parameter], values: &[f64], index: usize) -> Option<f64> {
-    let value = values[index];
-    if value != 0.0 && value.is_finite() {
-        return Some(value.abs());
+/// The share of the largest published value below which a value of a parameter is small. It is no larger because robots may be
+/// far smaller than the published ones.
+const SMALL: f64 = 1e-3;
+
+/// The size of a parameter (SI), of which a small share changes it: its value or, where that is zero or so small that its shares
+/// would be lost in rounding, a typical size. `None` if it is zero and none is known.
+pub(crate) fn size(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
+    let value = standing(simulator.parameters(), values, index);
+    let known = (value != 0.0 && value.is_finite()).then_some(value);
+    match simulator.parameters()[index].kind {
+        Kind::Number(range) | Kind::Following(range, _) if !range.contains(0.0) => return known,
+        Kind::Number(_) | Kind::Following(..) | Kind::Choice(_) => {}
     }
-    let of = |name: &str| Parameter::index(parameters, name).map(|index| values[index]);
+    let typical = typical(simulator, values, index);
+    typical.filter(|typical| known.is_none_or(|value| value.abs() < *typical)).or(known)
+}
+
+/// A value after a change by a share of its [`size`].
+pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
+    match size {
+        Some(size) if size != value => share.mul_add(size, value),
+        _ => value * (1.0 + share),
+    }
+}
+
+/// The size below which values of a parameter are small (SI): that of all wings' for one wing's and for a difference, the
+/// published ones', else that of a voltage, an angle, a share or a length.
+fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
+    let parameters = simulator.parameters();
     let parameter = &parameters[index];
-    let shared = parameter.name.strip_prefix("difference_").and_then(of);
-    let size = match (shared, parameter.unit) {
-        (Some(shared), _) if shared != 0.0 && shared.is_finite() => shared.abs(),
-        (_, "V") => of("drive_voltage_pp")?.abs(),
-        (_, "" | "rad") => 1.0,
-        (_, "m") => 1e-3,
-        _ => return None,
+    let of = |name: &str| {
+        let other = Parameter::index(parameters, name).filter(|other| *other != index)?;
+        size(simulator, values, other).map(f64::abs)
     };
-    Some(size).filter(|size| *size > 0.0 && size.is_finite())
+    let shared = match parameter.kind {
+        Kind::Following(_, follows) => Some(follows),
+        Kind::Number(_) | Kind::Choice(_) => parameter.name.strip_prefix("difference_"),
+    };
+    if let Some(size) = shared.and_then(of) {
+        return Some(size);
+    }
+    let published = published(simulator, index);
+    if published > 0.0 {
+        return Some(published).filter(|published| values[index].abs() < SMALL * published);
+    }
+    match parameter.unit {
+        "V" => of("drive_voltage_pp"),
+        "" | "rad" => Some(1.0),
+        "m" => Some(1e-3),
+        _ => None,
+    }
+}
+
+/// The largest value of a parameter in the presets of the model; zero if they have none.
+fn published(simulator: &dyn Simulator, index: usize) -> f64 {
+    let values = simulator.presets().iter().filter_map(|preset| (preset.values)().get(index).copied());
+    values.filter(|value| value.is_finite()).fold(0.0, |largest, value| value.abs().max(largest))
 }
 
 /// Checks that rows can have derivatives by `parameter`, which is derived or follows others, or has a value.

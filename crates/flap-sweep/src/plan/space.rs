@@ -64,6 +64,8 @@ pub(crate) struct Space {
     pub(crate) output: Output,
     /// The parameters that the grid file calls by their former names.
     pub(crate) renamed: Vec<&'static Parameter>,
+    /// The parameters of all wings that the grid sets or varies, although each wing has one of its own.
+    pub(crate) unreached: Vec<&'static Parameter>,
     /// The grid file itself, for provenance.
     pub(crate) source: Source,
 }
@@ -165,6 +167,11 @@ impl Plan {
     /// The parameters that the grid file calls by the names of earlier versions.
     pub fn renamed(&self) -> &[&'static Parameter] {
         &self.space.renamed
+    }
+
+    /// The parameters of all wings that the grid file sets or varies in vain: each wing has one of its own.
+    pub fn unreached(&self) -> &[&'static Parameter] {
+        &self.space.unreached
     }
 
     /// The grid file itself, for provenance.

@@ -1,10 +1,11 @@
 //! Derivatives of the measures of a row.
 
 use flap_core::simulate::{Change, Interrupt, NoSlope, Point, PointRun, Row};
+use flap_core::vehicle::standing;
 
 use super::options::RunOptions;
 use crate::plan::Plan;
-use crate::plan::gradient::{Gradient, Per, typical};
+use crate::plan::gradient::{Gradient, Per, moved, size};
 
 /// The share that changes for the derivatives of the plan's own measures, which are computed from those and need not be as small.
 const OWN_SHARE: f64 = 1e-5;
@@ -44,26 +45,18 @@ pub(super) fn add(
     true
 }
 
-/// The size of a parameter at a point, whose shares are changed: its value or, for changes per unit of one that is zero, a
-/// typical one. Zero if none is known.
-fn size(plan: &Plan, per: Per, point: &Point, parameter: usize) -> f64 {
-    let value = point.values[parameter];
-    if value == 0.0 && per == Per::Unit {
-        typical(plan.parameters(), &point.values, parameter).unwrap_or(0.0)
-    } else {
-        value
-    }
+/// The size of a parameter at a point, of which shares change it; `None` if none is known. Zero has no per cent.
+fn size_at(plan: &Plan, per: Per, point: &Point, parameter: usize) -> Option<f64> {
+    let value = standing(plan.parameters(), &point.values, parameter);
+    let has_shares = per == Per::Unit || value != 0.0;
+    size(plan.simulator(), &point.values, parameter).filter(|_| has_shares)
 }
 
 /// The values of a point with one parameter larger by a share of its size.
 fn changed(plan: &Plan, per: Per, point: &Point, parameter: usize, share: f64) -> Vec<f64> {
-    let size = size(plan, per, point, parameter);
-    plan.changed(
-        point.index,
-        parameter,
-        // A zero that keeps its sign where no size is known.
-        |value| if value == 0.0 { value + share * size } else { value * (1.0 + share) },
-    )
+    let size = size_at(plan, per, point, parameter);
+    let shared = standing(plan.parameters(), &point.values, parameter);
+    plan.changed(point.index, parameter, |own| moved(if own.is_nan() { shared } else { own }, size, share))
 }
 
 /// The derivatives in the order of their columns.
@@ -85,9 +78,10 @@ fn derivatives(
             None => slopes[by][of],
             Some(place) => own_slopes[by][place],
         };
+        let size = size_at(plan, gradient.per, point, parameter).unwrap_or(f64::NAN);
         slope.map(|slope| match gradient.per {
-            Per::Cent => 0.01 * slope,
-            Per::Unit => slope / size(plan, gradient.per, point, parameter),
+            Per::Cent => 0.01 * slope * (standing(plan.parameters(), &point.values, parameter) / size),
+            Per::Unit => slope / size,
         })
     });
     pairs.collect()

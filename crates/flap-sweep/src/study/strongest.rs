@@ -4,6 +4,7 @@ use flap_core::parameter::{Kind, Range};
 use flap_core::simulate::{Change, NoSlope, PointRun, Row, Simulator, Unfinished};
 
 use crate::plan::Plan;
+use crate::plan::gradient::{moved, size};
 
 /// The derivatives of a measure by all parameters that can change.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +32,7 @@ pub fn slopes(
     let parameters = changing(plan, run.values);
     let changed = |parameter: usize, share: f64| {
         let mut values = run.values.to_vec();
-        values[parameter] *= 1.0 + share;
+        values[parameter] = moved(values[parameter], size(plan.simulator(), run.values, parameter), share);
         plan.derived().fill(&mut values, fixed);
         values
     };
@@ -45,7 +46,11 @@ pub fn slopes(
     let (mut known, mut unknown) = (Vec::new(), Vec::new());
     for (index, slopes) in parameters.into_iter().zip(gradient.slopes) {
         match slopes[measure] {
-            Ok(slope) => known.push((index, slope)),
+            Ok(slope) => {
+                let value = run.values[index];
+                let size = size(plan.simulator(), run.values, index).unwrap_or(value);
+                known.push((index, slope * (value / size)));
+            }
             Err(reason) => unknown.push((index, reason)),
         }
     }

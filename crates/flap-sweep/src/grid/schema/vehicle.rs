@@ -1,8 +1,10 @@
 //! The section `[vehicle]`.
 
 use flap_core::simulate::Simulator;
+use flap_core::vehicle::MOST_WINGS;
 use serde_json::{Value, json};
 
+use super::super::uncertainty::VALUE_KEYS;
 use super::super::vehicle::{KEYS, PLANE_KEYS, WING_KEYS};
 use super::part;
 use super::sections::{about, preset};
@@ -10,15 +12,26 @@ use super::sections::{about, preset};
 pub(super) fn section(models: &[&'static dyn Simulator]) -> Value {
     let keys = part::properties(KEYS, |key| match key {
         "about" => lengths("The point about which torques are taken: forward, to the left, upwards."),
-        "total_mass" => part::positive("Mass of the whole vehicle, in kg or as text with a unit.", true),
+        "total_mass" => mass(),
         _ => json!({
             "description": "The wings, each under [[vehicle.wings]].",
-            "type": "array", "minItems": 1, "items": wing(models),
+            "type": "array", "minItems": 1, "maxItems": MOST_WINGS, "items": wing(models),
         }),
     });
     let mut table = part::table(about("vehicle"), keys);
     table["required"] = json!(["wings"]);
     table
+}
+
+/// A mass, with or without its standard error.
+fn mass() -> Value {
+    let about = "Mass of the whole vehicle, in kg or as text with a unit.";
+    let mass = part::positive(about, true);
+    let keys = part::properties(VALUE_KEYS, |key| if key == "value" { mass.clone() } else { part::to(key) });
+    let mut uncertain = part::table("A mass with its standard error.", keys);
+    uncertain["required"] = json!(["value"]);
+    uncertain["not"] = json!({"required": ["sd", "relative_sd"]});
+    json!({"description": about, "anyOf": [mass, uncertain]})
 }
 
 /// A wing.

@@ -1,17 +1,19 @@
 //! The matrix of control effectiveness.
 
 use flap_core::num::InstructionSet;
-use flap_core::parameter::Parameter;
 use flap_core::simulate::{
     Change, Interrupt, Motions as _, NoSlope, PointRun, Row, Rows as _, SolverSettings, Status, Unfinished,
 };
-use flap_core::vehicle::{FORCES, TORQUES, Vehicle};
+use flap_core::vehicle::{FORCES, TORQUES, Vehicle, standing};
 use nalgebra::DMatrix;
 
 use super::input::{Input, parameters};
 
 /// Force and torque: the columns of rows.
 pub const COMPONENTS: [&str; 6] = [FORCES[0], FORCES[1], FORCES[2], TORQUES[0], TORQUES[1], TORQUES[2]];
+
+/// The share of the largest effect of an input below which another one has none.
+const IDLE: f64 = 1e-9;
 
 /// The reason why a vehicle's control effectiveness is not known.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -119,7 +121,7 @@ impl Flight<'_> {
         }
         let mut changes = Vec::with_capacity(inputs.len());
         for input in inputs {
-            let size = input.typical(self.vehicle, &values);
+            let size = input.size(self.vehicle, &values);
             let size = size.ok_or_else(|| ControlError::NoSize(input.name.clone()))? * Change::SHARE;
             let moved = |by: f64| {
                 let mut values = values.clone();
@@ -152,18 +154,30 @@ impl Flight<'_> {
 /// The values with those of all wings in place of a wing's own that are not set.
 pub(super) fn own_values(vehicle: &Vehicle, values: &[f64], inputs: &[Input]) -> Vec<f64> {
     let mut filled = values.to_vec();
-    let parameters = parameters(vehicle);
-    for input in inputs.iter().filter(|input| values[input.parameter].is_nan()) {
-        let name = parameters[input.parameter].name;
-        let shared = vehicle.mounts().iter().find_map(|mount| name.strip_prefix(&format!("{}_", mount.name)));
-        if let Some(index) = shared.and_then(|name| Parameter::index(parameters, name)) {
-            filled[input.parameter] = values[index];
-        }
+    for input in inputs {
+        filled[input.parameter] = standing(parameters(vehicle), values, input.parameter);
     }
     filled
 }
 
 impl Effectiveness {
+    /// The same without inputs that change nothing beside the others, unless none is left.
+    pub fn without_idle(mut self, flight: &Flight<'_>, values: &[f64]) -> Effectiveness {
+        let effects = self.inputs.iter().enumerate().map(|(j, input)| {
+            let size = input.size(flight.vehicle, values).unwrap_or_default() / input.factor;
+            self.matrix.column(j).amax() * size
+        });
+        let effects: Vec<f64> = effects.collect();
+        let largest = effects.iter().copied().fold(0.0, f64::max);
+        let kept: Vec<usize> = (0..effects.len()).filter(|&j| effects[j] > IDLE * largest).collect();
+        if !kept.is_empty() {
+            self.inputs = kept.iter().map(|&j| self.inputs[j].clone()).collect();
+            self.values = kept.iter().map(|&j| self.values[j]).collect();
+            self.matrix = self.matrix.select_columns(&kept);
+        }
+        self
+    }
+
     /// The combinations of inputs that make force and torque, the strongest first: the singular value decomposition of the
     /// matrix.
     pub fn modes(&self) -> Vec<Mode> {

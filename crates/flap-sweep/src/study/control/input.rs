@@ -89,9 +89,9 @@ impl Input {
         words.chain(numbers.map(|parameter| parameter.name.to_owned())).collect()
     }
 
-    /// The typical size of a parameter (SI), from which changes are measured; `None` if it is not known.
-    pub(super) fn typical(&self, vehicle: &Vehicle, values: &[f64]) -> Option<f64> {
-        gradient::typical(parameters(vehicle), values, self.parameter)
+    /// The size of its parameter (SI), from which changes are measured; `None` if it is not known.
+    pub(super) fn size(&self, vehicle: &Vehicle, values: &[f64]) -> Option<f64> {
+        gradient::size(vehicle, values, self.parameter).map(f64::abs)
     }
 }
 

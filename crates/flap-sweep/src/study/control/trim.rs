@@ -9,7 +9,7 @@ use super::input::Input;
 /// Steps of Newton's iteration.
 const MOST_STEPS: usize = 40;
 
-/// The share of force and torque to which targets are met.
+/// The share of a target to which it is met; where the error of the motion allows no more, of the largest component.
 const TOLERANCE: f64 = 1e-6;
 
 /// The largest change of the inputs in a step, in their typical sizes.
@@ -85,16 +85,18 @@ pub fn trim(
         return Err(TrimError::FewInputs { targets: targets.len(), inputs: inputs.len() });
     }
     let mut values = own_values(flight.vehicle, values, inputs);
-    let sizes: Option<Vec<f64>> = inputs.iter().map(|input| input.typical(flight.vehicle, &values)).collect();
+    let sizes: Option<Vec<f64>> = inputs.iter().map(|input| input.size(flight.vehicle, &values)).collect();
     let Some(sizes) = sizes else {
-        let without = inputs.iter().find(|input| input.typical(flight.vehicle, &values).is_none());
+        let without = inputs.iter().find(|input| input.size(flight.vehicle, &values).is_none());
         let name = without.map_or_else(String::new, |input| input.name.clone());
         return Err(ControlError::NoSize(name).into());
     };
     let mut at = flight.effectiveness(&values, inputs, None)?;
+    let mut taken = 0;
+    let own = own_sizes(&at.wrench, targets);
     for steps in 0..MOST_STEPS {
-        let missed = missed(&at, targets);
-        if is_met(&at.wrench, &missed, targets) {
+        let missed = missed_by(&at.wrench, targets);
+        if is_met(&missed, &own) {
             return Ok(Trim { at, steps });
         }
         let slopes = DMatrix::from_fn(targets.len(), inputs.len(), |i, j| {
@@ -111,12 +113,8 @@ pub fn trim(
             }
             let row = flight.row(&tried, Some(&at.row.state));
             let better = row.status == Status::Periodic && {
-                let wrench = flight.wrench(&row);
-                let left = DVector::from_iterator(
-                    targets.len(),
-                    targets.iter().map(|target| target.value - wrench[target.component]),
-                );
-                left.norm() < missed.norm()
+                let left = missed_by(&flight.wrench(&row), targets);
+                left.component_div(&own).norm() < missed.component_div(&own).norm()
             };
             if better {
                 break Some((tried, row));
@@ -128,28 +126,36 @@ pub fn trim(
         };
         let Some((tried, row)) = next else { break };
         values = tried;
+        taken = steps + 1;
         at = flight.effectiveness(&values, inputs, Some(&row.state))?;
     }
-    let missed = missed(&at, targets);
-    if is_met(&at.wrench, &missed, targets) {
-        return Ok(Trim { at, steps: MOST_STEPS });
+    let all = DVector::from_element(targets.len(), largest(&at.wrench, targets));
+    if is_met(&missed_by(&at.wrench, targets), &all) {
+        return Ok(Trim { at, steps: taken });
     }
     Err(TrimError::NotReached { at: Box::new(at), targets: targets.to_vec() })
 }
 
 /// The targets less the components.
-fn missed(at: &Effectiveness, targets: &[Target]) -> DVector<f64> {
-    DVector::from_iterator(
-        targets.len(),
-        targets.iter().map(|target| target.value - at.wrench[target.component]),
-    )
+fn missed_by(wrench: &[f64; 6], targets: &[Target]) -> DVector<f64> {
+    let missed = targets.iter().map(|target| target.value - wrench[target.component]);
+    DVector::from_iterator(targets.len(), missed)
 }
 
-/// True if the targets are met but for a small share of force and torque.
-fn is_met(wrench: &[f64; 6], missed: &DVector<f64>, targets: &[Target]) -> bool {
-    let size = wrench
-        .iter()
-        .chain(targets.iter().map(|target| &target.value))
-        .fold(0.0, |one: f64, other| one.max(other.abs()));
-    missed.amax() <= TOLERANCE * size
+/// The largest of the components and the targets.
+fn largest(wrench: &[f64; 6], targets: &[Target]) -> f64 {
+    let targets = targets.iter().map(|target| &target.value);
+    wrench.iter().chain(targets).fold(0.0, |one: f64, other| one.max(other.abs()))
+}
+
+/// The size of each target: its own, or the largest of all if it is zero.
+fn own_sizes(wrench: &[f64; 6], targets: &[Target]) -> DVector<f64> {
+    let largest = largest(wrench, targets);
+    let own = targets.iter().map(|target| if target.value == 0.0 { largest } else { target.value.abs() });
+    DVector::from_iterator(targets.len(), own)
+}
+
+/// True if all targets are met but for a small share of these sizes.
+fn is_met(missed: &DVector<f64>, sizes: &DVector<f64>) -> bool {
+    missed.iter().zip(sizes.iter()).all(|(missed, size)| missed.abs() <= TOLERANCE * size)
 }

@@ -1,0 +1,150 @@
+//! The control effectiveness of a vehicle: numbers in the colours of their shares.
+
+use flap_sweep::picture::colours::MISSING;
+use flap_sweep::study::control::COMPONENTS;
+use flap_sweep::table::labels;
+use kuva::render::color::Color;
+use kuva::render::layout::ComputedLayout;
+use kuva::render::render::{Primitive, Scene, TextAnchor};
+
+use super::chosen::Chosen;
+use super::label::digits;
+use super::panel::{Axis, LETTER, Panel};
+use super::shades::Shades;
+use super::wishes::{INPUT, MEAN};
+use super::{bar, ink};
+use crate::args::Size;
+use crate::data::columns::{Cells, NO_WORD, Table};
+use crate::failure::Failure;
+
+/// What the columns of force and torque are called.
+const NAMES: [&str; 6] = ["forward", "left", "up", "roll", "pitch", "yaw"];
+
+/// The share of an input's largest change below which a change is nearly nothing.
+const LEAST: f64 = 1e-3;
+
+/// The share beyond which a colour is so dark that its number is white.
+const DARK: f64 = 0.6;
+
+/// The size of the numbers.
+const SIZE: u32 = 12;
+
+/// Draws the change of force and torque per unit of each input.
+pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
+    let inputs = words(table, INPUT)?;
+    let units = words(table, "unit")?;
+    let rows = chosen.rows.iter().copied().filter(|&row| inputs[row] != MEAN);
+    let rows: Vec<usize> = rows.collect();
+    if rows.is_empty() {
+        return Err(Failure::usage("the file has no inputs: there is nothing to draw"));
+    }
+    let columns: Result<Vec<&[f64]>, Failure> =
+        COMPONENTS.iter().map(|name| table.numbers(table.find(name)?)).collect();
+    let columns = columns?;
+    let range = |count: usize| (0.5, count as f64 + 0.5);
+    let panel = Panel {
+        title: chosen.title.clone(),
+        notes: chosen.notes.clone(),
+        bar: true,
+        ..Panel::new(
+            Axis::linear("Force (mN), torque (µN·m)".to_owned(), range(COMPONENTS.len())),
+            Axis::linear(String::new(), range(rows.len())),
+            Vec::new(),
+        )
+    };
+    // The first input is on top.
+    let names = rows.iter().rev().map(|&row| ink::plain(&name(&inputs[row], &units[row])));
+    let layout = panel
+        .layout(size)
+        .with_y_categories(names.collect())
+        .with_x_categories(NAMES.map(str::to_owned).to_vec());
+    let frame = ComputedLayout::from_layout(&layout);
+    let mut scene = panel.scene_in(layout);
+    let shades = Shades::of((-1.0, 1.0));
+    let mut cells = Vec::new();
+    for (line, &row) in rows.iter().rev().enumerate() {
+        let changes: Vec<f64> = columns.iter().map(|column| column[row]).collect();
+        let finite = changes.iter().filter(|change| change.is_finite());
+        let largest = finite.fold(0.0, |largest: f64, change| largest.max(change.abs()));
+        let share = |change: f64| if largest > 0.0 { change / largest } else { change };
+        cells.extend(changes.into_iter().enumerate().map(|(place, change)| Cell {
+            sides: [0.5, 1.5].map(|edge| frame.map_x(place as f64 + edge)),
+            ends: [1.5, 0.5].map(|edge| frame.map_y(line as f64 + edge)),
+            change,
+            share: share(change),
+        }));
+    }
+    // Numbers lie above the colours of neighbours.
+    for cell in &cells {
+        cell.fill(&mut scene, &shades);
+    }
+    for cell in &cells {
+        cell.number(&mut scene);
+    }
+    ink::frame_lines(&mut scene, &frame);
+    let label = "Share of the input's largest change".to_owned();
+    bar::colour_bar(&mut scene, &frame, &Axis::linear(label, (-1.0, 1.0)), None);
+    Ok(scene)
+}
+
+/// A cell: the change of a component, and its share of the largest of its input.
+struct Cell {
+    sides: [f64; 2],
+    ends: [f64; 2],
+    change: f64,
+    share: f64,
+}
+
+impl Cell {
+    fn fill(&self, scene: &mut Scene, shades: &Shades) {
+        let Cell { sides, ends, share, .. } = self;
+        let fill = if share.is_finite() { shades.colour(*share) } else { MISSING.to_owned() };
+        ink::rectangle(scene, (sides[0], ends[0]), (sides[1] - sides[0], ends[1] - ends[0] - 1.0), &fill);
+    }
+
+    fn number(&self, scene: &mut Scene) {
+        let Cell { sides, ends, share, .. } = self;
+        scene.add(Primitive::Text {
+            x: f64::midpoint(sides[0], sides[1]),
+            y: f64::midpoint(ends[0], ends[1]) + 4.2,
+            content: self.text(),
+            size: SIZE,
+            anchor: TextAnchor::Middle,
+            rotate: None,
+            bold: false,
+            color: (share.abs() > DARK).then(|| Color::from("#ffffff")),
+        });
+    }
+
+    /// The change in three digits, or in as few as fit.
+    fn text(&self) -> String {
+        let Cell { sides, change, share, .. } = *self;
+        if change.is_nan() {
+            return "?".to_owned();
+        }
+        if change != 0.0 && share.abs() < LEAST {
+            return "≈0".to_owned();
+        }
+        let text = digits(change, 3);
+        let is_wide = |text: &str| text.len() as f64 * LETTER * f64::from(SIZE) > sides[1] - sides[0] - 4.0;
+        let text = if is_wide(&text) { format!("{change:.1e}") } else { text };
+        text.replace('-', "−")
+    }
+}
+
+/// An input with the unit that its changes are per.
+fn name(input: &str, unit: &str) -> String {
+    let words = labels::with_unit(input, unit);
+    if words.unit.is_empty() { words.words } else { format!("{}, per {}", words.words, words.unit) }
+}
+
+/// The words of a column; of one without words, none in each row.
+fn words(table: &Table, column: &str) -> Result<Vec<String>, Failure> {
+    let text = |code: &u32, words: &[String]| {
+        if *code == NO_WORD { String::new() } else { words[*code as usize].clone() }
+    };
+    Ok(match &table.columns[table.find(column)?].cells {
+        Cells::Words { codes, words } => codes.iter().map(|code| text(code, words)).collect(),
+        Cells::Numbers(_) | Cells::Unread => vec![String::new(); table.rows],
+    })
+}
