@@ -84,11 +84,11 @@ fn impulses_that_mean_nothing_are_refused() {
     let values = values("jafferis2016", &[]);
     let good = ImpulseRequest { stroke_rate: 1.0, duration: 0.01, intervals: 10 };
     for (request, reason) in [
-        (ImpulseRequest { stroke_rate: 0.0, ..good }, "a rate of 0 rad/s"),
-        (ImpulseRequest { stroke_rate: f64::NAN, ..good }, "a rate of NaN rad/s"),
-        (ImpulseRequest { duration: 0.0, ..good }, "over 0 s"),
-        (ImpulseRequest { duration: f64::INFINITY, ..good }, "over inf s"),
-        (ImpulseRequest { intervals: 0, ..good }, "in 0 intervals"),
+        (ImpulseRequest { stroke_rate: 0.0, ..good }, "finite and not zero, not 0 rad/s"),
+        (ImpulseRequest { stroke_rate: f64::NAN, ..good }, "finite and not zero, not NaN rad/s"),
+        (ImpulseRequest { duration: 0.0, ..good }, "not 0 s and 10 intervals"),
+        (ImpulseRequest { duration: f64::INFINITY, ..good }, "not inf s and 10 intervals"),
+        (ImpulseRequest { intervals: 0, ..good }, "0.01 s and 0 intervals"),
     ] {
         let solver = SolverSettings::default();
         let refused = model
