@@ -53,7 +53,12 @@ fn a_page_holds_the_rows_and_needs_no_network() {
     assert!(!folder.path("sweep.svg").exists(), "a picture only if it is asked for");
     let page = folder.read("page.html");
     // Names of a namespace, of a project in a comment, of a part of the picture itself; and an empty icon.
-    let harmless = ["http://www.w3.org/2000/svg", "https://github.com/leeoniya/uPlot", "url(#inside)", "href=\"data:,\""];
+    let harmless = [
+        "http://www.w3.org/2000/svg",
+        "https://github.com/leeoniya/uPlot",
+        "url(#inside)",
+        "href=\"data:,\"",
+    ];
     let asks = harmless.iter().fold(page.clone(), |text, name| text.replace(name, ""));
     for outside in ["http:", "https:", "//cdn", "src=", "href=", "import(", "fetch(", "url(", "@import", "{{"]
     {
