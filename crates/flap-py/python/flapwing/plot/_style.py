@@ -24,8 +24,12 @@ if TYPE_CHECKING:
         @figure.setter
         def figure(self, value: Any) -> None: ...
 
+    class DrawnOrFigure(Drawn, Figure):  # type: ignore[misc]
+        """Axes with a picture or a figure of panels, for type checkers: the contents of a table decide which."""
+
 else:
     Drawn = Axes
+    DrawnOrFigure = Axes
 
 # The colours of `flap plot`: those of series are Okabe and Ito's, which readers with any colour vision tell apart.
 _TABLE: dict[str, Any] = _flapwing.colours()
