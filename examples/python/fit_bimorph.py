@@ -166,8 +166,9 @@ def main() -> None:
 
     error = np.sqrt(np.diag(covariance))
     quantile = students_t.ppf(0.975, freedom)
-    print(f"{found.nfev} steps; residuals: {np.sqrt(found.fun @ found.fun / freedom):.3f} deg rms,", end=" ")
-    print(f"{np.abs(found.fun).max():.3f} deg at most, {freedom} degrees of freedom\n")
+    rms, deviation = np.sqrt(np.mean(found.fun**2)), np.sqrt(found.fun @ found.fun / freedom)
+    print(f"{found.nfev} steps; residuals: {rms:.3f} deg rms, {np.abs(found.fun).max():.3f} deg at most")
+    print(f"standard deviation of a reading, with {freedom} degrees of freedom: {deviation:.3f} deg\n")
     print(f"{'parameter':20} {'unit':8} {'value':>11} {'95 % from':>11} {'to':>11} {'error, %':>9}", end="")
     print("" if arguments.data else f" {'true':>11} {'off by':>11}")
     for place, name in enumerate(FITTED):

@@ -25,6 +25,9 @@ from matplotlib.figure import Figure
 
 REPOSITORY = Path(__file__).parents[2]
 
+# Maps keep all of their colours: with few, their colour bars have steps.
+MAPS = ("gaps", "heatmap", "wrench")
+
 
 def softened(volts: dict[str, str], highest: str, where: dict[str, str] | None = None) -> flapwing.Table:
     """A sweep of the bimorph with a softened hinge: over voltages, and over frequencies from 60 Hz to the highest."""
@@ -166,19 +169,21 @@ def main() -> None:
     for name, picture in pictures.items():
         figure = picture.get_figure(root=True)
         assert figure is not None
-        save(figure, folder / f"py-{name}.png")
+        save(figure, folder / f"py-{name}.png", name not in MAPS)
     wing_path().save(folder / "py-wing-path.gif", dpi=56)
     plt.close("all")
 
 
-def save(figure: Figure, path: Path) -> None:
-    """A small PNG: few colours are enough for a chart."""
+def save(figure: Figure, path: Path, few: bool) -> None:
+    """A PNG, small if it has few colours, which are enough for lines."""
     from PIL import Image
 
     figure.savefig(path, dpi=90)
     with Image.open(path) as image:
-        few = image.convert("RGB").quantize(128, dither=Image.Dither.NONE)
-    few.save(path, optimize=True)
+        drawn = image.convert("RGB")
+    if few:
+        drawn = drawn.quantize(256, dither=Image.Dither.NONE)
+    drawn.save(path, optimize=True)
 
 
 if __name__ == "__main__":

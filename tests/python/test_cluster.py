@@ -7,6 +7,7 @@ import threading
 import flapwing
 import numpy as np
 import pytest
+from compare import is_same
 from grids import GRID
 
 distributed = pytest.importorskip("distributed")
@@ -190,3 +191,69 @@ def test_derivatives_of_a_batch_are_those_of_one_machine(client, axes):
     np.testing.assert_array_equal(again.gradient, here.gradient)
     with pytest.raises(ValueError, match="`lift_sign` is a choice"):
         flapwing.evaluate(grid, columns, gradient=["lift_sign"], client=client)
+
+
+def test_single_points_are_those_of_one_machine(client, tmp_path, monkeypatch):
+    record = tmp_path / "wave.csv"
+    record.write_text("time_s,wave\n0,0\n0.0025,1\n0.005,0\n0.0075,-1\n0.01,0\n")
+    monkeypatch.chdir(tmp_path)
+    time = np.linspace(0.0, 0.01, 21)
+    grid = {"preset": "ozaki2018-large", "axes": {"drive_frequency": [100, 105, 110]}}
+    motion = flapwing.trajectory("ozaki2018-large", cycles=1, samples=4)
+    calls = [
+        lambda **there: flapwing.run("ozaki2018-large", drive_voltage_pp="80 V", rtol=1e-5, **there),
+        lambda **there: flapwing.run(grid, point=1, begin=motion[-1:], **there),
+        lambda **there: flapwing.run("ozaki2018-large", waveform="wave.csv", **there),
+        lambda **there: flapwing.run("ozaki2018-large", waveform=(time, np.sin(2 * np.pi * time / 0.01)), **there),
+        lambda **there: flapwing.resonance("ozaki2018-large", start="100 Hz", stop="120 Hz", **there),
+    ]
+    for call in calls:
+        told = []
+        far = call(client=client, progress=lambda *done: told.append(done))
+        assert is_same(far, call()) and told == [(1, 1)]
+    far, near = (flapwing.trajectory(grid, point=-1, samples=50, drive_voltage_pp="80 V", client=there) for there in (client, None))
+    assert far.columns == near.columns and far.units == near.units and far.docs == near.docs and far.meta == near.meta
+    for name in near:
+        np.testing.assert_array_equal(far[name], near[name], strict=True)
+
+
+def test_responses_are_those_of_one_machine(client):
+    grid = {"preset": "jafferis2016", "axes": {"hinge_stiffness": ["0.7486 uN*m/rad", "1 uN*m/rad", "1.5 uN*m/rad"]}}
+    told = []
+    options = {"start": "122 Hz", "stop": "128 Hz", "step": "1 Hz", "unstable": True, "states": True, "drive_voltage_pp": "160 V"}
+    far = flapwing.respond(grid, client=client, progress=lambda *done: told.append(done), **options)
+    near = flapwing.respond(grid, **options)
+    assert told[-1] == (3, 3) and [done for done, _ in told] == [1, 2, 3]
+    assert far.meta == near.meta and len(far.meta["verdicts"]) == 3
+    assert far.columns == near.columns and far.units == near.units and set(far["branch"]) == {"up", "down", "unstable"}
+    for name in near:
+        np.testing.assert_array_equal(far[name], near[name], strict=True)
+
+
+def test_mistakes_in_single_calls_are_those_of_one_machine(client):
+    for call in (
+        lambda there: flapwing.run("ozaki2018-large", drive_frequenc=3, client=there),
+        lambda there: flapwing.run({"preset": "ozaki2018-large", "axes": {"drive_frequency": [1, 2]}}, client=there),
+        lambda there: flapwing.trajectory("ozaki2018-large", cycles=0, client=there),
+        lambda there: flapwing.resonance("ozaki2018-larg", client=there),
+        lambda there: flapwing.respond("ozaki2018-large", start=1, client=there),
+    ):
+        messages = []
+        for there in (client, None):
+            with pytest.raises(ValueError) as caught:
+                call(there)
+            messages.append(str(caught.value))
+        assert messages[0] == messages[1]
+    for function in (flapwing.run, flapwing.trajectory, flapwing.resonance):
+        with pytest.raises(TypeError, match="`client` is str\nit must be a distributed.Client"):
+            function("ozaki2018-large", client="here")
+        with pytest.raises(TypeError, match="`progress` is str\nit must be True, False"):
+            function("ozaki2018-large", progress="yes")
+
+
+def test_workers_of_another_build_are_refused(client, monkeypatch):
+    from flapwing import _worker
+
+    monkeypatch.setattr(_worker._flapwing, "identity", lambda: {"build": "0", "arithmetic": "0"})
+    with pytest.raises(RuntimeError, match="a worker's build of flapwing is .*, and here it is 0\ninstall the same build"):
+        flapwing.run("ozaki2018-large", client=client)

@@ -143,7 +143,7 @@ def test_no_parameter_is_hidden_by_a_solver_setting(preset):
     settings = re.search(r"; solver settings: (.*)\)", message).group(1).split(", ")
     kinds = {name: parameter.kind for name, parameter in inspect.signature(flapwing.run).parameters.items()}
     keywords = [name for name, kind in kinds.items() if kind is inspect.Parameter.KEYWORD_ONLY]
-    assert keywords == ["point", "begin", "waveform", "stroke", *settings]
+    assert keywords == ["point", "begin", "waveform", "stroke", "progress", "client", *settings]
     for function in [flapwing.run, flapwing.sweep, flapwing.evaluate, flapwing.respond, flapwing.trajectory, *EXPERIMENTS]:
         kinds = {name: parameter.kind for name, parameter in inspect.signature(function).parameters.items()}
         keywords = [name for name, kind in kinds.items() if kind is inspect.Parameter.KEYWORD_ONLY]

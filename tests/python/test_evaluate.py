@@ -5,6 +5,8 @@ import time
 import flapwing
 import numpy as np
 import pandas
+import polars
+import pyarrow
 import pytest
 from compare import is_same
 
@@ -61,6 +63,37 @@ def test_a_parameter_is_a_column_or_a_keyword():
     for columns in ({"drive_frequency": [100.0]}, {"drive_frequency": 100.0, "hinge_stiffness": [1e-4]}):
         with pytest.raises(ValueError, match="`drive_frequency` is a column and a keyword: keep one of them"):
             flapwing.evaluate(PRESET, columns, drive_frequency=110)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        pandas.array([100, None, 110], dtype="Int64"),
+        pandas.Series([100.0, None, 110.0], dtype="Float64"),
+        polars.Series([100.0, None, 110.0]),
+        pyarrow.array([100.0, None, 110.0]),
+        pyarrow.chunked_array([[100.0, None], [110.0]]),
+    ],
+    ids=lambda values: type(values).__name__,
+)
+def test_nulls_are_refused(values):
+    with pytest.raises(ValueError, match="`drive_frequency` has 1 null of 3 values, and a point needs all of them\nleave"):
+        flapwing.evaluate(PRESET, {"drive_frequency": values})
+    time = np.array([0.0, 0.004, 0.01])
+    with pytest.raises(ValueError, match=r"`waveform\['wave'\]` has 1 null of 3 values"):
+        flapwing.run(PRESET, waveform={"time_s": time, "wave": values})
+
+
+def test_ragged_lists_and_lazy_frames_are_told_in_two_lines():
+    for call in (
+        lambda: flapwing.evaluate(PRESET, {"drive_frequency": [[100.0], [105.0, 110.0]]}),
+        lambda: flapwing.evaluate(PRESET, polars.LazyFrame({"drive_frequency": [100.0]})),
+        lambda: flapwing.sweep({"preset": PRESET, "zip": polars.LazyFrame({"drive_frequency": [100.0]})}),
+        lambda: flapwing.run(PRESET, begin=polars.LazyFrame({"pitch_rad": [0.1]})),
+    ):
+        with pytest.raises(TypeError) as caught:
+            call()
+        assert len(str(caught.value).splitlines()) == 2, caught.value
 
 
 def test_masked_values_are_refused():

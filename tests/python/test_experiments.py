@@ -128,6 +128,27 @@ def test_a_state_decides_between_two_orbits():
     assert sorted(found) == pytest.approx(sorted([strokes.min(), strokes.max()]), rel=1e-3)
 
 
+def test_a_row_of_any_kind_is_a_state():
+    motion = flapwing.trajectory(PRESET, cycles=1, samples=10)[3:4]
+    frame = motion.to_pandas()
+    row = {name: float(motion[name][0]) for name in motion}
+    forms = [frame, frame.iloc[0], motion.to_polars(), motion.to_arrow(), row, dict(motion)]
+    expected = flapwing.trajectory(PRESET, cycles=1, samples=4, begin=motion)["stroke_rad"]
+    for begin in forms:
+        np.testing.assert_array_equal(
+            flapwing.trajectory(PRESET, cycles=1, samples=4, begin=begin)["stroke_rad"], expected
+        )
+    rows = flapwing.evaluate(PRESET, {"drive_frequency": [100.0, 105.0]}, states=True)
+    alone = [flapwing.run(PRESET, drive_frequency=105, begin=begin) for begin in (rows[1:], rows.to_pandas().iloc[1])]
+    batch = flapwing.evaluate(PRESET, {"drive_frequency": [105.0]}, begin=rows[1:])
+    assert alone[0]["cycles"] == alone[1]["cycles"] == batch["cycles"][0] < flapwing.run(PRESET, drive_frequency=105)["cycles"]
+    # What is not known begins at rest, as in batches.
+    unknown = {**row, "stroke_rad": np.nan}
+    assert flapwing.trajectory(PRESET, cycles=1, samples=4, begin=unknown)["stroke_rad"][0] == 0
+    with pytest.raises(ValueError, match="`begin` has 2 rows\nchoose one"):
+        flapwing.run(PRESET, begin=rows.to_pandas())
+
+
 @pytest.mark.parametrize(
     ("begin", "says"),
     [

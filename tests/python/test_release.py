@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -24,6 +25,39 @@ def test_the_wheel_works_without_a_toolchain():
     assert told.returncode == 0, told.stderr
     assert "the package and the command give the same bytes" in told.stdout
     assert re.search(r"^flap \d+\.\d+\.\d+", told.stdout, re.MULTILINE)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="archives of releases are for Linux")
+def test_the_archive_of_the_command_works_without_anything_else(tmp_path):
+    package = tmp_path / "flap-0.0.0-x86_64-linux"
+    package.mkdir()
+    shutil.copy(os.environ["FLAP"], package / "flap")
+    archive = tmp_path / f"{package.name}.tar.gz"
+    subprocess.run(["tar", "-czf", archive, "-C", tmp_path, package.name], check=True)
+    script = REPOSITORY / "scripts" / "test-archive.sh"
+    told = subprocess.run([script, archive], capture_output=True, text=True, timeout=120)
+    assert told.returncode == 0, told.stderr
+    assert told.stdout.startswith("flap ")
+    (package / "flap").write_text("#!/bin/sh\nexit 3\n", encoding="utf-8")
+    subprocess.run(["tar", "-czf", archive, "-C", tmp_path, package.name], check=True)
+    assert subprocess.run([script, archive], capture_output=True, timeout=120).returncode != 0
+
+
+def steps(workflow):
+    jobs = yaml.safe_load((REPOSITORY / ".github" / "workflows" / workflow).read_text(encoding="utf-8"))["jobs"]
+    return {name: [step.get("run") or step.get("with", {}) for step in job["steps"]] for name, job in jobs.items()}
+
+
+def test_changes_are_tested_with_the_oldest_python_and_as_a_wheel():
+    project = (REPOSITORY / "crates" / "flap-py" / "pyproject.toml").read_text(encoding="utf-8")
+    oldest = {"python-version": re.search(r'^requires-python = ">=(.*)"$', project, re.MULTILINE).group(1)}
+    ci = steps("ci.yml")
+    assert oldest in ci["test"] and "./.ci/run" in ci["test"] and oldest in ci["wheel"]
+    tested = ["./scripts/test-wheel.sh dist/*x86_64.whl", "./scripts/test-archive.sh dist/*x86_64-linux.tar.gz"]
+    assert ci["wheel"][-3:] == ["./scripts/build-wheels.sh x86_64", *tested]
+    release = steps("release.yml")
+    for step in tested:
+        assert step in release["build"] and step.replace("x86_64", "aarch64") in release["test-aarch64"]
 
 
 @pytest.mark.parametrize("workflow", WORKFLOWS, ids=lambda path: path.name)

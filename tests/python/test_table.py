@@ -1,6 +1,7 @@
 """Tables: columns, and what they become elsewhere."""
 
 import json
+import pickle
 
 import flapwing
 import numpy as np
@@ -225,8 +226,59 @@ def test_columns_are_chosen_by_lists(table):
     assert len(table[[]]) == 0 and table[[]].columns == table.columns
     whole = table[["point", "lift_mean_mn"]].to_xarray()
     assert whole["lift_mean_mn"].dims == ("drive_voltage_pp", "lift_sign", "drive_frequency")
-    with pytest.raises(ValueError, match="no column `point` that tells which\nkeep it"):
+    with pytest.raises(ValueError, match="where the rows are along the axis of drive_voltage_pp\nkeep `point` or"):
         table[["lift_mean_mn"]].to_xarray()
+
+
+def test_rows_without_their_points_are_placed_by_the_parameters_of_the_axes():
+    table = flapwing.sweep({
+        "preset": "ozaki2018-large",
+        "axes": {"lift_sign": ["corrected", "printed"], "drive_frequency": [100, 105, 110]},
+        "zip": [{"wing_length": [0.03, 0.031], "air_density": [1.2, 1.1]}],
+    })
+    axes = ["wing_length", "lift_sign", "drive_frequency"]
+    lift = table.to_xarray()["lift_mean_mn"]
+    for rows in (table[::-1], table[np.random.default_rng(1).permutation(len(table))]):
+        np.testing.assert_array_equal(rows[[*axes, "lift_mean_mn"]].to_xarray()["lift_mean_mn"], lift)
+        with pytest.raises(ValueError, match="along the axis of drive_frequency"):
+            rows[["wing_length", "lift_sign", "lift_mean_mn"]].to_xarray()
+    some = table[2:5][[*axes, "lift_mean_mn"]].to_xarray()["lift_mean_mn"].to_numpy().ravel()
+    np.testing.assert_array_equal(some[2:5], table["lift_mean_mn"][2:5])
+    assert np.isnan(np.delete(some, [2, 3, 4])).all()
+    assert np.isnan(table[:0][axes + ["lift_mean_mn"]].to_xarray()["lift_mean_mn"]).all()
+
+
+def test_parts_share_nothing_that_can_be_changed(table):
+    part, columns = table[1:], table[["point", "lift_mean_mn"]]
+    for each in (table, part, columns, pickle.loads(pickle.dumps(table))):
+        with pytest.raises(ValueError, match="read-only"):
+            each.dims[0]["drive_voltage_pp"][0] = -1
+    rtol = table.meta["solver"]["rtol"]
+    part.meta["solver"]["rtol"] = columns.meta["solver"]["rtol"] = 9.0
+    part.meta["counts"]["periodic"] = -1
+    assert table.meta["solver"]["rtol"] == rtol and table.meta["counts"]["periodic"] > 0
+
+
+def test_the_origin_is_in_xarray_and_pandas():
+    table = flapwing.evaluate(
+        "ozaki2018-large", {"drive_frequency": [100.0, 105.0]}, drive_voltage_pp="80 V", rtol=np.float32(1e-5)
+    )
+    curve = flapwing.respond("ozaki2018-large", start=100, stop=110, step=5, drive_voltage_pp="80 V")
+    for told in (table, curve):
+        for attributes in (told.to_xarray().attrs, told.to_pandas().attrs):
+            assert {key: attributes[key] for key in ("build", "model", "preset", "grid")} == {
+                key: told.meta[key] for key in ("build", "model", "preset", "grid")
+            }
+            assert json.loads(attributes["set"])["drive_voltage_pp"] == "80 V"
+            assert json.loads(attributes["solver"]) == told.meta["solver"]
+    assert json.loads(table.to_xarray().attrs["set"])["rtol"] == float(np.float32(1e-5))
+    assert curve.to_xarray().attrs["along"] == "drive_frequency"
+    assert json.loads(curve.to_xarray().attrs["verdicts"]) == curve.meta["verdicts"]
+
+
+def test_the_origin_in_a_frame_is_kept_by_parquet(table, tmp_path):
+    table.to_pandas().to_parquet(tmp_path / "frame.parquet")
+    assert pandas.read_parquet(tmp_path / "frame.parquet").attrs["build"] == table.meta["build"]
 
 
 def test_the_origin_stays_with_parts(table):

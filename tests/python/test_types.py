@@ -69,6 +69,30 @@ def test_mistakes_are_refused(tmp_path):
     assert lines == {4, 5, 6, 7, 8, 10, 11, 12}
 
 
+DRAWN = """\
+import flapwing
+import numpy as np
+import pandas
+from flapwing import plot
+
+rows = flapwing.read("rows.csv")
+plot.wrench(rows).savefig("panels.png")
+plot.wrench(rows, x="drive_offset").savefig("panels.png")
+plot.wrench(rows, inputs=["drive_offset"]).figure.savefig("map.png")
+plot.wrench(np.zeros((6, 1)), inputs=["drive_offset"]).set_title("map")
+flapwing.run("ozaki2018-large", begin=rows[-1:], progress=True)
+flapwing.run("ozaki2018-large", begin={"pitch_rad": 0.1, "stroke_rad": "10 deg"})
+flapwing.trajectory("ozaki2018-large", begin=pandas.DataFrame({"pitch_rad": [0.1]}))
+"""
+
+
+def test_what_depends_on_the_table_is_accepted(tmp_path):
+    path = tmp_path / "drawn.py"
+    path.write_text(DRAWN, encoding="utf-8")
+    told = checked([path], tmp_path)
+    assert told[-1].startswith("Success"), "\n".join(told)
+
+
 def floor():
     project = tomllib.loads((REPOSITORY / "crates/flap-py/pyproject.toml").read_text(encoding="utf-8"))["project"]
     return project, tuple(map(int, project["requires-python"].removeprefix(">=").split(".")))

@@ -1,9 +1,10 @@
-//! Stretches of a sweep, for the workers of a cluster.
+//! What the workers of a cluster compute, and what they are.
 
-use flap_sweep::run;
+use flap_sweep::run::identity::build;
+use flap_sweep::run::{self, RunOptions};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyBytes, PyDict};
 
 use crate::grid::Grid;
 use crate::watch::Watch;
@@ -33,4 +34,13 @@ pub(crate) fn part<'py>(
     });
     watch.ended()?;
     Ok(PyBytes::new(py, &ran.map_err(|error| error::run(&error))?))
+}
+
+/// What decides the bits of the rows of this process: `build`, a hash of the sources, and `arithmetic`.
+#[pyfunction]
+pub(crate) fn identity(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("build", build())?;
+    dict.set_item("arithmetic", RunOptions::default().instructions.arithmetic().name())?;
+    Ok(dict)
 }

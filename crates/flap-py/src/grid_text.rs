@@ -79,6 +79,11 @@ pub(crate) fn dictionary<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Boun
     if value.is_instance_of::<PyString>() {
         return Ok(None);
     }
+    if value.hasattr("collect")? {
+        let found = value.get_type().name()?;
+        let message = format!("{found} has no columns yet\ncall its method collect() first");
+        return Err(PyTypeError::new_err(message));
+    }
     for names in ["column_names", "columns"] {
         if let Ok(names) = value.getattr(names) {
             for name in names.try_iter()? {

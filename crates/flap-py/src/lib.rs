@@ -40,7 +40,7 @@ mod _flapwing {
     #[pymodule_export]
     use crate::{
         begin::states,
-        cluster::part,
+        cluster::{identity, part},
         diagnostic::Diagnostic,
         error::GridError,
         evaluate::{check, evaluate},

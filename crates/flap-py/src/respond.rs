@@ -18,9 +18,10 @@ use crate::{design, error, parameters, sweep};
 /// The column of the stroke amplitude.
 const STROKE: &str = "stroke_amplitude_deg";
 
-/// Follows responses; see `flapwing.respond`.
+/// Follows responses; see `flapwing.respond`. `curves` chooses designs by their numbers, rising; `designs` of the result is the
+/// number of all.
 #[pyfunction]
-#[pyo3(signature = (design, along, /, *, start=None, stop=None, step=None, tolerance=None, unstable=false, states=false, threads=None, progress=None, keywords=None))]
+#[pyo3(signature = (design, along, /, *, start=None, stop=None, step=None, tolerance=None, unstable=false, states=false, threads=None, progress=None, keywords=None, curves=None))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]
 pub(crate) fn respond<'py>(
     py: Python<'py>,
@@ -35,6 +36,7 @@ pub(crate) fn respond<'py>(
     threads: Option<&Bound<'py, PyAny>>,
     progress: Option<Py<PyAny>>,
     keywords: Option<&Bound<'py, PyDict>>,
+    curves: Option<Vec<u64>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let options = sweep::options(threads)?;
     let plan = design::plan(design, keywords)?;
@@ -70,6 +72,9 @@ pub(crate) fn respond<'py>(
     if states {
         plan = plan.with_states().map_err(|error| PyValueError::new_err(error.to_string()))?;
     }
+    if let Some(curves) = curves {
+        plan = plan.with_points(curves).map_err(|error| PyValueError::new_err(error.to_string()))?;
+    }
     let responses = Responses::of(&plan).ok_or_else(|| PyValueError::new_err("no parameter is followed"))?;
     let stroke = plan.rows().columns().iter().position(|column| column.name == STROKE);
     let stroke = stroke.ok_or_else(|| PyValueError::new_err("the model measures no stroke"))?;
@@ -95,5 +100,6 @@ pub(crate) fn respond<'py>(
     let dict = PyDict::new(py);
     dict.set_item("columns", columns.into_python(py)?)?;
     dict.set_item("meta", meta)?;
+    dict.set_item("designs", plan.len())?;
     Ok(dict)
 }

@@ -32,14 +32,34 @@ def test_all_parts_are_drawn(found):
     assert len(parts) == 5
     stroke = parts[0]
     assert stroke.get_xlabel() == "Drive frequency (Hz)" and stroke.get_ylabel() == "Stroke, peak to peak (°)"
-    assert [text.get_text() for text in stroke.get_legend().get_texts()] == ["60 V", "80 V"]
+    assert [text.get_text() for text in stroke.get_legend().get_texts()] == [
+        "60 V",
+        "80 V",
+        "model with its 95 % band",
+    ]
     assert len(stroke.containers) == 2 and len(stroke.collections) >= 2
-    assert parts[2].get_xlabel() == "hinge_stiffness (µN·m/rad)"
+    assert parts[2].get_xlabel() == "Hinge stiffness (µN·m/rad)"
     low, high = (one.get_xdata()[0] for one in parts[2].lines[-2:])
     assert [low, high] == pytest.approx(
         [1e6 * found.estimates["hinge_stiffness"].low, 1e6 * found.estimates["hinge_stiffness"].high]
     )
-    assert parts[4].texts[1].get_text() == f"{found.correlations[0, 1]:+.2f}"
+    assert parts[4].texts[1].get_text() == f"{found.correlations[0, 1]:+.2f}".replace("-", "−")
+    assert [label.get_text() for label in parts[4].get_yticklabels()] == ["Hinge stiffness", "Wing length"]
+
+
+def test_profiles_have_enough_points_and_are_explained(found):
+    figure = plot.fit(found, "profiles")
+    figure.canvas.draw()
+    (part,) = figure.subfigs
+    (told,) = part.legends
+    assert [text.get_text() for text in told.get_texts()] == ["profile", "estimate", "95 % limit", "ends of the interval"]
+    for ax in part.axes:
+        assert len(ax.lines[0].get_xdata()) >= 7
+        rise = ax.lines[0].get_ydata()
+        lowest = int(np.argmin(rise))
+        assert rise[lowest] == 0 and (np.diff(rise[lowest:]) > 0).all() and (np.diff(rise[: lowest + 1]) < 0).all()
+        boxes = [text.get_window_extent() for text in ax.get_xticklabels() if text.get_text()]
+        assert all(left.x1 < right.x0 for left, right in zip(boxes, boxes[1:]))
 
 
 @pytest.mark.parametrize(("show", "count"), [("data", 2), ("profiles", 2), ("correlations", 1)])

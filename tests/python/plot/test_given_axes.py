@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from figures import HERTZ, VOLTS, fails, grid, loop, message
 from flapwing import plot
+from matplotlib.colors import same_color
 
 PAPER = {"font.size": 7.0, "lines.linewidth": 0.9}
 
@@ -72,6 +73,96 @@ def test_legends_cover_no_data(name):
         for line in axes[0, 0].lines:
             path = line.get_path().transformed(line.get_transform()).cleaned(remove_nans=True)
             assert not path.intersects_bbox(box, filled=False)
+
+
+def effects():
+    values = np.array([[0.0, 1.2e-4], [0.0, 3e-4], [7e-3, 0.0], [0.0, 7e-3], [1e-3, 0.0], [0.0, 2e-3]])
+    return values, ["drive_voltage_pp", "difference_drive_offset"]
+
+
+def seven(ax):
+    table = grid(drive_voltage_pp=np.arange(60.0, 130.0, 10.0), drive_frequency=HERTZ)
+    return plot.response(table, "lift_mean_mn", ax=ax)
+
+
+def of_three(ax):
+    table = grid(drive_voltage_pp=VOLTS, drive_frequency=HERTZ)
+    table["efficiency_gf_per_w"] = np.sin(table["lift_mean_mn"])
+    objectives = ["lift_mean_mn", "efficiency_gf_per_w"]
+    return plot.pareto(table, maximize=objectives, minimize="power_mean_mw", color="drive_frequency", ax=ax)
+
+
+PANELS = {
+    "response": seven,
+    "pareto": of_three,
+    "tornado": lambda ax: plot.tornado("ozaki2018-large", "lift_mean_mn", ["wing_length", "air_density"], top=1, ax=ax),
+    "wrench": lambda ax: plot.wrench(effects()[0], inputs=effects()[1], ax=ax),
+}
+
+
+@pytest.mark.parametrize("order", [list(PANELS), list(reversed(PANELS))])
+def test_legends_fit_when_later_panels_have_shrunk_their_axes(order):
+    with mpl.rc_context(PAPER):
+        figure, axes = plt.subplots(2, 2, figsize=(7.0, 5.0), layout="constrained")
+        for name, ax in zip(order, axes.flat):
+            PANELS[name](ax)
+    # Sizes and resolutions may be others when it is drawn, and so may the user's settings.
+    for size, dpi in (((7.0, 5.0), 100), ((7.0, 5.0), 250), ((6.5, 4.7), 100), ((9.0, 7.0), 100)):
+        figure.set_size_inches(size)
+        figure.set_dpi(dpi)
+        figure.canvas.draw()
+        for ax in axes.flat:
+            legend = ax.get_legend()
+            if legend is not None:
+                within(legend.get_window_extent(), ax.get_window_extent())
+                box = legend.get_window_extent()
+                for line in ax.lines:
+                    path = line.get_path().transformed(line.get_transform()).cleaned(remove_nans=True)
+                    # The line at zero of a tornado is as high as the axes.
+                    is_data = line.get_transform() == ax.transData and line.get_linestyle() != "None"
+                    assert not (is_data and path.intersects_bbox(box, filled=False))
+
+
+def test_legends_that_the_user_makes_and_limits_that_he_sets_stay():
+    figure, ax = plt.subplots(layout="constrained")
+    seven(ax)
+    ax.set_ylim(0.0, 99.0)
+    ax.legend(["mine"], loc="lower left")
+    figure.set_size_inches(3.0, 2.0)
+    figure.canvas.draw()
+    assert ax.get_ylim() == (0.0, 99.0)
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["mine"]
+
+
+@pytest.mark.parametrize("given", [False, True])
+def test_texts_and_lines_are_seen_on_black(given):
+    with plt.style.context("dark_background"):
+        rows = grid(drive_voltage_pp=VOLTS, drive_frequency=HERTZ)
+
+        def ax():
+            return plt.subplots()[1] if given else None
+
+        bars = plot.histogram(rows, "lift_mean_mn", ax=ax())
+        rings = front(rows, ax=ax())
+        ranks = plot.tornado(rows, "lift_mean_mn", ax=ax())
+        for each in (*bars.texts, *bars.lines, *rings.lines, *ranks.texts, *ranks.lines):
+            assert same_color(each.get_color(), "white")
+        entry = front(rows, color="drive_frequency", ax=ax()).get_legend().get_texts()[0]
+        assert same_color(entry.get_color(), "white")
+    # The look of axes is that which they were made with.
+    black = plt.subplots()[1]
+    for label in (black.xaxis.label, black.yaxis.label):
+        label.set_color("white")
+    assert same_color(plot.histogram(rows, "lift_mean_mn", ax=black).texts[0].get_color(), "white")
+
+
+def test_the_users_colours_go_first():
+    words = grid(lift_sign=["corrected", "printed"], drive_frequency=HERTZ)
+    assert same_color(plot.response(words, "lift_mean_mn").lines[0].get_color(), "#0072b2")
+    with mpl.rc_context({"axes.prop_cycle": mpl.cycler(color=["#123456", "#654321"]), "image.cmap": "magma"}):
+        assert same_color(plot.response(words, "lift_mean_mn").lines[1].get_color(), "#654321")
+        table = grid(drive_voltage_pp=VOLTS, drive_frequency=HERTZ)
+        assert plot.heatmap(table, "lift_mean_mn").collections[0].cmap.name == "magma"
 
 
 def test_legends_and_colour_bars_are_off_or_elsewhere():

@@ -33,7 +33,10 @@ def test_the_examples_of_the_page_run(page, tmp_path, monkeypatch):
     for example in re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL):
         exec(compile(example, "docs/plots.md", "exec"), names)
     assert saved == ["cycle.gif"] and Path("lift.png").is_file()
-    text = message(ValueError, plot.heatmap, names["large"], "efficiency_gf_per_w")
+    with pytest.warns(UserWarning) as told:
+        plot.heatmap(names["large"], "efficiency_gf_per_w")
+    assert [f"UserWarning: {each.message}\n" in page for each in told] == [True]
+    text = message(ValueError, plot.heatmap, names["large"], "efficiency_gf_per_w", drive_voltage_pp="75 V")
     assert f"ValueError: {text}\n" in page
 
 

@@ -14,7 +14,7 @@ def test_trajectory_over_time_and_phase_portraits(preset):
     table = flapwing.trajectory(preset)
     figure = drawn(plot.trajectory(table))
     over_time, stroke, pitch = figure.axes
-    assert over_time.get_xlabel() == "Time (ms)"
+    assert over_time.get_xlabel() == "Time (ms)" and over_time.get_ylabel() == "Angle (°)"
     assert legend(over_time) == ["Stroke", "Pitch"]
     for line, name in zip(over_time.lines, ("stroke_deg", "pitch_deg")):
         assert_allclose(line.get_xdata(), 1e3 * table["time_s"])

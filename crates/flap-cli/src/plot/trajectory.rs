@@ -17,8 +17,8 @@ use crate::failure::Failure;
 /// Most points of one line.
 const MOST_POINTS: usize = 8000;
 
-/// The angles, by the beginning of their columns' names.
-const ANGLES: [(&str, &str); 2] = [("stroke", "stroke"), ("pitch", "pitch")];
+/// The angles: the beginning of their columns' names.
+const ANGLES: [&str; 2] = ["stroke", "pitch"];
 
 /// Draws the motion beside its phase portrait.
 pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
@@ -28,13 +28,14 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let (mut motions, mut loops) = (Vec::new(), Vec::new());
     let mut notes = chosen.notes.clone();
     let mut ticking = 0;
-    for (place, (angle, name)) in ANGLES.iter().enumerate() {
-        let values = table.numbers(table.find(&format!("{angle}_deg"))?)?;
+    for (place, angle) in ANGLES.iter().enumerate() {
+        let column = table.find(&format!("{angle}_deg"))?;
+        let values = table.numbers(column)?;
         let rate = format!("{angle}_rate_rad_s");
         let rates = if let Some(column) = table.columns.iter().position(|column| column.name == rate) {
             table.numbers(column)?.iter().map(|rate| rate.to_degrees() * 1e-3).collect()
         } else {
-            console::say(&format!("the rate of the {name} is computed from differences of its samples"));
+            console::say(&format!("the rate of the {angle} is computed from differences of its samples"));
             rates(time, values)
         };
         let motion: Vec<(f64, f64)> =
@@ -47,7 +48,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         let look = |name: &str| Look { width: 1.8, ..Look::new(name, colours::SERIES[place]) };
         let motion = scale::thinned(&motion, MOST_POINTS);
         over_time.extend(ink::line(&motion, &look("")));
-        portrait.extend(ink::line(&around, &look(name)));
+        portrait.extend(ink::line(&around, &look(&table.label(column).words)));
         motions.extend(motion);
         loops.extend(around);
     }

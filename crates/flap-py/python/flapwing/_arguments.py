@@ -24,6 +24,8 @@ def columns_of(name: str, given: Any) -> dict[str, Any]:
     """The columns of a mapping, a Table, a DataFrame or an Arrow table, by name."""
     if isinstance(given, Mapping):
         found = dict(given)
+    elif hasattr(given, "collect"):
+        raise refused(name, given, "it has no columns yet: call its method collect() first")
     else:
         names = getattr(given, "column_names", getattr(given, "columns", None))
         if names is None or isinstance(given, (str, bytes)) or not hasattr(given, "__getitem__"):
@@ -35,8 +37,10 @@ def columns_of(name: str, given: Any) -> dict[str, Any]:
     return found
 
 
-def numbers(name: str, values: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """A column of numbers as float64."""
+def numbers(name: str, values: Any, *, unknown: bool = False) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """A column of numbers as float64. What is `unknown` may stand in it as nan; else nulls and masked values are refused."""
+    if isinstance(values, np.ma.MaskedArray) or not unknown:
+        refuse_missing(name, values)
     try:
         array = np.asarray(values)
         if array.dtype.kind == "O":
@@ -48,6 +52,26 @@ def numbers(name: str, values: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
     return np.require(array, np.float64, ["C", "A"])
 
 
+def refuse_missing(name: str, values: Any) -> None:
+    """Refuses masked values and nulls: what stands below a mask means nothing, and a null is no number."""
+    kind, missing = "masked", 0
+    if isinstance(values, np.ma.MaskedArray):
+        missing = int(np.count_nonzero(values.mask))
+    elif isinstance(getattr(values, "null_count", None), int):  # Arrow
+        kind, missing = "null", values.null_count
+    elif callable(getattr(values, "null_count", None)):  # polars
+        kind, missing = "null", int(values.null_count())
+    elif hasattr(values, "isna") and not isinstance(getattr(values, "dtype", None), np.dtype):  # pandas
+        kind, missing = "null", int(np.count_nonzero(values.isna()))
+    if missing:
+        count = values.size if kind == "masked" else len(values)
+        remedy = ".filled(...)" if kind == "masked" else "the library's fill_null or fillna"
+        raise ValueError(
+            f"`{name}` has {missing} {kind} of {count} values, and a point needs all of them\n"
+            f"leave these rows out of every column, or give what stands for them with {remedy}"
+        )
+
+
 def record(name: str, given: Any, heading: str) -> str | dict[str, Any]:
     """A record over time: a path as it is, else its columns as arrays. Of two arrays, the second is called `heading`."""
     if isinstance(given, (str, os.PathLike)):
@@ -56,7 +80,8 @@ def record(name: str, given: Any, heading: str) -> str | dict[str, Any]:
         if len(given) != 2:
             raise ValueError(f"`{name}` has {len(given)} arrays\nit must have two: times (s) and values")
         given = {"time_s": given[0], heading: given[1]}
-    if not isinstance(given, Mapping) and not hasattr(given, "columns") and not hasattr(given, "column_names"):
+    is_table = any(hasattr(given, name) for name in ("collect", "columns", "column_names"))
+    if not isinstance(given, Mapping) and not is_table:
         allowed = f"it must be a path, a pair (times, values), or columns such as time_s and {heading}"
         raise refused(name, given, allowed)
     columns = columns_of(name, given)
@@ -79,21 +104,36 @@ def waves(waveform: Any, stroke: Any) -> dict[str, Any]:
 
 
 def state(design: Design, begin: Any) -> dict[str, Any] | None:
-    """Components of a state; of a table, those of the states of the design's model."""
+    """Components of a state; of a row with more columns, those of the states of the design's model."""
     if begin is None:
         return None
     if isinstance(begin, Mapping):
-        return dict(begin)
-    if not isinstance(begin, Table):
-        allowed = 'it must be a dictionary of components such as {"pitch": "10 deg"}, or a Table of one row'
+        found = dict(begin)
+    elif any(hasattr(begin, name) for name in ("collect", "columns", "column_names")):
+        found = columns_of("begin", begin)
+    elif hasattr(begin, "to_dict"):
+        found = begin.to_dict()
+    else:
+        allowed = 'it must be a dictionary of components such as {"pitch": "10 deg"}, or a table of one row'
         raise refused("begin", begin, allowed)
-    if len(begin) != 1:
-        raise ValueError(f"`begin` has {len(begin)} rows\nchoose one of them: table[-1:] is the last")
     names = _flapwing.states(design)
-    missing = [name for name in names if name not in begin]
+    missing = [name for name in names if name not in found]
+    if isinstance(begin, Mapping) and missing:
+        return found
     if missing:
         raise ValueError(f"`begin` lacks the columns {', '.join(missing)}\na trajectory of the same model has them")
-    return {name: float(begin[name][0]) for name in names}
+    components = {name: _one(found[name]) for name in names}
+    # As in batches, what is unknown begins at rest.
+    return {} if any(value is None or value != value for value in components.values()) else components
+
+
+def _one(value: Any) -> Any:
+    """The value of a column of one row, or a value as it is."""
+    if isinstance(value, str) or not hasattr(value, "__len__"):
+        return value
+    if len(value) != 1:
+        raise ValueError(f"`begin` has {len(value)} rows\nchoose one of them: table[-1:] is the last")
+    return numbers("begin", value, unknown=True)[0]
 
 
 def states(design: Design, begin: Any) -> np.ndarray[Any, np.dtype[np.float64]] | None:
@@ -105,7 +145,7 @@ def states(design: Design, begin: Any) -> np.ndarray[Any, np.dtype[np.float64]] 
     missing = [name for name in names if name not in found]
     if missing:
         raise ValueError(f"`begin` lacks the columns {', '.join(missing)}\nrows of a call with states=True have them")
-    listed = [numbers(f"begin[{name!r}]", found[name]) for name in names]
+    listed = [numbers(f"begin[{name!r}]", found[name], unknown=True) for name in names]
     if len({len(values) for values in listed}) > 1:
         raise ValueError("the columns of `begin` differ in length\nthey must have a component of a state for each point")
     return np.column_stack(listed)

@@ -29,7 +29,7 @@ def to_pandas(table: Table) -> pandas.DataFrame:
         return column.values()
 
     frame = pandas.DataFrame({name: series(column) for name, column in table._columns.items()}, copy=False)
-    frame.attrs["units"] = table.units
+    frame.attrs.update(_origin(table), units=table.units)
     return frame
 
 
@@ -48,13 +48,20 @@ def to_arrow(table: Table) -> pyarrow.Table:
         arrays.append(array)
         about = {"unit": column.unit, "doc": column.doc}
         fields.append(pyarrow.field(name, array.type, metadata={k: v for k, v in about.items() if v}))
-    origin = {f"flapwing.{key}": _text(value) for key, value in table.meta.items()}
+    origin = {f"flapwing.{key}": value for key, value in _origin(table).items()}
     return pyarrow.Table.from_arrays(arrays, schema=pyarrow.schema(fields, metadata=origin or None))
 
 
-def _text(value: Any) -> str:
-    """An entry of `meta` as text: JSON, but for text itself."""
-    return value if isinstance(value, str) else json.dumps(value, default=str)
+def _origin(table: Table) -> dict[str, str]:
+    """The entries of `meta` as text, which every format keeps: JSON, but for text itself."""
+    return {
+        name: value if isinstance(value, str) else json.dumps(value, default=_plain) for name, value in table.meta.items()
+    }
+
+
+def _plain(value: Any) -> Any:
+    """A value that JSON does not know, such as a number of NumPy, as one that it knows."""
+    return value.tolist() if isinstance(value, (np.generic, np.ndarray)) else str(value)
 
 
 def to_xarray(table: Table) -> xarray.Dataset:
@@ -90,8 +97,7 @@ def to_xarray(table: Table) -> xarray.Dataset:
     }
     for name in _places(table):
         coordinates[name] = variables.pop(name)
-    attributes = {name: table.meta[name] for name in ("flap", "model", "preset", "grid") if name in table.meta}
-    return xarray.Dataset(variables, coordinates, attributes)
+    return xarray.Dataset(variables, coordinates, _origin(table))
 
 
 def _layout(table: Table) -> tuple[list[str], list[int], np.ndarray[Any, Any]]:
@@ -103,12 +109,24 @@ def _layout(table: Table) -> tuple[list[str], list[int], np.ndarray[Any, Any]]:
     shape = [len(next(iter(dim.values()))) for dim in table.dims]
     if "point" in table:
         return dims, shape, table["point"].astype(np.intp)
-    if len(table) == int(np.prod(shape)):
-        return dims, shape, np.arange(len(table))
-    raise ValueError(
-        f"the table has {len(table)} of the grid's {int(np.prod(shape))} points, and no column `point` that tells which\n"
-        'keep it among the columns: table[["point", …]]'
-    )
+    indices = [_along(table, dim) for dim in table.dims]
+    return dims, shape, np.ravel_multi_index(indices, shape) if len(table) else np.zeros(0, np.intp)
+
+
+def _along(table: Table, dim: dict[str, np.ndarray[Any, Any]]) -> np.ndarray[Any, Any]:
+    """The place of each row along an axis, by the columns of its parameters."""
+    length = len(next(iter(dim.values())))
+    if length == 1:
+        return np.zeros(len(table), np.intp)
+    names = [name for name in dim if name in table]
+    places = {key: place for place, key in enumerate(zip(*(dim[name].tolist() for name in names)))}
+    keys = list(zip(*(table[name].tolist() for name in names)))
+    if len(places) < length or not all(key in places for key in keys):
+        raise ValueError(
+            f"no column tells where the rows are along the axis of {', '.join(dim)}\n"
+            'keep `point` or the parameters of the axes among the columns: table[["point", …]]'
+        )
+    return np.array([places[key] for key in keys], np.intp)
 
 
 def _places(table: Table) -> list[str]:

@@ -155,8 +155,8 @@ def _given(design: Design, columns: Any) -> dict[str, Any]:
     constants: dict[str, Any] = {}
     found = _parameters(design, columns) if isinstance(columns, Table) else _arguments.columns_of("columns", columns)
     for name, values in found.items():
-        _refuse_masked(name, values)
-        if isinstance(values, (str, bytes)) or np.ndim(values) == 0:
+        _arguments.refuse_missing(name, values)
+        if isinstance(values, (str, bytes)) or _dimensions(name, values) == 0:
             constants[name] = values
         else:
             given[name] = _column(name, values)
@@ -178,16 +178,12 @@ def _parameters(design: Design, table: Table) -> dict[str, Any]:
     return found
 
 
-def _refuse_masked(name: str, values: Any) -> None:
-    """Refuses masked values: a point needs all its values, and the number below a mask means nothing."""
-    if not isinstance(values, np.ma.MaskedArray):
-        return
-    masked = int(np.count_nonzero(values.mask))
-    if masked:
-        raise ValueError(
-            f"`{name}` has {masked} masked of {values.size} values, and a point needs all of them: leave these rows "
-            "out of every column, or give what stands for them with .filled(...)"
-        )
+def _dimensions(name: str, values: Any) -> int:
+    try:
+        return np.ndim(values)
+    except ValueError:
+        allowed = "its lists differ in length: it must be one value, or a list of values"
+        raise _arguments.refused(name, values, allowed) from None
 
 
 def _column(name: str, values: Any) -> np.ndarray[Any, Any] | list[Any]:

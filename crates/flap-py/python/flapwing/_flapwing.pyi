@@ -18,6 +18,7 @@ __all__ = [
     "colours",
     "correlations",
     "evaluate",
+    "identity",
     "impulse",
     "is_signed",
     "lift",
@@ -351,8 +352,11 @@ def respond(
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
     keywords: dict[str, Any] | None = None,
+    curves: list[int] | None = None,
 ) -> dict[str, Any]:
-    """Follows responses; see `flapwing.respond`."""
+    """Follows responses; see `flapwing.respond`. `curves` chooses designs by their numbers, rising; `designs` of the result is the
+    number of all.
+    """
 
 def sweep(
     grid: Grid,
@@ -371,6 +375,9 @@ def sweep(
 
 def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None = None) -> bytes:
     """Runs the points from `begin` to before `end`, and gives their rows as bytes that `sweep` takes as parcels."""
+
+def identity() -> dict[str, str]:
+    """What decides the bits of the rows of this process: `build`, a hash of the sources, and `arithmetic`."""
 
 def read(path: str | PathLike[str], /, *, ignore_damage: bool = False) -> dict[str, Any]:
     """Reads a result file; see `flapwing.read`."""

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, SupportsFloat, SupportsIndex
+from typing import TYPE_CHECKING, Any, SupportsFloat, SupportsIndex
 
-from . import _arguments, _flapwing
+from . import _arguments, _flapwing, _worker
+from ._progress import Progress, one_step
 from ._table import Table
 from ._types import Design, Record, State, Value
+
+if TYPE_CHECKING:
+    from distributed import Client
 
 __all__ = ["resonance", "run", "trajectory"]
 
@@ -19,6 +23,8 @@ def run(
     begin: State | None = None,
     waveform: Record | None = None,
     stroke: Record | None = None,
+    progress: Progress = False,
+    client: Client | None = None,
     rtol: SupportsFloat | None = None,
     atol: SupportsFloat | None = None,
     settle_tol: SupportsFloat | None = None,
@@ -45,11 +51,11 @@ def run(
         parameters must then be given.
     point : int, optional
         The index of a point in the grid. Needed if it has more than one.
-    begin : dict or Table, optional
+    begin : dict, Table or DataFrame, optional
         The state at the start of the first drive period: components by the names of `states(…)`, each a number in SI
-        units or text with a unit, ``{"pitch": "10 deg"}``; those not given are zero. Or a table of one row with the
-        states, such as ``trajectory(…)[-1:]``. If the design has several orbits, it decides which is found. Default:
-        rest.
+        units or text with a unit, ``{"pitch": "10 deg"}``; those not given are zero. Or a row with the states among its
+        columns, such as ``trajectory(…)[-1:]``, the same as a DataFrame or a dictionary, or a row of a DataFrame; a row
+        with nan begins at rest. If the design has several orbits, it decides which is found. Default: rest.
     waveform : path, tuple or columns, optional
         One period of the drive in place of `drive_shape`: a CSV file or columns (a dictionary, Table or DataFrame) with
         `time_s` (or `time_ms`) and `wave`, or a pair of arrays (times in s, wave). Its duration is the drive period unless
@@ -57,6 +63,10 @@ def run(
     stroke : path, tuple or columns, optional
         One period of a prescribed stroke, likewise: `time_s` and `stroke_deg` (or `stroke_rad`), or a pair of arrays (s,
         rad). For models with the parameter `stroke_mode`.
+    progress : bool or function, optional
+        As for `sweep`: a point is one step.
+    client : distributed.Client, optional
+        Run the point on a worker of a Dask cluster, which needs the same build of flapwing. The result is the same.
     rtol : float, optional
         Relative tolerance of the integrator, per step and state: more than 0 and less than 0.1.
         Default 1e-6.
@@ -139,13 +149,17 @@ def run(
     solver = {"rtol": rtol, "atol": atol, "settle_tol": settle_tol, "accuracy": accuracy}
     steps = {"max_cycles": max_cycles, "max_steps": max_steps}
     search = {"newton": newton, "progressive": progressive}
-    return _flapwing.run(
-        design,
-        {**parameters, **solver, **steps, **search},
-        point=point,
-        begin=_arguments.state(design, begin),
-        **_arguments.waves(waveform, stroke),
-    )
+    with one_step(progress):
+        row: dict[str, Any] = _worker.call(
+            client,
+            _flapwing.run,
+            design,
+            {**parameters, **solver, **steps, **search},
+            point=point,
+            begin=_arguments.state(design, begin),
+            **_arguments.waves(waveform, stroke),
+        )
+    return row
 
 
 def trajectory(
@@ -160,6 +174,8 @@ def trajectory(
     waveform: Record | None = None,
     stroke: Record | None = None,
     once: bool = False,
+    progress: Progress = False,
+    client: Client | None = None,
     **keywords: Value,
 ) -> Table:
     """The motion of one design point, sampled at equal times.
@@ -175,13 +191,15 @@ def trajectory(
         at most 5,000,000.
     from_rest : bool, optional
         Begin at rest. By default the motion begins once it has settled.
-    begin : dict or Table, optional
+    begin : dict, Table or DataFrame, optional
         Begin in this state at the start of a drive period, see `run`.
     waveform, stroke : path, tuple or columns, optional
         A waveform of the drive or a prescribed stroke, see `run`.
     once : bool, optional
         Follow the waveform or the stroke once, from rest or from `begin`, instead of repeating it. It need not be
         closed, and `cycles` does not count.
+    progress, client
+        As for `run`.
     **keywords : float or str
         Parameters of the model and solver settings, as for `run`.
 
@@ -205,17 +223,20 @@ def trajectory(
     (101, ['time_s', 'stroke_rad', 'pitch_rad'])
     >>> on = flapwing.trajectory("ozaki2018-large", begin=motion[-1:], drive_voltage_pp="80 V")
     """
-    native = _flapwing.trajectory(
-        design,
-        dict(keywords),
-        point=point,
-        cycles=cycles,
-        samples=samples,
-        from_rest=_arguments.flag("from_rest", from_rest),
-        begin=_arguments.state(design, begin),
-        once=_arguments.flag("once", once),
-        **_arguments.waves(waveform, stroke),
-    )
+    with one_step(progress):
+        native = _worker.call(
+            client,
+            _flapwing.trajectory,
+            design,
+            dict(keywords),
+            point=point,
+            cycles=cycles,
+            samples=samples,
+            from_rest=_arguments.flag("from_rest", from_rest),
+            begin=_arguments.state(design, begin),
+            once=_arguments.flag("once", once),
+            **_arguments.waves(waveform, stroke),
+        )
     return Table._of(native, set=keywords)
 
 
@@ -230,6 +251,8 @@ def resonance(
     impulse: Value = 20.0,
     fit_cycles: SupportsIndex = 4,
     spectrum_window: Value = 1.0,
+    progress: Progress = False,
+    client: Client | None = None,
     **keywords: Value,
 ) -> dict[str, Any]:
     """The resonances of one design point: of small motions, after an impulse, and under the drive.
@@ -250,6 +273,8 @@ def resonance(
         Number of periods of the first mode to which the damped sine is fitted. Default 4.
     spectrum_window : float or str, optional
         Length (s, or text with a unit) of the motion whose spectrum is taken. Default 1.
+    progress, client
+        As for `run`.
     **keywords : float or str
         Parameters of the model and solver settings, as for `run`.
 
@@ -284,14 +309,18 @@ def resonance(
     >>> round(found["driven"][0]["frequency_hz"], 1)
     110.7
     """
-    return _flapwing.resonance(
-        design,
-        dict(keywords),
-        point=point,
-        start=start,
-        stop=stop,
-        tolerance=tolerance,
-        impulse=impulse,
-        fit_cycles=fit_cycles,
-        spectrum_window=spectrum_window,
-    )
+    with one_step(progress):
+        found: dict[str, Any] = _worker.call(
+            client,
+            _flapwing.resonance,
+            design,
+            dict(keywords),
+            point=point,
+            start=start,
+            stop=stop,
+            tolerance=tolerance,
+            impulse=impulse,
+            fit_cycles=fit_cycles,
+            spectrum_window=spectrum_window,
+        )
+    return found

@@ -33,3 +33,12 @@ def shown(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
                 bar.update(done - bar.n)
 
             yield show
+
+
+@contextmanager
+def one_step(progress: Progress) -> Iterator[None]:
+    """The progress of a single point: one step, when it is done."""
+    with shown(progress) as show:
+        yield
+        if show is not None:
+            show(1, 1)

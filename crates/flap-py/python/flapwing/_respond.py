@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import SupportsIndex
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from . import _arguments, _flapwing
 from ._progress import Progress, shown
 from ._table import Table
 from ._types import Design, Value
+
+if TYPE_CHECKING:
+    from distributed import Client
 
 __all__ = ["respond"]
 
@@ -25,6 +28,7 @@ def respond(
     states: bool = False,
     threads: SupportsIndex | None = None,
     progress: Progress = False,
+    client: Client | None = None,
     **keywords: Value,
 ) -> Table:
     """Follow the motions of designs as a parameter rises and falls, and find hysteresis.
@@ -50,10 +54,13 @@ def respond(
     states : bool, optional
         Add columns of the state at the beginning of a drive period of each motion, for `begin` of `evaluate`.
     threads : int, optional
-        Threads, 1 or more. Default: one per core. Rows do not depend on it.
+        Threads, 1 or more; with `client`, those of each task. Default: one per core; with `client`, 1. Rows do not
+        depend on it.
     progress : bool or function, optional
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of designs done and of
         designs in all.
+    client : distributed.Client, optional
+        Follow the designs on the workers of a Dask cluster, which need the same build of flapwing. Rows are the same.
     **keywords : float or str
         Parameters of all designs and solver settings, as for `run`.
 
@@ -82,18 +89,20 @@ def respond(
         raise _arguments.refused("along", along, 'it must be the name of a parameter, such as "drive_frequency"')
     if along in keywords:
         raise ValueError(f"`{along}` is set here and followed: keep one of them")
+    options: dict[str, Any] = {
+        "start": start,
+        "stop": stop,
+        "step": step,
+        "tolerance": tolerance,
+        "unstable": _arguments.flag("unstable", unstable),
+        "states": _arguments.flag("states", states),
+        "keywords": dict(keywords),
+    }
     with shown(progress) as show:
-        native = _flapwing.respond(
-            design,
-            along,
-            start=start,
-            stop=stop,
-            step=step,
-            tolerance=tolerance,
-            unstable=_arguments.flag("unstable", unstable),
-            states=_arguments.flag("states", states),
-            threads=threads,
-            progress=show,
-            keywords=dict(keywords),
-        )
+        if client is None:
+            native = _flapwing.respond(design, along, threads=threads, progress=show, **options)
+        else:
+            from ._scatter import responses
+
+            native = responses(_arguments.cluster(client), design, along, options, threads, show)
     return Table._of(native, set=keywords)

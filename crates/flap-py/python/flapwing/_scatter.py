@@ -1,8 +1,7 @@
-"""Batches of points on a Dask cluster: stretches of the columns, whose rows are joined in order."""
+"""Batches of points and responses on a Dask cluster: their parts are joined in order."""
 
 from __future__ import annotations
 
-import os
 from collections import Counter
 from typing import TYPE_CHECKING, Any, Callable, SupportsIndex
 
@@ -10,7 +9,7 @@ import numpy as np
 
 from . import _flapwing
 from ._cluster import RETRIES, TASK_POINTS, TASKS_PER_THREAD
-from ._flapwing import Grid
+from ._worker import aligned, check, sent
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -23,14 +22,7 @@ def task(
     design: Any, options: dict[str, Any], given: dict[str, Any], threads: SupportsIndex | None
 ) -> dict[str, Any]:
     """The task of a worker: the rows of a stretch of the columns."""
-    # Arrays may lie anywhere in a message.
-    given = {
-        name: np.require(values, requirements=["C", "A"]) if isinstance(values, np.ndarray) else values
-        for name, values in given.items()
-    }
-    if options["begin"] is not None:
-        options = {**options, "begin": np.require(options["begin"], requirements=["C", "A"])}
-    return _flapwing.evaluate(design, given, threads=threads, **options)
+    return _flapwing.evaluate(design, aligned(given), threads=threads, **aligned(options))
 
 
 def _stretch(options: dict[str, Any], begin: int, end: int) -> dict[str, Any]:
@@ -59,7 +51,7 @@ def scattered(
     workers = max(1, sum(client.nthreads().values()))
     most = max(1, TASK_POINTS // max(1, each))
     size = max(1, min(most, -(-length // (TASKS_PER_THREAD * workers))))
-    design = _sent(design)
+    design = sent(design)
     count = 1 if threads is None else threads
     begins = range(0, length, size)
     futures = [
@@ -78,34 +70,13 @@ def scattered(
     try:
         for begin, future in zip(begins, futures):
             part = future.result()
-            _check(nothing["meta"], part["meta"])
+            check(nothing["meta"], part["meta"])
             parts.append(_moved(part, begin * each))
             if show is not None:
                 show(min(length, begin + size) * each, length * each)
     finally:
         client.cancel(futures, force=True)
     return _joined(parts)
-
-
-def _sent(design: Any) -> Any:
-    """The design as workers take it: a name as it is, and a grid whose files are where this process looks for them."""
-    if isinstance(design, str) and design in _flapwing.presets():
-        return design
-    try:
-        grid = Grid(design)
-    except ValueError:
-        _flapwing.states(design)  # a model; for anything else the same error
-        return design
-    return Grid._named(os.path.abspath(grid.name), grid.text)
-
-
-def _check(ours: dict[str, Any], theirs: dict[str, Any]) -> None:
-    for name in ("build", "arithmetic"):
-        if ours[name] != theirs[name]:
-            raise RuntimeError(
-                f"a worker's {name} of flapwing is {theirs[name]}, and here it is {ours[name]}\n"
-                "install the same build everywhere, on processors that round alike"
-            )
 
 
 def _moved(part: dict[str, Any], offset: int) -> dict[str, Any]:
@@ -121,8 +92,18 @@ def _moved(part: dict[str, Any], offset: int) -> dict[str, Any]:
 def _joined(parts: list[dict[str, Any]]) -> dict[str, Any]:
     """All rows as one batch."""
     first = parts[0]
+    axes = list(first["axes"])
+    if axes:
+        rows = {name: [value for part in parts for value in part["axes"][0][name]] for name in axes[0]}
+        axes[0] = {**rows, "row": np.arange(len(rows["row"]), dtype=np.uint64)}
+    summary = _summed([part["summary"] for part in parts])
+    return {"columns": _columns(parts), "summary": summary, "axes": axes, "meta": first["meta"]}
+
+
+def _columns(parts: list[dict[str, Any]]) -> list[tuple[Any, ...]]:
+    """The columns of all rows."""
     columns = []
-    for place, (name, unit, doc, _, words) in enumerate(first["columns"]):
+    for place, (name, unit, doc, _, words) in enumerate(parts[0]["columns"]):
         cells = [part["columns"][place][3] for part in parts]
         if words is not None:
             words = list(dict.fromkeys(word for part in parts for word in part["columns"][place][4]))
@@ -131,11 +112,7 @@ def _joined(parts: list[dict[str, Any]]) -> dict[str, Any]:
             ]
             cells = [place_of[one] if len(place_of) else one for place_of, one in zip(places, cells)]
         columns.append((name, unit, doc, np.concatenate(cells), words))
-    axes = list(first["axes"])
-    if axes:
-        rows = {name: [value for part in parts for value in part["axes"][0][name]] for name in axes[0]}
-        axes[0] = {**rows, "row": np.arange(len(rows["row"]), dtype=np.uint64)}
-    return {"columns": columns, "summary": _summed([part["summary"] for part in parts]), "axes": axes, "meta": first["meta"]}
+    return columns
 
 
 def _summed(summaries: list[dict[str, Any]]) -> dict[str, Any]:
@@ -151,3 +128,42 @@ def _summed(summaries: list[dict[str, Any]]) -> dict[str, Any]:
             whole[name] = sum(summary[name] for summary in summaries)
     whole["invalid"] = [entry for summary in summaries for entry in summary["invalid"]][:MOST_REASONS]
     return whole
+
+
+def respond_task(
+    design: Any, along: str, options: dict[str, Any], curve: int, threads: SupportsIndex | None
+) -> dict[str, Any]:
+    """The task of a worker: the curve of one design."""
+    return _flapwing.respond(design, along, threads=threads, curves=[curve], **options)
+
+
+def responses(
+    client: Client,
+    design: Any,
+    along: str,
+    options: dict[str, Any],
+    threads: SupportsIndex | None,
+    show: Callable[[int, int], object] | None,
+) -> dict[str, Any]:
+    """The responses of designs, each computed by a worker of a cluster."""
+    # Mistakes are told here, and there are no rows.
+    nothing = _flapwing.respond(design, along, threads=threads, curves=[], **options)
+    designs = nothing["designs"]
+    design = sent(design)
+    count = 1 if threads is None else threads
+    futures = [
+        client.submit(respond_task, design, along, options, curve, count, pure=False, retries=RETRIES)
+        for curve in range(designs)
+    ]
+    parts = [nothing]
+    try:
+        for done, future in enumerate(futures, 1):
+            part = future.result()
+            check(nothing["meta"], part["meta"])
+            parts.append(part)
+            if show is not None:
+                show(done, designs)
+    finally:
+        client.cancel(futures, force=True)
+    verdicts = [verdict for part in parts for verdict in part["meta"]["verdicts"]]
+    return {"columns": _columns(parts), "meta": {**nothing["meta"], "verdicts": verdicts}}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import difflib
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence, overload
 
@@ -66,6 +67,13 @@ def _columns(native: dict[str, Any]) -> dict[str, Column]:
     }
 
 
+def _fixed(values: Any) -> np.ndarray[Any, Any]:
+    """Values as an array that cannot be changed: tables of parts of the rows share it."""
+    array = np.asarray(values).view()
+    array.flags.writeable = False
+    return array
+
+
 class Table:
     """Results as columns: one NumPy array each, all of the same length.
 
@@ -81,13 +89,13 @@ class Table:
     ----------
     dims : list of dict
         The axes of the grid, the last of which varies fastest: for each, the parameters that move together along it
-        with their values. Empty if the rows are not those of a grid with axes.
+        with their values, which are read-only. Empty if the rows are not those of a grid with axes.
     meta : dict
         The origin of the rows: `flap` (version), `build` (a hash of the sources, which differs between builds of a
         version), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of the grid file). The
         call adds `counts`, rows by status; `excluded` points, which have no row; `invalid`, the first few invalid
         points with the reason; `set`, keywords that replace values of the grid. Tables of some of the rows or columns
-        have them too, with `rows` and `counts` of their own.
+        have copies of them, with `rows` and `counts` of their own.
     """
 
     dims: list[dict[str, np.ndarray[Any, Any]]]
@@ -117,7 +125,7 @@ class Table:
     ) -> Table:
         table = object.__new__(cls)
         table._held = columns
-        table.dims = [{name: np.asarray(values) for name, values in dim.items()} for dim in dims]
+        table.dims = [{name: _fixed(values) for name, values in dim.items()} for dim in dims]
         table.meta = meta
         return table
 
@@ -130,6 +138,10 @@ class Table:
     def __getstate__(self) -> dict[str, Any]:
         # A pickle holds the rows: where it is read, the file may be another or none.
         return {"_held": self._columns, "dims": self.dims, "meta": self.meta}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._held, self.meta = state["_held"], state["meta"]
+        self.dims = [{name: _fixed(values) for name, values in dim.items()} for dim in state["dims"]]
 
     def __len__(self) -> int:
         return next((len(column.cells) for column in self._columns.values()), 0)
@@ -156,7 +168,7 @@ class Table:
                 raise TypeError(f"rows are sliced by whole numbers\n{_KEYS}") from None
         if isinstance(key, (list, tuple)) and key and all(isinstance(name, str) for name in key):
             chosen = {name: self._column(name) for name in key}
-            return self._new(chosen, self.dims, dict(self.meta))
+            return self._new(chosen, self.dims, copy.deepcopy(self.meta))
         rows = np.asarray(key)
         if rows.ndim == 1 and rows.size == 0:
             rows = rows.astype(np.intp)
@@ -175,7 +187,7 @@ class Table:
     def _rows(self, key: slice | np.ndarray[Any, Any]) -> Table:
         """Some of the rows. What `meta` counts is counted among them; the rest is about the call."""
         columns = {name: column._replace(cells=column.cells[key]) for name, column in self._columns.items()}
-        table = self._new(columns, self.dims, dict(self.meta))
+        table = self._new(columns, self.dims, copy.deepcopy(self.meta))
         if "counts" in table.meta:
             table.meta.update(rows=len(table), counts=table.counts)
         return table
@@ -229,7 +241,8 @@ class Table:
     def to_pandas(self) -> pandas.DataFrame:
         """The table as a pandas DataFrame, numbers without a copy where pandas allows it.
 
-        Flags are of the type ``boolean``, text is categorical; ``frame.attrs`` has `units`. Columns that are not copied
+        Flags are of the type ``boolean``, text is categorical; ``frame.attrs`` has `units`, and the entries of `meta` as
+        text, those that are no text as JSON. Columns that are not copied
         are read-only: ``frame.copy()`` may be changed.
         """
         return _conversions.to_pandas(self)
@@ -261,7 +274,9 @@ class Table:
         A motion has the dimension ``time_s``. Otherwise rows are along the dimension ``row``; of a response, the columns
         that place a row on its curve (`curve`, the design's parameters, `branch`, the parameter that is followed) are
         coordinates along it. Columns are variables with the attributes `units`, `long_name` and `description`. Points
-        that have no row, because the grid excludes them, are nan, 0, False or empty text.
+        that have no row, because the grid excludes them, are nan, 0, False or empty text. Rows find their places by
+        `point`, or by the parameters of the axes; without either the order of the rows would say nothing, and a ValueError
+        tells so. The attributes of the Dataset are the entries of `meta`, those that are no text as JSON.
         """
         return _conversions.to_xarray(self)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Mapping, Sequence, SupportsFloat, Union
+from typing import TYPE_CHECKING, Any, Mapping, Protocol, Sequence, SupportsFloat, Union
 
 from ._flapwing import Grid
 
@@ -19,8 +19,22 @@ Value = Union[SupportsFloat, str]
 #: A record over time: a CSV file by its path, columns by name, or times (s) and values.
 Record = Union[str, os.PathLike[str], Mapping[str, Any], "Table", "tuple[Any, Any]"]
 
-#: A state at the start of a drive period: components by name, or a table of one row that has them.
-State = Union[Mapping[str, Value], "Table"]
+
+class Frame(Protocol):
+    """A DataFrame of pandas or polars, or an Arrow table."""
+
+    @property
+    def columns(self) -> Any: ...
+
+
+class Row(Protocol):
+    """A row of a DataFrame of pandas."""
+
+    def to_dict(self) -> Any: ...
+
+
+#: A state at the start of a drive period: components by name, or a row that has them, also as a table of one row.
+State = Union[Mapping[str, Any], "Table", Frame, Row]
 
 #: Names of measures.
 Measures = Sequence[str]

@@ -35,6 +35,15 @@ impl Selection {
             Selection::Listed(list) => usize::try_from(position).map_or(u64::MAX, |position| list[position]),
         }
     }
+
+    /// The position among the selected points of the point with this index, which must be one of them.
+    pub fn position(&self, index: u64) -> u64 {
+        match self {
+            Selection::All => index,
+            Selection::Shard(shard) => (index + 1 - shard.number) / shard.of,
+            Selection::Listed(list) => list.partition_point(|listed| *listed < index) as u64,
+        }
+    }
 }
 
 /// `all points`, `shard 2/3`, or the number of listed points with a hash that tells lists apart.
@@ -146,13 +155,24 @@ mod tests {
                 for number in 1..=of {
                     let shard: Shard = format!("{number}/{of}").parse().unwrap();
                     let selection = Selection::Shard(shard);
-                    let indices = (0..selection.len(points)).map(|position| selection.index(position));
+                    let length = selection.len(points);
+                    assert!(
+                        (0..length).all(|position| selection.position(selection.index(position)) == position)
+                    );
+                    let indices = (0..length).map(|position| selection.index(position));
                     seen.extend(indices.inspect(|&index| assert!(shard.contains(index))));
                 }
                 seen.sort_unstable();
                 assert!(seen.into_iter().eq(0..points), "{points} points in {of} shards");
             }
         }
+    }
+
+    #[test]
+    fn listed_points_have_their_positions() {
+        let selection = Selection::Listed(vec![2, 5, 9]);
+        assert!((0..3).all(|position| selection.position(selection.index(position)) == position));
+        assert_eq!(Selection::All.position(7), 7);
     }
 
     #[test]

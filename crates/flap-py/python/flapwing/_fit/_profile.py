@@ -16,6 +16,9 @@ from ._types import Array
 #: Values that are tried on each side.
 _TRIES = 6
 
+#: Values between the estimate and the end of the interval that are added to the ends, as shares of the way.
+_BETWEEN = (1.0 / 3.0, 2.0 / 3.0)
+
 #: How near to the wanted height a profile comes.
 _NEAR = 0.03
 
@@ -74,7 +77,7 @@ class _Walks:
         inner, outer = (0.0, 0.0), None
         side = _Side([], [], float(here), False, None)
         best: Found | None = None
-        reached = here
+        reached, is_open = here, False
         # The cost is to be known to a part of its rise.
         tolerance = float(np.clip(0.02 / max(self.found.cost, 1e-300), 1e-8, 1e-3))
         for _ in range(_TRIES):
@@ -89,7 +92,8 @@ class _Walks:
             side.x.append(float(here + way * step))
             side.height.append(rise)
             if rise < self.height and step >= limit:
-                return _Side(side.x, side.height, float(end), True, best)
+                is_open = True
+                break
             reached = here + way * step
             if abs(rise - self.height) < _NEAR * self.height:
                 reached = here + way * step * self.height / rise
@@ -104,12 +108,19 @@ class _Walks:
                 share = (self.height - inner[1]) / (outer[1] - inner[1])
                 step = inner[0] + np.clip(share, 0.1, 0.9) * (outer[0] - inner[0])
                 reached = here + way * (inner[0] + share * (outer[0] - inner[0]))
-        if outer is None and side.height[-1] < (1 - _NEAR) * self.height:
-            # It hardly rises.
+        if is_open or (outer is None and side.height[-1] < (1 - _NEAR) * self.height):
+            # It ends at the end of the range, or hardly rises.
             reached, is_open = end, True
-        else:
-            is_open = False
+        for share in _BETWEEN:
+            self._between(ask, held, share, tried.x, side, tolerance)
         return _Side(side.x, side.height, float(reached), is_open, best)
+
+    def _between(self, ask: Ask, held: int, share: float, far: Array, side: _Side, tolerance: float) -> None:
+        """A further value of a profile, on the way to the one that was tried last."""
+        x = np.clip(self.found.x + share * (far - self.found.x), self.space.low, self.space.high)
+        tried = minimise(ask, self.space, self.target, x, held, steps=6, tolerance=tolerance)
+        side.x.append(float(x[held]))
+        side.height.append(float(np.sqrt(max(0.0, 2.0 * (tried.cost - self.found.cost)))))
 
 
 def profiles(

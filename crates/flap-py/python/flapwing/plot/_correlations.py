@@ -57,8 +57,7 @@ def rank_correlations(
     Raises
     ------
     ValueError
-        An unknown column or value; a sample that is crossed with axes of which no value is chosen; no design that has
-        the measure; no parameter that varies.
+        An unknown column or value; no design that has the measure; no parameter that varies.
 
     Examples
     --------
@@ -71,8 +70,7 @@ def rank_correlations(
     >>> [(found.parameter, round(found.correlation, 2)) for found in rank_correlations(table)]
     [('hinge_stiffness', -0.8)]
     """
-    data = Data.of(table).slice(where, slices)
-    data.one_sample()
+    data = Data.of(table).slice(where, slices).one_sample()
     measure = data.usual("benefit", "measure") if measure is None else measure
     values = np.where(data.measured(), data.numbers(measure), np.nan)
     designs = int(np.isfinite(values).sum())
@@ -110,9 +108,9 @@ def draw(found: list[RankCorrelation], top: int, ax: Axes | None) -> _style.Draw
                 ha="left" if size > 0 else "right",
                 va="center",
                 fontsize="small",
-                color=_style.DARK,
+                color=_style.ink(ax),
             )
-        ax.axvline(0.0, color=_style.DARK, linewidth=_style.width(0.6))
+        ax.axvline(0.0, color=_style.ink(ax), linewidth=_style.width(0.6))
         ax.set_yticks(places, labels=[_labels.words(each.parameter, "") for each in shown])
         ax.tick_params(axis="y", length=0)
         ax.set_ylim(len(shown) - 0.4, -0.6)

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import difflib
 import os
+import sys
+import warnings
 from typing import Any, Iterable, Mapping, Sequence
 
 import numpy as np
 
-from .._flapwing import usual_measure
+from .._arguments import refused
+from .._flapwing import quantity, usual_measure
 from . import _labels
 
 # Statuses whose rows have measures.
@@ -38,9 +41,7 @@ class Data:
 
             data = flapwing.read(data)
         if not hasattr(data, "__getitem__") or not (hasattr(data, "columns") or hasattr(data, "keys")):
-            raise TypeError(
-                f"a flapwing.Table, a data frame, a mapping of columns or a path is needed, not {type(data).__name__}"
-            )
+            raise refused("table", data, "it must be a flapwing.Table, a data frame, a mapping of columns or a path")
         names = [str(name) for name in (data.columns if hasattr(data, "columns") else data.keys())]
         columns = {name: _column(data[name]) for name in names}
         units = getattr(data, "units", None)
@@ -114,11 +115,39 @@ class Data:
             raise ValueError(f"say which column to draw as `{option}`. There are: {', '.join(self.columns)}")
         return found
 
-    def one_sample(self) -> None:
-        """Raises ValueError if a sample is crossed with axes, of which a value must be chosen."""
+    def one_sample(self, shown: Sequence[str] = ()) -> Data:
+        """The designs of a sample: of one that is crossed with axes, those at the middle of each that is not `shown`."""
         left = [name for name in self.axes() if self.on_a_grid(name)]
-        if left and len(left) < len(self.axes()):
-            raise ValueError(self.left_over(left))
+        if not left or len(left) == len(self.axes()):
+            return self
+        return self._at_the_middle([name for name in left if name not in shown])
+
+    def for_picture(self, names: Sequence[str]) -> Data:
+        """One row for each combination of these columns: of other axes, their middle values are taken, as by `flap plot`."""
+        if len(np.unique(self.groups(names))) == len(self):
+            return self
+        shown = [self.axis(name) for name in names]
+        data = self._at_the_middle([name for name in self.axes() if name not in shown and self.on_a_grid(name)])
+        data.one_row_for(names)
+        return data
+
+    def _at_the_middle(self, axes: Sequence[str]) -> Data:
+        """The rows at the middle value of each of these axes; a warning tells the values."""
+        data = self
+        for name in axes:
+            values = distinct(data[name])
+            if len(values) < 2:
+                continue
+            middle = values[len(values) // 2]
+            told, other = (repr(str(each)) if is_text(values) else f"{each:.12g}" for each in (middle, values[0]))
+            unit = self.unit(name)
+            value = f"{told} {unit}" if unit else told
+            warnings.warn(
+                f"drawn: {name} = {value}, the middle of {len(values)} values; {name}={other} as a keyword chooses another",
+                stacklevel=_callers_level(),
+            )
+            data = data.rows(data[name].astype(values.dtype) == middle)
+        return data
 
     def axes(self) -> list[str]:
         """One parameter for each axis with more than one value; parameters that follow others are not axes."""
@@ -169,10 +198,11 @@ class Data:
             column = data[name]
             if is_text(column):
                 mask = column.astype(str) == str(value)
-            elif isinstance(value, (int, float, np.number, np.bool_)):
-                mask = np.isclose(column.astype(float), float(value), rtol=1e-9, atol=0.0)
+            elif isinstance(value, (str, int, float, np.number, np.bool_)):
+                number = quantity(name, value, self.unit(name)) if isinstance(value, str) else float(value)
+                mask = np.isclose(column.astype(float), number, rtol=1e-9, atol=0.0)
             else:
-                raise TypeError(f"`{name}` is compared with a number in SI units, not with {value!r}")
+                raise refused(name, value, "it is compared with a number in SI units, or with text with a unit")
             if not mask.any():
                 values = listed(distinct(column))
                 raise ValueError(f"no row has {name} = {value}; the values of {self.described(name)} are {values}")
@@ -224,6 +254,14 @@ class Shown:
     def value(self, value: Any) -> str:
         """A value of the column, given as it is in the table, in the shown unit but without it."""
         return str(value) if self.text else _labels.number(float(value) * self.factor)
+
+
+def _callers_level() -> int:
+    """The level of the stack, seen from the caller, at which the user called a picture."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and str(frame.f_globals.get("__name__")).startswith("flapwing."):
+        level, frame = level + 1, frame.f_back
+    return level
 
 
 def _column(values: Any) -> np.ndarray:

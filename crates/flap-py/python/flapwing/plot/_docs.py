@@ -9,8 +9,9 @@ _F = TypeVar("_F", bound=Callable[..., object])
 _PARAGRAPHS = {
     "%(where)s": """\
 where, **slices
-        Columns and the value that rows must have, a number in SI units or a word: the slice of a grid with more axes.
-        In the mapping `where`, or as keywords such as ``drive_voltage_pp=100``.""",
+        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
+        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
+        neither drawn nor chosen is fixed at its middle value, which a warning tells.""",
     "%(legend)s": """\
 legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,

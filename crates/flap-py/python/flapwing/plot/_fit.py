@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from itertools import cycle
 from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
 
 from .._fit import Estimate, Fit
 from .._flapwing import printed, scale, words
-from . import _style
+from . import _labels, _style
 
 #: The pictures that there are.
 _PARTS = ("data", "profiles", "correlations")
@@ -79,7 +83,7 @@ def _data(result: Fit, measure: str, ax: Axes) -> None:
     if not numbers:
         raise ValueError("the data have no operating points to draw over")
     along = max(numbers, key=lambda name: len(np.unique(numbers[name])))
-    colours = iter(_style.COLOURS * 10)
+    colours = cycle(_style.series())
     residuals = {(one.set, one.measure): one for one in result.goodness.residuals}
     for one in sets:
         values = np.asarray(one.points[along], np.float64)
@@ -101,17 +105,18 @@ def _data(result: Fit, measure: str, ax: Axes) -> None:
                 ms=3,
                 lw=0.8,
                 color=colour,
-                label=label,
+                label=label or "readings",
             )
             points: dict[str, Any] = {along: np.linspace(values[mine].min(), values[mine].max(), _CURVE)}
             points.update({name: [cell] * _CURVE for name, cell in zip(others, key)})
             band = result.predict(points, measure, data_set=one.name)
             ax.plot(points[along], band.value, color=colour, lw=1.2)
             ax.fill_between(points[along], band.low, band.high, color=colour, alpha=0.25, lw=0)
-    ax.set_xlabel(_named(along, result._model.names.unit(along)))
-    ax.set_ylabel(_named(measure, result._model.names.unit(measure)))
-    if len(ax.get_legend_handles_labels()[1]) and any(ax.get_legend_handles_labels()[1]):
-        ax.legend()
+    ax.set_xlabel(_labels.label(along, result._model.names.unit(along)))
+    ax.set_ylabel(_labels.label(measure, result._model.names.unit(measure)))
+    handles, labels = ax.get_legend_handles_labels()
+    shade = (Patch(color=_style.GREY, alpha=0.25, lw=0), Line2D([], [], color=_style.GREY, lw=1.2))
+    ax.legend([*handles, shade], [*labels, "model with its 95 % band"])
 
 
 def _label(name: str, others: dict[str, Any], result: Fit) -> str:
@@ -124,11 +129,6 @@ def _label(name: str, others: dict[str, Any], result: Fit) -> str:
     told = [f"{value:g} {printed(result._model.names.unit(parameter))}".rstrip() if not isinstance(value, str) else value
             for parameter, value in varied.items()]  # fmt: skip
     return ", ".join([*([name] if name else []), *told])
-
-
-def _named(name: str, unit: str) -> str:
-    told = words(name, unit)
-    return f"{told} ({printed(unit)})" if unit else told
 
 
 def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) -> None:
@@ -145,24 +145,33 @@ def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) ->
         for value, is_open in ((profile.low, profile.open_below), (profile.high, profile.open_above)):
             if not is_open:
                 ax.axvline(factor * value, color=_style.VERMILLION, lw=0.8, ls=":")
-        ax.set_xlabel(f"{name} ({unit})" if unit else name)
+        ax.set_xlabel(_labels.titled(words(name, one.unit), unit))
         ax.set_ylim(bottom=0)
-    axes[0].set_ylabel("rise, standard errors")
+        # Numbers of neighbours would touch.
+        ax.xaxis.set_major_locator(MaxNLocator(3))
+    axes[0].set_ylabel("Rise of the cost\n(standard errors)")
     for ax in axes[len(profiled) :]:
         ax.remove()
+    explained = [
+        Line2D([], [], marker="o", ms=3, color=_style.BLUE, label="profile"),
+        Line2D([], [], color=_style.GREY, lw=0.8, label="estimate"),
+        Line2D([], [], color=_style.VERMILLION, lw=0.8, ls="--", label="95 % limit"),
+        Line2D([], [], color=_style.VERMILLION, lw=0.8, ls=":", label="ends of the interval"),
+    ]
+    part.legend(handles=explained, loc="outside upper left", ncols=4)
 
 
 def _correlations(result: Fit, part: Any) -> None:
     """The correlations as numbers in a map."""
-    names = list(result.estimates)
+    names = [words(name, one.unit) for name, one in result.estimates.items()]
     values = result.correlations
     ax = part.subplots()
     ax.imshow(np.nan_to_num(values), cmap=mpl.colormaps["RdBu_r"], vmin=-1, vmax=1)
     ax.grid(False)
-    ax.set_xticks(range(len(names)), names, rotation=30, ha="right")
+    ax.set_xticks(range(len(names)), names, rotation=30, ha="right", rotation_mode="anchor")
     ax.set_yticks(range(len(names)), names)
     for row in range(len(names)):
         for column in range(len(names)):
-            text = f"{values[row, column]:+.2f}" if np.isfinite(values[row, column]) else "?"
+            text = f"{values[row, column]:+.2f}".replace("-", "−") if np.isfinite(values[row, column]) else "?"
             dark = abs(np.nan_to_num(values[row, column])) > 0.6
             ax.text(column, row, text, ha="center", va="center", color="white" if dark else _style.DARK)

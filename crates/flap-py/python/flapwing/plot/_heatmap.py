@@ -7,10 +7,11 @@ from typing import Any, Mapping
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
-from matplotlib.colors import to_rgba
+from matplotlib.colors import Colormap, to_rgba
 from matplotlib.patches import Patch
 
 from . import _legend, _scales, _style
+from ._checks import checked
 from ._data import Data, Shown, distinct, edges, scattered
 from ._docs import completed
 
@@ -25,6 +26,7 @@ _GREYS = {
 _UNDEFINED, _NO_ROW = "no value", "no row"
 
 
+@checked
 @completed
 def heatmap(
     table: Any,
@@ -34,7 +36,7 @@ def heatmap(
     y: str | None = None,
     xscale: str | None = None,
     yscale: str | None = None,
-    cmap: str | None = None,
+    cmap: str | Colormap | None = None,
     vmin: float | None = None,
     vmax: float | None = None,
     where: Mapping[str, Any] | None = None,
@@ -55,8 +57,8 @@ def heatmap(
     value : str, optional
         The measure. By default the mean lift.
     x, y : str, optional
-        The parameters along the axes: numbers or words. By default the two axes of the grid, with ``drive_frequency``
-        or else the last of them along x.
+        The parameters along the axes: numbers or words. By default ``drive_frequency``, or else the last axis of the
+        grid, along x, and the first of the others along y.
     xscale, yscale : {"linear", "log"}, optional
         By default logarithmic if the values are in constant ratio.
     cmap : str, optional
@@ -73,7 +75,7 @@ def heatmap(
     Raises
     ------
     ValueError
-        An unknown column or value; axes without a chosen value, with their values; several rows in one cell.
+        An unknown column or value; several rows in one cell.
 
     Examples
     --------
@@ -88,8 +90,6 @@ def heatmap(
     >>> [float(end) for end in ax.get_xlim()]
     [85.0, 105.0]
     """
-    _legend.check(legend)
-    _style.check_bar(colorbar)
     whole = Data.of(table)
     data = whole.slice(where, slices)
     value = data.usual("benefit", "value") if value is None else value
@@ -98,7 +98,7 @@ def heatmap(
     for name in (x, y):
         if not data.on_a_grid(name):
             raise scattered(name)
-    data.one_row_for([x, y])
+    data = data.for_picture([x, y])
 
     shown, across, up = data.shown(value), _Axis(data, whole, x, xscale), _Axis(data, whole, y, yscale)
     rows = np.full((up.count, across.count), -1)
@@ -178,16 +178,12 @@ def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
         return x, y
     named = [data.axis(name) for name in (x, y) if name is not None]
     left = [name for name in data.axes() if name not in named]
-    wanted = 2 - len(named)
-    if len(left) > wanted:
-        raise ValueError(data.left_over(left))
-    if len(left) < wanted:
+    if len(left) < 2 - len(named):
         there = ", ".join([*named, *left]) or "none"
         raise ValueError(f"a map needs two axes with more than one value each; there are: {there}")
-    if not named:
-        across = "drive_frequency" if "drive_frequency" in left else left[-1]
-        return across, next(name for name in left if name != across)
-    return (x, left[0]) if x is not None else (left[0], str(y))
+    # As in `flap plot`: the drive frequency or else the last axis across, the first of the others up.
+    across = x or ("drive_frequency" if "drive_frequency" in left else left[-1])
+    return across, y or next(name for name in left if name != across)
 
 
 def _missing(data: Data, rows: np.ndarray, values: np.ndarray) -> dict[str, np.ndarray]:
@@ -217,7 +213,7 @@ def _fill(ax: Axes, across: np.ndarray, up: np.ndarray, mask: np.ndarray, name: 
                 _runs(across, up, mask), facecolors="none", edgecolors="#9a9a9a", linewidths=0.0, hatch=hatch
             )
         )
-        return Patch(facecolor="white", edgecolor="#9a9a9a", hatch=hatch, linewidth=0.6, label=text)
+        return Patch(facecolor=ax.get_facecolor(), edgecolor="#9a9a9a", hatch=hatch, linewidth=0.6, label=text)
     colour = _GREYS.get(name, "#707070")
     layer = np.zeros((*mask.shape, 4))
     layer[mask] = to_rgba(colour)

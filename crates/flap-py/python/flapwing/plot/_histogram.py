@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 
 from .._flapwing import bars
 from . import _labels, _style
+from ._checks import checked
 from ._data import Data
 from ._docs import completed
 
@@ -16,6 +17,7 @@ from ._docs import completed
 _ROOM = 0.28
 
 
+@checked
 @completed
 def histogram(
     table: Any,
@@ -41,8 +43,7 @@ def histogram(
     Raises
     ------
     ValueError
-        An unknown column or value; a sample that is crossed with axes of which no value is chosen; no design that has
-        the measure.
+        An unknown column or value; no design that has the measure.
 
     Examples
     --------
@@ -51,8 +52,7 @@ def histogram(
     >>> [text.get_text() for text in ax.texts]
     ['5 %: 1.05 mN', '50 %: 1.5 mN', '95 %: 1.95 mN']
     """
-    data = Data.of(table).slice(where, slices)
-    data.one_sample()
+    data = Data.of(table).slice(where, slices).one_sample()
     measure = data.usual("benefit", "measure") if measure is None else measure
     data.numbers(measure)
     shown = data.shown(measure)
@@ -63,14 +63,15 @@ def histogram(
 
     with _style.style(ax):
         ax = _style.axes_of(ax)
-        ax.bar(edges[:-1], counts, np.diff(edges), align="edge", color=_style.PLAIN, edgecolor="white", linewidth=0.4)
+        look: Any = {"color": _style.PLAIN, "edgecolor": ax.get_facecolor(), "linewidth": 0.4}
+        ax.bar(edges[:-1], counts, np.diff(edges), align="edge", **look)
         ax.set_ylim(0.0, counts.max() / (1.0 - _ROOM))
         ax.margins(x=0.03)
         middle = 0.5 * (edges[0] + edges[-1])
         for line, (percent, value) in enumerate(marked):
             # Each percentile has a line of text of its own, so that close ones do not cover each other.
             top = 1.0 - _ROOM * line / len(marked)
-            ax.axvline(value, ymax=top, color=_style.DARK, linewidth=_style.width(0.6), linestyle=(0, (4, 3)))
+            ax.axvline(value, ymax=top, color=_style.ink(ax), linewidth=_style.width(0.6), linestyle=(0, (4, 3)))
             ax.annotate(
                 f"{percent} %: {_labels.number(value)} {shown.unit}".rstrip(),
                 (value, top),
@@ -80,7 +81,7 @@ def histogram(
                 ha="left" if value < middle else "right",
                 va="top",
                 fontsize="small",
-                color=_style.DARK,
+                color=_style.ink(ax),
                 # Lines of other percentiles end behind the text.
                 bbox={"facecolor": ax.get_facecolor(), "edgecolor": "none", "pad": 0.6},
             )

@@ -9,10 +9,12 @@ from matplotlib.axes import Axes
 
 from .._flapwing import ways as _compared
 from . import _legend, _style
+from ._checks import checked
 from ._data import Data, Shown, distinct, listed
 from ._docs import completed
 
 
+@checked
 @completed
 def hysteresis(
     table: Any,
@@ -48,7 +50,6 @@ def hysteresis(
     ValueError
         Several designs, with their parameters; an unknown column or value; no ways.
     """
-    _legend.check(legend)
     data = Data.of(table)
     if "branch" not in data:
         raise ValueError("a table of `respond` is needed, with a column `branch`")

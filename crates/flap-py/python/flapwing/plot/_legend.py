@@ -2,16 +2,33 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import Any, Iterator, Mapping
 
+import matplotlib as mpl
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.font_manager import FontProperties
 from matplotlib.legend import Legend
+from matplotlib.transforms import Bbox
 
 from . import _style
 
 #: Above axes, from their left edge.
 ABOVE: Mapping[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0)}
+
+#: Sizes of letters that are tried one after another, as multiples of the user's.
+_LETTERS = (1.0, 0.85, 0.7, 0.6)
+
+#: Settings of matplotlib on which the look of a legend depends.
+_LOOKS = ("axes.", "font.", "legend.", "lines.", "mathtext.", "patch.", "text.")
+
+#: Axes that have grown by this factor get a new legend, whose letters may be larger.
+_GROWN = 1.2
+
+#: The largest share of the axes' height that a legend above the data takes.
+_HIGHEST = 0.6
 
 
 def legend(
@@ -34,34 +51,107 @@ def legend(
         ax.legend(**{**outside, **options})
         return
     options = {name: value for name, value in options.items() if name not in ("borderaxespad", "ncols")}
-    drawn = ax.legend(loc=wanted if isinstance(wanted, str) else inside, frameon=True, **options)
-    if wanted is True and _covers(ax, drawn):
-        _make_room(ax, options)
+    if isinstance(wanted, str):
+        ax.legend(loc=wanted, frameon=True, **options)
+        return
+    figure = _style.figure_of(ax)
+    figure.add_artist(_Fitted(ax, inside, options))
+    figure.draw_without_rendering()
 
 
-def check(wanted: object) -> None:
-    """Raises if the option `legend` of a picture has a value that it cannot have."""
-    if isinstance(wanted, str) and wanted not in Legend.codes:
-        raise ValueError(f"`legend` is True, False or one of {', '.join(Legend.codes)}, not {wanted!r}")
-    if not isinstance(wanted, (bool, str)):
-        raise TypeError(f"`legend` is True, False or a place such as 'upper left', not {wanted!r}")
+class _Fitted(Artist):
+    """A legend inside axes, fitted to them whenever their figure is drawn: only then is it known how large they are.
+
+    It belongs to the figure and draws nothing. It comes before everything else that is drawn, and after the layout.
+    """
+
+    def __init__(self, ax: Axes, inside: str, options: Mapping[str, Any]) -> None:
+        super().__init__()
+        self._ax, self._inside, self._options = ax, inside, dict(options)
+        self._made: Legend | None = None
+        # When the figure is drawn, the user's settings may be others.
+        self._settings: Any = {name: value for name, value in mpl.rcParams.items() if name.startswith(_LOOKS)}
+        #: The limits without room for the legend, and those with it.
+        self._limits = self._roomy = ax.get_ylim()
+        #: The size for which the legend was made, in points.
+        self._size: tuple[float, float] | None = None
+        self.set_zorder(-np.inf)
+        self.set_in_layout(False)
+
+    def draw(self, renderer: Any) -> None:
+        """Fits the legend, if it is still there and the size of the axes is another."""
+        ax = self._ax
+        is_others = ax.figure is None or (self._made is not None and ax.get_legend() is not self._made)
+        if is_others or ax.get_ylim() != self._roomy:
+            # The user has changed the axes: they stay as they are.
+            self.remove()
+            return
+        if ax.get_axes_locator() is None:
+            ax.apply_aspect()
+        box = ax.get_window_extent(renderer)
+        scale = 72.0 / _style.figure_of(ax).dpi
+        size = (round(scale * box.width, 1), round(scale * box.height, 1))
+        if size == self._size:
+            return
+        has_grown = self._size is None or size[0] > _GROWN * self._size[0] or size[1] > _GROWN * self._size[1]
+        if self._made is None or has_grown or not _within(self._made, box, renderer) or _covers(ax, self._made, renderer):
+            self._size = size
+            with mpl.rc_context(self._settings):
+                self._fit(renderer)
+
+    def _fit(self, renderer: Any) -> None:
+        ax = self._ax
+        ax.set_ylim(self._limits)
+        box = ax.get_window_extent(renderer)
+        drawn = self._make(1.0, loc=self._inside)
+        if not _within(drawn, box, renderer) or _covers(ax, drawn, renderer):
+            extent = self._along_the_edge(box, renderer).get_window_extent(renderer)
+            self._make_room(min(_HIGHEST, 1.1 * (box.y1 - extent.y0) / box.height))
+        self._roomy = ax.get_ylim()
+
+    def _make(self, letters: float, **place: Any) -> Legend:
+        """The legend with letters of this size, as a multiple of the user's."""
+        size = letters * FontProperties(size=mpl.rcParams["legend.fontsize"]).get_size_in_points()
+        options = {"fontsize": size, "title_fontsize": mpl.rcParams["legend.title_fontsize"] or size} if letters < 1.0 else {}
+        self._made = self._ax.legend(frameon=True, **{**self._options, **place, **options})
+        return self._made
+
+    def _along_the_edge(self, box: Bbox, renderer: Any) -> Legend:
+        """The legend along the upper edge: in as many columns as fit, its title in lines, in smaller letters if need be."""
+        handles = self._options.get("handles") or self._ax.get_legend_handles_labels()[0]
+        title = self._options.get("title")
+        for letters in _LETTERS:
+            for columns in _fewer(len(handles)):
+                for lines in [title] if title is None else _wrapped(title):
+                    drawn = self._make(letters, loc="upper left", ncols=columns, title=lines)
+                    if _within(drawn, box, renderer) and drawn.get_window_extent(renderer).height < _HIGHEST * box.height:
+                        return drawn
+        return drawn
+
+    def _make_room(self, taken: float) -> None:
+        """Limits that leave this share of the height to the legend, above the data."""
+        ax, (low, high) = self._ax, self._limits
+        if ax.get_yscale() == "log":
+            ax.set_ylim(low, low * (high / low) ** (1.0 / (1.0 - taken)))
+        else:
+            ax.set_ylim(low, low + (high - low) / (1.0 - taken))
 
 
-def _make_room(ax: Axes, options: Mapping[str, Any]) -> None:
-    """A legend along the upper edge, in as many columns as fit, and room for it above the data."""
-    handles = options.get("handles") or ax.get_legend_handles_labels()[0]
-    box = ax.get_window_extent()
-    for columns in _fewer(len(handles)):
-        drawn = ax.legend(loc="upper left", frameon=True, **{**options, "ncols": columns})
-        extent = drawn.get_window_extent()
-        if extent.width <= box.width:
-            break
-    taken = min(0.6, 1.1 * (box.y1 - extent.y0) / box.height)
-    low, high = ax.get_ylim()
-    if ax.get_yscale() == "log":
-        ax.set_ylim(low, low * (high / low) ** (1.0 / (1.0 - taken)))
-    else:
-        ax.set_ylim(low, low + (high - low) / (1.0 - taken))
+def _wrapped(title: str) -> Iterator[str]:
+    """A title in one line, two and so on."""
+    told = [title]
+    yield title
+    for width in range(len(title) - 1, 7, -1):
+        lines = "\n".join(textwrap.wrap(title, width, break_long_words=False, break_on_hyphens=False))
+        if lines.count("\n") != told[-1].count("\n"):
+            told.append(lines)
+            yield lines
+
+
+def _within(drawn: Legend, box: Bbox, renderer: Any) -> bool:
+    """True if a legend is inside the axes."""
+    extent = drawn.get_window_extent(renderer)
+    return bool(extent.x0 >= box.x0 and extent.x1 <= box.x1 and extent.y0 >= box.y0 and extent.y1 <= box.y1)
 
 
 def _fewer(count: int) -> Iterator[int]:
@@ -72,10 +162,9 @@ def _fewer(count: int) -> Iterator[int]:
     yield 1
 
 
-def _covers(ax: Axes, drawn: Legend) -> bool:
+def _covers(ax: Axes, drawn: Legend, renderer: Any) -> bool:
     """True if lines, bars or points of the axes are below a legend."""
-    _style.figure_of(ax).draw_without_rendering()  # places are known after that
-    box = drawn.get_window_extent()
+    box = drawn.get_window_extent(renderer)
     for line in ax.lines:
         path = line.get_path().transformed(line.get_transform()).cleaned(remove_nans=True)
         if line.get_linestyle() == "None":

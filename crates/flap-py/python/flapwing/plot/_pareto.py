@@ -6,14 +6,17 @@ from typing import Any, Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import Colormap
 
 from . import _legend, _style
+from ._checks import checked
 from ._data import Data
 from ._docs import completed
 from ._front import non_dominated
 from ._points import points
 
 
+@checked
 @completed
 def pareto(
     table: Any,
@@ -21,7 +24,7 @@ def pareto(
     maximize: str | Sequence[str] = (),
     minimize: str | Sequence[str] = (),
     color: str | None = None,
-    cmap: str | None = None,
+    cmap: str | Colormap | None = None,
     where: Mapping[str, Any] | None = None,
     legend: bool | str = True,
     colorbar: bool | Axes = True,
@@ -63,8 +66,6 @@ def pareto(
     >>> ax.lines[0].get_label()
     'front (2 of 3 designs)'
     """
-    _legend.check(legend)
-    _style.check_bar(colorbar)
     data = Data.of(table).slice(where, slices)
     smaller = [minimize] if isinstance(minimize, str) else list(minimize)
     larger = [maximize] if isinstance(maximize, str) else list(maximize)
@@ -95,7 +96,7 @@ def pareto(
         ax.plot(
             x.values[order],
             y.values[order],
-            color=_style.DARK,
+            color=_style.ink(ax),
             linewidth=_style.width(0.6),
             linestyle="-" if len(objectives) == 2 else "none",
             drawstyle="steps-post" if names[0] in smaller else "steps-pre",

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import Colormap
 
 from . import _scales, _style
 from ._data import Data, distinct
@@ -17,7 +18,7 @@ def points(
     x: np.ndarray,
     y: np.ndarray,
     color: str | None,
-    cmap: str | None,
+    cmap: str | Colormap | None,
     colorbar: bool | Axes,
 ) -> float:
     """Draws designs as points, in the colours of a column, and gives the size of the points."""

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from . import _legend, _scales, _style
+from ._checks import checked
 from ._data import Data, Shown, distinct, edges, scattered, unknown
 from ._docs import completed
 
@@ -23,6 +24,7 @@ _MOST_SAMPLED = 16
 def response(table: Any, y: str | None = None, **options: Any) -> _style.Drawn: ...
 @overload
 def response(table: Any, y: list[str] | tuple[str, ...], **options: Any) -> Figure: ...
+@checked
 @completed
 def response(
     table: Any,
@@ -49,7 +51,7 @@ def response(
     x : str, optional
         The parameter along the horizontal axis; by default ``drive_frequency``, else the grid's last axis.
     by : str, optional
-        The parameter with a line for each value; by default the remaining axis of the grid, if there is one.
+        The parameter with a line for each value; by default the first of the grid's other axes, if there is one.
     %(where)s
     %(legend)s
     %(colorbar)s
@@ -64,7 +66,7 @@ def response(
     Raises
     ------
     ValueError
-        An unknown column or value; axes without a chosen value, with their values; text where numbers are needed.
+        An unknown column or value; several rows with the same parameters; text where numbers are needed.
 
     Examples
     --------
@@ -78,8 +80,6 @@ def response(
     >>> [line.get_ydata().tolist() for line in ax.lines]
     [[20.0, 40.0], [35.0, 60.0]]
     """
-    _legend.check(legend)
-    _style.check_bar(colorbar)
     whole = Data.of(table)
     data = whole.slice(where, slices)
     several = y is not None and not isinstance(y, str)
@@ -103,7 +103,7 @@ def response(
     data.numbers(x)
     if by is not None:
         data[by]
-    data.one_row_for([x] if by is None else [x, by])
+    data = data.for_picture([x] if by is None else [x, by])
 
     with _style.style(ax):
         if ax is not None:
@@ -187,7 +187,7 @@ class Family:
             ha="right",
             va="bottom",
             fontsize="medium",
-            color=_style.DARK,
+            color=_style.ink(ax),
         )
 
     def mark_inside(self, ax: Axes) -> None:
@@ -215,7 +215,7 @@ class Family:
         """A legend, or a colour bar for many numbers."""
         handles: list[Any] = []
         if given and self._not_periodic():
-            look: Any = {"marker": "|", "linestyle": "none", "color": _style.DARK}
+            look: Any = {"marker": "|", "linestyle": "none", "color": _style.ink(axes[0])}
             handles = [Line2D([], [], label="no periodic motion", markersize=_style.size(0.75), **look)]
         if self.by is None:
             if handles:
@@ -266,8 +266,6 @@ def _family(data: Data, x: str) -> str | None:
     left = [name for name in data.axes() if name != data.axis(x)]
     if x not in data.parameters():
         return None
-    if len(left) > 1:
-        raise ValueError(data.left_over(left[:-1] if len(left) > 2 else left))
     return left[0] if left else None
 
 

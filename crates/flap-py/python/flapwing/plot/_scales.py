@@ -13,8 +13,8 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullForma
 from .._flapwing import is_signed
 from . import _style
 
-#: The colour maps of numbers, and of those with both signs.
-SEQUENTIAL, DIVERGING = "viridis", "RdBu_r"
+#: The colour map of numbers with both signs. Others have matplotlib's `image.cmap`, by default viridis.
+DIVERGING = "RdBu_r"
 
 
 class Colours(NamedTuple):
@@ -41,7 +41,11 @@ class Colours(NamedTuple):
 
 
 def colours(
-    values: np.ndarray, cmap: str | None, vmin: float | None = None, vmax: float | None = None, log: bool = False
+    values: np.ndarray,
+    cmap: str | Colormap | None,
+    vmin: float | None = None,
+    vmax: float | None = None,
+    log: bool = False,
 ) -> Colours:
     """The colours of numbers from `vmin` to `vmax`, by default from the smallest to the largest.
 
@@ -55,7 +59,7 @@ def colours(
     if cmap is None and is_signed(low, high):
         return Colours(_diverging(low, high), Normalize(low, high), extend, True)
     norm = LogNorm(low, high) if log and low > 0 else Normalize(low, high)
-    return Colours(cmap or SEQUENTIAL, norm, extend, False)
+    return Colours(cmap or str(mpl.rcParams["image.cmap"]), norm, extend, False)
 
 
 def _diverging(low: float, high: float) -> Colormap:

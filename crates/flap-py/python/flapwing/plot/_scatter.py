@@ -6,13 +6,16 @@ from typing import Any, Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import Colormap
 
 from . import _legend, _style
+from ._checks import checked
 from ._data import Data
 from ._docs import completed
 from ._points import points
 
 
+@checked
 @completed
 def scatter(
     table: Any,
@@ -20,7 +23,7 @@ def scatter(
     y: str | None = None,
     *,
     color: str | None = None,
-    cmap: str | None = None,
+    cmap: str | Colormap | None = None,
     where: Mapping[str, Any] | None = None,
     legend: bool | str = True,
     colorbar: bool | Axes = True,
@@ -50,8 +53,7 @@ def scatter(
     Raises
     ------
     ValueError
-        An unknown column or value; a sample that is crossed with axes of which no value is chosen; no design that has
-        both columns.
+        An unknown column or value; no design that has both columns.
 
     Examples
     --------
@@ -61,10 +63,8 @@ def scatter(
     >>> (ax.get_xlabel(), ax.get_ylabel())
     ('Power, mean (mW)', 'Lift, mean (mN)')
     """
-    _legend.check(legend)
-    _style.check_bar(colorbar)
     data = Data.of(table).slice(where, slices)
-    data.one_sample()
+    data = data.one_sample([name for name in (x, y) if name is not None])
     named = [name for name in (x, y, color) if name is not None]
     x = data.usual("cost", "x", named) if x is None else x
     y = data.usual("benefit", "y", [*named, x]) if y is None else y

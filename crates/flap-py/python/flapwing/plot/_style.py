@@ -9,6 +9,7 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import same_color
 from matplotlib.figure import Figure
 
 from .. import _flapwing
@@ -23,8 +24,12 @@ if TYPE_CHECKING:
         @figure.setter
         def figure(self, value: Any) -> None: ...
 
+    class DrawnOrFigure(Drawn, Figure):  # type: ignore[misc]
+        """Axes with a picture or a figure of panels, for type checkers: the contents of a table decide which."""
+
 else:
     Drawn = Axes
+    DrawnOrFigure = Axes
 
 # The colours of `flap plot`: those of series are Okabe and Ito's, which readers with any colour vision tell apart.
 _TABLE: dict[str, Any] = _flapwing.colours()
@@ -44,6 +49,9 @@ LEGEND_LINES = 8
 _SETTINGS: Any = {
     "axes.axisbelow": True,
     "axes.edgecolor": "#444444",
+    # Strains read as 2 ×10⁻³, not as 0.002.
+    "axes.formatter.limits": [-3, 6],
+    "axes.formatter.use_mathtext": True,
     "axes.grid": True,
     "axes.spines.right": False,
     "axes.spines.top": False,
@@ -60,7 +68,7 @@ _SETTINGS: Any = {
 def style(ax: Axes | None = None) -> Iterator[None]:
     """The look of flap's pictures, for as long as one is made.
 
-    Settings that the user has changed stay as they are. Axes that are given keep the look of their figure.
+    Settings that the user has changed stay as they are; one that equals matplotlib's default counts as not changed. Axes that are given keep the look of their figure.
     """
     own = {} if ax is not None else {name: value for name, value in _SETTINGS.items() if _is_default(name)}
     with mpl.rc_context(own):
@@ -75,6 +83,14 @@ def style(ax: Axes | None = None) -> Iterator[None]:
 def _is_default(name: str) -> bool:
     settings: Any = mpl.rcParams
     return bool(settings[name] == mpl.rcParamsDefault[name])
+
+
+def ink(ax: Axes) -> Any:
+    """The colour of texts and thin lines in axes: that of their labels, or of flap where the user has not chosen one."""
+    for colour in (ax.xaxis.label.get_color(), mpl.rcParams["text.color"]):
+        if not same_color(colour, "black"):
+            return colour
+    return DARK
 
 
 def width(factor: float) -> float:
@@ -118,21 +134,22 @@ def colour_bar(ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes = True,
     return bar
 
 
-def check_bar(wanted: object) -> None:
-    """Raises if the option `colorbar` of a picture has a value that it cannot have."""
-    if not isinstance(wanted, (bool, Axes)):
-        raise TypeError(f"`colorbar` is True, False or axes of matplotlib to draw it in, not {wanted!r}")
-
-
 def marks(ax: Axes, x: np.ndarray, height: float, **options: Any) -> None:
     """Strokes at values of x, all at one height in heights of the axes."""
     heights = np.full(len(x), height)
     ax.plot(x, heights, linestyle="none", marker="|", transform=ax.get_xaxis_transform(), **options)
 
 
+def series() -> list[Any]:
+    """The colours of series: the user's, where `axes.prop_cycle` is another than matplotlib's."""
+    cycle = [] if _is_default("axes.prop_cycle") else mpl.rcParams["axes.prop_cycle"].by_key().get("color", [])
+    return list(cycle) or COLOURS
+
+
 def shades(values: Sequence[Any] | np.ndarray, text: bool) -> list[Any]:
     """A colour for each value: in an order for numbers, apart for words."""
     if text:
-        return [COLOURS[i % len(COLOURS)] for i in range(len(values))]
+        colours = series()
+        return [colours[i % len(colours)] for i in range(len(values))]
     places = _flapwing.line_shades(len(values))
-    return [BLUE] if places is None else list(mpl.colormaps["viridis"](places))
+    return [BLUE] if places is None else list(mpl.colormaps[mpl.rcParams["image.cmap"]](places))

@@ -9,7 +9,9 @@ from typing import Any, Iterable, Mapping, NamedTuple, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
+from .._arguments import refused
 from . import _correlations, _labels, _legend, _style
+from ._checks import checked
 from ._data import unknown
 from ._docs import completed
 
@@ -116,6 +118,7 @@ def sensitivities(
     return sorted(found, key=lambda each: (-each.swing, each.parameter))
 
 
+@checked
 @completed
 def tornado(
     design: Any,
@@ -150,7 +153,6 @@ def tornado(
     ValueError
         As `sensitivities` and `rank_correlations`; no sensitivities; a measure that is zero for the design itself.
     """
-    _legend.check(legend)
     if _is_table(design):
         names = None if parameters is None else list(parameters)
         return _correlations.draw(_correlations.rank_correlations(design, measure, names, **fixed), top, ax)
@@ -159,6 +161,10 @@ def tornado(
             raise TypeError("`measure` is needed: a measure of the model, such as lift_mean_mn")
         found = sensitivities(design, measure, parameters, change=change, **fixed)
     else:
+        for each in design:
+            if not isinstance(each, Sensitivity):
+                allowed = "it must be a preset, the result of `sensitivities`, or results of a sample"
+                raise refused("design", design, allowed)
         found = sorted(design, key=lambda each: (-each.swing, each.parameter))
     if not found:
         raise ValueError("there are no sensitivities to draw")
@@ -181,7 +187,7 @@ def tornado(
             bars = ax.barh(places, ends, height=np.where(thin, 0.28, 0.62), color=colour, label=name)
             for bar, above in zip(bars, thin):
                 bar.set_zorder(1.6 if above else 1.5)
-        ax.axvline(0.0, color=_style.DARK, linewidth=_style.width(0.6))
+        ax.axvline(0.0, color=_style.ink(ax), linewidth=_style.width(0.6))
         ax.set_yticks(places, labels=[_named(each) for each in shown])
         ax.tick_params(axis="y", length=0)
         ax.set_ylim(len(shown) - 0.4, -0.6)
@@ -200,9 +206,10 @@ def tornado(
                     textcoords="offset points",
                     va="center",
                     fontsize="small",
-                    color=_style.DARK,
+                    color=_style.ink(ax),
                 )
-        left = f"; {len(found) - len(shown)} smaller ones not shown" if len(found) > len(shown) else ""
+        rest = len(found) - len(shown)
+        left = f"; {rest} smaller {'one' if rest == 1 else 'ones'} not shown" if rest else ""
         title = f"each parameter alone{left}"
         _legend.legend(ax, legend, given, ncols=2, borderaxespad=0.1, title=title, alignment="left")
     return ax

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from . import _labels, _legend, _style
+from ._checks import checked
 from ._data import Data
 
 _ANGLES = ("stroke_deg", "pitch_deg")
@@ -34,6 +35,7 @@ def trajectory(
     legend: bool | str = ...,
     ax: Axes,
 ) -> Axes: ...
+@checked
 def trajectory(
     table: Any,
     signals: str | Sequence[str] = _ANGLES,
@@ -80,7 +82,6 @@ def trajectory(
     >>> [each.get_xlabel() for each in trajectory(table).axes]
     ['Time (ms)', 'Stroke (°)', 'Pitch (°)']
     """
-    _legend.check(legend)
     data = Data.of(table)
     names = [signals] if isinstance(signals, str) else list(signals)
     if not names:
@@ -103,7 +104,7 @@ def trajectory(
         else:
             over_time, beside = _layout(len(groups), len(portraits))
         drawn = dict.fromkeys([*names, *portraits])
-        colours = {name: _style.COLOURS[i % len(_style.COLOURS)] for i, name in enumerate(drawn)}
+        colours = dict(zip(drawn, _style.shades(list(drawn), True)))
         x = data.shown(time)
         for each, (unit, members) in zip(over_time, groups.items()):
             for name in members:
@@ -112,7 +113,7 @@ def trajectory(
             if len(members) == 1:
                 each.set_ylabel(data.shown(members[0]).label)
             else:
-                each.set_ylabel(_labels.titled(_common([data.shown(name).words for name in members]), unit))
+                each.set_ylabel(_labels.titled(_common([data.shown(name).words for name in members], unit), unit))
                 _legend.legend(each, legend, ax is not None, ncols=3, borderaxespad=0.1)
             each.margins(x=0.0)
         over_time[-1].set_xlabel(x.label)
@@ -154,8 +155,10 @@ def _rate(data: Data, name: str, t: np.ndarray) -> tuple[np.ndarray, str]:
     return np.gradient(shown.values, t * 1000.0), f"{shown.unit}/ms" if shown.unit else "1/ms"
 
 
-def _common(words: list[str]) -> str:
-    """A label for several signals: the last word that they share, or the words of all."""
+def _common(words: list[str], unit: str) -> str:
+    """A label for several signals: "Angle", as `flap plot` has it, the last word that they share, or the words of all."""
+    if unit == "°":
+        return "Angle"
     if len(words) <= 2:
         return ", ".join([words[0], *(word[:1].lower() + word[1:] for word in words[1:])])
     last = {word.split(",")[0].split(" ")[-1].lower() for word in words}

@@ -16,6 +16,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from . import _labels, _legend, _style
+from ._checks import checked
 from ._data import Data
 
 # Chords of the past that are shown, and how far apart they are, in cycles.
@@ -72,7 +73,7 @@ class WingPath(FuncAnimation):
         for frame in range(self._scene.cycle.frames):
             self._scene.draw(frame)
             with BytesIO() as buffer:
-                self._scene.figure.savefig(buffer, format="png", dpi=dpi, facecolor="white")
+                self._scene.figure.savefig(buffer, format="png", dpi=dpi, facecolor=self._scene.figure.get_facecolor())
                 with Image.open(buffer) as drawn:
                     image = drawn.convert("RGB")
             if palette is None:
@@ -94,6 +95,7 @@ class WingPath(FuncAnimation):
         return f'<img src="data:image/gif;base64,{b64encode(gif).decode()}" alt="One cycle of the wing">'
 
 
+@checked
 def wing_path(
     table: Any,
     *,
@@ -142,7 +144,6 @@ def wing_path(
     ValueError
         An unknown column; a motion that does not repeat, or less than one cycle of it.
     """
-    _legend.check(legend)
     data = Data.of(table)
     if frames < 2:
         raise ValueError(f"an animation has two frames or more, not {frames}")
@@ -237,7 +238,7 @@ class _Scene:
         (self.chord,) = ax.plot(
             [], [], color=_style.BLUE, linewidth=_style.width(2.0), solid_capstyle="round", label="chord"
         )
-        (self.edge,) = ax.plot([], [], "o", color=_style.DARK, markersize=_style.size(1.15), label="leading edge")
+        (self.edge,) = ax.plot([], [], "o", color=_style.ink(ax), markersize=_style.size(1.15), label="leading edge")
         self.arrow: Any = None
         handles = [self.edge, self.chord]
         if self.cycle.lift is not None:
@@ -263,7 +264,7 @@ class _Scene:
         ax.set_xlabel(f"Cycle (of {_labels.number(self.cycle.seconds * 1e3)} ms)")
         ax.set_ylabel("Angle (°)")
         ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
-        return ax.axvline(0.0, color=_style.DARK, linewidth=_style.width(0.6))
+        return ax.axvline(0.0, color=_style.ink(ax), linewidth=_style.width(0.6))
 
     def draw(self, frame: int) -> list[Any]:
         """Moves everything to a frame."""

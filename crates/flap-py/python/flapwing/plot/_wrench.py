@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, NamedTuple, Sequence
+from typing import Any, Mapping, NamedTuple, Sequence, overload
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from . import _labels, _style
+from ._checks import checked
 from ._data import Data, scattered
 from ._docs import completed
 from ._response import Family, along
@@ -31,6 +32,18 @@ class _Effects(NamedTuple):
     values: np.ndarray
 
 
+# An array, chosen inputs and given axes make a map, `x` makes panels. Otherwise the contents of the table decide.
+@overload
+def wrench(table: np.ndarray | list[Any], *, inputs: Sequence[str] | None = None, **options: Any) -> _style.Drawn: ...
+@overload
+def wrench(table: Any, *, inputs: Sequence[str], **options: Any) -> _style.Drawn: ...
+@overload
+def wrench(table: Any, *, ax: Axes, **options: Any) -> _style.Drawn: ...
+@overload
+def wrench(table: Any, *, x: str, **options: Any) -> Figure: ...
+@overload
+def wrench(table: Any, **options: Any) -> _style.DrawnOrFigure: ...
+@checked
 @completed
 def wrench(
     table: Any,
@@ -46,8 +59,8 @@ def wrench(
 
     Derivatives are drawn as a map: an input in each column, force and torque in rows, the change per unit of the input as
     a number. Colours compare the changes of one input with each other: which force or torque it makes. 1 µN·m counts as
-    1 mN, and ``≈0`` stands for less than a thousandth of the input's largest change. Rows over one parameter are drawn as
-    six small panels, three forces above three torques.
+    1 mN, and ``≈0`` stands for nothing, and for less than a thousandth of the input's largest change. Rows over one
+    parameter are drawn as six small panels, three forces above three torques.
 
     Parameters
     ----------
@@ -71,8 +84,7 @@ def wrench(
     Raises
     ------
     ValueError
-        No column of a force or torque; several rows with derivatives, or several axes of panels; an unknown input; an
-        array of another shape.
+        No column of a force or torque; several rows with derivatives; an unknown input; an array of another shape.
 
     Examples
     --------
@@ -82,7 +94,6 @@ def wrench(
     >>> [label.get_text() for label in ax.get_yticklabels()][3]
     'Roll torque (µN·m)'
     """
-    _style.check_bar(colorbar)
     effects = _of_array(table, inputs)
     if effects is None:
         data = Data.of(table).slice(where, slices)
@@ -184,8 +195,6 @@ def _cell(value: float, share: float) -> str:
     """A change, in three digits."""
     if not np.isfinite(value):
         return "?"
-    if value == 0.0:
-        return "0"
     return "≈0" if share < _LEAST else _labels.number(float(f"{value:.3g}"))
 
 
@@ -198,7 +207,7 @@ def _panels(data: Data, x: str | None) -> Figure:
     if not data.on_a_grid(x):
         raise scattered(x)
     data.numbers(x)
-    data.one_row_for([x])
+    data = data.for_picture([x])
     with _style.style():
         figure = _style.new_figure(7.2, 3.9)
         axes = figure.subplots(2, 3, sharex=True)

@@ -19,7 +19,7 @@ use crate::table::layout::Layout;
 /// memory.
 const AHEAD: [usize; 2] = [16, 128];
 
-/// The responses of the designs of a plan: of all its points that its conditions do not exclude everywhere on their curves.
+/// The responses of the designs of a plan: of its selected points that its conditions do not exclude everywhere on their curves.
 #[derive(Clone, Copy)]
 pub struct Responses<'a> {
     plan: &'a Plan,
@@ -59,7 +59,7 @@ impl<'a> Responses<'a> {
         tell: &mut dyn FnMut(&Curve) -> io::Result<()>,
     ) -> Result<Summary, RunError> {
         let layout = Layout::of(self.plan);
-        let mut ledger = Ledger::begin(self.plan, self.plan.len(), before, sink)?;
+        let mut ledger = Ledger::begin(self.plan, self.plan.selected(), before, sink)?;
         let designs = ledger.remaining();
         let mut write = |batch: &mut Vec<Followed>| -> io::Result<()> {
             for followed in batch.drain(..) {
@@ -126,14 +126,14 @@ impl<'a> Desk for Designs<'a, '_, '_> {
     fn next(&mut self, idle: bool) -> Option<Follow<'a>> {
         let Responses { plan, along } = self.responses;
         loop {
-            let index = self.hand.next(idle)?;
-            let design = plan.point(index);
+            let position = self.hand.next(idle)?;
+            let design = plan.selected_point(position);
             match along.judge(plan, &design) {
                 Verdict::Runs => return Some(Follow::new(plan, along, design)),
-                Verdict::Excluded(unsatisfied) => self.hand.done(index, Followed::Excluded(unsatisfied)),
+                Verdict::Excluded(unsatisfied) => self.hand.done(position, Followed::Excluded(unsatisfied)),
                 Verdict::Invalid(reason) => {
                     let curve = Curve::impossible(along, design, &reason);
-                    self.hand.done(index, Followed::Curve(Box::new(curve)));
+                    self.hand.done(position, Followed::Curve(Box::new(curve)));
                 }
             }
         }
@@ -151,7 +151,8 @@ impl<'a> Desk for Designs<'a, '_, '_> {
         let curve = self.responses.complete(curve, self.set, &|| self.hand.is_cancelled());
         // Interrupted, it may lack orbits.
         if !self.hand.is_cancelled() {
-            self.hand.done(curve.design.index, Followed::Curve(Box::new(curve)));
+            let position = self.responses.plan.selection().position(curve.design.index);
+            self.hand.done(position, Followed::Curve(Box::new(curve)));
         }
     }
 
