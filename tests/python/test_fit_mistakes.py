@@ -78,7 +78,27 @@ def changed(**columns):
             changed(drive_frequency=[90.0, np.nan, 110.0, 120.0]),
             "set 1, column `drive_frequency`, row 2 is nan, and readings are finite numbers\nremove the row",
         ),
+        (
+            changed(drive_frequency=[90.0, 100.0, -100.0, 120.0]),
+            "set 1, column `drive_frequency`, row 3: `drive_frequency` must be more than zero, not -100.0 Hz\ncorrect the cell",
+        ),
+        (
+            {"frequency_khz": ["0.09", "0", "0.11", "0.12"], "stroke_pp_deg": DATA["stroke_pp_deg"]},
+            "set 1, column `frequency_khz`, row 2: `drive_frequency` must be more than zero, not 0.0 Hz\ncorrect the cell",
+        ),
+        (
+            changed(drive_voltage_pp=[160.0, 160.0, 160.0, "-160 V"]),
+            "set 1, column `drive_voltage_pp`, row 4: `drive_voltage_pp` must be zero or more, not -160.0 V\ncorrect the cell",
+        ),
+        (
+            changed(actuator_stiffness=["constant", "stiff", "constant", "constant"]),
+            "set 1, column `actuator_stiffness`, row 2: `actuator_stiffness` has no option `stiff`",
+        ),
         (changed(stroke_pp_deg=[60, np.inf, 61, 59]), "set 1, column `stroke_pp_deg`, row 2 is inf, and readings are"),
+        (
+            {"drive_frequency": [90.0, 100.0], "stroke_pp_deg": [60.0, 60.0]},
+            "set 1: all 2 readings of `stroke_pp_deg` are 60, and tell nothing about parameters\nremove the column",
+        ),
         (
             {"drive_frequency": [90.0, 100.0], "stroke_pp_deg": [0.0, 0.0]},
             "set 1: all 2 readings of `stroke_pp_deg` are 0, and tell nothing about parameters\nremove the column",
