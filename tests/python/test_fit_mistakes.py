@@ -264,6 +264,24 @@ def test_designs_that_are_refused():
         flapwing.fit(derived, DATA, ["drag_coefficient_max"])
 
 
+@pytest.mark.parametrize(
+    ("preset", "keywords", "says"),
+    [
+        (
+            "ozaki2018-large",
+            {"wing_inertia_product": "1 g*m^2"},
+            "4 of 4 are invalid, first set 1 row 1, because the mass matrix is not positive definite: the wing's inertias",
+        ),
+        (PRESET, {"drive_voltage_pp": 1e9}, "4 of 4 are invalid, first set 1 row 1, because a transition is too steep"),
+    ],
+)
+def test_impossible_designs_are_refused_with_the_reason(preset, keywords, says):
+    with pytest.raises(ValueError) as caught:
+        flapwing.fit(preset, DATA, ["hinge_stiffness"], sigma="1 deg", starts=1, **keywords)
+    assert says in str(caught.value)
+    assert str(caught.value).endswith("\nchange these parameters of the design, or give bounds in which they go together")
+
+
 def test_readings_that_are_refused(tmp_path):
     with pytest.raises(ValueError, match="`branch` is 'left'\nit must be"):
         flapwing.Readings(DATA, branch="left")

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _flapwing
 from .._evaluate import evaluate
+from .._point import run
 from .._table import Table
 from ._branch import Way, states_along
 from ._columns import Names
@@ -98,8 +99,20 @@ class Model:
         table = self._run(keywords, measures)(columns, begin=begin, gradient=self.space.parameters if slopes else None)
         return self._split(table, asked, rows, xs, slopes)
 
+    def reason(self, reading: int, x: Array) -> str | None:
+        """Why the point of a reading is impossible at a set of coordinates; None if it is not."""
+        of_set, row = self.asked.of_set[reading], self.asked.row[reading]
+        free = {
+            one.parameter: float(value)
+            for one, value in zip(self.space.coordinates, self.space.values(x))
+            if one.of_set in (None, of_set)
+        }
+        point = {name: values[row] for name, values in self.points.items()}
+        reason = run(self.names.grid, **{**self.keywords, **point, **free})["reason"]
+        return None if reason is None else str(reason)
+
     def _run(self, keywords: Mapping[str, Any], measures: list[str]) -> Callable[..., Table]:
-        def run(columns: Mapping[str, Any], **options: Any) -> Table:
+        def rows(columns: Mapping[str, Any], **options: Any) -> Table:
             table = evaluate(self.names.grid, columns, measures=measures, threads=self.threads, **options, **keywords)
             self.ran += len(table)
             self.rhs_evals += int(table.meta["rhs_evals"])
@@ -107,7 +120,7 @@ class Model:
                 self.told(self.ran)
             return table
 
-        return run
+        return rows
 
     def _free(self, asked: Asked, rows: int, xs: Sequence[Array]) -> dict[str, Array]:
         """Columns of the free parameters."""
