@@ -17,8 +17,11 @@ from ._free import Space
 from ._readings import DataSet
 from ._types import Array, Mask, Places
 
-#: The tolerance of the integration for states from which motions begin.
-_NEARBY = 1e-4
+#: The tolerances of the integration and of settling for states from which motions begin: near the motion is enough.
+_NEARBY, _SETTLED = 1e-4, 1e-4
+
+#: Answers that are kept: searches ask again for those at which the ones before them ended.
+_KEPT = 16
 
 
 @dataclass(frozen=True)
@@ -70,10 +73,20 @@ class Model:
         #: Points run so far, and right-hand sides evaluated for them.
         self.ran = 0
         self.rhs_evals = 0
+        self._known: dict[tuple[bytes, bool, float | None], Answer] = {}
 
     def at(self, xs: Sequence[Array], *, slopes: bool = True, rtol: float | None = None) -> list[Answer]:
         """The readings at several sets of coordinates."""
-        return self.answers(self.points, self.asked, self.ways, xs, slopes=slopes, rtol=rtol)
+        keys = [(x.tobytes(), slopes, rtol) for x in xs]
+        new = {key: x for key, x in zip(keys, xs) if key not in self._known}
+        known = {key: self._known[key] for key in keys if key not in new}
+        if new:
+            found = self.answers(self.points, self.asked, self.ways, list(new.values()), slopes=slopes, rtol=rtol)
+            known.update(zip(new, found))
+        self._known.update(known)
+        for key in list(self._known)[:-_KEPT]:
+            del self._known[key]
+        return [known[key] for key in keys]
 
     def answers(
         self,
@@ -93,8 +106,11 @@ class Model:
         if rtol is not None:
             keywords.setdefault("rtol", rtol)
         measures = list(dict.fromkeys(asked.measure))
-        # A state near the motion is enough to begin from.
-        nearby = self._run({**keywords, "rtol": max(_NEARBY, float(keywords.get("rtol", 0.0)))}, measures[:1])
+        loose = {
+            "rtol": max(_NEARBY, float(keywords.get("rtol", 0.0))),
+            "settle_tol": max(_SETTLED, float(keywords.get("settle_tol", 0.0))),
+        }
+        nearby = self._run({**keywords, **loose}, measures[:1])
         begin = states_along(ways, columns, rows, len(xs), self.names.states, nearby)
         table = self._run(keywords, measures)(columns, begin=begin, gradient=self.space.parameters if slopes else None)
         return self._split(table, asked, rows, xs, slopes)
