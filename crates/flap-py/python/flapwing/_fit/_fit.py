@@ -235,7 +235,11 @@ def _estimates(
 
 def _unsettled(sets: list[DataSet], answer: Answer, held: Mask) -> list[Unsettled]:
     places = [(one.name, measure, row + 1) for one in sets for measure in one.measured for row in range(len(one))]
-    return [Unsettled(*places[reading], str(answer.status[reading])) for reading in _lost(answer, held)]
+    lost = []
+    for reading in _lost(answer, held):
+        name, measure, row = places[reading]
+        lost.append(Unsettled(name, measure, row, str(answer.status[reading])))
+    return lost
 
 
 def _lost(answer: Answer, held: Mask) -> Places:
