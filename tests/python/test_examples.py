@@ -387,7 +387,7 @@ def test_intervals_of_fits_cover_the_truth():
 
 
 def test_exact_derivatives_take_less_work_than_differences():
-    told = run("fit_cost", "--starts", 2)
+    told = run("fit_cost")
     work = {name: (float(rhs), float(cost)) for name, rhs, cost in re.findall(
         r"^(exact|central|forward) \w+.*? +([\d.e+]+) +[\d.]+ +\d+ +([\d.]+)$", told, re.MULTILINE
     )}  # fmt: skip

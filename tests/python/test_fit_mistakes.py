@@ -78,7 +78,27 @@ def changed(**columns):
             changed(drive_frequency=[90.0, np.nan, 110.0, 120.0]),
             "set 1, column `drive_frequency`, row 2 is nan, and readings are finite numbers\nremove the row",
         ),
+        (
+            changed(drive_frequency=[90.0, 100.0, -100.0, 120.0]),
+            "set 1, column `drive_frequency`, row 3: `drive_frequency` must be more than zero, not -100.0 Hz\ncorrect the cell",
+        ),
+        (
+            {"frequency_khz": ["0.09", "0", "0.11", "0.12"], "stroke_pp_deg": DATA["stroke_pp_deg"]},
+            "set 1, column `frequency_khz`, row 2: `drive_frequency` must be more than zero, not 0.0 Hz\ncorrect the cell",
+        ),
+        (
+            changed(drive_voltage_pp=[160.0, 160.0, 160.0, "-160 V"]),
+            "set 1, column `drive_voltage_pp`, row 4: `drive_voltage_pp` must be zero or more, not -160.0 V\ncorrect the cell",
+        ),
+        (
+            changed(actuator_stiffness=["constant", "stiff", "constant", "constant"]),
+            "set 1, column `actuator_stiffness`, row 2: `actuator_stiffness` has no option `stiff`",
+        ),
         (changed(stroke_pp_deg=[60, np.inf, 61, 59]), "set 1, column `stroke_pp_deg`, row 2 is inf, and readings are"),
+        (
+            {"drive_frequency": [90.0, 100.0], "stroke_pp_deg": [60.0, 60.0]},
+            "set 1: all 2 readings of `stroke_pp_deg` are 60, and tell nothing about parameters\nremove the column",
+        ),
         (
             {"drive_frequency": [90.0, 100.0], "stroke_pp_deg": [0.0, 0.0]},
             "set 1: all 2 readings of `stroke_pp_deg` are 0, and tell nothing about parameters\nremove the column",
@@ -242,6 +262,24 @@ def test_designs_that_are_refused():
     derived = {"preset": PRESET, "derived": {"drag_coefficient_max": "3 * drag_coefficient_min"}}
     with pytest.raises(ValueError, match="`drag_coefficient_max` is a column, and the grid varies or derives it"):
         flapwing.fit(derived, DATA, ["drag_coefficient_max"])
+
+
+@pytest.mark.parametrize(
+    ("preset", "keywords", "says"),
+    [
+        (
+            "ozaki2018-large",
+            {"wing_inertia_product": "1 g*m^2"},
+            "4 of 4 are invalid, first set 1 row 1, because the mass matrix is not positive definite: the wing's inertias",
+        ),
+        (PRESET, {"drive_voltage_pp": 1e9}, "4 of 4 are invalid, first set 1 row 1, because a transition is too steep"),
+    ],
+)
+def test_impossible_designs_are_refused_with_the_reason(preset, keywords, says):
+    with pytest.raises(ValueError) as caught:
+        flapwing.fit(preset, DATA, ["hinge_stiffness"], sigma="1 deg", starts=1, **keywords)
+    assert says in str(caught.value)
+    assert str(caught.value).endswith("\nchange these parameters of the design, or give bounds in which they go together")
 
 
 def test_readings_that_are_refused(tmp_path):

@@ -16,15 +16,36 @@ from ._types import Array
 #: The help for a cell without a number.
 _MISSING = "remove the row, or put the other measures into a data set of their own"
 
+#: The help for a value outside of its parameter's range.
+_IMPOSSIBLE = "correct the cell, or remove the row"
+
 #: The beginning of a number.
 _NUMBER = re.compile(r"\s*[-+]?\.?\d")
 
 
 def parameters(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Array | list[str]:
-    """A column of a parameter in SI units; of options, as they are."""
+    """A column of a parameter in SI units; of options, as they are. Each value is in the parameter's range."""
+
+    def value(cell: Any) -> float:
+        try:
+            return _flapwing.value(names.model, meaning.name, cell)
+        except ValueError as error:
+            told = str(error)
+            raise ValueError(told if "\n" in told else f"{told}\n{_IMPOSSIBLE}") from None
+
     if meaning.name in names.options:
-        return [str(cell) for cell in cells]
-    return _numbers(place, header, meaning, cells, lambda cell: _flapwing.value(names.model, meaning.name, cell))
+        found: Any = [str(cell) for cell in cells]
+    else:
+        found = _numbers(place, header, meaning, cells, value)
+    known: set[Any] = set()
+    for row, cell in enumerate(found if isinstance(found, list) else found.tolist()):
+        if cell not in known:
+            try:
+                value(cell)
+            except ValueError as error:
+                raise ValueError(f"{place}, column `{header}`, row {row + 1}: {error}") from None
+            known.add(cell)
+    return found
 
 
 def measures(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Array:

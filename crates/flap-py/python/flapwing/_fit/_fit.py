@@ -18,7 +18,7 @@ from ._model import Answer, Model
 from ._readings import DataSet
 from ._result import Fit
 from ._search import FINE, Found, Target
-from ._types import Array, Mask
+from ._types import Array, Mask, Places
 
 #: Losses of `scipy.optimize.least_squares`.
 _LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
@@ -136,11 +136,7 @@ def _finish(
     sigma_known = all(noise.kind != "unknown" for one in sets for noise in one.noise.values())
     readings = int((target.used & np.isfinite(answer.values)).sum()) + len(model.space.prior(found.x)[0])
     if readings <= len(model.space):
-        statuses = ", ".join(sorted(set(answer.status[~np.isfinite(answer.values)].tolist())))
-        raise ValueError(
-            f"too few readings have a settled motion at the best parameters found: the others are {statuses}\n"
-            "give other bounds, or look at the design with flapwing.evaluate"
-        )
+        raise ValueError(_too_few(model, sets, found, answer, held))
     quantile = _quantile(sigma_known, readings - len(model.space))
     profiles = None
     if profile:
@@ -239,8 +235,32 @@ def _estimates(
 
 def _unsettled(sets: list[DataSet], answer: Answer, held: Mask) -> list[Unsettled]:
     places = [(one.name, measure, row + 1) for one in sets for measure in one.measured for row in range(len(one))]
-    lost = np.flatnonzero(~np.isfinite(answer.values) & ~held)
-    return [Unsettled(*places[reading], str(answer.status[reading])) for reading in lost]
+    lost = []
+    for reading in _lost(answer, held):
+        name, measure, row = places[reading]
+        lost.append(Unsettled(name, measure, row, str(answer.status[reading])))
+    return lost
+
+
+def _lost(answer: Answer, held: Mask) -> Places:
+    """The readings without a settled motion."""
+    return np.flatnonzero(~np.isfinite(answer.values) & ~held)
+
+
+def _too_few(model: Model, sets: list[DataSet], found: Found, answer: Answer, held: Mask) -> str:
+    """The message where too few readings have a settled motion: with the reason, if their points are impossible."""
+    lost = _unsettled(sets, answer, held)
+    told = "too few readings have a settled motion at the best parameters found: "
+    for one, reading in zip(lost, _lost(answer, held)):
+        reason = model.reason(int(reading), found.x) if one.status == "invalid" else None
+        if reason is not None:
+            count = sum(other.status == "invalid" for other in lost)
+            return (
+                f"{told}{count} of {len(answer.values)} are invalid, first {one.set} row {one.row}, because {reason}\n"
+                "change these parameters of the design, or give bounds in which they go together"
+            )
+    statuses = ", ".join(sorted({one.status for one in lost}))
+    return f"{told}the others are {statuses}\ngive other bounds, or look at the design with flapwing.evaluate"
 
 
 def _quantile(sigma_known: bool, freedom: int) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _flapwing
 from .._evaluate import evaluate
+from .._point import run
 from .._table import Table
 from ._branch import Way, states_along
 from ._columns import Names
@@ -16,8 +17,11 @@ from ._free import Space
 from ._readings import DataSet
 from ._types import Array, Mask, Places
 
-#: The tolerance of the integration for states from which motions begin.
-_NEARBY = 1e-4
+#: The tolerances of the integration and of settling for states from which motions begin: near the motion is enough.
+_NEARBY, _SETTLED = 1e-4, 1e-4
+
+#: Answers that are kept: searches ask again for those at which the ones before them ended.
+_KEPT = 16
 
 
 @dataclass(frozen=True)
@@ -69,10 +73,20 @@ class Model:
         #: Points run so far, and right-hand sides evaluated for them.
         self.ran = 0
         self.rhs_evals = 0
+        self._known: dict[tuple[bytes, bool, float | None], Answer] = {}
 
     def at(self, xs: Sequence[Array], *, slopes: bool = True, rtol: float | None = None) -> list[Answer]:
         """The readings at several sets of coordinates."""
-        return self.answers(self.points, self.asked, self.ways, xs, slopes=slopes, rtol=rtol)
+        keys = [(x.tobytes(), slopes, rtol) for x in xs]
+        new = {key: x for key, x in zip(keys, xs) if key not in self._known}
+        known = {key: self._known[key] for key in keys if key not in new}
+        if new:
+            found = self.answers(self.points, self.asked, self.ways, list(new.values()), slopes=slopes, rtol=rtol)
+            known.update(zip(new, found))
+        self._known.update(known)
+        for key in list(self._known)[:-_KEPT]:
+            del self._known[key]
+        return [known[key] for key in keys]
 
     def answers(
         self,
@@ -92,14 +106,29 @@ class Model:
         if rtol is not None:
             keywords.setdefault("rtol", rtol)
         measures = list(dict.fromkeys(asked.measure))
-        # A state near the motion is enough to begin from.
-        nearby = self._run({**keywords, "rtol": max(_NEARBY, float(keywords.get("rtol", 0.0)))}, measures[:1])
+        loose = {
+            "rtol": max(_NEARBY, float(keywords.get("rtol", 0.0))),
+            "settle_tol": max(_SETTLED, float(keywords.get("settle_tol", 0.0))),
+        }
+        nearby = self._run({**keywords, **loose}, measures[:1])
         begin = states_along(ways, columns, rows, len(xs), self.names.states, nearby)
         table = self._run(keywords, measures)(columns, begin=begin, gradient=self.space.parameters if slopes else None)
         return self._split(table, asked, rows, xs, slopes)
 
+    def reason(self, reading: int, x: Array) -> str | None:
+        """Why the point of a reading is impossible at a set of coordinates; None if it is not."""
+        of_set, row = self.asked.of_set[reading], self.asked.row[reading]
+        free = {
+            one.parameter: float(value)
+            for one, value in zip(self.space.coordinates, self.space.values(x))
+            if one.of_set in (None, of_set)
+        }
+        point = {name: values[row] for name, values in self.points.items()}
+        reason = run(self.names.grid, **{**self.keywords, **point, **free})["reason"]
+        return None if reason is None else str(reason)
+
     def _run(self, keywords: Mapping[str, Any], measures: list[str]) -> Callable[..., Table]:
-        def run(columns: Mapping[str, Any], **options: Any) -> Table:
+        def rows(columns: Mapping[str, Any], **options: Any) -> Table:
             table = evaluate(self.names.grid, columns, measures=measures, threads=self.threads, **options, **keywords)
             self.ran += len(table)
             self.rhs_evals += int(table.meta["rhs_evals"])
@@ -107,7 +136,7 @@ class Model:
                 self.told(self.ran)
             return table
 
-        return run
+        return rows
 
     def _free(self, asked: Asked, rows: int, xs: Sequence[Array]) -> dict[str, Array]:
         """Columns of the free parameters."""

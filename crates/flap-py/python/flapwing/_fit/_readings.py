@@ -150,7 +150,7 @@ def _resolved(readings: Readings, name: str, names: Names, sigma: Any) -> DataSe
     if not measured:
         raise ValueError(f"{name} has no column of a measure\nadd one, such as stroke_pp_deg")
     for measure, values in measured.items():
-        if np.ptp(values) == 0.0 and (rows >= 3 or values[0] == 0.0):
+        if np.ptp(values) == 0.0 and (rows >= 2 or values[0] == 0.0):
             raise ValueError(
                 f"{name}: all {rows} readings of `{measure}` are {values[0]:g}, and tell nothing about parameters\n"
                 "remove the column, or check where it comes from"

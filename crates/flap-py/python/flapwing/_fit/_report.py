@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from ._estimate import Estimate
     from ._result import Fit
 
+#: Limits of the probability of chi-square: below the first the model is called poor, below the second doubtful; above the
+#: third, standard errors are called too large.
+POOR, DOUBTFUL, TOO_GOOD = 0.001, 0.05, 0.99
+
 #: Unsettled readings that are listed.
 _LISTED = 5
 
@@ -95,9 +99,14 @@ def _quality(fit: Fit) -> list[str]:
     told = f"chi-square {good.chi_square:.1f} for {good.freedom} degrees of freedom"
     if not fit.sigma_known:
         lines = [f"{told}: standard errors are estimated from the residuals, so it says nothing of the model"]
-    elif good.p < 0.01:
+    elif good.p < POOR:
         lines = [f"{told}, p = {good.p:.2g}: POOR, the model lacks something or the standard errors are too small"]
-    elif good.p > 0.99:
+    elif good.p < DOUBTFUL:
+        lines = [
+            f"{told}, p = {good.p:.2g}: doubtful, a right model is as far off once in {1 / good.p:.0f} times; "
+            "look at the residuals"
+        ]
+    elif good.p > TOO_GOOD:
         lines = [f"{told}, p = {good.p:.4f}: the standard errors given are too large"]
     else:
         lines = [f"{told}, p = {good.p:.2f}: the model agrees with the data"]
