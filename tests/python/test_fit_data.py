@@ -142,9 +142,9 @@ def test_readings_are_on_the_branch_of_their_experiment():
 
 
 def test_readings_without_a_settled_motion_are_told():
-    """A drive frequency that is no frequency, among others that are."""
+    """A voltage at which the plates' law has no solution, among others at which it has one."""
     data = {name: values.copy() for name, values in readings().items()}
-    data["drive_frequency"][4] = -70.0
+    data["drive_voltage_pp"][4] = 1e9
     result = flapwing.fit(PRESET, data, ["hinge_stiffness"], sigma="3 %", starts=1, profile=False)
     assert [(one.set, one.measure, one.row, one.status) for one in result.unsettled] == [
         ("set 1", "stroke_pp_deg", 5, "invalid")

@@ -1,9 +1,12 @@
 """Results of fits: reports, predictions, plans, devices."""
 
+import tomllib
+
 import flapwing
 import numpy as np
 import pytest
 from fits import POINTS, PRESET, TRUE, TRUTH, readings
+from scipy.stats import chi2
 
 
 @pytest.fixture(scope="module")
@@ -31,6 +34,24 @@ def test_the_report_tells_all(found):
     assert 0.7 * max(shares) < worst <= 1.1 * max(shares)
     errors = [one.error for one in found.estimates.values()]
     np.testing.assert_allclose(np.sqrt(np.diag(found.covariance)), errors)
+
+
+@pytest.mark.parametrize(
+    ("p", "says"),
+    [
+        (0.06, "p = 0.06: the model agrees with the data"),
+        (0.04, "p = 0.04: doubtful, a right model is as far off once in 25 times"),
+        (0.002, "p = 0.002: doubtful, a right model is as far off once in 500 times"),
+        (0.0005, "p = 0.0005: POOR, the model lacks something"),
+        (0.995, "p = 0.9950: the standard errors given are too large"),
+    ],
+)
+def test_the_report_says_how_far_the_model_agrees(found, p, says):
+    """Other standard errors give the same residuals another chi-square."""
+    wanted = chi2.isf(p, found.goodness.freedom)
+    sigma = f"{3 * np.sqrt(found.goodness.chi_square / wanted):.12f} %"
+    told = str(flapwing.fit(PRESET, readings(), list(TRUE), sigma=sigma, starts=1, profile=False))
+    assert says in told
 
 
 def test_predictions_have_bands(found):
@@ -69,6 +90,19 @@ def test_next_measurements_shrink_the_error(found):
     axes = {"drive_frequency": {"from": 70, "to": 150, "n": 17}, "drive_voltage_pp": ["160 V"]}
     grid = flapwing.Grid({"preset": PRESET, "axes": axes})
     assert found.next_measurements(grid, "drag_coefficient_max", count=2).points == told.points
+
+
+def test_no_set_of_parameters_is_run_twice(found):
+    """The last search ends where the profiles and the next round begin."""
+    model = found._model
+    first = model.at([found._x], rtol=1e-6)[0]
+    ran = model.ran
+    other = found._x + 1e-3
+    again = model.at([other, found._x, other], rtol=1e-6)
+    assert model.ran == ran + 30 and again[0] is again[2]
+    np.testing.assert_array_equal(again[1].values, first.values)
+    model.at([found._x], rtol=1e-5)
+    assert model.ran == ran + 60
 
 
 def test_progress_is_told_and_can_end_a_fit():
@@ -112,6 +146,37 @@ def test_a_fit_is_a_device(found, tmp_path):
     drawn = np.array([[build[name] for name in found.estimates] for build in flapwing.Grid(grid)])
     np.testing.assert_allclose(np.corrcoef(drawn.T), found.correlations, atol=0.06)
     np.testing.assert_allclose(drawn.std(axis=0), [one.error for one in found.estimates.values()], rtol=0.06)
+
+
+def test_a_device_that_is_fitted_keeps_its_texts(tmp_path):
+    """Sources of numbers that the fit leaves alone, and the description; also from a device below, and in a second fit."""
+    (tmp_path / "below.toml").write_text(
+        'description = "the robot \\"B\\" on bench 2"\npreset = "jafferis2016"\n[params]\n'
+        'wing_area = { value = "56 mm^2", source = "scan" }\n'
+        'vehicle_mass = { value = "90 mg", sd = "1 mg", source = "balance" }\n',
+        encoding="utf-8",
+    )
+    (tmp_path / "old.toml").write_text(
+        'device = "below.toml"\n[params]\n'
+        'hinge_stiffness = { value = "1.4 uN*m/rad", sd = "0.1 uN*m/rad", source = "bending test" }\n'
+        'wing_inertia_stroke = { value = "50 ng*m^2", source = "pendulum" }\nvehicle_mass = { value = "91 mg", sd = "1 mg" }\n',
+        encoding="utf-8",
+    )
+    given, free = {"wing_inertia_stroke": "51 ng*m^2"}, ["hinge_stiffness"]
+    found = flapwing.fit(tmp_path / "old.toml", readings(), free, sigma="3 %", starts=1, profile=False, **given)
+    found.device(tmp_path / "new.toml")
+    again = flapwing.fit(tmp_path / "new.toml", readings(), ["drag_coefficient_max"], sigma="3 %", starts=1, profile=False)
+    again.device(tmp_path / "again.toml")
+    for name, fitted in [("new", ["hinge_stiffness"]), ("again", ["hinge_stiffness", "drag_coefficient_max"])]:
+        device = tomllib.loads((tmp_path / f"{name}.toml").read_text(encoding="utf-8"))
+        assert device["description"].startswith('the robot "B" on bench 2; fitted to 30 readings, chi-square')
+        assert device["description"].count("fitted") == 1
+        params = device["params"]
+        assert params["wing_area"] == {"value": 56e-6, "source": "scan"}
+        assert params["vehicle_mass"] == {"value": 91e-6, "sd": 1e-6}
+        assert params["wing_inertia_stroke"] == 51e-12
+        assert [one for one in fitted if params[one]["source"] == "fitted"] == fitted
+        assert flapwing.Grid(tmp_path / f"{name}.toml")[0]["wing_area"] == 56e-6
 
 
 def test_a_device_says_what_is_not_known(tmp_path):

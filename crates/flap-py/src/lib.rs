@@ -21,6 +21,7 @@ mod labels;
 mod listing;
 mod live;
 mod motion;
+mod origins;
 mod parameters;
 mod picture;
 mod point;
@@ -51,6 +52,7 @@ mod _flapwing {
         labels::{better, printed, scale, split_unit, unit_of, words},
         listing::{measures, params, uncertainty},
         live::LiveServer,
+        origins::origins,
         picture::{bars, colours, correlations, is_signed, line_shades, usual_measure, ways},
         quantity::{parameter, quantity, value},
         read::read,

@@ -24,6 +24,7 @@ __all__ = [
     "lift",
     "line_shades",
     "measures",
+    "origins",
     "parameter",
     "params",
     "part",
@@ -202,6 +203,9 @@ def measures(design: Any, /) -> list[tuple[str, str, str]]:
 
 def uncertainty(design: Any, /) -> tuple[list[tuple[str, float]], list[tuple[str, str, float]]]:
     """The standard errors of the parameters of a design in SI units, by name, and the correlations: two names and a coefficient."""
+
+def origins(design: Any, /) -> tuple[str, list[tuple[str, str]]]:
+    """The description of a design, empty if it has none, and the source of each parameter that has one."""
 
 def states(design: Any, /) -> list[str]:
     """The names of the states of a design's or a model's equations of motion, with their units at the end."""

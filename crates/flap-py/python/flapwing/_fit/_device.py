@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import os
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +16,9 @@ if TYPE_CHECKING:
 
 #: Correlations nearer to 1 than this are written as this: a matrix of rounded numbers stays positive definite.
 _NEAREST = 0.999999
+
+#: What a fit adds to a description: a later fit of the same robot writes it anew.
+_FITTED = re.compile(r"(; |^)fitted to \d+ readings, .*", re.DOTALL)
 
 
 def write(fit: Fit, path: str | os.PathLike[str], data_set: str | None, overwrite: bool) -> None:
@@ -34,18 +39,24 @@ def text_of(fit: Fit, data_set: str | None) -> str:
     good = fit.goodness
     readings = sum(one.count for one in good.residuals)
     quality = f"chi-square {good.chi_square:.4g} for {good.freedom} degrees of freedom"
+    before, sources = _flapwing.origins(names.grid)
+    described = "; ".join(part for part in (_FITTED.sub("", before), f"fitted to {readings} readings, {quality}") if part)
     lines = [
-        f'description = "fitted to {readings} readings, {quality}"',
+        f"description = {_text(described)}",
         f'preset = "{names.grid.preset}"',
         "",
         "[params]",
     ]
     errors, pairs = _flapwing.uncertainty(names.grid)
-    # A value that is fitted or set anew has another error, or none.
-    kept = {name: error for name, error in errors if name not in fitted and name not in fit._model.keywords}
+    # A value that is fitted or set anew has another error and another source, or none.
+    anew = {*fitted, *fit._model.keywords}
+    kept = {name: error for name, error in errors if name not in anew}
+    told = {name: source for name, source in sources if name not in anew}
     for name, value in _set(fit).items():
-        if name in kept:
-            lines.append(f"{name} = {{ value = {_cell(value)}, sd = {kept[name]!r} }}")
+        known_by = [f"sd = {kept[name]!r}"] if name in kept else []
+        known_by += [f"source = {_text(told[name])}"] if name in told else []
+        if known_by:
+            lines.append(f"{name} = {{ {', '.join([f'value = {_cell(value)}', *known_by])} }}")
         elif name not in fitted and not _same(value, base.get(name)):
             lines.append(f"{name} = {_cell(value)}")
     place = {label: number for number, label in enumerate(fit.estimates)}
@@ -99,5 +110,9 @@ def _same(value: Any, other: Any) -> bool:
     return bool(value == other)
 
 
+def _text(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
 def _cell(value: Any) -> str:
-    return f'"{value}"' if isinstance(value, str) else repr(float(value))
+    return _text(value) if isinstance(value, str) else repr(float(value))

@@ -181,7 +181,8 @@ class Fit:
     def device(self, path: str | os.PathLike[str], *, data_set: str | None = None, overwrite: bool = False) -> None:
         """Write the design with the fitted parameters, their standard errors and correlations as a device.
 
-        Standard errors and correlations of other parameters, which a device as the design may have, are kept.
+        Standard errors, correlations and sources of other parameters, which a device as the design may have, are kept, and so
+        is its description.
         ``{"device": "mybee.toml"}`` begins a grid with it, and ``[sample] of = "device"`` draws builds from its errors.
 
         Parameters

@@ -1,0 +1,36 @@
+//! Where the numbers of a design come from: the texts in its grid file and its devices.
+
+use flap_core::parameter::Parameter;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use toml::{Table, Value};
+
+use crate::grid;
+
+/// A parameter and the text that says where its value comes from.
+type Origin = (&'static str, String);
+
+/// The description of a design, empty if it has none, and the source of each parameter that has one.
+#[pyfunction]
+#[pyo3(signature = (design, /))]
+pub(crate) fn origins(design: &Bound<'_, PyAny>) -> PyResult<(String, Vec<Origin>)> {
+    let plan = grid::plan(design)?;
+    let parameters = plan.parameters();
+    let mut description = String::new();
+    let mut sources = vec![None; parameters.len()];
+    for file in plan.devices().iter().rev().chain([plan.source()]) {
+        let entries: Table =
+            toml::from_str(&file.text).map_err(|error| PyValueError::new_err(error.to_string()))?;
+        if let Some(text) = entries.get("description").and_then(Value::as_str) {
+            text.clone_into(&mut description);
+        }
+        for (name, value) in entries.get("params").and_then(Value::as_table).into_iter().flatten() {
+            if let Some(index) = Parameter::index(parameters, name) {
+                sources[index] = value.get("source").and_then(Value::as_str).map(str::to_owned);
+            }
+        }
+    }
+    let named =
+        parameters.iter().zip(sources).filter_map(|(parameter, source)| Some((parameter.name, source?)));
+    Ok((description, named.collect()))
+}
