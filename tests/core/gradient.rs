@@ -224,7 +224,7 @@ fn derivatives_towards_a_fold_are_right_or_not_given() {
         (values, rows.remove(0))
     };
     let solver = SolverSettings::DEFAULT;
-    let fine = SolverSettings { settle_tol: 1e-9, ..solver.clone() }.with_rtol(1e-10);
+    let fine = SolverSettings { settle_tol: 1e-9, ..solver }.with_rtol(1e-10);
     for (start, mut step) in [(135.0, -1.0), (120.0, 1.0)] {
         let (mut here, mut last) = (start, at(start, None, &solver).1);
         let (mut given, mut folded, mut steepest) = (0, 0, 0.0_f64);

@@ -56,7 +56,7 @@ def test_columns_tell_what_they_are():
         ("ozaki2018-large", "hinge_damping", 1e-12, "stroke_pp_deg"),
         ("ozaki2018-large", "stroke_loss_factor", 1e-5, "stroke_pp_deg"),
         ("ozaki2018-large", "charge_recovery", 1e-3, "power_mean_mw"),
-        ("jafferis2016", "transmission_growth", 1e6, "stroke_pp_deg"),
+        ("jafferis2016", "hinge_loss_factor", 1e-5, "stroke_pp_deg"),
     ],
 )
 def test_terms_that_are_zero_have_derivatives(preset, parameter, change, measure):

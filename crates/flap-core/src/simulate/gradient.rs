@@ -282,7 +282,7 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
         let step = self.step(response, end);
         let columns = response.column_iter();
         let longest = columns.max_by(|one, other| one.norm_squared().total_cmp(&other.norm_squared()));
-        let error = longest.map_or_else(SVector::zeros, |column| column.into_owned())
+        let error = longest.map_or_else(SVector::zeros, nalgebra::Matrix::into_owned)
             * self.solver.settle_tol.max(self.solver.rtol);
         let moved = if step.dot(&error) < 0.0 { step - error } else { step + error };
         self.around(core::array::from_fn(|i| moved[i].mul_add(self.start.scale[i], self.start.y[i])))

@@ -140,7 +140,7 @@ pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
 }
 
 /// The size below which values of a parameter are small (SI): that of all wings' for one wing's and for a difference, the
-/// published ones', else that of a voltage, an angle, a share, a length, a damping or a transmission's growth.
+/// published ones', else that of a voltage, an angle, a share, a length or a damping.
 fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let parameters = simulator.parameters();
     let parameter = &parameters[index];
@@ -164,7 +164,6 @@ fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f6
         "" | "rad" => Some(1.0),
         "m" => Some(1e-3),
         "N*m*s" => Some(1e-9),
-        "rad/m^3" => Some(1e9),
         _ => None,
     }
 }

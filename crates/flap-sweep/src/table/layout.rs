@@ -182,8 +182,8 @@ fn gap(set: f64) -> &'static str {
         };
         (0..1 << NoSlope::ALL.len()).map(words).collect()
     });
-    // NaN, the set without reasons, is number 0.
-    SETS.get(set as usize).map_or("", String::as_str)
+    // NaN is the set without reasons.
+    SETS.iter().enumerate().find(|(other, _)| *other as f64 == set).map_or("", |(_, words)| words.as_str())
 }
 
 /// The columns that rows of every model have: index, status, and the course of the run.
