@@ -122,6 +122,24 @@ columns = ["lift_mean_mn"]
     assert_eq!(row[1], "periodic");
     assert_eq!([row[3], row[5], row[7]], ["", "", "zero"], "{rows}");
     assert!(row[4].parse::<f64>().unwrap() > 0.0 && row[6].parse::<f64>().unwrap() > 0.0, "{rows}");
+
+    // Each reason once.
+    let folder = Folder::with_grid(
+        r#"
+preset = "ozaki2018-large"
+[params]
+charge_recovery = 1
+hinge_damping = 0
+[gradient]
+of = ["lift_mean_mn", "stroke_pp_deg", "hinge_strain_max"]
+with_respect_to = ["charge_recovery", "hinge_damping", "drive_voltage_pp"]
+[output]
+columns = ["lift_mean_mn"]
+"#,
+    );
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    let rows = folder.read("rows.csv");
+    assert!(rows.trim_end().ends_with(",edge;zero;missing"), "{rows}");
 }
 
 #[test]

@@ -188,7 +188,7 @@ fn mistakes_in_vehicles_are_told_with_their_place() {
         ),
         (
             &format!("{wing}params = {{ wing_mass = \"1 mg\" }}\n"),
-            "it is a parameter of the model direct-drive and four-bar",
+            "it is a parameter of the models direct-drive and four-bar",
         ),
         (
             &format!("{wing}params = {{ drive_frequency = 120 }}\n"),

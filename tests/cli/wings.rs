@@ -111,6 +111,7 @@ fn mistakes_are_told_with_their_place() {
     };
     let head = "span [mm],leading_edge [mm],trailing_edge [mm]\n";
     told("span,chord\n0,1\n", "wing.csv:1: there is no column `leading_edge`");
+    told("span,leading_edge,trailing_edge\n0,0,1\n14,0,1\n", "wing.csv:1: the column `span` has no unit");
     told(&format!("{head}0,0,one\n1,0,2\n"), "wing.csv:2: ");
     told(&format!("{head}0,0,1\n1,0\n"), "wing.csv");
     told(&format!("{head}0,0,1\n"), "an outline has at least two stations, not 1");

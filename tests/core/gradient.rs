@@ -124,7 +124,7 @@ fn derivatives_are_those_of_converged_orbits() {
                 for (found, exact) in found.slopes.iter().zip(&exact) {
                     match found[j] {
                         Ok(slope) if size > 0.0 => errors.push((slope - exact[j]).abs() / size),
-                        Ok(_) => {}
+                        Ok(_) | Err(NoSlope::Missing) => {}
                         Err(_) => unknown += 1,
                     }
                 }
@@ -164,7 +164,11 @@ fn a_changed_point_that_is_impossible_is_told() {
     let impossible = Change { behind: moved(&values, stiffness, -2.0), ..possible(CHANGE) };
     let motions = model.motions().unwrap();
     let found = motions.gradient(&run, &row.state, &[impossible, possible(CHANGE)]).unwrap();
-    assert!(found.slopes[0].iter().all(|slope| slope == &Err(NoSlope::Edge)), "{:?}", found.slopes[0]);
+    for (slope, column) in found.slopes[0].iter().zip(model.columns()) {
+        // The preset does not know its hinge's size.
+        let reason = if column.name == "hinge_strain_max" { NoSlope::Missing } else { NoSlope::Edge };
+        assert_eq!(slope, &Err(reason), "{}", column.name);
+    }
     let alone = motions.gradient(&run, &row.state, &[possible(CHANGE)]).unwrap();
     assert_eq!(format!("{:?}", found.slopes[1]), format!("{:?}", alone.slopes[0]));
     assert!(alone.rhs_evals > 6 * 3 * 40, "{}", alone.rhs_evals);
@@ -200,5 +204,74 @@ fn derivatives_are_the_same_in_all_lanes_of_an_arithmetic() {
         }
         let last = slopes(best, &changes[changes.len() - 1..]);
         assert!(all.ends_with(&last[1..]), "{}", model.name());
+    }
+}
+
+/// Rows that are followed to a fold with the states of their neighbours have exact derivatives or the reason `fold`: the error of
+/// an orbit there changes (I − M)⁻¹.
+#[test]
+fn derivatives_towards_a_fold_are_right_or_not_given() {
+    let (model, preset) = flap_core::simulate::preset("jafferis2016").unwrap();
+    let index = |name: &str| model.parameters().iter().position(|p| p.name == name).unwrap();
+    let [frequency, stiffness, voltage] =
+        ["drive_frequency", "hinge_stiffness", "drive_voltage_pp"].map(index);
+    let stroke = model.columns().iter().position(|column| column.name == "stroke_pp_deg").unwrap();
+    let at = |value: f64, begin: Option<Vec<f64>>, solver: &SolverSettings| {
+        let mut values = (preset.values)();
+        (values[frequency], values[stiffness], values[voltage]) = (value, 0.7486e-6, 160.0);
+        let point = Point { index: 0, values: values.clone(), begin };
+        let mut rows = rows::of_points(model, &[point], InstructionSet::best(), solver);
+        (values, rows.remove(0))
+    };
+    let solver = SolverSettings::DEFAULT;
+    let fine = SolverSettings { settle_tol: 1e-9, ..solver }.with_rtol(1e-10);
+    for (start, mut step) in [(135.0, -1.0), (120.0, 1.0)] {
+        let (mut here, mut last) = (start, at(start, None, &solver).1);
+        let (mut given, mut folded, mut steepest) = (0, 0, 0.0_f64);
+        while f64::abs(step) > 1e-9 {
+            let (values, row) = at(here + step, Some(last.state.clone()), &solver);
+            let jumps =
+                row.status != Status::Periodic || (row.measures[stroke] - last.measures[stroke]).abs() > 8.0;
+            if jumps {
+                step *= 0.5;
+                continue;
+            }
+            here += step;
+            let change = |share: f64| {
+                values.iter().enumerate().map(|(i, v)| if i == frequency { v + share } else { *v }).collect()
+            };
+            let size = CHANGE * here;
+            let change = Change { ahead: change(size), behind: change(-size), size };
+            let run = PointRun::new(InstructionSet::best(), &solver, &values);
+            let found = model.motions().unwrap().gradient(&run, &row.state, &[change]).unwrap();
+            match found.slopes[0][stroke] {
+                Ok(slope) => {
+                    let side = |share: f64| {
+                        at(here * (1.0 + share), Some(row.state.clone()), &fine)
+                            .1
+                            .measures
+                            .get(stroke)
+                            .copied()
+                    };
+                    let [Some(more), Some(less)] = [1e-7, -1e-7].map(side) else {
+                        panic!("{here} Hz: {slope} deg/Hz, and no orbit beside it")
+                    };
+                    let exact = (more - less) / (2e-7 * here);
+                    println!("{here:.9} Hz: {slope:.2}, {exact:.2}");
+                    assert!((slope / exact - 1.0).abs() < 0.05, "{here} Hz: {slope} {exact} deg/Hz");
+                    given += 1;
+                    steepest = steepest.max(slope.abs());
+                }
+                Err(reason) => {
+                    assert_eq!(reason, NoSlope::Fold);
+                    folded += 1;
+                }
+            }
+            last = row;
+        }
+        println!(
+            "from {start} Hz: {given} given, up to {steepest:.0} deg/Hz, {folded} too near to the fold at {here} Hz"
+        );
+        assert!(given > 8 && folded > 3 && steepest > 30.0, "{given} {folded} {steepest}");
     }
 }

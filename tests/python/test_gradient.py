@@ -50,6 +50,22 @@ def test_columns_tell_what_they_are():
     np.testing.assert_array_equal(pickle.loads(pickle.dumps(table[2:5])).gradient, table.gradient[2:5])
 
 
+@pytest.mark.parametrize(
+    ("preset", "parameter", "change", "measure"),
+    [
+        ("ozaki2018-large", "hinge_damping", 1e-12, "stroke_pp_deg"),
+        ("ozaki2018-large", "stroke_loss_factor", 1e-5, "stroke_pp_deg"),
+        ("ozaki2018-large", "charge_recovery", 1e-3, "power_mean_mw"),
+        ("jafferis2016", "hinge_loss_factor", 1e-5, "stroke_pp_deg"),
+    ],
+)
+def test_terms_that_are_zero_have_derivatives(preset, parameter, change, measure):
+    found = flapwing.evaluate(preset, {parameter: [0.0]}, measures=[measure], gradient=[parameter], rtol=1e-9)
+    assert found["gradient_gap"][0] == ""
+    rows = flapwing.evaluate(preset, {parameter: [0.0, change]}, measures=[measure], rtol=1e-10)
+    np.testing.assert_allclose(found.gradient[0, 0, 0], np.diff(rows[measure])[0] / change, rtol=1e-2)
+
+
 def test_derivatives_are_those_of_a_grid():
     grid = {"preset": PRESET, "gradient": {"of": MEASURES, "with_respect_to": BY}}
     per_cent = flapwing.evaluate(grid, COLUMNS, rtol=1e-8)

@@ -12,7 +12,7 @@
 //! Two-sided differences along the orbit's own path stay exact where one of ∂m/∂y₀ has a kink, such as the largest
 //! magnitude of a symmetric motion; and a kink along the path shows, as the two halves differ.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{DMatrix, SMatrix, SVector};
 
 use super::begin::begin;
 use super::error::Unfinished;
@@ -40,6 +40,12 @@ const TIGHTEN: f64 = 0.1;
 /// orbit is so near to a fold that they would err by 1e-4 and more.
 const LARGEST_RESPONSE: f64 = 1e3;
 
+/// The component of (1 − M)⁻¹ from which the orbit is tested for a fold: what moves the orbit by its error there, moves M too.
+const LARGE_RESPONSE: f64 = 30.0;
+
+/// The share by which the error of the orbit may change (1 − M)⁻¹.
+const DOUBT: f64 = 0.02;
+
 /// The share by which the two halves of a difference may differ. They differ by far less where a measure is smooth.
 const SMOOTH: f64 = 1e-3;
 
@@ -51,7 +57,7 @@ const ROUNDING: f64 = 1e-13;
 pub struct Change {
     /// One value per parameter, with the quantity larger by `size`.
     pub ahead: Vec<f64>,
-    /// The same, smaller by `size`.
+    /// The same, smaller by `size`; or the values of the point itself, for a one-sided difference where less is impossible.
     pub behind: Vec<f64>,
     /// The size of the change: [`Change::SHARE`] of the quantity, in whatever unit derivatives are to have.
     pub size: f64,
@@ -83,12 +89,21 @@ pub enum NoSlope {
     Lost,
     /// The measure has a kink: its derivatives to both sides differ, or it cannot be told.
     Kink,
+    /// The measure itself is not known.
+    Missing,
 }
 
 impl NoSlope {
     /// All reasons.
-    pub const ALL: [NoSlope; 6] =
-        [NoSlope::Fold, NoSlope::Sliding, NoSlope::Edge, NoSlope::Zero, NoSlope::Lost, NoSlope::Kink];
+    pub const ALL: [NoSlope; 7] = [
+        NoSlope::Fold,
+        NoSlope::Sliding,
+        NoSlope::Edge,
+        NoSlope::Zero,
+        NoSlope::Lost,
+        NoSlope::Kink,
+        NoSlope::Missing,
+    ];
 
     /// The word for it in rows.
     pub fn name(self) -> &'static str {
@@ -99,6 +114,7 @@ impl NoSlope {
             NoSlope::Zero => "zero",
             NoSlope::Lost => "lost",
             NoSlope::Kink => "kink",
+            NoSlope::Missing => "missing",
         }
     }
 }
@@ -106,8 +122,7 @@ impl NoSlope {
 /// Derivatives of the measures of a settled motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gradient {
-    /// For each change, the derivative of each column of the model, in the column's unit per unit of the change. NaN where the
-    /// column has no number.
+    /// For each change, the derivative of each column of the model, in the column's unit per unit of the change.
     pub slopes: Vec<Vec<Result<f64, NoSlope>>>,
     /// Right-hand sides evaluated.
     pub rhs_evals: u64,
@@ -127,8 +142,15 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M,
         start.tighten = TIGHTEN;
         let (legs, outcome) = record::<M, R, N>(model, &run.solver.tolerances(), &start, run.interrupted);
         let sides = self.changes.iter().map(|change| sides(model, change)).collect();
-        let orbit =
-            Orbit { model, solver: run.solver, start: &start, legs: &legs, changes: self.changes, sides };
+        let orbit = Orbit {
+            model,
+            solver: run.solver,
+            values: run.values,
+            start: &start,
+            legs: &legs,
+            changes: self.changes,
+            sides,
+        };
         let mut gradient = if outcome.ending != Ending::Stopped {
             orbit.without(NoSlope::Lost)
         } else if outcome.switches > MANY_SWITCHES {
@@ -178,6 +200,7 @@ fn in_range(parameters: &[Parameter], values: &[f64]) -> bool {
 struct Orbit<'a, M: Model<N, S>, const N: usize, const S: usize> {
     model: &'a M,
     solver: &'a SolverSettings,
+    values: &'a [f64],
     start: &'a Start<M::Constants<f64>, N>,
     legs: &'a [Leg],
     changes: &'a [Change],
@@ -192,7 +215,14 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Kernel for Orbit<'_, M, N, 
         let Orbit { model, legs, .. } = self;
         let starts = self.for_responses();
         let ends = replay(simd, model, &Unobserved, legs, &starts);
-        let Some(moves) = self.moves(&ends) else { return self.without(NoSlope::Fold) };
+        let Some(response) = self.response(&ends) else { return self.without(NoSlope::Fold) };
+        if response.amax() > LARGE_RESPONSE {
+            let ends = replay(simd, model, &Unobserved, legs, &self.in_doubt(&response, &ends[0]));
+            if self.response(&ends).is_none_or(|other| (other - response).amax() > DOUBT * response.amax()) {
+                return self.without(NoSlope::Fold);
+            }
+        }
+        let moves = self.moves(&response, &ends);
         let measured = self.along(&moves);
         let signals = Signals::all(model).with_loads(self.solver.loads);
         let cycles = replay(simd, model, &signals, legs, &measured);
@@ -203,10 +233,7 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Kernel for Orbit<'_, M, N, 
 impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
     /// The period, periods from changed states, and periods with changed quantities.
     fn for_responses(&self) -> Vec<Start<M::Constants<f64>, N>> {
-        let mut starts = vec![*self.start; N + 1];
-        for i in 0..N {
-            starts[i + 1].y[i] += SMALL * self.start.scale[i];
-        }
+        let mut starts = self.around(self.start.y);
         for side in &self.sides {
             let (constants, span) = side.map_or((self.start.constants, self.start.span), |[ahead, _]| ahead);
             starts.push(Start { constants, span, ..*self.start });
@@ -214,24 +241,62 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
         starts
     }
 
-    /// The orbit's first state, to which one step of Newton's takes the search's, and its derivatives along each change, in
-    /// units of the scales: (1 − M)⁻¹ ∂Φ/∂p. `None` near a fold.
-    fn moves(&self, ends: &[Repeated<(), N>]) -> Option<Moves<N>> {
-        let scale = &self.start.scale;
-        let difference = |end: &Repeated<(), N>, size: f64| {
-            SVector::<f64, N>::from_fn(|i, _| (end.y[i] - ends[0].y[i]) / (size * scale[i]))
-        };
-        let monodromy = SMatrix::<f64, N, N>::from_fn(|i, j| difference(&ends[j + 1], SMALL)[i]);
-        let response = (SMatrix::<f64, N, N>::identity() - monodromy).try_inverse()?;
-        if response.amax().is_nan() || response.amax() > LARGEST_RESPONSE {
-            return None;
+    /// A period from a state, and periods from the states that differ from it in one component.
+    fn around(&self, y: [f64; N]) -> Vec<Start<M::Constants<f64>, N>> {
+        let mut starts = vec![Start { y, ..*self.start }; N + 1];
+        for i in 0..N {
+            starts[i + 1].y[i] += SMALL * self.start.scale[i];
         }
-        let missed = SVector::<f64, N>::from_fn(|i, _| (ends[0].y[i] - self.start.y[i]) / scale[i]);
-        let step = response * missed;
-        let y = core::array::from_fn(|i| self.start.y[i] + step[i] * scale[i]);
+        starts
+    }
+
+    /// (1 − M)⁻¹ in units of the scales, from the ends of the periods [`around`](Self::around) a state. `None` near a fold, and
+    /// beyond it, where a multiplier is above 1.
+    fn response(&self, ends: &[Repeated<(), N>]) -> Option<SMatrix<f64, N, N>> {
+        let monodromy =
+            SMatrix::<f64, N, N>::from_fn(|i, j| self.difference(&ends[0], &ends[j + 1], SMALL)[i]);
+        let from_one = SMatrix::<f64, N, N>::identity() - monodromy;
+        let response = from_one.try_inverse()?;
+        let determinant = DMatrix::from_column_slice(N, N, from_one.as_slice()).determinant();
+        (determinant > 0.0 && response.amax() <= LARGEST_RESPONSE).then_some(response)
+    }
+
+    /// The difference of two ends per `size`, in units of the scales.
+    fn difference(&self, one: &Repeated<(), N>, other: &Repeated<(), N>, size: f64) -> SVector<f64, N> {
+        SVector::from_fn(|i, _| (other.y[i] - one.y[i]) / (size * self.start.scale[i]))
+    }
+
+    /// The step of Newton's, in units of the scales, from the period that ends so.
+    fn step(&self, response: &SMatrix<f64, N, N>, end: &Repeated<(), N>) -> SVector<f64, N> {
+        let (y, scale) = (&self.start.y, &self.start.scale);
+        response * SVector::<f64, N>::from_fn(|i, _| (end.y[i] - y[i]) / scale[i])
+    }
+
+    /// Periods around a state that may be as good an orbit as that of the search: a step of Newton's away, and as far as an
+    /// error of one tolerance in a period moves an orbit at most.
+    fn in_doubt(
+        &self,
+        response: &SMatrix<f64, N, N>,
+        end: &Repeated<(), N>,
+    ) -> Vec<Start<M::Constants<f64>, N>> {
+        let step = self.step(response, end);
+        let columns = response.column_iter();
+        let longest = columns.max_by(|one, other| one.norm_squared().total_cmp(&other.norm_squared()));
+        let error = longest.map_or_else(SVector::zeros, nalgebra::Matrix::into_owned)
+            * self.solver.settle_tol.max(self.solver.rtol);
+        let moved = if step.dot(&error) < 0.0 { step - error } else { step + error };
+        self.around(core::array::from_fn(|i| moved[i].mul_add(self.start.scale[i], self.start.y[i])))
+    }
+
+    /// The orbit's first state, to which one step of Newton's takes the search's, and its derivatives along each change, in
+    /// units of the scales: (1 − M)⁻¹ ∂Φ/∂p.
+    fn moves(&self, response: &SMatrix<f64, N, N>, ends: &[Repeated<(), N>]) -> Moves<N> {
+        let step = self.step(response, &ends[0]);
+        let y = core::array::from_fn(|i| self.start.y[i] + step[i] * self.start.scale[i]);
         let changed = ends[N + 1..].iter().zip(self.changes);
-        let along = changed.map(|(end, change)| response * difference(end, change.size)).collect();
-        Some(Moves { y, along })
+        let along =
+            changed.map(|(end, change)| response * self.difference(&ends[0], end, change.size)).collect();
+        Moves { y, along }
     }
 
     /// The orbit, and the orbits on both sides of it along each change.
@@ -272,9 +337,13 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
             } else {
                 None
             };
+            let one_sided =
+                change.behind.iter().zip(self.values).all(|(one, other)| one.total_cmp(other).is_eq());
             let columns = 0..measured[0].len();
             let slope = |j: usize| match trouble {
+                _ if measured[0][j].is_nan() => Err(NoSlope::Missing),
                 Some(trouble) => Err(trouble),
+                None if one_sided => forward(measured[0][j], measured[ahead][j], change.size),
                 None => {
                     slope([measured[behind][j], measured[0][j], measured[ahead][j]], sizes[j], change.size)
                 }
@@ -320,11 +389,8 @@ fn sizes<M: Model<N, S>, const N: usize, const S: usize>(
     sizes
 }
 
-/// The derivative of a measure of some size, from its values behind, at and ahead of a point. NaN of a measure without a number.
+/// The derivative of a measure of some size, from its values behind, at and ahead of a point.
 fn slope([behind, here, ahead]: [f64; 3], of: f64, size: f64) -> Result<f64, NoSlope> {
-    if here.is_nan() {
-        return Ok(f64::NAN);
-    }
     let (forward, backward) = (ahead - here, here - behind);
     let tolerance = SMOOTH * forward.abs().max(backward.abs()) + ROUNDING * of;
     // Not so if one of them is not a number.
@@ -333,4 +399,9 @@ fn slope([behind, here, ahead]: [f64; 3], of: f64, size: f64) -> Result<f64, NoS
     } else {
         Err(NoSlope::Kink)
     }
+}
+
+/// The derivative of a measure from its values at and ahead of a point.
+fn forward(here: f64, ahead: f64, size: f64) -> Result<f64, NoSlope> {
+    if ahead.is_nan() { Err(NoSlope::Kink) } else { Ok((ahead - here) / size) }
 }

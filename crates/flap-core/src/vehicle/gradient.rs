@@ -65,12 +65,15 @@ impl Motions for Vehicle {
             let trouble = wings.iter().find_map(|wing| wing.trouble(i));
             let nothing = wings.iter().all(|wing| wing.slopes[i].is_none()) && ahead == behind;
             let slope = |j: usize| {
+                if here[j].is_nan() {
+                    return Err(NoSlope::Missing);
+                }
                 if nothing {
                     return Err(NoSlope::Zero);
                 }
                 let slope = (ahead[j] - behind[j]) / (2.0 * change.size);
                 match trouble {
-                    Some(trouble) if slope.is_nan() && !here[j].is_nan() => Err(trouble),
+                    Some(trouble) if slope.is_nan() => Err(trouble),
                     _ => Ok(slope),
                 }
             };

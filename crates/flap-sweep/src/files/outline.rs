@@ -47,13 +47,13 @@ pub enum OutlineFileError {
 impl OutlineFileError {
     /// Advice.
     pub fn help(&self) -> &'static str {
-        "the file has the columns span, leading_edge and trailing_edge, each with a unit in brackets, such as \
-         `span [mm]`: distances from the root, ahead of the hinge's axis, and behind it"
+        "the file has the columns span, leading_edge and trailing_edge, each with a unit in brackets: \
+         `span [mm],leading_edge [mm],trailing_edge [mm]`, distances from the root, ahead of the hinge's axis, and behind it"
     }
 }
 
-/// Reads the outline in a CSV file with the columns `span`, `leading_edge` and `trailing_edge`. A unit in brackets
-/// behind a name is that of the column; without one, numbers are in metres.
+/// Reads the outline in a CSV file with the columns `span`, `leading_edge` and `trailing_edge`, each with its
+/// unit in brackets behind the name.
 ///
 /// # Errors
 /// [`OutlineFileError`] if the file cannot be read or is no outline.
@@ -68,6 +68,11 @@ pub fn read(path: &Path) -> Result<Outline, OutlineFileError> {
         let missing = missing.map_or("", |(name, _)| *name);
         return Err(wrong(1, format!("there is no column `{missing}`")));
     };
+    let columns = [span, leading, trailing];
+    if let Some((name, _)) = COLUMNS.iter().zip(&columns).find(|(_, (_, unit))| unit.is_empty()) {
+        return Err(wrong(1, format!("the column `{name}` has no unit")));
+    }
+    let [span, leading, trailing] = columns;
     let mut stations = Vec::new();
     for record in reader.records() {
         let record = record
@@ -87,10 +92,10 @@ pub fn read(path: &Path) -> Result<Outline, OutlineFileError> {
     Outline::new(stations).map_err(|cause| OutlineFileError::Outline { path: path.to_owned(), cause })
 }
 
-/// Place and unit of the column called `name`.
+/// Place and unit of the column called `name`; the unit is empty if there is none.
 fn find(headings: &csv::StringRecord, name: &str) -> Option<(usize, String)> {
     headings.iter().enumerate().find_map(|(place, heading)| {
-        let (found, unit) = heading.split_once('[').unwrap_or((heading, "m]"));
+        let (found, unit) = heading.split_once('[').unwrap_or((heading, ""));
         (found.trim() == name).then(|| (place, unit.trim_end_matches(']').trim().to_owned()))
     })
 }

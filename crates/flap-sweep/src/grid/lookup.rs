@@ -50,7 +50,8 @@ impl Lookup<'_> {
         }
         diagnostic.did_you_mean(name, known.iter().map(|parameter| parameter.name));
         if !owners.is_empty() {
-            diagnostic.note(format!("it is a parameter of the model {}", owners.join(" and ")));
+            let models = if owners.len() == 1 { "model" } else { "models" };
+            diagnostic.note(format!("it is a parameter of the {models} {}", owners.join(" and ")));
         }
         if diagnostic.help.is_empty() {
             diagnostic.help("`flap params` lists the parameters of every model");

@@ -94,8 +94,13 @@ pub enum NoShares {
     #[error("has fixed values, so there is no derivative by it")]
     Whole,
     /// It has no value of its own, and follows those that are told.
-    #[error("is not set: it follows {0}")]
+    #[error("is not set: {}", following(.0))]
     Unset(&'static str),
+}
+
+/// What a parameter that is not set follows, as a sentence.
+fn following(others: &str) -> String {
+    others.strip_prefix("nothing: ").map_or_else(|| format!("it follows {others}"), str::to_owned)
 }
 
 impl NoShares {
@@ -135,7 +140,7 @@ pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
 }
 
 /// The size below which values of a parameter are small (SI): that of all wings' for one wing's and for a difference, the
-/// published ones', else that of a voltage, an angle, a share or a length.
+/// published ones', else that of a voltage, an angle, a share, a length or a damping.
 fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let parameters = simulator.parameters();
     let parameter = &parameters[index];
@@ -158,6 +163,7 @@ fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f6
         "V" => of("drive_voltage_pp"),
         "" | "rad" => Some(1.0),
         "m" => Some(1e-3),
+        "N*m*s" => Some(1e-9),
         _ => None,
     }
 }

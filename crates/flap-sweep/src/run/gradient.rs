@@ -1,5 +1,6 @@
 //! Derivatives of the measures of a row.
 
+use flap_core::parameter::Kind;
 use flap_core::simulate::{Change, Interrupt, NoSlope, Point, PointRun, Row};
 use flap_core::vehicle::standing;
 
@@ -10,7 +11,8 @@ use crate::plan::gradient::{Gradient, Per, moved, size};
 /// The share that changes for the derivatives of the plan's own measures, which are computed from those and need not be as small.
 const OWN_SHARE: f64 = 1e-5;
 
-/// Adds the derivatives that `plan` asks for to the measures of the row of `point`, which has the plan's own, and at the end the reason why one is not known, as its place in [`NoSlope::ALL`]; NaN if all are.
+/// Adds the derivatives that `plan` asks for to the measures of the row of `point`, which has the plan's own, and at the end the
+/// reasons why some are not known, as a sum of powers of two by their places in [`NoSlope::ALL`]; NaN if all are known.
 /// False if it was interrupted.
 pub(super) fn add(
     plan: &Plan,
@@ -22,7 +24,8 @@ pub(super) fn add(
     let Some(gradient) = plan.gradient().filter(|_| !row.measures.is_empty()) else { return true };
     let changes = gradient.with_respect_to.iter().map(|&parameter| {
         let changed = |share| changed(plan, gradient.per, point, parameter, share);
-        Change { ahead: changed(Change::SHARE), behind: changed(-Change::SHARE), size: Change::SHARE }
+        let back = if begins_at(plan, point, parameter) { 0.0 } else { -Change::SHARE };
+        Change { ahead: changed(Change::SHARE), behind: changed(back), size: Change::SHARE }
     });
     let changes: Vec<Change> = changes.collect();
     let run = PointRun::new(options.instructions, plan.solver(), &point.values).until(interrupted);
@@ -38,10 +41,13 @@ pub(super) fn add(
         Err(_) => vec![vec![Err(NoSlope::Lost); plan.simulator().columns().len()]; changes.len()],
     };
     let derivatives = derivatives(plan, gradient, point, &row.measures, &slopes);
-    let trouble = derivatives.iter().filter_map(|derivative| derivative.err()).min();
+    let mut reasons: Vec<NoSlope> = derivatives.iter().filter_map(|derivative| derivative.err()).collect();
+    reasons.sort_unstable();
+    reasons.dedup();
     row.measures.extend(derivatives.iter().map(|derivative| derivative.unwrap_or(f64::NAN)));
-    let place = NoSlope::ALL.iter().position(|reason| Some(*reason) == trouble);
-    row.measures.push(place.map_or(f64::NAN, |place| place as f64));
+    let places = NoSlope::ALL.iter().enumerate().filter(|(_, reason)| reasons.contains(reason));
+    let set: u32 = places.map(|(place, _)| 1 << place).sum();
+    row.measures.push(if set == 0 { f64::NAN } else { f64::from(set) });
     true
 }
 
@@ -50,6 +56,15 @@ fn size_at(plan: &Plan, per: Per, point: &Point, parameter: usize) -> Option<f64
     let value = standing(plan.parameters(), &point.values, parameter);
     let has_shares = per == Per::Unit || value != 0.0;
     size(plan.simulator(), &point.values, parameter).filter(|_| has_shares)
+}
+
+/// True if a parameter is zero and can be no less.
+fn begins_at(plan: &Plan, point: &Point, parameter: usize) -> bool {
+    let range = match plan.parameters()[parameter].kind {
+        Kind::Number(range) | Kind::Following(range, _) => range,
+        Kind::Choice(_) => return false,
+    };
+    standing(plan.parameters(), &point.values, parameter) == 0.0 && !range.contains(-f64::MIN_POSITIVE)
 }
 
 /// The values of a point with one parameter larger by a share of its size.
@@ -106,12 +121,19 @@ fn own(
         plan.add_own_measures(&values, &mut moved);
         moved.split_off(count)
     };
-    let [ahead, behind] = [OWN_SHARE, -OWN_SHARE].map(moved);
+    let back = if begins_at(plan, point, parameter) { 0.0 } else { -OWN_SHARE };
+    let [ahead, behind] = [OWN_SHARE, back].map(moved);
     let here = &measures[slopes.len()..];
     let slopes = here.iter().zip(ahead.iter().zip(&behind)).map(|(here, (ahead, behind))| {
-        let slope = (ahead - behind) / (2.0 * OWN_SHARE);
-        // Not known where a measure that it is computed from has no derivative.
-        if slope.is_nan() && !here.is_nan() { Err(trouble.unwrap_or(NoSlope::Kink)) } else { Ok(slope) }
+        let slope = (ahead - behind) / (OWN_SHARE - back);
+        if here.is_nan() {
+            Err(NoSlope::Missing)
+        } else if slope.is_nan() {
+            // Not known where a measure that it is computed from has no derivative.
+            Err(trouble.unwrap_or(NoSlope::Kink))
+        } else {
+            Ok(slope)
+        }
     });
     slopes.collect()
 }

@@ -1,5 +1,7 @@
 //! The columns of a result file: their order, their meaning and their cells.
 
+use std::sync::LazyLock;
+
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{NoSlope, Point, Row};
 
@@ -156,7 +158,7 @@ fn derivatives(plan: &Plan, before: usize) -> Vec<Behind> {
 
 /// The column with the reason why derivatives of a row are missing.
 fn gradient_gap() -> Column {
-    let doc = "reason why a derivative of the row is not known; empty if all are";
+    let doc = "reasons why derivatives of the row are not known, such as edge;zero; empty if all are known";
     Column::new("gradient_gap", "", Kind::Text, doc)
 }
 
@@ -170,13 +172,18 @@ fn branch() -> Column {
     )
 }
 
-/// The word for the reason with this place among all.
-fn gap(place: f64) -> &'static str {
-    NoSlope::ALL
-        .into_iter()
-        .enumerate()
-        .find(|(other, _)| *other as f64 == place)
-        .map_or("", |(_, reason)| reason.name())
+/// The reasons in a set, as the last measure of a row has it, a bit for each place in [`NoSlope::ALL`]: `edge;zero`.
+fn gap(set: f64) -> &'static str {
+    static SETS: LazyLock<Vec<String>> = LazyLock::new(|| {
+        let reasons = NoSlope::ALL.into_iter().enumerate();
+        let words = |set: usize| {
+            let of_set = reasons.clone().filter(|(place, _)| set >> place & 1 == 1);
+            of_set.map(|(_, reason)| reason.name()).collect::<Vec<_>>().join(";")
+        };
+        (0..1 << NoSlope::ALL.len()).map(words).collect()
+    });
+    // NaN is the set without reasons.
+    SETS.iter().enumerate().find(|(other, _)| *other as f64 == set).map_or("", |(_, words)| words.as_str())
 }
 
 /// The columns that rows of every model have: index, status, and the course of the run.
