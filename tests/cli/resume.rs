@@ -149,7 +149,7 @@ fn an_interrupted_sweep_of_derivatives_goes_on() {
         send("INT", &child);
         assert_eq!(wait(&mut child), Some(130), "{ending}");
         let ended = folder.ends(0, &format!("resume {out}"));
-        assert!(!ended.stderr.contains("0 of 1500 points"), "{}", ended.stderr);
+        assert!(!ended.stderr.starts_with("0 of 1500 points"), "{}", ended.stderr);
         assert_same(&folder, ending);
     }
 }

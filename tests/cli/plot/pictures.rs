@@ -135,7 +135,7 @@ fn a_motion_and_its_phase_portrait() {
         .says("trajectory in out.svg")
         .says("the rate of the pitch is computed from differences of its samples");
     assert!(!picture.said.contains("the rate of the stroke"), "{}", picture.said);
-    picture.has(&["Time (ms)", "Angle (°)", "Rate (°/ms)", "stroke", "pitch"]);
+    picture.has(&["Time (ms)", "Angle (°)", "Rate (°/ms)", "Stroke", "Pitch"]);
     picture.counts("<path", 4);
     // As a line over time, if that is asked for.
     drawn(&folder, "motion.csv --x time_s --y stroke_deg").has(&["Time (ms)", "Stroke (°)"]);
