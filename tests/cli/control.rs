@@ -151,8 +151,9 @@ fn inputs_that_cannot_be_have_help() {
         .ends(2, "vehicle grid.toml --set drive_voltage_pp=0 --inputs amplitude")
         .says("is not known: edge")
         .says("help: the input is at an end of its range");
+    folder.ends(2, "vehicle grid.toml --inputs stroke_damping").says("is not known: edge");
     folder
-        .ends(2, "vehicle grid.toml --inputs stroke_damping")
+        .ends(2, "vehicle grid.toml --inputs transmission_growth")
         .says("is zero and has no typical size")
         .says("help: give it a value with --set, or leave it out of --inputs");
     folder.refuses("run grid.toml --set left_position_x=nan", "--set left_position_x=nan: ");
