@@ -1,6 +1,7 @@
 """The live page from Python: a server with the rows of `sweep`, a cell of a notebook, a widget."""
 
 import json
+import math
 import urllib.error
 import urllib.request
 
@@ -34,7 +35,9 @@ def test_rows_of_the_page_are_those_of_a_sweep():
     table = found["table"]
     assert answer["columns"] == list(table.columns)
     for name, column in zip(answer["columns"], zip(*answer["rows"])):
-        assert list(column) == table[name].tolist(), name
+        # JSON has no nan.
+        shown = [None if isinstance(cell, float) and math.isnan(cell) else cell for cell in table[name].tolist()]
+        assert list(column) == shown, name
     grid = {
         "preset": "ozaki2018-large",
         "axes": {"drive_voltage_pp": [60.0, 80.0], "drive_frequency": {"from": 100.0, "to": 116.0, "n": 5}},
@@ -77,5 +80,5 @@ def test_mistakes():
         flapwing.live("ozaki2018-small", port=70000)
     with pytest.raises(TypeError, match="it must be a whole number"):
         flapwing.live("ozaki2018-small", port="8000")
-    with pytest.raises(ValueError, match="must be more than zero"):
+    with pytest.raises(ValueError, match="must be zero or more"):
         flapwing.live("ozaki2018-small", air_density=-1)

@@ -127,7 +127,7 @@ def test_where_grids_go_wrong():
 def test_where_files_go_wrong(tmp_path):
     with pytest.raises(FileNotFoundError):
         flapwing.sweep(QUICK, out=tmp_path / "no" / "rows.csv")
-    with pytest.raises(ValueError, match="must be .csv, .csv.zst or .parquet"):
+    with pytest.raises(ValueError, match="the file name must end in .csv, .csv.zst or .parquet"):
         flapwing.sweep(QUICK, out=tmp_path / "rows.xlsx")
     (tmp_path / "other.csv").write_text("something else\n")
     with pytest.raises(ValueError, match="not the result of an interrupted sweep"):

@@ -11,7 +11,8 @@ use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 use tokio::time::sleep;
 
-use super::PATIENCE;
+/// Longest time for the head of a request to come, and for its body.
+pub(super) const PATIENCE: Duration = Duration::from_secs(5);
 
 /// Connections at the same time; others wait until one has ended.
 const MOST_CONNECTIONS: usize = 128;

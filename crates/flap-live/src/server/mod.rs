@@ -22,9 +22,6 @@ use crate::guard::Guard;
 use crate::opened::Opened;
 use office::Office;
 
-/// Longest time for the head of a request to come, and for its body.
-const PATIENCE: Duration = Duration::from_secs(5);
-
 /// Threads that wait for requests or compute; rows have workers besides.
 const MOST_BLOCKING: usize = 16;
 

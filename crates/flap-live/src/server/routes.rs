@@ -11,8 +11,9 @@ use axum::response::Response;
 use axum::routing::any;
 use tokio::time::timeout;
 
+use super::answers;
+use super::connections::PATIENCE;
 use super::office::{Kind, Office};
-use super::{PATIENCE, answers};
 use crate::request::Refused;
 
 /// Most bytes of a request.
