@@ -69,7 +69,7 @@ def measured(driver, command, preset, name, steps):
         time.sleep(0.5)
         return driver.execute_script(MEASURES), driver.execute_script("return family.n"), steps / took
     finally:
-        server.send_signal(signal.SIGINT)
+        server.send_signal(signal.SIGTERM)
         server.wait()
 
 

@@ -82,7 +82,7 @@ def live(driver, flap, folder):
             driver.execute_script(STILL)
             save(driver, folder / f"{name}.png")
     finally:
-        server.send_signal(signal.SIGINT)
+        server.send_signal(signal.SIGTERM)
         server.wait()
 
 
