@@ -1,4 +1,4 @@
-"""What tests of both pages share: the command, and a page in the browser."""
+"""Parts that tests of both pages share: the command, and a page in the browser."""
 
 import base64
 import contextlib

@@ -1,4 +1,4 @@
-//! What the workers of a cluster compute, and what they are.
+//! The work of a cluster's workers, and their identity.
 
 use flap_sweep::run::identity::build;
 use flap_sweep::run::{self, RunOptions};
@@ -36,7 +36,7 @@ pub(crate) fn part<'py>(
     Ok(PyBytes::new(py, &ran.map_err(|error| error::run(&error))?))
 }
 
-/// What decides the bits of the rows of this process: `build`, a hash of the sources, and `arithmetic`.
+/// The identity of this process, which decides the bits of its rows: `build`, a hash of the sources, and `arithmetic`.
 #[pyfunction]
 pub(crate) fn identity(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);

@@ -1,4 +1,4 @@
-//! Where the numbers of a design come from: the texts in its grid file and its devices.
+//! The sources of a design's numbers: the texts in its grid file and its devices.
 
 use flap_core::parameter::Parameter;
 use pyo3::exceptions::PyValueError;

@@ -108,7 +108,7 @@ pub(crate) enum PictureKind {
     Trajectory,
     /// The branches up and down of a response, unstable orbits dashed
     Hysteresis,
-    /// What each input of a vehicle does to force and torque, as `flap vehicle --format csv` writes it
+    /// The effect of each input of a vehicle on force and torque, as `flap vehicle --format csv` writes it
     Matrix,
 }
 

@@ -17,7 +17,7 @@ use crate::args::Size;
 use crate::data::columns::{Cells, NO_WORD, Table};
 use crate::failure::Failure;
 
-/// What the columns of force and torque are called.
+/// The names of the columns of force and torque.
 const NAMES: [&str; 6] = ["forward", "left", "up", "roll", "pitch", "yaw"];
 
 /// The share of an input's largest change below which a change is nearly nothing.

@@ -27,7 +27,7 @@ pub(super) fn columns(wishes: &Wishes, axes: &Axes, kind: PictureKind) -> Result
 const NO_MEASURES: &str = "the file has no measures";
 const NO_VALUES: &str = "no parameter has more than one value";
 
-/// Why a picture over axes has none.
+/// The reason why a picture over axes has none.
 fn no_values(axes: &Axes) -> &'static str {
     if axes.sampled { "a sample has no axes" } else { NO_VALUES }
 }

@@ -56,7 +56,7 @@ pub enum VehicleError {
 }
 
 impl VehicleError {
-    /// What to do about it.
+    /// The remedy.
     pub fn help(&self) -> &'static str {
         match self {
             VehicleError::NoWings => {

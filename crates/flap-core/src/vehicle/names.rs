@@ -1,4 +1,4 @@
-//! What the names of parameters of a vehicle say.
+//! The meaning of the names of a vehicle's parameters.
 
 use super::mount::DIFFERENCE;
 use super::parameters::may_differ;

@@ -381,7 +381,7 @@ def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None =
     """Runs the points from `begin` to before `end`, and gives their rows as bytes that `sweep` takes as parcels."""
 
 def identity() -> dict[str, str]:
-    """What decides the bits of the rows of this process: `build`, a hash of the sources, and `arithmetic`."""
+    """The identity of this process, which decides the bits of its rows: `build`, a hash of the sources, and `arithmetic`."""
 
 def read(path: str | PathLike[str], /, *, ignore_damage: bool = False) -> dict[str, Any]:
     """Reads a result file; see `flapwing.read`."""

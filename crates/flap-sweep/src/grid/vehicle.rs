@@ -27,7 +27,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// The group of the parameters that wings share with the grid even where they have a design of their own.
 const DRIVE: &str = "drive";
 
-/// What other sections of a grid file must know of this one.
+/// The facts of this section that other sections of a grid file need.
 #[derive(Default)]
 pub(super) struct Told {
     /// The parameters that the section sets, and where.

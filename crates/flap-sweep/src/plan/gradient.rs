@@ -98,7 +98,7 @@ pub enum NoShares {
     Unset(&'static str),
 }
 
-/// What a parameter that is not set follows, as a sentence.
+/// The parameters that one that is not set follows, as a sentence.
 fn following(others: &str) -> String {
     others.strip_prefix("nothing: ").map_or_else(|| format!("it follows {others}"), str::to_owned)
 }

@@ -116,7 +116,7 @@ class Model:
         return self._split(table, asked, rows, xs, slopes)
 
     def reason(self, reading: int, x: Array) -> str | None:
-        """Why the point of a reading is impossible at a set of coordinates; None if it is not."""
+        """The reason why the point of a reading is impossible at a set of coordinates; None if it is not."""
         of_set, row = self.asked.of_set[reading], self.asked.row[reading]
         free = {
             one.parameter: float(value)
