@@ -1,9 +1,11 @@
 //! Derivatives of settled measures against differences of orbits that are converged far beyond.
 
+use std::slice;
+
 use flap_core::num::InstructionSet;
-use flap_core::parameter::Kind;
+use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{
-    Change, Gradient, NoSlope, Point, PointRun, Row, Simulator, SolverSettings, Status, all,
+    Change, Gradient, NoSlope, Point, PointRun, Row, Simulator, SolverSettings, Status, all, preset,
 };
 
 use crate::robustness::{self, Random};
@@ -43,7 +45,7 @@ fn numbers(model: &dyn Simulator, values: &[f64]) -> Vec<usize> {
             && value.is_finite()
             && **value != 0.0
             && parameter.name != "strips"
-            // It breaks the symmetry of the half strokes: largest values that both reach have a kink.
+            // It breaks the symmetry of the half strokes: extrema that both reach have a kink and no derivative.
             && parameter.name != "plate_ratio"
     });
     numbers.map(|(index, _)| index).collect()
@@ -144,6 +146,67 @@ fn derivatives_are_those_of_converged_orbits() {
         assert_eq!(drawn, DRAWN, "{}", model.name());
         assert!(most < 2e-5 && all < 5e-4, "{}", model.name());
         assert!(unknown * 200 < errors.len(), "{}", model.name());
+    }
+}
+
+/// Both half strokes of a symmetric motion have the same largest lift. What makes them differ has derivatives of the means,
+/// and none of the extrema; what changes both alike has all.
+#[test]
+fn equal_extrema_of_both_half_strokes_have_a_kink() {
+    let (model, preset) = preset("jafferis2016").unwrap();
+    let index = |name: &str| Parameter::index(model.parameters(), name).unwrap();
+    let column = |name: &str| model.columns().iter().position(|column| column.name == name).unwrap();
+    for voltage in [10.0, 100.0, 200.0] {
+        let mut values = (preset.values)();
+        values[index("drive_voltage_pp")] = voltage;
+        let rows = rows::of(model, slice::from_ref(&values), InstructionSet::best(), &solver());
+        let indices = ["plate_ratio", "hinge_stiffness", "drive_frequency"].map(index);
+        let found = gradient(model, &values, &rows[0], &indices);
+        let [plate_ratio, others @ ..] = &found.slopes[..] else { unreachable!() };
+        for name in ["lift_max_mn", "pitch_peak_deg"] {
+            assert_eq!(plate_ratio[column(name)], Err(NoSlope::Kink), "{name} at {voltage} V");
+        }
+        for name in ["lift_mean_mn", "stroke_pp_deg", "stroke_mean_deg", "pitch_max_deg", "power_mean_mw"] {
+            assert!(plate_ratio[column(name)].is_ok(), "{name} at {voltage} V");
+        }
+        for slopes in others {
+            for (slope, column) in slopes.iter().zip(model.columns()) {
+                let is_known = slope.is_ok() || slope == &Err(NoSlope::Missing);
+                assert!(is_known || !has_gradient(&column.name), "{} at {voltage} V", column.name);
+            }
+        }
+    }
+}
+
+/// A transmission whose ratio does not grow runs on fewer terms: its derivative by the growth is that of all terms.
+#[test]
+fn a_term_that_is_zero_has_a_derivative() {
+    let (model, preset) = preset("jafferis2016").unwrap();
+    let growth = Parameter::index(model.parameters(), "transmission_growth").unwrap();
+    let values = (preset.values)();
+    let solver = solver();
+    let run = PointRun::new(InstructionSet::best(), &solver, &values);
+    let row = rows::of(model, slice::from_ref(&values), InstructionSet::best(), &solver).remove(0);
+    let at = |growth_by: f64| {
+        let mut values = values.clone();
+        values[growth] = growth_by;
+        values
+    };
+    let change = Change { ahead: at(10.0), behind: at(-10.0), size: 10.0 };
+    let found = model.motions().unwrap().gradient(&run, &row.state, &[change]).unwrap();
+    let step = 2e7;
+    let points = [step, -step, 0.5 * step, -0.5 * step].map(at);
+    let points: Vec<Point> = (0..)
+        .zip(points)
+        .map(|(index, values)| Point { index, values, begin: Some(row.state.clone()) })
+        .collect();
+    let rows = rows::of_points(model, &points, InstructionSet::best(), &exact());
+    for name in ["stroke_pp_deg", "pitch_pp_deg", "lift_mean_mn", "power_mean_mw", "tip_pp_um"] {
+        let j = model.columns().iter().position(|column| column.name == name).unwrap();
+        let m = [0, 1, 2, 3].map(|i| rows[i].measures[j]);
+        let difference = (4.0 * (m[2] - m[3]) / step - (m[0] - m[1]) / (2.0 * step)) / 3.0;
+        let slope = found.slopes[0][j].unwrap();
+        assert!((slope - difference).abs() < 5e-5 * difference.abs(), "{name}: {slope:e}, {difference:e}");
     }
 }
 

@@ -166,6 +166,29 @@ fn readings_of_the_arms_agree_without_an_offset() {
     }
 }
 
+/// Each element of a chord is pushed against its own motion, wherever the rotation axis is: (6) and (18) on elements.
+#[test]
+fn rotation_is_that_of_the_elements_of_a_chord_for_an_axis_off_the_wing() {
+    let p = params("sys75");
+    let air = |axis_position| Constants::derive(&Params { axis_position, ..p.clone() }).unwrap().air;
+    let at_edge = air(0.0);
+    for axis in [-0.4, 0.0, 0.25, 0.7, 1.0, 1.3] {
+        let moments = midpoints(4000).iter().map(|node| node.x - axis).fold([0.0, 0.0], |[one, two], z| {
+            [one + z * z.abs() / 4000.0, two + z.abs() * z.abs() * z.abs() / 4000.0]
+        });
+        let air = air(axis);
+        // At the leading edge the integrals over a chord of 1 are 1/3 and 1/4.
+        let [force, stroke] = [
+            air.rotation_force / at_edge.rotation_force / 3.0,
+            air.rotation_stroke / at_edge.rotation_stroke / 3.0,
+        ];
+        let pitch = air.rotation_pitch / at_edge.rotation_pitch / 4.0;
+        assert!((force - moments[0]).abs() < 1e-6, "force, axis at {axis}: {force}, {}", moments[0]);
+        assert!((stroke - moments[0]).abs() < 1e-6, "stroke, axis at {axis}: {stroke}, {}", moments[0]);
+        assert!((pitch - moments[1]).abs() < 1e-6, "pitch, axis at {axis}: {pitch}, {}", moments[1]);
+    }
+}
+
 #[test]
 fn the_printed_sign_turns_the_added_mass_of_the_pitch() {
     let p = params("sys75");

@@ -18,7 +18,7 @@ use crate::ode::{input, slope};
 
 /// Measures for which the largest and smallest values are found. Positive parts need their signs, and harmonics of a wing
 /// at rest are told from rounding by them.
-const RANGED: &[Measure] = &[Amplitude, PeakToPeak, Max, Min, Peak, First, Supply, Magnitude];
+pub(super) const RANGED: &[Measure] = &[Amplitude, PeakToPeak, Max, Min, Peak, First, Supply, Magnitude];
 /// Measures for which the positive part is integrated.
 const RECTIFIED: &[Measure] = &[Supply, Magnitude];
 /// Measures for which the square is integrated.

@@ -1,6 +1,7 @@
 //! Measurements of a motion, for any model.
 //!
 //! - [`cycle`]: signals over one drive period: means, extrema, first harmonics
+//! - [`quarters`]: extrema in each quarter of a drive period
 //! - [`size`]: the largest magnitude of each state
 //! - [`strobe`]: repetition of the state from period to period
 //! - [`damped_sine`], [`spectrum`]: frequencies of a motion that dies away
@@ -10,6 +11,7 @@ mod asked;
 mod course;
 pub mod cycle;
 pub mod damped_sine;
+pub mod quarters;
 pub mod size;
 pub mod spectrum;
 pub mod strobe;

@@ -86,6 +86,12 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + Clone + PartialEq + 's
         self.clone()
     }
 
+    /// The variant that has the most terms among those of equal choices. Its equations are those of this one where the other
+    /// terms are zero, and so it serves for small changes of them.
+    fn with_all_terms(&self) -> Self {
+        self.clone()
+    }
+
     /// The run of a point, given one value per parameter: constants, initial state, drive period, scales.
     ///
     /// # Errors

@@ -20,7 +20,9 @@ use super::estimate::MANY_SWITCHES;
 use super::orbit_row::measures;
 use super::settings::SolverSettings;
 use super::single::{PointRun, Question};
+use super::slope::{Change, Halves, NoSlope, forward};
 use crate::measure::cycle::{Signals, Sums, finish};
+use crate::measure::quarters::{InQuarters, Quarters, with_equal_extrema};
 use crate::model::Model;
 use crate::num::{Kernel, Scalar, Simd};
 use crate::ode::ensemble::Unobserved;
@@ -34,7 +36,7 @@ const SMALL: f64 = 1e-8;
 
 /// The factor on the tolerances with which the steps are chosen: near a resonance, derivatives of a period are larger than its
 /// states by far, and so are their errors.
-const TIGHTEN: f64 = 0.1;
+const TIGHTEN: f64 = 0.02;
 
 /// The largest component of (1 − M)⁻¹, in units of the states' typical sizes, for which the derivatives are given. Beyond, the
 /// orbit is so near to a fold that they would err by 1e-4 and more.
@@ -45,79 +47,6 @@ const LARGE_RESPONSE: f64 = 30.0;
 
 /// The share by which the error of the orbit may change (1 − M)⁻¹.
 const DOUBT: f64 = 0.02;
-
-/// The share by which the two halves of a difference may differ. They differ by far less where a measure is smooth.
-const SMOOTH: f64 = 1e-3;
-
-/// The part of a measure that rounding may change.
-const ROUNDING: f64 = 1e-13;
-
-/// A quantity to which derivatives are taken: the point's values with more and with less of it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Change {
-    /// One value per parameter, with the quantity larger by `size`.
-    pub ahead: Vec<f64>,
-    /// The same, smaller by `size`; or the values of the point itself, for a one-sided difference where less is impossible.
-    pub behind: Vec<f64>,
-    /// The size of the change: [`Change::SHARE`] of the quantity, in whatever unit derivatives are to have.
-    pub size: f64,
-}
-
-impl Change {
-    /// The share of a quantity by which it is best changed: its square is negligible, and it stands above rounding.
-    pub const SHARE: f64 = 1e-8;
-
-    /// True if it changes nothing. NaN stands for a parameter that follows others.
-    pub fn is_none(&self) -> bool {
-        let mut both = self.ahead.iter().zip(&self.behind);
-        both.all(|(ahead, behind)| ahead.total_cmp(behind).is_eq())
-    }
-}
-
-/// The reason why a derivative is not known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum NoSlope {
-    /// The orbit is too near to a fold, where it would change without bounds.
-    Fold,
-    /// The motion slides along its switching surface, or touches it.
-    Sliding,
-    /// A parameter is at an end of its range, or the changed point is impossible.
-    Edge,
-    /// The quantity is zero, so that a share of it changes nothing.
-    Zero,
-    /// The period cannot be integrated with tighter tolerances, within the limits on steps.
-    Lost,
-    /// The measure has a kink: its derivatives to both sides differ, or it cannot be told.
-    Kink,
-    /// The measure itself is not known.
-    Missing,
-}
-
-impl NoSlope {
-    /// All reasons.
-    pub const ALL: [NoSlope; 7] = [
-        NoSlope::Fold,
-        NoSlope::Sliding,
-        NoSlope::Edge,
-        NoSlope::Zero,
-        NoSlope::Lost,
-        NoSlope::Kink,
-        NoSlope::Missing,
-    ];
-
-    /// The word for it in rows.
-    pub fn name(self) -> &'static str {
-        match self {
-            NoSlope::Fold => "fold",
-            NoSlope::Sliding => "sliding",
-            NoSlope::Edge => "edge",
-            NoSlope::Zero => "zero",
-            NoSlope::Lost => "lost",
-            NoSlope::Kink => "kink",
-            NoSlope::Missing => "missing",
-        }
-    }
-}
 
 /// Derivatives of the measures of a settled motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -138,6 +67,8 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M,
     type Answer = Result<Gradient, Unfinished>;
 
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Gradient, Unfinished> {
+        let changes_terms = self.changes.iter().any(|change| model.variant(&change.ahead) != *model);
+        let model = &if changes_terms { model.with_all_terms() } else { model.clone() };
         let mut start = begin(model, run.values, Some(self.state))?;
         start.tighten = TIGHTEN;
         let (legs, outcome) = record::<M, R, N>(model, &run.solver.tolerances(), &start, run.interrupted);
@@ -166,7 +97,7 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M,
 /// The constants and the drive period of a changed point.
 type Side<C> = (C, f64);
 
-/// The points on both sides of a point along a change; `None` if one of them is impossible or of another variant.
+/// The points on both sides of a point along a change; `None` if one of them is impossible or of other choices.
 type Sides<C> = Option<[Side<C>; 2]>;
 
 /// The points on both sides of a point.
@@ -175,7 +106,8 @@ fn sides<M: Model<N, S>, const N: usize, const S: usize>(
     change: &Change,
 ) -> Sides<M::Constants<f64>> {
     let side = |values: &[f64]| {
-        let possible = in_range(M::DESCRIPTION.parameters, values) && model.variant(values) == *model;
+        let has_equal_choices = model.variant(values).with_all_terms() == model.with_all_terms();
+        let possible = in_range(M::DESCRIPTION.parameters, values) && has_equal_choices;
         let start = model.start(values).ok().filter(|_| possible)?;
         Some((start.constants, start.span))
     };
@@ -224,7 +156,7 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Kernel for Orbit<'_, M, N, 
         }
         let moves = self.moves(&response, &ends);
         let measured = self.along(&moves);
-        let signals = Signals::all(model).with_loads(self.solver.loads);
+        let signals = Quarters(Signals::all(model).with_loads(self.solver.loads));
         let cycles = replay(simd, model, &signals, legs, &measured);
         self.gradient(&measured, &cycles)
     }
@@ -318,13 +250,13 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
     fn gradient(
         &self,
         starts: &[Start<M::Constants<f64>, N>],
-        cycles: &[Repeated<Sums<f64, S>, N>],
+        cycles: &[Repeated<InQuarters<f64, S>, N>],
     ) -> Gradient {
-        let measured = starts.iter().zip(cycles).map(|(start, cycle)| {
-            measures::<M, N, S>(self.model, self.solver, &start.constants, &cycle.totals, start.span)
-        });
-        let measured: Vec<Vec<f64>> = measured.collect();
-        let sizes = sizes::<M, N, S>(self.solver, &cycles[0].totals, &measured[0], self.start.span);
+        let totals: Vec<InQuarters<f64, S>> = cycles.iter().map(|cycle| cycle.totals).collect();
+        let sums: Vec<Sums<f64, S>> = totals.iter().map(|(sums, _)| *sums).collect();
+        let measured = self.measured(starts, &sums);
+        let with_equal = with_equal_extrema(&totals).map(|sums| self.measured(starts, &sums));
+        let sizes = sizes::<M, N, S>(self.solver, &sums[0], &measured[0], self.start.span);
         let slopes = self.sides.iter().zip(self.changes).enumerate().map(|(i, (side, change))| {
             let [ahead, behind] = [2 * i + 1, 2 * i + 2];
             let meets = cycles[0].meets && cycles[ahead].meets && cycles[behind].meets;
@@ -345,7 +277,11 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
                 Some(trouble) => Err(trouble),
                 None if one_sided => forward(measured[0][j], measured[ahead][j], change.size),
                 None => {
-                    slope([measured[behind][j], measured[0][j], measured[ahead][j]], sizes[j], change.size)
+                    let halves =
+                        |measured: &[Vec<f64>]| Halves::of([behind, 0, ahead].map(|i| measured[i][j]));
+                    let breaks =
+                        with_equal.as_deref().is_some_and(|equal| halves(equal).has_corner(sizes[j]));
+                    if breaks { Err(NoSlope::Kink) } else { halves(&measured).slope(sizes[j], change.size) }
                 }
             };
             columns.map(slope).collect()
@@ -354,6 +290,14 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
         let evaluated = (N + 1 + self.changes.len()) + (1 + 2 * self.changes.len());
         let steps = self.legs.len() + 2 * self.legs.iter().filter(|leg| leg.lands).count();
         Gradient { slopes, rhs_evals: (6 * steps * evaluated) as u64 }
+    }
+
+    /// The measures of the orbits that begin at `starts`.
+    fn measured(&self, starts: &[Start<M::Constants<f64>, N>], sums: &[Sums<f64, S>]) -> Vec<Vec<f64>> {
+        let measured = starts.iter().zip(sums).map(|(start, sums)| {
+            measures::<M, N, S>(self.model, self.solver, &start.constants, sums, start.span)
+        });
+        measured.collect()
     }
 
     /// No derivatives, for this reason.
@@ -387,21 +331,4 @@ fn sizes<M: Model<N, S>, const N: usize, const S: usize>(
         }
     }
     sizes
-}
-
-/// The derivative of a measure of some size, from its values behind, at and ahead of a point.
-fn slope([behind, here, ahead]: [f64; 3], of: f64, size: f64) -> Result<f64, NoSlope> {
-    let (forward, backward) = (ahead - here, here - behind);
-    let tolerance = SMOOTH * forward.abs().max(backward.abs()) + ROUNDING * of;
-    // Not so if one of them is not a number.
-    if (forward - backward).abs() <= tolerance {
-        Ok((ahead - behind) / (2.0 * size))
-    } else {
-        Err(NoSlope::Kink)
-    }
-}
-
-/// The derivative of a measure from its values at and ahead of a point.
-fn forward(here: f64, ahead: f64, size: f64) -> Result<f64, NoSlope> {
-    if ahead.is_nan() { Err(NoSlope::Kink) } else { Ok((ahead - here) / size) }
 }

@@ -28,12 +28,13 @@ mod settings;
 mod settle;
 mod simulator;
 mod single;
+mod slope;
 mod status;
 mod trajectory;
 
 pub use column::Column;
 pub use error::{RequestError, Unfinished};
-pub use gradient::{Change, Gradient, NoSlope};
+pub use gradient::Gradient;
 pub use jobs::{Jobs, LaneUse, Point};
 pub use list::run_list;
 pub use request::{
@@ -44,6 +45,7 @@ pub use runner::Runner;
 pub use settings::{Setting, SettingKind, SolverSettings};
 pub use simulator::{Experiments, Motions, Rows, Simulator};
 pub use single::PointRun;
+pub use slope::{Change, NoSlope};
 pub use status::Status;
 
 pub use crate::ode::{Interrupt, never};

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use super::column::{Column, columns};
 use super::error::Unfinished;
-use super::gradient::{Change, Gradient, GradientAt};
+use super::gradient::{Gradient, GradientAt};
 use super::imposed;
 use super::jobs::Jobs;
 use super::lanes::LanesKernel;
@@ -18,6 +18,7 @@ use super::settings::SolverSettings;
 use super::settle::RowFrom;
 use super::simulator::{Experiments, Motions, Rows, Simulator};
 use super::single::{PointRun, ask};
+use super::slope::Change;
 use super::trajectory::TrajectoryFrom;
 use crate::aero::Wing;
 use crate::drive::Samples;

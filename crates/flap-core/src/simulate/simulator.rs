@@ -3,7 +3,7 @@
 
 use super::column::Column;
 use super::error::Unfinished;
-use super::gradient::{Change, Gradient};
+use super::gradient::Gradient;
 use super::jobs::Jobs;
 use super::request::{
     ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, Trajectory, TrajectoryRequest,
@@ -11,6 +11,7 @@ use super::request::{
 use super::row::Row;
 use super::settings::SolverSettings;
 use super::single::PointRun;
+use super::slope::Change;
 use crate::aero::Wing;
 use crate::drive::Samples;
 use crate::modes::Mode;

@@ -140,7 +140,7 @@ pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
 }
 
 /// The size below which values of a parameter are small (SI): that of all wings' for one wing's and for a difference, the
-/// published ones', else that of a voltage, an angle, a share, a length or a damping.
+/// published ones', else that of such quantities in robots of the size of an insect.
 fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let parameters = simulator.parameters();
     let parameter = &parameters[index];
@@ -164,6 +164,9 @@ fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f6
         "" | "rad" => Some(1.0),
         "m" => Some(1e-3),
         "N*m*s" => Some(1e-9),
+        "rad/m^3" => Some(1e9),
+        "kg" => Some(1e-6),
+        "kg*m^2" => Some(1e-11),
         _ => None,
     }
 }

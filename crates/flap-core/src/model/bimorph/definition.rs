@@ -40,6 +40,10 @@ impl Model<4, S> for Bimorph {
         }
     }
 
+    fn with_all_terms(&self) -> Bimorph {
+        Bimorph { law: Law::Square, ..self.clone() }
+    }
+
     /// Starts at rest. The scales are those of the direct-drive model, so that tolerances and residuals mean the
     /// same: strokes of 0.1 rad, hinge angles of 0.3 rad, times the drive's angular frequency for the rates.
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {

@@ -322,10 +322,11 @@ fn arms(p: &Params) -> [f64; 2] {
 fn air(p: &Params, cuts: &[Cut]) -> Air<f64> {
     let [kappa, origin] = arms(p);
     let dynamic = 0.5 * p.air_density;
-    // ∫ z|z| dz and ∫ |z|³ dz over a chord of 1, z being the distance behind the rotation axis.
+    // ∫ z|z| dz and ∫ |z|³ dz over a chord of 1, z being the distance behind the rotation axis, which may be off the wing.
     let (before, behind) = (p.axis_position, 1.0 - p.axis_position);
-    let i_1 = (behind * behind * behind - before * before * before) / 3.0;
-    let i_2 = (behind * behind * behind * behind + before * before * before * before) / 4.0;
+    let cube = |z: f64| z.abs() * z.abs() * z.abs();
+    let i_1 = (cube(behind) - cube(before)) / 3.0;
+    let i_2 = (behind * cube(behind) + before * cube(before)) / 4.0;
     let drag = dynamic * p.rotation_drag;
     let added = FRAC_PI_4 * p.air_density;
     // The mid-chord behind the rotation axis, in chords.

@@ -1,0 +1,105 @@
+//! Extrema of the signals in each quarter of a drive period, beside their sums over all of it.
+//!
+//! Signals of a symmetric motion reach their extrema in both half strokes. A change that breaks the symmetry raises one of
+//! two such extrema more than the other, so that the larger of both has a kink. To tell, the extrema of both half strokes
+//! must be followed: they lie in opposite quarters.
+
+use super::asked::Asked;
+use super::cycle::{RANGED, Signals, Sums};
+use crate::model::Model;
+use crate::num::Lanes;
+use crate::ode::ensemble::Observer;
+use crate::ode::step::Attempt;
+
+/// A phase that steps do not begin at: the first quarter begins there (rad).
+const BEGIN: f64 = -0.37;
+
+/// The share of an extremum by which another may differ to count as equal.
+const EQUAL: f64 = 1e-5;
+
+/// Smallest and largest value of a signal in a quarter.
+type Range<R> = (R, R);
+
+/// Sums over S signals, and the ranges of each in the quarters of the period.
+pub type InQuarters<R, const S: usize> = (Sums<R, S>, [[Range<R>; 4]; S]);
+
+/// Sums up the S signals of a model, and finds their extrema in each quarter.
+#[derive(Clone, Copy, Debug)]
+pub struct Quarters<'a, M, const S: usize>(pub Signals<'a, M, S>);
+
+impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Quarters<'_, M, S> {
+    type Totals<R: Lanes> = InQuarters<R, S>;
+
+    #[inline(always)]
+    fn nothing(&self) -> InQuarters<f64, S> {
+        (Observer::<M, N>::nothing(&self.0), [[(f64::INFINITY, f64::NEG_INFINITY); 4]; S])
+    }
+
+    #[inline(always)]
+    fn add<R: Lanes>(
+        &self,
+        c: &M::Constants<R>,
+        attempt: &Attempt<'_, R, N>,
+        accepted: R::Mask,
+        (sums, ranges): &mut InQuarters<R, S>,
+    ) {
+        let Attempt { t, h, .. } = *attempt;
+        let before = *sums;
+        for total in &mut sums.0 {
+            (total.min, total.max) = (h.lit(f64::INFINITY), h.lit(f64::NEG_INFINITY));
+        }
+        self.0.add(c, attempt, accepted, sums);
+        let middle = h.mul_add(h.lit(0.5), t);
+        let (sin, cos) = (M::drive(c).phase(middle) - h.lit(BEGIN)).sin_cos();
+        let (up, right) = (h.lit(0.0).lt(sin), h.lit(0.0).lt(cos));
+        let quarters = [up & right, up & !right, !up & !right, !up & right];
+        for &i in const { Asked::of(&M::SIGNALS, RANGED) }.positions() {
+            let total = &mut sums.0[i];
+            for (range, quarter) in ranges[i].iter_mut().zip(quarters) {
+                range.0 = R::select(quarter, total.min.min(range.0), range.0);
+                range.1 = R::select(quarter, total.max.max(range.1), range.1);
+            }
+            total.min = total.min.min(before.0[i].min);
+            total.max = total.max.max(before.0[i].max);
+        }
+    }
+}
+
+/// The sums of `runs` whose first is a motion and the others slight changes of it; but extrema that are all but equal in the
+/// motion are made equal in it, and shifted by as much in the others. `None` if there are no such.
+pub fn with_equal_extrema<const S: usize>(runs: &[InQuarters<f64, S>]) -> Option<Vec<Sums<f64, S>>> {
+    let (first, ranges) = runs.first()?;
+    let mut equal: Vec<Sums<f64, S>> = runs.iter().map(|(sums, _)| *sums).collect();
+    let mut any = false;
+    for i in 0..S {
+        if let Some((quarter, lag)) = other_half(ranges[i].map(|range| range.1)) {
+            any = true;
+            for (sums, (_, ranges)) in equal.iter_mut().zip(runs) {
+                sums.0[i].max = sums.0[i].max.max(ranges[i][quarter].1 + lag);
+            }
+        }
+        if let Some((quarter, lag)) = other_half(ranges[i].map(|range| -range.0)) {
+            any = true;
+            for (sums, (_, ranges)) in equal.iter_mut().zip(runs) {
+                sums.0[i].min = sums.0[i].min.min(ranges[i][quarter].0 - lag);
+            }
+        }
+        // Largest magnitudes are those of the largest or of the smallest value.
+        let gap = first.0[i].max + first.0[i].min;
+        if gap.abs() <= EQUAL * first.0[i].max {
+            any = true;
+            for sums in &mut equal {
+                sums.0[i].min -= gap;
+            }
+        }
+    }
+    any.then_some(equal)
+}
+
+/// The quarter opposite to that of the largest value, and what its own largest lacks, if it is all but as large.
+fn other_half(largest: [f64; 4]) -> Option<(usize, f64)> {
+    let quarter = (0..4).max_by(|&one, &other| largest[one].total_cmp(&largest[other]))?;
+    let opposite = (quarter + 2) % 4;
+    let lag = largest[quarter] - largest[opposite];
+    (lag <= EQUAL * largest[quarter].abs()).then_some((opposite, lag))
+}
