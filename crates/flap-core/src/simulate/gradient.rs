@@ -36,7 +36,10 @@ const SMALL: f64 = 1e-8;
 
 /// The factor on the tolerances with which the steps are chosen: near a resonance, derivatives of a period are larger than its
 /// states by far, and so are their errors.
-const TIGHTEN: f64 = 0.02;
+const TIGHTEN: f64 = 0.1;
+
+/// The largest `rtol` with which errors of derivatives are in proportion to those of the measures. They fall more slowly.
+const COARSE: f64 = 1e-6;
 
 /// The largest component of (1 − M)⁻¹, in units of the states' typical sizes, for which the derivatives are given. Beyond, the
 /// orbit is so near to a fold that they would err by 1e-4 and more.
@@ -70,7 +73,7 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M,
         let changes_terms = self.changes.iter().any(|change| model.variant(&change.ahead) != *model);
         let model = &if changes_terms { model.with_all_terms() } else { model.clone() };
         let mut start = begin(model, run.values, Some(self.state))?;
-        start.tighten = TIGHTEN;
+        start.tighten = tighten(run.solver.rtol);
         let (legs, outcome) = record::<M, R, N>(model, &run.solver.tolerances(), &start, run.interrupted);
         let sides = self.changes.iter().map(|change| sides(model, change)).collect();
         let orbit = Orbit {
@@ -92,6 +95,11 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M,
         gradient.rhs_evals += outcome.rhs_evals;
         if (run.interrupted)() { Err(Unfinished::Interrupted) } else { Ok(gradient) }
     }
+}
+
+/// The factor on the tolerances of a recorded period.
+fn tighten(rtol: f64) -> f64 {
+    TIGHTEN * (rtol / COARSE).min(1.0).sqrt()
 }
 
 /// The constants and the drive period of a changed point.

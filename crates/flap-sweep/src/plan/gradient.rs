@@ -131,6 +131,15 @@ pub(crate) fn size(simulator: &dyn Simulator, values: &[f64], index: usize) -> O
     typical.filter(|typical| known.is_none_or(|value| value.abs() < *typical)).or(known)
 }
 
+/// True if a parameter is zero and can be no less: its differences are one-sided.
+pub(crate) fn is_least(parameters: &[Parameter], values: &[f64], index: usize) -> bool {
+    let range = match parameters[index].kind {
+        Kind::Number(range) | Kind::Following(range, _) => range,
+        Kind::Choice(_) => return false,
+    };
+    standing(parameters, values, index) == 0.0 && !range.contains(-f64::MIN_POSITIVE)
+}
+
 /// A value after a change by a share of its [`size`].
 pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
     match size {

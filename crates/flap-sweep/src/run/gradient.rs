@@ -1,12 +1,11 @@
 //! Derivatives of the measures of a row.
 
-use flap_core::parameter::Kind;
 use flap_core::simulate::{Change, Interrupt, NoSlope, Point, PointRun, Row};
 use flap_core::vehicle::standing;
 
 use super::options::RunOptions;
 use crate::plan::Plan;
-use crate::plan::gradient::{Gradient, Per, moved, size};
+use crate::plan::gradient::{Gradient, Per, is_least, moved, size};
 
 /// The share that changes for the derivatives of the plan's own measures, which are computed from those and need not be as small.
 const OWN_SHARE: f64 = 1e-5;
@@ -24,7 +23,7 @@ pub(super) fn add(
     let Some(gradient) = plan.gradient().filter(|_| !row.measures.is_empty()) else { return true };
     let changes = gradient.with_respect_to.iter().map(|&parameter| {
         let changed = |share| changed(plan, gradient.per, point, parameter, share);
-        let back = if begins_at(plan, point, parameter) { 0.0 } else { -Change::SHARE };
+        let back = if is_least(plan.parameters(), &point.values, parameter) { 0.0 } else { -Change::SHARE };
         Change { ahead: changed(Change::SHARE), behind: changed(back), size: Change::SHARE }
     });
     let changes: Vec<Change> = changes.collect();
@@ -56,15 +55,6 @@ fn size_at(plan: &Plan, per: Per, point: &Point, parameter: usize) -> Option<f64
     let value = standing(plan.parameters(), &point.values, parameter);
     let has_shares = per == Per::Unit || value != 0.0;
     size(plan.simulator(), &point.values, parameter).filter(|_| has_shares)
-}
-
-/// True if a parameter is zero and can be no less.
-fn begins_at(plan: &Plan, point: &Point, parameter: usize) -> bool {
-    let range = match plan.parameters()[parameter].kind {
-        Kind::Number(range) | Kind::Following(range, _) => range,
-        Kind::Choice(_) => return false,
-    };
-    standing(plan.parameters(), &point.values, parameter) == 0.0 && !range.contains(-f64::MIN_POSITIVE)
 }
 
 /// The values of a point with one parameter larger by a share of its size.
@@ -121,7 +111,7 @@ fn own(
         plan.add_own_measures(&values, &mut moved);
         moved.split_off(count)
     };
-    let back = if begins_at(plan, point, parameter) { 0.0 } else { -OWN_SHARE };
+    let back = if is_least(plan.parameters(), &point.values, parameter) { 0.0 } else { -OWN_SHARE };
     let [ahead, behind] = [OWN_SHARE, back].map(moved);
     let here = &measures[slopes.len()..];
     let slopes = here.iter().zip(ahead.iter().zip(&behind)).map(|(here, (ahead, behind))| {

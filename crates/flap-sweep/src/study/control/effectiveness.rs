@@ -8,6 +8,7 @@ use flap_core::vehicle::{FORCES, TORQUES, Vehicle, standing};
 use nalgebra::DMatrix;
 
 use super::input::{Input, parameters};
+use crate::plan::gradient::is_least;
 
 /// Force and torque: the columns of rows.
 pub const COMPONENTS: [&str; 6] = [FORCES[0], FORCES[1], FORCES[2], TORQUES[0], TORQUES[1], TORQUES[2]];
@@ -128,7 +129,12 @@ impl Flight<'_> {
                 values[input.parameter] += by;
                 values
             };
-            changes.push(Change { ahead: moved(size), behind: moved(-size), size });
+            let is_least = is_least(parameters(self.vehicle), &values, input.parameter);
+            changes.push(Change {
+                ahead: moved(size),
+                behind: moved(if is_least { 0.0 } else { -size }),
+                size,
+            });
         }
         let run = PointRun::new(InstructionSet::best(), self.solver, &values).until(self.interrupted);
         let gradient = self.vehicle.gradient(&run, &row.state, &changes)?;
