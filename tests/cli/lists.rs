@@ -336,6 +336,9 @@ fn names_are_explained() {
         measure.contains("lift_mean_mn: a measure of bimorph\n  mean lift of the wing\n  unit      mN\n"),
         "{measure}"
     );
+    let several = folder.ends(0, "explain left_wing_mass").stdout;
+    let kind = "a parameter of vehicles of the models direct-drive and four-bar with a wing called left";
+    assert!(several.starts_with(&format!("left_wing_mass: {kind}\n")), "{several}");
     let resonance = "resonance_hz: a measure of four-bar with drive_frequency = \"resonance\"\n";
     assert!(measure.contains(resonance), "{measure}");
 
