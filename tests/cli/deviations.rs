@@ -1,5 +1,7 @@
 //! Values that differ from the preset, and warnings of probable mistakes.
 
+use std::fs;
+
 use crate::support::Folder;
 
 #[test]
@@ -56,6 +58,52 @@ fn values_far_from_the_preset_are_warned_of() {
     assert_eq!(ended.stderr, "");
     let ended = Folder::new().flap("run ozaki2018-large --max-cycles 1");
     assert!(ended.stderr.starts_with("the point did not settle"), "{}", ended.stderr);
+}
+
+/// A value with its unit behind it is meant as it is, however far it is from the preset's.
+#[test]
+fn values_with_their_units_are_not_doubted() {
+    let folder = Folder::new();
+    fs::write(folder.path("points.csv"), "wing_length [m]\n17\n").unwrap();
+    for grid in [
+        "[params]\nwing_length = \"17 m\"\n",
+        "[params]\nwing_length = { value = \"17 m\", sd = 1 }\n",
+        "[axes]\nwing_length = [\"17 m\"]\n",
+        "[axes]\nwing_length = { from = \"17 m\", to = \"18 m\", n = 2 }\n",
+        "[[zip]]\nwing_length = [\"17 m\", \"18 m\"]\nhinge_stiffness = [8e-5, 9e-5]\n",
+        "[sample]\nmethod = \"sobol\"\nn = 2\n[sample.parameters]\nwing_length = { mean = \"17 m\", relative_sd = \"1 %\" }\n",
+        "[sample]\nmethod = \"file\"\npath = \"points.csv\"\n",
+    ] {
+        let grid = "preset = \"ozaki2018-large\"\n".to_owned() + grid + "[solver]\nmax_cycles = 1\n";
+        fs::write(folder.path("grid.toml"), &grid).unwrap();
+        for command in ["check grid.toml", "sweep --grid grid.toml --out rows.csv --force", "run grid.toml"] {
+            let ended = folder.ends(0, command);
+            assert!(!ended.stderr.contains("warning"), "{grid}{command}: {}", ended.stderr);
+        }
+        folder.ends(0, "run grid.toml --set wing_length=17").says("if 17 mm was meant");
+        folder.ends(0, "check grid.toml").prints("525");
+    }
+    let set =
+        folder.ends_with(0, &["run", "ozaki2018-large", "--set", "wing_length=17 m", "--max-cycles", "1"]);
+    assert!(!set.stderr.contains("warning"), "{}", set.stderr);
+}
+
+/// A bare number on top of a device with units is doubted, a value of the device that stays is not.
+#[test]
+fn values_of_devices_are_doubted_like_those_of_grids() {
+    let folder = Folder::new();
+    let device = "preset = \"ozaki2018-large\"\n[params]\nwing_length = \"17 m\"\nhinge_stiffness = 86.4\n";
+    fs::write(folder.path("device.toml"), device).unwrap();
+    for (params, doubted) in [
+        ("", "hinge_stiffness"),
+        ("hinge_stiffness = \"86.4 N*m/rad\"\n", ""),
+        ("wing_length = 17\nhinge_stiffness = \"86.4 N*m/rad\"\n", "wing_length"),
+    ] {
+        fs::write(folder.path("grid.toml"), format!("device = \"device.toml\"\n[params]\n{params}")).unwrap();
+        let told = folder.ends(0, "check grid.toml").stderr;
+        let named = told.strip_prefix("warning: ").map_or("", |told| told.split(' ').next().unwrap());
+        assert_eq!((named, told.lines().count()), (doubted, usize::from(!doubted.is_empty())), "{told}");
+    }
 }
 
 #[test]

@@ -51,6 +51,24 @@ fn a_sweep_tells_what_it_left_out() {
     assert_eq!(sidecar["unsatisfied"]["low"].as_integer(), Some(1));
 }
 
+/// The size of a hinge follows nothing, unlike other parameters that are not set.
+#[test]
+fn parameters_without_a_default_are_told_as_such() {
+    let told = |section: &str| {
+        let grid = format!("preset = \"ozaki2018-large\"\n[axes]\ndrive_frequency = [100, 110]\n{section}");
+        Folder::with_grid(&grid).ends(2, "check grid.toml").stderr
+    };
+    let no_default = "it has no default (hinge_strain_max is empty without it)";
+    let thick = told("[where]\nthick = \"hinge_thickness > 1e-6\"\n");
+    assert!(thick.contains(&format!("{no_default}: set `hinge_thickness` under [params]")), "{thick}");
+    let preset = told("[where]\nthick = \"preset.hinge_thickness > 1e-6\"\n");
+    assert!(preset.contains(&format!("{no_default}, so that there is no number to use")), "{preset}");
+    let slope = told("[gradient]\nof = [\"lift_mean_mn\"]\nwith_respect_to = [\"hinge_thickness\"]\n");
+    assert!(slope.contains(&format!("`hinge_thickness` is not set: {no_default}")), "{slope}");
+    let bias = told("[where]\nhigh = \"drive_bias > 1\"\n");
+    assert!(bias.contains("it follows others (half of drive_voltage_pp): set `drive_bias`"), "{bias}");
+}
+
 #[test]
 fn one_point_shows_its_own_measures() {
     let folder = Folder::with_grid(GRID);

@@ -163,6 +163,33 @@ fn long_lists_have_symbols_and_allowed_values() {
     assert!(line.contains(". Symbol: kappa_wh. Allowed: more than zero"), "{line}");
 }
 
+/// A mark in the short list; the long one has it in words, and programs read numbers alone.
+#[test]
+fn lists_mark_fits_to_one_vehicle() {
+    let folder = Folder::with_grid("preset = \"jafferis2016\"\n[params]\npressure_min = 0.2\n");
+    let below = "\n* A fit to one vehicle: measure or fit it for another.\n";
+    let line = |text: &str, name: &str| {
+        let found = text.lines().find(|line| line.starts_with(&format!("{name} ")));
+        found.unwrap_or_else(|| panic!("{name} is missing in\n{text}")).to_owned()
+    };
+    let short = folder.ends(0, "params jafferis2016").stdout;
+    assert_eq!(short.matches(below).count(), 1, "{short}");
+    for name in ["pressure_min", "pressure_max", "drag_coefficient_max", "lift_coefficient_max"] {
+        let marked = line(&short, name);
+        assert_eq!(marked.split_whitespace().nth(2), Some("*"), "{marked}");
+    }
+    assert!(line(&short, "hinge_stiffness").contains(" uN*m/rad * "), "{short}");
+    assert!(!line(&short, "wing_area").contains('*'), "{short}");
+
+    let own = folder.ends(0, "params grid.toml").stdout;
+    assert!(!line(&own, "pressure_min").contains('*') && line(&own, "pressure_max").contains(" * "), "{own}");
+    for other in ["params jafferis2016 --long", "params bimorph", "params ozaki2018-large"] {
+        assert!(!folder.ends(0, other).stdout.contains(below), "{other}");
+    }
+    let csv = folder.ends(0, "params jafferis2016 --format csv").stdout;
+    assert!(csv.contains(",pressure_min,0.132,"), "{csv}");
+}
+
 #[test]
 fn programs_read_parameters_and_columns() {
     let folder = Folder::new();
@@ -309,6 +336,9 @@ fn names_are_explained() {
         measure.contains("lift_mean_mn: a measure of bimorph\n  mean lift of the wing\n  unit      mN\n"),
         "{measure}"
     );
+    let several = folder.ends(0, "explain left_wing_mass").stdout;
+    let kind = "a parameter of vehicles of the models direct-drive and four-bar with a wing called left";
+    assert!(several.starts_with(&format!("left_wing_mass: {kind}\n")), "{several}");
     let resonance = "resonance_hz: a measure of four-bar with drive_frequency = \"resonance\"\n";
     assert!(measure.contains(resonance), "{measure}");
 

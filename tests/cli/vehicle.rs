@@ -319,6 +319,10 @@ fn what_a_vehicle_cannot_do_is_told() {
     folder.refuses("vehicle grid.toml --inputs bais", "the vehicle has no input `bais`");
     folder.refuses("vehicle grid.toml --inputs bias,drive_offset", "`drive_offset` is named twice");
     folder.refuses("vehicle grid.toml --inputs drive_shape", "`drive_shape` is a choice, not an input");
+    folder.refuses(
+        "run grid.toml --set difference_hinge_thickness=1e-6",
+        "difference_hinge_thickness needs a value of hinge_thickness, which is not set",
+    );
     folder.refuses("vehicle grid.toml --trim torque_up=1", "there is no component `torque_up`");
     folder.refuses("vehicle grid.toml --trim torque_yaw=far", "`far` is not a number");
     for (command, taker) in [

@@ -58,7 +58,9 @@ fn an_elliptic_wing_has_its_integrals() {
     close("pressure_radius", 2.0 / 15.0 / (std::f64::consts::PI / 16.0) * span);
     close("rotation_pressure_width", 2.0 / 15.0 / (std::f64::consts::PI / 16.0) * chord);
     fs::write(folder.path("wing.toml"), device).unwrap();
-    folder.ends(0, "run wing.toml").prints("status = periodic");
+    let run = folder.ends(0, "run wing.toml");
+    run.prints("status = periodic");
+    assert_eq!(run.stderr, "", "values with units are not doubted");
 }
 
 /// The outline of the four-bar's own wing gives its rows back, but for the straight lines between the stations.
@@ -82,6 +84,61 @@ fn the_outline_of_a_preset_gives_its_rows() {
         let (own, preset) = (measure("wing.toml", name), measure("arabagi2013-75hz", name));
         assert!((own / preset - 1.0).abs() < 0.02, "{name}: {own} against {preset}");
     }
+}
+
+/// The chord of a square tip falls to zero within the last tenth of the table.
+#[test]
+fn a_table_of_chords_that_loses_area_is_told() {
+    let folder = Folder::new();
+    let head = "span [mm],leading_edge [mm],trailing_edge [mm]\n";
+    fs::write(folder.path("square.csv"), format!("{head}0,0,5\n29.9,0,5\n30,0,0\n")).unwrap();
+    // Areas in mm²: the table falls over 3 mm, the outline over 0.1 mm.
+    let (table, outline) = (5.0 * 28.5, 5.0 * 29.95);
+    let told = format!(
+        "have {:.1} % less area than the outline: multiply each by {:.4} to have its area",
+        100.0 * (1.0 - table / outline),
+        outline / table
+    );
+    for preset in ["ozaki2018-large", "arabagi2013-75hz"] {
+        let arguments = ["wing", "square.csv", "--preset", preset, "--offset", "2 mm"];
+        folder.ends_with(0, &arguments).says(&told);
+        let quiet = folder.ends_with(0, &[&arguments[..], &["--quiet"]].concat());
+        assert_eq!(quiet.stderr, "");
+    }
+    let bimorph = folder.ends_with(0, &["wing", "square.csv", "--preset", "jafferis2016"]);
+    assert!(!bimorph.stderr.contains("area than"), "{}", bimorph.stderr);
+    fs::write(folder.path("straight.csv"), outline_of_a_rectangle()).unwrap();
+    let straight = folder.ends_with(0, &["wing", "straight.csv", "--preset", "ozaki2018-large"]);
+    assert!(!straight.stderr.contains("area than"), "{}", straight.stderr);
+}
+
+fn outline_of_a_rectangle() -> String {
+    outline(30.0, |_| [0.0, 5.0])
+}
+
+#[test]
+fn a_root_that_moves_to_the_stroke_axis_is_told() {
+    let folder = Folder::new();
+    fs::write(folder.path("wing.csv"), outline_of_a_rectangle()).unwrap();
+    let begin = "without --offset, the wing's root is on the stroke axis (wing_offset = 0 m), but that of";
+    for (preset, end) in [
+        ("arabagi2013-75hz", "is at 4 mm: --offset '4 mm' keeps that"),
+        ("ozaki2018-large", "is at half of actuator_length: set it with --offset"),
+    ] {
+        let arguments = ["wing", "wing.csv", "--preset", preset];
+        folder.ends_with(0, &arguments).says(&format!("{begin} {preset} {end}"));
+        let quiet = folder.ends_with(0, &[&arguments[..], &["--quiet"]].concat());
+        assert_eq!(quiet.stderr, "");
+        for offset in ["0 mm", "4 mm"] {
+            let given = folder.ends_with(0, &[&arguments[..], &["--offset", offset]].concat());
+            assert!(!given.stderr.contains("--offset"), "{}", given.stderr);
+        }
+    }
+    // A device whose root is on the axis.
+    fs::write(folder.path("axis.toml"), "preset = \"arabagi2013-75hz\"\n[params]\nwing_offset = \"0 mm\"\n")
+        .unwrap();
+    let device = folder.ends_with(0, &["wing", "wing.csv", "--preset", "axis.toml"]);
+    assert!(!device.stderr.contains("--offset"), "{}", device.stderr);
 }
 
 #[test]

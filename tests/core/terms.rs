@@ -351,25 +351,41 @@ fn hinge_strain_is_that_of_an_arc() {
     }
 }
 
-/// A term of the table in docs/terms.md: its label, the parameter and its value, and the model that alone has it.
-type Shown = (&'static str, (&'static str, f64), Option<&'static str>);
+/// A term of the table in docs/terms.md: its label, the parameter and its value, and the models for which it is shown.
+type Shown = (&'static str, (&'static str, f64), &'static [&'static str]);
 
-const SHOWN: [Shown; 8] = [
-    ("`stroke_loss_factor` 0.1", ("stroke_loss_factor", 0.1), None),
-    ("`hinge_loss_factor` 0.1", ("hinge_loss_factor", 0.1), None),
-    ("`hinge_damping` 1 nN·m·s", ("hinge_damping", 1e-9), None),
-    ("`dielectric_loss` 0.13", ("dielectric_loss", 0.13), None),
-    ("`charge_recovery` 0.58", ("charge_recovery", 0.58), None),
-    ("`transmission_growth` 4.4 rad/mm³", ("transmission_growth", 4.4e9), Some("bimorph")),
-    ("`drive_offset` 20 V", ("drive_offset", 20.0), Some("bimorph")),
-    ("`plate_ratio` 0.9", ("plate_ratio", 0.9), Some("bimorph")),
+const ALL: &[&str] = &["bimorph", "direct-drive", "four-bar"];
+const BIMORPH: &[&str] = &["bimorph"];
+/// The models whose presets have no hinge damping.
+const UNDAMPED: &[&str] = &["bimorph", "direct-drive"];
+
+const SHOWN: [Shown; 11] = [
+    // Of the order of the loss factor below. The four-bar's presets have 200 nN·m·s.
+    ("`stroke_damping` 5 nN·m·s", ("stroke_damping", 5e-9), BIMORPH),
+    ("`stroke_damping` 500 nN·m·s", ("stroke_damping", 5e-7), &["direct-drive"]),
+    ("`stroke_damping` 500 nN·m·s, not 200", ("stroke_damping", 5e-7), &["four-bar"]),
+    ("`stroke_loss_factor` 0.1", ("stroke_loss_factor", 0.1), ALL),
+    ("`hinge_loss_factor` 0.1", ("hinge_loss_factor", 0.1), ALL),
+    ("`hinge_damping` 1 nN·m·s", ("hinge_damping", 1e-9), UNDAMPED),
+    ("`dielectric_loss` 0.13", ("dielectric_loss", 0.13), ALL),
+    ("`charge_recovery` 0.58", ("charge_recovery", 0.58), ALL),
+    ("`transmission_growth` 4.4 rad/mm³", ("transmission_growth", 4.4e9), BIMORPH),
+    ("`drive_offset` 20 V", ("drive_offset", 20.0), BIMORPH),
+    ("`plate_ratio` 0.9", ("plate_ratio", 0.9), BIMORPH),
 ];
 
 /// The changes of measures by each term at each preset.
 fn table_of_terms() -> String {
-    let columns = ["stroke_pp_deg", "pitch_pp_deg", "lift_mean_mn", "power_mean_mw", "power_supply_mw"];
+    let columns = [
+        "stroke_pp_deg",
+        "stroke_mean_deg",
+        "pitch_pp_deg",
+        "lift_mean_mn",
+        "power_mean_mw",
+        "power_supply_mw",
+    ];
     let mut table =
-        "| preset | term | stroke | pitch | lift | power | supply |\n|---|---|--:|--:|--:|--:|--:|\n"
+        "| preset | term | stroke | mean stroke | pitch | lift | power | supply |\n|---|---|--:|--:|--:|--:|--:|--:|\n"
             .to_owned();
     for name in [
         "jafferis2016",
@@ -381,19 +397,24 @@ fn table_of_terms() -> String {
     ] {
         let design = Design::new(name);
         let before = design.measures(columns);
-        for (term, change, owner) in SHOWN {
-            let is_absent = owner.is_some_and(|owner| owner != design.model.name());
-            // The four-bar's own damping is not zero.
-            if is_absent || (change.0.ends_with("_damping") && design.value(change.0) > 0.0) {
+        for (term, change, models) in SHOWN {
+            if !models.contains(&design.model.name()) {
                 continue;
             }
             let after = design.clone().with(&[change]).measures(columns);
             write!(table, "| `{name}` | {term} |").unwrap();
-            for (after, before) in after.into_iter().zip(before) {
-                let percent = 100.0 * (after / before - 1.0);
+            for ((after, before), column) in after.into_iter().zip(before).zip(columns) {
+                let (change, unit) = match column {
+                    // A share of a mean that is zero at most presets says nothing.
+                    "stroke_mean_deg" => (after - before, "°"),
+                    _ => (100.0 * (after / before - 1.0), " %"),
+                };
                 // No sign for what rounds to nothing.
-                let percent = if percent.abs() < 0.05 { 0.0 } else { percent };
-                table += &format!(" {percent:+.1} % |").replace("+0.0 %", "0");
+                if change.abs() < 0.05 {
+                    table += " 0 |";
+                } else {
+                    write!(table, " {change:+.1}{unit} |").unwrap();
+                }
             }
             table += "\n";
         }

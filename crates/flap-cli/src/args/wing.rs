@@ -15,9 +15,9 @@ pub(crate) struct WingArgs {
     #[arg(long, value_name = "PRESET|FILE")]
     pub(crate) preset: String,
 
-    /// Distance of the wing's root from the stroke axis, such as `2 mm`
-    #[arg(long, value_name = "LENGTH", default_value = "0 m", value_parser = length)]
-    pub(crate) offset: f64,
+    /// Distance of the wing's root from the stroke axis, such as `2 mm`; 0 m without this option
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub(crate) offset: Option<f64>,
 
     /// Thickness of the wing's membrane, such as `1.5 um`
     #[arg(long, value_name = "LENGTH", value_parser = length)]

@@ -74,6 +74,11 @@ impl Values {
         Ok(Values { model, lines, numbers: preset.map(|preset| (preset.values)()), errors: Vec::new() })
     }
 
+    /// True if this is the value of a parameter in a preset of the model.
+    fn is_published(&self, parameter: usize, value: f64) -> bool {
+        self.model.presets().iter().any(|preset| (preset.values)().get(parameter) == Some(&value))
+    }
+
     /// The standard error of a parameter.
     fn error(&self, parameter: usize) -> Option<f64> {
         self.errors.iter().find(|(index, _)| *index == parameter).map(|(_, error)| *error)
@@ -106,6 +111,8 @@ struct Entry {
     meaning: String,
     /// More about a parameter, in sentences.
     more: String,
+    /// True if the value is a published one that was fitted to one vehicle.
+    is_fit: bool,
 }
 
 const NAMES: [&str; 8] = ["kind", "group", "name", "value", "unit", "symbol", "allowed", "meaning"];
@@ -141,6 +148,7 @@ fn parameters(of: &Values) -> Vec<Entry> {
             allowed: allowed(parameter),
             meaning: parameter.doc.to_owned(),
             more: more(parameter),
+            is_fit: parameter.is_fitted && given.is_some_and(|value| of.is_published(place, value)),
         }
     };
     of.model.parameters().iter().enumerate().map(entry).collect()
@@ -192,6 +200,7 @@ fn columns(model: &'static dyn Simulator) -> Vec<Entry> {
         allowed: String::new(),
         meaning,
         more: String::new(),
+        is_fit: false,
     };
     let own = model.columns().len();
     let measures = resonance::measures(model).into_iter().enumerate().map(|(place, column)| {
@@ -208,12 +217,19 @@ fn columns(model: &'static dyn Simulator) -> Vec<Entry> {
     measures.chain(run).collect()
 }
 
+/// Behind a value that was fitted to one vehicle, and the line below the parameters.
+const FIT: &str = " *";
+const FITS: &str = "* A fit to one vehicle: measure or fit it for another.";
+
 /// Parameters, then columns, below the titles of their groups, in lines that fit the terminal.
 fn listing(entries: &[Entry], long: bool) -> String {
     let is_parameter = |entry: &&Entry| entry.kind == "parameter";
     let has_values = entries.iter().any(|entry| !entry.value.is_empty());
     let second = if has_values { "value" } else { "unit" };
-    let parameters = page("parameter", second, entries.iter().filter(is_parameter), long);
+    let mut parameters = page("parameter", second, entries.iter().filter(is_parameter), long);
+    if !long && entries.iter().any(|entry| entry.is_fit) {
+        let _ = writeln!(parameters, "\n{}", wrapped(FITS, 2));
+    }
     let columns = page("column", "unit", entries.iter().filter(|entry| !is_parameter(entry)), long);
     parameters + "\n" + &columns
 }
@@ -231,7 +247,9 @@ fn page<'e>(first: &str, second: &str, entries: impl Iterator<Item = &'e Entry>,
         } else {
             first_sentence(&entry.meaning).to_owned()
         };
-        table.row([entry.name.clone(), entry.shown.clone(), meaning]);
+        // A long meaning says so.
+        let mark = if entry.is_fit && !long { FIT } else { "" };
+        table.row([entry.name.clone(), format!("{}{mark}", entry.shown), meaning]);
     }
     table.text_within(console::width())
 }

@@ -8,6 +8,7 @@ use flap_core::simulate::{PointRun, Rows, Simulator};
 use flap_core::vehicle::why_absent;
 use flap_sweep::grid;
 use flap_sweep::notation::text;
+use flap_sweep::notation::units;
 use flap_sweep::notation::value::{self, UnitOf, ValueError};
 use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
@@ -28,6 +29,8 @@ pub(crate) struct Chosen {
     index: u64,
     /// The parameters that the command line sets.
     set: Vec<usize>,
+    /// Those of them whose values have their unit.
+    set_with_unit: Vec<usize>,
 }
 
 impl Chosen {
@@ -40,11 +43,12 @@ impl Chosen {
             return Err(Failure::usage(message));
         }
         let mut values = plan.point(point.point).values;
-        let mut set = Vec::new();
+        let (mut set, mut set_with_unit) = (Vec::new(), Vec::new());
         for (name, value) in &point.set {
             let index = find_parameter(plan.parameters(), name)?;
             values[index] = self::value(&plan.parameters()[index], &set_option(name), value)?;
             set.push(index);
+            set_with_unit.extend(units::has_unit(value).then_some(index));
         }
         plan.derived().fill(&mut values, &set);
         match plan.judge(&values) {
@@ -59,7 +63,7 @@ impl Chosen {
             }
             Verdict::Invalid(invalid) => return Err(invalid.into()),
         }
-        let mut chosen = Chosen { plan, values, sampled: None, index: point.point, set };
+        let mut chosen = Chosen { plan, values, sampled: None, index: point.point, set, set_with_unit };
         chosen.find_resonance()?;
         Ok(chosen)
     }
@@ -106,6 +110,12 @@ impl Chosen {
     /// The parameters that the command line sets.
     pub(crate) fn set_parameters(&self) -> &[usize] {
         &self.set
+    }
+
+    /// True if the value of a parameter is written with its unit, in the file or on the command line.
+    pub(crate) fn has_unit(&self, parameter: usize) -> bool {
+        let of_file = !self.set.contains(&parameter) && self.plan.has_unit(parameter);
+        of_file || self.set_with_unit.contains(&parameter)
     }
 
     /// Model and preset in one line.

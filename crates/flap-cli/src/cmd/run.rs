@@ -24,7 +24,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     if let Some(option) = of_one_wing(args) {
         check_one_wing(&chosen.plan, &args.point.what, &format!("`flap run` with {option}"))?;
     }
-    far::warn(&deviation::of_point(&chosen.plan, &chosen.values));
+    far::warn(&deviation::of_point(&chosen.plan, &chosen.values, |parameter| chosen.has_unit(parameter)));
     let mut inputs = Inputs::new();
     inputs.add_plan(&chosen.plan);
     for record in args.waveform.iter().chain(&args.stroke) {

@@ -1,9 +1,11 @@
 //! `flap wing`: the parameters of a wing of one's own.
 
-use flap_core::aero::{Material, Wing};
+use flap_core::aero::{ChordTable, Material, STATIONS, Tabulated, Wing};
 use flap_core::parameter::Parameter;
 use flap_sweep::files::outline;
 use flap_sweep::grid;
+use flap_sweep::notation::units::prefixed;
+use flap_sweep::plan::{Plan, Value};
 
 use super::point;
 use crate::args::WingArgs;
@@ -13,6 +15,9 @@ use crate::failure::{Exit, Failure};
 /// Density of air (kg/m³) of models that do not say.
 const AIR_DENSITY: f64 = 1.2;
 
+/// The share of the area by which a table of chords may miss that of the outline without a note.
+const CLOSE: f64 = 5e-3;
+
 pub(crate) fn run(args: &WingArgs) -> Result<Exit, Failure> {
     let plan = point::plan(&args.preset)?;
     let outline = outline::read(&args.outline)
@@ -20,7 +25,7 @@ pub(crate) fn run(args: &WingArgs) -> Result<Exit, Failure> {
     let air = Parameter::index(plan.parameters(), "air_density").and_then(|index| plan.base()[index].given());
     let wing = Wing {
         outline,
-        offset: args.offset,
+        offset: args.offset.unwrap_or(0.0),
         material: material(args)?,
         air_density: air.unwrap_or(AIR_DENSITY),
     };
@@ -38,13 +43,58 @@ pub(crate) fn run(args: &WingArgs) -> Result<Exit, Failure> {
     if let Some(masses) = wing.masses() {
         console::say(&format!(
             "the wing has {} and {}; its centre of mass is {} from the stroke axis and {} behind the hinge's axis",
-            flap_sweep::notation::units::prefixed(wing.area(), "m^2"),
-            flap_sweep::notation::units::prefixed(masses.mass, "kg"),
-            flap_sweep::notation::units::prefixed(masses.radius, "m"),
-            flap_sweep::notation::units::prefixed(masses.depth, "m"),
+            prefixed(wing.area(), "m^2"),
+            prefixed(masses.mass, "kg"),
+            prefixed(masses.radius, "m"),
+            prefixed(masses.depth, "m"),
         ));
     }
+    let offset = if args.offset.is_none() { on_offset(&plan, &args.preset) } else { None };
+    for note in offset.into_iter().chain(on_area(&wing, &parameters)) {
+        console::say(&note);
+    }
     Ok(Exit::Done)
+}
+
+/// A note that the wing's root is on the stroke axis, where that of the design called `base` is not.
+fn on_offset(plan: &Plan, base: &str) -> Option<String> {
+    let index = Parameter::index(plan.parameters(), "wing_offset")?;
+    let (place, remedy) = match plan.base()[index] {
+        Value::Given(0.0) | Value::Resonance => return None,
+        Value::Given(offset) => {
+            let offset = prefixed(offset, "m");
+            let remedy = format!("--offset '{offset}' keeps that");
+            (offset, remedy)
+        }
+        Value::Follows(others) => {
+            let place = others.split(':').next().unwrap_or(others);
+            (place.to_owned(), "set it with --offset, such as --offset '2 mm'".to_owned())
+        }
+    };
+    Some(format!(
+        "without --offset, the wing's root is on the stroke axis (wing_offset = 0 m), but that of {base} is at \
+         {place}: {remedy}"
+    ))
+}
+
+/// A note that the table of chords among the parameters has another area than the outline.
+fn on_area(wing: &Wing, parameters: &[(&str, f64)]) -> Option<String> {
+    let is_chord = |name: &str| name.strip_prefix("chord_").is_some_and(|rest| rest.parse::<usize>().is_ok());
+    let chords = parameters.iter().filter(|(name, _)| is_chord(name)).map(|(_, chord)| *chord);
+    let chords: [f64; STATIONS] = chords.collect::<Vec<_>>().try_into().ok()?;
+    let tabulated = ChordTable::new(Tabulated::On, chords).mean() * wing.outline.length();
+    let share = tabulated / wing.area();
+    // Without any chord, the model refuses the table.
+    if share == 0.0 || (share - 1.0).abs() <= CLOSE {
+        return None;
+    }
+    let percent = 100.0 * (share - 1.0).abs();
+    let comparison = if share < 1.0 { "less" } else { "more" };
+    Some(format!(
+        "chord_0 to chord_10, straight between {STATIONS} stations, have {percent:.1} % {comparison} area than the \
+         outline: multiply each by {:.4} to have its area",
+        1.0 / share
+    ))
 }
 
 /// The material that the options give, if they do.

@@ -139,7 +139,7 @@ impl Table {
             let parameter = &self.parameters[index];
             if value.is_nan() {
                 return Err(Invalid::new(format!(
-                    "{DIFFERENCE}_{0} needs a value of {0}, which follows other parameters",
+                    "{DIFFERENCE}_{0} needs a value of {0}, which is not set",
                     parameter.name
                 )));
             }

@@ -20,6 +20,8 @@ pub(super) struct Placed {
     pub(super) span: Range<usize>,
     /// The keys of its parameters, in the order of the axis.
     pub(super) keys: Vec<Range<usize>>,
+    /// Whether the values of each of them are written with units, as [`value::has_units`] says.
+    pub(super) with_units: Vec<Option<bool>>,
 }
 
 /// The axes of the section.
@@ -37,6 +39,7 @@ pub(super) fn read(entry: Option<&Entry<'_>>, lookup: &mut Lookup<'_>) -> Vec<Pl
             axis: Axis::new(vec![(index, values.unwrap_or_else(none))]),
             span: entry.key_span.clone(),
             keys: vec![entry.key_span],
+            with_units: vec![value::has_units(entry.value)],
         });
     }
     axes

@@ -18,7 +18,7 @@ use super::table::{self, Entry};
 use super::uncertainty;
 use super::value;
 use crate::plan::uncertainty::Uncertainty;
-use crate::plan::{Source, Value};
+use crate::plan::{Source, Value, WithUnits};
 
 /// The keys of a device.
 const KEYS: [&str; 5] = ["description", "preset", "device", "params", "correlation"];
@@ -31,6 +31,8 @@ pub(super) struct Base {
     /// The preset at the root.
     pub(super) preset: &'static Preset,
     pub(super) values: Vec<Value>,
+    /// The parameters whose values are written with their units.
+    pub(super) with_units: WithUnits,
     pub(super) uncertainty: Uncertainty,
     /// The devices read, the grid's own first.
     pub(super) devices: Vec<Source>,
@@ -85,6 +87,7 @@ impl Reader<'_> {
                 vehicle: None,
                 preset,
                 values,
+                with_units: WithUnits::default(),
                 uncertainty: Uncertainty::default(),
                 devices: Vec::new(),
             });
@@ -156,8 +159,13 @@ impl Base {
         problems: &mut Problems,
     ) -> Vec<(usize, std::ops::Range<usize>)> {
         let mut lookup = Lookup { simulator: self.simulator, models, problems };
-        let set =
-            params::read(table::find(root, "params"), &mut self.values, &mut self.uncertainty, &mut lookup);
+        let set = params::read(
+            table::find(root, "params"),
+            &mut self.values,
+            &mut self.with_units,
+            &mut self.uncertainty,
+            &mut lookup,
+        );
         uncertainty::correlations(table::find(root, "correlation"), &mut self.uncertainty, &mut lookup);
         set
     }

@@ -8,15 +8,16 @@ use super::lookup::Lookup;
 use super::problems::Problems;
 use super::resonance;
 use super::table::{self, Entry};
-use super::uncertainty;
-use crate::plan::Value;
+use super::{uncertainty, value};
 use crate::plan::uncertainty::Uncertainty;
+use crate::plan::{Value, WithUnits};
 
-/// Puts the values of `[params]` into `base`, and their standard errors into `errors`. Returns which parameters the section
-/// names, and where.
+/// Puts the values of `[params]` into `base`, whether they have units into `with_units`, and their standard errors into `errors`.
+/// Returns which parameters the section names, and where.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
     base: &mut [Value],
+    with_units: &mut WithUnits,
     errors: &mut Uncertainty,
     lookup: &mut Lookup<'_>,
 ) -> Vec<(usize, Range<usize>)> {
@@ -31,9 +32,10 @@ pub(super) fn read(
         if resonance::is_asked_for(&entry) {
             continue;
         }
-        let (value, error) = uncertainty::of_parameter(parameter, &entry, lookup.problems);
-        if let Some(value) = value {
-            base[index] = Value::Given(value);
+        let (number, error) = uncertainty::of_parameter(parameter, &entry, lookup.problems);
+        if let Some(number) = number {
+            base[index] = Value::Given(number);
+            with_units.note(index, value::has_units(entry.value));
         }
         errors.set(index, error);
     }

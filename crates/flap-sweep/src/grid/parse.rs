@@ -94,6 +94,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         resonance,
         preset: preset.name,
         base: base.values,
+        with_units: base.with_units,
         uncertainty: base.uncertainty,
         devices: base.devices,
         axes,
@@ -149,6 +150,14 @@ fn read_points(
         &[("set under [params]", &set), ("set in [vehicle]", &told.set)],
         problems,
     );
+    for placed in &axes {
+        for ((parameter, _), has_units) in placed.axis.parameters().iter().zip(&placed.with_units) {
+            base.with_units.note(*parameter, *has_units);
+        }
+    }
+    for draft in &drafts {
+        base.with_units.note(draft.parameter, Some(false));
+    }
     let moved = axes.iter().flat_map(|placed| placed.axis.parameters()).map(|(parameter, _)| *parameter);
     let moved: Vec<usize> = moved.chain(drafts.iter().map(|draft| draft.parameter)).collect();
     let chosen: Vec<usize> =

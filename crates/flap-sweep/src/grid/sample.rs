@@ -84,6 +84,7 @@ pub(super) fn read(
     let design = Arc::new(Design::new(method, seed.unwrap_or(0), count.unwrap_or(1), found.len()));
     let mut axis = Vec::new();
     let mut keys = Vec::new();
+    let mut with_units = Vec::new();
     for (dimension, (index, parameter, entry)) in found.into_iter().enumerate() {
         let distribution = distribution::read(parameter, means[index], entry, lookup.problems);
         let values = distribution.map_or_else(axes::none, |distribution| Values::Sampled {
@@ -93,8 +94,9 @@ pub(super) fn read(
         });
         axis.push((index, values));
         keys.push(entry.key_span.clone());
+        with_units.push(value::has_units(entry.value));
     }
-    Some((Placed { axis: Axis::new(axis), span: section.key_span.clone(), keys }, None))
+    Some((Placed { axis: Axis::new(axis), span: section.key_span.clone(), keys, with_units }, None))
 }
 
 /// Builds of a device: all parameters that have standard errors, with their correlations.
@@ -138,8 +140,8 @@ fn of_device(
         Some((index, Values::Correlated { design: Arc::clone(&design), mean, sd, weights }))
     });
     let axis: Vec<_> = axis.collect();
-    let keys = vec![of.key_span.clone(); axis.len()];
-    Some(Placed { axis: Axis::new(axis), span: section.key_span.clone(), keys })
+    let (keys, with_units) = (vec![of.key_span.clone(); axis.len()], vec![None; axis.len()]);
+    Some(Placed { axis: Axis::new(axis), span: section.key_span.clone(), keys, with_units })
 }
 
 /// The number of points, or `None` with a report.

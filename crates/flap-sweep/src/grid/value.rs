@@ -45,6 +45,23 @@ fn report(parameter: &Parameter, error: &ValueError, value: &Value<'_>, problems
     }
 }
 
+/// The keys of numbers in a value with an error, a range or a distribution.
+const NUMBERS: [&str; 4] = ["value", "from", "to", "mean"];
+
+/// True if all numbers of a value, list, range or distribution have units; `None` if it has no numbers of its own.
+pub(super) fn has_units(value: &Value<'_>) -> Option<bool> {
+    match value.get_ref() {
+        DeValue::String(text) => Some(units::has_unit(text)),
+        DeValue::Integer(_) | DeValue::Float(_) => Some(false),
+        DeValue::Array(list) => list.iter().filter_map(has_units).reduce(|all, this| all && this),
+        DeValue::Table(table) => {
+            let numbers = NUMBERS.iter().filter_map(|key| table.get(*key));
+            numbers.filter_map(has_units).reduce(|all, this| all && this)
+        }
+        _ => None,
+    }
+}
+
 /// The index of the option that `value` names.
 pub(super) fn option(
     name: &str,

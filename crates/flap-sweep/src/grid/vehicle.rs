@@ -210,9 +210,10 @@ impl Own<'_> {
         } else {
             format!("write a finite number in {}, or text with a unit", parameters[index].unit)
         };
-        let (value, error) = uncertainty::of_parameter(&parameters[index], entry, self.problems);
-        if let Some(value) = value {
-            self.shared.values[index] = Value::Given(value);
+        let (number, error) = uncertainty::of_parameter(&parameters[index], entry, self.problems);
+        if let Some(number) = number {
+            self.shared.values[index] = Value::Given(number);
+            self.shared.with_units.note(index, value::has_units(entry.value));
         } else if let Some(newest) = self.problems.newest().filter(|newest| newest.help.is_empty()) {
             newest.help(help);
         }
@@ -320,6 +321,7 @@ impl Own<'_> {
             match (own, shared) {
                 (Value::Given(_), _) => {
                     self.shared.values[target] = own;
+                    self.shared.with_units.note(target, Some(design.with_units.contain(place)));
                     self.shared.uncertainty.set(target, design.uncertainty.error(place));
                 }
                 (_, Value::Given(_)) if !sets(entries, parameter.name) => {

@@ -8,6 +8,7 @@ use toml::de::{DeTable, DeValue};
 use super::axes::{self, Placed};
 use super::lookup::Lookup;
 use super::table::{self, Entry};
+use super::value;
 use crate::plan::axis::Axis;
 
 /// One axis per table.
@@ -51,6 +52,7 @@ fn axis(table: &DeTable<'_>, span: Range<usize>, lookup: &mut Lookup<'_>) -> Opt
     }
     let mut parameters = Vec::new();
     let mut keys: Vec<Range<usize>> = Vec::new();
+    let mut with_units = Vec::new();
     // The first list of values that could be read: the others must be as long.
     let mut first: Option<(&Entry<'_>, u64)> = None;
     for entry in &entries {
@@ -66,8 +68,9 @@ fn axis(table: &DeTable<'_>, span: Range<usize>, lookup: &mut Lookup<'_>) -> Opt
         }
         parameters.push((index, values.unwrap_or_else(axes::none)));
         keys.push(entry.key_span.clone());
+        with_units.push(value::has_units(entry.value));
     }
-    Some(Placed { axis: Axis::new(parameters), span, keys })
+    Some(Placed { axis: Axis::new(parameters), span, keys, with_units })
 }
 
 fn report_unequal(entry: &Entry<'_>, length: u64, first: &Entry<'_>, wanted: u64, lookup: &mut Lookup<'_>) {

@@ -117,6 +117,13 @@ pub fn value(parameter: &Parameter, value: f64) -> String {
     }
 }
 
+/// The reason why a parameter that is not set has no number, if it follows no others: as a sentence, from the text that says what
+/// it follows.
+pub(crate) fn no_default(follows: &str) -> Option<String> {
+    let reason = follows.strip_prefix("nothing: ").map(|without| format!("it has no default ({without})"));
+    reason.or_else(|| (follows == "not known").then(|| "it has no default".to_owned()))
+}
+
 /// The option that `value` chooses, if the parameter is a choice.
 pub fn option(parameter: &Parameter, value: f64) -> Option<&'static str> {
     let Kind::Choice(options) = parameter.kind else { return None };

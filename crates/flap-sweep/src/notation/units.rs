@@ -65,6 +65,18 @@ pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     }
 }
 
+/// True if a text is a number with a unit, or with a `%`, behind it.
+///
+/// ```
+/// use flap_sweep::notation::units::has_unit;
+/// assert!(has_unit("17 mm") && has_unit("5%"));
+/// assert!(!has_unit("17") && !has_unit("on"));
+/// ```
+pub fn has_unit(text: &str) -> bool {
+    let text = text.trim();
+    scan(text).is_ok_and(|(_, length)| !text[length..].trim().is_empty())
+}
+
 /// Moves an error along by `start` bytes.
 fn offset(error: UnitError, start: usize) -> UnitError {
     let Range { start: from, end } = error.span;

@@ -95,6 +95,7 @@ impl Plan {
         let value = value::of_number(known, value)
             .map_err(|error| ChangeError::Value { parameter: known.name, error: Box::new(error) })?;
         self.space.base[parameter] = Value::Given(value);
+        self.space.with_units.note(parameter, Some(false));
         Ok(self)
     }
 

@@ -4,6 +4,8 @@ use flap_core::parameter::{Kind, Parameter, Range};
 use flap_core::simulate::Simulator;
 use flap_core::vehicle::standing;
 
+use crate::notation::text;
+
 /// The derivatives that rows have: of each of some measures by each of some parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Gradient {
@@ -98,9 +100,9 @@ pub enum NoShares {
     Unset(&'static str),
 }
 
-/// The parameters that one that is not set follows, as a sentence.
+/// The parameters that one that is not set follows, as a sentence, or that it has no default.
 fn following(others: &str) -> String {
-    others.strip_prefix("nothing: ").map_or_else(|| format!("it follows {others}"), str::to_owned)
+    text::no_default(others).unwrap_or_else(|| format!("it follows {others}"))
 }
 
 impl NoShares {

@@ -21,6 +21,7 @@ mod space;
 pub mod uncertainty;
 mod value;
 mod verdict;
+mod with_units;
 
 pub use along::Along;
 pub use change::ChangeError;
@@ -29,3 +30,4 @@ pub use space::Plan;
 pub(crate) use space::Space;
 pub use value::Value;
 pub use verdict::Verdict;
+pub(crate) use with_units::WithUnits;

@@ -14,6 +14,7 @@ use crate::plan::gradient::Gradient;
 use crate::plan::selection::Selection;
 use crate::plan::uncertainty::Uncertainty;
 use crate::plan::value::Value;
+use crate::plan::with_units::WithUnits;
 use crate::resonance::AtResonance;
 
 /// A design space that has passed every check, and the settings with which its points are run.
@@ -42,6 +43,8 @@ pub(crate) struct Space {
     pub(crate) preset: &'static str,
     /// One value per parameter: the preset or the device with `[params]` on top.
     pub(crate) base: Vec<Value>,
+    /// The parameters whose values, here or along an axis, are written with their units.
+    pub(crate) with_units: WithUnits,
     /// Standard errors of these values, and their correlations.
     pub(crate) uncertainty: Uncertainty,
     /// The devices that the grid begins with: its own, then those that this one begins with.
@@ -112,6 +115,11 @@ impl Plan {
     /// One value per parameter before the axes are applied: the preset with `[params]` on top.
     pub fn base(&self) -> &[Value] {
         &self.space.base
+    }
+
+    /// True if the value of a parameter, or all of its values along an axis, are written with their unit.
+    pub fn has_unit(&self, parameter: usize) -> bool {
+        self.space.with_units.contain(parameter)
     }
 
     /// Standard errors of these values, and their correlations.

@@ -20,6 +20,8 @@ pub struct Deviation {
     pub values: Vec<f64>,
     /// The preset's value; NaN if it sets none.
     pub preset: f64,
+    /// True if its values are written with their unit.
+    pub has_unit: bool,
 }
 
 /// The parameters that do not have the preset's values, in the order of the model's table.
@@ -31,24 +33,25 @@ pub fn of(plan: &Plan) -> Vec<Deviation> {
     for parameter in plan.derived().parameters() {
         values[parameter] = [0, plan.len() - 1].map(|index| plan.point(index).values[parameter]).to_vec();
     }
-    compare(plan, values)
+    compare(plan, values, |parameter| plan.has_unit(parameter))
 }
 
-/// The parameters of the point with these values that do not have the preset's, in the order of the model's table.
-pub fn of_point(plan: &Plan, values: &[f64]) -> Vec<Deviation> {
-    compare(plan, values.iter().map(|value| vec![*value]).collect())
+/// The parameters of the point with these values that do not have the preset's, in the order of the model's table. `has_unit`
+/// says whether the value of a parameter is written with its unit.
+pub fn of_point(plan: &Plan, values: &[f64], has_unit: impl Fn(usize) -> bool) -> Vec<Deviation> {
+    compare(plan, values.iter().map(|value| vec![*value]).collect(), has_unit)
 }
 
-fn compare(plan: &Plan, values: Vec<Vec<f64>>) -> Vec<Deviation> {
+fn compare(plan: &Plan, values: Vec<Vec<f64>>, has_unit: impl Fn(usize) -> bool) -> Vec<Deviation> {
     let preset = plan.simulator().presets().iter().find(|preset| preset.name == plan.preset());
     let preset = match preset {
         Some(preset) => of_preset(plan, preset),
         None => plan.base().iter().map(|value| value.in_point()).collect(),
     };
-    let all = plan.parameters().iter().zip(values).zip(preset);
-    all.map(|((parameter, mut values), preset)| {
+    let all = plan.parameters().iter().enumerate().zip(values).zip(preset);
+    all.map(|(((index, parameter), mut values), preset)| {
         values.dedup();
-        Deviation { parameter, values, preset }
+        Deviation { parameter, values, preset, has_unit: has_unit(index) }
     })
     .filter(|deviation| deviation.values.iter().any(|value| !value.is_nan() && *value != deviation.preset))
     .collect()
@@ -108,8 +111,12 @@ impl Deviation {
         ratios.join(" to ")
     }
 
-    /// A warning that a value is far from the preset's, with the value that was probably meant.
+    /// A warning that a value is far from the preset's, with the value that was probably meant. A value that is written with its
+    /// unit is meant as it is.
     pub fn warning(&self) -> Option<String> {
+        if self.has_unit {
+            return None;
+        }
         let far = |value: &&f64| {
             let size = self.ratio_of(**value).map_or(1.0, f64::abs);
             size > 0.0 && !(1.0 / FAR..=FAR).contains(&size)

@@ -93,7 +93,7 @@ fn better(column: &str) -> Option<Direction> {
 }
 
 /// Words of names that stand behind a comma in a label.
-const QUALIFIERS: [(&str, &str); 13] = [
+const QUALIFIERS: [(&str, &str); 14] = [
     ("mean", "mean"),
     ("max", "largest"),
     ("min", "smallest"),
@@ -106,6 +106,7 @@ const QUALIFIERS: [(&str, &str); 13] = [
     ("magnitude", "mean magnitude"),
     ("lag", "lag"),
     ("second", "second"),
+    ("third", "third"),
     ("margin", "margin"),
 ];
 
@@ -262,6 +263,9 @@ mod tests {
             ("field_max_v_per_um", "V/um", "Field, largest (V/µm)"),
             ("strain_surface_max", "", "Surface strain, largest"),
             ("resonance_second_hz", "Hz", "Resonance, second (Hz)"),
+            ("drive_second_harmonic", "", "Drive, second harmonic"),
+            ("drive_third_harmonic", "", "Drive, third harmonic"),
+            ("drive_third_phase", "rad", "Drive, third phase (rad)"),
             ("air_density", "kg/m^3", "Air density (kg/m³)"),
             ("energy_audit", "", "Energy audit"),
             ("drag_coefficient_max", "", "Drag coefficient, largest"),

@@ -52,7 +52,11 @@ impl Entry {
     /// Whatever it names, with the models that have it.
     pub(super) fn kind(&self) -> String {
         let Entry { what, models, rest, .. } = self;
-        let of = if models.is_empty() { String::new() } else { format!(" of {}", models.join(", ")) };
+        let of = match models.as_slice() {
+            [] => String::new(),
+            [model] => format!(" of {model}"),
+            [first @ .., last] => format!(" of the models {} and {last}", first.join(", ")),
+        };
         format!("{what}{of}{rest}")
     }
 

@@ -241,7 +241,7 @@ def _ranges(
             raise ValueError(unknown("parameter", name, known))
         if name not in fixed and not isinstance(known[name].value, float):
             value = known[name].value
-            said = "follows others in this preset" if value is None else f"is {value!r}"
+            said = "is not set in this preset" if value is None else f"is {value!r}"
             raise ValueError(f"`{name}` {said}: only numbers can be changed by a little")
         if isinstance(spread, (tuple, list)):
             if len(spread) != 2:

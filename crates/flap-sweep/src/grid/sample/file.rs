@@ -48,11 +48,12 @@ pub(super) fn read(
     let source = Arc::new(Source { name: path.display().to_string(), text });
     let (columns, is_sound) = columns(&source, lookup);
     let keys = columns.iter().map(|_| entry.key_span.clone()).collect();
-    let axis = Axis::new(columns);
+    let with_units = columns.iter().map(|(.., has_unit)| Some(*has_unit)).collect();
+    let axis = Axis::new(columns.into_iter().map(|(index, values, _)| (index, values)).collect());
     if is_sound && axis.is_empty() {
         lookup.problems.report(entry.value.span(), format!("{}: the file has no points", path.display()));
     }
-    Some((Placed { axis, span: section.key_span.clone(), keys }, file))
+    Some((Placed { axis, span: section.key_span.clone(), keys, with_units }, file))
 }
 
 /// A column of the file.
@@ -63,8 +64,8 @@ struct Column<'t> {
     unit: Option<&'t str>,
 }
 
-/// The values of the parameters, and true if there was nothing to report.
-fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values)>, bool) {
+/// The values of the parameters, each with whether its heading has a unit, and true if there was nothing to report.
+fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values, bool)>, bool) {
     let mut lines = lines(&source.text);
     let Some(headings) = lines.next() else {
         lookup.problems.report_in(source, 0..0, "the file of points is empty".to_owned());
@@ -108,7 +109,8 @@ fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values
         }
     }
     let columns = found.iter().zip(values);
-    (columns.map(|(column, values)| (column.index, Values::List(values))).collect(), mistakes == 0)
+    let columns = columns.map(|(column, values)| (column.index, Values::List(values), column.unit.is_some()));
+    (columns.collect(), mistakes == 0)
 }
 
 /// The parameter that a heading names, with or without a unit: `wing_area` or `wing_area [mm^2]`.

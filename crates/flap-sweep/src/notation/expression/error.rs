@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::function;
 use super::scope::Kind;
-use crate::notation::nearest;
+use crate::notation::{nearest, text};
 
 /// A mistake in an expression, with its place in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -102,6 +102,11 @@ pub enum Problem {
     },
 }
 
+/// The reason why a parameter that is not set has no number.
+fn why_unset(follows: &str) -> String {
+    text::no_default(follows).unwrap_or_else(|| format!("it follows others ({follows})"))
+}
+
 impl ExpressionError {
     /// The message.
     pub fn message(&self) -> String {
@@ -142,10 +147,10 @@ impl ExpressionError {
                     .map_or_else(|| format!("options: {}", options.join(", ")), did_you_mean),
             ),
             Problem::Unset { name, follows } if name.contains('.') => {
-                Some(format!("it follows others ({follows}), so that there is no number to use"))
+                Some(format!("{}, so that there is no number to use", why_unset(follows)))
             }
             Problem::Unset { name, follows } => {
-                Some(format!("it follows others ({follows}): set `{name}` under [params] to use it here"))
+                Some(format!("{}: set `{name}` under [params] to use it here", why_unset(follows)))
             }
             _ => None,
         }
