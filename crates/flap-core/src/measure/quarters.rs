@@ -14,9 +14,6 @@ use crate::ode::step::Attempt;
 /// A phase that steps do not begin at: the first quarter begins there (rad).
 const BEGIN: f64 = -0.37;
 
-/// The share of an extremum by which another may differ to count as equal.
-const EQUAL: f64 = 1e-5;
-
 /// Smallest and largest value of a signal in a quarter.
 type Range<R> = (R, R);
 
@@ -65,20 +62,23 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Quarters
     }
 }
 
-/// The sums of `runs` whose first is a motion and the others slight changes of it; but extrema that are all but equal in the
-/// motion are made equal in it, and shifted by as much in the others. `None` if there are no such.
-pub fn with_equal_extrema<const S: usize>(runs: &[InQuarters<f64, S>]) -> Option<Vec<Sums<f64, S>>> {
+/// The sums of `runs` whose first is a motion and the others slight changes of it; but extrema that differ by no more than an
+/// `error`, as a share of them, are made equal in the motion, and shifted by as much in the others. `None` if there are no such.
+pub fn with_equal_extrema<const S: usize>(
+    runs: &[InQuarters<f64, S>],
+    error: f64,
+) -> Option<Vec<Sums<f64, S>>> {
     let (first, ranges) = runs.first()?;
     let mut equal: Vec<Sums<f64, S>> = runs.iter().map(|(sums, _)| *sums).collect();
     let mut any = false;
     for i in 0..S {
-        if let Some((quarter, lag)) = other_half(ranges[i].map(|range| range.1)) {
+        if let Some((quarter, lag)) = other_half(ranges[i].map(|range| range.1), error) {
             any = true;
             for (sums, (_, ranges)) in equal.iter_mut().zip(runs) {
                 sums.0[i].max = sums.0[i].max.max(ranges[i][quarter].1 + lag);
             }
         }
-        if let Some((quarter, lag)) = other_half(ranges[i].map(|range| -range.0)) {
+        if let Some((quarter, lag)) = other_half(ranges[i].map(|range| -range.0), error) {
             any = true;
             for (sums, (_, ranges)) in equal.iter_mut().zip(runs) {
                 sums.0[i].min = sums.0[i].min.min(ranges[i][quarter].0 - lag);
@@ -86,7 +86,7 @@ pub fn with_equal_extrema<const S: usize>(runs: &[InQuarters<f64, S>]) -> Option
         }
         // Largest magnitudes are those of the largest or of the smallest value.
         let gap = first.0[i].max + first.0[i].min;
-        if gap.abs() <= EQUAL * first.0[i].max {
+        if gap.abs() <= error * first.0[i].max {
             any = true;
             for sums in &mut equal {
                 sums.0[i].min -= gap;
@@ -97,9 +97,9 @@ pub fn with_equal_extrema<const S: usize>(runs: &[InQuarters<f64, S>]) -> Option
 }
 
 /// The quarter opposite to that of the largest value, and what its own largest lacks, if it is all but as large.
-fn other_half(largest: [f64; 4]) -> Option<(usize, f64)> {
+fn other_half(largest: [f64; 4], error: f64) -> Option<(usize, f64)> {
     let quarter = (0..4).max_by(|&one, &other| largest[one].total_cmp(&largest[other]))?;
     let opposite = (quarter + 2) % 4;
     let lag = largest[quarter] - largest[opposite];
-    (lag <= EQUAL * largest[quarter].abs()).then_some((opposite, lag))
+    (lag <= error * largest[quarter].abs()).then_some((opposite, lag))
 }

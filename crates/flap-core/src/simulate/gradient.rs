@@ -41,6 +41,9 @@ const TIGHTEN: f64 = 0.1;
 /// The largest `rtol` with which errors of derivatives are in proportion to those of the measures. They fall more slowly.
 const COARSE: f64 = 1e-6;
 
+/// The error of an extremum in units of the tolerance: extrema that differ by less may be equal.
+const ERROR: f64 = 100.0;
+
 /// The largest component of (1 − M)⁻¹, in units of the states' typical sizes, for which the derivatives are given. Beyond, the
 /// orbit is so near to a fold that they would err by 1e-4 and more.
 const LARGEST_RESPONSE: f64 = 1e3;
@@ -263,7 +266,8 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
         let totals: Vec<InQuarters<f64, S>> = cycles.iter().map(|cycle| cycle.totals).collect();
         let sums: Vec<Sums<f64, S>> = totals.iter().map(|(sums, _)| *sums).collect();
         let measured = self.measured(starts, &sums);
-        let with_equal = with_equal_extrema(&totals).map(|sums| self.measured(starts, &sums));
+        let error = ERROR * self.solver.rtol * self.start.tighten;
+        let with_equal = with_equal_extrema(&totals, error).map(|sums| self.measured(starts, &sums));
         let sizes = sizes::<M, N, S>(self.solver, &sums[0], &measured[0], self.start.span);
         let slopes = self.sides.iter().zip(self.changes).enumerate().map(|(i, (side, change))| {
             let [ahead, behind] = [2 * i + 1, 2 * i + 2];
