@@ -44,6 +44,10 @@ const COARSE: f64 = 1e-6;
 /// The error of an extremum in units of the tolerance: extrema that differ by less may be equal.
 const ERROR: f64 = 100.0;
 
+/// The error of derivatives in units of the root of the tolerance, per relative change and as a share of the measure: equal
+/// extrema whose derivatives differ by less have no kink.
+const SLOPE_ERROR: f64 = 3.0;
+
 /// The largest component of (1 − M)⁻¹, in units of the states' typical sizes, for which the derivatives are given. Beyond, the
 /// orbit is so near to a fold that they would err by 1e-4 and more.
 const LARGEST_RESPONSE: f64 = 1e3;
@@ -266,7 +270,8 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
         let totals: Vec<InQuarters<f64, S>> = cycles.iter().map(|cycle| cycle.totals).collect();
         let sums: Vec<Sums<f64, S>> = totals.iter().map(|(sums, _)| *sums).collect();
         let measured = self.measured(starts, &sums);
-        let error = ERROR * self.solver.rtol * self.start.tighten;
+        let tolerance = self.solver.rtol * self.start.tighten;
+        let (error, slope_error) = (ERROR * tolerance, SLOPE_ERROR * tolerance.sqrt());
         let with_equal = with_equal_extrema(&totals, error).map(|sums| self.measured(starts, &sums));
         let sizes = sizes::<M, N, S>(self.solver, &sums[0], &measured[0], self.start.span);
         let slopes = self.sides.iter().zip(self.changes).enumerate().map(|(i, (side, change))| {
@@ -291,8 +296,9 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
                 None => {
                     let halves =
                         |measured: &[Vec<f64>]| Halves::of([behind, 0, ahead].map(|i| measured[i][j]));
-                    let breaks =
-                        with_equal.as_deref().is_some_and(|equal| halves(equal).has_corner(sizes[j]));
+                    let breaks = with_equal
+                        .as_deref()
+                        .is_some_and(|equal| halves(equal).has_corner(sizes[j], slope_error));
                     if breaks { Err(NoSlope::Kink) } else { halves(&measured).slope(sizes[j], change.size) }
                 }
             };

@@ -3,10 +3,6 @@
 /// The share by which the two halves of a difference may differ. They differ by far less where a measure is smooth.
 const SMOOTH: f64 = 1e-3;
 
-/// The difference of the derivatives to both sides, as a share of the measure and per relative change, below which two equal
-/// extrema have no kink: these derivatives have errors of their own.
-const SMALL_CORNER: f64 = 1e-4;
-
 /// The part of a measure that rounding may change.
 const ROUNDING: f64 = 1e-13;
 
@@ -101,9 +97,10 @@ impl Halves {
         if known { Ok((self.backward + self.forward) / (2.0 * size)) } else { Err(NoSlope::Kink) }
     }
 
-    /// True if a measure of some size, of extrema that were made equal, has a kink.
-    pub(super) fn has_corner(self, of: f64) -> bool {
-        !self.agree((SMALL_CORNER * Change::SHARE + ROUNDING) * of)
+    /// True if a measure of some size, of extrema that were made equal, has a kink: its derivatives to both sides differ by more
+    /// than their `error`, per relative change and as a share of the measure.
+    pub(super) fn has_corner(self, of: f64, error: f64) -> bool {
+        !self.agree((error * Change::SHARE + ROUNDING) * of)
     }
 }
 
