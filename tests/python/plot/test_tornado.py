@@ -98,7 +98,9 @@ def test_tornado_mistakes():
         ValueError, plot.tornado, "ozaki2018-large", "lift_mean", ["wing_length"]
     )
     assert "only numbers" in message(ValueError, plot.tornado, "ozaki2018-large", "lift_mean_mn", ["lift_sign"])
-    assert "follows" in message(ValueError, plot.tornado, "ozaki2018-large", "lift_mean_mn", ["drive_bias"])
+    assert "give it a value, as in `drive_bias=…`" in message(
+        ValueError, plot.tornado, "ozaki2018-large", "lift_mean_mn", ["drive_bias"]
+    )
     assert "more than zero" in message(
         ValueError, plot.tornado, "ozaki2018-large", "lift_mean_mn", ["wing_length"], change=0
     )

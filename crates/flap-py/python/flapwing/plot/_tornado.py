@@ -241,8 +241,9 @@ def _ranges(
             raise ValueError(unknown("parameter", name, known))
         if name not in fixed and not isinstance(known[name].value, float):
             value = known[name].value
-            said = "is not set in this preset" if value is None else f"is {value!r}"
-            raise ValueError(f"`{name}` {said}: only numbers can be changed by a little")
+            if value is None:
+                raise ValueError(f"`{name}` is not set in this preset: give it a value, as in `{name}=…`")
+            raise ValueError(f"`{name}` is {value!r}: only numbers can be changed by a little")
         if isinstance(spread, (tuple, list)):
             if len(spread) != 2:
                 raise ValueError(f"`{name}` needs two values to try, not {len(spread)}")
