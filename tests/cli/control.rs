@@ -162,6 +162,10 @@ fn inputs_that_cannot_be_have_help() {
     }
     folder.refuses("vehicle grid.toml --inputs left_frequency", "the vehicle has no input");
     folder
+        .ends(2, "vehicle grid.toml --set drive_voltage_pp=0 --inputs amplitude")
+        .says("is not known: edge")
+        .says("help: the input is at an end of its range");
+    folder
         .ends(2, "vehicle grid.toml --set charge_recovery=1 --inputs charge_recovery")
         .says("is not known: edge")
         .says("help: the input is at an end of its range");

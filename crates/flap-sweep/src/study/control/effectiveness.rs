@@ -129,12 +129,11 @@ impl Flight<'_> {
                 values[input.parameter] += by;
                 values
             };
-            let is_least = is_least(parameters(self.vehicle), &values, input.parameter);
-            changes.push(Change {
-                ahead: moved(size),
-                behind: moved(if is_least { 0.0 } else { -size }),
-                size,
-            });
+            // What can only grow has a one-sided difference; at rest, that would be the square of the change.
+            let at_rest = row.floquet_max.is_nan();
+            let is_one_sided = !at_rest && is_least(parameters(self.vehicle), &values, input.parameter);
+            let behind = moved(if is_one_sided { 0.0 } else { -size });
+            changes.push(Change { ahead: moved(size), behind, size });
         }
         let run = PointRun::new(InstructionSet::best(), self.solver, &values).until(self.interrupted);
         let gradient = self.vehicle.gradient(&run, &row.state, &changes)?;
