@@ -10,7 +10,8 @@
 //!
 //! All periods are made on the steps of one ([`replay`](crate::ode::replay)), so that Φ and m are smooth and δ can be small.
 //! Two-sided differences along the orbit's own path stay exact where one of ∂m/∂y₀ has a kink, such as the largest
-//! magnitude of a symmetric motion; and a kink along the path shows, as the two halves differ.
+//! magnitude of a symmetric motion; and a kink along the path shows, as the two halves differ. Extrema that are equal but for
+//! the error of the integration are made equal for that test ([`quarters`](crate::measure::quarters)).
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 
@@ -42,7 +43,7 @@ const TIGHTEN: f64 = 0.1;
 const COARSE: f64 = 1e-6;
 
 /// The error of an extremum in units of the tolerance: extrema that differ by less may be equal.
-const ERROR: f64 = 100.0;
+const EXTREMUM_ERROR: f64 = 100.0;
 
 /// The error of derivatives in units of the root of the tolerance, per relative change and as a share of the measure: equal
 /// extrema whose derivatives differ by less have no kink.
@@ -271,7 +272,7 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
         let sums: Vec<Sums<f64, S>> = totals.iter().map(|(sums, _)| *sums).collect();
         let measured = self.measured(starts, &sums);
         let tolerance = self.solver.rtol * self.start.tighten;
-        let (error, slope_error) = (ERROR * tolerance, SLOPE_ERROR * tolerance.sqrt());
+        let (error, slope_error) = (EXTREMUM_ERROR * tolerance, SLOPE_ERROR * tolerance.sqrt());
         let with_equal = with_equal_extrema(&totals, error).map(|sums| self.measured(starts, &sums));
         let sizes = sizes::<M, N, S>(self.solver, &sums[0], &measured[0], self.start.span);
         let slopes = self.sides.iter().zip(self.changes).enumerate().map(|(i, (side, change))| {

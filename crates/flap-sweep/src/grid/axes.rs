@@ -20,7 +20,7 @@ pub(super) struct Placed {
     pub(super) span: Range<usize>,
     /// The keys of its parameters, in the order of the axis.
     pub(super) keys: Vec<Range<usize>>,
-    /// Whether the values of each of them are written with units, as [`value::has_units`] says.
+    /// True for each of them whose values are written with units, see [`value::has_units`].
     pub(super) with_units: Vec<Option<bool>>,
 }
 
