@@ -21,6 +21,7 @@ mod lists;
 mod live;
 mod look;
 mod mistakes;
+mod pages;
 #[cfg(feature = "plots")]
 mod plot;
 mod point;
