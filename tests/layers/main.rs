@@ -1,6 +1,7 @@
 //! The structure of the crates: their rooms, the world outside of flap-core, and the hash of their sources.
 
 mod house;
+mod manifests;
 mod names;
 mod rooms;
 mod source;

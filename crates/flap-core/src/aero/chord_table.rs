@@ -127,23 +127,3 @@ pub fn chord_table(outline: &Outline) -> Vec<(&'static str, f64)> {
     }
     parameters
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_chord_is_straight_between_stations() {
-        let mut chords = [0.0; STATIONS];
-        for (station, chord) in chords.iter_mut().enumerate() {
-            *chord = [2e-3, 3e-3][station % 2];
-        }
-        let table = ChordTable::new(Tabulated::On, chords);
-        for (x, chord) in [(0.0, 2e-3), (0.1, 3e-3), (0.05, 2.5e-3), (0.925, 2.75e-3), (1.0, 2e-3)] {
-            assert!((table.chord(x).unwrap() - chord).abs() < 1e-15, "{x}: {:?}", table.chord(x));
-        }
-        assert!((table.mean() - 2.5e-3).abs() < 1e-15);
-        assert_eq!(ChordTable::new(Tabulated::Off, chords).chord(0.5), None);
-        assert!(ChordTable::new(Tabulated::On, [0.0; STATIONS]).check().is_err());
-    }
-}

@@ -1,9 +1,9 @@
 //! The search at full tolerance: Newton's iteration where the march is near an orbit.
 
-use super::multipliers::spectral_radius;
 use super::newton::{FixedPoint, Step};
 use super::next::Next;
 use super::state::{Search, Stage};
+use crate::measure::multipliers::spectral_radius;
 use crate::ode::Ending;
 
 /// The factor on the tolerances of a point whose period map jumps too much to find its fixed point.

@@ -8,7 +8,6 @@ mod closing;
 mod cost;
 mod full;
 mod march;
-mod multipliers;
 mod newton;
 mod next;
 mod precision;
@@ -18,7 +17,6 @@ mod state;
 
 use core::ops::ControlFlow;
 
-pub(super) use self::multipliers::{monodromy, spectral_radius};
 pub(super) use self::next::Next;
 pub(super) use self::state::Search;
 

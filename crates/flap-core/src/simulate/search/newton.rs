@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::multipliers::{monodromy, spectral_radius};
+use crate::measure::multipliers::{monodromy, spectral_radius};
 
 /// Iterations after which a search is given up: where it converges at all, it takes two to four.
 const LONGEST: u32 = 8;

@@ -1,8 +1,8 @@
 //! The multipliers of an orbit of several drive periods.
 
-use super::multipliers::{identity, product, spectral_radius};
 use super::newton::Newton;
 use super::next::Next;
+use crate::measure::multipliers::{identity, product, spectral_radius};
 
 /// The way along a subharmonic orbit.
 #[derive(Clone, Copy, Debug)]

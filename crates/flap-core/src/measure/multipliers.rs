@@ -1,0 +1,71 @@
+//! The monodromy matrix of an orbit and its Floquet multipliers.
+
+use nalgebra::DMatrix;
+use nalgebra::linalg::Schur;
+
+use crate::ode::variation::response;
+
+/// Iterations for the eigenvalues of a matrix after which they are given up: some ten are usual.
+const LONGEST: usize = 200;
+
+/// Squarings of a matrix after which its powers tell its spectral radius to rounding.
+const SQUARINGS: u32 = 54;
+
+/// The monodromy matrix, given the end of a period with its responses to changes by `scale`. Column j: response to a change
+/// of component j by its scale, in units of the scales.
+pub fn monodromy<const N: usize, const K: usize>(all: &[f64; K], scale: &[f64; N]) -> [[f64; N]; N] {
+    let mut monodromy = [[0.0; N]; N];
+    for j in 0..N {
+        let column = response::<N, K>(all, j);
+        for i in 0..N {
+            monodromy[i][j] = column[i] / scale[i];
+        }
+    }
+    monodromy
+}
+
+/// The identity matrix.
+pub fn identity<const N: usize>() -> [[f64; N]; N] {
+    core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j))))
+}
+
+/// The product `second * first`.
+pub fn product<const N: usize>(second: &[[f64; N]; N], first: &[[f64; N]; N]) -> [[f64; N]; N] {
+    core::array::from_fn(|i| core::array::from_fn(|j| (0..N).map(|k| second[i][k] * first[k][j]).sum()))
+}
+
+/// Largest modulus of the eigenvalues; infinite if one of the matrix's components is, NaN if one is not a number.
+pub fn spectral_radius<const N: usize>(m: &[[f64; N]; N]) -> f64 {
+    if m.iter().flatten().any(|x| x.is_nan()) {
+        return f64::NAN;
+    }
+    if m.iter().flatten().any(|x| x.is_infinite()) {
+        return f64::INFINITY;
+    }
+    let matrix = DMatrix::from_fn(N, N, |i, j| m[i][j]);
+    // For some matrices the iteration for the eigenvalues does not end.
+    let Some(schur) = Schur::try_new(matrix, f64::EPSILON, LONGEST) else {
+        return spectral_radius_by_powers(m);
+    };
+    let eigenvalues = schur.complex_eigenvalues();
+    eigenvalues.iter().fold(0.0, |radius, value| libm::hypot(value.re, value.im).max(radius))
+}
+
+/// The [`spectral_radius`] of a finite matrix by Gelfand's formula: the limit of the n-th root of the norm of the n-th power,
+/// by repeated squaring. It serves where the iteration for the eigenvalues does not end.
+pub fn spectral_radius_by_powers<const N: usize>(m: &[[f64; N]; N]) -> f64 {
+    let mut power = *m;
+    let mut logarithm = 0.0;
+    let mut share = 1.0;
+    for _ in 0..SQUARINGS {
+        let norm = power.iter().flatten().fold(0.0_f64, |norm, x| norm.max(x.abs()));
+        if norm == 0.0 {
+            return 0.0;
+        }
+        logarithm += share * libm::log(norm);
+        share *= 0.5;
+        let scaled = power.map(|row| row.map(|x| x / norm));
+        power = product(&scaled, &scaled);
+    }
+    libm::exp(logarithm)
+}
