@@ -1,6 +1,9 @@
 //! Elementary functions against the C library's, and lanes against scalars.
 
-use flap_core::num::functions::{rough_exp2, rough_reciprocal, round, round_to_eighths};
+use flap_core::num::functions::{
+    exp_m1_of_ordinary, exp_of_ordinary, ln_1p_of_normal, ln_of_normal, rough_exp2, rough_reciprocal, round,
+    round_to_eighths,
+};
 use flap_core::num::{Arithmetic, Float, InstructionSet, Kernel, Lanes, Number, Real, Simd, Unfused, Vector};
 
 /// Arguments that cover quadrants, signs, exponents and both sides of rounding boundaries.
@@ -124,15 +127,6 @@ fn rounding_is_to_the_nearest_whole_number_and_to_the_even_one_of_two() {
     }
 }
 
-/// The step-size controller relies on it: an error that is not a number must look large.
-#[test]
-fn logarithm_of_nan_and_infinity_is_large_and_finite() {
-    for x in [f64::NAN, f64::INFINITY] {
-        let ln = Real::ln(x);
-        assert!(ln.is_finite() && ln > 700.0, "ln {x} is {ln}");
-    }
-}
-
 /// Every operation a model or the integrator uses, on one value per lane.
 #[inline(always)]
 fn everything<R: Lanes>(x: R) -> [R; 18] {
@@ -167,16 +161,109 @@ impl Kernel for OnLanes<'_> {
     type Output = Vec<[f64; 18]>;
 
     fn run<S: Simd>(self, simd: S) -> Vec<[f64; 18]> {
-        let mut results = Vec::new();
-        for group in self.0.chunks(Vector::<S>::LANES) {
-            let mut x = Vector::<S>::splat(simd, 0.0);
-            for (lane, &value) in group.iter().enumerate() {
-                x.set_lane(lane, value);
-            }
-            let values = everything(x);
-            results.extend((0..group.len()).map(|lane| values.map(|v| v.lane(lane))));
+        on_lanes(simd, self.0, everything)
+    }
+}
+
+/// The results of a function of many numbers, by the lanes of `simd`.
+fn on_lanes<S: Simd, const N: usize>(
+    simd: S,
+    numbers: &[f64],
+    function: impl Fn(Vector<S>) -> [Vector<S>; N],
+) -> Vec<[f64; N]> {
+    let mut results = Vec::new();
+    for group in numbers.chunks(Vector::<S>::LANES) {
+        let mut x = Vector::<S>::splat(simd, 0.0);
+        for (lane, &value) in group.iter().enumerate() {
+            x.set_lane(lane, value);
         }
-        results
+        let values = function(x);
+        results.extend((0..group.len()).map(|lane| values.map(|v| v.lane(lane))));
+    }
+    results
+}
+
+/// Exponentials and logarithms, in the order of [`std_exponentials`].
+struct Exponentials<'a>(&'a [f64]);
+
+impl Kernel for Exponentials<'_> {
+    type Output = Vec<[f64; 4]>;
+
+    fn run<S: Simd>(self, simd: S) -> Vec<[f64; 4]> {
+        on_lanes(simd, self.0, |x| [x.exp(), x.exp_m1(), x.ln(), x.ln_1p()])
+    }
+}
+
+/// The values of the standard library, with subnormal numbers as zero.
+fn std_exponentials(x: f64) -> [f64; 4] {
+    let flushed = |number: f64| if number.is_subnormal() { 0.0 } else { number };
+    let ln = if x.is_subnormal() { f64::NEG_INFINITY } else { x.ln() };
+    [flushed(x.exp()), x.exp_m1(), ln, x.ln_1p()]
+}
+
+/// Every binary exponent with both signs, and both sides of each limit.
+fn all_magnitudes() -> Vec<f64> {
+    let limits = [
+        709.0,
+        709.436_139_303_1,
+        709.782_712_893_384,
+        -708.396_418_532_264_1,
+        -745.2,
+        -40.0,
+        -1.0,
+        1.0,
+        0.5,
+    ];
+    let around = limits.into_iter().flat_map(|limit: f64| {
+        let (mut up, mut down) = (limit, limit);
+        (0..40).flat_map(move |_| {
+            (up, down) = (up.next_up(), down.next_down());
+            [limit, up, down]
+        })
+    });
+    let powers = (-1074..=1023).flat_map(|k| [1.0, 1.37, 1.999].map(|m| m * libm::exp2(f64::from(k))));
+    let edges = [
+        0.0,
+        f64::MIN_POSITIVE,
+        f64::MIN_POSITIVE.next_down(),
+        f64::MAX,
+        f64::INFINITY,
+        f64::NAN,
+        720.0,
+        760.0,
+        800.0,
+    ];
+    let positive = powers.chain(edges).chain(arguments(0.0, 800.0));
+    positive.flat_map(|x| [x, -x]).chain(around).chain([f64::from_bits(0x7ff8_0000_0000_0abc)]).collect()
+}
+
+#[test]
+fn exponentials_and_logarithms_of_any_number_are_those_of_the_standard_library() {
+    let numbers = all_magnitudes();
+    for set in InstructionSet::available() {
+        for (&x, found) in numbers.iter().zip(set.dispatch(Exponentials(&numbers))) {
+            for ((name, found), expected) in
+                ["exp", "exp_m1", "ln", "ln_1p"].into_iter().zip(found).zip(std_exponentials(x))
+            {
+                // Of a subnormal result the last bit may be lost.
+                let close = (found - expected).abs() <= 7e-16 * expected.abs() + f64::from_bits(1);
+                assert!(
+                    found == expected || close || found.is_nan() && expected.is_nan(),
+                    "{name} of {x:e} with {set}: {found:e} is not {expected:e}"
+                );
+            }
+        }
+    }
+}
+
+/// Models use the unchecked functions where their arguments are known to be ordinary.
+#[test]
+fn unchecked_exponentials_and_logarithms_have_the_same_bits() {
+    for x in arguments(-700.0, 700.0).into_iter().chain(arguments(-1.0, 1.0)) {
+        assert_eq!(exp_of_ordinary(x).to_bits(), Real::exp(x).to_bits(), "exp {x}");
+        assert_eq!(exp_m1_of_ordinary(x), Real::exp_m1(x), "exp_m1 {x}");
+        assert_eq!(ln_of_normal(x.exp()).to_bits(), Real::ln(x.exp()).to_bits(), "ln {x}");
+        assert_eq!(ln_1p_of_normal(x.abs()).to_bits(), Real::ln_1p(x.abs()).to_bits(), "ln_1p {x}");
     }
 }
 

@@ -109,16 +109,43 @@ fn reduce<R: Float>(x: R) -> (R, R) {
     (k, r)
 }
 
-/// e^x for |x| up to 700.
+/// Smallest argument whose exponential is infinite: ln(2^1024), rounded up.
+const EXP_MAX: f64 = 709.782_712_893_384_1;
+
+/// Smallest argument whose exponential is a normal number: ln(2^-1022).
+const EXP_MIN: f64 = -708.396_418_532_264_1;
+
+/// e^x: infinite above 709.78, zero below −708.39 (where it would be subnormal), NaN for NaN.
 #[inline(always)]
 pub fn exp<R: Float>(x: R) -> R {
+    // Infinity for large arguments, NaN for NaN.
+    let beyond = x * f64::INFINITY;
+    let power = R::select(x.lt(x.lit(EXP_MAX)), exp_of_ordinary(x), beyond);
+    R::select(x.lt(x.lit(EXP_MIN)), x.lit(0.0), power)
+}
+
+/// e^x for x from −708 to 709. Beyond, the bits have no meaning: no instruction checks the range.
+#[inline(always)]
+pub fn exp_of_ordinary<R: Float>(x: R) -> R {
     let (k, r) = reduce(x);
     polynomial(r, r * r, &EXP).mul_add(r, r.lit(1.0)).times_power_of_two(k)
 }
 
-/// e^x − 1 for |x| up to 700, accurate for small x too.
+/// e^x − 1, accurate for small x too: infinite above 709.78, NaN for NaN.
 #[inline(always)]
 pub fn exp_m1<R: Float>(x: R) -> R {
+    // Below −40 the result rounds to −1. NaN stays.
+    let (k, r) = reduce(x.lit(-40.0).max(x));
+    // Half of 2^k, which is finite for every finite result.
+    let half = r.lit(0.5).times_power_of_two(k);
+    let power = (polynomial(r, r * r, &EXP) * r).mul_add(half, half - 0.5) * 2.0;
+    R::select(x.lt(x.lit(EXP_MAX)), power, x * f64::INFINITY)
+}
+
+/// e^x − 1 for x from −708 to 709, accurate for small x too. Beyond, the bits have no meaning: no instruction checks
+/// the range.
+#[inline(always)]
+pub fn exp_m1_of_ordinary<R: Float>(x: R) -> R {
     let (k, r) = reduce(x);
     let power = r.lit(1.0).times_power_of_two(k);
     // 2^k (e^r − 1) + (2^k − 1)
@@ -136,9 +163,18 @@ const LN: [f64; 7] = [
     1.479_819_860_511_658_6e-1,
 ];
 
-/// Natural logarithm of a normal positive number. Finite (about 710) for NaN and infinity.
+/// Natural logarithm: −∞ for 0 and subnormal numbers, NaN for negative numbers and NaN.
 #[inline(always)]
 pub fn ln<R: Float>(x: R) -> R {
+    let none = R::select(x.lt(x.lit(0.0)), x.lit(f64::NAN), x.lit(f64::NEG_INFINITY));
+    let finite = R::select(x.lt(x.lit(f64::MIN_POSITIVE)), none, ln_of_normal(x));
+    // Infinity and NaN are their own logarithms.
+    R::select(x.lt(x.lit(f64::INFINITY)), finite, x)
+}
+
+/// Natural logarithm of a normal positive number. For other numbers the bits have no meaning: no instruction checks them.
+#[inline(always)]
+pub fn ln_of_normal<R: Float>(x: R) -> R {
     let (e, m) = x.exponent_and_mantissa();
     // m to [√½, √2), so that f = m − 1 is small and the two parts of the sum do not cancel.
     let large = m.lit(core::f64::consts::SQRT_2).lt(m);
@@ -155,13 +191,28 @@ pub fn ln<R: Float>(x: R) -> R {
     e.mul_add(e.lit(LN_2[0]), f - (half_square - small))
 }
 
-/// ln(1 + x) for x > −1 with 1 + x a normal number, accurate for small x too.
+/// ln(1 + x), accurate for small x too: −∞ for −1, NaN for smaller numbers and NaN.
 #[inline(always)]
 pub fn ln_1p<R: Float>(x: R) -> R {
+    let (sum, lost) = one_more(x);
+    ln(sum) + lost
+}
+
+/// ln(1 + x) for x > −1 with 1 + x a normal number, accurate for small x too. For other numbers the bits have no meaning:
+/// no instruction checks them.
+#[inline(always)]
+pub fn ln_1p_of_normal<R: Float>(x: R) -> R {
+    let (sum, lost) = one_more(x);
+    ln_of_normal(sum) + lost
+}
+
+/// The sum 1 + x, and what the logarithm of the rounded sum lacks.
+#[inline(always)]
+fn one_more<R: Float>(x: R) -> (R, R) {
     let sum = x + 1.0;
     // The rounding error of the sum. Far from 1 it does not change the logarithm.
     let lost = x - (sum - 1.0);
-    ln(sum) + R::select(sum.lt(sum.lit(2.0)), lost, lost.lit(0.0))
+    (sum, R::select(sum.lt(sum.lit(2.0)), lost, lost.lit(0.0)))
 }
 
 /// The nearest whole number, the even one of two, for |x| up to 2^51.

@@ -17,25 +17,25 @@ pub trait Real: Float {
         functions::sin_cos(self)
     }
 
-    /// e^x, for |x| up to 700.
+    /// e^x: infinite above 709.78, zero below −708.39 (where it would be subnormal), NaN for NaN.
     #[inline(always)]
     fn exp(self) -> Self {
         functions::exp(self)
     }
 
-    /// e^x − 1, for |x| up to 700, accurate for small x too.
+    /// e^x − 1, accurate for small x too: infinite above 709.78, NaN for NaN.
     #[inline(always)]
     fn exp_m1(self) -> Self {
         functions::exp_m1(self)
     }
 
-    /// Natural logarithm of a normal positive number.
+    /// Natural logarithm: −∞ for 0 and subnormal numbers, NaN for negative numbers and NaN.
     #[inline(always)]
     fn ln(self) -> Self {
         functions::ln(self)
     }
 
-    /// ln(1 + x) for x > −1, accurate for small x too.
+    /// ln(1 + x), accurate for small x too: −∞ for −1, NaN for smaller numbers and NaN.
     #[inline(always)]
     fn ln_1p(self) -> Self {
         functions::ln_1p(self)

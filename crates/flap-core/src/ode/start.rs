@@ -3,6 +3,7 @@
 use super::norm::error_squared;
 use super::{Ode, input, slope};
 use crate::num::Lanes;
+use crate::num::functions::{exp_of_ordinary, ln_of_normal};
 
 /// Right-hand sides evaluated by [`first_step`].
 pub const RHS_EVALS: u64 = 2;
@@ -47,7 +48,7 @@ pub fn first_step<O: Ode<N>, R: Lanes, const N: usize>(
 
     // h1 = (0.01 / max(slope, curvature))^(1/5)
     let largest = size_k.max(curvature).max(zero.lit(1e-15));
-    let h1 = ((largest.lit(0.01) / largest).ln() * 0.2).exp();
+    let h1 = exp_of_ordinary(ln_of_normal(largest.lit(0.01) / largest) * 0.2);
     (k1, (h0 * 100.0).min(h1).min(span))
 }
 

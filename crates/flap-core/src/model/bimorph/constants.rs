@@ -122,7 +122,7 @@ crate::per_lane! {
     }
 }
 
-/// Largest magnitude of an exponent that `exp` is asked for.
+/// Largest magnitude of an exponent in the equations: their exponential does not check its range.
 pub(super) const EXPONENT_MAX: f64 = 600.0;
 
 impl Constants<f64> {
