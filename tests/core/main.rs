@@ -30,6 +30,7 @@ mod loads;
 mod multipliers;
 mod orbits;
 mod outlines;
+mod own_model;
 mod parameters;
 mod progressive;
 mod resonance;

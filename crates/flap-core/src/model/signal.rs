@@ -16,8 +16,8 @@ pub struct Signal {
     pub measures: &'static [Measure],
     /// Measures that only derived columns use.
     pub needed: &'static [Measure],
-    /// The measure whose error stands for that of a row, if there is one: of stroke, pitch, lift and power.
-    pub principal: Option<Measure>,
+    /// The measure whose error counts for the error of a row, if there is one.
+    pub principal: Option<Principal>,
 }
 
 impl Signal {
@@ -31,9 +31,9 @@ impl Signal {
         Signal { name, unit, doc, measures, needed: &[], principal: None }
     }
 
-    /// The same signal, one of whose measures stands for the error of a row.
+    /// The same signal, with a measure whose error counts for the error of a row. A model has at least one.
     #[must_use]
-    pub const fn principal(self, measure: Measure) -> Signal {
+    pub const fn principal(self, measure: Principal) -> Signal {
         Signal { principal: Some(measure), ..self }
     }
 
@@ -53,7 +53,7 @@ impl Signal {
         let mut i = 0;
         while i < measures.len() {
             if let Some(principal) = self.principal
-                && principal as u8 == measures[i] as u8
+                && has(principal.needed(), measures[i])
             {
                 return true;
             }
@@ -100,6 +100,34 @@ const fn is_same(one: &str, other: &str) -> bool {
         i += 1;
     }
     i == one.len() && i == other.len()
+}
+
+/// A measure whose error counts for the error of a row: one that a second integration at coarser tolerances computes too.
+/// That integration leaves out extrema and positive parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Principal {
+    /// Mean.
+    Mean,
+    /// Amplitude of the first harmonic.
+    First,
+}
+
+impl Principal {
+    /// The measure.
+    pub const fn measure(self) -> Measure {
+        match self {
+            Principal::Mean => Measure::Mean,
+            Principal::First => Measure::First,
+        }
+    }
+
+    /// The measure, and those that give the size of its signal.
+    const fn needed(self) -> &'static [Measure] {
+        match self {
+            Principal::Mean => &[Measure::Mean, Measure::Rms],
+            Principal::First => &[Measure::First, Measure::Rms],
+        }
+    }
 }
 
 /// A measure of a signal over one drive period.
@@ -182,6 +210,12 @@ impl SignalCycle {
     /// The relative difference of another signal's mean from this one's.
     pub fn audit(&self, other: &SignalCycle) -> f64 {
         (other.mean - self.mean) / self.mean
+    }
+
+    /// The size of the signal: the largest magnitude of what is known of it.
+    pub fn size(&self) -> f64 {
+        let known = [self.mean, self.max, self.min, self.positive_mean, self.mean_square.sqrt()];
+        known.iter().fold(0.0, |size, value| value.abs().max(size))
     }
 
     /// The measure in SI units.

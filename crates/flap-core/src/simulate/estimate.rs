@@ -1,16 +1,20 @@
 //! The estimate of a row's error.
 //!
-//! An orbit is measured twice: on the orbit that the point's tolerances have, and on the one that tolerances coarser by a
-//! factor have. The second is found from the first by one period and the monodromy matrix. The error of the method
-//! goes about as its tolerance, so the difference of the two, divided by that factor, is about the error of the first.
+//! An orbit is measured twice: at the point's tolerances, and at tolerances coarser by a factor of 64. The orbit of the
+//! coarser tolerances follows from the other by one period and the monodromy matrix. The error of the method is about
+//! proportional to its tolerance, so about a sixty-fourth of the difference would be expected as the error. A single
+//! difference may be small by chance, so half of it counts.
 
 use crate::measure::cycle::Sums;
 use crate::model::{Model, SignalCycle};
 use crate::ode::{Ending, Outcome};
 
-/// The share of the difference between the two that counts as error: more than the factor between the tolerances, as
-/// single differences may be small by chance.
+/// The share of the difference between both orbits that counts as error.
 const SHARE: f64 = 0.5;
+
+/// The share of its signal's size below which a measure counts as nothing beside the signal: its error is then relative to
+/// this share of the size.
+const NOTHING: f64 = 1e-3;
 
 /// The least error that a row is said to have, in units of the relative tolerance: about that of finding extrema between
 /// the ends of steps.
@@ -47,8 +51,8 @@ impl<const S: usize> Compared<S> {
     }
 }
 
-/// The largest relative error of the model's principal measures: stroke, pitch, lift, power. Infinite if it cannot be
-/// estimated: the coarser integration failed, or the motion slides along the switching surface.
+/// The largest relative error of the model's principal measures, such as stroke, pitch, lift and power. Infinite if it
+/// cannot be estimated: the coarser integration failed, or the motion slides along the switching surface.
 pub(super) fn estimate<M: Model<N, S>, const N: usize, const S: usize>(
     fine: &[SignalCycle; S],
     coarse: Option<&[SignalCycle; S]>,
@@ -57,12 +61,12 @@ pub(super) fn estimate<M: Model<N, S>, const N: usize, const S: usize>(
     let Some(coarse) = coarse.filter(|_| !slides) else { return f64::INFINITY };
     let mut largest = 0.0_f64;
     for (i, signal) in M::SIGNALS.iter().enumerate() {
-        let Some(measure) = signal.principal else { continue };
-        let [value, other] = [fine, coarse].map(|cycle| cycle[i].measure(measure));
+        let Some(principal) = signal.principal else { continue };
+        let [value, other] = [fine, coarse].map(|cycle| cycle[i].measure(principal.measure()));
         let difference = (other - value).abs();
         // A prescribed stroke has no power, and a wing at rest nothing.
         if difference > 0.0 {
-            largest = largest.max(SHARE * difference / value.abs());
+            largest = largest.max(SHARE * difference / value.abs().max(NOTHING * fine[i].size()));
         }
     }
     largest

@@ -6,8 +6,14 @@ use super::search::Search;
 use super::settings::SolverSettings;
 use super::status::Status;
 use crate::measure::cycle::{Sums, finish};
-use crate::model::{Measure, Model, SignalCycle};
-use crate::ode::{Ending, Start};
+use crate::model::{Model, SignalCycle};
+use crate::ode::{Ending, Start, input, slope};
+
+/// The largest change per period of a motion that counts as rest, as a share of its largest state.
+const REST: f64 = 1e-11;
+
+/// Times at which a motion at rest has no rate, as shares of the drive period: no drive of few harmonics is zero at all.
+const REST_TIMES: [f64; 4] = [0.0, 0.137, 0.412, 0.789];
 
 /// The measures of a periodic cycle, one per column, and the mean load if `solver` asks for it.
 pub(super) fn measures<M: Model<N, S>, const N: usize, const S: usize>(
@@ -46,7 +52,9 @@ fn values<M: Model<N, S>, const N: usize, const S: usize>(
     for (signal, cycle) in M::SIGNALS.iter().zip(cycle) {
         values.extend(signal.measures.iter().map(|&measure| cycle.measure(measure) * signal.unit.factor));
     }
-    values.extend(M::DERIVED.iter().map(|derived| (derived.value)(model, c, cycle)));
+    // A derived column without a finite value, such as a ratio to zero, is empty.
+    let finite = |value: f64| if value.is_finite() { value } else { f64::NAN };
+    values.extend(M::DERIVED.iter().map(|derived| finite((derived.value)(model, c, cycle))));
     values
 }
 
@@ -89,11 +97,11 @@ pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
         row.error_estimate =
             estimate::<M, N, S>(&fine, coarse.as_ref(), periods.slides).max(LEAST * search.rtol());
         audit = M::ENERGY.map_or(0.0, |energy| energy.audit(&fine));
-        if is_at_rest::<M, N, S>(&fine) {
+        if search.state().is_some_and(|y| is_at_rest(model, start, y)) {
             row.floquet_max = f64::NAN;
         }
     }
-    // An infinite measure is a motion that has diverged as far as numbers go. NaN is a ratio of zeros.
+    // A signal with an infinite measure has diverged as far as numbers go.
     if row.measures.iter().any(|measure| measure.is_infinite()) {
         row.status = Status::Diverged;
         row.measures.clear();
@@ -106,11 +114,20 @@ pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
     (row, audit)
 }
 
-/// True if the wing does not move, but for rounding: the first harmonics of its angles are nothing beside the angles.
-fn is_at_rest<M: Model<N, S>, const N: usize, const S: usize>(cycle: &[SignalCycle; S]) -> bool {
-    let mut angles =
-        M::SIGNALS.iter().zip(cycle).filter(|(signal, _)| signal.principal == Some(Measure::First));
-    angles.all(|(_, angle)| angle.measure(Measure::First) <= 1e-12 * angle.measure(Measure::Peak))
+/// True if a motion from the state `y` does not move, but for rounding: at several times of the drive period, no state
+/// changes in a period by more than a tiny share of the largest state, in units of their typical sizes.
+fn is_at_rest<M: Model<N, S>, const N: usize, const S: usize>(
+    model: &M,
+    start: &Start<M::Constants<f64>, N>,
+    y: &[f64; N],
+) -> bool {
+    let largest = |of: &[f64; N]| (0..N).fold(0.0, |size: f64, i| size.max(of[i].abs() / start.scale[i]));
+    let limit = REST * largest(y);
+    REST_TIMES.iter().all(|share| {
+        let u = input(model, &start.constants, share * start.span);
+        let rate = slope(model, &start.constants, &u, 1.0, y);
+        largest(&rate) * start.span <= limit
+    })
 }
 
 /// A row with all that its point has cost.

@@ -22,7 +22,7 @@ use super::slope::Change;
 use super::trajectory::TrajectoryFrom;
 use crate::aero::Wing;
 use crate::drive::Samples;
-use crate::model::{self, Model};
+use crate::model::{self, Model, Signal};
 use crate::modes::Mode;
 use crate::num::InstructionSet;
 use crate::parameter::{Parameter, Preset};
@@ -30,13 +30,14 @@ use crate::parameter::{Parameter, Preset};
 /// A model behind the object-safe faces: all that a sweep needs of a model of one's own.
 ///
 /// The model has N states, K = N (N + 1) states and responses to their changes, and S signals. K cannot be computed from
-/// N in a type: it is written down, and [`Runner::new`] does not compile if it is another number.
+/// N in a type: it is written down, and [`Runner::new`] does not compile if it is another number. At least one signal has a
+/// [principal measure](crate::model::Principal), by which the error of a row is judged.
 ///
 /// A driven oscillator, with the drive at its resonance:
 ///
 /// ```
 /// use flap_core::drive::{DriveConstants, WaveformParameters};
-/// use flap_core::model::{Derived, Description, Instant, Measure, Model, Signal, Unit};
+/// use flap_core::model::{Derived, Description, Instant, Measure, Model, Principal, Signal, Unit};
 /// use flap_core::num::{InstructionSet, Lanes};
 /// use flap_core::ode::{Ode, Start};
 /// use flap_core::parameter::Kind::Number;
@@ -97,7 +98,8 @@ use crate::parameter::{Parameter, Preset};
 ///     };
 ///     const STATES: [&'static str; 2] = ["stroke_rad", "stroke_rate_rad_s"];
 ///     const SIGNALS: [Signal; 1] =
-///         [Signal::new("stroke", Unit::DEG, "stroke angle", &[Measure::Amplitude]).principal(Measure::Amplitude)];
+///         [Signal::new("stroke", Unit::DEG, "stroke angle", &[Measure::Amplitude, Measure::Mean])
+///             .principal(Principal::First)];
 ///     const DERIVED: &'static [Derived<Self, Constants<f64>, 1>] = &[];
 ///
 ///     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 2>, Invalid> {
@@ -136,6 +138,10 @@ use crate::parameter::{Parameter, Preset};
 /// // At resonance the amplitude is that of the torque over damping times angular frequency.
 /// let exact = (1e3 / (40.0 * std::f64::consts::TAU * 100.0_f64)).to_degrees();
 /// assert!((row.measures[0] / exact - 1.0).abs() < 1e-4);
+/// assert!(row.measures[1].abs() < 1e-4 * exact);
+/// // A free oscillation decays by this factor in a drive period.
+/// assert!((row.floquet_max - (-0.2_f64).exp()).abs() < 1e-4);
+/// assert!(row.error_estimate < 1e-4);
 /// ```
 pub struct Runner<M, const N: usize, const K: usize, const S: usize> {
     model: M,
@@ -144,7 +150,7 @@ pub struct Runner<M, const N: usize, const K: usize, const S: usize> {
 }
 
 impl<M: model::Motions<N, S>, const N: usize, const K: usize, const S: usize> Runner<M, N, K, S> {
-    /// The faces of a model that knows experiments too. Does not compile unless K is N (N + 1).
+    /// The faces of a model that knows experiments too. Compiles under the conditions of [`Runner::new`].
     pub const fn with_experiments(model: M) -> Self {
         const { Self::CHECKED }
         Runner { model, columns: OnceLock::new(), experiments: |runner| Some(runner) }
@@ -152,14 +158,33 @@ impl<M: model::Motions<N, S>, const N: usize, const K: usize, const S: usize> Ru
 }
 
 impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Runner<M, N, K, S> {
-    /// Compiles if K is right.
-    const CHECKED: () = assert!(K == N * (N + 1), "K counts states and responses: it is N (N + 1)");
+    /// Compiles if K is right, and if rows have a measure to judge their errors by.
+    const CHECKED: () = {
+        assert!(K == N * (N + 1), "K counts states and responses: it is N (N + 1)");
+        assert!(
+            has_principal(&M::SIGNALS),
+            "no signal has a principal measure: mark one with Signal::principal, such as the first harmonic of the stroke"
+        );
+    };
 
-    /// The faces of a model: rows and motions. Does not compile unless K is N (N + 1).
+    /// The faces of a model: rows and motions. Does not compile unless K is N (N + 1), and a signal has a
+    /// [principal measure](crate::model::Principal).
     pub const fn new(model: M) -> Self {
         const { Self::CHECKED }
         Runner { model, columns: OnceLock::new(), experiments: |_| None }
     }
+}
+
+/// True if one of the signals has a principal measure.
+const fn has_principal(signals: &[Signal]) -> bool {
+    let mut i = 0;
+    while i < signals.len() {
+        if signals[i].principal.is_some() {
+            return true;
+        }
+        i += 1;
+    }
+    false
 }
 
 impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Rows for Runner<M, N, K, S> {

@@ -1,7 +1,7 @@
 //! Signals of the motor-driven wing, and the columns computed from them.
 
 use flap_core::model::Measure::{Amplitude, First, Magnitude, Max, Mean, Peak, Rms};
-use flap_core::model::{Derived, EnergyBalance, Signal, Unit, position};
+use flap_core::model::{Derived, EnergyBalance, Principal, Signal, Unit, position};
 
 use super::{Constants, MotorWing};
 
@@ -14,9 +14,9 @@ const AIR: usize = position(&SIGNALS, "power_air");
 
 #[rustfmt::skip]
 pub(super) const SIGNALS: [Signal; S] = [
-    Signal::new("stroke", Unit::DEG, "flap angle", &[Amplitude, Max, First]).principal(First),
-    Signal::new("lift", Unit::MN, "lift of the wing", &[Mean, Max]).principal(Mean),
-    Signal::new("power", Unit::MW, "electrical power current x voltage", &[Mean, Magnitude]).principal(Mean),
+    Signal::new("stroke", Unit::DEG, "flap angle", &[Amplitude, Max, First]).principal(Principal::First),
+    Signal::new("lift", Unit::MN, "lift of the wing", &[Mean, Max]).principal(Principal::Mean),
+    Signal::new("power", Unit::MW, "electrical power current x voltage", &[Mean, Magnitude]).principal(Principal::Mean),
     Signal::new("power_air", Unit::MW, "power that the air takes", &[Mean]),
     Signal::new("power_resistive", Unit::MW, "heat in the motor's winding", &[Mean]),
     Signal::new("power_bearing", Unit::MW, "heat in the motor's bearing", &[Mean]),

@@ -5,7 +5,7 @@ use super::dynamics::Bimorph;
 use crate::model::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use crate::model::readings::{efficiency, grams_force, hinge_strain, lag_degrees};
 use crate::model::units::DEGREES;
-use crate::model::{Derived, EnergyBalance, Signal, SignalCycle, Unit, position};
+use crate::model::{Derived, EnergyBalance, Principal, Signal, SignalCycle, Unit, position};
 use crate::piezo::supplied;
 
 /// Number of signals.
@@ -27,11 +27,11 @@ const TRANSDUCED_POWER: usize = position(&SIGNALS, "power_transduced");
 
 #[rustfmt::skip]
 pub(super) const SIGNALS: [Signal; S] = [
-    Signal::new("stroke", Unit::DEG, "stroke angle", &[Amplitude, PeakToPeak, Mean, Max, Min, First]).principal(First),
-    Signal::new("pitch", Unit::DEG, "hinge angle of the wing", &[Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]).principal(First),
-    Signal::new("lift", Unit::MN, "lift of the wing", &[Mean, Max, Min]).principal(Mean),
+    Signal::new("stroke", Unit::DEG, "stroke angle", &[Amplitude, PeakToPeak, Mean, Max, Min, First]).principal(Principal::First),
+    Signal::new("pitch", Unit::DEG, "hinge angle of the wing", &[Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]).principal(Principal::First),
+    Signal::new("lift", Unit::MN, "lift of the wing", &[Mean, Max, Min]).principal(Principal::Mean),
     Signal::new("drag", Unit::MN, "drag of the wing along the stroke", &[Mean, Magnitude]),
-    Signal::new("power", Unit::MW, "electrical power of both plates, current x voltage; its mean is that of power_drag, power_stroke_damping and power_dielectric", &[Mean]).principal(Mean),
+    Signal::new("power", Unit::MW, "electrical power of both plates, current x voltage; its mean is that of power_drag, power_stroke_damping and power_dielectric", &[Mean]).principal(Principal::Mean),
     Signal::new("power_plate_1", Unit::MW, "electrical power of plate 1", &[Supply]),
     Signal::new("power_plate_2", Unit::MW, "electrical power of plate 2", &[Supply]),
     Signal::new("power_mechanical", Unit::MW, "power of the plates' forces at the actuator's tip; its mean is that of power_drag and power_stroke_damping", &[Mean]),

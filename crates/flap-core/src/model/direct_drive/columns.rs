@@ -4,7 +4,7 @@ use super::constants::Constants;
 use super::dynamics::DirectDrive;
 use crate::model::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use crate::model::readings::{SINE_PHASE, charging, efficiency, grams_force, hinge_strain, lag_degrees};
-use crate::model::{Derived, EnergyBalance, Signal, Unit, position};
+use crate::model::{Derived, EnergyBalance, Principal, Signal, Unit, position};
 use crate::piezo::supplied;
 
 /// Number of signals.
@@ -20,12 +20,12 @@ const TRANSDUCED_POWER: usize = position(&SIGNALS, "power_transduced");
 
 #[rustfmt::skip]
 pub(super) const SIGNALS: [Signal; S] = [
-    Signal::new("stroke", Unit::DEG, "stroke angle", &[Amplitude, PeakToPeak, Mean, Max, Min, First]).principal(First),
-    Signal::new("pitch", Unit::DEG, "pitch angle of the wing on its hinge", &[Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]).principal(First),
-    Signal::new("lift", Unit::MN, "lift of the wing, Eq. (35)", &[Mean, Max, Min]).principal(Mean),
+    Signal::new("stroke", Unit::DEG, "stroke angle", &[Amplitude, PeakToPeak, Mean, Max, Min, First]).principal(Principal::First),
+    Signal::new("pitch", Unit::DEG, "pitch angle of the wing on its hinge", &[Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]).principal(Principal::First),
+    Signal::new("lift", Unit::MN, "lift of the wing, Eq. (35)", &[Mean, Max, Min]).principal(Principal::Mean),
     Signal::new("lift_translational", Unit::MN, "lift without the part of the added mass, Eq. (21)", &[Mean]),
     Signal::new("drag", Unit::MN, "translational drag along the stroke, Eq. (21)", &[Magnitude]),
-    Signal::new("power", Unit::MW, "electrical power current x voltage, Eq. (40); its mean is that of what the air, damping and dielectric take", &[Mean]).principal(Mean).needs(&[Supply]),
+    Signal::new("power", Unit::MW, "electrical power current x voltage, Eq. (40); its mean is that of what the air, damping and dielectric take", &[Mean]).principal(Principal::Mean).needs(&[Supply]),
     Signal::new("power_translational", Unit::MW, "power taken by translational aerodynamics", &[Mean]),
     Signal::new("power_rotational", Unit::MW, "power taken by rotational drag, Eq. (32)", &[Mean]),
     Signal::new("power_stroke_damping", Unit::MW, "power taken by the damping of the stroke", &[Mean]),

@@ -4,7 +4,7 @@ use super::constants::Constants;
 use super::dynamics::FourBar;
 use crate::model::Measure::{Amplitude, First, Magnitude, Max, Mean, Min, Peak, PeakToPeak, Rms, Supply};
 use crate::model::readings::{SINE_PHASE, charging, efficiency, grams_force, hinge_strain, lag_degrees};
-use crate::model::{Derived, EnergyBalance, Signal, Unit, position};
+use crate::model::{Derived, EnergyBalance, Principal, Signal, Unit, position};
 use crate::piezo::supplied;
 
 /// Number of signals.
@@ -20,9 +20,9 @@ const DRIVING_POWER: usize = position(&SIGNALS, "power_driving");
 
 #[rustfmt::skip]
 pub(super) const SIGNALS: [Signal; S] = [
-    Signal::new("stroke", Unit::DEG, "stroke angle", &[Amplitude, PeakToPeak, Mean, Max, Min, First]).principal(First),
-    Signal::new("pitch", Unit::DEG, "pitch angle of the wing on its hinge", &[Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]).principal(First),
-    Signal::new("lift", Unit::MN, "lift of the wing, Eq. (4)", &[Mean, Max, Min]).principal(Mean),
+    Signal::new("stroke", Unit::DEG, "stroke angle", &[Amplitude, PeakToPeak, Mean, Max, Min, First]).principal(Principal::First),
+    Signal::new("pitch", Unit::DEG, "pitch angle of the wing on its hinge", &[Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]).principal(Principal::First),
+    Signal::new("lift", Unit::MN, "lift of the wing, Eq. (4)", &[Mean, Max, Min]).principal(Principal::Mean),
     Signal::new("lift_translational", Unit::MN, "lift of the wing's translation, Eq. (5)", &[Mean]),
     Signal::new("lift_rotational", Unit::MN, "lift of the wing's rotation, Eq. (6)", &[Mean]),
     Signal::new("lift_added_mass", Unit::MN, "lift of the added mass, Eq. (7)", &[Mean]),
@@ -32,7 +32,7 @@ pub(super) const SIGNALS: [Signal; S] = [
     Signal::new("power_hinge_damping", Unit::MW, "power taken by the damping of the hinge", &[Mean]),
     Signal::new("power_translational", Unit::MW, "power taken by translational aerodynamics", &[Mean]),
     Signal::new("power_rotational", Unit::MW, "power taken by rotational drag, Eqs. (6) and (18)", &[Mean]),
-    Signal::new("power", Unit::MW, "electrical power current x voltage (not in the paper); its mean is that of power_drive and power_dielectric", &[Mean]).principal(Mean).needs(&[Supply]),
+    Signal::new("power", Unit::MW, "electrical power current x voltage (not in the paper); its mean is that of power_drive and power_dielectric", &[Mean]).principal(Principal::Mean).needs(&[Supply]),
     Signal::new("power_dielectric", Unit::MW, "power taken by the dielectric loss", &[Mean]),
     Signal::new("current", Unit::MA, "current into the actuator (not in the paper)", &[Rms, Peak]),
     Signal::new("tip", Unit::UM, "displacement of the actuator's tip", &[PeakToPeak, Peak]),
