@@ -290,7 +290,7 @@ fn derivatives_towards_a_fold_are_right_or_not_given() {
     let fine = SolverSettings { settle_tol: 1e-9, ..solver }.with_rtol(1e-10);
     for (start, mut step) in [(135.0, -1.0), (120.0, 1.0)] {
         let (mut here, mut last) = (start, at(start, None, &solver).1);
-        let (mut given, mut folded, mut steepest) = (0, 0, 0.0_f64);
+        let (mut given, mut folded, mut steepest, mut most_periods) = (0, 0, 0.0_f64, [0, 0]);
         while f64::abs(step) > 1e-9 {
             let (values, row) = at(here + step, Some(last.state.clone()), &solver);
             let jumps =
@@ -306,7 +306,10 @@ fn derivatives_towards_a_fold_are_right_or_not_given() {
             let size = CHANGE * here;
             let change = Change { ahead: change(size), behind: change(-size), size };
             let run = PointRun::new(InstructionSet::best(), &solver, &values);
-            let found = model.motions().unwrap().gradient(&run, &row.state, &[change]).unwrap();
+            let gradient =
+                |changes: &[Change]| model.motions().unwrap().gradient(&run, &row.state, changes).unwrap();
+            let found = gradient(slice::from_ref(&change));
+            let more_evals = gradient(&[change.clone(), change]).rhs_evals - found.rhs_evals;
             match found.slopes[0][stroke] {
                 Ok(slope) => {
                     let side = |share: f64| {
@@ -324,10 +327,14 @@ fn derivatives_towards_a_fold_are_right_or_not_given() {
                     assert!((slope / exact - 1.0).abs() < 0.05, "{here} Hz: {slope} {exact} deg/Hz");
                     given += 1;
                     steepest = steepest.max(slope.abs());
+                    // Another derivative takes three more periods.
+                    most_periods[0] = most_periods[0].max(3 * found.rhs_evals / more_evals);
                 }
                 Err(reason) => {
                     assert_eq!(reason, NoSlope::Fold);
                     folded += 1;
+                    // The one period that shows the fold.
+                    most_periods[1] = most_periods[1].max(found.rhs_evals / more_evals);
                 }
             }
             last = row;
@@ -336,5 +343,7 @@ fn derivatives_towards_a_fold_are_right_or_not_given() {
             "from {start} Hz: {given} given, up to {steepest:.0} deg/Hz, {folded} too near to the fold at {here} Hz"
         );
         assert!(given > 8 && folded > 3 && steepest > 30.0, "{given} {folded} {steepest}");
+        // The record and nine periods, and five more beside the fold; without derivatives three less.
+        assert!(most_periods[0] >= 14 && most_periods[1] >= 11, "{most_periods:?}");
     }
 }

@@ -28,7 +28,8 @@ impl<C, const N: usize> Start<C, N> {
 pub struct Tolerances {
     /// Relative tolerance.
     pub rtol: f64,
-    /// Absolute tolerance, in units of [`Start::scale`].
+    /// Absolute tolerance, in units of [`Start::scale`]. It is more than zero: without it a state of exactly zero has a
+    /// tolerance of zero, and the run ends as [`Ending::Diverged`](super::Ending::Diverged).
     pub atol: f64,
     /// Attempted steps within one span after which a run is given up.
     pub max_steps: u32,

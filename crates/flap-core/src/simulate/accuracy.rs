@@ -31,6 +31,7 @@ pub(super) fn judge<M: Model<N, S>, const N: usize, const S: usize>(
     if row.status != Status::Periodic {
         return Verdict::Done(last.map_or(row, |last| orbit_row::charged(last, search)));
     }
+    // An audit that is not a number compares nothing: the power is zero or not known. `f64::max` leaves it out.
     let again = if periods.slides {
         None
     } else {

@@ -163,18 +163,23 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Kernel for Orbit<'_, M, N, 
         let Orbit { model, legs, .. } = self;
         let starts = self.for_responses();
         let ends = replay(simd, model, &Unobserved, legs, &starts);
-        let Some(response) = self.response(&ends) else { return self.without(NoSlope::Fold) };
+        let mut periods = starts.len();
+        let fold = |periods| Gradient { rhs_evals: self.rhs_evals(periods), ..self.without(NoSlope::Fold) };
+        let Some(response) = self.response(&ends) else { return fold(periods) };
         if response.amax() > LARGE_RESPONSE {
-            let ends = replay(simd, model, &Unobserved, legs, &self.in_doubt(&response, &ends[0]));
+            let doubted = self.in_doubt(&response, &ends[0]);
+            periods += doubted.len();
+            let ends = replay(simd, model, &Unobserved, legs, &doubted);
             if self.response(&ends).is_none_or(|other| (other - response).amax() > DOUBT * response.amax()) {
-                return self.without(NoSlope::Fold);
+                return fold(periods);
             }
         }
         let moves = self.moves(&response, &ends);
         let measured = self.along(&moves);
         let signals = Quarters(Signals::all(model).with_loads(self.solver.loads));
         let cycles = replay(simd, model, &signals, legs, &measured);
-        self.gradient(&measured, &cycles)
+        let slopes = self.slopes(&measured, &cycles);
+        Gradient { slopes, rhs_evals: self.rhs_evals(periods + measured.len()) }
     }
 }
 
@@ -263,11 +268,11 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
     }
 
     /// The differences of the measures.
-    fn gradient(
+    fn slopes(
         &self,
         starts: &[Start<M::Constants<f64>, N>],
         cycles: &[Repeated<InQuarters<f64, S>, N>],
-    ) -> Gradient {
+    ) -> Vec<Vec<Result<f64, NoSlope>>> {
         let totals: Vec<InQuarters<f64, S>> = cycles.iter().map(|cycle| cycle.totals).collect();
         let sums: Vec<Sums<f64, S>> = totals.iter().map(|(sums, _)| *sums).collect();
         let measured = self.measured(starts, &sums);
@@ -305,10 +310,13 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
             };
             columns.map(slope).collect()
         });
-        let slopes = slopes.collect();
-        let evaluated = (N + 1 + self.changes.len()) + (1 + 2 * self.changes.len());
+        slopes.collect()
+    }
+
+    /// Right-hand sides of so many periods on the recorded steps.
+    fn rhs_evals(&self, periods: usize) -> u64 {
         let steps = self.legs.len() + 2 * self.legs.iter().filter(|leg| leg.lands).count();
-        Gradient { slopes, rhs_evals: (6 * steps * evaluated) as u64 }
+        (6 * steps * periods) as u64
     }
 
     /// The measures of the orbits that begin at `starts`.
@@ -337,9 +345,7 @@ fn sizes<M: Model<N, S>, const N: usize, const S: usize>(
 ) -> Vec<f64> {
     let mut sizes = Vec::with_capacity(measured.len());
     for (signal, cycle) in M::SIGNALS.iter().zip(finish(&M::SIGNALS, totals, period)) {
-        let known = [cycle.mean, cycle.max, cycle.min, cycle.positive_mean, cycle.mean_square.sqrt()];
-        let size = known.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
-        sizes.extend(signal.measures.iter().map(|_| size * signal.unit.factor.abs()));
+        sizes.extend(signal.measures.iter().map(|_| cycle.size() * signal.unit.factor.abs()));
     }
     sizes.extend(measured[sizes.len()..].iter().map(|value| value.abs()));
     if solver.loads {

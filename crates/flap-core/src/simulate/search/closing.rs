@@ -55,7 +55,7 @@ impl<const N: usize> Search<N> {
             Step::Again(y) => Next::March(y),
             Step::Found(point) => self.take(point, Some(chord).filter(|chord| !chord.is_disproved())),
             Step::Stuck(residual) if residual <= self.tolerance => {
-                self.measure(FixedPoint { residual, ..chord.point() }, None)
+                self.take(FixedPoint { residual, ..chord.point() }, None)
             }
             Step::Stuck(residual) if residual <= JUMPS * self.tolerance && !self.precision.is_finest() => {
                 self.precision.tighten(FINER);
