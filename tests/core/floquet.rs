@@ -3,12 +3,15 @@
 use flap_core::model::Model;
 use flap_core::model::bimorph::Bimorph;
 use flap_core::model::direct_drive::{self, DirectDrive};
+use flap_core::num::InstructionSet;
 use flap_core::ode::variation::{Variation, initial, response};
 use flap_core::ode::{Start, Tolerances};
+use flap_core::parameter::Parameter;
+use flap_core::simulate::{Row, SolverSettings, all, preset};
 use nalgebra::Matrix4;
 
 use crate::data::{Record, assert_close, table};
-use crate::span;
+use crate::{rows, span};
 
 const TOLERANCES: Tolerances = Tolerances { rtol: 1e-8, atol: 1e-10, max_steps: 20_000 };
 
@@ -73,5 +76,57 @@ fn multipliers_of_bimorph_orbits_equal_the_reference() {
         let p = crate::bimorph::driven(&crate::bimorph::params(record.text("set")), &record);
         let states = ["x0_m", "v0_m_per_s", "psi0_rad", "psidot0_rad_per_s"];
         check(&Bimorph::default(), &p.to_values(), &record, states, "floquet_abs_max");
+    }
+}
+
+/// Rows of a preset from 0.3 to 1.1 of its voltage and from 0.5 to 1.7 of its frequency.
+fn rows_around(name: &str, solver: &SolverSettings) -> Vec<Row> {
+    let (model, preset) = preset(name).unwrap();
+    let index = |name| Parameter::index(model.parameters(), name).unwrap();
+    let (voltage, frequency) = (index("drive_voltage_pp"), index("drive_frequency"));
+    let mut designs = Vec::new();
+    for i in 0..9 {
+        for j in 0..29 {
+            let mut values = (preset.values)();
+            values[voltage] *= 0.3 + 0.1 * f64::from(i);
+            values[frequency] *= 0.5 + 1.2 * f64::from(j) / 28.0;
+            designs.push(values);
+        }
+    }
+    rows::of(model, &designs, InstructionSet::best(), solver)
+}
+
+/// The error of `floquet_max` with the default search: the largest that the documentation states.
+#[test]
+fn multipliers_of_rows_are_as_accurate_as_documented() {
+    let solver = |rtol: f64| SolverSettings { settle_tol: rtol, ..SolverSettings::DEFAULT }.with_rtol(rtol);
+    let exact = SolverSettings { progressive: false, max_steps: 200_000, ..solver(1e-10) };
+    let presets = all().iter().flat_map(|model| model.presets()).map(|preset| preset.name);
+    for name in presets.filter(|name| !name.ends_with("kw-swapped")) {
+        let truth = rows_around(name, &exact);
+        for (rtol, limit) in [(1e-6, 5e-3), (1e-8, 1e-3)] {
+            let found = rows_around(name, &solver(rtol));
+            // Between folds, tolerances may decide between two orbits.
+            let same = |one: &Row, other: &Row| {
+                one.period == 1
+                    && other.period == 1
+                    && (one.measures[0] / other.measures[0] - 1.0).abs() < 1e-3
+            };
+            let both = found.iter().zip(&truth).filter(|(found, truth)| same(found, truth));
+            let mut errors: Vec<f64> =
+                both.map(|(found, truth)| (found.floquet_max - truth.floquet_max).abs()).collect();
+            errors.sort_by(f64::total_cmp);
+            assert!(errors.len() > 250, "{name}: {} rows are compared", errors.len());
+            let share = |share: f64| errors[(share * (errors.len() - 1) as f64) as usize];
+            println!(
+                "{name}, rtol {rtol:e}: floquet_max of {} rows errs by {:.1e} (median), {:.1e} (99 %), {:.1e} (all)",
+                errors.len(),
+                share(0.5),
+                share(0.99),
+                share(1.0)
+            );
+            assert!(share(1.0) < limit, "{name} at {rtol:e}: {:e}", share(1.0));
+            assert!(share(0.5) < 0.04 * limit, "{name} at {rtol:e}: {:e}", share(0.5));
+        }
     }
 }

@@ -12,6 +12,10 @@ const DRAWN: usize = 2000;
 /// Drive periods that designs are marched at most.
 const PATIENCE: u32 = 400;
 
+/// Random designs of all models that docs/numerics.md counts: possible, settled by search and march, by the search alone, and
+/// by marching alone.
+const DOCUMENTED: [usize; 4] = [0, 0, 0, 0];
+
 fn progressive() -> SolverSettings {
     SolverSettings { max_cycles: PATIENCE, ..SolverSettings::default() }
 }
@@ -33,14 +37,27 @@ fn agree(model: &dyn Simulator, one: &Row, other: &Row) -> bool {
     one.status == other.status && angles.all(|(_, (a, b))| (a - b).abs() <= 1e-2 * a.abs())
 }
 
+/// Numbers of designs.
+struct Counts {
+    possible: usize,
+    /// That settle on the same motion by the search and by marching alone.
+    by_both: usize,
+    by_search_alone: usize,
+    by_marching_alone: usize,
+}
+
 /// Compares the rows of `designs` with those at full tolerance and with those of marching alone, and prints the counts.
-fn compare(model: &dyn Simulator, what: &str, designs: &[Vec<f64>]) {
+fn compare(model: &dyn Simulator, what: &str, designs: &[Vec<f64>]) -> Counts {
     let [found, full, marched] = [progressive(), full(), marching()]
         .map(|solver| rows::of(model, designs, InstructionSet::best(), &solver));
     let settled = |row: &Row| matches!(row.status, Status::Periodic | Status::Subharmonic);
     let (mut compared, mut other, mut other_march, mut evals) = (0, 0, 0, [0, 0]);
+    let [mut possible, mut by_search_alone, mut by_marching_alone] = [0; 3];
     for ((found, full), marched) in found.iter().zip(&full).zip(&marched) {
         other += usize::from(!agree(model, found, full));
+        possible += usize::from(found.status != Status::Invalid);
+        by_search_alone += usize::from(settled(found) && !settled(marched));
+        by_marching_alone += usize::from(!settled(found) && settled(marched));
         // Either may leave a motion unsettled that the other settles.
         if settled(found) && settled(marched) {
             compared += 1;
@@ -51,20 +68,32 @@ fn compare(model: &dyn Simulator, what: &str, designs: &[Vec<f64>]) {
         }
     }
     println!(
-        "{what}: {} designs, {other} with another motion than at full tolerance; {compared} settle by marching alone too, \
-         {other_march} on another motion; {:.3} of the right-hand sides of those that settle",
+        "{what}: {} designs, {possible} possible, {other} with another motion than at full tolerance; {compared} settle by \
+         marching too, {other_march} on another motion; {by_search_alone} settle by the search alone, {by_marching_alone} by \
+         marching alone; {:.3} of the right-hand sides of those that settle",
         designs.len(),
         evals[0] as f64 / evals[1] as f64
     );
     assert_eq!((other, other_march), (0, 0), "{what}");
     assert!(compared > designs.len() / 3, "{what}");
     assert!(evals[0] < evals[1], "{what}");
+    Counts { possible, by_both: compared, by_search_alone, by_marching_alone }
 }
 
 #[test]
 fn random_designs_settle_on_the_orbits_of_full_tolerance() {
+    let mut sum = [0; 4];
     for &model in all() {
-        compare(model, model.name(), &robustness::designs(model, DRAWN));
+        let counts = compare(model, model.name(), &robustness::designs(model, DRAWN));
+        let Counts { possible, by_both, by_search_alone, by_marching_alone } = counts;
+        for (sum, count) in sum.iter_mut().zip([possible, by_both, by_search_alone, by_marching_alone]) {
+            *sum += count;
+        }
+    }
+    println!("of all: {sum:?}");
+    // The numbers of docs/numerics.md, but for designs at the edge of settling in the periods of a march.
+    for (count, documented) in sum.into_iter().zip(DOCUMENTED) {
+        assert!(count.abs_diff(documented) <= 10, "{sum:?} is not {DOCUMENTED:?}");
     }
 }
 
@@ -84,7 +113,7 @@ fn a_bistable_bimorph_settles_on_the_orbits_of_full_tolerance() {
             designs.push(p.to_values());
         }
     }
-    compare(by_name("bimorph").unwrap(), "bistable bimorph", &designs);
+    let _ = compare(by_name("bimorph").unwrap(), "bistable bimorph", &designs);
 }
 
 #[test]

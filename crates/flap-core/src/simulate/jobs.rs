@@ -46,13 +46,13 @@ pub trait Jobs {
     }
 }
 
-/// Use of the lanes of the three kinds of ensembles.
+/// Use of the lanes of the three ensembles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LaneUse {
-    /// Marching towards an orbit.
+    /// Periods of the states alone: marching, chord steps, and the period from an orbit to the orbit of coarser tolerances.
     pub marching: Occupancy,
     /// Periods with responses to changes, for Newton's iteration.
     pub varying: Occupancy,
-    /// Periods that are measured.
+    /// Periods that are measured: of the orbit, and of the orbit of coarser tolerances.
     pub measuring: Occupancy,
 }

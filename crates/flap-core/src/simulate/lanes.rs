@@ -1,9 +1,11 @@
 //! Points in SIMD lanes: march each until it is near its orbit, go there by Newton's iteration, measure one cycle.
 //!
-//! Four ensembles share the work. The first marches, and nothing else, which is cheapest per step; runs that have come
-//! near an orbit wait in a buffer, and whenever that is full the second ensemble integrates their periods with responses
-//! to changes, the third a period of each orbit with coarser tolerances, and the fourth measures both orbits. A run whose
-//! iteration fails marches on; a run whose row is not accurate enough waits in the buffer again.
+//! Three ensembles share the work. The first integrates the states alone, which is cheapest per step: it marches, makes
+//! chord steps, and integrates the period at coarser tolerances that leads from an orbit to the coarse orbit. Runs that have
+//! come near an orbit wait in a buffer. Whenever that is full, the second ensemble integrates their periods with responses
+//! to changes. Runs whose orbit is known wait in another buffer, from which the third ensemble measures the orbits, and then
+//! the coarse orbits. A run whose iteration fails marches on. A run whose row is not accurate enough waits in the first buffer
+//! again.
 
 use core::ops::ControlFlow;
 
