@@ -55,7 +55,7 @@ fn seeds_are_good() {
     }
     for input in corpus("sidecar") {
         let text = String::from_utf8(input).expect("text");
-        let parsed = flap_sweep::files::sidecar::Sidecar::parse(&text);
+        let parsed = flap_sweep::files::sidecar::Sidecar::parse(text.as_bytes());
         assert!(parsed.is_ok(), "{text}: {:?}", parsed.err());
     }
     for input in corpus("journal") {

@@ -109,12 +109,11 @@ pub(crate) fn journal(bytes: &[u8]) {
     }
 }
 
-/// Any text is a sidecar that can be written again, or an error. Its plan has only points of its grid.
+/// Any bytes are a sidecar that can be written again, or an error. Its plan has only points of its grid.
 pub(crate) fn sidecar(bytes: &[u8]) {
-    let Ok(text) = str::from_utf8(bytes) else { return };
-    let Ok(sidecar) = Sidecar::parse(text) else { return };
+    let Ok(sidecar) = Sidecar::parse(bytes) else { return };
     if let Ok(again) = sidecar.text() {
-        assert!(Sidecar::parse(&again).is_ok(), "{again}");
+        assert!(Sidecar::parse(again.as_bytes()).is_ok(), "{again}");
     }
     if let Ok(plan) = sidecar.plan(all())
         && plan.selected() > 0

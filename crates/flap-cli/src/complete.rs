@@ -13,7 +13,7 @@ use clap_complete::engine::{
 };
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{Simulator, SolverSettings, Status};
-use flap_sweep::files::integrity::{self, OnDamage};
+use flap_sweep::files::integrity;
 use flap_sweep::grid;
 use flap_sweep::resonance;
 use flap_sweep::table::layout::fixed_columns;
@@ -165,10 +165,9 @@ fn model_of_grid(word: &str) -> Option<&'static dyn Simulator> {
     is_grid.then(|| grid::read(path, models::all()).ok().map(|plan| plan.simulator())).flatten()
 }
 
-/// The columns of results, if the word names some.
+/// The columns of results, if the word names some. A shell waits for them, so only the header is read.
 fn columns_of(word: &str) -> Option<Vec<String>> {
     let path = Path::new(word);
     let is_results = path.is_file() && path.extension().is_none_or(|ending| ending != "toml");
-    let opened = is_results.then(|| integrity::open(path, OnDamage::Tolerate).ok()).flatten()?;
-    Some(opened.reader.names().to_vec())
+    is_results.then(|| integrity::names(path).ok()).flatten()
 }

@@ -95,11 +95,16 @@ impl Failure {
             JobError::Format(error) => error.into(),
             JobError::Create(error) => error.into(),
             JobError::Exists { ref changed, .. } => {
-                let failure = Failure::usage(error.to_string());
-                let failure = changed.iter().fold(failure, |failure, line| failure.help(line.clone()));
-                failure.help("--force replaces it, --out FILE writes to another file")
+                edited(Failure::usage(error.to_string()), changed.as_ref())
+                    .help("--out FILE writes to another file, --force replaces it")
             }
-            JobError::Resume { error, changed } => changed.into_iter().fold(error.into(), Failure::help),
+            JobError::Unfinished { ref changed, .. } => {
+                unfinished(Failure::usage(error.to_string()), out, changed.as_ref())
+            }
+            JobError::Resume { error: error @ ResumeError::Changed { .. }, changed } => {
+                unfinished(Failure::usage(error.to_string()), out, changed.as_ref())
+            }
+            JobError::Resume { error, .. } => error.into(),
             JobError::Open(OpenError::Damaged { .. }) => {
                 Failure::damaged(error.to_string()).help("`flap sweep --force` computes the rows again")
             }
@@ -157,6 +162,21 @@ impl Failure {
             Failure::ClosedPipe => Exit::Done,
         }
     }
+}
+
+/// Adds the first line of the grid that was edited, if one was.
+fn edited(failure: Failure, changed: Option<&String>) -> Failure {
+    let Some(line) = changed else { return failure };
+    failure
+        .help(line.clone())
+        .help("an edited grid is another sweep: give its rows another file with --out FILE")
+}
+
+/// Adds the ways on from unfinished results at `out`; the one that loses rows comes last.
+fn unfinished(failure: Failure, out: &Path, changed: Option<&String>) -> Failure {
+    let grid = if changed.is_some() { " with the grid that began it" } else { "" };
+    edited(failure.help(format!("`flap resume {}` continues it{grid}", out.display())), changed)
+        .help("--force drops its rows and starts over")
 }
 
 /// The help line that names the earlier results, which are kept until the new ones are complete.
@@ -234,7 +254,15 @@ impl From<OpenError> for Failure {
             OpenError::Format(error) => error.into(),
             OpenError::Sidecar(error) => error.into(),
             OpenError::Read { .. } => Failure::System(error.to_string(), Vec::new()),
-            OpenError::Damaged { .. } => Failure::damaged(error.to_string()).help(IGNORE_HELP),
+            OpenError::Damaged { ref path, ref damage } => {
+                let failure = Failure::damaged(error.to_string());
+                let failure = if damage.lost > 0 {
+                    failure.help(format!("`flap resume {}` computes the rows again", path.display()))
+                } else {
+                    failure
+                };
+                failure.help(IGNORE_HELP)
+            }
         }
     }
 }
@@ -263,6 +291,8 @@ impl From<MergeError> for Failure {
         let message = error.to_string();
         match error {
             MergeError::Parts(_) => Failure::usage(message),
+            MergeError::Builds(_) => Failure::usage(message)
+                .help("sweep the shards again with one build, or merge them as they are with --mixed-builds"),
             MergeError::Write(source) if source.kind() == io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
             MergeError::Read { .. } | MergeError::Write(_) => Failure::System(message, Vec::new()),
         }

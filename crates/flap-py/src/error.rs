@@ -78,8 +78,15 @@ pub(crate) fn job(error: &JobError) -> PyErr {
         JobError::Create(error) => create(error),
         JobError::Exists { changed, .. } => {
             let changed = changed.as_ref().map_or_else(String::new, |changed| format!("; {changed}"));
-            let remedy = "overwrite=True replaces it, or name another file";
+            let remedy = "name another file, or replace it with overwrite=True";
             PyFileExistsError::new_err(format!("{error}{changed}: {remedy}"))
+        }
+        JobError::Unfinished { changed, .. } => {
+            let remedy = match changed {
+                Some(changed) => format!("; {changed}: name another file for the rows of the edited grid"),
+                None => ": resume=True continues it".to_owned(),
+            };
+            PyFileExistsError::new_err(format!("{error}{remedy}, overwrite=True replaces it"))
         }
         JobError::Resume { error, changed } => resume(error, changed.as_deref()),
         JobError::Open(OpenError::Read { path, source }) => {

@@ -1,5 +1,6 @@
 //! Labels of columns, for pictures.
 
+use flap_core::simulate;
 use flap_sweep::table::labels::{self, Direction, Label, Scale};
 use flap_sweep::table::layout;
 use pyo3::prelude::*;
@@ -32,7 +33,7 @@ pub(crate) fn scale(unit: &str, largest: f64) -> (f64, String) {
 #[pyfunction]
 #[pyo3(signature = (name, /))]
 pub(crate) fn unit_of(name: &str) -> &'static str {
-    labels::unit_of(name)
+    labels::unit_of(name, simulate::all())
 }
 
 /// A column's name without the unit that it ends in, and that unit; empty if there is none.
@@ -46,7 +47,7 @@ pub(crate) fn split_unit(name: &str) -> (&str, &'static str) {
 #[pyfunction]
 #[pyo3(signature = (name, /))]
 pub(crate) fn better(name: &str) -> i8 {
-    match labels::of(name).better {
+    match labels::better(name) {
         Some(Direction::Larger) => 1,
         Some(Direction::Smaller) => -1,
         None => 0,

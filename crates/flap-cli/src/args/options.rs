@@ -93,7 +93,7 @@ pub(crate) enum Aim {
 impl Aim {
     /// The better direction of the column called `name`: that of its label, else larger values.
     pub(crate) fn of(name: &str) -> Aim {
-        if labels::of(name).better == Some(Direction::Smaller) { Aim::Min } else { Aim::Max }
+        if labels::better(name) == Some(Direction::Smaller) { Aim::Min } else { Aim::Max }
     }
 }
 

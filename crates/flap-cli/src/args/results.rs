@@ -105,6 +105,10 @@ pub(crate) struct MergeArgs {
     #[arg(value_name = "SHARD", required = true)]
     pub(crate) shards: Vec<PathBuf>,
 
+    /// Merge shards that several builds of flap computed. The sidecar of OUT names all of them
+    #[arg(long)]
+    pub(crate) mixed_builds: bool,
+
     #[command(flatten)]
     pub(crate) read: ReadArgs,
 
@@ -114,7 +118,8 @@ pub(crate) struct MergeArgs {
 
 const MERGE_HELP: &str = "\
 OUT has the same bytes as a sweep on one machine. Refuses if a shard is missing, unfinished, damaged, given twice or part of \
-another sweep.
+another sweep. Merging runs no model: shards of another build of flap keep its name in OUT.meta.toml. Shards of several \
+builds need --mixed-builds, since their rows may differ.
 
 Examples:
   flap sweep grid.toml --shard 1/2

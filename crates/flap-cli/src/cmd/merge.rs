@@ -5,11 +5,10 @@ use std::path::Path;
 use flap_sweep::files::beside::sidecar_of;
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::integrity::{Note, OnDamage};
-use flap_sweep::files::merge::{self, MergeError, Part};
+use flap_sweep::files::merge::{self, MergeError, OnBuilds, Part};
 use flap_sweep::files::results::{Format, Reader};
-use flap_sweep::files::sidecar::{End, Sidecar, Start};
 use flap_sweep::notation::text::count;
-use flap_sweep::run::RunOptions;
+use flap_sweep::run::identity;
 
 use crate::args::MergeArgs;
 use crate::cmd::outputs::is_stdout;
@@ -27,11 +26,15 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     inputs.protect_from_results(&args.out)?;
     let on_damage = args.read.on_damage();
     let parts = args.shards.iter().map(|path| part(path, on_damage)).collect::<Result<Vec<_>, _>>()?;
-    merge::check(&parts)?;
-    let Some(Part { path, sidecar: first }) = parts.first() else {
+    merge::check(&parts, if args.mixed_builds { OnBuilds::Mix } else { OnBuilds::Refuse })?;
+    let (Some(first), Some(mut whole)) = (parts.first(), merge::sidecar(&parts)) else {
         return Err(Failure::usage("name the shards to be merged"));
     };
-    let plan = job::plan_of(&sidecar_of(path), first)?.with_all_points();
+    let plan = job::plan_of(&sidecar_of(&first.path), &first.sidecar)?.with_all_points();
+    if whole.build != identity::build() {
+        let build = identity::build_text(&whole.build);
+        console::say(&format!("the rows are by {build} of flap {}, as their sidecar says", whole.flap));
+    }
 
     Inputs::new().add_plan(&plan).protect_from_results(&args.out)?;
     let mut readers = Vec::with_capacity(parts.len());
@@ -42,29 +45,20 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
         readers.push(opened.reader);
     }
     if to_stdout {
-        merge::merge(&parts, &mut readers, &plan, (job::stdout()?, format))?;
+        merge::merge(&parts, &mut readers, &plan, &whole, (job::stdout()?, format))?;
         tell_missed(&parts, &readers);
         return Ok(Exit::Done);
     }
 
-    let sidecars = || parts.iter().map(|part| &part.sidecar);
-    let started = sidecars().map(|sidecar| sidecar.started.clone()).min().unwrap_or_default();
-    let mut whole = Sidecar::new(&plan, Start { started, options: RunOptions::default(), rerun: None });
-    whole.threads = sidecars().map(|sidecar| sidecar.threads).sum();
-    whole.arithmetic.clone_from(&first.arithmetic);
-    whole.instructions.clone_from(&first.instructions);
-    let summary = merge::summary(&parts, &plan);
-    let finished = sidecars().filter_map(|sidecar| sidecar.finished.clone()).max().unwrap_or_default();
-    whole.finish(&summary, End { finished, seconds: sidecars().filter_map(|sidecar| sidecar.seconds).sum() });
     job::make(&args.out, args.overwrite.force, |target| {
-        let checksums = merge::merge(&parts, &mut readers, &plan, (target, format))?;
+        let checksums = merge::merge(&parts, &mut readers, &plan, &whole, (target, format))?;
         // Rows that were damaged before are not to be called sound.
         whole.checksums = Some(checksums).filter(|_| !is_damaged);
         // Earlier results keep their own until the new rows are complete.
         Ok::<(), MergeError>(whole.write(&sidecar_of(&args.out))?)
     })??;
     tell_missed(&parts, &readers);
-    let (rows, shards) = (count(summary.rows, "row"), count(parts.len() as u64, "shard"));
+    let (rows, shards) = (count(whole.rows.unwrap_or_default(), "row"), count(parts.len() as u64, "shard"));
     console::say(&format!("{rows} of {shards} in {}", args.out.display()));
     Ok(Exit::Done)
 }

@@ -16,7 +16,7 @@ use flap_sweep::table::layout::Layout;
 use super::columns::{self, Cells, Column, NO_WORD, Table};
 use crate::args::ReadArgs;
 use crate::failure::Failure;
-use crate::{console, job};
+use crate::{console, job, models};
 
 /// Most rows that are read: their numbers are held in memory.
 const MOST_ROWS: usize = 20_000_000;
@@ -35,7 +35,9 @@ impl Source {
     /// Opens the results and reads their header. With `tells`, notes and warnings about them go to stderr.
     pub(crate) fn open(path: &Path, read: &ReadArgs, tells: bool) -> Result<Source, Failure> {
         Failure::not_results(path).map_or(Ok(()), Err)?;
-        let Opened { reader, sidecar, notes } = integrity::open(path, read.on_damage())?;
+        let opened = integrity::open(path, read.on_damage())?;
+        job::require_checkpoint(path, &opened)?;
+        let Opened { reader, sidecar, notes } = opened;
         if tells {
             // Only results of sweeps have sidecars: motions and responses are drawn too.
             let is_sweep =
@@ -221,7 +223,7 @@ impl Units {
     }
 
     fn of_column(&self, name: &str) -> String {
-        self.0.get(name).cloned().unwrap_or_else(|| labels::unit_of(name).to_owned())
+        self.0.get(name).cloned().unwrap_or_else(|| labels::unit_of(name, models::all()).to_owned())
     }
 }
 

@@ -66,7 +66,20 @@ pub(crate) fn open(results: &Path, read: &ReadArgs) -> Result<Opened, Failure> {
     for note in &opened.notes {
         tell(note);
     }
+    require_checkpoint(results, &opened)?;
     Ok(opened)
+}
+
+/// Requires that unfinished results have a header, which they get with their first checkpoint.
+pub(crate) fn require_checkpoint(results: &Path, opened: &Opened) -> Result<(), Failure> {
+    let is_unfinished = opened.notes.iter().any(|note| matches!(note, Note::Unfinished { .. }));
+    if !is_unfinished || !opened.reader.names().is_empty() {
+        return Ok(());
+    }
+    let results = results.display();
+    let failure =
+        Failure::usage(format!("{results} has no rows yet: its sweep has not reached a checkpoint"));
+    Err(failure.help(format!("if the sweep is not running, `flap resume {results}` continues it")))
 }
 
 /// Tells the user a note on results.
@@ -79,7 +92,13 @@ pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, 
     Failure::not_results(results).map_or(Ok(()), Err)?;
     Format::of(results)?;
     let (plan, sidecar) = recorded(results, read.on_damage())?;
-    Ok((open(results, read)?, plan, sidecar))
+    let opened = open(results, read)?;
+    if opened.sidecar.is_none() {
+        let message =
+            format!("{} is of another sweep than {}", sidecar_of(results).display(), results.display());
+        return Err(Failure::damaged(message));
+    }
+    Ok((opened, plan, sidecar))
 }
 
 /// Tells the user which rows of damaged results were left out.

@@ -7,6 +7,7 @@ use flap_sweep::files::job::Done;
 use flap_sweep::files::results::Format;
 use flap_sweep::notation::text::count;
 use flap_sweep::plan::Plan;
+use flap_sweep::plan::selection::Selection;
 use flap_sweep::run::Doubts;
 use flap_sweep::table::layout::Layout;
 
@@ -52,6 +53,12 @@ fn report_doubts(plan: &Plan, done: &Done) {
             _ if !Layout::of(plan).has("error_estimate") => {
                 format!("{said}: lower rtol there, or name `error_estimate` in `columns`")
             }
+            _ if is_rerun(plan) => {
+                let rtol = plan.solver().rtol;
+                format!(
+                    "{said} with rtol = {rtol:e}, see their error_estimate: lower --rtol further, or raise --accuracy"
+                )
+            }
             Some(place) => format!(
                 "{said}, see their error_estimate. This command runs {it} again: \
                  flap rerun {} --inaccurate --rtol 1e-10 --out {}",
@@ -79,7 +86,8 @@ fn report_doubts(plan: &Plan, done: &Done) {
     }
 }
 
-/// Tells the user the number of points that did not settle, with the command that runs them longer.
+/// Tells the user the number of points that did not settle, with the command that runs them longer. A rerun has run them longer
+/// already.
 fn report_unsettled(plan: &Plan, done: &Done) {
     let unsettled = done.summary.counts.of(Status::Unsettled);
     if unsettled == 0 {
@@ -89,18 +97,29 @@ fn report_unsettled(plan: &Plan, done: &Done) {
     let (points, it) = (count(unsettled, "point"), if unsettled == 1 { "it" } else { "them" });
     let periods = count(cycles.into(), "drive period");
     let longer = match &done.place {
+        _ if is_rerun(plan) => {
+            "Run them longer with --max-cycles only if the column residual is smaller than in the earlier rows. \
+             If it is not, lower --rtol or raise --settle-tol; a motion that stays unsettled is quasi-periodic or chaotic"
+                .to_owned()
+        }
         Some(place) => format!(
-            "This command runs {it} longer: flap rerun {} --status unsettled --max-cycles {} --out {}",
+            "This command runs {it} longer: flap rerun {} --status unsettled --max-cycles {} --out {}. \
+             If the column residual does not fall with more periods, lower rtol or raise settle_tol",
             shell_word(&place.to_string_lossy()),
             cycles.saturating_mul(10),
             beside(place, "unsettled")
         ),
-        None => format!("A larger max_cycles in [solver] runs {it} longer"),
+        None => format!(
+            "A larger max_cycles in [solver] runs {it} longer. \
+             If the column residual does not fall with more periods, lower rtol or raise settle_tol"
+        ),
     };
-    console::say(&format!(
-        "{points} did not settle within {periods}. {longer}. If the column residual does not fall with more periods, \
-         lower rtol or raise settle_tol"
-    ));
+    console::say(&format!("{points} did not settle within {periods}. {longer}"));
+}
+
+/// True if the points were chosen from earlier results.
+fn is_rerun(plan: &Plan) -> bool {
+    matches!(plan.selection(), Selection::Listed(_))
 }
 
 /// The name of results with a word before the ending: `sweep.unsettled.csv` for `sweep.csv`.

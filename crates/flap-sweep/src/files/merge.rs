@@ -1,18 +1,18 @@
 //! Shards of a sweep into the file that one machine would have written.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::files::results::{Checked, Checksums, Format, Provenance, Reader, RowCheck, RowsError, Writer};
-use crate::files::sidecar::{Sidecar, State};
+use crate::files::sidecar::{End, Sidecar, State};
 use crate::files::tallies;
 use crate::plan::Plan;
 use crate::plan::selection::{Selection, Shard};
+use crate::run::Summary;
 use crate::run::identity::{self, Identity};
-use crate::run::{RunOptions, Summary};
 
 /// The results of one shard.
 #[derive(Debug)]
@@ -36,6 +36,9 @@ pub enum MergeError {
     /// They are not all shards of one sweep, each once. A line for each mistake.
     #[error("{}", .0.join("\n"))]
     Parts(Vec<String>),
+    /// They are by several builds of flap: the first shard of each.
+    #[error("the shards are by several builds of flap, whose rows may differ: {}", .0.join(", "))]
+    Builds(Vec<String>),
     /// A shard cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Read {
@@ -49,11 +52,22 @@ pub enum MergeError {
     Write(#[from] io::Error),
 }
 
-/// Checks that `parts` are the complete shards of one sweep by this version, each of them once.
+/// The treatment of shards by several builds of flap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OnBuilds {
+    /// They are not merged: their rows may differ from those of one build.
+    Refuse,
+    /// They are merged, and the sidecar names all builds.
+    Mix,
+}
+
+/// Checks that `parts` are the complete shards of one sweep, each of them once. No model is run, so they may be by another
+/// build than this one.
 ///
 /// # Errors
-/// [`MergeError::Parts`] with all mistakes.
-pub fn check(parts: &[Part]) -> Result<(), MergeError> {
+/// - [`MergeError::Parts`] with all mistakes
+/// - [`MergeError::Builds`] if there are none, but the parts are by several builds, and that is refused
+pub fn check(parts: &[Part], on_builds: OnBuilds) -> Result<(), MergeError> {
     let mut problems = Vec::new();
     let mut seen: BTreeMap<u64, &Path> = BTreeMap::new();
     let mut whole: Option<(&Part, Shard)> = None;
@@ -67,7 +81,7 @@ pub fn check(parts: &[Part]) -> Result<(), MergeError> {
             continue;
         };
         let (first, like) = *whole.get_or_insert((part, shard));
-        let differences = whole_of(&part.sidecar).differences(&whole_of(&first.sidecar));
+        let differences = shared(&part.sidecar).differences(&shared(&first.sidecar));
         if !differences.is_empty() {
             let first = first.path.display();
             problems.push(format!("{path} does not belong to {first}: {}", differences.join("; ")));
@@ -77,16 +91,7 @@ pub fn check(parts: &[Part]) -> Result<(), MergeError> {
             problems.push(format!("{} and {path} are both shard {shard}", other.display()));
         }
     }
-    if let Some((first, shard)) = whole {
-        let (ours, build) = (env!("CARGO_PKG_VERSION"), identity::build());
-        let theirs = &first.sidecar;
-        if theirs.flap != ours {
-            problems.push(format!("the shards are by flap {}, this is flap {ours}", theirs.flap));
-        } else if theirs.build != build {
-            let theirs = if theirs.build.is_empty() { "an unknown build" } else { &theirs.build };
-            problems
-                .push(format!("the shards are by another build of flap {ours}: {theirs}, this is {build}"));
-        }
+    if let Some((_, shard)) = whole {
         let missing: Vec<String> = (1..=shard.of())
             .filter(|number| !seen.contains_key(number))
             .map(|number| format!("{number}/{}", shard.of()))
@@ -97,16 +102,51 @@ pub fn check(parts: &[Part]) -> Result<(), MergeError> {
             many => problems.push(format!("{many} shards are missing, the first is {}", missing[0])),
         }
     }
-    if problems.is_empty() { Ok(()) } else { Err(MergeError::Parts(problems)) }
+    if !problems.is_empty() {
+        return Err(MergeError::Parts(problems));
+    }
+    let mut builds: BTreeMap<(&str, &str), &Path> = BTreeMap::new();
+    for Part { path, sidecar } in parts {
+        builds.entry((&sidecar.flap, &sidecar.build)).or_insert(path);
+    }
+    if builds.len() > 1 && on_builds == OnBuilds::Refuse {
+        let by = |((flap, build), path): (&(&str, &str), &&Path)| {
+            format!("{} by {} of flap {flap}", path.display(), identity::build_text(build))
+        };
+        return Err(MergeError::Builds(builds.iter().map(by).collect()));
+    }
+    Ok(())
 }
 
-/// The identity of the rows of all shards together.
-fn whole_of(sidecar: &Sidecar) -> Identity {
-    Identity { selection: Selection::All.to_string(), ..sidecar.identity() }
+/// The identity that the rows of all shards have in common: without their shard and build.
+fn shared(sidecar: &Sidecar) -> Identity {
+    let (flap, build) = (String::new(), String::new());
+    Identity { flap, build, selection: Selection::All.to_string(), ..sidecar.identity() }
 }
 
-/// Writes the rows of `parts` to `to` in the order of their points. [`check`] has passed the parts; `readers` read them, in the
-/// same order. Rows of tolerant readers that do not belong to their shard are left out.
+/// The sidecar of all `parts` together, without checksums; `None` if there are no parts. It is the sidecar of one sweep on one
+/// machine, but for the versions and builds, of which it names all.
+pub fn sidecar(parts: &[Part]) -> Option<Sidecar> {
+    let sidecars = || parts.iter().map(|part| &part.sidecar);
+    let all = |name: fn(&Sidecar) -> &String| {
+        let names: BTreeSet<&str> = sidecars().map(|sidecar| name(sidecar).as_str()).collect();
+        names.into_iter().collect::<Vec<_>>().join(", ")
+    };
+    let mut whole = parts.first()?.sidecar.clone();
+    whole.flap = all(|sidecar| &sidecar.flap);
+    whole.build = all(|sidecar| &sidecar.build);
+    whole.shard = None;
+    whole.started = sidecars().map(|sidecar| sidecar.started.clone()).min()?;
+    whole.threads = sidecars().map(|sidecar| sidecar.threads).sum();
+    whole.checksums = None;
+    let finished = sidecars().filter_map(|sidecar| sidecar.finished.clone()).max().unwrap_or_default();
+    let seconds = sidecars().filter_map(|sidecar| sidecar.seconds).sum();
+    whole.finish(&summary(parts), End { finished, seconds });
+    Some(whole)
+}
+
+/// Writes the rows of `parts` to `to` in the order of their points. [`check`] has passed the parts, `whole` is their
+/// [`sidecar`]; `readers` read them, in the same order. Rows of tolerant readers that do not belong to their shard are left out.
 ///
 /// # Errors
 /// - [`MergeError::Read`] if a shard cannot be read, or does not hold the rows that its sidecar records
@@ -115,11 +155,9 @@ pub fn merge(
     parts: &[Part],
     readers: &mut [Reader],
     plan: &Plan,
+    whole: &Sidecar,
     to: (File, Format),
 ) -> Result<Checksums, MergeError> {
-    let identity = parts
-        .first()
-        .map_or_else(|| Identity::of(plan, &RunOptions::default()), |first| whole_of(&first.sidecar));
     let mut sources = Vec::with_capacity(parts.len());
     // The next row of every shard, the first point on top.
     let mut next = BinaryHeap::with_capacity(parts.len());
@@ -128,7 +166,7 @@ pub fn merge(
         next.extend(source.advance()?.map(|point| Reverse((point, sources.len()))));
         sources.push(source);
     }
-    let mut writer = Writer::new(to.0, to.1, &Provenance::of(plan, &identity))?;
+    let mut writer = Writer::new(to.0, to.1, &Provenance::of(plan, &whole.identity()))?;
     while let Some(Reverse((_, number))) = next.pop() {
         let source = &mut sources[number];
         writer.row(source.rows.row())?;
@@ -159,25 +197,25 @@ impl Source<'_> {
 }
 
 /// The summary of all shards together.
-pub fn summary(parts: &[Part], plan: &Plan) -> Summary {
+fn summary(parts: &[Part]) -> Summary {
     let sidecars = || parts.iter().map(|part| &part.sidecar);
     let total = |number: fn(&Sidecar) -> Option<u64>| sidecars().filter_map(number).sum();
-    let unsatisfied = |name: &str| {
-        let counts = sidecars().filter_map(|sidecar| sidecar.unsatisfied.get(name));
-        (name.to_owned(), counts.sum())
-    };
+    let mut unsatisfied: BTreeMap<String, u64> = BTreeMap::new();
+    for (name, count) in sidecars().flat_map(|sidecar| &sidecar.unsatisfied) {
+        *unsatisfied.entry(name.clone()).or_default() += count;
+    }
     let invalid = sidecars().flat_map(|sidecar| &sidecar.invalid);
     let mut invalid: Vec<(u64, String)> = invalid.map(From::from).collect();
     invalid.sort_unstable();
     invalid.truncate(Summary::MOST_REASONS);
     Summary {
-        points: plan.len(),
+        points: parts.first().map_or(0, |part| part.sidecar.points),
         // A row for each.
         ran: total(|sidecar| sidecar.rows),
         begun: 0,
         rows: total(|sidecar| sidecar.rows),
         excluded: total(|sidecar| sidecar.excluded),
-        unsatisfied: plan.conditions().iter().map(|condition| unsatisfied(&condition.name)).collect(),
+        unsatisfied: unsatisfied.into_iter().collect(),
         interrupted: false,
         counts: tallies::total(sidecars().filter_map(|sidecar| sidecar.statuses.as_ref())),
         rhs_evals: total(|sidecar| sidecar.rhs_evals),

@@ -22,14 +22,13 @@ use unit::Unit;
 ///
 /// An empty `si_unit` is a pure number. Only there may `text` do without a unit.
 ///
+/// If `si_unit` is not a unit of flap, such as `rpm` in the table of a model that a program brings, `text` must have this very
+/// unit.
+///
 /// # Errors
 /// If there is no number, the unit is unknown or malformed, the unit measures something else, or the value
 /// is not a finite float. Spans are bytes of `text`.
-///
-/// # Panics
-/// If `si_unit` itself is not a unit: it comes from a model's parameter table, not from a user.
 pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
-    let wanted = unit::parse(si_unit).expect("parameter tables hold proper units");
     let start = text.len() - text.trim_start().len();
     let trimmed = text.trim();
     let (number, length) = scan(trimmed).map_err(|error| offset(error, start))?;
@@ -42,6 +41,13 @@ pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
         let problem = Problem::NoUnit { wanted: si_unit.to_owned(), usual: table::usual(si_unit) };
         return Err(UnitError { span: start..start + length, problem });
     }
+    let Ok(wanted) = unit::parse(si_unit) else {
+        if unit_text == si_unit {
+            return number.shifted(0).map_err(|problem| UnitError { span: start..start + length, problem });
+        }
+        let (unit, wanted) = (unit_text.to_owned(), si_unit.to_owned());
+        return Err(UnitError { span: unit_span, problem: Problem::NotConverted { unit, wanted } });
+    };
     let unit = unit::parse(unit_text)
         .map_err(|error| offset(with_suggestion(error, unit_text, si_unit, wanted), unit_start))?;
     if !unit.dimension.fits(wanted.dimension) {

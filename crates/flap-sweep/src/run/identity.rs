@@ -119,6 +119,7 @@ fn followed(plan: &Plan, along: &Along) -> String {
     format!("{name}, {} values ({:016x})", along.values.len(), xxh3_64(&bytes))
 }
 
-fn build_text(build: &str) -> String {
+/// A build in words.
+pub fn build_text(build: &str) -> String {
     if build.is_empty() { "an unknown build".to_owned() } else { format!("build {build}") }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use flap_core::simulate;
+use flap_core::simulate::Simulator;
 use flap_core::vehicle::FORCES;
 
 use super::layout;
@@ -34,28 +34,23 @@ impl Label {
     }
 }
 
-/// The label of a column, with the unit that [`unit_of`] finds for its name.
+/// The label of a column whose values have `unit`, written as in tables of parameters: `N*m/rad`; empty for none.
 ///
 /// ```
 /// use flap_sweep::table::labels::{self, Direction};
 ///
-/// let label = labels::of("power_drag_mean_mw");
+/// let label = labels::with_unit("power_drag_mean_mw", "mW");
 /// assert_eq!(label.text(), "Drag power, mean (mW)");
 /// assert_eq!(label.better, Some(Direction::Smaller));
 /// ```
-pub fn of(column: &str) -> Label {
-    with_unit(column, unit_of(column))
-}
-
-/// The label of a column whose values have `unit`, written as in tables of parameters: `N*m/rad`; empty for none.
 pub fn with_unit(column: &str, unit: &str) -> Label {
     Label { words: words(column, unit), unit: printed(unit), better: better(column) }
 }
 
-/// The unit of a column: that of the parameter or measure with this name in any model, else the ending of the name; empty
-/// for none.
-pub fn unit_of(column: &str) -> &'static str {
-    let of_model = simulate::all().iter().find_map(|model| {
+/// The unit of a column: that of the parameter or measure with this name in one of the `models`, else the ending of the name;
+/// empty for none.
+pub fn unit_of(column: &str, models: &[&'static dyn Simulator]) -> &'static str {
+    let of_model = models.iter().find_map(|model| {
         let parameter = model.parameters().iter().find(|parameter| parameter.name == column);
         let measure = || model.columns().iter().find(|measure| measure.name == column);
         parameter.map(|parameter| parameter.unit).or_else(|| measure().map(|measure| measure.unit))
@@ -81,8 +76,8 @@ const BETTER: [(&str, Direction); 9] = [
     ("force", Direction::Smaller),
 ];
 
-/// The better direction of a column, by the first words of its name.
-fn better(column: &str) -> Option<Direction> {
+/// The better direction of a column, by the first words of its name; `None` if it is neither a benefit nor a cost.
+pub fn better(column: &str) -> Option<Direction> {
     // Forces and torques of a vehicle along its other axes are to be what is wanted, not large or small.
     if column != "force_up_mn" && FORCES.contains(&column) {
         return None;
@@ -284,21 +279,25 @@ mod tests {
 
     #[test]
     fn units_are_those_of_models_and_of_endings() {
-        assert_eq!(of("hinge_stiffness").text(), "Hinge stiffness (N·m/rad)");
-        assert_eq!(of("lift_mean_mn").text(), "Lift, mean (mN)");
-        assert_eq!(of("my_own_ms").text(), "My own (ms)");
-        assert_eq!(of("rhs_evals").text(), "Rhs evals");
+        let models = simulate::all();
+        assert_eq!(unit_of("hinge_stiffness", models), "N*m/rad");
+        assert_eq!(unit_of("lift_mean_mn", models), "mN");
+        assert_eq!(unit_of("my_own_ms", models), "ms");
+        assert_eq!(unit_of("rhs_evals", models), "");
+        // A model that is not among those of the program says nothing.
+        assert_eq!(unit_of("hinge_stiffness", &[]), "");
+        assert_eq!(unit_of("lift_mean_mn", &[]), "mN");
     }
 
     #[test]
     fn benefits_and_costs_have_directions() {
-        assert_eq!(of("lift_mean_mn").better, Some(Direction::Larger));
-        assert_eq!(of("power_mean_mw").better, Some(Direction::Smaller));
-        assert_eq!(of("drive_frequency").better, None);
-        assert_eq!(of("force_up_mn").better, Some(Direction::Larger));
-        assert_eq!(of("force_left_mn").better, None);
-        assert_eq!(of("torque_yaw_unm").better, None);
-        assert_eq!(of("").better, None);
+        assert_eq!(better("lift_mean_mn"), Some(Direction::Larger));
+        assert_eq!(better("power_mean_mw"), Some(Direction::Smaller));
+        assert_eq!(better("drive_frequency"), None);
+        assert_eq!(better("force_up_mn"), Some(Direction::Larger));
+        assert_eq!(better("force_left_mn"), None);
+        assert_eq!(better("torque_yaw_unm"), None);
+        assert_eq!(better(""), None);
     }
 
     #[test]

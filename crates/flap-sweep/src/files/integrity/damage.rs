@@ -4,6 +4,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use crate::files::results::{BLOCK_ROWS, Checksums, TextDigest};
+use crate::notation::text::count;
 
 /// The treatment of damage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +37,10 @@ pub struct Damage {
     pub bytes: bool,
     /// Unfinished rows are not those that the journal records.
     pub altered: bool,
+    /// Number of rows that the journal records and the file lacks.
+    pub lost: u64,
+    /// Differences between the rows that the sidecar describes and those that the journal records, in words.
+    pub foreign_sidecar: Vec<String>,
 }
 
 impl Damage {
@@ -90,6 +95,12 @@ impl fmt::Display for Damage {
         }
         if self.altered {
             told.push("it has changed since the sweep wrote it".to_owned());
+        }
+        if self.lost > 0 {
+            told.push(format!("it lacks {} that its journal records", count(self.lost, "row")));
+        }
+        if !self.foreign_sidecar.is_empty() {
+            told.push(format!("its sidecar is of another sweep: {}", self.foreign_sidecar.join("; ")));
         }
         if self.bytes && told.is_empty() {
             told.push("its rows are unchanged, but other bytes of the file have changed".to_owned());

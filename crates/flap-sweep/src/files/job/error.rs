@@ -32,6 +32,16 @@ pub enum JobError {
         /// The first line of the grid file that differs, in words.
         changed: Option<String>,
     },
+    /// A file has the name of the results, and is the unfinished result of an interrupted sweep.
+    #[error("{} is the unfinished result of an interrupted sweep{}", path.display(), other_rows(changes))]
+    Unfinished {
+        /// The file.
+        path: PathBuf,
+        /// The differences between its rows and those of the job, in words.
+        changes: Vec<String>,
+        /// The first line of the grid file that has changed, in words.
+        changed: Option<String>,
+    },
     /// The run cannot be resumed.
     #[error("{error}")]
     Resume {

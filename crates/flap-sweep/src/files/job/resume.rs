@@ -3,9 +3,10 @@
 use flap_core::simulate::Status;
 
 use super::{Before, Engine, Job, JobError, Outcome};
-use crate::files::beside::sidecar_of;
+use crate::files::beside::{journal_of, sidecar_of};
 use crate::files::disk;
 use crate::files::integrity::{self, OnDamage};
+use crate::files::journal;
 use crate::files::results::Format;
 use crate::files::session::{ResumeError, Resumed, Session};
 use crate::files::sidecar::{ReadError, Sidecar, State};
@@ -33,35 +34,43 @@ impl Job<'_> {
 
     /// The outcome if there is no journal: the rows wanted are all there, or the `error` is one.
     fn without_journal(&self, error: ResumeError) -> Result<Outcome, JobError> {
-        let sidecar = match Sidecar::read(&sidecar_of(&self.out)) {
-            Ok(sidecar) if sidecar.state == State::Complete => sidecar,
-            Err(error @ ReadError::Damaged { .. }) => return Err(JobError::Open(error.into())),
-            _ => return Err(self.cannot_resume(error)),
-        };
-        let changes = self.changes(&sidecar);
-        if !changes.is_empty() {
-            return Err(self.cannot_resume(ResumeError::Changed { path: self.out.clone(), changes }));
+        match Sidecar::read(&sidecar_of(&self.out)) {
+            Ok(sidecar) if sidecar.state == State::Complete => self.compared(&sidecar),
+            Err(error @ ReadError::Damaged { .. }) => Err(JobError::Open(error.into())),
+            _ => Err(self.cannot_resume(error)),
         }
-        self.complete(&sidecar)
     }
 
     /// The outcome if a file has the name of the results: it holds the rows wanted, or it is in the way.
     pub(super) fn existing(&self) -> Result<Outcome, JobError> {
-        let exists = |changes, changed| JobError::Exists { path: self.out.clone(), changes, changed };
-        let sidecar = Sidecar::read(&sidecar_of(&self.out)).ok();
-        let Some(sidecar) = sidecar.filter(|sidecar| sidecar.state == State::Complete) else {
-            return Err(exists(Vec::new(), None));
-        };
-        let changes = self.changes(&sidecar);
-        if !changes.is_empty() {
-            return Err(exists(changes, self.changed_line(&sidecar)));
+        match Sidecar::read(&sidecar_of(&self.out)) {
+            Ok(sidecar) if sidecar.state == State::Complete => self.compared(&sidecar),
+            _ => Err(JobError::Exists { path: self.out.clone(), changes: Vec::new(), changed: None }),
         }
-        self.complete(&sidecar)
     }
 
-    /// The differences between the rows that a sidecar describes and those wanted, in words.
-    fn changes(&self, sidecar: &Sidecar) -> Vec<String> {
-        sidecar.identity().differences(&Identity::of(self.plan, &self.options.run))
+    /// The outcome if complete results with this sidecar have the name of the results.
+    fn compared(&self, sidecar: &Sidecar) -> Result<Outcome, JobError> {
+        let changes = sidecar.identity().differences(&self.identity());
+        if !changes.is_empty() {
+            let changed = self.changed_line(sidecar);
+            return Err(JobError::Exists { path: self.out.clone(), changes, changed });
+        }
+        self.complete(sidecar)
+    }
+
+    /// The error if unfinished results have the name of the results.
+    pub(super) fn unfinished(&self) -> JobError {
+        let path = self.out.clone();
+        let past = journal::read(&journal_of(&path)).ok().flatten();
+        let changes = past.map(|past| past.header.identity.differences(&self.identity())).unwrap_or_default();
+        let changed = self.changed_since(!changes.is_empty());
+        JobError::Unfinished { path, changes, changed }
+    }
+
+    /// The identity of the rows of the job.
+    fn identity(&self) -> Identity {
+        Identity::of(self.plan, &self.options.run)
     }
 
     /// The outcome if the results hold the rows wanted, and are sound.
@@ -74,10 +83,15 @@ impl Job<'_> {
 
     /// The error, with the first line of the grid file that has changed.
     fn cannot_resume(&self, error: ResumeError) -> JobError {
-        let is_changed = matches!(error, ResumeError::Changed { .. });
-        let before = Sidecar::read(&sidecar_of(&self.out)).ok().filter(|_| is_changed);
-        let changed = before.and_then(|before| self.changed_line(&before));
+        let changed = self.changed_since(matches!(error, ResumeError::Changed { .. }));
         JobError::Resume { error, changed }
+    }
+
+    /// The first line of the grid file that has changed since the results were begun, in words; `None` unless they are
+    /// `other` rows.
+    fn changed_since(&self, other: bool) -> Option<String> {
+        let before = Sidecar::read(&sidecar_of(&self.out)).ok().filter(|_| other)?;
+        self.changed_line(&before)
     }
 
     /// The first line of the grid file that has changed since the rows of a sidecar were begun, in words.

@@ -58,7 +58,8 @@ impl Begin {
 /// - [`JobError::Overlap`] if the results would overwrite a file that they are made from
 /// - [`JobError::Format`] if the name of the results stands for no format
 /// - [`JobError::Exists`] if a file of that name holds other rows
-/// - [`JobError::Create`] if the results are unfinished, or cannot be made
+/// - [`JobError::Unfinished`] if the results are unfinished
+/// - [`JobError::Create`] if the results cannot be made
 /// - [`JobError::Resume`] if the run cannot be resumed
 /// - [`JobError::Open`] if the results are complete already, but damaged
 /// - [`JobError::Write`] if a file beside the results cannot be written
@@ -70,6 +71,7 @@ pub fn run(job: &Job<'_>, engine: Engine<'_>, tell: &mut dyn FnMut(Before)) -> R
         Begin::Overwrite => job.start(engine),
         Begin::New => match job.start(engine) {
             Err(JobError::Create(CreateError::Exists(_))) => job.existing(),
+            Err(JobError::Create(CreateError::Unfinished(_))) => Err(job.unfinished()),
             outcome => outcome,
         },
     }

@@ -1,13 +1,14 @@
 //! The origin of rows, as far as it decides them: the metadata that Parquet files carry.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use flap_core::parameter::Parameter;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use toml::Value;
 
 use crate::notation::text;
-use crate::plan::Plan;
+use crate::plan::{Plan, Source};
 use crate::run::identity::Identity;
 use crate::run::solver::SolverTable;
 use crate::table::layout::{Column, Layout};
@@ -40,11 +41,41 @@ impl Provenance {
             ("flap.units", toml_text(&units)),
             ("flap.grid", plan.source().text.clone()),
         ];
+        let devices = devices(plan);
+        if !devices.device.is_empty() {
+            entries.push(("flap.devices", toml_text(&devices)));
+        }
         entries.extend(plan.points_file().map(|file| ("flap.points_file", file.hash())));
         entries.extend(identity.followed.clone().map(|followed| ("flap.followed", followed)));
         let entries = entries.into_iter().map(|(key, text)| (key.to_owned(), text)).collect();
         Provenance { columns, entries }
     }
+}
+
+/// The devices that a grid begins with, as `[[device]]` tables.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(super) struct Devices {
+    #[serde(default)]
+    pub(super) device: Vec<Device>,
+}
+
+/// A device.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Device {
+    /// Its path from the folder of the grid file: equal grids in different folders are equal files.
+    pub(super) name: String,
+    /// Its text.
+    pub(super) text: String,
+}
+
+fn devices(plan: &Plan) -> Devices {
+    let folder = Path::new(&plan.source().name).parent().unwrap_or(Path::new(""));
+    let device = plan.devices().iter().map(|Source { name, text }| {
+        let path = Path::new(name);
+        let name = path.strip_prefix(folder).unwrap_or(path).display().to_string();
+        Device { name, text: text.clone() }
+    });
+    Devices { device: device.collect() }
 }
 
 /// The parameters before the axes are applied, without those that follow others.

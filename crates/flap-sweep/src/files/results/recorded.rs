@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use flap_core::simulate::Simulator;
 
+use super::provenance::{Device, Devices};
 use crate::grid;
 use crate::plan::{self, Plan};
 use crate::run::solver::SolverTable;
@@ -25,10 +26,14 @@ impl<'a> Recorded<'a> {
         toml::from_str(self.text("flap.units")).unwrap_or_default()
     }
 
-    /// The plan of these rows, which may be only some of its points. `None` if the grid file is of another version of flap, or
-    /// a file of points has moved or changed.
+    /// The plan of these rows, which may be only some of its points. `None` if the grid file is of another version of flap, its
+    /// devices were not recorded, or a file of points has moved or changed.
     pub fn plan(&self, models: &[&'static dyn Simulator]) -> Option<Plan> {
-        let plan = grid::parse("grid", self.text("flap.grid"), models).ok()?;
+        let Devices { device } = toml::from_str(self.text("flap.devices")).ok()?;
+        let devices: Vec<plan::Source> =
+            device.into_iter().map(|Device { name, text }| plan::Source { name, text }).collect();
+        // Devices were named from the folder of the grid file, which is that of the name here.
+        let plan = grid::parse_recorded("grid", self.text("flap.grid"), &devices, models).ok()?;
         let SolverTable(solver) = toml::from_str(self.text("flap.solver")).ok()?;
         let plan = plan.with_solver(solver).ok()?;
         let points = plan.points_file().map(plan::PointsFile::hash);

@@ -4,6 +4,9 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use memchr::memmem;
+use xxhash_rust::xxh3::xxh3_64;
+
 use super::Sidecar;
 use crate::files::disk;
 use crate::notation::text;
@@ -82,31 +85,32 @@ impl Sidecar {
 
     fn read_as(
         path: &Path,
-        parse: impl Fn(&str) -> Result<Sidecar, ParseError>,
+        parse: impl Fn(&[u8]) -> Result<Sidecar, ParseError>,
     ) -> Result<Sidecar, ReadError> {
         let path = || path.to_owned();
         let bytes = fs::read(path()).map_err(|source| ReadError::Io { path: path(), source })?;
-        parse(&String::from_utf8_lossy(&bytes)).map_err(|error| match error {
+        parse(&bytes).map_err(|error| match error {
             ParseError::Format(reason) => ReadError::Format { path: path(), reason },
             ParseError::Damaged(reason) => ReadError::Damaged { path: path(), reason },
         })
     }
 
-    /// Reads the text of the file.
+    /// Reads the bytes of the file.
     ///
     /// # Errors
-    /// - [`ParseError::Format`] if it is not the text of a sidecar
-    /// - [`ParseError::Damaged`] if it does not match its checksum
-    pub fn parse(text: &str) -> Result<Sidecar, ParseError> {
-        if let Some((checksum, contents)) =
-            text.strip_prefix(CHECKSUM).and_then(|rest| rest.split_once("\"\n"))
+    /// - [`ParseError::Format`] if they are not a sidecar
+    /// - [`ParseError::Damaged`] if they do not match their checksum
+    pub fn parse(bytes: &[u8]) -> Result<Sidecar, ParseError> {
+        if let Some(rest) = bytes.strip_prefix(CHECKSUM.as_bytes())
+            && let Some(end) = memmem::find(rest, b"\"\n")
         {
-            if checksum != text::hash(contents) {
+            let (checksum, contents) = (&rest[..end], &rest[end + 2..]);
+            if checksum != text::digits(xxh3_64(contents)).as_bytes() {
                 return Err(ParseError::Damaged("its first line is not the checksum of the others"));
             }
             return Sidecar::parse_damaged(contents);
         }
-        let sidecar = Sidecar::parse_damaged(text)?;
+        let sidecar = Sidecar::parse_damaged(bytes)?;
         // Versions that wrote no checksum recorded no builds either.
         if sidecar.build.is_empty() && sidecar.checksums.is_none() {
             Ok(sidecar)
@@ -115,9 +119,11 @@ impl Sidecar {
         }
     }
 
-    /// Reads the text of the file without its checksum line, or with one that is ignored.
-    fn parse_damaged(text: &str) -> Result<Sidecar, ParseError> {
-        toml::from_str(text).map_err(|error| ParseError::Format(error.message().to_owned()))
+    /// Reads the bytes of the file without its checksum line, or with one that is ignored. Bytes that are not UTF-8 become
+    /// U+FFFD.
+    fn parse_damaged(bytes: &[u8]) -> Result<Sidecar, ParseError> {
+        toml::from_str(&String::from_utf8_lossy(bytes))
+            .map_err(|error| ParseError::Format(error.message().to_owned()))
     }
 
     /// Writes the file, in place of an earlier one.

@@ -43,6 +43,13 @@ pub enum Problem {
     },
     /// The unit is not put together properly.
     BadUnit(&'static str),
+    /// The unit wanted is not one of flap, and the unit as written is another.
+    NotConverted {
+        /// The unit as written.
+        unit: String,
+        /// The unit wanted.
+        wanted: String,
+    },
     /// The unit measures something else.
     Mismatch {
         /// The unit as written.
@@ -70,6 +77,9 @@ impl UnitError {
             Problem::NoUnit { .. } => format!("{what} needs a unit"),
             Problem::UnknownUnit { unit, .. } => format!("unknown unit `{unit}`"),
             Problem::BadUnit(expected) => format!("malformed unit: expected {expected}"),
+            Problem::NotConverted { unit, wanted } => {
+                format!("`{unit}` cannot be converted into `{wanted}`, the unit of {what} in its model")
+            }
             Problem::Mismatch { unit, measures, wanted, .. } => {
                 let wanted =
                     if wanted.is_empty() { "a pure number".to_owned() } else { format!("in {wanted}") };
@@ -91,6 +101,7 @@ impl UnitError {
                 Some(format!("add a unit: {}; or write a bare number in {wanted}", usual.join(", ")))
             }
             Problem::UnknownUnit { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
+            Problem::NotConverted { wanted, .. } => Some(format!("write the number in {wanted}")),
             Problem::BadUnit(_) => Some("units look like V, N*m/rad, mm^2 or kg/(m*s)".to_owned()),
             Problem::UnknownUnit { usual, .. } | Problem::Mismatch { usual, .. } if usual.is_empty() => {
                 Some("write a bare number, or use %".to_owned())
