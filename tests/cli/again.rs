@@ -43,7 +43,8 @@ fn rows_of_another_grid_or_shard_are_not_replaced_unasked() {
         ended.stderr,
         "error: grid.csv exists already, with other rows: the grid file differs; the solver settings differ\n\
          help: line 7 of the grid was `rtol = 1e-3`, it is `rtol = 1e-4`\n\
-         help: --force replaces it, --out FILE writes to another file\n"
+         help: an edited grid is another sweep: give its rows another file with --out FILE\n\
+         help: --out FILE writes to another file, --force replaces it\n"
     );
     fs::write(folder.path("grid.toml"), quick(3)).unwrap();
     folder

@@ -1,6 +1,8 @@
 //! Completion in shells.
 
+use std::fs::File;
 use std::process::Command;
+use std::time::{Duration, Instant};
 
 use crate::support::{Folder, frequencies};
 
@@ -42,6 +44,21 @@ fn every_shell_completes_commands_and_options() {
                 assert!(is_there, "{shell}: {line}: {word} is not among {found:?}");
             }
         }
+    }
+}
+
+/// A shell that waits reads the header alone: not the terabyte behind it, nor the checksums in the sidecar.
+#[test]
+fn columns_come_from_the_header() {
+    let folder = Folder::with_grid(&frequencies(3));
+    for name in ["rows.csv", "rows.csv.zst"] {
+        folder.ends(0, &format!("sweep grid.toml --out {name}"));
+        let rows = File::options().write(true).open(folder.path(name)).unwrap();
+        rows.set_len(1 << 40).unwrap();
+        let begun = Instant::now();
+        let found = candidates(&folder, "bash", &format!("flap top {name} --by lift_mean_m"));
+        assert_eq!(found.join(" "), "lift_mean_mn", "{name}");
+        assert!(begun.elapsed() < Duration::from_secs(60), "{name}");
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::fs::{self, File};
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -10,6 +10,7 @@ use csv::StringRecord;
 use flap_sweep::files::beside::sidecar_of;
 use flap_sweep::files::integrity::{self, OnDamage, Verdict};
 use flap_sweep::files::job::{self, Begin, Job, Outcome};
+use flap_sweep::files::journal;
 use flap_sweep::files::results::{Format, Provenance, Writer};
 use flap_sweep::files::session::SessionOptions;
 use flap_sweep::files::sidecar::{Sidecar, State};
@@ -372,7 +373,11 @@ fn an_edited_sidecar_is_noticed() {
 
 /// Unfinished results as a killed sweep leaves them: the header, rows up to a checkpoint, and junk.
 fn unfinished(ending: &str) -> Folder {
-    let folder = Folder::with_grid(&quick(100_000_000));
+    unfinished_of(&quick(100_000_000), ending)
+}
+
+fn unfinished_of(grid: &str, ending: &str) -> Folder {
+    let folder = Folder::with_grid(grid);
     let out = format!("rows.{ending}");
     let mut child = start(&folder, &["sweep", "--grid", "grid.toml", "--out", &out, "--checkpoint", "5 ms"]);
     let journal = folder.path(&format!("{out}.journal"));
@@ -422,6 +427,134 @@ fn unfinished_results_say_so_and_are_read_as_far_as_they_are_safe() {
             assert!((ended.stdout + &ended.stderr).contains("it has changed since the sweep wrote it"));
         }
     }
+}
+
+/// The file of the rows of unfinished results.
+fn rows_of(folder: &Folder, ending: &str) -> PathBuf {
+    let part = if ending == "parquet" { ".part" } else { "" };
+    folder.path(&format!("rows.{ending}{part}"))
+}
+
+/// Every row that the journal records must be there, however little is missing.
+#[test]
+fn lost_rows_of_unfinished_results_are_damage() {
+    for ending in ENDINGS {
+        let folder = unfinished(ending);
+        let name = format!("rows.{ending}");
+        let path = rows_of(&folder, ending);
+        let sound = fs::read(&path).unwrap();
+        let journal = journal::parse(&fs::read(folder.path(&format!("{name}.journal"))).unwrap()).unwrap();
+        let (last, _) = journal.checkpoints.last().unwrap();
+        let recorded = usize::try_from(last.bytes).unwrap();
+        let mut random = Random(5);
+        let mut cuts: Vec<usize> = (0..50).map(|_| random.below(recorded)).collect();
+        cuts.extend([0, recorded - 1]);
+        for bytes in cuts {
+            fs::write(&path, &sound[..bytes]).unwrap();
+            let safe = journal.checkpoints.iter().rfind(|(checkpoint, _)| checkpoint.bytes <= bytes as u64);
+            let lost = last.rows - safe.map_or(0, |(checkpoint, _)| checkpoint.rows);
+            let Verdict::Damaged(damage) = integrity::verify(&folder.path(&name)).unwrap() else {
+                panic!("{ending}: {bytes} of {recorded} bytes are sound")
+            };
+            assert_eq!(damage.lost, lost, "{ending}: {bytes} bytes");
+            assert!(integrity::open(&folder.path(&name), OnDamage::Refuse).is_err());
+            let Ok(mut opened) = integrity::open(&folder.path(&name), OnDamage::Tolerate) else {
+                assert!(ending != "csv" && lost == last.rows, "{ending}: half of the frame of the header");
+                continue;
+            };
+            let mut row = StringRecord::new();
+            let mut rows = 0;
+            while opened.reader.next(&mut row).unwrap() {
+                assert_eq!(row.get(0), Some(rows.to_string().as_str()), "{ending}");
+                rows += 1;
+            }
+            assert!(rows <= last.rows && rows + lost >= last.rows, "{ending}: {rows} rows of {bytes} bytes");
+        }
+        fs::write(&path, &sound[..recorded - 1]).unwrap();
+        let ended = folder.ends(3, &format!("verify {name}"));
+        assert!(ended.stdout.starts_with(&format!("{name}: damaged: it lacks ")), "{}", ended.stdout);
+        for command in
+            ["convert NAME out.csv", "plot NAME --y cycles", "rerun NAME --status periodic --out out.csv"]
+        {
+            let ended = folder.ends(3, &command.replace("NAME", &name));
+            ended.says(&format!("error: {name} is damaged: it lacks "));
+            ended.says(&format!("help: `flap resume {name}` computes the rows again\n"));
+        }
+        folder.ends(0, &format!("convert {name} out.csv --ignore-damage"));
+
+        fs::write(&path, &sound).unwrap();
+        let done = last.rows;
+        let ended = folder.ends(0, &format!("verify {name}"));
+        ended.prints(&format!("{name}: unfinished, sound so far ({done} points done)\n"));
+    }
+}
+
+/// The journal tells whose rows these are: a sidecar of another sweep does not describe them.
+#[test]
+fn the_sidecar_of_another_sweep_is_noticed() {
+    for ending in ENDINGS {
+        let (folder, other) = (unfinished(ending), unfinished_of(&quick(99_999_999), ending));
+        let name = format!("rows.{ending}");
+        let sidecar = format!("{name}.meta.toml");
+        let own = fs::read(folder.path(&sidecar)).unwrap();
+        fs::copy(other.path(&sidecar), folder.path(&sidecar)).unwrap();
+        let told = format!("{name} is damaged: its sidecar is of another sweep: the grid file differs\n");
+        let ended = folder.ends(3, &format!("verify {name}"));
+        assert_eq!(ended.stdout, told.replace(" is damaged", ": damaged"));
+        for command in [
+            "resume NAME",
+            "rerun NAME --status periodic --out out.csv",
+            "convert NAME out.csv",
+            "plot NAME --y cycles",
+            "top NAME --by cycles",
+            "describe NAME",
+        ] {
+            let ended = folder.ends(3, &command.replace("NAME", &name));
+            assert!(ended.stderr.starts_with(&format!("error: {told}help: ")), "{}", ended.stderr);
+        }
+        // The rows are sound, but nothing tells their grid.
+        folder.ends(0, &format!("top {name} --by cycles --all --ignore-damage"));
+        folder.ends(3, &format!("convert {name} out.csv --ignore-damage")).says(&told);
+        assert!(!folder.path("out.csv").exists());
+        let opened = integrity::open(&folder.path(&name), OnDamage::Tolerate).unwrap();
+        assert!(opened.sidecar.is_none());
+
+        fs::write(folder.path(&sidecar), own).unwrap();
+        folder.ends(0, &format!("verify {name}"));
+    }
+}
+
+/// Before its first checkpoint a sweep has not even a header.
+#[test]
+fn results_without_a_checkpoint_have_no_rows_yet() {
+    for ending in ENDINGS {
+        let folder = unfinished(ending);
+        let name = format!("rows.{ending}");
+        let journal = folder.path(&format!("{name}.journal"));
+        let text = fs::read(&journal).unwrap();
+        let header = text.iter().position(|&byte| byte == b'\n').unwrap() + 1;
+        fs::write(&journal, &text[..header]).unwrap();
+        for command in ["convert NAME out.csv", "plot NAME --y cycles", "top NAME --by cycles"] {
+            let ended = folder.ends(2, &command.replace("NAME", &name));
+            ended.says(&format!("error: {name} has no rows yet: its sweep has not reached a checkpoint\n"));
+        }
+        assert!(!folder.path("out.csv").exists());
+    }
+}
+
+/// Bytes that are not text are hashed as they are.
+#[test]
+fn a_sidecar_that_is_not_utf8_is_damaged() {
+    let folder = Folder::with_grid(&format!("# \u{FFFD}\n{}", quick(3)));
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    folder.ends(0, "verify rows.csv");
+    let path = folder.path("rows.csv.meta.toml");
+    let sound = fs::read(&path).unwrap();
+    let place = sound.windows(3).position(|bytes| bytes == "\u{FFFD}".as_bytes()).unwrap();
+    fs::write(&path, [&sound[..place], &[0xFF], &sound[place + 3..]].concat()).unwrap();
+    folder
+        .ends(3, "verify rows.csv")
+        .prints("rows.csv.meta.toml is damaged: its first line is not the checksum");
 }
 
 /// Rows of a sweep that was never finished, of which the journal was lost.

@@ -1,6 +1,8 @@
 //! Devices: files with a preset and parameters of one's own, wherever a preset is named.
 
-use std::fs;
+use std::fs::{self, File};
+
+use flap_sweep::files::results::{Format, Reader, Recorded};
 
 use crate::support::Folder;
 
@@ -67,6 +69,16 @@ fn results_carry_the_device_and_resume_compares_it() {
     fs::rename(folder.path("mybee.toml"), folder.path("moved.toml")).unwrap();
     folder.ends(0, "rerun rows.csv --status periodic --rtol 1e-7 --out again.csv");
     folder.ends(0, "convert rows.csv rows.parquet");
+    // So does a Parquet file whose sidecar is lost, whatever device lies there now.
+    fs::write(folder.path("mybee.toml"), DEVICE.replace("160 V", "161 V")).unwrap();
+    let reader = Reader::new(File::open(folder.path("rows.parquet")).unwrap(), Format::Parquet).unwrap();
+    let plan = Recorded::of(reader.entries()).unwrap().plan(flap_core::simulate::all()).unwrap();
+    assert_eq!(plan.devices()[0].text, DEVICE);
+    let voltage =
+        plan.parameters().iter().position(|parameter| parameter.name == "drive_voltage_pp").unwrap();
+    assert_eq!(plan.point(0).values[voltage], 160.0);
+    fs::remove_file(folder.path("mybee.toml")).unwrap();
+
     folder.ends(2, "sweep grid.toml --out rows.csv --resume").says("mybee.toml: ");
     fs::write(folder.path("mybee.toml"), DEVICE.replace("160 V", "161 V")).unwrap();
     folder.ends(2, "sweep grid.toml --out rows.csv --resume").says("the device differs").says(

@@ -65,7 +65,7 @@ fn results_are_not_overwritten_unasked() {
     let ended = folder.ends(2, "sweep --grid grid.toml");
     assert_eq!(
         ended.stderr,
-        "error: grid.csv exists already\nhelp: --force replaces it, --out FILE writes to another file\n"
+        "error: grid.csv exists already\nhelp: --out FILE writes to another file, --force replaces it\n"
     );
     assert_eq!(folder.read("grid.csv"), "precious\n");
     assert_eq!(folder.flap("sweep --grid grid.toml --force").code, 0);
@@ -245,6 +245,11 @@ fn unsettled_points_come_with_a_command() {
     folder.ends(0, "sweep grid.toml").says(&format!(
         "2 points did not settle within 4 drive periods. This command runs them longer: flap {command}. If"
     ));
+    // A rerun that changes nothing does not recommend itself.
+    let ended = folder.ends(0, "rerun grid.csv --status unsettled --max-cycles 4 --out same.csv");
+    ended.says("2 points did not settle within 4 drive periods. Run them longer with --max-cycles only if ");
+    ended.says("a motion that stays unsettled is quasi-periodic or chaotic\n");
+    assert!(!ended.stderr.contains("flap rerun"), "{}", ended.stderr);
     folder.ends(0, command).says("2 periodic in ").says("2 rows in grid.unsettled.csv\n");
     folder.ends(0, "sweep grid.toml --out -").says("A larger max_cycles in [solver] runs them longer");
 

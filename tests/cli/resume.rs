@@ -129,7 +129,9 @@ fn an_interrupted_sweep_goes_on() {
 
         let ended = folder.ends(2, &format!("sweep --grid grid.toml --out {out}"));
         ended.says("is the unfinished result of an interrupted sweep");
-        ended.says(&format!("help: `flap resume {out}` continues it, --force starts over\n"));
+        ended.says(&format!(
+            "help: `flap resume {out}` continues it\nhelp: `flap sweep --force` drops its rows and starts over\n"
+        ));
         folder
             .ends(0, &format!("sweep --grid grid.toml --out {out} --resume"))
             .says(&format!("of {POINTS} points of {out} are done\n"));
@@ -286,10 +288,25 @@ fn a_changed_grid_is_not_resumed() {
     fs::write(folder.path("grid.toml"), grid).unwrap();
     let ended = folder.ends(2, "sweep --grid grid.toml --resume");
     let told = "error: grid.csv cannot be resumed: the grid file differs; the solver settings differ\n\
-                help: use `flap sweep --force` to start over, or name another file\n\
-                help: line 7 of the grid was `rtol = 1e-3`, it is `rtol = 1e-4`\n";
+                help: `flap resume grid.csv` continues it with the grid that began it\n\
+                help: line 7 of the grid was `rtol = 1e-3`, it is `rtol = 1e-4`\n\
+                help: an edited grid is another sweep: give its rows another file with --out FILE\n\
+                help: `flap sweep --force` drops its rows and starts over\n";
     assert!(ended.stderr.ends_with(told), "{}", ended.stderr);
+    let (reason, ways) = told.split_once('\n').unwrap();
+    let reason = reason
+        .replace("cannot be resumed:", "is the unfinished result of an interrupted sweep, with other rows:");
+    let ended = folder.ends(2, "sweep --grid grid.toml");
+    assert!(ended.stderr.ends_with(&format!("{reason}\n{ways}")), "{}", ended.stderr);
     assert_eq!(folder.read("grid.csv"), rows, "nothing is lost");
+
+    // Complete results of another grid have nothing to be continued.
+    folder.ends(0, "sweep grid.toml --shard 1/10000000 --out part.csv");
+    let ended = folder.ends(2, "sweep grid.toml --resume --out part.csv");
+    ended.says(
+        "error: part.csv exists already, with other rows: the rows cover shard 1/10000000, not all points\n",
+    );
+    ended.says("help: --out FILE writes to another file, --force replaces it\n");
 }
 
 #[test]

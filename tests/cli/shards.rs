@@ -1,8 +1,10 @@
 //! Shards of a sweep, and putting them together.
 
 use std::fs;
+use std::path::Path;
 
-use flap_sweep::files::sidecar::State;
+use flap_sweep::files::results::{Format, Reader, Recorded};
+use flap_sweep::files::sidecar::{Sidecar, State};
 
 use crate::support::{Folder, quick};
 
@@ -160,25 +162,49 @@ fn wrong_shards_are_explained() {
     }
 }
 
-/// Shards of one version that were computed by other sources.
+/// Merging runs no model: what it needs is one build, not this one.
 #[test]
-fn shards_of_another_build_are_refused() {
+fn shards_of_several_builds_are_merged_if_asked() {
     let folder = folder(100);
-    let merge = "merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv";
-    let build = flap_sweep::run::identity::build();
-    folder.rewrite_sidecar("grid.2of3.csv", |sidecar| sidecar.build = "fed0".to_owned());
+    let merge = "merge merged.parquet grid.1of3.csv grid.2of3.csv grid.3of3.csv";
+    let (flap, build) = (env!("CARGO_PKG_VERSION"), flap_sweep::run::identity::build());
+    let build_of = |name: &str| {
+        let sidecar = Sidecar::read(&folder.path(&format!("{name}.meta.toml"))).unwrap();
+        let file = fs::File::open(folder.path(name)).unwrap();
+        let reader = Reader::new(file, Format::of(Path::new(name)).unwrap()).unwrap();
+        let recorded = Recorded::of(reader.entries()).unwrap().text("flap.build").to_owned();
+        assert_eq!(recorded, sidecar.build);
+        recorded
+    };
+    folder.rewrite_sidecar("grid.2of3.csv", |sidecar| sidecar.build = "zfed".to_owned());
     let ended = folder.ends(2, merge);
-    let message = format!(
-        "error: grid.2of3.csv does not belong to grid.1of3.csv: the rows were computed by build fed0 of flap {}, not build {build}\n",
-        env!("CARGO_PKG_VERSION")
+    assert_eq!(
+        ended.stderr,
+        format!(
+            "error: the shards are by several builds of flap, whose rows may differ: grid.1of3.csv by build {build} of \
+             flap {flap}, grid.2of3.csv by build zfed of flap {flap}\n\
+             help: sweep the shards again with one build, or merge them as they are with --mixed-builds\n"
+        )
     );
-    assert!(ended.stderr.starts_with(&message), "{}", ended.stderr);
+    assert!(!folder.path("merged.parquet").exists());
+    folder
+        .ends(0, &format!("{merge} --mixed-builds"))
+        .says(&format!("the rows are by build {build}, zfed of flap {flap}, as their sidecar says\n"));
+    assert_eq!(build_of("merged.parquet"), format!("{build}, zfed"));
+    folder.ends(0, "verify merged.parquet");
+    folder.ends(0, "convert merged.parquet merged.csv");
+    assert_eq!(folder.read("merged.csv"), folder.read("whole.csv"));
+    // No build calls rows of several ones its own.
+    folder
+        .ends(2, "sweep grid.toml --out merged.csv")
+        .says(&format!("computed by build {build}, zfed of flap"));
 
     for shard in ["grid.1of3.csv", "grid.3of3.csv"] {
-        folder.rewrite_sidecar(shard, |sidecar| sidecar.build = "fed0".to_owned());
+        folder.rewrite_sidecar(shard, |sidecar| sidecar.build = "zfed".to_owned());
     }
-    folder.ends(2, merge).says("the shards are by another build of flap");
-    assert!(!folder.path("merged.csv").exists());
+    let ended = folder.ends(0, &format!("{merge} --force"));
+    ended.says(&format!("the rows are by build zfed of flap {flap}, as their sidecar says\n"));
+    assert_eq!(build_of("merged.parquet"), "zfed");
 }
 
 /// Nor are rows of another build called complete.
@@ -188,5 +214,5 @@ fn results_of_another_build_are_not_gone_on_with() {
     folder.rewrite_sidecar("whole.csv", |sidecar| sidecar.build = "fed0".to_owned());
     folder
         .ends(2, "sweep --grid grid.toml --out whole.csv --resume")
-        .says("whole.csv cannot be resumed: the rows were computed by build fed0");
+        .says("whole.csv exists already, with other rows: the rows were computed by build fed0");
 }

@@ -68,7 +68,7 @@ def test_files_are_those_of_the_command_byte_for_byte(flap, grid, tmp_path, name
     assert [list(dim) for dim in table.dims] == [list(dim) for dim in in_memory.dims]
     assert table.meta["grid"] == in_memory.meta["grid"] == GRID
     # Rows of another grid are not overwritten unasked; those of the same grid are there already.
-    with pytest.raises(FileExistsError, match="the grid file differs; line .*: overwrite=True"):
+    with pytest.raises(FileExistsError, match="the grid file differs; line .*: name another file, or .*overwrite=True"):
         flapwing.sweep(GRID + "\n", out=tmp_path / name)
     assert len(flapwing.sweep(grid, out=tmp_path / name)) == len(table)
     flapwing.sweep(grid, out=tmp_path / name, overwrite=True)
@@ -295,6 +295,33 @@ def test_unfinished_results_are_read_with_a_warning(tmp_path):
     with pytest.warns(UserWarning, match=r"rows.csv is unfinished: \d+ points done so far"):
         table = flapwing.read(path)
     assert 0 < len(table) < 20001 and table.meta["verified"] is False
+
+
+def test_damage_of_unfinished_results_is_noticed(tmp_path):
+    """Rows that the journal records are gone, or the sidecar is that of another sweep."""
+
+    def stop(done, _):
+        if done >= 600:
+            raise KeyboardInterrupt
+
+    for name, points in [("rows.csv", "n = 20001"), ("other.csv", "n = 20002")]:
+        with pytest.raises(KeyboardInterrupt):
+            flapwing.sweep(QUICK.replace("n = 26", points), out=tmp_path / name, threads=1, progress=stop)
+    path, sidecar = tmp_path / "rows.csv", tmp_path / "rows.csv.meta.toml"
+    own = sidecar.read_bytes()
+    sidecar.write_bytes((tmp_path / "other.csv.meta.toml").read_bytes())
+    with pytest.raises(ValueError, match="rows.csv is damaged: its sidecar is of another sweep: the grid file differs"):
+        flapwing.read(path)
+    with pytest.warns(UserWarning, match="its sidecar is of another sweep"):
+        table = flapwing.read(path, ignore_damage=True)
+    assert "grid" not in table.meta and len(table) > 0
+
+    sidecar.write_bytes(own)
+    with pytest.warns(UserWarning, match="rows.csv is unfinished"):
+        assert len(flapwing.read(path)) == len(table)
+    path.write_bytes(path.read_bytes()[:-1])
+    with pytest.raises(ValueError, match=r"rows.csv is damaged: it lacks \d+ rows? that its journal records"):
+        flapwing.read(path)
 
 
 def test_pages_of_parquet_have_checksums(tmp_path):

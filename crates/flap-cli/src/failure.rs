@@ -98,11 +98,11 @@ impl Failure {
                 edited(Failure::usage(error.to_string()), changed.as_ref())
                     .help("--out FILE writes to another file, --force replaces it")
             }
-            JobError::Unfinished { ref changed, .. } => {
-                unfinished(Failure::usage(error.to_string()), out, changed.as_ref())
+            JobError::Unfinished { ref changed, continues, .. } => {
+                unfinished(Failure::usage(error.to_string()), out, changed.as_ref(), continues)
             }
-            JobError::Resume { error: error @ ResumeError::Changed { .. }, changed } => {
-                unfinished(Failure::usage(error.to_string()), out, changed.as_ref())
+            JobError::Resume { error: error @ ResumeError::Changed { .. }, changed, continues } => {
+                unfinished(Failure::usage(error.to_string()), out, changed.as_ref(), continues)
             }
             JobError::Resume { error, .. } => error.into(),
             JobError::Open(OpenError::Damaged { .. }) => {
@@ -172,11 +172,15 @@ fn edited(failure: Failure, changed: Option<&String>) -> Failure {
         .help("an edited grid is another sweep: give its rows another file with --out FILE")
 }
 
-/// Adds the ways on from unfinished results at `out`; the one that loses rows comes last.
-fn unfinished(failure: Failure, out: &Path, changed: Option<&String>) -> Failure {
+/// Adds the ways on from unfinished results at `out`, the one that loses rows last. With `continues`, `flap resume` is one.
+fn unfinished(failure: Failure, out: &Path, changed: Option<&String>, continues: bool) -> Failure {
     let grid = if changed.is_some() { " with the grid that began it" } else { "" };
-    edited(failure.help(format!("`flap resume {}` continues it{grid}", out.display())), changed)
-        .help("--force drops its rows and starts over")
+    let failure = if continues {
+        failure.help(format!("`flap resume {}` continues it{grid}", out.display()))
+    } else {
+        failure
+    };
+    edited(failure, changed).help("`flap sweep --force` drops its rows and starts over")
 }
 
 /// The help line that names the earlier results, which are kept until the new ones are complete.

@@ -81,14 +81,12 @@ pub(crate) fn job(error: &JobError) -> PyErr {
             let remedy = "name another file, or replace it with overwrite=True";
             PyFileExistsError::new_err(format!("{error}{changed}: {remedy}"))
         }
-        JobError::Unfinished { changed, .. } => {
-            let remedy = match changed {
-                Some(changed) => format!("; {changed}: name another file for the rows of the edited grid"),
-                None => ": resume=True continues it".to_owned(),
-            };
-            PyFileExistsError::new_err(format!("{error}{remedy}, overwrite=True replaces it"))
+        JobError::Unfinished { changes, changed, .. } => {
+            let changed = changed.as_ref().map_or_else(String::new, |changed| format!("; {changed}"));
+            let remedy = if changes.is_empty() { "resume=True continues it" } else { "name another file" };
+            PyFileExistsError::new_err(format!("{error}{changed}: {remedy}, overwrite=True replaces it"))
         }
-        JobError::Resume { error, changed } => resume(error, changed.as_deref()),
+        JobError::Resume { error, changed, .. } => resume(error, changed.as_deref()),
         JobError::Open(OpenError::Read { path, source }) => {
             io_error(&format!("cannot read {}", path.display()), source)
         }

@@ -14,6 +14,7 @@ pub(crate) fn run(args: &ResumeArgs) -> Result<Exit, Failure> {
     Format::of(&args.results)?;
     let on_damage = args.read.on_damage();
     let (plan, sidecar) = job::recorded(&args.results, on_damage)?;
+    job::require_own_sidecar(&args.results, &sidecar)?;
     if on_damage == OnDamage::Tolerate && sidecar.state == State::Complete {
         // Nothing is left to run, even if rows are damaged.
         job::open(&args.results, &args.read)?;

@@ -10,7 +10,8 @@ mod verdicts;
 pub(crate) use flap_sweep::files::job::Begin;
 pub(crate) use make::{make, stdout};
 pub(crate) use open::{
-    open, open_recorded, plan_of, read_sidecar, recorded, require_checkpoint, tell, tell_missed,
+    open, open_recorded, plan_of, read_sidecar, recorded, require_checkpoint, require_own_sidecar, tell,
+    tell_missed,
 };
 pub(crate) use run::{Lines, complete, run, work};
 pub(crate) use verdicts::Verdicts;

@@ -3,10 +3,11 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
-use flap_sweep::files::beside::sidecar_of;
-use flap_sweep::files::integrity::{self, Note, OnDamage, Opened};
+use flap_sweep::files::beside::{journal_of, sidecar_of};
+use flap_sweep::files::integrity::{self, Damage, Note, OnDamage, Opened};
+use flap_sweep::files::journal;
 use flap_sweep::files::results::{Format, Reader};
-use flap_sweep::files::sidecar::{PlanError, ReadError, Sidecar};
+use flap_sweep::files::sidecar::{PlanError, ReadError, Sidecar, State};
 use flap_sweep::plan::Plan;
 
 use crate::args::ReadArgs;
@@ -82,6 +83,19 @@ pub(crate) fn require_checkpoint(results: &Path, opened: &Opened) -> Result<(), 
     Err(failure.help(format!("if the sweep is not running, `flap resume {results}` continues it")))
 }
 
+/// Requires that the sidecar of unfinished results describes the rows that their journal records.
+pub(crate) fn require_own_sidecar(results: &Path, sidecar: &Sidecar) -> Result<(), Failure> {
+    let past = journal::read(&journal_of(results)).ok().flatten();
+    let past = past.filter(|_| sidecar.state != State::Complete);
+    match past.map(|past| past.header.identity.differences(&sidecar.identity())) {
+        Some(differences) if !differences.is_empty() => {
+            let damage = Damage { foreign_sidecar: differences, ..Damage::default() };
+            Err(Failure::damaged(format!("{} is damaged: {damage}", results.display())))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Tells the user a note on results.
 pub(crate) fn tell(note: &Note) {
     console::warn(&note.to_string());
@@ -92,13 +106,8 @@ pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, 
     Failure::not_results(results).map_or(Ok(()), Err)?;
     Format::of(results)?;
     let (plan, sidecar) = recorded(results, read.on_damage())?;
-    let opened = open(results, read)?;
-    if opened.sidecar.is_none() {
-        let message =
-            format!("{} is of another sweep than {}", sidecar_of(results).display(), results.display());
-        return Err(Failure::damaged(message));
-    }
-    Ok((opened, plan, sidecar))
+    require_own_sidecar(results, &sidecar)?;
+    Ok((open(results, read)?, plan, sidecar))
 }
 
 /// Tells the user which rows of damaged results were left out.

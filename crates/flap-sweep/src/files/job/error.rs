@@ -41,6 +41,8 @@ pub enum JobError {
         changes: Vec<String>,
         /// The first line of the grid file that has changed, in words.
         changed: Option<String>,
+        /// True if the sweep that began the rows can be continued from its sidecar.
+        continues: bool,
     },
     /// The run cannot be resumed.
     #[error("{error}")]
@@ -49,6 +51,8 @@ pub enum JobError {
         error: ResumeError,
         /// The first line of the grid file that has changed, in words.
         changed: Option<String>,
+        /// True if the sweep that began the rows can be continued from its sidecar.
+        continues: bool,
     },
     /// The results are complete, but they or their sidecar are damaged or cannot be read.
     #[error(transparent)]

@@ -65,7 +65,15 @@ impl Job<'_> {
         let past = journal::read(&journal_of(&path)).ok().flatten();
         let changes = past.map(|past| past.header.identity.differences(&self.identity())).unwrap_or_default();
         let changed = self.changed_since(!changes.is_empty());
-        JobError::Unfinished { path, changes, changed }
+        JobError::Unfinished { path, changes, changed, continues: self.continues() }
+    }
+
+    /// True if the sweep that began the unfinished results can be continued from their sidecar, by this build on this machine.
+    fn continues(&self) -> bool {
+        let own = self.identity();
+        let past = journal::read(&journal_of(&self.out)).ok().flatten().map(|past| past.header.identity);
+        let sidecar = Sidecar::read(&sidecar_of(&self.out)).ok().map(|sidecar| sidecar.identity());
+        past == sidecar && past.is_some_and(|past| past.is_by_program_of(&own))
     }
 
     /// The identity of the rows of the job.
@@ -84,7 +92,7 @@ impl Job<'_> {
     /// The error, with the first line of the grid file that has changed.
     fn cannot_resume(&self, error: ResumeError) -> JobError {
         let changed = self.changed_since(matches!(error, ResumeError::Changed { .. }));
-        JobError::Resume { error, changed }
+        JobError::Resume { error, changed, continues: self.continues() }
     }
 
     /// The first line of the grid file that has changed since the results were begun, in words; `None` unless they are
