@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
 
 mod again;
+mod companions;
 mod completion;
 mod control;
 mod damage;
@@ -16,6 +17,8 @@ mod formulas;
 mod gradient;
 mod inputs;
 mod irregular;
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+mod kills;
 mod lists;
 #[cfg(feature = "live")]
 mod live;
@@ -36,5 +39,7 @@ mod streams;
 mod studies;
 mod support;
 mod sweep;
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+mod trace;
 mod vehicle;
 mod wings;

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::support::{Folder, frequencies, quick, send, start, wait, wait_for_rows};
+use crate::support::{Folder, frequencies, quick, send, start, wait};
 
 /// Results of three points in `rows.ENDING`, and a grid of very many more.
 fn folder(ending: &str) -> (Folder, Vec<u8>, String) {
@@ -16,8 +16,9 @@ fn folder(ending: &str) -> (Folder, Vec<u8>, String) {
 }
 
 fn assert_kept(folder: &Folder, ending: &str, rows: &[u8], sidecar: &str) {
-    assert!(fs::read(folder.path(&format!("rows.old.{ending}"))).unwrap() == rows);
-    assert_eq!(folder.read(&format!("rows.old.{ending}.meta.toml")), sidecar);
+    assert!(fs::read(folder.path(&format!("rows.{ending}"))).unwrap() == rows);
+    assert_eq!(folder.read(&format!("rows.{ending}.meta.toml")), sidecar);
+    folder.ends(0, &format!("verify rows.{ending}"));
 }
 
 /// Waits until checkpoints are in the journal, and not those of the journal `before`.
@@ -41,7 +42,7 @@ fn a_killed_force_keeps_the_earlier_results_and_goes_on() {
         let out = format!("rows.{ending}");
         let arguments = ["sweep", "--grid", "grid.toml", "--out", &out, "--force", "--checkpoint", "10 ms"];
         let mut child = start(&folder, &arguments);
-        let journal = format!("{out}.journal");
+        let journal = format!("rows.new.{ending}.journal");
         wait_until_begun(&folder, &folder.path(&journal), "");
         child.kill().unwrap();
         wait(&mut child);
@@ -55,7 +56,7 @@ fn a_killed_force_keeps_the_earlier_results_and_goes_on() {
         assert_eq!(wait(&mut child), Some(130));
         let mut told = String::new();
         std::io::Read::read_to_string(&mut child.stderr.take().unwrap(), &mut told).unwrap();
-        let expected = format!("the earlier results are kept in rows.old.{ending} until then\n");
+        let expected = format!("{out} keeps the earlier results until then\n");
         assert!(told.ends_with(&expected), "{told}");
         assert_kept(&folder, ending, &rows, &sidecar);
     }
@@ -67,10 +68,13 @@ fn an_interrupted_force_is_resumed_and_then_the_earlier_results_go() {
     assert_eq!(folder.flap("sweep --grid grid.toml --out grid.csv").code, 0);
     fs::write(folder.path("grid.toml"), frequencies(2000)).unwrap();
     let mut child = start(&folder, &["sweep", "--grid", "grid.toml", "--force", "--checkpoint", "10 ms"]);
-    wait_for_rows(&folder, 20);
+    wait_until_begun(&folder, &folder.path("grid.new.csv.journal"), "");
     send("INT", &child);
     assert_eq!(wait(&mut child), Some(130));
-    assert!(folder.path("grid.old.csv").exists());
+    assert_eq!(folder.read("grid.csv").lines().count(), 4);
+    let unfinished = "grid.csv is the unfinished result of an interrupted sweep\n\
+                      help: `flap resume grid.csv` continues it, --force starts over\n";
+    folder.ends(2, "sweep --grid grid.toml").says(unfinished);
     folder.ends(0, "resume grid.csv");
     assert_eq!(folder.names(), ["grid.csv", "grid.csv.meta.toml", "grid.toml"]);
     assert_eq!(folder.read("grid.csv").lines().count(), 2001);
@@ -90,16 +94,47 @@ fn a_completed_force_leaves_nothing_of_the_earlier_results() {
 fn a_file_in_the_way_stays() {
     let (folder, rows, sidecar) = folder("csv");
     fs::write(folder.path("grid.toml"), quick(5)).unwrap();
-    fs::write(folder.path("rows.old.csv"), "precious").unwrap();
+    fs::write(folder.path("rows.new.csv"), "precious").unwrap();
     folder
-        .ends(3, "sweep --grid grid.toml --out rows.csv --force")
-        .says("rows.old.csv exists already, and the earlier results would be kept under this name");
-    assert_eq!(folder.read("rows.old.csv"), "precious");
+        .ends(2, "sweep --grid grid.toml --out rows.csv --force")
+        .says("rows.new.csv exists already: writing rows.csv would overwrite it");
+    assert_eq!(folder.read("rows.new.csv"), "precious");
     assert!(fs::read(folder.path("rows.csv")).unwrap() == rows);
     assert_eq!(folder.read("rows.csv.meta.toml"), sidecar);
     // Nor when results are made anew.
     assert_eq!(folder.flap("sweep --grid grid.toml --out new.csv").code, 0);
-    assert_eq!(folder.read("rows.old.csv"), "precious");
+    assert_eq!(folder.read("rows.new.csv"), "precious");
+    fs::remove_file(folder.path("rows.new.csv")).unwrap();
+
+    // A sweep of that name that was interrupted is not taken for a replacement.
+    fs::write(folder.path("more.toml"), frequencies(100_000)).unwrap();
+    let arguments = ["sweep", "more.toml", "--out", "rows.new.csv", "--checkpoint", "10 ms"];
+    let mut child = start(&folder, &arguments);
+    wait_until_begun(&folder, &folder.path("rows.new.csv.journal"), "");
+    child.kill().unwrap();
+    wait(&mut child);
+    let before = folder.read("rows.new.csv");
+    folder.ends(2, "sweep grid.toml --out rows.csv --force").says("rows.new.csv exists already");
+    folder.ends(0, "resume rows.csv").says("rows.csv is complete: nothing is left to run");
+    assert_eq!(folder.read("rows.new.csv"), before);
+}
+
+/// Results that are made at once, in place of results whose replacement is unfinished.
+#[test]
+fn a_conversion_ends_an_unfinished_replacement() {
+    let (folder, ..) = folder("csv");
+    folder.ends(0, "convert rows.csv other.parquet");
+    let arguments = ["sweep", "grid.toml", "--out", "rows.csv", "--force", "--checkpoint", "10 ms"];
+    let mut child = start(&folder, &arguments);
+    wait_until_begun(&folder, &folder.path("rows.new.csv.journal"), "");
+    folder.ends(3, "convert other.parquet rows.csv --force").says("another run is writing to rows.csv");
+    child.kill().unwrap();
+    wait(&mut child);
+    folder.ends(2, "convert other.parquet rows.csv").says("is the unfinished result of an interrupted sweep");
+    folder.ends(0, "convert other.parquet rows.csv --force");
+    let left = ["grid.toml", "other.parquet", "other.parquet.meta.toml", "rows.csv", "rows.csv.meta.toml"];
+    assert_eq!(folder.names(), left);
+    folder.ends(0, "verify rows.csv");
 }
 
 /// A link stays a link: rows go where it points to.
@@ -112,7 +147,7 @@ fn a_link_to_results_stays_one() {
     assert_eq!(folder.flap("sweep --grid grid.toml --out link.csv --force").code, 0);
     assert!(fs::symlink_metadata(folder.path("link.csv")).unwrap().is_symlink());
     assert_eq!(folder.read("rows.csv").lines().count(), 6);
-    assert!(!folder.path("rows.old.csv").exists());
+    assert!(!folder.path("rows.new.csv").exists());
 }
 
 /// A disk that is full does not cost the earlier file.

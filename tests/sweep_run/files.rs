@@ -21,8 +21,8 @@ fn an_existing_file_is_kept_unless_asked() {
     assert!(matches!(error, CreateError::Exists { .. }), "{error}");
     assert_eq!(fs::read_to_string(&path).unwrap(), "precious");
     let file = create(&path, true).unwrap();
-    assert_eq!(fs::read_to_string(&path).unwrap(), "precious", "kept until there is something to write");
-    empty(&file).unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), "precious", "kept until it is emptied");
+    empty(&file.file).unwrap();
     assert_eq!(fs::read_to_string(&path).unwrap(), "");
 }
 

@@ -27,7 +27,7 @@ fn often() -> SessionOptions {
 }
 
 fn start(path: &Path, plan: &Plan) -> Session {
-    let file = output::create(path, false).unwrap();
+    let file = output::create(path, false).unwrap().file;
     Session::start(file, (path, Format::of(path).unwrap()), plan, &often(), ("2026-01-02".to_owned(), false))
         .unwrap()
 }

@@ -116,7 +116,7 @@ impl Failure {
             return failure;
         }
         let failure = failure.help(format!("`flap resume {}` continues the run", out.display()));
-        job::kept(out).into_iter().fold(failure, |failure, kept| failure.help(still_kept(&kept)))
+        still_kept(out).into_iter().fold(failure, Failure::help)
     }
 
     /// Adds a help line.
@@ -183,9 +183,10 @@ fn unfinished(failure: Failure, out: &Path, changed: Option<&String>, continues:
     edited(failure, changed).help("`flap sweep --force` drops its rows and starts over")
 }
 
-/// The help line that names the earlier results, which are kept until the new ones are complete.
-pub(crate) fn still_kept(kept: &Path) -> String {
-    format!("the earlier results are kept in {} until then", kept.display())
+/// The help line for new results that are to replace earlier ones; `None` if there are no earlier ones.
+pub(crate) fn still_kept(out: &Path) -> Option<String> {
+    let is_kept = job::unfinished(out).is_some() && out.exists();
+    is_kept.then(|| format!("{} keeps the earlier results until then", out.display()))
 }
 
 fn complain(message: &str, help: &[String]) {
@@ -245,6 +246,8 @@ impl From<CreateError> for Failure {
             }
             CreateError::Unfinished(ref path) => Failure::usage(error.to_string())
                 .help(format!("`flap resume {}` continues it, --force starts over", path.display())),
+            CreateError::InTheWay { .. } => Failure::usage(error.to_string())
+                .help("rename or remove that file, or choose another name for the results"),
             CreateError::Busy { .. } | CreateError::Io { .. } => {
                 Failure::System(error.to_string(), Vec::new())
             }

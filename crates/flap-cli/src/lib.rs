@@ -40,6 +40,7 @@ pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
     if args.quiet {
         console::be_quiet();
     }
+    signals::refuse_large_files();
     let ended = match args.command {
         Command::Sweep(args) => cmd::sweep::run(&args),
         Command::Resume(args) => cmd::resume::run(&args),

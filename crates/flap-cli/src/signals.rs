@@ -26,6 +26,13 @@ pub(crate) fn stop() -> Arc<AtomicBool> {
     stop
 }
 
+/// Makes a file that would grow beyond the limit of the process (`ulimit -f`) an error of writing, which can be reported,
+/// instead of a signal that ends the process.
+pub(crate) fn refuse_large_files() {
+    #[cfg(unix)]
+    let _ = flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+}
+
 #[cfg(unix)]
 #[expect(unsafe_code, reason = "the standard library cannot query a signal")]
 fn is_ignored(signal: i32) -> bool {

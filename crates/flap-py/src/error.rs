@@ -111,6 +111,9 @@ fn create(error: &CreateError) -> PyErr {
         CreateError::Unfinished { .. } => PyFileExistsError::new_err(format!(
             "{error}: resume=True continues it, overwrite=True replaces it"
         )),
+        CreateError::InTheWay { .. } => PyFileExistsError::new_err(format!(
+            "{error}: rename or remove that file, or choose another name for the results"
+        )),
         CreateError::Busy { .. } => PyOSError::new_err(error.to_string()),
         CreateError::Io { path, source } => io_error(&format!("cannot write {}", path.display()), source),
     }

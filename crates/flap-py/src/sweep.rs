@@ -1,5 +1,6 @@
 //! Sweeps: every point of a plan into columns, or into a file.
 
+use std::ffi::CString;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -7,7 +8,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use flap_core::simulate::SolverSettings;
-use flap_sweep::files::job::{self, Begin, Job, Outcome};
+use flap_sweep::files::job::{self, Begin, Job, Notice, Outcome};
 use flap_sweep::files::session::SessionOptions;
 use flap_sweep::plan::Plan;
 use flap_sweep::plan::gradient::{Gradient, Per, column_name};
@@ -15,7 +16,7 @@ use flap_sweep::run::identity::Identity;
 use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{self, Parcel, RunError, RunOptions, Summary};
 use flap_sweep::table::layout::Layout;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
@@ -113,12 +114,22 @@ fn into_file<'py>(
     parcels: Option<&Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let mut watch = Watch::new(progress);
+    let mut unlocked = None;
     let ran = py.detach(|| {
         let mut engine = |plan: &Plan, options: &RunOptions, before: Summary, sink: &mut dyn Sink| {
             work(plan, options, before, sink, &mut watch, parcels)
         };
-        job::run(job, &mut engine, &mut |_| {})
+        job::run(job, &mut engine, &mut |notice| {
+            if let Notice::Unlocked(error) = notice {
+                unlocked = Some(error);
+            }
+        })
     });
+    if let Some(error) = unlocked {
+        let out = job.out.display();
+        let text = format!("{out} cannot be locked ({error}): make sure that no other run writes to it");
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(text)?, 2)?;
+    }
     if ran.is_ok() {
         watch.done(job.plan.selected());
     }

@@ -73,7 +73,8 @@ pub(crate) struct OverwriteArgs {
 /// Options of commands that begin results.
 #[derive(clap::Args)]
 pub(crate) struct BeginArgs {
-    /// Replace existing results. Until the new ones are complete, the old ones stay beside them, as in results.old.csv
+    /// Replace existing results when the new ones are complete. Until then the new ones have another name, as in
+    /// results.new.csv
     #[arg(short, long)]
     pub(crate) force: bool,
 

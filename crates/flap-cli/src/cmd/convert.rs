@@ -2,7 +2,6 @@
 
 use std::io::ErrorKind;
 
-use flap_sweep::files::beside::sidecar_of;
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::integrity::Note;
 use flap_sweep::files::results::{
@@ -39,8 +38,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
         let converted = convert(&mut source.reader, (target, to), &provenance, check)?;
         rows = converted.rows;
         note(&mut sidecar, converted, is_damaged);
-        // Earlier results keep their own until the new rows are complete.
-        Ok::<(), ConvertError>(sidecar.write(&sidecar_of(&args.to))?)
+        Ok::<_, ConvertError>(Some(sidecar))
     });
     made?.map_err(|error| failure(args, &error))?;
     job::tell_missed(&args.from, &source.reader);

@@ -54,8 +54,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
         let checksums = merge::merge(&parts, &mut readers, &plan, &whole, (target, format))?;
         // Rows that were damaged before are not to be called sound.
         whole.checksums = Some(checksums).filter(|_| !is_damaged);
-        // Earlier results keep their own until the new rows are complete.
-        Ok::<(), MergeError>(whole.write(&sidecar_of(&args.out))?)
+        Ok::<_, MergeError>(Some(whole))
     })??;
     tell_missed(&parts, &readers);
     let (rows, shards) = (count(whole.rows.unwrap_or_default(), "row"), count(parts.len() as u64, "shard"));

@@ -21,7 +21,7 @@ pub(crate) fn write_file(
     overwrite: bool,
     row: &str,
 ) -> Result<(), Failure> {
-    let written = job::make(path, overwrite, |file| write_csv(motion, file))?;
+    let written = job::make(path, overwrite, |file| write_csv(motion, file).map(|()| None))?;
     written.map_err(|error: io::Error| Failure::cannot_write(path, &error))?;
     console::say(&format!("{} in {}", count(motion.rows.len() as u64, row), path.display()));
     Ok(())

@@ -13,12 +13,13 @@ pub(crate) fn run(args: &ResumeArgs) -> Result<Exit, Failure> {
     Failure::not_results(&args.results).map_or(Ok(()), Err)?;
     Format::of(&args.results)?;
     let on_damage = args.read.on_damage();
-    let (plan, sidecar) = job::recorded(&args.results, on_damage)?;
-    job::require_own_sidecar(&args.results, &sidecar)?;
+    let results = job::to_resume(&args.results);
+    let (plan, sidecar) = job::recorded(&results, on_damage)?;
+    job::require_own_sidecar(&results, &sidecar)?;
     if on_damage == OnDamage::Tolerate && sidecar.state == State::Complete {
         // Nothing is left to run, even if rows are damaged.
-        job::open(&args.results, &args.read)?;
-        console::say(&format!("{} is complete: nothing is left to run", args.results.display()));
+        job::open(&results, &args.read)?;
+        console::say(&format!("{} is complete: nothing is left to run", results.display()));
         return Ok(Exit::Done);
     }
     let origin = sidecar.origin().cloned();

@@ -1,11 +1,14 @@
 //! Files that commands make.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io;
 use std::path::Path;
 
-use flap_sweep::files::{disk, output};
+use flap_sweep::files::disk;
+use flap_sweep::files::output::{self, Output};
+use flap_sweep::files::sidecar::Sidecar;
 
+use crate::console;
 use crate::failure::Failure;
 
 /// Stdout as a file.
@@ -17,25 +20,34 @@ pub(crate) fn stdout() -> io::Result<File> {
     owned.map(File::from)
 }
 
-/// Makes a file as a whole: it is complete, or not there. An earlier file stays until then. The inner result is that of
-/// `write`.
+/// Makes a file as a whole: it is complete, or not there. An earlier file stays until then. `write` gives the sidecar of results.
+/// The inner result is that of `write`.
 pub(crate) fn make<E: From<io::Error>>(
     results: &Path,
     overwrite: bool,
-    write: impl FnOnce(File) -> Result<(), E>,
+    write: impl FnOnce(File) -> Result<Option<Sidecar>, E>,
 ) -> Result<Result<(), E>, Failure> {
     // Holds the name while the rows are written beside it.
-    let locked = output::create(results, overwrite)?;
+    let Output { file: locked, unlocked } = output::create(results, overwrite)?;
     // A device or a pipe is written directly.
     if !locked.metadata().is_ok_and(|metadata| metadata.is_file()) {
-        return Ok(write(locked));
+        return Ok(write(locked).map(drop));
     }
-    let written = disk::replace(results, write);
-    if written.is_ok() {
-        output::forget(results).map_err(|error| Failure::cannot_write(results, &error))?;
-    } else if disk::is_empty(results) {
-        let _ = std::fs::remove_file(results);
+    if let Some(error) = &unlocked {
+        warn_unlocked(results, error);
+    }
+    let written = output::replace(results, write);
+    if written.is_err() && disk::is_empty(results) {
+        let _ = fs::remove_file(disk::target(results));
     }
     drop(locked);
     Ok(written)
+}
+
+/// Warns that another run could write to the same results.
+pub(super) fn warn_unlocked(results: &Path, error: &io::Error) {
+    console::warn(&format!(
+        "{} cannot be locked ({error}): make sure that no other run writes to it",
+        results.display()
+    ));
 }

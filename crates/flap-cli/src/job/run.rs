@@ -3,12 +3,10 @@
 use std::cell::RefCell;
 use std::io;
 use std::path::{Path, PathBuf};
-#[cfg(unix)]
-use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use flap_core::simulate::Status;
-use flap_sweep::files::job::{self, Before, Begin, Done, Job, Outcome};
+use flap_sweep::files::job::{self, Begin, Done, Job, Notice, Outcome};
 use flap_sweep::files::session::SessionOptions;
 use flap_sweep::files::sidecar::Origin;
 use flap_sweep::plan::Plan;
@@ -16,6 +14,7 @@ use flap_sweep::run::sink::Sink;
 use flap_sweep::run::{self, RunError, RunOptions, Summary};
 use flap_sweep::study::response::{Curve, Responses};
 
+use super::make::warn_unlocked;
 use super::report::{report, report_curves};
 use super::verdicts::Verdicts;
 use crate::args::WorkArgs;
@@ -50,12 +49,15 @@ pub(crate) fn run(
     let mut engine = |plan: &Plan, options: &RunOptions, before: Summary, sink: &mut dyn Sink| {
         self::work(plan, options, before, sink, Lines::Stdout)
     };
-    let outcome = job::run(&job, &mut engine, &mut |Before { lost, done }| {
-        if lost > 0 {
-            let again = if lost == 1 { "row is missing from" } else { "rows are missing from" };
-            console::say(&format!("{lost} {again} {place}, and computed again"));
+    let outcome = job::run(&job, &mut engine, &mut |notice| match notice {
+        Notice::Continued { lost, done } => {
+            if lost > 0 {
+                let again = if lost == 1 { "row is missing from" } else { "rows are missing from" };
+                console::say(&format!("{lost} {again} {place}, and computed again"));
+            }
+            console::say(&format!("{done} of {points} points of {place} are done"));
         }
-        console::say(&format!("{done} of {points} points of {place} are done"));
+        Notice::Unlocked(error) => warn_unlocked(&job.out, &error),
     });
     match outcome.map_err(|error| Failure::of_job(error, &job.out))? {
         Outcome::Ran(done) => Ok(ended(plan, &done, Some(&job.out), work)),
@@ -77,8 +79,8 @@ fn ended(plan: &Plan, done: &Done, resumable: Option<&Path>, work: &WorkArgs) ->
     if done.summary.interrupted {
         if let Some(out) = resumable {
             console::say(&format!("`flap resume {}` continues the run", out.display()));
-            if let Some(kept) = job::kept(out) {
-                console::say(&still_kept(&kept));
+            if let Some(kept) = still_kept(out) {
+                console::say(&kept);
             }
         }
         return Exit::Interrupted;
@@ -114,9 +116,6 @@ pub(crate) fn work(
     lines: Lines,
 ) -> Result<Summary, RunError> {
     let stop = signals::stop();
-    // Once caught, the signal that a file would grow too large becomes an error of writing, which can be reported.
-    #[cfg(unix)]
-    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
     let responses = Responses::of(plan);
     let bar = RefCell::new(Bar::new(if responses.is_some() { "curves" } else { "points" }));
     let mut progress = |progress| bar.borrow_mut().show(progress, stop.load(Ordering::Relaxed));

@@ -122,7 +122,7 @@ fn require_html(html: &Path) -> Result<(), Failure> {
 
 /// Writes a file, all of it or nothing.
 fn write(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
-    let written = job::make(path, force, |mut file| file.write_all(bytes))?;
+    let written = job::make(path, force, |mut file| file.write_all(bytes).map(|()| None))?;
     written.map_err(|error: std::io::Error| Failure::cannot_write(path, &error))
 }
 

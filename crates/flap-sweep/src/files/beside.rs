@@ -29,9 +29,11 @@ pub(crate) fn all_of(results: &Path) -> [PathBuf; 3] {
     [sidecar_of(results), journal_of(results), part_of(results)]
 }
 
-/// The path of a file's bytes until they are complete: `<file>.tmp`.
-pub(crate) fn temporary_of(path: &Path) -> PathBuf {
-    with_ending(path, ".tmp")
+/// The path of new results that are to replace those at `results`, until they are complete: `rows.new.csv` for `rows.csv`.
+pub(crate) fn replacement_of(results: &Path) -> PathBuf {
+    let name = results.file_name().unwrap_or_default().to_string_lossy();
+    let (stem, ending) = Format::split_ending(&name);
+    results.with_file_name(format!("{stem}.new{ending}"))
 }
 
 fn with_ending(path: &Path, ending: &str) -> PathBuf {

@@ -2,9 +2,9 @@
 
 use std::fs::{self, File, Metadata};
 use std::io::{self, Stdout, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use crate::files::beside::temporary_of;
+use atomic_write_file::AtomicWriteFile;
 
 /// A target of writing that can be made durable.
 pub trait Durable: Write {
@@ -29,22 +29,84 @@ impl Durable for Stdout {}
 
 impl Durable for Vec<u8> {}
 
-/// Makes the file at `path`, in place of an earlier one, once `write` has written all of it and it is durable.
+/// A file that gets its name, in place of an earlier file, once it is complete and durable.
+///
+/// Until then its bytes have no name, or a name that no other file has. A link of the name is replaced, not followed.
+pub(crate) struct Whole(AtomicWriteFile);
+
+impl Whole {
+    /// Begins a file that is to be called `path`.
+    ///
+    /// # Errors
+    /// The error of the operating system.
+    pub(crate) fn begin(path: &Path) -> io::Result<Whole> {
+        AtomicWriteFile::open(path).map(Whole)
+    }
+
+    /// The file to be written.
+    pub(crate) fn file(&self) -> &File {
+        self.0.as_file()
+    }
+
+    /// Gives the file its name, and waits until file and name are safe from a crash of the machine.
+    ///
+    /// # Errors
+    /// The error of the operating system. Unless the name could not be made durable, an earlier file is unchanged.
+    pub(crate) fn commit(self) -> io::Result<()> {
+        self.0.commit()
+    }
+}
+
+/// True if no file with contents has this name, nor anything else, such as a link.
+pub(crate) fn is_free(path: &Path) -> bool {
+    match fs::symlink_metadata(path) {
+        Ok(metadata) => metadata.is_file() && metadata.len() == 0,
+        Err(error) => error.kind() == io::ErrorKind::NotFound,
+    }
+}
+
+/// Makes a new file for reading and writing, in place of an empty one.
 ///
 /// # Errors
-/// The error of `write` or of the operating system. An earlier file is then unchanged.
-pub fn replace<E: From<io::Error>>(path: &Path, write: impl FnOnce(File) -> Result<(), E>) -> Result<(), E> {
-    let temporary = temporary_of(path);
-    let written = File::create(&temporary).map_err(E::from).and_then(|file| {
-        write(file.try_clone()?)?;
-        file.sync_all()?;
-        Ok(fs::rename(&temporary, path)?)
-    });
-    if written.is_err() {
-        // The error tells what went wrong; half a file would be of no use.
-        let _ = fs::remove_file(&temporary);
+/// - [`io::ErrorKind::AlreadyExists`] if the name is not [free](is_free)
+/// - the error of the operating system if the file cannot be made
+pub(crate) fn create_new(path: &Path) -> io::Result<File> {
+    if is_taken(path) && is_free(path) {
+        fs::remove_file(path)?;
     }
-    written
+    File::options().read(true).write(true).create_new(true).open(path)
+}
+
+/// Opens a file for reading and writing, or makes it as [`create_new`] does.
+pub(crate) fn open_or_create(path: &Path) -> io::Result<File> {
+    match File::options().read(true).write(true).open(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => create_new(path),
+        opened => opened,
+    }
+}
+
+/// Renames a file, and waits until its new name is safe from a crash of the machine.
+pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
+    fs::rename(from, to)?;
+    sync_folder(to)
+}
+
+/// True if anything has this name, even a link to no file.
+pub(crate) fn is_taken(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok()
+}
+
+/// The longest chain of links that is followed, as on Linux.
+const MOST_LINKS: usize = 40;
+
+/// The file that a link stands for, which need not exist; other paths unchanged.
+pub fn target(path: &Path) -> PathBuf {
+    let mut target = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let Ok(link) = fs::read_link(&target) else { break };
+        target = target.with_file_name("").join(link);
+    }
+    target
 }
 
 /// Empties a file. Devices and pipes are left alone.
@@ -68,9 +130,14 @@ pub(crate) fn remove_if_there(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Makes new names in the folder of `path` durable. File systems that cannot synchronise folders do not need it.
-pub(crate) fn sync_folder(path: &Path) {
-    let _ = File::open(folder_of(path)).and_then(|folder| folder.sync_all());
+/// Makes new names in the folder of `path` durable.
+pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
+    use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
+    match File::open(folder_of(path)).and_then(|folder| folder.sync_all()) {
+        // The system, or a folder without the permission to list it, does not offer this.
+        Err(error) if matches!(error.kind(), InvalidInput | PermissionDenied | Unsupported) => Ok(()),
+        synced => synced,
+    }
 }
 
 /// The folder that `path` lies in: the working directory for a bare name.
@@ -128,5 +195,42 @@ mod tests {
         let path = |name: &str| folder.path().join(name);
         assert!(is_same_target(&path("new.csv"), &path("./new.csv")));
         assert!(!is_same_target(&path("new.csv"), &path("newer.csv")));
+    }
+
+    #[test]
+    fn a_new_file_takes_the_place_of_an_empty_one_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let refusal = |name: &str| create_new(&path(name)).unwrap_err().kind();
+        fs::write(path("empty"), "").unwrap();
+        create_new(&path("empty")).unwrap();
+        fs::write(path("precious"), "text").unwrap();
+        assert_eq!(refusal("precious"), io::ErrorKind::AlreadyExists);
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink("empty", path("link")).unwrap();
+            std::os::unix::fs::symlink("nowhere", path("dangling")).unwrap();
+            assert_eq!(refusal("link"), io::ErrorKind::AlreadyExists);
+            assert_eq!(refusal("dangling"), io::ErrorKind::AlreadyExists);
+            assert!(!path("nowhere").exists());
+        }
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn links_are_followed_to_their_end() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::create_dir(path("sub")).unwrap();
+        symlink("sub/second", path("first")).unwrap();
+        symlink("../nowhere.csv", path("sub/second")).unwrap();
+        symlink(path("first"), path("absolute")).unwrap();
+        for name in ["first", "absolute"] {
+            assert_eq!(target(&path(name)), path("sub/../nowhere.csv"), "{name}");
+        }
+        assert_eq!(target(&path("none.csv")), path("none.csv"));
+        symlink("circle", path("circle")).unwrap();
+        assert_eq!(target(&path("circle")), path("circle"));
     }
 }

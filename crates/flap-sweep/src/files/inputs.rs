@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::files::beside;
 use crate::files::disk;
+use crate::files::replacement;
 use crate::plan::Plan;
 
 /// The files that a command reads.
@@ -60,25 +61,23 @@ impl Inputs {
         self
     }
 
-    /// Checks that the file `output` and the temporary file beside it are none of these, whatever the spelling of the name,
-    /// and through links.
-    ///
-    /// # Errors
-    /// [`Overlap`] with the first file that would be overwritten.
-    pub fn protect(&self, output: &Path) -> Result<(), Overlap> {
-        self.refuse(output).and_then(|()| self.refuse(&beside::temporary_of(output)))
-    }
-
-    /// Checks the same for results and the files beside them.
+    /// Checks the same for results, their replacement, and the files beside both.
     ///
     /// # Errors
     /// [`Overlap`] with the first file that would be overwritten.
     pub fn protect_from_results(&self, output: &Path) -> Result<(), Overlap> {
-        self.protect(output)?;
-        beside::all_of(output).iter().try_for_each(|path| self.protect(path))
+        for results in [output.to_owned(), replacement::of(output)] {
+            self.protect(&results)?;
+            beside::all_of(&results).iter().try_for_each(|path| self.protect(path))?;
+        }
+        Ok(())
     }
 
-    fn refuse(&self, output: &Path) -> Result<(), Overlap> {
+    /// Checks that the file `output` is none of these, whatever the spelling of the name, and through links.
+    ///
+    /// # Errors
+    /// [`Overlap`] with the first file that would be overwritten.
+    pub fn protect(&self, output: &Path) -> Result<(), Overlap> {
         match self.files.iter().find(|(_, input)| disk::is_same_file(output, input)) {
             None => Ok(()),
             Some((what, input)) => Err(Overlap { output: output.to_owned(), what, input: input.clone() }),
@@ -116,10 +115,9 @@ mod tests {
     fn what_is_written_beside_results_is_looked_at_too() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name);
-        for (number, beside) in
-            [".meta.toml", ".journal", ".part", ".tmp", ".meta.toml.tmp"].iter().enumerate()
-        {
-            let (results, input) = (format!("{number}.csv"), path(&format!("{number}.csv{beside}")));
+        let written = [".csv.meta.toml", ".csv.journal", ".csv.part", ".new.csv", ".new.csv.meta.toml"];
+        for (number, ending) in written.iter().enumerate() {
+            let (results, input) = (format!("{number}.csv"), path(&format!("{number}{ending}")));
             fs::write(&input, "text").unwrap();
             let mut inputs = Inputs::new();
             inputs.add("the grid file", &input);

@@ -10,8 +10,8 @@ mod run;
 mod stream;
 
 pub use error::JobError;
-pub use outcome::{Before, Done, Outcome};
+pub use outcome::{Done, Notice, Outcome};
 pub use run::{Begin, Job, run};
 pub use stream::{Engine, to_stream};
 
-pub use crate::files::replaced::kept;
+pub use crate::files::replacement::{to_resume, unfinished};

@@ -1,5 +1,6 @@
 //! Reports of a job: before its points are run, and at its end.
 
+use std::io;
 use std::path::PathBuf;
 
 use crate::run::Summary;
@@ -29,11 +30,16 @@ pub struct Done {
     pub place: Option<PathBuf>,
 }
 
-/// The earlier work that a job continues.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Before {
-    /// Number of rows that had been written but are no longer in the file: they are computed again.
-    pub lost: u64,
-    /// Number of points that are done.
-    pub done: u64,
+/// A notice for the user before points are run.
+#[derive(Debug)]
+pub enum Notice {
+    /// The job continues earlier work.
+    Continued {
+        /// Number of rows that had been written but are no longer in the file: they are computed again.
+        lost: u64,
+        /// Number of points that are done.
+        done: u64,
+    },
+    /// The results could not be locked, for this reason: another run that writes to them would not be noticed.
+    Unlocked(io::Error),
 }

@@ -1,15 +1,17 @@
 //! A job that continues earlier work.
 
+use std::path::Path;
+
 use flap_core::simulate::Status;
 
-use super::{Before, Engine, Job, JobError, Outcome};
+use super::{Engine, Job, JobError, Notice, Outcome};
 use crate::files::beside::{journal_of, sidecar_of};
-use crate::files::disk;
 use crate::files::integrity::{self, OnDamage};
 use crate::files::journal;
 use crate::files::results::Format;
 use crate::files::session::{ResumeError, Resumed, Session};
 use crate::files::sidecar::{ReadError, Sidecar, State};
+use crate::files::{companions, disk, output, replacement};
 use crate::run::identity::Identity;
 
 impl Job<'_> {
@@ -17,62 +19,100 @@ impl Job<'_> {
     pub(super) fn resume(
         &self,
         engine: Engine<'_>,
-        tell: &mut dyn FnMut(Before),
+        tell: &mut dyn FnMut(Notice),
     ) -> Result<Outcome, JobError> {
-        let resumed = match Session::resume(&self.out, self.plan, &self.options) {
-            Ok(resumed) => resumed,
-            Err(ResumeError::NoJournal { .. }) if disk::is_empty(&self.out) => return self.start(engine),
-            Err(error @ ResumeError::NoJournal { .. }) => return self.without_journal(error),
-            Err(error) => return Err(self.cannot_resume(error)),
+        let Some(new) = replacement::unfinished(&self.out) else {
+            return self.resume_at(&self.out, engine, tell);
         };
-        let Resumed { session, before, started, lost } = resumed;
-        tell(Before { lost, done: before.done() });
+        // Locked until the end of the job.
+        let _held = output::hold(&self.out)?;
+        if replacement::is_over(&new, Format::of(&self.out)?) {
+            replacement::discard(&self.out).map_err(|error| JobError::write(&self.out, error, false))?;
+            return self.resume_at(&self.out, engine, tell);
+        }
+        self.resume_at(&new, engine, tell)
+    }
+
+    /// Runs the points that are not done yet of the results at `place`.
+    fn resume_at(
+        &self,
+        place: &Path,
+        engine: Engine<'_>,
+        tell: &mut dyn FnMut(Notice),
+    ) -> Result<Outcome, JobError> {
+        let has_journal =
+            companions::has_journal(place).map_err(|error| JobError::write(place, error, false))?;
+        let sidecar = Sidecar::read(&sidecar_of(place));
+        if let Ok(sidecar) = &sidecar
+            && sidecar.state == State::Complete
+        {
+            return self.is_complete(place, sidecar, has_journal);
+        }
+        if !has_journal {
+            return match sidecar {
+                _ if disk::is_empty(place) => self.start(engine, tell),
+                Err(error @ ReadError::Damaged { .. }) => Err(JobError::Open(error.into())),
+                _ => Err(self.cannot_resume(place, ResumeError::NoJournal(place.to_owned()))),
+            };
+        }
+        let resumed = Session::resume(place, self.plan, &self.options)
+            .map_err(|error| self.cannot_resume(place, error))?;
+        let Resumed { session, before, started, lost, unlocked } = resumed;
+        unlocked.map(Notice::Unlocked).into_iter().for_each(&mut *tell);
+        tell(Notice::Continued { lost, done: before.done() });
         let sidecar = self.sidecar(started);
-        self.write_sidecar(&sidecar, false)?;
+        self.write_sidecar(place, &sidecar, false)?;
         self.work(session, before, sidecar, engine)
     }
 
-    /// The outcome if there is no journal: the rows wanted are all there, or the `error` is one.
-    fn without_journal(&self, error: ResumeError) -> Result<Outcome, JobError> {
-        match Sidecar::read(&sidecar_of(&self.out)) {
-            Ok(sidecar) if sidecar.state == State::Complete => self.compared(&sidecar),
-            Err(error @ ReadError::Damaged { .. }) => Err(JobError::Open(error.into())),
-            _ => Err(self.cannot_resume(error)),
+    /// The outcome if the sidecar of the results at `place` calls them complete. Only a run that was killed at its very end
+    /// `has_journal` left: its last steps are repeated, and nothing is written otherwise.
+    fn is_complete(&self, place: &Path, sidecar: &Sidecar, has_journal: bool) -> Result<Outcome, JobError> {
+        // The rows of a replacement may have their name already.
+        let rows = if place.exists() { place } else { &self.out };
+        if !has_journal {
+            return self.compared(rows, sidecar);
         }
+        let _held = output::hold(rows)?;
+        let outcome = self.compared(rows, sidecar)?;
+        self.complete(place)?;
+        Ok(outcome)
     }
 
     /// The outcome if a file has the name of the results: it holds the rows wanted, or it is in the way.
     pub(super) fn existing(&self) -> Result<Outcome, JobError> {
         match Sidecar::read(&sidecar_of(&self.out)) {
-            Ok(sidecar) if sidecar.state == State::Complete => self.compared(&sidecar),
+            Ok(sidecar) if sidecar.state == State::Complete => self.compared(&self.out, &sidecar),
             _ => Err(JobError::Exists { path: self.out.clone(), changes: Vec::new(), changed: None }),
         }
     }
 
-    /// The outcome if complete results with this sidecar have the name of the results.
-    fn compared(&self, sidecar: &Sidecar) -> Result<Outcome, JobError> {
+    /// The outcome if complete results at `rows` have this sidecar: they are the rows wanted, and sound, or in the way.
+    fn compared(&self, rows: &Path, sidecar: &Sidecar) -> Result<Outcome, JobError> {
         let changes = sidecar.identity().differences(&self.identity());
         if !changes.is_empty() {
             let changed = self.changed_line(sidecar);
             return Err(JobError::Exists { path: self.out.clone(), changes, changed });
         }
-        self.complete(sidecar)
+        self.sound(rows, sidecar)
     }
 
-    /// The error if unfinished results have the name of the results.
+    /// The error if unfinished results, or an unfinished replacement, have the name of the results.
     pub(super) fn unfinished(&self) -> JobError {
-        let path = self.out.clone();
-        let past = journal::read(&journal_of(&path)).ok().flatten();
+        let place = replacement::to_resume(&self.out);
+        let past = journal::read(&journal_of(&place)).ok().flatten();
         let changes = past.map(|past| past.header.identity.differences(&self.identity())).unwrap_or_default();
-        let changed = self.changed_since(!changes.is_empty());
-        JobError::Unfinished { path, changes, changed, continues: self.continues() }
+        let changed = self.changed_since(&place, !changes.is_empty());
+        let continues = self.continues(&place);
+        JobError::Unfinished { path: self.out.clone(), changes, changed, continues }
     }
 
-    /// True if the sweep that began the unfinished results can be continued from their sidecar, by this build on this machine.
-    fn continues(&self) -> bool {
+    /// True if the sweep that began the unfinished results at `place` can be continued from their sidecar, by this build on
+    /// this machine.
+    fn continues(&self, place: &Path) -> bool {
         let own = self.identity();
-        let past = journal::read(&journal_of(&self.out)).ok().flatten().map(|past| past.header.identity);
-        let sidecar = Sidecar::read(&sidecar_of(&self.out)).ok().map(|sidecar| sidecar.identity());
+        let past = journal::read(&journal_of(place)).ok().flatten().map(|past| past.header.identity);
+        let sidecar = Sidecar::read(&sidecar_of(place)).ok().map(|sidecar| sidecar.identity());
         past == sidecar && past.is_some_and(|past| past.is_by_program_of(&own))
     }
 
@@ -81,24 +121,24 @@ impl Job<'_> {
         Identity::of(self.plan, &self.options.run)
     }
 
-    /// The outcome if the results hold the rows wanted, and are sound.
-    fn complete(&self, sidecar: &Sidecar) -> Result<Outcome, JobError> {
-        let format = Format::of(&self.out)?;
-        integrity::check(&self.out, format, sidecar, OnDamage::Refuse).map_err(JobError::Open)?;
+    /// The outcome if the results at `rows` hold the rows wanted, and are sound.
+    fn sound(&self, rows: &Path, sidecar: &Sidecar) -> Result<Outcome, JobError> {
+        let format = Format::of(rows)?;
+        integrity::check(rows, format, sidecar, OnDamage::Refuse).map_err(JobError::Open)?;
         let periodic = sidecar.statuses.as_ref().and_then(|counts| counts.get(Status::Periodic.name()));
         Ok(Outcome::Complete { all_periodic: periodic == sidecar.rows.as_ref() })
     }
 
     /// The error, with the first line of the grid file that has changed.
-    fn cannot_resume(&self, error: ResumeError) -> JobError {
-        let changed = self.changed_since(matches!(error, ResumeError::Changed { .. }));
-        JobError::Resume { error, changed, continues: self.continues() }
+    fn cannot_resume(&self, place: &Path, error: ResumeError) -> JobError {
+        let changed = self.changed_since(place, matches!(error, ResumeError::Changed { .. }));
+        JobError::Resume { error, changed, continues: self.continues(place) }
     }
 
-    /// The first line of the grid file that has changed since the results were begun, in words; `None` unless they are
-    /// `other` rows.
-    fn changed_since(&self, other: bool) -> Option<String> {
-        let before = Sidecar::read(&sidecar_of(&self.out)).ok().filter(|_| other)?;
+    /// The first line of the grid file that has changed since the results at `place` were begun, in words; `None` unless they
+    /// are `other` rows.
+    fn changed_since(&self, place: &Path, other: bool) -> Option<String> {
+        let before = Sidecar::read(&sidecar_of(place)).ok().filter(|_| other)?;
         self.changed_line(&before)
     }
 

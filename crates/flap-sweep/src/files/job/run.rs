@@ -1,17 +1,17 @@
 //! A job that starts, and one that ends.
 
-use std::fs::File;
-use std::path::PathBuf;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use super::{Before, Done, Engine, JobError, Outcome, to_stream};
-use crate::files::beside::{journal_of, sidecar_of};
+use super::{Done, Engine, JobError, Notice, Outcome, to_stream};
+use crate::files::beside::sidecar_of;
 use crate::files::inputs::Inputs;
-use crate::files::output::{self, CreateError};
-use crate::files::replaced;
+use crate::files::output::{self, CreateError, Output};
 use crate::files::results::Format;
 use crate::files::session::{Session, SessionOptions};
 use crate::files::sidecar::{End, Origin, Sidecar, Start};
+use crate::files::{companions, disk, replacement};
 use crate::notation::time;
 use crate::plan::Plan;
 use crate::run::{RunError, Summary};
@@ -35,7 +35,7 @@ pub struct Job<'a> {
 pub enum Begin {
     /// They are an error, unless they are complete and hold the rows of the job: then nothing is left to run.
     New,
-    /// They are kept under the name that [`kept`](replaced::kept) gives until the new ones are complete, and then removed.
+    /// They are replaced when the new ones are complete. Until then the new ones have [another name](replacement::unfinished).
     Overwrite,
     /// They are continued.
     Resume,
@@ -52,7 +52,7 @@ impl Begin {
     }
 }
 
-/// Runs the job. `tell` is called if it continues earlier work.
+/// Runs the job. `tell` is called with notices for the user.
 ///
 /// # Errors
 /// - [`JobError::Overlap`] if the results would overwrite a file that they are made from
@@ -64,12 +64,12 @@ impl Begin {
 /// - [`JobError::Open`] if the results are complete already, but damaged
 /// - [`JobError::Write`] if a file beside the results cannot be written
 /// - [`JobError::Run`] if rows cannot be computed or written; those written are kept with their journal
-pub fn run(job: &Job<'_>, engine: Engine<'_>, tell: &mut dyn FnMut(Before)) -> Result<Outcome, JobError> {
+pub fn run(job: &Job<'_>, engine: Engine<'_>, tell: &mut dyn FnMut(Notice)) -> Result<Outcome, JobError> {
     Inputs::new().add_plan(job.plan).protect_from_results(&job.out)?;
     match job.begin {
         Begin::Resume => job.resume(engine, tell),
-        Begin::Overwrite => job.start(engine),
-        Begin::New => match job.start(engine) {
+        Begin::Overwrite => job.start(engine, tell),
+        Begin::New => match job.start(engine, tell) {
             Err(JobError::Create(CreateError::Exists(_))) => job.existing(),
             Err(JobError::Create(CreateError::Unfinished(_))) => Err(job.unfinished()),
             outcome => outcome,
@@ -79,48 +79,61 @@ pub fn run(job: &Job<'_>, engine: Engine<'_>, tell: &mut dyn FnMut(Before)) -> R
 
 impl Job<'_> {
     /// Runs the job from its first point.
-    pub(super) fn start(&self, engine: Engine<'_>) -> Result<Outcome, JobError> {
+    pub(super) fn start(
+        &self,
+        engine: Engine<'_>,
+        tell: &mut dyn FnMut(Notice),
+    ) -> Result<Outcome, JobError> {
         let format = Format::of(&self.out)?;
-        let file = output::create(&self.out, self.begin == Begin::Overwrite)?;
+        let overwrite = self.begin == Begin::Overwrite;
+        // Locked until the end of the job, even if the rows go into a replacement.
+        let Output { file, unlocked } = output::create(&self.out, overwrite)?;
         // Devices and pipes have nothing beside them, and nothing to resume.
         if !file.metadata().is_ok_and(|metadata| metadata.is_file()) {
             let done = to_stream(self.plan, file, &self.options.run, engine)?;
             return Ok(Outcome::Ran(Box::new(Done { place: Some(self.out.clone()), ..done })));
         }
-        let (file, replaces) = self.make_room(file)?;
-        let started = time::now();
-        let sidecar = self.sidecar(started.clone());
-        let session = self.write_sidecar(&sidecar, false).and_then(|()| {
-            Session::start(file, (&self.out, format), self.plan, &self.options, (started, replaces))
-                .map_err(|error| JobError::write(&self.out, error, false))
-        });
-        if session.is_err() && replaces {
-            replaced::restore(&self.out);
+        unlocked.map(Notice::Unlocked).into_iter().for_each(tell);
+        let refused = |error| JobError::write(&self.out, error, false);
+        if overwrite {
+            replacement::discard(&self.out).map_err(refused)?;
         }
-        self.work(session?, Summary::default(), sidecar, engine)
+        let has_companions =
+            companions::has_sidecar(&self.out) || companions::has_journal(&self.out).map_err(refused)?;
+        if !overwrite || (disk::is_empty(&self.out) && !has_companions) {
+            return self.begin(file, (&self.out, format), false, engine);
+        }
+        let new = replacement::of(&self.out);
+        let created = output::create(&new, false).map_err(|error| match error {
+            CreateError::Exists(path) | CreateError::Unfinished(path) => {
+                CreateError::InTheWay { path, results: self.out.clone() }
+            }
+            error => error,
+        })?;
+        self.begin(created.file, (&new, format), true, engine)
     }
 
-    /// Moves earlier results aside if they are to be replaced. `file` is the one that holds them. Returns the file for new
-    /// rows, and true if earlier results are kept beside it.
-    fn make_room(&self, file: File) -> Result<(File, bool), JobError> {
-        let refused = |error| JobError::write(&self.out, error, false);
-        let is_unfinished = journal_of(&self.out).exists();
-        let is_empty = file.metadata().map_err(refused)?.len() == 0;
-        if self.begin != Begin::Overwrite || (is_empty && !is_unfinished) {
-            return Ok((file, false));
-        }
-        // Unfinished results that replace others: those others are kept.
-        if replaced::kept(&self.out).is_some() {
-            return Ok((file, true));
-        }
-        replaced::set_aside(&self.out).map_err(refused)?;
-        match output::create(&self.out, false) {
-            Ok(file) => Ok((file, true)),
-            Err(error) => {
-                replaced::restore(&self.out);
-                Err(error.into())
-            }
-        }
+    /// Runs the job from its first point into the empty `file`, which was created at `place`. If it `replaces` earlier
+    /// results, it has their name in the end.
+    fn begin(
+        &self,
+        file: File,
+        (place, format): (&Path, Format),
+        replaces: bool,
+        engine: Engine<'_>,
+    ) -> Result<Outcome, JobError> {
+        let started = time::now();
+        let sidecar = self.sidecar(started.clone());
+        let begun = output::check_beside(place, format).map_err(JobError::from).and_then(|()| {
+            self.write_sidecar(place, &sidecar, false)?;
+            Session::start(file, (place, format), self.plan, &self.options, (started, replaces))
+                .map_err(|error| JobError::write(place, error, false))
+        });
+        let session = begun.inspect_err(|_| {
+            // Nothing is in these files. The first error is the one to report.
+            let _ = companions::remove(place).and_then(|()| fs::remove_file(disk::target(place)));
+        })?;
+        self.work(session, Summary::default(), sidecar, engine)
     }
 
     /// The sidecar of a sweep that `started` at this time.
@@ -128,8 +141,14 @@ impl Job<'_> {
         Sidecar::new(self.plan, Start { started, options: self.options.run, rerun: self.origin.clone() })
     }
 
-    pub(super) fn write_sidecar(&self, sidecar: &Sidecar, resumable: bool) -> Result<(), JobError> {
-        let path = sidecar_of(&self.out);
+    /// Writes the sidecar of the results at `place`.
+    pub(super) fn write_sidecar(
+        &self,
+        place: &Path,
+        sidecar: &Sidecar,
+        resumable: bool,
+    ) -> Result<(), JobError> {
+        let path = sidecar_of(place);
         sidecar.write(&path).map_err(|error| JobError::write(&path, error, resumable))
     }
 
@@ -151,31 +170,33 @@ impl Job<'_> {
         let end = End { finished: time::now(), seconds: session.seconds() };
         match outcome {
             Ok(summary) => {
-                let place = Some(session.rows_path(!summary.interrupted));
+                let is_complete = !summary.interrupted;
                 sidecar.finish(&summary, end);
-                sidecar.checksums = (!summary.interrupted).then(|| session.checksums());
-                self.write_sidecar(&sidecar, true)?;
-                if !summary.interrupted {
-                    self.clear(session)?;
+                sidecar.checksums = is_complete.then(|| session.checksums());
+                self.write_sidecar(session.path(), &sidecar, true)?;
+                if is_complete {
+                    self.complete(session.path())?;
                 }
+                let place = if is_complete { self.out.clone() } else { session.rows_path() };
                 let seconds = start.elapsed().as_secs_f64();
-                Ok(Outcome::Ran(Box::new(Done { summary, rows_before, seconds, place })))
+                Ok(Outcome::Ran(Box::new(Done { summary, rows_before, seconds, place: Some(place) })))
             }
             Err(error) => {
                 sidecar.fail(error.to_string(), end);
                 // The first error is the one to report.
-                let _ = self.write_sidecar(&sidecar, true);
+                let _ = self.write_sidecar(session.path(), &sidecar, true);
                 Err(JobError::Run { error, resumable: true })
             }
         }
     }
 
-    /// Removes the files that complete results do not need: earlier results, the journal and waiting rows.
-    fn clear(&self, session: Session) -> Result<(), JobError> {
-        let refused = |error| JobError::write(&self.out, error, true);
-        if replaced::kept(&self.out).is_some() {
-            replaced::remove(&self.out).map_err(refused)?;
-        }
-        session.forget().map_err(refused)
+    /// Gives the complete results at `place` their name, and removes the files that they do not need.
+    pub(super) fn complete(&self, place: &Path) -> Result<(), JobError> {
+        let completed = if place == self.out {
+            companions::remove_progress(place)
+        } else {
+            replacement::commit(&self.out)
+        };
+        completed.map_err(|error| JobError::write(&self.out, error, true))
     }
 }

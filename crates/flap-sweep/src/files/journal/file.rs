@@ -10,6 +10,7 @@ use toml::de::ValueDeserializer;
 use toml::ser::ValueSerializer;
 
 use super::{Checkpoint, Header};
+use crate::files::disk;
 use crate::notation::text;
 
 /// The contents of a journal.
@@ -73,12 +74,13 @@ fn line(contents: &impl Serialize) -> io::Result<String> {
 pub struct Journal(File);
 
 impl Journal {
-    /// Begins a journal, in place of an earlier one.
+    /// Begins a journal.
     ///
     /// # Errors
-    /// The error of the operating system if the file cannot be written.
+    /// - [`io::ErrorKind::AlreadyExists`] if a file with contents has its name
+    /// - the error of the operating system if the file cannot be written
     pub fn create(path: &Path, header: &Header) -> io::Result<Journal> {
-        let mut journal = Journal(File::create(path)?);
+        let mut journal = Journal(disk::create_new(path)?);
         journal.add_line(header)?;
         Ok(journal)
     }

@@ -1,13 +1,14 @@
 //! A session that continues an interrupted one.
 
 use std::fs::File;
-use std::io::{Seek, SeekFrom};
+use std::io::{self, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use super::{Session, SessionOptions};
 use crate::files::beside::{journal_of, rows_of};
+use crate::files::disk;
 use crate::files::journal::{self, Intact, Journal, last_intact};
-use crate::files::output::{self, CreateError};
+use crate::files::output::{self, CreateError, Output};
 use crate::files::results::{Format, FormatError, TextRows, text_sum};
 use crate::plan::Plan;
 use crate::run::Summary;
@@ -23,6 +24,8 @@ pub struct Resumed {
     pub started: String,
     /// Number of rows that had been written but are no longer in the file.
     pub lost: u64,
+    /// Reason why the results could not be locked.
+    pub unlocked: Option<io::Error>,
 }
 
 /// A run that cannot be resumed.
@@ -62,7 +65,7 @@ impl Session {
     pub fn resume(path: &Path, plan: &Plan, options: &SessionOptions) -> Result<Resumed, ResumeError> {
         let refused = |source| CreateError::Io { path: path.to_owned(), source };
         let format = Format::of(path)?;
-        let results = output::reopen(path)?;
+        let Output { file: results, unlocked } = output::reopen(path)?;
         let journal_path = journal_of(path);
         let past = journal::read(&journal_path).map_err(refused)?;
         let past = past.ok_or_else(|| ResumeError::NoJournal(path.to_owned()))?;
@@ -73,7 +76,7 @@ impl Session {
 
         let rows_path = rows_of(path, format);
         let rows_file =
-            if format.is_columnar() { output::open_or_make(&rows_path) } else { results.try_clone() };
+            if format.is_columnar() { disk::open_or_create(&rows_path) } else { results.try_clone() };
         let rows_file = rows_file.map_err(refused)?;
         let found = last_intact(&rows_file, &past).map_err(refused)?;
         let found = found.ok_or_else(|| ResumeError::Altered(rows_path.clone()))?;
@@ -90,6 +93,6 @@ impl Session {
         let rows = TextRows::after(rows_file, format, (hash, checkpoint.bytes), text).map_err(refused)?;
         let mut session = Session::new(results, (path, format), rows, plan, options, journal);
         session.add_seconds(checkpoint.seconds);
-        Ok(Resumed { session, before: checkpoint.summary(), started: past.header.started, lost })
+        Ok(Resumed { session, before: checkpoint.summary(), started: past.header.started, lost, unlocked })
     }
 }

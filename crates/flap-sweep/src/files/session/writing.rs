@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 
 use super::assemble::assemble;
 use crate::files::beside::rows_of;
+use crate::files::disk;
 use crate::files::journal::{Checkpoint, Journal};
 use crate::files::results::{Checksums, FileSum, Format, Provenance, TextRows};
-use crate::files::{disk, output};
 use crate::plan::Plan;
 use crate::run::identity::Identity;
 use crate::run::sink::Sink;
@@ -78,9 +78,9 @@ impl Session {
         self.seconds_before + self.began.elapsed().as_secs_f64()
     }
 
-    /// The file that holds the rows: not the results themselves before a Parquet file is complete.
-    pub fn rows_path(&self, complete: bool) -> PathBuf {
-        if complete { self.path.clone() } else { rows_of(&self.path, self.format) }
+    /// The file that holds the rows until they are complete: not the results themselves for a Parquet file.
+    pub fn rows_path(&self) -> PathBuf {
+        rows_of(&self.path, self.format)
     }
 
     /// Adds the last checkpoint, after [`Sink::finish`]; completes the results if the run came to its end.
@@ -97,7 +97,7 @@ impl Session {
             self.results.seek(SeekFrom::Start(0))?;
             let results = self.results.try_clone()?;
             let text = self.checksums().text;
-            self.columns = assemble(&self.rows_path(false), results, &self.provenance, &text)?.file;
+            self.columns = assemble(&self.rows_path(), results, &self.provenance, &text)?.file;
         }
         Ok(())
     }
@@ -107,21 +107,16 @@ impl Session {
         self.rows.checksums(self.columns.clone())
     }
 
-    /// Removes the journal and the waiting rows. This is the last step of a run.
-    ///
-    /// # Errors
-    /// The error of the operating system if a file cannot be removed.
-    pub fn forget(self) -> io::Result<()> {
-        let Session { path, journal, rows, .. } = self;
-        drop((journal, rows));
-        output::forget(&path)
+    /// The results.
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Makes the rows durable, then adds a checkpoint behind them.
     fn note(&mut self, so_far: &Summary) -> io::Result<()> {
         self.rows.flush()?;
         disk::check_in_place(&self.results, &self.path)?;
-        disk::check_in_place(self.rows.file(), &self.rows_path(false))?;
+        disk::check_in_place(self.rows.file(), &self.rows_path())?;
         self.rows.file().sync_data()?;
         self.journal.add(&Checkpoint::new(so_far, self.rows.extent(), self.seconds()))?;
         self.last_checkpoint = Instant::now();

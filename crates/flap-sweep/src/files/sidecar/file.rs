@@ -131,7 +131,14 @@ impl Sidecar {
     /// # Errors
     /// The error of the operating system if it cannot be written.
     pub fn write(&self, path: &Path) -> io::Result<()> {
+        self.prepare(path)?.commit()
+    }
+
+    /// Writes the file, which has its name once it is committed.
+    pub(crate) fn prepare(&self, path: &Path) -> io::Result<disk::Whole> {
         let text = self.text().map_err(io::Error::other)?;
-        disk::replace(path, |mut file| file.write_all(text.as_bytes()))
+        let whole = disk::Whole::begin(path)?;
+        whole.file().write_all(text.as_bytes())?;
+        Ok(whole)
     }
 }
