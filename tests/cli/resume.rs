@@ -301,10 +301,10 @@ fn a_changed_grid_is_not_resumed() {
     assert_eq!(folder.read("grid.csv"), rows, "nothing is lost");
 
     // Complete results of another grid have nothing to be continued.
-    folder.ends(0, "sweep grid.toml --shard 1/10000000 --out part.csv");
+    folder.ends(0, "sweep grid.toml --shard 1/1000000 --out part.csv");
     let ended = folder.ends(2, "sweep grid.toml --resume --out part.csv");
     ended.says(
-        "error: part.csv exists already, with other rows: the rows cover shard 1/10000000, not all points\n",
+        "error: part.csv exists already, with other rows: the rows cover shard 1/1000000, not all points\n",
     );
     ended.says("help: --out FILE writes to another file, --force replaces it\n");
 }

@@ -50,6 +50,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
         return Ok(Exit::Done);
     }
 
+    let rows = whole.rows.unwrap_or_default();
     job::make(&args.out, args.overwrite.force, |target| {
         let checksums = merge::merge(&parts, &mut readers, &plan, &whole, (target, format))?;
         // Rows that were damaged before are not to be called sound.
@@ -57,7 +58,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
         Ok::<_, MergeError>(Some(whole))
     })??;
     tell_missed(&parts, &readers);
-    let (rows, shards) = (count(whole.rows.unwrap_or_default(), "row"), count(parts.len() as u64, "shard"));
+    let (rows, shards) = (count(rows, "row"), count(parts.len() as u64, "shard"));
     console::say(&format!("{rows} of {shards} in {}", args.out.display()));
     Ok(Exit::Done)
 }

@@ -68,9 +68,7 @@ impl Identity {
 
     /// True if the same build of flap computed the rows of `other`, with the same arithmetic.
     pub fn is_by_program_of(&self, other: &Identity) -> bool {
-        let program =
-            |identity: &Identity| [&identity.flap, &identity.build, &identity.arithmetic].map(String::clone);
-        program(self) == program(other)
+        self.flap == other.flap && self.build == other.build && self.arithmetic == other.arithmetic
     }
 
     /// The differences of `other`, in words; none if the rows are the same.

@@ -95,6 +95,20 @@ fn mistakes_say_what_and_where() {
     }
 }
 
+/// The unit of a model that flap has no entry for is read as it is written there.
+#[test]
+fn units_that_are_not_of_flap_are_not_converted() {
+    assert_eq!(parse_as("3000 rpm", "rpm"), Ok(3000.0));
+    assert_eq!(
+        parse_as("50 Hz", "rpm").expect_err("another unit").to_string(),
+        "`Hz` cannot be converted into `rpm`, the unit of the value in its model; write the number in rpm"
+    );
+    assert_eq!(
+        parse_as("3000", "rpm").expect_err("no unit").to_string(),
+        "the value needs a unit; add a unit: rpm; or write a bare number in rpm"
+    );
+}
+
 #[test]
 fn spans_survive_leading_spaces() {
     assert_eq!(parse_as("  2 umm", "m").map_err(|error| error.span), Err(4..7));
