@@ -385,3 +385,81 @@ fn responses_and_motions_are_described_too() {
     assert!(top.stdout.starts_with("time_s,stroke_deg\n"), "{}", top.stdout);
     top.says("1 row with the largest stroke_deg of 401 rows\n");
 }
+
+/// Tables of other programs with words, shares and names of any length.
+fn table_of_words() -> Folder {
+    let folder = Folder::new();
+    let rows = "0,square,0.0007,1\n1,sine,0.0009,2\n2,square,0.0011,3\n";
+    fs::write(folder.path("t.csv"), format!("n,drive_shape,strain_surface_max,lift_mean_mn\n{rows}"))
+        .unwrap();
+    folder
+}
+
+#[test]
+fn conditions_take_per_cent_and_quoted_words() {
+    let folder = table_of_words();
+    for (condition, rows) in [
+        ("strain_surface_max<0.08 %", 1),
+        ("strain_surface_max < 0.1% and lift_mean_mn > 1", 1),
+        ("strain_surface_max=0.09 %", 1),
+        ("drive_shape='square'", 2),
+        ("drive_shape=\"square\"", 2),
+        ("drive_shape=square", 2),
+    ] {
+        let arguments = ["top", "t.csv", "--by", "lift_mean_mn", "--format", "csv", "--where", condition];
+        let ended = folder.ends_with(0, &arguments);
+        assert_eq!(ended.stdout.lines().count(), 1 + rows, "{condition}: {}", ended.stdout);
+    }
+    let arguments = ["top", "t.csv", "--by", "lift_mean_mn", "--where", "drive_shape='squre'"];
+    let ended = folder.ends_with(2, &arguments);
+    ended
+        .says("no row of t.csv satisfies --where\n")
+        .says("help: the values of drive_shape are sine, square\n");
+}
+
+/// A part of a name leads to the first column that has it, and a table of many columns is not listed as a whole.
+#[test]
+#[cfg(target_os = "linux")]
+fn names_that_are_near_come_first_and_lists_are_short() {
+    let folder = periodic();
+    folder.ends(2, "top rows.csv --by lift").says("help: did you mean `lift_mean_mn`?\n");
+    folder.ends(2, "run ozaki2018-large --gradient lift").says("help: did you mean `lift_mean_mn`?\n");
+    let names: Vec<String> = (0..1_000_000).map(|column| format!("c{column}")).collect();
+    fs::write(folder.path("wide.csv"), format!("{}\n{}1\n", names.join(","), "1,".repeat(999_999))).unwrap();
+    let ended = folder.ends(2, "describe wide.csv --columns zebra");
+    ended.says("c19 and 999980 more columns\n");
+    assert!(ended.stderr.len() < 1000, "{} bytes", ended.stderr.len());
+    fs::write(folder.path("wide-motion.csv"), format!("{}\n{}1\n", names.join(","), "1,".repeat(999_999)))
+        .unwrap();
+    let ended = folder.ends(2, "lift ozaki2018-small wide-motion.csv");
+    assert!(ended.stderr.len() < 1000, "{} bytes", ended.stderr.len());
+    let flap = env!("CARGO_BIN_EXE_flap");
+    let ended = folder.shell(&format!("ulimit -t 20; exec {flap} describe wide.csv --format csv"));
+    assert_eq!((ended.code, ended.stdout.lines().count()), (0, 1 + 6_000_000), "{}", ended.stderr);
+}
+
+/// Names and words of more characters than the width in a format can have.
+#[test]
+fn names_of_any_length_are_shown() {
+    let folder = Folder::new();
+    let long = "n".repeat(70_000);
+    fs::write(folder.path("t.csv"), format!("a,{long},w\n1,2,{long}\n")).unwrap();
+    let short = format!("{}…(70000 characters)…{}", "n".repeat(60), "n".repeat(20));
+    folder.ends(0, "describe t.csv").prints(&short);
+    folder.ends(0, "top t.csv --by a --columns w").prints(&short);
+    folder.ends(0, "describe t.csv --columns w").prints(&short);
+    let json = folder.ends(0, "describe t.csv --format json").stdout;
+    assert!(json.contains(&long), "programs get the whole name");
+
+    let measure = format!("preset = \"ozaki2018-large\"\n[measure]\n{long} = \"2 * lift_mean_mn\"\n");
+    fs::write(folder.path("measure.toml"), measure).unwrap();
+    folder.ends(0, "run measure.toml").prints(&short);
+    let wings =
+        format!("[[vehicle.wings]]\nname = \"{long}\"\n[[vehicle.wings]]\nname = \"b\"\nmirrored = true\n");
+    let vehicle = format!("preset = \"jafferis2016\"\n[vehicle]\n{wings}");
+    fs::write(folder.path("vehicle.toml"), vehicle).unwrap();
+    for command in ["run", "params", "check"] {
+        let ended = folder.flap(&format!("{command} vehicle.toml"));
+        assert!(ended.code == 0 || ended.code == 2, "{command}: {}", ended.stderr);
+    }
+}

@@ -91,6 +91,19 @@ impl Folder {
         self.flap_reading("", arguments)
     }
 
+    /// Runs a line of a shell.
+    #[cfg(target_os = "linux")]
+    pub(crate) fn shell(&self, line: &str) -> Ended {
+        let output = Command::new("bash")
+            .args(["-c", line])
+            .current_dir(self.0.path())
+            .env_remove("COLUMNS")
+            .timeout(Duration::from_secs(60))
+            .output()
+            .unwrap();
+        Ended::of(line.to_owned(), &output)
+    }
+
     /// Runs `flap` with the text `stdin` on its standard input.
     pub(crate) fn flap_reading(&self, stdin: &str, arguments: &[&str]) -> Ended {
         let output = Command::new(env!("CARGO_BIN_EXE_flap"))
@@ -101,16 +114,20 @@ impl Folder {
             .timeout(Duration::from_secs(120))
             .output()
             .unwrap();
-        Ended {
-            arguments: arguments.join(" "),
-            code: output.status.code().expect("it was not killed"),
-            stdout: String::from_utf8(output.stdout).unwrap(),
-            stderr: String::from_utf8(output.stderr).unwrap(),
-        }
+        Ended::of(arguments.join(" "), &output)
     }
 }
 
 impl Ended {
+    fn of(arguments: String, output: &process::Output) -> Ended {
+        Ended {
+            code: output.status.code().unwrap_or_else(|| panic!("{arguments}: it was killed")),
+            arguments,
+            stdout: String::from_utf8(output.stdout.clone()).unwrap(),
+            stderr: String::from_utf8(output.stderr.clone()).unwrap(),
+        }
+    }
+
     /// Fails the test if stderr does not contain `text`.
     #[track_caller]
     pub(crate) fn says(&self, text: &str) -> &Ended {

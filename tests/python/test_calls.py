@@ -167,7 +167,7 @@ def test_measures_are_chosen():
         lambda names: flapwing.evaluate(PRESET, {"drive_frequency": [100]}, measures=names),
         lambda names: flapwing.sweep(THREE, measures=names),
     ):
-        with pytest.raises(ValueError, match="no measure `lift_mean`, did you mean `lift_mean_gf`\\?\nmeasures: stroke_amplitude_deg, "):
+        with pytest.raises(ValueError, match="no measure `lift_mean`, did you mean `lift_mean_mn`\\?\nmeasures: stroke_amplitude_deg, "):
             call(["lift_mean"])
         with pytest.raises(ValueError, match="names lift_mean_mn twice\nkeep one"):
             call(["lift_mean_mn", "lift_mean_mn"])

@@ -1,11 +1,12 @@
 //! Text in aligned columns.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::ops::Range;
 
 use anstyle::Style;
 use flap_core::parameter::{Kind, Parameter};
-use flap_sweep::notation::text;
+use flap_sweep::notation::text::{self, shortened};
 use flap_sweep::notation::units::prefixed;
 
 /// The number with six digits, for people to read.
@@ -22,7 +23,8 @@ pub(crate) fn assignment(parameter: &Parameter, value: f64) -> String {
     format!("{} = {value}", parameter.name)
 }
 
-/// Rows of cells, aligned on the left. A row may have fewer cells than others.
+/// Rows of cells, aligned on the left. A row may have fewer cells than others. Words of more than some hundred characters are
+/// shortened: files may have names of any length.
 #[derive(Default)]
 pub(crate) struct Table {
     rows: Vec<Vec<String>>,
@@ -43,7 +45,9 @@ impl Table {
 
     /// A table with a first row of names of columns, as they are written.
     pub(crate) fn with_names(names: Vec<String>) -> Table {
-        Table { rows: vec![names], ..Table::default() }
+        let mut table = Table::default();
+        table.row(names);
+        table
     }
 
     /// The same, of which every part has this number of the first columns if it is too wide.
@@ -53,7 +57,11 @@ impl Table {
 
     /// Adds a row.
     pub(crate) fn row(&mut self, cells: impl Into<Vec<String>>) {
-        self.rows.push(cells.into());
+        let shorten = |cell: String| match shortened(&cell) {
+            Cow::Borrowed(_) => cell,
+            Cow::Owned(short) => short,
+        };
+        self.rows.push(cells.into().into_iter().map(shorten).collect());
     }
 
     /// Adds a title above the rows that follow.
@@ -111,7 +119,10 @@ impl Table {
                 let bold = Style::new().bold();
                 let _ = writeln!(text, "\n{bold}{title}{bold:#}");
             }
-            let padded = row.iter().zip(widths).map(|(cell, &width)| format!("{cell:width$}"));
+            // The width in a format has 16 bits.
+            let padded = row.iter().zip(widths).map(|(cell, &width)| {
+                cell.to_owned() + &" ".repeat(width.saturating_sub(cell.chars().count()))
+            });
             let line = padded.collect::<Vec<_>>().join("  ");
             let line = line.trim_end();
             let (begin, last) =
@@ -158,6 +169,15 @@ mod tests {
             2,
             "without a width, tables are as wide as they are"
         );
+    }
+
+    #[test]
+    fn cells_of_any_length_are_printed() {
+        let mut table = Table::with_names(vec!["n".repeat(70_000), "x".to_owned()]);
+        table.row(["a b ".repeat(20_000), "1.0".to_owned()]);
+        let text = table.text_within(None);
+        assert!(text.starts_with(&format!("{}…(70000 characters)…", "n".repeat(60))), "{}", &text[..200]);
+        assert!(text.ends_with("a b   1.0\n"));
     }
 
     #[test]

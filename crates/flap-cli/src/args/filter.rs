@@ -16,9 +16,15 @@ pub(crate) enum Filter {
 pub(super) fn filter(text: &str) -> Result<Filter, String> {
     let equal = text.split_once('=').map(|(name, value)| (name.trim(), value.trim()));
     Ok(match equal.filter(|(name, value)| is_free_name(name) && !value.starts_with('=')) {
-        Some((name, value)) => Filter::Equal(name.to_owned(), value.to_owned()),
+        Some((name, value)) => Filter::Equal(name.to_owned(), unquoted(value).to_owned()),
         None => Filter::Comparison(text.to_owned()),
     })
+}
+
+/// A word without the quotes around it, which comparisons have and a shell may leave.
+fn unquoted(word: &str) -> &str {
+    let inner = |quote: char| word.strip_prefix(quote)?.strip_suffix(quote);
+    inner('\'').or_else(|| inner('"')).unwrap_or(word)
 }
 
 #[cfg(test)]
@@ -30,6 +36,9 @@ mod tests {
         let equal = |name: &str, value: &str| Ok(Filter::Equal(name.to_owned(), value.to_owned()));
         assert_eq!(filter("drive_frequency=95 Hz"), equal("drive_frequency", "95 Hz"));
         assert_eq!(filter(" status = periodic"), equal("status", "periodic"));
+        for text in ["drive_shape='square'", "drive_shape = \"square\"", "drive_shape=square"] {
+            assert_eq!(filter(text), equal("drive_shape", "square"));
+        }
         for text in ["lift_mean_mn>1", "cycles == 7", "a >= 1", "a<=1", "a != 2", "a > 1 and b = 2", "a"] {
             assert_eq!(filter(text), Ok(Filter::Comparison(text.to_owned())));
         }

@@ -29,7 +29,7 @@ pub(crate) fn run(args: &DescribeArgs) -> Result<Exit, Failure> {
     let source = Source::open(results, read, true)?;
     let filters = Filters::of(filters, &source)?;
     let asked = Asked::of(args, &source)?;
-    let table = source.read_kept(|column| asked.wants(column), usize::MAX, |row| filters.keep(row))?;
+    let table = source.read_kept(|column| asked.is_read[column], usize::MAX, |row| filters.keep(row))?;
     if table.rows == 0 {
         return Err(args.look.no_rows(&filters));
     }
@@ -43,6 +43,8 @@ struct Asked {
     status: Option<usize>,
     /// Columns with percentiles, and true if the user named them.
     columns: (Vec<usize>, bool),
+    /// For each column of the file, true if it is read.
+    is_read: Vec<bool>,
     /// Measures with best rows.
     by: Vec<usize>,
 }
@@ -65,13 +67,11 @@ impl Asked {
             let first = Some(behind).filter(|&first| by.is_empty() && first < source.names().len());
             by.extend(first);
         }
-        Ok(Asked { status, columns, by })
-    }
-
-    fn wants(&self, column: usize) -> bool {
-        self.status.is_some_and(|status| column <= status)
-            || self.columns.0.contains(&column)
-            || self.by.contains(&column)
+        let mut is_read = vec![false; source.names().len()];
+        for column in (0..behind).chain(columns.0.iter().copied()).chain(by.iter().copied()) {
+            is_read[column] = true;
+        }
+        Ok(Asked { status, columns, is_read, by })
     }
 }
 

@@ -1,6 +1,7 @@
 //! The columns of a file, as numbers and words.
 
 use flap_sweep::notation::nearest;
+use flap_sweep::notation::text;
 
 use crate::console;
 use crate::failure::Failure;
@@ -96,7 +97,7 @@ fn unknown<'n>(names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Fail
 
 /// The names of the columns, as lines of help.
 pub(crate) fn listed<'n>(names: impl Iterator<Item = &'n str>) -> String {
-    console::help_lines(&format!("the columns are {}", names.collect::<Vec<_>>().join(", ")))
+    console::help_lines(&format!("the columns are {}", text::listed(names, "column")))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Conditions on rows, checked row by row.
 
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
+use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
 use csv::StringRecord;
@@ -21,8 +22,7 @@ pub(crate) struct Filters(Vec<Test>);
 /// A condition on the cells of a row.
 enum Test {
     Number(Number),
-    /// The cell in this column is this word.
-    Word(usize, String),
+    Word(Word),
     Comparison(Comparison),
 }
 
@@ -37,6 +37,18 @@ struct Number {
     /// The number in the first row.
     first: OnceCell<f64>,
 }
+
+/// The cell in a column is a word.
+struct Word {
+    column: usize,
+    name: String,
+    wanted: String,
+    /// Other words in the column, as far as they are listed.
+    others: RefCell<BTreeSet<String>>,
+}
+
+/// Most words of a column that are listed.
+const MOST_WORDS: usize = 8;
 
 /// A comparison of columns.
 struct Comparison {
@@ -55,12 +67,13 @@ impl Filters {
             Filter::Equal(name, text) => {
                 let (column, first) = (source.find(name)?, OnceCell::new());
                 let unit = source.unit(column);
-                Ok(match number(name, &unit, text)? {
-                    Some(wanted) => {
-                        let (name, is_bare) = (source.names()[column].clone(), text.parse::<f64>().is_ok());
-                        Test::Number(Number { column, name, unit, wanted, is_bare, first })
-                    }
-                    None => Test::Word(column, text.clone()),
+                let wanted = number(name, &unit, text)?;
+                let name = source.names()[column].clone();
+                Ok(if let Some(wanted) = wanted {
+                    let is_bare = text.parse::<f64>().is_ok();
+                    Test::Number(Number { column, name, unit, wanted, is_bare, first })
+                } else {
+                    Test::Word(Word { column, name, wanted: text.clone(), others: RefCell::default() })
                 })
             }
             Filter::Comparison(text) => {
@@ -85,7 +98,18 @@ impl Filters {
                         is_same(value, *wanted)
                     })
                 }
-                Test::Word(column, word) => cell(row, *column) == word,
+                Test::Word(Word { column, wanted, others, .. }) => {
+                    let word = cell(row, *column);
+                    let mut others = others.borrow_mut();
+                    if word != wanted
+                        && !word.is_empty()
+                        && others.len() <= MOST_WORDS
+                        && !others.contains(word)
+                    {
+                        others.insert(word.to_owned());
+                    }
+                    word == wanted
+                }
                 Test::Comparison(Comparison { expression, names, first, .. }) => {
                     let mut values = vec![f64::NAN; names.len()];
                     for column in expression.reads() {
@@ -104,7 +128,7 @@ impl Filters {
         Ok(true)
     }
 
-    /// Advice where no row satisfies the conditions: the units of the columns, and numbers that they have.
+    /// Advice where no row satisfies the conditions: the units of the columns, and numbers and words that they have.
     pub(crate) fn advice(&self) -> Vec<String> {
         let mut lines = Vec::new();
         for test in &self.0 {
@@ -116,7 +140,14 @@ impl Filters {
                         .and_then(|wanted| meant(name, unit, wanted, usual));
                     lines.extend(line.or_else(|| in_unit(name, unit, usual)));
                 }
-                Test::Word(..) => {}
+                Test::Word(Word { name, others, .. }) => {
+                    let others = others.borrow();
+                    if !others.is_empty() {
+                        let more = if others.len() > MOST_WORDS { ", …" } else { "" };
+                        let words: Vec<&str> = others.iter().take(MOST_WORDS).map(String::as_str).collect();
+                        lines.push(format!("the values of {name} are {}{more}", words.join(", ")));
+                    }
+                }
                 Test::Comparison(Comparison { expression, names, units, first }) => {
                     let values = first.get().map_or(&[][..], Vec::as_slice);
                     for column in expression.reads() {

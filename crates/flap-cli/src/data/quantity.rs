@@ -120,11 +120,11 @@ fn number(text: &str) -> usize {
 /// Bytes of the unit that `text` begins with; 0 if it begins with something else.
 fn unit(text: &str) -> usize {
     let word = text.find(|letter| !is_name(letter)).unwrap_or(text.len());
-    let is_unit = text.starts_with(|letter: char| letter.is_alphabetic() || letter == '°');
+    let is_unit = text.starts_with(|letter: char| letter.is_alphabetic() || "°%".contains(letter));
     if !is_unit || WORDS.contains(&&text[..word]) {
         return 0;
     }
-    let is_part = |letter: char| letter.is_alphanumeric() || "*/^·°-".contains(letter);
+    let is_part = |letter: char| letter.is_alphanumeric() || "*/^·°%-".contains(letter);
     text.find(|letter| !is_part(letter)).unwrap_or(text.len())
 }
 
@@ -169,6 +169,8 @@ mod tests {
             ("95 Hz <= drive_frequency and x2 < 3", "95.0 <= drive_frequency and x2 < 3"),
             ("hinge_stiffness > 90 uN*m/rad or (x2 > 1)", "hinge_stiffness > 9e-5 or (x2 > 1)"),
             ("drive_frequency > -5 Hz", "drive_frequency > -5.0"),
+            ("x2<0.08 %", "x2<0.0008"),
+            ("x2 > 5% and x2 < 10 %", "x2 > 0.05 and x2 < 0.1"),
             ("x2 > 1e3 and not x2 == 7", "x2 > 1e3 and not x2 == 7"),
             ("arms == '95 Hz'", "arms == '95 Hz'"),
         ] {

@@ -63,6 +63,20 @@ pub fn count(number: u64, thing: &str) -> String {
     if number == 1 { format!("1 {thing}") } else { format!("{number} {thing}s") }
 }
 
+/// Most names that a message lists.
+const MOST_NAMES: usize = 20;
+
+/// Names for a message: all of them, or of more than 20 the first, with their number and what they are: `a, b and 3 more columns`.
+pub fn listed<'n>(names: impl IntoIterator<Item = &'n str>, thing: &str) -> String {
+    let mut names = names.into_iter();
+    let first: Vec<&str> = names.by_ref().take(MOST_NAMES).collect();
+    let list = first.join(", ");
+    match names.count() {
+        0 => list,
+        more => format!("{list} and {}", count(more as u64, &format!("more {thing}"))),
+    }
+}
+
 /// `true` for 1 and `false` for 0. NaN, which stands for unknown, is the empty text.
 pub fn truth(value: f64) -> String {
     if value.is_nan() {
