@@ -339,8 +339,11 @@ fn names_are_explained() {
     let several = folder.ends(0, "explain left_wing_mass").stdout;
     let kind = "a parameter of vehicles of the models direct-drive and four-bar with a wing called left";
     assert!(several.starts_with(&format!("left_wing_mass: {kind}\n")), "{several}");
-    let resonance = "resonance_hz: a measure of four-bar with drive_frequency = \"resonance\"\n";
+    let resonance = "resonance_hz: a measure of the models bimorph, direct-drive and four-bar with drive_frequency = \"resonance\"\n";
     assert!(measure.contains(resonance), "{measure}");
+    let gaps = folder.ends(0, "explain resonance_gaps").stdout;
+    let meaning = "number of search points without a periodic motion: a larger peak may lie there";
+    assert_eq!(gaps, resonance.replace("_hz", "_gaps") + "  " + meaning + "\n", "once for all models");
 
     let fixed = folder.ends(0, "explain floquet_max").stdout;
     assert!(

@@ -36,7 +36,7 @@ impl AtResonance {
         let of = range.of.name();
         let margin =
             "distance of the resonance from the nearer end of the range; zero if the largest value is there";
-        let gaps = "those whose motion did not become periodic: a larger peak may hide there";
+        let gaps = "number of search points without a periodic motion: a larger peak may lie there";
         let added = [
             (RESONANCE_HZ, "Hz", &*format!("drive frequency at which the {of} is largest")),
             (

@@ -27,7 +27,11 @@ pub(super) fn entries(models: &[&'static dyn Simulator]) -> Vec<Entry> {
         entries.push(Entry::new(column.name, kind, of_column(&column.doc, "")));
     }
     entries.extend(settings());
-    entries.extend(models.iter().flat_map(|&model| of_model(model)));
+    for &model in models {
+        for entry in of_model(model) {
+            entry.add(&mut entries);
+        }
+    }
     for &model in models {
         of_trajectory(model, &mut entries);
     }
