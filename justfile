@@ -85,7 +85,7 @@ count-instructions *ARGUMENTS:
     cargo build --release --locked -p flap-cli
     python3 benches/instructions/count.py "${CARGO_TARGET_DIR:-target}/release/flap" {{ARGUMENTS}}
 
-# Looks for input that breaks a reader of text: grid, units, expression, journal or sidecar. Needs a nightly compiler and
+# Looks for input that breaks a reader of text: grid, units, expression, outline, record, journal or sidecar. Needs a nightly compiler and
 # `cargo install cargo-fuzz`. Findings go to fuzz/artifacts; the corpus stays as it is.
 fuzz TARGET SECONDS="600":
     mkdir -p target/fuzz/{{TARGET}}

@@ -167,3 +167,80 @@ fn unusable_files_are_named_with_line_and_column() {
     );
     refused("run ozaki2018-small --once --trajectory -", "", "--once needs --waveform or --stroke");
 }
+
+/// A chirp that would last for years is refused before it begins, with its numbers and the rate that is allowed.
+#[test]
+fn chirps_end() {
+    let folder = Folder::new();
+    let chirp = "run jafferis2016 --drive chirp --chirp-from 100 --chirp-to";
+    for (rest, numbers) in [
+        ("400 --chirp-rate 1e-9", "lasts 3.000e11 s, which are 7.500e13 drive periods: 100000 are allowed\n"),
+        ("400 --chirp-rate 1e-300", "at 1e-300 Hz/s lasts 3.000e302 s, which are 7.500e304 drive periods"),
+        ("1e308", "to 1e308 Hz at 15.0 Hz/s lasts 6.667e306 s, which are inf drive periods"),
+        ("1 --chirp-rate=-1e-9", "lasts 9.900e10 s, which are 5.000e12 drive periods"),
+    ] {
+        let ended = folder.ends(2, &format!("{chirp} {rest} --trajectory chirp.csv"));
+        ended.says(numbers);
+        assert_eq!(ended.stdout, "");
+    }
+    let ended = folder.ends(2, &format!("{chirp} 400 --chirp-rate 1e-9"));
+    ended.says("help: sweep at 7.500e-1 Hz/s or faster");
+    let samples = "--chirp-rate 1 --samples 1000 --trajectory chirp.csv";
+    folder
+        .ends(2, &format!("{chirp} 400 {samples}"))
+        .says(
+            "a chirp of 75000 drive periods with 1000 samples each has 75000000 samples: 5000000 are allowed",
+        )
+        .says("help: take at most 66 samples per drive period");
+    // The estimate is the number of rows.
+    let ended =
+        folder.ends(0, "run ozaki2018-small --drive chirp --chirp-from 150 --chirp-to 170 --chirp-rate 100");
+    assert_eq!(ended.stdout.lines().count(), 1 + 32, "160 Hz for 0.2 s");
+    assert!(folder.names().is_empty(), "{:?}", folder.names());
+    // The motion goes to stdout, and the rows per cycle to their file.
+    let short =
+        "run ozaki2018-small --drive chirp --chirp-from 150 --chirp-to 152 --trajectory - --samples 50";
+    let ended = folder.ends(0, &format!("{short} --envelope envelope.csv"));
+    assert!(ended.stdout.starts_with("time_s,stroke_rad,"), "{}", ended.stdout);
+    assert_eq!(folder.ends(0, short).stdout, ended.stdout);
+    assert_eq!(folder.names(), ["envelope.csv"]);
+}
+
+/// Numbers whose rates or forces are beyond the range of numbers are refused with the range that is allowed.
+#[test]
+fn motions_have_finite_forces() {
+    let motion = |time: [&str; 2], stroke: &str, pitch: &str| {
+        format!(
+            "time_s,stroke_deg,pitch_deg\n0,0,0\n{},1,1\n{},{stroke},{pitch}\n0.003,3,3\n0.004,4,4\n",
+            time[0], time[1]
+        )
+    };
+    let usual = ["0.001", "0.002"];
+    for (text, message) in [
+        (
+            motion(usual, "1e308", "0"),
+            "stroke_deg is 1e308 in row 3, and must be from -3600000.0 to 3600000.0\n",
+        ),
+        (
+            motion(usual, "0", "-1e308"),
+            "pitch_deg is -1e308 in row 3, and must be from -3600000.0 to 3600000.0\n",
+        ),
+        (
+            motion(["1e-200", "0.002"], "0", "0"),
+            "rows 1 and 2 are 1e-200 s apart, and must be at least 1e-12 s\n",
+        ),
+        (motion(["0.001", "1e308"], "0", "0"), "time_s is 1e308 in row 3, and must be from -1e12 to 1e12\n"),
+    ] {
+        let folder = folder_with("motion.csv", &text);
+        folder.refuses("lift ozaki2018-small motion.csv", message);
+    }
+    let folder = folder_with("motion.csv", &motion(usual, "2", "2"));
+    folder.ends(0, "lift ozaki2018-small motion.csv").prints("lift_mn");
+    let folder = folder_with("motion.csv", &motion(usual, "3e6", "2"));
+    folder
+        .ends(2, "lift ozaki2018-small motion.csv --set drag_coefficient_max=1e308")
+        .says("the forces on this motion are beyond the range of numbers\nhelp: compare the parameters");
+    let points = "time_s,root_x,root_y,tip_x,tip_y\n0,0,0,1e308,0\n1,0,0,1,1\n";
+    fs::write(folder.path("points.csv"), points).unwrap();
+    folder.refuses("track points.csv", "tip_x is 1e308 in row 1, and must be from -1e12 to 1e12\n");
+}

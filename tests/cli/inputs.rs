@@ -190,3 +190,112 @@ fn a_small_file_does_not_fill_the_memory() {
         ended.says("a line is longer than 16 MiB");
     }
 }
+
+/// An input without end, or larger than memory, is refused by its size or its kind, with little memory and in little time.
+#[test]
+#[cfg(target_os = "linux")]
+fn inputs_end() {
+    let folder = Folder::with_grid("device = \"device.toml\"\n");
+    fs::write(folder.path("sampled.toml"), sampled("points.csv")).unwrap();
+    fs::write(folder.path("zeros.toml"), "device = \"/dev/zero\"\n").unwrap();
+    fs::write(folder.path("zeros-sampled.toml"), sampled("/dev/zero")).unwrap();
+    fs::write(folder.path("folder-sampled.toml"), sampled(".")).unwrap();
+    fs::write(folder.path("folder-device.toml"), "device = \".\"\n").unwrap();
+    let large = |name: &str, mebibytes: u64| {
+        fs::File::create(folder.path(name)).unwrap().set_len(mebibytes << 20).unwrap();
+    };
+    for name in ["device.toml", "large.csv"] {
+        large(name, 600);
+    }
+    for name in ["points.csv", "large.meta.toml"] {
+        large(name, 1200);
+    }
+    let made = std::process::Command::new("mkfifo").arg(folder.path("pipe")).status().unwrap();
+    assert!(made.success());
+    fs::write(folder.path("pipe-device.toml"), "device = \"pipe\"\n").unwrap();
+    fs::write(folder.path("pipe-sampled.toml"), sampled("pipe")).unwrap();
+
+    let (size, listed) = ("the file has more than 16 MiB", "the file has more than 256 MiB");
+    let (endless, is_folder) = ("this is a device or a pipe, which may never end", "this is a folder");
+    for (arguments, message) in [
+        ("check grid.toml", size),
+        ("check sampled.toml", listed),
+        ("sweep --from-sidecar large.meta.toml --out o.csv", listed),
+        ("wing large.csv --preset jafferis2016", size),
+        ("run ozaki2018-large --waveform large.csv", size),
+        ("lift ozaki2018-small large.csv", size),
+        ("track large.csv", size),
+        ("check /dev/zero", endless),
+        ("run /dev/zero", endless),
+        ("check zeros.toml", endless),
+        ("check zeros-sampled.toml", endless),
+        ("sweep --from-sidecar /dev/zero --out o.csv", endless),
+        ("wing /dev/zero --preset jafferis2016", endless),
+        ("wing grid.csv --preset /dev/zero", endless),
+        ("run ozaki2018-large --waveform /dev/zero", endless),
+        ("run arabagi2013-75hz --stroke /dev/zero", endless),
+        ("lift ozaki2018-small /dev/zero", endless),
+        ("track /dev/zero", endless),
+        ("check pipe", endless),
+        ("check pipe-device.toml", endless),
+        ("check pipe-sampled.toml", endless),
+        ("sweep --from-sidecar pipe --out o.csv", endless),
+        ("wing pipe --preset jafferis2016", endless),
+        ("run ozaki2018-large --waveform pipe", endless),
+        ("lift ozaki2018-small pipe", endless),
+        ("track pipe", endless),
+        ("check ./", is_folder),
+        ("check folder-device.toml", is_folder),
+        ("check folder-sampled.toml", is_folder),
+        ("sweep --from-sidecar ./ --out o.csv", is_folder),
+        ("wing ./ --preset jafferis2016", is_folder),
+        ("run ozaki2018-large --waveform ./", is_folder),
+        ("lift ozaki2018-small ./", is_folder),
+        ("track ./", is_folder),
+    ] {
+        let ended = bounded(&folder, arguments);
+        assert_eq!((ended.code, &*ended.stdout), (2, ""), "{arguments}: {}", ended.stderr);
+        ended.says(message);
+        assert!(!folder.path("o.csv").exists(), "{arguments}");
+    }
+}
+
+/// A grid with the points of a file.
+#[cfg(target_os = "linux")]
+fn sampled(path: &str) -> String {
+    format!("preset = \"ozaki2018-large\"\n[sample]\nmethod = \"file\"\npath = \"{path}\"\n")
+}
+
+/// Runs `flap` with 1.5 GB of address space and 20 seconds of processor time.
+#[cfg(target_os = "linux")]
+fn bounded(folder: &Folder, arguments: &str) -> crate::support::Ended {
+    let flap = env!("CARGO_BIN_EXE_flap");
+    folder.shell(&format!("ulimit -v 1500000 -t 20; exec {flap} {arguments}"))
+}
+
+/// The shell's own pipes end with the command that writes to them.
+#[test]
+#[cfg(target_os = "linux")]
+fn pipes_of_the_shell_are_read() {
+    let folder = Folder::with_grid(&quick(3));
+    let flap = env!("CARGO_BIN_EXE_flap");
+    for command in ["check <(cat grid.toml)", "check /dev/stdin < grid.toml"] {
+        let ended = folder.shell(&format!("{flap} {command}"));
+        assert_eq!(ended.code, 0, "{command}: {}", ended.stderr);
+        ended.prints("3 points");
+    }
+    let ended = folder.shell(&format!("cat grid.toml | {flap} check /dev/stdin"));
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+}
+
+/// A line of a million commas takes a multiple of its bytes.
+#[test]
+#[cfg(target_os = "linux")]
+fn long_lines_of_points_are_refused() {
+    let folder = Folder::with_grid(&sampled("points.csv"));
+    fs::write(folder.path("points.csv"), format!("drive_frequency\n60\n{}\n", ",".repeat(100 << 20)))
+        .unwrap();
+    let ended = bounded(&folder, "check grid.toml");
+    assert_eq!(ended.code, 2, "{}", ended.stderr);
+    ended.says("points.csv:3:1").says("a line of points has at most 1048576");
+}

@@ -123,7 +123,7 @@ fn a_root_that_moves_to_the_stroke_axis_is_told() {
     let begin = "without --offset, the wing's root is on the stroke axis (wing_offset = 0 m), but that of";
     for (preset, end) in [
         ("arabagi2013-75hz", "is at 4 mm: --offset '4 mm' keeps that"),
-        ("ozaki2018-large", "is at half of actuator_length: set it with --offset"),
+        ("ozaki2018-large", "is at half of actuator_length, 10.5 mm: --offset '10.5 mm' keeps that"),
     ] {
         let arguments = ["wing", "wing.csv", "--preset", preset];
         folder.ends_with(0, &arguments).says(&format!("{begin} {preset} {end}"));
@@ -176,7 +176,7 @@ fn mistakes_are_told_with_their_place() {
     told(&format!("{head}0,0,1\n2,0,1\n1,0,1\n"), "station 3 is not farther out");
     told(&format!("{head}0,0,1\n2,0,-1\n"), "the chord is negative at station 2");
     told(&format!("{head}0,0,0\n2,0,0\n"), "the wing has no area");
-    folder.ends(2, "wing nothing.csv --preset jafferis2016").says("nothing.csv: cannot be read");
+    folder.ends(2, "wing nothing.csv --preset jafferis2016").says("nothing.csv: there is no such file");
     fs::write(folder.path("wing.csv"), outline(15.0, |_| [0.0, 5.0])).unwrap();
     folder
         .ends_with(2, &["wing", "wing.csv", "--preset", "jafferis2016", "--thickness", "2 um"])
@@ -185,4 +185,28 @@ fn mistakes_are_told_with_their_place() {
         .ends_with(2, &["wing", "wing.csv", "--preset", "jafferis2016", "--mass", "0 mg"])
         .says("the mass must be more than zero");
     folder.ends_with(2, &["wing", "wing.csv", "--preset", "jaferis2016"]).says("jafferis2016");
+}
+
+/// A device that could not be read back is not printed.
+#[test]
+fn wings_without_finite_parameters_are_refused() {
+    let folder = Folder::new();
+    let head = "span [m],leading_edge [m],trailing_edge [m]\n";
+    fs::write(folder.path("huge.csv"), format!("{head}0,0,1e308\n1e308,0,1e308\n")).unwrap();
+    fs::write(folder.path("tiny.csv"), format!("{head}0,0,1e-150\n1e-150,0,1e-150\n")).unwrap();
+    fs::write(folder.path("wing.csv"), outline_of_a_rectangle()).unwrap();
+    for preset in ["jafferis2016", "ozaki2018-large", "arabagi2013-75hz"] {
+        let ended = folder.ends_with(2, &["wing", "huge.csv", "--preset", preset, "--mass", "1 mg"]);
+        ended.says("of this wing is ").says(", and must be ").says("is 1e299 Gm long and reaches 1e299 Gm");
+        assert_eq!(ended.stdout, "");
+        for options in [["--offset", "1e300 m"], ["--mass", "1e308 kg"]] {
+            let arguments = [&["wing", "wing.csv", "--preset", preset][..], &options].concat();
+            let ended = folder.flap_with(&arguments);
+            assert!(!ended.stdout.contains("inf") && !ended.stdout.contains("NaN"), "{}", ended.stdout);
+            fs::write(folder.path("device.toml"), &ended.stdout).unwrap();
+            assert!(ended.code == 2 || folder.flap("check device.toml").code == 0, "{arguments:?}");
+        }
+        let tiny = folder.flap_with(&["wing", "tiny.csv", "--preset", preset]);
+        assert!(!tiny.stdout.contains("NaN"), "{}", tiny.stdout);
+    }
 }

@@ -1,8 +1,12 @@
 //! Properties that hold for any input: the bodies of the fuzz targets in `fuzz`, run by an ordinary test too.
 
+use std::path::Path;
+
+use flap_core::drive::Repeat;
 use flap_core::simulate::all;
-use flap_sweep::files::journal;
+use flap_sweep::files::record::{self, Record};
 use flap_sweep::files::sidecar::Sidecar;
+use flap_sweep::files::{journal, outline};
 use flap_sweep::grid;
 use flap_sweep::notation::expression::{Expression, Meaning, Scope};
 use flap_sweep::notation::units;
@@ -12,10 +16,12 @@ use xxhash_rust::xxh3::xxh3_64;
 pub(crate) type Target = (&'static str, fn(&[u8]));
 
 /// All targets.
-pub(crate) const TARGETS: [Target; 5] = [
+pub(crate) const TARGETS: [Target; 7] = [
     ("grid", grid),
     ("units", units),
     ("expression", expression),
+    ("outline", outline),
+    ("record", record),
     ("journal", journal),
     ("sidecar", sidecar),
 ];
@@ -91,6 +97,36 @@ pub(crate) fn expression(bytes: &[u8]) {
             }
         }
     }
+}
+
+/// Any text is an outline of finite size and area, or an error with a message.
+pub(crate) fn outline(bytes: &[u8]) {
+    let Ok(text) = str::from_utf8(bytes) else { return };
+    match outline::parse(Path::new("wing.csv"), text) {
+        Ok(outline) => assert!(outline.length() > 0.0 && outline.width() > 0.0, "{text}"),
+        Err(error) => assert!(error.to_string().starts_with("wing.csv"), "{text}: {error}"),
+    }
+}
+
+/// Any text is a record whose quantities have limited size, or an error with a message.
+pub(crate) fn record(bytes: &[u8]) {
+    let Ok(text) = str::from_utf8(bytes) else { return };
+    let record = match Record::parse("motion.csv".to_owned(), text) {
+        Ok(record) => record,
+        Err(error) => return assert!(error.to_string().starts_with("motion.csv"), "{text}: {error}"),
+    };
+    for quantity in [record::STROKE, record::PITCH, record::WAVE] {
+        if let Ok(column) = record.column(&quantity) {
+            assert!(column.iter().all(|number| number.abs() <= quantity.most), "{text}");
+        }
+        for repeat in [Repeat::Once, Repeat::Periodic] {
+            if let Ok(samples) = record.samples(&quantity, repeat) {
+                let middle = samples.motion(0.5 * samples.duration());
+                assert!(middle.iter().all(|number| number.is_finite()), "{text}: {middle:?}");
+            }
+        }
+    }
+    let _ = record.points("tip");
 }
 
 /// Any bytes are a journal as far as their lines are whole. Lines are given their checksums, or few would be.

@@ -27,7 +27,19 @@ const CRATES: &[(&str, &[&str])] = &[
     ),
     (
         "flap-sweep",
-        &["notation", "resonance", "plan", "table", "picture", "grid", "run", "study", "files", "lib"],
+        &[
+            "notation",
+            "input",
+            "resonance",
+            "plan",
+            "table",
+            "picture",
+            "grid",
+            "run",
+            "study",
+            "files",
+            "lib",
+        ],
     ),
     (
         "flap-live",

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use flap_core::simulate;
 use flap_sweep::grid::{self, ReadError};
+use flap_sweep::input::{self, InputError};
 use flap_sweep::notation::units;
 
 fn error(path: &Path) -> ReadError {
@@ -16,7 +17,7 @@ fn a_missing_file() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("grid.toml");
     let error = error(&path);
-    assert!(matches!(error, ReadError::Missing { .. }), "{error:?}");
+    assert!(matches!(error, ReadError::Input { error: InputError::Missing, .. }), "{error:?}");
     assert_eq!(error.to_string(), format!("{}: there is no such file", path.display()));
 }
 
@@ -24,7 +25,7 @@ fn a_missing_file() {
 fn a_folder() {
     let folder = tempfile::tempdir().expect("a folder");
     let error = error(folder.path());
-    assert!(matches!(error, ReadError::Folder { .. }), "{error:?}");
+    assert!(matches!(error, ReadError::Input { error: InputError::Folder, .. }), "{error:?}");
 }
 
 #[test]
@@ -33,7 +34,7 @@ fn text_that_is_not_utf8() {
     let path = folder.path().join("latin1.toml");
     fs::write(&path, b"preset = \"fly\"\n# \xc3\xa9t\xe9\n").expect("written");
     match error(&path) {
-        ReadError::NotUtf8 { byte: 20, line: 2, column: 5, .. } => {}
+        ReadError::Input { error: InputError::NotUtf8 { byte: 20, line: 2, column: 5 }, .. } => {}
         other => panic!("{other:?}"),
     }
 }
@@ -93,10 +94,10 @@ fn results_are_not_grid_files() {
 fn grid_files_have_a_largest_size() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("grid.toml");
-    fs::File::create(&path).and_then(|file| file.set_len(grid::MOST_BYTES + 1)).expect("made");
+    fs::File::create(&path).and_then(|file| file.set_len(input::MOST_BYTES + 1)).expect("made");
     let error = error(&path);
-    assert!(matches!(error, ReadError::TooLarge { .. }), "{error:?}");
-    assert!(error.to_string().ends_with("more than 16 MiB, the most that a grid file may have"), "{error}");
+    assert!(matches!(error, ReadError::Input { error: InputError::TooLarge(_), .. }), "{error:?}");
+    assert!(error.to_string().ends_with("more than 16 MiB, the most that it may have"), "{error}");
 }
 
 /// Twenty times as many lines take twenty times as long, not four hundred times.

@@ -18,11 +18,13 @@ use flap_sweep::files::session::ResumeError;
 use flap_sweep::files::sidecar;
 use flap_sweep::grid::ReadError;
 use flap_sweep::grid::diagnostic::{self, Mistakes};
+use flap_sweep::input::InputError;
 use flap_sweep::notation::nearest;
 use flap_sweep::notation::text::shortened;
 use flap_sweep::plan::ChangeError;
 use flap_sweep::resonance::SearchError;
 use flap_sweep::run::RunError;
+use flap_sweep::study::experiment::ExperimentError;
 
 use crate::console;
 
@@ -226,9 +228,17 @@ impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Failure {
         match error {
             ReadError::Grid(mistakes) => Failure::Grid(mistakes),
-            ReadError::Unreadable { .. } => Failure::System(error.to_string(), Vec::new()),
+            ReadError::Input { error: InputError::Unreadable(_), .. } => {
+                Failure::System(error.to_string(), Vec::new())
+            }
             _ => error.help().into_iter().fold(Failure::usage(error.to_string()), Failure::help),
         }
+    }
+}
+
+impl From<ExperimentError> for Failure {
+    fn from(error: ExperimentError) -> Failure {
+        error.help().into_iter().fold(Failure::usage(error.to_string()), Failure::help)
     }
 }
 

@@ -10,7 +10,9 @@ use flap_sweep::files::session::ResumeError;
 use flap_sweep::files::sidecar;
 use flap_sweep::grid::ReadError;
 use flap_sweep::grid::diagnostic;
+use flap_sweep::input::InputError;
 use flap_sweep::run::RunError;
+use flap_sweep::study::experiment::ExperimentError;
 use pyo3::create_exception;
 use pyo3::exceptions::{
     PyFileExistsError, PyFileNotFoundError, PyIsADirectoryError, PyOSError, PyRuntimeError, PyValueError,
@@ -40,13 +42,22 @@ pub(crate) fn grid(py: Python<'_>, mistakes: &diagnostic::Mistakes) -> PyErr {
 pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
     match error {
         ReadError::Grid(mistakes) => grid(py, mistakes),
-        ReadError::Missing { .. } => PyFileNotFoundError::new_err(error.to_string()),
-        ReadError::Folder { .. } => PyIsADirectoryError::new_err(error.to_string()),
-        ReadError::NotUtf8 { .. } | ReadError::Results { .. } | ReadError::TooLarge { .. } => {
-            PyValueError::new_err(error.to_string())
-        }
-        ReadError::Unreadable { .. } => PyOSError::new_err(error.to_string()),
+        ReadError::Results { .. } => PyValueError::new_err(error.to_string()),
+        ReadError::Input { error: reason, .. } => match reason {
+            InputError::Missing => PyFileNotFoundError::new_err(error.to_string()),
+            InputError::Folder => PyIsADirectoryError::new_err(error.to_string()),
+            InputError::Unreadable(_) => PyOSError::new_err(error.to_string()),
+            InputError::Endless | InputError::TooLarge(_) | InputError::NotUtf8 { .. } => {
+                PyValueError::new_err(error.to_string())
+            }
+        },
     }
+}
+
+/// `ValueError` for an experiment without results.
+pub(crate) fn experiment(error: &ExperimentError) -> PyErr {
+    let help = error.help().map_or_else(String::new, |help| format!("\n{help}"));
+    PyValueError::new_err(format!("{error}{help}"))
 }
 
 /// `ValueError` for a motion that could not be followed to its end.

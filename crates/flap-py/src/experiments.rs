@@ -2,9 +2,10 @@
 
 use flap_core::drive::Repeat;
 use flap_core::resonance::free::{intervals, stroke_rate};
-use flap_core::simulate::{ChirpRequest, Experiments, ImposedMotion, ImpulseRequest, Trajectory};
+use flap_core::simulate::{ChirpRequest, Experiments, ImposedMotion, ImpulseRequest};
 use flap_sweep::files::record;
 use flap_sweep::resonance::DRIVE_FREQUENCY;
+use flap_sweep::study::experiment;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -40,9 +41,10 @@ pub(crate) fn chirp<'py>(
         samples_per_cycle: samples.map_or(Ok(0), |samples| convert::count("samples", samples))?,
     };
     let experiments = experiments(&chosen)?;
-    let response =
-        interruptible(py, |interrupted| experiments.chirp(&chosen.run().until(interrupted), &request))?;
-    let response = response.map_err(|reason| error::unfinished(&reason))?;
+    let response = interruptible(py, |interrupted| {
+        experiment::chirp(experiments, &chosen.run().until(interrupted), &request)
+    })?;
+    let response = response.map_err(|reason| error::experiment(&reason))?;
     let meta = chosen.meta(py)?;
     if samples.is_some() {
         let meanings = motion::meanings(chosen.simulator(), &response.motion)?;
@@ -116,27 +118,15 @@ pub(crate) fn lift<'py>(
     let repeat = if periodic { Repeat::Periodic } else { Repeat::Once };
     let record = records::read("motion", motion)?;
     let imposed = ImposedMotion {
-        stroke: records::column(&record, "motion", record::STROKE, repeat)?,
-        pitch: records::column(&record, "motion", record::PITCH, repeat)?,
+        stroke: records::samples(&record, &record::STROKE, repeat)?,
+        pitch: records::samples(&record, &record::PITCH, repeat)?,
         samples: convert::count("samples", samples)?,
     };
     let experiments = experiments(&chosen)?;
-    let forces = py.detach(|| experiments.imposed(&chosen.values, &imposed));
-    let forces = forces.map_err(|reason| error::unfinished(&reason))?;
+    let forces = py.detach(|| experiment::forces(experiments, &chosen.values, &imposed));
+    let forces = forces.map_err(|reason| error::experiment(&reason))?;
     let meanings = motion::meanings(chosen.simulator(), &forces)?;
-    motion::into_python(py, known(forces), meanings, &chosen.meta(py)?)
-}
-
-/// The columns that a given motion determines.
-fn known(forces: Trajectory) -> Trajectory {
-    let Trajectory { columns, rows } = forces;
-    let is_known: Vec<bool> = (0..columns.len()).map(|i| rows.iter().any(|row| !row[i].is_nan())).collect();
-    let keep = |i: usize| is_known[i];
-    let kept = columns.into_iter().enumerate().filter(|(i, _)| keep(*i)).map(|(_, name)| name);
-    let rows = rows
-        .into_iter()
-        .map(|row| row.into_iter().enumerate().filter(|(i, _)| keep(*i)).map(|(_, value)| value).collect());
-    Trajectory { columns: kept.collect(), rows: rows.collect() }
+    motion::into_python(py, forces, meanings, &chosen.meta(py)?)
 }
 
 fn experiments(chosen: &Chosen) -> PyResult<&dyn Experiments> {

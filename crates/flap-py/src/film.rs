@@ -2,7 +2,7 @@
 
 use flap_core::measure::tracking::{LeadingEdge, pitch_from_projection, rotation_centre};
 use flap_core::simulate::Trajectory;
-use flap_sweep::files::record::{self, Record};
+use flap_sweep::files::record;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -18,8 +18,9 @@ pub(crate) fn track<'py>(
     chord: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let record = records::read("points", points)?;
-    let times = record.column(record::TIME).map_err(|error| records::refused(&error))?;
-    let (roots, tips) = (marked(&record, "root")?, marked(&record, "tip")?);
+    let times = record.column(&record::TIME).map_err(|error| records::refused(&error))?;
+    let marked = |name: &str| record.points(name).map_err(|error| records::refused(&error));
+    let (roots, tips) = (marked("root")?, marked("tip")?);
     let edges: Vec<LeadingEdge> =
         roots.into_iter().zip(tips).map(|(root, tip)| LeadingEdge { root, tip }).collect();
     let centre = rotation_centre(&edges).map_err(|invalid| PyValueError::new_err(invalid.to_string()))?;
@@ -30,7 +31,7 @@ pub(crate) fn track<'py>(
     if let Some(chord) = chord {
         let chord = convert::number("chord", "a number, in the unit of the points", chord)?;
         columns.push("pitch_deg".to_owned());
-        let lower = marked(&record, "edge")?;
+        let lower = marked("edge")?;
         for (i, (row, (edge, point))) in rows.iter_mut().zip(edges.iter().zip(lower)).enumerate() {
             let pitch = pitch_from_projection(edge.distance(point), chord);
             let pitch =
@@ -49,12 +50,4 @@ pub(crate) fn track<'py>(
         doc.to_owned()
     };
     motion::into_python(py, Trajectory { columns, rows }, meaning, &meta)
-}
-
-/// The points called `name` in every image.
-fn marked(record: &Record, name: &str) -> PyResult<Vec<[f64; 2]>> {
-    let coordinate = |axis: &str| {
-        record.column(&[(&format!("{name}_{axis}"), 1.0)]).map_err(|error| records::refused(&error))
-    };
-    Ok(coordinate("x")?.into_iter().zip(coordinate("y")?).map(|(x, y)| [x, y]).collect())
 }

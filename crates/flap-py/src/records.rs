@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use flap_core::drive::{Repeat, Samples};
-use flap_sweep::files::record::{self, Record, RecordError};
+use flap_sweep::files::record::{self, Quantity, Record, RecordError};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -27,7 +27,7 @@ impl Wave {
         stroke: Option<&Bound<'_, PyAny>>,
         once: bool,
     ) -> PyResult<Option<Wave>> {
-        let (source, name, headings) = match (waveform, stroke) {
+        let (source, name, quantity) = match (waveform, stroke) {
             (Some(_), Some(_)) => {
                 return Err(PyValueError::new_err(
                     "waveform and stroke both drive the wing\nkeep one of them",
@@ -41,7 +41,7 @@ impl Wave {
             (None, None) => return Ok(None),
         };
         let repeat = if once { Repeat::Once } else { Repeat::Periodic };
-        let samples = column(&read(name, source)?, name, headings, repeat)?;
+        let samples = samples(&read(name, source)?, &quantity, repeat)?;
         Ok(Some(Wave { samples, is_stroke: stroke.is_some(), once }))
     }
 }
@@ -58,17 +58,9 @@ pub(crate) fn read(name: &str, source: &Bound<'_, PyAny>) -> PyResult<Record> {
     Record::of(name, columns.collect::<PyResult<_>>()?).map_err(|error| refused(&error))
 }
 
-/// A column of a record over its time.
-pub(crate) fn column(
-    record: &Record,
-    name: &str,
-    headings: &[(&str, f64)],
-    repeat: Repeat,
-) -> PyResult<Samples> {
-    let times = record.column(record::TIME).map_err(|error| refused(&error))?;
-    let values = record.column(headings).map_err(|error| refused(&error))?;
-    let samples = Samples::new(&times, &values, repeat);
-    samples.map_err(|invalid| PyValueError::new_err(format!("{name}: {invalid}")))
+/// A quantity of a record over its time.
+pub(crate) fn samples(record: &Record, quantity: &Quantity<'_>, repeat: Repeat) -> PyResult<Samples> {
+    record.samples(quantity, repeat).map_err(|error| refused(&error))
 }
 
 /// The exception for a record that cannot be used.

@@ -5,6 +5,7 @@
 //! Each room uses only those above it:
 //!
 //! - [`notation`]: numbers, units, times and formulas as text
+//! - [`input`]: the text of input files, which have a largest size
 //! - [`resonance`]: rows of designs that are each run at their own resonance
 //! - [`plan`]: the design space: axes, samples, derived parameters, conditions, selections
 //! - [`table`]: the columns of rows, rows as text, formats of files
@@ -16,6 +17,7 @@
 
 pub mod files;
 pub mod grid;
+pub mod input;
 pub mod notation;
 pub mod picture;
 pub mod plan;

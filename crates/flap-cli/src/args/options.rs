@@ -12,7 +12,7 @@ use super::values::{assignment, count, interval, positive, threads, tolerance};
 /// The choice of a design point.
 #[derive(clap::Args)]
 pub(crate) struct PointArgs {
-    /// A preset, or a grid file; `-` for a grid from stdin
+    /// A preset, a device or a grid file; `-` for a grid from stdin
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 

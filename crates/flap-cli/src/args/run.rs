@@ -27,7 +27,8 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "HZ", value_parser = frequency)]
     pub(crate) chirp_to: Option<f64>,
 
-    /// Rate of change of the chirp's frequency (Hz/s); negative for a falling chirp [default: 15]
+    /// Rate of change of the chirp's frequency (Hz/s); negative for a falling chirp. A chirp has at most 100,000 drive
+    /// periods [default: 15]
     #[arg(long, value_name = "HZ/S", value_parser = finite, allow_negative_numbers = true)]
     pub(crate) chirp_rate: Option<f64>,
 
@@ -58,7 +59,7 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "TIME", value_parser = time)]
     pub(crate) duration: Option<f64>,
 
-    /// CSV file for the motion over time, or `-` for stdout, in place of the summary
+    /// CSV file for the motion over time; the summary is printed as well. `-` prints the motion instead
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 

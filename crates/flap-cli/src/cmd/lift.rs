@@ -5,12 +5,13 @@ use std::io;
 use flap_core::drive::Repeat;
 use flap_core::simulate::{ImposedMotion, Trajectory};
 use flap_sweep::files::inputs::Inputs;
-use flap_sweep::files::record::{self, RecordError};
+use flap_sweep::files::record::{self, Record, RecordError};
 use flap_sweep::plan::Plan;
+use flap_sweep::study::experiment;
 
 use super::motion::{write_csv, write_file};
+use super::outputs;
 use super::point::Chosen;
-use super::{outputs, samples};
 use crate::args::{LiftArgs, SolverArgs};
 use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
@@ -22,15 +23,14 @@ pub(crate) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
     inputs.add_plan(&plan).add("the motion", &args.motion);
     outputs::check_tables(&inputs, [args.trajectory.as_deref()])?;
     let repeat = if args.periodic { Repeat::Periodic } else { Repeat::Once };
-    let file = samples::read(&args.motion)?;
-    let stroke = samples::column(&file, &args.motion, record::STROKE, repeat)?;
-    if let Err(error @ RecordError::Missing { .. }) = file.column(record::PITCH) {
-        return Err(stroke_alone(error, &plan, args));
-    }
-    let pitch = samples::column(&file, &args.motion, record::PITCH, repeat)?;
+    let file = Record::read(&args.motion)?;
+    let stroke = file.samples(&record::STROKE, repeat)?;
+    let pitch = file.samples(&record::PITCH, repeat).map_err(|error| match error {
+        RecordError::Missing { .. } => stroke_alone(error, &plan, args),
+        _ => error.into(),
+    })?;
     let motion = ImposedMotion { stroke, pitch, samples: args.samples };
-    let mut forces = plan.simulator().experiments()?.imposed(&values, &motion)?;
-    drop_unknown(&mut forces);
+    let forces = experiment::forces(plan.simulator().experiments()?, &values, &motion)?;
 
     match &args.trajectory {
         Some(path) if path.as_os_str() == "-" => {
@@ -58,22 +58,6 @@ fn stroke_alone(error: RecordError, plan: &Plan, args: &LiftArgs) -> Failure {
     } else {
         computes("PRESET") + ", with a preset of a model that has the parameter stroke_mode"
     })
-}
-
-/// Removes the columns that a given motion does not determine.
-fn drop_unknown(forces: &mut Trajectory) {
-    let known: Vec<bool> =
-        (0..forces.columns.len()).map(|i| forces.rows.iter().any(|row| !row[i].is_nan())).collect();
-    let keep = |i: &mut usize| {
-        *i += 1;
-        known[*i - 1]
-    };
-    let mut i = 0;
-    forces.columns.retain(|_| keep(&mut i));
-    for row in &mut forces.rows {
-        let mut i = 0;
-        row.retain(|_| keep(&mut i));
-    }
 }
 
 /// Mean, least and largest of every column but the time.

@@ -7,9 +7,10 @@ use flap_core::simulate::{ChirpRequest, Row, Status, TrajectoryRequest};
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::notation::expression::Kind;
 use flap_sweep::notation::text::{self, count};
-use flap_sweep::study::deviation;
+use flap_sweep::study::{deviation, experiment};
 
 use super::motion::{write_csv, write_file};
+use super::outputs::is_stdout;
 use super::params::wrapped;
 use super::point::{Chosen, check_one_wing};
 use super::{far, gradient, impulse, outputs, samples};
@@ -155,13 +156,17 @@ fn chirp(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
         rate: args.chirp_rate.unwrap_or(CHIRP_RATE),
         samples_per_cycle: if args.trajectory.is_some() { args.samples } else { 0 },
     };
-    let response = plan.simulator().experiments()?.chirp(&chosen.run(), &request)?;
-    if let Some(path) = &args.trajectory {
+    let response = experiment::chirp(plan.simulator().experiments()?, &chosen.run(), &request)?;
+    if let Some(path) = args.trajectory.as_deref().filter(|path| !is_stdout(path)) {
         write_file(&response.motion, path, args.overwrite.force, "sample")?;
     }
-    match &args.envelope {
-        Some(path) => write_file(&response.envelope, path, args.overwrite.force, "cycle")?,
-        None => write_csv(&response.envelope, io::stdout().lock())?,
+    if let Some(path) = args.envelope.as_deref().filter(|path| !is_stdout(path)) {
+        write_file(&response.envelope, path, args.overwrite.force, "cycle")?;
+    }
+    if args.trajectory.as_deref().is_some_and(is_stdout) {
+        write_csv(&response.motion, io::stdout().lock())?;
+    } else if args.envelope.as_deref().is_none_or(is_stdout) {
+        write_csv(&response.envelope, io::stdout().lock())?;
     }
     Ok(Exit::Done)
 }

@@ -1,8 +1,6 @@
 //! Waveforms and motions from files.
 
-use std::path::Path;
-
-use flap_core::drive::{Repeat, Samples};
+use flap_core::drive::Repeat;
 use flap_sweep::files::record::{self, Record};
 
 use super::point::Chosen;
@@ -12,7 +10,7 @@ use crate::failure::Failure;
 /// Reads the waveform or the stroke that the command line names, if any, and gives it to the point.
 pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> {
     let repeat = if args.once { Repeat::Once } else { Repeat::Periodic };
-    let (path, wave) = match (&args.waveform, &args.stroke) {
+    let (path, quantity) = match (&args.waveform, &args.stroke) {
         (Some(path), _) => (path, record::WAVE),
         (None, Some(path)) => (path, record::STROKE),
         (None, None) if args.once => {
@@ -20,7 +18,7 @@ pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> 
         }
         (None, None) => return Ok(()),
     };
-    let samples = column(&read(path)?, path, wave, repeat)?;
+    let samples = Record::read(path)?.samples(&quantity, repeat)?;
     if args.point.set.iter().all(|(name, _)| name != "drive_frequency") {
         chosen.put("drive_frequency", 1.0 / samples.duration());
     }
@@ -33,20 +31,4 @@ pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> 
     }
     chosen.sampled = Some(chosen.plan.simulator().experiments()?.with_samples(samples));
     Ok(())
-}
-
-/// Reads a file of samples.
-pub(super) fn read(path: &Path) -> Result<Record, Failure> {
-    Ok(Record::read(path)?)
-}
-
-/// A column of a record against its time.
-pub(super) fn column(
-    record: &Record,
-    path: &Path,
-    names: &[(&str, f64)],
-    repeat: Repeat,
-) -> Result<Samples, Failure> {
-    let samples = Samples::new(&record.column(record::TIME)?, &record.column(names)?, repeat);
-    samples.map_err(|invalid| Failure::usage(format!("{}: {invalid}", path.display())))
 }

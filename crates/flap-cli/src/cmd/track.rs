@@ -5,10 +5,10 @@ use std::io;
 use flap_core::measure::tracking::{LeadingEdge, pitch_from_projection, rotation_centre};
 use flap_core::simulate::Trajectory;
 use flap_sweep::files::inputs::Inputs;
-use flap_sweep::files::record::{self, Record, RecordError};
+use flap_sweep::files::record::{self, Record};
 
 use super::motion::{write_csv, write_file};
-use super::{outputs, samples};
+use super::outputs;
 use crate::args::TrackArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
@@ -16,10 +16,10 @@ use crate::table::six_digits;
 
 pub(crate) fn run(args: &TrackArgs) -> Result<Exit, Failure> {
     outputs::check_tables(Inputs::new().add("the points", &args.points), [args.out.as_deref()])?;
-    let record = samples::read(&args.points)?;
-    let times = record.column(record::TIME)?;
-    let roots = points(&record, "root")?;
-    let tips = points(&record, "tip")?;
+    let record = Record::read(&args.points)?;
+    let times = record.column(&record::TIME)?;
+    let roots = record.points("root")?;
+    let tips = record.points("tip")?;
     let edges: Vec<LeadingEdge> =
         roots.into_iter().zip(tips).map(|(root, tip)| LeadingEdge { root, tip }).collect();
     let centre = rotation_centre(&edges)?;
@@ -31,7 +31,7 @@ pub(crate) fn run(args: &TrackArgs) -> Result<Exit, Failure> {
     }
     if let Some(chord) = args.chord {
         motion.columns.push("pitch_deg".to_owned());
-        let lower = points(&record, "edge")?;
+        let lower = record.points("edge")?;
         for (i, (row, (edge, point))) in motion.rows.iter_mut().zip(edges.iter().zip(lower)).enumerate() {
             let pitch = pitch_from_projection(edge.distance(point), chord);
             let pitch = pitch.map_err(|invalid| Failure::usage(format!("image {}: {invalid}", i + 1)))?;
@@ -48,11 +48,4 @@ pub(crate) fn run(args: &TrackArgs) -> Result<Exit, Failure> {
         write_csv(&motion, io::stdout().lock())?;
     }
     Ok(Exit::Done)
-}
-
-/// The points called `name` in every image.
-fn points(record: &Record, name: &str) -> Result<Vec<[f64; 2]>, RecordError> {
-    let coordinate = |axis: &str| record.column(&[(&format!("{name}_{axis}"), 1.0)]);
-    let (x, y) = (coordinate("x")?, coordinate("y")?);
-    Ok(x.into_iter().zip(y).map(|(x, y)| [x, y]).collect())
 }

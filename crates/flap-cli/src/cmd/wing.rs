@@ -1,7 +1,7 @@
 //! `flap wing`: the parameters of a wing of one's own.
 
 use flap_core::aero::{ChordTable, Material, STATIONS, Tabulated, Wing};
-use flap_core::parameter::Parameter;
+use flap_core::parameter::{Kind, Parameter};
 use flap_sweep::files::outline;
 use flap_sweep::grid;
 use flap_sweep::notation::units::prefixed;
@@ -21,7 +21,7 @@ const CLOSE: f64 = 5e-3;
 pub(crate) fn run(args: &WingArgs) -> Result<Exit, Failure> {
     let plan = point::plan(&args.preset)?;
     let outline = outline::read(&args.outline)
-        .map_err(|error| Failure::usage(error.to_string()).help(error.help().to_owned()))?;
+        .map_err(|error| error.help().into_iter().fold(Failure::usage(error.to_string()), Failure::help))?;
     let air = Parameter::index(plan.parameters(), "air_density").and_then(|index| plan.base()[index].given());
     let wing = Wing {
         outline,
@@ -34,6 +34,7 @@ pub(crate) fn run(args: &WingArgs) -> Result<Exit, Failure> {
         let message = format!("the model {} does not take its wing from an outline", plan.simulator().name());
         return Err(Failure::usage(message));
     }
+    check_ranges(&plan, &wing, &parameters)?;
     console::results(&grid::wing(&plan, &args.preset, &parameters))?;
     if wing.material.is_none() {
         console::say(
@@ -56,6 +57,29 @@ pub(crate) fn run(args: &WingArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
+/// Refuses a wing with parameters that no design may have: the integrals over an outline of extreme size are no numbers.
+fn check_ranges(plan: &Plan, wing: &Wing, parameters: &[(&str, f64)]) -> Result<(), Failure> {
+    for (name, value) in parameters {
+        let parameter = Parameter::index(plan.parameters(), name).map(|index| &plan.parameters()[index]);
+        let Some(Parameter { unit, kind: Kind::Number(range) | Kind::Following(range, _), .. }) = parameter
+        else {
+            continue;
+        };
+        if !range.contains(*value) {
+            let message = format!(
+                "`{name}` of this wing is {}, and must be {}: the outline is {} long and reaches {} from the hinge's axis",
+                prefixed(*value, unit),
+                range.describe(),
+                prefixed(wing.outline.length(), "m"),
+                prefixed(wing.outline.width(), "m"),
+            );
+            return Err(Failure::usage(message)
+                .help("check the units in the headings of the outline, and those of the options"));
+        }
+    }
+    Ok(())
+}
+
 /// A note that the wing's root is on the stroke axis, where that of the design called `base` is not.
 fn on_offset(plan: &Plan, base: &str) -> Option<String> {
     let index = Parameter::index(plan.parameters(), "wing_offset")?;
@@ -68,7 +92,15 @@ fn on_offset(plan: &Plan, base: &str) -> Option<String> {
         }
         Value::Follows(others) => {
             let place = others.split(':').next().unwrap_or(others);
-            (place.to_owned(), "set it with --offset, such as --offset '2 mm'".to_owned())
+            let half = place.strip_prefix("half of ");
+            let whole = half.and_then(|name| Parameter::index(plan.parameters(), name));
+            match whole.and_then(|index| plan.base()[index].given()) {
+                Some(whole) => {
+                    let offset = prefixed(0.5 * whole, "m");
+                    (format!("{place}, {offset}"), format!("--offset '{offset}' keeps that"))
+                }
+                None => (place.to_owned(), "set it with --offset".to_owned()),
+            }
         }
     };
     Some(format!(

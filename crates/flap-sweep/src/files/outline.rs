@@ -1,11 +1,10 @@
 //! Outlines of wings from CSV files.
 
-use std::fs::File;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use flap_core::aero::{Outline, OutlineError, Station};
 
+use crate::input::{self, InputError, MOST_BYTES};
 use crate::notation::units;
 
 /// The columns, in the order of [`Station`].
@@ -14,14 +13,14 @@ const COLUMNS: [&str; 3] = ["span", "leading_edge", "trailing_edge"];
 /// A file that is no outline.
 #[derive(Debug, thiserror::Error)]
 pub enum OutlineFileError {
-    /// The file cannot be read.
-    #[error("{}: cannot be read: {cause}", path.display())]
-    Io {
+    /// The file has no text to be used.
+    #[error("{}: {cause}", path.display())]
+    Input {
         /// The path as given.
         path: PathBuf,
-        /// The error of the operating system.
+        /// The reason.
         #[source]
-        cause: io::Error,
+        cause: InputError,
     },
     /// A line is no row of a table.
     #[error("{}:{line}: {reason}", path.display())]
@@ -45,10 +44,11 @@ pub enum OutlineFileError {
 }
 
 impl OutlineFileError {
-    /// Advice.
-    pub fn help(&self) -> &'static str {
-        "the file has the columns span, leading_edge and trailing_edge, each with a unit in brackets: \
-         `span [mm],leading_edge [mm],trailing_edge [mm]`, distances from the root, ahead of the hinge's axis, and behind it"
+    /// Advice, unless there is no text.
+    pub fn help(&self) -> Option<&'static str> {
+        let columns = "the file has the columns span, leading_edge and trailing_edge, each with a unit in brackets: \
+         `span [mm],leading_edge [mm],trailing_edge [mm]`, distances from the root, ahead of the hinge's axis, and behind it";
+        (!matches!(self, OutlineFileError::Input { .. })).then_some(columns)
     }
 }
 
@@ -58,8 +58,18 @@ impl OutlineFileError {
 /// # Errors
 /// [`OutlineFileError`] if the file cannot be read or is no outline.
 pub fn read(path: &Path) -> Result<Outline, OutlineFileError> {
-    let file = File::open(path).map_err(|cause| OutlineFileError::Io { path: path.to_owned(), cause })?;
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(file);
+    let text = input::text(path, MOST_BYTES)
+        .map_err(|cause| OutlineFileError::Input { path: path.to_owned(), cause })?;
+    parse(path, &text)
+}
+
+/// Reads an outline from the text of such a file; `path` is its name in messages.
+///
+/// # Errors
+/// [`OutlineFileError`] if it is no outline.
+pub fn parse(path: &Path, text: &str) -> Result<Outline, OutlineFileError> {
+    let mut reader =
+        csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(text.as_bytes());
     let wrong = |line: u64, reason: String| OutlineFileError::Line { path: path.to_owned(), line, reason };
     let headings = reader.headers().map_err(|error| wrong(1, error.to_string()))?.clone();
     let columns = COLUMNS.map(|name| find(&headings, name));

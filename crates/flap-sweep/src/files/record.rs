@@ -1,12 +1,23 @@
 //! Measured records: CSV tables of numbers against time.
 
 use std::collections::HashSet;
-use std::fs::File;
 use std::io;
 use std::path::Path;
 
+use flap_core::drive::{Repeat, Samples, SamplesError};
+
 use crate::files::csv_sink::cause;
-use crate::files::results::Bounded;
+use crate::input::{self, MOST_BYTES};
+use crate::notation::text;
+
+/// A quantity that a record may hold.
+#[derive(Clone, Copy, Debug)]
+pub struct Quantity<'h> {
+    /// The headings of its columns, with their factors to SI units.
+    pub headings: &'h [(&'h str, f64)],
+    /// The largest magnitude that is accepted, in SI units: with larger ones, rates and forces are no numbers.
+    pub most: f64,
+}
 
 /// A table of numbers, by column.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,6 +73,41 @@ pub enum RecordError {
         /// The cell.
         cell: String,
     },
+    /// A number is too large.
+    #[error("{name}: {heading} is {number:?} in row {row}, and must be from -{most} to {most}")]
+    TooLarge {
+        /// The file.
+        name: String,
+        /// The heading.
+        heading: String,
+        /// Number of the row, from 1.
+        row: usize,
+        /// The number, in the unit of the heading.
+        number: f64,
+        /// The largest magnitude that is accepted, in the unit of the heading.
+        most: String,
+    },
+    /// Two samples are too close in time.
+    #[error("{name}: rows {row} and {} are {step:e} s apart, and must be at least {least:e} s", row + 1)]
+    TooClose {
+        /// The file.
+        name: String,
+        /// Number of the earlier row, from 1.
+        row: usize,
+        /// The time between them (s).
+        step: f64,
+        /// The least time between samples of this record (s).
+        least: f64,
+    },
+    /// The samples are no smooth function of time.
+    #[error("{name}: {error}")]
+    Samples {
+        /// The file.
+        name: String,
+        /// The reason.
+        #[source]
+        error: SamplesError,
+    },
     /// No column has one of the headings wanted.
     #[error("{name}: there is no column {}; {}", wanted.join(" or "), known(headings))]
     Missing {
@@ -95,10 +141,19 @@ impl Record {
     /// - [`RecordError::Cell`] if a cell is not a finite number
     pub fn read(path: &Path) -> Result<Record, RecordError> {
         let name = path.display().to_string();
-        let unreadable = |source: io::Error| RecordError::Read { name: name.clone(), source };
-        let fail = |error: csv::Error| unreadable(cause(error));
-        let file = File::open(path).map_err(unreadable)?;
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(Bounded::new(file));
+        match input::text(path, MOST_BYTES) {
+            Ok(text) => Record::parse(name, &text),
+            Err(error) => Err(RecordError::Read { name, source: error.into() }),
+        }
+    }
+
+    /// Reads the text of such a file; `name` stands for it in messages.
+    ///
+    /// # Errors
+    /// As [`Record::read`].
+    pub fn parse(name: String, text: &str) -> Result<Record, RecordError> {
+        let fail = |error: csv::Error| RecordError::Read { name: name.clone(), source: cause(error) };
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
         let headings: Vec<String> = reader.headers().map_err(fail)?.iter().map(str::to_owned).collect();
         if let Some(twice) = repeated(&headings) {
             return Err(RecordError::Twice { heading: twice.clone(), name });
@@ -106,7 +161,6 @@ impl Record {
         let mut columns = vec![Vec::new(); headings.len()];
         let mut row = csv::StringRecord::new();
         while reader.read_record(&mut row).map_err(fail)? {
-            reader.get_mut().begin_line();
             let line = row.position().map_or(0, csv::Position::line);
             for ((cell, heading), column) in row.iter().zip(&headings).zip(&mut columns) {
                 let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
@@ -147,22 +201,36 @@ impl Record {
         Ok(Record { name: name.to_owned(), headings, columns })
     }
 
-    /// The column that has one of these headings, multiplied by its factor; the first if there are more that agree.
+    /// The column of a quantity in SI units; the first if there are more that agree.
     ///
     /// # Errors
     /// - [`RecordError::Missing`] if there is none
+    /// - [`RecordError::TooLarge`] if a number in it is too large
     /// - [`RecordError::Contradiction`] if there are two that differ
-    pub fn column(&self, names: &[(&str, f64)]) -> Result<Vec<f64>, RecordError> {
-        let mut found = names.iter().filter_map(|(name, factor)| {
+    pub fn column(&self, quantity: &Quantity<'_>) -> Result<Vec<f64>, RecordError> {
+        let found = quantity.headings.iter().filter_map(|(name, factor)| {
             let index = self.headings.iter().position(|heading| heading == name)?;
-            Some((*name, self.columns[index].iter().map(|number| number * factor).collect::<Vec<f64>>()))
+            Some((*name, *factor, &self.columns[index]))
+        });
+        let mut found = found.map(|(name, factor, numbers)| {
+            if let Some(row) = numbers.iter().position(|number| (number * factor).abs() > quantity.most) {
+                return Err(RecordError::TooLarge {
+                    name: self.name.clone(),
+                    heading: name.to_owned(),
+                    row: row + 1,
+                    number: numbers[row],
+                    most: text::float((quantity.most / factor).round()),
+                });
+            }
+            Ok((name, numbers.iter().map(|number| number * factor).collect::<Vec<f64>>()))
         });
         let (first, column) = found.next().ok_or_else(|| RecordError::Missing {
             name: self.name.clone(),
-            wanted: names.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            wanted: quantity.headings.iter().map(|(name, _)| (*name).to_owned()).collect(),
             headings: self.headings.clone(),
-        })?;
-        for (second, numbers) in found {
+        })??;
+        for other in found {
+            let (second, numbers) = other?;
             let largest = column.iter().fold(0.0_f64, |largest, number| largest.max(number.abs()));
             let differs = |(a, b): (&f64, &f64)| (a - b).abs() > SAME * largest;
             if let Some(row) = column.iter().zip(&numbers).position(differs) {
@@ -176,7 +244,39 @@ impl Record {
         }
         Ok(column)
     }
+
+    /// The points called `name` in every image, from the columns `NAME_x` and `NAME_y`.
+    ///
+    /// # Errors
+    /// As [`Record::column`].
+    pub fn points(&self, name: &str) -> Result<Vec<[f64; 2]>, RecordError> {
+        let coordinate = |axis: &str| {
+            self.column(&Quantity { headings: &[(&format!("{name}_{axis}"), 1.0)], most: COORDINATE })
+        };
+        Ok(coordinate("x")?.into_iter().zip(coordinate("y")?).map(|(x, y)| [x, y]).collect())
+    }
+
+    /// A quantity as a smooth function of the record's time.
+    ///
+    /// # Errors
+    /// - [`RecordError::TooClose`] if two samples are too close in time
+    /// - [`RecordError::Samples`] if the samples are no such function
+    /// - the errors of [`Record::column`], for the time and for the quantity
+    pub fn samples(&self, quantity: &Quantity<'_>, repeat: Repeat) -> Result<Samples, RecordError> {
+        let (times, values) = (self.column(&TIME)?, self.column(quantity)?);
+        let name = || self.name.clone();
+        let duration = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
+        let least = LEAST_STEP * duration.max(1.0);
+        let mut steps = times.windows(2).map(|two| two[1] - two[0]).enumerate();
+        if let Some((at, step)) = steps.find(|(_, step)| *step > 0.0 && *step < least) {
+            return Err(RecordError::TooClose { name: name(), row: at + 1, step, least });
+        }
+        Samples::new(&times, &values, repeat).map_err(|error| RecordError::Samples { name: name(), error })
+    }
 }
+
+/// The least time between two samples, in seconds and as a share of the duration.
+const LEAST_STEP: f64 = 1e-12;
 
 /// Largest difference of the same number in two units, as a share of the column's largest number.
 const SAME: f64 = 1e-6;
@@ -186,7 +286,7 @@ fn known(headings: &[String]) -> String {
     if headings.iter().all(String::is_empty) {
         "the file has no columns".to_owned()
     } else {
-        format!("the file has {}", headings.join(", "))
+        format!("the file has {}", text::listed(headings.iter().map(String::as_str), "column"))
     }
 }
 
@@ -196,16 +296,24 @@ fn repeated(headings: &[String]) -> Option<&String> {
     headings.iter().find(|heading| !heading.is_empty() && !seen.insert(*heading))
 }
 
-/// Headings of times, with their factors to seconds.
-pub const TIME: &[(&str, f64)] = &[("time_s", 1.0), ("time_ms", 1e-3)];
+/// Times (s).
+pub const TIME: Quantity<'_> = Quantity { headings: &[("time_s", 1.0), ("time_ms", 1e-3)], most: 1e12 };
 
-/// Headings of strokes, with their factors to radians.
-pub const STROKE: &[(&str, f64)] = &[("stroke_rad", 1.0), ("stroke_deg", RADIANS)];
+/// Strokes (rad).
+pub const STROKE: Quantity<'_> =
+    Quantity { headings: &[("stroke_rad", 1.0), ("stroke_deg", RADIANS)], most: ANGLE };
 
-/// Headings of pitch angles, with their factors to radians.
-pub const PITCH: &[(&str, f64)] = &[("pitch_rad", 1.0), ("pitch_deg", RADIANS)];
+/// Pitch angles (rad).
+pub const PITCH: Quantity<'_> =
+    Quantity { headings: &[("pitch_rad", 1.0), ("pitch_deg", RADIANS)], most: ANGLE };
 
-/// Headings of waveforms of unit amplitude.
-pub const WAVE: &[(&str, f64)] = &[("wave", 1.0)];
+/// Waveforms of unit amplitude.
+pub const WAVE: Quantity<'_> = Quantity { headings: &[("wave", 1.0)], most: 1e6 };
+
+/// The largest coordinate of a point in an image, in any unit.
+const COORDINATE: f64 = 1e12;
 
 const RADIANS: f64 = core::f64::consts::PI / 180.0;
+
+/// The largest angle (rad): 10,000 turns.
+const ANGLE: f64 = 3.6e6 * RADIANS;

@@ -8,7 +8,6 @@ use flap_core::simulate::Simulator;
 use flap_core::vehicle::Vehicle;
 use toml::de::DeTable;
 
-use super::companion;
 use super::lookup::Lookup;
 use super::params;
 use super::preset;
@@ -17,6 +16,7 @@ use super::syntax;
 use super::table::{self, Entry};
 use super::uncertainty;
 use super::value;
+use crate::input::{self, MOST_BYTES};
 use crate::plan::uncertainty::Uncertainty;
 use crate::plan::{Source, Value, WithUnits};
 
@@ -51,7 +51,7 @@ impl Shelf<'_> {
     /// The text of a device, or the reason why it cannot be read.
     fn text(self, path: &Path) -> Result<String, String> {
         match self {
-            Shelf::Disk => companion::text(path),
+            Shelf::Disk => input::text(path, MOST_BYTES).map_err(|error| error.to_string()),
             Shelf::Recorded(devices) => {
                 let name = path.display().to_string();
                 let found = devices.iter().find(|device| device.name == name);

@@ -4,7 +4,6 @@
 //! mistakes of a file. See `docs/grid.md` for the format.
 
 mod axes;
-mod companion;
 mod conditions;
 mod derived;
 mod device;
@@ -35,5 +34,5 @@ mod written;
 mod zip;
 
 pub use parse::{parse, parse_recorded};
-pub use read::{MOST_BYTES, ReadError, read, read_from};
+pub use read::{ReadError, read, read_from};
 pub use written::{device, wing};

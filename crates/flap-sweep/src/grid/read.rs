@@ -1,58 +1,30 @@
 //! Reading grid files from disk.
 
-use std::fs::File;
-use std::io::{self, Read as _};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use flap_core::simulate::Simulator;
 
 use super::parse::parse;
-use crate::grid::diagnostic::{Mistakes, position};
+use crate::grid::diagnostic::Mistakes;
+use crate::input::{self, InputError, MOST_BYTES};
 use crate::plan::Plan;
-
-/// The most bytes a grid file may have: 16 MiB. Lists of more values than that holds are a file of points, which has no limit.
-pub const MOST_BYTES: u64 = 16 << 20;
 
 /// The reason why there is no plan.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
-    /// There is no such file.
-    #[error("{}: there is no such file", .0.display())]
-    Missing(PathBuf),
-    /// The path is a folder.
-    #[error("{}: this is a folder, not a grid file", .0.display())]
-    Folder(PathBuf),
-    /// The file cannot be read.
-    #[error("{}: cannot be read: {cause}", path.display())]
-    Unreadable {
+    /// The file has no text to be used.
+    #[error("{}", placed(path, error))]
+    Input {
         /// The path as given.
         path: PathBuf,
-        /// The error of the operating system.
+        /// The reason.
         #[source]
-        cause: io::Error,
-    },
-    /// The file is not text.
-    #[error("{}:{line}:{column}: not UTF-8 text at byte {byte}: save the file as UTF-8", path.display())]
-    NotUtf8 {
-        /// The path as given.
-        path: PathBuf,
-        /// Offset of the first byte that is not UTF-8, from 0.
-        byte: usize,
-        /// Its line, from 1.
-        line: usize,
-        /// Its column in characters, from 1.
-        column: usize,
+        error: InputError,
     },
     /// The file holds results.
     #[error("{}: this looks like results, not like a grid file", .0.display())]
     Results(PathBuf),
-    /// The file is too large.
-    #[error(
-        "{}: the file has more than {} MiB, the most that a grid file may have",
-        .0.display(),
-        MOST_BYTES >> 20
-    )]
-    TooLarge(PathBuf),
     /// The text is not a proper grid: the mistakes, in the order of the file.
     #[error("{}", one_per_line(.0))]
     Grid(Mistakes),
@@ -63,11 +35,22 @@ impl ReadError {
     pub fn help(&self) -> Option<String> {
         match self {
             ReadError::Results(path) => Some(format!("did you mean `flap plot {}`?", path.display())),
-            ReadError::TooLarge { .. } => {
+            ReadError::Input { error: InputError::TooLarge(_), .. } => {
                 Some("put long lists of points into a CSV file: [sample] with `method = \"file\"`".to_owned())
             }
             _ => None,
         }
+    }
+}
+
+/// The reason with the path, and with line and column behind it as terminals link to them.
+fn placed(path: &Path, error: &InputError) -> String {
+    let path = path.display();
+    match error {
+        InputError::NotUtf8 { byte, line, column } => {
+            format!("{path}:{line}:{column}: not UTF-8 text at byte {byte}: save the file as UTF-8")
+        }
+        _ => format!("{path}: {error}"),
     }
 }
 
@@ -84,7 +67,8 @@ fn one_per_line(mistakes: &Mistakes) -> String {
 /// # Errors
 /// If the file cannot be read, or there are mistakes in it.
 pub fn read(path: &Path, models: &[&'static dyn Simulator]) -> Result<Plan, ReadError> {
-    File::open(path).map_err(|cause| unreadable(path, cause)).and_then(|file| read_from(file, path, models))
+    let file = input::open(path).map_err(|error| ReadError::Input { path: path.to_owned(), error })?;
+    read_from(file, path, models)
 }
 
 /// Reads a grid from a stream, such as stdin, and makes its plan, with the presets of all models. `name` stands for the
@@ -97,39 +81,13 @@ pub fn read_from(
     name: &Path,
     models: &[&'static dyn Simulator],
 ) -> Result<Plan, ReadError> {
-    let bytes = bytes(source).map_err(|cause| unreadable(name, cause))?;
+    let refused = |error| ReadError::Input { path: name.to_owned(), error };
+    let bytes = input::beginning(source, MOST_BYTES).map_err(refused)?;
     if looks_like_results(&bytes) {
         return Err(ReadError::Results(name.to_owned()));
     }
-    if bytes.len() as u64 > MOST_BYTES {
-        return Err(ReadError::TooLarge(name.to_owned()));
-    }
-    let text = String::from_utf8(bytes).map_err(|error| {
-        let byte = error.utf8_error().valid_up_to();
-        let before = String::from_utf8_lossy(&error.as_bytes()[..byte]);
-        let (line, column) = position(&before, byte);
-        ReadError::NotUtf8 { path: name.to_owned(), byte, line, column }
-    })?;
+    let text = input::of_bytes(bytes, MOST_BYTES).map_err(refused)?;
     parse(&name.display().to_string(), &text, models).map_err(ReadError::Grid)
-}
-
-/// The error of the operating system in words of the user.
-fn unreadable(path: &Path, cause: io::Error) -> ReadError {
-    let path = path.to_owned();
-    match cause.kind() {
-        io::ErrorKind::NotFound => ReadError::Missing(path),
-        io::ErrorKind::IsADirectory => ReadError::Folder(path),
-        // Not every system has an error of its own for reading a folder.
-        _ if path.is_dir() => ReadError::Folder(path),
-        _ => ReadError::Unreadable { path, cause },
-    }
-}
-
-/// The beginning of a stream: all of it, unless it is too large.
-fn bytes(source: impl io::Read) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    source.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }
 
 /// True if a file that begins with these bytes is compressed, Parquet, or has the header of results.

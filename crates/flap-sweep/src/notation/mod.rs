@@ -2,6 +2,7 @@
 
 pub mod expression;
 mod nearest;
+pub(crate) mod position;
 pub mod text;
 pub mod time;
 pub mod units;

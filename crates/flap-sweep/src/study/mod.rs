@@ -1,8 +1,9 @@
 //! Studies of a plan: response curves, control effectiveness of vehicles, deviations of parameters, strongest parameters,
-//! surveys.
+//! surveys. Experiments on single points.
 
 pub mod control;
 pub mod deviation;
+pub mod experiment;
 pub mod response;
 pub mod strongest;
 pub mod survey;

@@ -1,6 +1,5 @@
 //! Sidecars as files, whose first line is the checksum of the others.
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -9,6 +8,7 @@ use xxhash_rust::xxh3::xxh3_64;
 
 use super::Sidecar;
 use crate::files::disk;
+use crate::input::{self, InputError, MOST_LISTED};
 use crate::notation::text;
 
 /// The beginning of the first line, which is also TOML: other readers need not know it.
@@ -88,7 +88,12 @@ impl Sidecar {
         parse: impl Fn(&[u8]) -> Result<Sidecar, ParseError>,
     ) -> Result<Sidecar, ReadError> {
         let path = || path.to_owned();
-        let bytes = fs::read(path()).map_err(|source| ReadError::Io { path: path(), source })?;
+        let bytes = input::bytes(&path(), MOST_LISTED).map_err(|error| match error {
+            InputError::Missing | InputError::Unreadable(_) => {
+                ReadError::Io { path: path(), source: error.into() }
+            }
+            _ => ReadError::Format { path: path(), reason: error.to_string() },
+        })?;
         parse(&bytes).map_err(|error| match error {
             ParseError::Format(reason) => ReadError::Format { path: path(), reason },
             ParseError::Damaged(reason) => ReadError::Damaged { path: path(), reason },

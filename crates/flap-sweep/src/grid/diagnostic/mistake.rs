@@ -6,8 +6,8 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::position::position;
 use crate::notation::nearest;
+use crate::notation::position::position;
 use crate::notation::text::shortened;
 use crate::plan::Source;
 

@@ -7,10 +7,10 @@ use csv::ByteRecord;
 use flap_core::parameter::Parameter;
 
 use super::super::axes::Placed;
-use super::super::companion;
 use super::super::lookup::Lookup;
 use super::super::table::{self, Entry};
 use super::super::value::text as text_of;
+use crate::input::{self, MOST_LISTED};
 use crate::notation::units;
 use crate::notation::value::{self, UnitOf};
 use crate::plan::axis::{Axis, Values};
@@ -18,6 +18,9 @@ use crate::plan::{PointsFile, Source};
 
 /// Mistakes in cells that are reported; a file with more has the wrong columns.
 const MOST_CELLS: usize = 10;
+
+/// Most bytes of a line: a heading or a number for each parameter has far fewer.
+const LONGEST_LINE: usize = 1 << 20;
 
 /// The points of the file that the section names.
 pub(super) fn read(
@@ -34,7 +37,7 @@ pub(super) fn read(
     };
     let path = text_of("path", entry.value, lookup.problems)?;
     let path = lookup.problems.beside(path);
-    let text = match companion::text(&path) {
+    let text = match input::text(&path, MOST_LISTED) {
         Ok(text) => text,
         Err(reason) => {
             lookup
@@ -66,6 +69,13 @@ struct Column<'t> {
 
 /// The values of the parameters, each with whether its heading has a unit, and true if there was nothing to report.
 fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values, bool)>, bool) {
+    if let Some(line) = source.text.lines().find(|line| line.len() > LONGEST_LINE) {
+        let begin = line.as_ptr().addr() - source.text.as_ptr().addr();
+        let message =
+            format!("the line has {} bytes: a line of points has at most {LONGEST_LINE}", line.len());
+        lookup.problems.report_in(source, begin..begin, message);
+        return (Vec::new(), false);
+    }
     let mut lines = lines(&source.text);
     let Some(headings) = lines.next() else {
         lookup.problems.report_in(source, 0..0, "the file of points is empty".to_owned());

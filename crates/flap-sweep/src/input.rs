@@ -1,0 +1,155 @@
+//! The text of input files: files of limited size, which end.
+
+use std::fs::{self, File, Metadata};
+use std::io::{self, Read};
+use std::path::Path;
+
+use crate::notation::position::position;
+
+/// Most bytes of a file that people write or an instrument records: grids, devices, outlines, waveforms, motions, points in images.
+pub const MOST_BYTES: u64 = 16 << 20;
+
+/// Most bytes of a file that programs write: lists of points, sidecars.
+pub const MOST_LISTED: u64 = 256 << 20;
+
+/// The reason why a file has no text to be used.
+#[derive(Debug, thiserror::Error)]
+pub enum InputError {
+    /// There is no such file.
+    #[error("there is no such file")]
+    Missing,
+    /// The path is a folder.
+    #[error("this is a folder, not a file")]
+    Folder,
+    /// The path is a device, a named pipe or a socket, which may never end.
+    #[error("this is a device or a pipe, which may never end, not a file")]
+    Endless,
+    /// The file is too large.
+    #[error("the file has more than {} MiB, the most that it may have", .0 >> 20)]
+    TooLarge(u64),
+    /// The operating system refuses to read the file.
+    #[error("cannot be read: {0}")]
+    Unreadable(#[source] io::Error),
+    /// The file is not text.
+    #[error("not UTF-8 text at byte {byte} (line {line}, column {column}): save the file as UTF-8")]
+    NotUtf8 {
+        /// Offset of the first byte that is not UTF-8, from 0.
+        byte: usize,
+        /// Its line, from 1.
+        line: usize,
+        /// Its column in characters, from 1.
+        column: usize,
+    },
+}
+
+/// The error of the operating system, or [`io::ErrorKind::InvalidData`] with the reason.
+impl From<InputError> for io::Error {
+    fn from(error: InputError) -> io::Error {
+        let kind = match error {
+            InputError::Unreadable(cause) => return cause,
+            InputError::Missing => io::ErrorKind::NotFound,
+            InputError::Folder => io::ErrorKind::IsADirectory,
+            InputError::Endless | InputError::TooLarge(_) | InputError::NotUtf8 { .. } => {
+                io::ErrorKind::InvalidData
+            }
+        };
+        io::Error::new(kind, error.to_string())
+    }
+}
+
+/// The text of the file at `path`, which has at most `most` bytes.
+///
+/// # Errors
+/// [`InputError`] if the path is no file, or the file is too large, cannot be read or is not text.
+pub fn text(path: &Path, most: u64) -> Result<String, InputError> {
+    of_bytes(beginning(open(path)?, most)?, most)
+}
+
+/// The bytes of the file at `path`, which are at most `most`.
+///
+/// # Errors
+/// [`InputError`] if the path is no file, or the file is too large or cannot be read.
+pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, InputError> {
+    within(beginning(open(path)?, most)?, most)
+}
+
+/// The file at `path`. A pipe that the shell opened for the command (`<(command)`, `/dev/stdin`) counts as a file: its writer ends
+/// with the command line.
+///
+/// # Errors
+/// [`InputError`] if the path is no file, or cannot be opened.
+pub fn open(path: &Path) -> Result<File, InputError> {
+    let metadata = fs::metadata(path).map_err(|cause| match cause.kind() {
+        io::ErrorKind::NotFound => InputError::Missing,
+        _ => InputError::Unreadable(cause),
+    })?;
+    if metadata.is_dir() {
+        return Err(InputError::Folder);
+    }
+    if !metadata.is_file() && !is_pipe_of_shell(path, &metadata) {
+        return Err(InputError::Endless);
+    }
+    File::open(path).map_err(InputError::Unreadable)
+}
+
+/// All bytes of `source`; of more than `most`, the first `most + 1`.
+///
+/// # Errors
+/// [`InputError::Unreadable`] if the source cannot be read.
+pub fn beginning(source: impl Read, most: u64) -> Result<Vec<u8>, InputError> {
+    let mut bytes = Vec::new();
+    source.take(most + 1).read_to_end(&mut bytes).map_err(InputError::Unreadable)?;
+    Ok(bytes)
+}
+
+/// The text that [`beginning`] has read.
+///
+/// # Errors
+/// [`InputError`] if there are more than `most` bytes, or they are not text.
+pub fn of_bytes(bytes: Vec<u8>, most: u64) -> Result<String, InputError> {
+    String::from_utf8(within(bytes, most)?).map_err(|error| {
+        let byte = error.utf8_error().valid_up_to();
+        let before = String::from_utf8_lossy(&error.as_bytes()[..byte]);
+        let (line, column) = position(&before, byte);
+        InputError::NotUtf8 { byte, line, column }
+    })
+}
+
+fn within(bytes: Vec<u8>, most: u64) -> Result<Vec<u8>, InputError> {
+    if bytes.len() as u64 > most { Err(InputError::TooLarge(most)) } else { Ok(bytes) }
+}
+
+#[cfg(unix)]
+fn is_pipe_of_shell(path: &Path, metadata: &Metadata) -> bool {
+    use std::os::unix::fs::FileTypeExt as _;
+    metadata.file_type().is_fifo() && (path.starts_with("/dev") || path.starts_with("/proc"))
+}
+
+#[cfg(not(unix))]
+fn is_pipe_of_shell(_: &Path, _: &Metadata) -> bool {
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_has_a_limit_and_a_place_for_what_is_none() {
+        let refused = |bytes: &[u8], most| of_bytes(beginning(bytes, most).unwrap(), most).unwrap_err();
+        assert_eq!(of_bytes(beginning(&b"abc"[..], 3).unwrap(), 3).unwrap(), "abc");
+        assert!(matches!(refused(b"abcd", 3), InputError::TooLarge(3)));
+        let endless = beginning(io::repeat(b'0'), 10).unwrap();
+        assert_eq!(endless.len(), 11, "an endless source is read up to the limit");
+        assert!(matches!(refused(b"a\nb\xff", 9), InputError::NotUtf8 { byte: 3, line: 2, column: 2 }));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn what_may_never_end_is_not_opened() {
+        let refused = |path: &str| text(Path::new(path), 10).unwrap_err();
+        assert!(matches!(refused("/dev/zero"), InputError::Endless));
+        assert!(matches!(refused("/dev"), InputError::Folder));
+        assert!(matches!(refused("/dev/nothing"), InputError::Missing));
+    }
+}

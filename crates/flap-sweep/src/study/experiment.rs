@@ -1,0 +1,130 @@
+//! Experiments on single points that have to end and to have finite results: chirps, and forces on a given motion.
+
+use flap_core::resonance::free::INTERVALS_MAX;
+use flap_core::simulate::{
+    ChirpRequest, ChirpResponse, Experiments, ImposedMotion, PointRun, Trajectory, Unfinished,
+};
+
+/// Most drive periods of a chirp.
+pub const CYCLES_MAX: f64 = 100_000.0;
+
+/// An experiment without results.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ExperimentError {
+    /// The motion was not followed to its end.
+    #[error(transparent)]
+    Unfinished(#[from] Unfinished),
+    /// A chirp has too many drive periods.
+    #[error(
+        "a chirp from {from:?} Hz to {to:?} Hz at {rate:?} Hz/s lasts {duration:.3e} s, which are {cycles:.3e} drive periods: \
+         {CYCLES_MAX} are allowed"
+    )]
+    LongChirp {
+        /// Frequency at the beginning (Hz).
+        from: f64,
+        /// Frequency at the end (Hz).
+        to: f64,
+        /// Rate of change of the frequency (Hz/s).
+        rate: f64,
+        /// Its duration (s).
+        duration: f64,
+        /// Its drive periods.
+        cycles: f64,
+    },
+    /// The motion of a chirp has too many samples.
+    #[error(
+        "a chirp of {cycles:.0} drive periods with {samples} samples each has {:.0} samples: {INTERVALS_MAX} are allowed",
+        cycles * f64::from(*samples)
+    )]
+    ManySamples {
+        /// Its drive periods.
+        cycles: f64,
+        /// Samples per drive period.
+        samples: u32,
+    },
+    /// A force is infinite or not a number.
+    #[error("{column} is {value} at {time:?} s: the forces on this motion are beyond the range of numbers")]
+    NotFinite {
+        /// The column.
+        column: String,
+        /// The time (s).
+        time: f64,
+        /// The value, infinite or not a number.
+        value: f64,
+    },
+}
+
+impl ExperimentError {
+    /// Advice, if there is any.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            ExperimentError::Unfinished(_) => None,
+            ExperimentError::LongChirp { from, to, .. } => {
+                let least = (to - from) * (0.5 * (to + from)) / CYCLES_MAX;
+                Some(if least.is_finite() {
+                    format!("sweep at {least:.3e} Hz/s or faster, or over a smaller range of frequencies")
+                } else {
+                    "sweep over a smaller range of frequencies".to_owned()
+                })
+            }
+            ExperimentError::ManySamples { cycles, .. } => Some(format!(
+                "take at most {:.0} samples per drive period",
+                (f64::from(INTERVALS_MAX) / cycles).floor()
+            )),
+            ExperimentError::NotFinite { .. } => Some(
+                "compare the parameters with those of the preset: `flap check` lists large differences"
+                    .to_owned(),
+            ),
+        }
+    }
+}
+
+/// Runs a chirp, if it has at most [`CYCLES_MAX`] drive periods.
+///
+/// # Errors
+/// - [`ExperimentError::LongChirp`] and [`ExperimentError::ManySamples`] if the chirp is too long
+/// - [`ExperimentError::Unfinished`] as [`Experiments::chirp`]
+pub fn chirp(
+    model: &dyn Experiments,
+    run: &PointRun<'_>,
+    request: &ChirpRequest,
+) -> Result<ChirpResponse, ExperimentError> {
+    let ChirpRequest { from, to, rate, samples_per_cycle: samples } = *request;
+    let duration = (to - from) / rate;
+    // The integral of the frequency over time.
+    let cycles = duration * (0.5 * from + 0.5 * to);
+    // Frequencies and rates that fit no chirp are for the model to refuse.
+    if cycles > CYCLES_MAX {
+        return Err(ExperimentError::LongChirp { from, to, rate, duration, cycles });
+    }
+    if cycles * f64::from(samples) > f64::from(INTERVALS_MAX) {
+        return Err(ExperimentError::ManySamples { cycles, samples });
+    }
+    Ok(model.chirp(run, request)?)
+}
+
+/// The forces on a given motion, without the columns that the motion does not determine.
+///
+/// # Errors
+/// - [`ExperimentError::NotFinite`] if a force is infinite or not a number
+/// - [`ExperimentError::Unfinished`] as [`Experiments::imposed`]
+pub fn forces(
+    model: &dyn Experiments,
+    values: &[f64],
+    motion: &ImposedMotion,
+) -> Result<Trajectory, ExperimentError> {
+    let Trajectory { columns, rows } = model.imposed(values, motion)?;
+    let known: Vec<usize> =
+        (0..columns.len()).filter(|&column| rows.iter().any(|row| !row[column].is_nan())).collect();
+    for row in &rows {
+        if let Some(&column) = known.iter().find(|&&column| !row[column].is_finite()) {
+            let (column, value) = (columns[column].clone(), row[column]);
+            return Err(ExperimentError::NotFinite { column, time: row[0], value });
+        }
+    }
+    let kept = |row: &Vec<f64>| known.iter().map(|&column| row[column]).collect();
+    Ok(Trajectory {
+        rows: rows.iter().map(kept).collect(),
+        columns: known.iter().map(|&column| columns[column].clone()).collect(),
+    })
+}
