@@ -89,6 +89,11 @@ fn impossible_motions_and_searches_are_refused() {
             "run ozaki2018-small --drive impulse --impulse 20mm",
             "write a number with a unit, such as `20 deg`",
         ),
+        (
+            "run ozaki2018-small --drive impulse --impulse 200deg",
+            "is larger than half a turn: give at most 180 deg",
+        ),
+        ("resonance ozaki2018-small --impulse 20rad", "an impulse of 1145.9 deg (20 rad) is larger"),
         ("run ozaki2018-small --drive impulse --impulse 0deg", "must be finite and not zero"),
         ("run ozaki2018-small --drive impulse --duration 0s", "cannot be sampled"),
         ("run ozaki2018-small --drive impulse --duration 1e9s", "cannot be sampled"),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{ValueEnum, value_parser};
 
 use super::options::{OverwriteArgs, PointArgs, SolverArgs};
-use super::values::{angle, finite, frequency, time};
+use super::values::{finite, frequency, impulse, time};
 
 #[derive(clap::Args)]
 #[command(after_help = RUN_HELP)]
@@ -52,7 +52,7 @@ pub(crate) struct RunArgs {
 
     /// Size of the impulse on the stroke, as the amplitude that the first mode alone would reach without damping:
     /// `20 deg` is a stroke rate of 2 pi f_1 20 deg [default: 20 deg]
-    #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true)]
+    #[arg(long, value_name = "ANGLE", value_parser = impulse, allow_hyphen_values = true)]
     pub(crate) impulse: Option<f64>,
 
     /// Duration of the motion after the impulse, such as `50 ms` [default: ten periods of the first mode]
@@ -114,7 +114,7 @@ pub(crate) struct ResonanceArgs {
     pub(crate) point: PointArgs,
 
     /// Size of the impulse on the stroke, as the amplitude that the first mode alone would reach without damping
-    #[arg(long, value_name = "ANGLE", default_value = "20 deg", value_parser = angle, allow_hyphen_values = true)]
+    #[arg(long, value_name = "ANGLE", default_value = "20 deg", value_parser = impulse, allow_hyphen_values = true)]
     pub(crate) impulse: f64,
 
     /// Periods of the first mode to which the damped sine is fitted

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use flap_core::simulate::Status;
 use flap_sweep::notation::{nearest, units};
+use flap_sweep::resonance::{self, LargeImpulse};
 
 /// A parameter's name and its value from `name=value`, both without surrounding blanks.
 pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
@@ -81,9 +82,10 @@ pub(super) fn tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
-/// An angle with its unit, in radians.
-pub(super) fn angle(text: &str) -> Result<f64, String> {
-    quantity(text, "rad", "20 deg")
+/// The size of an impulse: an angle with its unit, in radians.
+pub(super) fn impulse(text: &str) -> Result<f64, String> {
+    let angle = quantity(text, "rad", "20 deg")?;
+    resonance::impulse(angle).map_err(|error| format!("{error}: {}", LargeImpulse::HELP))
 }
 
 /// A time with its unit, in seconds.
