@@ -248,7 +248,7 @@ fn measures(plan: &Plan) -> Vec<MeasureText> {
     });
     columns
         .map(|column| {
-            let label = labels::with_unit(&column.name, column.unit);
+            let label = labels::with_unit(&column.name, &column.unit);
             MeasureText {
                 better: match label.better {
                     Some(Direction::Larger) => 1,

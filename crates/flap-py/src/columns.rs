@@ -55,7 +55,7 @@ impl Data {
 
 /// A column of which only the name tells something.
 pub(crate) fn named(name: &str, kind: Kind) -> Column {
-    Column { name: name.to_owned(), unit: layout::split_unit(name).1, kind, doc: String::new() }
+    Column { name: name.to_owned(), unit: layout::split_unit(name).1.into(), kind, doc: String::new() }
 }
 
 impl Columns {

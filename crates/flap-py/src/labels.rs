@@ -1,5 +1,7 @@
 //! Labels of columns, for pictures.
 
+use std::borrow::Cow;
+
 use flap_core::simulate;
 use flap_sweep::table::labels::{self, Direction, Label, Scale};
 use flap_sweep::table::layout;
@@ -28,11 +30,11 @@ pub(crate) fn scale(unit: &str, largest: f64) -> (f64, String) {
     (factor, unit)
 }
 
-/// The unit of a column: that of the parameter or measure with this name in any model, else the ending of the name; empty
-/// for none.
+/// The unit of a column: that of the parameter or measure with this name in any model, or of the derivative of one by another,
+/// else the ending of the name; empty for none.
 #[pyfunction]
 #[pyo3(signature = (name, /))]
-pub(crate) fn unit_of(name: &str) -> &'static str {
+pub(crate) fn unit_of(name: &str) -> Cow<'static, str> {
     labels::unit_of(name, simulate::all())
 }
 

@@ -219,11 +219,11 @@ struct Units(BTreeMap<String, String>);
 impl Units {
     fn of(plan: Option<&Plan>) -> Units {
         let columns = plan.map(|plan| Layout::of(plan).columns()).unwrap_or_default();
-        Units(columns.into_iter().map(|column| (column.name, column.unit.to_owned())).collect())
+        Units(columns.into_iter().map(|column| (column.name, column.unit.into_owned())).collect())
     }
 
     fn of_column(&self, name: &str) -> String {
-        self.0.get(name).cloned().unwrap_or_else(|| labels::unit_of(name, models::all()).to_owned())
+        self.0.get(name).cloned().unwrap_or_else(|| labels::unit_of(name, models::all()).into_owned())
     }
 }
 

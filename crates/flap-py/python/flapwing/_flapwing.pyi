@@ -396,8 +396,8 @@ def scale(unit: str, largest: float, /) -> tuple[float, str]:
     """The factor to a readable unit, and that unit as it is printed, for values in `unit` of which `largest` is the largest."""
 
 def unit_of(name: str, /) -> str:
-    """The unit of a column: that of the parameter or measure with this name in any model, else the ending of the name; empty
-    for none.
+    """The unit of a column: that of the parameter or measure with this name in any model, or of the derivative of one by another,
+    else the ending of the name; empty for none.
     """
 
 def split_unit(name: str, /) -> tuple[str, str]:

@@ -73,6 +73,28 @@ pub fn parts(column: &str) -> Option<(&str, &str, Per)> {
         .find_map(|(between, per)| rest.split_once(between).map(|(of, by)| (of, by, per)))
 }
 
+/// The unit of a derivative: the unit `of` of the measure per per cent, or per unit `by` of the parameter.
+///
+/// ```
+/// use flap_sweep::plan::gradient::{Per, unit};
+/// assert_eq!(unit("mN", "N*m/rad", Per::Unit), "mN/(N*m/rad)");
+/// assert_eq!(unit("mN", "N*m/rad", Per::Cent), "mN/%");
+/// assert_eq!(unit("", "Hz", Per::Unit), "1/Hz");
+/// assert_eq!(unit("mN", "", Per::Unit), "mN");
+/// ```
+pub fn unit(of: &str, by: &str, per: Per) -> String {
+    let by = match per {
+        Per::Cent => "%",
+        Per::Unit => by,
+    };
+    let above = if of.is_empty() { "1" } else { of };
+    match by {
+        "" => of.to_owned(),
+        by if by.contains(['*', '/']) => format!("{above}/({by})"),
+        by => format!("{above}/{by}"),
+    }
+}
+
 /// The meaning of the column with the change of the measure `of`, which has this unit, by the parameter `by`.
 pub fn meaning(of: &str, unit: &str, by: &str, per: Per) -> String {
     let change = match per {

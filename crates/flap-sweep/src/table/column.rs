@@ -1,5 +1,7 @@
 //! Columns of result files and their cells.
 
+use std::borrow::Cow;
+
 use flap_core::parameter::{self, Parameter};
 
 use crate::notation::text;
@@ -10,7 +12,7 @@ pub struct Column {
     /// Name, with its unit for a measure.
     pub name: String,
     /// The unit in words; empty for what has none.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
     /// The type of its cells. Any cell may be empty.
     pub kind: Kind,
     /// One line of meaning.
@@ -31,8 +33,8 @@ pub enum Kind {
 }
 
 impl Column {
-    pub(crate) fn new(name: &str, unit: &'static str, kind: Kind, doc: &str) -> Column {
-        Column { name: name.to_owned(), unit, kind, doc: doc.to_owned() }
+    pub(crate) fn new(name: &str, unit: impl Into<Cow<'static, str>>, kind: Kind, doc: &str) -> Column {
+        Column { name: name.to_owned(), unit: unit.into(), kind, doc: doc.to_owned() }
     }
 
     pub(crate) fn of_parameter(parameter: &Parameter) -> Column {

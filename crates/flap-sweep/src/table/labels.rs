@@ -1,11 +1,13 @@
 //! Labels of columns: names in words, printed units, and the better direction of a measure.
 
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 use flap_core::simulate::Simulator;
 use flap_core::vehicle::FORCES;
 
 use super::layout;
+use crate::plan::gradient;
 
 /// The label of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,15 +49,27 @@ pub fn with_unit(column: &str, unit: &str) -> Label {
     Label { words: words(column, unit), unit: printed(unit), better: better(column) }
 }
 
-/// The unit of a column: that of the parameter or measure with this name in one of the `models`, else the ending of the name;
-/// empty for none.
-pub fn unit_of(column: &str, models: &[&'static dyn Simulator]) -> &'static str {
-    let of_model = models.iter().find_map(|model| {
-        let parameter = model.parameters().iter().find(|parameter| parameter.name == column);
-        let measure = || model.columns().iter().find(|measure| measure.name == column);
-        parameter.map(|parameter| parameter.unit).or_else(|| measure().map(|measure| measure.unit))
+/// The unit of a column: that of the parameter or measure with this name in one of the `models`, or of the derivative of one by
+/// another, else the ending of the name; empty for none.
+pub fn unit_of(column: &str, models: &[&'static dyn Simulator]) -> Cow<'static, str> {
+    let of_model = |name| unit_in_models(name, models);
+    let derivative = gradient::parts(column).and_then(|(of, by, per)| {
+        let is_known = per == gradient::Per::Cent || of_model(by).is_some();
+        is_known.then(|| gradient::unit(&unit_of(of, models), of_model(by).unwrap_or_default(), per))
     });
-    of_model.unwrap_or_else(|| layout::split_unit(column).1)
+    derivative.map_or_else(
+        || of_model(column).unwrap_or_else(|| layout::split_unit(column).1).into(),
+        Cow::from,
+    )
+}
+
+/// The unit of the parameter or measure with this name in one of the models.
+fn unit_in_models(name: &str, models: &[&'static dyn Simulator]) -> Option<&'static str> {
+    models.iter().find_map(|model| {
+        let parameter = model.parameters().iter().find(|parameter| parameter.name == name);
+        let measure = || model.columns().iter().find(|measure| measure.name == name);
+        parameter.map(|parameter| parameter.unit).or_else(|| measure().map(|measure| measure.unit))
+    })
 }
 
 /// Words, and the printed unit in parentheses if there is one.
@@ -287,6 +301,10 @@ mod tests {
         // A model that is not among those of the program says nothing.
         assert_eq!(unit_of("hinge_stiffness", &[]), "");
         assert_eq!(unit_of("lift_mean_mn", &[]), "mN");
+        assert_eq!(unit_of("d_lift_mean_mn_per_pct_hinge_stiffness", models), "mN/%");
+        assert_eq!(unit_of("d_strain_max_per_si_hinge_stiffness", models), "1/(N*m/rad)");
+        // The unit of a parameter that no model has is not known.
+        assert_eq!(unit_of("d_lift_mean_mn_per_si_zzz", models), "");
     }
 
     #[test]

@@ -9,7 +9,7 @@ pub use super::column::{Cell, Column, Kind};
 use super::fixed::{CURVE, Fixed, POINT, RUN, STATUS};
 use crate::notation::expression;
 use crate::plan::Plan;
-use crate::plan::gradient::{column_name, meaning};
+use crate::plan::gradient::{self, column_name, meaning};
 
 /// The columns of the rows of a plan:
 /// `point`, the varied parameters, the derived ones, `status`, the measures, then `cycles`, `residual`, `period`,
@@ -148,9 +148,10 @@ fn derivatives(plan: &Plan, before: usize) -> Vec<Behind> {
         Some(place) => (plan.measures()[place].name.as_str(), ""),
     };
     let columns = gradient.pairs().map(|(of, by)| {
-        let ((of, unit), by) = (name(of), plan.parameters()[by].name);
-        let doc = meaning(of, unit, by, gradient.per);
-        Column::new(&column_name(of, by, gradient.per), "", Kind::Number, &doc)
+        let ((of, unit), by) = (name(of), &plan.parameters()[by]);
+        let doc = meaning(of, unit, by.name, gradient.per);
+        let per = gradient::unit(unit, by.unit, gradient.per);
+        Column::new(&column_name(of, by.name, gradient.per), per, Kind::Number, &doc)
     });
     let columns = columns.chain([gradient_gap()]).enumerate();
     columns.map(|(place, column)| Behind::Measure(Measure { index: before + place, column })).collect()

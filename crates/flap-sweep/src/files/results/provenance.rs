@@ -29,7 +29,8 @@ impl Provenance {
     pub fn of(plan: &Plan, identity: &Identity) -> Provenance {
         let columns = Layout::of(plan).columns();
         let units = columns.iter().filter(|column| !column.unit.is_empty());
-        let units: BTreeMap<&str, &str> = units.map(|column| (column.name.as_str(), column.unit)).collect();
+        let units: BTreeMap<&str, &str> =
+            units.map(|column| (column.name.as_str(), column.unit.as_ref())).collect();
         let mut entries = vec![
             ("flap", identity.flap.clone()),
             ("flap.build", identity.build.clone()),

@@ -74,7 +74,7 @@ impl Sidecar {
             followed: followed(plan, &start.options),
             parameters: parameters(plan),
             varied: layout.varied.iter().map(|(_, p)| Unit::new(p.name, p.unit)).collect(),
-            columns: layout.measures().map(|m| Unit::new(&m.column.name, m.column.unit)).collect(),
+            columns: layout.measures().map(|m| Unit::new(&m.column.name, &m.column.unit)).collect(),
             invalid: Vec::new(),
             points_file: plan
                 .points_file()
