@@ -2,6 +2,9 @@
 
 import json
 import math
+import os
+import subprocess
+import sys
 import urllib.error
 import urllib.request
 
@@ -53,6 +56,30 @@ def test_a_server_ends():
     with pytest.raises(urllib.error.URLError):
         ask(page, "motion", {"samples": 9})
     page.stop()
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no forks on this system")
+@pytest.mark.parametrize("end", ["page.stop()", "del page; gc.collect()", "page.__exit__(None, None, None)", "pass"])
+def test_a_forked_child_leaves_the_page_to_its_parent(end):
+    program = f"""
+import gc, os, sys, urllib.request, warnings, flapwing
+warnings.simplefilter("ignore")
+page = flapwing.live("ozaki2018-small")
+address = page.address
+child = os.fork()
+if child == 0:
+    {end}
+    sys.exit(0)
+_, status = os.waitpid(child, 0)
+print(status, urllib.request.urlopen(address, timeout=30).status)
+page.stop()
+try:
+    urllib.request.urlopen(address, timeout=5)
+except OSError:
+    print("stopped")
+"""
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=120)
+    assert (ended.stdout, ended.stderr) == ("0 200\nstopped\n", "")
 
 
 def test_strangers_are_turned_away():

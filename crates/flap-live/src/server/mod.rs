@@ -64,6 +64,8 @@ pub struct Server {
     address: String,
     stop: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
+    /// The process that started the server. A forked child has a copy of this struct, but not the thread.
+    process: u32,
 }
 
 impl Server {
@@ -106,7 +108,7 @@ impl Server {
         };
         let thread = std::thread::Builder::new().name("flap-live".to_owned()).spawn(serve);
         let thread = thread.map_err(|error| system(&error))?;
-        Ok(Server { address, stop: Some(stop), thread: Some(thread) })
+        Ok(Server { address, stop: Some(stop), thread: Some(thread), process: std::process::id() })
     }
 
     /// The address of the page, with its token.
@@ -114,8 +116,14 @@ impl Server {
         &self.address
     }
 
-    /// Ends the server: connections are closed, and work in hand is dropped.
+    /// Ends the server: connections are closed, and work in hand is dropped. In a forked child of the process that started the
+    /// server, it does nothing: the server goes on in the parent.
     pub fn stop(&mut self) {
+        if self.process != std::process::id() {
+            // Waking or joining a thread of the parent from here would reach into its event loop, or panic.
+            std::mem::forget((self.stop.take(), self.thread.take()));
+            return;
+        }
         // The other end is there as long as the thread runs.
         if let Some(stop) = self.stop.take() {
             let _ = stop.send(());
