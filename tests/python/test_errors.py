@@ -3,6 +3,9 @@
 import inspect
 import math
 import re
+import subprocess
+import sys
+import textwrap
 
 import flapwing
 import pytest
@@ -128,12 +131,150 @@ def test_preset_is_required_and_positional():
     assert "design" in refused(TypeError, preset=PRESET)
 
 
-def test_errors_of_a_value_itself_pass_through():
-    class Broken:
-        def __float__(self):
-            raise RuntimeError("broken")
+class Failing:
+    """A value whose own code raises an error, wherever it is asked."""
 
-    assert refused(RuntimeError, PRESET, drive_frequency=Broken()) == "broken"
+    def __init__(self, name, error):
+        def fail(*_):
+            raise error
+
+        is_method = name.startswith("__") and name != "__array_struct__" or name in ("tolist", "to_dict")
+        self.__class__ = type("Failing", (Failing,), {name: fail if is_method else property(fail)})
+
+
+def test_errors_of_a_value_itself_name_the_value():
+    with pytest.raises(TypeError) as caught:
+        flapwing.run(PRESET, drive_frequency=Failing("__float__", RuntimeError("broken")))
+    assert str(caught.value).splitlines() == [
+        "`drive_frequency` is Failing, which raised RuntimeError: broken",
+        "it must be a number in Hz or text with a unit",
+    ]
+    assert isinstance(caught.value.__cause__, RuntimeError)
+
+
+FAILING = [RuntimeError("broken"), MemoryError(), SystemError("inside"), RecursionError("deep"), KeyError("key")]
+
+
+@pytest.mark.parametrize("error", FAILING, ids=lambda error: type(error).__name__)
+@pytest.mark.parametrize("method", ["__float__", "__array_struct__", "__array__", "__len__", "__iter__", "tolist", "columns", "to_dict"])
+def test_objects_that_fail_are_errors_of_two_lines(method, error):
+    failing = Failing(method, error)
+    grid = {"preset": PRESET, "axes": {"drive_frequency": failing}}
+    for call in (
+        lambda: flapwing.run(PRESET, drive_frequency=failing),
+        lambda: flapwing.run(PRESET, max_cycles=failing),
+        lambda: flapwing.run(PRESET, begin={"pitch": failing}),
+        lambda: flapwing.run(PRESET, begin=failing),
+        lambda: flapwing.run(PRESET, waveform=failing),
+        lambda: flapwing.run(PRESET, stroke=(failing, [1.0, 2.0])),
+        lambda: flapwing.evaluate(PRESET, {"drive_frequency": failing}),
+        lambda: flapwing.evaluate(PRESET, {"drive_frequency": [failing]}),
+        lambda: flapwing.evaluate(PRESET, failing),
+        lambda: flapwing.evaluate(PRESET, {"drive_frequency": [100.0]}, measures=failing),
+        lambda: flapwing.evaluate(PRESET, {"drive_frequency": [100.0]}, begin={"pitch": failing}),
+        lambda: flapwing.Grid(grid),
+        lambda: flapwing.Grid(failing),
+        lambda: flapwing.resonance(PRESET, start=failing),
+        lambda: flapwing.live(PRESET, port=failing),
+        lambda: flapwing.Grid(PRESET)[failing],
+    ):
+        with pytest.raises((TypeError, ValueError)) as caught:
+            call()
+        lines = str(caught.value).splitlines()
+        # Where the method is not called, the value is of the wrong type.
+        assert len(lines) == 2 or " must be " in lines[0], lines
+
+
+@pytest.mark.parametrize("stop", [KeyboardInterrupt, SystemExit, GeneratorExit])
+def test_stops_inside_of_a_value_pass_through(stop):
+    for call in (
+        lambda: flapwing.run(PRESET, drive_frequency=Failing("__float__", stop())),
+        lambda: flapwing.evaluate(PRESET, {"drive_frequency": Failing("__array__", stop())}),
+        lambda: flapwing.Grid({"preset": PRESET, "axes": {"drive_frequency": Failing("tolist", stop())}}),
+    ):
+        with pytest.raises(stop):
+            call()
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda huge: flapwing.run(PRESET, drive_frequency=huge),
+        lambda huge: flapwing.run(PRESET, begin={"pitch": huge}),
+        lambda huge: flapwing.Grid({"preset": PRESET, "params": {"drive_frequency": huge}}),
+        lambda huge: flapwing.evaluate(PRESET, {"drive_frequency": huge}),
+        lambda huge: flapwing.evaluate(PRESET, {"drive_frequency": [100.0, huge]}),
+        lambda huge: flapwing.run(PRESET, waveform=([0, 1, 2, huge], [0, 1, 0, -1])),
+        lambda huge: flapwing.impulse(PRESET, amplitude=huge),
+        lambda huge: flapwing.fit(PRESET, {"drive_frequency": [100, huge], "stroke_pp_deg": [50, 60]}, ["hinge_stiffness"]),
+        lambda huge: flapwing.fit(PRESET, {"drive_frequency": [100, 110], "stroke_pp_deg": [50, 60]}, ["hinge_stiffness"], sigma=huge),
+    ],
+)
+def test_whole_numbers_beyond_floats_are_too_large(call):
+    with pytest.raises(ValueError, match="too large for a 64-bit float\n"):
+        call(10**400)
+
+
+def test_an_index_beyond_all_points_is_an_index_error():
+    grid = flapwing.Grid(PRESET)
+    for index in (10**30, -(10**30), 1):
+        with pytest.raises(IndexError, match="there is no point"):
+            grid[index]
+        with pytest.raises(IndexError, match="there is no point"):
+            flapwing.run(grid, point=index)
+
+
+#: Grids of which one part contains itself, or is nested too deep, each as a program that calls `f`.
+DEEP = {
+    "a dictionary in itself": "d = {'preset': P}; d['params'] = d; f(d)",
+    "a dictionary in a table": "d = {}; d['a'] = d; f({'preset': P, 'params': {'x': d}})",
+    "a list in itself": "l = [1.0]; l.append(l); f({'preset': P, 'axes': {'drive_frequency': l}})",
+    "a list of itself": "l = []; l.append(l); f({'preset': P, 'axes': l})",
+    "a tuple of lists": "l = []; l.append((l,)); f({'preset': P, 'axes': {'drive_frequency': l}})",
+    "a sample": "d = {'method': 'random'}; d['parameters'] = {'wing_area': d}; f({'preset': P, 'sample': d})",
+    "10,000 dictionaries": "d = {}\nfor _ in range(10_000): d = {'a': d}\nf({'preset': P, 'params': d})",
+    "10,000 lists": "l = [1.0]\nfor _ in range(10_000): l = [l]\nf({'preset': P, 'axes': {'drive_frequency': l}})",
+}
+
+
+@pytest.mark.parametrize("name", DEEP)
+def test_what_contains_itself_is_a_grid_error(name):
+    # In a process of its own, in a thread with a small stack.
+    program = f"""
+import threading, flapwing
+P = "jafferis2016"
+def told(f):
+    try:
+{textwrap.indent(DEEP[name], " " * 8)}
+    except flapwing.GridError as error:
+        lines = str(error).splitlines()
+        assert len(lines) == 2 and "more than 64 levels" in lines[0], error
+        assert error.diagnostics == [] and len(str(error)) < 400
+        return
+    raise AssertionError("no error")
+def all():
+    for f in (flapwing.Grid, flapwing.sweep, flapwing.run, flapwing.params, lambda d: flapwing.evaluate(d, {{"air_density": [1.0]}})):
+        told(f)
+    told(lambda d: flapwing.Vehicle(d, [flapwing.Wing("left")]))
+    print("done")
+all()
+threading.stack_size(256 * 1024)
+thread = threading.Thread(target=all)
+thread.start()
+thread.join()
+"""
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stdout) == (0, "done\ndone\n"), ended.stderr
+
+
+def test_sixty_levels_are_read():
+    nested = [100.0]
+    for _ in range(50):
+        nested = [nested]
+    with pytest.raises(flapwing.GridError) as caught:
+        flapwing.Grid({"preset": PRESET, "axes": {"drive_frequency": nested}})
+    # A mistake in the grid as any other, with its line.
+    assert caught.value.diagnostics[0].line == 4
 
 
 @pytest.mark.parametrize("preset", flapwing.presets())

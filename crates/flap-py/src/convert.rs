@@ -1,14 +1,16 @@
 //! Numbers out of Python objects, and the errors for objects that are no numbers.
 
+use flap_sweep::notation::text::shortened;
 use flap_sweep::notation::units;
-use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
+use flap_sweep::resonance::{self, LargeImpulse};
+use pyo3::exceptions::{PyException, PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyString};
 
 /// A finite number, of any type that Python's `float` takes except text and truth values.
 ///
-/// `TypeError` if `value` is of another type: the message says that `name` must be `wanted`. `ValueError` if the number is
-/// infinite, not a number, or too large.
+/// `TypeError` if `value` is of another type, or if its own code fails: the message says that `name` must be `wanted`.
+/// `ValueError` if the number is infinite, not a number, or too large.
 pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     if value.is_instance_of::<PyBool>() {
         return Err(wrong_type(name, wanted, value));
@@ -17,16 +19,26 @@ pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyRe
         if error.is_instance_of::<PyTypeError>(value.py()) {
             wrong_type(name, wanted, value)
         } else if error.is_instance_of::<PyOverflowError>(value.py()) {
-            PyValueError::new_err(format!("`{name}` is too large for a 64-bit float"))
+            too_large(name)
         } else {
-            error
+            failed(name, wanted, value, error)
         }
     })?;
     if number.is_finite() {
         Ok(number)
     } else {
-        Err(PyValueError::new_err(format!("`{name}` cannot be {}: values are finite", value.str()?)))
+        let told = number.to_string().to_lowercase();
+        Err(PyValueError::new_err(format!("`{name}` cannot be {told}: values are finite")))
     }
+}
+
+/// The size of an impulse (rad): a number in rad, or text with a unit. Errors as [`quantity`]; `ValueError` for more than half a
+/// turn.
+pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let amplitude = quantity(name, "rad", true, value)?;
+    resonance::impulse(amplitude).map_err(|error| {
+        PyValueError::new_err(format!("`{name}` is too large: {error}\n{}", LargeImpulse::HELP))
+    })
 }
 
 /// A number in `unit`, or text with a unit, in `unit`. Text is refused if `takes_text` is false: the name has another unit.
@@ -56,19 +68,41 @@ pub(crate) fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
         }
         // Negative, or too large.
         Err(error) if error.is_instance_of::<PyOverflowError>(value.py()) => 0,
-        Err(error) => return Err(error),
+        Err(error) => return Err(failed(name, wanted, value, error)),
     };
     if count == 0 {
-        let message = format!("`{name}` must be from 1 to {}, not {}", u32::MAX, value.str()?);
-        return Err(PyValueError::new_err(message));
+        let found = value.str().map_or_else(|_| "this".to_owned(), |found| found.to_string());
+        return Err(PyValueError::new_err(format!("`{name}` must be from 1 to {}, not {found}", u32::MAX)));
     }
     Ok(count)
 }
 
 /// The `TypeError` for a value that is not of the type wanted.
 pub(crate) fn wrong_type(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyErr {
-    match value.get_type().name() {
-        Ok(found) => PyTypeError::new_err(format!("`{name}` must be {wanted}, not {found}")),
-        Err(error) => error,
+    PyTypeError::new_err(format!("`{name}` must be {wanted}, not {}", type_name(value)))
+}
+
+/// The `ValueError` for a whole number beyond the largest float.
+pub(crate) fn too_large(name: &str) -> PyErr {
+    PyValueError::new_err(format!("`{name}` is too large for a 64-bit float\nthe largest is {:e}", f64::MAX))
+}
+
+/// The `TypeError` for an object that raised `error` while it was read, which is its cause. What is no error of the object, such
+/// as `KeyboardInterrupt`, stays as it is.
+pub(crate) fn failed(name: &str, wanted: &str, value: &Bound<'_, PyAny>, error: PyErr) -> PyErr {
+    let py = value.py();
+    if !error.is_instance_of::<PyException>(py) {
+        return error;
     }
+    let told = error.to_string();
+    let told = shortened(told.lines().next().unwrap_or_default());
+    let message = format!("`{name}` is {}, which raised {told}\nit must be {wanted}", type_name(value));
+    let refused = PyTypeError::new_err(message);
+    refused.set_cause(py, Some(error));
+    refused
+}
+
+/// The name of an object's type.
+pub(crate) fn type_name(value: &Bound<'_, PyAny>) -> String {
+    value.get_type().name().map_or_else(|_| "an object".to_owned(), |name| name.to_string())
 }

@@ -38,6 +38,15 @@ pub(crate) fn grid(py: Python<'_>, mistakes: &diagnostic::Mistakes) -> PyErr {
     }
 }
 
+/// `GridError` for a dictionary that cannot be written as a grid file. It has no lines, so no diagnostics.
+pub(crate) fn no_grid(py: Python<'_>, message: &str) -> PyErr {
+    let error = GridError::new_err(message.to_owned());
+    match error.value(py).setattr("diagnostics", Vec::<Diagnostic>::new()) {
+        Ok(()) => error,
+        Err(error) => error,
+    }
+}
+
 /// The exception for a grid file without a plan.
 pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
     match error {

@@ -9,11 +9,11 @@ use flap_sweep::plan::Plan;
 use flap_sweep::plan::axis::Values;
 use flap_sweep::study::survey;
 use numpy::PyArray1;
-use pyo3::exceptions::{PyIndexError, PyTypeError};
+use pyo3::exceptions::{PyException, PyIndexError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList, PySlice, PyString};
 
-use crate::{error, grid_text, parameters};
+use crate::{convert, error, grid_text, parameters, point};
 
 /// The largest number of points of which `Grid.exclusions` evaluates the conditions.
 const LOOKED_AT: u64 = 1_000_000;
@@ -73,14 +73,8 @@ impl Grid {
             }
             return Ok(points.into_any());
         }
-        let index: i64 = index.extract()?;
-        let length = self.plan.len();
-        let place =
-            if index < 0 { length.checked_sub(index.unsigned_abs()) } else { Some(index.unsigned_abs()) };
-        match place.filter(|place| *place < length) {
-            Some(place) => Ok(self.point(py, place)?.into_any()),
-            None => Err(PyIndexError::new_err(format!("there is no point {index}: the grid has {length}"))),
-        }
+        let place = point::place(&self.plan, "index", index)?;
+        Ok(self.point(py, place)?.into_any())
     }
 
     fn __repr__(&self) -> String {
@@ -200,13 +194,15 @@ pub(crate) fn plan(source: &Bound<'_, PyAny>) -> PyResult<Plan> {
             return parse(py, "<grid>", &text);
         }
     }
-    let Ok(path) = source.extract::<PathBuf>() else {
-        let found = source.get_type().name()?;
-        let message = format!(
+    let path = source.extract::<PathBuf>().map_err(|error| {
+        if !error.is_instance_of::<PyException>(py) {
+            return error;
+        }
+        let found = convert::type_name(source);
+        PyTypeError::new_err(format!(
             "a design is not {found}\nit is the name of a preset, a path, the text of a grid file, a dictionary or a Grid"
-        );
-        return Err(PyTypeError::new_err(message));
-    };
+        ))
+    })?;
     let plan = grid::read(&path, simulate::all()).map_err(|error| error::grid_file(py, &error))?;
     with_warnings(py, plan)
 }

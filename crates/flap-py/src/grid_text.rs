@@ -1,11 +1,20 @@
 //! A dictionary as the text of a grid file, so that messages can show the lines of its mistakes.
 //!
-//! Tables keep the order of the dictionary: the last axis varies fastest.
+//! Tables keep the order of the dictionary: the last axis varies fastest. Objects of the user's are read here, whose own code may
+//! fail: [`convert::failed`] makes errors of that.
 
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyList, PyMapping, PyRange, PyString, PyTuple};
 use toml::Value;
+
+use crate::{convert, error};
+
+/// The most levels of dictionaries and lists within each other. A grid file has about six.
+const MOST_LEVELS: usize = 64;
+
+/// What an entry of a grid may be, for messages.
+const WANTED: &str = "a number, text, True or False, a list, an array, or a dictionary";
 
 /// The text of a grid file with these entries.
 #[pyfunction]
@@ -34,7 +43,7 @@ pub(crate) fn write(grid: &Bound<'_, PyDict>) -> PyResult<String> {
                 tables.push(format!("\n[[{name}]]\n{}", lines(&block, &name)?));
             }
         } else {
-            head.push(format!("{name} = {}\n", inline(&value, &name)?));
+            head.push(format!("{name} = {}\n", inline(&value, &name, 1)?));
         }
     }
     head.append(&mut tables);
@@ -71,21 +80,28 @@ pub(crate) fn dictionary<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Boun
     if let Ok(dict) = value.cast::<PyDict>() {
         return Ok(Some(dict.clone()));
     }
+    if value.is_instance_of::<PyString>() {
+        return Ok(None);
+    }
+    let failed = |error| convert::failed("grid", WANTED, value, error);
+    if !value.is_instance_of::<PyMapping>() && value.hasattr("collect").map_err(failed)? {
+        let found = convert::type_name(value);
+        return Err(PyTypeError::new_err(format!(
+            "{found} has no columns yet\ncall its method collect() first"
+        )));
+    }
+    columns(value).map_err(failed)
+}
+
+/// The entries of a mapping or the columns of a table; `None` for anything else.
+fn columns<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyDict>>> {
     let dict = PyDict::new(value.py());
     if let Ok(mapping) = value.cast::<PyMapping>() {
         dict.update(mapping)?;
         return Ok(Some(dict));
     }
-    if value.is_instance_of::<PyString>() {
-        return Ok(None);
-    }
-    if value.hasattr("collect")? {
-        let found = value.get_type().name()?;
-        let message = format!("{found} has no columns yet\ncall its method collect() first");
-        return Err(PyTypeError::new_err(message));
-    }
     for names in ["column_names", "columns"] {
-        if let Ok(names) = value.getattr(names) {
+        if let Some(names) = value.getattr_opt(names)? {
             for name in names.try_iter()? {
                 let name = name?;
                 dict.set_item(&name, value.get_item(&name)?)?;
@@ -104,7 +120,7 @@ fn listed<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>>>
         ));
     }
     for method in ["tolist", "to_list", "to_pylist"] {
-        if let Ok(method) = value.getattr(method) {
+        if let Some(method) = value.getattr_opt(method)? {
             let list = method.call0()?;
             return Ok(list.is_instance_of::<PyList>().then_some(list));
         }
@@ -115,7 +131,7 @@ fn listed<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>>>
 fn lines(table: &Bound<'_, PyDict>, place: &str) -> PyResult<String> {
     let lines = table.iter().map(|(key, value)| {
         let name = name(&key)?;
-        Ok(format!("{name} = {}\n", inline(&value, &format!("{place}.{name}"))?))
+        Ok(format!("{name} = {}\n", inline(&value, &format!("{place}.{name}"), 2)?))
     });
     lines.collect()
 }
@@ -132,20 +148,25 @@ fn name(key: &Bound<'_, PyAny>) -> PyResult<String> {
     Ok(Value::String(key.into_owned()).to_string())
 }
 
-/// A value on one line.
-fn inline(value: &Bound<'_, PyAny>, place: &str) -> PyResult<String> {
-    if let Some(list) = listed(value)? {
-        return inline(&list, place);
+/// A value on one line, within so many levels of dictionaries and lists.
+fn inline(value: &Bound<'_, PyAny>, place: &str, level: usize) -> PyResult<String> {
+    if level > MOST_LEVELS {
+        return Err(error::no_grid(value.py(), &too_deep(place)));
+    }
+    let failed = |error| convert::failed(place, WANTED, value, error);
+    if let Some(list) = listed(value).map_err(failed)? {
+        return inline(&list, place, level + 1);
     }
     if let Some(dict) = dictionary(value)? {
         let items = dict.iter().map(|(key, value)| {
             let name = name(&key)?;
-            Ok(format!("{name} = {}", inline(&value, &format!("{place}.{name}"))?))
+            Ok(format!("{name} = {}", inline(&value, &format!("{place}.{name}"), level + 1)?))
         });
         return Ok(format!("{{ {} }}", items.collect::<PyResult<Vec<_>>>()?.join(", ")));
     }
     if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
-        let items = value.try_iter()?.map(|item| inline(&item?, place));
+        let items = value.try_iter().map_err(failed)?;
+        let items = items.map(|item| inline(&item.map_err(failed)?, place, level + 1));
         return Ok(format!("[{}]", items.collect::<PyResult<Vec<_>>>()?.join(", ")));
     }
     Ok(scalar(value, place)?.to_string())
@@ -162,12 +183,25 @@ fn scalar(value: &Bound<'_, PyAny>, place: &str) -> PyResult<Value> {
     if let Ok(whole) = value.extract::<i64>() {
         return Ok(Value::Integer(whole));
     }
-    if let Ok(number) = value.extract::<f64>() {
-        return Ok(Value::Float(number));
-    }
-    let found = value.get_type().name()?;
-    let message = format!(
-        "`{place}` of a grid is {found}\nit must be a number, text, True or False, a list, an array, or a dictionary"
-    );
-    Err(PyTypeError::new_err(message))
+    value.extract::<f64>().map(Value::Float).map_err(|error| {
+        let py = value.py();
+        if error.is_instance_of::<PyOverflowError>(py) {
+            convert::too_large(place)
+        } else if error.is_instance_of::<PyTypeError>(py) {
+            let found = convert::type_name(value);
+            PyTypeError::new_err(format!("`{place}` of a grid is {found}\nit must be {WANTED}"))
+        } else {
+            convert::failed(place, WANTED, value, error)
+        }
+    })
+}
+
+/// The message about a dictionary or list at `place`.
+fn too_deep(place: &str) -> String {
+    let first: Vec<&str> = place.split('.').take(4).collect();
+    let dots = if first.len() < 4 { "" } else { "…" };
+    format!(
+        "`{}{dots}` has more than {MOST_LEVELS} levels of dictionaries or lists\ngive fewer levels; none may contain itself",
+        first.join(".")
+    )
 }

@@ -8,6 +8,7 @@ from typing import Any, Mapping
 import numpy as np
 
 from . import _flapwing
+from ._mistakes import reading, refused
 from ._table import Table
 from ._types import Design
 
@@ -15,22 +16,20 @@ from ._types import Design
 COLUMNS = "it must be a dictionary of columns, a Table, a DataFrame (pandas, polars) or an Arrow table"
 
 
-def refused(name: str, value: object, allowed: str) -> TypeError:
-    """The error for a value of the wrong type, in two lines."""
-    return TypeError(f"`{name}` is {type(value).__name__}\n{allowed}")
-
-
 def columns_of(name: str, given: Any) -> dict[str, Any]:
     """The columns of a mapping, a Table, a DataFrame or an Arrow table, by name."""
-    if isinstance(given, Mapping):
-        found = dict(given)
-    elif hasattr(given, "collect"):
+    found: dict[Any, Any] | None = None
+    with reading(name, given, COLUMNS):
+        is_lazy = not isinstance(given, Mapping) and hasattr(given, "collect")
+        if isinstance(given, Mapping):
+            found = dict(given)
+        elif not is_lazy and not isinstance(given, (str, bytes)) and hasattr(given, "__getitem__"):
+            names = getattr(given, "column_names", getattr(given, "columns", None))
+            found = None if names is None else {column: given[column] for column in names}
+    if is_lazy:
         raise refused(name, given, "it has no columns yet: call its method collect() first")
-    else:
-        names = getattr(given, "column_names", getattr(given, "columns", None))
-        if names is None or isinstance(given, (str, bytes)) or not hasattr(given, "__getitem__"):
-            raise refused(name, given, COLUMNS)
-        found = {column: given[column] for column in names}
+    if found is None:
+        raise refused(name, given, COLUMNS)
     for column in found:
         if not isinstance(column, str):
             raise TypeError(f"`{name}` has a column called {column!r}, which is {type(column).__name__}\nnames are text")
@@ -41,12 +40,14 @@ def numbers(name: str, values: Any, *, unknown: bool = False) -> np.ndarray[Any,
     """A column of numbers as float64. What is `unknown` may stand in it as nan; else nulls and masked values are refused."""
     if isinstance(values, np.ma.MaskedArray) or not unknown:
         refuse_missing(name, values)
-    try:
-        array = np.asarray(values)
-        if array.dtype.kind == "O":
-            array = array.astype(np.float64)
-    except (TypeError, ValueError):
-        raise refused(name, values, "it must be numbers: a list, an array or a Series") from None
+    allowed = "it must be numbers: a list, an array or a Series"
+    with reading(name, values, allowed):
+        try:
+            array = np.asarray(values)
+            if array.dtype.kind == "O":
+                array = array.astype(np.float64)
+        except (TypeError, ValueError):
+            array = np.empty((0, 0))
     if array.ndim != 1 or array.dtype.kind not in "fiu":
         raise refused(name, values, "it must be numbers in one dimension: a list, an array or a Series")
     return np.require(array, np.float64, ["C", "A"])
@@ -55,14 +56,15 @@ def numbers(name: str, values: Any, *, unknown: bool = False) -> np.ndarray[Any,
 def refuse_missing(name: str, values: Any) -> None:
     """Refuses masked values and nulls: what stands below a mask means nothing, and a null is no number."""
     kind, missing = "masked", 0
-    if isinstance(values, np.ma.MaskedArray):
-        missing = int(np.count_nonzero(values.mask))
-    elif isinstance(getattr(values, "null_count", None), int):  # Arrow
-        kind, missing = "null", values.null_count
-    elif callable(getattr(values, "null_count", None)):  # polars
-        kind, missing = "null", int(values.null_count())
-    elif hasattr(values, "isna") and not isinstance(getattr(values, "dtype", None), np.dtype):  # pandas
-        kind, missing = "null", int(np.count_nonzero(values.isna()))
+    with reading(name, values, "it must be a list, an array or a Series"):
+        if isinstance(values, np.ma.MaskedArray):
+            missing = int(np.count_nonzero(values.mask))
+        elif isinstance(getattr(values, "null_count", None), int):  # Arrow
+            kind, missing = "null", values.null_count
+        elif callable(getattr(values, "null_count", None)):  # polars
+            kind, missing = "null", int(values.null_count())
+        elif hasattr(values, "isna") and not isinstance(getattr(values, "dtype", None), np.dtype):  # pandas
+            kind, missing = "null", int(np.count_nonzero(values.isna()))
     if missing:
         count = values.size if kind == "masked" else len(values)
         remedy = ".filled(...)" if kind == "masked" else "the library's fill_null or fillna"
@@ -80,15 +82,20 @@ def record(name: str, given: Any, heading: str) -> str | dict[str, Any]:
         if len(given) != 2:
             raise ValueError(f"`{name}` has {len(given)} arrays\nit must have two: times (s) and values")
         given = {"time_s": given[0], heading: given[1]}
-    is_table = any(hasattr(given, name) for name in ("collect", "columns", "column_names"))
-    if not isinstance(given, Mapping) and not is_table:
-        allowed = f"it must be a path, a pair (times, values), or columns such as time_s and {heading}"
+    allowed = f"it must be a path, a pair (times, values), or columns such as time_s and {heading}"
+    if not isinstance(given, Mapping) and not _is_table(name, given, allowed):
         raise refused(name, given, allowed)
     columns = columns_of(name, given)
     if isinstance(given, Table):
         # Words, and what is unknown in some rows, is not about the motion.
         columns = {column: values for column, values in columns.items() if _is_known(values)}
     return {column: numbers(f"{name}[{column!r}]", values) for column, values in columns.items()}
+
+
+def _is_table(name: str, given: Any, allowed: str) -> bool:
+    """True for a table of columns, collected or not."""
+    with reading(name, given, allowed):
+        return any(hasattr(given, attribute) for attribute in ("collect", "columns", "column_names"))
 
 
 def _is_known(values: Any) -> bool:
@@ -107,33 +114,39 @@ def state(design: Design, begin: Any) -> dict[str, Any] | None:
     """Components of a state; of a row with more columns, those of the states of the design's model."""
     if begin is None:
         return None
-    if isinstance(begin, Mapping):
-        found = dict(begin)
-    elif any(hasattr(begin, name) for name in ("collect", "columns", "column_names")):
-        found = columns_of("begin", begin)
-    elif hasattr(begin, "to_dict"):
-        found = begin.to_dict()
-    else:
-        allowed = 'it must be a dictionary of components such as {"pitch": "10 deg"}, or a table of one row'
-        raise refused("begin", begin, allowed)
+    allowed = 'it must be a dictionary of components such as {"pitch": "10 deg"}, or a table of one row'
+    if not isinstance(begin, Mapping) and not _is_table("begin", begin, allowed):
+        row = begin
+        with reading("begin", begin, allowed):
+            begin = row.to_dict() if hasattr(row, "to_dict") else None
+        if not isinstance(begin, Mapping):
+            raise refused("begin", row, allowed)
+    found = columns_of("begin", begin)
     names = _flapwing.states(design)
     missing = [name for name in names if name not in found]
     if isinstance(begin, Mapping) and missing:
         return found
     if missing:
         raise ValueError(f"`begin` lacks the columns {', '.join(missing)}\na trajectory of the same model has them")
-    components = {name: _one(found[name]) for name in names}
+    components = {name: _one(f"begin[{name!r}]", found[name]) for name in names}
     # As in batches, what is unknown begins at rest.
-    return {} if any(value is None or value != value for value in components.values()) else components
+    return {} if any(_is_missing(f"begin[{name!r}]", value) for name, value in components.items()) else components
 
 
-def _one(value: Any) -> Any:
+def _one(name: str, value: Any) -> Any:
     """The value of a column of one row, or a value as it is."""
-    if isinstance(value, str) or not hasattr(value, "__len__"):
+    with reading(name, value, "it must be a number, text with a unit, or a column of one row"):
+        rows = len(value) if not isinstance(value, str) and hasattr(value, "__len__") else None
+    if rows is None:
         return value
-    if len(value) != 1:
-        raise ValueError(f"`begin` has {len(value)} rows\nchoose one of them: table[-1:] is the last")
-    return numbers("begin", value, unknown=True)[0]
+    if rows != 1:
+        raise ValueError(f"`begin` has {rows} rows\nchoose one of them: table[-1:] is the last")
+    return numbers(name, value, unknown=True)[0]
+
+
+def _is_missing(name: str, value: Any) -> bool:
+    with reading(name, value, "it must be a number or text with a unit"):
+        return value is None or bool(value != value)
 
 
 def states(design: Design, begin: Any) -> np.ndarray[Any, np.dtype[np.float64]] | None:
@@ -169,7 +182,8 @@ def _names(argument: str, names: Any, example: str) -> list[str] | None:
         return None
     if isinstance(names, str) or not hasattr(names, "__iter__"):
         raise refused(argument, names, f'it must be a list of names such as ["{example}"]')
-    listed = list(names)
+    with reading(argument, names, f'it must be a list of names such as ["{example}"]'):
+        listed = list(names)
     for name in listed:
         if not isinstance(name, str):
             raise refused(argument, name, f'its entries must be names such as "{example}"')

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Sequence, SupportsIndex
 
 import numpy as np
 
-from . import _arguments, _flapwing
+from . import _arguments, _flapwing, _mistakes
 from ._progress import Progress, shown
 from ._table import Table
 from ._types import Design, Measures, Value
@@ -112,10 +112,9 @@ def evaluate(
     (2,)
     """
     given = _given(design, columns)
-    slopes = _arguments.gradient(gradient)
     options: dict[str, Any] = {
         "measures": _arguments.measures(measures),
-        "gradient": slopes,
+        "gradient": _arguments.gradient(gradient),
         "begin": _arguments.states(design, begin),
         "states": _arguments.flag("states", states),
         "keywords": dict(keywords),
@@ -127,26 +126,8 @@ def evaluate(
             from ._scatter import scattered
 
             native = scattered(_arguments.cluster(client), design, options, given, threads, show)
-    if slopes is not None:
-        native = {**native, "units": _units(design, native)}
     # Without axes rows are just rows.
     return Table._of(native if len(native["axes"]) > 1 else {**native, "axes": []}, set=keywords)
-
-
-def _units(design: Design, native: dict[str, Any]) -> dict[str, str]:
-    """The units of derivatives per SI unit, by column."""
-    told = native["meta"]["gradient"]
-    measures = {name: unit for name, unit, *_ in native["columns"]}
-    parameters = {name: unit for name, _, unit, *_ in _flapwing.params(design)}
-    pairs = [(of, by) for of in told["of"] for by in told["with_respect_to"]]
-    return {column: _per(measures[of], parameters[by]) for column, (of, by) in zip(told["columns"], pairs)}
-
-
-def _per(unit: str, other: str) -> str:
-    """One unit divided by another."""
-    if not other:
-        return unit
-    return f"{unit or '1'}/{other if other.isalnum() else f'({other})'}"
 
 
 def _given(design: Design, columns: Any) -> dict[str, Any]:
@@ -179,11 +160,12 @@ def _parameters(design: Design, table: Table) -> dict[str, Any]:
 
 
 def _dimensions(name: str, values: Any) -> int:
-    try:
-        return np.ndim(values)
-    except ValueError:
-        allowed = "its lists differ in length: it must be one value, or a list of values"
-        raise _arguments.refused(name, values, allowed) from None
+    with _mistakes.reading(name, values, "it must be one value, or a list of values"):
+        try:
+            return np.ndim(values)
+        except ValueError:
+            pass
+    raise _mistakes.refused(name, values, "its lists differ in length: it must be one value, or a list of values")
 
 
 def _column(name: str, values: Any) -> np.ndarray[Any, Any] | list[Any]:
@@ -192,8 +174,9 @@ def _column(name: str, values: Any) -> np.ndarray[Any, Any] | list[Any]:
         # NumPy would make text of the numbers among them.
         return list(values)
     if isinstance(values, (dict, set, frozenset)):
-        raise _arguments.refused(name, values, "it must be one value, or a list, an array or a Series of values")
-    array = np.asarray(values)
+        raise _mistakes.refused(name, values, "it must be one value, or a list, an array or a Series of values")
+    with _mistakes.reading(name, values, "it must be one value, or a list, an array or a Series of values"):
+        array = np.asarray(values)
     if array.ndim != 1:
         raise ValueError(f"`{name}` must be one value or have one dimension, not {array.ndim}")
     if array.dtype.kind in "fiu":
@@ -205,7 +188,10 @@ def _column(name: str, values: Any) -> np.ndarray[Any, Any] | list[Any]:
 def _number(name: str, value: Any) -> float:
     if isinstance(value, (bool, np.bool_, bytes)):
         raise TypeError(f"`{name}` must be a number or text with a unit, not {type(value).__name__}")
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise _arguments.refused(name, value, "it must be a number, text with a unit, or a column of these") from None
+    allowed = "it must be a number, text with a unit, or a column of these"
+    with _mistakes.reading(name, value, allowed):
+        try:
+            return float(value)
+        except (TypeError, ValueError):
+            pass
+    raise _mistakes.refused(name, value, allowed)

@@ -8,7 +8,7 @@ import webbrowser
 from types import TracebackType
 from typing import Any, SupportsIndex
 
-from . import _arguments, _flapwing
+from . import _flapwing, _mistakes
 from ._types import Design, Value
 
 __all__ = ["Live", "live"]
@@ -31,8 +31,19 @@ export default { render };
 """
 
 
+def _whole(name: str, value: Any) -> int:
+    """A whole number."""
+    allowed = "it must be a whole number"
+    if not hasattr(type(value), "__index__"):
+        raise _mistakes.refused(name, value, allowed)
+    with _mistakes.reading(name, value, allowed):
+        return operator.index(value)
+
+
 class Live:
     """A running server of the live page; see `live`. It ends with `stop`, with its `with` block, or with Python.
+
+    The server runs in the process that started it. In a forked child, `stop` and the end of a `with` block do nothing.
 
     Attributes
     ----------
@@ -87,7 +98,7 @@ class Live:
             import traitlets
         except ImportError:
             raise ImportError("the widget needs anywidget: pip install anywidget") from None
-        pixels = operator.index(height)
+        pixels = _whole("height", height)
         if pixels <= 0:
             raise ValueError(f"`height` is {pixels}\nit must be more than 0")
 
@@ -148,10 +159,7 @@ def live(
     ...     page.address.startswith("http://127.0.0.1:")
     True
     """
-    try:
-        number = operator.index(port)
-    except TypeError:
-        raise _arguments.refused("port", port, "it must be a whole number") from None
+    number = _whole("port", port)
     if not 0 <= number <= 65535:
         raise ValueError(f"`port` is {number}\nit must be from 1 to 65535, or 0 for a free one")
     page = Live(_flapwing.LiveServer(design, dict(keywords), port=number, threads=threads))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
-from . import _arguments, _flapwing
+from . import _arguments, _flapwing, _mistakes
 from ._progress import Progress, shown
 from ._table import Table
 from ._types import Design, Value
@@ -86,7 +86,7 @@ def respond(
     ['no hysteresis from 100 to 120 Hz (branches agree to 1.1e-9 deg)']
     """
     if not isinstance(along, str):
-        raise _arguments.refused("along", along, 'it must be the name of a parameter, such as "drive_frequency"')
+        raise _mistakes.refused("along", along, 'it must be the name of a parameter, such as "drive_frequency"')
     if along in keywords:
         raise ValueError(f"`{along}` is set here and followed: keep one of them")
     options: dict[str, Any] = {

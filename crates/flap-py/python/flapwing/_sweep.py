@@ -6,7 +6,7 @@ import os
 import warnings
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
-from . import _arguments, _flapwing
+from . import _arguments, _flapwing, _mistakes
 from ._overlay import grid_of
 from ._progress import Progress, shown
 from ._table import Table
@@ -142,7 +142,7 @@ def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Tab
         The file is no table of results, or is damaged; the text locates the damage.
     """
     if not isinstance(path, (str, os.PathLike)):
-        raise _arguments.refused("path", path, "it must be the path of a file of results")
+        raise _mistakes.refused("path", path, "it must be the path of a file of results")
     damaged = _arguments.flag("ignore_damage", ignore_damage)
     native = _flapwing.read(os.fspath(path), ignore_damage=damaged)
     for text in native["warnings"]:

@@ -6,7 +6,7 @@ import os
 from typing import Any, Iterable, Iterator, Mapping, Sequence
 
 from . import _flapwing
-from ._arguments import refused
+from ._mistakes import refused
 from ._flapwing import Grid
 from ._types import Value
 

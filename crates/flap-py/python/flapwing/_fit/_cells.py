@@ -8,6 +8,7 @@ from typing import Any, Callable
 import numpy as np
 
 from .. import _flapwing
+from .._mistakes import raised
 from . import _noise
 from ._columns import Meaning, Names
 from ._noise import Noise
@@ -107,8 +108,13 @@ def _number(told: str, cell: Any) -> float:
         raise ValueError(f"{told} is {cell}, which is no number\n{_MISSING}")
     try:
         number = float(cell)
+    except OverflowError:
+        raise ValueError(f"{told} is too large for a 64-bit float\nwrite a number, or text with a unit") from None
     except (TypeError, ValueError):
         raise ValueError(f"{told} is {cell!r}, which is no number\nwrite a number, or text with a unit") from None
+    except Exception as error:
+        found = f"{type(cell).__name__}, which raised {raised(error)}"
+        raise TypeError(f"{told} is {found}\nwrite a number, or text with a unit") from error
     if not np.isfinite(number):
         raise ValueError(f"{told} is {number}, and readings are finite numbers\n{_MISSING}")
     return number

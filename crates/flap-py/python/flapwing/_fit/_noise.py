@@ -48,6 +48,8 @@ def of(name: str, given: Any, measure: str, unit: str) -> Noise:
             size = float(given.strip()[:-1]) / 100 if isinstance(given, str) else float(given)
         except ValueError:
             raise ValueError(f"`{name}` is {given!r}\n{wanted}") from None
+        except OverflowError:
+            raise ValueError(f"`{name}` is too large for a 64-bit float\n{wanted}") from None
         except TypeError:
             raise TypeError(f"`{name}` is {type(given).__name__}\n{wanted}") from None
     if not (size > 0 and np.isfinite(size)):

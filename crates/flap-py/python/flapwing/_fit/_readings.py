@@ -10,6 +10,7 @@ from typing import Any, Callable, Mapping
 import numpy as np
 
 from .. import _arguments, _flapwing
+from .._mistakes import reading
 from .._types import Value
 from . import _cells, _file, _noise
 from ._columns import COURSE, Names
@@ -192,4 +193,5 @@ def _listed(header: str, cells: Any) -> list[Any]:
         raise TypeError(
             f"column `{header}` is {type(cells).__name__}\nit must be a list, an array or a Series with a cell per row"
         )
-    return list(np.asarray(cells).tolist() if isinstance(cells, np.ndarray) else cells)
+    with reading(f"column {header}", cells, "it must be a list, an array or a Series with a cell per row"):
+        return list(cells.tolist() if isinstance(cells, np.ndarray) else cells)

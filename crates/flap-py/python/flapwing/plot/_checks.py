@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Colormap
 from matplotlib.legend import Legend
 
-from .._arguments import refused
+from .._mistakes import refused
 
 _F = TypeVar("_F", bound=Callable[..., object])
 
