@@ -31,6 +31,23 @@ def test_chirps_are_those_of_the_command(flap, tmp_path):
         flapwing.chirp(PRESET, start="150 V")
 
 
+def test_bare_numbers_of_impulses_are_radians():
+    by_number = flapwing.resonance(PRESET, impulse=0.2, start=150, stop=250)
+    assert by_number == flapwing.resonance(PRESET, impulse="0.2 rad", start=150, stop=250)
+    assert by_number != flapwing.resonance(PRESET, impulse="0.2 deg", start=150, stop=250)
+    assert flapwing.resonance(PRESET, start=150, stop=250) == flapwing.resonance(PRESET, impulse="20 deg", start=150, stop=250)
+    first = flapwing.impulse(PRESET, amplitude=0.2).meta["stroke_rate_rad_s"]
+    assert first == flapwing.impulse(PRESET, amplitude="0.2 rad").meta["stroke_rate_rad_s"]
+
+
+def test_impulses_beyond_half_a_turn_are_refused():
+    for call, name in ((flapwing.impulse, "amplitude"), (flapwing.resonance, "impulse")):
+        for value in (20, -20.0, "181 deg"):
+            with pytest.raises(ValueError, match=f'`{name}` is too large: .* is larger than half a turn\ngive at most 180 deg, such as "20 deg"'):
+                call(PRESET, **{name: value})
+    assert "(20 rad)" in str(pytest.raises(ValueError, flapwing.impulse, PRESET, amplitude=20).value)
+
+
 def test_impulses_are_those_of_the_command(flap, tmp_path):
     flap("run", PRESET, "--drive", "impulse", "--impulse", "10 deg", "--duration", "20 ms", "--trajectory", tmp_path / "a.csv")
     free = flapwing.impulse(PRESET, amplitude="10 deg", duration="20 ms")

@@ -81,7 +81,7 @@ pub(crate) fn impulse<'py>(
     let chosen = Chosen::new(design, keywords, point, None)?.for_motion(py)?;
     let experiments = experiments(&chosen)?;
     let modes = experiments.modes(&chosen.values).map_err(|reason| error::unfinished(&reason))?;
-    let amplitude = convert::quantity("amplitude", "rad", true, amplitude)?;
+    let amplitude = convert::impulse("amplitude", amplitude)?;
     let invalid = |reason| error::unfinished(&flap_core::simulate::Unfinished::Invalid(reason));
     let stroke_rate = stroke_rate(&modes, amplitude).map_err(invalid)?;
     let duration = match duration {

@@ -8,7 +8,7 @@ use flap_sweep::resonance::SearchError;
 use flap_sweep::resonance::driven::{self, PeakSearch};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict, PyList, PyString};
+use pyo3::types::{IntoPyDict, PyDict, PyList};
 
 use crate::point::Chosen;
 use crate::watch::interruptible;
@@ -40,7 +40,7 @@ pub(crate) fn resonance<'py>(
         value.map(|value| convert::quantity(name, "Hz", true, value)).transpose()
     };
     let request = FreeRequest {
-        amplitude: impulse_of(impulse)?,
+        amplitude: convert::impulse("impulse", impulse)?,
         fit_cycles: convert::count("fit_cycles", fit_cycles)?,
         spectrum_window: convert::quantity("spectrum_window", "s", true, spectrum_window)?,
         samples_per_cycle: SAMPLES,
@@ -89,12 +89,4 @@ pub(crate) fn resonance<'py>(
     dict.set_item("larger_at_hz", driven.larger_at)?;
     dict.set_item("gaps", gaps)?;
     Ok(dict)
-}
-
-/// The impulse (rad): a number in degrees, or text with a unit.
-fn impulse_of(impulse: &Bound<'_, PyAny>) -> PyResult<f64> {
-    if impulse.is_instance_of::<PyString>() {
-        return convert::quantity("impulse", "rad", true, impulse);
-    }
-    Ok(convert::number("impulse", "a number in deg or text with a unit", impulse)?.to_radians())
 }

@@ -84,7 +84,7 @@ def impulse(
         As for `run`.
     amplitude : float or str, optional
         Size of the impulse, as the amplitude (rad, or text with a unit) that the first mode alone would reach without
-        damping; not zero. Default ``"20 deg"``.
+        damping: at most half a turn, not zero. Default ``"20 deg"``.
     duration : float or str, optional
         Length of the motion (s, or text with a unit): more than 0. Default: ten periods of the first mode.
     samples : int, optional
@@ -101,7 +101,7 @@ def impulse(
     Raises
     ------
     ValueError
-        As for `run`; also for an impulse or a duration of zero.
+        As for `run`; also for an impulse of zero or of more than half a turn, and a duration of zero.
     TypeError
         A value of the wrong type.
 

@@ -248,7 +248,7 @@ def resonance(
     start: Value | None = None,
     stop: Value | None = None,
     tolerance: Value = 0.05,
-    impulse: Value = 20.0,
+    impulse: Value = "20 deg",
     fit_cycles: SupportsIndex = 4,
     spectrum_window: Value = 1.0,
     progress: Progress = False,
@@ -267,8 +267,8 @@ def resonance(
     tolerance : float or str, optional
         Largest error of the peaks' frequencies (Hz, or text with a unit). Default 0.05.
     impulse : float or str, optional
-        Impulse on the resting stroke, as the amplitude (deg, or text with a unit) that the first mode alone would reach
-        without damping. Default 20.
+        Impulse on the resting stroke, as the amplitude (rad, or text with a unit) that the first mode alone would reach
+        without damping: at most half a turn, not zero. Default ``"20 deg"``.
     fit_cycles : int, optional
         Number of periods of the first mode to which the damped sine is fitted. Default 4.
     spectrum_window : float or str, optional
