@@ -20,7 +20,7 @@ def table():
 
 def test_columns_have_types_units_and_meanings(table):
     kinds = {name: table[name].dtype.kind for name in table}
-    assert kinds["lift_mean_mn"] == "f" and kinds["cycles"] == "u" and kinds["stable"] == kinds["strong"] == "b"
+    assert kinds["lift_mean_mn"] == "f" and kinds["cycles"] == "u" and table.periodic["stable"].dtype.kind == "b"
     assert kinds["status"] == kinds["lift_sign"] == "U"
     assert table.units["lift_mean_mn"] == "mN" and table.units["drive_frequency"] == "Hz"
     assert table.units["status"] == ""
@@ -28,8 +28,44 @@ def test_columns_have_types_units_and_meanings(table):
     assert all(table.docs.values())
     assert table.keys() == table.columns == list(table)
     assert "lift_mean_mn" in table and "lift" not in table
-    with pytest.raises(KeyError, match="there is no column 'lift'; there are point, "):
+    with pytest.raises(KeyError, match="^there is no column `lift`.*\nthere are point, .* and [0-9]+ more$"):
         table["lift"]
+
+
+def test_unknown_flags_are_nan(table):
+    unknown = table["status"] != "periodic"
+    strong = table["strong"]
+    assert 0 < unknown.sum() < len(table)
+    np.testing.assert_array_equal(np.isnan(strong), unknown)
+    assert set(strong[~unknown].tolist()) <= {0.0, 1.0}
+    assert table.periodic["strong"].dtype == np.bool_
+    np.testing.assert_array_equal(strong[~unknown] == 1, table.periodic["strong"])
+    # Rows with an unknown flag are in neither part.
+    assert len(table[strong == 1]) + len(table[strong == 0]) == len(table.periodic)
+    with pytest.raises(TypeError, match='compare it: table\\[table\\["stable"\\] == 1\\]'):
+        table[strong]
+    # In a Dataset, points without a row and rows with an unknown flag.
+    data = table.to_xarray()["strong"]
+    assert np.isnan(data.sel(drive_frequency=100)).all() and int(np.isnan(data).sum()) == data.size - len(table.periodic)
+
+
+def test_derivatives_of_a_grid_have_units(flap, tmp_path):
+    grid = {
+        "preset": "jafferis2016",
+        "gradient": {"of": ["lift_mean_mn", "strain_surface_max"], "with_respect_to": ["hinge_stiffness"]},
+    }
+    units = flapwing.sweep(grid).units
+    assert units["d_lift_mean_mn_per_pct_hinge_stiffness"] == "mN/%"
+    assert units["d_strain_surface_max_per_pct_hinge_stiffness"] == "1/%"
+    path = tmp_path / "rows.csv"
+    flapwing.sweep(grid, out=path)
+    assert flapwing.read(path).units == units
+    described = flap("describe", path).stdout
+    line = next(line for line in described.splitlines() if "d_lift_mean_mn_per_pct_hinge_stiffness" in line)
+    assert "mN/%" in line
+    # Without the sidecar, the name says it.
+    (tmp_path / "rows.csv.meta.toml").unlink()
+    assert "mN/%" in flap("describe", path).stdout
 
 
 def test_numbers_are_not_copied(table):
@@ -194,7 +230,8 @@ def test_files_that_others_wrote_are_read(flap, tmp_path):
     text = "name,size,ok,all\na,1.5,true,1\nb,,,2\n"
     (tmp_path / "table.csv").write_text(text)
     table = flapwing.read(tmp_path / "table.csv")
-    assert [table[name].dtype.kind for name in table] == ["U", "f", "b", "u"]
+    assert [table[name].dtype.kind for name in table] == ["U", "f", "f", "u"]
+    assert table["ok"][0] == 1.0 and np.isnan(table["ok"][1])
     assert table.to_pandas()["ok"].isna().tolist() == [False, True]
     (tmp_path / "ragged.csv").write_text("a,b\n1,2\n3\n")
     with pytest.raises(ValueError, match="ragged.csv: line 3: 1 cells under 2 headings"):
@@ -221,7 +258,7 @@ def test_columns_are_chosen_by_lists(table):
         part = table[names]
         assert part.columns == list(names) and len(part) == len(table) and part.units["lift_mean_mn"] == "mN"
         np.testing.assert_array_equal(part["lift_mean_mn"], table["lift_mean_mn"])
-    with pytest.raises(KeyError, match="there is no column 'lift_mean'.*did you mean 'lift_mean_"):
+    with pytest.raises(KeyError, match="there is no column `lift_mean`, did you mean `lift_mean_"):
         table[["drive_frequency", "lift_mean"]]
     assert len(table[[]]) == 0 and table[[]].columns == table.columns
     whole = table[["point", "lift_mean_mn"]].to_xarray()

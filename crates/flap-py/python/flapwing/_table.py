@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import copy
-import difflib
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence, overload
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence, overload
 
 import numpy as np
 
 from . import _conversions, _flapwing
+from ._column import Column
+from ._mistakes import raised, unknown
 
 if TYPE_CHECKING:
     import pandas
@@ -28,36 +29,6 @@ SHOWN_NAMES = 8
 _KEYS = (
     "columns are chosen by a name or a list of names, rows by a slice or by an array of one dimension: a mask or indices"
 )
-
-
-class Column(NamedTuple):
-    """A column as the native part hands it over."""
-
-    unit: str
-    doc: str
-    #: float64 and uint64 as they are; int8 for flags (1, 0, -1 for unknown); uint32 places among `words` for text.
-    cells: np.ndarray[Any, Any]
-    words: list[str] | None
-
-    def values(self) -> np.ndarray[Any, Any]:
-        """The cells as they are shown, read-only: a table stays as it was computed."""
-        if self.words is not None:
-            words: np.ndarray[Any, Any] = np.array(self.words, dtype=np.str_)
-            values = words[self.cells]
-        elif self.cells.dtype == np.int8:
-            values = np.equal(self.cells, 1)
-        else:
-            values = self.cells.view()
-        values.flags.writeable = False
-        return values
-
-    def known(self) -> np.ndarray[Any, Any]:
-        """A mask, True for cells that hold a value."""
-        if self.words is None and self.cells.dtype == np.int8:
-            return np.greater_equal(self.cells, 0)
-        if self.cells.dtype == np.float64:
-            return ~np.isnan(self.cells)
-        return np.ones(len(self.cells), dtype=np.bool_)
 
 
 def _columns(native: dict[str, Any]) -> dict[str, Column]:
@@ -82,8 +53,9 @@ class Table:
     the names of the columns, as a DataFrame does. Columns are read-only: ``table["lift_mean_mn"].copy()`` may be changed.
 
     Columns are float64 with nan for unknown values (the measures of a point that is not periodic), uint64 for
-    counts, bool for flags, and text for options and words. An unknown flag is False; `to_pandas`, `to_polars` and
-    `to_arrow` distinguish it from False. `units` has the units of the columns, `docs` their meanings.
+    counts, bool for flags, and text for options and words. If a flag of some row is unknown, its column is float64 too:
+    1 for True, 0 for False, nan for unknown. ``table[table["stable"] == 1]`` selects rows in both cases.
+    `units` has the units of the columns, `docs` their meanings.
 
     Attributes
     ----------
@@ -169,9 +141,17 @@ class Table:
         if isinstance(key, (list, tuple)) and key and all(isinstance(name, str) for name in key):
             chosen = {name: self._column(name) for name in key}
             return self._new(chosen, self.dims, copy.deepcopy(self.meta))
-        rows = np.asarray(key)
+        try:
+            rows = np.asarray(key)
+        except Exception as error:
+            raise TypeError(f"a table is not indexed by {type(key).__name__}, which raised {raised(error)}\n{_KEYS}") from error
         if rows.ndim == 1 and rows.size == 0:
             rows = rows.astype(np.intp)
+        if rows.ndim == 1 and rows.dtype.kind == "f":
+            raise TypeError(
+                "rows are not selected by numbers with a fraction or nan\n"
+                'if this is a column of flags, of which some are unknown, compare it: table[table["stable"] == 1]'
+            )
         if rows.ndim != 1 or rows.dtype.kind not in "biu":
             raise TypeError(f"a table is not indexed by {type(key).__name__}: {key!r:.60}\n{_KEYS}")
         return self._rows(rows)
@@ -180,9 +160,7 @@ class Table:
         try:
             return self._columns[name]
         except KeyError:
-            near = difflib.get_close_matches(name, self._columns, n=1)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
-            raise KeyError(f"there is no column {name!r}; there are {', '.join(self._columns)}{hint}") from None
+            raise unknown("column", name, self._columns) from None
 
     def _rows(self, key: slice | np.ndarray[Any, Any]) -> Table:
         """Some of the rows. What `meta` counts is counted among them; the rest is about the call."""
@@ -245,7 +223,7 @@ class Table:
         text, those that are no text as JSON. Columns that are not copied
         are read-only: ``frame.copy()`` may be changed.
         """
-        return _conversions.to_pandas(self)
+        return _conversions.to_pandas(self._columns, self.meta)
 
     def to_polars(self) -> polars.DataFrame:
         """The table as a polars DataFrame, through Arrow; unknown values are null."""
@@ -261,7 +239,7 @@ class Table:
         Units and meanings are in the metadata of the fields; the entries of `meta` are in the metadata of the schema, as
         ``flapwing.build``, ``flapwing.grid`` and so on, those that are not text as JSON. Parquet files keep both.
         """
-        return _conversions.to_arrow(self)
+        return _conversions.to_arrow(self._columns, self.meta)
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         """The table through the Arrow C stream interface, which needs pyarrow."""
@@ -274,11 +252,11 @@ class Table:
         A motion has the dimension ``time_s``. Otherwise rows are along the dimension ``row``; of a response, the columns
         that place a row on its curve (`curve`, the design's parameters, `branch`, the parameter that is followed) are
         coordinates along it. Columns are variables with the attributes `units`, `long_name` and `description`. Points
-        that have no row, because the grid excludes them, are nan, 0, False or empty text. Rows find their places by
+        that have no row, because the grid excludes them, are nan, 0 or empty text; flags are float64 then. Rows find their places by
         `point`, or by the parameters of the axes; without either the order of the rows would say nothing, and a ValueError
         tells so. The attributes of the Dataset are the entries of `meta`, those that are no text as JSON.
         """
-        return _conversions.to_xarray(self)
+        return _conversions.to_xarray(self._columns, self.dims, self.meta)
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{count} {status}" for status, count in self.counts.items())
