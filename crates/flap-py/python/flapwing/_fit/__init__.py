@@ -5,7 +5,7 @@
 - `_model`, `_branch`: readings of the model at many sets of parameters, in batches; branches of hysteresis
 - `_search`, `_together`: least squares from several starts, side by side
 - `_identify`, `_profile`, `_goodness`: what the data tell, intervals, and whether the model is good
-- `_estimate`, `_held`, `_predict`, `_device`, `_result`, `_report`: predictions, files and reports of the result
+- `_estimate`, `_held`, `_predict`, `_device`, `_report`, `_result`, `_solution`: predictions, files and reports of the result
 """
 
 from __future__ import annotations

@@ -5,14 +5,12 @@ from __future__ import annotations
 import json
 import os
 import re
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .. import _flapwing
-
-if TYPE_CHECKING:
-    from ._result import Fit
+from ._solution import Solution
 
 #: Correlations nearer to 1 than this are written as this: a matrix of rounded numbers stays positive definite.
 _NEAREST = 0.999999
@@ -21,7 +19,7 @@ _NEAREST = 0.999999
 _FITTED = re.compile(r"(; |^)fitted to \d+ readings, .*", re.DOTALL)
 
 
-def write(fit: Fit, path: str | os.PathLike[str], data_set: str | None, overwrite: bool) -> None:
+def write(fit: Solution, path: str | os.PathLike[str], data_set: str | None, overwrite: bool) -> None:
     """Writes the device of a fit to a file that is not there yet."""
     text = text_of(fit, data_set)
     try:
@@ -31,7 +29,7 @@ def write(fit: Fit, path: str | os.PathLike[str], data_set: str | None, overwrit
         raise FileExistsError(f"{os.fspath(path)} is there already\ngive another path, or overwrite=True") from None
 
 
-def text_of(fit: Fit, data_set: str | None) -> str:
+def text_of(fit: Solution, data_set: str | None) -> str:
     """The text of a device."""
     fitted = _fitted(fit, data_set)
     names = fit._model.names
@@ -79,7 +77,7 @@ def text_of(fit: Fit, data_set: str | None) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _fitted(fit: Fit, data_set: str | None) -> dict[str, str]:
+def _fitted(fit: Solution, data_set: str | None) -> dict[str, str]:
     """The label of each fitted parameter; of those that data sets do not share, the label of one set."""
     known = [one.name for one in fit._sets]
     if data_set is not None and data_set not in known:
@@ -93,7 +91,7 @@ def _fitted(fit: Fit, data_set: str | None) -> dict[str, str]:
     return labels
 
 
-def _set(fit: Fit) -> dict[str, Any]:
+def _set(fit: Solution) -> dict[str, Any]:
     """The parameters of the design, with those that the call set."""
     model = fit._model
     given = {

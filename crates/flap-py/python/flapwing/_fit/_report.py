@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from html import escape
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ._estimate import Estimate
+from ._solution import Solution
 from ._predict import table
-
-if TYPE_CHECKING:
-    from ._estimate import Estimate
-    from ._result import Fit
 
 #: Limits of the probability of chi-square: below the first the model is called poor, below the second doubtful; above the
 #: third, standard errors are called too large.
@@ -21,7 +18,7 @@ POOR, DOUBTFUL, TOO_GOOD = 0.001, 0.05, 0.99
 _LISTED = 5
 
 
-def text(fit: Fit) -> str:
+def text(fit: Solution) -> str:
     """The report."""
     lines = [table(*_estimates(fit)), *_remarks(fit), "", *_quality(fit), "", table(*_residuals(fit)), ""]
     if fit.combinations:
@@ -31,7 +28,7 @@ def text(fit: Fit) -> str:
     return "\n".join([*lines, *_course(fit)])
 
 
-def html(fit: Fit) -> str:
+def html(fit: Solution) -> str:
     """The report for notebooks."""
     parts = [
         _html_table(*_estimates(fit)),
@@ -56,7 +53,7 @@ def _html_table(heads: list[str], rows: list[list[str]]) -> str:
     return "<table>" + row(heads, "th") + "".join(row(cells, "td") for cells in rows) + "</table>"
 
 
-def _estimates(fit: Fit) -> tuple[list[str], list[list[str]]]:
+def _estimates(fit: Solution) -> tuple[list[str], list[list[str]]]:
     heads = ["parameter", "unit", "value", "error", "error %", "95 % from", "to", ""]
     rows = []
     for name, one in fit.estimates.items():
@@ -77,7 +74,7 @@ def _verdict(one: Estimate) -> str:
     return "at the end of its range" if one.at_bound else ""
 
 
-def _remarks(fit: Fit) -> list[str]:
+def _remarks(fit: Solution) -> list[str]:
     told = [f"cannot be told by such data: {one}" for one in fit.indistinct]
     if fit.unsettled:
         listed = ", ".join(f"{one.set} row {one.row} ({one.status})" for one in fit.unsettled[:_LISTED])
@@ -94,7 +91,7 @@ def _remarks(fit: Fit) -> list[str]:
     return told
 
 
-def _quality(fit: Fit) -> list[str]:
+def _quality(fit: Solution) -> list[str]:
     good = fit.goodness
     told = f"chi-square {good.chi_square:.1f} for {good.freedom} degrees of freedom"
     if not fit.sigma_known:
@@ -126,7 +123,7 @@ def _quality(fit: Fit) -> list[str]:
     return lines
 
 
-def _residuals(fit: Fit) -> tuple[list[str], list[list[str]]]:
+def _residuals(fit: Solution) -> tuple[list[str], list[list[str]]]:
     heads = ["data set", "measure", "readings", "rms", "largest", "unit"]
     rows = []
     for one in fit.goodness.residuals:
@@ -135,13 +132,13 @@ def _residuals(fit: Fit) -> tuple[list[str], list[list[str]]]:
     return heads, rows
 
 
-def _correlations(fit: Fit) -> tuple[list[str], list[list[str]]]:
+def _correlations(fit: Solution) -> tuple[list[str], list[list[str]]]:
     names = list(fit.estimates)
     rows = [[name, *(f"{value:+.2f}" for value in row)] for name, row in zip(names, fit.correlations)]
     return ["", *(str(number + 1) for number in range(len(names)))], rows
 
 
-def _course(fit: Fit) -> list[str]:
+def _course(fit: Solution) -> list[str]:
     one = fit.effort
     return [
         f"{one.agreed} of {one.starts} starts ended at this fit; "

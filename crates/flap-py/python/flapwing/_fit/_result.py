@@ -9,15 +9,12 @@ import numpy as np
 
 from .. import _arguments
 from . import _device, _noise, _predict, _report
-from ._estimate import Effort, Estimate, HeldOut, Unsettled
-from ._goodness import Goodness
-from ._model import Model
+from ._solution import Solution
 from ._predict import NextMeasurements, Prediction
-from ._readings import DataSet
 from ._types import Array
 
 
-class Fit:
+class Fit(Solution):
     """The result of `fit`: estimates, their uncertainty, and how good the model is.
 
     ``print(fit)`` shows all of it. ``**fit.values`` sets the fitted parameters in other calls.
@@ -42,57 +39,6 @@ class Fit:
     effort : Effort
         Starts, points, right-hand sides and time.
     """
-
-    def __init__(
-        self,
-        *,
-        model: Model,
-        sets: list[DataSet],
-        x: Array,
-        covariance: Array,
-        information: Array,
-        estimates: dict[str, Estimate],
-        quantile: float,
-        sigma_known: bool,
-        guesses: Mapping[str, float],
-        combinations: list[str],
-        indistinct: list[str],
-        goodness: Goodness,
-        unsettled: list[Unsettled],
-        without_slopes: int,
-        converged: bool,
-    ) -> None:
-        self.estimates, self.combinations, self.indistinct = estimates, combinations, indistinct
-        self.goodness, self.unsettled, self.without_slopes, self.converged = (
-            goodness,
-            unsettled,
-            without_slopes,
-            converged,
-        )
-        self.sigma_known = sigma_known
-        self.held_out: HeldOut | None = None
-        self.effort = Effort(1, 1, 0, 0, 0.0)
-        self._model, self._sets, self._x, self._quantile = model, sets, x, quantile
-        self._covariance, self._information, self._guesses = covariance, information, dict(guesses)
-
-    @property
-    def values(self) -> dict[str, Any]:
-        """The fitted values of parameters that all data sets share, in SI units: ``run(design, **fit.values)``."""
-        space = self._model.space
-        return {one.parameter: self.estimates[one.label].value for one in space.coordinates if one.of_set is None}
-
-    @property
-    def covariance(self) -> Array:
-        """The covariance of the estimates in SI units; infinite for what is not known."""
-        slopes = self._model.space.slopes(self._x)
-        return np.asarray(self._covariance * np.outer(slopes, slopes))
-
-    @property
-    def correlations(self) -> Array:
-        """The correlations of the estimates."""
-        errors = np.sqrt(np.diag(self._covariance))
-        with np.errstate(invalid="ignore"):
-            return np.asarray(self._covariance / np.outer(errors, errors))
 
     def predict(self, points: Any, measure: str, *, data_set: str | None = None) -> Prediction:
         """A measure at other operating points, with 95 % bands.
