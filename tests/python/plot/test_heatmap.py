@@ -1,6 +1,8 @@
 """Measures over two parameters."""
 
+import matplotlib.pyplot as plt
 import numpy as np
+import pytest
 from figures import HERTZ, VOLTS, drawn, fails, grid, legend, message
 from flapwing import plot
 from matplotlib.collections import PolyCollection, QuadMesh
@@ -70,3 +72,55 @@ def test_heatmap_mistakes():
     assert '"linear" or "log"' in message(
         ValueError, plot.heatmap, table, "lift_mean_mn", drive_voltage_pp=60, xscale="logarithmic"
     )
+
+
+def curves(refined):
+    """The way up of two curves, of which each has points of its own beside the common ones."""
+    places = [(80.0, [100.0, 101.0, 102.0, 103.0, *refined[0]]), (90.0, [100.0, 101.0, 102.0, 103.0, *refined[1]])]
+    volts = np.concatenate([np.full(len(hertz), volts) for volts, hertz in places])
+    hertz = np.concatenate([np.sort(hertz) for _, hertz in places])
+    return {
+        "curve": (volts > 85).astype(int),
+        "drive_voltage_pp": volts,
+        "branch": np.full(len(volts), "up"),
+        "drive_frequency": hertz,
+        "status": np.full(len(volts), "periodic", dtype="U12"),
+        "lift_mean_mn": hertz,
+        "power_mean_mw": hertz,
+    }
+
+
+@pytest.mark.parametrize("transposed", [False, True])
+def test_a_map_of_refined_responses_has_no_gaps(transposed):
+    table = curves(([101.25, 101.375, 101.4375], [102.75, 102.625]))
+    axes = {"x": "drive_voltage_pp", "y": "drive_frequency"} if transposed else {}
+    ax = drawn(plot.heatmap(table, "lift_mean_mn", branch="up", **axes))
+    assert ax.get_legend() is None
+    values = mesh(ax).get_array()
+    values = values.T if transposed else values
+    assert values.shape == (2, 9) and not np.ma.getmaskarray(values).any()
+    every = np.unique(table["drive_frequency"])
+    for line, volts in zip(values, (80.0, 90.0)):
+        own = table["drive_frequency"][table["drive_voltage_pp"] == volts]
+        assert_array_equal(line[np.isin(every, own)], own)
+        # Cells between have the nearest point of their own curve.
+        assert (np.abs(np.asarray(line) - every) == np.abs(every[:, None] - own).min(axis=1)).all()
+
+
+def test_unsettled_rows_of_a_refined_response_are_counted_once():
+    table = fails(curves(([], [101.25, 101.375, 101.4375])), [1])
+    ax = drawn(plot.heatmap(table, "lift_mean_mn", branch="up"))
+    assert legend(ax) == ["unsettled (1)"]
+
+
+@pytest.mark.parametrize("size", [(6.4, 4.4), (3.2, 2.4), (2.4, 1.8)])
+def test_the_label_of_a_colour_bar_is_no_longer_than_the_bar(size):
+    table = grid(drive_voltage_pp=VOLTS, drive_frequency=HERTZ)
+    table = {**table, "power_translational_mean_mw": table["lift_mean_mn"]}
+    figure, ax = plt.subplots(figsize=size, layout="constrained")
+    plot.heatmap(table, "power_translational_mean_mw", ax=ax)
+    figure.canvas.draw()
+    bar = figure.axes[1]
+    assert bar.get_ylabel().replace("\n", " ") == "Translational power, mean (mW)"
+    assert bar.yaxis.label.get_window_extent().height <= bar.get_window_extent().height
+    assert size[1] > 4 or "\n" in bar.get_ylabel()

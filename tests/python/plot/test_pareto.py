@@ -101,6 +101,6 @@ def test_more_than_two_objectives_ring_the_front(sweep):
 def test_pareto_mistakes(sweep):
     assert "two different objectives" in message(ValueError, plot.pareto, sweep, maximize="lift_mean_mn")
     text = message(ValueError, plot.pareto, sweep, maximize="lift_mean_mn", minimize="power_mean")
-    assert "Did you mean `power_mean_mw`?" in text
+    assert "did you mean `power_mean_mw`?" in text
     table = fails(grid(drive_frequency=HERTZ), slice(None))
     assert "no row" in message(ValueError, plot.pareto, table, maximize="lift_mean_mn", minimize="power_mean_mw")

@@ -114,8 +114,8 @@ def test_lines_and_cells_of_a_sample_are_refused(sample):
 
 
 def test_mistakes(sample):
-    assert "Did you mean `lift_mean_mn`?" in message(ValueError, plot.histogram, sample, "lift_mean_m")
-    assert "Did you mean `lift_mean_mn`?" in message(ValueError, plot.scatter, sample, y="lift_mean_m")
+    assert "did you mean `lift_mean_mn`?" in message(ValueError, plot.histogram, sample, "lift_mean_m")
+    assert "did you mean `lift_mean_mn`?" in message(ValueError, plot.scatter, sample, y="lift_mean_m")
     failed = fails(grid(drive_frequency=HERTZ), slice(None))
     for function in (plot.scatter, plot.histogram, plot.tornado):
         assert "no row has a number" in message(ValueError, function, failed)

@@ -91,10 +91,10 @@ def test_a_change_without_a_periodic_motion_is_said(sensitivities):
 
 
 def test_tornado_mistakes():
-    assert "Did you mean `wing_length`?" in message(
+    assert "did you mean `wing_length`?" in message(
         ValueError, plot.tornado, "ozaki2018-large", "lift_mean_mn", ["wing_lengt"]
     )
-    assert "Did you mean `lift_mean_mn`?" in message(
+    assert "did you mean `lift_mean_mn`?" in message(
         ValueError, plot.tornado, "ozaki2018-large", "lift_mean", ["wing_length"]
     )
     assert "only numbers" in message(ValueError, plot.tornado, "ozaki2018-large", "lift_mean_mn", ["lift_sign"])

@@ -43,6 +43,54 @@ def test_one_signal_in_axes_that_are_given(motion):
     assert ax.get_ylabel() == "Lift (mN)"
 
 
+def larger(motion, factor):
+    return {**{name: motion[name] for name in motion}, **{name: factor * motion[name] for name in ("stroke_deg", "pitch_deg")}}
+
+
+def test_motions_in_the_same_axes_are_told_apart(motion):
+    _, ax = plt.subplots()
+    for factor in (1.0, 2.0, 0.5):
+        plot.trajectory(larger(motion, factor), ax=ax)
+    assert len({line.get_color() for line in ax.lines}) == len(ax.lines) == 6
+    assert legend(ax) == ["Stroke", "Pitch", "Stroke (2)", "Pitch (2)", "Stroke (3)", "Pitch (3)"]
+    ax.figure.canvas.draw()
+    low, high = ax.get_ylim()
+    assert low < 2.0 * min(motion[name].min() for name in ("stroke_deg", "pitch_deg"))
+    assert high > 2.0 * max(motion[name].max() for name in ("stroke_deg", "pitch_deg"))
+    assert ax.get_ylabel() == "Angle (°)"
+
+
+def test_motions_have_labels_of_their_own(motion):
+    _, ax = plt.subplots()
+    plot.trajectory(motion, "stroke_deg", label="80 V", ax=ax)
+    plot.trajectory(larger(motion, 0.5), "stroke_deg", label="60 V", ax=ax)
+    assert legend(ax) == ["80 V", "60 V"] and ax.get_ylabel() == "Stroke (°)"
+    assert legend(plot.trajectory(motion, label="80 V").axes[0]) == ["Stroke, 80 V", "Pitch, 80 V"]
+    with pytest.raises(ValueError, match="`ax` has the vertical axis 'Stroke \\(°\\)', and the signals are in mN\ndraw them"):
+        plot.trajectory(motion, "lift_mn", ax=ax)
+
+
+def test_a_longer_motion_in_the_same_axes_has_the_same_time(motion):
+    _, ax = plt.subplots()
+    plot.trajectory(motion, "stroke_deg", ax=ax)
+    assert ax.get_xlabel() == "Time (ms)"
+    slow = {**{name: motion[name] for name in motion}, "time_s": 1e3 * motion["time_s"]}
+    plot.trajectory(slow, "stroke_deg", ax=ax)
+    assert ax.get_xlabel() == "Time (ms)"
+    assert_allclose(ax.lines[1].get_xdata(), 1e3 * slow["time_s"])
+
+
+def test_lines_of_the_user_stay(motion):
+    _, ax = plt.subplots()
+    ax.plot([0.0, 1.0], [0.0, 1.0], color="black", label="measured")
+    ax.set_ylabel("mine")
+    ax.set_ylim(-200.0, 200.0)
+    plot.trajectory(motion, ax=ax)
+    plot.trajectory(motion, ax=ax)
+    ax.figure.canvas.draw()
+    assert legend(ax)[0] == "measured" and ax.get_ylim()[0] == -200.0
+
+
 def test_trajectory_mistakes(motion):
-    assert "Did you mean `lift_mn`?" in message(ValueError, plot.trajectory, motion, "lift_m")
+    assert "did you mean `lift_mn`?" in message(ValueError, plot.trajectory, motion, "lift_m")
     assert "no column" in message(ValueError, plot.trajectory, motion, [])

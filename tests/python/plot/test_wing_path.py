@@ -72,7 +72,7 @@ def test_wing_path_mistakes(motion):
     assert "less than one cycle" in message(ValueError, plot.wing_path, half, frequency=109)
     assert "two frames" in message(ValueError, plot.wing_path, motion, frames=1)
     assert "1 or -1" in message(ValueError, plot.wing_path, motion, pitch_sign=2)
-    assert "Did you mean `lift_mn`?" in message(ValueError, plot.wing_path, motion, lift="lift_m")
+    assert "did you mean `lift_mn`?" in message(ValueError, plot.wing_path, motion, lift="lift_m")
 
 
 def test_small_strokes_are_readable():

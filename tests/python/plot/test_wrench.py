@@ -115,7 +115,7 @@ def test_mistakes_are_told_before_a_figure_is_made(slopes, robot):
     assert "six rows" in message(ValueError, plot.wrench, EFFECTS[:5], inputs=["a", "b"])
     assert "`inputs` names 0 columns" in message(ValueError, plot.wrench, EFFECTS)
     told = message(ValueError, plot.wrench, slopes, inputs=["amplitude"])
-    assert told.startswith("there is no input `amplitude`. There are: drive_voltage_pp,")
+    assert told.startswith("there is no input `amplitude`\nthere are drive_voltage_pp,")
     two = flapwing.evaluate(robot, {"drive_frequency": [110.0, 120.0]}, gradient=["drive_offset"])
     assert "2 rows with derivatives: choose one, such as table[:1]" in message(ValueError, plot.wrench, two)
     table = course(drive_offset=np.tile(np.arange(3.0), 2), drive_voltage_pp=np.repeat([180.0, 200.0], 3))

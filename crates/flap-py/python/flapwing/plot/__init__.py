@@ -9,7 +9,7 @@ returns the matplotlib Axes, the Figure if it has several Axes, or the animation
     >>> plot.response(table, "lift_mean_mn").get_ylabel()
     'Lift, mean (mN)'
 
-Needs the extra: ``pip install "./crates/flap-py[plot]"``.
+Needs the extra: ``pip install "flapwing[plot]"``.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ try:
     import matplotlib as _matplotlib
 except ImportError as _missing:
     raise ImportError(
-        'flapwing.plot needs matplotlib: pip install "./crates/flap-py[plot]", or pip install "matplotlib>=3.7"'
+        'flapwing.plot needs matplotlib: pip install "flapwing[plot]", or pip install "matplotlib>=3.7"'
     ) from _missing
 del _matplotlib
 

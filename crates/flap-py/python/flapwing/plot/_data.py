@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 import sys
 import warnings
@@ -10,8 +9,9 @@ from typing import Any, Iterable, Mapping, Sequence
 
 import numpy as np
 
-from .._arguments import refused
 from .._flapwing import quantity, usual_measure
+from .._mistakes import listed as names_listed
+from .._mistakes import reading, refused, unknown
 from . import _labels
 
 # Statuses whose rows have measures.
@@ -40,13 +40,17 @@ class Data:
             import flapwing
 
             data = flapwing.read(data)
-        if not hasattr(data, "__getitem__") or not (hasattr(data, "columns") or hasattr(data, "keys")):
-            raise refused("table", data, "it must be a flapwing.Table, a data frame, a mapping of columns or a path")
-        names = [str(name) for name in (data.columns if hasattr(data, "columns") else data.keys())]
-        columns = {name: _column(data[name]) for name in names}
-        units = getattr(data, "units", None)
-        dims = getattr(data, "dims", None) or []
-        meta = getattr(data, "meta", None)
+        allowed = "it must be a flapwing.Table, a data frame, a mapping of columns or a path"
+        with reading("table", data, allowed):
+            has_names = hasattr(data, "columns") or hasattr(data, "keys")
+        if not hasattr(data, "__getitem__") or not has_names:
+            raise refused("table", data, allowed)
+        with reading("table", data, allowed):
+            names = [str(name) for name in (data.columns if hasattr(data, "columns") else data.keys())]
+            columns = {name: _column(data[name]) for name in names}
+            units = getattr(data, "units", None)
+            dims = getattr(data, "dims", None) or []
+            meta = getattr(data, "meta", None)
         return cls(
             columns,
             units if isinstance(units, Mapping) else {},
@@ -62,7 +66,7 @@ class Data:
 
     def __getitem__(self, name: str) -> np.ndarray:
         if name not in self.columns:
-            raise ValueError(unknown("column", name, self.columns))
+            raise unknown("column", name, self.columns)
         return self.columns[name]
 
     def numbers(self, name: str) -> np.ndarray:
@@ -112,7 +116,7 @@ class Data:
         """The measure that is drawn if none is named, as in `flap plot`: a "response", "benefit", "cost" or "motion"."""
         found = usual_measure(role, self.measures(), list(taken))
         if found is None:
-            raise ValueError(f"say which column to draw as `{option}`. There are: {', '.join(self.columns)}")
+            raise ValueError(f"say which column to draw as `{option}`\n{names_listed(self.columns)}")
         return found
 
     def one_sample(self, shown: Sequence[str] = ()) -> Data:
@@ -163,6 +167,13 @@ class Data:
                 combinations = with_it
         return kept
 
+    def followed(self) -> str | None:
+        """The parameter along the curves of a table of `respond`: the column behind ``branch``."""
+        names = list(self.columns)
+        if "branch" not in names or names[-1] == "branch":
+            return None
+        return str(self.meta.get("along") or names[names.index("branch") + 1])
+
     def axis(self, name: str) -> str:
         """The axis that a parameter belongs to: with parameters that move together, the first of them."""
         for dim in self.dims:
@@ -192,7 +203,7 @@ class Data:
         chosen = {**(where or {}), **keywords}
         for name in chosen:
             if name not in self.columns:
-                raise ValueError(unknown("column or option", name, self.columns))
+                raise unknown("column or option", name, self.columns)
         data = self
         for name, value in chosen.items():
             column = data[name]
@@ -314,11 +325,3 @@ def listed(values: Sequence[Any] | np.ndarray) -> str:
         texts = [*texts[:8], "…", *texts[-2:], f"({len(texts)} values)"]
         return ", ".join(texts[:-1]) + " " + texts[-1]
     return ", ".join(texts)
-
-
-def unknown(what: str, name: str, known: Iterable[str]) -> str:
-    """The error message for an unknown name, with the nearest known one."""
-    names = list(known)
-    near = difflib.get_close_matches(str(name), names, n=1, cutoff=0.6)
-    hint = f" Did you mean `{near[0]}`?" if near else ""
-    return f"there is no {what} `{name}`.{hint} There are: {', '.join(names)}"

@@ -49,6 +49,8 @@ def heatmap(
 
     Cells end halfway between their values, in the logarithm where an axis is logarithmic. Cells without a periodic
     motion are grey, those without a row (excluded by ``[where]``, or not in the file) hatched; a legend explains both.
+    In a table of `respond`, each curve may have points of its own where it was refined: along a curve, a cell without a row has
+    the nearest row of that curve.
 
     Parameters
     ----------
@@ -103,6 +105,11 @@ def heatmap(
     shown, across, up = data.shown(value), _Axis(data, whole, x, xscale), _Axis(data, whole, y, yscale)
     rows = np.full((up.count, across.count), -1)
     rows[up.places(data[y]), across.places(data[x])] = np.arange(len(data))
+    followed = data.followed()
+    if followed == x:
+        rows = _along_curves(rows, across)
+    elif followed == y:
+        rows = _along_curves(rows.T, up).T
     measured = data.measured()
     values = np.where((rows >= 0) & measured[rows], shown.values[rows], np.nan)
 
@@ -120,7 +127,9 @@ def heatmap(
         colours.bar(ax, mesh, colorbar, shown.label)
         missing = []
         for name, mask in _missing(data, rows, values).items():
-            missing.append(_fill(ax, across.edges, up.edges, mask, name))
+            # Several cells along a curve may be of one row.
+            count = int(mask.sum()) if name == _NO_ROW else len(np.unique(rows[mask]))
+            missing.append(_fill(ax, across.edges, up.edges, mask, name, count))
         across.finish(ax, "x")
         up.finish(ax, "y")
         if missing:
@@ -167,6 +176,19 @@ class _Axis:
         (ax.set_xlim if which == "x" else ax.set_ylim)(self.edges[0], self.edges[-1])
 
 
+def _along_curves(rows: np.ndarray, axis: _Axis) -> np.ndarray:
+    """The places of rows with a curve in each line, where cells between the ends of a curve have its nearest row."""
+    filled = rows.copy()
+    places = np.log(axis.centres) if axis.log else axis.centres
+    for line in filled:
+        own = np.flatnonzero(line >= 0)
+        if own.size:
+            between = np.arange(own[0], own[-1] + 1)
+            distances = np.abs(places[between, None] - places[own])
+            line[between] = line[own[np.argmin(distances, axis=1)]]
+    return filled
+
+
 def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
     """The parameters along x and y: those named, else axes of the grid."""
     for name in (x, y):
@@ -202,9 +224,9 @@ def _missing(data: Data, rows: np.ndarray, values: np.ndarray) -> dict[str, np.n
     return reasons
 
 
-def _fill(ax: Axes, across: np.ndarray, up: np.ndarray, mask: np.ndarray, name: str) -> Patch:
+def _fill(ax: Axes, across: np.ndarray, up: np.ndarray, mask: np.ndarray, name: str, count: int) -> Patch:
     """Fills cells without a value; gives the entry of the legend."""
-    text = f"{name} ({mask.sum()})"
+    text = f"{name} ({count})"
     if name in (_NO_ROW, _UNDEFINED):
         hatch = "////" if name == _NO_ROW else "...."
         # Without a colour map, so that only these cells are drawn at all.

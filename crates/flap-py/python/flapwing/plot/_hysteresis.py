@@ -59,9 +59,7 @@ def hysteresis(
     _one_design(data)
     y = data.usual("response", "y") if y is None else y
     data.numbers(y)
-    if along is None:
-        names = list(data.columns)
-        along = str(data.meta.get("along") or names[names.index("branch") + 1])
+    along = along or data.followed() or "drive_frequency"
     data.numbers(along)
     x, shown = data.shown(along), data.shown(y)
     values = np.where(data.measured(), shown.values, np.nan)

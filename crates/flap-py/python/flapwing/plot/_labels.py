@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import textwrap
+from typing import Iterator
+
 import numpy as np
 
 from .._flapwing import better, printed, scale, split_unit, unit_of, words
 
-__all__ = ["better", "label", "lowered", "number", "printed", "readable", "split_unit", "titled", "unit_of", "words"]
+__all__ = ["better", "label", "lowered", "number", "printed", "readable", "split_unit", "titled", "unit_of", "words", "wrapped"]
 
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -60,3 +63,14 @@ def number(value: float) -> str:
         return text.replace("-", "−")
     mantissa, exponent = text.split("e")
     return f"{mantissa}×10{str(int(exponent)).translate(_SUPERSCRIPTS)}".replace("-", "−")
+
+
+def wrapped(title: str) -> Iterator[str]:
+    """A title in one line, two and so on."""
+    told = [title]
+    yield title
+    for width in range(len(title) - 1, 7, -1):
+        lines = "\n".join(textwrap.wrap(title, width, break_long_words=False, break_on_hyphens=False))
+        if lines.count("\n") != told[-1].count("\n"):
+            told.append(lines)
+            yield lines

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
 from typing import Any, Iterator, Mapping
 
 import matplotlib as mpl
@@ -13,7 +12,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.legend import Legend
 from matplotlib.transforms import Bbox
 
-from . import _style
+from . import _labels, _style
 
 #: Above axes, from their left edge.
 ABOVE: Mapping[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0)}
@@ -45,6 +44,8 @@ def legend(
     A place as `wanted` is inside all axes. Axes that are given have it at `inside`; if it covers data there, the limits
     of the vertical axis grow and it is above them.
     """
+    if given:
+        _withdraw(ax)
     if wanted is False:
         return
     if wanted is True and not given:
@@ -57,6 +58,12 @@ def legend(
     figure = _style.figure_of(ax)
     figure.add_artist(_Fitted(ax, inside, options))
     figure.draw_without_rendering()
+
+
+def _withdraw(ax: Axes) -> None:
+    """Takes the room of an earlier legend back, so that the limits of the axes are those of all that is drawn in them."""
+    for earlier in [artist for artist in _style.figure_of(ax).artists if isinstance(artist, _Fitted)]:
+        earlier.withdraw(ax)
 
 
 class _Fitted(Artist):
@@ -73,10 +80,21 @@ class _Fitted(Artist):
         self._settings: Any = {name: value for name, value in mpl.rcParams.items() if name.startswith(_LOOKS)}
         #: The limits without room for the legend, and those with it.
         self._limits = self._roomy = ax.get_ylim()
+        self._is_automatic = ax.get_autoscaley_on()
         #: The size for which the legend was made, in points.
         self._size: tuple[float, float] | None = None
         self.set_zorder(-np.inf)
         self.set_in_layout(False)
+
+    def withdraw(self, ax: Axes) -> None:
+        """Gives up the room of the legend in `ax`, for one of more entries."""
+        if ax is not self._ax:
+            return
+        if ax.get_ylim() == self._roomy:
+            ax.set_ylim(self._limits)
+            ax.set_autoscaley_on(self._is_automatic)
+            ax.autoscale_view(scalex=False)
+        self.remove()
 
     def draw(self, renderer: Any) -> None:
         """Fits the legend, if it is still there and the size of the axes is another."""
@@ -122,7 +140,7 @@ class _Fitted(Artist):
         title = self._options.get("title")
         for letters in _LETTERS:
             for columns in _fewer(len(handles)):
-                for lines in [title] if title is None else _wrapped(title):
+                for lines in [title] if title is None else _labels.wrapped(title):
                     drawn = self._make(letters, loc="upper left", ncols=columns, title=lines)
                     if _within(drawn, box, renderer) and drawn.get_window_extent(renderer).height < _HIGHEST * box.height:
                         return drawn
@@ -135,17 +153,6 @@ class _Fitted(Artist):
             ax.set_ylim(low, low * (high / low) ** (1.0 / (1.0 - taken)))
         else:
             ax.set_ylim(low, low + (high - low) / (1.0 - taken))
-
-
-def _wrapped(title: str) -> Iterator[str]:
-    """A title in one line, two and so on."""
-    told = [title]
-    yield title
-    for width in range(len(title) - 1, 7, -1):
-        lines = "\n".join(textwrap.wrap(title, width, break_long_words=False, break_on_hyphens=False))
-        if lines.count("\n") != told[-1].count("\n"):
-            told.append(lines)
-            yield lines
 
 
 def _within(drawn: Legend, box: Bbox, renderer: Any) -> bool:

@@ -11,9 +11,10 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from .._mistakes import unknown
 from . import _legend, _scales, _style
 from ._checks import checked
-from ._data import Data, Shown, distinct, edges, scattered, unknown
+from ._data import Data, Shown, distinct, edges, scattered
 from ._docs import completed
 
 # Most lines of a sample that nobody asked for: more cannot be distinguished.
@@ -258,7 +259,7 @@ def along(data: Data, by: str | None) -> str:
     numbers = [name for name in axes if not data.shown(name).text]
     if numbers:
         return next((name for name in reversed(numbers) if data.on_a_grid(name)), numbers[0])
-    raise ValueError(unknown("parameter for", "x", data.columns))
+    raise unknown("parameter for", "x", data.columns)
 
 
 def _family(data: Data, x: str) -> str | None:

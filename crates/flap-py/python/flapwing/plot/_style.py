@@ -13,6 +13,7 @@ from matplotlib.colors import same_color
 from matplotlib.figure import Figure
 
 from .. import _flapwing
+from . import _labels
 
 if TYPE_CHECKING:
 
@@ -131,7 +132,25 @@ def colour_bar(ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes = True,
     else:
         bar = figure_of(first).colorbar(mappable, cax=wanted, **options)
     bar.ax.grid(False)
+    _fit_label(bar)
     return bar
+
+
+def _fit_label(bar: Any) -> None:
+    """Breaks the label of a colour bar into lines, or makes its letters smaller, if it is longer than the bar."""
+    label = bar.ax.yaxis.label
+    text, letters = label.get_text(), label.get_fontsize()
+    if not text or bar.orientation != "vertical":
+        return
+    figure_of(bar.ax).draw_without_rendering()
+    # Labels of axes, which come later, take a tenth of the height.
+    room = 0.9 * bar.ax.get_window_extent().height
+    for factor in (1.0, 0.85, 0.7, 0.6):
+        label.set_fontsize(factor * letters)
+        for lines in _labels.wrapped(text):
+            label.set_text(lines)
+            if label.get_window_extent().height <= room:
+                return
 
 
 def marks(ax: Axes, x: np.ndarray, height: float, **options: Any) -> None:
@@ -144,6 +163,14 @@ def series() -> list[Any]:
     """The colours of series: the user's, where `axes.prop_cycle` is another than matplotlib's."""
     cycle = [] if _is_default("axes.prop_cycle") else mpl.rcParams["axes.prop_cycle"].by_key().get("color", [])
     return list(cycle) or COLOURS
+
+
+def further_shades(ax: Axes | None, count: int) -> list[Any]:
+    """Colours of so many series, apart from those of the lines that axes have already."""
+    every = series()
+    taken = [] if ax is None else [line.get_color() for line in ax.lines]
+    free = [colour for colour in every if not any(same_color(colour, other) for other in taken)] or every
+    return [free[place % len(free)] for place in range(count)]
 
 
 def shades(values: Sequence[Any] | np.ndarray, text: bool) -> list[Any]:

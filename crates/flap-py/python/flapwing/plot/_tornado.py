@@ -9,10 +9,9 @@ from typing import Any, Iterable, Mapping, NamedTuple, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from .._arguments import refused
+from .._mistakes import refused, unknown
 from . import _correlations, _labels, _legend, _style
 from ._checks import checked
-from ._data import unknown
 from ._docs import completed
 
 
@@ -96,7 +95,7 @@ def sensitivities(
     free = (name for name, each in known.items() if isinstance(each.value, float) and name not in fixed)
     base = flapwing.evaluate(design, both or {(name := next(free)): known[name].value}, **others)
     if measure not in base:
-        raise ValueError(unknown("measure", measure, flapwing.measures(design)))
+        raise unknown("measure", measure, flapwing.measures(design))
     start = float(base[measure][0])
     if math.isnan(start):
         raise ValueError(f"the design itself has no {measure}: its motion is {base['status'][0]}")
@@ -238,7 +237,7 @@ def _ranges(
         chosen = dict.fromkeys([parameters] if isinstance(parameters, str) else parameters, change)
     for name, spread in chosen.items():
         if name not in known:
-            raise ValueError(unknown("parameter", name, known))
+            raise unknown("parameter", name, known)
         if name not in fixed and not isinstance(known[name].value, float):
             value = known[name].value
             if value is None:

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from . import _labels, _legend, _style
 from ._checks import checked
-from ._data import Data
+from ._data import Data, Shown
 
 _ANGLES = ("stroke_deg", "pitch_deg")
 
@@ -22,6 +22,7 @@ def trajectory(
     *,
     portrait: Sequence[str] | None = ...,
     time: str = ...,
+    label: str | None = ...,
     legend: bool | str = ...,
     ax: None = ...,
 ) -> Figure: ...
@@ -32,6 +33,7 @@ def trajectory(
     *,
     portrait: Sequence[str] | None = ...,
     time: str = ...,
+    label: str | None = ...,
     legend: bool | str = ...,
     ax: Axes,
 ) -> Axes: ...
@@ -42,6 +44,7 @@ def trajectory(
     *,
     portrait: Sequence[str] | None = None,
     time: str = "time_s",
+    label: str | None = None,
     legend: bool | str = True,
     ax: Axes | None = None,
 ) -> Figure | Axes:
@@ -58,11 +61,14 @@ def trajectory(
         is no column of the table is the slope of the samples.
     time : str
         The column of the time.
+    label : str, optional
+        The name of the motion in the legend, to compare motions in the same axes. By default later motions are numbered.
     legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. By default it is above new axes, and
         inside axes that are given.
     ax : matplotlib Axes, optional
-        Axes to draw signals of one unit in, without a portrait.
+        Axes to draw signals of one unit in, without a portrait. They may have motions already: colours go on, and the legend
+        has all lines.
 
     Returns
     -------
@@ -72,7 +78,7 @@ def trajectory(
     Raises
     ------
     ValueError
-        An unknown column; signals of several units, or portraits, with `ax`.
+        An unknown column; signals of several units, portraits, or a unit that is not that of the motions in it, with `ax`.
 
     Examples
     --------
@@ -81,6 +87,14 @@ def trajectory(
     >>> table = {"time_s": phase / 754.0, "stroke_deg": 60.0 * np.sin(phase), "pitch_deg": 45.0 * np.cos(phase)}
     >>> [each.get_xlabel() for each in trajectory(table).axes]
     ['Time (ms)', 'Stroke (°)', 'Pitch (°)']
+
+    Two motions in the same axes:
+
+    >>> import matplotlib.pyplot as plt
+    >>> ax = trajectory(table, "stroke_deg", label="80 V", ax=plt.subplots()[1])
+    >>> ax = trajectory({**table, "stroke_deg": 0.5 * table["stroke_deg"]}, "stroke_deg", label="60 V", ax=ax)
+    >>> [line.get_label() for line in ax.lines]
+    ['80 V', '60 V']
     """
     data = Data.of(table)
     names = [signals] if isinstance(signals, str) else list(signals)
@@ -104,19 +118,22 @@ def trajectory(
         else:
             over_time, beside = _layout(len(groups), len(portraits))
         drawn = dict.fromkeys([*names, *portraits])
-        colours = dict(zip(drawn, _style.shades(list(drawn), True)))
+        colours = dict(zip(drawn, _style.further_shades(ax, len(drawn))))
         x = data.shown(time)
         for each, (unit, members) in zip(over_time, groups.items()):
+            earlier = _earlier(each, unit)
+            factor = _factor(each, x)
             for name in members:
                 shown = data.shown(name)
-                each.plot(x.values, shown.values, color=colours[name], label=shown.words)
-            if len(members) == 1:
-                each.set_ylabel(data.shown(members[0]).label)
-            else:
-                each.set_ylabel(_labels.titled(_common([data.shown(name).words for name in members], unit), unit))
-                _legend.legend(each, legend, ax is not None, ncols=3, borderaxespad=0.1)
+                told = shown.words if label is None else label if len(members) == 1 else f"{shown.words}, {label}"
+                each.plot(factor * x.values, shown.values, color=colours[name], label=_numbered(told, each))
+            words = list(dict.fromkeys([*earlier, *(data.shown(name).words for name in members)]))
+            each.set_ylabel(_labels.titled(words[0] if len(words) == 1 else _common(words, unit), unit))
             each.margins(x=0.0)
-        over_time[-1].set_xlabel(x.label)
+            if len(each.lines) > 1 or label is not None:
+                _legend.legend(each, legend, ax is not None, ncols=3, borderaxespad=0.1)
+        if factor == 1.0:
+            over_time[-1].set_xlabel(x.label)
         for each, name in zip(beside, portraits):
             shown = data.shown(name)
             rate, unit = rates[name]
@@ -126,6 +143,31 @@ def trajectory(
             each.set_xlabel(shown.label)
             each.set_ylabel(_labels.titled(f"{shown.words} rate", unit))
     return _style.figure_of(over_time[0]) if ax is None else ax
+
+
+def _earlier(ax: Axes, unit: str) -> list[str]:
+    """The words of the vertical axis, if motions in this unit are in the axes already."""
+    told = ax.get_ylabel()
+    if not told or not ax.lines:
+        return []
+    words, bracket, other = told.removesuffix(")").rpartition(" (")
+    if bracket and other != unit:
+        raise ValueError(f"`ax` has the vertical axis {told!r}, and the signals are in {unit or 'no unit'}\ndraw them in other axes")
+    return [words if bracket else told]
+
+
+def _factor(ax: Axes, time: Shown) -> float:
+    """The factor from the shown unit of the time to that of the motions in the axes already."""
+    sizes = {"s": 1.0, "ms": 1e3, "µs": 1e6}
+    there = [unit for unit in sizes if ax.get_xlabel() == _labels.titled(time.words, unit)]
+    return sizes[there[0]] / sizes[time.unit] if there and time.unit in sizes else 1.0
+
+
+def _numbered(label: str, ax: Axes) -> str:
+    """A label that no line of the axes has yet."""
+    taken = [line.get_label() for line in ax.lines]
+    numbers = (number for number in range(2, len(taken) + 2) if f"{label} ({number})" not in taken)
+    return f"{label} ({next(numbers)})" if label in taken else label
 
 
 def _layout(signals: int, portraits: int) -> tuple[list[Axes], list[Axes]]:

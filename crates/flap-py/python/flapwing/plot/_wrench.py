@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from .._mistakes import unknown
 from . import _labels, _style
 from ._checks import checked
 from ._data import Data, scattered
@@ -157,7 +158,7 @@ def _chosen(inputs: Sequence[str] | None, known: Sequence[str]) -> list[str]:
     """The inputs to show."""
     for name in inputs or ():
         if name not in known:
-            raise ValueError(f"there is no input `{name}`. There are: {', '.join(known)}")
+            raise unknown("input", name, known)
     return list(known if inputs is None else inputs)
 
 
