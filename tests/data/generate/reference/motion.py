@@ -91,8 +91,8 @@ def run(
 ) -> Run:
     """Integrates a motion with DOP853.
 
-    `integrands` are integrated beside the states. Their sides are those of the motion's surfaces and then those of `watched`,
-    further surfaces where the integration starts again. `at` are times of samples.
+    `integrands` are integrated beside the states. `watched` are further surfaces where the integration starts again, such as kinks
+    of the integrands. `at` are times of samples.
     """
     surfaces = [*motion.surfaces, *watched]
     size = len(motion.scale)

@@ -70,7 +70,7 @@ BIMORPH_ORBIT = {
 DIRECT_ORBIT_INPUTS = ("case", "type", "V0_V", "f_Hz", "k_w_Nm", "x_r_m", "dcp", "sgn")
 DIRECT_ORBIT = {"psi_mean_deg": "psi_amp_deg", "addedmass_W": "power_mean_W"}
 DIRECT_RESIDUALS = ("energy_residual_rel", "periodicity_residual")
-DIRECT_BOUNDS = {"floquet_max": 1e-6}
+DIRECT_BOUNDS = {"floquet_max": 1e-6, "power_pos_mean_W": 5e-8}
 FOUR_LIFT = {name: "lift_trans_N" for name in ("lift_mean_N", "lift_rot_N", "lift_addmass_N")}
 
 TABLES = (
@@ -90,7 +90,7 @@ TABLES = (
         ("case", "set", "rho_kg_per_m3", "Vpp_V", "f_Hz"),
         each(bimorph.steady),
         1e-8,
-        {"floquet_abs_max": 2e-5},
+        {"floquet_abs_max": 2e-5, "P_elec_pos_W": 5e-8},
         BIMORPH_ORBIT,
         residuals=("periodicity_residual_scaled",),
         quick=(20,),
@@ -115,7 +115,14 @@ TABLES = (
         again=bimorph.variant_again,
         quick=(3,),
     ),
-    Table("bimorph/chirp_envelope_160V.csv", ("cycle",), bimorph.chirp_envelope, 1e-8, quick=range(10)),
+    Table(
+        "bimorph/chirp_envelope_160V.csv",
+        ("cycle",),
+        bimorph.chirp_envelope,
+        1e-7,
+        sizes={"stroke_pp_deg": PEAK, "psi_absmax_deg": PEAK},
+        quick=range(10),
+    ),
     Table("direct-drive/derived_constants.csv", ("name",), each(direct_drive.constants), 1e-15, quick=range(25)),
     Table(
         "direct-drive/rhs_vectors.csv",
@@ -240,6 +247,6 @@ TABLES = (
         sizes={name: PEAK for name in ("theta", "theta_dot", "phi", "phi_dot")},
         quick=range(12),
     ),
-    Table("own_equations.csv", ("id", "F0", "f"), each(own_equations.row), 1e-8),
+    Table("own_equations.csv", ("id", "F0", "f"), each(own_equations.row), 1e-8, quick=(0,)),
     Table("motor_wing.csv", MOTOR_INPUTS, motor_wing, 1e-8),
 )
