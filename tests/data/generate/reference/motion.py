@@ -114,25 +114,33 @@ def run(
             rates = motion.rates(t, values[:size], sides)
             return [*rates, *integrands(t, values[:size], sides)] if integrands else rates
 
-        events = [crossing(surface, side, size) for surface, side in zip(surfaces, sides)]
-        part = solve_ivp(
-            slope,
-            (t, end),
-            full,
-            "DOP853",
-            rtol=rtol,
-            atol=atol,
-            events=events,
-            dense_output=taken < len(at),
-            # Integrands can vary faster than states.
-            max_step=(end - begin) / 200.0 if integrands else np.inf,
-            # Behind a crossing the motion goes on as before.
-            first_step=min(step, end - t) if step else None,
-        )
+        events = [crossing(surface, side) for surface, side in zip(surfaces, sides)]
+        first = min(step, end - t) if step else None
+        for _ in range(12):
+            part = solve_ivp(
+                slope,
+                (t, end),
+                full,
+                "DOP853",
+                rtol=rtol,
+                atol=atol,
+                events=events,
+                dense_output=taken < len(at),
+                # Integrands can vary faster than states.
+                max_step=(end - begin) / 200.0 if integrands else np.inf,
+                # Behind a crossing the motion goes on as before.
+                first_step=first,
+            )
+            if not part.success:
+                raise ArithmeticError(f"the integration stopped at {part.t[-1]} s: {part.message}")
+            if stays(part, surfaces, sides):
+                break
+            # A motion that turns back at once has crossed again within the first step, and events do not notice that.
+            first = float(part.t[1] - part.t[0]) / 10.0
+        else:
+            raise ArithmeticError(f"the motion grazes a surface at {t} s")
         if len(part.t) > 2:
             step = float(np.median(np.diff(part.t)))
-        if not part.success:
-            raise ArithmeticError(f"the integration stopped at {part.t[-1]} s: {part.message}")
         full, t = part.y[:, -1], float(part.t[-1])
         while taken < len(at) and at[taken] <= t:
             found.samples.append(part.sol(at[taken])[:size])
@@ -146,7 +154,7 @@ def run(
     return found
 
 
-def crossing(surface: Surface, side: float, size: int) -> Any:
+def crossing(surface: Surface, side: float) -> Any:
     """The event that a motion leaves this side of a surface."""
 
     def event(t: float, z: Array) -> float:
@@ -154,6 +162,17 @@ def crossing(surface: Surface, side: float, size: int) -> Any:
 
     event.terminal, event.direction = True, -side  # type: ignore[attr-defined]
     return event
+
+
+def stays(part: Any, surfaces: Sequence[Surface], sides: Sequence[float]) -> bool:
+    """Whether all steps of a part end on the sides with which it was integrated, but for the surface where it ends."""
+    ends = [len(part.t) - (1 if len(times) else 0) for times in part.t_events]
+    steps = list(zip(part.t.tolist(), part.y.T.tolist()))
+    return all(
+        side * surface(t, y) >= 0.0
+        for surface, side, end in zip(surfaces, sides, ends)
+        for t, y in steps[1:end]
+    )
 
 
 @dataclass(frozen=True)
