@@ -83,4 +83,5 @@ export MYPY_CACHE_DIR=$work/mypy-cache
 python -m mypy --config-file tests/python/mypy.ini crates/flap-py/python/flapwing
 python -m mypy --config-file tests/python/mypy.ini benches/peers/harness
 python -m mypy --config-file tests/python/mypy.ini benches/growth/scaling
+python -m mypy --config-file tests/python/mypy.ini tests/data/generate/reference
 python -m mypy.stubtest flapwing._flapwing --mypy-config-file tests/python/mypy.ini

@@ -391,7 +391,7 @@ def variant(row: Row) -> Results:
 
 
 def variant_again(row: Row, results: Results) -> Results:
-    """By how much a state of variant_cases.csv misses itself after one period of other solvers."""
+    """The distances by which a state of variant_cases.csv misses itself after one period of other solvers."""
     motion = model_of(row).motion()
     begin = np.array([results[name] for name in ("x0_m", "v0_m_per_s", "psi0_rad", "psidot0_rad_per_s")])
     found = {}

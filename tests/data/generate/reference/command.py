@@ -26,14 +26,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("file", nargs="*", help="a file or folder below tests/data; without one, all files")
     parser.add_argument("--check", action="store_true", help="compare with the committed numbers and write nothing")
     parser.add_argument("--quick", action="store_true", help="with --check: a few rows of the files that take long")
-    parser.add_argument("--data", type=Path, default=DATA, metavar="FOLDER", help="another folder with these files")
+    parser.add_argument("--data", type=lambda text: Path(text).resolve(), default=DATA, metavar="FOLDER", help="another folder with these files")
     given = parser.parse_args(arguments)
     if given.quick and not given.check:
         parser.error("--quick needs --check: a file is written with all rows")
     tables = [table for table in TABLES if not given.file or any(within(table, name, given.data) for name in given.file)]
     for name in given.file:
         if not any(within(table, name, given.data) for table in TABLES):
-            parser.error(f"{name}: no file or folder of this name is computed; the files are {', '.join(t.path for t in TABLES)}")
+            paths = ", ".join(table.path for table in TABLES)
+            parser.error(f"{name}: no file or folder of this name is computed; the files are {paths}")
     if not given.check:
         for table in tables:
             write(table, given.data / table.path)
@@ -45,7 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def within(table: Table, name: str, data: Path) -> bool:
-    """Whether a name on the command line, from here or from tests/data, means this table or a folder of it."""
+    """True if a path on the command line, from the working directory or from tests/data, is this table or contains it."""
     path = data / table.path
     return any(named in (path, *path.parents[:-1]) for named in (Path(name).resolve(), (data / name).resolve()))
 

@@ -444,7 +444,7 @@ def sliding(model: DirectDrive, cycle: Run) -> tuple[int, int]:
 
 
 def again(row: Row, results: Results) -> Results:
-    """The period of a row of steady_cases.csv by other solvers, whose steps do not end at the surfaces."""
+    """Comparison of a row of steady_cases.csv with other solvers, which locate no surfaces."""
     model = model_of(row)
     begin = np.array([results[name] for name in ("x_phi0", "x_psi0", "x_phidot0", "x_psidot0")])
     # Integrands have the sides of the current and of its rate, which is not used.

@@ -1,6 +1,6 @@
 """The four-bar of Arabagi, Hines and Sitti (2013). Equation numbers are the paper's; SI units and radians.
 
-The paper's text lacks Eq. (1) to (3); docs/model-four-bar.md says what stands in their place, and has the evidence for the
+The paper's text lacks Eq. (1) to (3). docs/model-four-bar.md has the equations that replace them, and the evidence for the
 corrections of the others. State: stroke theta, its rate, wing pitch phi, its rate. The wings and actuators are assumed.
 """
 
@@ -411,7 +411,7 @@ def steady(row: Row) -> Results:
 
 
 def again(row: Row, results: Results) -> Results:
-    """By how much a state of steady_cases.csv misses itself after one period of RK45, whose steps do not end at the surfaces."""
+    """The distance by which a state of steady_cases.csv misses itself after one period of RK45, which locates no surfaces."""
     model = FourBar(point(row))
     begin = np.array([results[name] for name in ("y0_theta", "y0_thetadot", "y0_phi", "y0_phidot")])
     return missed(model.motion(), 1.0 / model.p.f, begin, "RK45")
@@ -506,7 +506,7 @@ def rotation_only(row: Row) -> Results:
 
 
 def rotation_again(row: Row, results: Results) -> Results:
-    """By how much a state of rotation_only.csv misses itself after one period of Radau."""
+    """The distance by which a state of rotation_only.csv misses itself after one period of Radau."""
     model = prescribed(row)
     return missed(model.motion(), 1.0 / model.p.f, np.array([results["phi0"], results["phidot0"]]), "Radau")
 

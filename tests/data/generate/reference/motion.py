@@ -91,8 +91,8 @@ def run(
 ) -> Run:
     """Integrates a motion with DOP853.
 
-    `integrands` are integrated beside the states. `watched` are further surfaces where the integration starts again, such as kinks
-    of the integrands. `at` are times of samples.
+    `integrands` are integrated beside the states. Their sides are those of the motion's surfaces and then those of `watched`,
+    further surfaces where the integration starts again. `at` are times of samples.
     """
     surfaces = [*motion.surfaces, *watched]
     size = len(motion.scale)
@@ -165,7 +165,7 @@ def crossing(surface: Surface, side: float) -> Any:
 
 
 def stays(part: Any, surfaces: Sequence[Surface], sides: Sequence[float]) -> bool:
-    """Whether all steps of a part end on the sides with which it was integrated, but for the surface where it ends."""
+    """True if all steps end on the sides with which the part was integrated. The last step of a part ends on a surface."""
     ends = [len(part.t) - (1 if len(times) else 0) for times in part.t_events]
     steps = list(zip(part.t.tolist(), part.y.T.tolist()))
     return all(
@@ -198,7 +198,7 @@ def unsplit(
     rtol: float,
     integrands: Rates | None = None,
 ) -> Run:
-    """Integrates a motion without regard to its surfaces: quick at loose tolerances, and a second opinion at tight ones."""
+    """Integrates a motion without regard to its surfaces: quick at loose tolerances, a second solver at tight ones."""
     size, count = len(motion.scale), 0
 
     def slope(t: float, z: Array) -> Sequence[float]:

@@ -1,4 +1,4 @@
-"""The tables of tests/data: which columns are given, which are computed and how, and how closely they are recomputed."""
+"""The tables of tests/data: given columns, functions that compute the others, and bounds for differences."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from .motion import Results, Row
 REPOSITORY = Path(__file__).resolve().parents[4]
 DATA = REPOSITORY / "tests/data"
 
-#: What a difference is relative to: another column, a number, or the largest magnitude of the column itself. Columns without an
-#: entry are relative to the committed number.
+#: The size that a difference is relative to: another column, a number, or the largest magnitude of the column itself. Columns
+#: without an entry are relative to the committed number.
 Size = str | float
 PEAK = "peak"
 
@@ -33,7 +33,7 @@ class Table:
     bound: float
     bounds: Mapping[str, float] = field(default_factory=dict)
     sizes: Mapping[str, Size] = field(default_factory=dict)
-    #: Columns of what should be zero and is compared with zero: residuals.
+    #: Columns that are compared with zero.
     residuals: Sequence[str] = ()
     #: Columns that compare with other solvers, computed only when the file is written.
     second: Sequence[str] = ()
@@ -70,7 +70,7 @@ BIMORPH_ORBIT = {
 DIRECT_ORBIT_INPUTS = ("case", "type", "V0_V", "f_Hz", "k_w_Nm", "x_r_m", "dcp", "sgn")
 DIRECT_ORBIT = {"psi_mean_deg": "psi_amp_deg", "addedmass_W": "power_mean_W"}
 DIRECT_RESIDUALS = ("energy_residual_rel", "periodicity_residual")
-DIRECT_BOUNDS = {"floquet_max": 1e-6, "power_pos_mean_W": 5e-8}
+DIRECT_BOUNDS = {"floquet_max": 5e-6, "power_pos_mean_W": 5e-8}
 FOUR_LIFT = {name: "lift_trans_N" for name in ("lift_mean_N", "lift_rot_N", "lift_addmass_N")}
 
 TABLES = (
@@ -120,6 +120,8 @@ TABLES = (
         ("cycle",),
         bimorph.chirp_envelope,
         1e-7,
+        # The committed extremes are less accurate than the others: LSODA at rtol 1e-12 confirms the recomputed ones to 1e-11.
+        {"psi_absmax_deg": 5e-7},
         sizes={"stroke_pp_deg": PEAK, "psi_absmax_deg": PEAK},
         quick=range(10),
     ),
