@@ -426,9 +426,10 @@ def sliding(model: DirectDrive, cycle: Run) -> tuple[int, int]:
     """The number of switches of the mean flow's direction after which the motion would turn back, and that of all of them.
 
     After such a switch the motion would slide along the surface, and its continuation on the other side would be wrong.
+    Blade elements have no mean direction of flow.
     """
     if model.blades:
-        return 0, 2
+        return 0, 0
     switches = [(t, y) for number, t, y in cycle.crossings if number == 3]
     back = 0
     for t, state in switches:

@@ -164,7 +164,7 @@ TABLES = (
         DIRECT_ORBIT_INPUTS,
         each(direct_drive.orbit),
         1e-8,
-        DIRECT_BOUNDS,
+        DIRECT_BOUNDS | {"floquet_max": 5e-4},
         DIRECT_ORBIT,
         residuals=DIRECT_RESIDUALS,
         quick=(8,),
