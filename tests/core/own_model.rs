@@ -78,8 +78,8 @@ impl Model<2, 2> for Oscillator {
         Signal::new("torque", Unit::DEG, "torque of the spring", &[Measure::Mean]).principal(Principal::Mean),
     ];
     const DERIVED: &'static [Derived<Self, Constants<f64>, 2>] = &[
-        Derived::new("load_per_load", "", "one, and a ratio of zeros without a load", |_, c, _| {
-            c.load / c.load
+        Derived::new("twice_load_per_load", "", "two, and a ratio of zeros without a load", |_, c, _| {
+            2.0 * c.load / c.load
         }),
         Derived::new("stiffness_per_load", "", "infinite without a load", |_, c, _| c.stiffness / c.load),
     ];
@@ -119,7 +119,7 @@ fn rows_of_an_oscillator_are_exact() {
     let mean = (load / (OMEGA * OMEGA)).to_degrees();
     assert_close(row.measures[0], amplitude, 1e-4, "amplitude");
     assert_close(row.measures[1], mean, 1e-4, "mean");
-    assert_close(row.measures[2], 1.0, 1e-15, "load_per_load");
+    assert_close(row.measures[2], 2.0, 1e-15, "twice_load_per_load");
     assert_close(row.measures[3], OMEGA * OMEGA / load, 1e-15, "stiffness_per_load");
     assert_close(row.floquet_max, (-decay / FREQUENCY).exp(), 1e-4, "floquet_max");
     assert!(row.error_estimate < 1e-4, "{}", row.error_estimate);
