@@ -4,6 +4,7 @@ use std::path::Path;
 
 use flap_core::simulate::Status;
 
+use super::run::write_sidecar;
 use super::{Engine, Job, JobError, Notice, Outcome};
 use crate::files::beside::{journal_of, sidecar_of};
 use crate::files::integrity::{self, OnDamage};
@@ -25,9 +26,10 @@ impl Job<'_> {
             return self.resume_at(&self.out, engine, tell);
         };
         // Locked until the end of the job.
-        let _held = output::hold(&self.out)?;
+        let held = output::hold(&self.out)?;
         if replacement::is_over(&new, Format::of(&self.out)?) {
             replacement::discard(&self.out).map_err(|error| JobError::write(&self.out, error, false))?;
+            drop(held);
             return self.resume_at(&self.out, engine, tell);
         }
         self.resume_at(&new, engine, tell)
@@ -61,7 +63,7 @@ impl Job<'_> {
         unlocked.map(Notice::Unlocked).into_iter().for_each(&mut *tell);
         tell(Notice::Continued { lost, done: before.done() });
         let sidecar = self.sidecar(started);
-        self.write_sidecar(place, &sidecar, false)?;
+        write_sidecar(place, &sidecar, false)?;
         self.work(session, before, sidecar, engine)
     }
 
@@ -73,7 +75,8 @@ impl Job<'_> {
         if !has_journal {
             return self.compared(rows, sidecar);
         }
-        let _held = output::hold(rows)?;
+        // The earlier results of a replacement are locked already.
+        let _held = if place == self.out { output::hold(place)? } else { None };
         let outcome = self.compared(rows, sidecar)?;
         self.complete(place)?;
         Ok(outcome)
@@ -94,7 +97,7 @@ impl Job<'_> {
             let changed = self.changed_line(sidecar);
             return Err(JobError::Exists { path: self.out.clone(), changes, changed });
         }
-        self.sound(rows, sidecar)
+        sound(rows, sidecar)
     }
 
     /// The error if unfinished results, or an unfinished replacement, have the name of the results.
@@ -121,14 +124,6 @@ impl Job<'_> {
         Identity::of(self.plan, &self.options.run)
     }
 
-    /// The outcome if the results at `rows` hold the rows wanted, and are sound.
-    fn sound(&self, rows: &Path, sidecar: &Sidecar) -> Result<Outcome, JobError> {
-        let format = Format::of(rows)?;
-        integrity::check(rows, format, sidecar, OnDamage::Refuse).map_err(JobError::Open)?;
-        let periodic = sidecar.statuses.as_ref().and_then(|counts| counts.get(Status::Periodic.name()));
-        Ok(Outcome::Complete { all_periodic: periodic == sidecar.rows.as_ref() })
-    }
-
     /// The error, with the first line of the grid file that has changed.
     fn cannot_resume(&self, place: &Path, error: ResumeError) -> JobError {
         let changed = self.changed_since(place, matches!(error, ResumeError::Changed { .. }));
@@ -149,6 +144,14 @@ impl Job<'_> {
         let of_grid = difference(&before.grid.text, &self.plan.source().text, "the grid");
         of_grid.or_else(|| of_devices.find_map(|difference| difference))
     }
+}
+
+/// The outcome if the results at `rows` hold the rows wanted, and are sound.
+fn sound(rows: &Path, sidecar: &Sidecar) -> Result<Outcome, JobError> {
+    let format = Format::of(rows)?;
+    integrity::check(rows, format, sidecar, OnDamage::Refuse).map_err(JobError::Open)?;
+    let periodic = sidecar.statuses.as_ref().and_then(|counts| counts.get(Status::Periodic.name()));
+    Ok(Outcome::Complete { all_periodic: periodic == sidecar.rows.as_ref() })
 }
 
 /// The first line of the file called `name` that differs, in words.

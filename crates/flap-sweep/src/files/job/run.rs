@@ -98,9 +98,8 @@ impl Job<'_> {
         if overwrite {
             replacement::discard(&self.out).map_err(refused)?;
         }
-        let has_companions =
-            companions::has_sidecar(&self.out) || companions::has_journal(&self.out).map_err(refused)?;
-        if !overwrite || (disk::is_empty(&self.out) && !has_companions) {
+        let has_rows = !disk::is_empty(&self.out) || companions::has_journal(&self.out).map_err(refused)?;
+        if !overwrite || !has_rows {
             return self.begin(file, (&self.out, format), false, engine);
         }
         let new = replacement::of(&self.out);
@@ -125,7 +124,7 @@ impl Job<'_> {
         let started = time::now();
         let sidecar = self.sidecar(started.clone());
         let begun = output::check_beside(place, format).map_err(JobError::from).and_then(|()| {
-            self.write_sidecar(place, &sidecar, false)?;
+            write_sidecar(place, &sidecar, false)?;
             Session::start(file, (place, format), self.plan, &self.options, (started, replaces))
                 .map_err(|error| JobError::write(place, error, false))
         });
@@ -139,17 +138,6 @@ impl Job<'_> {
     /// The sidecar of a sweep that `started` at this time.
     pub(super) fn sidecar(&self, started: String) -> Sidecar {
         Sidecar::new(self.plan, Start { started, options: self.options.run, rerun: self.origin.clone() })
-    }
-
-    /// Writes the sidecar of the results at `place`.
-    pub(super) fn write_sidecar(
-        &self,
-        place: &Path,
-        sidecar: &Sidecar,
-        resumable: bool,
-    ) -> Result<(), JobError> {
-        let path = sidecar_of(place);
-        sidecar.write(&path).map_err(|error| JobError::write(&path, error, resumable))
     }
 
     /// Runs the points behind those that `before` counts, and completes the results and their sidecar.
@@ -173,7 +161,7 @@ impl Job<'_> {
                 let is_complete = !summary.interrupted;
                 sidecar.finish(&summary, end);
                 sidecar.checksums = is_complete.then(|| session.checksums());
-                self.write_sidecar(session.path(), &sidecar, true)?;
+                write_sidecar(session.path(), &sidecar, true)?;
                 if is_complete {
                     self.complete(session.path())?;
                 }
@@ -184,7 +172,7 @@ impl Job<'_> {
             Err(error) => {
                 sidecar.fail(error.to_string(), end);
                 // The first error is the one to report.
-                let _ = self.write_sidecar(session.path(), &sidecar, true);
+                let _ = write_sidecar(session.path(), &sidecar, true);
                 Err(JobError::Run { error, resumable: true })
             }
         }
@@ -199,4 +187,10 @@ impl Job<'_> {
         };
         completed.map_err(|error| JobError::write(&self.out, error, true))
     }
+}
+
+/// Writes the sidecar of the results at `place`.
+pub(super) fn write_sidecar(place: &Path, sidecar: &Sidecar, resumable: bool) -> Result<(), JobError> {
+    let path = sidecar_of(place);
+    sidecar.write(&path).map_err(|error| JobError::write(&path, error, resumable))
 }
