@@ -12,7 +12,12 @@ pub fn percentile(values: &[f64], share: f64) -> f64 {
     let below = place.floor() as usize;
     let part = place - below as f64;
     // The product of nought and an infinite difference is no number.
-    if part == 0.0 { values[below] } else { values[below] + part * (values[below + 1] - values[below]) }
+    if part == 0.0 {
+        return values[below];
+    }
+    let (low, high) = (values[below], values[below + 1]);
+    let difference = high - low;
+    if difference.is_finite() { low + part * difference } else { low * (1.0 - part) + high * part }
 }
 
 /// The bars of a histogram, and the percentiles of its values.
@@ -35,6 +40,13 @@ pub fn histogram(values: &[f64]) -> Option<Histogram> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
     let (&low, &high) = (sorted.first()?, sorted.last()?);
+    // Differences beyond the largest float: a quarter of each value has the same bars.
+    if !(high - low).is_finite() {
+        let quarters: Vec<f64> = sorted.iter().map(|value| value / 4.0).collect();
+        let Histogram { edges, counts, marked } = histogram(&quarters)?;
+        let edges = edges.into_iter().map(|edge| 4.0 * edge).collect();
+        return Some(Histogram { edges, counts, marked: marked.map(|value| 4.0 * value) });
+    }
     let marked = MARKED.map(|percent| percentile(&sorted, f64::from(percent) / 100.0));
     // Values that are equal but for rounding are one bar.
     if high - low <= 1e-12 * high.abs().max(low.abs()) {
@@ -142,6 +154,18 @@ mod tests {
         assert_eq!(histogram(&[f64::NAN]), None);
         // Most values are the same: the middle half has no width.
         assert_eq!(histogram(&[0.0, 1.0, 1.0, 1.0, 1.0]).unwrap().counts.len(), 60);
+    }
+
+    #[test]
+    fn a_range_beyond_the_largest_float_has_bars() {
+        let most = 1.7e308;
+        let found = histogram(&[-most, -most / 2.0, 0.0, 0.5, most / 2.0, most]).unwrap();
+        assert_eq!(found.counts.iter().sum::<usize>(), 6);
+        assert_eq!((found.edges[0], found.edges[found.edges.len() - 1]), (-most, most));
+        assert!(found.edges.iter().all(|edge| edge.is_finite()) && found.edges.is_sorted());
+        assert_eq!(found.marked[1], 0.25);
+        assert!(found.marked.iter().all(|value| value.is_finite()) && found.marked.is_sorted());
+        assert_eq!(percentile(&[-most, most], 0.75), most / 2.0);
     }
 
     /// Spearman (1904) by the formula 1 - 6 sum d² / (n (n² - 1)) for ranks without ties.
