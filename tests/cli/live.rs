@@ -264,6 +264,17 @@ fn impossible_values_are_refused_with_their_parameter() {
 }
 
 #[test]
+fn a_value_far_from_the_preset_has_a_warning() {
+    let folder = Folder::new();
+    let live = Live::start(&folder, &["jafferis2016"]);
+    let warnings = |design: Value| live.answer("point", json!({ "design": design }))["warnings"].clone();
+    assert_eq!(warnings(json!({ "drive_voltage_pp": 150.0 })), json!([]));
+    let far = warnings(json!({ "drive_voltage_pp": 200_160.0 }));
+    assert!(far[0].as_str().unwrap().contains("times the preset's"), "{far}");
+    assert_eq!(warnings(json!({ "drive_voltage_pp": "200.16 kV" })), json!([]), "a unit was written");
+}
+
+#[test]
 fn a_newer_request_cancels_the_older_one() {
     let folder = Folder::new();
     let live = Live::start(&folder, &["jafferis2016", "--threads", "1"]);

@@ -1,6 +1,7 @@
 //! Tokens, and the hosts and origins that may ask.
 
 use std::fmt::Write as _;
+use std::hint::black_box;
 
 use axum::http::header::{HOST, ORIGIN};
 use axum::http::{HeaderMap, Uri};
@@ -46,15 +47,16 @@ impl Guard {
 
     /// Checks host, origin and token. The token is in a header, or in the query of the address where `in_address`.
     pub(crate) fn check(&self, uri: &Uri, headers: &HeaderMap, in_address: bool) -> Result<(), Intruder> {
-        let host = headers.get(HOST).and_then(|host| host.to_str().ok());
-        if !host.is_some_and(|host| self.hosts.iter().any(|known| known == host)) {
+        let is_own = |host: &[u8]| self.hosts.iter().any(|known| known.as_bytes() == host);
+        let mut hosts = headers.get_all(HOST).iter();
+        let has_own_host = hosts.next().is_some_and(|host| is_own(host.as_bytes())) && hosts.next().is_none();
+        // An address in the first line of a request stands above its host header.
+        let has_own_address = uri.authority().is_none_or(|host| is_own(host.as_str().as_bytes()));
+        let mut origins = headers.get_all(ORIGIN).iter();
+        let has_own_origin =
+            origins.all(|origin| origin.as_bytes().strip_prefix(b"http://").is_some_and(is_own));
+        if !(has_own_host && has_own_address && has_own_origin) {
             return Err(Intruder::Stranger);
-        }
-        if let Some(origin) = headers.get(ORIGIN) {
-            let origin = origin.to_str().ok().and_then(|origin| origin.strip_prefix("http://"));
-            if !origin.is_some_and(|origin| self.hosts.iter().any(|known| known == origin)) {
-                return Err(Intruder::Stranger);
-            }
         }
         let given = if in_address {
             let query = uri.query().unwrap_or_default();
@@ -62,8 +64,14 @@ impl Guard {
         } else {
             headers.get(TOKEN_HEADER).and_then(|token| token.to_str().ok())
         };
-        if given == Some(self.token.as_str()) { Ok(()) } else { Err(Intruder::Token) }
+        if given.is_some_and(|given| is_same(given, &self.token)) { Ok(()) } else { Err(Intruder::Token) }
     }
+}
+
+/// Compares secrets of equal length in a time that does not depend on where they differ.
+fn is_same(given: &str, secret: &str) -> bool {
+    let differences = given.bytes().zip(secret.bytes()).fold(0, |found, (a, b)| black_box(found | (a ^ b)));
+    given.len() == secret.len() && differences == 0
 }
 
 #[cfg(test)]
@@ -95,6 +103,20 @@ mod tests {
         assert_eq!(asks(&api, &[host, ("x-flap-token", &other.token)], false), Err(Intruder::Token));
         assert_eq!(asks(&api, &[host], false), Err(Intruder::Token));
         assert_eq!(asks(&page, &[], true), Err(Intruder::Stranger));
+        let twice = [host, ("host", "evil.example:8000")];
+        for hosts in [twice, [twice[1], twice[0]], [host, host]] {
+            let mut all = HeaderMap::new();
+            for (name, value) in hosts {
+                all.append(name, value.parse().unwrap());
+            }
+            assert_eq!(guard.check(&page, &all, true), Err(Intruder::Stranger), "{hosts:?}");
+        }
+        let foreign: Uri = guard.address().replace("127.0.0.1", "evil.example").parse().unwrap();
+        assert_eq!(asks(&foreign, &[host], true), Err(Intruder::Stranger), "the first line of the request");
+        let query = |token: &str| format!("http://127.0.0.1:8000/?token={token}").parse::<Uri>().unwrap();
+        for wrong in [&token[..31], &format!("{token}0"), "", &format!("{}x", &token[..31])] {
+            assert_eq!(asks(&query(wrong), &[host], true), Err(Intruder::Token), "{wrong}");
+        }
         for stranger in ["127.0.0.1:8001", "evil.example:8000", "127.0.0.1", "127.0.0.1:8000.evil.example"] {
             assert_eq!(asks(&page, &[("host", stranger)], true), Err(Intruder::Stranger), "{stranger}");
         }

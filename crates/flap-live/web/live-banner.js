@@ -1,6 +1,6 @@
 // What the whole page has to say above everything else, by its reason.
 
-const banner = { words: { server: "", address: "", error: "" } };
+const banner = { words: { server: "", address: "", error: "", far: "" } };
 
 /** Says something, or no longer. */
 banner.say = (reason, words) => {

@@ -20,6 +20,7 @@ numbers.ask = async (isRest) => {
     numbers.answer = answer;
     numbers.design = JSON.stringify([design, measure]);
     markOld("numbers", "");
+    banner.say("far", answer.warnings.join(" · "));
     numbers.show(isRest);
   } catch (error) {
     if (error.status === 0) return;

@@ -36,7 +36,7 @@ const rangeAround = ({ name, low, high }) => {
 };
 
 /** Numbers of a list that the user has typed, in SI units; text with a unit stays text. */
-const typedList = (text, factor) => text.split(/[,;\s]+(?=[-+.\d])/).map((part) => part.trim()).filter(Boolean).map((part) => (Number.isFinite(Number(part)) ? Number(part) / factor : part));
+const typedList = (text, factor) => text.split(/[,;\s]+(?=[-+.\d])/).map((part) => part.trim()).filter(Boolean).map((part) => (Number.isFinite(Number(part)) ? inSI(Number(part), factor) : part));
 
 /** Says what is wrong with an end of the axis; the axis stays as it is. */
 const refuseEnd = (field, words) => {
@@ -58,7 +58,7 @@ const listen = () => {
     byId(`x-${end}`).onchange = () => {
       const field = byId(`x-${end}`), { unit, factor } = parameterOf.get(state.x.name);
       if (field.value.trim() === "") return showControls();
-      const { number, problem } = typedNumber(field.value, unit), value = number / factor;
+      const { number, problem } = typedNumber(field.value, unit), value = inSI(number, factor);
       const isSame = !problem && value === state.x[end === "from" ? "to" : "from"];
       if (problem || isSame) return refuseEnd(field, problem ?? "“from” and “to” must differ");
       state.x[end] = value;

@@ -97,7 +97,7 @@ panel.typed = (name) => {
     panel.complain(null);
     return;
   }
-  panel.set(name, problem ? text : rest === "" ? number / parameter.factor : `${number} ${rest}`, true);
+  panel.set(name, problem ? text : rest === "" ? inSI(number, parameter.factor) : `${number} ${rest}`, true);
 };
 
 panel.showOne = (name) => {

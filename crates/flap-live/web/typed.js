@@ -44,3 +44,6 @@ const typedNumber = (text, unit) => {
   if (ratio === null) return { problem: unit ? `“${rest}” is not a unit for this: write ${unit}, or another size of it` : `“${rest}” is too much: this number has no unit` };
   return { number: Number((number * ratio).toPrecision(15)) };
 };
+
+/** A number in the unit that is shown as a number in SI units, without the digits that rounding adds. */
+const inSI = (number, factor) => Number((number / factor).toPrecision(15));

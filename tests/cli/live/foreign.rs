@@ -190,6 +190,43 @@ fn connections_that_send_half_a_head_do_not_block_others() {
     }
 }
 
+/// Answers that nobody reads fill the buffers of the connection, and the server gives it up.
+#[test]
+fn connections_that_read_no_answers_do_not_block_others() {
+    let folder = Folder::new();
+    let live = Live::start(&folder, &["ozaki2018-large"]);
+    let page = format!("GET /?token={} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\n\r\n", live.token, live.port);
+    // Large answers, and many small ones for somebody without a token.
+    for many in [page.repeat(40), page.replace(&live.token, "none").repeat(20_000)] {
+        let unread: Vec<TcpStream> = (0..160)
+            .map(|_| {
+                let mut stream = TcpStream::connect(("127.0.0.1", live.port)).unwrap();
+                stream.set_write_timeout(Some(Duration::from_millis(20))).unwrap();
+                let _ = stream.write_all(many.as_bytes());
+                stream
+            })
+            .collect();
+        let begun = std::time::Instant::now();
+        live.answer("save", json!({ "kind": "grid" }));
+        assert!(begun.elapsed() < Duration::from_secs(30), "{:?}", begun.elapsed());
+        drop(unread);
+    }
+}
+
+#[test]
+fn a_second_host_is_refused() {
+    let folder = Folder::new();
+    let live = Live::start(&folder, &["ozaki2018-large"]);
+    let own = format!("Host: 127.0.0.1:{}\r\n", live.port);
+    let get = |hosts: &str| {
+        let request = format!("GET /?token={} HTTP/1.1\r\n{hosts}Connection: close\r\n\r\n", live.token);
+        live.send(request.as_bytes()).unwrap().status
+    };
+    assert_eq!(get(&own), 200);
+    assert_eq!(get(&format!("{own}Host: evil.example\r\n")), 403);
+    assert_eq!(get(&format!("Host: evil.example\r\n{own}")), 403);
+}
+
 #[test]
 fn the_page_comes_with_its_token_alone() {
     let folder = Folder::new();

@@ -5,6 +5,7 @@ use std::sync::atomic::Ordering;
 use flap_core::num::InstructionSet;
 use flap_core::simulate::{Point, PointRun, Row, Status};
 use flap_sweep::plan::{Plan, Verdict};
+use flap_sweep::study::deviation::{self, Deviation};
 use flap_sweep::study::strongest;
 use flap_sweep::table::layout::Layout;
 use serde::Serialize;
@@ -23,6 +24,8 @@ pub(crate) struct Numbers {
     published: Vec<Value>,
     /// The reason why the parameters are impossible, or why a sweep leaves the design out.
     reason: Option<String>,
+    /// Changed parameters whose values are far from those of the preset.
+    warnings: Vec<String>,
     /// The natural frequencies, if the model has them.
     modes: Option<Vec<Mode>>,
     /// Those of the published design.
@@ -80,7 +83,10 @@ pub(crate) fn point(desk: &Desk<'_>, request: &PointRequest) -> Result<Numbers, 
         layout.cells(&Point::at_rest(0, values), row).into_iter().map(rows::value).collect()
     };
     let published = desk.opened.published();
+    let deviations = deviation::of_point(&plan, &values, |parameter| plan.has_unit(parameter));
+    let changed = deviations.iter().filter(|deviation| request.design.contains_key(deviation.parameter.name));
     Ok(Numbers {
+        warnings: changed.filter_map(Deviation::warning).collect(),
         columns: layout.names(),
         reason: row.reason.clone().or(reason),
         modes: modes(&plan, &values),

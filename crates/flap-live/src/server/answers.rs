@@ -2,7 +2,7 @@
 
 use axum::Json;
 use axum::http::header::{
-    CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, REFERRER_POLICY, X_CONTENT_TYPE_OPTIONS,
+    CACHE_CONTROL, CONNECTION, CONTENT_SECURITY_POLICY, CONTENT_TYPE, REFERRER_POLICY, X_CONTENT_TYPE_OPTIONS,
 };
 use axum::http::{HeaderName, StatusCode};
 use axum::response::{Html, IntoResponse, Response};
@@ -48,9 +48,9 @@ pub(super) fn refused(refused: Refused) -> Response {
     }
 }
 
-/// The answer to somebody else than the page.
+/// The answer to somebody else than the page, which ends the connection: others may wait for its place.
 pub(super) fn turned_away(intruder: &Intruder) -> Response {
-    match intruder {
+    let answer = match intruder {
         Intruder::Token => {
             let error = "the token is missing or wrong: open the address that `flap live` printed";
             refusal(StatusCode::UNAUTHORIZED, error)
@@ -59,5 +59,6 @@ pub(super) fn turned_away(intruder: &Intruder) -> Response {
             let error = "this server answers its own page alone, at 127.0.0.1 or localhost and its own port";
             refusal(StatusCode::FORBIDDEN, error)
         }
-    }
+    };
+    ([(CONNECTION, "close")], answer).into_response()
 }

@@ -1,4 +1,5 @@
-//! Connections: as many as the server can hold, each with a limit on the time that a request takes to come.
+//! Connections: as many as the server can hold, each with limits on the time that a request takes to come, and on the time
+//! that a browser takes to read its answer.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -10,8 +11,9 @@ use hyper_util::service::TowerToHyperService;
 use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 use tokio::time::sleep;
+use tokio_io_timeout::TimeoutStream;
 
-/// Longest time for the head of a request to come, and for its body.
+/// Longest time for the head of a request to come, for its body, and between two parts of an answer that are read.
 pub(super) const PATIENCE: Duration = Duration::from_secs(5);
 
 /// Connections at the same time; others wait until one has ended.
@@ -33,8 +35,10 @@ pub(super) async fn serve(listener: TcpListener, routes: Router) {
         tokio::spawn(async move {
             let mut protocol = http1::Builder::new();
             protocol.timer(TokioTimer::new()).header_read_timeout(PATIENCE);
+            let mut stream = TimeoutStream::new(stream);
+            stream.set_write_timeout(Some(PATIENCE));
             // A connection that fails concerns its browser alone, which asks again.
-            let _ = protocol.serve_connection(TokioIo::new(stream), service).await;
+            let _ = protocol.serve_connection(TokioIo::new(Box::pin(stream)), service).await;
             drop(place);
         });
     }
