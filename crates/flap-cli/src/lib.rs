@@ -15,6 +15,7 @@ mod cmd;
 mod complete;
 mod console;
 mod data;
+mod duration;
 mod failure;
 mod job;
 mod models;

@@ -1,15 +1,19 @@
-//! The progress bar of a sweep, on stderr if that is a terminal.
+//! The progress of a sweep on stderr: a bar if that is a terminal, else a line every minute.
 
 use std::fmt::Write;
+use std::io::{IsTerminal, stderr};
+use std::time::{Duration, Instant};
 
 use flap_sweep::run::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
-use crate::console;
+use crate::{console, duration};
 
 /// The progress of a run.
 pub(crate) struct Bar {
     drawn: ProgressBar,
+    /// Where no bar is drawn.
+    log: Option<Log>,
     /// The units of the run, such as "points".
     units: &'static str,
     moved: bool,
@@ -17,7 +21,7 @@ pub(crate) struct Bar {
 }
 
 impl Bar {
-    /// A bar that counts `units`, such as "points". Hidden unless stderr is a terminal, and if the user wants no progress.
+    /// The progress of a run that counts `units`, such as "points". Nothing if the user wants no progress.
     pub(crate) fn new(units: &'static str) -> Bar {
         let template =
             format!("{{wide_bar}} {{human_pos}} of {{human_len}} {units}, {{rate}} {units}/s, {{eta}} left");
@@ -27,7 +31,8 @@ impl Bar {
         let target =
             if console::is_quiet() { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let drawn = ProgressBar::with_draw_target(None, target).with_style(style);
-        Bar { drawn, units, moved: false, stopping: false }
+        let log = (!stderr().is_terminal()).then(|| Log::new(Instant::now()));
+        Bar { drawn, log, units, moved: false, stopping: false }
     }
 
     /// Moves the bar. When the sweep begins to stop, prints that once.
@@ -38,6 +43,9 @@ impl Bar {
             // Points of earlier sessions took no time in this one.
             self.moved = true;
             self.drawn.reset_eta();
+        }
+        if let Some(line) = self.log.as_mut().and_then(|log| log.line(progress, self.units, Instant::now())) {
+            console::say(&line);
         }
         if stopping && !self.stopping {
             self.stopping = true;
@@ -61,7 +69,73 @@ impl Bar {
     }
 }
 
+/// The time between two lines.
+const PAUSE: Duration = Duration::from_secs(60);
+
+/// The progress as lines.
+struct Log {
+    last: Instant,
+    /// Time and finished units at the beginning. Units of earlier sessions took no time in this one.
+    begin: Option<(Instant, u64)>,
+}
+
+impl Log {
+    fn new(now: Instant) -> Log {
+        Log { last: now, begin: None }
+    }
+
+    /// The line that is due now, if one is.
+    fn line(&mut self, progress: Progress, units: &str, now: Instant) -> Option<String> {
+        let Progress { finished, points } = progress;
+        let (begun, before) = *self.begin.get_or_insert((now, finished));
+        if now - self.last < PAUSE || finished >= points {
+            return None;
+        }
+        self.last = now;
+        let seconds = (now - begun).as_secs_f64().max(1e-9);
+        let rate = (finished - before) as f64 / seconds;
+        let left = if rate > 0.0 {
+            duration::words((points - finished) as f64 / rate)
+        } else {
+            "unknown time".to_owned()
+        };
+        Some(format!("{finished} of {points} {units}, {rate:.1} {units}/s, {left} left"))
+    }
+}
+
 fn write_rate(state: &ProgressState, text: &mut dyn Write) {
     // A write into memory does not fail.
     let _ = write!(text, "{:.0}", state.per_sec());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_a_minute() {
+        let begun = Instant::now();
+        let mut log = Log::new(begun);
+        let mut line = |seconds: u64, finished: u64| {
+            let progress = Progress { finished, points: 100_000 };
+            log.line(progress, "points", begun + Duration::from_secs(seconds))
+        };
+        // 10,000 points of an earlier session.
+        assert_eq!(line(0, 10_000), None);
+        assert_eq!(line(59, 20_000), None);
+        assert_eq!(line(60, 22_600).unwrap(), "22600 of 100000 points, 210.0 points/s, 6 minutes left");
+        assert_eq!(line(119, 30_000), None);
+        assert_eq!(line(121, 34_200).unwrap(), "34200 of 100000 points, 200.0 points/s, 5 minutes left");
+        assert_eq!(line(190, 100_000), None, "the report follows");
+    }
+
+    #[test]
+    fn a_run_that_does_not_move_has_no_end() {
+        let begun = Instant::now();
+        let mut log = Log::new(begun);
+        let progress = Progress { finished: 3, points: 9 };
+        assert_eq!(log.line(progress, "curves", begun), None);
+        let line = log.line(progress, "curves", begun + PAUSE).unwrap();
+        assert_eq!(line, "3 of 9 curves, 0.0 curves/s, unknown time left");
+    }
 }

@@ -1,5 +1,8 @@
-//! The estimated time of a sweep, from a run of a few of its points.
+//! The estimated time of a sweep, from runs of some of its points.
 
+use std::collections::BTreeSet;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use flap_core::num::InstructionSet;
@@ -9,10 +12,12 @@ use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::run::RunOptions;
 use flap_sweep::study::survey::spread;
 
-/// Most points that are run.
-const MOST: u64 = 32;
+use crate::duration;
 
-/// The time after which no point is started.
+/// Most points of a sample.
+const MOST: usize = 256;
+
+/// The time after which no point is added to the sample.
 const LONGEST_BEGIN: Duration = Duration::from_secs(1);
 
 /// The time after which running points are given up.
@@ -20,6 +25,9 @@ const LONGEST: Duration = Duration::from_secs(2);
 
 /// Most points that are checked to find some that are not excluded.
 const MOST_LOOKED_AT: u64 = 100_000;
+
+/// The smallest error of an estimate, as a share: the speed of a machine is not the same all the time.
+const SMALLEST_ERROR: f64 = 0.1;
 
 /// The estimates of a sweep from a few of its points.
 #[derive(Default)]
@@ -30,42 +38,48 @@ pub(super) struct Estimate {
     pub(super) time: Option<String>,
 }
 
-/// Runs a few points of `plan` to estimate a sweep of `points` points.
+/// Runs some points of `plan` to estimate a sweep of `points` points.
 pub(super) fn of(plan: &Plan, points: u64) -> Estimate {
-    let started = Instant::now();
-    let mut trial = Trial { plan, started, looked_at: 0, begun: 0, valid: 0, first_reason: None };
-    plan.rows().run(InstructionSet::best(), plan.solver(), &mut trial);
-    let elapsed = started.elapsed();
-    let is_over = elapsed < LONGEST;
-    let ran = trial.begun;
-    if let Trial { valid: 0, first_reason: Some((index, reason)), .. } = trial
-        && is_over
+    let threads = RunOptions::default().threads.get();
+    let trial = Trial::run(plan, threads);
+    if let Trial { valid: 0, first_reason: Some((index, reason)), .. } = &trial
+        && trial.is_complete()
     {
         let text = format!("all points that were tried are invalid, such as point {index}: {reason}");
         return Estimate { invalid: Some(text), time: None };
     }
-    if ran == 0 {
-        return Estimate::default();
-    }
-    let threads = RunOptions::default().threads.get();
-    let seconds = elapsed.as_secs_f64() / ran as f64 * points as f64 / (threads as f64).min(points as f64);
-    let bound = if is_over { "" } else { "more than " };
-    let time = words(seconds);
+    let Some([low, high]) = trial.seconds(points) else { return Estimate::default() };
+    let time = if trial.is_complete() {
+        duration::between(low, high)
+    } else {
+        format!("more than {}", duration::words(low))
+    };
     let time = format!(
-        "estimate: {bound}{time} on {}, from runs of {} spread over the grid",
+        "estimate: {time} on {}, from runs of {} spread over the grid",
         count(threads as u64, "thread"),
-        count(ran, "point")
+        count(trial.works.len() as u64, "point")
     );
     Estimate { invalid: None, time: Some(time) }
 }
 
-/// Points spread over a plan, until there are enough or the time is over.
+/// A sample of points that are spread over a plan. Further points keep all lanes full, as in a sweep, until the last point of
+/// the sample has its row: otherwise the slowest points would run alone, and the time would tell little.
 struct Trial<'a> {
     plan: &'a Plan,
     started: Instant,
+    /// The time from the start to the end of the sample.
+    took: Duration,
     looked_at: u64,
-    /// Number of points that were begun.
+    /// True if no more points are added to the sample.
+    closed: bool,
+    /// Numbers of the points of the sample that are running.
+    running: BTreeSet<u64>,
+    /// The work of each point of the sample: right-hand sides evaluated.
+    works: Vec<f64>,
+    /// Points that were begun, points that have rows, and the work of these.
     begun: u64,
+    done: u64,
+    work: f64,
     /// Number of valid points.
     valid: u64,
     /// Index and reason of the first invalid point.
@@ -73,77 +87,216 @@ struct Trial<'a> {
 }
 
 impl Trial<'_> {
-    /// Notes an invalid point, the checked point number `number`.
-    fn note_invalid(&mut self, number: u64, reason: String) {
-        let index = spread(number, self.plan.len());
-        self.first_reason.get_or_insert((index, reason));
+    /// Runs the sample on all threads.
+    fn run(plan: &Plan, threads: usize) -> Trial<'_> {
+        let trial = Mutex::new(Trial {
+            plan,
+            started: Instant::now(),
+            took: Duration::ZERO,
+            looked_at: 0,
+            closed: false,
+            running: BTreeSet::new(),
+            works: Vec::new(),
+            begun: 0,
+            done: 0,
+            work: 0.0,
+            valid: 0,
+            first_reason: None,
+        });
+        thread::scope(|scope| {
+            for _ in 0..threads {
+                let work = || plan.rows().run(InstructionSet::best(), plan.solver(), &mut Worker(&trial));
+                // Without a further thread the others do the work.
+                let _ = thread::Builder::new().spawn_scoped(scope, work);
+            }
+        });
+        let mut trial = trial.into_inner().unwrap_or_else(PoisonError::into_inner);
+        if trial.took.is_zero() {
+            trial.took = trial.started.elapsed();
+        }
+        trial
     }
-}
 
-impl Jobs for Trial<'_> {
-    fn next(&mut self, _idle: bool) -> Option<Point> {
-        while self.begun < MOST.min(self.plan.len())
-            && self.looked_at < MOST_LOOKED_AT
-            && self.started.elapsed() < LONGEST_BEGIN
-        {
-            let mut point = self.plan.point(spread(self.looked_at, self.plan.len()));
-            // A small grid may give a point twice: each run has its own number.
-            point.index = self.looked_at;
+    /// The mean work of a point, and its probable relative error, for a sweep of `points` points; none if no point was run.
+    fn mean_work(&self, points: u64) -> Option<(f64, f64)> {
+        let number = self.works.len() as f64;
+        let mean = self.works.iter().sum::<f64>() / number;
+        if mean.is_nan() || mean <= 0.0 {
+            return None;
+        }
+        let squares: f64 = self.works.iter().map(|work| (work - mean).powi(2)).sum();
+        // Of a sample that is all of the plan, the mean is exact.
+        let left_out = (1.0 - number / points as f64).max(0.0);
+        let deviation = (left_out * squares / (number * (number - 1.0).max(1.0))).sqrt();
+        Some((mean, (2.0 * deviation / mean).max(SMALLEST_ERROR)))
+    }
+
+    /// The shortest and the longest time that a sweep of `points` points probably takes; none if no point was run.
+    fn seconds(&self, points: u64) -> Option<[f64; 2]> {
+        let (mean, error) = self.mean_work(points)?;
+        // Points that were running at the end are half done.
+        let work = self.work + 0.5 * mean * (self.begun - self.done) as f64;
+        let seconds = points as f64 * mean * self.took.as_secs_f64() / work;
+        Some([seconds / (1.0 + error), seconds * (1.0 + error)])
+    }
+
+    /// True if all points of the sample have rows.
+    fn is_complete(&self) -> bool {
+        self.closed && self.running.is_empty()
+    }
+
+    fn is_over(&self) -> bool {
+        self.is_complete() || self.started.elapsed() >= LONGEST
+    }
+
+    /// The index in the plan of the checked point number `number`.
+    fn index(&self, number: u64) -> u64 {
+        let points = self.plan.len();
+        if points <= MOST as u64 { number % points } else { spread(number, points) }
+    }
+
+    fn next(&mut self) -> Option<Point> {
+        while !self.is_over() && self.looked_at < MOST_LOOKED_AT {
+            let number = self.looked_at;
+            let mut point = self.plan.point(self.index(number));
+            // A point may be run twice: each run has its own number.
+            point.index = number;
             self.looked_at += 1;
+            let in_sample = !self.closed;
             match self.plan.judge(&point.values) {
                 Verdict::Runs => {
                     self.begun += 1;
+                    if in_sample {
+                        self.running.insert(number);
+                    }
+                    self.close();
                     return Some(point);
                 }
-                Verdict::Invalid(invalid) => self.note_invalid(point.index, invalid.into_reason()),
-                Verdict::Excluded(_) => {}
+                Verdict::Invalid(invalid) if in_sample => {
+                    self.works.push(0.0);
+                    self.note_invalid(number, invalid.into_reason());
+                }
+                Verdict::Invalid(_) | Verdict::Excluded(_) => {}
             }
+            self.close();
         }
+        self.closed = true;
         None
     }
 
-    fn done(&mut self, index: u64, row: Row) {
+    /// Ends the sample if it is large enough, has all points, or took long enough.
+    fn close(&mut self) {
+        self.closed |= self.works.len() + self.running.len() >= MOST
+            || self.looked_at >= self.plan.len()
+            || self.started.elapsed() >= LONGEST_BEGIN;
+    }
+
+    fn done(&mut self, number: u64, row: Row) {
+        let work = row.rhs_evals as f64;
+        self.done += 1;
+        self.work += work;
+        if self.running.remove(&number) {
+            self.works.push(work);
+            if self.is_complete() {
+                self.took = self.started.elapsed();
+            }
+        }
         if row.status == Status::Invalid {
-            self.note_invalid(index, row.reason.unwrap_or_default());
+            self.note_invalid(number, row.reason.unwrap_or_default());
         } else {
             self.valid += 1;
         }
     }
 
-    fn interrupted(&self) -> bool {
-        self.started.elapsed() >= LONGEST
+    /// Notes an invalid point, the checked point number `number`.
+    fn note_invalid(&mut self, number: u64, reason: String) {
+        let index = self.index(number);
+        self.first_reason.get_or_insert((index, reason));
     }
 }
 
-/// A time in words.
-fn words(seconds: f64) -> String {
-    const UNITS: [(f64, &str); 5] =
-        [(31_557_600.0, "years"), (86_400.0, "days"), (3600.0, "hours"), (60.0, "minutes"), (1.0, "seconds")];
-    let unit = UNITS.iter().find(|(length, _)| seconds >= 2.0 * length);
-    match unit {
-        Some((length, name)) => format!("about {:.0} {name}", seconds / length),
-        None => "a second or two".to_owned(),
+/// A thread of a trial.
+struct Worker<'t, 'a>(&'t Mutex<Trial<'a>>);
+
+impl<'a> Worker<'_, 'a> {
+    fn trial(&self) -> MutexGuard<'_, Trial<'a>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Jobs for Worker<'_, '_> {
+    fn next(&mut self, _idle: bool) -> Option<Point> {
+        self.trial().next()
+    }
+
+    fn done(&mut self, index: u64, row: Row) {
+        self.trial().done(index, row);
+    }
+
+    fn interrupted(&self) -> bool {
+        self.trial().is_over()
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::words;
+    use flap_core::simulate::all;
 
-    #[test]
-    fn times_in_words() {
-        let cases = [
-            (0.01, "a second or two"),
-            (2.4, "about 2 seconds"),
-            (119.0, "about 119 seconds"),
-            (120.0, "about 2 minutes"),
-            (7.4e3, "about 2 hours"),
-            (1e5, "about 28 hours"),
-            (2e5, "about 2 days"),
-            (1e9, "about 32 years"),
-        ];
-        for (seconds, expected) in cases {
-            assert_eq!(words(seconds), expected, "{seconds}");
+    use super::*;
+
+    /// All points of a plan, and their work.
+    struct All<'a> {
+        plan: &'a Plan,
+        next: u64,
+        work: f64,
+    }
+
+    impl Jobs for All<'_> {
+        fn next(&mut self, _idle: bool) -> Option<Point> {
+            (self.next < self.plan.len()).then(|| {
+                self.next += 1;
+                self.plan.point(self.next - 1)
+            })
         }
+
+        fn done(&mut self, _index: u64, row: Row) {
+            self.work += row.rhs_evals as f64;
+        }
+    }
+
+    /// Points near hysteresis and those that never settle take up to a hundred times the work of others.
+    #[test]
+    fn the_mean_work_is_that_of_the_sweep() {
+        let grid = "preset = \"jafferis2016\"\n[params]\nhinge_stiffness = \"0.7486 uN*m/rad\"\n[axes]\n\
+                    drive_voltage_pp = { from = \"100 V\", to = \"240 V\", n = 15 }\n\
+                    drive_frequency = { from = \"60 Hz\", to = \"150 Hz\", n = 80 }\n";
+        let plan =
+            flap_sweep::grid::parse("grid.toml", grid, all()).unwrap_or_else(|error| panic!("{error:?}"));
+        let mut whole = All { plan: &plan, next: 0, work: 0.0 };
+        plan.rows().run(InstructionSet::best(), plan.solver(), &mut whole);
+        let truth = whole.work / plan.len() as f64;
+        for threads in [1, 2] {
+            let trial = Trial::run(&plan, threads);
+            let (mean, error) = trial.mean_work(plan.len()).unwrap();
+            println!("{} points: {mean} of {truth}, {error}", trial.works.len());
+            assert!(trial.works.len() >= 32, "{} points", trial.works.len());
+            assert!((mean / truth - 1.0).abs() < 0.3 && error < 0.6, "{mean} {truth} {error}");
+        }
+    }
+
+    /// A sample that is all of the plan has no error but that of the machine.
+    #[test]
+    fn a_small_plan_is_run_as_a_whole() {
+        let grid =
+            "preset = \"ozaki2018-large\"\n[axes]\ndrive_frequency = { from = 90, to = 120, n = 31 }\n";
+        let plan =
+            flap_sweep::grid::parse("grid.toml", grid, all()).unwrap_or_else(|error| panic!("{error:?}"));
+        let trial = Trial::run(&plan, 2);
+        if trial.is_complete() && trial.works.len() == 31 {
+            assert_eq!(trial.mean_work(31).unwrap().1, SMALLEST_ERROR);
+        }
+        assert!(trial.seconds(31).is_some());
+        let [low, high] = trial.seconds(31_000).unwrap();
+        assert!(low > 0.0 && high > low && high < 3.0 * low, "{low} {high}");
     }
 }
