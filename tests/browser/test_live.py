@@ -524,9 +524,28 @@ def test_up_and_down_of_a_bistable_design(other, tmp_path):
     assert len(bands) == 1
     assert 123 < bands[0]["from"] < bands[0]["to"] < 129
     assert "Two motions" in page.text("#tip")
+    # The bands are those of the motions: a measure that is the same on both ways has them too.
+    same = "return bistable((state.measure = 'field_max_v_per_um', linesOf(family.answer).lines))"
+    measure = page.script("return state.measure")
+    assert page.script(same) == bands
+    page.script("state.measure = arguments[0]", measure)
     page.click("#hysteresis")
     page.rest()
     assert page.script("return family.bands") == []
+
+
+def test_typed_numbers_keep_their_digits(page):
+    numbers = "return [inSI(156, 1000), inSI(0.7, 1e3), inSI(55, 1e6), inSI(1.1, 1e9)]"
+    assert page.script(numbers) == [0.156, 0.0007, 5.5e-5, 1.1e-9]
+
+
+def test_a_value_far_from_the_preset_has_a_warning(page):
+    page.give("drive_voltage_pp", "200160")
+    page.rest()
+    assert "times the preset's" in page.text("#banner")
+    page.give("drive_voltage_pp", "60")
+    page.rest()
+    assert "times the preset's" not in page.text("#banner")
 
 
 def test_pins_stand_side_by_side(page):

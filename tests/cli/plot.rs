@@ -38,7 +38,8 @@ fn sweep() -> String {
 
 /// Rows of a response of one design, with its unstable orbits.
 fn response() -> String {
-    let mut text = "curve,branch,drive_frequency,status,stroke_amplitude_deg,lift_mean_mn\n".to_owned();
+    let mut text =
+        "curve,branch,drive_frequency,status,bistable,stroke_amplitude_deg,lift_mean_mn\n".to_owned();
     let rows = [
         ("up", [110, 120, 130], [70, 60, 20]),
         ("down", [130, 120, 110], [20, 25, 70]),
@@ -46,7 +47,12 @@ fn response() -> String {
     ];
     for (branch, frequencies, strokes) in rows {
         for (frequency, stroke) in frequencies.into_iter().zip(strokes) {
-            let _ = writeln!(text, "0,{branch},{frequency}.0,periodic,{stroke}.0,1.0");
+            let bistable = match branch {
+                "unstable" => "",
+                _ if frequency == 120 => "true",
+                _ => "false",
+            };
+            let _ = writeln!(text, "0,{branch},{frequency}.0,periodic,{bistable},{stroke}.0,1.0");
         }
     }
     text

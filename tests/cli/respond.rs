@@ -123,6 +123,31 @@ fn options_are_those_of_the_sidecar() {
     assert!(rerun.stderr.contains("holds curves"), "{}", rerun.stderr);
 }
 
+/// A band of 0.28 Hz between two steps of 0.5 Hz.
+#[test]
+fn a_band_between_two_steps_is_found() {
+    let folder = Folder::new();
+    let soft = ["--set", "hinge_stiffness=0.7486 uN*m/rad", "--set", "drive_voltage_pp=90 V"];
+    let steps = ["--from", "110 Hz", "--to", "130 Hz", "--step", "0.5 Hz", "--out", "narrow.csv"];
+    let ended = folder.ends_with(0, &[&["respond", "jafferis2016"], &soft[..], &steps[..]].concat());
+    let band = ended.stdout.strip_prefix("bistable from ").and_then(|rest| rest.split_once(" Hz, jump of "));
+    let (from, to) = band.unwrap_or_else(|| panic!("{}", ended.stdout)).0.split_once(" to ").unwrap();
+    let [from, to]: [f64; 2] = [from, to].map(|end| end.parse().unwrap());
+    assert!((from - 119.153).abs() <= 0.032 && (to - 119.434).abs() <= 0.032, "{}", ended.stdout);
+    // The rows say the same.
+    let text = folder.read("narrow.csv");
+    let mut rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let names = rows.next().unwrap();
+    let [frequency, bistable] =
+        ["drive_frequency", "bistable"].map(|name| names.iter().position(|known| *known == name).unwrap());
+    let within: Vec<f64> =
+        rows.filter(|row| row[bistable] == "true").map(|row| row[frequency].parse().unwrap()).collect();
+    assert_eq!(within.iter().copied().fold(f64::INFINITY, f64::min), from);
+    assert_eq!(within.iter().copied().fold(0.0, f64::max), to);
+    folder.ends(0, "plot narrow.csv --out narrow.svg");
+    assert!(folder.read("narrow.svg").contains(&format!("shaded: bistable, {from} to {to} Hz")));
+}
+
 #[test]
 fn a_preset_follows_any_number() {
     let folder = Folder::new();
@@ -142,7 +167,9 @@ fn a_preset_follows_any_number() {
     ]);
     assert_eq!(ended.code, 0, "{}", ended.stderr);
     assert!(
-        ended.stdout.starts_with("no hysteresis from 60 to 80 V (branches agree to "),
+        ended.stdout.starts_with(
+            "no hysteresis from 60 to 80 V wider than 10 V (0.625 V where the motion changes by a tenth; branches agree to "
+        ),
         "{}",
         ended.stdout
     );

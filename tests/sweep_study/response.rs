@@ -53,7 +53,7 @@ fn follow(plan: &Plan, threads: usize) -> Vec<Curve> {
 }
 
 fn verdict(plan: &Plan, along: &Along, curve: &Curve) -> Verdict {
-    Verdict::new(curve, along.parameter(plan), column(plan.rows(), "stroke_amplitude_deg"))
+    Verdict::new(curve, along, along.parameter(plan), column(plan.rows(), "stroke_amplitude_deg"))
 }
 
 /// The bands that an independent solver found, stepping 1 Hz: physics of the bimorph with a soft hinge.
@@ -99,6 +99,82 @@ const BRANCHES: [(u32, f64, &str, f64, f64); 3] = [
     (160, 126.0, "down", 59.276_549, -1.899_288),
     (240, 130.0, "up", 126.724_628, 11.066_892),
 ];
+
+/// Bands of the bimorph with a soft hinge, followed in steps of 0.02 Hz: each fits between two steps of 0.5 Hz.
+const NARROW: [(u32, [f64; 2]); 3] =
+    [(85, [118.439, 118.543]), (90, [119.154, 119.436]), (95, [119.771, 120.259])];
+
+#[test]
+fn narrow_bands_between_two_steps_are_found() {
+    let plan = bimorph(true, &NARROW.map(|(volts, _)| volts));
+    for step in [0.5, 1.0] {
+        let parameter = parameter(&plan, "drive_frequency");
+        let steps = Some([110.0, 130.0, step]);
+        let (plan, along) = Along::new(plan.clone(), parameter, steps, None, false).unwrap();
+        let plan = plan.following(along.clone());
+        for (curve, (volts, [from, to])) in follow(&plan, 2).iter().zip(NARROW) {
+            let verdict = verdict(&plan, &along, curve);
+            let [band] = &verdict.bands[..] else { panic!("{volts} V, steps of {step} Hz: {verdict}") };
+            assert!(
+                (band.range[0] - from).abs() <= along.tolerance
+                    && (band.range[1] - to).abs() <= along.tolerance,
+                "{volts} V, steps of {step} Hz: {verdict}"
+            );
+        }
+    }
+}
+
+/// The widest step without hysteresis is the step of the grid; where the response is steep, it is the tolerance.
+#[test]
+fn a_response_without_hysteresis_tells_its_resolution() {
+    let plan = bimorph(true, &[80]);
+    let along = Along::new(
+        plan,
+        parameter(&bimorph(true, &[80]), "drive_frequency"),
+        Some([110.0, 130.0, 0.5]),
+        None,
+        false,
+    );
+    let (plan, along) = along.unwrap();
+    let plan = plan.following(along.clone());
+    let curve = &follow(&plan, 1)[0];
+    let found = verdict(&plan, &along, curve);
+    assert_eq!((found.step, found.steep_step), (0.5, 0.03125));
+    let text = found.to_string();
+    assert!(
+        text.starts_with(
+            "no hysteresis from 110 to 130 Hz wider than 0.5 Hz (0.03125 Hz where the motion changes by a tenth; branches agree to "
+        ),
+        "{text}"
+    );
+    let largest: Vec<f64> =
+        (0..4).map(|y| curve.up.iter().map(|step| step.row.state[y].abs()).fold(0.0, f64::max)).collect();
+    for two in curve.up.windows(2) {
+        let changes = (0..4).any(|y| (two[0].row.state[y] - two[1].row.state[y]).abs() > 0.11 * largest[y]);
+        assert!(!changes || two[1].value - two[0].value <= along.tolerance, "{} Hz", two[0].value);
+    }
+}
+
+/// At 80 V the branches almost turn round at 117.58 Hz, and motions take hundreds of periods to settle. One that does not
+/// settle within `max_cycles` is no second motion.
+#[test]
+fn slow_motions_are_no_hysteresis() {
+    let plan = bimorph(true, &[80]);
+    let along = Along::new(
+        plan.clone(),
+        parameter(&plan, "drive_frequency"),
+        Some([117.4, 117.7, 0.02]),
+        None,
+        false,
+    );
+    let (plan, along) = along.unwrap();
+    let plan = plan.following(along.clone());
+    let curve = &follow(&plan, 1)[0];
+    let unsettled = curve.up.iter().chain(&curve.down).filter(|step| step.row.status == Status::Unsettled);
+    assert!(unsettled.count() > 0, "the case has slow motions");
+    let verdict = verdict(&plan, &along, curve);
+    assert_eq!(verdict.bistable().count(), 0, "{verdict}");
+}
 
 #[test]
 fn both_branches_are_those_of_the_reference() {

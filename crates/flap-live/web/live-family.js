@@ -84,7 +84,7 @@ family.complain = (error) => {
 const linesOf = ({ columns, rows }) => {
   const place = (name) => columns.indexOf(name);
   const along = parameterOf.get(state.x.name), by = family.isUpDown || !state.by ? null : parameterOf.get(state.by.name);
-  const [x, y, status, stable] = [along.name, state.measure, "status", "stable"].map(place);
+  const [x, y, status, stable, bistable] = [along.name, state.measure, "status", "stable", "bistable"].map(place);
   const key = family.isUpDown ? place("branch") : by ? place(by.name) : -1;
   const lines = new Map(), gaps = [];
   for (const row of rows) {
@@ -96,7 +96,7 @@ const linesOf = ({ columns, rows }) => {
     const line = lines.get(value), number = isNumber(row[y]) ? row[y] : null;
     line.x.push(row[x] * along.factor);
     line.y.push(number);
-    line.rows.push({ status: row[status], stable: row[stable], x: row[x], by: key < 0 ? null : value });
+    line.rows.push({ status: row[status], stable: row[stable], bistable: row[bistable] === true, x: row[x], by: key < 0 ? null : value });
     if (row[status] !== "periodic") gaps.push({ x: row[x] * along.factor, text: row[status], name: line.name, row: line.rows[line.rows.length - 1] });
   }
   const list = [...lines.values()];
@@ -108,18 +108,12 @@ const linesOf = ({ columns, rows }) => {
   return { lines: list, gaps };
 };
 
-/** Ranges of x where the ways up and down differ by more than a hundredth of the largest value. */
+/** Ranges of x where the ways up and down have different motions. */
 const bistable = (lines) => {
-  const [up, down] = ["up", "down"].map((key) => lines.find((line) => line.key === key));
-  if (!up || !down) return [];
-  const largest = Math.max(...up.y.concat(down.y).filter(isNumber).map(Math.abs));
-  const bands = [];
-  up.x.forEach((x, i) => {
-    const j = down.x.findIndex((other) => Math.abs(other - x) < 1e-9 * Math.abs(x));
-    const differs = j >= 0 && isNumber(up.y[i]) && isNumber(down.y[j]) && Math.abs(up.y[i] - down.y[j]) > 0.01 * largest;
-    if (!differs) return;
-    const last = bands[bands.length - 1], before = up.x[Math.max(i - 1, 0)];
-    if (last && last.to === before) last.to = x; else bands.push({ from: x, to: x });
+  const up = lines.find((line) => line.key === "up"), bands = [];
+  up?.rows.forEach((row, i) => {
+    if (!row.bistable) return;
+    if (up.rows[i - 1]?.bistable) bands[bands.length - 1].to = up.x[i]; else bands.push({ from: up.x[i], to: up.x[i] });
   });
   return bands;
 };

@@ -58,19 +58,17 @@ pub(crate) fn usual_measure(
 
 type Bands = Vec<(f64, f64)>;
 
+type PyWay<'py> = (PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, bool>);
+
 /// The bands in which the ways up and down of a response differ, and the rows of each after which it jumps to the other.
-/// `up` and `down` are pairs of the parameter and the measure, whose values differ by `range` in all.
+/// `up` and `down` have the parameter, the measure, and the column `bistable`.
 #[pyfunction]
-#[pyo3(signature = (up, down, range, /))]
+#[pyo3(signature = (up, down, /))]
 #[expect(clippy::needless_pass_by_value, reason = "arrays are handed over so")]
-pub(crate) fn ways(
-    up: (PyReadonlyArray1<'_, f64>, PyReadonlyArray1<'_, f64>),
-    down: (PyReadonlyArray1<'_, f64>, PyReadonlyArray1<'_, f64>),
-    range: f64,
-) -> PyResult<(Bands, Vec<usize>, Vec<usize>)> {
-    let way = Way { x: up.0.as_slice()?, y: up.1.as_slice()? };
-    let back = Way { x: down.0.as_slice()?, y: down.1.as_slice()? };
-    let Comparison { bands, jumps: [up, down] } = compared(way, back, range);
+pub(crate) fn ways(up: PyWay<'_>, down: PyWay<'_>) -> PyResult<(Bands, Vec<usize>, Vec<usize>)> {
+    let way = Way { x: up.0.as_slice()?, y: up.1.as_slice()?, bistable: up.2.as_slice()? };
+    let back = Way { x: down.0.as_slice()?, y: down.1.as_slice()?, bistable: down.2.as_slice()? };
+    let Comparison { bands, jumps: [up, down] } = compared(way, back);
     Ok((bands, up, down))
 }
 

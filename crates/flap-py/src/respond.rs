@@ -75,7 +75,8 @@ pub(crate) fn respond<'py>(
     if let Some(curves) = curves {
         plan = plan.with_points(curves).map_err(|error| PyValueError::new_err(error.to_string()))?;
     }
-    let responses = Responses::of(&plan).ok_or_else(|| PyValueError::new_err("no parameter is followed"))?;
+    let followed = plan.followed().zip(Responses::of(&plan));
+    let (along, responses) = followed.ok_or_else(|| PyValueError::new_err("no parameter is followed"))?;
     let stroke = plan.rows().columns().iter().position(|column| column.name == STROKE);
     let stroke = stroke.ok_or_else(|| PyValueError::new_err("the model measures no stroke"))?;
     let mut columns = Columns::new(Layout::of(&plan).columns());
@@ -85,7 +86,7 @@ pub(crate) fn respond<'py>(
     let ran = py.detach(|| {
         let mut look = |progress: Progress| watch.look(progress.finished, progress.points);
         let mut tell = |curve: &Curve| {
-            verdicts.push(Verdict::new(curve, parameter, stroke).to_string());
+            verdicts.push(Verdict::new(curve, along, parameter, stroke).to_string());
             Ok(())
         };
         responses.run(&options, Summary::default(), &mut columns, &stop, &mut look, &mut tell)

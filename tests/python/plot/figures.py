@@ -72,5 +72,6 @@ def loop():
         "branch": np.array(["up"] * 7 + ["down"] * 7 + ["unstable"] * 3),
         "drive_frequency": x,
         "status": np.array(["periodic"] * 14 + ["unstable"] * 3),
+        "bistable": ((x >= 3) & (x <= 5)) & (np.arange(len(x)) < 14),
         "stroke_pp_deg": np.concatenate([up, down[::-1], [14.0, 8.0, 3.0]]),
     }

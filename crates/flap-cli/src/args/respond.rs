@@ -28,7 +28,7 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE")]
     pub(crate) step: Option<String>,
 
-    /// Largest error of the ends of bistable bands [default: a sixteenth of the shortest step]
+    /// Longest step at the ends of bistable bands and where the response is steep [default: a sixteenth of the shortest step]
     #[arg(long, value_name = "VALUE")]
     pub(crate) tolerance: Option<String>,
 
@@ -59,8 +59,9 @@ pub(crate) struct RespondArgs {
 
 const RESPOND_HELP: &str = "\
 The parameter first rises, then falls. The first point of each way starts at rest, every other one from the settled \
-motion of the point before it. Where the way up and the way down settle to different motions, the design is bistable; \
-the ends of such bands are located by halving steps. One line per design summarizes its response; it goes to stdout, \
+motion of the point before it. Where the way up and the way down settle to different motions, the design is bistable. \
+Steps with an end of such a band in them are halved, and so are steps in which the motion changes by more than a tenth, where a narrow \
+band may be. One line per design summarizes its response; it goes to stdout, \
 with --out - to stderr.
 
 Rows leave in the order of the designs, a whole curve at a time. Ctrl-C and SIGTERM give the running curves half a \

@@ -244,7 +244,7 @@ impl Scope for Names<'_> {
         Some(match name {
             "status" => Meaning::Choice(column, STATUSES.as_slice()),
             "branch" => Meaning::Choice(column, BRANCHES),
-            "stable" => Meaning::Condition(column),
+            "stable" | "bistable" => Meaning::Condition(column),
             _ => Meaning::Number(column),
         })
     }

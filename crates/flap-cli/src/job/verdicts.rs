@@ -2,7 +2,7 @@
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::Point;
-use flap_sweep::plan::Plan;
+use flap_sweep::plan::{Along, Plan};
 use flap_sweep::study::response::{Curve, Verdict};
 
 use crate::table::assignment;
@@ -10,6 +10,7 @@ use crate::table::assignment;
 /// The lines of curves.
 pub(crate) struct Verdicts<'a> {
     plan: &'a Plan,
+    along: &'a Along,
     parameter: &'static Parameter,
     /// Index of the stroke's amplitude among the measures.
     stroke: usize,
@@ -18,15 +19,16 @@ pub(crate) struct Verdicts<'a> {
 impl<'a> Verdicts<'a> {
     /// For a plan that follows a parameter, of a model that measures its stroke; `None` of any other.
     pub(crate) fn of(plan: &'a Plan) -> Option<Verdicts<'a>> {
-        let parameter = plan.followed()?.parameter(plan);
+        let along = plan.followed()?;
+        let parameter = along.parameter(plan);
         let mut columns = plan.rows().columns().iter();
         let stroke = columns.position(|column| column.name == "stroke_amplitude_deg")?;
-        Some(Verdicts { plan, parameter, stroke })
+        Some(Verdicts { plan, along, parameter, stroke })
     }
 
     /// The line of a curve.
     pub(crate) fn line(&self, curve: &Curve) -> String {
-        let verdict = Verdict::new(curve, self.parameter, self.stroke);
+        let verdict = Verdict::new(curve, self.along, self.parameter, self.stroke);
         let design = self.design(&curve.design);
         if design.is_empty() { verdict.to_string() } else { format!("{design}: {verdict}") }
     }

@@ -20,6 +20,9 @@ use crate::failure::Failure;
 /// Most curves of a picture: more cannot be distinguished.
 const MOST_CURVES: usize = 10;
 
+/// The place of the unstable orbits in [`BRANCHES`].
+const UNSTABLE: usize = 2;
+
 /// The branches of one design, in the order of [`BRANCHES`], with places in shown units.
 struct Curve {
     name: String,
@@ -62,7 +65,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
             } else {
                 Look::new(BRANCHES[kind].name, BRANCHES[kind].colour)
             };
-            look.dashed = BRANCHES[kind].name == "unstable";
+            look.dashed = kind == UNSTABLE;
             // The way down often lies on the way up, which must be seen below it.
             look.width = if chosen.columns.by.is_some() { 1.8 } else { [4.0, 1.8, 1.6][kind] };
             jumps.extend(curve.jumps(kind, &look.colour));
@@ -78,7 +81,8 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     }
     let bands = if let [only] = &curves[..] { only.compared.bands.clone() } else { Vec::new() };
     notes.extend(bistable(&bands, &x));
-    if chosen.columns.by.is_some() {
+    let has_unstable = || curves.iter().any(|curve| !curve.branches[UNSTABLE].is_empty());
+    if chosen.columns.by.is_some() && has_unstable() {
         notes.push("dashed: unstable".to_owned());
     }
     let panel = Panel {
@@ -106,21 +110,32 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
 /// The branches of a design, and the difference between its ways up and down.
 fn curve(table: &Table, chosen: &Chosen, line: &Line, factors: (f64, f64)) -> Result<Curve, Failure> {
     let (x, y) = (table.numbers(chosen.columns.x)?, table.numbers(chosen.columns.y)?);
-    let branch = table.find("branch")?;
-    let Cells::Words { codes, words } = &table.columns[branch].cells else {
-        return Err(Failure::usage("column `branch` holds other words than `up`, `down` and `unstable`"));
-    };
-    let branches = BRANCHES.map(|branch| {
-        let code = words.iter().position(|known| known == branch.name);
-        let rows = line.rows.iter().filter(|&&row| Some(codes[row] as usize) == code);
-        rows.map(|&row| (x[row] * factors.0, y[row] * factors.1)).collect::<Vec<_>>()
-    });
-    let heights = scale::range(branches.iter().flatten().map(|point| point.1));
-    let range = heights.map_or(0.0, |(low, high)| high - low);
+    let is_branch = words(table, "branch")?;
+    let is_bistable = words(table, "bistable")?;
+    let mut branches = BRANCHES.map(|_| Vec::new());
+    let mut bistable = BRANCHES.map(|_| Vec::new());
+    for &row in &line.rows {
+        let Some(kind) = BRANCHES.iter().position(|branch| is_branch(row, branch.name)) else { continue };
+        branches[kind].push((x[row] * factors.0, y[row] * factors.1));
+        bistable[kind].push(is_bistable(row, "true"));
+    }
     let [up, down] =
         [0, 1].map(|kind: usize| -> (Vec<f64>, Vec<f64>) { branches[kind].iter().copied().unzip() });
-    let compared = compared(Way { x: &up.0, y: &up.1 }, Way { x: &down.0, y: &down.1 }, range);
+    let compared = compared(
+        Way { x: &up.0, y: &up.1, bistable: &bistable[0] },
+        Way { x: &down.0, y: &down.1, bistable: &bistable[1] },
+    );
     Ok(Curve { name: line.name.clone(), branches, compared })
+}
+
+/// The test whether the cell of a row in column `name` is a word.
+fn words<'t>(table: &'t Table, name: &str) -> Result<impl Fn(usize, &str) -> bool + 't, Failure> {
+    let column = table.find(name)?;
+    let Cells::Words { codes, words } = &table.columns[column].cells else {
+        return Err(Failure::usage(format!("column `{name}` holds numbers, not words"))
+            .help("draw results that `flap respond --out` wrote"));
+    };
+    Ok(move |row: usize, word: &str| words.get(codes[row] as usize).is_some_and(|known| known == word))
 }
 
 impl Curve {

@@ -9,8 +9,8 @@ use crate::data::source::Source;
 use crate::failure::Failure;
 
 /// Columns that some kinds need.
-const NEEDED: [&str; 6] =
-    ["time_s", "stroke_deg", "pitch_deg", "stroke_rate_rad_s", "pitch_rate_rad_s", "branch"];
+const NEEDED: [&str; 7] =
+    ["time_s", "stroke_deg", "pitch_deg", "stroke_rate_rad_s", "pitch_rate_rad_s", "branch", "bistable"];
 
 /// The column of `flap vehicle` with the names of inputs.
 pub(super) const INPUT: &str = "input";

@@ -423,13 +423,12 @@ def usual_measure(role: str, columns: list[str], taken: list[str], /) -> str | N
     """
 
 def ways(
-    up: tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]],
-    down: tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]],
-    range: float,
+    up: tuple[np.ndarray[Any, Any], np.ndarray[Any, Any], np.ndarray[Any, Any]],
+    down: tuple[np.ndarray[Any, Any], np.ndarray[Any, Any], np.ndarray[Any, Any]],
     /,
 ) -> tuple[list[tuple[float, float]], list[int], list[int]]:
     """The bands in which the ways up and down of a response differ, and the rows of each after which it jumps to the other.
-    `up` and `down` are pairs of the parameter and the measure, whose values differ by `range` in all.
+    `up` and `down` have the parameter, the measure, and the column `bistable`.
     """
 
 def bars(

@@ -34,8 +34,8 @@ def respond(
     """Follow the motions of designs as a parameter rises and falls, and find hysteresis.
 
     The first point of each way starts at rest, every other from the settled motion of the point before it. Where the
-    way up and the way down settle to different motions, the design is bistable; the ends of such bands are located by
-    halving steps.
+    way up and the way down settle to different motions, the design is bistable. Steps with an end of such a band in them
+    are halved, and so are steps in which the motion changes by more than a tenth, where a narrow band may be.
 
     Parameters
     ----------
@@ -48,7 +48,8 @@ def respond(
         Its first and last value and the step between them: in SI units, or with a unit. Default: the values of the
         grid's axis.
     tolerance : float or str, optional
-        Largest error of the ends of bistable bands. Default: a sixteenth of the shortest step.
+        Longest step at the ends of bistable bands and where the response is steep. Default: a sixteenth of the shortest
+        step.
     unstable : bool, optional
         Continue the branches around the ends of bistable bands: adds the unstable orbits between them.
     states : bool, optional
@@ -68,8 +69,9 @@ def respond(
     -------
     Table
         A row per motion: `curve` (number of the design), its parameters, `branch` (``"up"``, ``"down"`` or
-        ``"unstable"``), the parameter that is followed, and the columns of a sweep. ``meta["verdicts"]`` has the
-        verdict on each design in one line, ``meta["along"]`` the parameter that was followed.
+        ``"unstable"``), the parameter that is followed, `status`, `bistable` (true where the ways up and down have
+        different motions), and the other columns of a sweep. ``meta["verdicts"]`` has the verdict on each design in one
+        line, ``meta["along"]`` the parameter that was followed.
 
     Raises
     ------
@@ -83,7 +85,7 @@ def respond(
     --------
     >>> curve = flapwing.respond("ozaki2018-large", start=100, stop=120, step=5)
     >>> curve.meta["verdicts"]
-    ['no hysteresis from 100 to 120 Hz (branches agree to 1.1e-9 deg)']
+    ['no hysteresis from 100 to 120 Hz wider than 5 Hz (0.3125 Hz where the motion changes by a tenth; branches agree to 1.1e-9 deg)']
     """
     if not isinstance(along, str):
         raise _mistakes.refused("along", along, 'it must be the name of a parameter, such as "drive_frequency"')

@@ -30,9 +30,12 @@ pub(crate) const STATUS: Fixed = Fixed {
     cell: |_, row| Cell::Text(row.status.name()),
 };
 
+/// The name of the column of curves that is true where the ways up and down have different motions.
+pub(crate) const BISTABLE: &str = "bistable";
+
 /// True if measures cannot be called `name`: rows may have another column of that name.
 pub(crate) fn is_fixed(name: &str) -> bool {
-    [&POINT, &STATUS].into_iter().chain(&RUN).any(|column| column.name == name)
+    name == BISTABLE || [&POINT, &STATUS].into_iter().chain(&RUN).any(|column| column.name == name)
 }
 
 /// The columns on the course of a run, behind the measures.

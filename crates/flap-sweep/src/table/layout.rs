@@ -6,7 +6,7 @@ use flap_core::parameter::Parameter;
 use flap_core::simulate::{NoSlope, Point, Row};
 
 pub use super::column::{Cell, Column, Kind};
-use super::fixed::{CURVE, Fixed, POINT, RUN, STATUS};
+use super::fixed::{BISTABLE, CURVE, Fixed, POINT, RUN, STATUS};
 use crate::notation::expression;
 use crate::plan::Plan;
 use crate::plan::gradient::{self, column_name, meaning};
@@ -15,7 +15,8 @@ use crate::plan::gradient::{self, column_name, meaning};
 /// `point`, the varied parameters, the derived ones, `status`, the measures, then `cycles`, `residual`, `period`,
 /// `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. A plan may choose among those behind `status`.
 ///
-/// Rows of curves begin with `curve` in place of `point`, and have `branch` and the followed parameter before `status`.
+/// Rows of curves begin with `curve` in place of `point`, have `branch` and the followed parameter before `status`, and
+/// `bistable` behind it.
 #[derive(Debug)]
 pub struct Layout {
     /// The varied parameters, then the derived ones, each with its index in the model's parameter table.
@@ -36,8 +37,17 @@ enum Behind {
     State(usize, &'static str),
 }
 
-/// The place of a motion on a curve: its branch, and the value of the parameter that is followed.
-pub type Place = (&'static str, f64);
+/// The place of a motion on a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Its branch.
+    pub branch: &'static str,
+    /// The value of the parameter that is followed.
+    pub value: f64,
+    /// True if the ways up and down have different motions at this value. Unknown if neither is periodic with the drive, and
+    /// for unstable orbits.
+    pub bistable: Option<bool>,
+}
 
 /// A measured column of a result file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -115,8 +125,8 @@ impl Layout {
 
     /// The cells of a motion on a curve of the design `point`, as [`Layout::cells`] gives those of a point.
     pub fn cells_at(&self, point: &Point, place: Option<Place>, row: &Row) -> Vec<Cell<'static>> {
-        // A curve has two columns more than a point: its index, and its status.
-        let mut cells = Vec::with_capacity(4 + self.varied.len() + self.behind.len());
+        // `curve` or `point`, `branch`, the followed parameter, `status`, and `bistable`.
+        let mut cells = Vec::with_capacity(5 + self.varied.len() + self.behind.len());
         cells.extend(self.entries().map(|entry| entry.cell(point, place, row)));
         cells
     }
@@ -131,6 +141,7 @@ impl Layout {
             .chain(self.varied.iter().map(|&(index, parameter)| Entry::Parameter(index, parameter)))
             .chain(followed)
             .chain([Entry::Fixed(&STATUS)])
+            .chain(self.followed.map(|_| Entry::Bistable))
             .chain(self.behind.iter().map(|behind| match behind {
                 Behind::Measure(measure) => Entry::Measure(measure),
                 Behind::Run(fixed) => Entry::Fixed(fixed),
@@ -173,6 +184,12 @@ fn branch() -> Column {
     )
 }
 
+/// The column that tells where a curve is bistable.
+fn bistable() -> Column {
+    let doc = "true if the ways up and down have different motions at this value of the parameter; empty if neither is periodic";
+    Column::new(BISTABLE, "", Kind::Flag, doc)
+}
+
 /// The reasons in a set, as the last measure of a row has it, a bit for each place in [`NoSlope::ALL`]: `edge;zero`.
 fn gap(set: f64) -> &'static str {
     static SETS: LazyLock<Vec<String>> = LazyLock::new(|| {
@@ -193,9 +210,9 @@ pub fn fixed_columns() -> Vec<Column> {
     fixed.map(|fixed| Column::new(fixed.name, "", fixed.kind, fixed.doc)).collect()
 }
 
-/// The columns that rows of every model may have: `branch` of curves, `gradient_gap` of rows with derivatives.
-pub fn special_columns() -> [Column; 2] {
-    [branch(), gradient_gap()]
+/// The columns that rows of every model may have: `branch` and `bistable` of curves, `gradient_gap` of rows with derivatives.
+pub fn special_columns() -> [Column; 3] {
+    [branch(), bistable(), gradient_gap()]
 }
 
 /// A column of a layout.
@@ -207,6 +224,8 @@ enum Entry<'l> {
     Branch,
     /// The parameter that rises and falls along a curve.
     Followed(&'static Parameter),
+    /// True where a curve is bistable.
+    Bistable,
     Measure(&'l Measure),
     /// A component of the state at the beginning of the motion's period, with its place.
     State(usize, &'static str),
@@ -218,6 +237,7 @@ impl Entry<'_> {
             Entry::Fixed(Fixed { name, kind, doc, .. }) => Column::new(name, "", *kind, doc),
             Entry::Parameter(_, parameter) | Entry::Followed(parameter) => Column::of_parameter(parameter),
             Entry::Branch => branch(),
+            Entry::Bistable => bistable(),
             Entry::Measure(measure) => measure.column.clone(),
             Entry::State(_, name) => {
                 let doc = "state at the beginning of a drive period of the motion";
@@ -230,8 +250,9 @@ impl Entry<'_> {
         match self {
             Entry::Fixed(fixed) => (fixed.cell)(point, row),
             Entry::Parameter(index, parameter) => Cell::of_parameter(parameter, point.values[*index]),
-            Entry::Branch => Cell::Text(place.map_or("", |(branch, _)| branch)),
-            Entry::Followed(_) => Cell::Number(place.map_or(f64::NAN, |(_, value)| value)),
+            Entry::Branch => Cell::Text(place.map_or("", |place| place.branch)),
+            Entry::Followed(_) => Cell::Number(place.map_or(f64::NAN, |place| place.value)),
+            Entry::Bistable => Cell::Flag(place.and_then(|place| place.bistable)),
             Entry::State(place, _) => Cell::Number(row.state.get(*place).copied().unwrap_or(f64::NAN)),
             Entry::Measure(measure) => {
                 let value = measure.value(&row.measures);

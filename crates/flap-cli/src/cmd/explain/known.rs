@@ -21,7 +21,7 @@ pub(super) fn entries(models: &[&'static dyn Simulator]) -> Vec<Entry> {
     }
     for column in special_columns() {
         let kind = match column.name.as_str() {
-            "branch" => "a column of response curves (`flap respond --out`)",
+            "branch" | "bistable" => "a column of response curves (`flap respond --out`)",
             _ => "a column of rows with derivatives ([gradient] in a grid file)",
         };
         entries.push(Entry::new(column.name, kind, of_column(&column.doc, "")));

@@ -13,7 +13,7 @@ from .._types import Design
 
 #: Columns of flap's own tables that are neither.
 COURSE = {
-    "point", "curve", "branch", "status", "cycles", "residual", "period", "floquet_max", "stable", "error_estimate",
+    "point", "curve", "branch", "bistable", "status", "cycles", "residual", "period", "floquet_max", "stable", "error_estimate",
     "rhs_evals", "gradient_gap",
 }  # fmt: skip
 

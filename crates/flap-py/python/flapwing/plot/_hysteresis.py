@@ -51,8 +51,8 @@ def hysteresis(
         Several designs, with their parameters; an unknown column or value; no ways.
     """
     data = Data.of(table)
-    if "branch" not in data:
-        raise ValueError("a table of `respond` is needed, with a column `branch`")
+    if "branch" not in data or "bistable" not in data:
+        raise ValueError("a table of `respond` is needed, with the columns `branch` and `bistable`")
     data = data.slice(where, slices)
     if curve is not None:
         data = data.slice({"curve": curve}, {})
@@ -64,12 +64,13 @@ def hysteresis(
     x, shown = data.shown(along), data.shown(y)
     values = np.where(data.measured(), shown.values, np.nan)
     branches = data["branch"].astype(str)
-    ways = {name: _Way(x.values[branches == name], values[branches == name]) for name in ("up", "down", "unstable")}
+    bistable = data.numbers("bistable") == 1.0
+    parts = {name: branches == name for name in ("up", "down", "unstable")}
+    ways = {name: _Way(x.values[rows], values[rows], bistable[rows]) for name, rows in parts.items()}
     up, down = ways["up"], ways["down"]
     if not up.x.size and not down.x.size:
         raise ValueError("the table has neither a way up nor a way down")
-    size = float(np.nanmax(values) - np.nanmin(values)) if np.isfinite(values).any() else 0.0
-    bands, *jumps = _compared((up.x, up.y), (down.x, down.y), size)
+    bands, *jumps = _compared((up.x, up.y, up.bistable), (down.x, down.y, down.bistable))
     up.jumps, down.jumps = jumps
 
     given = ax is not None
@@ -118,8 +119,9 @@ def hysteresis(
 class _Way:
     """A branch in the order in which it was followed."""
 
-    def __init__(self, x: np.ndarray, y: np.ndarray) -> None:
+    def __init__(self, x: np.ndarray, y: np.ndarray, bistable: np.ndarray) -> None:
         self.x, self.y = np.ascontiguousarray(x, float), np.ascontiguousarray(y, float)
+        self.bistable = np.ascontiguousarray(bistable)
         self.jumps: list[int] = []
         """The rows after which this way jumps to the motion of the other."""
 

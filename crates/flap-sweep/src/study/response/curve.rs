@@ -3,8 +3,9 @@
 use flap_core::parameter::Invalid;
 use flap_core::simulate::{Point, Row, Status};
 
+use super::compare::{Comparison, compare, sizes};
 use crate::plan::Along;
-use crate::table::layout::{Cell, Layout};
+use crate::table::layout::{Cell, Layout, Place};
 
 /// A motion on a curve.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,11 +47,26 @@ impl Curve {
     /// The motions with their cells under the columns of `layout`: the way up, by rising value, then the way down, by falling
     /// value, then the unstable orbits.
     pub fn rows(&self, layout: &Layout) -> impl Iterator<Item = (Vec<Cell<'static>>, &Row)> {
-        let up = self.up.iter().map(|step| ("up", step));
-        let down = self.down.iter().rev().map(|step| ("down", step));
-        let unstable = self.unstable.iter().map(|step| ("unstable", step));
-        up.chain(down).chain(unstable).map(|(branch, Step { value, row })| {
-            (layout.cells_at(&self.design, Some((branch, *value)), row), row)
+        let bistable = self.bistable();
+        let up = self.up.iter().zip(bistable.clone()).map(|(step, bistable)| ("up", step, bistable));
+        let down = self.down.iter().zip(bistable).rev().map(|(step, bistable)| ("down", step, bistable));
+        let unstable = self.unstable.iter().map(|step| ("unstable", step, None));
+        up.chain(down).chain(unstable).map(|(branch, Step { value, row }, bistable)| {
+            let place = Place { branch, value: *value, bistable };
+            (layout.cells_at(&self.design, Some(place), row), row)
         })
+    }
+
+    /// For each value, true if the two ways have different motions there; none if neither is periodic with the drive.
+    fn bistable(&self) -> Vec<Option<bool>> {
+        let sizes = sizes(&self.up, &self.down);
+        let pairs = self.up.iter().zip(&self.down);
+        pairs
+            .map(|(up, down)| match compare(&up.row, &down.row, &sizes) {
+                Comparison::Same => Some(false),
+                Comparison::Different => Some(true),
+                Comparison::Irregular => None,
+            })
+            .collect()
     }
 }

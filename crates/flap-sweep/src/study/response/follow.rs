@@ -1,11 +1,12 @@
 //! The way up and the way down a curve.
 //!
-//! Both go step by step at the same time. Where they have come to different motions at one end of a step and to the
-//! same at the other, the step is halved, each half from its neighbour on its own way, until it is short.
+//! Both go step by step at the same time. Two kinds of steps are then halved, each half from its neighbour on its own way,
+//! until they are short: steps where both ways have the same motion at one end only, and steps in which the response is
+//! steep, since a narrow band of hysteresis may be inside.
 
 use flap_core::simulate::{Point, Row, Status};
 
-use super::compare::{Comparison, compare, sizes};
+use super::compare::{Comparison, compare, is_steep, sizes};
 use super::curve::{Curve, Step};
 use crate::plan::{Along, Plan};
 use crate::resonance::study::Study;
@@ -25,20 +26,20 @@ pub(super) struct Follow<'a> {
 enum Stage {
     /// Going up and down.
     Steps,
-    /// Halving steps with an end of a bistable band in them.
-    Edges(Vec<Edge>),
+    /// Halving steps.
+    Halves(Vec<Interval>),
     /// The curve is complete.
     Done,
 }
 
-/// A step at one end of which the two ways have come to the same motion, and at the other not.
+/// A step between neighbouring values.
 #[derive(Clone, Debug)]
-struct Edge {
+struct Interval {
     /// The ends of the step, with the motion of the way up at the lower one, and that of the way down at the upper one.
     low: Step,
     high: Step,
-    /// True if the motions are the same at the lower end.
-    same_below: bool,
+    /// True for each end at which both ways have the same motion.
+    same: [bool; 2],
 }
 
 impl<'a> Follow<'a> {
@@ -72,48 +73,57 @@ impl<'a> Follow<'a> {
         Some([*values.get(done)?, values[values.len() - 1 - done]])
     }
 
-    /// The steps with an end of a bistable band in them.
-    fn edges(&self) -> Vec<Edge> {
+    /// The steps between the values, without those next to motions that are not periodic with the drive.
+    fn intervals(&self) -> Vec<Interval> {
         let sizes = sizes(&self.up, &self.down);
-        let down = || self.down.iter().rev();
-        let compared: Vec<Comparison> =
-            self.up.iter().zip(down()).map(|(up, down)| compare(&up.row, &down.row, &sizes)).collect();
-        let down: Vec<&Step> = down().collect();
-        let edge = |i: usize| {
-            let ends = [compared[i], compared[i + 1]];
-            let same_below = ends == [Comparison::Same, Comparison::Different];
-            let is_edge = same_below || ends == [Comparison::Different, Comparison::Same];
-            is_edge.then(|| Edge { low: self.up[i].clone(), high: down[i + 1].clone(), same_below })
+        let places: Vec<(&Step, &Step, Comparison)> = (self.up.iter().zip(self.down.iter().rev()))
+            .map(|(up, down)| (up, down, compare(&up.row, &down.row, &sizes)))
+            .collect();
+        let pairs = places.windows(2).filter(|ends| ends.iter().all(|end| end.2 != Comparison::Irregular));
+        let interval = |ends: &[(&Step, &Step, Comparison)]| Interval {
+            low: ends[0].0.clone(),
+            high: ends[1].1.clone(),
+            same: [0, 1].map(|end: usize| ends[end].2 == Comparison::Same),
         };
-        (0..compared.len().saturating_sub(1)).filter_map(edge).collect()
+        pairs.map(interval).collect()
     }
 
-    /// The stage for those of `edges` that are not short enough; the last one if there are none.
-    fn halve(&self, edges: Vec<Edge>) -> Stage {
-        let long = |edge: &Edge| {
-            let middle = edge.middle();
-            // No finer than doubles can tell apart.
-            let inside = edge.low.value < middle && middle < edge.high.value;
-            inside && edge.high.value - edge.low.value > self.along.tolerance
-        };
-        let edges: Vec<Edge> = edges.into_iter().filter(long).collect();
-        if edges.is_empty() { Stage::Done } else { Stage::Edges(edges) }
+    /// The stage for those of `intervals` that are to be halved; the last one if there are none.
+    fn halve(&self, mut intervals: Vec<Interval>) -> Stage {
+        let sizes = sizes(&self.up, &self.down);
+        intervals
+            .retain(|interval| interval.is_open(&sizes) && interval.is_longer_than(self.along.tolerance));
+        if intervals.is_empty() { Stage::Done } else { Stage::Halves(intervals) }
     }
 }
 
-impl Edge {
+impl Interval {
     fn middle(&self) -> f64 {
         0.5 * (self.low.value + self.high.value)
     }
 
-    /// The half in which the end of the band is, given the motions in the middle.
-    fn half(self, up: &Step, down: &Step, sizes: &[f64]) -> Edge {
-        let same = compare(&up.row, &down.row, sizes) == Comparison::Same;
-        if same == self.same_below {
-            Edge { low: up.clone(), ..self }
-        } else {
-            Edge { high: down.clone(), ..self }
+    /// True if the step contains an end of a bistable band, or may contain a band.
+    fn is_open(&self, sizes: &[f64]) -> bool {
+        match self.same {
+            [true, true] => is_steep(&self.low.row, &self.high.row, sizes),
+            [below, above] => below != above,
         }
+    }
+
+    fn is_longer_than(&self, tolerance: f64) -> bool {
+        let (low, middle, high) = (self.low.value, self.middle(), self.high.value);
+        // No finer than doubles can tell apart.
+        low < middle && middle < high && high - low > tolerance
+    }
+
+    /// Both halves, given the motions in the middle.
+    fn halves(self, up: &Step, down: &Step, sizes: &[f64]) -> [Interval; 2] {
+        let same = compare(&up.row, &down.row, sizes) == Comparison::Same;
+        let [below, above] = self.same;
+        [
+            Interval { low: self.low, high: down.clone(), same: [below, same] },
+            Interval { low: up.clone(), high: self.high, same: [same, above] },
+        ]
     }
 }
 
@@ -124,12 +134,12 @@ impl Study for Follow<'_> {
                 let Some([up, down]) = self.next_values() else { return Vec::new() };
                 vec![self.probe(up, self.up.last()), self.probe(down, self.down.last())]
             }
-            Stage::Edges(edges) => {
-                let both = |edge: &Edge| {
-                    let middle = edge.middle();
-                    [self.probe(middle, Some(&edge.low)), self.probe(middle, Some(&edge.high))]
+            Stage::Halves(intervals) => {
+                let both = |interval: &Interval| {
+                    let middle = interval.middle();
+                    [self.probe(middle, Some(&interval.low)), self.probe(middle, Some(&interval.high))]
                 };
-                edges.iter().flat_map(both).collect()
+                intervals.iter().flat_map(both).collect()
             }
             Stage::Done => Vec::new(),
         }
@@ -143,16 +153,16 @@ impl Study for Follow<'_> {
                 self.up.extend(rows.next().map(|row| Step { value: up, row }));
                 self.down.extend(rows.next().map(|row| Step { value: down, row }));
                 let last = self.next_values().is_none();
-                self.stage = if last { self.halve(self.edges()) } else { Stage::Steps };
+                self.stage = if last { self.halve(self.intervals()) } else { Stage::Steps };
             }
-            Stage::Edges(edges) => {
+            Stage::Halves(intervals) => {
                 let sizes = sizes(&self.up, &self.down);
                 let mut halves = Vec::new();
-                for edge in edges {
-                    let value = edge.middle();
+                for interval in intervals {
+                    let value = interval.middle();
                     let (Some(up), Some(down)) = (rows.next(), rows.next()) else { return };
                     let [up, down] = [Step { value, row: up }, Step { value, row: down }];
-                    halves.push(edge.half(&up, &down, &sizes));
+                    halves.extend(interval.halves(&up, &down, &sizes));
                     self.up.push(up);
                     self.down.push(down);
                 }

@@ -7,6 +7,7 @@ use flap_core::simulate::{Row, Status};
 
 use super::compare::{Comparison, compare, sizes};
 use super::curve::Curve;
+use crate::plan::Along;
 use crate::table::labels::{self, Scale};
 
 /// The verdict on a curve.
@@ -16,6 +17,10 @@ pub struct Verdict {
     pub range: [f64; 2],
     /// Its unit.
     pub unit: &'static str,
+    /// The longest step between neighbouring values: a band of hysteresis that fits into it may be missed.
+    pub step: f64,
+    /// The longest step in which the response may be steep: the state changes by more than a tenth across it.
+    pub steep_step: f64,
     /// Largest difference of the stroke (deg, peak to peak) between the two ways where they have the same motion.
     pub difference: f64,
     /// The values at which they have not, or at which motions are not periodic with the drive, by rising value.
@@ -51,11 +56,15 @@ pub enum BandKind {
 
 impl Verdict {
     /// The verdict on a curve along `parameter`, given the index of the stroke's amplitude (deg) among the measures.
-    pub fn new(curve: &Curve, parameter: &'static Parameter, stroke: usize) -> Verdict {
+    pub fn new(curve: &Curve, along: &Along, parameter: &'static Parameter, stroke: usize) -> Verdict {
+        let steps = curve.up.windows(2).map(|two| two[1].value - two[0].value);
+        let step = steps.fold(0.0, f64::max);
         let ends = [curve.up.first(), curve.up.last()];
         let mut verdict = Verdict {
             range: ends.map(|end| end.map_or(f64::NAN, |step| step.value)),
             unit: parameter.unit,
+            step,
+            steep_step: along.tolerance.min(step),
             difference: 0.0,
             bands: Vec::new(),
             invalid: curve.invalid().map(str::to_owned),
@@ -128,13 +137,12 @@ impl fmt::Display for Verdict {
             return write!(f, "no response: {reason}");
         }
         if self.bistable().next().is_none() {
-            let Verdict { range, difference, unit, .. } = self;
-            write!(
-                f,
-                "no hysteresis {} (branches agree to {} deg)",
-                span(*range, unit),
-                digits(*difference)
-            )?;
+            let Verdict { range, step, steep_step, difference, unit, .. } = self;
+            write!(f, "no hysteresis {} wider than {} (", span(*range, unit), length(*step, unit))?;
+            if steep_step < step {
+                write!(f, "{} where the motion changes by a tenth; ", length(*steep_step, unit))?;
+            }
+            write!(f, "branches agree to {} deg)", digits(*difference))?;
         }
         for (i, band) in self.bands.iter().enumerate() {
             if i > 0 || self.bistable().next().is_none() {
@@ -171,6 +179,12 @@ fn span([from, to]: [f64; 2], unit: &str) -> String {
     let [from, to] = [from, to].map(|value| six_digits(value * factor));
     let text = if from == to { format!("at {from} {unit}") } else { format!("from {from} to {to} {unit}") };
     text.trim_end().to_owned()
+}
+
+/// `0.5 Hz`.
+fn length(value: f64, unit: &str) -> String {
+    let Scale { factor, unit } = labels::scale(unit, value);
+    format!("{} {unit}", six_digits(value * factor)).trim_end().to_owned()
 }
 
 fn six_digits(value: f64) -> f64 {
