@@ -98,7 +98,7 @@ fn mistakes_are_told() {
             &["sweep.csv", "--kind", "tornado", "--html", "a.html"],
             &["--html cannot show a tornado; use --out FILE.png"],
         ),
-        (&["sweep.csv", "--kind", "hysteresis"], &["needs a column `branch`"]),
+        (&["sweep.csv", "--kind", "hysteresis"], &["needs the columns `branch` and `bistable`"]),
         (&["sweep.csv", "--out", "picture.pdf"], &["pictures end in .svg or .png"]),
         (&["sweep.csv", "--out", "picture.html"], &["--html picture.html writes a page"]),
         (&["sweep.csv", "--size", "10x10"], &["expected WxH"]),

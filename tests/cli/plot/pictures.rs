@@ -127,6 +127,89 @@ fn a_hysteresis_loop() {
         .counts("<path", 1);
 }
 
+/// Of several designs, dashed lines are unstable orbits. Without unstable orbits no line is dashed, and no note says so.
+#[test]
+fn several_loops_without_unstable_orbits_name_none() {
+    let folder = folder();
+    let stable = "curve,drive_voltage_pp,branch,drive_frequency,status,bistable,stroke_amplitude_deg\n\
+                  0,60.0,up,110.0,periodic,false,70\n0,60.0,up,120.0,periodic,true,60\n0,60.0,up,130.0,periodic,false,20\n\
+                  0,60.0,down,130.0,periodic,false,20\n0,60.0,down,120.0,periodic,true,25\n0,60.0,down,110.0,periodic,false,70\n\
+                  1,80.0,up,110.0,periodic,false,75\n1,80.0,up,120.0,periodic,false,65\n\
+                  1,80.0,down,120.0,periodic,false,65\n1,80.0,down,110.0,periodic,false,75\n";
+    let unstable = "1,80.0,unstable,115.0,unstable,,70\n1,80.0,unstable,114.0,unstable,,69\n";
+    fs::write(folder.path("stable.csv"), stable).unwrap();
+    fs::write(folder.path("both.csv"), format!("{stable}{unstable}")).unwrap();
+    let told = |name: &str| drawn(&folder, name).texts().iter().any(|text| text.contains("dashed: unstable"));
+    assert_eq!((told("stable.csv"), told("both.csv")), (false, true));
+}
+
+/// The choices of a parameter that is an option are on the axis, each with its points.
+#[test]
+fn an_axis_of_words() {
+    let folder = Folder::new();
+    let grid = "preset = \"ozaki2018-large\"\n[axes]\ndrive_shape = [\"sine\", \"square\", \"triangle\"]\n";
+    fs::write(folder.path("shapes.toml"), grid).unwrap();
+    folder.ends(0, "sweep shapes.toml --out shapes.csv");
+    drawn(&folder, "shapes.csv")
+        .says("response in out.svg")
+        .has(&["sine", "square", "triangle", "Drive shape"])
+        .counts("<circle", 3)
+        .counts("<path", 0);
+    folder.ends(0, "plot shapes.csv --html shapes.html");
+
+    // With an axis of numbers, words are lines.
+    fs::write(folder.path("lines.toml"), format!("{grid}drive_voltage_pp = [\"60 V\", \"70 V\"]\n")).unwrap();
+    folder.ends(0, "sweep lines.toml --out lines.csv");
+    drawn(&folder, "lines.csv").says("response in out.svg").has(&[
+        "sine",
+        "square",
+        "triangle",
+        "Drive voltage, peak to peak (V)",
+    ]);
+}
+
+/// Curves with frequencies of their own: each fills its stripe, without gaps that nobody left.
+#[test]
+fn a_map_of_refined_responses_has_no_holes() {
+    let folder = Folder::new();
+    let mut text =
+        "curve,drive_voltage_pp,branch,drive_frequency,status,bistable,stroke_amplitude_deg\n".to_owned();
+    let curves: [(f64, &[f64]); 2] =
+        [(60.0, &[110.0, 120.0, 130.0]), (80.0, &[110.0, 120.0, 125.0, 127.5, 130.0])];
+    for (curve, (voltage, frequencies)) in curves.into_iter().enumerate() {
+        for (branch, place) in [("up", 1.0), ("down", 2.0)] {
+            for frequency in frequencies {
+                let stroke =
+                    if *frequency == 127.5 { String::new() } else { (frequency * place).to_string() };
+                let _ = writeln!(text, "{curve},{voltage:?},{branch},{frequency:?},periodic,false,{stroke}");
+            }
+        }
+    }
+    fs::write(folder.path("curves.csv"), text).unwrap();
+    for axes in ["", "--x drive_voltage_pp --y drive_frequency"] {
+        drawn(&folder, &format!("curves.csv --kind map --color stroke_amplitude_deg {axes}"))
+            .says("drawn: branch = up")
+            .has(&["Drive frequency (Hz)", "Drive voltage, peak to peak (V)"])
+            .has(&["Branch up · 1 of 8 cells without a value"])
+            // The cell without a value, and the one of the legend.
+            .counts("fill=\"#c9c9c9\"", 2)
+            // The cells of both curves, 64 slices of the colour bar, the sign for missing cells, background, clip and frame.
+            .counts("<rect", 8 + 64 + 1 + 3);
+    }
+    drawn(&folder, "curves.csv --kind map --color stroke_amplitude_deg --where branch=down");
+}
+
+/// At small sizes the label of a colour bar is shorter than the picture.
+#[test]
+fn a_colour_bar_fits_a_small_picture() {
+    let folder = folder();
+    let picture = drawn(&folder, "sweep.csv --color stroke_amplitude_deg --size 260x200");
+    let label = picture.texts().into_iter().find(|text| text.starts_with("Stroke")).unwrap();
+    assert!(label.ends_with('…'), "{label}");
+    let large = drawn(&folder, "sweep.csv --color stroke_amplitude_deg --size 900x600");
+    large.has(&["Stroke, amplitude (°)"]);
+}
+
 #[test]
 fn a_motion_and_its_phase_portrait() {
     let folder = folder();

@@ -14,6 +14,9 @@ pub(crate) struct Axes {
     /// Those of `columns` that stand for a sample.
     #[cfg(feature = "plots")]
     pub(crate) sample: Vec<usize>,
+    /// Those of `columns` that hold words.
+    #[cfg(feature = "plots")]
+    pub(crate) words: Vec<usize>,
     /// All parameters of a sample: each of its columns tells the rows apart, so that the others follow from the first.
     pub(crate) members: Vec<usize>,
 }
@@ -39,6 +42,10 @@ impl Axes {
         let sampled = !sample.is_empty() && (kept.len() > 1 || !others.is_empty());
         let members = if sampled { members(table, &sample, &kept, &others) } else { Vec::new() };
         Axes {
+            #[cfg(feature = "plots")]
+            words: (kept.iter().map(|(column, _)| *column))
+                .filter(|&column| matches!(table.columns[column].cells, Cells::Words { .. }))
+                .collect(),
             members,
             columns: kept.into_iter().map(|(column, _)| column).collect(),
             sampled,

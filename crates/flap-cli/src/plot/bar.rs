@@ -7,9 +7,21 @@ use kuva::render::render::{Primitive, Scene, TextAnchor};
 use flap_sweep::picture::colours::MISSING;
 
 use super::ink::{rectangle, text};
-use super::panel::{Axis, BAR_MARGIN};
+use super::panel::{Axis, BAR_MARGIN, LETTER};
 use super::scale;
 use super::shades::Shades;
+
+/// A label and the size of its letters, with which it fits into a length: smaller than usual, and cut if even that is too long.
+fn fitting(label: &str, length: f64) -> (String, u32) {
+    const SIZES: [u32; 5] = [14, 13, 12, 11, 10];
+    let fits = |letters: usize, size: u32| letters as f64 * f64::from(size) * LETTER <= length;
+    let letters = label.chars().count();
+    if let Some(size) = SIZES.into_iter().find(|&size| fits(letters, size)) {
+        return (label.to_owned(), size);
+    }
+    let kept = (1..letters).rev().find(|&kept| fits(kept + 1, SIZES[4])).unwrap_or(1);
+    (label.chars().take(kept).chain(['…']).collect(), SIZES[4])
+}
 
 /// Draws the colours from the smallest to the largest value on the right, and below them the label of `missing` values.
 pub(super) fn colour_bar(scene: &mut Scene, frame: &ComputedLayout, axis: &Axis, missing: Option<&str>) {
@@ -52,12 +64,13 @@ pub(super) fn colour_bar(scene: &mut Scene, frame: &ComputedLayout, axis: &Axis,
         widest = widest.max(tick.chars().count());
         text(scene, (left + 23.0, y + 4.2), &tick, 12, TextAnchor::Start);
     }
-    let beside = left + 23.0 + widest as f64 * 8.0 + 18.0;
+    let (label, size) = fitting(&axis.label, frame.plot_height());
+    let beside = left + 23.0 + widest as f64 * 12.0 * LETTER + 0.9 * f64::from(size);
     scene.add(Primitive::Text {
-        x: beside.min(frame.width - 8.0),
-        y: top + height / 2.0,
-        content: axis.label.clone(),
-        size: 14,
+        x: beside.min(frame.width - 4.0),
+        y: top + frame.plot_height() / 2.0,
+        content: label,
+        size,
         anchor: TextAnchor::Middle,
         rotate: Some(-90.0),
         bold: false,
@@ -67,5 +80,22 @@ pub(super) fn colour_bar(scene: &mut Scene, frame: &ComputedLayout, axis: &Axis,
         let y = top + height + 16.0;
         rectangle(scene, (left, y), (16.0, 16.0), MISSING);
         text(scene, (left + 21.0, y + 12.5), missing, 12, TextAnchor::Start);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_fit_beside_the_bar() {
+        let label = "Stroke, peak to peak (°)";
+        assert_eq!(fitting(label, 300.0), (label.to_owned(), 14));
+        assert_eq!(fitting(label, 150.0), (label.to_owned(), 11));
+        assert_eq!(fitting(label, 60.0), ("Stroke, p…".to_owned(), 10));
+        for length in [20.0, 60.0, 100.0, 140.0, 200.0] {
+            let (text, size) = fitting(label, length);
+            assert!(text.chars().count() as f64 * f64::from(size) * LETTER <= length, "{length}: {text}");
+        }
     }
 }

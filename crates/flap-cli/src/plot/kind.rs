@@ -38,8 +38,9 @@ fn suitable(wishes: &Wishes, axes: &Axes) -> Result<PictureKind, Failure> {
         return Err(Failure::usage(message).help("name columns with --x and --y").help(wishes.listed()));
     }
     let frequency = wishes.place("drive_frequency").is_some_and(|column| axes.columns.contains(&column));
-    let lines = wishes.by.is_some() || axes.columns.len() < 2 || frequency;
-    let colours = wishes.color.is_some() && axes.columns.len() > 1;
+    let numbers = axes.columns.len() - axes.words.len();
+    let lines = wishes.by.is_some() || numbers < 2 || frequency;
+    let colours = wishes.color.is_some() && numbers > 1;
     Ok(if lines && !colours { PictureKind::Response } else { PictureKind::Map })
 }
 

@@ -20,11 +20,18 @@ use crate::failure::Failure;
 /// Most cells of a picture: more would exceed its pixels.
 const MOST_CELLS: usize = 500_000;
 
-/// Values over a grid; those of a row of cells lie together, the lowest first.
+/// A coloured cell: its sides, in shown units, and its value.
+struct Cell {
+    x: [f64; 2],
+    y: [f64; 2],
+    value: f64,
+}
+
+/// Cells with their axes.
 struct Grid {
-    x: Vec<f64>,
-    y: Vec<f64>,
-    values: Vec<f64>,
+    cells: Vec<Cell>,
+    x: Axis,
+    y: Axis,
 }
 
 /// Draws column `color` over the columns `x` and `y`.
@@ -32,70 +39,133 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let Columns { x, y, color: Some(color), .. } = chosen.columns else {
         return Err(Failure::Bug("a map without a colour".to_owned()));
     };
-    let grid = grid(table, chosen, color)?;
-    let labels = [table.label(x), table.label(y), table.label(color)];
-    let axis = |values: &[f64], label: &super::label::Label| {
-        let log = scale::is_log(values);
-        let scaled: Vec<f64> = values.iter().map(|value| value * label.factor).collect();
-        let edges = edges(&scaled, log);
-        let range = (edges[0], edges[edges.len() - 1]);
-        (edges, Axis { label: label.text(), range, log })
+    let branch = table.columns.iter().position(|column| column.name == "branch");
+    let grid = match branch.map(|branch| branch + 1) {
+        Some(followed) if followed == x => curves(table, chosen, [x, y], color)?,
+        Some(followed) if followed == y => curves(table, chosen, [y, x], color)?.turned(),
+        _ => grid(table, chosen, color)?,
     };
-    let (x_edges, x) = axis(&grid.x, &labels[0]);
-    let (y_edges, y) = axis(&grid.y, &labels[1]);
-    let values: Vec<f64> = grid.values.iter().map(|value| value * labels[2].factor).collect();
-    let Some(range) = scale::range(values.iter().copied()) else {
+    let label = table.label(color);
+    let Some(range) = scale::range(grid.cells.iter().map(|cell| cell.value)) else {
         return Err(chosen.nothing(table, color));
     };
-    let bar = Axis::linear(labels[2].text(), scale::padded(range, 0.0));
-    let missing = values.iter().filter(|value| !value.is_finite()).count();
+    let bar = Axis::linear(label.text(), scale::padded(range, 0.0));
+    let missing = grid.cells.iter().filter(|cell| !cell.value.is_finite()).count();
 
     let mut notes = chosen.notes.clone();
     if missing > 0 {
-        notes.push(format!("{missing} of {} cells without a value", values.len()));
+        notes.push(format!("{missing} of {} cells without a value", grid.cells.len()));
     }
+    let Grid { cells, x, y } = grid;
     let panel =
         Panel { title: chosen.title.clone(), notes, x, y, plots: Vec::new(), legend: None, bar: true };
     let frame = ComputedLayout::from_layout(&panel.layout(size));
+    let ends = (panel.x.range.1, panel.y.range.0);
     let mut scene = panel.scene(size);
-    scene.add(cells((&x_edges, &y_edges), &values, &frame, &Shades::of(bar.range)));
+    scene.add(drawn(&cells, ends, &frame, &Shades::of(bar.range)));
     ink::frame_lines(&mut scene, &frame);
     bar::colour_bar(&mut scene, &frame, &bar, (missing > 0).then_some("no value"));
     Ok(scene)
 }
 
+impl Grid {
+    /// The same with the axes exchanged.
+    fn turned(self) -> Grid {
+        let cells = self.cells.into_iter().map(|cell| Cell { x: cell.y, y: cell.x, ..cell });
+        Grid { cells: cells.collect(), x: self.y, y: self.x }
+    }
+}
+
+/// Cells of a grid, in which every value of `x` meets every value of `y`.
 fn grid(table: &Table, chosen: &Chosen, color: usize) -> Result<Grid, Failure> {
-    let names = [chosen.columns.x, chosen.columns.y].map(|column| table.columns[column].name.as_str());
-    let levels = [chosen.columns.x, chosen.columns.y].map(|column| Levels::of(table, column, &chosen.rows));
-    // Words have no place on an axis.
-    table.numbers(chosen.columns.x)?;
-    table.numbers(chosen.columns.y)?;
+    let [across, up] = [chosen.columns.x, chosen.columns.y].map(|column| side(table, chosen, column));
+    let (across, up) = (across?, up?);
     let colours = table.numbers(color)?;
-    let [across, up] = &levels;
-    let cells = across.len() * up.len();
-    if cells > MOST_CELLS {
-        let message =
-            format!("a map of {} times {} cells is too large for a picture", across.len(), up.len());
-        return Err(Failure::usage(message).help(
-            "draw a sample with --kind scatter, choose one value of an axis with --where, or write a page with --html",
-        ));
-    }
-    let mut values = vec![f64::NAN; cells];
-    let mut taken = vec![false; cells];
+    let columns = across.edges.len() - 1;
+    let count = columns * (up.edges.len() - 1);
+    check_count(count, &format!("{columns} times {}", up.edges.len() - 1))?;
+    let factor = table.label(color).factor;
+    let mut values: Vec<Option<f64>> = vec![None; count];
     for (place, &row) in chosen.rows.iter().enumerate() {
-        let cell = up.codes[place] * across.len() + across.codes[place];
-        if taken[cell] {
-            let message = format!("several rows have the same {} and {}", names[0], names[1]);
-            return Err(Failure::usage(message).help("choose one value of each other parameter with --where"));
+        let cell = &mut values[up.codes[place] * columns + across.codes[place]];
+        if cell.is_some() {
+            return Err(several(table, chosen));
         }
-        taken[cell] = true;
-        values[cell] = colours[row];
+        *cell = Some(colours[row] * factor);
     }
-    let numbers = |levels: &Levels| match &levels.values {
-        Values::Numbers(values) => values.clone(),
-        Values::Words(_) => Vec::new(),
+    let cell = |(place, value): (usize, Option<f64>)| Cell {
+        x: [0, 1].map(|end| across.edges[place % columns + end]),
+        y: [0, 1].map(|end| up.edges[place / columns + end]),
+        value: value.unwrap_or(f64::NAN),
     };
-    Ok(Grid { x: numbers(across), y: numbers(up), values })
+    Ok(Grid { cells: values.into_iter().enumerate().map(cell).collect(), x: across.axis, y: up.axis })
+}
+
+/// Cells of curves along the first of `columns`, one for each value of the second. Each curve has values of its own, and its
+/// cells end halfway between them.
+fn curves(table: &Table, chosen: &Chosen, columns: [usize; 2], color: usize) -> Result<Grid, Failure> {
+    let [along, across] = columns;
+    let side = side(table, chosen, across)?;
+    let (places, colours) = (table.numbers(along)?, table.numbers(color)?);
+    let (label, factor) = (table.label(along), table.label(color).factor);
+    check_count(chosen.rows.len(), &chosen.rows.len().to_string())?;
+    let mut cells = Vec::new();
+    for code in 0..side.edges.len() - 1 {
+        let of_curve = chosen.rows.iter().zip(&side.codes).filter(|(_, other)| **other == code);
+        let mut curve: Vec<(f64, f64)> =
+            of_curve.map(|(&row, _)| (places[row] * label.factor, colours[row] * factor)).collect();
+        curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if curve.windows(2).any(|two| two[0].0 == two[1].0) {
+            return Err(several(table, chosen));
+        }
+        let places: Vec<f64> = curve.iter().map(|(place, _)| *place).collect();
+        let edges = edges(&places, false);
+        let sides = edges.windows(2).zip(&curve);
+        cells.extend(sides.map(|(sides, &(_, value))| Cell {
+            x: [sides[0], sides[1]],
+            y: [side.edges[code], side.edges[code + 1]],
+            value,
+        }));
+    }
+    let range = scale::range(cells.iter().flat_map(|cell| cell.x)).unwrap_or((0.0, 1.0));
+    Ok(Grid { cells, x: Axis::linear(label.text(), range), y: side.axis })
+}
+
+/// The ends of the cells along an axis, and the cell of each row.
+struct Side {
+    edges: Vec<f64>,
+    codes: Vec<usize>,
+    axis: Axis,
+}
+
+fn side(table: &Table, chosen: &Chosen, column: usize) -> Result<Side, Failure> {
+    // Words have no place on an axis.
+    table.numbers(column)?;
+    let Levels { codes, values: Values::Numbers(values) } = Levels::of(table, column, &chosen.rows) else {
+        return Err(Failure::Bug("numbers without values".to_owned()));
+    };
+    let label = table.label(column);
+    let log = scale::is_log(&values);
+    let scaled: Vec<f64> = values.iter().map(|value| value * label.factor).collect();
+    let edges = edges(&scaled, log);
+    let axis = Axis { log, ..Axis::linear(label.text(), (edges[0], edges[edges.len() - 1])) };
+    Ok(Side { edges, codes, axis })
+}
+
+fn check_count(count: usize, shown: &str) -> Result<(), Failure> {
+    if count <= MOST_CELLS {
+        return Ok(());
+    }
+    let message = format!("a map of {shown} cells is too large for a picture");
+    Err(Failure::usage(message).help(
+        "draw a sample with --kind scatter, choose one value of an axis with --where, or write a page with --html",
+    ))
+}
+
+fn several(table: &Table, chosen: &Chosen) -> Failure {
+    let [x, y] = [chosen.columns.x, chosen.columns.y].map(|column| table.columns[column].name.as_str());
+    let message = format!("several rows have the same {x} and {y}");
+    Failure::usage(message).help("choose one value of each other parameter with --where")
 }
 
 /// The ends of the cells: halfway between their values, and as far outside the first and the last.
@@ -113,25 +183,22 @@ fn edges(values: &[f64], log: bool) -> Vec<f64> {
     std::iter::once(ends.0).chain(between).chain([ends.1]).map(from).collect()
 }
 
-fn cells(edges: (&[f64], &[f64]), values: &[f64], frame: &ComputedLayout, shades: &Shades) -> Primitive {
-    let columns: Vec<f64> = edges.0.iter().map(|&edge| frame.map_x(edge)).collect();
-    let rows: Vec<f64> = edges.1.iter().map(|&edge| frame.map_y(edge)).collect();
+/// The cells as rectangles. Neighbours overlap a little, so that no background shines through between them; `ends` are the
+/// right and the lower end of the axes, over which no cell goes.
+fn drawn(cells: &[Cell], ends: (f64, f64), frame: &ComputedLayout, shades: &Shades) -> Primitive {
     let (mut x, mut y, mut w, mut h, mut fills) = (vec![], vec![], vec![], vec![], vec![]);
-    for (row, ends) in rows.windows(2).enumerate() {
-        for (column, sides) in columns.windows(2).enumerate() {
-            let value = values[row * (columns.len() - 1) + column];
-            let last = (column + 2 == columns.len(), row == 0);
-            // Neighbours overlap a little, so that no background shines through between them.
-            x.push(sides[0]);
-            y.push(ends[1]);
-            w.push(sides[1] - sides[0] + if last.0 { 0.0 } else { 0.4 });
-            h.push(ends[0] - ends[1] + if last.1 { 0.0 } else { 0.4 });
-            fills.push(if value.is_finite() {
-                Color::from(shades.colour(value))
-            } else {
-                Color::from(colours::MISSING)
-            });
-        }
+    for cell in cells {
+        let (left, right) = (frame.map_x(cell.x[0]), frame.map_x(cell.x[1]));
+        let (bottom, top) = (frame.map_y(cell.y[0]), frame.map_y(cell.y[1]));
+        x.push(left);
+        y.push(top);
+        w.push(right - left + if cell.x[1] >= ends.0 { 0.0 } else { 0.4 });
+        h.push(bottom - top + if cell.y[0] <= ends.1 { 0.0 } else { 0.4 });
+        fills.push(if cell.value.is_finite() {
+            Color::from(shades.colour(cell.value))
+        } else {
+            Color::from(colours::MISSING)
+        });
     }
     Primitive::RectBatch { x, y, w, h, fills }
 }

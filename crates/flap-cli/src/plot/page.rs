@@ -43,7 +43,12 @@ fn start(wishes: &Wishes, table: &Table, axes: &Axes, args: &PlotArgs) -> Result
             Ok((table.columns[table.find(&name)?].name.clone(), filter(table, &name, &text)?))
         })
         .collect::<Result<BTreeMap<_, _>, Failure>>()?;
-    let columns = match choose::columns(wishes, axes) {
+    let drawn = choose::columns(wishes, axes).and_then(|columns| {
+        table.numbers(columns.x)?;
+        table.numbers(columns.y)?;
+        Ok(columns)
+    });
+    let columns = match drawn {
         Ok(columns) => columns,
         // A page can always show something; what was asked for must be possible.
         Err(failure) if args.kind.is_some() => return Err(failure),
@@ -54,6 +59,8 @@ fn start(wishes: &Wishes, table: &Table, axes: &Axes, args: &PlotArgs) -> Result
             let (Some(x), Some(y)) = (x, y) else {
                 return Err(Failure::usage("no column of the file holds numbers"));
             };
+            table.numbers(x)?;
+            table.numbers(y)?;
             let (kind, best) = (Kind::Scatter, String::new());
             return Ok(Start { kind, x, y, by: None, color: None, best, filters });
         }

@@ -17,6 +17,8 @@ pub(super) struct Axis {
     pub(super) label: String,
     pub(super) range: (f64, f64),
     pub(super) log: bool,
+    /// The words at 0, 1, 2, …; empty for an axis of numbers.
+    pub(super) words: Vec<String>,
 }
 
 /// A pair of axes with its plots.
@@ -50,7 +52,19 @@ fn letters(width: f64, size: f64) -> usize {
 impl Axis {
     /// A linear axis.
     pub(super) fn linear(label: String, range: (f64, f64)) -> Axis {
-        Axis { label, range, log: false }
+        Axis { label, range, log: false, words: Vec::new() }
+    }
+
+    /// An axis of words, at 0, 1, 2, ….
+    pub(super) fn of_words(label: String, words: Vec<String>) -> Axis {
+        let range = (-0.5, words.len() as f64 - 0.5);
+        Axis { words, ..Axis::linear(label, range) }
+    }
+
+    /// The word at a place; empty between two.
+    fn word(words: &[String], value: f64) -> String {
+        let at = |place: &usize| (*place as f64 - value).abs() < 1e-6;
+        (0..words.len()).find(at).map_or_else(String::new, |place| words[place].clone())
     }
 }
 
@@ -131,6 +145,15 @@ fn with_ticks(layout: Layout, axis: &Axis, across: bool, size: Size) -> Layout {
             layout.with_log_x().with_x_tick_format(format)
         } else {
             layout.with_log_y().with_y_tick_format(format)
+        };
+    }
+    if !axis.words.is_empty() {
+        let words: Vec<String> = axis.words.iter().map(|word| plain(word)).collect();
+        let format = TickFormat::Custom(Arc::new(move |value| Axis::word(&words, value)));
+        return if across {
+            layout.with_x_tick_step(1.0).with_x_tick_format(format)
+        } else {
+            layout.with_y_tick_step(1.0).with_y_tick_format(format)
         };
     }
     let range = axis.range;

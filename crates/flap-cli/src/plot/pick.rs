@@ -48,7 +48,9 @@ fn refuse_sample(wishes: &Wishes, axes: &Axes, columns: &[usize], form: &str) ->
 fn response(wishes: &Wishes, axes: &Axes) -> Result<Columns, Failure> {
     let taken = [wishes.y, wishes.by];
     let free = || axes.columns.iter().copied().filter(|column| !taken.contains(&Some(*column)));
-    let x = wishes.x.or_else(|| frequency(wishes, axes)).or_else(|| free().next_back());
+    // Words are names of lines; they are across only if nothing else varies.
+    let number = || free().rfind(|column| !axes.words.contains(column));
+    let x = wishes.x.or_else(|| frequency(wishes, axes)).or_else(number).or_else(|| free().next_back());
     let why = no_values(axes);
     let x = x.ok_or_else(|| wishes.unclear("x", why))?;
     let y = wishes.y.or(wishes.response);
@@ -61,16 +63,19 @@ fn response(wishes: &Wishes, axes: &Axes) -> Result<Columns, Failure> {
 fn map(wishes: &Wishes, axes: &Axes) -> Result<Columns, Failure> {
     let free = |other: Option<usize>| {
         let taken = [other, wishes.color];
-        axes.columns.iter().copied().filter(move |column| !taken.contains(&Some(*column)))
+        // Words have no cells.
+        let is_free = move |column: &usize| !taken.contains(&Some(*column)) && !axes.words.contains(column);
+        axes.columns.iter().copied().filter(is_free)
     };
     let x = wishes
         .x
+        .or_else(|| followed(wishes).filter(|&followed| wishes.y != Some(followed)))
         .or_else(|| frequency(wishes, axes).filter(|&f| wishes.y != Some(f)))
         .or_else(|| free(wishes.y).next_back());
     let x = x.ok_or_else(|| wishes.unclear("x", no_values(axes)))?;
     let y = wishes.y.or_else(|| free(Some(x)).next());
     refuse_sample(wishes, axes, &[Some(x), y].into_iter().flatten().collect::<Vec<_>>(), "cells")?;
-    let y = y.ok_or_else(|| wishes.unclear("y", "a map needs two parameters that vary"))?;
+    let y = y.ok_or_else(|| wishes.unclear("y", "a map needs two parameters with several numbers"))?;
     let color = wishes.color.or(wishes.three[0]);
     let color = color.ok_or_else(|| wishes.unclear("color", NO_MEASURES))?;
     Ok(Columns { color: Some(color), ..Columns::plain(PictureKind::Map, x, y) })
@@ -122,8 +127,8 @@ fn matrix(wishes: &Wishes) -> Result<Columns, Failure> {
 }
 
 fn hysteresis(wishes: &Wishes, axes: &Axes) -> Result<Columns, Failure> {
-    let Some(branch) = wishes.branch() else {
-        let message = "a picture of hysteresis needs a column `branch`, as `flap respond --out` writes it";
+    let (Some(branch), Some(_)) = (wishes.branch(), wishes.place("bistable")) else {
+        let message = "a picture of hysteresis needs the columns `branch` and `bistable`, as `flap respond --out` writes them";
         return Err(Failure::usage(message).help(wishes.listed()));
     };
     let x = wishes.x.unwrap_or(branch + 1);
@@ -131,6 +136,11 @@ fn hysteresis(wishes: &Wishes, axes: &Axes) -> Result<Columns, Failure> {
     let y = y.ok_or_else(|| wishes.unclear("y", NO_MEASURES))?;
     let by = wishes.by.or_else(|| axes.columns.first().copied());
     Ok(Columns { by, ..Columns::plain(PictureKind::Hysteresis, x, y) })
+}
+
+/// The column of the parameter that a response follows.
+fn followed(wishes: &Wishes) -> Option<usize> {
+    wishes.branch().map(|branch| branch + 1)
 }
 
 fn frequency(wishes: &Wishes, axes: &Axes) -> Option<usize> {

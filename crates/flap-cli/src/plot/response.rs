@@ -1,5 +1,7 @@
 //! A measure over a parameter: one line for each value of another.
 
+use std::borrow::Cow;
+
 use kuva::render::render::Scene;
 
 use super::chosen::Chosen;
@@ -8,7 +10,7 @@ use super::panel::{Axis, Panel};
 use super::scale;
 use crate::args::Size;
 use crate::console;
-use crate::data::columns::Table;
+use crate::data::columns::{Cells, NO_WORD, Table};
 use crate::data::levels::{Levels, Values};
 use crate::failure::Failure;
 
@@ -18,9 +20,13 @@ const MOST_LINES: usize = 16;
 /// Most points of a line.
 const MOST_POINTS: usize = 4000;
 
+/// The radius of points over words.
+const WORD_SIZE: f64 = 4.0;
+
 /// Draws column `y` over column `x`.
 pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    let (across, up) = (table.numbers(chosen.columns.x)?, table.numbers(chosen.columns.y)?);
+    let (across, words) = places(table, chosen.columns.x)?;
+    let up = table.numbers(chosen.columns.y)?;
     let (x, y) = (table.label(chosen.columns.x), table.label(chosen.columns.y));
     let family = family(table, chosen)?;
     let shown = scale::even(family.len(), MOST_LINES);
@@ -45,8 +51,15 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         }
         missing += points.iter().filter(|point| !point.1.is_finite()).count();
         rows += points.len();
+        let colour = ink::line_colour(place, shown.len(), ordered(table, chosen));
+        if !words.is_empty() {
+            // Words have no order that a line could follow.
+            plots.push(ink::points(&points, name, &colour, WORD_SIZE));
+            drawn.extend(points);
+            continue;
+        }
         let points = if points.len() > MOST_POINTS { scale::thinned(&points, MOST_POINTS) } else { points };
-        let mut look = Look::new(name.clone(), ink::line_colour(place, shown.len(), ordered(table, chosen)));
+        let mut look = Look::new(name.clone(), colour);
         look.marks = points.len() <= 40 && shown.len() <= 8;
         plots.extend(ink::line(&points, &look));
         drawn.extend(points);
@@ -72,13 +85,26 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let panel = Panel {
         title: chosen.title.clone(),
         notes,
-        x: Axis { label: x.text(), range, log },
+        x: if words.is_empty() {
+            Axis { log, ..Axis::linear(x.text(), range) }
+        } else {
+            Axis::of_words(x.text(), words)
+        },
         y: Axis::linear(y.text(), scale::from_zero(heights)),
         plots,
         legend: chosen.columns.by.map(|by| table.label(by).text()),
         bar: false,
     };
     Ok(panel.scene(size))
+}
+
+/// The places of the rows along column `x`, and for a column of words the words at 0, 1, 2, ….
+fn places(table: &Table, x: usize) -> Result<(Cow<'_, [f64]>, Vec<String>), Failure> {
+    let Cells::Words { codes, words } = &table.columns[x].cells else {
+        return Ok((Cow::Borrowed(table.numbers(x)?), Vec::new()));
+    };
+    let place = |&code: &u32| if code == NO_WORD { f64::NAN } else { f64::from(code) };
+    Ok((codes.iter().map(place).collect(), words.clone()))
 }
 
 /// The rows of one line.
