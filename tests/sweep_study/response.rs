@@ -106,11 +106,11 @@ const NARROW: [(u32, [f64; 2]); 3] =
 
 #[test]
 fn narrow_bands_between_two_steps_are_found() {
-    let plan = bimorph(true, &NARROW.map(|(volts, _)| volts));
     for step in [0.5, 1.0] {
+        let plan = bimorph(true, &NARROW.map(|(volts, _)| volts));
         let parameter = parameter(&plan, "drive_frequency");
         let steps = Some([110.0, 130.0, step]);
-        let (plan, along) = Along::new(plan.clone(), parameter, steps, None, false).unwrap();
+        let (plan, along) = Along::new(plan, parameter, steps, None, false).unwrap();
         let plan = plan.following(along.clone());
         for (curve, (volts, [from, to])) in follow(&plan, 2).iter().zip(NARROW) {
             let verdict = verdict(&plan, &along, curve);
@@ -128,14 +128,8 @@ fn narrow_bands_between_two_steps_are_found() {
 #[test]
 fn a_response_without_hysteresis_tells_its_resolution() {
     let plan = bimorph(true, &[80]);
-    let along = Along::new(
-        plan,
-        parameter(&bimorph(true, &[80]), "drive_frequency"),
-        Some([110.0, 130.0, 0.5]),
-        None,
-        false,
-    );
-    let (plan, along) = along.unwrap();
+    let parameter = parameter(&plan, "drive_frequency");
+    let (plan, along) = Along::new(plan, parameter, Some([110.0, 130.0, 0.5]), None, false).unwrap();
     let plan = plan.following(along.clone());
     let curve = &follow(&plan, 1)[0];
     let found = verdict(&plan, &along, curve);
@@ -160,14 +154,8 @@ fn a_response_without_hysteresis_tells_its_resolution() {
 #[test]
 fn slow_motions_are_no_hysteresis() {
     let plan = bimorph(true, &[80]);
-    let along = Along::new(
-        plan.clone(),
-        parameter(&plan, "drive_frequency"),
-        Some([117.4, 117.7, 0.02]),
-        None,
-        false,
-    );
-    let (plan, along) = along.unwrap();
+    let parameter = parameter(&plan, "drive_frequency");
+    let (plan, along) = Along::new(plan, parameter, Some([117.4, 117.7, 0.02]), None, false).unwrap();
     let plan = plan.following(along.clone());
     let curve = &follow(&plan, 1)[0];
     let unsettled = curve.up.iter().chain(&curve.down).filter(|step| step.row.status == Status::Unsettled);

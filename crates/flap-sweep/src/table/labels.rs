@@ -57,10 +57,8 @@ pub fn unit_of(column: &str, models: &[&'static dyn Simulator]) -> Cow<'static, 
         let is_known = per == gradient::Per::Cent || of_model(by).is_some();
         is_known.then(|| gradient::unit(&unit_of(of, models), of_model(by).unwrap_or_default(), per))
     });
-    derivative.map_or_else(
-        || of_model(column).unwrap_or_else(|| layout::split_unit(column).1).into(),
-        Cow::from,
-    )
+    derivative
+        .map_or_else(|| of_model(column).unwrap_or_else(|| layout::split_unit(column).1).into(), Cow::from)
 }
 
 /// The unit of the parameter or measure with this name in one of the models.
@@ -293,7 +291,7 @@ mod tests {
 
     #[test]
     fn units_are_those_of_models_and_of_endings() {
-        let models = simulate::all();
+        let models = flap_core::simulate::all();
         assert_eq!(unit_of("hinge_stiffness", models), "N*m/rad");
         assert_eq!(unit_of("lift_mean_mn", models), "mN");
         assert_eq!(unit_of("my_own_ms", models), "ms");
