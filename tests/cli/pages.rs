@@ -213,7 +213,7 @@ fn the_page_on_results_works() {
 #[cfg(feature = "plots")]
 fn the_page_on_plots_works() {
     let page = Page::open("docs/plots.md");
-    page.runs(18);
+    page.runs(20);
     let pictures: Vec<&str> =
         page.text.split("](pictures/cli-").skip(1).map(|rest| rest.split(')').next().unwrap()).collect();
     assert!(pictures.len() >= 6, "{pictures:?}");

@@ -73,7 +73,8 @@ fn an_interrupted_force_is_resumed_and_then_the_earlier_results_go() {
     assert_eq!(wait(&mut child), Some(130));
     assert_eq!(folder.read("grid.csv").lines().count(), 4);
     let unfinished = "grid.csv is the unfinished result of an interrupted sweep\n\
-                      help: `flap resume grid.csv` continues it, --force starts over\n";
+                      help: `flap resume grid.csv` continues it\n\
+                      help: `flap sweep --force` drops its rows and starts over\n";
     folder.ends(2, "sweep --grid grid.toml").says(unfinished);
     folder.ends(0, "resume grid.csv");
     assert_eq!(folder.names(), ["grid.csv", "grid.csv.meta.toml", "grid.toml"]);

@@ -85,6 +85,6 @@ fn old_rows_stay_if_new_ones_cannot_be_written() {
     std::fs::write(folder.path("old.csv"), "precious").unwrap();
     // The sidecar cannot be written where a folder has its name.
     std::fs::create_dir(folder.path("old.csv.meta.toml")).unwrap();
-    folder.ends(3, "sweep --grid grid.toml --out old.csv --force");
+    folder.ends(2, "sweep --grid grid.toml --out old.csv --force").says("old.csv.meta.toml exists already");
     assert_eq!(folder.read("old.csv"), "precious");
 }

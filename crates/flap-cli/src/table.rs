@@ -127,7 +127,7 @@ impl Table {
             let line = line.trim_end();
             let (begin, last) =
                 line.split_at(line.char_indices().nth(indent).map_or(line.len(), |(at, _)| at));
-            let wrapped = textwrap::wrap(last, room).join(&format!("\n{:indent$}", ""));
+            let wrapped = textwrap::wrap(last, room).join(&format!("\n{}", " ".repeat(indent)));
             let _ = writeln!(text, "{begin}{wrapped}");
         }
         text

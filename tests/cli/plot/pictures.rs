@@ -147,12 +147,12 @@ fn several_loops_without_unstable_orbits_name_none() {
 #[test]
 fn an_axis_of_words() {
     let folder = Folder::new();
-    let grid = "preset = \"ozaki2018-large\"\n[axes]\ndrive_shape = [\"sine\", \"square\", \"triangle\"]\n";
+    let grid = "preset = \"ozaki2018-large\"\n[axes]\ndrive_shape = [\"sine\", \"square\", \"harmonics\"]\n";
     fs::write(folder.path("shapes.toml"), grid).unwrap();
     folder.ends(0, "sweep shapes.toml --out shapes.csv");
     drawn(&folder, "shapes.csv")
         .says("response in out.svg")
-        .has(&["sine", "square", "triangle", "Drive shape"])
+        .has(&["sine", "square", "harmonics", "Drive shape"])
         .counts("<circle", 3)
         .counts("<path", 0);
     folder.ends(0, "plot shapes.csv --html shapes.html");
@@ -163,7 +163,7 @@ fn an_axis_of_words() {
     drawn(&folder, "lines.csv").says("response in out.svg").has(&[
         "sine",
         "square",
-        "triangle",
+        "harmonics",
         "Drive voltage, peak to peak (V)",
     ]);
 }
