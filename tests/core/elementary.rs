@@ -194,10 +194,10 @@ impl Kernel for Exponentials<'_> {
     }
 }
 
-/// The values of the standard library, with subnormal numbers as zero.
+/// The values of the standard library, with subnormal numbers as zero. The logarithm of a negative one is no number.
 fn std_exponentials(x: f64) -> [f64; 4] {
     let flushed = |number: f64| if number.is_subnormal() { 0.0 } else { number };
-    let ln = if x.is_subnormal() { f64::NEG_INFINITY } else { x.ln() };
+    let ln = if x.is_subnormal() && x > 0.0 { f64::NEG_INFINITY } else { x.ln() };
     [flushed(x.exp()), x.exp_m1(), ln, x.ln_1p()]
 }
 

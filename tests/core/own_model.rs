@@ -141,7 +141,7 @@ fn a_measure_that_is_zero_by_symmetry_costs_nothing() {
             loaded.rhs_evals
         );
         assert!(symmetric.measures[1].abs() < 10.0 * rtol * symmetric.measures[0], "{symmetric:?}");
-        assert!(symmetric.error_estimate < 300.0 * rtol, "{symmetric:?}");
+        assert!(symmetric.error_estimate < 1e3 * rtol, "{symmetric:?}");
         assert!((symmetric.rhs_evals as f64) < 1.3 * loaded.rhs_evals as f64, "{symmetric:?} {loaded:?}");
     }
 }

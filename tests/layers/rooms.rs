@@ -48,8 +48,8 @@ const CRATES: &[(&str, &[&str])] = &[
     (
         "flap-cli",
         &[
-            "args", "models", "complete", "console", "table", "progress", "failure", "signals", "job",
-            "data", "cmd", "plot", "lib", "main",
+            "args", "models", "complete", "console", "table", "duration", "progress", "failure", "signals",
+            "job", "data", "cmd", "plot", "lib", "main",
         ],
     ),
 ];

@@ -26,7 +26,7 @@ const FILES: &[&str] = &[
     "rows.parquet",
 ];
 
-/// So many designs, each followed from size 0 to 2 and back.
+/// So many designs, each followed from size 0 to 2 and back. No step is longer than the tolerance, so none is halved.
 fn curves(model: &'static Fake, designs: u32) -> Plan {
     let plan = plan_of(
         model,
@@ -34,7 +34,7 @@ fn curves(model: &'static Fake, designs: u32) -> Plan {
             "preset = \"fake2020\"\n[axes]\ndrive_frequency = {{ from = 1, to = {designs}, step = 1 }}\n"
         ),
     );
-    plan.following(Along { parameter: 0, values: vec![0.0, 1.0, 2.0], tolerance: 0.1, unstable: false })
+    plan.following(Along { parameter: 0, values: vec![0.0, 1.0, 2.0], tolerance: 1.0, unstable: false })
 }
 
 /// The text of all rows with the summary.
@@ -121,7 +121,10 @@ fn an_interrupted_response_goes_on_to_the_same_bytes() {
         let Done { summary, .. } = *first;
         assert!(summary.interrupted && summary.ran > 300 && summary.ran < 2000, "{name}: {}", summary.ran);
         assert!(matches!(integrity::verify(&out), Ok(Verdict::Unfinished { done: Some(_) })), "{name}");
-        assert!(matches!(run(&plan, &out, Begin::New, 0), Err(JobError::Create(_))), "{name}: protected");
+        assert!(
+            matches!(run(&plan, &out, Begin::New, 0), Err(JobError::Unfinished { .. })),
+            "{name}: protected"
+        );
 
         let Ok(Outcome::Ran(second)) = run(&plan, &out, Begin::Resume, u64::MAX) else { panic!("{name}") };
         assert!(second.rows_before > 1000, "{name}: {}", second.rows_before);

@@ -258,6 +258,7 @@ fn other_versions_and_machines_do_not_go_on() {
             }
             other => panic!("{other:?}"),
         }
+        fs::remove_file(journal_of(&path)).unwrap();
     }
 }
 

@@ -40,12 +40,13 @@ pub fn histogram(values: &[f64]) -> Option<Histogram> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
     let (&low, &high) = (sorted.first()?, sorted.last()?);
-    // Differences beyond the largest float: a quarter of each value has the same bars.
+    // Differences beyond the largest float: smaller values have the same bars.
     if !(high - low).is_finite() {
-        let quarters: Vec<f64> = sorted.iter().map(|value| value / 4.0).collect();
-        let Histogram { edges, counts, marked } = histogram(&quarters)?;
-        let edges = edges.into_iter().map(|edge| 4.0 * edge).collect();
-        return Some(Histogram { edges, counts, marked: marked.map(|value| 4.0 * value) });
+        const SMALLER: f64 = 256.0;
+        let smaller: Vec<f64> = sorted.iter().map(|value| value / SMALLER).collect();
+        let Histogram { edges, counts, marked } = histogram(&smaller)?;
+        let edges = edges.into_iter().map(|edge| SMALLER * edge).collect();
+        return Some(Histogram { edges, counts, marked: marked.map(|value| SMALLER * value) });
     }
     let marked = MARKED.map(|percent| percentile(&sorted, f64::from(percent) / 100.0));
     // Values that are equal but for rounding are one bar.

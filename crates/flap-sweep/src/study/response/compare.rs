@@ -2,8 +2,6 @@
 
 use flap_core::simulate::{Row, Status};
 
-use super::curve::Step;
-
 /// Periodic motions are different if a component of the state at the beginning of a period differs by more than this, as a
 /// share of the largest absolute value of the component on the curve.
 const DIFFERENT: f64 = 1e-2;
@@ -22,12 +20,12 @@ pub(super) enum Comparison {
     Irregular,
 }
 
-/// The sizes of the state's components: the largest absolute value of each on a curve.
-pub(super) fn sizes(up: &[Step], down: &[Step]) -> Vec<f64> {
+/// The sizes of the state's components: the largest absolute value of each in the motions of a curve.
+pub(super) fn sizes<'a>(motions: impl Iterator<Item = &'a Row>) -> Vec<f64> {
     let mut sizes: Vec<f64> = Vec::new();
-    for step in up.iter().chain(down).filter(|step| step.row.status == Status::Periodic) {
-        sizes.resize(sizes.len().max(step.row.state.len()), 0.0);
-        for (size, y) in sizes.iter_mut().zip(&step.row.state) {
+    for row in motions.filter(|row| row.status == Status::Periodic) {
+        sizes.resize(sizes.len().max(row.state.len()), 0.0);
+        for (size, y) in sizes.iter_mut().zip(&row.state) {
             *size = size.max(y.abs());
         }
     }

@@ -9,8 +9,8 @@ use flap_core::num::InstructionSet;
 use flap_core::simulate::{Interrupt, Period, Point, PointRun, Row, SolverSettings, Status, Unfinished};
 use nalgebra::{DMatrix, DVector};
 
-use super::compare::{Comparison, compare, sizes};
-use super::curve::{Curve, Step};
+use super::compare::{Comparison, compare};
+use super::curve::{Curve, Step, component_sizes};
 use crate::plan::{Along, Plan};
 
 /// First, shortest and longest distance between orbits: 1 is the band's width, and the largest of a state component.
@@ -38,7 +38,7 @@ pub(super) fn unstable(
     set: InstructionSet,
     interrupted: Interrupt<'_>,
 ) -> Vec<Step> {
-    let sizes = sizes(&curve.up, &curve.down);
+    let sizes = component_sizes(&curve.up, &curve.down);
     let is_bistable = |index: usize| {
         let rows = [&curve.up[index].row, &curve.down[index].row];
         rows.iter().all(|row| row.status == Status::Periodic)

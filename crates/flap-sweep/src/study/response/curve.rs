@@ -3,7 +3,7 @@
 use flap_core::parameter::Invalid;
 use flap_core::simulate::{Point, Row, Status};
 
-use super::compare::{Comparison, compare, sizes};
+use super::compare::{self, Comparison, compare};
 use crate::plan::Along;
 use crate::table::layout::{Cell, Layout, Place};
 
@@ -28,6 +28,11 @@ pub struct Curve {
     /// Unstable orbits, if they were looked for: for each bistable band, from the end of the upward branch to that of the
     /// downward one. Values fall and may turn.
     pub unstable: Vec<Step>,
+}
+
+/// The sizes of the state's components on the ways up and down.
+pub(super) fn component_sizes(up: &[Step], down: &[Step]) -> Vec<f64> {
+    compare::sizes(up.iter().chain(down).map(|step| &step.row))
 }
 
 impl Curve {
@@ -59,7 +64,7 @@ impl Curve {
 
     /// For each value, true if the two ways have different motions there; none if neither is periodic with the drive.
     fn bistable(&self) -> Vec<Option<bool>> {
-        let sizes = sizes(&self.up, &self.down);
+        let sizes = component_sizes(&self.up, &self.down);
         let pairs = self.up.iter().zip(&self.down);
         pairs
             .map(|(up, down)| match compare(&up.row, &down.row, &sizes) {

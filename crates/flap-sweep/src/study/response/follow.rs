@@ -6,8 +6,8 @@
 
 use flap_core::simulate::{Point, Row, Status};
 
-use super::compare::{Comparison, compare, is_steep, sizes};
-use super::curve::{Curve, Step};
+use super::compare::{Comparison, compare, is_steep};
+use super::curve::{Curve, Step, component_sizes};
 use crate::plan::{Along, Plan};
 use crate::resonance::study::Study;
 
@@ -75,7 +75,7 @@ impl<'a> Follow<'a> {
 
     /// The steps between the values, without those next to motions that are not periodic with the drive.
     fn intervals(&self) -> Vec<Interval> {
-        let sizes = sizes(&self.up, &self.down);
+        let sizes = component_sizes(&self.up, &self.down);
         let places: Vec<(&Step, &Step, Comparison)> = (self.up.iter().zip(self.down.iter().rev()))
             .map(|(up, down)| (up, down, compare(&up.row, &down.row, &sizes)))
             .collect();
@@ -90,7 +90,7 @@ impl<'a> Follow<'a> {
 
     /// The stage for those of `intervals` that are to be halved; the last one if there are none.
     fn halve(&self, mut intervals: Vec<Interval>) -> Stage {
-        let sizes = sizes(&self.up, &self.down);
+        let sizes = component_sizes(&self.up, &self.down);
         intervals
             .retain(|interval| interval.is_open(&sizes) && interval.is_longer_than(self.along.tolerance));
         if intervals.is_empty() { Stage::Done } else { Stage::Halves(intervals) }
@@ -156,7 +156,7 @@ impl Study for Follow<'_> {
                 self.stage = if last { self.halve(self.intervals()) } else { Stage::Steps };
             }
             Stage::Halves(intervals) => {
-                let sizes = sizes(&self.up, &self.down);
+                let sizes = component_sizes(&self.up, &self.down);
                 let mut halves = Vec::new();
                 for interval in intervals {
                     let value = interval.middle();

@@ -5,8 +5,8 @@ use std::fmt;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Row, Status};
 
-use super::compare::{Comparison, compare, sizes};
-use super::curve::Curve;
+use super::compare::{Comparison, compare};
+use super::curve::{Curve, component_sizes};
 use crate::plan::Along;
 use crate::table::labels::{self, Scale};
 
@@ -69,7 +69,7 @@ impl Verdict {
             bands: Vec::new(),
             invalid: curve.invalid().map(str::to_owned),
         };
-        let sizes = sizes(&curve.up, &curve.down);
+        let sizes = component_sizes(&curve.up, &curve.down);
         let stroke_pp = |row: &Row| row.measures.get(stroke).map(|amplitude| 2.0 * amplitude);
         let mut open = false;
         for (up, down) in curve.up.iter().zip(&curve.down) {
@@ -138,9 +138,9 @@ impl fmt::Display for Verdict {
         }
         if self.bistable().next().is_none() {
             let Verdict { range, step, steep_step, difference, unit, .. } = self;
-            write!(f, "no hysteresis {} wider than {} (", span(*range, unit), length(*step, unit))?;
+            write!(f, "no hysteresis {} wider than {} (", span(*range, unit), length(*step, *range, unit))?;
             if steep_step < step {
-                write!(f, "{} where the motion changes by a tenth; ", length(*steep_step, unit))?;
+                write!(f, "{} where the motion changes by a tenth; ", length(*steep_step, *range, unit))?;
             }
             write!(f, "branches agree to {} deg)", digits(*difference))?;
         }
@@ -175,16 +175,20 @@ fn describe((status, period): (Status, u32)) -> String {
 
 /// `from 121.5 to 136 Hz`, or `at 14 mm`.
 fn span([from, to]: [f64; 2], unit: &str) -> String {
-    let Scale { factor, unit } = labels::scale(unit, from.abs().max(to.abs()));
+    let Scale { factor, unit } = scale([from, to], unit);
     let [from, to] = [from, to].map(|value| six_digits(value * factor));
     let text = if from == to { format!("at {from} {unit}") } else { format!("from {from} to {to} {unit}") };
     text.trim_end().to_owned()
 }
 
-/// `0.5 Hz`.
-fn length(value: f64, unit: &str) -> String {
-    let Scale { factor, unit } = labels::scale(unit, value);
+/// `0.5 Hz`, with the prefix of the range.
+fn length(value: f64, range: [f64; 2], unit: &str) -> String {
+    let Scale { factor, unit } = scale(range, unit);
     format!("{} {unit}", six_digits(value * factor)).trim_end().to_owned()
+}
+
+fn scale([from, to]: [f64; 2], unit: &str) -> Scale {
+    labels::scale(unit, from.abs().max(to.abs()))
 }
 
 fn six_digits(value: f64) -> f64 {
