@@ -24,7 +24,8 @@ impl Page {
         }
         fs::create_dir(page.folder.path("examples")).unwrap();
         let words = page.text.split(|character: char| character.is_whitespace() || character == '`');
-        for grid in words.filter(|word| word.starts_with("examples/") && word.ends_with(".toml")) {
+        let grids = words.filter(|word| word.starts_with("examples/"));
+        for grid in grids.filter(|word| Path::new(word).extension().is_some_and(|ending| ending == "toml")) {
             fs::copy(root().join(grid), page.folder.path(grid)).unwrap();
         }
         page

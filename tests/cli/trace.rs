@@ -53,6 +53,7 @@ pub(crate) fn trace(folder: &Folder, arguments: &str, mut fate: impl FnMut(usize
     unsafe {
         command.pre_exec(traced)
     };
+    #[expect(clippy::zombie_processes, reason = "`waitpid` waits for it")]
     let child = command.spawn().unwrap();
     let main = Pid::from_raw(child.id().cast_signed());
     let place = folder.path("").canonicalize().unwrap();
@@ -114,10 +115,16 @@ fn unique() -> String {
     format!("flap-{}-{}", std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed))
 }
 
+/// The lower half of a register, which holds an argument of the type `int`.
+fn int(register: u64) -> i32 {
+    let [a, b, c, d, ..] = register.to_le_bytes();
+    i32::from_le_bytes([a, b, c, d])
+}
+
 /// The call at whose beginning a thread has stopped; none if it changes nothing in the folder `place`.
 fn call(pid: Pid, registers: &libc::user_regs_struct, place: &Path) -> Option<Call> {
     let of_descriptor = |descriptor: u64| {
-        let descriptor = descriptor as i32;
+        let descriptor = int(descriptor);
         let link = if descriptor == libc::AT_FDCWD {
             format!("/proc/{pid}/cwd")
         } else {
@@ -129,9 +136,9 @@ fn call(pid: Pid, registers: &libc::user_regs_struct, place: &Path) -> Option<Ca
         let folder = of_descriptor(folder)?;
         Some(Path::new(&folder).join(text(pid, path)?).to_string_lossy().into_owned())
     };
-    let here = libc::AT_FDCWD as u64;
+    let here = i64::from(libc::AT_FDCWD).cast_unsigned();
     let (a, b, c, d) = (registers.rdi, registers.rsi, registers.rdx, registers.r10);
-    let changes = |flags: u64| flags as i32 & (libc::O_CREAT | libc::O_ACCMODE) != libc::O_RDONLY;
+    let changes = |flags: u64| int(flags) & (libc::O_CREAT | libc::O_ACCMODE) != libc::O_RDONLY;
     let (name, files) = match registers.orig_rax.cast_signed() {
         libc::SYS_open if changes(b) => ("open", [of_path(here, a), None]),
         libc::SYS_openat if changes(c) => ("open", [of_path(a, b), None]),

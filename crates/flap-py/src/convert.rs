@@ -3,7 +3,7 @@
 use flap_sweep::notation::text::shortened;
 use flap_sweep::notation::units;
 use flap_sweep::resonance::{self, LargeImpulse};
-use pyo3::exceptions::{PyException, PyOverflowError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyException, PyIndexError, PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyString};
 
@@ -105,4 +105,23 @@ pub(crate) fn failed(name: &str, wanted: &str, value: &Bound<'_, PyAny>, error: 
 /// The name of an object's type.
 pub(crate) fn type_name(value: &Bound<'_, PyAny>) -> String {
     value.get_type().name().map_or_else(|_| "an object".to_owned(), |name| name.to_string())
+}
+
+/// The index from 0 of one of `length` points, given by its index from 0 or, if that is negative, from the end.
+pub(crate) fn point_index(length: u64, name: &str, given: &Bound<'_, PyAny>) -> PyResult<u64> {
+    let missing =
+        |wanted: &str| PyIndexError::new_err(format!("there is no point {wanted}: the grid has {length}"));
+    let wanted = given.extract::<i64>().map_err(|error| {
+        let allowed = "a whole number, the index of a point in the grid";
+        if error.is_instance_of::<PyOverflowError>(given.py()) {
+            missing("so large")
+        } else if error.is_instance_of::<PyTypeError>(given.py()) {
+            PyTypeError::new_err(format!("`{name}` is {}\nit must be {allowed}", type_name(given)))
+        } else {
+            failed(name, allowed, given, error)
+        }
+    })?;
+    let index =
+        if wanted < 0 { length.checked_sub(wanted.unsigned_abs()) } else { Some(wanted.unsigned_abs()) };
+    index.filter(|index| *index < length).ok_or_else(|| missing(&wanted.to_string()))
 }

@@ -13,7 +13,7 @@ use pyo3::exceptions::{PyException, PyIndexError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList, PySlice, PyString};
 
-use crate::{convert, error, grid_text, parameters, point};
+use crate::{convert, error, grid_text, parameters};
 
 /// The largest number of points of which `Grid.exclusions` evaluates the conditions.
 const LOOKED_AT: u64 = 1_000_000;
@@ -73,7 +73,7 @@ impl Grid {
             }
             return Ok(points.into_any());
         }
-        let place = point::place(&self.plan, "index", index)?;
+        let place = convert::point_index(self.plan.len(), "index", index)?;
         Ok(self.point(py, place)?.into_any())
     }
 

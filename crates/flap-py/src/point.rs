@@ -5,7 +5,7 @@ use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, Rows, Simulator};
 use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
-use pyo3::exceptions::{PyIndexError, PyOverflowError, PyTypeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -138,25 +138,5 @@ fn index(plan: &Plan, point: Option<&Bound<'_, PyAny>>) -> PyResult<u64> {
         );
         return Err(PyValueError::new_err(message));
     };
-    place(plan, "point", point)
-}
-
-/// The index from 0 of a point that is given by its index from 0 or, if that is negative, from the end.
-pub(crate) fn place(plan: &Plan, name: &str, given: &Bound<'_, PyAny>) -> PyResult<u64> {
-    let length = plan.len();
-    let missing =
-        |wanted: &str| PyIndexError::new_err(format!("there is no point {wanted}: the grid has {length}"));
-    let wanted = given.extract::<i64>().map_err(|error| {
-        let allowed = "a whole number, the index of a point in the grid";
-        if error.is_instance_of::<PyOverflowError>(given.py()) {
-            missing("so large")
-        } else if error.is_instance_of::<PyTypeError>(given.py()) {
-            PyTypeError::new_err(format!("`{name}` is {}\nit must be {allowed}", convert::type_name(given)))
-        } else {
-            convert::failed(name, allowed, given, error)
-        }
-    })?;
-    let index =
-        if wanted < 0 { length.checked_sub(wanted.unsigned_abs()) } else { Some(wanted.unsigned_abs()) };
-    index.filter(|index| *index < length).ok_or_else(|| missing(&wanted.to_string()))
+    convert::point_index(plan.len(), "point", point)
 }
