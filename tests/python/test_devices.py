@@ -36,7 +36,7 @@ def test_calls_take_a_device_for_a_preset(bee):
     at = {"drive_frequency": [110.0, 120.0]}
     rows, same = flapwing.evaluate(bee, at), flapwing.evaluate("jafferis2016", at, **SET)
     assert rows["lift_mean_mn"].tolist() == same["lift_mean_mn"].tolist()
-    curve = flapwing.respond(bee, start=110, stop=120, step=5)
+    curve = flapwing.respond(bee, start=110, stop=120, step=5, tolerance=5)
     assert len(curve) == 6 and curve["stroke_pp_deg"][2] == pytest.approx(rows["stroke_pp_deg"][1], rel=1e-6)
     assert flapwing.resonance(bee) == flapwing.resonance("jafferis2016", **SET)
     assert len(flapwing.trajectory(bee, cycles=1, samples=10)) == 11

@@ -26,9 +26,10 @@ def assert_same_bits(table, path):
     for name in table.columns:
         kind = table[name].dtype.kind
         for cell, value in zip((row[name] for row in rows), frame[name]):
-            if kind == "f":
+            # Flags of which some are unknown are float64 in a table, and nullable in pandas.
+            if kind == "f" and frame[name].dtype != "boolean":
                 assert math.isnan(value) if cell == "" else float(cell).hex() == float(value).hex(), (name, cell)
-            elif kind == "b":
+            elif kind in "bf":
                 assert cell == ("" if value is None or value is frame[name].dtype.na_value else str(value).lower())
             else:
                 assert cell == str(value)
@@ -133,7 +134,7 @@ def test_where_files_go_wrong(tmp_path):
     with pytest.raises(ValueError, match="not the result of an interrupted sweep"):
         flapwing.sweep(QUICK, out=tmp_path / "other.csv", resume=True)
     flapwing.sweep(QUICK, out=tmp_path / "rows.csv")
-    with pytest.raises(ValueError, match="the grid file differs; line 3 of the grid was"):
+    with pytest.raises(FileExistsError, match="the grid file differs; line 3 of the grid was"):
         flapwing.sweep(QUICK.replace("26", "27"), out=tmp_path / "rows.csv", resume=True)
 
 
@@ -312,8 +313,9 @@ def test_damage_of_unfinished_results_is_noticed(tmp_path):
     sidecar.write_bytes((tmp_path / "other.csv.meta.toml").read_bytes())
     with pytest.raises(ValueError, match="rows.csv is damaged: its sidecar is of another sweep: the grid file differs"):
         flapwing.read(path)
-    with pytest.warns(UserWarning, match="its sidecar is of another sweep"):
+    with pytest.warns(UserWarning) as caught:
         table = flapwing.read(path, ignore_damage=True)
+    assert any("its sidecar is of another sweep" in str(warning.message) for warning in caught)
     assert "grid" not in table.meta and len(table) > 0
 
     sidecar.write_bytes(own)

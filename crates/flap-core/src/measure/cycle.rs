@@ -7,8 +7,8 @@
 
 use super::asked::Asked;
 use super::course::Course;
-use crate::model::Measure::{Amplitude, First, Magnitude, Max, Min, Peak, PeakToPeak, Rms, Supply};
-use crate::model::{Instant, Measure, Model, Signal, SignalCycle};
+use crate::model::Measure::{First, Magnitude, Rms, Supply};
+use crate::model::{Instant, Measure, Model, RANGED, Signal, SignalCycle};
 use crate::num::Lanes;
 use crate::ode::dense::interpolate;
 use crate::ode::ensemble::Observer;
@@ -16,9 +16,6 @@ use crate::ode::step::Attempt;
 use crate::ode::tableau::{B, C};
 use crate::ode::{input, slope};
 
-/// Measures for which the largest and smallest values are found. Positive parts need their signs, and harmonics of a wing
-/// at rest are told from rounding by them.
-pub(super) const RANGED: &[Measure] = &[Amplitude, PeakToPeak, Max, Min, Peak, First, Supply, Magnitude];
 /// Measures for which the positive part is integrated.
 const RECTIFIED: &[Measure] = &[Supply, Magnitude];
 /// Measures for which the square is integrated.

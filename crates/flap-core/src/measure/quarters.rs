@@ -4,8 +4,8 @@
 //! two such extrema more than the other, so that the larger of both has a kink. Such extrema lie in opposite quarters.
 
 use super::asked::Asked;
-use super::cycle::{RANGED, Signals, Sums};
-use crate::model::Model;
+use super::cycle::{Signals, Sums};
+use crate::model::{Model, RANGED};
 use crate::num::Lanes;
 use crate::ode::ensemble::Observer;
 use crate::ode::step::Attempt;

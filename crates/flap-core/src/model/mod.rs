@@ -24,6 +24,7 @@ pub use energy::EnergyBalance;
 pub use load::Load;
 pub use motions::{Imposed, Motions};
 pub(crate) use readings::{efficiency, grams_force};
+pub(crate) use signal::RANGED;
 pub use signal::{Measure, Principal, Signal, SignalCycle, position};
 pub use stroke_and_pitch::Balance;
 pub(crate) use units::GRAVITY;

@@ -52,18 +52,53 @@ impl Signal {
     pub(crate) const fn takes_one_of(&self, measures: &[Measure]) -> bool {
         let mut i = 0;
         while i < measures.len() {
-            if let Some(principal) = self.principal
-                && has(principal.needed(), measures[i])
+            if self.is_judged_by(measures[i])
+                || has(self.measures, measures[i])
+                || has(self.needed, measures[i])
             {
-                return true;
-            }
-            if has(self.measures, measures[i]) || has(self.needed, measures[i]) {
                 return true;
             }
             i += 1;
         }
         false
     }
+
+    /// True if the error of a row takes this measure: the principal one and, unless the signal's range is followed anyway, the
+    /// root mean square for the size of the signal.
+    const fn is_judged_by(&self, measure: Measure) -> bool {
+        let Some(principal) = self.principal else { return false };
+        let principal = principal.measure();
+        let is_size = measure as u8 == Measure::Rms as u8;
+        measure as u8 == principal as u8
+            || is_size
+                && !has(RANGED, principal)
+                && !meet(self.measures, RANGED)
+                && !meet(self.needed, RANGED)
+    }
+}
+
+/// The measures for which the largest and the smallest value of a signal are found. Positive parts need their signs.
+pub(crate) const RANGED: &[Measure] = &[
+    Measure::Amplitude,
+    Measure::PeakToPeak,
+    Measure::Max,
+    Measure::Min,
+    Measure::Peak,
+    Measure::First,
+    Measure::Supply,
+    Measure::Magnitude,
+];
+
+/// True if both lists have a measure in common.
+const fn meet(one: &[Measure], other: &[Measure]) -> bool {
+    let mut i = 0;
+    while i < one.len() {
+        if has(other, one[i]) {
+            return true;
+        }
+        i += 1;
+    }
+    false
 }
 
 /// True if `measures` has this one.
@@ -118,14 +153,6 @@ impl Principal {
         match self {
             Principal::Mean => Measure::Mean,
             Principal::First => Measure::First,
-        }
-    }
-
-    /// The measure, and those that give the size of its signal.
-    const fn needed(self) -> &'static [Measure] {
-        match self {
-            Principal::Mean => &[Measure::Mean, Measure::Rms],
-            Principal::First => &[Measure::First, Measure::Rms],
         }
     }
 }

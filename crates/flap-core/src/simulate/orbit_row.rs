@@ -6,11 +6,14 @@ use super::search::Search;
 use super::settings::SolverSettings;
 use super::status::Status;
 use crate::measure::cycle::{Sums, finish};
-use crate::model::{Model, SignalCycle};
+use crate::model::{Measure, Model, Principal, SignalCycle};
 use crate::ode::{Ending, Start, input, slope};
 
 /// The largest change per period of a motion that counts as rest, as a share of its largest state.
 const REST: f64 = 1e-11;
+
+/// The smallest first harmonic of a signal that certainly swings, as a share of the signal's size.
+const SWINGS: f64 = 1e-6;
 
 /// Times at which a motion at rest has no rate, as shares of the drive period: no drive of few harmonics is zero at all.
 const REST_TIMES: [f64; 4] = [0.0, 0.137, 0.412, 0.789];
@@ -97,7 +100,7 @@ pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
         row.error_estimate =
             estimate::<M, N, S>(&fine, coarse.as_ref(), periods.slides).max(LEAST * search.rtol());
         audit = M::ENERGY.map_or(0.0, |energy| energy.audit(&fine));
-        if search.state().is_some_and(|y| is_at_rest(model, start, y)) {
+        if !swings::<M, N, S>(&fine) && search.state().is_some_and(|y| is_at_rest(model, start, y)) {
             row.floquet_max = f64::NAN;
         }
     }
@@ -112,6 +115,14 @@ pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
         row.error_estimate = f64::NAN;
     }
     (row, audit)
+}
+
+/// True if a principal signal has a first harmonic: then the motion is not at rest, and its states need not be looked at.
+fn swings<M: Model<N, S>, const N: usize, const S: usize>(cycle: &[SignalCycle; S]) -> bool {
+    let mut signals = M::SIGNALS.iter().zip(cycle);
+    signals.any(|(signal, cycle)| {
+        signal.principal == Some(Principal::First) && cycle.measure(Measure::First) > SWINGS * cycle.size()
+    })
 }
 
 /// True if a motion from the state `y` does not move, but for rounding: at several times of the drive period, no state

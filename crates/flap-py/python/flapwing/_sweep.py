@@ -45,7 +45,7 @@ def sweep(
     resume : bool, optional
         Continue the unfinished results in `out`; start the sweep if there are none.
     overwrite : bool, optional
-        Replace the results in `out`. They are kept beside the new ones until those are complete. By default an existing
+        Replace the results in `out`, which stay until the new ones are complete. By default an existing
         file is an error, unless it is empty or holds the complete rows of the same grid: then nothing is run.
     threads : int, optional
         Threads, 1 or more; with `client`, those of each task. Default: one per core; with `client`, 1. Rows do not
@@ -77,11 +77,12 @@ def sweep(
         Mistakes in the grid: all of them, each with its line, the allowed values and the nearest name. It is a
         ValueError.
     FileExistsError
-        `out` holds unfinished or other rows, and neither `resume` nor `overwrite` is given.
+        `out` holds complete rows of another grid and `overwrite` is not given, or unfinished ones and neither `resume` nor
+        `overwrite` is given.
     OSError
         A file cannot be read or written.
     ValueError
-        `out` cannot be resumed: it is of another grid, or was changed. Unknown preset, parameter, option, unit or
+        `out` cannot be resumed: its unfinished rows are of another grid, or were changed. Unknown preset, parameter, option, unit or
         measure; a keyword that the grid varies or derives.
     TypeError
         A value of the wrong type.
