@@ -55,7 +55,7 @@ pub(super) fn cycle(p: &Params, y: [f64; 4], rtol: f64) -> ([SignalCycle; SIGNAL
         |_| ControlFlow::Break(()),
     );
     assert_eq!(outcome.ending, Ending::Stopped);
-    (finish(&Bimorph::SIGNALS, &totals, start.span), outcome.rhs_evals)
+    (finish::<Bimorph, _, _>(&totals, start.span), outcome.rhs_evals)
 }
 
 /// Largest difference of two states, in units of the sizes that the reference tables use.

@@ -269,28 +269,41 @@ fn signals<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
     )
 }
 
-/// The `signals` over a cycle of `period` seconds, from its sums.
-pub fn finish<const S: usize>(
-    signals: &[Signal; S],
+/// The signals of the model `M` over a cycle of `period` seconds, from its sums.
+pub fn finish<M: Model<N, S>, const N: usize, const S: usize>(
     (totals, _): &Sums<f64, S>,
     period: f64,
 ) -> [SignalCycle; S] {
     core::array::from_fn(|i| {
         let total = &totals[i];
         // An unknown signal has no extremes and no positive part: maxima leave out values that are not numbers.
-        let known = |measures: &[Measure], value: f64| {
-            let taken = signals[i].takes_one_of(measures) && !total.integral.is_nan();
-            if taken { value } else { f64::NAN }
+        let known = |taken: &[bool; S], value: f64| {
+            if taken[i] && !total.integral.is_nan() { value } else { f64::NAN }
         };
+        let squared = const { &taken(&M::SIGNALS, SQUARED) };
+        let rectified = const { &taken(&M::SIGNALS, RECTIFIED) };
+        let harmonic = const { &taken(&M::SIGNALS, HARMONIC) };
+        let ranged = const { &taken(&M::SIGNALS, RANGED) };
         SignalCycle {
             mean: total.integral / period,
-            mean_square: known(SQUARED, total.square / period),
-            positive_mean: known(RECTIFIED, total.positive / period),
+            mean_square: known(squared, total.square / period),
+            positive_mean: known(rectified, total.positive / period),
             // X = (2/T) ∫ x e^{−iωt} dt
             first: [2.0 * total.cosine / period, -2.0 * total.sine / period]
-                .map(|part| known(HARMONIC, part)),
-            max: known(RANGED, total.max),
-            min: known(RANGED, total.min),
+                .map(|part| known(harmonic, part)),
+            max: known(ranged, total.max),
+            min: known(ranged, total.min),
         }
     })
+}
+
+/// For each signal, true if one of the `measures` is taken of it.
+const fn taken<const S: usize>(signals: &[Signal; S], measures: &[Measure]) -> [bool; S] {
+    let mut taken = [false; S];
+    let mut i = 0;
+    while i < S {
+        taken[i] = signals[i].takes_one_of(measures);
+        i += 1;
+    }
+    taken
 }

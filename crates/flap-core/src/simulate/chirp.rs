@@ -68,7 +68,7 @@ impl<M: Motions<N, S>, const N: usize, const K: usize, const S: usize> Question<
             Unfinished::check(outcome.ending, interrupted)?;
 
             let mut row = vec![time, time + span, 1.0 / span];
-            let cycle = finish(&M::SIGNALS, &totals.get(0), span);
+            let cycle = finish::<M, N, S>(&totals.get(0), span);
             for (signal, cycle) in M::SIGNALS.iter().zip(&cycle) {
                 row.extend(
                     measures(signal.measures).map(|measure| cycle.measure(measure) * signal.unit.factor),

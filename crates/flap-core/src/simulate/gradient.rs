@@ -344,7 +344,7 @@ fn sizes<M: Model<N, S>, const N: usize, const S: usize>(
     period: f64,
 ) -> Vec<f64> {
     let mut sizes = Vec::with_capacity(measured.len());
-    for (signal, cycle) in M::SIGNALS.iter().zip(finish(&M::SIGNALS, totals, period)) {
+    for (signal, cycle) in M::SIGNALS.iter().zip(finish::<M, N, S>(totals, period)) {
         sizes.extend(signal.measures.iter().map(|_| cycle.size() * signal.unit.factor.abs()));
     }
     sizes.extend(measured[sizes.len()..].iter().map(|value| value.abs()));

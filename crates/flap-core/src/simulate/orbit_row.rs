@@ -6,13 +6,13 @@ use super::search::Search;
 use super::settings::SolverSettings;
 use super::status::Status;
 use crate::measure::cycle::{Sums, finish};
-use crate::model::{Measure, Model, Principal, SignalCycle};
+use crate::model::{Model, Principal, SignalCycle};
 use crate::ode::{Ending, Start, input, slope};
 
 /// The largest change per period of a motion that counts as rest, as a share of its largest state.
 const REST: f64 = 1e-11;
 
-/// The smallest first harmonic of a signal that certainly swings, as a share of the signal's size.
+/// The smallest range of a signal that certainly swings, as a share of the signal's size.
 const SWINGS: f64 = 1e-6;
 
 /// Times at which a motion at rest has no rate, as shares of the drive period: no drive of few harmonics is zero at all.
@@ -38,7 +38,7 @@ fn on_orbit<M: Model<N, S>, const N: usize, const S: usize>(
     totals: &Sums<f64, S>,
     period: f64,
 ) -> [SignalCycle; S] {
-    let mut cycle = finish(&M::SIGNALS, totals, period);
+    let mut cycle = finish::<M, N, S>(totals, period);
     if let Some(energy) = M::ENERGY {
         energy.close(&mut cycle);
     }
@@ -117,11 +117,12 @@ pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
     (row, audit)
 }
 
-/// True if a principal signal has a first harmonic: then the motion is not at rest, and its states need not be looked at.
+/// True if a signal with a principal first harmonic varies: then the motion is not at rest, and its states need not be looked
+/// at.
 fn swings<M: Model<N, S>, const N: usize, const S: usize>(cycle: &[SignalCycle; S]) -> bool {
     let mut signals = M::SIGNALS.iter().zip(cycle);
     signals.any(|(signal, cycle)| {
-        signal.principal == Some(Principal::First) && cycle.measure(Measure::First) > SWINGS * cycle.size()
+        signal.principal == Some(Principal::First) && cycle.max - cycle.min > SWINGS * cycle.size()
     })
 }
 
