@@ -335,6 +335,11 @@ fn comparisons_take_units() {
         folder.ends_with(0, &arguments).stdout.lines().count() - 1
     };
     assert_eq!(count("drive_frequency > 0.11 kHz"), count("drive_frequency > 110"));
+    // The cells of measures are not in SI units.
+    let above = count("lift_mean_mn > 3");
+    assert!(above > 0 && above < count("lift_mean_mn > 0"), "{above} rows");
+    assert_eq!([count("lift_mean_mn > 3 mN"), count("lift_mean_mn > 3000 uN")], [above; 2]);
+    assert_eq!(count("stroke_pp_deg > 0.4 rad"), count("stroke_pp_deg > 22.918311805232932"));
     assert_eq!(count("hinge_stiffness < 90 uN*m/rad"), 10);
     assert_eq!(count("90 uN*m/rad < hinge_stiffness and drive_frequency < 100 Hz"), 4);
     let refused = |condition: &str, message: &str| {

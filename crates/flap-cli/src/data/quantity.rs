@@ -41,10 +41,13 @@ pub(super) fn without_units(
                 .help("a number with a unit stands beside a column: drive_frequency > 95 Hz"));
         };
         let column = columns::find(names.iter().map(String::as_str), name)?;
-        let value = units::parse_as(&text[number.start..unit.end], &unit_of(column)).map_err(|error| {
+        let column_unit = unit_of(column);
+        let value = units::parse_as(&text[number.start..unit.end], &column_unit).map_err(|error| {
             let failure = Failure::usage(format!("--where {text}: {}", error.message(name)));
             error.help().into_iter().fold(failure, Failure::help)
         })?;
+        // The cells of a measure are in its own unit, such as mN, and not in SI units.
+        let value = value / units::parse_as(&format!("1 {column_unit}"), &column_unit).unwrap_or(1.0);
         plain += &text[copied..number.start];
         let _ = write!(plain, "{value:?}");
         copied = unit.end;
