@@ -17,7 +17,7 @@ const COMMANDS: [&str; 7] = [
 
 const BESIDE: [&str; 6] = [".tmp", ".journal", ".part", ".meta.toml", ".meta.toml.tmp", ".journal.tmp"];
 
-/// What the user has in such a file.
+/// The user's text in such a file.
 const PRECIOUS: &str = "precious";
 
 fn folder() -> Folder {

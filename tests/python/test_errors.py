@@ -181,7 +181,7 @@ def test_objects_that_fail_are_errors_of_two_lines(method, error):
         with pytest.raises((TypeError, ValueError)) as caught:
             call()
         lines = str(caught.value).splitlines()
-        # Where the method is not called, the value is of the wrong type.
+        # If the method is not called, the value has the wrong type.
         assert len(lines) == 2 or " must be " in lines[0], lines
 
 

@@ -12,7 +12,7 @@ use crate::{console, duration};
 /// The progress of a run.
 pub(crate) struct Bar {
     drawn: ProgressBar,
-    /// Where no bar is drawn.
+    /// Progress as lines, without a bar.
     log: Option<Log>,
     /// The units of the run, such as "points".
     units: &'static str,

@@ -13,7 +13,7 @@ use crate::{convert, error};
 /// The most levels of dictionaries and lists within each other. A grid file has about six.
 const MOST_LEVELS: usize = 64;
 
-/// What an entry of a grid may be, for messages.
+/// The types that an entry of a grid can have, for messages.
 const WANTED: &str = "a number, text, True or False, a list, an array, or a dictionary";
 
 /// The text of a grid file with these entries.

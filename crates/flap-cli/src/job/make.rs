@@ -21,7 +21,7 @@ pub(crate) fn stdout() -> io::Result<File> {
 }
 
 /// Makes a file as a whole: it is complete, or not there. An earlier file stays until then. `write` gives the sidecar of results.
-/// The inner result is that of `write`.
+/// The inner result comes from `write`.
 pub(crate) fn make<E: From<io::Error>>(
     results: &Path,
     overwrite: bool,

@@ -284,7 +284,7 @@ mod tests {
         }
     }
 
-    /// A sample that is all of the plan has no error but that of the machine.
+    /// If the sample is the whole plan, only the timing of the machine has an error.
     #[test]
     fn a_small_plan_is_run_as_a_whole() {
         let grid =

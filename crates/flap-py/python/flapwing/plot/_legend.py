@@ -61,7 +61,7 @@ def legend(
 
 
 def _withdraw(ax: Axes) -> None:
-    """Takes the room of an earlier legend back, so that the limits of the axes are those of all that is drawn in them."""
+    """Removes the space for an earlier legend, so that the limits of the axes follow from the drawn data."""
     for earlier in [artist for artist in _style.figure_of(ax).artists if isinstance(artist, _Fitted)]:
         earlier.withdraw(ax)
 

@@ -166,7 +166,7 @@ def series() -> list[Any]:
 
 
 def further_shades(ax: Axes | None, count: int) -> list[Any]:
-    """Colours of so many series, apart from those of the lines that axes have already."""
+    """Colours for new series that differ from the colours of the lines in the axes."""
     every = series()
     taken = [] if ax is None else [line.get_color() for line in ax.lines]
     free = [colour for colour in every if not any(same_color(colour, other) for other in taken)] or every

@@ -157,7 +157,7 @@ def _earlier(ax: Axes, unit: str) -> list[str]:
 
 
 def _factor(ax: Axes, time: Shown) -> float:
-    """The factor from the shown unit of the time to that of the motions in the axes already."""
+    """The factor from the shown unit of time to the unit of the motions that the axes contain."""
     sizes = {"s": 1.0, "ms": 1e3, "µs": 1e6}
     there = [unit for unit in sizes if ax.get_xlabel() == _labels.titled(time.words, unit)]
     return sizes[there[0]] / sizes[time.unit] if there and time.unit in sizes else 1.0
