@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 
 use crate::sweep::{POINTS, Sweep};
 
@@ -12,7 +12,7 @@ const ROUNDS: usize = 9;
 pub(crate) fn lanes_with_scalars() {
     let sweep = Sweep::new();
     println!("lanes against scalars of the same arithmetic class, medians of {ROUNDS} interleaved runs:");
-    for set in InstructionSet::available() {
+    for set in Backend::available() {
         let mut ratios = Vec::new();
         let mut lane_seconds = Vec::new();
         let mut rhs_evals = 0;
@@ -46,7 +46,7 @@ fn median(values: &mut [f64]) -> f64 {
 /// Instructions per right-hand side and lane while marching, as a phrase.
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[expect(clippy::print_stderr, reason = "a bench reports")]
-fn instructions(set: InstructionSet) -> String {
+fn instructions(set: Backend) -> String {
     use crate::counter::count;
     use crate::workload::{Task, Work};
 
@@ -67,6 +67,6 @@ fn instructions(set: InstructionSet) -> String {
 }
 
 #[cfg(not(all(target_os = "linux", target_arch = "x86_64")))]
-fn instructions(_set: InstructionSet) -> String {
+fn instructions(_set: Backend) -> String {
     String::new()
 }

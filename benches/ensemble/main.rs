@@ -17,7 +17,7 @@ mod sweep;
 use core::time::Duration;
 
 use criterion::{Criterion, SamplingMode, Throughput};
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 
 use sweep::{POINTS, Sweep};
 
@@ -44,7 +44,7 @@ fn points_per_second(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(POINTS as u64));
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
     group.warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(4));
-    for set in InstructionSet::available() {
+    for set in Backend::available() {
         group.bench_function(format!("lanes/{set}"), |bench| bench.iter(|| sweep.lanes(set)));
     }
     for set in sweep::scalar_sets() {

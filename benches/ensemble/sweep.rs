@@ -1,6 +1,6 @@
 //! The sweep: voltage and frequency of the large actuator of Ozaki and Hamaguchi.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{Point, PointRun, Simulator, SolverSettings, never, preset, run_list};
 
 const VOLTAGES: usize = 16;
@@ -35,14 +35,14 @@ impl Sweep {
     }
 
     /// Runs it in lanes. Returns the right-hand sides evaluated.
-    pub(crate) fn lanes(&self, set: InstructionSet) -> u64 {
+    pub(crate) fn lanes(&self, set: Backend) -> u64 {
         let points = self.points.iter().map(|values| Point::at_rest(0, values.clone())).collect();
         let rows = run_list(self.simulator, set, &SolverSettings::default(), points, &never);
         rows.expect("every point has a row").iter().map(|row| row.rhs_evals).sum()
     }
 
     /// Runs it point by point on scalars of the set's arithmetic class. Returns the right-hand sides evaluated.
-    pub(crate) fn scalars(&self, set: InstructionSet) -> u64 {
+    pub(crate) fn scalars(&self, set: Backend) -> u64 {
         let settings = SolverSettings::default();
         self.points
             .iter()
@@ -52,8 +52,8 @@ impl Sweep {
 }
 
 /// One instruction set per arithmetic class of this machine.
-pub(crate) fn scalar_sets() -> Vec<InstructionSet> {
-    let mut sets = InstructionSet::available();
+pub(crate) fn scalar_sets() -> Vec<Backend> {
+    let mut sets = Backend::available();
     sets.dedup_by_key(|set| set.arithmetic());
     sets
 }

@@ -4,11 +4,11 @@ use std::fs;
 use std::process::Command;
 use std::thread;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 
 pub(crate) fn print() {
     let threads = thread::available_parallelism().map_or(1, usize::from);
-    let sets: Vec<&str> = InstructionSet::available().into_iter().map(InstructionSet::name).collect();
+    let sets: Vec<&str> = Backend::available().into_iter().map(Backend::name).collect();
     println!(
         "## Machine\n\n| | |\n|---|---|\n| processor | {} |\n| hardware threads | {threads} |\n\
          | instructions | {} |\n| compiler | {} |\n| load average | {} |\n",

@@ -5,7 +5,7 @@ use core::hint::black_box;
 use core::ops::ControlFlow;
 use std::time::Instant;
 
-use flap_core::num::{InstructionSet, Kernel, Lanes, Number, Simd, Vector};
+use flap_core::num::{Backend, Kernel, Lanes, Number, Simd, Vector};
 use flap_core::ode::ensemble::{Continuation, NewRun, Queue, Unobserved, run};
 use flap_core::ode::{Outcome, Start, Tolerances};
 
@@ -28,12 +28,12 @@ pub(crate) fn print(effort: Effort) {
                     | instructions | executed | arithmetic | of which fused | divisions | with the stack | peak, GFLOP/s | \
                     share of the peak's instructions |\n|---|---|---|---|---|---|---|---|"
     );
-    for set in InstructionSet::available().into_iter().filter(|set| set.name() != "sse2") {
+    for set in Backend::available().into_iter().filter(|set| set.name() != "sse2") {
         println!("{}", line(set, effort).unwrap_or_else(|error| format!("| {set} | not counted: {error} |")));
     }
 }
 
-fn line(set: InstructionSet, effort: Effort) -> std::io::Result<String> {
+fn line(set: Backend, effort: Effort) -> std::io::Result<String> {
     let executed = Executed::of(&format!("{set} {COUNTED}"))?;
     let lanes = set.lanes() as f64;
     let counted = rhs_evals(set, COUNTED) / lanes;
@@ -63,18 +63,18 @@ fn line(set: InstructionSet, effort: Effort) -> std::io::Result<String> {
 /// Marches as many periods as `name` says, which is a set of instructions and a number.
 pub(crate) fn march_by_name(name: &str, mark: &mut dyn FnMut()) {
     let (set, periods) = name.split_once(' ').expect("a set and periods");
-    let set = InstructionSet::by_name(set).expect("a set of this machine");
+    let set = Backend::by_name(set).expect("a set of this machine");
     set.dispatch(March { periods: periods.parse().expect("a number"), mark });
 }
 
-fn march_seconds(set: InstructionSet, periods: u64) -> f64 {
+fn march_seconds(set: Backend, periods: u64) -> f64 {
     let mut marks = Vec::new();
     set.dispatch(March { periods, mark: &mut || marks.push(Instant::now()) });
     (marks[1] - marks[0]).as_secs_f64()
 }
 
 /// Right-hand sides of all lanes.
-fn rhs_evals(set: InstructionSet, periods: u64) -> f64 {
+fn rhs_evals(set: Backend, periods: u64) -> f64 {
     set.dispatch(March { periods, mark: &mut || () }) as f64
 }
 

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::ode::ensemble::Occupancy;
 use flap_core::simulate::{Jobs, LaneUse, Point, Row, SolverSettings, Status};
 use flap_sweep::plan::Plan;
@@ -51,7 +51,7 @@ pub(crate) fn print(effort: Effort) {
 /// Runs all points on this thread.
 pub(crate) fn run<'a>(plan: &'a Plan, solver: &SolverSettings) -> Listed<'a> {
     let mut listed = Listed::new(plan);
-    plan.simulator().run(InstructionSet::best(), solver, &mut listed);
+    plan.simulator().run(Backend::best(), solver, &mut listed);
     listed
 }
 

@@ -7,7 +7,7 @@ mod kernels;
 use core::time::Duration;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 
 use kernels::{Equations, Numbers, Timed, VALUES, Work};
 
@@ -17,7 +17,7 @@ fn parts(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(work.name());
         group.sample_size(20);
         group.warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(1));
-        for set in InstructionSet::available() {
+        for set in Backend::available() {
             let elements = if work.is_function() { VALUES } else { set.lanes() };
             group.throughput(Throughput::Elements(elements as u64));
             group.bench_function(format!("lanes/{set}"), |bench| {
@@ -26,8 +26,7 @@ fn parts(criterion: &mut Criterion) {
             });
         }
         // Scalars of both classes; the fused ones in a function with the instruction enabled.
-        for set in [InstructionSet::by_name("avx2"), InstructionSet::available().pop()].into_iter().flatten()
-        {
+        for set in [Backend::by_name("avx2"), Backend::available().pop()].into_iter().flatten() {
             let elements = if work.is_function() { VALUES } else { 1 };
             let arithmetic = set.arithmetic();
             group.throughput(Throughput::Elements(elements as u64));

@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::io::Seek;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{Point, Row, never, run_list};
 use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::plan::Plan;
@@ -23,7 +23,7 @@ impl Rows {
     /// Runs all points on this thread.
     pub(crate) fn of(plan: &Plan) -> Rows {
         let points: Vec<Point> = (0..plan.len()).map(|index| plan.point(index)).collect();
-        let rows = run_list(plan.simulator(), InstructionSet::best(), plan.solver(), points.clone(), &never);
+        let rows = run_list(plan.simulator(), Backend::best(), plan.solver(), points.clone(), &never);
         let rows = points.into_iter().zip(rows.expect("every point has a row")).collect();
         Rows { layout: Layout::of(plan), rows }
     }

@@ -18,7 +18,7 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use flap_core::num::{InstructionSet, Kernel, Simd};
+use flap_core::num::{Backend, Kernel, Simd};
 use flap_core::ode::ensemble::{Continuation, NewRun, Observer, Queue, Unobserved, run};
 use flap_core::ode::{Outcome, Start, Tolerances};
 use nix::time::{ClockId, clock_gettime};
@@ -36,9 +36,9 @@ type Point = (String, f64, f64);
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let ([points, rtol, out], set) = match &arguments[..] {
-        [points, rtol, out] => ([points, rtol, out], InstructionSet::best()),
+        [points, rtol, out] => ([points, rtol, out], Backend::best()),
         [points, rtol, out, set] => {
-            let set = InstructionSet::by_name(set).ok_or_else(|| format!("this machine has no {set}"))?;
+            let set = Backend::by_name(set).ok_or_else(|| format!("this machine has no {set}"))?;
             ([points, rtol, out], set)
         }
         _ => return Err("arguments are needed: POINTS.csv RTOL OUT.csv [SET]".into()),
@@ -174,7 +174,7 @@ mod tests {
         let points = read(&format!("id,F0,f\n{}", begins.join("\n"))).expect("points");
         for (rtol, worst) in [(1e-6, 1e-4), (1e-8, 1e-6)] {
             let tolerances = Tolerances { rtol, atol: 0.1 * rtol, max_steps: 100_000 };
-            for set in InstructionSet::available() {
+            for set in Backend::available() {
                 let found = set.dispatch(Runs { points: &points, tolerances });
                 for ((row, (_, _, frequency)), sums) in rows.iter().zip(&points).zip(&found.sums) {
                     let lift = sums.lift * frequency / f64::from(PERIODS[1]);

@@ -1,7 +1,7 @@
 //! Free motions after an impulse on the resting stroke.
 
 use flap_core::measure::damped_sine::{self, DampedSine};
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::resonance::free::{FreeMotion, FreeRequest, examine, intervals, stroke_rate};
 use flap_core::simulate::{ImpulseRequest, PointRun};
 
@@ -27,9 +27,8 @@ impl Bench {
             duration: f64::from(cycles) / modes[0].frequency,
             intervals: intervals(f64::from(cycles), f64::from(SAMPLES)).expect("it is a short motion"),
         };
-        let motion = self
-            .experiments()
-            .free_response(&PointRun::new(InstructionSet::best(), &self.solver, values), &request);
+        let motion =
+            self.experiments().free_response(&PointRun::new(Backend::best(), &self.solver, values), &request);
         let motion = motion.expect("the motion does not fail");
         let stroke = motion.columns.iter().position(|column| column == "stroke_deg").expect("it is a state");
         let stroke: Vec<f64> = motion.rows.iter().map(|row| row[stroke]).collect();
@@ -42,7 +41,7 @@ impl Bench {
     pub(crate) fn spectra(&self, values: &[f64], amplitude: f64) -> FreeMotion {
         let request =
             FreeRequest { amplitude, fit_cycles: 4, spectrum_window: 1.0, samples_per_cycle: SAMPLES };
-        examine(self.experiments(), &PointRun::new(InstructionSet::best(), &self.solver, values), &request)
+        examine(self.experiments(), &PointRun::new(Backend::best(), &self.solver, values), &request)
             .expect("the motion does not fail")
     }
 }

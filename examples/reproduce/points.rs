@@ -1,6 +1,6 @@
 //! Design points, settled on lanes, and their responses to a parameter that is swept.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{
     Experiments, Motions, Point, Simulator, SolverSettings, Status, by_name, never, run_list,
 };
@@ -50,7 +50,7 @@ impl Bench {
     /// The points with these parameter values, each settled.
     pub(crate) fn settle(&self, points: Vec<Vec<f64>>) -> Vec<Settled> {
         let points = points.into_iter().map(|values| Point::at_rest(0, values)).collect();
-        let rows = run_list(self.model, InstructionSet::best(), &self.solver, points, &never);
+        let rows = run_list(self.model, Backend::best(), &self.solver, points, &never);
         rows.expect("every point has a row")
             .into_iter()
             .map(|row| {

@@ -5,7 +5,7 @@ mod runs;
 
 use std::hint::black_box;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::ode::solve::solve;
 
 use counting::allocations;
@@ -20,7 +20,7 @@ fn the_count_sees_allocations() {
 fn a_step_allocates_nothing() {
     let start = start();
     assert_eq!(allocations(|| one_step::<f64>((), &start)), 0);
-    for set in InstructionSet::available() {
+    for set in Backend::available() {
         assert_eq!(allocations(|| set.dispatch(OneStep(&start))), 0, "{set}");
     }
 }
@@ -41,7 +41,7 @@ fn a_scalar_run_allocates_nothing() {
 
 #[test]
 fn an_ensemble_allocates_the_same_for_more_cycles() {
-    for set in InstructionSet::available() {
+    for set in Backend::available() {
         let march = |cycles| allocations(|| set.dispatch(Ensemble { runs: 40, cycles }));
         assert_eq!(march(10), march(1), "{set}");
     }
@@ -50,7 +50,7 @@ fn an_ensemble_allocates_the_same_for_more_cycles() {
 #[test]
 fn a_sweep_allocates_the_same_for_more_cycles() {
     for preset in ["ozaki2018-large", "jafferis2016", "arabagi2013-75hz"] {
-        for set in InstructionSet::available() {
+        for set in Backend::available() {
             // The first sweep of a thread finds the quadrature rules, and keeps them.
             sweep(preset, set, 1e-1, false);
             for (progressive, loose) in [(false, 1e-1), (true, 1e-6)] {

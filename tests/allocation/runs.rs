@@ -6,7 +6,7 @@ use std::hint::black_box;
 use flap_core::drive::Drive;
 use flap_core::model::Model;
 use flap_core::model::direct_drive::{Constants, DirectDrive, FlowDirection};
-use flap_core::num::{InstructionSet, Kernel, Lanes, PerLane, Simd, Vector};
+use flap_core::num::{Backend, Kernel, Lanes, PerLane, Simd, Vector};
 use flap_core::ode::ensemble::{Continuation, NewRun, Queue, Unobserved, run};
 use flap_core::ode::step::Step;
 use flap_core::ode::{Ode, Outcome, Start, Tolerances};
@@ -98,7 +98,7 @@ pub(crate) fn count_down(left: &mut u32) -> ControlFlow<()> {
 }
 
 /// Allocations and cycles of a sweep over equal points of a preset, from points to rows.
-pub(crate) fn sweep(name: &str, set: InstructionSet, settle_tol: f64, progressive: bool) -> (u64, u64) {
+pub(crate) fn sweep(name: &str, set: Backend, settle_tol: f64, progressive: bool) -> (u64, u64) {
     let (simulator, preset) = preset(name).expect("a published preset");
     let solver = SolverSettings { settle_tol, progressive, ..SolverSettings::default().with_rtol(1e-8) };
     let mut points = Points { left: 48, cycles: 0, values: (preset.values)() };

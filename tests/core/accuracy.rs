@@ -1,6 +1,6 @@
 //! Error estimates of rows, on designs far from the published ones.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::parameter::{Kind, Preset};
 use flap_core::simulate::{Row, Simulator, SolverSettings, Status, all, preset};
 
@@ -66,7 +66,7 @@ fn rows_of_random_designs_know_their_error() {
     for name in names.filter(|name| !name.ends_with("kw-swapped")) {
         let (model, preset) = preset(name).expect("a preset");
         let designs = designs(model, preset);
-        let set = InstructionSet::best();
+        let set = Backend::best();
         let rows = rows::of(model, &designs, set, &solver());
         let periodic: Vec<usize> = (0..DRAWN).filter(|&i| rows[i].status == Status::Periodic).collect();
 

@@ -1,6 +1,6 @@
 //! Points whose motion begins at a given state, and single periods.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{Point, PointRun, Simulator, SolverSettings, Status, all};
 use nalgebra::DMatrix;
 
@@ -28,7 +28,7 @@ fn presets(model: &dyn Simulator) -> Vec<Vec<f64>> {
 #[test]
 fn a_motion_that_begins_on_its_orbit_is_found_there_at_once() {
     for &model in all() {
-        let from_rest = rows::of(model, &presets(model), InstructionSet::best(), &SOLVER);
+        let from_rest = rows::of(model, &presets(model), Backend::best(), &SOLVER);
         let again = (0..).zip(presets(model)).zip(&from_rest).map(|((index, values), row)| Point {
             index,
             values,
@@ -54,14 +54,14 @@ fn what_is_no_state_is_refused() {
     for &model in all() {
         let values = &presets(model)[0];
         for begin in [&[][..], &[0.0; 3], &[0.0; 5], &[0.0, f64::NAN, 0.0, 0.0]] {
-            let row = model.run_point(&PointRun::new(InstructionSet::best(), &SOLVER, values), Some(begin));
+            let row = model.run_point(&PointRun::new(Backend::best(), &SOLVER, values), Some(begin));
             assert_eq!(row.status, Status::Invalid);
             assert!(row.reason.unwrap().contains("the state needs 4 finite numbers"));
             assert!(
                 model
                     .motions()
                     .unwrap()
-                    .period(&PointRun::new(InstructionSet::best(), &SOLVER, values), begin)
+                    .period(&PointRun::new(Backend::best(), &SOLVER, values), begin)
                     .is_err()
             );
         }
@@ -75,7 +75,7 @@ fn follow(model: &dyn Simulator, values: &[f64], begin: &[f64], periods: u32) ->
         let period = model
             .motions()
             .unwrap()
-            .period(&PointRun::new(InstructionSet::best(), &SOLVER, values), &state)
+            .period(&PointRun::new(Backend::best(), &SOLVER, values), &state)
             .unwrap();
         product = DMatrix::from_fn(4, 4, |i, j| period.responses[j][i]) * product;
         state = period.end;
@@ -87,11 +87,11 @@ fn follow(model: &dyn Simulator, values: &[f64], begin: &[f64], periods: u32) ->
 fn a_period_is_what_rows_are_made_of() {
     for &model in all() {
         for values in presets(model) {
-            let row = model.run_point(&PointRun::new(InstructionSet::best(), &SOLVER, &values), None);
+            let row = model.run_point(&PointRun::new(Backend::best(), &SOLVER, &values), None);
             let period = model
                 .motions()
                 .unwrap()
-                .period(&PointRun::new(InstructionSet::best(), &SOLVER, &values), &row.state)
+                .period(&PointRun::new(Backend::best(), &SOLVER, &values), &row.state)
                 .unwrap();
             // Efficiencies without power are not numbers.
             let bits = |measures: &[f64]| -> Vec<u64> { measures.iter().map(|m| m.to_bits()).collect() };
@@ -109,14 +109,10 @@ fn a_period_is_what_rows_are_made_of() {
 fn responses_are_derivatives() {
     for &model in all() {
         let values = &presets(model)[0];
-        let begin = model.run_point(&PointRun::new(InstructionSet::best(), &SOLVER, values), None).state;
+        let begin = model.run_point(&PointRun::new(Backend::best(), &SOLVER, values), None).state;
         let exact = SolverSettings { rtol: 1e-11, atol: 1e-13, ..SOLVER };
         let period = |begin: &[f64]| {
-            model
-                .motions()
-                .unwrap()
-                .period(&PointRun::new(InstructionSet::best(), &exact, values), begin)
-                .unwrap()
+            model.motions().unwrap().period(&PointRun::new(Backend::best(), &exact, values), begin).unwrap()
         };
         let middle = period(&begin);
         for j in 0..4 {
@@ -145,7 +141,7 @@ fn subharmonic_orbits_close_and_decay_by_their_multipliers() {
     let solver = SolverSettings { max_cycles: 300, ..SOLVER };
     let model = all()[0];
     let designs = designs(model, 300);
-    let rows = rows::of(model, &designs, InstructionSet::best(), &solver);
+    let rows = rows::of(model, &designs, Backend::best(), &solver);
     let subharmonic = || rows.iter().zip(&designs).filter(|(row, _)| row.status == Status::Subharmonic);
     assert!(subharmonic().count() > 0, "one of the designs has such an orbit");
     for (row, values) in subharmonic() {
@@ -153,7 +149,7 @@ fn subharmonic_orbits_close_and_decay_by_their_multipliers() {
         let scale = model
             .motions()
             .unwrap()
-            .period(&PointRun::new(InstructionSet::best(), &SOLVER, values), &row.state)
+            .period(&PointRun::new(Backend::best(), &SOLVER, values), &row.state)
             .unwrap()
             .scale;
         for i in 0..4 {

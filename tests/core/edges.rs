@@ -1,6 +1,6 @@
 //! Motions at the edge of what is common: minute ones, none at all, large reactive power, drives with edges.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, preset};
 
 use crate::data::assert_close;
@@ -19,7 +19,7 @@ fn design(name: &str, changes: &[(&str, f64)]) -> (&'static dyn Simulator, Vec<f
 
 fn run(design: &(&'static dyn Simulator, Vec<f64>), rtol: f64) -> Row {
     let solver = SolverSettings { settle_tol: rtol.max(1e-9), ..SolverSettings::default().with_rtol(rtol) };
-    let row = design.0.run_point(&PointRun::new(InstructionSet::best(), &solver, &design.1), None);
+    let row = design.0.run_point(&PointRun::new(Backend::best(), &solver, &design.1), None);
     assert_eq!(row.status, Status::Periodic, "{row:?}");
     row
 }
@@ -118,7 +118,7 @@ fn efficiency_needs_power() {
     let (model, preset) = preset("ozaki2018-large").unwrap();
     let designs = crate::accuracy::designs(model, preset);
     let solver = SolverSettings { max_cycles: 50, ..SolverSettings::default() };
-    let rows = rows::of(model, &designs[..600], InstructionSet::best(), &solver);
+    let rows = rows::of(model, &designs[..600], Backend::best(), &solver);
     let position = |name: &str| model.columns().iter().position(|column| column.name == name).unwrap();
     let (power, efficiency) = (position("power_mean_mw"), position("efficiency_gf_per_w"));
     let periodic: Vec<&Row> = rows.iter().filter(|row| row.status == Status::Periodic).collect();
@@ -154,7 +154,7 @@ fn no_point_of_a_preset_stays_unsettled_by_jumps_of_the_period_map() {
             }
         }
         let solver = SolverSettings { settle_tol: 1e-7, ..SolverSettings::default().with_rtol(1e-6) };
-        let rows = rows::of(preset(name).unwrap().0, &points, InstructionSet::best(), &solver);
+        let rows = rows::of(preset(name).unwrap().0, &points, Backend::best(), &solver);
         let unsettled = rows.iter().filter(|row| row.status != Status::Periodic).count();
         assert_eq!(unsettled, 0, "{name}: of {} points", points.len());
     }

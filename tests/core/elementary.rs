@@ -4,7 +4,7 @@ use flap_core::num::functions::{
     exp_m1_of_ordinary, exp_of_ordinary, ln_1p_of_normal, ln_of_normal, rough_exp2, rough_reciprocal, round,
     round_to_eighths,
 };
-use flap_core::num::{Arithmetic, Float, InstructionSet, Kernel, Lanes, Number, Real, Simd, Unfused, Vector};
+use flap_core::num::{Arithmetic, Backend, Float, Kernel, Lanes, Number, Real, Simd, Unfused, Vector};
 
 /// Arguments that cover quadrants, signs, exponents and both sides of rounding boundaries.
 fn arguments(from: f64, to: f64) -> Vec<f64> {
@@ -240,7 +240,7 @@ fn all_magnitudes() -> Vec<f64> {
 #[test]
 fn exponentials_and_logarithms_of_any_number_are_those_of_the_standard_library() {
     let numbers = all_magnitudes();
-    for set in InstructionSet::available() {
+    for set in Backend::available() {
         for (&x, found) in numbers.iter().zip(set.dispatch(Exponentials(&numbers))) {
             for ((name, found), expected) in
                 ["exp", "exp_m1", "ln", "ln_1p"].into_iter().zip(found).zip(std_exponentials(x))
@@ -270,7 +270,7 @@ fn unchecked_exponentials_and_logarithms_have_the_same_bits() {
 #[test]
 fn lanes_equal_scalars_bit_for_bit() {
     let x = arguments(-30.0, 30.0);
-    for set in InstructionSet::available() {
+    for set in Backend::available() {
         for (&x, lane) in x.iter().zip(set.dispatch(OnLanes(&x))) {
             let scalar = match set.arithmetic() {
                 Arithmetic::Fused => everything(x),
@@ -307,7 +307,7 @@ impl Kernel for Masks {
 
 #[test]
 fn masks_hold_one_bit_per_lane() {
-    for set in InstructionSet::available() {
+    for set in Backend::available() {
         set.dispatch(Masks);
     }
 }
@@ -321,9 +321,9 @@ fn comparisons_with_nan_are_false() {
 
 #[test]
 fn instruction_sets_are_found_by_name() {
-    let best = InstructionSet::best();
-    assert_eq!(InstructionSet::by_name(best.name()).map(InstructionSet::name), Some(best.name()));
-    assert!(InstructionSet::by_name("abacus").is_none());
-    let names: Vec<_> = InstructionSet::available().into_iter().map(InstructionSet::name).collect();
+    let best = Backend::best();
+    assert_eq!(Backend::by_name(best.name()).map(Backend::name), Some(best.name()));
+    assert!(Backend::by_name("abacus").is_none());
+    let names: Vec<_> = Backend::available().into_iter().map(Backend::name).collect();
     assert_eq!(names[0], best.name());
 }

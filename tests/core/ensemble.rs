@@ -2,7 +2,7 @@
 
 use flap_core::drive::{Shape, WaveformParameters};
 use flap_core::model::direct_drive::{FlowDirection, Params};
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{Simulator, SolverSettings, Status, by_name};
 use proptest::prelude::*;
 
@@ -44,7 +44,7 @@ fn rows_equal_the_scalar_path_bit_for_bit() {
 
 #[test]
 fn the_mixture_contains_every_kind_of_failure() {
-    let rows = rows::of(model(), &mixed_points(), InstructionSet::best(), &QUICK);
+    let rows = rows::of(model(), &mixed_points(), Backend::best(), &QUICK);
     for status in [Status::Periodic, Status::Unsettled, Status::Diverged, Status::Invalid] {
         assert!(rows.iter().any(|row| row.status == status), "no row is {}", status.name());
     }
@@ -65,9 +65,9 @@ fn the_mixture_contains_every_kind_of_failure() {
 #[test]
 fn instruction_sets_of_a_class_give_the_same_bits() {
     let points = mixed_points();
-    let best = InstructionSet::best();
+    let best = Backend::best();
     let expected = rows::of(model(), &points, best, &QUICK);
-    for set in InstructionSet::available() {
+    for set in Backend::available() {
         if set.arithmetic() == best.arithmetic() {
             let rows = rows::of(model(), &points, set, &QUICK);
             assert!(rows.iter().zip(&expected).all(|(a, b)| bits(a) == bits(b)), "{set} differs from {best}");
@@ -82,7 +82,7 @@ proptest! {
     #[test]
     fn a_row_depends_on_its_point_alone(chosen in prop::collection::vec(0..150_usize, 1..70)) {
         let points = mixed_points();
-        let set = InstructionSet::best();
+        let set = Backend::best();
         let together = rows::of(model(), &points, set, &QUICK);
         let few: Vec<_> = chosen.iter().map(|&i| points[i].clone()).collect();
         let some = rows::of(model(), &few, set, &QUICK);
@@ -94,14 +94,13 @@ proptest! {
 
 #[test]
 fn no_points_give_no_rows() {
-    assert!(rows::of(model(), &[], InstructionSet::best(), &QUICK).is_empty());
+    assert!(rows::of(model(), &[], Backend::best(), &QUICK).is_empty());
 }
 
 #[test]
 fn step_limit_is_a_status() {
     let solver = SolverSettings { max_steps: 5, ..QUICK };
-    let rows =
-        rows::of(model(), &vec![Params::ozaki2018_large().to_values(); 3], InstructionSet::best(), &solver);
+    let rows = rows::of(model(), &vec![Params::ozaki2018_large().to_values(); 3], Backend::best(), &solver);
     assert!(rows.iter().all(|row| row.status == Status::StepLimit && row.period == 0));
     assert!(rows[0].residual.is_nan() && rows[0].cycles == 0);
 }

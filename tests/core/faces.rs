@@ -1,6 +1,6 @@
 //! A model that has rows alone, lists of points, and the words of errors.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::parameter::{Parameter, Preset};
 use flap_core::simulate::{
     ChirpRequest, Column, Jobs, Point, PointRun, RequestError, Row, Rows, Simulator, SolverSettings, Status,
@@ -15,7 +15,7 @@ impl Rows for Backwards {
         &[]
     }
 
-    fn run(&self, _: InstructionSet, _: &SolverSettings, jobs: &mut dyn Jobs) {
+    fn run(&self, _: Backend, _: &SolverSettings, jobs: &mut dyn Jobs) {
         let mut points = Vec::new();
         while let Some(point) = jobs.next(true) {
             points.push(point);
@@ -61,7 +61,7 @@ fn a_model_with_rows_alone_says_so() {
     let experiments = Backwards.experiments().err().unwrap();
     assert_eq!(experiments, Unfinished::NoExperiments { model: "backwards" });
 
-    let set = InstructionSet::best();
+    let set = Backend::best();
     assert_eq!(Backwards.row(&PointRun::new(set, &SOLVER, &[2.0])).unwrap().reason.as_deref(), Some("2"));
     assert_eq!(
         Backwards.row(&PointRun::new(set, &SOLVER, &[2.0]).until(&|| true)),
@@ -71,7 +71,7 @@ fn a_model_with_rows_alone_says_so() {
 
 #[test]
 fn rows_of_a_list_are_in_the_order_of_its_points() {
-    let set = InstructionSet::best();
+    let set = Backend::best();
     let points = |values: &[f64]| values.iter().map(|&value| Point::at_rest(9, vec![value])).collect();
     let rows = run_list(&Backwards, set, &SOLVER, points(&[3.0, 1.0, 2.0]), &never).unwrap();
     let reasons: Vec<&str> = rows.iter().map(|row| row.reason.as_deref().unwrap()).collect();
@@ -81,7 +81,7 @@ fn rows_of_a_list_are_in_the_order_of_its_points() {
 
 #[test]
 fn a_list_with_a_point_without_row_is_unfinished() {
-    let set = InstructionSet::best();
+    let set = Backend::best();
     let points = vec![Point::at_rest(0, vec![1.0]), Point::at_rest(1, Vec::new())];
     assert_eq!(run_list(&Backwards, set, &SOLVER, points.clone(), &never), Err(Unfinished::Interrupted));
     assert_eq!(run_list(&Backwards, set, &SOLVER, points, &|| true), Err(Unfinished::Interrupted));
@@ -90,7 +90,7 @@ fn a_list_with_a_point_without_row_is_unfinished() {
 #[test]
 fn motions_that_are_not_followed_say_why() {
     let (model, preset) = preset("ozaki2018-small").unwrap();
-    let (set, values) = (InstructionSet::best(), (preset.values)());
+    let (set, values) = (Backend::best(), (preset.values)());
 
     let short = SolverSettings { max_steps: 3, ..SOLVER };
     let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 1, settled: false };
@@ -129,7 +129,7 @@ fn a_motion_goes_on_from_the_state_in_which_another_ends() {
     for name in ["jafferis2016", "ozaki2018-small", "arabagi2013-75hz"] {
         let (model, preset) = preset(name).unwrap();
         let values = (preset.values)();
-        let run = PointRun::new(InstructionSet::best(), &SOLVER, &values);
+        let run = PointRun::new(Backend::best(), &SOLVER, &values);
         let motions = model.motions().unwrap();
         let request = TrajectoryRequest { cycles: 2, samples_per_cycle: 4, settled: false };
         let whole = motions.trajectory(&run, &request).unwrap();

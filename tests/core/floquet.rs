@@ -3,7 +3,7 @@
 use flap_core::model::Model;
 use flap_core::model::bimorph::Bimorph;
 use flap_core::model::direct_drive::{self, DirectDrive};
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::ode::variation::{Variation, initial, response};
 use flap_core::ode::{Start, Tolerances};
 use flap_core::parameter::Parameter;
@@ -93,7 +93,7 @@ fn rows_around(name: &str, solver: &SolverSettings) -> Vec<Row> {
             designs.push(values);
         }
     }
-    rows::of(model, &designs, InstructionSet::best(), solver)
+    rows::of(model, &designs, Backend::best(), solver)
 }
 
 /// The error of `floquet_max` with the default search: the largest that the documentation states.

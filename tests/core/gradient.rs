@@ -2,7 +2,7 @@
 
 use std::slice;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{
     Change, Gradient, NoSlope, Point, PointRun, Row, Simulator, SolverSettings, Status, all, preset,
@@ -59,7 +59,7 @@ fn gradient(model: &dyn Simulator, values: &[f64], row: &Row, indices: &[usize])
     });
     let changes: Vec<Change> = changes.collect();
     let solver = solver();
-    let run = PointRun::new(InstructionSet::best(), &solver, values);
+    let run = PointRun::new(Backend::best(), &solver, values);
     model.motions().unwrap().gradient(&run, &row.state, &changes).unwrap()
 }
 
@@ -71,7 +71,7 @@ fn differences(model: &dyn Simulator, values: &[f64], state: &[f64], index: usiz
     let points = (0..).zip(designs);
     let points: Vec<Point> =
         points.map(|(index, values)| Point { index, values, begin: Some(state.to_vec()) }).collect();
-    let rows = rows::of_points(model, &points, InstructionSet::best(), &exact());
+    let rows = rows::of_points(model, &points, Backend::best(), &exact());
     if !rows.iter().all(|row| row.status == Status::Periodic) {
         return None;
     }
@@ -105,7 +105,7 @@ fn derivatives_are_those_of_converged_orbits() {
     for &model in all() {
         let mut random = Random(18);
         let designs = robustness::designs(model, 4 * DRAWN);
-        let rows = rows::of(model, &designs, InstructionSet::best(), &solver());
+        let rows = rows::of(model, &designs, Backend::best(), &solver());
         let settled = designs.iter().zip(&rows).filter(|(_, row)| row.status == Status::Periodic);
         let (mut errors, mut unknown, mut drawn) = (Vec::new(), 0, 0);
         for (values, row) in settled {
@@ -159,7 +159,7 @@ fn equal_extrema_of_both_half_strokes_have_a_kink() {
     for voltage in [10.0, 100.0, 200.0] {
         let mut values = (preset.values)();
         values[index("drive_voltage_pp")] = voltage;
-        let rows = rows::of(model, slice::from_ref(&values), InstructionSet::best(), &solver());
+        let rows = rows::of(model, slice::from_ref(&values), Backend::best(), &solver());
         let indices = ["plate_ratio", "hinge_stiffness", "drive_frequency"].map(index);
         let found = gradient(model, &values, &rows[0], &indices);
         let [plate_ratio, others @ ..] = &found.slopes[..] else { unreachable!() };
@@ -185,8 +185,8 @@ fn a_term_that_is_zero_has_a_derivative() {
     let growth = Parameter::index(model.parameters(), "transmission_growth").unwrap();
     let values = (preset.values)();
     let solver = solver();
-    let run = PointRun::new(InstructionSet::best(), &solver, &values);
-    let row = rows::of(model, slice::from_ref(&values), InstructionSet::best(), &solver).remove(0);
+    let run = PointRun::new(Backend::best(), &solver, &values);
+    let row = rows::of(model, slice::from_ref(&values), Backend::best(), &solver).remove(0);
     let at = |growth_by: f64| {
         let mut values = values.clone();
         values[growth] = growth_by;
@@ -200,7 +200,7 @@ fn a_term_that_is_zero_has_a_derivative() {
         .zip(points)
         .map(|(index, values)| Point { index, values, begin: Some(row.state.clone()) })
         .collect();
-    let rows = rows::of_points(model, &points, InstructionSet::best(), &exact());
+    let rows = rows::of_points(model, &points, Backend::best(), &exact());
     for name in ["stroke_pp_deg", "pitch_pp_deg", "lift_mean_mn", "power_mean_mw", "tip_pp_um"] {
         let j = model.columns().iter().position(|column| column.name == name).unwrap();
         let m = [0, 1, 2, 3].map(|i| rows[i].measures[j]);
@@ -216,7 +216,7 @@ fn a_changed_point_that_is_impossible_is_told() {
     let (model, preset) = flap_core::simulate::preset("ozaki2018-large").unwrap();
     let values = (preset.values)();
     let solver = solver();
-    let run = PointRun::new(InstructionSet::best(), &solver, &values);
+    let run = PointRun::new(Backend::best(), &solver, &values);
     let row = model.run_point(&run, None);
     let stiffness = model.parameters().iter().position(|p| p.name == "hinge_stiffness").unwrap();
     let possible = |share: f64| Change {
@@ -243,7 +243,7 @@ fn derivatives_are_the_same_in_all_lanes_of_an_arithmetic() {
     for &model in all() {
         let values = (model.presets()[0].values)();
         let solver = SolverSettings::DEFAULT;
-        let best = InstructionSet::best();
+        let best = Backend::best();
         let row = model.run_point(&PointRun::new(best, &solver, &values), None);
         let indices = numbers(model, &values);
         let changes: Vec<Change> = indices
@@ -255,12 +255,12 @@ fn derivatives_are_the_same_in_all_lanes_of_an_arithmetic() {
             })
             .collect();
         let motions = model.motions().unwrap();
-        let slopes = |set: InstructionSet, changes: &[Change]| {
+        let slopes = |set: Backend, changes: &[Change]| {
             let run = PointRun::new(set, &solver, &values);
             format!("{:?}", motions.gradient(&run, &row.state, changes).unwrap().slopes)
         };
         let all = slopes(best, &changes);
-        for set in InstructionSet::available() {
+        for set in Backend::available() {
             if set.arithmetic() == best.arithmetic() {
                 assert_eq!(slopes(set, &changes), all, "{} {set}", model.name());
             }
@@ -283,7 +283,7 @@ fn derivatives_towards_a_fold_are_right_or_not_given() {
         let mut values = (preset.values)();
         (values[frequency], values[stiffness], values[voltage]) = (value, 0.7486e-6, 160.0);
         let point = Point { index: 0, values: values.clone(), begin };
-        let mut rows = rows::of_points(model, &[point], InstructionSet::best(), solver);
+        let mut rows = rows::of_points(model, &[point], Backend::best(), solver);
         (values, rows.remove(0))
     };
     let solver = SolverSettings::DEFAULT;
@@ -305,7 +305,7 @@ fn derivatives_towards_a_fold_are_right_or_not_given() {
             };
             let size = CHANGE * here;
             let change = Change { ahead: change(size), behind: change(-size), size };
-            let run = PointRun::new(InstructionSet::best(), &solver, &values);
+            let run = PointRun::new(Backend::best(), &solver, &values);
             let gradient =
                 |changes: &[Change]| model.motions().unwrap().gradient(&run, &row.state, changes).unwrap();
             let found = gradient(slice::from_ref(&change));

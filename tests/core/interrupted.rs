@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::resonance::free;
 use flap_core::simulate::{
     ChirpRequest, ImpulseRequest, Jobs, Point, PointRun, Row, Simulator, SolverSettings, TrajectoryRequest,
@@ -36,7 +36,7 @@ struct Interrupted<F> {
 impl<F: Fn(u32, usize) -> bool> Interrupted<F> {
     fn run(model: &dyn Simulator, solver: &SolverSettings, points: Vec<Vec<f64>>, until: F) -> Self {
         let mut jobs = Interrupted { points, next: 0, rows: Vec::new(), asked: Cell::new(0), until };
-        model.run(InstructionSet::best(), solver, &mut jobs);
+        model.run(Backend::best(), solver, &mut jobs);
         jobs
     }
 }
@@ -93,10 +93,8 @@ fn a_drive_period_of_very_many_steps_is_interrupted_halfway() {
     };
     let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 10, settled: false };
     let motions = model.motions().unwrap();
-    let motion = motions.trajectory(
-        &PointRun::new(InstructionSet::best(), &ENDLESS, &points[0]).until(&interrupted),
-        &request,
-    );
+    let motion = motions
+        .trajectory(&PointRun::new(Backend::best(), &ENDLESS, &points[0]).until(&interrupted), &request);
     assert_eq!(motion, Err(Unfinished::Interrupted));
 }
 
@@ -109,8 +107,7 @@ fn rows_before_an_interruption_are_those_without_one() {
         let jobs = Interrupted::run(model, &solver, points.clone(), |_, rows| rows >= 300);
         assert!((300..2000).contains(&jobs.rows.len()), "{} rows", jobs.rows.len());
         for (index, row) in jobs.rows.iter().step_by(17) {
-            let alone =
-                model.run_point(&PointRun::new(InstructionSet::best(), &solver, &points[*index]), None);
+            let alone = model.run_point(&PointRun::new(Backend::best(), &solver, &points[*index]), None);
             assert_eq!(bits(row), bits(&alone), "point {index}");
         }
     }
@@ -119,7 +116,7 @@ fn rows_before_an_interruption_are_those_without_one() {
 #[test]
 fn motions_of_one_point_end_when_interrupted() {
     let (model, points) = points("jafferis2016", [100.0].into_iter());
-    let (set, values) = (InstructionSet::best(), &points[0]);
+    let (set, values) = (Backend::best(), &points[0]);
     let always = || true;
     let interrupted = Some(Unfinished::Interrupted);
 

@@ -4,7 +4,7 @@ use flap_core::model::bimorph::{self, Bimorph};
 use flap_core::model::direct_drive::{self, DirectDrive};
 use flap_core::model::four_bar::{self, FourBar};
 use flap_core::model::{Instant, Load, Model, position};
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, SolverSettings, Status, preset};
 
@@ -26,7 +26,7 @@ fn instants<M: Model<4, S>, const S: usize>(
 ) -> (M::Constants<f64>, Vec<At<S>>) {
     let simulator = flap_core::simulate::by_name(M::DESCRIPTION.name).unwrap();
     let solver = SolverSettings::DEFAULT.with_rtol(1e-9);
-    let run = PointRun::new(InstructionSet::best(), &solver, values);
+    let run = PointRun::new(Backend::best(), &solver, values);
     let request = flap_core::simulate::TrajectoryRequest { cycles: 1, samples_per_cycle: 200, settled: true };
     let motion = simulator.motions().unwrap().trajectory(&run, &request).unwrap();
     let model = model.variant(values);
@@ -251,9 +251,8 @@ fn rows_have_mean_loads() {
         let (model, preset) = preset(name).unwrap();
         let values = (preset.values)();
         let solver = SolverSettings { loads: true, ..SolverSettings::DEFAULT };
-        let row = |solver: &SolverSettings| {
-            model.run_point(&PointRun::new(InstructionSet::best(), solver, &values), None)
-        };
+        let row =
+            |solver: &SolverSettings| model.run_point(&PointRun::new(Backend::best(), solver, &values), None);
         let (with, without) = (row(&solver), row(&SolverSettings::DEFAULT));
         assert_eq!(with.status, Status::Periodic);
         let columns = model.columns().len();

@@ -1,7 +1,7 @@
 //! Orbits found by Newton's iteration: their multipliers, and what marching would take hundreds of periods for.
 
 use flap_core::model::{bimorph, direct_drive};
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, Row, SolverSettings, Status, by_name};
 
 use crate::data::{assert_close, table};
@@ -15,7 +15,7 @@ fn run(model: &str, values: &[f64], rtol: f64, settle_tol: f64) -> Row {
 }
 
 fn run_with(model: &str, values: &[f64], solver: &SolverSettings) -> Row {
-    by_name(model).unwrap().run_point(&PointRun::new(InstructionSet::best(), solver, values), None)
+    by_name(model).unwrap().run_point(&PointRun::new(Backend::best(), solver, values), None)
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use flap_core::drive::{DriveConstants, WaveformParameters};
 use flap_core::model::{Derived, Description, Instant, Measure, Model, Principal, Signal, Unit};
-use flap_core::num::{InstructionSet, Lanes};
+use flap_core::num::{Backend, Lanes};
 use flap_core::ode::{Ode, Start};
 use flap_core::parameter::Invalid;
 use flap_core::parameter::Kind::Number;
@@ -104,7 +104,7 @@ impl Model<2, 2> for Oscillator {
 static OSCILLATOR: Runner<Oscillator, 2, 6, 2> = Runner::new(Oscillator);
 
 fn row(params: &Params, solver: &SolverSettings) -> Row {
-    let row = OSCILLATOR.run_point(&PointRun::new(InstructionSet::best(), solver, &params.to_values()), None);
+    let row = OSCILLATOR.run_point(&PointRun::new(Backend::best(), solver, &params.to_values()), None);
     assert_eq!(row.status, Status::Periodic, "{row:?}");
     row
 }

@@ -1,7 +1,7 @@
 //! Progressive tolerances find the orbits on which motions from rest settle at full tolerance.
 
 use flap_core::model::bimorph;
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{Row, Simulator, SolverSettings, Status, all, by_name};
 
 use crate::{robustness, rows};
@@ -48,8 +48,8 @@ struct Counts {
 
 /// Compares the rows of `designs` with those at full tolerance and with those of marching alone, and prints the counts.
 fn compare(model: &dyn Simulator, what: &str, designs: &[Vec<f64>]) -> Counts {
-    let [found, full, marched] = [progressive(), full(), marching()]
-        .map(|solver| rows::of(model, designs, InstructionSet::best(), &solver));
+    let [found, full, marched] =
+        [progressive(), full(), marching()].map(|solver| rows::of(model, designs, Backend::best(), &solver));
     let settled = |row: &Row| matches!(row.status, Status::Periodic | Status::Subharmonic);
     let (mut compared, mut other, mut other_march, mut evals) = (0, 0, 0, [0, 0]);
     let [mut possible, mut by_search_alone, mut by_marching_alone] = [0; 3];
@@ -121,7 +121,7 @@ fn the_orbit_meets_the_residual_that_was_asked_for() {
     for settle_tol in [1e-5, 1e-6, 1e-7] {
         for &model in all() {
             let solver = SolverSettings { settle_tol, ..progressive().with_rtol(1e-7) };
-            for row in rows::of(model, &robustness::designs(model, 100), InstructionSet::best(), &solver) {
+            for row in rows::of(model, &robustness::designs(model, 100), Backend::best(), &solver) {
                 let kept = row.status != Status::Periodic || row.residual <= settle_tol;
                 assert!(kept, "{row:?} at {settle_tol:e}");
             }

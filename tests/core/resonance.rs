@@ -8,7 +8,7 @@ use flap_core::model::bimorph::{self, Bimorph};
 use flap_core::model::direct_drive::DirectDrive;
 use flap_core::model::four_bar::FourBar;
 use flap_core::modes::Mode;
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::ode::Ode;
 use flap_core::resonance::free::{FreeMotion, FreeRequest, examine, intervals, stroke_rate};
 use flap_core::simulate::{ImpulseRequest, PointRun, SolverSettings, all, by_name, preset};
@@ -94,7 +94,7 @@ fn impulses_that_mean_nothing_are_refused() {
         let refused = model
             .experiments()
             .unwrap()
-            .free_response(&PointRun::new(InstructionSet::best(), &solver, &values), &request)
+            .free_response(&PointRun::new(Backend::best(), &solver, &values), &request)
             .unwrap_err();
         assert!(refused.to_string().contains(reason), "{refused}");
     }
@@ -137,7 +137,7 @@ fn a_free_motion_does_not_depend_on_how_it_is_sampled() {
         model
             .experiments()
             .unwrap()
-            .free_response(&PointRun::new(InstructionSet::best(), &solver, &values), &request)
+            .free_response(&PointRun::new(Backend::best(), &solver, &values), &request)
             .unwrap()
             .rows
     };
@@ -161,7 +161,7 @@ fn free(name: &str, degrees: f64, spectrum_window: f64) -> FreeMotion {
         samples_per_cycle: 200,
     };
     let (solver, values) = (SolverSettings::default(), values(name, &[]));
-    let run = PointRun::new(InstructionSet::best(), &solver, &values);
+    let run = PointRun::new(Backend::best(), &solver, &values);
     examine(model.experiments().unwrap(), &run, &request).unwrap()
 }
 

@@ -1,7 +1,7 @@
 //! Designs drawn at random about the presets: whatever they do, each has a row that says so.
 
 use crate::terms::is_left_out;
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::parameter::Kind;
 use flap_core::simulate::{Simulator, SolverSettings, Status, all};
 
@@ -52,7 +52,7 @@ fn a_thousand_possible_random_designs_of_each_model_have_rows() {
     let solver = SolverSettings { max_cycles: 200, settle_tol: 1e-5, ..SolverSettings::default() };
     for &model in all() {
         let designs = designs(model, DRAWN);
-        let rows = rows::of(model, &designs, InstructionSet::best(), &solver);
+        let rows = rows::of(model, &designs, Backend::best(), &solver);
         assert_eq!(rows.len(), DRAWN);
         let counts = Status::ALL.map(|status| rows.iter().filter(|row| row.status == status).count());
         println!("{}: {:?} are {counts:?}", model.name(), Status::ALL.map(Status::name));

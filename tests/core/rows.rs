@@ -1,6 +1,6 @@
 //! Rows of many points, from lanes.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, PointRun, Row, Simulator, SolverSettings, Status};
 
 /// Settings for many points: coarse, and with little patience for motions that do not settle.
@@ -46,7 +46,7 @@ fn at_rest(points: &[Vec<f64>]) -> Vec<Point> {
 pub(crate) fn of(
     model: &dyn Simulator,
     points: &[Vec<f64>],
-    set: InstructionSet,
+    set: Backend,
     solver: &SolverSettings,
 ) -> Vec<Row> {
     of_points(model, &at_rest(points), set, solver)
@@ -56,7 +56,7 @@ pub(crate) fn of(
 pub(crate) fn of_points(
     model: &dyn Simulator,
     points: &[Point],
-    set: InstructionSet,
+    set: Backend,
     solver: &SolverSettings,
 ) -> Vec<Row> {
     let mut listed = Listed { next: 0, rows: vec![None; points.len()], points };
@@ -89,7 +89,7 @@ pub(crate) fn assert_lanes_equal_scalars_at(
     solver: &SolverSettings,
 ) -> Vec<Row> {
     let mut best = None;
-    for set in InstructionSet::available() {
+    for set in Backend::available() {
         let rows = of_points(model, points, set, solver);
         for (i, (point, row)) in points.iter().zip(&rows).enumerate() {
             let alone = model.run_point(&PointRun::new(set, solver, &point.values), point.begin.as_deref());

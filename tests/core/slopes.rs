@@ -1,7 +1,7 @@
 //! Right-hand sides of models at the states of a reference table: in every lane as on scalars.
 
 use flap_core::drive::Wave;
-use flap_core::num::{InstructionSet, Kernel, Lanes, PerLane, Scalar, ScalarKernel, Simd, Unfused, Vector};
+use flap_core::num::{Backend, Kernel, Lanes, PerLane, Scalar, ScalarKernel, Simd, Unfused, Vector};
 use flap_core::ode::Ode;
 
 use crate::data::Record;
@@ -76,7 +76,7 @@ impl<M: Driven<W>, const W: usize> ScalarKernel for OnScalars<'_, M, W> {
 
 /// Fails unless the derivatives from the lanes of every instruction set equal those of scalars to the last bit.
 pub(crate) fn assert_lanes_equal_scalars<M: Driven<W>, const W: usize>(cases: &[Case<M, W>]) {
-    for set in InstructionSet::available() {
+    for set in Backend::available() {
         assert!(set.lanes() >= 4, "{set} has {} lanes", set.lanes());
         let (lanes, scalars) = (set.dispatch(OnLanes(cases)), set.dispatch_scalar(OnScalars(cases)));
         assert_eq!(lanes.len(), cases.len());

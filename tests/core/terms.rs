@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 use flap_core::model::Model;
 use flap_core::model::bimorph::{Bimorph, Constants, Law, Params};
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::ode::Ode;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, preset};
@@ -63,7 +63,7 @@ impl Design {
 
     fn row(&self) -> Row {
         let solver = SolverSettings::default().with_rtol(1e-8);
-        let row = self.model.run_point(&PointRun::new(InstructionSet::best(), &solver, &self.values), None);
+        let row = self.model.run_point(&PointRun::new(Backend::best(), &solver, &self.values), None);
         assert_eq!(row.status, Status::Periodic, "{}: {:?}", self.model.name(), row.reason);
         row
     }

@@ -1,6 +1,6 @@
 //! Vehicles: symmetries, sums, derivatives.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Change, PointRun, Row, Rows, Simulator, SolverSettings, Status, by_name, preset};
 use flap_core::vehicle::{FORCES, Mount, TORQUES, Vehicle, VehicleError};
@@ -46,7 +46,7 @@ impl Flier {
 
     fn row(&self) -> Row {
         let solver = SolverSettings::DEFAULT;
-        self.vehicle.run_point(&PointRun::new(InstructionSet::best(), &solver, &self.values), None)
+        self.vehicle.run_point(&PointRun::new(Backend::best(), &solver, &self.values), None)
     }
 
     fn measure(&self, row: &Row, name: &str) -> f64 {
@@ -84,7 +84,7 @@ fn one_wing_at_the_origin_has_the_lift_of_its_row() {
         let (model, preset) = preset(name).unwrap();
         let values = (preset.values)();
         let solver = SolverSettings::DEFAULT;
-        let alone = model.run_point(&PointRun::new(InstructionSet::best(), &solver, &values), None);
+        let alone = model.run_point(&PointRun::new(Backend::best(), &solver, &values), None);
         let column = |name: &str| model.columns().iter().position(|column| column.name == name).unwrap();
         let row = flier.row();
         let lift = alone.measures[column("lift_mean_mn")];
@@ -176,7 +176,7 @@ fn lanes_and_scalars_have_the_same_bits() {
             values
         })
         .collect();
-    let lanes = rows::of(flier.vehicle, &points, InstructionSet::best(), &SolverSettings::DEFAULT);
+    let lanes = rows::of(flier.vehicle, &points, Backend::best(), &SolverSettings::DEFAULT);
     for (row, values) in lanes.iter().zip(points) {
         let alone = Flier { values, ..flier }.row();
         assert_eq!(row.status, alone.status);
@@ -196,9 +196,8 @@ fn derivatives_are_those_of_differences() {
         ("right_position_x", 1e-3),
         ("total_mass", 100e-6),
     ]);
-    let run = |values: &[f64]| {
-        flier.vehicle.run_point(&PointRun::new(InstructionSet::best(), &solver, values), None)
-    };
+    let run =
+        |values: &[f64]| flier.vehicle.run_point(&PointRun::new(Backend::best(), &solver, values), None);
     let row = run(&flier.values);
     let names = [
         ("left_drive_voltage_pp", 1.0),
@@ -221,7 +220,7 @@ fn derivatives_are_those_of_differences() {
             size: 1e-6 * size,
         })
         .collect();
-    let point = PointRun::new(InstructionSet::best(), &solver, &flier.values);
+    let point = PointRun::new(Backend::best(), &solver, &flier.values);
     let gradient = flier.vehicle.motions().unwrap().gradient(&point, &row.state, &changes).unwrap();
     for ((name, size), slopes) in names.iter().zip(&gradient.slopes) {
         let (ahead, behind) = (run(&moved(name, 0.1 * size)), run(&moved(name, -0.1 * size)));

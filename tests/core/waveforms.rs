@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use flap_core::drive::{Drive, DriveConstants, Shape, StrokeMode, Wave, Waveform, WaveformParameters};
 use flap_core::model::direct_drive::Params;
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{
     ChirpRequest, ChirpResponse, PointRun, SolverSettings, Status, Unfinished, by_name,
 };
@@ -96,10 +96,8 @@ fn power_balances_for_every_shape() {
                 ..WaveformParameters::new(drive_shape)
             };
             let p = Params { waveform, ..p };
-            let row = model.run_point(
-                &PointRun::new(InstructionSet::best(), &SolverSettings::default(), &p.to_values()),
-                None,
-            );
+            let row = model
+                .run_point(&PointRun::new(Backend::best(), &SolverSettings::default(), &p.to_values()), None);
             assert_eq!(row.status, Status::Periodic, "{drive_shape:?}");
             assert!(row.measures[audit].abs() < bound, "{drive_shape:?}: {:e}", row.measures[audit]);
         }
@@ -111,10 +109,8 @@ fn power_balances_for_every_shape() {
 fn harmonics_count_in_field_and_capacitive_power() {
     let model = by_name("direct-drive").unwrap();
     let measure = |p: &Params, name: &str| {
-        let row = model.run_point(
-            &PointRun::new(InstructionSet::best(), &SolverSettings::default(), &p.to_values()),
-            None,
-        );
+        let row = model
+            .run_point(&PointRun::new(Backend::best(), &SolverSettings::default(), &p.to_values()), None);
         row.measures[model.columns().iter().position(|column| column.name == name).unwrap()]
     };
     // 50 V + 50 V (sin θ + ½ cos 2θ): from −25 to 87.5 V on 100 µm.
@@ -136,10 +132,8 @@ fn harmonics_count_in_field_and_capacitive_power() {
 fn the_shape_of_the_drive_reaches_the_wing() {
     let model = by_name("direct-drive").unwrap();
     let amplitude = |p: Params| {
-        let row = model.run_point(
-            &PointRun::new(InstructionSet::best(), &SolverSettings::default(), &p.to_values()),
-            None,
-        );
+        let row = model
+            .run_point(&PointRun::new(Backend::best(), &SolverSettings::default(), &p.to_values()), None);
         assert_eq!(row.status, Status::Periodic);
         row.measures[0]
     };
@@ -160,8 +154,8 @@ fn a_square_wave_must_have_time_to_be_flat() {
         waveform: WaveformParameters { drive_rise: 0.6, ..WaveformParameters::new(Shape::Square) },
         ..Params::ozaki2018_small()
     };
-    let row = model
-        .run_point(&PointRun::new(InstructionSet::best(), &SolverSettings::default(), &p.to_values()), None);
+    let row =
+        model.run_point(&PointRun::new(Backend::best(), &SolverSettings::default(), &p.to_values()), None);
     assert_eq!(row.status, Status::Invalid);
     assert!(row.reason.unwrap().contains("drive_rise"));
 }
@@ -174,7 +168,7 @@ fn chirp(from: f64, to: f64, rate: f64) -> Result<ChirpResponse, Unfinished> {
         .unwrap()
         .experiments()
         .unwrap()
-        .chirp(&PointRun::new(InstructionSet::best(), &solver, &values), &request)
+        .chirp(&PointRun::new(Backend::best(), &solver, &values), &request)
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Wings of one's own: tables of chords.
 
 use flap_core::aero::ChordTable;
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, SolverSettings, Status, preset};
 
@@ -15,7 +15,7 @@ fn measures(name: &str, changes: &[(String, f64)]) -> Vec<(String, f64)> {
         values[Parameter::index(model.parameters(), name).unwrap()] = *value;
     }
     let solver = SolverSettings::default();
-    let row = model.run_point(&PointRun::new(InstructionSet::best(), &solver, &values), None);
+    let row = model.run_point(&PointRun::new(Backend::best(), &solver, &values), None);
     assert_eq!(row.status, Status::Periodic, "{name}: {:?}", row.reason);
     model.columns().iter().map(|column| column.name.clone()).zip(row.measures).collect()
 }
@@ -81,7 +81,7 @@ fn an_empty_table_is_invalid() {
         let mut values = (preset.values)();
         values[Parameter::index(model.parameters(), "chord_table").unwrap()] = 1.0;
         let solver = SolverSettings::default();
-        let row = model.run_point(&PointRun::new(InstructionSet::best(), &solver, &values), None);
+        let row = model.run_point(&PointRun::new(Backend::best(), &solver, &values), None);
         assert_eq!(row.status, Status::Invalid);
         assert!(row.reason.unwrap().contains("chord_0 to chord_10 are all zero"));
     }

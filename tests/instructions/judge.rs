@@ -1,6 +1,6 @@
 //! The limits on instructions.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate;
 
 use crate::counter::count;
@@ -34,7 +34,7 @@ pub(crate) fn judge() -> Result<(), String> {
 
     let compiled_in = PRESETS.into_iter().filter(|preset| simulate::preset(preset).is_some());
     for (i, preset) in compiled_in.enumerate() {
-        for (j, set) in InstructionSet::available().into_iter().enumerate() {
+        for (j, set) in Backend::available().into_iter().enumerate() {
             // Models and sets share most of their source: one model with every set, the others with the best.
             if i > 0 && j > 0 {
                 continue;
@@ -56,7 +56,7 @@ pub(crate) fn judge() -> Result<(), String> {
         "{}\nProbably some function of num, ode, measure or the model is not inlined into the lane driver: \
          look for one without #[inline(always)], or for calls in the disassembly of vectorize_{}.",
         failures.join("\n"),
-        InstructionSet::best()
+        Backend::best()
     ))
 }
 

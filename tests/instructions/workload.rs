@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, PointRun, Row, Simulator, SolverSettings, preset};
 
 /// A point of each model, whether or not it is compiled in.
@@ -14,7 +14,7 @@ pub(crate) struct Work {
     /// The point, one of [`PRESETS`].
     pub(crate) preset: &'static str,
     /// The instructions it is done with.
-    pub(crate) set: InstructionSet,
+    pub(crate) set: Backend,
     /// The task.
     pub(crate) task: Task,
 }
@@ -52,7 +52,7 @@ impl Work {
         let mut words = name.split(' ');
         let preset = words.next()?;
         let preset = PRESETS.into_iter().find(|&one| one == preset)?;
-        let set = InstructionSet::by_name(words.next()?)?;
+        let set = Backend::by_name(words.next()?)?;
         let task = words.next()?;
         let task =
             [Task::ScalarMarch, Task::March, Task::Measure].into_iter().find(|one| one.name() == task)?;

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::parameter::{Kind, Parameter, Preset, Range};
 use flap_core::simulate::{Column, Jobs, PointRun, Row, Rows, Simulator, SolverSettings};
 use flap_sweep::grid::diagnostic::{Diagnostic, Mistakes};
@@ -21,7 +21,7 @@ impl Rows for Fake {
         self.columns
     }
 
-    fn run(&self, _: InstructionSet, _: &SolverSettings, _: &mut dyn Jobs) {
+    fn run(&self, _: Backend, _: &SolverSettings, _: &mut dyn Jobs) {
         unimplemented!("grid files are checked without running anything")
     }
 

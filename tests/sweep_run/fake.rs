@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::parameter::{Kind, Parameter, Preset, Range};
 use flap_core::simulate::{Column, Jobs, Point, PointRun, Row, Rows, Simulator, SolverSettings, Status};
 
@@ -117,7 +117,7 @@ impl Rows for Fake {
         &self.columns
     }
 
-    fn run(&self, _set: InstructionSet, _solver: &SolverSettings, jobs: &mut dyn Jobs) {
+    fn run(&self, _set: Backend, _solver: &SolverSettings, jobs: &mut dyn Jobs) {
         let mut random = Random::new();
         let mut running: Vec<Point> = Vec::new();
         loop {

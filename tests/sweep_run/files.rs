@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_sweep::files::beside::sidecar_of;
 use flap_sweep::files::disk::empty;
 use flap_sweep::files::output::{CreateError, create};
@@ -80,7 +80,7 @@ fn the_sidecar_tells_where_rows_come_from() {
     assert_eq!(running["preset"].as_str(), Some("fake2020"));
     assert_eq!(running["points"].as_integer(), Some(10));
     assert_eq!(running["threads"].as_integer(), Some(2));
-    let best = InstructionSet::best();
+    let best = Backend::best();
     assert_eq!(running["arithmetic"].as_str(), Some(best.arithmetic().name()));
     assert_eq!(running["instructions"].as_str(), Some(best.name()));
     assert_eq!(running["parameters"]["arms"].as_str(), Some("axis"));

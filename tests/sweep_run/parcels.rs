@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::sync::atomic::AtomicBool;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::plan::Plan;
 use flap_sweep::run::{Parcel, RunError, Summary, feed, part};
@@ -88,7 +88,7 @@ fn parcels_that_do_not_fit_are_refused() {
 fn parcels_of_other_arithmetic_are_refused() {
     let plan = plan(Fake::leak(Fault::None, 4), 10);
     let mut others = options(1, 10);
-    let classes: Vec<InstructionSet> = InstructionSet::available();
+    let classes: Vec<Backend> = Backend::available();
     let own = others.instructions.arithmetic();
     let Some(&other) = classes.iter().find(|set| set.arithmetic() != own) else { return };
     others.instructions = other;

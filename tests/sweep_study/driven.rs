@@ -1,6 +1,6 @@
 //! The peaks of the settled stroke of one design.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, SolverSettings, Status, Unfinished, preset};
 use flap_sweep::resonance::SearchError;
 use flap_sweep::resonance::driven::{DrivenPeaks, PeakSearch, search};
@@ -26,7 +26,7 @@ fn driven(name: &str, set: &[(&str, f64)], from: f64, to: f64) -> DrivenPeaks {
     let range = PeakSearch { from: Some(from), to: Some(to), tolerance: 0.05 };
     let found = search(
         model,
-        &PointRun::new(InstructionSet::best(), &SolverSettings::default(), &values(name, set)),
+        &PointRun::new(Backend::best(), &SolverSettings::default(), &values(name, set)),
         &range,
     );
     found.expect("a range")
@@ -61,7 +61,7 @@ fn motions_that_do_not_settle_are_named() {
     let values = values("jafferis2016", &[("hinge_stiffness", 0.7486e-6), ("drive_voltage_pp", 240.0)]);
     let range = PeakSearch { from: Some(55.0), to: Some(95.0), tolerance: 0.5 };
     let solver = SolverSettings { max_cycles: 100, settle_tol: 1e-4, ..SolverSettings::default() };
-    let found = search(model, &PointRun::new(InstructionSet::best(), &solver, &values), &range).unwrap();
+    let found = search(model, &PointRun::new(Backend::best(), &solver, &values), &range).unwrap();
     let unsettled: usize = found.gaps.iter().map(|gap| gap.points).sum();
     println!("{found:?}");
     assert!(unsettled > 0 && unsettled < found.points, "{found:?}");
@@ -85,11 +85,8 @@ fn searches_that_mean_nothing_are_refused() {
         PeakSearch { tolerance: 0.0, ..good },
         PeakSearch { tolerance: f64::NAN, ..good },
     ] {
-        let refused = search(
-            model,
-            &PointRun::new(InstructionSet::best(), &SolverSettings::default(), &values),
-            &range,
-        );
+        let refused =
+            search(model, &PointRun::new(Backend::best(), &SolverSettings::default(), &values), &range);
         assert!(refused.is_err(), "{range:?}");
     }
 }
@@ -103,8 +100,7 @@ fn a_peak_is_a_motion_from_rest() {
     let place = |name: &str| model.columns().iter().position(|column| column.name == name).unwrap();
     for peak in found.peaks {
         let values = values("arabagi2013-75hz", &[("drive_frequency", peak.frequency)]);
-        let row = model
-            .run_point(&PointRun::new(InstructionSet::best(), &SolverSettings::default(), &values), None);
+        let row = model.run_point(&PointRun::new(Backend::best(), &SolverSettings::default(), &values), None);
         assert_eq!(peak.stroke_pp, row.measures[place("stroke_pp_deg")]);
         assert_eq!(peak.pitch_pp, row.measures[place("pitch_pp_deg")]);
     }
@@ -121,7 +117,6 @@ fn an_interrupted_search_says_so() {
         ..SolverSettings::default()
     };
     let values = values("ozaki2018-small", &[]);
-    let found =
-        search(model, &PointRun::new(InstructionSet::best(), &endless, &values).until(&|| true), &range);
+    let found = search(model, &PointRun::new(Backend::best(), &endless, &values).until(&|| true), &range);
     assert_eq!(found.err(), Some(SearchError::Unfinished(Unfinished::Interrupted)));
 }

@@ -1,6 +1,6 @@
 //! Each design at its own resonance.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, Row, SolverSettings, Status};
 use flap_sweep::plan::Plan;
 
@@ -111,13 +111,11 @@ fn a_row_is_that_of_a_sweep_at_its_frequency() {
     for (index, row) in (0..).zip(at_resonance(&plan)) {
         let mut values = plan.point(index).values;
         assert!(values[parameter(&plan, "drive_frequency")].is_nan(), "it is looked for");
-        let alone =
-            plan.rows().run_point(&PointRun::new(InstructionSet::best(), plan.solver(), &values), None);
+        let alone = plan.rows().run_point(&PointRun::new(Backend::best(), plan.solver(), &values), None);
         assert_eq!(bits(&row.measures), bits(&alone.measures), "lanes and scalars");
         assert_eq!((row.cycles, row.rhs_evals), (alone.cycles, alone.rhs_evals));
         values[parameter(&plan, "drive_frequency")] = row.measures[found];
-        let there =
-            plan.simulator().run_point(&PointRun::new(InstructionSet::best(), plan.solver(), &values), None);
+        let there = plan.simulator().run_point(&PointRun::new(Backend::best(), plan.solver(), &values), None);
         assert_eq!(bits(&row.measures[..count]), bits(&there.measures));
         assert_eq!(row.floquet_max.to_bits(), there.floquet_max.to_bits());
         assert!(row.rhs_evals > there.rhs_evals, "all of the search counts");

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, Status};
 use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::plan::{Along, Plan};
@@ -303,7 +303,7 @@ fn unstable_orbits_join_the_branches() {
             let begin: Vec<f64> = middle.row.state.iter().map(|y| factor * y).collect();
             let row = plan
                 .simulator()
-                .run_point(&PointRun::new(InstructionSet::best(), plan.solver(), &values), Some(&begin));
+                .run_point(&PointRun::new(Backend::best(), plan.solver(), &values), Some(&begin));
             assert_eq!((row.status, row.stable()), (Status::Periodic, Some(true)));
             row.measures[stroke]
         });

@@ -1,6 +1,6 @@
 //! Grids and their rows.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, Row, Rows, SolverSettings, all};
 use flap_sweep::plan::Plan;
 
@@ -39,7 +39,7 @@ impl Jobs for Listed {
 /// The rows of points, on lanes.
 pub(crate) fn rows(what: &dyn Rows, solver: &SolverSettings, points: Vec<Vec<f64>>) -> Vec<Row> {
     let mut listed = Listed { rows: vec![None; points.len()], points, next: 0 };
-    what.run(InstructionSet::best(), solver, &mut listed);
+    what.run(Backend::best(), solver, &mut listed);
     listed.rows.into_iter().map(|row| row.expect("every point has a row")).collect()
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::sync::OnceLock;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, Row, SettingKind, Simulator, SolverSettings};
 use flap_sweep::grid;
@@ -79,7 +79,7 @@ impl Opened {
     pub(crate) fn published_row(&self) -> &Row {
         self.published_row.get_or_init(|| {
             let values = self.published();
-            let run = PointRun::new(InstructionSet::best(), self.published.solver(), &values);
+            let run = PointRun::new(Backend::best(), self.published.solver(), &values);
             let mut row = self.published.rows().run_point(&run, None);
             self.published.add_own_measures(&values, &mut row.measures);
             row

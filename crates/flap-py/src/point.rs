@@ -1,6 +1,6 @@
 //! The design point of a call: a design with keywords on top, and which of its points.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, Rows, Simulator};
 use flap_sweep::plan::{Plan, Verdict};
@@ -77,7 +77,7 @@ impl Chosen {
 
     /// The run of the point.
     pub(crate) fn run(&self) -> PointRun<'_> {
-        PointRun::new(InstructionSet::best(), self.plan.solver(), &self.values)
+        PointRun::new(Backend::best(), self.plan.solver(), &self.values)
     }
 
     /// The model that is run.

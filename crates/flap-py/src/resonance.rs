@@ -1,7 +1,7 @@
 //! The resonances of one point: linear, after an impulse, and driven.
 
 use flap_core::modes::Mode;
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::resonance::free::{self, FreeRequest};
 use flap_core::simulate::PointRun;
 use flap_sweep::resonance::SearchError;
@@ -45,7 +45,7 @@ pub(crate) fn resonance<'py>(
         spectrum_window: convert::quantity("spectrum_window", "s", true, spectrum_window)?,
         samples_per_cycle: SAMPLES,
     };
-    let set = InstructionSet::best();
+    let set = Backend::best();
     let experiments = simulator.experiments().map_err(|reason| error::unfinished(&reason))?;
     let modes = experiments.modes(values).map_err(|reason| error::unfinished(&reason))?;
     let search = PeakSearch {

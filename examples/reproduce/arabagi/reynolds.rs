@@ -1,7 +1,7 @@
 //! The Reynolds number, section II-C.
 
 use flap_core::model::four_bar::Params;
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, TrajectoryRequest};
 
 use super::{bench, system_30, system_75};
@@ -35,9 +35,8 @@ fn strip_average(p: &Params) -> f64 {
 fn largest_rate(p: &Params) -> f64 {
     let bench = bench();
     let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 400, settled: true };
-    let motion = bench
-        .motions()
-        .trajectory(&PointRun::new(InstructionSet::best(), &bench.solver, &p.to_values()), &request);
+    let motion =
+        bench.motions().trajectory(&PointRun::new(Backend::best(), &bench.solver, &p.to_values()), &request);
     let motion = motion.expect("the motion settles");
     let rate = motion.columns.iter().position(|column| column == "stroke_rate_rad_s").expect("it is a state");
     motion.rows.iter().map(|row| row[rate].abs()).fold(0.0, f64::max)

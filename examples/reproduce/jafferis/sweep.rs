@@ -1,7 +1,7 @@
 //! Sweeps of the frequency, as the paper measures (7), and the two motions that they find with a soft hinge.
 
 use flap_core::model::bimorph::{Bimorph, Params};
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{ChirpRequest, PointRun};
 
 use super::{bench, constants, response, transmission};
@@ -20,9 +20,8 @@ fn table_1() -> Params {
 fn swept(p: &Params, [from, to]: [f64; 2], rate: f64) -> Vec<(f64, f64)> {
     let bench = bench();
     let request = ChirpRequest { from, to, rate, samples_per_cycle: 0 };
-    let response = bench
-        .experiments()
-        .chirp(&PointRun::new(InstructionSet::best(), &bench.solver, &p.to_values()), &request);
+    let response =
+        bench.experiments().chirp(&PointRun::new(Backend::best(), &bench.solver, &p.to_values()), &request);
     let envelope = response.expect("the sweep is possible").envelope;
     let column = |name: &str| envelope.columns.iter().position(|one| one == name).expect("it is measured");
     let [frequency, stroke] = [column("frequency_hz"), column("stroke_pp_deg")];

@@ -11,7 +11,7 @@ mod transient;
 mod variants;
 
 use flap_core::model::bimorph::Params;
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, by_name};
 
 use crate::by_name::named;
@@ -42,8 +42,7 @@ fn settled(params: &Params, rtol: f64) -> Row {
     let mut last = None;
     for settle_tol in [rtol, 10.0 * rtol, 100.0 * rtol, 1000.0 * rtol] {
         let solver = SolverSettings { rtol, atol: 1e-2 * rtol, settle_tol, ..SolverSettings::default() };
-        let row =
-            model().run_point(&PointRun::new(InstructionSet::best(), &solver, &params.to_values()), None);
+        let row = model().run_point(&PointRun::new(Backend::best(), &solver, &params.to_values()), None);
         if row.status == Status::Periodic {
             return row;
         }

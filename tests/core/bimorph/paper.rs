@@ -3,7 +3,7 @@
 use flap_core::model::bimorph::{
     Bimorph, CentreOfPressure, Constants, FieldTransition, Params, drag_coefficient, secant_stiffness,
 };
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{Row, SolverSettings, Status};
 
 use super::physics::static_tip;
@@ -23,7 +23,7 @@ fn responses<const V: usize>(p: &Params, voltages: [f64; V], from: u32, to: u32)
     }
     // A hundred times rtol and more: kinks make the state at the ends of cycles jitter.
     let solver = SolverSettings { settle_tol: 2e-4, ..SolverSettings::default() };
-    let mut rows = rows::of(model(), &points, InstructionSet::best(), &solver).into_iter();
+    let mut rows = rows::of(model(), &points, Backend::best(), &solver).into_iter();
     voltages.map(|voltage| {
         (from..=to)
             .map(|frequency| {

@@ -8,7 +8,7 @@ use flap_core::model::bimorph::{
     plate_forces, plates, tip_drag,
 };
 use flap_core::model::{Model, position};
-use flap_core::num::{InstructionSet, Real};
+use flap_core::num::{Backend, Real};
 use flap_core::ode::{Ode, Start};
 use flap_core::simulate::{PointRun, SolverSettings, TrajectoryRequest};
 use proptest::prelude::*;
@@ -155,7 +155,7 @@ fn settled_motions_are_antisymmetric() {
         let motion = model()
             .motions()
             .unwrap()
-            .trajectory(&PointRun::new(InstructionSet::best(), &solver, &values), &request)
+            .trajectory(&PointRun::new(Backend::best(), &solver, &values), &request)
             .unwrap();
         let scale = model_scale(&values);
         for k in 0..50 {

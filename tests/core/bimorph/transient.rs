@@ -2,7 +2,7 @@
 
 use flap_core::model::Motions;
 use flap_core::model::bimorph::{Bimorph, Constants, Params};
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::ode::Start;
 use flap_core::simulate::{ChirpRequest, PointRun, SolverSettings, Trajectory};
 
@@ -72,7 +72,7 @@ fn the_envelope_of_the_frequency_sweep_equals_the_reference() {
     let response = model()
         .experiments()
         .unwrap()
-        .chirp(&PointRun::new(InstructionSet::best(), &solver, &p.to_values()), &request)
+        .chirp(&PointRun::new(Backend::best(), &solver, &p.to_values()), &request)
         .unwrap();
     let Trajectory { columns, rows } = response.envelope;
     let column = |name| columns.iter().position(|column| column == name).unwrap();

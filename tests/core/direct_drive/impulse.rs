@@ -2,7 +2,7 @@
 
 use flap_core::measure::damped_sine::{DampedSine, fit};
 use flap_core::model::direct_drive::Params;
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{ImpulseRequest, PointRun, SolverSettings, by_name};
 
 use super::params;
@@ -30,7 +30,7 @@ fn released(record: &Record) -> (Vec<Vec<f64>>, DampedSine) {
     let motion = model
         .experiments()
         .unwrap()
-        .free_response(&PointRun::new(InstructionSet::best(), &solver, &values), &request)
+        .free_response(&PointRun::new(Backend::best(), &solver, &values), &request)
         .unwrap();
     assert_eq!(motion.rows.len(), intervals as usize + 1);
     let stroke: Vec<f64> = motion.rows.iter().map(|row| row[1]).collect();

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use flap_core::drive::{Repeat, Samples};
 use flap_core::model::direct_drive::Params;
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{ImposedMotion, PointRun, Simulator, SolverSettings, Status, by_name};
 
 use crate::data::table;
@@ -58,7 +58,7 @@ fn a_recorded_sine_drives_like_a_sine() {
     let sampled =
         model().experiments().unwrap().with_samples(Samples::new(&times, &wave, Repeat::Periodic).unwrap());
     let values = Params::ozaki2018_large().to_values();
-    let set = InstructionSet::best();
+    let set = Backend::best();
     let row = sampled.run_point(&PointRun::new(set, &settings(), &values), None);
     let sine = model().run_point(&PointRun::new(set, &settings(), &values), None);
     assert_eq!((row.status, sine.status), (Status::Periodic, Status::Periodic));

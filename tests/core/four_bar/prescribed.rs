@@ -2,7 +2,7 @@
 
 use flap_core::drive::{Shape, StrokeParameters, WaveformParameters};
 use flap_core::model::four_bar::Params;
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, SolverSettings, Status, TrajectoryRequest};
 
 use super::steady::{measure, model, run, wrapped};
@@ -63,7 +63,7 @@ fn the_orbit_begins_where_the_reference_does() {
         let motion = model()
             .motions()
             .unwrap()
-            .trajectory(&PointRun::new(InstructionSet::best(), &solver, &values), &request)
+            .trajectory(&PointRun::new(Backend::best(), &solver, &values), &request)
             .unwrap();
         let [_, stroke, pitch, stroke_rate, pitch_rate] = [0, 1, 2, 3, 4].map(|i| motion.rows[0][i]);
         assert!(stroke.abs() < 1e-6, "{stroke}");

@@ -1,6 +1,6 @@
 //! The motion from rest against the reference.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, SolverSettings, TrajectoryRequest};
 
 use super::steady::model;
@@ -15,7 +15,7 @@ fn five_cycles_from_rest_equal_the_reference() {
     let motion = model()
         .motions()
         .unwrap()
-        .trajectory(&PointRun::new(InstructionSet::best(), &solver, &values), &request)
+        .trajectory(&PointRun::new(Backend::best(), &solver, &values), &request)
         .unwrap();
     let reference = table("four-bar/transient_sys75.csv");
     assert_eq!(motion.rows.len(), reference.len());

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, Rows, Simulator};
 use flap_core::vehicle::why_absent;
@@ -90,7 +90,7 @@ impl Chosen {
 
     /// The run of the point.
     pub(crate) fn run(&self) -> PointRun<'_> {
-        PointRun::new(InstructionSet::best(), self.plan.solver(), &self.values)
+        PointRun::new(Backend::best(), self.plan.solver(), &self.values)
     }
 
     /// The model that is run.

@@ -39,9 +39,6 @@ impl Arithmetic {
 #[derive(Clone, Copy, Debug)]
 pub struct Backend(Proof);
 
-/// The earlier name of [`Backend`].
-pub type InstructionSet = Backend;
-
 /// Work that is generic over SIMD instructions.
 pub trait Kernel {
     /// The result of the work.

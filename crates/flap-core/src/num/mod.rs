@@ -30,7 +30,7 @@ mod scalar;
 mod simd;
 mod unfused;
 
-pub use backend::{Arithmetic, Backend, InstructionSet, Kernel, ScalarKernel};
+pub use backend::{Arithmetic, Backend, Kernel, ScalarKernel};
 pub use float::Float;
 pub use lanes::Lanes;
 pub use number::Number;

@@ -8,7 +8,7 @@ use super::jobs::{Jobs, Point};
 use super::row::Row;
 use super::settings::SolverSettings;
 use super::simulator::Rows;
-use crate::num::InstructionSet;
+use crate::num::Backend;
 use crate::ode::Interrupt;
 
 /// Runs `points` on the lanes of `set`. Returns their rows in the order of the points, whose indices do not matter.
@@ -17,7 +17,7 @@ use crate::ode::Interrupt;
 /// [`Unfinished::Interrupted`] if `interrupted` says so, or if `rows` leaves a point without a row.
 pub fn run_list(
     rows: &dyn Rows,
-    set: InstructionSet,
+    set: Backend,
     solver: &SolverSettings,
     points: Vec<Point>,
     interrupted: Interrupt<'_>,

@@ -24,7 +24,7 @@ use crate::aero::Wing;
 use crate::drive::Samples;
 use crate::model::{self, Model, Signal};
 use crate::modes::Mode;
-use crate::num::InstructionSet;
+use crate::num::Backend;
 use crate::parameter::{Parameter, Preset};
 
 /// A model behind the object-safe faces: all that a sweep needs of a model of one's own.
@@ -38,7 +38,7 @@ use crate::parameter::{Parameter, Preset};
 /// ```
 /// use flap_core::drive::{DriveConstants, WaveformParameters};
 /// use flap_core::model::{Derived, Description, Instant, Measure, Model, Principal, Signal, Unit};
-/// use flap_core::num::{InstructionSet, Lanes};
+/// use flap_core::num::{Backend, Lanes};
 /// use flap_core::ode::{Ode, Start};
 /// use flap_core::parameter::Kind::Number;
 /// use flap_core::parameter::Range::Positive;
@@ -132,7 +132,7 @@ use crate::parameter::{Parameter, Preset};
 ///
 /// let model: &'static dyn Simulator = &OSCILLATOR;
 /// let values = EXAMPLE.to_values();
-/// let run = PointRun::new(InstructionSet::best(), &SolverSettings::DEFAULT, &values);
+/// let run = PointRun::new(Backend::best(), &SolverSettings::DEFAULT, &values);
 /// let row = model.run_point(&run, None);
 /// assert_eq!(row.status, Status::Periodic);
 /// // At resonance the amplitude is that of the torque over damping times angular frequency.
@@ -192,7 +192,7 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Rows for Ru
         self.columns.get_or_init(columns::<M, N, S>)
     }
 
-    fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs) {
+    fn run(&self, set: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs) {
         set.dispatch(LanesKernel::<M, N, K, S> { model: &self.model, solver, jobs });
     }
 

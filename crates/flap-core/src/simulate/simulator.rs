@@ -15,7 +15,7 @@ use super::slope::Change;
 use crate::aero::Wing;
 use crate::drive::Samples;
 use crate::modes::Mode;
-use crate::num::InstructionSet;
+use crate::num::Backend;
 use crate::parameter::{Parameter, Preset};
 
 /// A source of rows: turns design points into rows.
@@ -27,7 +27,7 @@ pub trait Rows: Sync {
     ///
     /// Rows are handed back in the order in which points finish. A row depends on its point and `solver`
     /// alone: not on its neighbours, nor on the order of the points, nor on `set` within an arithmetic class.
-    fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs);
+    fn run(&self, set: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs);
 
     /// Runs one point on scalars, from rest or from the state `begin` (see [`Point::begin`](super::Point::begin)). Gives the
     /// same bits as [`Rows::run`]. Interrupted, the row means nothing.

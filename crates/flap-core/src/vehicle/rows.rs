@@ -4,7 +4,7 @@ use std::collections::{HashMap, VecDeque};
 
 use super::layout::Vehicle;
 use super::mount::MOST_WINGS;
-use crate::num::InstructionSet;
+use crate::num::Backend;
 use crate::parameter::{Invalid, Parameter, Preset};
 use crate::simulate::{
     Column, Experiments, Jobs, LaneUse, Motions, Point, PointRun, Row, Rows, Simulator, SolverSettings,
@@ -16,7 +16,7 @@ impl Rows for Vehicle {
         &self.columns.all
     }
 
-    fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs) {
+    fn run(&self, set: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs) {
         let solver = SolverSettings { loads: true, ..*solver };
         let mut wings =
             WingJobs { vehicle: self, jobs, waiting: VecDeque::new(), begun: HashMap::new(), next: 0 };

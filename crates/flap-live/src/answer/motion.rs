@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, TrajectoryRequest};
 use serde::Serialize;
 
@@ -27,7 +27,7 @@ pub(crate) fn motion(desk: &Desk<'_>, request: &MotionRequest) -> Result<Motion,
     let plan = desk.opened.design(design)?;
     let values = plan.point(0).values;
     let interrupted = || desk.stop.load(Ordering::Relaxed);
-    let run = PointRun::new(InstructionSet::best(), plan.solver(), &values).until(&interrupted);
+    let run = PointRun::new(Backend::best(), plan.solver(), &values).until(&interrupted);
     let motions = plan.simulator().motions().map_err(unfinished)?;
     let request = TrajectoryRequest { cycles: 1, samples_per_cycle: *samples, settled: true };
     let motion = motions.trajectory(&run, &request).map_err(unfinished)?;

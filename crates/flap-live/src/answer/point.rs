@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{Point, PointRun, Row, Status};
 use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::study::deviation::{self, Deviation};
@@ -54,7 +54,7 @@ pub(crate) fn point(desk: &Desk<'_>, request: &PointRequest) -> Result<Numbers, 
     let plan = desk.opened.design(&request.design)?;
     let values = plan.point(0).values;
     let interrupted = || desk.stop.load(Ordering::Relaxed);
-    let run = PointRun::new(InstructionSet::best(), plan.solver(), &values).until(&interrupted);
+    let run = PointRun::new(Backend::best(), plan.solver(), &values).until(&interrupted);
     let mut reason = None;
     let row = match plan.judge(&values) {
         Verdict::Invalid(invalid) => Row::invalid(invalid),

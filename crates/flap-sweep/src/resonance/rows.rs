@@ -1,6 +1,6 @@
 //! Rows of designs that are each run at their own resonance.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{Column, Jobs, Point, PointRun, Row, Rows, Simulator, SolverSettings};
 
 use super::range::Range;
@@ -65,7 +65,7 @@ impl Rows for AtResonance {
         &self.columns
     }
 
-    fn run(&self, set: InstructionSet, solver: &SolverSettings, jobs: &mut dyn Jobs) {
+    fn run(&self, set: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs) {
         study::run_all(self.target.model, set, solver, &mut Designs { at: self, jobs });
     }
 

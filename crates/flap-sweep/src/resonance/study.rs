@@ -3,7 +3,7 @@
 //! A study knows no threads and no lanes. Many studies are open at once, so that the lanes are full while each study waits
 //! for its own rows.
 
-use flap_core::num::{Backend, InstructionSet};
+use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, PointRun, Row, Rows, SolverSettings};
 
 /// Points that are run step by step.
@@ -35,7 +35,7 @@ pub trait Desk {
 const MOST_OPEN: usize = 256;
 
 /// Runs the studies of `desk` on the lanes of `set` until there are none left.
-pub fn run_all(rows: &dyn Rows, set: InstructionSet, solver: &SolverSettings, desk: &mut impl Desk) {
+pub fn run_all(rows: &dyn Rows, set: Backend, solver: &SolverSettings, desk: &mut impl Desk) {
     rows.run(set, solver, &mut Interleaved { desk, open: Vec::new() });
 }
 

@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::thread;
 use std::time::Duration;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 
 /// Time for points in hand: long enough for ordinary ones, and less than a second with what is around it.
 const GRACE: Duration = Duration::from_millis(400);
@@ -14,7 +14,7 @@ const GRACE: Duration = Duration::from_millis(400);
 #[derive(Clone, Copy, Debug)]
 pub struct RunOptions {
     /// Instructions of the lanes.
-    pub instructions: InstructionSet,
+    pub instructions: Backend,
     /// Worker threads.
     pub threads: NonZeroUsize,
     /// Most rows between the last row written and the last point begun.
@@ -30,6 +30,6 @@ impl Default for RunOptions {
     /// The best instructions of the machine, a thread per core, a window that takes a few megabytes, and 0.4 s of grace.
     fn default() -> Self {
         let threads = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        RunOptions { instructions: InstructionSet::best(), threads, window: 16_384, grace: GRACE }
+        RunOptions { instructions: Backend::best(), threads, window: 16_384, grace: GRACE }
     }
 }

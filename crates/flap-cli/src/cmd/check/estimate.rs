@@ -5,7 +5,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, Row, Status};
 use flap_sweep::notation::text::count;
 use flap_sweep::plan::{Plan, Verdict};
@@ -105,7 +105,7 @@ impl Trial<'_> {
         });
         thread::scope(|scope| {
             for _ in 0..threads {
-                let work = || plan.rows().run(InstructionSet::best(), plan.solver(), &mut Worker(&trial));
+                let work = || plan.rows().run(Backend::best(), plan.solver(), &mut Worker(&trial));
                 // Without a further thread the others do the work.
                 let _ = thread::Builder::new().spawn_scoped(scope, work);
             }
@@ -273,7 +273,7 @@ mod tests {
         let plan =
             flap_sweep::grid::parse("grid.toml", grid, all()).unwrap_or_else(|error| panic!("{error:?}"));
         let mut whole = All { plan: &plan, next: 0, work: 0.0 };
-        plan.rows().run(InstructionSet::best(), plan.solver(), &mut whole);
+        plan.rows().run(Backend::best(), plan.solver(), &mut whole);
         let truth = whole.work / plan.len() as f64;
         for threads in [1, 2] {
             let trial = Trial::run(&plan, threads);

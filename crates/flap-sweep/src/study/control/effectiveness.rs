@@ -1,6 +1,6 @@
 //! The matrix of control effectiveness.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{
     Change, Interrupt, Motions as _, NoSlope, PointRun, Row, Rows as _, SolverSettings, Status, Unfinished,
 };
@@ -88,7 +88,7 @@ pub struct Mode {
 impl Flight<'_> {
     /// The row at these values of the vehicle's parameters, near the state `begin` if one is given.
     pub fn row(&self, values: &[f64], begin: Option<&[f64]>) -> Row {
-        let run = PointRun::new(InstructionSet::best(), self.solver, values).until(self.interrupted);
+        let run = PointRun::new(Backend::best(), self.solver, values).until(self.interrupted);
         self.vehicle.run_point(&run, begin)
     }
 
@@ -135,7 +135,7 @@ impl Flight<'_> {
             let behind = moved(if is_one_sided { 0.0 } else { -size });
             changes.push(Change { ahead: moved(size), behind, size });
         }
-        let run = PointRun::new(InstructionSet::best(), self.solver, &values).until(self.interrupted);
+        let run = PointRun::new(Backend::best(), self.solver, &values).until(self.interrupted);
         let gradient = self.vehicle.gradient(&run, &row.state, &changes)?;
         let mut matrix = DMatrix::zeros(6, inputs.len());
         for (j, (input, slopes)) in inputs.iter().zip(&gradient.slopes).enumerate() {

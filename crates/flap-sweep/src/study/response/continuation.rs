@@ -5,7 +5,7 @@
 //! the beginning of the period and the parameter at once, and each orbit is looked for on a plane across the secant
 //! through the last two.
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{Interrupt, Period, Point, PointRun, Row, SolverSettings, Status, Unfinished};
 use nalgebra::{DMatrix, DVector};
 
@@ -35,7 +35,7 @@ pub(super) fn unstable(
     plan: &Plan,
     along: &Along,
     curve: &Curve,
-    set: InstructionSet,
+    set: Backend,
     interrupted: Interrupt<'_>,
 ) -> Vec<Step> {
     let sizes = component_sizes(&curve.up, &curve.down);
@@ -68,7 +68,7 @@ pub(super) fn unstable(
 /// A branch of orbits as points of a space: the state in units of its sizes, then the parameter in widths of the band.
 struct Branch<'a> {
     plan: &'a Plan,
-    set: InstructionSet,
+    set: Backend,
     solver: SolverSettings,
     along: &'a Along,
     design: &'a Point,

@@ -3,7 +3,7 @@
 use std::io;
 use std::sync::atomic::AtomicBool;
 
-use flap_core::num::InstructionSet;
+use flap_core::num::Backend;
 use flap_core::simulate::{Interrupt, Point, Row, Status, never};
 
 use super::continuation;
@@ -92,7 +92,7 @@ impl<'a> Responses<'a> {
 
     /// The response of one design, on scalars. Gives the same bits as [`Responses::run`].
     pub fn curve(self, design: Point) -> Curve {
-        let set = InstructionSet::best();
+        let set = Backend::best();
         let mut follow = Follow::new(self.plan, self.along, design);
         study::run_one(self.plan.simulator(), set, self.plan.solver(), &mut follow);
         self.complete(follow.finish(), set, &never)
@@ -100,7 +100,7 @@ impl<'a> Responses<'a> {
 
     /// Adds the unstable orbits to a curve, if they are wanted, and the plan's own measures to all of its rows. Interrupted,
     /// it leaves orbits out.
-    fn complete(self, mut curve: Curve, set: InstructionSet, interrupted: Interrupt<'_>) -> Curve {
+    fn complete(self, mut curve: Curve, set: Backend, interrupted: Interrupt<'_>) -> Curve {
         let Responses { plan, along } = self;
         if along.unstable {
             curve.unstable = continuation::unstable(plan, along, &curve, set, interrupted);
@@ -116,7 +116,7 @@ impl<'a> Responses<'a> {
 /// Designs on their way from the queue to their curves.
 struct Designs<'a, 'h, 'q> {
     responses: Responses<'a>,
-    set: InstructionSet,
+    set: Backend,
     hand: &'h mut Hand<'q, Followed>,
 }
 
