@@ -2,12 +2,11 @@
 //! and additions that do nothing else, in the same run.
 
 use core::hint::black_box;
-use core::ops::ControlFlow;
 use std::time::Instant;
 
-use flap_core::num::{Backend, Kernel, Lanes, Number, Simd, Vector};
-use flap_core::ode::ensemble::{Continuation, NewRun, Queue, Unobserved, run};
-use flap_core::ode::{Outcome, Start, Tolerances};
+use flap_core::num::{Backend, Kernel, Lanes, Real, Simd, Vector};
+use flap_core::ode::ensemble::{NewRun, Next, Queue, SpanEnd, Unobserved, run};
+use flap_core::ode::{Start, Tolerances};
 
 use crate::Effort;
 use crate::equations::{Drive, SCALE, Wing};
@@ -144,22 +143,20 @@ impl Queue<Wing, Unobserved, 4> for Alike<'_> {
             y: [0.0; 4],
             span: 1.0 / 120.0,
             scale: SCALE,
-            tighten: 1.0,
+            tolerance_factor: 1.0,
         };
         Some((self.periods, start))
     }
 
-    fn span_end(&mut self, left: &mut u64, _y: &[f64; 4], (): &()) -> ControlFlow<()> {
-        *left -= 1;
-        if *left == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    }
-
-    fn ended(&mut self, _run: u64, outcome: Outcome) -> Option<(u64, Continuation<4>)> {
+    fn ended(&mut self, left: u64, end: SpanEnd<'_, (), 4>) -> Option<(u64, Next<4>)> {
+        if left > 1 {
+            return Some((left - 1, Next::Span));
+        }
         if self.marks == 0 {
             self.marks = 1;
             (self.mark)();
         }
-        self.rhs_evals += outcome.rhs_evals;
+        self.rhs_evals += end.outcome.rhs_evals;
         None
     }
 }

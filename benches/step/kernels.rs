@@ -9,7 +9,7 @@ use flap_core::model::Model;
 use flap_core::model::bimorph::{Bimorph, Law};
 use flap_core::model::direct_drive::{DirectDrive, FlowDirection};
 use flap_core::model::four_bar::FourBar;
-use flap_core::num::{Arithmetic, Kernel, Lanes, PerLane, Simd, Unfused, Vector};
+use flap_core::num::{Arithmetic, Kernel, Lanes, OneLane, PerLane, Simd, Unfused, Vector};
 use flap_core::ode::Ode;
 use flap_core::ode::norm::error_squared;
 use flap_core::ode::step::Step;
@@ -98,8 +98,8 @@ impl Kernel for Timed {
         let Timed { work, numbers, iterations } = self;
         match numbers {
             Numbers::Lanes => time::<Vector<S>>(simd, work, iterations),
-            Numbers::Scalars(Arithmetic::Fused) => time::<f64>((), work, iterations),
-            Numbers::Scalars(Arithmetic::Unfused) => time::<Unfused>((), work, iterations),
+            Numbers::Scalars(Arithmetic::Fused) => time::<f64>(OneLane::new(), work, iterations),
+            Numbers::Scalars(Arithmetic::Unfused) => time::<Unfused>(OneLane::new(), work, iterations),
         }
     }
 }
@@ -110,25 +110,23 @@ fn time<R: Lanes>(token: R::Token, work: Work, iterations: u64) -> Duration {
         Work::SinCos => time_function(&values::<R>(token, -10.0, 10.0), iterations, R::sin_cos),
         Work::Exp => time_function(&values::<R>(token, -10.0, 10.0), iterations, R::exp),
         Work::Ln => time_function(&values::<R>(token, 1e-3, 10.0), iterations, R::ln),
-        Work::Rhs(Equations::Bimorph) => time_rhs::<R, _, _>(token, &BIMORPH, "jafferis2016", iterations),
+        Work::Rhs(Equations::Bimorph) => time_rhs::<R, _>(token, &BIMORPH, "jafferis2016", iterations),
         Work::Rhs(Equations::DirectDrive) => {
-            time_rhs::<R, _, _>(token, &DIRECT_DRIVE, "ozaki2018-large", iterations)
+            time_rhs::<R, _>(token, &DIRECT_DRIVE, "ozaki2018-large", iterations)
         }
         Work::Rhs(Equations::DirectDriveBlades) => {
-            time_rhs::<R, _, _>(token, &DIRECT_DRIVE_BLADES, "ozaki2018-large", iterations)
+            time_rhs::<R, _>(token, &DIRECT_DRIVE_BLADES, "ozaki2018-large", iterations)
         }
-        Work::Rhs(Equations::FourBar) => {
-            time_rhs::<R, _, _>(token, &FOUR_BAR, "arabagi2013-75hz", iterations)
-        }
+        Work::Rhs(Equations::FourBar) => time_rhs::<R, _>(token, &FOUR_BAR, "arabagi2013-75hz", iterations),
         Work::Step => {
             let model = &DIRECT_DRIVE;
-            let Scene { c, h, side, y, atol } = scene::<R, _, _>(token, model, "ozaki2018-large");
+            let Scene { c, h, side, y, atol } = scene::<R, _>(token, model, "ozaki2018-large");
             let k1 = model.rhs(&c, &model.input(&c, h), side, &y);
             let mut step = Step::new(y, k1);
             let begin = Instant::now();
             for _ in 0..iterations {
                 step.attempt(model, &c, black_box(h), h, side);
-                let error = error_squared(&step.error, [&y, &step.y[6]], &atol, h.lit(1e-6), 4);
+                let error = error_squared(&step.error, [&y, &step.y[6]], &atol, h.lit(1e-6));
                 black_box((&step, error));
             }
             begin.elapsed()
@@ -149,13 +147,8 @@ fn time_function<R: Lanes, T>(values: &[R], iterations: u64, function: impl Fn(R
 }
 
 #[inline(always)]
-fn time_rhs<R: Lanes, M: Model<4, S>, const S: usize>(
-    token: R::Token,
-    model: &M,
-    preset: &str,
-    iterations: u64,
-) -> Duration {
-    let Scene { c, h, side, y, .. } = scene::<R, M, S>(token, model, preset);
+fn time_rhs<R: Lanes, M: Model<4>>(token: R::Token, model: &M, preset: &str, iterations: u64) -> Duration {
+    let Scene { c, h, side, y, .. } = scene::<R, M>(token, model, preset);
     let begin = Instant::now();
     for _ in 0..iterations {
         let (t, y) = black_box((h, y));
@@ -185,11 +178,7 @@ struct Scene<R, C> {
 }
 
 #[inline(always)]
-fn scene<R: Lanes, M: Model<4, S>, const S: usize>(
-    token: R::Token,
-    model: &M,
-    published: &str,
-) -> Scene<R, M::Constants<R>> {
+fn scene<R: Lanes, M: Model<4>>(token: R::Token, model: &M, published: &str) -> Scene<R, M::Constants<R>> {
     let (_, published) = preset(published).expect("a preset");
     let start = model.start(&(published.values)()).expect("published parameters are possible");
     let side = R::splat(token, 1.0);
@@ -200,7 +189,7 @@ fn scene<R: Lanes, M: Model<4, S>, const S: usize>(
         atol[i] = side.lit(start.scale[i] * 1e-8);
     }
     Scene {
-        c: M::Constants::<R>::fill(token, &start.constants),
+        c: M::Constants::<R>::fill(side, &start.constants),
         h: side.lit(start.span * 0.02),
         side,
         y,

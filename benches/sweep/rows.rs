@@ -14,14 +14,14 @@ use flap_sweep::table::layout::Layout;
 const COPIES: usize = 16;
 
 /// The rows of all points of a plan.
-pub(crate) struct Rows {
-    layout: Layout,
+pub(crate) struct Rows<'p> {
+    layout: Layout<'p>,
     rows: Vec<(Point, Row)>,
 }
 
-impl Rows {
+impl<'p> Rows<'p> {
     /// Runs all points on this thread.
-    pub(crate) fn of(plan: &Plan) -> Rows {
+    pub(crate) fn of(plan: &'p Plan) -> Rows<'p> {
         let points: Vec<Point> = (0..plan.len()).map(|index| plan.point(index)).collect();
         let rows = run_list(plan.simulator(), Backend::best(), plan.solver(), points.clone(), &never);
         let rows = points.into_iter().zip(rows.expect("every point has a row")).collect();

@@ -3,7 +3,7 @@
 //! Stroke x and hinge angle ψ in radians, the time in units of 1/ω₀, ω₀ being the undamped resonance: all numbers are
 //! ratios. A force F sin ωt drives each of them.
 
-use flap_core::num::Lanes;
+use flap_core::num::Real;
 use flap_core::ode::Ode;
 
 use super::coefficients::FIG_3;
@@ -24,24 +24,24 @@ flap_core::per_lane! {
 /// An oscillator, of `N` states.
 pub(crate) trait Oscillator<const N: usize>: Sync {
     /// Rates of the states under a force.
-    fn rates<R: Lanes>(&self, c: &Drive<R>, force: R, y: &[R; N]) -> [R; N];
+    fn rates<R: Real>(&self, c: &Drive<R>, force: R, y: &[R; N]) -> [R; N];
 }
 
 /// An oscillator under its force: a system of differential equations.
 pub(crate) struct Forced<O>(pub(crate) O);
 
 impl<O: Oscillator<N>, const N: usize> Ode<N> for Forced<O> {
-    type Constants<R: Lanes> = Drive<R>;
-    type Input<R: Lanes> = R;
+    type Constants<R: Real> = Drive<R>;
+    type Input<R: Real> = R;
 
     /// The force at time `t`: what depends on time alone is computed apart from the state.
     #[inline(always)]
-    fn input<R: Lanes>(&self, c: &Drive<R>, t: R) -> R {
+    fn input<R: Real>(&self, c: &Drive<R>, t: R) -> R {
         c.force * (c.frequency * t).sin()
     }
 
     #[inline(always)]
-    fn rhs<R: Lanes>(&self, c: &Drive<R>, force: &R, _side: R, y: &[R; N]) -> [R; N] {
+    fn rhs<R: Real>(&self, c: &Drive<R>, force: &R, _side: R, y: &[R; N]) -> [R; N] {
         self.0.rates(c, *force, y)
     }
 }
@@ -55,7 +55,7 @@ pub(crate) struct Linear;
 
 impl Oscillator<2> for Linear {
     #[inline(always)]
-    fn rates<R: Lanes>(&self, c: &Drive<R>, force: R, y: &[R; 2]) -> [R; 2] {
+    fn rates<R: Real>(&self, c: &Drive<R>, force: R, y: &[R; 2]) -> [R; 2] {
         let [x, x_dot] = *y;
         [x_dot, force - x - c.damping * x_dot]
     }
@@ -80,7 +80,7 @@ impl HeldWing {
 
 impl Oscillator<2> for HeldWing {
     #[inline(always)]
-    fn rates<R: Lanes>(&self, c: &Drive<R>, force: R, y: &[R; 2]) -> [R; 2] {
+    fn rates<R: Real>(&self, c: &Drive<R>, force: R, y: &[R; 2]) -> [R; 2] {
         let [x, x_dot] = *y;
         [x_dot, force - x - c.damping * self.drag * x_dot.abs() * x_dot]
     }
@@ -112,7 +112,7 @@ pub(crate) const DAMPING: f64 = 0.67;
 
 impl Oscillator<4> for TurningWing {
     #[inline(always)]
-    fn rates<R: Lanes>(&self, c: &Drive<R>, force: R, y: &[R; 4]) -> [R; 4] {
+    fn rates<R: Real>(&self, c: &Drive<R>, force: R, y: &[R; 4]) -> [R; 4] {
         let [x, psi, x_dot, psi_dot] = *y;
         let (sin, cos) = psi.sin_cos();
         let pressure = x_dot.abs() * x_dot;

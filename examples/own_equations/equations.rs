@@ -8,7 +8,7 @@ mod constants;
 
 use core::f64::consts::FRAC_1_PI;
 
-use flap_core::num::Lanes;
+use flap_core::num::{Lanes, Real};
 use flap_core::ode::Ode;
 use flap_core::ode::dense::interpolate;
 use flap_core::ode::ensemble::Observer;
@@ -43,16 +43,16 @@ impl Drive<f64> {
 pub(crate) struct Wing;
 
 impl Ode<4> for Wing {
-    type Constants<R: Lanes> = Drive<R>;
-    type Input<R: Lanes> = R;
+    type Constants<R: Real> = Drive<R>;
+    type Input<R: Real> = R;
 
     #[inline(always)]
-    fn input<R: Lanes>(&self, c: &Drive<R>, t: R) -> R {
+    fn input<R: Real>(&self, c: &Drive<R>, t: R) -> R {
         c.force * (c.frequency * t).sin()
     }
 
     #[inline(always)]
-    fn rhs<R: Lanes>(&self, _c: &Drive<R>, force: &R, _side: R, y: &[R; 4]) -> [R; 4] {
+    fn rhs<R: Real>(&self, _c: &Drive<R>, force: &R, _side: R, y: &[R; 4]) -> [R; 4] {
         let [x, v, psi, w] = *y;
         let (sin, cos) = psi.sin_cos();
         let sin_squared = sin * sin;

@@ -15,12 +15,11 @@ mod equations;
 
 use std::error::Error;
 use std::fs;
-use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use flap_core::num::{Backend, Kernel, Simd};
-use flap_core::ode::ensemble::{Continuation, NewRun, Observer, Queue, Unobserved, run};
-use flap_core::ode::{Outcome, Start, Tolerances};
+use flap_core::num::Backend;
+use flap_core::ode::ensemble::{Unobserved, integrate};
+use flap_core::ode::{Start, Tolerances};
 use nix::time::{ClockId, clock_gettime};
 
 use equations::{Drive, Measured, SCALE, Sums, Wing};
@@ -48,7 +47,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let tolerances = Tolerances { rtol, atol: 0.1 * rtol, max_steps: 100_000 };
 
     let (wall, cpu) = (Instant::now(), cpu_time()?);
-    let found = set.dispatch(Runs { points: &points, tolerances });
+    let found = integrated(set, &points, &tolerances);
     let (wall, cpu) = (wall.elapsed(), cpu_time()?.saturating_sub(cpu));
 
     let mut table = vec!["id,F0,f,max_x,max_psi,lift".to_owned()];
@@ -81,81 +80,27 @@ fn cpu_time() -> Result<Duration, nix::Error> {
     clock_gettime(ClockId::CLOCK_PROCESS_CPUTIME_ID).map(Duration::from)
 }
 
-/// All runs, with the instructions of the machine.
-struct Runs<'a> {
-    points: &'a [Point],
-    tolerances: Tolerances,
-}
-
-/// Their results.
+/// The sums over the last periods of every run, and the right-hand sides of all.
 struct Found {
     sums: Vec<Sums<f64>>,
     rhs_evals: u64,
 }
 
-impl Kernel for Runs<'_> {
-    type Output = Found;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> Found {
-        let begin = |(_, force, frequency): &Point| Begin {
-            constants: Drive::new(*force, *frequency),
-            y: [0.0; 4],
-            span: 1.0 / frequency,
-            scale: SCALE,
-            tighten: 1.0,
-        };
-        // Most periods are not looked at, which is cheaper; the last ones are.
-        let mut settling = Part::new(PERIODS[0], self.points.iter().map(begin).collect());
-        run(simd, &Wing, &Unobserved, &self.tolerances, &mut settling);
-        let mut measuring = Part::new(PERIODS[1], settling.ends);
-        run(simd, &Wing, &Measured, &self.tolerances, &mut measuring);
-        Found { sums: measuring.totals, rhs_evals: settling.rhs_evals + measuring.rhs_evals }
+fn integrated(set: Backend, points: &[Point], tolerances: &Tolerances) -> Found {
+    let begin = |(_, force, frequency): &Point| {
+        Start::new(Drive::new(*force, *frequency), [0.0; 4], 1.0 / frequency, SCALE)
+    };
+    // Most periods are not looked at, which is cheaper; the last ones are.
+    let mut starts: Vec<Begin> = points.iter().map(begin).collect();
+    let settled = integrate(set, &Wing, &Unobserved, tolerances, &starts, PERIODS[0]);
+    for (start, end) in starts.iter_mut().zip(&settled) {
+        start.y = end.y;
     }
-}
-
-/// Some periods of every run.
-struct Part<T> {
-    periods: u32,
-    begun: usize,
-    /// States of the runs: their beginnings, and once they have ended, their ends.
-    ends: Vec<Begin>,
-    totals: Vec<T>,
-    rhs_evals: u64,
-}
-
-impl<T: Default> Part<T> {
-    fn new(periods: u32, begins: Vec<Begin>) -> Part<T> {
-        let totals = begins.iter().map(|_| T::default()).collect();
-        Part { periods, begun: 0, ends: begins, totals, rhs_evals: 0 }
-    }
-}
-
-impl<V: Observer<Wing, 4>> Queue<Wing, V, 4> for Part<V::Totals<f64>> {
-    /// Index of the run and periods that it has made.
-    type Run = (usize, u32);
-
-    fn next(&mut self, _idle: bool) -> Option<NewRun<(usize, u32), Drive<f64>, 4>> {
-        let begin = *self.ends.get(self.begun)?;
-        self.begun += 1;
-        Some(((self.begun - 1, 0), begin))
-    }
-
-    fn span_end(&mut self, run: &mut (usize, u32), y: &[f64; 4], totals: &V::Totals<f64>) -> ControlFlow<()> {
-        let (index, periods) = run;
-        *periods += 1;
-        if *periods < self.periods {
-            return ControlFlow::Continue(());
-        }
-        self.ends[*index].y = *y;
-        self.totals[*index] = *totals;
-        ControlFlow::Break(())
-    }
-
-    fn ended(&mut self, _run: (usize, u32), outcome: Outcome) -> Option<(Self::Run, Continuation<4>)> {
-        // A run that fails keeps the totals of nothing: zeros.
-        self.rhs_evals += outcome.rhs_evals;
-        None
+    let measured = integrate(set, &Wing, &Measured, tolerances, &starts, PERIODS[1]);
+    let evals = settled.iter().map(|end| end.outcome).chain(measured.iter().map(|end| end.outcome));
+    Found {
+        rhs_evals: evals.map(|outcome| outcome.rhs_evals).sum(),
+        sums: measured.iter().map(|end| end.totals).collect(),
     }
 }
 
@@ -175,7 +120,7 @@ mod tests {
         for (rtol, worst) in [(1e-6, 1e-4), (1e-8, 1e-6)] {
             let tolerances = Tolerances { rtol, atol: 0.1 * rtol, max_steps: 100_000 };
             for set in Backend::available() {
-                let found = set.dispatch(Runs { points: &points, tolerances });
+                let found = integrated(set, &points, &tolerances);
                 for ((row, (_, _, frequency)), sums) in rows.iter().zip(&points).zip(&found.sums) {
                     let lift = sums.lift * frequency / f64::from(PERIODS[1]);
                     for (computed, known) in [sums.tip, sums.psi, lift].into_iter().zip(&row[3..]) {

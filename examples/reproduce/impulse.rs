@@ -1,9 +1,9 @@
 //! Free motions after an impulse on the resting stroke.
 
-use flap_core::measure::damped_sine::{self, DampedSine};
 use flap_core::num::Backend;
-use flap_core::resonance::free::{FreeMotion, FreeRequest, examine, intervals, stroke_rate};
 use flap_core::simulate::{ImpulseRequest, PointRun};
+use flap_experiments::damped_sine::{self, DampedSine};
+use flap_experiments::free::{FreeMotion, FreeRequest, examine, intervals, stroke_rate};
 
 use crate::points::Bench;
 

@@ -7,9 +7,8 @@ use flap_core::drive::Drive;
 use flap_core::model::Model;
 use flap_core::model::direct_drive::{Constants, DirectDrive, FlowDirection};
 use flap_core::num::{Backend, Kernel, Lanes, PerLane, Simd, Vector};
-use flap_core::ode::ensemble::{Continuation, NewRun, Queue, Unobserved, run};
 use flap_core::ode::step::Step;
-use flap_core::ode::{Ode, Outcome, Start, Tolerances};
+use flap_core::ode::{Ode, Start, Tolerances};
 use flap_core::simulate::{Jobs, Point, Row, SolverSettings, preset};
 
 use crate::counting::allocations;
@@ -30,8 +29,8 @@ pub(crate) fn start() -> Start<Constants<f64>, 4> {
 /// One step from rest.
 #[inline(always)]
 pub(crate) fn one_step<R: Lanes>(token: R::Token, start: &Start<Constants<f64>, 4>) {
-    let c = Constants::<R>::fill(token, &start.constants);
     let zero = R::splat(token, 0.0);
+    let c = Constants::<R>::fill(zero, &start.constants);
     let h = R::splat(token, start.span * 1e-3);
     let side = R::splat(token, 1.0);
     let y = start.y.map(
@@ -54,40 +53,6 @@ impl Kernel for OneStep<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         one_step::<Vector<S>>(simd, self.0);
-    }
-}
-
-/// An ensemble of equal runs of so many cycles.
-pub(crate) struct Ensemble {
-    pub(crate) runs: u32,
-    pub(crate) cycles: u32,
-}
-
-impl Kernel for Ensemble {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Simd>(mut self, simd: S) {
-        run(simd, &MODEL, &Unobserved, &TOLERANCES, &mut self);
-    }
-}
-
-impl Queue<DirectDrive, Unobserved, 4> for Ensemble {
-    /// Cycles to go.
-    type Run = u32;
-
-    fn next(&mut self, _idle: bool) -> Option<NewRun<u32, Constants<f64>, 4>> {
-        self.runs = self.runs.checked_sub(1)?;
-        Some((self.cycles, start()))
-    }
-
-    fn span_end(&mut self, left: &mut u32, _y: &[f64; 4], (): &()) -> ControlFlow<()> {
-        count_down(left)
-    }
-
-    fn ended(&mut self, _left: u32, outcome: Outcome) -> Option<(u32, Continuation<4>)> {
-        black_box(outcome);
-        None
     }
 }
 

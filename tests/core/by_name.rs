@@ -26,7 +26,7 @@ pub(crate) fn layer(table: &[Parameter], values: &[f64], name: &str) -> Layer {
 /// Any of `presets` with parameters multiplied by factors within `range`. `names` are those of the parameters, with
 /// spaces between.
 pub(crate) fn scaled(
-    table: &'static [Parameter],
+    table: &'static [Parameter<'static>],
     presets: Vec<Vec<f64>>,
     names: &'static str,
     range: Range<f64>,

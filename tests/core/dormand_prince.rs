@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use flap_core::num::Lanes;
+use flap_core::num::Real;
 use flap_core::ode::dense::interpolate;
 use flap_core::ode::solve::solve;
 use flap_core::ode::step::Step;
@@ -90,14 +90,14 @@ fn continuous_extension_has_order_4() {
 struct Growth;
 
 impl Ode<1> for Growth {
-    type Constants<R: Lanes> = ();
-    type Input<R: Lanes> = R;
+    type Constants<R: Real> = ();
+    type Input<R: Real> = R;
 
-    fn input<R: Lanes>(&self, (): &(), t: R) -> R {
+    fn input<R: Real>(&self, (): &(), t: R) -> R {
         t.sin_cos().1
     }
 
-    fn rhs<R: Lanes>(&self, (): &(), cos: &R, _side: R, y: &[R; 1]) -> [R; 1] {
+    fn rhs<R: Real>(&self, (): &(), cos: &R, _side: R, y: &[R; 1]) -> [R; 1] {
         [y[0] * *cos]
     }
 }
@@ -157,12 +157,12 @@ fn error_estimate_bounds_the_error_of_a_step() {
 struct Arenstorf;
 
 impl Ode<4> for Arenstorf {
-    type Constants<R: Lanes> = ();
-    type Input<R: Lanes> = ();
+    type Constants<R: Real> = ();
+    type Input<R: Real> = ();
 
-    fn input<R: Lanes>(&self, (): &(), _t: R) {}
+    fn input<R: Real>(&self, (): &(), _t: R) {}
 
-    fn rhs<R: Lanes>(&self, (): &(), (): &(), _side: R, y: &[R; 4]) -> [R; 4] {
+    fn rhs<R: Real>(&self, (): &(), (): &(), _side: R, y: &[R; 4]) -> [R; 4] {
         let [x, y, u, v] = *y;
         let moon = 0.012_277_471;
         let earth = 1.0 - moon;
@@ -184,7 +184,7 @@ fn arenstorf(rtol: f64) -> Span<4> {
         y: [0.994, 0.0, 0.0, -2.001_585_106_379_082_5],
         span: 17.065_216_560_157_964,
         scale: [1.0; 4],
-        tighten: 1.0,
+        tolerance_factor: 1.0,
     };
     span::run(&Arenstorf, &Tolerances { rtol, atol: rtol, max_steps: 10_000 }, &start)
 }
@@ -212,14 +212,14 @@ fn arenstorf_orbit_closes_as_the_tolerance_falls() {
 struct Counted<'a>(&'a std::sync::atomic::AtomicU64);
 
 impl Ode<1> for Counted<'_> {
-    type Constants<R: Lanes> = ();
-    type Input<R: Lanes> = R;
+    type Constants<R: Real> = ();
+    type Input<R: Real> = R;
 
-    fn input<R: Lanes>(&self, (): &(), t: R) -> R {
+    fn input<R: Real>(&self, (): &(), t: R) -> R {
         t.sin_cos().0
     }
 
-    fn rhs<R: Lanes>(&self, (): &(), sin: &R, _side: R, y: &[R; 1]) -> [R; 1] {
+    fn rhs<R: Real>(&self, (): &(), sin: &R, _side: R, y: &[R; 1]) -> [R; 1] {
         self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
         [*sin * 50.0 - y[0] * 20.0]
     }
@@ -229,19 +229,19 @@ impl Ode<1> for Counted<'_> {
 struct CountedSwitch<'a>(&'a std::sync::atomic::AtomicU64);
 
 impl Ode<2> for CountedSwitch<'_> {
-    type Constants<R: Lanes> = ();
-    type Input<R: Lanes> = ();
+    type Constants<R: Real> = ();
+    type Input<R: Real> = ();
 
     const SWITCHES: bool = true;
 
-    fn input<R: Lanes>(&self, (): &(), _t: R) {}
+    fn input<R: Real>(&self, (): &(), _t: R) {}
 
-    fn rhs<R: Lanes>(&self, (): &(), (): &(), side: R, y: &[R; 2]) -> [R; 2] {
+    fn rhs<R: Real>(&self, (): &(), (): &(), side: R, y: &[R; 2]) -> [R; 2] {
         self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
         [y[1], -y[0] - side * 0.1]
     }
 
-    fn switch<R: Lanes>(&self, (): &(), y: &[R; 2], dy: &[R; 2]) -> [R; 2] {
+    fn switch<R: Real>(&self, (): &(), y: &[R; 2], dy: &[R; 2]) -> [R; 2] {
         [y[1], dy[1]]
     }
 }
@@ -298,12 +298,12 @@ fn spans_are_tiled_without_gaps() {
 struct BlowUp;
 
 impl Ode<1> for BlowUp {
-    type Constants<R: Lanes> = ();
-    type Input<R: Lanes> = ();
+    type Constants<R: Real> = ();
+    type Input<R: Real> = ();
 
-    fn input<R: Lanes>(&self, (): &(), _t: R) {}
+    fn input<R: Real>(&self, (): &(), _t: R) {}
 
-    fn rhs<R: Lanes>(&self, (): &(), (): &(), _side: R, y: &[R; 1]) -> [R; 1] {
+    fn rhs<R: Real>(&self, (): &(), (): &(), _side: R, y: &[R; 1]) -> [R; 1] {
         [y[0] * y[0]]
     }
 }

@@ -42,7 +42,7 @@ impl Simulator for Backwards {
         ""
     }
 
-    fn parameters(&self) -> &'static [Parameter] {
+    fn parameters(&self) -> &'static [Parameter<'static>] {
         &[]
     }
 

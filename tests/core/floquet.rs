@@ -16,22 +16,17 @@ use crate::{rows, span};
 const TOLERANCES: Tolerances = Tolerances { rtol: 1e-8, atol: 1e-10, max_steps: 20_000 };
 
 /// States at the end of a period that begins at `y`, without and with responses to changes of `y`.
-fn period<M: Model<4, S>, const S: usize>(
-    model: &M,
-    values: &[f64],
-    y: [f64; 4],
-) -> ([f64; 4], [f64; 20], [f64; 4]) {
+fn period<M: Model<4>>(model: &M, values: &[f64], y: [f64; 4]) -> ([f64; 4], [f64; 20], [f64; 4]) {
     let model = &model.variant(values);
     let start = Start { y, ..model.start(values).unwrap() };
     let alone = span::end(model, &TOLERANCES, &start);
-    let mut scale = [0.0; 20];
-    scale[..4].copy_from_slice(&start.scale);
+    let scale = std::array::from_fn(|i| start.scale[i % 4]);
     let varied = Start {
         constants: start.constants,
         y: initial(&y, &start.scale),
         span: start.span,
         scale,
-        tighten: 1.0,
+        tolerance_factor: 1.0,
     };
     let all = span::end(&Variation(model), &TOLERANCES, &varied);
     (alone, all, start.scale)
@@ -44,16 +39,17 @@ fn largest_multiplier(all: &[f64; 20], scale: &[f64; 4]) -> f64 {
 }
 
 /// Compares the largest multiplier of the orbit through the states in `states` with the column `multiplier`.
-fn check<M: Model<4, S>, const S: usize>(
-    model: &M,
-    values: &[f64],
-    record: &Record,
-    states: [&str; 4],
-    multiplier: &str,
-) {
+fn check<M: Model<4>>(model: &M, values: &[f64], record: &Record, states: [&str; 4], multiplier: &str) {
     let y = states.map(|column| record.number(column));
     let (alone, all, scale) = period(model, values, y);
-    assert_eq!(alone, all[..4], "the responses change nothing");
+    for (one, other) in
+        alone.iter().zip(&all).zip(&scale).map(|((one, other), scale)| (one / scale, other / scale))
+    {
+        assert!(
+            (one - other).abs() < 1e-6 * (1.0 + one.abs()),
+            "the responses do not change the states: {one} and {other}"
+        );
+    }
     assert_close(largest_multiplier(&all, &scale), record.number(multiplier), 1e-4, &record.name);
 }
 
@@ -104,7 +100,7 @@ fn multipliers_of_rows_are_as_accurate_as_documented() {
     let presets = all().iter().flat_map(|model| model.presets()).map(|preset| preset.name);
     for name in presets.filter(|name| !name.ends_with("kw-swapped")) {
         let truth = rows_around(name, &exact);
-        for (rtol, limit) in [(1e-6, 5e-3), (1e-8, 1e-3)] {
+        for (rtol, bound, limit) in [(1e-6, 1e-3, 3e-3), (1e-8, 2e-4, 5e-4)] {
             let found = rows_around(name, &solver(rtol));
             // Between folds, tolerances may decide between two orbits.
             let same = |one: &Row, other: &Row| {
@@ -126,7 +122,8 @@ fn multipliers_of_rows_are_as_accurate_as_documented() {
                 percentile(100)
             );
             assert!(percentile(100) < limit, "{name} at {rtol:e}: {:e}", percentile(100));
-            assert!(percentile(50) < 0.04 * limit, "{name} at {rtol:e}: {:e}", percentile(50));
+            assert!(percentile(99) < bound, "{name} at {rtol:e}: {:e}", percentile(99));
+            assert!(percentile(50) < 0.1 * bound, "{name} at {rtol:e}: {:e}", percentile(50));
         }
     }
 }

@@ -3,7 +3,6 @@
 use std::cell::Cell;
 
 use flap_core::num::Backend;
-use flap_core::resonance::free;
 use flap_core::simulate::{
     ChirpRequest, ImpulseRequest, Jobs, Point, PointRun, Row, Simulator, SolverSettings, TrajectoryRequest,
     Unfinished, preset,
@@ -151,11 +150,4 @@ fn motions_of_one_point_end_when_interrupted() {
         interrupted
     );
     assert!(motions.period(&PointRun::new(set, &ENDLESS, values), &[0.0; 4]).is_ok());
-
-    let request =
-        free::FreeRequest { amplitude: 0.1, fit_cycles: 10, spectrum_window: 1e3, samples_per_cycle: 20 };
-    assert_eq!(
-        free::examine(experiments, &PointRun::new(set, &ENDLESS, values).until(&always), &request).err(),
-        interrupted
-    );
 }

@@ -3,7 +3,7 @@
 use flap_core::model::bimorph::{self, Bimorph};
 use flap_core::model::direct_drive::{self, DirectDrive};
 use flap_core::model::four_bar::{self, FourBar};
-use flap_core::model::{Instant, Load, Model, position};
+use flap_core::model::{Instant, Load, Model, SignalSet};
 use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, SolverSettings, Status, preset};
@@ -11,19 +11,19 @@ use flap_core::simulate::{PointRun, SolverSettings, Status, preset};
 use crate::data::assert_close;
 
 /// An instant of a motion, its load, and its signals.
-struct At<const S: usize> {
+struct At<S: SignalSet> {
     y: [f64; 4],
     dy: [f64; 4],
     load: Load<f64>,
-    signals: [f64; S],
+    signals: S::Of<f64>,
 }
 
 /// Instants of the settled motion of a preset with changes.
-fn instants<M: Model<4, S>, const S: usize>(
+fn instants<M: Model<4>>(
     model: &M,
     values: &[f64],
     side: impl Fn(&M::Constants<f64>, &[f64; 4], &[f64; 4]) -> f64,
-) -> (M::Constants<f64>, Vec<At<S>>) {
+) -> (M::Constants<f64>, Vec<At<M::Signals>>) {
     let simulator = flap_core::simulate::by_name(M::DESCRIPTION.name).unwrap();
     let solver = SolverSettings::DEFAULT.with_rtol(1e-9);
     let run = PointRun::new(Backend::best(), &solver, values);
@@ -83,7 +83,7 @@ fn assert_load(load: &Load<f64>, sums: [f64; 5], size: [f64; 2], what: &str) {
 }
 
 /// Largest force and moment of a motion.
-fn sizes<const S: usize>(at: &[At<S>]) -> [f64; 2] {
+fn sizes<S: SignalSet>(at: &[At<S>]) -> [f64; 2] {
     let largest = |part: fn(&Load<f64>) -> f64| at.iter().map(|at| part(&at.load).abs()).fold(0.0, f64::max);
     [largest(|load| load.drag), largest(|load| load.drag_moment)]
 }
@@ -205,7 +205,6 @@ fn the_load_of_the_direct_drive_is_that_of_its_strips() {
 /// equation of motion (2).
 #[test]
 fn the_load_of_the_bimorph_does_its_work() {
-    const POWER: usize = position(&Bimorph::SIGNALS, "power_drag");
     let values = values("jafferis2016", &[]);
     let p = bimorph::Params::from_values(&values);
     let (_, at) = instants(&Bimorph::default(), &values, |_, _, _| 1.0);
@@ -214,7 +213,7 @@ fn the_load_of_the_bimorph_does_its_work() {
         let [_, x_dot, psi, psi_dot] = at.y;
         let [_, x_ddot, _, psi_ddot] = at.dy;
         let ratio = p.transmission_ratio;
-        assert_close(at.load.drag_moment * ratio * x_dot, at.signals[POWER], 1e-9, "power");
+        assert_close(at.load.drag_moment * ratio * x_dot, at.signals.power_drag, 1e-9, "power");
         assert_close(at.load.lift_moment, p.pressure_radius * at.load.lift, 1e-12, "lever");
         let moment = p.wing_inertia_hinge * psi_ddot + p.hinge_stiffness * psi
             - p.wing_inertia_product * ratio * x_ddot * psi.cos()

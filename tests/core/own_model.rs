@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use flap_core::drive::{DriveConstants, WaveformParameters};
-use flap_core::model::{Derived, Description, Instant, Measure, Model, Principal, Signal, Unit};
-use flap_core::num::{Backend, Lanes};
+use flap_core::model::{Derived, Description, Instant, Model, Unit};
+use flap_core::num::{Backend, Real};
 use flap_core::ode::{Ode, Start};
 use flap_core::parameter::Invalid;
 use flap_core::parameter::Kind::Number;
@@ -40,31 +40,41 @@ flap_core::per_lane! {
     }
 }
 
+flap_core::signals! {
+    /// Signals of an oscillator. Without a load the mean of the stroke is zero by symmetry.
+    pub struct Signals {
+        stroke: (Unit::DEG, "stroke angle", [Amplitude]) principal First,
+        torque: (Unit::DEG, "torque of the spring", [Mean]) principal Mean,
+    }
+}
+
 /// Drive frequency and natural frequency (Hz).
 const FREQUENCY: f64 = 100.0;
 
 /// Angular frequency of the drive (rad/s).
-const OMEGA: f64 = TAU * FREQUENCY;
+pub(crate) const OMEGA: f64 = TAU * FREQUENCY;
 
 #[derive(Clone, PartialEq)]
-struct Oscillator;
+pub(crate) struct Oscillator;
 
 impl Ode<2> for Oscillator {
-    type Constants<R: Lanes> = Constants<R>;
-    type Input<R: Lanes> = R;
+    type Constants<R: Real> = Constants<R>;
+    type Input<R: Real> = R;
 
     #[inline(always)]
-    fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
+    fn input<R: Real>(&self, c: &Constants<R>, t: R) -> R {
         c.drive.amplitude * c.drive.phase(t).sin()
     }
 
     #[inline(always)]
-    fn rhs<R: Lanes>(&self, c: &Constants<R>, torque: &R, _side: R, y: &[R; 2]) -> [R; 2] {
+    fn rhs<R: Real>(&self, c: &Constants<R>, torque: &R, _side: R, y: &[R; 2]) -> [R; 2] {
         [y[1], *torque + c.load - c.stiffness * y[0] - c.damping * y[1]]
     }
 }
 
-impl Model<2, 2> for Oscillator {
+impl Model<2> for Oscillator {
+    type Signals = Signals;
+
     const DESCRIPTION: Description = Description {
         name: "oscillator",
         doc: "a wing on a spring",
@@ -72,12 +82,7 @@ impl Model<2, 2> for Oscillator {
         presets: &[],
     };
     const STATES: [&'static str; 2] = ["stroke_rad", "stroke_rate_rad_s"];
-    // Without a load the mean of the stroke is zero by symmetry.
-    const SIGNALS: [Signal; 2] = [
-        Signal::new("stroke", Unit::DEG, "stroke angle", &[Measure::Amplitude]).principal(Principal::First),
-        Signal::new("torque", Unit::DEG, "torque of the spring", &[Measure::Mean]).principal(Principal::Mean),
-    ];
-    const DERIVED: &'static [Derived<Self, Constants<f64>, 2>] = &[
+    const DERIVED: &'static [Derived<Self, Constants<f64>, Signals>] = &[
         Derived::new("twice_load_per_load", "", "two, and a ratio of zeros without a load", |_, c, _| {
             2.0 * c.load / c.load
         }),
@@ -91,17 +96,17 @@ impl Model<2, 2> for Oscillator {
         Ok(Start::new(constants, [0.0; 2], drive.period(), [0.1, 0.1 * OMEGA]))
     }
 
-    fn drive<R: Lanes>(c: &Constants<R>) -> &DriveConstants<R> {
+    fn drive<R: Real>(c: &Constants<R>) -> &DriveConstants<R> {
         &c.drive
     }
 
     #[inline(always)]
-    fn signals<R: Lanes>(&self, _c: &Constants<R>, at: Instant<'_, R, R, 2>) -> [R; 2] {
-        [at.y[0], at.y[0]]
+    fn signals<R: Real>(&self, _c: &Constants<R>, at: Instant<'_, R, R, 2>) -> Signals<R> {
+        Signals { stroke: at.y[0], torque: at.y[0] }
     }
 }
 
-static OSCILLATOR: Runner<Oscillator, 2, 6, 2> = Runner::new(Oscillator);
+static OSCILLATOR: Runner<Oscillator, 2, 6> = Runner::new(Oscillator);
 
 fn row(params: &Params, solver: &SolverSettings) -> Row {
     let row = OSCILLATOR.run_point(&PointRun::new(Backend::best(), solver, &params.to_values()), None);

@@ -1,7 +1,7 @@
 //! Right-hand sides of models at the states of a reference table: in every lane as on scalars.
 
 use flap_core::drive::Wave;
-use flap_core::num::{Backend, Kernel, Lanes, PerLane, Scalar, ScalarKernel, Simd, Unfused, Vector};
+use flap_core::num::{Backend, Kernel, Lanes, PerLane, Real, Scalar, ScalarKernel, Simd, Unfused, Vector};
 use flap_core::ode::Ode;
 
 use crate::data::Record;
@@ -9,7 +9,7 @@ use crate::data::Record;
 /// A model that `W` voltages drive.
 pub(crate) trait Driven<const W: usize>: Ode<4> {
     /// The inputs of the right-hand side under these voltages.
-    fn under<R: Lanes>(c: &Self::Constants<R>, voltages: &[Wave<R>; W]) -> Self::Input<R>;
+    fn under<R: Real>(c: &Self::Constants<R>, voltages: &[Wave<R>; W]) -> Self::Input<R>;
 }
 
 /// A state under given voltages.
@@ -25,7 +25,7 @@ pub(crate) struct Case<M: Driven<W>, const W: usize> {
 impl<M: Driven<W>, const W: usize> Case<M, W> {
     /// The derivative on scalars.
     fn slope<R: Scalar>(&self) -> [f64; 4] {
-        let c = M::Constants::<R>::fill((), &self.constants);
+        let c = M::Constants::<R>::fill(R::new(0.0), &self.constants);
         let voltages = self.voltages.map(|v| Wave::from([v.value, v.rate, v.bend].map(R::new)));
         let u = M::under(&c, &voltages);
         self.model.rhs(&c, &u, R::new(self.side), &self.y.map(R::new)).map(R::value)
@@ -42,7 +42,7 @@ impl<M: Driven<W>, const W: usize> Kernel for OnLanes<'_, M, W> {
         let mut derivatives = Vec::new();
         for group in self.0.chunks(Vector::<S>::LANES) {
             let zero = Vector::<S>::splat(simd, 0.0);
-            let mut c = M::Constants::<Vector<S>>::fill(simd, &group[0].constants);
+            let mut c = M::Constants::<Vector<S>>::fill(zero, &group[0].constants);
             let mut voltages = [Wave::from([zero; 3]); W];
             let mut side = zero;
             let mut y = [zero; 4];

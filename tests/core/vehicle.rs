@@ -1,5 +1,8 @@
 //! Vehicles: symmetries, sums, derivatives.
 
+use std::sync::Arc;
+
+use flap_core::model::OverWings;
 use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Change, PointRun, Row, Rows, Simulator, SolverSettings, Status, by_name, preset};
@@ -13,7 +16,7 @@ fn mounts(wings: &[(&str, bool)]) -> Vec<Mount> {
 
 /// A vehicle with wings like those of a preset.
 struct Flier {
-    vehicle: &'static Vehicle,
+    vehicle: Arc<Vehicle>,
     values: Vec<f64>,
 }
 
@@ -23,7 +26,7 @@ impl Flier {
         let vehicle = Vehicle::of(model, &mounts(wings)).unwrap();
         let mut values = (preset.values)();
         values.extend(vehicle.parameters()[values.len()..].iter().map(|parameter| parameter.default));
-        Flier { vehicle, values }
+        Flier { vehicle: Arc::new(vehicle), values }
     }
 
     /// A pair of wings, 4 mm from the middle.
@@ -176,9 +179,9 @@ fn lanes_and_scalars_have_the_same_bits() {
             values
         })
         .collect();
-    let lanes = rows::of(flier.vehicle, &points, Backend::best(), &SolverSettings::DEFAULT);
+    let lanes = rows::of(&*flier.vehicle, &points, Backend::best(), &SolverSettings::DEFAULT);
     for (row, values) in lanes.iter().zip(points) {
-        let alone = Flier { values, ..flier }.row();
+        let alone = Flier { values, vehicle: Arc::clone(&flier.vehicle) }.row();
         assert_eq!(row.status, alone.status);
         let bits = |row: &Row| row.measures.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(row), bits(&alone));
@@ -221,7 +224,7 @@ fn derivatives_are_those_of_differences() {
         })
         .collect();
     let point = PointRun::new(Backend::best(), &solver, &flier.values);
-    let gradient = flier.vehicle.motions().unwrap().gradient(&point, &row.state, &changes).unwrap();
+    let gradient = flier.vehicle.gradients().unwrap().gradient(&point, &row.state, &changes).unwrap();
     for ((name, size), slopes) in names.iter().zip(&gradient.slopes) {
         let (ahead, behind) = (run(&moved(name, 0.1 * size)), run(&moved(name, -0.1 * size)));
         for (j, column) in flier.vehicle.columns().iter().enumerate() {
@@ -268,6 +271,67 @@ fn parameters_and_columns_have_names_of_their_own() {
             names.dedup();
             assert_eq!(names.len(), count, "{model}, {wings:?}");
         }
+    }
+}
+
+/// Each column of the wings is a sum, a column of each wing, or left out, as the model says. Mean powers are sums; currents and
+/// motions are those of each wing.
+#[test]
+fn columns_of_wings_are_combined_as_the_model_says() {
+    for (name, _) in PRESETS {
+        let flier = Flier::pair(name).with(&[("difference_drive_voltage_pp", 4.0)]);
+        let row = flier.row();
+        assert_eq!(row.status, Status::Periodic, "{name}");
+        let wing = |share: f64| {
+            let (model, preset) = preset(name).unwrap();
+            let mut values = (preset.values)();
+            values[Parameter::index(model.parameters(), "drive_voltage_pp").unwrap()] += share * 4.0;
+            let solver = SolverSettings::DEFAULT;
+            model.run_point(&PointRun::new(Backend::best(), &solver, &values), None)
+        };
+        let (left, right) = (wing(0.5), wing(-0.5));
+        let columns = flier.vehicle.columns();
+        for (i, column) in flier.vehicle.model().columns().iter().enumerate() {
+            let [one, other] = [&left, &right].map(|row| row.measures[i]);
+            let of =
+                |name: &str| columns.iter().position(|column| column.name == name).map(|j| row.measures[j]);
+            let of_wings = ["left", "right"].map(|wing| of(&format!("{wing}_{}", column.name)));
+            let same = |found: Option<f64>, expected: f64| {
+                found.is_some_and(|found| {
+                    found.total_cmp(&expected).is_eq() || (found - expected).abs() <= 1e-12 * expected.abs()
+                })
+            };
+            match column.over_wings {
+                OverWings::Sum => assert!(same(of(&column.name), one + other), "{name}: {}", column.name),
+                OverWings::Each => {
+                    assert!(same(of_wings[0], one) && same(of_wings[1], other), "{name}: {}", column.name);
+                }
+                OverWings::Omitted => assert_eq!(of_wings, [None; 2], "{name}: {}", column.name),
+            }
+            let is_current = column.name.starts_with("current");
+            assert!(!is_current || column.over_wings == OverWings::Each, "{name}: {}", column.name);
+            let is_power = column.unit == "mW";
+            assert!(!is_power || column.over_wings == OverWings::Sum, "{name}: {}", column.name);
+        }
+    }
+}
+
+/// Layouts differ in the names of their wings alone, and each vehicle has its own.
+#[test]
+fn vehicles_own_their_names() {
+    let names = |wing: &str| {
+        let vehicle = Flier::new("jafferis2016", &[(wing, false)]).vehicle;
+        let names: Vec<String> =
+            vehicle.parameters().iter().map(|parameter| parameter.name.to_owned()).collect();
+        (names, vehicle.gradients().unwrap().states())
+    };
+    let ((one, states), (other, _)) = (names("one"), names("other"));
+    assert_eq!(states[0], "one_tip_m");
+    assert_eq!(one.len(), other.len());
+    let changed = one.iter().zip(&other).filter(|(one, other)| one != other);
+    assert!(changed.clone().count() > 6);
+    for (one, other) in changed {
+        assert_eq!(one.replacen("one", "other", 1), *other);
     }
 }
 

@@ -1,4 +1,4 @@
-//! The structure of the crates: their rooms, the world outside of flap-core, and the hash of their sources.
+//! The structure of the crates: their rooms, the world outside of flap-core, their thresholds, and the hash of their sources.
 
 mod house;
 mod manifests;
@@ -6,6 +6,7 @@ mod names;
 mod rooms;
 mod source;
 mod sources;
+mod thresholds;
 
 use source::source_files;
 

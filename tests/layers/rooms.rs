@@ -20,11 +20,12 @@ const CRATES: &[(&str, &[&str])] = &[
             "model",
             "measure",
             "simulate",
-            "resonance",
+            "experiments",
             "vehicle",
             "lib",
         ],
     ),
+    ("flap-experiments", &["damped_sine", "spectrum", "tracking", "free", "lib"]),
     (
         "flap-sweep",
         &[
@@ -48,8 +49,8 @@ const CRATES: &[(&str, &[&str])] = &[
     (
         "flap-cli",
         &[
-            "args", "models", "complete", "console", "table", "duration", "progress", "failure", "signals",
-            "job", "data", "cmd", "plot", "lib", "main",
+            "args", "models", "statuses", "complete", "console", "table", "duration", "progress", "failure",
+            "signals", "job", "data", "cmd", "plot", "lib", "main",
         ],
     ),
 ];

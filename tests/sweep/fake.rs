@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use flap_core::model::OverWings;
 use flap_core::num::Backend;
 use flap_core::parameter::{Kind, Parameter, Preset, Range};
 use flap_core::simulate::{Column, Jobs, PointRun, Row, Rows, Simulator, SolverSettings};
@@ -11,7 +12,7 @@ use flap_sweep::plan::Plan;
 /// A model that is never run.
 pub(crate) struct Fake {
     name: &'static str,
-    parameters: &'static [Parameter],
+    parameters: &'static [Parameter<'static>],
     presets: &'static [Preset],
     columns: &'static LazyLock<Vec<Column>>,
 }
@@ -39,7 +40,7 @@ impl Simulator for Fake {
         "a fake"
     }
 
-    fn parameters(&self) -> &'static [Parameter] {
+    fn parameters(&self) -> &'static [Parameter<'static>] {
         self.parameters
     }
 
@@ -48,13 +49,18 @@ impl Simulator for Fake {
     }
 }
 
-const fn parameter(name: &'static str, unit: &'static str, kind: Kind) -> Parameter {
+const fn parameter(name: &'static str, unit: &'static str, kind: Kind) -> Parameter<'static> {
     Parameter::new(name, unit, "", kind, "")
 }
 
 static COLUMNS: LazyLock<Vec<Column>> = LazyLock::new(|| {
     [("lift_mean_mn", "mN"), ("power_mean_mw", "mW"), ("stroke_pp_deg", "deg")]
-        .map(|(name, unit)| Column { name: name.to_owned(), unit, doc: String::new() })
+        .map(|(name, unit)| Column {
+            name: name.to_owned(),
+            unit,
+            doc: String::new(),
+            over_wings: OverWings::Omitted,
+        })
         .to_vec()
 });
 

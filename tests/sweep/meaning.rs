@@ -17,7 +17,7 @@ fn axis(text: &str) -> Vec<f64> {
 }
 
 /// Names of the varied parameters, in column order.
-fn varied(plan: &Plan) -> Vec<&'static str> {
+fn varied(plan: &Plan) -> Vec<&str> {
     plan.axes().varied().map(|parameter| plan.parameters()[parameter].name).collect()
 }
 

@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
+use flap_core::model::OverWings;
 use flap_core::num::Backend;
 use flap_core::parameter::{Kind, Parameter, Preset, Range};
 use flap_core::simulate::{Column, Jobs, Point, PointRun, Row, Rows, Simulator, SolverSettings, Status};
@@ -36,7 +37,7 @@ pub(crate) struct Fake {
     columns: Vec<Column>,
 }
 
-static PARAMETERS: [Parameter; 4] = [
+static PARAMETERS: [Parameter<'static>; 4] = [
     Parameter::new("size", "m", "s", Kind::Number(Range::NonNegative), "Size."),
     Parameter::new("drive_frequency", "Hz", "f", Kind::Number(Range::Any), "Drive."),
     Parameter::new("arms", "", "", Kind::Choice(&["printed", "axis"]), "Reading."),
@@ -49,7 +50,12 @@ static PRESETS: [Preset; 1] =
 impl Fake {
     /// A model that lives as long as the tests.
     pub(crate) fn leak(fault: Fault, lanes: usize) -> &'static Fake {
-        let column = |name: &str, unit| Column { name: name.to_owned(), unit, doc: String::new() };
+        let column = |name: &str, unit| Column {
+            name: name.to_owned(),
+            unit,
+            doc: String::new(),
+            over_wings: OverWings::Omitted,
+        };
         Box::leak(Box::new(Fake {
             fault,
             lanes,
@@ -156,7 +162,7 @@ impl Simulator for Fake {
         "No physics at all."
     }
 
-    fn parameters(&self) -> &'static [Parameter] {
+    fn parameters(&self) -> &'static [Parameter<'static>] {
         &PARAMETERS
     }
 

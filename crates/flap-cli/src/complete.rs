@@ -12,14 +12,16 @@ use clap_complete::engine::{
     ArgValueCandidates, ArgValueCompleter, CompletionCandidate, PathCompleter, ValueCompleter as _,
 };
 use flap_core::parameter::{Kind, Parameter};
-use flap_core::simulate::{Simulator, SolverSettings, Status};
+use flap_core::simulate::{SolverSettings, Status};
 use flap_sweep::files::integrity;
 use flap_sweep::grid;
+use flap_sweep::plan::Robot;
 use flap_sweep::resonance;
 use flap_sweep::table::layout::fixed_columns;
 
 use crate::args::Args;
 use crate::models;
+use crate::statuses;
 
 /// The environment variable with which a shell asks for candidates.
 pub(crate) const VARIABLE: &str = "COMPLETE";
@@ -79,7 +81,7 @@ fn presets_and_files(word: &OsStr) -> Vec<CompletionCandidate> {
 }
 
 fn statuses() -> Vec<CompletionCandidate> {
-    Status::ALL.iter().map(|status| candidate(status.name(), status.describe())).collect()
+    Status::ALL.iter().map(|status| candidate(status.name(), statuses::meaning(*status))).collect()
 }
 
 /// The parameters of the models that the command line is about.
@@ -100,8 +102,8 @@ fn assignments(word: &OsStr) -> Vec<CompletionCandidate> {
 }
 
 fn each_parameter(candidates: impl Fn(&Parameter) -> Vec<CompletionCandidate>) -> Vec<CompletionCandidate> {
-    let parameters = mentioned_models().into_iter().flat_map(Simulator::parameters);
-    distinct(parameters.flat_map(candidates))
+    let robots = mentioned_models();
+    distinct(robots.iter().flat_map(|robot| robot.parameters()).flat_map(candidates))
 }
 
 /// The columns of the results on the command line; without those, the columns that rows of the models can have.
@@ -109,7 +111,7 @@ fn columns() -> Vec<CompletionCandidate> {
     if let Some(names) = words().find_map(|word| columns_of(&word)) {
         return names.iter().map(|name| candidate(name, "")).collect();
     }
-    let measures = mentioned_models().into_iter().flat_map(resonance::measures);
+    let measures = mentioned_models().into_iter().flat_map(|robot| resonance::measures(&*robot));
     let measures = measures.map(|measure| candidate(&measure.name, &measure.doc));
     let fixed = fixed_columns().into_iter().map(|column| candidate(&column.name, &column.doc));
     distinct(measures.chain(fixed))
@@ -151,18 +153,18 @@ fn words() -> impl Iterator<Item = String> {
 }
 
 /// The model of the preset, model or grid on the command line; without one, all models.
-fn mentioned_models() -> Vec<&'static dyn Simulator> {
+fn mentioned_models() -> Vec<Robot> {
     let mentioned = words().find_map(|word| {
         let named = models::preset(&word).map(|(model, _)| model).or_else(|| models::by_name(&word));
-        named.or_else(|| model_of_grid(&word))
+        named.map(Robot::Wing).or_else(|| robot_of_grid(&word))
     });
-    mentioned.map_or_else(|| models::all().to_vec(), |model| vec![model])
+    mentioned.map_or_else(|| models::all().iter().copied().map(Robot::Wing).collect(), |robot| vec![robot])
 }
 
-fn model_of_grid(word: &str) -> Option<&'static dyn Simulator> {
+fn robot_of_grid(word: &str) -> Option<Robot> {
     let path = Path::new(word);
     let is_grid = path.extension().is_some_and(|ending| ending == "toml") && path.is_file();
-    is_grid.then(|| grid::read(path, models::all()).ok().map(|plan| plan.simulator())).flatten()
+    is_grid.then(|| grid::read(path, models::all()).ok().map(|plan| plan.robot().clone())).flatten()
 }
 
 /// The columns of results, if the word names some. A shell waits for them, so only the header is read.

@@ -23,6 +23,7 @@ mod models;
 mod plot;
 mod progress;
 mod signals;
+mod statuses;
 mod table;
 
 use std::process::ExitCode;

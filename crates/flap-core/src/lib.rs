@@ -11,11 +11,12 @@
 //! - [`model`]: the papers' models: parameters → constants → equations of motion → signals
 //! - [`measure`]: measures of a motion, the same for every model
 //! - [`simulate`]: design points in, rows out
-//! - [`resonance`]: the resonances of a design point
+//! - `experiments`: chirps, impulses and given motions of a model
 //! - [`vehicle`]: several wings, whose forces and torques add up
 
 pub mod aero;
 pub mod drive;
+mod experiments;
 pub mod linkage;
 pub mod measure;
 pub mod model;
@@ -25,7 +26,6 @@ pub mod ode;
 pub mod parameter;
 pub mod piezo;
 pub mod quadrature;
-pub mod resonance;
 pub mod simulate;
 pub mod vehicle;
 

@@ -12,9 +12,9 @@ pub struct Mode {
 }
 
 impl Mode {
-    /// Two modes, given their names and natural frequencies (Hz).
-    pub fn pair(names: [&'static str; 2], frequencies: [f64; 2]) -> [Mode; 2] {
-        core::array::from_fn(|i| Mode { name: names[i], frequency: frequencies[i] })
+    /// Modes, given their names and natural frequencies (Hz).
+    pub fn of<const N: usize>(names: [&'static str; N], frequencies: [f64; N]) -> Vec<Mode> {
+        names.into_iter().zip(frequencies).map(|(name, frequency)| Mode { name, frequency }).collect()
     }
 }
 

@@ -118,7 +118,6 @@ impl<'a> Description<'a> {
                 ..ParameterText::new(parameter, *value, published)
             },
         );
-        let has_motions = simulator.motions().is_ok() && plan.vehicle().is_none();
         let measures = measures(opened.published_plan());
         Description {
             version: env!("CARGO_PKG_VERSION"),
@@ -130,9 +129,9 @@ impl<'a> Description<'a> {
             view: view(plan, opened.values(), &measures),
             measures,
             can: Can {
-                motion: has_motions,
+                motion: simulator.motions().is_ok(),
                 modes: simulator.experiments().is_ok(),
-                gradient: simulator.motions().is_ok(),
+                gradient: simulator.gradients().is_ok(),
             },
         }
     }

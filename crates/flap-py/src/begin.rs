@@ -22,19 +22,19 @@ pub(crate) fn state(model: &dyn Simulator, begin: &Bound<'_, PyAny>) -> PyResult
         );
         return Err(PyTypeError::new_err(message));
     };
-    let states = model.motions().map_err(|reason| error::unfinished(&reason))?.states();
+    let states = model.gradients().map_err(|reason| error::unfinished(&reason))?.states();
     let mut values = vec![0.0; states.len()];
     let mut given = vec![false; states.len()];
     for (name, value) in begin {
         let name: String = name.extract().map_err(|_| {
             PyTypeError::new_err("names in `begin` must be text\nsuch as {\"pitch\": \"10 deg\"}")
         })?;
-        let (index, factor) = component(states, &name)?;
+        let (index, factor) = component(&states, &name)?;
         if std::mem::replace(&mut given[index], true) {
             let message = format!("`begin` gives {} twice\nkeep one of them", states[index]);
             return Err(PyValueError::new_err(message));
         }
-        let (_, unit) = split_unit(states[index]);
+        let (_, unit) = split_unit(&states[index]);
         values[index] = factor * convert::quantity(&format!("begin[{name:?}]"), unit, factor == 1.0, &value)?;
     }
     Ok(values)
@@ -50,10 +50,10 @@ pub(crate) fn rows(begin: &PyReadonlyArray2<'_, f64>) -> Vec<Option<Vec<f64>>> {
 }
 
 /// The place of a component among the states, and the factor from the unit of its name to that of the state.
-fn component(states: &[&str], name: &str) -> PyResult<(usize, f64)> {
+fn component(states: &[String], name: &str) -> PyResult<(usize, f64)> {
     for (index, state) in states.iter().enumerate() {
         let (words, unit) = split_unit(state);
-        if name == *state || name == words {
+        if name == state || name == words {
             return Ok((index, 1.0));
         }
         // In degrees, as signals of trajectories are: stroke_deg, stroke_rate_deg_s.
@@ -72,8 +72,7 @@ fn component(states: &[&str], name: &str) -> PyResult<(usize, f64)> {
 /// The names of the states of a design's or a model's equations of motion, with their units at the end.
 #[pyfunction]
 #[pyo3(signature = (design, /))]
-pub(crate) fn states(design: &Bound<'_, PyAny>) -> PyResult<Vec<&'static str>> {
+pub(crate) fn states(design: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
     let model = crate::listing::model(design)?;
-    let motions = model.motions().map_err(|reason| error::unfinished(&reason))?;
-    Ok(motions.states().to_vec())
+    Ok(model.gradients().map_err(|reason| error::unfinished(&reason))?.states())
 }

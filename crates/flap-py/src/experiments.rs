@@ -1,8 +1,8 @@
 //! Experiments on single points: chirps, impulses, and forces along a given motion.
 
 use flap_core::drive::Repeat;
-use flap_core::resonance::free::{intervals, stroke_rate};
 use flap_core::simulate::{ChirpRequest, Experiments, ImposedMotion, ImpulseRequest};
+use flap_experiments::free::{first, intervals, stroke_rate};
 use flap_sweep::files::record;
 use flap_sweep::resonance::DRIVE_FREQUENCY;
 use flap_sweep::study::experiment;
@@ -84,11 +84,12 @@ pub(crate) fn impulse<'py>(
     let amplitude = convert::impulse("amplitude", amplitude)?;
     let invalid = |reason| error::unfinished(&flap_core::simulate::Unfinished::Invalid(reason));
     let stroke_rate = stroke_rate(&modes, amplitude).map_err(invalid)?;
+    let frequency = first(&modes).map_err(invalid)?.frequency;
     let duration = match duration {
         Some(duration) => convert::quantity("duration", "s", true, duration)?,
-        None => CYCLES / modes[0].frequency,
+        None => CYCLES / frequency,
     };
-    let per_second = modes[0].frequency * f64::from(convert::count("samples", samples)?);
+    let per_second = frequency * f64::from(convert::count("samples", samples)?);
     let intervals = intervals(duration, per_second).map_err(invalid)?;
     let request = ImpulseRequest { stroke_rate, duration, intervals };
     let free = interruptible(py, |interrupted| {
@@ -96,7 +97,7 @@ pub(crate) fn impulse<'py>(
     })?;
     let free = free.map_err(|reason| error::unfinished(&reason))?;
     let meta = chosen.meta(py)?;
-    meta.set_item("mode_hz", modes[0].frequency)?;
+    meta.set_item("mode_hz", frequency)?;
     meta.set_item("stroke_rate_rad_s", stroke_rate)?;
     let meanings = motion::meanings(chosen.simulator(), &free)?;
     motion::into_python(py, free, meanings, &meta)

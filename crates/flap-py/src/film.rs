@@ -1,7 +1,7 @@
 //! Filmed wings: stroke and pitch from points in images.
 
-use flap_core::measure::tracking::{LeadingEdge, pitch_from_projection, rotation_centre};
 use flap_core::simulate::Trajectory;
+use flap_experiments::tracking::{LeadingEdge, pitch_from_projection, rotation_centre};
 use flap_sweep::files::record;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

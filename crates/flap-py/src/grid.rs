@@ -134,7 +134,7 @@ impl Grid {
 
     /// The parameters that differ from point to point: those of the axes, then the derived ones.
     #[getter]
-    fn varied(&self) -> Vec<&'static str> {
+    fn varied(&self) -> Vec<&str> {
         let varied = self.plan.differing();
         varied.map(|index| self.plan.parameters()[index].name).collect()
     }

@@ -1,21 +1,21 @@
 //! Lists of parameters and measures.
 
 use flap_core::parameter::Kind;
-use flap_core::simulate::{self, Simulator};
+use flap_core::simulate;
 use flap_sweep::notation::text;
+use flap_sweep::plan::Robot;
 use pyo3::prelude::*;
 
 use crate::grid;
 
 /// Name, value, unit, symbol, meaning, allowed, options.
-type Listed =
-    (&'static str, Option<Value>, &'static str, &'static str, &'static str, String, Vec<&'static str>);
+type Listed = (String, Option<Value>, &'static str, &'static str, String, String, Vec<&'static str>);
 
 /// A parameter and its standard error in SI units.
-type StandardError = (&'static str, f64);
+type StandardError = (String, f64);
 
 /// Two parameters and the coefficient of their correlation.
-type Correlated = (&'static str, &'static str, f64);
+type Correlated = (String, String, f64);
 
 /// A number, or the name of an option.
 #[derive(IntoPyObject)]
@@ -42,9 +42,11 @@ pub(crate) fn params(design: &Bound<'_, PyAny>) -> PyResult<Vec<Listed>> {
         } else {
             Some(text::option(parameter, value).map_or(Value::Number(value), Value::Option))
         };
-        (parameter.name, value, parameter.unit, parameter.symbol, parameter.doc, allowed, options)
+        let (name, doc) = (parameter.name.to_owned(), parameter.doc.to_owned());
+        (name, value, parameter.unit, parameter.symbol, doc, allowed, options)
     });
-    Ok(listed.collect())
+    let listed = listed.collect();
+    Ok(listed)
 }
 
 /// The measures of a design or a model: names, each with unit and meaning; see `flapwing.measures`.
@@ -60,25 +62,26 @@ pub(crate) fn measures(design: &Bound<'_, PyAny>) -> PyResult<Vec<(String, &'sta
 #[pyo3(signature = (design, /))]
 pub(crate) fn uncertainty(design: &Bound<'_, PyAny>) -> PyResult<(Vec<StandardError>, Vec<Correlated>)> {
     let plan = grid::plan(design)?;
-    let name = |index: usize| plan.parameters()[index].name;
+    let name = |index: usize| plan.parameters()[index].name.to_owned();
     let known = plan.uncertainty();
     let errors = known.errors().iter().map(|(index, error)| (name(*index), *error)).collect();
     let correlations =
         known.correlations().iter().map(|one| (name(one.between[0]), name(one.between[1]), one.coefficient));
-    Ok((errors, correlations.collect()))
+    let correlations = correlations.collect();
+    Ok((errors, correlations))
 }
 
 /// The model of a design, or the model itself.
-pub(crate) fn model(design: &Bound<'_, PyAny>) -> PyResult<&'static dyn Simulator> {
+pub(crate) fn model(design: &Bound<'_, PyAny>) -> PyResult<Robot> {
     Ok(find(design)?.0)
 }
 
 /// The model of a preset or another design with its values, or a model with none.
-fn find(design: &Bound<'_, PyAny>) -> PyResult<(&'static dyn Simulator, Vec<f64>)> {
+fn find(design: &Bound<'_, PyAny>) -> PyResult<(Robot, Vec<f64>)> {
     let model = design.extract::<String>().ok().and_then(|name| simulate::by_name(&name));
     if let Some(model) = model {
-        return Ok((model, vec![f64::NAN; model.parameters().len()]));
+        return Ok((Robot::Wing(model), vec![f64::NAN; model.parameters().len()]));
     }
     let plan = grid::plan(design)?;
-    Ok((plan.simulator(), plan.point(0).values))
+    Ok((plan.robot().clone(), plan.point(0).values))
 }

@@ -8,7 +8,7 @@ use toml::{Table, Value};
 use crate::grid;
 
 /// A parameter and the text that says where its value comes from.
-type Origin = (&'static str, String);
+type Origin = (String, String);
 
 /// The description of a design, empty if it has none, and the source of each parameter that has one.
 #[pyfunction]
@@ -30,7 +30,7 @@ pub(crate) fn origins(design: &Bound<'_, PyAny>) -> PyResult<(String, Vec<Origin
             }
         }
     }
-    let named =
-        parameters.iter().zip(sources).filter_map(|(parameter, source)| Some((parameter.name, source?)));
-    Ok((description, named.collect()))
+    let named = parameters.iter().zip(sources);
+    let named = named.filter_map(|(parameter, source)| Some((parameter.name.to_owned(), source?))).collect();
+    Ok((description, named))
 }

@@ -11,16 +11,16 @@ use crate::{listing, parameters};
 #[pyo3(signature = (model, parameter, value, /))]
 pub(crate) fn value(model: &Bound<'_, PyAny>, parameter: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let model = listing::model(model)?;
-    let index = parameters::index(model, parameter)?;
+    let index = parameters::index(&*model, parameter)?;
     parameters::value_of(&model.parameters()[index], value)
 }
 
 /// The name of a parameter of a preset or a model, which may be given by its former name.
 #[pyfunction]
 #[pyo3(signature = (model, parameter, /))]
-pub(crate) fn parameter(model: &Bound<'_, PyAny>, parameter: &str) -> PyResult<&'static str> {
+pub(crate) fn parameter(model: &Bound<'_, PyAny>, parameter: &str) -> PyResult<String> {
     let model = listing::model(model)?;
-    Ok(model.parameters()[parameters::index(model, parameter)?].name)
+    Ok(model.parameters()[parameters::index(&*model, parameter)?].name.to_owned())
 }
 
 /// The number of `unit` in a text such as `"3 mm"`, which must measure the same.

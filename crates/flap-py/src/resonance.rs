@@ -2,8 +2,8 @@
 
 use flap_core::modes::Mode;
 use flap_core::num::Backend;
-use flap_core::resonance::free::{self, FreeRequest};
 use flap_core::simulate::PointRun;
+use flap_experiments::free::{self, FreeRequest};
 use flap_sweep::resonance::SearchError;
 use flap_sweep::resonance::driven::{self, PeakSearch};
 use pyo3::exceptions::PyValueError;
@@ -35,7 +35,7 @@ pub(crate) fn resonance<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let chosen = Chosen::new(design, keywords, point, None)?.possible()?;
     design::check_one_wing(&chosen.plan)?;
-    let (simulator, solver, values) = (chosen.plan.simulator(), chosen.plan.solver(), &chosen.values);
+    let (simulator, solver, values) = (chosen.plan.robot().model(), chosen.plan.solver(), &chosen.values);
     let frequency = |name, value: Option<&Bound<'py, PyAny>>| {
         value.map(|value| convert::quantity(name, "Hz", true, value)).transpose()
     };
@@ -59,7 +59,11 @@ pub(crate) fn resonance<'py>(
     })?;
     let (free, driven) = found.map_err(|reason: SearchError| PyValueError::new_err(reason.to_string()))?;
 
-    let linear = modes.map(|Mode { name, frequency }| (name, frequency)).into_py_dict(py)?;
+    let linear = modes
+        .into_iter()
+        .map(|Mode { name, frequency }| (name, frequency))
+        .collect::<Vec<_>>()
+        .into_py_dict(py)?;
     let fit = free.fit.map(|fit| {
         let dict = PyDict::new(py);
         dict.set_item("frequency_hz", fit.frequency)?;
@@ -67,9 +71,6 @@ pub(crate) fn resonance<'py>(
         dict.set_item("relative_rms", fit.relative_rms)?;
         PyResult::Ok(dict)
     });
-    let spectrum = |peaks: &[flap_core::measure::spectrum::SpectrumPeak]| {
-        peaks.iter().map(|peak| peak.frequency).collect::<Vec<f64>>()
-    };
     let peaks = PyList::empty(py);
     for peak in &driven.peaks {
         let dict = PyDict::new(py);
@@ -83,8 +84,10 @@ pub(crate) fn resonance<'py>(
     let dict = PyDict::new(py);
     dict.set_item("linear_hz", linear)?;
     dict.set_item("impulse_fit", fit.transpose()?)?;
-    dict.set_item("stroke_spectrum_hz", spectrum(&free.stroke_peaks))?;
-    dict.set_item("pitch_spectrum_hz", spectrum(&free.pitch_peaks))?;
+    for (signal, peaks) in &free.spectra {
+        let frequencies = peaks.iter().map(|peak| peak.frequency).collect::<Vec<f64>>();
+        dict.set_item(format!("{signal}_spectrum_hz"), frequencies)?;
+    }
     dict.set_item("driven", peaks)?;
     dict.set_item("larger_at_hz", driven.larger_at)?;
     dict.set_item("gaps", gaps)?;

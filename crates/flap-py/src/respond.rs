@@ -47,7 +47,7 @@ pub(crate) fn respond<'py>(
         return Err(PyValueError::new_err(message));
     }
     let index = parameters::index(plan.simulator(), along)?;
-    let parameter = &plan.parameters()[index];
+    let parameter = &plan.robot().model().parameters()[index];
     let number = |value: Option<&Bound<'py, PyAny>>| match parameter.kind {
         // It is refused below.
         Kind::Choice(_) => Ok(None),

@@ -10,9 +10,8 @@ use std::process::ExitCode;
 
 use flap_core::simulate::{self, Runner, Simulator};
 
-/// The wing with its three states, their 3 + 9 responses to changes, and its signals.
-static MOTOR_WING: Runner<motor_wing::MotorWing, 3, 12, { motor_wing::S }> =
-    Runner::new(motor_wing::MotorWing);
+/// The wing with its three states and their 3 + 9 responses to changes.
+static MOTOR_WING: Runner<motor_wing::MotorWing, 3, 12> = Runner::new(motor_wing::MotorWing);
 
 fn main() -> ExitCode {
     let own: &[&'static dyn Simulator] = &[&MOTOR_WING];

@@ -12,15 +12,16 @@
 mod columns;
 mod params;
 
-use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use flap_core::drive::{Drive, DriveConstants, Wave, WaveformParameters};
-use flap_core::model::{Derived, Description, EnergyBalance, Instant, Model, Signal};
-use flap_core::num::{Lanes, PerLane, Real};
+use flap_core::model::{Derived, Description, Instant, Model, SignalCycle};
+use flap_core::num::{PerLane, Real};
 use flap_core::ode::{Ode, Start};
 use flap_core::parameter::Invalid;
+use flap_core::quadrature::gauss_legendre;
 
-pub(crate) use columns::S;
+use columns::Signals;
 pub(crate) use params::Params;
 
 /// The model. All its points share one equation, so it has no choices of its own.
@@ -57,48 +58,32 @@ flap_core::per_lane! {
     }
 }
 
-/// Moments of the wing's shape about the motor's axis, for a chord c(r) that is a quarter of an ellipse.
-struct WingShape {
-    /// ∫ r² c dr (m⁴).
-    r2_c: f64,
-    /// ∫ r³ c dr (m⁵).
-    r3_c: f64,
-    /// ∫ c⁴ dr (m⁵).
-    c4: f64,
-    /// ∫ r² c² dr (m⁵).
-    r2_c2: f64,
-}
-
-impl WingShape {
-    /// A wing from radius `root` (m) on, with chord `chord` (m) there: c = chord √(1 − x²) at r = root + x · length.
-    fn new(root: f64, length: f64, chord: f64) -> WingShape {
-        // ∫ xⁿ √(1 − x²) dx from 0 to 1.
-        let [m0, m1, m2, m3] = [FRAC_PI_4, 1.0 / 3.0, PI / 16.0, 2.0 / 15.0];
-        let (a, b) = (root, length);
-        WingShape {
-            r2_c: chord * b * (a * a * m0 + 2.0 * a * b * m1 + b * b * m2),
-            r3_c: chord * b * (a * a * a * m0 + 3.0 * a * a * b * m1 + 3.0 * a * b * b * m2 + b * b * b * m3),
-            c4: chord.powi(4) * b * (8.0 / 15.0),
-            r2_c2: chord * chord * b * (a * a * (2.0 / 3.0) + a * b * 0.5 + b * b * (2.0 / 15.0)),
-        }
-    }
+/// ∫ f(r, c) dr over a wing from radius `root` (m) on, whose chord (m) is a quarter of an ellipse:
+/// c = `chord` √(1 − x²) at r = root + x · length, with x = sin θ.
+fn over_wing(root: f64, length: f64, chord: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
+    let value = |theta: f64| {
+        let (sin, cos) = theta.sin_cos();
+        length * cos * f(root + length * sin, chord * cos)
+    };
+    FRAC_PI_2 * gauss_legendre(12).iter().map(|node| node.weight * value(FRAC_PI_2 * node.x)).sum::<f64>()
 }
 
 impl Constants<f64> {
     fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let root = 0.5 * p.base_length;
         let chord = p.root_chord.unwrap_or(p.wing_length / 3.0);
-        let shape = WingShape::new(root, p.wing_length, chord);
+        let integral = |f: fn(f64, f64) -> f64| over_wing(root, p.wing_length, chord, f);
+        let (r2_c, r3_c) = (integral(|r, c| r.powi(2) * c), integral(|r, c| r.powi(3) * c));
 
         // J_w: base, leading edge and root spar of carbon, and the membrane at its radius of gyration.
         let (base, spar) = (p.base_width * p.base_height, p.spar_section);
-        let membrane_radius = shape.r3_c / shape.r2_c;
+        let membrane_radius = r3_c / r2_c;
         let membrane = p.membrane_density * p.membrane_thickness * FRAC_PI_4 * chord * p.wing_length;
         let wing_inertia = p.spar_density * base * p.base_length.powi(3) / 3.0
             + p.spar_density * spar * p.wing_length * (p.wing_length + root).powi(2) / 3.0
             + p.spar_density * spar * chord * root.powi(2) / 3.0
             + membrane * membrane_radius.powi(2);
-        let added_inertia = FRAC_PI_4 * p.air_density * shape.r2_c2;
+        let added_inertia = FRAC_PI_4 * p.air_density * integral(|r, c| (r * c).powi(2));
         let inertia = p.rotor_inertia + wing_inertia + added_inertia;
 
         let drive = DriveConstants::new(p.drive_frequency, &WaveformParameters::SINE, [0.0, p.drive_voltage]);
@@ -110,9 +95,9 @@ impl Constants<f64> {
             bearing_damping: p.bearing_damping,
             stiffness: p.spring_stiffness.unwrap_or(inertia * drive.rate * drive.rate),
             inertia,
-            lift_moment: 0.5 * p.air_density * shape.r2_c,
-            drag_moment: 0.5 * p.air_density * shape.r3_c,
-            rotation_moment: 5.0 * 0.5 * p.air_density * shape.c4 / 8.0,
+            lift_moment: 0.5 * p.air_density * r2_c,
+            drag_moment: 0.5 * p.air_density * r3_c,
+            rotation_moment: 5.0 * 0.5 * p.air_density * integral(|_, c| c.powi(4)) / 8.0,
             attack_slope: p.attack_slope,
             drive,
         };
@@ -150,16 +135,16 @@ impl<R: Real> Constants<R> {
 }
 
 impl Ode<3> for MotorWing {
-    type Constants<R: Lanes> = Constants<R>;
-    type Input<R: Lanes> = Wave<R>;
+    type Constants<R: Real> = Constants<R>;
+    type Input<R: Real> = Wave<R>;
 
     #[inline(always)]
-    fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> Wave<R> {
+    fn input<R: Real>(&self, c: &Constants<R>, t: R) -> Wave<R> {
         Drive::SINE.at(&c.drive, t)
     }
 
     #[inline(always)]
-    fn rhs<R: Lanes>(&self, c: &Constants<R>, voltage: &Wave<R>, _side: R, y: &[R; 3]) -> [R; 3] {
+    fn rhs<R: Real>(&self, c: &Constants<R>, voltage: &Wave<R>, _side: R, y: &[R; 3]) -> [R; 3] {
         let [flap, rate, current] = *y;
         let torque = c.torque * current - c.bearing_damping * rate - c.stiffness * flap - c.air_torque(rate);
         let driving = voltage.value - c.resistance * current - c.back_emf * rate;
@@ -167,7 +152,9 @@ impl Ode<3> for MotorWing {
     }
 }
 
-impl Model<3, S> for MotorWing {
+impl Model<3> for MotorWing {
+    type Signals = Signals;
+
     const DESCRIPTION: Description = Description {
         name: "motor-wing",
         doc: "wing on the shaft of a motor, pitch by speed (Park and Abolfathi 2024)",
@@ -175,9 +162,7 @@ impl Model<3, S> for MotorWing {
         presets: Params::PRESETS,
     };
     const STATES: [&'static str; 3] = ["stroke_rad", "stroke_rate_rad_s", "current_a"];
-    const SIGNALS: [Signal; S] = columns::SIGNALS;
-    const DERIVED: &'static [Derived<MotorWing, Constants<f64>, S>] = columns::DERIVED;
-    const ENERGY: Option<EnergyBalance> = Some(columns::ENERGY);
+    const DERIVED: &'static [Derived<MotorWing, Constants<f64>, Signals>] = columns::DERIVED;
 
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 3>, Invalid> {
         let params = Params::from_values(values);
@@ -189,26 +174,36 @@ impl Model<3, S> for MotorWing {
     }
 
     #[inline(always)]
-    fn drive<R: Lanes>(c: &Constants<R>) -> &DriveConstants<R> {
+    fn drive<R: Real>(c: &Constants<R>) -> &DriveConstants<R> {
         &c.drive
     }
 
     #[inline(always)]
-    fn signals<R: Lanes>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 3>) -> [R; S] {
+    fn signals<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 3>) -> Signals<R> {
         let Instant { input: voltage, y, .. } = at;
         let [flap, rate, current] = *y;
         let power = voltage.value * current;
-        [
-            flap,
-            c.lift(rate),
+        Signals {
+            stroke: flap,
+            lift: c.lift(rate),
             power,
-            c.air_torque(rate) * rate,
-            c.resistance * current * current,
-            c.bearing_damping * rate * rate,
+            power_air: c.air_torque(rate) * rate,
+            power_resistive: c.resistance * current * current,
+            power_bearing: c.bearing_damping * rate * rate,
             // The motor's conversion is lossless only if its two constants are one.
-            (c.back_emf - c.torque) * current * rate,
+            power_magnetic: (c.back_emf - c.torque) * current * rate,
             current,
-            power,
-        ]
+            power_terminal: power,
+        }
+    }
+
+    /// Spring, inertia and inductance give back all that they take.
+    fn balance_energy(cycle: &mut Signals<SignalCycle>) {
+        let &mut Signals { power_air, power_resistive, power_bearing, power_magnetic, .. } = cycle;
+        cycle.power.balance(&[power_air, power_resistive, power_bearing, power_magnetic]);
+    }
+
+    fn energy_audit(cycle: &Signals<SignalCycle>) -> f64 {
+        cycle.power.audit(&cycle.power_terminal)
     }
 }

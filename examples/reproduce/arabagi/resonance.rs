@@ -1,6 +1,6 @@
 //! Peaks of the stroke against frequency.
 
-use flap_core::resonance::free::FreeMotion;
+use flap_experiments::free::FreeMotion;
 
 use super::{bench, system_30, system_75};
 use crate::claim::{Claim, assumed, closely, said};
@@ -46,10 +46,10 @@ pub(super) fn claims() -> Vec<Claim> {
 /// The 75 Hz system after an impulse.
 pub(super) fn small_motions() -> Vec<Claim> {
     let values = system_75().params.to_values();
-    let modes =
-        bench().experiments().modes(&values).expect("the preset is possible").map(|mode| mode.frequency);
-    let FreeMotion { stroke_peaks, pitch_peaks, .. } = bench().spectra(&values, 0.5_f64.to_radians());
-    let [stroke, pitch] = [stroke_peaks, pitch_peaks].map(|peaks| {
+    let modes = bench().experiments().modes(&values).expect("the preset is possible");
+    let FreeMotion { spectra, .. } = bench().spectra(&values, 0.5_f64.to_radians());
+    let [stroke, pitch] = ["stroke", "pitch"].map(|name| {
+        let (_, peaks) = spectra.iter().find(|(signal, _)| *signal == name).expect("it is a signal");
         let mut peaks: Vec<f64> = peaks.iter().map(|peak| peak.frequency).collect();
         peaks.sort_by(f64::total_cmp);
         peaks
@@ -62,7 +62,7 @@ pub(super) fn small_motions() -> Vec<Claim> {
             format!(
                 "{computed:.1} Hz (pitch {:.1} Hz, undamped mode {:.1} Hz)",
                 peak(&pitch, index),
-                modes[index]
+                modes[index].frequency
             ),
         )
     };

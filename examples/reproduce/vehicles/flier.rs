@@ -22,6 +22,8 @@ impl Flier {
         let mounts: Vec<Mount> =
             wings.iter().map(|&(name, mirrored)| Mount { name: name.to_owned(), mirrored }).collect();
         let vehicle = Vehicle::of(model, &mounts).expect("these wings make a vehicle");
+        // A bench keeps its model until the program ends.
+        let vehicle: &'static Vehicle = Box::leak(Box::new(vehicle));
         let mut values = (preset.values)();
         values.extend(vehicle.parameters()[values.len()..].iter().map(|parameter| parameter.default));
         // Kinks of the bimorph let a motion settle no further.

@@ -32,9 +32,9 @@ pub(super) fn claims() -> Vec<Claim> {
         said("2407.06500, abstract", "tilted wings make yaw from amplitudes alone", "yaw").holds(
             of_tilted.iamax() == 3 && of_tilted[3].abs() > of_flat[3].abs(),
             format!(
-                "{} and {:.2} mN of lift per volt on the diagonals; yaw {} µN·m without the tilt",
+                "{} and {} mN of lift per volt on the diagonals; yaw {} µN·m without the tilt",
                 shown([of_tilted[1], of_tilted[2], of_tilted[3]]),
-                of_tilted[0] + 0.0,
+                rounded(of_tilted[0]),
                 rounded(of_flat[3])
             ),
         ),

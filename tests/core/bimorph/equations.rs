@@ -4,7 +4,7 @@ use flap_core::drive::Wave;
 use flap_core::model::bimorph::{
     Bimorph, Constants, Plate, charges, currents, lift_and_drag, plate_forces, plates, secant_stiffness,
 };
-use flap_core::num::{Lanes, Real};
+use flap_core::num::Real;
 use flap_core::ode::Ode;
 
 use super::params;
@@ -17,7 +17,7 @@ const TOLERANCE: f64 = 1e-11;
 type Case = slopes::Case<Bimorph, 2>;
 
 impl Driven<2> for Bimorph {
-    fn under<R: Lanes>(c: &Constants<R>, voltages: &[Wave<R>; 2]) -> [Plate<R>; 2] {
+    fn under<R: Real>(c: &Constants<R>, voltages: &[Wave<R>; 2]) -> [Plate<R>; 2] {
         plates(c, *voltages)
     }
 }

@@ -2,8 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use flap_core::measure::cycle::{Signals, Sums, finish};
-use flap_core::model::bimorph::{Bimorph, Params};
+use flap_core::measure::cycle::{self, Sums, finish};
+use flap_core::model::bimorph::{Bimorph, Params, Signals};
 use flap_core::model::{Model, SignalCycle};
 use flap_core::num::PerLane;
 use flap_core::ode::ensemble::Observer;
@@ -11,8 +11,6 @@ use flap_core::ode::solve::solve;
 use flap_core::ode::{Ending, Start};
 
 use crate::span::tolerances;
-
-const SIGNALS: usize = Bimorph::SIGNALS.len();
 
 /// The run of a point from the state `y`.
 fn start(p: &Params, y: [f64; 4]) -> Start<<Bimorph as flap_core::ode::Ode<4>>::Constants<f64>, 4> {
@@ -42,11 +40,11 @@ pub(super) fn march(p: &Params, y: [f64; 4], cycles: u32, rtol: f64) -> [f64; 4]
 }
 
 /// The signals over one drive period from `y`, and the right-hand sides evaluated in it.
-pub(super) fn cycle(p: &Params, y: [f64; 4], rtol: f64) -> ([SignalCycle; SIGNALS], u64) {
+pub(super) fn cycle(p: &Params, y: [f64; 4], rtol: f64) -> (Signals<SignalCycle>, u64) {
     let start = start(p, y);
     let model = Bimorph::default();
-    let observer = Signals::<_, SIGNALS>::all(&model);
-    let mut totals = Sums::<f64, SIGNALS>::fill((), &Observer::<Bimorph, 4>::nothing(&observer));
+    let observer = cycle::Signals::all(&model);
+    let mut totals = Sums::<Signals, f64>::fill(0.0, &Observer::<Bimorph, 4>::nothing(&observer));
     let outcome = solve::<_, f64, 4>(
         &Bimorph::default(),
         &tolerances(rtol),
@@ -55,7 +53,7 @@ pub(super) fn cycle(p: &Params, y: [f64; 4], rtol: f64) -> ([SignalCycle; SIGNAL
         |_| ControlFlow::Break(()),
     );
     assert_eq!(outcome.ending, Ending::Stopped);
-    (finish::<Bimorph, _, _>(&totals, start.span), outcome.rhs_evals)
+    (finish::<Signals>(&totals, start.span), outcome.rhs_evals)
 }
 
 /// Largest difference of two states, in units of the sizes that the reference tables use.

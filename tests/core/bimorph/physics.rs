@@ -3,11 +3,11 @@
 use std::ops::Range;
 
 use flap_core::drive::Wave;
+use flap_core::model::Model;
 use flap_core::model::bimorph::{
     Bimorph, CentreOfPressure, Constants, Law, Params, Plate, currents, elastic_force, lift_and_drag,
     plate_forces, plates, tip_drag,
 };
-use flap_core::model::{Model, position};
 use flap_core::num::{Backend, Real};
 use flap_core::ode::{Ode, Start};
 use flap_core::simulate::{PointRun, SolverSettings, TrajectoryRequest};
@@ -195,7 +195,7 @@ fn slow_motions_are_quasi_static() {
         let later = 1e-4;
         let swing = 0.5 * voltage * (2.0 * std::f64::consts::PI * later).sin();
         let velocity = static_tip(&c, [0.5 * voltage - swing, 0.5 * voltage + swing]) / later;
-        let [stroke, ..] = cycle(&p, [0.0, velocity, 0.0, 0.0], 1e-8).0;
+        let stroke = cycle(&p, [0.0, velocity, 0.0, 0.0], 1e-8).0.stroke;
         assert_close(stroke.max / c.ratio, expected, 1e-3, set);
         assert_close(-stroke.min / c.ratio, expected, 1e-3, set);
     }
@@ -243,8 +243,7 @@ fn currents_have_no_mean() {
     assert!(super::measure(&row, "current_1_rms_ma") > 0.05);
     let y = super::orbit::march(&p, [0.0; 4], 60, 1e-8);
     let signals = cycle(&p, y, 1e-8).0;
-    let signal = |name| signals[position(&Bimorph::SIGNALS, name)];
-    for signal in [signal("current_1"), signal("current_2")] {
+    for signal in [signals.current_1, signals.current_2] {
         assert!(signal.mean.abs() < 1e-6 * signal.mean_square.sqrt(), "{signal:?}");
     }
 }

@@ -53,7 +53,7 @@ fn the_frequency_sweep_of_eq_7_equals_the_reference() {
         y: [0.0; 4],
         span: record.number("t_end_s"),
         scale: [3e-5, 0.025, 0.3, 250.0],
-        tighten: 1.0,
+        tolerance_factor: 1.0,
     };
     let end = span::end(&model, &tolerances(1e-10), &start);
     let error = distance(&end, &end_state(record));

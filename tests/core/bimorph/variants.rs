@@ -1,6 +1,6 @@
 //! Readings of the paper, and the two motions of a hinge that is too soft, against the reference.
 
-use flap_core::model::bimorph::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
+use flap_core::model::bimorph::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params, Signals};
 
 use super::orbit::{cycle, distance, march};
 use super::{driven, measure, params, settled};
@@ -64,7 +64,7 @@ fn orbits_of_the_reference_repeat() {
         let end = march(&p, y, 40, 1e-9);
         let away = distance(&end, &y);
         assert!(away < 1e-7, "{}: {away:e}", record.name);
-        let [stroke, pitch, lift, ..] = cycle(&p, end, 1e-9).0;
+        let Signals { stroke, pitch, lift, .. } = cycle(&p, end, 1e-9).0;
         let what = |name| format!("{name} of {}", record.name);
         assert_close(
             (stroke.max - stroke.min).to_degrees(),
@@ -85,7 +85,7 @@ fn a_soft_hinge_has_two_motions() {
     let lower = records.iter().find(|record| record.text("branch") == "sweep-down").unwrap();
     let p = point(lower);
     let above = measure(&settled(&p, 1e-8), "stroke_pp_deg");
-    let below = cycle(&p, march(&p, orbit_state(lower), 100, 1e-8), 1e-8).0[0];
+    let below = cycle(&p, march(&p, orbit_state(lower), 100, 1e-8), 1e-8).0.stroke;
     assert_close(above, 114.3, 1e-3, "upper motion");
     assert_close((below.max - below.min).to_degrees(), 59.276_549, 1e-5, "lower motion");
 }

@@ -146,21 +146,6 @@ fn impossible_inertias_are_refused() {
     assert!(error.to_string().contains("not finite"), "{error}");
 }
 
-#[test]
-fn a_torsion_hinge_sets_the_stiffness_of_eq_41() {
-    let hinge = flap_core::linkage::TorsionHinge {
-        beams: 2,
-        shear_modulus: 1.2e9,
-        length: 0.3e-3,
-        width: 1e-3,
-        thickness: 50e-6,
-    };
-    // β = 1/3 − 0.21 · 0.05 (1 − 0.05⁴/12) = 0.3228333388
-    let expected = 2.0 * 0.322_833_338_802 * 1.2e9 * 1e-3 * 1.25e-13 / 0.3e-3;
-    let p = Params::ozaki2018_small().with_hinge(&hinge);
-    assert_close(p.hinge_stiffness, expected, 1e-11, "hinge stiffness");
-}
-
 /// The presets that are hypotheses swap the hinges of Table A1 and nothing else.
 #[test]
 fn swapped_presets_swap_the_hinges() {

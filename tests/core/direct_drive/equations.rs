@@ -6,7 +6,7 @@ use flap_core::drive::Wave;
 use flap_core::model::direct_drive::{
     Constants, DirectDrive, FlowDirection, Params, added_mass, aerodynamics, current, lift, mean_velocity,
 };
-use flap_core::num::{Lanes, Real};
+use flap_core::num::Real;
 use flap_core::ode::Ode;
 use flap_core::quadrature::gauss_legendre;
 
@@ -19,7 +19,7 @@ const TOLERANCE: f64 = 1e-11;
 type Case = slopes::Case<DirectDrive, 1>;
 
 impl Driven<1> for DirectDrive {
-    fn under<R: Lanes>(_c: &Constants<R>, [voltage]: &[Wave<R>; 1]) -> Wave<R> {
+    fn under<R: Real>(_c: &Constants<R>, [voltage]: &[Wave<R>; 1]) -> Wave<R> {
         *voltage
     }
 }

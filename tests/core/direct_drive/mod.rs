@@ -2,7 +2,6 @@
 
 mod constants;
 mod equations;
-mod impulse;
 mod motion;
 mod physics;
 mod steady;

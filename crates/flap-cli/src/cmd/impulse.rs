@@ -2,8 +2,8 @@
 
 use std::io;
 
-use flap_core::resonance::free::{intervals, stroke_rate};
 use flap_core::simulate::ImpulseRequest;
+use flap_experiments::free::{first, intervals, stroke_rate};
 
 use super::motion::{write_csv, write_file};
 use super::point::Chosen;
@@ -22,7 +22,7 @@ pub(crate) fn run(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
     let Chosen { plan, values, .. } = chosen;
     let experiments = plan.simulator().experiments()?;
     let modes = experiments.modes(values)?;
-    let first = modes[0];
+    let first = first(&modes)?;
     let amplitude = args.impulse.unwrap_or(IMPULSE);
     let stroke_rate = stroke_rate(&modes, amplitude)?;
     let duration = args.duration.unwrap_or(CYCLES / first.frequency);
@@ -41,14 +41,14 @@ pub(crate) fn run(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
     row("impulse_deg", amplitude.to_degrees(), "deg", impulse);
     row(&format!("{}_hz", first.name), first.frequency, "Hz", "natural frequency of the first mode");
     row("stroke_rate_rad_s", stroke_rate, "rad/s", "rate of the stroke right after the impulse");
-    for name in ["stroke", "pitch"] {
-        let column = format!("{name}_deg");
+    for signal in experiments.free_signals() {
+        let (name, unit, column) = (signal.name, signal.unit.name, signal.column());
         if let Some(index) = motion.columns.iter().position(|other| *other == column) {
             let largest = motion.rows.iter().fold(0.0_f64, |largest, row| largest.max(row[index].abs()));
             row(
-                &format!("{name}_peak_deg"),
+                &column.replacen(name, &format!("{name}_peak"), 1),
                 largest,
-                "deg",
+                unit,
                 &format!("largest magnitude of the {name} sampled"),
             );
         }

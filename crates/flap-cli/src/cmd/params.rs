@@ -7,6 +7,7 @@ use flap_core::parameter::{Kind, Parameter, Preset};
 use flap_core::simulate::Simulator;
 use flap_sweep::notation::text;
 use flap_sweep::notation::units::prefixed;
+use flap_sweep::plan::Robot;
 use flap_sweep::resonance;
 use flap_sweep::table::layout::fixed_columns;
 
@@ -19,7 +20,7 @@ use crate::table::Table;
 
 pub(crate) fn run(args: &ParamsArgs) -> Result<Exit, Failure> {
     let values = Values::of(&args.what)?;
-    let entries: Vec<Entry> = parameters(&values).into_iter().chain(columns(values.model)).collect();
+    let entries: Vec<Entry> = parameters(&values).into_iter().chain(columns(&*values.robot)).collect();
     let rows = || entries.iter().map(Entry::row).collect::<Vec<_>>();
     let page = match args.format {
         Listing::Table => head(&values.lines) + &listing(&entries, args.long),
@@ -43,7 +44,7 @@ pub(super) fn of_name(name: &str) -> Result<(&'static dyn Simulator, Option<&'st
 
 /// A model with the values of its parameters, if a preset or a device has some.
 struct Values {
-    model: &'static dyn Simulator,
+    robot: Robot,
     /// The first lines of the page.
     lines: [String; 2],
     /// In SI units, NaN for a parameter that is not set; none of a model.
@@ -59,10 +60,10 @@ impl Values {
         let path = Path::new(what);
         if !is_named && (path.exists() || path.extension().is_some()) {
             let plan = point::plan(what)?;
-            let model = plan.simulator();
-            let lines = [format!("{what}: begins with {}", plan.preset()), of_model(model)];
+            let robot = plan.robot().clone();
+            let lines = [format!("{what}: begins with {}", plan.preset()), of_model(&*robot)];
             let errors = plan.uncertainty().errors().to_vec();
-            return Ok(Values { model, lines, numbers: Some(plan.point(0).values), errors });
+            return Ok(Values { robot, lines, numbers: Some(plan.point(0).values), errors });
         }
         let (model, preset) = of_name(what)?;
         let lines = if let Some(preset) = preset {
@@ -71,12 +72,17 @@ impl Values {
             let presets: Vec<&str> = model.presets().iter().map(|preset| preset.name).collect();
             [format!("{}: {}", model.name(), model.doc()), format!("presets: {}", presets.join(", "))]
         };
-        Ok(Values { model, lines, numbers: preset.map(|preset| (preset.values)()), errors: Vec::new() })
+        Ok(Values {
+            robot: Robot::Wing(model),
+            lines,
+            numbers: preset.map(|preset| (preset.values)()),
+            errors: Vec::new(),
+        })
     }
 
     /// True if this is the value of a parameter in a preset of the model.
     fn is_published(&self, parameter: usize, value: f64) -> bool {
-        self.model.presets().iter().any(|preset| (preset.values)().get(parameter) == Some(&value))
+        self.robot.presets().iter().any(|preset| (preset.values)().get(parameter) == Some(&value))
     }
 
     /// The standard error of a parameter.
@@ -99,7 +105,7 @@ struct Entry {
     /// Parameter, or the kind of column.
     kind: &'static str,
     /// The title above it and its like.
-    group: &'static str,
+    group: String,
     name: String,
     /// The value in the preset or device, in SI units; empty without one.
     value: String,
@@ -121,7 +127,7 @@ impl Entry {
     /// The cells below [`NAMES`].
     fn row(&self) -> Vec<String> {
         let Entry { kind, group, name, value, unit, symbol, allowed, meaning, .. } = self;
-        [kind, group, name.as_str(), value, unit, symbol, allowed, meaning].map(str::to_owned).into()
+        [kind, group.as_str(), name.as_str(), value, unit, symbol, allowed, meaning].map(str::to_owned).into()
     }
 }
 
@@ -132,7 +138,7 @@ fn parameters(of: &Values) -> Vec<Entry> {
         let given = value.filter(|value| !value.is_nan());
         Entry {
             kind: "parameter",
-            group: parameter.group,
+            group: parameter.group.to_owned(),
             name: parameter.name.to_owned(),
             value: given.map_or_else(String::new, |value| text::value(parameter, value)),
             shown: match (value, given) {
@@ -151,7 +157,7 @@ fn parameters(of: &Values) -> Vec<Entry> {
             is_fit: parameter.is_fitted && given.is_some_and(|value| of.is_published(place, value)),
         }
     };
-    of.model.parameters().iter().enumerate().map(entry).collect()
+    of.robot.parameters().iter().enumerate().map(entry).collect()
 }
 
 /// A value with a prefix and its unit, or the name of an option.
@@ -188,10 +194,10 @@ pub(super) fn allowed(parameter: &Parameter) -> String {
 }
 
 /// The columns of rows: measures, those of designs at their resonance, and those that do not depend on the model.
-fn columns(model: &'static dyn Simulator) -> Vec<Entry> {
-    let entry = |kind, group, name: String, unit: &'static str, meaning: String| Entry {
+fn columns(model: &dyn Simulator) -> Vec<Entry> {
+    let entry = |kind, group: &str, name: String, unit: &'static str, meaning: String| Entry {
         kind,
-        group,
+        group: group.to_owned(),
         name,
         value: String::new(),
         shown: unit.to_owned(),
@@ -239,7 +245,7 @@ fn page<'e>(first: &str, second: &str, entries: impl Iterator<Item = &'e Entry>,
     let mut group = "";
     for entry in entries {
         if entry.group != group {
-            group = entry.group;
+            group = &entry.group;
             table.title(group);
         }
         let meaning = if long {

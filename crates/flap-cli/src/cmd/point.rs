@@ -5,7 +5,6 @@ use std::path::Path;
 use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, Rows, Simulator};
-use flap_core::vehicle::why_absent;
 use flap_sweep::grid;
 use flap_sweep::notation::text;
 use flap_sweep::notation::units;
@@ -172,7 +171,7 @@ pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usi
     found.ok_or_else(|| {
         let names = parameters.iter().map(|parameter| parameter.name);
         let failure = Failure::usage(format!("there is no parameter `{name}`"));
-        if let Some(reason) = why_absent(parameters, name) {
+        if let Some(reason) = grid::why_absent(parameters, name) {
             return failure.help(reason);
         }
         failure.nearest(name, names, "`flap params` lists the parameters of a model")

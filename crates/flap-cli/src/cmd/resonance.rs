@@ -2,8 +2,8 @@
 
 use std::io;
 
-use flap_core::measure::spectrum::SpectrumPeak;
-use flap_core::resonance::free::{self, FreeMotion, FreeRequest};
+use flap_experiments::free::{self, FreeMotion, FreeRequest};
+use flap_experiments::spectrum::SpectrumPeak;
 use flap_sweep::files::csv_sink;
 use flap_sweep::notation::text;
 use flap_sweep::resonance::driven::{self, DrivenPeaks, Gap, PeakSearch};
@@ -27,7 +27,7 @@ pub(crate) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
     let chosen = Chosen::new(&args.point, &args.solver)?;
     let Chosen { plan, values, .. } = &chosen;
     check_one_wing(plan, &args.point.what, "`flap resonance`")?;
-    let simulator = plan.simulator();
+    let simulator = plan.robot().model();
     let experiments = simulator.experiments()?;
     let modes = experiments.modes(values)?;
     let request = FreeRequest {
@@ -120,7 +120,7 @@ fn free_lines(free: &FreeMotion, args: &ResonanceArgs) -> Vec<Line> {
             ..Line::new("impulse_fit", meaning)
         });
     }
-    for (of, peaks) in [("stroke", &free.stroke_peaks), ("pitch", &free.pitch_peaks)] {
+    for (of, peaks) in &free.spectra {
         let highest = peaks.first().map_or(f64::NAN, |peak| peak.amplitude);
         for (number, SpectrumPeak { frequency, amplitude }) in (1..).zip(peaks) {
             let meaning = format!("peak {number} of the {of}'s spectrum after the impulse");

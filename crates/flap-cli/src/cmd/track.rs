@@ -2,8 +2,8 @@
 
 use std::io;
 
-use flap_core::measure::tracking::{LeadingEdge, pitch_from_projection, rotation_centre};
 use flap_core::simulate::Trajectory;
+use flap_experiments::tracking::{LeadingEdge, pitch_from_projection, rotation_centre};
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::record::{self, Record};
 

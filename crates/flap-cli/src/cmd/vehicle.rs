@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use flap_core::simulate::{NoSlope, never};
-use flap_core::vehicle::{Vehicle, why_absent};
+use flap_core::vehicle::Vehicle;
+use flap_sweep::grid;
 use flap_sweep::notation::text;
 use flap_sweep::study::control::{
     COMPONENTS, ControlError, Effectiveness, Flight, Input, InputError, Target, TrimError, trim,
@@ -88,7 +89,7 @@ fn inputs(vehicle: &Vehicle, chosen: &Chosen, names: &[String]) -> Result<Vec<In
             let failure = Failure::usage(format!("--inputs: {error}"));
             match error {
                 InputError::Unknown(_) => {
-                    if let Some(reason) = why_absent(chosen.plan.parameters(), name) {
+                    if let Some(reason) = grid::why_absent(chosen.plan.parameters(), name) {
                         return failure.help(reason);
                     }
                     let known = Input::names(vehicle);

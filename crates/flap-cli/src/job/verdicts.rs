@@ -11,7 +11,7 @@ use crate::table::assignment;
 pub(crate) struct Verdicts<'a> {
     plan: &'a Plan,
     along: &'a Along,
-    parameter: &'static Parameter,
+    parameter: &'a Parameter<'a>,
     /// Index of the stroke's amplitude among the measures.
     stroke: usize,
 }

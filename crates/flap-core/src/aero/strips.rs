@@ -95,22 +95,28 @@ impl<R: Real, const MAX: usize> Strips<R, MAX> {
     }
 }
 
-impl<R: Lanes, const MAX: usize> PerLane<R> for Strips<R, MAX> {
+impl<R: Real, const MAX: usize> PerLane<R> for Strips<R, MAX> {
     type One = Strips<f64, MAX>;
 
     #[inline(always)]
-    fn fill(token: R::Token, one: &Self::One) -> Self {
-        Strips { count: one.count, strips: PerLane::fill(token, &one.strips) }
+    fn fill(like: R, one: &Self::One) -> Self {
+        Strips { count: one.count, strips: PerLane::fill(like, &one.strips) }
     }
 
     #[inline(always)]
-    fn set(&mut self, lane: usize, one: &Self::One) {
+    fn set(&mut self, lane: usize, one: &Self::One)
+    where
+        R: Lanes,
+    {
         self.count = self.count.max(one.count);
         self.strips.set(lane, &one.strips);
     }
 
     #[inline(always)]
-    fn get(&self, lane: usize) -> Self::One {
+    fn get(&self, lane: usize) -> Self::One
+    where
+        R: Lanes,
+    {
         Strips { count: self.count, strips: self.strips.get(lane) }
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::spline::{bends, periodic_bends};
-use crate::num::Lanes;
+use crate::num::Real;
 
 /// The fewest samples of a record.
 const FEWEST: usize = 4;
@@ -124,17 +124,10 @@ impl Samples {
         self.0.mean
     }
 
-    /// Value, first and second derivative at a phase, lane by lane: the same bits in every lane and arithmetic.
+    /// Value, first and second derivative at a phase.
     #[inline(always)]
-    pub(super) fn at<R: Lanes>(&self, phase: R) -> [R; 3] {
-        let mut out = [phase; 3];
-        for lane in 0..R::LANES {
-            let all = self.0.at(phase.lane(lane));
-            for i in 0..3 {
-                out[i].set_lane(lane, all[i]);
-            }
-        }
-        out
+    pub(super) fn at<R: Real>(&self, phase: R) -> [R; 3] {
+        self.0.at(phase)
     }
 
     /// Value, first and second derivative with respect to time (1/s) at `time` (s) after the first sample.
@@ -153,21 +146,29 @@ impl Samples {
 impl Record {
     /// Value, first and second derivative with respect to phase. Without fused operations: one result for all
     /// arithmetic classes.
-    fn at(&self, phase: f64) -> [f64; 3] {
+    #[inline(always)]
+    fn at<R: Real>(&self, phase: R) -> [R; 3] {
+        let piece = phase.look_up(|phase| self.piece(phase));
+        let [begin, end, from, to, bend_from, bend_to] = piece;
+        let width = end - begin;
+        let (a, b) = ((end - phase) / width, (phase - begin) / width);
+        let six = width.lit(6.0);
+        [
+            a * from
+                + b * to
+                + ((a * a * a - a) * bend_from + (b * b * b - b) * bend_to) * (width * width / six),
+            (to - from) / width
+                + ((b * 3.0 * b - 1.0) * bend_to - (a * 3.0 * a - 1.0) * bend_from) * (width / six),
+            a * bend_from + b * bend_to,
+        ]
+    }
+
+    /// The samples on both sides of a phase: phases, values and second derivatives.
+    fn piece(&self, phase: f64) -> [f64; 6] {
         let after = self.phases.partition_point(|&knot| knot <= phase).clamp(1, self.phases.len() - 1);
         let (i, j) = (after - 1, after);
-        let width = self.phases[j] - self.phases[i];
-        let (a, b) = ((self.phases[j] - phase) / width, (phase - self.phases[i]) / width);
-        let (bend_i, bend_j) = (self.bends[i], self.bends[j]);
-        let sixth = width * width / 6.0;
-        [
-            a * self.values[i]
-                + b * self.values[j]
-                + ((a * a * a - a) * bend_i + (b * b * b - b) * bend_j) * sixth,
-            (self.values[j] - self.values[i]) / width
-                + ((3.0 * b * b - 1.0) * bend_j - (3.0 * a * a - 1.0) * bend_i) * (width / 6.0),
-            a * bend_i + b * bend_j,
-        ]
+        let Record { phases, values, bends, .. } = self;
+        [phases[i], phases[j], values[i], values[j], bends[i], bends[j]]
     }
 }
 

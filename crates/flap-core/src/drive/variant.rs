@@ -4,7 +4,7 @@ use super::constants::DriveConstants;
 use super::parameters::{Shape, StrokeMode, WaveformParameters};
 use super::samples::Samples;
 use super::wave::Wave;
-use crate::num::{Lanes, Real};
+use crate::num::Real;
 use crate::parameter::Invalid;
 
 /// A course over time.
@@ -90,7 +90,7 @@ impl Drive {
 
     /// The waveform, of unit amplitude, at time `t` (s) of its period, from 0 to its end.
     #[inline(always)]
-    pub fn wave<R: Lanes>(&self, c: &DriveConstants<R>, t: R) -> Wave<R> {
+    pub fn wave<R: Real>(&self, c: &DriveConstants<R>, t: R) -> Wave<R> {
         match &self.waveform {
             Waveform::Shape(Shape::Sine) => c.sine(t),
             Waveform::Shape(Shape::Harmonics) => c.harmonics(t),
@@ -106,7 +106,7 @@ impl Drive {
 
     /// The voltage (V), or the prescribed stroke (rad), at time `t` (s) of a period.
     #[inline(always)]
-    pub fn at<R: Lanes>(&self, c: &DriveConstants<R>, t: R) -> Wave<R> {
+    pub fn at<R: Real>(&self, c: &DriveConstants<R>, t: R) -> Wave<R> {
         self.wave(c, t).scaled(c.bias, c.amplitude)
     }
 

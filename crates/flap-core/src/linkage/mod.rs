@@ -4,9 +4,7 @@ mod damping;
 mod four_bar;
 mod plane;
 mod slider_crank;
-mod torsion_hinge;
 
 pub use damping::{HingeParameters, structural_damping};
 pub use four_bar::{FourBar, FourBarMotion, LinkInertias, LinkLengths};
 pub use slider_crank::{SliderCrank, SliderMotion};
-pub use torsion_hinge::TorsionHinge;

@@ -5,23 +5,14 @@
 //! signal's values at five places of each step; the positive part of a signal, in steps where it changes sign, from
 //! parabolas through three of them each. Of each signal, only what its measures need is found.
 
-use super::asked::Asked;
-use super::course::Course;
-use crate::model::Measure::{First, Magnitude, Rms, Supply};
-use crate::model::{Instant, Measure, Model, RANGED, Signal, SignalCycle};
+use super::step_polynomial::{Extremum, StepPolynomial};
+use crate::model::{Each, Instant, Model, SignalCycle, SignalSet, SignalsOf, Taken};
 use crate::num::Lanes;
 use crate::ode::dense::interpolate;
 use crate::ode::ensemble::Observer;
 use crate::ode::step::Attempt;
 use crate::ode::tableau::{B, C};
 use crate::ode::{input, slope};
-
-/// Measures for which the positive part is integrated.
-const RECTIFIED: &[Measure] = &[Supply, Magnitude];
-/// Measures for which the square is integrated.
-const SQUARED: &[Measure] = &[Rms];
-/// Measures for which the first harmonic is integrated.
-const HARMONIC: &[Measure] = &[First];
 
 crate::per_lane! {
     /// Sums over one signal so far.
@@ -43,13 +34,38 @@ crate::per_lane! {
     }
 }
 
-/// Sums over S signals so far, and the time integrals of the load at the wing's shoulder, see
-/// [`Load::at_shoulder`](crate::model::Load::at_shoulder).
-pub type Sums<R, const S: usize> = ([Totals<R>; S], [R; 6]);
+impl<R: Lanes> Totals<R> {
+    /// Replaces the sums that are taken by others, in the lanes in which the step was `accepted`.
+    #[inline(always)]
+    fn replace(&mut self, taken: Taken, accepted: R::Mask, sum: &Totals<R>) {
+        self.integral = R::select(accepted, sum.integral, self.integral);
+        if taken.squared {
+            self.square = R::select(accepted, sum.square, self.square);
+        }
+        if taken.harmonic {
+            self.cosine = R::select(accepted, sum.cosine, self.cosine);
+            self.sine = R::select(accepted, sum.sine, self.sine);
+        }
+        if taken.rectified {
+            self.positive = R::select(accepted, sum.positive, self.positive);
+        }
+        if taken.ranged {
+            self.max = R::select(accepted, sum.max, self.max);
+            self.min = R::select(accepted, sum.min, self.min);
+        }
+    }
+}
 
-/// Sums up the S signals of a model along a run.
+/// Sums over the signals `S` so far, and the time integrals of the load at the wing's shoulder, see
+/// [`Load::at_shoulder`](crate::model::Load::at_shoulder).
+pub type Sums<S, R> = (Each<S, Totals<R>>, [R; 6]);
+
+/// Sums over the signals of the model `M` on one lane.
+pub type SumsOf<M, const N: usize> = Sums<<M as Model<N>>::Signals, f64>;
+
+/// Sums up the signals of a model along a run.
 #[derive(Clone, Copy, Debug)]
-pub struct Signals<'a, M, const S: usize> {
+pub struct Signals<'a, M> {
     model: &'a M,
     /// True to look for largest and smallest values and positive parts, which takes most of the work. If false, they have
     /// no meaning.
@@ -58,7 +74,7 @@ pub struct Signals<'a, M, const S: usize> {
     loads: bool,
 }
 
-impl<'a, M, const S: usize> Signals<'a, M, S> {
+impl<'a, M> Signals<'a, M> {
     /// Sums up everything.
     pub fn all(model: &'a M) -> Self {
         Signals { model, extrema: true, loads: false }
@@ -74,39 +90,25 @@ impl<'a, M, const S: usize> Signals<'a, M, S> {
     pub fn with_loads(self, loads: bool) -> Self {
         Signals { loads, ..self }
     }
-}
 
-impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<'_, M, S> {
-    type Totals<R: Lanes> = Sums<R, S>;
-
+    /// Adds a step as [`Observer::add`] does. Returns the ranges of the signals within the step, if they are looked for.
     #[inline(always)]
-    fn nothing(&self) -> Sums<f64, S> {
-        let nothing = Totals {
-            integral: 0.0,
-            square: 0.0,
-            positive: 0.0,
-            cosine: 0.0,
-            sine: 0.0,
-            max: f64::NEG_INFINITY,
-            min: f64::INFINITY,
-        };
-        ([nothing; S], [0.0; 6])
-    }
-
-    #[inline(always)]
-    fn add<R: Lanes>(
+    pub(super) fn add_step<R: Lanes, const N: usize>(
         &self,
         c: &M::Constants<R>,
         attempt: &Attempt<'_, R, N>,
         accepted: R::Mask,
-        (totals, load): &mut Sums<R, S>,
-    ) {
+        (Each(totals), load): &mut Sums<M::Signals, R>,
+    ) -> Option<SignalsOf<M::Signals, Within<R>>>
+    where
+        M: Model<N>,
+    {
         let model = self.model;
         let Attempt { t, h, side, step } = *attempt;
         let zero = h.lit(0.0);
         let mut sums = *totals;
-        let mut positive = [zero; S];
-        let mut begin = [zero; S];
+        let mut positive = M::Signals::all(zero);
+        let mut begin = M::Signals::all(zero);
 
         // Quadrature: B has no weight on stages 2 and 7.
         for stage in [0, 2, 3, 4, 5] {
@@ -119,65 +121,125 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Observer<M, N> for Signals<
             if stage == 0 {
                 begin = values;
             }
-            for i in 0..S {
-                sums[i].integral = sums[i].integral + values[i] * weight;
-            }
-            for &i in const { Asked::of(&M::SIGNALS, SQUARED) }.positions() {
-                let part = values[i] * weight;
-                sums[i].square = part.mul_add(values[i], sums[i].square);
-            }
-            for &i in const { Asked::of(&M::SIGNALS, HARMONIC) }.positions() {
-                let part = values[i] * weight;
-                sums[i].cosine = part.mul_add(cos, sums[i].cosine);
-                sums[i].sine = part.mul_add(sin, sums[i].sine);
-            }
-            for &i in const { Asked::of(&M::SIGNALS, RECTIFIED) }.positions() {
-                positive[i] = values[i].max(zero).mul_add(weight, positive[i]);
-            }
+            M::Signals::update(
+                &mut sums,
+                [&values],
+                #[inline(always)]
+                |taken, sum, [value]| {
+                    let part = value * weight;
+                    sum.integral = sum.integral + part;
+                    if taken.squared {
+                        sum.square = part.mul_add(value, sum.square);
+                    }
+                    if taken.harmonic {
+                        sum.cosine = part.mul_add(cos, sum.cosine);
+                        sum.sine = part.mul_add(sin, sum.sine);
+                    }
+                },
+            );
+            M::Signals::update(
+                &mut positive,
+                [&values],
+                #[inline(always)]
+                |taken, sum, [value]| {
+                    if taken.rectified {
+                        *sum = value.max(zero).mul_add(weight, *sum);
+                    }
+                },
+            );
         }
 
+        let mut ranges = None;
         if self.extrema {
-            let courses = courses(model, c, attempt, begin);
-            for &i in const { Asked::of(&M::SIGNALS, RANGED) }.positions() {
-                sums[i].max = courses[i].max.max(sums[i].max);
-                sums[i].min = courses[i].min.min(sums[i].min);
-            }
-            for &i in const { Asked::of(&M::SIGNALS, RECTIFIED) }.positions() {
-                let changes_sign = (courses[i].max * courses[i].min).lt(zero);
-                let part = R::select(changes_sign, courses[i].positive_mean * h, positive[i]);
-                sums[i].positive = sums[i].positive + part;
-            }
+            let within = within(model, c, attempt, begin);
+            M::Signals::update(
+                &mut positive,
+                [&within],
+                #[inline(always)]
+                |taken, part, [Within { min, max, positive_mean }]| {
+                    if taken.rectified {
+                        let changes_sign = (max.value * min.value).lt(zero);
+                        *part = R::select(changes_sign, positive_mean * h, *part);
+                    }
+                },
+            );
+            M::Signals::update(
+                &mut sums,
+                [&within],
+                #[inline(always)]
+                |taken, sum, [Within { min, max, .. }]| {
+                    if taken.ranged {
+                        sum.max = max.value.max(sum.max);
+                        sum.min = min.value.min(sum.min);
+                    }
+                },
+            );
+            M::Signals::update(
+                &mut sums,
+                [&positive],
+                #[inline(always)]
+                |taken, sum, [part]| {
+                    if taken.rectified {
+                        sum.positive = sum.positive + part;
+                    }
+                },
+            );
+            ranges = Some(within);
         }
 
-        for i in 0..S {
-            let (old, new) = (totals[i], sums[i]);
-            totals[i] = Totals {
-                integral: R::select(accepted, new.integral, old.integral),
-                square: R::select(accepted, new.square, old.square),
-                positive: R::select(accepted, new.positive, old.positive),
-                cosine: R::select(accepted, new.cosine, old.cosine),
-                sine: R::select(accepted, new.sine, old.sine),
-                max: R::select(accepted, new.max, old.max),
-                min: R::select(accepted, new.min, old.min),
-            };
-        }
+        M::Signals::update(
+            totals,
+            [&sums],
+            #[inline(always)]
+            |taken, total, [sum]| total.replace(taken, accepted, &sum),
+        );
         if self.loads {
             let sums = impulse(model, c, attempt);
             for i in 0..6 {
                 load[i] = R::select(accepted, load[i] + sums[i], load[i]);
             }
         }
+        ranges
+    }
+}
+
+impl<M: Model<N>, const N: usize> Observer<M, N> for Signals<'_, M> {
+    type Totals<R: Lanes> = Sums<M::Signals, R>;
+
+    #[inline(always)]
+    fn nothing(&self) -> Sums<M::Signals, f64> {
+        let nothing = Totals {
+            integral: 0.0,
+            square: 0.0,
+            positive: 0.0,
+            cosine: 0.0,
+            sine: 0.0,
+            max: f64::NEG_INFINITY,
+            min: f64::INFINITY,
+        };
+        (Each(M::Signals::all(nothing)), [0.0; 6])
+    }
+
+    #[inline(always)]
+    fn add<R: Lanes>(
+        &self,
+        c: &M::Constants<R>,
+        attempt: &Attempt<'_, R, N>,
+        accepted: R::Mask,
+        totals: &mut Sums<M::Signals, R>,
+    ) {
+        self.add_step(c, attempt, accepted, totals);
     }
 }
 
 /// The time integral of the load over a step. In a function of its own, see [`slope`].
 #[inline(always)]
-fn impulse<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
+fn impulse<M: Model<N>, R: Lanes, const N: usize>(
     model: &M,
     c: &M::Constants<R>,
     attempt: &Attempt<'_, R, N>,
 ) -> [R; 6] {
-    attempt.h.apart(
+    attempt.h.outlined(
         #[inline(always)]
         || {
             let Attempt { t, h, side, step } = *attempt;
@@ -195,28 +257,36 @@ fn impulse<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
     )
 }
 
-/// The range of a signal within a step, and its positive part.
+/// The smallest and the largest value of a signal within a step, with their places as fractions of the step, and the mean of
+/// its positive part.
 #[derive(Clone, Copy)]
-struct Within<R> {
-    max: R,
-    min: R,
-    /// Mean of the positive part.
+pub(super) struct Within<R> {
+    pub(super) min: Extremum<R>,
+    pub(super) max: Extremum<R>,
     positive_mean: R,
 }
 
 /// Ranges and positive parts of the signals within a step, found part by part (see [`Model::parts`]), given the signals
 /// at its beginning.
 #[inline(always)]
-fn courses<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
+fn within<M: Model<N>, R: Lanes, const N: usize>(
     model: &M,
     c: &M::Constants<R>,
     attempt: &Attempt<'_, R, N>,
-    mut begin: [R; S],
-) -> [Within<R>; S] {
+    mut begin: SignalsOf<M::Signals, R>,
+) -> SignalsOf<M::Signals, Within<R>> {
     let Attempt { t, h, side, step } = *attempt;
     let last = Instant { input: &input(model, c, t + h), side, y: &step.y[6], dy: &step.k[6] };
     let last = signals(model, c, last);
-    let mut all = begin.map(|value| Within { max: value, min: value, positive_mean: value.lit(0.0) });
+    let zero = h.lit(0.0);
+    let mut all = M::Signals::map(
+        &begin,
+        #[inline(always)]
+        |_, value| {
+            let first = Extremum { value, place: zero };
+            Within { min: first, max: first, positive_mean: zero }
+        },
+    );
     let parts = model.parts();
     let share = 1.0 / f64::from(parts);
     for part in 0..parts {
@@ -225,16 +295,22 @@ fn courses<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
         let middle = between(model, c, attempt, place(0.5));
         let third = between(model, c, attempt, place(0.75));
         let end = if part + 1 == parts { last } else { between(model, c, attempt, place(1.0)) };
-        for &i in const { Asked::of(&M::SIGNALS, RANGED) }.positions() {
-            let course = Course::through([begin[i], first[i], middle[i], third[i], end[i]]);
-            let [min, max] = course.range();
-            all[i].max = max.max(all[i].max);
-            all[i].min = min.min(all[i].min);
-        }
-        for &i in const { Asked::of(&M::SIGNALS, RECTIFIED) }.positions() {
-            let course = Course::through([begin[i], first[i], middle[i], third[i], end[i]]);
-            all[i].positive_mean = all[i].positive_mean + course.positive_mean() * share;
-        }
+        M::Signals::update(
+            &mut all,
+            [&begin, &first, &middle, &third, &end],
+            #[inline(always)]
+            |taken, within, values| {
+                let polynomial = StepPolynomial::through(values);
+                if taken.ranged {
+                    let [min, max] = polynomial.extrema();
+                    within.min = min.within(place(0.5), share).or_smaller(within.min);
+                    within.max = max.within(place(0.5), share).or_larger(within.max);
+                }
+                if taken.rectified {
+                    within.positive_mean = within.positive_mean + polynomial.positive_mean() * share;
+                }
+            },
+        );
         begin = end;
     }
     all
@@ -242,12 +318,12 @@ fn courses<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
 
 /// The signals at the fraction `theta` of a step.
 #[inline(always)]
-fn between<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
+fn between<M: Model<N>, R: Lanes, const N: usize>(
     model: &M,
     c: &M::Constants<R>,
     attempt: &Attempt<'_, R, N>,
     theta: f64,
-) -> [R; S] {
+) -> SignalsOf<M::Signals, R> {
     let Attempt { t, h, side, step } = *attempt;
     let at = h.mul_add(h.lit(theta), t);
     let y = interpolate(step, h, h.lit(theta));
@@ -258,52 +334,32 @@ fn between<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
 
 /// The signals at an instant. Called here for the sake of the compiler, see [`slope`].
 #[inline(always)]
-fn signals<M: Model<N, S>, R: Lanes, const N: usize, const S: usize>(
+fn signals<M: Model<N>, R: Lanes, const N: usize>(
     model: &M,
     c: &M::Constants<R>,
     at: Instant<'_, R, M::Input<R>, N>,
-) -> [R; S] {
-    at.side.apart(
+) -> SignalsOf<M::Signals, R> {
+    at.side.outlined(
         #[inline(always)]
         || model.signals(c, at),
     )
 }
 
-/// The signals of the model `M` over a cycle of `period` seconds, from its sums.
-pub fn finish<M: Model<N, S>, const N: usize, const S: usize>(
-    (totals, _): &Sums<f64, S>,
-    period: f64,
-) -> [SignalCycle; S] {
-    core::array::from_fn(|i| {
-        let total = &totals[i];
+/// The signals `S` over a cycle of `period` seconds, from their sums.
+pub fn finish<S: SignalSet>((Each(totals), _): &Sums<S, f64>, period: f64) -> S::Of<SignalCycle> {
+    S::map(totals, |taken, total: Totals<f64>| {
         // An unknown signal has no extremes and no positive part: maxima leave out values that are not numbers.
-        let known = |taken: &[bool; S], value: f64| {
-            if taken[i] && !total.integral.is_nan() { value } else { f64::NAN }
-        };
-        let squared = const { &taken(&M::SIGNALS, SQUARED) };
-        let rectified = const { &taken(&M::SIGNALS, RECTIFIED) };
-        let harmonic = const { &taken(&M::SIGNALS, HARMONIC) };
-        let ranged = const { &taken(&M::SIGNALS, RANGED) };
+        let known =
+            |taken: bool, value: f64| if taken && !total.integral.is_nan() { value } else { f64::NAN };
         SignalCycle {
             mean: total.integral / period,
-            mean_square: known(squared, total.square / period),
-            positive_mean: known(rectified, total.positive / period),
+            mean_square: known(taken.squared, total.square / period),
+            positive_mean: known(taken.rectified, total.positive / period),
             // X = (2/T) ∫ x e^{−iωt} dt
             first: [2.0 * total.cosine / period, -2.0 * total.sine / period]
-                .map(|part| known(harmonic, part)),
-            max: known(ranged, total.max),
-            min: known(ranged, total.min),
+                .map(|part| known(taken.harmonic, part)),
+            max: known(taken.ranged, total.max),
+            min: known(taken.ranged, total.min),
         }
     })
-}
-
-/// For each signal, true if one of the `measures` is taken of it.
-const fn taken<const S: usize>(signals: &[Signal; S], measures: &[Measure]) -> [bool; S] {
-    let mut taken = [false; S];
-    let mut i = 0;
-    while i < S {
-        taken[i] = signals[i].takes_one_of(measures);
-        i += 1;
-    }
-    taken
 }

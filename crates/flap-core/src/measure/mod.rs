@@ -5,16 +5,10 @@
 //! - [`size`]: the largest magnitude of each state
 //! - [`multipliers`]: the monodromy matrix of an orbit and its Floquet multipliers
 //! - [`strobe`]: repetition of the state from period to period
-//! - [`damped_sine`], [`spectrum`]: frequencies of a motion that dies away
-//! - [`tracking`]: stroke and pitch from points in images
 
-mod asked;
-mod course;
 pub mod cycle;
-pub mod damped_sine;
 pub mod multipliers;
 pub mod quarters;
 pub mod size;
-pub mod spectrum;
+mod step_polynomial;
 pub mod strobe;
-pub mod tracking;

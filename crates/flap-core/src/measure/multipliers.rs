@@ -11,9 +11,12 @@ const LONGEST: usize = 200;
 /// Squarings of a matrix after which its powers tell its spectral radius to rounding.
 const SQUARINGS: u32 = 54;
 
+/// A matrix of N rows and columns, row by row.
+pub type Matrix<const N: usize> = [[f64; N]; N];
+
 /// The monodromy matrix, given the end of a period with its responses to changes by `scale`. Column j: response to a change
 /// of component j by its scale, in units of the scales.
-pub fn monodromy<const N: usize, const K: usize>(all: &[f64; K], scale: &[f64; N]) -> [[f64; N]; N] {
+pub fn monodromy<const N: usize, const K: usize>(all: &[f64; K], scale: &[f64; N]) -> Matrix<N> {
     let mut monodromy = [[0.0; N]; N];
     for j in 0..N {
         let column = response::<N, K>(all, j);
@@ -25,17 +28,17 @@ pub fn monodromy<const N: usize, const K: usize>(all: &[f64; K], scale: &[f64; N
 }
 
 /// The identity matrix.
-pub fn identity<const N: usize>() -> [[f64; N]; N] {
+pub fn identity<const N: usize>() -> Matrix<N> {
     core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j))))
 }
 
 /// The product `second * first`.
-pub fn product<const N: usize>(second: &[[f64; N]; N], first: &[[f64; N]; N]) -> [[f64; N]; N] {
+pub fn product<const N: usize>(second: &Matrix<N>, first: &Matrix<N>) -> Matrix<N> {
     core::array::from_fn(|i| core::array::from_fn(|j| (0..N).map(|k| second[i][k] * first[k][j]).sum()))
 }
 
 /// Largest modulus of the eigenvalues; infinite if one of the matrix's components is, NaN if one is not a number.
-pub fn spectral_radius<const N: usize>(m: &[[f64; N]; N]) -> f64 {
+pub fn spectral_radius<const N: usize>(m: &Matrix<N>) -> f64 {
     if m.iter().flatten().any(|x| x.is_nan()) {
         return f64::NAN;
     }
@@ -53,7 +56,7 @@ pub fn spectral_radius<const N: usize>(m: &[[f64; N]; N]) -> f64 {
 
 /// The [`spectral_radius`] of a finite matrix by Gelfand's formula: the limit of the n-th root of the norm of the n-th power,
 /// by repeated squaring. It serves where the iteration for the eigenvalues does not end.
-pub fn spectral_radius_by_powers<const N: usize>(m: &[[f64; N]; N]) -> f64 {
+pub fn spectral_radius_by_powers<const N: usize>(m: &Matrix<N>) -> f64 {
     let mut power = *m;
     let mut logarithm = 0.0;
     let mut share = 1.0;

@@ -1,11 +1,11 @@
 //! The definition of a model: all that rows of a sweep need.
 
-use super::energy::EnergyBalance;
 use super::load::Load;
-use super::signal::{Signal, SignalCycle};
+use super::signal::{OverWings, SignalCycle};
+use super::signals::{SignalSet, SignalsOf};
 use crate::aero::Wing;
 use crate::drive::DriveConstants;
-use crate::num::Lanes;
+use crate::num::Real;
 use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
 
@@ -17,14 +17,14 @@ pub struct Description {
     /// One line: the mechanism, and the paper.
     pub doc: &'static str,
     /// The parameter table.
-    pub parameters: &'static [Parameter],
+    pub parameters: &'static [Parameter<'static>],
     /// The published parameter sets.
     pub presets: &'static [Preset],
 }
 
-/// A column computed from the signals of a periodic orbit of the model `M` with constants `C`.
+/// A column computed from the signals `S` of a periodic orbit of the model `M` with constants `C`.
 #[derive(Debug)]
-pub struct Derived<M, C, const S: usize> {
+pub struct Derived<M, C, S: SignalSet> {
     /// Column name.
     pub name: &'static str,
     /// Unit in words.
@@ -32,19 +32,27 @@ pub struct Derived<M, C, const S: usize> {
     /// Meaning in one line.
     pub doc: &'static str,
     /// The value in `unit`, from the model, the point's constants and the signals over the orbit's drive period. A signal
-    /// has its mean, and what its own [`Signal::measures`] need; the rest is NaN.
-    pub value: fn(&M, &C, &[SignalCycle; S]) -> f64,
+    /// has its mean, and what its own [measures](super::Signal::measures) need; the rest is NaN.
+    pub value: fn(&M, &C, &S::Of<SignalCycle>) -> f64,
+    /// The way in which the rows of a vehicle have it.
+    pub over_wings: OverWings,
 }
 
-impl<M, C, const S: usize> Derived<M, C, S> {
+impl<M, C, S: SignalSet> Derived<M, C, S> {
     /// A column with this name, unit, meaning and value.
     pub const fn new(
         name: &'static str,
         unit: &'static str,
         doc: &'static str,
-        value: fn(&M, &C, &[SignalCycle; S]) -> f64,
+        value: fn(&M, &C, &S::Of<SignalCycle>) -> f64,
     ) -> Derived<M, C, S> {
-        Derived { name, unit, doc, value }
+        Derived { name, unit, doc, value, over_wings: OverWings::Omitted }
+    }
+
+    /// The same column, which the rows of a vehicle have in this way.
+    #[must_use]
+    pub const fn over_wings(self, over_wings: OverWings) -> Derived<M, C, S> {
+        Derived { over_wings, ..self }
     }
 }
 
@@ -61,23 +69,22 @@ pub struct Instant<'a, R, I, const N: usize> {
     pub dy: &'a [R; N],
 }
 
-/// A periodically driven model with N states, of which S signals are measured over a drive period.
-pub trait Model<const N: usize, const S: usize>: Ode<N> + Clone + PartialEq + 'static {
+/// A periodically driven model with N states, whose signals are measured over a drive period.
+pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
+    /// The measured signals, see [`signals!`](crate::signals).
+    type Signals: SignalSet;
+
     /// Name, meaning and parameters.
     const DESCRIPTION: Description;
     /// Names of the states with their units, as trajectory columns.
     const STATES: [&'static str; N];
-    /// The measured signals.
-    const SIGNALS: [Signal; S];
     /// Columns computed from the signals.
-    const DERIVED: &'static [Derived<Self, Self::Constants<f64>, S>];
+    const DERIVED: &'static [Derived<Self, Self::Constants<f64>, Self::Signals>];
     /// True if the signals depend on the derivatives of the states, [`Instant::dy`]. If not, they may be NaN between the
     /// stages of a step.
     const SIGNALS_OF_SLOPES: bool = true;
     /// True if the [`load`](Model::load) of the wing is known.
     const LOADS: bool = false;
-    /// The balance of energy over an orbit, if rows are to be held to it.
-    const ENERGY: Option<EnergyBalance> = None;
 
     /// The model for a point: choices on which its equations branch, in all lanes alike, such as the shape of the drive.
     /// Points of equal variants share lanes.
@@ -106,14 +113,31 @@ pub trait Model<const N: usize, const S: usize>: Ode<N> + Clone + PartialEq + 's
     }
 
     /// The drive of a point, to whose phase the signals' harmonics refer.
-    fn drive<R: Lanes>(c: &Self::Constants<R>) -> &DriveConstants<R>;
+    fn drive<R: Real>(c: &Self::Constants<R>) -> &DriveConstants<R>;
 
     /// The signals at an instant, in SI units.
-    fn signals<R: Lanes>(&self, c: &Self::Constants<R>, at: Instant<'_, R, Self::Input<R>, N>) -> [R; S];
+    fn signals<R: Real>(
+        &self,
+        c: &Self::Constants<R>,
+        at: Instant<'_, R, Self::Input<R>, N>,
+    ) -> SignalsOf<Self::Signals, R>;
+
+    /// Replaces the means of powers by those of their losses over a periodic orbit, see [`SignalCycle::balance`].
+    /// By default all means stay.
+    fn balance_energy(cycle: &mut SignalsOf<Self::Signals, SignalCycle>) {
+        let _ = cycle;
+    }
+
+    /// The relative difference of two means of a power after [`Model::balance_energy`], zero but for the integration's error.
+    /// Points whose audit is larger than `accuracy` are integrated again. By default 0.
+    fn energy_audit(cycle: &SignalsOf<Self::Signals, SignalCycle>) -> f64 {
+        let _ = cycle;
+        0.0
+    }
 
     /// The load of the air on the wing at an instant, for vehicles.
     #[inline(always)]
-    fn load<R: Lanes>(&self, c: &Self::Constants<R>, at: Instant<'_, R, Self::Input<R>, N>) -> Load<R> {
+    fn load<R: Real>(&self, c: &Self::Constants<R>, at: Instant<'_, R, Self::Input<R>, N>) -> Load<R> {
         let _ = c;
         Load::unknown(at.side)
     }

@@ -4,28 +4,28 @@
 //!
 //! - a parameter struct with its table ([`crate::parameters!`]) and the published presets,
 //! - constants derived from the parameters once per point ([`crate::per_lane!`]),
-//! - equations of motion ([`crate::ode::Ode`]) and the signals to be measured ([`Model`]), written once for scalars and lanes,
+//! - the signals to be measured, a struct with one field for each ([`crate::signals!`]),
+//! - equations of motion ([`crate::ode::Ode`]) and the values of the signals ([`Model`]), written once for scalars and lanes,
 //! - for single motions, the states and drives with which they begin ([`Motions`]).
 
 pub mod bimorph;
 mod definition;
 pub mod direct_drive;
-mod energy;
 pub mod four_bar;
 mod load;
 mod motions;
-mod readings;
+pub mod readings;
 mod signal;
-mod stroke_and_pitch;
+mod signals;
+pub mod stroke_and_pitch;
 mod units;
 
 pub use definition::{Derived, Description, Instant, Model};
-pub use energy::EnergyBalance;
 pub use load::Load;
 pub use motions::{Imposed, Motions};
 pub(crate) use readings::{efficiency, grams_force};
-pub(crate) use signal::RANGED;
-pub use signal::{Measure, Principal, Signal, SignalCycle, position};
+pub use signal::{Measure, OverWings, Principal, Signal, SignalCycle, Taken};
+pub use signals::{Each, SignalSet, SignalsOf};
 pub use stroke_and_pitch::Balance;
 pub(crate) use units::GRAVITY;
 pub use units::Unit;

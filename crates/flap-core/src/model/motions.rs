@@ -1,6 +1,8 @@
 //! Single motions of a model that contains the drive component: chirped, sampled, released, imposed.
 
 use super::definition::{Instant, Model};
+use super::signal::Signal;
+use super::signals::SignalsOf;
 use crate::drive::{Drive, DriveConstants, Samples, Waveform};
 use crate::modes::Mode;
 
@@ -8,7 +10,10 @@ use crate::modes::Mode;
 pub type Imposed<I, const N: usize> = ([f64; N], [f64; N], I);
 
 /// A model of which single motions are followed, not only rows computed.
-pub trait Motions<const N: usize, const S: usize>: Model<N, S> {
+pub trait Motions<const N: usize>: Model<N> {
+    /// The signals whose frequencies describe a free motion; first the one that an impulse excites.
+    const FREE_SIGNALS: &'static [Signal];
+
     /// The drive of all points of the variant, to be changed.
     fn drive_mut(&mut self) -> &mut Drive;
 
@@ -16,7 +21,7 @@ pub trait Motions<const N: usize, const S: usize>: Model<N, S> {
     fn drive_constants_mut(c: &mut Self::Constants<f64>) -> &mut DriveConstants<f64>;
 
     /// Small undamped motions; first the one that an impulse on the stroke is to excite.
-    fn modes(c: &Self::Constants<f64>) -> [Mode; 2];
+    fn modes(c: &Self::Constants<f64>) -> Vec<Mode>;
 
     /// The voltage (V) in whose rest position all angles are zero.
     fn rest_voltage(c: &Self::Constants<f64>) -> f64;
@@ -63,7 +68,12 @@ pub trait Motions<const N: usize, const S: usize>: Model<N, S> {
 
     /// State and signals of a wing whose stroke and pitch are given: value (rad), rate, second derivative. Signals of
     /// the actuator are not numbers.
-    fn imposed(&self, c: &Self::Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> ([f64; N], [f64; S]) {
+    fn imposed(
+        &self,
+        c: &Self::Constants<f64>,
+        stroke: [f64; 3],
+        pitch: [f64; 3],
+    ) -> ([f64; N], SignalsOf<Self::Signals, f64>) {
         let (y, dy, input) = Self::placed(c, stroke, pitch);
         let prescribed = self.with_drive(|_| Drive::PRESCRIBED);
         let [direction, _] = prescribed.switch(c, &y, &dy);

@@ -3,7 +3,7 @@
 use super::units::Unit;
 
 /// A quantity followed along the motion.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Signal {
     /// Name, the first part of its column names.
     pub name: &'static str,
@@ -18,6 +18,19 @@ pub struct Signal {
     pub needed: &'static [Measure],
     /// The measure whose error counts for the error of a row, if there is one.
     pub principal: Option<Principal>,
+    /// Measures of a force that rows of a vehicle have of each wing.
+    pub of_wings: &'static [Measure],
+}
+
+/// The way in which the rows of a vehicle have a column of its wings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OverWings {
+    /// The sum over the wings.
+    Sum,
+    /// A column of each wing.
+    Each,
+    /// No column.
+    Omitted,
 }
 
 impl Signal {
@@ -28,7 +41,7 @@ impl Signal {
         doc: &'static str,
         measures: &'static [Measure],
     ) -> Signal {
-        Signal { name, unit, doc, measures, needed: &[], principal: None }
+        Signal { name, unit, doc, measures, needed: &[], principal: None, of_wings: &[] }
     }
 
     /// The same signal, with a measure whose error counts for the error of a row. A model has at least one.
@@ -43,98 +56,91 @@ impl Signal {
         Signal { needed, ..self }
     }
 
+    /// The same signal, a force of which rows of a vehicle have these measures of each wing.
+    #[must_use]
+    pub const fn of_wings(self, measures: &'static [Measure]) -> Signal {
+        Signal { of_wings: measures, ..self }
+    }
+
+    /// The way in which the rows of a vehicle have a measure of this signal.
+    ///
+    /// Mean powers add up. The extrema and the root mean square of a sum depend on the times at which the wings have theirs,
+    /// so rows have them of each wing. Vehicles have columns of their own for forces.
+    pub(crate) fn over_wings(&self, measure: Measure) -> OverWings {
+        match (self.unit.name, measure) {
+            _ if self.of_wings.contains(&measure) => OverWings::Each,
+            (name, Measure::Mean | Measure::Supply) if name == Unit::MW.name => OverWings::Sum,
+            (name, _) if name == Unit::MN.name => OverWings::Omitted,
+            _ => OverWings::Each,
+        }
+    }
+
+    /// The name of its column in a trajectory.
+    pub fn column(&self) -> String {
+        if self.unit.suffix.is_empty() {
+            self.name.to_owned()
+        } else {
+            format!("{}_{}", self.name, self.unit.suffix)
+        }
+    }
+
     /// True if it has columns of its own.
     pub fn is_shown(&self) -> bool {
         !self.measures.is_empty()
     }
 
-    /// True if one of these `measures` is taken, as a column or for the error of a row.
-    pub(crate) const fn takes_one_of(&self, measures: &[Measure]) -> bool {
+    /// The quantities that the measures of the signal and the error of a row require.
+    pub const fn taken(&self) -> Taken {
+        let Signal { measures, needed, principal, .. } = *self;
+        let mut taken = Taken::of(measures).and(Taken::of(needed));
+        if let Some(principal) = principal {
+            taken = taken.and(Taken::of(&[principal.measure()]));
+            // The error is relative to the size of the signal: its root mean square, if its range is not known.
+            taken.squared |= !taken.ranged;
+        }
+        taken
+    }
+}
+
+/// Quantities of a signal that are integrated or searched for over a drive period, besides the mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is independent of the others")]
+pub struct Taken {
+    /// The mean square.
+    pub squared: bool,
+    /// The mean of the positive part.
+    pub rectified: bool,
+    /// The first harmonic.
+    pub harmonic: bool,
+    /// The largest and the smallest value.
+    pub ranged: bool,
+}
+
+impl Taken {
+    /// The quantities that the `measures` require. The sign of a positive part requires the range.
+    const fn of(measures: &[Measure]) -> Taken {
+        let mut taken = Taken { squared: false, rectified: false, harmonic: false, ranged: false };
         let mut i = 0;
         while i < measures.len() {
-            if self.is_judged_by(measures[i])
-                || has(self.measures, measures[i])
-                || has(self.needed, measures[i])
-            {
-                return true;
-            }
+            let measure = measures[i];
+            taken.squared |= matches!(measure, Measure::Rms);
+            taken.rectified |= matches!(measure, Measure::Supply | Measure::Magnitude);
+            taken.harmonic |= matches!(measure, Measure::First);
+            taken.ranged |= !matches!(measure, Measure::Mean | Measure::Rms);
             i += 1;
         }
-        false
+        taken
     }
 
-    /// True if the error of a row takes this measure: the principal one and, unless the signal's range is followed anyway, the
-    /// root mean square for the size of the signal.
-    const fn is_judged_by(&self, measure: Measure) -> bool {
-        let Some(principal) = self.principal else { return false };
-        let principal = principal.measure();
-        let is_size = measure as u8 == Measure::Rms as u8;
-        measure as u8 == principal as u8
-            || is_size
-                && !has(RANGED, principal)
-                && !meet(self.measures, RANGED)
-                && !meet(self.needed, RANGED)
-    }
-}
-
-/// The measures for which the largest and the smallest value of a signal are found. Positive parts need their signs.
-pub(crate) const RANGED: &[Measure] = &[
-    Measure::Amplitude,
-    Measure::PeakToPeak,
-    Measure::Max,
-    Measure::Min,
-    Measure::Peak,
-    Measure::First,
-    Measure::Supply,
-    Measure::Magnitude,
-];
-
-/// True if both lists have a measure in common.
-const fn meet(one: &[Measure], other: &[Measure]) -> bool {
-    let mut i = 0;
-    while i < one.len() {
-        if has(other, one[i]) {
-            return true;
+    /// The quantities of both.
+    const fn and(self, other: Taken) -> Taken {
+        Taken {
+            squared: self.squared | other.squared,
+            rectified: self.rectified | other.rectified,
+            harmonic: self.harmonic | other.harmonic,
+            ranged: self.ranged | other.ranged,
         }
-        i += 1;
     }
-    false
-}
-
-/// True if `measures` has this one.
-const fn has(measures: &[Measure], one: Measure) -> bool {
-    let mut i = 0;
-    while i < measures.len() {
-        if measures[i] as u8 == one as u8 {
-            return true;
-        }
-        i += 1;
-    }
-    false
-}
-
-/// The position of the signal called `name`.
-///
-/// # Panics
-/// If there is none: for constants, where that does not compile.
-pub const fn position(signals: &[Signal], name: &str) -> usize {
-    let mut position = 0;
-    while position < signals.len() {
-        if is_same(signals[position].name, name) {
-            return position;
-        }
-        position += 1;
-    }
-    panic!("no signal has this name")
-}
-
-const fn is_same(one: &str, other: &str) -> bool {
-    let (one, other) = (one.as_bytes(), other.as_bytes());
-    let mut i = 0;
-    while i < one.len() && i < other.len() && one[i] == other[i] {
-        i += 1;
-    }
-    i == one.len() && i == other.len()
 }
 
 /// A measure whose error counts for the error of a row: one that a second integration at coarser tolerances computes too.
@@ -234,6 +240,16 @@ pub struct SignalCycle {
 }
 
 impl SignalCycle {
+    /// Replaces the mean of this power by the sum of the means of its `losses`. A mean that is not a number stays so.
+    ///
+    /// Both means are equal over a periodic orbit, since capacitance, springs and inertia give back all energy. In a motion
+    /// of small losses, or far from resonance, the error of the quadrature of that exchange may exceed the mean of the power.
+    pub fn balance(&mut self, losses: &[SignalCycle]) {
+        if !self.mean.is_nan() {
+            self.mean = losses.iter().map(|loss| loss.mean).sum();
+        }
+    }
+
     /// The relative difference of another signal's mean from this one's.
     pub fn audit(&self, other: &SignalCycle) -> f64 {
         (other.mean - self.mean) / self.mean

@@ -10,7 +10,7 @@ use crate::ode::Start;
 use crate::parameter::Invalid;
 
 /// Names of the states with their units, as trajectory columns.
-pub(super) const NAMES: [&str; 4] = ["stroke_rad", "pitch_rad", "stroke_rate_rad_s", "pitch_rate_rad_s"];
+pub const NAMES: [&str; 4] = ["stroke_rad", "pitch_rad", "stroke_rate_rad_s", "pitch_rate_rad_s"];
 
 /// Mass matrix and generalised forces at a state `[stroke, pitch, stroke rate, pitch rate]`, without the drive.
 ///
@@ -58,19 +58,19 @@ impl<R: Real> Balance<R> {
 
 /// The state `y`, with the stroke of the drive in place of its own where that is prescribed.
 #[inline(always)]
-pub(super) fn state<R: Real>(drive: &Drive, wave: &Wave<R>, y: &[R; 4]) -> [R; 4] {
+pub fn state<R: Real>(drive: &Drive, wave: &Wave<R>, y: &[R; 4]) -> [R; 4] {
     if drive.prescribes_stroke() { [wave.value, y[1], wave.rate, y[3]] } else { *y }
 }
 
 /// The derivative `dy` of a state, with that of the stroke of the drive in place of its own where that is prescribed.
 #[inline(always)]
-pub(super) fn slope<R: Real>(drive: &Drive, wave: &Wave<R>, dy: &[R; 4]) -> [R; 4] {
+pub fn slope<R: Real>(drive: &Drive, wave: &Wave<R>, dy: &[R; 4]) -> [R; 4] {
     if drive.prescribes_stroke() { [wave.rate, dy[1], wave.bend, dy[3]] } else { *dy }
 }
 
-/// The run of a point that begins at rest, on the stroke of the drive where that is prescribed. `sizes` are typical
-/// amplitudes of stroke and pitch (rad).
-pub(super) fn start<C>(
+/// The run of a point that begins at rest, on the stroke of the drive where that is prescribed: for
+/// [`Model::start`](super::Model::start). `sizes` are typical amplitudes of stroke and pitch (rad).
+pub fn start<C>(
     drive: &Drive,
     drive_constants: &DriveConstants<f64>,
     constants: C,
@@ -82,14 +82,15 @@ pub(super) fn start<C>(
     Start::new(constants, y, drive_constants.period(), [stroke, pitch, stroke * rate, pitch * rate])
 }
 
-/// State, derivative and drive of a wing whose stroke and pitch are given: value (rad), rate, second derivative.
-pub(super) fn placed(stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Wave<f64>, 4> {
+/// State, derivative and drive of a wing whose stroke and pitch are given: value (rad), rate (rad/s), second derivative
+/// (rad/s²). For [`Motions::placed`](super::Motions::placed).
+pub fn placed(stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Wave<f64>, 4> {
     ([stroke[0], pitch[0], stroke[1], pitch[1]], [stroke[1], pitch[1], stroke[2], pitch[2]], stroke.into())
 }
 
 /// The error of a mass matrix that is not positive definite, because the first two of these inertias are too large for the
 /// last two.
-pub(super) fn inertias_apart(parameters: &'static [&'static str; 4]) -> Invalid {
+pub(crate) fn inertias_apart(parameters: &'static [&'static str; 4]) -> Invalid {
     let [a, b, c, d] = parameters;
     let reason = format!(
         "the mass matrix is not positive definite: the wing's inertias do not go together ({a} and {b} against {c} and \
@@ -99,7 +100,7 @@ pub(super) fn inertias_apart(parameters: &'static [&'static str; 4]) -> Invalid 
 }
 
 /// The state at rest right after an impulse that gives the stroke a rate (rad/s), for a mass matrix
-/// [M₁₁, M₁₂, M₂₂] (kg·m²): `pitch rate = −(M₁₂/M₂₂) stroke rate`.
-pub(super) fn struck([_, m12, m22]: [f64; 3], stroke_rate: f64) -> [f64; 4] {
+/// [M₁₁, M₁₂, M₂₂] (kg·m²): `pitch rate = −(M₁₂/M₂₂) stroke rate`. For [`Motions::struck`](super::Motions::struck).
+pub fn struck([_, m12, m22]: [f64; 3], stroke_rate: f64) -> [f64; 4] {
     [0.0, 0.0, stroke_rate, -(m12 / m22) * stroke_rate]
 }

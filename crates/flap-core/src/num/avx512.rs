@@ -14,13 +14,14 @@ use core::arch::x86_64::{
 };
 use core::mem::transmute;
 
-use super::float::{
-    EXPONENT_BITS, Float, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52, TWO_52_BITS,
+use super::bits::{
+    Bits, EXPONENT_BITS, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52, TWO_52_BITS,
 };
+use super::functions_of_lanes::functions_of_lanes;
 use super::lanes::Lanes;
-use super::number::Number;
 use super::operators::{constants_on_the_right, operator};
 use super::pair::Pair;
+use super::real::Real;
 use super::simd::Simd;
 
 /// Proof that the processor has AVX-512 F, DQ, BW, VL and CD, and FMA.
@@ -59,9 +60,6 @@ impl Simd for Avx512 {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct F64x8(__m512d);
 
-/// The bits of a register's numbers.
-type Bits = __m512i;
-
 /// Wraps an intrinsic.
 ///
 /// SAFETY: every value of [`F64x8`] comes of [`F64x8::splat`], which takes a proof that the instructions exist.
@@ -84,17 +82,17 @@ impl F64x8 {
     }
 
     #[inline(always)]
-    fn to_bits(self) -> Bits {
+    fn to_bits(self) -> __m512i {
         intrinsic!(_mm512_castpd_si512(self.0))
     }
 
     #[inline(always)]
-    fn from_bits(bits: Bits) -> F64x8 {
+    fn from_bits(bits: __m512i) -> F64x8 {
         F64x8(intrinsic!(_mm512_castsi512_pd(bits)))
     }
 
     #[inline(always)]
-    fn all(bits: u64) -> Bits {
+    fn all(bits: u64) -> __m512i {
         intrinsic!(_mm512_set1_epi64(bits.cast_signed()))
     }
 }
@@ -106,7 +104,7 @@ operator!([] F64x8, Div::div, |a, b| F64x8(intrinsic!(_mm512_div_pd(a.0, b.0))))
 operator!([] F64x8, Neg::neg, |a| Self::from_bits(intrinsic!(_mm512_xor_si512(a.to_bits(), Self::all(SIGN_BIT)))));
 constants_on_the_right!([] F64x8);
 
-impl Number for F64x8 {
+impl Real for F64x8 {
     type Mask = __mmask8;
 
     #[inline(always)]
@@ -136,6 +134,8 @@ impl Number for F64x8 {
         let (magnitude, sign) = (self.to_bits(), sign.to_bits());
         Self::from_bits(intrinsic!(_mm512_ternarylogic_epi64::<CHOOSE>(sign, magnitude, Self::all(SIGN_BIT))))
     }
+
+    functions_of_lanes!();
 
     #[inline(always)]
     fn lt(self, other: Self) -> __mmask8 {
@@ -186,7 +186,7 @@ impl Lanes for F64x8 {
     }
 
     #[inline(always)]
-    fn apart<T>(self, work: impl FnOnce() -> T) -> T {
+    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
         // A value is proof enough, see `intrinsic`.
         Avx512(()).vectorize(work)
     }
@@ -197,7 +197,7 @@ impl Lanes for F64x8 {
     }
 }
 
-impl Float for F64x8 {
+impl Bits for F64x8 {
     #[inline(always)]
     fn flip_sign_by_lowest_bit(self, selector: Self) -> Self {
         let sign = intrinsic!(_mm512_slli_epi64::<63>(selector.to_bits()));

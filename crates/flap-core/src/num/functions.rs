@@ -3,8 +3,8 @@
 //! Sine and cosine are minimax polynomials, the logarithm is that of FreeBSD's msun (`e_log.c`; Sun Microsystems, 1993),
 //! the exponential is a Taylor polynomial on |r| ≤ ½ ln 2.
 
-use super::float::{Float, ROUND};
-use super::number::Number;
+use super::bits::{Bits, ROUND};
+use super::real::Real;
 
 /// π in two parts. The first has 33 significant bits, so its products with whole numbers up to 2^20 are exact; the second
 /// makes their sum right to 10^-26.
@@ -36,7 +36,7 @@ const COS: [f64; 7] = [
 /// c₀ + c₁ x + c₂ x² + …, given x²: by Horner's rule in x², over pairs of coefficients. It takes as many operations as the
 /// rule in x, and half of their waiting for each other.
 #[inline(always)]
-fn polynomial<R: Float, const N: usize>(x: R, square: R, c: &[f64; N]) -> R {
+fn polynomial<R: Bits, const N: usize>(x: R, square: R, c: &[f64; N]) -> R {
     let pair = |i: usize| {
         let low = x.lit(c[i]);
         if i + 1 < N { x.mul_add(x.lit(c[i + 1]), low) } else { low }
@@ -53,7 +53,7 @@ fn polynomial<R: Float, const N: usize>(x: R, square: R, c: &[f64; N]) -> R {
 /// The half turns of an angle and the rest: a number whose lowest bit is set if the half turns are odd, and r with
 /// |r| ≤ π/2.
 #[inline(always)]
-fn half_turns<R: Float>(x: R) -> (R, R) {
+fn half_turns<R: Bits>(x: R) -> (R, R) {
     let rounded = x.mul_add(x.lit(core::f64::consts::FRAC_1_PI), x.lit(ROUND));
     let k = rounded - ROUND;
     let mut r = k.mul_add(k.lit(-PI[0]), x);
@@ -63,7 +63,7 @@ fn half_turns<R: Float>(x: R) -> (R, R) {
 
 /// Sine of `x` (rad), for |x| up to 10^6.
 #[inline(always)]
-pub fn sin<R: Float>(x: R) -> R {
+pub(super) fn sin<R: Bits>(x: R) -> R {
     let (odd, r) = half_turns(x);
     let z = r * r;
     (z * r).mul_add(polynomial(z, z * z, &SIN), r).flip_sign_by_lowest_bit(odd)
@@ -71,7 +71,7 @@ pub fn sin<R: Float>(x: R) -> R {
 
 /// Sine and cosine of `x` (rad), for |x| up to 10^6.
 #[inline(always)]
-pub fn sin_cos<R: Float>(x: R) -> (R, R) {
+pub(super) fn sin_cos<R: Bits>(x: R) -> (R, R) {
     let (odd, r) = half_turns(x);
     let z = r * r;
     let zz = z * z;
@@ -102,7 +102,7 @@ const EXP: [f64; 13] = [
 
 /// A whole number k and r with x = k ln 2 + r, |r| ≤ ½ ln 2.
 #[inline(always)]
-fn reduce<R: Float>(x: R) -> (R, R) {
+fn reduce<R: Bits>(x: R) -> (R, R) {
     let k = x.mul_add(x.lit(core::f64::consts::LOG2_E), x.lit(ROUND)) - ROUND;
     let mut r = k.mul_add(k.lit(-LN_2[0]), x);
     r = k.mul_add(k.lit(-LN_2[1]), r);
@@ -117,7 +117,7 @@ const EXP_MIN: f64 = -708.396_418_532_264_1;
 
 /// e^x: infinite above 709.78, zero below −708.39 (where it would be subnormal), NaN for NaN.
 #[inline(always)]
-pub fn exp<R: Float>(x: R) -> R {
+pub(super) fn exp<R: Bits>(x: R) -> R {
     // Infinity for large arguments, NaN for NaN.
     let beyond = x * f64::INFINITY;
     let power = R::select(x.lt(x.lit(EXP_MAX)), exp_of_ordinary(x), beyond);
@@ -126,14 +126,14 @@ pub fn exp<R: Float>(x: R) -> R {
 
 /// e^x for x from −708 to 709. Beyond, the bits have no meaning: no instruction checks the range.
 #[inline(always)]
-pub fn exp_of_ordinary<R: Float>(x: R) -> R {
+pub(super) fn exp_of_ordinary<R: Bits>(x: R) -> R {
     let (k, r) = reduce(x);
     polynomial(r, r * r, &EXP).mul_add(r, r.lit(1.0)).times_power_of_two(k)
 }
 
 /// e^x − 1, accurate for small x too: infinite above 709.78, NaN for NaN.
 #[inline(always)]
-pub fn exp_m1<R: Float>(x: R) -> R {
+pub(super) fn exp_m1<R: Bits>(x: R) -> R {
     // Below −40 the result rounds to −1. NaN stays.
     let (k, r) = reduce(x.lit(-40.0).max(x));
     // Half of 2^k, which is finite for every finite result.
@@ -145,7 +145,7 @@ pub fn exp_m1<R: Float>(x: R) -> R {
 /// e^x − 1 for x from −708 to 709, accurate for small x too. Beyond, the bits have no meaning: no instruction checks
 /// the range.
 #[inline(always)]
-pub fn exp_m1_of_ordinary<R: Float>(x: R) -> R {
+pub(super) fn exp_m1_of_ordinary<R: Bits>(x: R) -> R {
     let (k, r) = reduce(x);
     let power = r.lit(1.0).times_power_of_two(k);
     // 2^k (e^r − 1) + (2^k − 1)
@@ -165,7 +165,7 @@ const LN: [f64; 7] = [
 
 /// Natural logarithm: −∞ for 0 and subnormal numbers, NaN for negative numbers and NaN.
 #[inline(always)]
-pub fn ln<R: Float>(x: R) -> R {
+pub(super) fn ln<R: Bits>(x: R) -> R {
     let none = R::select(x.lt(x.lit(0.0)), x.lit(f64::NAN), x.lit(f64::NEG_INFINITY));
     let finite = R::select(x.lt(x.lit(f64::MIN_POSITIVE)), none, ln_of_normal(x));
     // Infinity and NaN are their own logarithms.
@@ -174,7 +174,7 @@ pub fn ln<R: Float>(x: R) -> R {
 
 /// Natural logarithm of a normal positive number. For other numbers the bits have no meaning: no instruction checks them.
 #[inline(always)]
-pub fn ln_of_normal<R: Float>(x: R) -> R {
+pub(super) fn ln_of_normal<R: Bits>(x: R) -> R {
     let (e, m) = x.exponent_and_mantissa();
     // m to [√½, √2), so that f = m − 1 is small and the two parts of the sum do not cancel.
     let large = m.lit(core::f64::consts::SQRT_2).lt(m);
@@ -193,7 +193,7 @@ pub fn ln_of_normal<R: Float>(x: R) -> R {
 
 /// ln(1 + x), accurate for small x too: −∞ for −1, NaN for smaller numbers and NaN.
 #[inline(always)]
-pub fn ln_1p<R: Float>(x: R) -> R {
+pub(super) fn ln_1p<R: Bits>(x: R) -> R {
     let (sum, lost) = one_more(x);
     ln(sum) + lost
 }
@@ -201,14 +201,14 @@ pub fn ln_1p<R: Float>(x: R) -> R {
 /// ln(1 + x) for x > −1 with 1 + x a normal number, accurate for small x too. For other numbers the bits have no meaning:
 /// no instruction checks them.
 #[inline(always)]
-pub fn ln_1p_of_normal<R: Float>(x: R) -> R {
+pub(super) fn ln_1p_of_normal<R: Bits>(x: R) -> R {
     let (sum, lost) = one_more(x);
     ln_of_normal(sum) + lost
 }
 
 /// The sum 1 + x, and what the logarithm of the rounded sum lacks.
 #[inline(always)]
-fn one_more<R: Float>(x: R) -> (R, R) {
+fn one_more<R: Bits>(x: R) -> (R, R) {
     let sum = x + 1.0;
     // The rounding error of the sum. Far from 1 it does not change the logarithm.
     let lost = x - (sum - 1.0);
@@ -217,13 +217,13 @@ fn one_more<R: Float>(x: R) -> (R, R) {
 
 /// The nearest whole number, the even one of two, for |x| up to 2^51.
 #[inline(always)]
-pub fn round<R: Number>(x: R) -> R {
+pub(super) fn round_ties_even<R: Real>(x: R) -> R {
     (x + ROUND) - ROUND
 }
 
 /// 1/x of a normal positive number up to 2^1022; relative errors stay below 1.74·10^-3.
 #[inline(always)]
-pub fn rough_reciprocal<R: Float>(x: R) -> R {
+pub(super) fn rough_reciprocal<R: Bits>(x: R) -> R {
     let guess = x.reciprocal_guess();
     // Newton's step, with coefficients that make errors as large below as above.
     guess * (x * guess).mul_add(x.lit(-0.887_348_353_552_859_6), x.lit(1.885_615_251_299_826_8))
@@ -231,14 +231,14 @@ pub fn rough_reciprocal<R: Float>(x: R) -> R {
 
 /// The nearest multiple of 1/8, for |x| up to 2^48.
 #[inline(always)]
-pub fn round_to_eighths<R: Number>(x: R) -> R {
+pub(super) fn round_to_eighths<R: Real>(x: R) -> R {
     (x + ROUND * 0.125) - ROUND * 0.125
 }
 
 /// 2^x for |x| up to 700, exact for whole numbers; relative errors stay below 2.0·10^-3.
 #[inline(always)]
-pub fn rough_exp2<R: Float>(x: R) -> R {
-    let k = round(x);
+pub(super) fn rough_exp2<R: Bits>(x: R) -> R {
+    let k = round_ties_even(x);
     let r = x - k;
     let slope = r.mul_add(r.lit(0.2398), r.lit(0.703));
     slope.mul_add(r, r.lit(1.0)).times_power_of_two(k)

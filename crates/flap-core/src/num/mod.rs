@@ -4,11 +4,11 @@
 //! `f64` (one point at a time) and on [`Vector`] (one point per SIMD lane), with the same bits from both:
 //!
 //! - no operation mixes lanes, so a lane never depends on its neighbours;
-//! - elementary functions are the polynomials of [`functions`], never those of std or the C library;
+//! - elementary functions are polynomials of this crate, never those of std or the C library;
 //! - Rust neither reassociates nor contracts floating-point expressions.
 //!
-//! [`Number`] is arithmetic, [`Real`] adds elementary functions, and [`Lanes`] adds the access to single lanes that the
-//! integrator needs. A type that implements [`Number`] and [`Float`] has the functions of [`Real`].
+//! [`Real`] has all that equations use, [`Lanes`] adds the access to single lanes that the integrator needs, and
+//! [`PerLane`] is a group of numbers. A [`Backend`] chooses the instructions.
 //!
 //! `mul_add` rounds once where the processor has a fused multiply-add (AVX2, AVX-512, NEON) and twice where
 //! it has not. Results of the two [arithmetic classes](Arithmetic) differ at the level of the integration
@@ -17,10 +17,10 @@
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod backend;
-mod float;
-pub mod functions;
+mod bits;
+mod functions;
+mod functions_of_lanes;
 mod lanes;
-mod number;
 mod operators;
 mod pair;
 mod per_lane;
@@ -31,11 +31,9 @@ mod simd;
 mod unfused;
 
 pub use backend::{Arithmetic, Backend, Kernel, ScalarKernel};
-pub use float::Float;
 pub use lanes::Lanes;
-pub use number::Number;
 pub use per_lane::PerLane;
 pub use real::Real;
-pub use scalar::Scalar;
+pub use scalar::{OneLane, Scalar};
 pub use simd::{Simd, Vector};
 pub use unfused::Unfused;

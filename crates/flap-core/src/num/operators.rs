@@ -40,7 +40,7 @@ macro_rules! with_constant {
             type Output = Self;
             #[inline(always)]
             fn $method(self, c: f64) -> Self {
-                core::ops::$Trait::$method(self, $crate::num::number::Number::lit(self, c))
+                core::ops::$Trait::$method(self, $crate::num::real::Real::lit(self, c))
             }
         }
     };

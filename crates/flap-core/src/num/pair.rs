@@ -5,10 +5,11 @@
 
 use core::ops::{BitAnd, BitOr, Not};
 
-use super::float::Float;
+use super::bits::Bits;
+use super::functions_of_lanes::functions_of_lanes;
 use super::lanes::Lanes;
-use super::number::Number;
 use super::operators::{constants_on_the_right, operator};
+use super::real::Real;
 
 /// Two groups of lanes that go side by side.
 #[derive(Clone, Copy, Debug)]
@@ -35,12 +36,13 @@ operator!([M: BitAnd<Output = M>] PairMask<M>, BitAnd::bitand, |a, b| PairMask {
 operator!([M: BitOr<Output = M>] PairMask<M>, BitOr::bitor, |a, b| PairMask { lo: a.lo | b.lo, hi: a.hi | b.hi });
 operator!([M: Not<Output = M>] PairMask<M>, Not::not, |a| PairMask { lo: !a.lo, hi: !a.hi });
 
-impl<L: Lanes> Number for Pair<L> {
+impl<L: Lanes> Real for Pair<L> {
     type Mask = PairMask<L::Mask>;
 
     #[inline(always)]
     fn lit(self, c: f64) -> Self {
-        Pair { lo: self.lo.lit(c), hi: self.hi.lit(c) }
+        let half = self.lo.lit(c);
+        Pair { lo: half, hi: half }
     }
 
     #[inline(always)]
@@ -62,6 +64,8 @@ impl<L: Lanes> Number for Pair<L> {
     fn copysign(self, sign: Self) -> Self {
         Pair { lo: self.lo.copysign(sign.lo), hi: self.hi.copysign(sign.hi) }
     }
+
+    functions_of_lanes!();
 
     #[inline(always)]
     fn lt(self, other: Self) -> Self::Mask {
@@ -115,8 +119,8 @@ impl<L: Lanes> Lanes for Pair<L> {
     }
 
     #[inline(always)]
-    fn apart<T>(self, work: impl FnOnce() -> T) -> T {
-        self.lo.apart(work)
+    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
+        self.lo.outlined(work)
     }
 
     #[inline(always)]
@@ -125,7 +129,7 @@ impl<L: Lanes> Lanes for Pair<L> {
     }
 }
 
-impl<L: Lanes> Float for Pair<L> {
+impl<L: Lanes> Bits for Pair<L> {
     #[inline(always)]
     fn flip_sign_by_lowest_bit(self, selector: Self) -> Self {
         Pair {

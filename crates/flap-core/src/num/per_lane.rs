@@ -1,43 +1,54 @@
 //! Groups of numbers of which every lane has its own: constants of a point, totals of a cycle.
 
 use super::lanes::Lanes;
+use super::real::Real;
 
 /// A group of numbers, one set per lane.
 ///
 /// Implemented by numbers, by [`per_lane!`](crate::per_lane) for structs of groups, by arrays and pairs of groups, and
 /// by `()` for none at all.
-pub trait PerLane<R: Lanes>: Copy {
+pub trait PerLane<R: Real>: Copy {
     /// One lane's set.
     type One: Copy;
 
-    /// The same set in every lane.
-    fn fill(token: R::Token, one: &Self::One) -> Self;
+    /// The same set in every lane, in numbers of the kind of `like`.
+    fn fill(like: R, one: &Self::One) -> Self;
 
     /// Replaces one lane's set.
-    fn set(&mut self, lane: usize, one: &Self::One);
+    fn set(&mut self, lane: usize, one: &Self::One)
+    where
+        R: Lanes;
 
     /// One lane's set.
-    fn get(&self, lane: usize) -> Self::One;
+    fn get(&self, lane: usize) -> Self::One
+    where
+        R: Lanes;
 
     /// True if no number of a set is infinite or NaN.
     fn is_finite(one: &Self::One) -> bool;
 }
 
-impl<R: Lanes> PerLane<R> for R {
+impl<R: Real> PerLane<R> for R {
     type One = f64;
 
     #[inline(always)]
-    fn fill(token: R::Token, one: &f64) -> R {
-        R::splat(token, *one)
+    fn fill(like: R, one: &f64) -> R {
+        like.lit(*one)
     }
 
     #[inline(always)]
-    fn set(&mut self, lane: usize, one: &f64) {
+    fn set(&mut self, lane: usize, one: &f64)
+    where
+        R: Lanes,
+    {
         self.set_lane(lane, *one);
     }
 
     #[inline(always)]
-    fn get(&self, lane: usize) -> f64 {
+    fn get(&self, lane: usize) -> f64
+    where
+        R: Lanes,
+    {
         self.lane(lane)
     }
 
@@ -47,17 +58,21 @@ impl<R: Lanes> PerLane<R> for R {
     }
 }
 
-impl<R: Lanes> PerLane<R> for () {
+impl<R: Real> PerLane<R> for () {
     type One = ();
 
     #[inline(always)]
-    fn fill(_token: R::Token, (): &()) {}
+    fn fill(_like: R, (): &()) {}
 
     #[inline(always)]
     fn set(&mut self, _lane: usize, (): &()) {}
 
     #[inline(always)]
-    fn get(&self, _lane: usize) {}
+    fn get(&self, _lane: usize)
+    where
+        R: Lanes,
+    {
+    }
 
     #[inline(always)]
     fn is_finite((): &()) -> bool {
@@ -65,22 +80,28 @@ impl<R: Lanes> PerLane<R> for () {
     }
 }
 
-impl<R: Lanes, P: PerLane<R>, Q: PerLane<R>> PerLane<R> for (P, Q) {
+impl<R: Real, P: PerLane<R>, Q: PerLane<R>> PerLane<R> for (P, Q) {
     type One = (P::One, Q::One);
 
     #[inline(always)]
-    fn fill(token: R::Token, one: &Self::One) -> Self {
-        (P::fill(token, &one.0), Q::fill(token, &one.1))
+    fn fill(like: R, one: &Self::One) -> Self {
+        (P::fill(like, &one.0), Q::fill(like, &one.1))
     }
 
     #[inline(always)]
-    fn set(&mut self, lane: usize, one: &Self::One) {
+    fn set(&mut self, lane: usize, one: &Self::One)
+    where
+        R: Lanes,
+    {
         self.0.set(lane, &one.0);
         self.1.set(lane, &one.1);
     }
 
     #[inline(always)]
-    fn get(&self, lane: usize) -> Self::One {
+    fn get(&self, lane: usize) -> Self::One
+    where
+        R: Lanes,
+    {
         (self.0.get(lane), self.1.get(lane))
     }
 
@@ -90,23 +111,32 @@ impl<R: Lanes, P: PerLane<R>, Q: PerLane<R>> PerLane<R> for (P, Q) {
     }
 }
 
-impl<R: Lanes, P: PerLane<R>, const N: usize> PerLane<R> for [P; N] {
+impl<R: Real, P: PerLane<R>, const N: usize> PerLane<R> for [P; N] {
     type One = [P::One; N];
 
     #[inline(always)]
-    fn fill(token: R::Token, one: &Self::One) -> Self {
-        core::array::from_fn(|i| P::fill(token, &one[i]))
+    fn fill(like: R, one: &Self::One) -> Self {
+        core::array::from_fn(
+            #[inline(always)]
+            |i| P::fill(like, &one[i]),
+        )
     }
 
     #[inline(always)]
-    fn set(&mut self, lane: usize, one: &Self::One) {
+    fn set(&mut self, lane: usize, one: &Self::One)
+    where
+        R: Lanes,
+    {
         for i in 0..N {
             self[i].set(lane, &one[i]);
         }
     }
 
     #[inline(always)]
-    fn get(&self, lane: usize) -> Self::One {
+    fn get(&self, lane: usize) -> Self::One
+    where
+        R: Lanes,
+    {
         core::array::from_fn(|i| self[i].get(lane))
     }
 
@@ -143,21 +173,27 @@ macro_rules! per_lane {
             $($(#[$field_meta])* pub $field: $type,)*
         }
 
-        impl<R: $crate::num::Lanes> $crate::num::PerLane<R> for $Name<R> {
+        impl<R: $crate::num::Real> $crate::num::PerLane<R> for $Name<R> {
             type One = $Name<f64>;
 
             #[inline(always)]
-            fn fill(token: R::Token, one: &$Name<f64>) -> Self {
-                $Name { $($field: $crate::num::PerLane::fill(token, &one.$field),)* }
+            fn fill(like: R, one: &$Name<f64>) -> Self {
+                $Name { $($field: $crate::num::PerLane::fill(like, &one.$field),)* }
             }
 
             #[inline(always)]
-            fn set(&mut self, lane: usize, one: &$Name<f64>) {
+            fn set(&mut self, lane: usize, one: &$Name<f64>)
+            where
+                R: $crate::num::Lanes,
+            {
                 $($crate::num::PerLane::set(&mut self.$field, lane, &one.$field);)*
             }
 
             #[inline(always)]
-            fn get(&self, lane: usize) -> $Name<f64> {
+            fn get(&self, lane: usize) -> $Name<f64>
+            where
+                R: $crate::num::Lanes,
+            {
                 $Name { $($field: $crate::num::PerLane::get(&self.$field, lane),)* }
             }
 

@@ -2,12 +2,13 @@
 
 use fearless_simd::{Bytes, ExtractToken, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask};
 
-use super::float::{
-    EXPONENT_BITS, Float, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52, TWO_52_BITS,
+use super::bits::{
+    Bits, EXPONENT_BITS, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52, TWO_52_BITS,
 };
+use super::functions_of_lanes::functions_of_lanes;
 use super::lanes::Lanes;
-use super::number::Number;
 use super::operators::{constants_on_the_right, of_inner, operator};
+use super::real::Real;
 
 /// 4 lanes with AVX2, 2 with SSE2 and NEON.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +33,7 @@ operator!([S: Simd] Register<S>, Div::div, |a, b| Register(a.0 / b.0));
 operator!([S: Simd] Register<S>, Neg::neg, |a| Register(-a.0));
 constants_on_the_right!([S: Simd] Register<S>);
 
-impl<S: Simd> Number for Register<S> {
+impl<S: Simd> Real for Register<S> {
     type Mask = S::mask64s;
 
     #[inline(always)]
@@ -41,6 +42,8 @@ impl<S: Simd> Number for Register<S> {
     }
 
     of_inner!(Register: mul_add(a, b), abs(), sqrt(), copysign(sign));
+
+    functions_of_lanes!();
 
     #[inline(always)]
     fn lt(self, other: Self) -> S::mask64s {
@@ -82,7 +85,7 @@ impl<S: Simd> Lanes for Register<S> {
     }
 
     #[inline(always)]
-    fn apart<T>(self, work: impl FnOnce() -> T) -> T {
+    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
         self.0.token().vectorize(work)
     }
 
@@ -92,7 +95,7 @@ impl<S: Simd> Lanes for Register<S> {
     }
 }
 
-impl<S: Simd> Float for Register<S> {
+impl<S: Simd> Bits for Register<S> {
     #[inline(always)]
     fn flip_sign_by_lowest_bit(self, selector: Self) -> Self {
         Self::from_bits(self.to_bits() ^ (selector.to_bits() << 63))

@@ -1,13 +1,17 @@
 //! One number at a time.
 
-use super::float::{
-    EXPONENT_BITS, Float, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52, TWO_52_BITS,
+use core::marker::PhantomData;
+
+use super::bits::{
+    Bits, EXPONENT_BITS, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52, TWO_52_BITS,
 };
+use super::functions_of_lanes::functions_of_lanes;
 use super::lanes::Lanes;
-use super::number::Number;
+use super::real::Real;
+use super::simd::Simd;
 
 /// One number at a time: `f64`, or [`Unfused`](super::Unfused) for machines without fused multiply-add.
-pub trait Scalar: Lanes<Token = (), Mask = bool> {
+pub trait Scalar: Bits + Lanes<Token = OneLane<Self>, Mask = bool> {
     /// The scalar with this value.
     fn new(value: f64) -> Self;
 
@@ -18,12 +22,38 @@ pub trait Scalar: Lanes<Token = (), Mask = bool> {
     fn enter<T>(work: impl FnOnce() -> T) -> T;
 }
 
-impl<R: Scalar> Lanes for R {
-    const LANES: usize = 1;
-    type Token = ();
+/// The scalar `R` in place of SIMD lanes: a [`Simd`] whose vector has one lane.
+#[derive(Clone, Copy, Debug)]
+pub struct OneLane<R>(PhantomData<R>);
+
+impl<R: Scalar> OneLane<R> {
+    /// Every processor computes with scalars.
+    pub const fn new() -> OneLane<R> {
+        OneLane(PhantomData)
+    }
+}
+
+impl<R: Scalar> Default for OneLane<R> {
+    fn default() -> OneLane<R> {
+        OneLane::new()
+    }
+}
+
+impl<R: Scalar> Simd for OneLane<R> {
+    type Vector = R;
 
     #[inline(always)]
-    fn splat((): (), c: f64) -> R {
+    fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
+        R::enter(work)
+    }
+}
+
+impl<R: Scalar> Lanes for R {
+    const LANES: usize = 1;
+    type Token = OneLane<R>;
+
+    #[inline(always)]
+    fn splat(_token: OneLane<R>, c: f64) -> R {
         R::new(c)
     }
 
@@ -38,7 +68,7 @@ impl<R: Scalar> Lanes for R {
     }
 
     #[inline(always)]
-    fn mask((): (), bits: u64) -> bool {
+    fn mask(_token: OneLane<R>, bits: u64) -> bool {
         bits & 1 != 0
     }
 
@@ -48,7 +78,7 @@ impl<R: Scalar> Lanes for R {
     }
 
     #[inline(always)]
-    fn apart<T>(self, work: impl FnOnce() -> T) -> T {
+    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
         work()
     }
 }
@@ -77,7 +107,7 @@ impl Scalar for f64 {
     }
 }
 
-impl Number for f64 {
+impl Real for f64 {
     type Mask = bool;
 
     #[inline(always)]
@@ -105,6 +135,8 @@ impl Number for f64 {
         f64::copysign(self, sign)
     }
 
+    functions_of_lanes!();
+
     #[inline(always)]
     fn lt(self, other: f64) -> bool {
         self < other
@@ -116,7 +148,7 @@ impl Number for f64 {
     }
 }
 
-impl Float for f64 {
+impl Bits for f64 {
     #[inline(always)]
     fn flip_sign_by_lowest_bit(self, selector: f64) -> f64 {
         f64::from_bits(self.to_bits() ^ (selector.to_bits() << 63))

@@ -1,12 +1,12 @@
-//! Sets of SIMD instructions, as types.
+//! Sets of instructions, as types.
 
 use super::lanes::Lanes;
 use super::pair::Pair;
 use super::register::Register;
 
-/// Proof that the processor has a set of SIMD instructions.
+/// Proof that the processor has a set of instructions: SIMD, or [`OneLane`](super::OneLane) for scalars.
 pub trait Simd: Copy {
-    /// The lanes that are computed with them: two registers of `f64`.
+    /// The lanes that are computed with them: two registers of `f64`, or one scalar.
     type Vector: Lanes<Token = Self>;
 
     /// Calls `work` from a function in which the instructions are enabled. What is called there must be

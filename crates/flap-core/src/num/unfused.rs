@@ -1,8 +1,9 @@
 //! The scalar of processors without fused multiply-add.
 
-use super::float::Float;
-use super::number::Number;
+use super::bits::Bits;
+use super::functions_of_lanes::functions_of_lanes;
 use super::operators::{constants_on_the_right, of_inner, operator};
+use super::real::Real;
 use super::scalar::Scalar;
 
 /// A single `f64` whose `mul_add` rounds twice: the scalar of [`super::Arithmetic::Unfused`].
@@ -33,7 +34,7 @@ impl Scalar for Unfused {
     }
 }
 
-impl Number for Unfused {
+impl Real for Unfused {
     type Mask = bool;
 
     #[inline(always)]
@@ -48,6 +49,8 @@ impl Number for Unfused {
 
     of_inner!(Unfused: abs(), sqrt(), copysign(sign));
 
+    functions_of_lanes!();
+
     #[inline(always)]
     fn lt(self, other: Unfused) -> bool {
         self.0 < other.0
@@ -59,7 +62,7 @@ impl Number for Unfused {
     }
 }
 
-impl Float for Unfused {
+impl Bits for Unfused {
     #[inline(always)]
     fn exponent_and_mantissa(self) -> (Unfused, Unfused) {
         let (exponent, mantissa) = self.0.exponent_and_mantissa();

@@ -13,13 +13,13 @@ pub struct Start<C, const N: usize> {
     pub scale: [f64; N],
     /// Factor on both tolerances: 1 for most runs, less for one that is integrated more finely than others, more for one that
     /// is integrated more coarsely.
-    pub tighten: f64,
+    pub tolerance_factor: f64,
 }
 
 impl<C, const N: usize> Start<C, N> {
     /// A run with the tolerances that are asked for.
     pub const fn new(constants: C, y: [f64; N], span: f64, scale: [f64; N]) -> Start<C, N> {
-        Start { constants, y, span, scale, tighten: 1.0 }
+        Start { constants, y, span, scale, tolerance_factor: 1.0 }
     }
 }
 

@@ -7,8 +7,7 @@
 //! their ends differ as little: otherwise a period's end would jitter by the integration error, and a tight tolerance on
 //! periodic motion would not be met.
 
-use crate::num::Float;
-use crate::num::functions::{rough_exp2, round_to_eighths};
+use crate::num::Lanes;
 
 const SAFETY_LOG2: f64 = -0.152_003_093_445_049_97; // log2 0.9
 const BETA: f64 = 0.04;
@@ -28,7 +27,7 @@ pub struct Memory<R> {
     pub octaves_max: R,
 }
 
-impl<R: Float> Memory<R> {
+impl<R: Lanes> Memory<R> {
     /// The memory of a run that has made no step.
     #[inline(always)]
     pub fn new(like: R) -> Memory<R> {
@@ -38,7 +37,7 @@ impl<R: Float> Memory<R> {
 
 /// A decision of the controller.
 #[derive(Clone, Copy)]
-pub struct Verdict<R: Float> {
+pub struct Verdict<R: Lanes> {
     /// The step is accepted.
     pub accepted: R::Mask,
     /// The factor on the step size.
@@ -47,7 +46,7 @@ pub struct Verdict<R: Float> {
 
 /// Judges a step by its squared error (see [`super::norm`]) and updates the memory. NaN is rejected.
 #[inline(always)]
-pub fn judge<R: Float>(error_squared: R, memory: &mut Memory<R>) -> Verdict<R> {
+pub fn judge<R: Lanes>(error_squared: R, memory: &mut Memory<R>) -> Verdict<R> {
     let accepted = error_squared.lt(error_squared.lit(1.0));
     // Finite for any error, NaN included: the factor is then the smallest.
     let log2_error = error_squared.linear_log2();
@@ -58,10 +57,10 @@ pub fn judge<R: Float>(error_squared: R, memory: &mut Memory<R>) -> Verdict<R> {
     let last = R::select(accepted, memory.log2_error, zero);
     let octaves = last.mul_add(zero.lit(0.5 * BETA), own);
     let octaves = octaves.max(zero.lit(OCTAVES_MIN)).min(memory.octaves_max);
-    let octaves = round_to_eighths(octaves);
+    let octaves = octaves.round_to_eighths();
 
     let remembered = log2_error.max(zero.lit(LOG2_ERROR_MIN));
     memory.log2_error = R::select(accepted, remembered, memory.log2_error);
     memory.octaves_max = R::select(accepted, zero.lit(OCTAVES_MAX), zero);
-    Verdict { accepted, factor: rough_exp2(octaves) }
+    Verdict { accepted, factor: octaves.rough_exp2() }
 }

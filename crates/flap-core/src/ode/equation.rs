@@ -1,6 +1,6 @@
 //! A system of ordinary differential equations.
 
-use crate::num::{Lanes, PerLane};
+use crate::num::{Lanes, PerLane, Real};
 
 /// A system of N first-order ordinary differential equations, ẏ = f(c, u(c, t), y).
 ///
@@ -9,34 +9,31 @@ use crate::num::{Lanes, PerLane};
 /// allocate or panic, and every function they call must be `#[inline(always)]`.
 pub trait Ode<const N: usize>: Sync {
     /// Constants of a run.
-    type Constants<R: Lanes>: PerLane<R, One = Self::Constants<f64>>;
+    type Constants<R: Real>: PerLane<R, One = Self::Constants<f64>>;
 
     /// Inputs that depend on time alone: the drive.
-    type Input<R: Lanes>: Copy;
+    type Input<R: Real>: Copy;
 
     /// True if the right-hand side jumps where [`Ode::switch`] changes sign.
     const SWITCHES: bool = false;
 
-    /// Number of components, counted from the first, whose errors choose the step size.
-    const CONTROLLED: usize = N;
-
     /// The inputs at time `t` (s).
-    fn input<R: Lanes>(&self, c: &Self::Constants<R>, t: R) -> Self::Input<R>;
+    fn input<R: Real>(&self, c: &Self::Constants<R>, t: R) -> Self::Input<R>;
 
     /// The derivative ẏ, on one `side` (+1 or −1) of the surface on which [`Ode::switch`] is zero.
-    fn rhs<R: Lanes>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N];
+    fn rhs<R: Real>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N];
 
     /// The next time after `t` (s) at which the inputs are not smooth, such as the edge of a square wave; infinite if
     /// there is none. Steps end there.
     #[inline(always)]
-    fn next_break<R: Lanes>(&self, c: &Self::Constants<R>, t: R) -> R {
+    fn next_break<R: Real>(&self, c: &Self::Constants<R>, t: R) -> R {
         let _ = c;
         t.lit(f64::INFINITY)
     }
 
     /// The switching function and its rate, at a state with derivative `dy`.
     #[inline(always)]
-    fn switch<R: Lanes>(&self, c: &Self::Constants<R>, y: &[R; N], dy: &[R; N]) -> [R; 2] {
+    fn switch<R: Real>(&self, c: &Self::Constants<R>, y: &[R; N], dy: &[R; N]) -> [R; 2] {
         let _ = (c, dy);
         [y[0].lit(1.0), y[0].lit(0.0)]
     }
@@ -52,7 +49,7 @@ pub trait Ode<const N: usize>: Sync {
 /// The inputs [`Ode::input`] at time `t`. Integrators call it here, for the same reason as [`slope`].
 #[inline(always)]
 pub(crate) fn input<O: Ode<N>, R: Lanes, const N: usize>(ode: &O, c: &O::Constants<R>, t: R) -> O::Input<R> {
-    t.apart(
+    t.outlined(
         #[inline(always)]
         || ode.input(c, t),
     )
@@ -70,7 +67,7 @@ pub(crate) fn slope<O: Ode<N>, R: Lanes, const N: usize>(
     side: R,
     y: &[R; N],
 ) -> [R; N] {
-    side.apart(
+    side.outlined(
         #[inline(always)]
         || ode.rhs(c, u, side, y),
     )

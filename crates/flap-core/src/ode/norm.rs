@@ -1,11 +1,8 @@
 //! The size of an error, relative to the tolerances.
 
-use crate::num::Real;
-use crate::num::functions::rough_reciprocal;
+use crate::num::Lanes;
 
 /// The mean square of error over tolerance, Hairer I Eq. (II.4.11) without the root: a step is good below 1.
-///
-/// Over the first `count` components:
 ///
 /// ```text
 /// 1/N Σᵢ (eᵢ / (atolᵢ + rtol max(|yᵢ|, |yᵢ new|)))²
@@ -13,18 +10,17 @@ use crate::num::functions::rough_reciprocal;
 ///
 /// The quotients are right to 0.2 %, so no division is needed.
 #[inline(always)]
-pub fn error_squared<R: Real, const N: usize>(
+pub fn error_squared<R: Lanes, const N: usize>(
     error: &[R; N],
     [y, y_new]: [&[R; N]; 2],
     atol: &[R; N],
     rtol: R,
-    count: usize,
 ) -> R {
     let mut sum = rtol.lit(0.0);
-    for i in 0..count {
+    for i in 0..N {
         let tolerance = rtol.mul_add(y[i].abs().max(y_new[i].abs()), atol[i]);
-        let ratio = error[i] * rough_reciprocal(tolerance);
+        let ratio = error[i] * tolerance.rough_reciprocal();
         sum = ratio.mul_add(ratio, sum);
     }
-    sum * (1.0 / count as f64)
+    sum * (1.0 / N as f64)
 }

@@ -9,6 +9,7 @@ use core::ops::ControlFlow;
 use super::ensemble::Observer;
 use super::solve::solve_until;
 use super::step::{Attempt, Step};
+use super::switch::{cross, landing_size};
 use super::{Interrupt, Ode, Outcome, Start, Tolerances, input, slope};
 use crate::num::{Lanes, PerLane, Scalar, Simd, Vector};
 
@@ -105,7 +106,7 @@ fn in_lanes<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     ends: &mut Vec<Repeated<V::Totals<f64>, N>>,
 ) {
     let number = R::splat(token, 0.0);
-    let mut c = O::Constants::<R>::fill(token, &starts[0].constants);
+    let mut c = O::Constants::<R>::fill(number, &starts[0].constants);
     let mut span = number.lit(starts[0].span);
     let mut y = [number; N];
     for lane in 0..R::LANES {
@@ -118,7 +119,7 @@ fn in_lanes<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize>(
         }
     }
     let all = number.lt(number.lit(1.0));
-    let mut totals = V::Totals::<R>::fill(token, &observer.nothing());
+    let mut totals = V::Totals::<R>::fill(number, &observer.nothing());
     let mut t = number;
     let mut moved = number;
     let side = number.lit(if legs.is_empty() { 1.0 } else { legs[0].side });
@@ -131,8 +132,7 @@ fn in_lanes<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize>(
         let tries = if leg.lands { 1 + LANDINGS } else { 1 };
         for attempt in 0..tries {
             if attempt > 0 {
-                let [value, rate] = ode.switch(&c, &step.y[6], &step.k[6]);
-                h = h - value / rate;
+                h = landing_size(h, ode.switch(&c, &step.y[6], &step.k[6]));
             }
             step.attempt(ode, &c, t, h, side);
         }
@@ -141,10 +141,7 @@ fn in_lanes<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize>(
         t = t + h;
         step.advance(all);
         if leg.lands {
-            let u = input(ode, &c, t);
-            let y = ode.crossed(&c, &u, -side, &step.y[0]);
-            step.y[0] = y;
-            step.k[0] = slope(ode, &c, &u, -side, &y);
+            (step.y[0], step.k[0]) = cross(ode, &c, t, -side, &step.y[0]);
         }
     }
     for lane in 0..starts.len() {

@@ -7,8 +7,8 @@ use super::controller::{Memory, judge};
 use super::norm::error_squared;
 use super::start::{first_step, span_step};
 use super::step::{Attempt, Step};
-use super::switch::{Crossing, Switching, landing_stretch};
-use super::{Ending, Interrupt, MIN_STEP, Ode, Outcome, Start, Tolerances, UNASKED, input, never, slope};
+use super::switch::{Crossing, Switching, cross, landing_stretch};
+use super::{Ending, Interrupt, MIN_STEP, Ode, Outcome, Start, Tolerances, UNASKED, never};
 use crate::num::{PerLane, Scalar};
 
 /// Integrates one run until `at_span_end` breaks, or until it fails.
@@ -64,15 +64,15 @@ impl<O: Ode<N>, R: Scalar, const N: usize> March<'_, O, R, N> {
     #[inline(always)]
     fn steps(self) -> Outcome {
         let March { ode, tolerances, start, interrupted, on_step, at_span_end } = self;
-        let number = |x: f64| R::splat((), x);
-        let c = O::Constants::<R>::fill((), &start.constants);
+        let number = |x: f64| R::new(x);
+        let c = O::Constants::<R>::fill(number(0.0), &start.constants);
         let span = number(start.span);
-        let rtol = number(tolerances.rtol * start.tighten);
+        let rtol = number(tolerances.rtol * start.tolerance_factor);
         let mut y = [span; N];
         let mut atol = [span; N];
         for i in 0..N {
             y[i] = number(start.y[i]);
-            atol[i] = number(tolerances.atol * start.tighten * start.scale[i]);
+            atol[i] = number(tolerances.atol * start.tolerance_factor * start.scale[i]);
         }
 
         let mut switching = Switching::begin(ode, &c, &y);
@@ -93,7 +93,7 @@ impl<O: Ode<N>, R: Scalar, const N: usize> March<'_, O, R, N> {
 
             let side = switching.side;
             step.attempt(ode, &c, t, h_try, side);
-            let error = error_squared(&step.error, [&step.y[0], &step.y[6]], &atol, rtol, O::CONTROLLED);
+            let error = error_squared(&step.error, [&step.y[0], &step.y[6]], &atol, rtol);
             let verdict = judge(error, &mut memory);
             attempts += 1;
             steps_in_span += 1;
@@ -113,11 +113,8 @@ impl<O: Ode<N>, R: Scalar, const N: usize> March<'_, O, R, N> {
                 step.advance(true);
             }
             if crossing.arrived {
-                let u = input(ode, &c, t);
-                let Step { y: [y, ..], k: [k1, ..], .. } = &mut step;
-                *y = ode.crossed(&c, &u, switching.side, y);
-                *k1 = slope(ode, &c, &u, switching.side, y);
-                switching.value = ode.switch(&c, y, k1);
+                (step.y[0], step.k[0]) = cross(ode, &c, t, switching.side, &step.y[0]);
+                switching.value = ode.switch(&c, &step.y[0], &step.k[0]);
                 switches += 1;
             }
 

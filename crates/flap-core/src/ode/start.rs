@@ -3,7 +3,6 @@
 use super::norm::error_squared;
 use super::{Ode, input, slope};
 use crate::num::Lanes;
-use crate::num::functions::{exp_of_ordinary, ln_of_normal};
 
 /// Right-hand sides evaluated by [`first_step`].
 pub const RHS_EVALS: u64 = 2;
@@ -25,8 +24,8 @@ pub fn first_step<O: Ode<N>, R: Lanes, const N: usize>(
     let zero = span.lit(0.0);
     let k1 = slope(ode, c, &input(ode, c, zero), side, y);
 
-    let size_y = weighted_norm(y, y, atol, rtol, O::CONTROLLED);
-    let size_k = weighted_norm(&k1, y, atol, rtol, O::CONTROLLED);
+    let size_y = weighted_norm(y, y, atol, rtol);
+    let size_k = weighted_norm(&k1, y, atol, rtol);
     let tiny = zero.lit(1e-5);
     let unknown_y = size_y.lt(tiny);
     let unknown_k = size_k.lt(tiny);
@@ -44,24 +43,18 @@ pub fn first_step<O: Ode<N>, R: Lanes, const N: usize>(
     for i in 0..N {
         change[i] = k_euler[i] - k1[i];
     }
-    let curvature = weighted_norm(&change, y, atol, rtol, O::CONTROLLED) / h0;
+    let curvature = weighted_norm(&change, y, atol, rtol) / h0;
 
     // h1 = (0.01 / max(slope, curvature))^(1/5)
     let largest = size_k.max(curvature).max(zero.lit(1e-15));
-    let h1 = exp_of_ordinary(ln_of_normal(largest.lit(0.01) / largest) * 0.2);
+    let h1 = ((largest.lit(0.01) / largest).ln_of_normal() * 0.2).exp_of_ordinary();
     (k1, (h0 * 100.0).min(h1).min(span))
 }
 
 /// Root mean square of `x` over the tolerances at `y`.
 #[inline(always)]
-fn weighted_norm<R: Lanes, const N: usize>(
-    x: &[R; N],
-    y: &[R; N],
-    atol: &[R; N],
-    rtol: R,
-    count: usize,
-) -> R {
-    error_squared(x, [y, y], atol, rtol, count).sqrt()
+fn weighted_norm<R: Lanes, const N: usize>(x: &[R; N], y: &[R; N], atol: &[R; N], rtol: R) -> R {
+    error_squared(x, [y, y], atol, rtol).sqrt()
 }
 
 /// The step size with which the next span begins, given that of the last and the one that the controller proposes.

@@ -2,7 +2,7 @@
 
 use super::Ode;
 use super::tableau::{A, C, E, STAGES};
-use crate::num::Lanes;
+use crate::num::Real;
 
 /// A step: its beginning, and the results of an attempt.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +28,7 @@ pub struct Attempt<'a, R, const N: usize> {
     pub step: &'a Step<R, N>,
 }
 
-impl<R: Lanes, const N: usize> Step<R, N> {
+impl<R: Real, const N: usize> Step<R, N> {
     /// A step from `y`, where the slope is `k1`, before any attempt.
     #[inline(always)]
     pub fn new(y: [R; N], k1: [R; N]) -> Step<R, N> {
@@ -88,7 +88,7 @@ const BLOCK: usize = 4;
 
 /// y + h Σ wⱼ kⱼ over the first `count` slopes.
 #[inline(always)]
-fn combine<R: Lanes, const N: usize, const W: usize>(
+fn combine<R: Real, const N: usize, const W: usize>(
     y: &[R; N],
     h: R,
     k: &[[R; N]; STAGES],
@@ -108,7 +108,7 @@ fn combine<R: Lanes, const N: usize, const W: usize>(
 
 /// Adds h Σ wⱼ kⱼ to `SIZE` components from the `first` on.
 #[inline(always)]
-fn add<R: Lanes, const N: usize, const W: usize, const SIZE: usize>(
+fn add<R: Real, const N: usize, const W: usize, const SIZE: usize>(
     y: &mut [R; N],
     h: R,
     k: &[[R; N]; STAGES],

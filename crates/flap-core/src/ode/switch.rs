@@ -2,16 +2,32 @@
 //!
 //! The equations are integrated on one side of the surface at a time: the side stays fixed within a step, so
 //! that every step sees a smooth right-hand side. When an accepted step ends on the other side, the crossing
-//! is located on the cubic through the function's values and rates at both ends, the step is taken again up
-//! to the crossing, and the side is changed there, with a fresh first slope.
+//! is located on the cubic through the function's values and rates at both ends, and the step is taken again up
+//! to the crossing. A step that lands more than a thousandth of an ordinary step from the surface is taken again, with the
+//! size that Newton's step gives. There the side is changed, with a fresh first slope.
+//!
+//! Two crossings within one step leave the function's sign as it was. They are found where the function approaches zero at the
+//! beginning of the step and departs from zero at its end, and the cubic has a minimum on the other side: the step is taken
+//! again up to this minimum, beyond the first crossing.
 
 use super::step::Step;
 use super::{Ode, STRETCH, input, slope};
 use crate::num::{Lanes, Real};
 
-/// A crossing counts as reached when it is less than this fraction of an ordinary step away. The cubic errs by
-/// far less: this only catches crossings that it could not find.
+/// A step lands on the surface where it ends within this fraction of an ordinary step. The cubic mostly errs by far less.
+const LANDED: f64 = 1e-3;
+
+/// The most corrections of a step that lands beside the surface.
+const CORRECTIONS: f64 = 3.0;
+
+/// A step that no correction has brought nearer lands within this fraction all the same.
 const REACHED: f64 = 1e-2;
+
+/// The largest distance from the surface, as a fraction of an ordinary step, from which the size is corrected.
+const NEAR: f64 = 0.1;
+
+/// The smallest fraction of a step after which the function may have its minimum for two crossings within the step.
+const EARLIEST: f64 = 1e-2;
 
 /// The position of a run relative to its switching surface, remembered from step to step.
 #[derive(Clone, Copy)]
@@ -22,6 +38,8 @@ pub struct Switching<R: Lanes> {
     pub value: [R; 2],
     /// The step is being taken again, up to a crossing.
     pub heading: R::Mask,
+    /// The number of times that the size of that step has been corrected.
+    pub corrections: R,
     /// The step size to go on with after the crossing.
     pub resume: R,
 }
@@ -42,7 +60,8 @@ impl<R: Lanes> Switching<R> {
     #[inline(always)]
     pub fn new(like: R) -> Switching<R> {
         let zero = like.lit(0.0);
-        Switching { side: like.lit(1.0), value: [zero; 2], heading: zero.lt(zero), resume: zero }
+        let none = zero.lt(zero);
+        Switching { side: like.lit(1.0), value: [zero; 2], heading: none, corrections: zero, resume: zero }
     }
 
     /// Chooses the side at the beginning of a run; on the surface, that to which the motion goes.
@@ -74,21 +93,47 @@ impl<R: Lanes> Switching<R> {
         let [begin, begin_rate] = self.value;
         let [end, end_rate] = ode.switch(c, &tried.y[6], &tried.k[6]);
 
-        let outside = (end * self.side).lt(zero);
-        let began_inside = zero.lt(begin * self.side);
+        let (inside_begin, inside_end) = (begin * self.side, end * self.side);
+        let outside = inside_end.lt(zero);
+        // Right after a crossing the function is zero but for rounding, and the rate tells the side.
+        let inward = begin_rate * self.side;
+        let began_inside = zero.lt(inside_begin) | zero.lt(inward.mul_add(h * LANDED, inside_begin));
         // A step that leaves its side is taken again, up to the surface.
         let leaves = accepted & outside & began_inside & !self.heading;
-        let theta = hermite_root(begin, begin_rate * h, end, end_rate * h);
+        // So is one that lands beside it.
+        let slack = end_rate.abs() * self.resume;
+        let lands = inside_end.abs().lt(slack * LANDED);
+        let beside = accepted
+            & self.heading
+            & self.corrections.lt(h.lit(CORRECTIONS))
+            & !lands
+            & inside_end.abs().lt(slack * NEAR);
+        // Approaches and departs.
+        let turns = accepted & !outside & !self.heading & inward.lt(zero) & zero.lt(end_rate * self.side);
+        let heading = leaves | beside;
+        let mut again = heading;
+        let mut size = h;
+        if R::bits(heading | turns) != 0 {
+            let cubic = Cubic::new([begin, begin_rate * h], [end, end_rate * h]);
+            let bottom = cubic.minimum(self.side);
+            let dips = turns & (cubic.at(bottom) * self.side).lt(zero) & bottom.lit(EARLIEST).lt(bottom);
+            let on_surface = landing_size(h, [end, end_rate]).max(h * 0.5).min(h * 2.0);
+            size = R::select(leaves, cubic.root(self.side) * h, size);
+            size = R::select(beside, on_surface, size);
+            size = R::select(dips, bottom * h, size);
+            again = heading | dips;
+        }
         // Arrived: on the way to the surface and there, or on the wrong side from the beginning.
-        let near = (end * self.side).lt(end_rate.abs() * self.resume * REACHED);
+        let near = inside_end.lt(slack * REACHED);
         let stray = outside & !began_inside & !self.heading;
-        let kept = accepted & !leaves;
+        let kept = accepted & !again;
         let arrived = kept & ((self.heading & near) | stray);
 
         let resumed = R::select(kept & self.heading, h_next.max(self.resume), h_next);
-        let crossing = Crossing { accepted: kept, h: R::select(leaves, theta * h, resumed), arrived };
+        let crossing = Crossing { accepted: kept, h: R::select(again, size, resumed), arrived };
         self.resume = R::select(leaves, h_next, self.resume);
-        self.heading = leaves;
+        self.corrections = R::select(beside, self.corrections + 1.0, zero);
+        self.heading = heading;
         self.side = R::select(arrived, -self.side, self.side);
         self.value = [R::select(kept, end, begin), R::select(kept, end_rate, begin_rate)];
         crossing
@@ -102,18 +147,75 @@ pub fn landing_stretch<R: Lanes>(switching: &Switching<R>) -> R {
     R::select(switching.heading, one, one.lit(STRETCH))
 }
 
-/// The zero in [0, 1] of the cubic with values `g0`, `g1` of opposite sign and slopes `d0`, `d1` at 0 and 1.
+/// The size with which a step of size `h` ends on the surface, given the switching function and its rate at its end: Newton's
+/// step.
 #[inline(always)]
-fn hermite_root<R: Real>(g0: R, d0: R, g1: R, d1: R) -> R {
-    // g0 + d0 θ + b θ² + a θ³
-    let a = (g0 - g1) * 2.0 + d0 + d1;
-    let b = (g1 - g0) * 3.0 - d0 * 2.0 - d1;
-    let mut theta = g0 / (g0 - g1);
-    for _ in 0..4 {
-        let value = theta.mul_add(theta.mul_add(theta.mul_add(a, b), d0), g0);
-        let slope = theta.mul_add(theta.mul_add(a * 3.0, b * 2.0), d0);
-        theta = theta - value / slope;
-        theta = theta.max(theta.lit(1e-3)).min(theta.lit(1.0));
+pub fn landing_size<R: Real>(h: R, [value, rate]: [R; 2]) -> R {
+    h - value / rate
+}
+
+/// The state and the first slope of a run that has arrived at its surface at time `t` (s), on its new `side`.
+#[inline(always)]
+pub(crate) fn cross<O: Ode<N>, R: Lanes, const N: usize>(
+    ode: &O,
+    c: &O::Constants<R>,
+    t: R,
+    side: R,
+    y: &[R; N],
+) -> ([R; N], [R; N]) {
+    let u = input(ode, c, t);
+    let y = ode.crossed(c, &u, side, y);
+    (y, slope(ode, c, &u, side, &y))
+}
+
+/// g₀ + d₀ θ + b θ² + a θ³: the switching function over the fraction θ of a step.
+struct Cubic<R> {
+    end: R,
+    value: R,
+    slope: R,
+    a: R,
+    b: R,
+}
+
+impl<R: Real> Cubic<R> {
+    /// The cubic with values and slopes `[g, d]` at 0 and 1.
+    #[inline(always)]
+    fn new([g0, d0]: [R; 2], [g1, d1]: [R; 2]) -> Cubic<R> {
+        let a = (g0 - g1) * 2.0 + d0 + d1;
+        let b = (g1 - g0) * 3.0 - d0 * 2.0 - d1;
+        Cubic { end: g1, value: g0, slope: d0, a, b }
     }
-    theta
+
+    #[inline(always)]
+    fn at(&self, theta: R) -> R {
+        theta.mul_add(theta.mul_add(theta.mul_add(self.a, self.b), self.slope), self.value)
+    }
+
+    /// The fraction of the step at which the cubic, times `side`, has its minimum. Not a number if it has none.
+    #[inline(always)]
+    fn minimum(&self, side: R) -> R {
+        let Cubic { slope, a, b, .. } = self;
+        -(*slope) / (*b + side * (*b * *b - *a * *slope * 3.0).sqrt())
+    }
+
+    /// The zero of a cubic that leaves `side`. Newton's iteration begins on the chord, or at the end where the cubic first goes
+    /// away from zero: it may begin at zero.
+    #[inline(always)]
+    fn root(&self, side: R) -> R {
+        let zero = side.lit(0.0);
+        let end_slope = self.a * 3.0 + self.b * 2.0 + self.slope;
+        // Where it departs from zero again at the end, the zero is before the minimum.
+        let departs = zero.lt(end_slope * side);
+        let one = side.lit(1.0);
+        let bottom = self.minimum(side);
+        let [far, value] = [R::select(departs, bottom, one), R::select(departs, self.at(bottom), self.end)];
+        let chord = self.value / (self.value - value) * far;
+        let mut theta = R::select(zero.lt(self.slope * side) & !departs, one, chord);
+        for _ in 0..4 {
+            let slope = theta.mul_add(theta.mul_add(self.a * 3.0, self.b * 2.0), self.slope);
+            theta = theta - self.at(theta) / slope;
+            theta = theta.max(theta.lit(1e-3)).min(far);
+        }
+        theta
+    }
 }

@@ -1,7 +1,7 @@
 //! A run together with its response to small changes of its initial state.
 
 use super::{Ode, slope};
-use crate::num::Lanes;
+use crate::num::{Lanes, Real};
 
 /// Size of the changes that are followed, relative to [`initial`]'s scales: their squares, which are neglected, and
 /// rounding, which is magnified, are both far below any tolerance.
@@ -9,10 +9,10 @@ const SMALL: f64 = 1e-7;
 
 /// N states and N responses to changes of them, each of N components: K = N (N + 1) in all.
 ///
-/// Step sizes are chosen for the states alone, so that these take the very values that they have without the
-/// responses. The responses are integrated on the same steps. Their slopes are forward differences of the right-hand side, with
-/// changes of 1e-7 of the states' scales: they err by about 1e-7 of the second derivative, and by rounding of about 1e-9. Where the
-/// right-hand side jumps, the responses jump too, as a changed motion reaches the surface earlier or later.
+/// Step sizes are chosen for states and responses: where a force has a kink, its derivative jumps, and responses err by more than
+/// states. Slopes of responses are forward differences of the right-hand side, with changes of 1e-7 of the states' scales: they
+/// err by about 1e-7 of the second derivative, and by rounding of about 1e-9. Where the right-hand side jumps, the responses
+/// jump too, as a changed motion reaches the surface earlier or later.
 #[derive(Clone, Copy, Debug)]
 pub struct Variation<'a, O, const N: usize>(pub &'a O);
 
@@ -33,19 +33,18 @@ pub fn response<const N: usize, const K: usize>(all: &[f64; K], component: usize
 }
 
 impl<O: Ode<N>, const N: usize, const K: usize> Ode<K> for Variation<'_, O, N> {
-    type Constants<R: Lanes> = O::Constants<R>;
-    type Input<R: Lanes> = O::Input<R>;
+    type Constants<R: Real> = O::Constants<R>;
+    type Input<R: Real> = O::Input<R>;
 
     const SWITCHES: bool = O::SWITCHES;
-    const CONTROLLED: usize = N;
 
     #[inline(always)]
-    fn input<R: Lanes>(&self, c: &O::Constants<R>, t: R) -> O::Input<R> {
+    fn input<R: Real>(&self, c: &O::Constants<R>, t: R) -> O::Input<R> {
         self.0.input(c, t)
     }
 
     #[inline(always)]
-    fn rhs<R: Lanes>(&self, c: &O::Constants<R>, u: &O::Input<R>, side: R, all: &[R; K]) -> [R; K] {
+    fn rhs<R: Real>(&self, c: &O::Constants<R>, u: &O::Input<R>, side: R, all: &[R; K]) -> [R; K] {
         let y = states(all);
         let mut f = y;
         let mut out = *all;
@@ -64,12 +63,12 @@ impl<O: Ode<N>, const N: usize, const K: usize> Ode<K> for Variation<'_, O, N> {
     }
 
     #[inline(always)]
-    fn next_break<R: Lanes>(&self, c: &O::Constants<R>, t: R) -> R {
+    fn next_break<R: Real>(&self, c: &O::Constants<R>, t: R) -> R {
         self.0.next_break(c, t)
     }
 
     #[inline(always)]
-    fn switch<R: Lanes>(&self, c: &O::Constants<R>, all: &[R; K], dy: &[R; K]) -> [R; 2] {
+    fn switch<R: Real>(&self, c: &O::Constants<R>, all: &[R; K], dy: &[R; K]) -> [R; 2] {
         self.0.switch(c, &states(all), &states(dy))
     }
 
@@ -97,7 +96,7 @@ impl<O: Ode<N>, const N: usize, const K: usize> Ode<K> for Variation<'_, O, N> {
 }
 
 #[inline(always)]
-fn states<R: Lanes, const N: usize, const K: usize>(all: &[R; K]) -> [R; N] {
+fn states<R: Real, const N: usize, const K: usize>(all: &[R; K]) -> [R; N] {
     core::array::from_fn(
         #[inline(always)]
         |i| all[i],
@@ -106,7 +105,7 @@ fn states<R: Lanes, const N: usize, const K: usize>(all: &[R; K]) -> [R; N] {
 
 /// The states with the `i`-th change, counted from 1.
 #[inline(always)]
-fn changed<R: Lanes, const N: usize, const K: usize>(y: &[R; N], all: &[R; K], i: usize) -> [R; N] {
+fn changed<R: Real, const N: usize, const K: usize>(y: &[R; N], all: &[R; K], i: usize) -> [R; N] {
     let mut out = *y;
     for j in 0..N {
         out[j] = all[i * N + j].mul_add(y[j].lit(SMALL), y[j]);

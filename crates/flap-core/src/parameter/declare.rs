@@ -4,7 +4,7 @@ use super::table::Parameter;
 
 /// The number of rows of some tables together.
 #[doc(hidden)]
-pub const fn rows(tables: &[&[Parameter]]) -> usize {
+pub const fn rows(tables: &[&[Parameter<'_>]]) -> usize {
     let (mut count, mut table) = (0, 0);
     while table < tables.len() {
         count += tables[table].len();
@@ -15,7 +15,7 @@ pub const fn rows(tables: &[&[Parameter]]) -> usize {
 
 /// The rows of some tables in one; `N` is [`rows`] of them, at least one. A row without a group is in that of the row before.
 #[doc(hidden)]
-pub const fn joined<const N: usize>(tables: &[&[Parameter]]) -> [Parameter; N] {
+pub const fn joined<'a, const N: usize>(tables: &[&[Parameter<'a>]]) -> [Parameter<'a>; N] {
     let mut all = [tables[0][0]; N];
     let (mut count, mut table) = (0, 0);
     while table < tables.len() {
@@ -108,8 +108,8 @@ macro_rules! parameters {
 
         impl $Name {
             /// The parameter table, in the order of the fields.
-            pub const TABLE: &'static [$crate::parameter::Parameter] = {
-                const TABLES: &[&[$crate::parameter::Parameter]] =
+            pub const TABLE: &'static [$crate::parameter::Parameter<'static>] = {
+                const TABLES: &[&[$crate::parameter::Parameter<'static>]] =
                     &[$($crate::parameters!(@table $type, $field, [$($group)?], [$($doc),+], $($row)+),)*];
                 &$crate::parameter::joined::<{ $crate::parameter::rows(TABLES) }>(TABLES)
             };

@@ -2,11 +2,11 @@
 
 use super::range::Range;
 
-/// One row of a model's parameter table.
+/// One row of the parameter table of a model or of a vehicle, which has the texts.
 #[derive(Clone, Copy, Debug)]
-pub struct Parameter {
+pub struct Parameter<'a> {
     /// Name in grid files, on the command line and in Python.
-    pub name: &'static str,
+    pub name: &'a str,
     /// SI unit as units are written in grid files (`"N*m/rad"`), empty for pure numbers and choices.
     pub unit: &'static str,
     /// Symbol in the model's paper, empty if the paper has none.
@@ -14,9 +14,9 @@ pub struct Parameter {
     /// The values that it takes.
     pub kind: Kind,
     /// Meaning in one line, with its source.
-    pub doc: &'static str,
+    pub doc: &'a str,
     /// The part of the robot that it describes, such as `hinge`: a heading of lists of parameters.
-    pub group: &'static str,
+    pub group: &'a str,
     /// Name in earlier versions, which is still understood; empty if it had none.
     pub former: &'static str,
     /// Value where no preset gives one; not a number if there is none.
@@ -25,15 +25,15 @@ pub struct Parameter {
     pub is_fitted: bool,
 }
 
-impl Parameter {
+impl<'a> Parameter<'a> {
     /// A parameter without a group, without a former name, whose value is not a fit.
     pub const fn new(
-        name: &'static str,
+        name: &'a str,
         unit: &'static str,
         symbol: &'static str,
         kind: Kind,
-        doc: &'static str,
-    ) -> Parameter {
+        doc: &'a str,
+    ) -> Parameter<'a> {
         Parameter {
             name,
             unit,
@@ -49,25 +49,25 @@ impl Parameter {
 
     /// The parameter in a group.
     #[must_use]
-    pub const fn group(self, group: &'static str) -> Parameter {
+    pub const fn group(self, group: &'a str) -> Parameter<'a> {
         Parameter { group, ..self }
     }
 
     /// The parameter with the name that it had in earlier versions.
     #[must_use]
-    pub const fn former(self, former: &'static str) -> Parameter {
+    pub const fn former(self, former: &'static str) -> Parameter<'a> {
         Parameter { former, ..self }
     }
 
     /// The parameter, which has this value where no preset gives one.
     #[must_use]
-    pub const fn default(self, default: f64) -> Parameter {
+    pub const fn default(self, default: f64) -> Parameter<'a> {
         Parameter { default, ..self }
     }
 
     /// The parameter, whose published value is a fit to one vehicle.
     #[must_use]
-    pub const fn fitted(self) -> Parameter {
+    pub const fn fitted(self) -> Parameter<'a> {
         Parameter { is_fitted: true, ..self }
     }
 
@@ -77,7 +77,7 @@ impl Parameter {
     }
 
     /// The index of the parameter called `name`, now or in earlier versions, in a model's table.
-    pub fn index(table: &[Parameter], name: &str) -> Option<usize> {
+    pub fn index(table: &[Parameter<'_>], name: &str) -> Option<usize> {
         let now = table.iter().position(|parameter| parameter.name == name);
         now.or_else(|| table.iter().position(|parameter| !name.is_empty() && parameter.former == name))
     }

@@ -50,7 +50,7 @@ pub enum Unfinished {
 
 impl Unfinished {
     /// `Ok` if a run has come as far as it was to come.
-    pub(super) fn check(ending: Ending, interrupted: Interrupt<'_>) -> Result<(), Unfinished> {
+    pub(crate) fn check(ending: Ending, interrupted: Interrupt<'_>) -> Result<(), Unfinished> {
         if interrupted() {
             return Err(Unfinished::Interrupted);
         }

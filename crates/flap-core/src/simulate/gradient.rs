@@ -17,14 +17,13 @@ use nalgebra::{DMatrix, SMatrix, SVector};
 
 use super::begin::begin;
 use super::error::Unfinished;
-use super::estimate::MANY_SWITCHES;
-use super::orbit_row::measures;
+use super::orbit_row::{MANY_SWITCHES, measures};
 use super::settings::SolverSettings;
 use super::single::{PointRun, Question};
 use super::slope::{Change, Halves, NoSlope, forward};
 use crate::measure::cycle::{Signals, Sums, finish};
 use crate::measure::quarters::{InQuarters, Quarters, with_equal_extrema};
-use crate::model::Model;
+use crate::model::{Model, SignalSet};
 use crate::num::{Kernel, Scalar, Simd};
 use crate::ode::ensemble::Unobserved;
 use crate::ode::replay::{Leg, Repeated, record, replay};
@@ -37,7 +36,7 @@ const SMALL: f64 = 1e-8;
 
 /// The factor on the tolerances with which the steps are chosen: near a resonance, derivatives of a period are larger than its
 /// states by far, and so are their errors.
-const TIGHTEN: f64 = 0.1;
+const TOLERANCE_FACTOR: f64 = 0.1;
 
 /// The largest `rtol` with which errors of derivatives are in proportion to those of the measures. They fall more slowly.
 const COARSE: f64 = 1e-6;
@@ -74,14 +73,14 @@ pub(super) struct GradientAt<'a> {
     pub(super) changes: &'a [Change],
 }
 
-impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M, N, K, S> for GradientAt<'_> {
+impl<M: Model<N>, const N: usize, const K: usize> Question<M, N, K> for GradientAt<'_> {
     type Answer = Result<Gradient, Unfinished>;
 
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Gradient, Unfinished> {
         let changes_terms = self.changes.iter().any(|change| model.variant(&change.ahead) != *model);
         let model = &if changes_terms { model.with_all_terms() } else { model.clone() };
         let mut start = begin(model, run.values, Some(self.state))?;
-        start.tighten = tighten(run.solver.rtol);
+        start.tolerance_factor = tolerance_factor(run.solver.rtol);
         let (legs, outcome) = record::<M, R, N>(model, &run.solver.tolerances(), &start, run.interrupted);
         let sides = self.changes.iter().map(|change| sides(model, change)).collect();
         let orbit = Orbit {
@@ -106,8 +105,8 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M,
 }
 
 /// The factor on the tolerances of a recorded period.
-fn tighten(rtol: f64) -> f64 {
-    TIGHTEN * (rtol / COARSE).min(1.0).sqrt()
+fn tolerance_factor(rtol: f64) -> f64 {
+    TOLERANCE_FACTOR * (rtol / COARSE).min(1.0).sqrt()
 }
 
 /// The constants and the drive period of a changed point.
@@ -117,10 +116,7 @@ type Side<C> = (C, f64);
 type Sides<C> = Option<[Side<C>; 2]>;
 
 /// The points on both sides of a point.
-fn sides<M: Model<N, S>, const N: usize, const S: usize>(
-    model: &M,
-    change: &Change,
-) -> Sides<M::Constants<f64>> {
+fn sides<M: Model<N>, const N: usize>(model: &M, change: &Change) -> Sides<M::Constants<f64>> {
     let side = |values: &[f64]| {
         let has_equal_choices = model.variant(values).with_all_terms() == model.with_all_terms();
         let possible = in_range(M::DESCRIPTION.parameters, values) && has_equal_choices;
@@ -145,7 +141,7 @@ fn in_range(parameters: &[Parameter], values: &[f64]) -> bool {
 }
 
 /// A period of an orbit, to be repeated with changes.
-struct Orbit<'a, M: Model<N, S>, const N: usize, const S: usize> {
+struct Orbit<'a, M: Model<N>, const N: usize> {
     model: &'a M,
     solver: &'a SolverSettings,
     values: &'a [f64],
@@ -155,7 +151,7 @@ struct Orbit<'a, M: Model<N, S>, const N: usize, const S: usize> {
     sides: Vec<Sides<M::Constants<f64>>>,
 }
 
-impl<M: Model<N, S>, const N: usize, const S: usize> Kernel for Orbit<'_, M, N, S> {
+impl<M: Model<N>, const N: usize> Kernel for Orbit<'_, M, N> {
     type Output = Gradient;
 
     #[inline(always)]
@@ -183,7 +179,7 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Kernel for Orbit<'_, M, N, 
     }
 }
 
-impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
+impl<M: Model<N>, const N: usize> Orbit<'_, M, N> {
     /// The period, periods from changed states, and periods with changed quantities.
     fn for_responses(&self) -> Vec<Start<M::Constants<f64>, N>> {
         let mut starts = self.around(self.start.y);
@@ -271,15 +267,15 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
     fn slopes(
         &self,
         starts: &[Start<M::Constants<f64>, N>],
-        cycles: &[Repeated<InQuarters<f64, S>, N>],
+        cycles: &[Repeated<InQuarters<M::Signals, f64>, N>],
     ) -> Vec<Vec<Result<f64, NoSlope>>> {
-        let totals: Vec<InQuarters<f64, S>> = cycles.iter().map(|cycle| cycle.totals).collect();
-        let sums: Vec<Sums<f64, S>> = totals.iter().map(|(sums, _)| *sums).collect();
+        let totals: Vec<InQuarters<M::Signals, f64>> = cycles.iter().map(|cycle| cycle.totals).collect();
+        let sums: Vec<Sums<M::Signals, f64>> = totals.iter().map(|(sums, _)| *sums).collect();
         let measured = self.measured(starts, &sums);
-        let tolerance = self.solver.rtol * self.start.tighten;
+        let tolerance = self.solver.rtol * self.start.tolerance_factor;
         let (error, slope_error) = (EXTREMUM_ERROR * tolerance, SLOPE_ERROR * tolerance.sqrt());
         let with_equal = with_equal_extrema(&totals, error).map(|sums| self.measured(starts, &sums));
-        let sizes = sizes::<M, N, S>(self.solver, &sums[0], &measured[0], self.start.span);
+        let sizes = sizes::<M, N>(self.solver, &sums[0], &measured[0], self.start.span);
         let slopes = self.sides.iter().zip(self.changes).enumerate().map(|(i, (side, change))| {
             let [ahead, behind] = [2 * i + 1, 2 * i + 2];
             let meets = cycles[0].meets && cycles[ahead].meets && cycles[behind].meets;
@@ -320,16 +316,20 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
     }
 
     /// The measures of the orbits that begin at `starts`.
-    fn measured(&self, starts: &[Start<M::Constants<f64>, N>], sums: &[Sums<f64, S>]) -> Vec<Vec<f64>> {
+    fn measured(
+        &self,
+        starts: &[Start<M::Constants<f64>, N>],
+        sums: &[Sums<M::Signals, f64>],
+    ) -> Vec<Vec<f64>> {
         let measured = starts.iter().zip(sums).map(|(start, sums)| {
-            measures::<M, N, S>(self.model, self.solver, &start.constants, sums, start.span)
+            measures::<M, N>(self.model, self.solver, &start.constants, sums, start.span)
         });
         measured.collect()
     }
 
     /// No derivatives, for this reason.
     fn without(&self, reason: NoSlope) -> Gradient {
-        let signals: usize = M::SIGNALS.iter().map(|signal| signal.measures.len()).sum();
+        let signals: usize = M::Signals::TABLE.iter().map(|signal| signal.measures.len()).sum();
         let columns = signals + M::DERIVED.len() + if self.solver.loads { 6 } else { 0 };
         Gradient { slopes: vec![vec![Err(reason); columns]; self.changes.len()], rhs_evals: 0 }
     }
@@ -337,14 +337,14 @@ impl<M: Model<N, S>, const N: usize, const S: usize> Orbit<'_, M, N, S> {
 
 /// The sizes of the columns: a mean of almost nothing errs by the rounding of its signal, and components of a force or a
 /// moment by that of the others.
-fn sizes<M: Model<N, S>, const N: usize, const S: usize>(
+fn sizes<M: Model<N>, const N: usize>(
     solver: &SolverSettings,
-    totals: &Sums<f64, S>,
+    totals: &Sums<M::Signals, f64>,
     measured: &[f64],
     period: f64,
 ) -> Vec<f64> {
     let mut sizes = Vec::with_capacity(measured.len());
-    for (signal, cycle) in M::SIGNALS.iter().zip(finish::<M, N, S>(totals, period)) {
+    for (signal, cycle) in M::Signals::each(&finish::<M::Signals>(totals, period)) {
         sizes.extend(signal.measures.iter().map(|_| cycle.size() * signal.unit.factor.abs()));
     }
     sizes.extend(measured[sizes.len()..].iter().map(|value| value.abs()));

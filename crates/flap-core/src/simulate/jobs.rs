@@ -46,13 +46,13 @@ pub trait Jobs {
     }
 }
 
-/// Use of the lanes of the three ensembles.
+/// Use of the lanes of the ensembles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LaneUse {
-    /// Periods of the states alone: marching, chord steps, and the period from an orbit to the orbit of coarser tolerances.
+    /// Periods of the states alone: of marches and of chord steps.
     pub marching: Occupancy,
-    /// Periods with responses to changes, for Newton's iteration.
+    /// Periods with responses to changes of the state.
     pub varying: Occupancy,
-    /// Periods that are measured: of the orbit, and of the orbit of coarser tolerances.
+    /// Periods that are measured.
     pub measuring: Occupancy,
 }

@@ -1,130 +1,149 @@
-//! Points in SIMD lanes: march each until it is near its orbit, go there by Newton's iteration, measure one cycle.
+//! Searches of many points, whose drive periods are integrated in lanes.
 //!
-//! Three ensembles share the work. The first integrates the states alone, which is cheapest per step: it marches, makes
-//! chord steps, and integrates the period at coarser tolerances that leads from an orbit to the coarse orbit. Runs that have
-//! come near an orbit wait in a buffer. Whenever that is full, the second ensemble integrates their periods with responses
-//! to changes. Runs whose orbit is known wait in another buffer, from which the third ensemble measures the orbits, and then
-//! the coarse orbits. A run whose iteration fails marches on. A run whose row is not accurate enough waits in the first buffer
-//! again.
+//! A search is a future that asks for a drive period and waits for its end. Each [kind](Kind) of period has an ensemble of its
+//! own, so that no lane carries quantities that it does not need. Most periods are of the states alone: their ensemble takes
+//! new points as lanes become free. Searches that ask for another kind wait until many do, or until there is no other work;
+//! then a second ensemble integrates these periods, while the lanes of the first one keep their state.
+//!
+//! Single points run in the same way, on one lane of scalars.
 
-use core::ops::ControlFlow;
+use core::pin::Pin;
+use core::task::{Context, Poll, Waker};
+use std::rc::Rc;
 
-use super::accuracy::{Verdict, judge};
 use super::begin::begin;
-use super::estimate::Compared;
 use super::jobs::{Jobs, LaneUse, Point};
-use super::orbit_row;
-use super::queues::{Paused, PeriodEnd, Periods, Searched, Varying};
+use super::periods::{Exchange, Kind, PeriodEnd};
 use super::row::Row;
-use super::search::{Next, Search};
+use super::search::{Settled, settle};
 use super::settings::SolverSettings;
-use crate::measure::cycle::Signals;
+use crate::measure::cycle::{Signals, Sums, SumsOf};
+use crate::measure::multipliers::monodromy;
 use crate::measure::size::Size;
-use crate::model::Model;
-use crate::num::{Kernel, Lanes, Simd, Vector};
-use crate::ode::ensemble::{Continuation, NewRun, Observer, Queue, Unobserved, run};
-use crate::ode::variation::Variation;
-use crate::ode::{Outcome, Start};
+use crate::model::{Model, SignalSet};
+use crate::num::{Kernel, Lanes, OneLane, Scalar, Simd, Vector};
+use crate::ode::ensemble::{NewRun, Next, Observer, Occupancy, Queue, Restart, SpanEnd, Unobserved, run};
+use crate::ode::variation::{Variation, initial};
+use crate::ode::{Interrupt, Start};
 
-/// Runs near their orbits that go on together: many times the lanes, some of which are empty while the last runs end.
-const BATCH: usize = 256;
+/// Searches that wait for one kind of period and are continued together: many times the lanes, some of which are empty while
+/// the last runs end.
+const BATCH: usize = 64;
 
 /// Points of other variants that are put aside before the ensemble is emptied for them: many more than there
 /// are lanes, so that lanes are seldom empty.
 const ASIDE: usize = 512;
 
+/// The scale of responses, relative to the change that they respond to: the absolute tolerance is a hundredth of the relative
+/// one by default.
+const RESPONSE_SCALE: f64 = 100.0;
+
 /// The points of `jobs` on SIMD lanes, for a model with N states, K = N (N + 1) states and responses, and S signals.
-pub(super) struct LanesKernel<'a, M, const N: usize, const K: usize, const S: usize> {
+pub(super) struct LanesKernel<'a, M, const N: usize, const K: usize> {
     pub(super) model: &'a M,
     pub(super) solver: &'a SolverSettings,
     pub(super) jobs: &'a mut dyn Jobs,
 }
 
-impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Kernel for LanesKernel<'_, M, N, K, S> {
+impl<M: Model<N>, const N: usize, const K: usize> Kernel for LanesKernel<'_, M, N, K> {
     type Output = ();
 
     #[inline(always)]
     fn run<I: Simd>(self, simd: I) {
         let LanesKernel { model, solver, jobs } = self;
-        let tolerances = solver.tolerances();
         let mut waiting: Vec<(M, Point)> = Vec::new();
         let mut lane_use = LaneUse::default();
-        // One ensemble per variant, until no points are left.
-        loop {
+        // One driver per variant, until no points are left.
+        while !jobs.interrupted() {
             if waiting.is_empty() {
                 let Some(point) = jobs.next(true) else { break };
                 waiting.push((model.variant(&point.values), point));
             }
             let model = &model.variant(&waiting[0].1.values);
-            let mut marching = Marching::<_, _, N, K, S> {
-                simd,
-                model,
-                solver,
-                jobs: &mut *jobs,
-                waiting,
-                near: Vec::with_capacity(BATCH),
-                found: Vec::with_capacity(BATCH),
-                resumed: Vec::with_capacity(BATCH),
-                lane_use,
-            };
-            // Runs whose iteration fails at the very end march on.
-            loop {
-                let occupancy = run(simd, model, &Size, &tolerances, &mut marching);
-                marching.lane_use.marching += occupancy;
-                marching.find_and_measure_all();
-                if marching.resumed.is_empty() || marching.jobs.interrupted() {
-                    break;
-                }
-            }
-            Marching { waiting, lane_use, .. } = marching;
-            if jobs.interrupted() {
-                break;
-            }
+            let mut points = Points { model, solver, jobs: &mut *jobs, waiting };
+            let mut driver = Driver::<_, _, _, _, N, K>::new(simd, model, solver, &mut points);
+            driver.lane_use = lane_use;
+            driver.run();
+            lane_use = driver.lane_use;
+            waiting = points.waiting;
         }
         jobs.occupied(&lane_use);
     }
 }
 
-/// The queue of the first ensemble: points that march.
-struct Marching<'a, I, M: Model<N, S>, const N: usize, const K: usize, const S: usize> {
-    simd: I,
-    model: &'a M,
-    solver: &'a SolverSettings,
-    jobs: &'a mut dyn Jobs,
-    /// Points that have been taken from `jobs` and not been run, each with its variant.
-    waiting: Vec<(M, Point)>,
-    /// Runs that have come near an orbit, and the state from which their period is to be varied.
-    near: Vec<Paused<M::Constants<f64>, N>>,
-    /// Runs whose orbit is to be measured.
-    found: Vec<Searched<M::Constants<f64>, N>>,
-    /// Runs that go on marching, and the state from which they do.
-    resumed: Vec<Paused<M::Constants<f64>, N>>,
-    lane_use: LaneUse,
+/// The output of one search on scalars, which begins at `start`; `None` if it is interrupted.
+pub(super) fn run_alone<M, R, T, F, const N: usize, const K: usize>(
+    model: &M,
+    solver: &SolverSettings,
+    start: &Start<M::Constants<f64>, N>,
+    interrupted: Interrupt<'_>,
+    search: impl FnOnce(Rc<Exchange<SumsOf<M, N>, N>>) -> F,
+) -> Option<T>
+where
+    M: Model<N>,
+    R: Scalar,
+    F: Future<Output = T>,
+{
+    let mut single = Single { run: Some(Running::new(0, *start, search)), output: None, interrupted };
+    Driver::<_, _, _, _, N, K>::new(OneLane::<R>::new(), model, solver, &mut single).run();
+    single.output
 }
 
-impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Marching<'_, I, M, N, K, S> {
-    /// The next point of this ensemble's variant. Those of others are put aside, up to a limit.
-    fn next_point(&mut self, idle: bool) -> Option<Point> {
+/// A search on its way to its output `T`.
+struct Running<'a, T, M: Model<N>, const N: usize> {
+    index: u64,
+    start: Start<M::Constants<f64>, N>,
+    exchange: Rc<Exchange<SumsOf<M, N>, N>>,
+    search: Pin<Box<dyn Future<Output = T> + 'a>>,
+}
+
+/// Boxed, since a run moves between lanes and lists at the end of each period.
+type Run<'a, T, M, const N: usize> = Box<Running<'a, T, M, N>>;
+
+impl<'a, T, M: Model<N>, const N: usize> Running<'a, T, M, N> {
+    fn new<F: Future<Output = T> + 'a>(
+        index: u64,
+        start: Start<M::Constants<f64>, N>,
+        search: impl FnOnce(Rc<Exchange<SumsOf<M, N>, N>>) -> F,
+    ) -> Run<'a, T, M, N> {
+        let exchange = Rc::new(Exchange::new());
+        Box::new(Running { index, start, search: Box::pin(search(exchange.clone())), exchange })
+    }
+}
+
+/// A source of searches, which takes their outputs.
+trait Source<'a, T, M: Model<N>, const N: usize> {
+    /// The next search, or `None` if there is none for now. With `wait` the call may wait, and `None` is the end.
+    fn next(&mut self, wait: bool) -> Option<Run<'a, T, M, N>>;
+
+    /// Takes the output of the search with this index.
+    fn done(&mut self, index: u64, output: T);
+
+    /// True to end at once.
+    fn interrupted(&self) -> bool;
+}
+
+/// The points of one variant of a model.
+struct Points<'a, 'j, M> {
+    model: &'a M,
+    solver: &'a SolverSettings,
+    jobs: &'j mut dyn Jobs,
+    /// Points that have been taken from `jobs` and not been run, each with its variant.
+    waiting: Vec<(M, Point)>,
+}
+
+impl<M> Points<'_, '_, M> {
+    /// The next point of this variant. Those of others are put aside, up to a limit.
+    fn next_point<const N: usize>(&mut self, wait: bool) -> Option<Point>
+    where
+        M: Model<N>,
+    {
         if let Some(ours) = self.waiting.iter().position(|(variant, _)| variant == self.model) {
             return Some(self.waiting.remove(ours).1);
         }
         while self.waiting.len() < ASIDE {
-            let point = if let Some(point) = self.jobs.next(false) {
-                point
-            } else {
-                // The source of points may be waiting for rows that wait here. With few of them most lanes would be
-                // empty.
-                if idle {
-                    self.find_and_measure_all();
-                } else if self.near.len() >= Vector::<I>::LANES {
-                    self.vary();
-                }
-                // Runs that march on and points put aside are to run before this one waits for more.
-                if !idle || !self.waiting.is_empty() || !self.resumed.is_empty() {
-                    return None;
-                }
-                self.jobs.next(true)?
-            };
+            // Points put aside are to run before this one waits for more.
+            let point = self.jobs.next(wait && self.waiting.is_empty())?;
             let variant = self.model.variant(&point.values);
             if variant == *self.model {
                 return Some(point);
@@ -133,145 +152,288 @@ impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Ma
         }
         None
     }
-
-    /// Goes on with the runs that wait for others, until some are to march or none waits any more. Measures last, when the
-    /// most orbits have been found.
-    fn find_and_measure_all(&mut self) {
-        while self.resumed.is_empty() && !self.jobs.interrupted() {
-            if !self.near.is_empty() {
-                self.vary();
-            } else if !self.found.is_empty() {
-                self.measure();
-            } else {
-                break;
-            }
-        }
-    }
-
-    /// Puts a run where its next step is made. A run without one has its row.
-    fn sort(&mut self, mut run: Searched<M::Constants<f64>, N>, next: Next<N>) {
-        match next {
-            Next::March(y) => self.resumed.push((run, y)),
-            Next::Vary(y) => self.near.push((run, y)),
-            Next::Measure => self.found.push(run),
-            Next::Done => self.jobs.done(run.index, orbit_row::unsettled(&run.search, run.last.take())),
-        }
-    }
-
-    /// Integrates periods with responses of the runs that wait for them.
-    fn vary(&mut self) {
-        let pending = std::mem::take(&mut self.near);
-        let mut varying = Varying::<_, N, K> { jobs: &*self.jobs, pending, done: Vec::new() };
-        let ode = Variation(self.model);
-        self.lane_use.varying += run(self.simd, &ode, &Unobserved, &self.solver.tolerances(), &mut varying);
-        let Varying { done, .. } = varying;
-        if self.jobs.interrupted() {
-            return;
-        }
-        for (run, next) in done {
-            self.sort(run, next);
-        }
-    }
-
-    /// Measures the orbits that have been found, and hands on their rows. Runs whose orbit turns out not to be one, or
-    /// whose row is not accurate enough, go on.
-    fn measure(&mut self) {
-        let mut orbits = std::mem::take(&mut self.found);
-        let fine = orbits.iter().map(|run| run.search.orbit(&run.start)).collect();
-        let mut compared = vec![Compared::new(); orbits.len()];
-        let mut next = vec![None; orbits.len()];
-        let signals = Signals::all(self.model).with_loads(self.solver.loads);
-        for PeriodEnd { position, end, outcome } in self.periods(&signals, fine) {
-            let search = &mut orbits[position].search;
-            search.charge(outcome);
-            next[position] = search.confirm(end.as_ref().map(|(y, _)| y));
-            compared[position].take_fine(end.map(|(_, totals)| totals), outcome);
-        }
-        let coarse = orbits.iter().zip(&next).map(|(run, next)| match next {
-            None => run.search.coarse_orbit(&run.start),
-            Some(_) => None,
-        });
-        let coarse = coarse.collect();
-        for PeriodEnd { position, end, outcome } in self.periods(&Signals::means(self.model), coarse) {
-            orbits[position].search.charge(outcome);
-            compared[position].coarse = end.map(|(_, totals)| totals);
-        }
-        if self.jobs.interrupted() {
-            return;
-        }
-        for ((mut run, next), compared) in orbits.into_iter().zip(next).zip(compared) {
-            if let Some(next) = next {
-                self.sort(run, next);
-                continue;
-            }
-            let Searched { index, start, search, last } = &mut run;
-            match judge(search, self.model, start, &compared, last.take(), self.solver) {
-                Verdict::Done(row) => self.jobs.done(*index, row),
-                Verdict::Again(row, y) => {
-                    *last = Some(row);
-                    self.near.push((run, y));
-                }
-            }
-        }
-    }
-
-    /// Integrates a period from each start, as far as there are any, and observes it.
-    fn periods<V: Observer<M, N>>(
-        &mut self,
-        observer: &V,
-        starts: Vec<Option<Start<M::Constants<f64>, N>>>,
-    ) -> Vec<PeriodEnd<V::Totals<f64>, N>> {
-        let mut queue = Periods::new(&*self.jobs, starts);
-        self.lane_use.measuring +=
-            run(self.simd, self.model, observer, &self.solver.tolerances(), &mut queue);
-        queue.ended
-    }
 }
 
-impl<I: Simd, M: Model<N, S>, const N: usize, const K: usize, const S: usize> Queue<M, Size, N>
-    for Marching<'_, I, M, N, K, S>
-{
-    type Run = Searched<M::Constants<f64>, N>;
-
-    fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, N>> {
-        if let Some((run, y)) = self.resumed.pop() {
-            let start = run.search.marching(&run.start, &y);
-            return Some((run, start));
-        }
+impl<'a, M: Model<N>, const N: usize> Source<'a, Settled<N>, M, N> for Points<'a, '_, M> {
+    fn next(&mut self, wait: bool) -> Option<Run<'a, Settled<N>, M, N>> {
         loop {
-            let point = self.next_point(idle)?;
-            match begin(self.model, &point.values, point.begin.as_deref()) {
+            let Point { index, values, begin: state } = self.next_point(wait)?;
+            match begin(self.model, &values, state.as_deref()) {
                 Ok(start) => {
-                    let search = Search::new(&start, self.solver, point.begin.is_some());
-                    let first = search.marching(&start, &start.y);
-                    return Some((Searched { index: point.index, start, search, last: None }, first));
+                    let (model, solver) = (self.model, self.solver);
+                    let nearby = state.is_some();
+                    return Some(Running::new(index, start, |exchange| {
+                        settle(model, solver, start, nearby, exchange)
+                    }));
                 }
-                Err(error) => self.jobs.done(point.index, Row::invalid(error)),
+                Err(error) => self.jobs.done(index, Row::invalid(error)),
             }
         }
     }
 
-    fn span_end(&mut self, run: &mut Self::Run, y: &[f64; N], largest: &[f64; N]) -> ControlFlow<()> {
-        run.search.period_end(y, largest)
-    }
-
-    fn ended(&mut self, mut run: Self::Run, outcome: Outcome) -> Option<(Self::Run, Continuation<N>)> {
-        let next = run.search.marched(outcome);
-        if let Next::March(y) = next {
-            let next = Continuation::from(&run.search.marching(&run.start, &y));
-            return Some((run, next));
-        }
-        self.sort(run, next);
-        if self.near.len() >= BATCH {
-            self.vary();
-        }
-        if self.found.len() >= BATCH {
-            self.measure();
-        }
-        None
+    fn done(&mut self, index: u64, settled: Settled<N>) {
+        self.jobs.done(index, settled.row);
     }
 
     fn interrupted(&self) -> bool {
         self.jobs.interrupted()
     }
+}
+
+/// One search, and its output.
+struct Single<'a, 'i, T, M: Model<N>, const N: usize> {
+    run: Option<Run<'a, T, M, N>>,
+    output: Option<T>,
+    interrupted: Interrupt<'i>,
+}
+
+impl<'a, T, M: Model<N>, const N: usize> Source<'a, T, M, N> for Single<'a, '_, T, M, N> {
+    fn next(&mut self, _wait: bool) -> Option<Run<'a, T, M, N>> {
+        self.run.take()
+    }
+
+    fn done(&mut self, _index: u64, output: T) {
+        self.output = Some(output);
+    }
+
+    fn interrupted(&self) -> bool {
+        (self.interrupted)()
+    }
+}
+
+/// Searches and the ensembles that integrate their periods.
+struct Driver<'a, 's, I, M: Model<N>, Q, T, const N: usize, const K: usize> {
+    simd: I,
+    model: &'a M,
+    solver: &'a SolverSettings,
+    source: &'s mut Q,
+    /// Searches that wait for a period, by its kind.
+    waiting: [Vec<Run<'a, T, M, N>>; 4],
+    lane_use: LaneUse,
+}
+
+impl<'a, 's, I, M, Q, T, const N: usize, const K: usize> Driver<'a, 's, I, M, Q, T, N, K>
+where
+    I: Simd,
+    M: Model<N>,
+    Q: Source<'a, T, M, N>,
+{
+    fn new(simd: I, model: &'a M, solver: &'a SolverSettings, source: &'s mut Q) -> Self {
+        let waiting = core::array::from_fn(|_| Vec::with_capacity(2 * BATCH));
+        Driver { simd, model, solver, source, waiting, lane_use: LaneUse::default() }
+    }
+
+    /// Runs all searches of the source.
+    fn run(&mut self) {
+        loop {
+            self.integrate_batch(Kind::States);
+            self.integrate_others();
+            // Searches that fail at the very end march on.
+            if self.waiting[Kind::States as usize].is_empty() || self.source.interrupted() {
+                return;
+            }
+        }
+    }
+
+    /// Integrates the periods of the searches that wait for others than the states alone, until some are to march or none
+    /// waits any more. Measures last, when the most orbits have been found.
+    fn integrate_others(&mut self) {
+        while self.waiting[Kind::States as usize].is_empty() && !self.source.interrupted() {
+            let Some(kind) = Kind::ALL.into_iter().find(|&kind| !self.waiting[kind as usize].is_empty())
+            else {
+                return;
+            };
+            self.integrate_batch(kind);
+        }
+    }
+
+    fn integrate_batch(&mut self, kind: Kind) {
+        let used = self.integrate(kind);
+        match kind {
+            Kind::States => self.lane_use.marching += used,
+            Kind::Responses => self.lane_use.varying += used,
+            Kind::Means | Kind::Signals => self.lane_use.measuring += used,
+        }
+    }
+
+    /// Integrates periods of one kind until no search waits for one.
+    fn integrate(&mut self, kind: Kind) -> Occupancy {
+        let (simd, model, tolerances) = (self.simd, self.model, self.solver.tolerances());
+        let loads = self.solver.loads;
+        let mut periods = Periods { driver: self, kind };
+        match kind {
+            Kind::States => run(simd, model, &Size, &tolerances, &mut periods),
+            Kind::Responses => run(simd, &Variation(model), &Unobserved, &tolerances, &mut periods),
+            Kind::Means => run(simd, model, &Signals::means(model), &tolerances, &mut periods),
+            Kind::Signals => {
+                run(simd, model, &Signals::all(model).with_loads(loads), &tolerances, &mut periods)
+            }
+        }
+    }
+
+    /// Lets a search go on to its next request. Returns it if that is of this kind; otherwise it waits, or has its output.
+    fn go_on(
+        &mut self,
+        mut run: Run<'a, T, M, N>,
+        kind: Kind,
+    ) -> Option<(Run<'a, T, M, N>, Option<Restart<N>>)> {
+        if let Poll::Ready(output) = run.search.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
+            self.source.done(run.index, output);
+            return None;
+        }
+        let request = run.exchange.request()?;
+        if request.kind == kind {
+            return Some((run, request.begin));
+        }
+        let waiting = &mut self.waiting[request.kind as usize];
+        waiting.push(run);
+        // The lanes of the states keep their state meanwhile.
+        if kind == Kind::States && waiting.len() >= BATCH {
+            self.integrate_batch(request.kind);
+        }
+        None
+    }
+
+    /// The next search that waits for a period of this kind, or that begins with one.
+    fn next(&mut self, kind: Kind, idle: bool) -> Option<(Run<'a, T, M, N>, Restart<N>)> {
+        loop {
+            if let Some(run) = self.waiting[kind as usize].pop() {
+                let begin = run.exchange.request()?.begin?;
+                return Some((run, begin));
+            }
+            if kind != Kind::States {
+                return None;
+            }
+            let run = if let Some(run) = self.source.next(false) {
+                run
+            } else {
+                // The source may wait for outputs of searches that wait here. With few of them most lanes would be empty.
+                if idle {
+                    self.integrate_others();
+                } else if let Some(kind) = Kind::ALL
+                    .into_iter()
+                    .find(|&kind| self.waiting[kind as usize].len() >= Vector::<I>::LANES)
+                {
+                    self.integrate_batch(kind);
+                }
+                if !self.waiting[kind as usize].is_empty() {
+                    continue;
+                }
+                if !idle {
+                    return None;
+                }
+                self.source.next(true)?
+            };
+            if let Some((run, Some(begin))) = self.go_on(run, kind) {
+                return Some((run, begin));
+            }
+        }
+    }
+}
+
+/// The periods of one kind, as the queue of an ensemble.
+struct Periods<'d, D> {
+    driver: &'d mut D,
+    kind: Kind,
+}
+
+impl<'a, 's, I, M, Q, T, const N: usize, const K: usize> Periods<'_, Driver<'a, 's, I, M, Q, T, N, K>>
+where
+    I: Simd,
+    M: Model<N>,
+    Q: Source<'a, T, M, N>,
+{
+    /// Hands the end of a period to its search. Returns the search if it is to keep its lane.
+    fn period_end(
+        &mut self,
+        run: Run<'a, T, M, N>,
+        end: PeriodEnd<SumsOf<M, N>, N>,
+    ) -> Option<(Run<'a, T, M, N>, Option<Restart<N>>)> {
+        run.exchange.finish(end);
+        self.driver.go_on(run, self.kind)
+    }
+}
+
+/// Totals over a period that searches ask for, where those over the signals are `T`.
+trait PeriodTotals<T, const N: usize> {
+    /// Adds the totals to the end of their period, in a box from the exchange if there is one.
+    fn add_to(&self, end: &mut PeriodEnd<T, N>, exchange: &Exchange<T, N>);
+}
+
+/// The largest magnitudes of the states, of [`Size`].
+impl<T, const N: usize> PeriodTotals<T, N> for [f64; N] {
+    fn add_to(&self, end: &mut PeriodEnd<T, N>, _exchange: &Exchange<T, N>) {
+        end.largest = *self;
+    }
+}
+
+impl<S: SignalSet, const N: usize> PeriodTotals<Sums<S, f64>, N> for Sums<S, f64> {
+    fn add_to(&self, end: &mut PeriodEnd<Sums<S, f64>, N>, exchange: &Exchange<Sums<S, f64>, N>) {
+        end.sums = Some(exchange.boxed(*self));
+    }
+}
+
+impl<'a, 's, I, M, V, Q, T, const N: usize, const K: usize> Queue<M, V, N>
+    for Periods<'_, Driver<'a, 's, I, M, Q, T, N, K>>
+where
+    I: Simd,
+    M: Model<N>,
+    V: Observer<M, N>,
+    V::Totals<f64>: PeriodTotals<SumsOf<M, N>, N>,
+    Q: Source<'a, T, M, N>,
+{
+    type Run = Run<'a, T, M, N>;
+
+    fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, N>> {
+        let (run, begin) = self.driver.next(self.kind, idle)?;
+        let start = begin.start(run.start.constants, run.start.span);
+        Some((run, start))
+    }
+
+    fn ended(&mut self, run: Self::Run, end: SpanEnd<'_, V::Totals<f64>, N>) -> Option<(Self::Run, Next<N>)> {
+        let mut period = PeriodEnd::new(*end.y, end.outcome);
+        end.totals.add_to(&mut period, &run.exchange);
+        let (run, begin) = self.period_end(run, period)?;
+        Some((run, begin.map_or(Next::Span, Next::Restart)))
+    }
+
+    fn interrupted(&self) -> bool {
+        self.driver.source.interrupted()
+    }
+}
+
+impl<'a, 's, I, M, Q, T, const N: usize, const K: usize> Queue<Variation<'_, M, N>, Unobserved, K>
+    for Periods<'_, Driver<'a, 's, I, M, Q, T, N, K>>
+where
+    I: Simd,
+    M: Model<N>,
+    Q: Source<'a, T, M, N>,
+{
+    type Run = Run<'a, T, M, N>;
+
+    fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, K>> {
+        let (run, begin) = self.driver.next(self.kind, idle)?;
+        let start = with_responses(&begin, &run.start.scale).start(run.start.constants, run.start.span);
+        Some((run, start))
+    }
+
+    fn ended(&mut self, run: Self::Run, end: SpanEnd<'_, (), K>) -> Option<(Self::Run, Next<K>)> {
+        let scale = run.start.scale;
+        let mut period = PeriodEnd::new(core::array::from_fn(|i| end.y[i]), end.outcome);
+        period.monodromy = monodromy(end.y, &scale);
+        let (run, begin) = self.period_end(run, period)?;
+        Some((run, begin.map_or(Next::Span, |begin| Next::Restart(with_responses(&begin, &scale)))))
+    }
+
+    fn interrupted(&self) -> bool {
+        self.driver.source.interrupted()
+    }
+}
+
+/// The same beginning with responses to changes of the state, each of the size `change`.
+fn with_responses<const N: usize, const K: usize>(begin: &Restart<N>, change: &[f64; N]) -> Restart<K> {
+    // Errors of responses count relative to changes of the typical sizes, not to responses near zero.
+    let mut scale = core::array::from_fn(|i| RESPONSE_SCALE * change[i % N]);
+    scale[..N].copy_from_slice(&begin.scale);
+    Restart { y: initial(&begin.y, change), scale, tolerance_factor: begin.tolerance_factor }
 }

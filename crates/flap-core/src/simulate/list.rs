@@ -11,20 +11,20 @@ use super::simulator::Rows;
 use crate::num::Backend;
 use crate::ode::Interrupt;
 
-/// Runs `points` on the lanes of `backend`. Returns their rows in the order of the points, whose indices do not matter.
+/// Runs `points` on the lanes of `set`. Returns their rows in the order of the points, whose indices do not matter.
 ///
 /// # Errors
 /// [`Unfinished::Interrupted`] if `interrupted` says so, or if `rows` leaves a point without a row.
 pub fn run_list(
     rows: &dyn Rows,
-    backend: Backend,
+    set: Backend,
     solver: &SolverSettings,
     points: Vec<Point>,
     interrupted: Interrupt<'_>,
 ) -> Result<Vec<Row>, Unfinished> {
     let mut list =
         List { rows: vec![None; points.len()], points: points.into_iter().enumerate(), interrupted };
-    rows.run(backend, solver, &mut list);
+    rows.run(set, solver, &mut list);
     let rows = if interrupted() { None } else { list.rows.into_iter().collect() };
     rows.ok_or(Unfinished::Interrupted)
 }

@@ -1,31 +1,28 @@
 //! Design points in, rows out: the interface of models for sweeps, the command line and Python.
 //!
-//! A sweep uses the trait [`Simulator`] of a model; single motions use [`Motions`] and [`Experiments`]. [`Runner`]
+//! A sweep uses the trait [`Simulator`] of a model; derivatives of rows use [`Gradients`], single
+//! motions [`Motions`] and [`Experiments`]. [`Runner`]
 //! implements these traits for a [`Model`](crate::model::Model). [`all`] lists the models of this crate.
 
-mod accuracy;
 mod begin;
-mod chirp;
 mod column;
-mod cycle;
 mod error;
-mod estimate;
 mod gradient;
-mod imposed;
-mod impulse;
 mod jobs;
 mod lanes;
+mod linear;
 mod list;
+mod march;
 mod orbit_row;
 mod period;
-mod queues;
+mod period_map;
+mod periods;
 mod request;
 mod row;
 mod runner;
 mod sampler;
 mod search;
 mod settings;
-mod settle;
 mod simulator;
 mod single;
 mod slope;
@@ -43,25 +40,27 @@ pub use request::{
 pub use row::Row;
 pub use runner::Runner;
 pub use settings::{Setting, SettingKind, SolverSettings};
-pub use simulator::{Experiments, Motions, Rows, Simulator};
+pub use simulator::{Experiments, Gradients, Motions, Rows, Simulator};
 pub use single::PointRun;
 pub use slope::{Change, NoSlope};
 pub use status::Status;
 
+pub(crate) use sampler::{Sampler, columns as trajectory_columns, sampled, shown};
+pub(crate) use single::{Question, ask};
+
 pub use crate::ode::{Interrupt, never};
 
 use crate::drive::Drive;
-use crate::model::bimorph::{self, Bimorph, Law};
-use crate::model::direct_drive::{self, DirectDrive, FlowDirection};
-use crate::model::four_bar::{self, FourBar};
+use crate::model::bimorph::{Bimorph, Law};
+use crate::model::direct_drive::{DirectDrive, FlowDirection};
+use crate::model::four_bar::FourBar;
 use crate::parameter::Preset;
 
-static BIMORPH: Runner<Bimorph, 4, 20, { bimorph::S }> =
+static BIMORPH: Runner<Bimorph, 4, 20> =
     Runner::with_experiments(Bimorph { drive: Drive::SINE, law: Law::Constant });
-static DIRECT_DRIVE: Runner<DirectDrive, 4, 20, { direct_drive::S }> =
+static DIRECT_DRIVE: Runner<DirectDrive, 4, 20> =
     Runner::with_experiments(DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform });
-static FOUR_BAR: Runner<FourBar, 4, 20, { four_bar::S }> =
-    Runner::with_experiments(FourBar { drive: Drive::SINE });
+static FOUR_BAR: Runner<FourBar, 4, 20> = Runner::with_experiments(FourBar { drive: Drive::SINE });
 static ALL: &[&dyn Simulator] = &[&BIMORPH, &DIRECT_DRIVE, &FOUR_BAR];
 
 /// Every model, in the order `flap models` lists them.

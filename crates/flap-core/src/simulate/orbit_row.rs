@@ -1,13 +1,15 @@
-//! Rows from the ends of searches.
+//! The row of an orbit, from its measured period, and the estimate of its error.
+//!
+//! An orbit is measured twice: at the tolerances of the row, and at the middle tolerances of the search, which are coarser by
+//! a factor of 64. The error of the method is about proportional to its tolerance, so about a sixty-fourth of the difference
+//! would be expected as the error. A single difference may be small by chance, so six tenths of it count.
 
-use super::estimate::{Compared, LEAST, estimate};
 use super::row::Row;
-use super::search::Search;
 use super::settings::SolverSettings;
 use super::status::Status;
-use crate::measure::cycle::{Sums, finish};
-use crate::model::{Model, Principal, SignalCycle};
-use crate::ode::{Ending, Start, input, slope};
+use crate::measure::cycle::{SumsOf, finish};
+use crate::model::{Model, Principal, SignalCycle, SignalSet, SignalsOf};
+use crate::ode::{Start, input, slope};
 
 /// The largest change per period of a motion that counts as rest, as a share of its largest state.
 const REST: f64 = 1e-11;
@@ -18,15 +20,76 @@ const SWINGS: f64 = 1e-6;
 /// Times at which a motion at rest has no rate, as shares of the drive period: no drive of few harmonics is zero at all.
 const REST_TIMES: [f64; 4] = [0.0, 0.137, 0.412, 0.789];
 
+/// The share of the difference between both orbits that counts as error.
+const SHARE: f64 = 0.6;
+
+/// The share of its signal's size below which a measure counts as nothing beside the signal: its error is then relative to
+/// this share of the size.
+const NOTHING: f64 = 1e-3;
+
+/// The least error that a row is said to have, in units of the relative tolerance: about that of finding extrema between
+/// the ends of steps.
+const LEAST: f64 = 5.0;
+
+/// Crossings of the switching surface in a period beyond which the motion counts as sliding along the surface: others
+/// cross it twice, or some times more. The error of a sliding motion does not fall as the method's does.
+pub(super) const MANY_SWITCHES: u64 = 16;
+
+/// The measured period of an orbit.
+pub(super) struct MeasuredOrbit<'a, T, const N: usize> {
+    /// The state at its beginning.
+    pub(super) y: &'a [f64; N],
+    pub(super) sums: &'a T,
+    /// Sums over the orbit of coarser tolerances, if they are known.
+    pub(super) coarse: Option<&'a T>,
+    /// Crossings of the switching surface.
+    pub(super) switches: u64,
+    /// The relative tolerance.
+    pub(super) rtol: f64,
+}
+
+/// The row of an orbit, without its costs, and the largest of its errors that finer tolerances would reduce.
+pub(super) fn row_of<M: Model<N>, const N: usize>(
+    model: &M,
+    solver: &SolverSettings,
+    start: &Start<M::Constants<f64>, N>,
+    orbit: &MeasuredOrbit<'_, SumsOf<M, N>, N>,
+) -> (Row, f64) {
+    let measures = measures(model, solver, &start.constants, orbit.sums, start.span);
+    // A signal with an infinite measure has diverged as far as numbers go.
+    if measures.iter().any(|measure| measure.is_infinite()) {
+        return (Row::empty(Status::Diverged), 0.0);
+    }
+    let cycle = |sums| on_orbit::<M, N>(sums, start.span);
+    let fine = cycle(orbit.sums);
+    let coarse = orbit.coarse.map(cycle);
+    let slides = orbit.switches > MANY_SWITCHES;
+    let difference = coarse.map_or(f64::INFINITY, |coarse| difference::<M, N>(&fine, &coarse));
+    let estimate = if slides { f64::INFINITY } else { (SHARE * difference).max(LEAST * orbit.rtol) };
+    let audit = M::energy_audit(&fine).abs();
+    // An audit that is not a number compares nothing: the power is zero or not known.
+    let doubt = if slides { 0.0 } else { estimate.max(if audit.is_nan() { 0.0 } else { audit }) };
+    (Row { measures, error_estimate: estimate, period: 1, ..Row::empty(Status::Periodic) }, doubt)
+}
+
+/// True if an orbit is no motion at all: no signal swings, and the states do not move but for rounding.
+pub(super) fn is_at_rest<M: Model<N>, const N: usize>(
+    model: &M,
+    start: &Start<M::Constants<f64>, N>,
+    orbit: &MeasuredOrbit<'_, SumsOf<M, N>, N>,
+) -> bool {
+    !swings::<M, N>(&on_orbit::<M, N>(orbit.sums, start.span)) && is_still(model, start, orbit.y)
+}
+
 /// The measures of a periodic cycle, one per column, and the mean load if `solver` asks for it.
-pub(super) fn measures<M: Model<N, S>, const N: usize, const S: usize>(
+pub(super) fn measures<M: Model<N>, const N: usize>(
     model: &M,
     solver: &SolverSettings,
     c: &M::Constants<f64>,
-    totals: &Sums<f64, S>,
+    totals: &SumsOf<M, N>,
     period: f64,
 ) -> Vec<f64> {
-    let mut measures = values(model, c, &on_orbit::<M, N, S>(totals, period));
+    let mut measures = values(model, c, &on_orbit::<M, N>(totals, period));
     if solver.loads {
         measures.extend(totals.1.map(|sum| sum / period));
     }
@@ -34,25 +97,23 @@ pub(super) fn measures<M: Model<N, S>, const N: usize, const S: usize>(
 }
 
 /// The signals of a periodic cycle.
-fn on_orbit<M: Model<N, S>, const N: usize, const S: usize>(
-    totals: &Sums<f64, S>,
+fn on_orbit<M: Model<N>, const N: usize>(
+    totals: &SumsOf<M, N>,
     period: f64,
-) -> [SignalCycle; S] {
-    let mut cycle = finish::<M, N, S>(totals, period);
-    if let Some(energy) = M::ENERGY {
-        energy.close(&mut cycle);
-    }
+) -> SignalsOf<M::Signals, SignalCycle> {
+    let mut cycle = finish::<M::Signals>(totals, period);
+    M::balance_energy(&mut cycle);
     cycle
 }
 
 /// The values of the columns, from the signals of a periodic cycle.
-fn values<M: Model<N, S>, const N: usize, const S: usize>(
+fn values<M: Model<N>, const N: usize>(
     model: &M,
     c: &M::Constants<f64>,
-    cycle: &[SignalCycle; S],
+    cycle: &SignalsOf<M::Signals, SignalCycle>,
 ) -> Vec<f64> {
     let mut values = Vec::new();
-    for (signal, cycle) in M::SIGNALS.iter().zip(cycle) {
+    for (signal, cycle) in M::Signals::each(cycle) {
         values.extend(signal.measures.iter().map(|&measure| cycle.measure(measure) * signal.unit.factor));
     }
     // A derived column without a finite value, such as a ratio to zero, is empty.
@@ -61,74 +122,36 @@ fn values<M: Model<N, S>, const N: usize, const S: usize>(
     values
 }
 
-/// The row of a point whose search has ended without an orbit of one drive period; or the `last` row that it has, if it
-/// was an orbit to be found more exactly.
-pub(super) fn unsettled<const N: usize>(search: &Search<N>, last: Option<Row>) -> Row {
-    if let Some(last) = last {
-        return charged(last, search);
-    }
-    let status = match (search.ending(), search.period()) {
-        (Ending::Stopped, Some(_)) => Status::Subharmonic,
-        (Ending::Stopped, None) => Status::Unsettled,
-        (Ending::Diverged, _) => Status::Diverged,
-        (Ending::StepLimit, _) => Status::StepLimit,
-    };
-    row(search, status)
-}
-
-/// The row of a point after a period of its orbit, and one with coarser tolerances, have been integrated, and its energy
-/// audit.
-pub(super) fn measured<M: Model<N, S>, const N: usize, const S: usize>(
-    search: &Search<N>,
-    model: &M,
-    solver: &SolverSettings,
-    start: &Start<M::Constants<f64>, N>,
-    periods: &Compared<S>,
-) -> (Row, f64) {
-    let status = match periods.ending {
-        Ending::Stopped => Status::Periodic,
-        Ending::Diverged => Status::Diverged,
-        Ending::StepLimit => Status::StepLimit,
-    };
-    let mut row = row(search, status);
-    let mut audit = f64::NAN;
-    let cycle = |totals: &Sums<f64, S>| on_orbit::<M, N, S>(totals, start.span);
-    if let Some(totals) = &periods.fine {
-        row.measures = measures(model, solver, &start.constants, totals, start.span);
-        let fine = cycle(totals);
-        let coarse = periods.coarse.as_ref().map(cycle);
-        row.error_estimate =
-            estimate::<M, N, S>(&fine, coarse.as_ref(), periods.slides).max(LEAST * search.rtol());
-        audit = M::ENERGY.map_or(0.0, |energy| energy.audit(&fine));
-        if !swings::<M, N, S>(&fine) && search.state().is_some_and(|y| is_at_rest(model, start, y)) {
-            row.floquet_max = f64::NAN;
+/// The largest difference of the model's principal measures, such as stroke, pitch, lift and power, between two orbits:
+/// relative to the measure, or to a share of its signal's size if the measure is nothing beside that.
+fn difference<M: Model<N>, const N: usize>(
+    fine: &SignalsOf<M::Signals, SignalCycle>,
+    coarse: &SignalsOf<M::Signals, SignalCycle>,
+) -> f64 {
+    let mut largest = 0.0_f64;
+    for ((signal, fine), (_, coarse)) in M::Signals::each(fine).zip(M::Signals::each(coarse)) {
+        let Some(principal) = signal.principal else { continue };
+        let [value, other] = [fine, coarse].map(|cycle| cycle.measure(principal.measure()));
+        let difference = (other - value).abs();
+        // A prescribed stroke has no power, and a wing at rest nothing.
+        if difference > 0.0 {
+            largest = largest.max(difference / value.abs().max(NOTHING * fine.size()));
         }
     }
-    // A signal with an infinite measure has diverged as far as numbers go.
-    if row.measures.iter().any(|measure| measure.is_infinite()) {
-        row.status = Status::Diverged;
-        row.measures.clear();
-    }
-    if row.status != Status::Periodic {
-        row.period = 0;
-        row.floquet_max = f64::NAN;
-        row.error_estimate = f64::NAN;
-    }
-    (row, audit)
+    largest
 }
 
 /// True if a signal with a principal first harmonic varies: then the motion is not at rest, and its states need not be looked
 /// at.
-fn swings<M: Model<N, S>, const N: usize, const S: usize>(cycle: &[SignalCycle; S]) -> bool {
-    let mut signals = M::SIGNALS.iter().zip(cycle);
-    signals.any(|(signal, cycle)| {
+fn swings<M: Model<N>, const N: usize>(cycle: &SignalsOf<M::Signals, SignalCycle>) -> bool {
+    M::Signals::each(cycle).any(|(signal, cycle)| {
         signal.principal == Some(Principal::First) && cycle.max - cycle.min > SWINGS * cycle.size()
     })
 }
 
 /// True if a motion from the state `y` does not move, but for rounding: at several times of the drive period, no state
 /// changes in a period by more than a tiny share of the largest state, in units of their typical sizes.
-fn is_at_rest<M: Model<N, S>, const N: usize, const S: usize>(
+fn is_still<M: Model<N>, const N: usize>(
     model: &M,
     start: &Start<M::Constants<f64>, N>,
     y: &[f64; N],
@@ -140,22 +163,4 @@ fn is_at_rest<M: Model<N, S>, const N: usize, const S: usize>(
         let rate = slope(model, &start.constants, &u, 1.0, y);
         largest(&rate) * start.span <= limit
     })
-}
-
-/// A row with all that its point has cost.
-pub(super) fn charged<const N: usize>(row: Row, search: &Search<N>) -> Row {
-    Row { cycles: search.cycles(), rhs_evals: search.rhs_evals(), ..row }
-}
-
-/// The row of a search without measures.
-fn row<const N: usize>(search: &Search<N>, status: Status) -> Row {
-    Row {
-        cycles: search.cycles(),
-        residual: search.residual(),
-        period: search.period().unwrap_or(0),
-        floquet_max: search.floquet_max(),
-        state: search.state().map_or_else(Vec::new, |state| state.to_vec()),
-        rhs_evals: search.rhs_evals(),
-        ..Row::empty(status)
-    }
 }

@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use super::error::Unfinished;
 use super::request::Trajectory;
 use super::settings::SolverSettings;
-use crate::model::{Instant, Model};
+use crate::model::{Instant, Model, Signal, SignalSet};
 use crate::num::Scalar;
 use crate::ode::dense::interpolate;
 use crate::ode::solve::solve_until;
@@ -13,7 +13,7 @@ use crate::ode::step::Attempt;
 use crate::ode::{Interrupt, Start};
 
 /// Follows the run from `start` for `spans` spans, each sampled at equal distances.
-pub(super) fn sampled<M, R, const N: usize, const S: usize>(
+pub(crate) fn sampled<M, R, const N: usize>(
     model: &M,
     solver: &SolverSettings,
     start: &Start<M::Constants<f64>, N>,
@@ -22,7 +22,7 @@ pub(super) fn sampled<M, R, const N: usize, const S: usize>(
     interrupted: Interrupt<'_>,
 ) -> Result<Trajectory, Unfinished>
 where
-    M: Model<N, S>,
+    M: Model<N>,
     R: Scalar,
 {
     let mut sampler = Sampler::new(samples_per_span);
@@ -44,11 +44,11 @@ where
         },
     );
     Unfinished::check(outcome.ending, interrupted)?;
-    Ok(sampler.finish::<M, N, S>())
+    Ok(sampler.finish::<M, N>())
 }
 
 /// Samples a motion cycle by cycle, each at equal distances.
-pub(super) struct Sampler {
+pub(crate) struct Sampler {
     samples_per_cycle: u32,
     /// Time at which the current cycle began, and its length (s).
     began: f64,
@@ -62,29 +62,29 @@ pub(super) struct Sampler {
 
 impl Sampler {
     /// A sampler that has seen nothing; it takes no samples if `samples_per_cycle` is 0.
-    pub(super) fn new(samples_per_cycle: u32) -> Sampler {
+    pub(crate) fn new(samples_per_cycle: u32) -> Sampler {
         Sampler { samples_per_cycle, began: 0.0, span: 0.0, next: 0, rows: Vec::new(), last: None }
     }
 
     /// Begins a cycle of `span` seconds.
-    pub(super) fn begin_cycle(&mut self, span: f64) {
+    pub(crate) fn begin_cycle(&mut self, span: f64) {
         self.began += self.span;
         self.span = span;
         self.next = 0;
     }
 
     /// Takes the samples that lie in an accepted step.
-    pub(super) fn step<M, R, const N: usize, const S: usize>(
+    pub(crate) fn step<M, R, const N: usize>(
         &mut self,
         model: &M,
         c: &M::Constants<R>,
         attempt: &Attempt<'_, R, N>,
     ) where
-        M: Model<N, S>,
+        M: Model<N>,
         R: Scalar,
     {
         let (t, h) = (attempt.t.lane(0), attempt.h.lane(0));
-        let number = |x: f64| R::splat((), x);
+        let number = |x: f64| R::new(x);
         while self.next < self.samples_per_cycle {
             let time = self.span * (f64::from(self.next) / f64::from(self.samples_per_cycle));
             if time > t + h {
@@ -103,36 +103,31 @@ impl Sampler {
     }
 
     /// The samples, the end of the last cycle included.
-    pub(super) fn finish<M: Model<N, S>, const N: usize, const S: usize>(mut self) -> Trajectory {
+    pub(crate) fn finish<M: Model<N>, const N: usize>(mut self) -> Trajectory {
         self.rows.extend(self.last);
-        Trajectory { columns: columns::<M, N, S>(), rows: self.rows }
+        Trajectory { columns: columns::<M, N>(), rows: self.rows }
     }
 }
 
 /// Names of the columns of a trajectory: time, states, signals.
-pub(super) fn columns<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<String> {
+pub(crate) fn columns<M: Model<N>, const N: usize>() -> Vec<String> {
     let mut columns = vec!["time_s".to_owned()];
     columns.extend(M::STATES.iter().map(|&name| name.to_owned()));
-    columns.extend(M::SIGNALS.iter().filter(|signal| signal.is_shown()).map(|signal| {
-        if signal.unit.suffix.is_empty() {
-            signal.name.to_owned()
-        } else {
-            format!("{}_{}", signal.name, signal.unit.suffix)
-        }
-    }));
+    columns.extend(M::Signals::TABLE.iter().filter(|signal| signal.is_shown()).map(Signal::column));
     columns
 }
 
 /// The meanings of the columns of a trajectory, in their order.
-pub(super) fn meanings<M: Model<N, S>, const N: usize, const S: usize>() -> Vec<String> {
+pub(crate) fn meanings<M: Model<N>, const N: usize>() -> Vec<String> {
     let mut meanings = vec!["time since the beginning of the motion".to_owned()];
     meanings.extend(M::STATES.iter().map(|name| format!("state {name} of the equations of motion")));
-    meanings.extend(M::SIGNALS.iter().filter(|signal| signal.is_shown()).map(|signal| signal.doc.to_owned()));
+    let shown = M::Signals::TABLE.iter().filter(|signal| signal.is_shown());
+    meanings.extend(shown.map(|signal| signal.doc.to_owned()));
     meanings
 }
 
 /// One row of a trajectory, at `t` within a cycle and `time` since the beginning (s).
-fn sample<M, R, const N: usize, const S: usize>(
+fn sample<M, R, const N: usize>(
     model: &M,
     c: &M::Constants<R>,
     t: R,
@@ -141,7 +136,7 @@ fn sample<M, R, const N: usize, const S: usize>(
     time: f64,
 ) -> Vec<f64>
 where
-    M: Model<N, S>,
+    M: Model<N>,
     R: Scalar,
 {
     let input = model.input(c, t);
@@ -149,14 +144,12 @@ where
     let signals = model.signals(c, Instant { input: &input, side, y, dy: &dy });
     let mut row = vec![time];
     row.extend(y.iter().map(|y| y.lane(0)));
-    row.extend(shown::<M, N, S>(&signals.map(|value| value.lane(0))));
+    row.extend(shown::<M::Signals>(&M::Signals::map(&signals, |_, value| value.lane(0))));
     row
 }
 
 /// The signals that have columns, in their units.
-pub(super) fn shown<M: Model<N, S>, const N: usize, const S: usize>(
-    signals: &[f64; S],
-) -> impl Iterator<Item = f64> + '_ {
-    let pairs = signals.iter().zip(&M::SIGNALS).filter(|(_, signal)| signal.is_shown());
-    pairs.map(|(value, signal)| value * signal.unit.factor)
+pub(crate) fn shown<S: SignalSet>(signals: &S::Of<f64>) -> impl Iterator<Item = f64> {
+    let shown = S::each(signals).filter(|(signal, _)| signal.is_shown());
+    shown.map(|(signal, value)| value * signal.unit.factor)
 }

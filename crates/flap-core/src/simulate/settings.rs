@@ -101,7 +101,7 @@ impl SolverSettings {
     }
 
     /// The tolerances and limits of the integrator.
-    pub(super) fn tolerances(&self) -> Tolerances {
+    pub(crate) fn tolerances(&self) -> Tolerances {
         Tolerances { rtol: self.rtol, atol: self.atol, max_steps: self.max_steps }
     }
 }

@@ -1,5 +1,5 @@
-//! The object-safe faces of a model: [`Simulator`] for sweeps, with rows and their description; [`Motions`] and
-//! [`Experiments`] for single motions.
+//! The object-safe faces of a model: [`Simulator`] for sweeps, with rows and their description; [`Gradients`] for
+//! their derivatives; [`Motions`] and [`Experiments`] for single motions.
 
 use super::column::Column;
 use super::error::Unfinished;
@@ -14,6 +14,7 @@ use super::single::PointRun;
 use super::slope::Change;
 use crate::aero::Wing;
 use crate::drive::Samples;
+use crate::model::Signal;
 use crate::modes::Mode;
 use crate::num::Backend;
 use crate::parameter::{Parameter, Preset};
@@ -23,11 +24,11 @@ pub trait Rows: Sync {
     /// The measured columns of each row, in order.
     fn columns(&self) -> &[Column];
 
-    /// Runs the points of `jobs` on the SIMD lanes of `backend` until there are none left.
+    /// Runs the points of `jobs` on the SIMD lanes of `set` until there are none left.
     ///
     /// Rows are handed back in the order in which points finish. A row depends on its point and `solver`
-    /// alone: not on its neighbours, nor on the order of the points, nor on `backend` within an arithmetic class.
-    fn run(&self, backend: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs);
+    /// alone: not on its neighbours, nor on the order of the points, nor on `set` within an arithmetic class.
+    fn run(&self, set: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs);
 
     /// Runs one point on scalars, from rest or from the state `begin` (see [`Point::begin`](super::Point::begin)). Gives the
     /// same bits as [`Rows::run`]. Interrupted, the row means nothing.
@@ -43,7 +44,7 @@ pub trait Simulator: Rows {
     fn doc(&self) -> &'static str;
 
     /// The parameter table. A point is one `f64` per entry, see [`Parameter`].
-    fn parameters(&self) -> &'static [Parameter];
+    fn parameters(&self) -> &[Parameter<'_>];
 
     /// Published parameter sets.
     fn presets(&self) -> &'static [Preset];
@@ -68,6 +69,14 @@ pub trait Simulator: Rows {
         if (run.interrupted)() { Err(Unfinished::Interrupted) } else { Ok(row) }
     }
 
+    /// The face for derivatives of rows.
+    ///
+    /// # Errors
+    /// [`Unfinished::NoMotions`] if the model computes rows alone.
+    fn gradients(&self) -> Result<&dyn Gradients, Unfinished> {
+        Err(Unfinished::NoMotions { model: self.name() })
+    }
+
     /// The face for motions of single points.
     ///
     /// # Errors
@@ -85,15 +94,27 @@ pub trait Simulator: Rows {
     }
 }
 
-/// Motions of single points under their own drive.
+/// Derivatives of rows, along changes of a point.
+pub trait Gradients: Sync {
+    /// Names of the states with their units, in the order of a state.
+    fn states(&self) -> Vec<String>;
+
+    /// Derivatives of the measures of the orbit that begins at `state`, such as [`Row::state`] of a periodic row, along each
+    /// of `changes`. Takes a period of the states for each change, two measured ones, and some six more in all, each with 1.6
+    /// times the steps of a period at the solver's tolerances.
+    ///
+    /// # Errors
+    /// As [`Motions`] says.
+    fn gradient(&self, run: &PointRun<'_>, state: &[f64], changes: &[Change])
+    -> Result<Gradient, Unfinished>;
+}
+
+/// Motions of single points under their own drive. The columns of a trajectory are `time_s`, the states, and signals.
 ///
 /// Motions are computed on scalars. Each method fails with [`Unfinished::Interrupted`] if the run is interrupted, with [`Unfinished::Invalid`] if the values are impossible
 /// together, with [`Unfinished::Request`] if the request is impossible, and with [`Unfinished::Diverged`] or
 /// [`Unfinished::StepLimit`] if the motion fails on the way.
-pub trait Motions: Sync {
-    /// Names of the states with their units, in the order of a state: the columns of a trajectory behind `time_s`.
-    fn states(&self) -> &'static [&'static str];
-
+pub trait Motions: Gradients {
     /// The names of the columns of a trajectory: time, states, and what else is seen over time.
     fn trajectory_columns(&self) -> Vec<String>;
 
@@ -105,15 +126,6 @@ pub trait Motions: Sync {
     /// # Errors
     /// As [`Motions`] says.
     fn period(&self, run: &PointRun<'_>, begin: &[f64]) -> Result<Period, Unfinished>;
-
-    /// Derivatives of the measures of the orbit that begins at `state`, such as [`Row::state`] of a periodic row, along each
-    /// of `changes`. Takes a period of the states for each change, two measured ones, and some six more in all, each with 1.6
-    /// times the steps of a period at the solver's tolerances.
-    ///
-    /// # Errors
-    /// As [`Motions`] says.
-    fn gradient(&self, run: &PointRun<'_>, state: &[f64], changes: &[Change])
-    -> Result<Gradient, Unfinished>;
 
     /// Samples the motion of one point, settled or from rest.
     ///
@@ -164,7 +176,10 @@ pub trait Experiments: Sync {
     ///
     /// # Errors
     /// [`Unfinished::Invalid`] if the values are impossible together.
-    fn modes(&self, values: &[f64]) -> Result<[Mode; 2], Unfinished>;
+    fn modes(&self, values: &[f64]) -> Result<Vec<Mode>, Unfinished>;
+
+    /// The signals whose frequencies describe a free motion; first the one that an impulse excites.
+    fn free_signals(&self) -> &'static [Signal];
 
     /// The same model with samples for a waveform: `samples` over a drive period replaces `drive_shape`.
     fn with_samples(&self, samples: Samples) -> Box<dyn Simulator>;

@@ -1,6 +1,11 @@
 //! One point on scalars: the readable path, and the oracle of the lanes.
 
+use super::begin::begin;
+use super::lanes::run_alone;
+use super::row::Row;
+use super::search::settle;
 use super::settings::SolverSettings;
+use super::status::Status;
 use crate::model::Model;
 use crate::num::{Backend, Scalar, ScalarKernel};
 use crate::ode::{Interrupt, never};
@@ -33,42 +38,61 @@ impl<'a> PointRun<'a> {
 
 /// A question about one point, answered in either arithmetic of scalars.
 ///
-/// The model has N states, K = N (N + 1) states and responses, and S signals. It is the point's variant.
-pub(super) trait Question<M: Model<N, S>, const N: usize, const K: usize, const S: usize> {
+/// The model has N states, and K = N (N + 1) states and responses. It is the point's variant.
+pub(crate) trait Question<M: Model<N>, const N: usize, const K: usize> {
     type Answer;
 
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Self::Answer;
 }
 
 /// The answer to a question about the point of `run`.
-pub(super) fn ask<M, Q, const N: usize, const K: usize, const S: usize>(
+pub(crate) fn ask<M, Q, const N: usize, const K: usize>(
     model: &M,
     run: &PointRun<'_>,
     question: Q,
 ) -> Q::Answer
 where
-    M: Model<N, S>,
-    Q: Question<M, N, K, S>,
+    M: Model<N>,
+    Q: Question<M, N, K>,
 {
     let model = &model.variant(run.values);
-    run.backend.dispatch_scalar(Asked::<M, Q, N, K, S> { model, run, question })
+    run.backend.dispatch_scalar(Asked::<M, Q, N, K> { model, run, question })
 }
 
 /// A question with the point that it is about.
-struct Asked<'a, M, Q, const N: usize, const K: usize, const S: usize> {
+struct Asked<'a, M, Q, const N: usize, const K: usize> {
     model: &'a M,
     run: &'a PointRun<'a>,
     question: Q,
 }
 
-impl<M, Q, const N: usize, const K: usize, const S: usize> ScalarKernel for Asked<'_, M, Q, N, K, S>
+impl<M, Q, const N: usize, const K: usize> ScalarKernel for Asked<'_, M, Q, N, K>
 where
-    M: Model<N, S>,
-    Q: Question<M, N, K, S>,
+    M: Model<N>,
+    Q: Question<M, N, K>,
 {
     type Output = Q::Answer;
 
     fn run<R: Scalar>(self) -> Q::Answer {
         self.question.answer::<R>(self.model, self.run)
+    }
+}
+
+/// The row of a point from this state, or from rest. Interrupted, the row means nothing.
+pub(super) struct RowFrom<'a>(pub(super) Option<&'a [f64]>);
+
+impl<M: Model<N>, const N: usize, const K: usize> Question<M, N, K> for RowFrom<'_> {
+    type Answer = Row;
+
+    fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Row {
+        let PointRun { solver, values, interrupted, .. } = *run;
+        let start = match begin(model, values, self.0) {
+            Ok(start) => start,
+            Err(error) => return Row::invalid(error),
+        };
+        let settled = run_alone::<_, R, _, _, N, K>(model, solver, &start, interrupted, |exchange| {
+            settle(model, solver, start, self.0.is_some(), exchange)
+        });
+        settled.map_or_else(|| Row::empty(Status::Unsettled), |settled| settled.row)
     }
 }

@@ -2,9 +2,10 @@
 
 use super::begin::begin;
 use super::error::Unfinished;
+use super::lanes::run_alone;
 use super::request::{Trajectory, TrajectoryRequest};
 use super::sampler::sampled;
-use super::settle::{Settled, settle};
+use super::search::{Settled, settle};
 use super::single::{PointRun, Question};
 use super::status::Status;
 use crate::model::Model;
@@ -16,9 +17,7 @@ pub(super) struct TrajectoryFrom<'a> {
     pub(super) request: &'a TrajectoryRequest,
 }
 
-impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M, N, K, S>
-    for TrajectoryFrom<'_>
-{
+impl<M: Model<N>, const N: usize, const K: usize> Question<M, N, K> for TrajectoryFrom<'_> {
     type Answer = Result<Trajectory, Unfinished>;
 
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Trajectory, Unfinished> {
@@ -27,17 +26,15 @@ impl<M: Model<N, S>, const N: usize, const K: usize, const S: usize> Question<M,
         let mut start = begin(model, values, self.begin)?;
         if settled {
             let nearby = self.begin.is_some();
-            let Settled { search, row } = settle::<M, R, N, K, S>(model, solver, &start, nearby, interrupted);
-            if interrupted() {
-                return Err(Unfinished::Interrupted);
-            }
-            // The row's state, not the search's: a search for a more exact orbit may have failed after it.
-            let orbit = <[f64; N]>::try_from(row.state.as_slice()).ok();
+            let settled = run_alone::<_, R, _, _, N, K>(model, solver, &start, interrupted, |exchange| {
+                settle(model, solver, start, nearby, exchange)
+            });
+            let Settled { row, orbit } = settled.ok_or(Unfinished::Interrupted)?;
             let Some(orbit) = orbit.filter(|_| row.status == Status::Periodic) else {
                 return Err(Unfinished::NotPeriodic { status: row.status, cycles: row.cycles });
             };
-            start = search.from(&start, &orbit);
+            start = orbit.start(start.constants, start.span);
         }
-        sampled::<M, R, N, S>(model, solver, &start, cycles, samples_per_cycle, interrupted)
+        sampled::<M, R, N>(model, solver, &start, cycles, samples_per_cycle, interrupted)
     }
 }

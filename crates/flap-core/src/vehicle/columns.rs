@@ -2,12 +2,8 @@
 
 use super::geometry::{FORCES, TORQUES, Wrench};
 use super::mount::Mount;
-use crate::model::{GRAVITY, efficiency, grams_force};
+use crate::model::{GRAVITY, OverWings, efficiency, grams_force};
 use crate::simulate::Column;
-
-/// First parts of the names of columns that rows have of each wing.
-const OF_WINGS: [&str; 7] =
-    ["stroke_", "pitch_", "lift_mean_mn", "strain_", "hinge_strain", "field_max", "tip_"];
 
 /// The columns.
 pub(super) struct Columns {
@@ -51,7 +47,7 @@ impl Columns {
         let doc = "force_up_mn over the weight of total_mass; empty where that is not known";
         columns.add("lift_to_weight".to_owned(), "", doc.to_owned(), Source::LiftToWeight);
         for (i, column) in model.iter().enumerate() {
-            if is_sum(column) {
+            if column.over_wings == OverWings::Sum {
                 let doc = format!("sum over the wings: {}", column.doc);
                 columns.add(column.name.clone(), column.unit, doc, Source::Sum(i));
             }
@@ -62,9 +58,7 @@ impl Columns {
         }
         for (wing, mount) in mounts.iter().enumerate() {
             for (i, column) in model.iter().enumerate() {
-                if OF_WINGS.iter().any(|first| column.name.starts_with(first))
-                    && !column.name.ends_with("_per_v")
-                {
+                if column.over_wings == OverWings::Each {
                     let doc = format!("wing {}: {}", mount.name, column.doc);
                     columns.add(
                         format!("{}_{}", mount.name, column.name),
@@ -94,13 +88,7 @@ impl Columns {
     }
 
     fn add(&mut self, name: String, unit: &'static str, doc: String, source: Source) {
-        self.all.push(Column { name, unit, doc });
+        self.all.push(Column { name, unit, doc, over_wings: OverWings::Omitted });
         self.sources.push(source);
     }
-}
-
-/// True if the column of a vehicle is the sum of those of its wings: of powers and currents.
-fn is_sum(column: &Column) -> bool {
-    let is_power = column.name.starts_with("power_") && column.unit == "mW";
-    is_power || (column.name.starts_with("current") && column.unit == "mA")
 }

@@ -2,34 +2,12 @@
 
 use super::layout::Vehicle;
 use crate::simulate::{
-    Change, Gradient, Motions, NoSlope, Period, PointRun, RequestError, SolverSettings, Trajectory,
-    TrajectoryRequest, Unfinished,
+    Change, Gradient, Gradients, NoSlope, PointRun, RequestError, SolverSettings, Unfinished,
 };
 
-impl Motions for Vehicle {
-    fn states(&self) -> &'static [&'static str] {
-        self.states
-    }
-
-    fn trajectory_columns(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    fn meanings(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    fn period(&self, _run: &PointRun<'_>, _begin: &[f64]) -> Result<Period, Unfinished> {
-        Err(Unfinished::NoMotions { model: "of a vehicle" })
-    }
-
-    fn trajectory_from(
-        &self,
-        _run: &PointRun<'_>,
-        _begin: Option<&[f64]>,
-        _request: &TrajectoryRequest,
-    ) -> Result<Trajectory, Unfinished> {
-        Err(Unfinished::NoMotions { model: "of a vehicle" })
+impl Gradients for Vehicle {
+    fn states(&self) -> Vec<String> {
+        self.states.clone()
     }
 
     /// The vehicle's measures are linear in the wings', but for efficiency and lift over weight: their differences along the

@@ -1,13 +1,11 @@
 //! The layout of a vehicle: its model and its wings.
 
-use std::sync::{Mutex, PoisonError};
-
 use super::columns::Columns;
 use super::geometry::Wrench;
-use super::mount::{Mount, VehicleError, check, kept};
+use super::mount::{Mount, VehicleError, check};
 use super::parameters::{self, Table};
 use crate::parameter::Parameter;
-use crate::simulate::Simulator;
+use crate::simulate::{Gradients, Simulator};
 
 /// Several wings of one model.
 pub struct Vehicle {
@@ -16,36 +14,26 @@ pub struct Vehicle {
     pub(super) table: Table,
     pub(super) columns: Columns,
     /// Names of the states of all wings, one wing after the other.
-    pub(super) states: &'static [&'static str],
+    pub(super) states: Vec<String>,
 }
 
-/// The vehicles made so far. Their number is that of layouts, which are few: they are kept for good.
-static MADE: Mutex<Vec<&'static Vehicle>> = Mutex::new(Vec::new());
-
 impl Vehicle {
-    /// The vehicle with these wings of a model. It is kept for the life of the process, and the next one of the same layout
-    /// is the same.
+    /// The vehicle with these wings of a model.
     ///
     /// # Errors
     /// If there are no wings or too many, a name is not allowed or taken, or the model does not know the loads of its wing.
-    pub fn of(model: &'static dyn Simulator, mounts: &[Mount]) -> Result<&'static Vehicle, VehicleError> {
-        let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = made.iter().find(|vehicle| {
-            vehicle.model.name() == model.name()
-                && std::ptr::addr_eq(vehicle.model, model)
-                && vehicle.mounts == mounts
-        });
-        if let Some(vehicle) = known {
-            return Ok(vehicle);
-        }
+    pub fn of(model: &'static dyn Simulator, mounts: &[Mount]) -> Result<Vehicle, VehicleError> {
         check(model, mounts)?;
-        let table = Table::new(model.parameters(), mounts)?;
-        let columns = Columns::new(model.columns(), mounts);
-        let states = states(model, mounts);
-        let vehicle: &'static Vehicle =
-            Box::leak(Box::new(Vehicle { model, mounts: mounts.to_vec(), table, columns, states }));
-        made.push(vehicle);
-        Ok(vehicle)
+        let of_wing = model.gradients().map(Gradients::states).unwrap_or_default();
+        let names =
+            |mount: &Mount| of_wing.iter().map(|state| format!("{}_{state}", mount.name)).collect::<Vec<_>>();
+        Ok(Vehicle {
+            model,
+            mounts: mounts.to_vec(),
+            table: Table::new(model.parameters(), mounts)?,
+            columns: Columns::new(model.columns(), mounts),
+            states: mounts.iter().flat_map(names).collect(),
+        })
     }
 
     /// The model of the wings.
@@ -61,7 +49,7 @@ impl Vehicle {
     /// The index, in the vehicle's table, of a wing's own parameter, such as `drive_voltage_pp` or `position_x`.
     pub fn own_parameter(&self, wing: usize, name: &str) -> Option<usize> {
         let name = format!("{}_{name}", self.mounts.get(wing)?.name);
-        self.table.parameters.iter().position(|parameter| parameter.name == name)
+        self.table.parameters().iter().position(|parameter| parameter.name == name)
     }
 
     /// The measures of the vehicle, one per column, from those of its wings with their loads.
@@ -77,15 +65,7 @@ impl Vehicle {
     }
 
     /// True if wings may have a value of their own of this parameter of the model: all numbers but the drive frequency.
-    pub fn may_differ(parameter: &Parameter) -> bool {
+    pub fn may_differ(parameter: &Parameter<'_>) -> bool {
         parameters::may_differ(parameter)
     }
-}
-
-/// Names of the states of all wings.
-fn states(model: &'static dyn Simulator, mounts: &[Mount]) -> &'static [&'static str] {
-    let of_wing = model.motions().map_or(&[][..], |motions| motions.states());
-    let names =
-        mounts.iter().flat_map(|mount| of_wing.iter().map(|state| kept(format!("{}_{state}", mount.name))));
-    Box::leak(names.collect())
 }

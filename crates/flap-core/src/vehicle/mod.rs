@@ -18,5 +18,5 @@ mod rows;
 
 pub use geometry::{FORCES, TORQUES};
 pub use layout::Vehicle;
-pub use mount::{MOST_WINGS, Mount, VehicleError};
-pub use names::{of_all_wings, standing, why_absent};
+pub use mount::{DIFFERENCE, MOST_WINGS, Mount, VehicleError};
+pub use names::{of_all_wings, standing};

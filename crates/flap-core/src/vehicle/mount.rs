@@ -6,12 +6,7 @@ use crate::simulate::Simulator;
 pub const MOST_WINGS: usize = 16;
 
 /// The first part of the names of left-right differences.
-pub(super) const DIFFERENCE: &str = "difference";
-
-/// Text that is kept for the life of the process, as vehicles are.
-pub(super) fn kept(text: String) -> &'static str {
-    Box::leak(text.into_boxed_str())
-}
+pub const DIFFERENCE: &str = "difference";
 
 /// A wing of a vehicle: its name and its side.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -53,22 +48,6 @@ pub enum VehicleError {
     /// The model does not know the force and the moment of its wing.
     #[error("the model {0} has no forces and moments for vehicles")]
     NoLoads(&'static str),
-}
-
-impl VehicleError {
-    /// The remedy.
-    pub fn help(&self) -> &'static str {
-        match self {
-            VehicleError::NoWings => {
-                "write [[vehicle.wings]] above the keys of each wing, such as name = \"left\""
-            }
-            VehicleError::ManyWings(_) => "remove this wing and those below it",
-            VehicleError::Name(_) => "write a name such as \"left\" or \"front_right\"",
-            VehicleError::SameName(_) => "give each wing a name of its own, such as \"left\" and \"right\"",
-            VehicleError::Clash { .. } => "give the wing another name",
-            VehicleError::NoLoads(_) => "choose a preset of another model: `flap models` lists them",
-        }
-    }
 }
 
 /// Refuses wings that do not make a vehicle.

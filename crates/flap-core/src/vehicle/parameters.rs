@@ -1,7 +1,9 @@
 //! The parameters of a vehicle: those of its model for all wings, its own, those of single wings, and differences.
 
+use self_cell::self_cell;
+
 use super::geometry::Place;
-use super::mount::{DIFFERENCE, Mount, VehicleError, kept};
+use super::mount::{DIFFERENCE, Mount, VehicleError};
 use crate::parameter::Range::{Any, Positive};
 use crate::parameter::{Invalid, Kind, Parameter};
 
@@ -21,18 +23,47 @@ const PLACE: [(&str, &str, &str); 6] = [
 
 /// The parameters of the vehicle as a whole.
 #[rustfmt::skip]
-const WHOLE: [Parameter; 4] = [
+const WHOLE: [Parameter<'static>; 4] = [
     Parameter::new("about_x", "m", "", Kind::Number(Any), "Point about which torques are taken, such as the centre of mass: forward.").group(VEHICLE).default(0.0),
     Parameter::new("about_y", "m", "", Kind::Number(Any), "Point about which torques are taken, to the left.").group(VEHICLE).default(0.0),
     Parameter::new("about_z", "m", "", Kind::Number(Any), "Point about which torques are taken, upwards.").group(VEHICLE).default(0.0),
     Parameter::new("total_mass", "kg", "", Kind::Following(Positive, "not known"), "Mass of the whole vehicle, for lift_to_weight.").group(VEHICLE),
 ];
 
+/// A parameter of one wing, or a difference.
+struct Own {
+    name: String,
+    unit: &'static str,
+    kind: Kind,
+    doc: String,
+    group: String,
+    default: f64,
+}
+
+impl Own {
+    fn parameter(&self) -> Parameter<'_> {
+        Parameter::new(&self.name, self.unit, "", self.kind, &self.doc)
+            .group(&self.group)
+            .default(self.default)
+    }
+}
+
+type Parameters<'a> = Vec<Parameter<'a>>;
+
+self_cell!(
+    /// All parameters, with the texts of those that the model does not have.
+    struct Named {
+        owner: Vec<Own>,
+        #[covariant]
+        dependent: Parameters,
+    }
+);
+
 /// The parameter table of a vehicle.
 pub(super) struct Table {
-    pub(super) parameters: &'static [Parameter],
-    /// Number of the model's parameters, which come first.
-    shared: usize,
+    named: Named,
+    /// The model's parameters, which come first.
+    model: &'static [Parameter<'static>],
     /// The model's parameters that wings may have of their own.
     own: Vec<usize>,
     /// Number of wings.
@@ -42,71 +73,88 @@ pub(super) struct Table {
 }
 
 /// True if wings may have a value of their own of this parameter of the model.
-pub(super) fn may_differ(parameter: &Parameter) -> bool {
+pub(super) fn may_differ(parameter: &Parameter<'_>) -> bool {
     !matches!(parameter.kind, Kind::Choice(_)) && parameter.name != "drive_frequency"
 }
 
 impl Table {
-    pub(super) fn new(model: &'static [Parameter], mounts: &[Mount]) -> Result<Table, VehicleError> {
+    pub(super) fn new(model: &'static [Parameter<'static>], mounts: &[Mount]) -> Result<Table, VehicleError> {
         let own: Vec<usize> = (0..model.len()).filter(|&index| may_differ(&model[index])).collect();
-        let mut parameters = [model, &WHOLE].concat();
+        let mut owned: Vec<Own> = Vec::new();
         for mount in mounts {
-            let name = |rest: &str| kept(format!("{}_{rest}", mount.name));
-            let group = kept(format!("wing {}", mount.name));
-            let mut of_wing = Vec::new();
-            for (rest, unit, doc) in PLACE {
-                let doc = kept(format!("{doc}: of the wing {}.", mount.name));
-                let place = Parameter::new(name(rest), unit, "", Kind::Number(Any), doc);
-                of_wing.push(place.group(group).default(0.0));
-            }
+            let wing = &mount.name;
+            let group = format!("wing {wing}");
+            let mut of_wing: Vec<Own> = PLACE
+                .iter()
+                .map(|(rest, unit, doc)| Own {
+                    name: format!("{wing}_{rest}"),
+                    unit,
+                    kind: Kind::Number(Any),
+                    doc: format!("{doc}: of the wing {wing}."),
+                    group: group.clone(),
+                    default: 0.0,
+                })
+                .collect();
             for parameter in own.iter().map(|&index| &model[index]) {
                 let (Kind::Number(range) | Kind::Following(range, _)) = parameter.kind else { continue };
-                let doc = kept(format!("{} of the wing {} alone.", parameter.name, mount.name));
-                let kind = Kind::Following(range, parameter.name);
-                of_wing
-                    .push(Parameter::new(name(parameter.name), parameter.unit, "", kind, doc).group(group));
-            }
-            if let Some(clash) =
-                of_wing.iter().find(|one| parameters.iter().any(|other| other.name == one.name))
-            {
-                return Err(VehicleError::Clash {
-                    wing: mount.name.clone(),
-                    parameter: clash.name.to_owned(),
+                of_wing.push(Own {
+                    name: format!("{wing}_{}", parameter.name),
+                    unit: parameter.unit,
+                    kind: Kind::Following(range, parameter.name),
+                    doc: format!("{} of the wing {wing} alone.", parameter.name),
+                    group: group.clone(),
+                    default: f64::NAN,
                 });
             }
-            parameters.extend(of_wing);
+            let is_taken = |name: &str| {
+                model.iter().chain(&WHOLE).any(|other| other.name == name)
+                    || owned.iter().any(|other| other.name == name)
+            };
+            if let Some(clash) = of_wing.iter().find(|one| is_taken(&one.name)) {
+                return Err(VehicleError::Clash { wing: wing.clone(), parameter: clash.name.clone() });
+            }
+            owned.extend(of_wing);
         }
         let mirrored: Vec<bool> = mounts.iter().map(|mount| mount.mirrored).collect();
         let has_differences = mirrored.contains(&true) && mirrored.contains(&false);
         if has_differences {
-            for parameter in own.iter().map(|&index| &model[index]) {
-                let name = kept(format!("{DIFFERENCE}_{}", parameter.name));
-                let doc = kept(format!(
+            owned.extend(own.iter().map(|&index| &model[index]).map(|parameter| Own {
+                name: format!("{DIFFERENCE}_{}", parameter.name),
+                unit: parameter.unit,
+                kind: Kind::Number(Any),
+                doc: format!(
                     "Left-right difference of {}: half of it is added to the wings that are not mirrored, and taken from \
                      those that are.",
                     parameter.name
-                ));
-                let difference = Parameter::new(name, parameter.unit, "", Kind::Number(Any), doc);
-                parameters.push(difference.group("left-right differences").default(0.0));
-            }
+                ),
+                group: "left-right differences".to_owned(),
+                default: 0.0,
+            }));
         }
-        let parameters: &'static [Parameter] = Box::leak(parameters.into_boxed_slice());
-        Ok(Table { parameters, shared: model.len(), own, wings: mounts.len(), mirrored, has_differences })
+        let named = Named::new(owned, |owned| {
+            model.iter().chain(&WHOLE).copied().chain(owned.iter().map(Own::parameter)).collect()
+        });
+        Ok(Table { named, model, own, wings: mounts.len(), mirrored, has_differences })
+    }
+
+    /// All parameters: those of the model, those of the vehicle, those of wings, and differences.
+    pub(super) fn parameters(&self) -> &[Parameter<'_>] {
+        self.named.borrow_dependent()
     }
 
     /// The number of the first parameter of a wing.
     fn begin(&self, wing: usize) -> usize {
-        self.shared + WHOLE.len() + wing * (PLACE.len() + self.own.len())
+        self.model.len() + WHOLE.len() + wing * (PLACE.len() + self.own.len())
     }
 
     /// The point about which torques are taken (m).
     pub(super) fn about(&self, values: &[f64]) -> [f64; 3] {
-        core::array::from_fn(|i| values[self.shared + i])
+        core::array::from_fn(|i| values[self.model.len() + i])
     }
 
     /// The mass of the whole vehicle (kg); not a number if it is not known.
     pub(super) fn total_mass(&self, values: &[f64]) -> f64 {
-        values[self.shared + 3]
+        values[self.model.len() + 3]
     }
 
     /// The place of a wing.
@@ -123,7 +171,7 @@ impl Table {
     /// # Errors
     /// If a difference takes a value out of its range, or is one of a parameter that follows others.
     pub(super) fn of_wing(&self, values: &[f64], wing: usize) -> Result<Vec<f64>, Invalid> {
-        let mut own_values = values[..self.shared].to_vec();
+        let mut own_values = values[..self.model.len()].to_vec();
         let own = self.begin(wing) + PLACE.len();
         let differences = self.begin(self.wings);
         let share = if self.mirrored[wing] { -0.5 } else { 0.5 };
@@ -136,7 +184,7 @@ impl Table {
             if difference == 0.0 {
                 continue;
             }
-            let parameter = &self.parameters[index];
+            let parameter = &self.model[index];
             if value.is_nan() {
                 return Err(Invalid::new(format!(
                     "{DIFFERENCE}_{0} needs a value of {0}, which is not set",

@@ -7,8 +7,8 @@ use super::mount::MOST_WINGS;
 use crate::num::Backend;
 use crate::parameter::{Invalid, Parameter, Preset};
 use crate::simulate::{
-    Column, Experiments, Jobs, LaneUse, Motions, Point, PointRun, Row, Rows, Simulator, SolverSettings,
-    Status, Unfinished,
+    Column, Experiments, Gradients, Jobs, LaneUse, Motions, Point, PointRun, Row, Rows, Simulator,
+    SolverSettings, Status, Unfinished,
 };
 
 impl Rows for Vehicle {
@@ -47,8 +47,8 @@ impl Simulator for Vehicle {
         self.model.doc()
     }
 
-    fn parameters(&self) -> &'static [Parameter] {
-        self.table.parameters
+    fn parameters(&self) -> &[Parameter<'_>] {
+        self.table.parameters()
     }
 
     /// Those of the model. They have no values for the vehicle's own parameters, which have their defaults.
@@ -56,8 +56,12 @@ impl Simulator for Vehicle {
         self.model.presets()
     }
 
-    fn motions(&self) -> Result<&dyn Motions, Unfinished> {
+    fn gradients(&self) -> Result<&dyn Gradients, Unfinished> {
         Ok(self)
+    }
+
+    fn motions(&self) -> Result<&dyn Motions, Unfinished> {
+        Err(Unfinished::NoMotions { model: "of a vehicle" })
     }
 
     fn experiments(&self) -> Result<&dyn Experiments, Unfinished> {

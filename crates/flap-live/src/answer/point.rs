@@ -44,7 +44,7 @@ struct Mode {
 
 #[derive(Serialize)]
 struct Slope {
-    parameter: &'static str,
+    parameter: String,
     /// The change of the measure, in its unit, per per cent of the parameter.
     per_percent: f64,
 }
@@ -118,6 +118,9 @@ fn slopes(plan: &Plan, run: &PointRun<'_>, row: &Row, measure: &str) -> Result<V
     let parameters = plan.parameters();
     Ok(known
         .into_iter()
-        .map(|(index, slope)| Slope { parameter: parameters[index].name, per_percent: 0.01 * slope })
+        .map(|(index, slope)| Slope {
+            parameter: parameters[index].name.to_owned(),
+            per_percent: 0.01 * slope,
+        })
         .collect())
 }

@@ -63,7 +63,7 @@ pub(super) fn report_repeats(
 }
 
 /// The expressions of the section, in an order in which they can be computed.
-pub(super) fn read(drafts: &[Draft<'_>], names: &Names, problems: &mut Problems) -> Derived {
+pub(super) fn read(drafts: &[Draft<'_>], names: &Names<'_>, problems: &mut Problems) -> Derived {
     let mut formulas: Vec<(usize, Expression)> = Vec::new();
     let mut entries: Vec<&Entry<'_>> = Vec::new();
     for Draft { parameter, entry } in drafts {

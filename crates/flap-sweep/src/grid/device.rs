@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use flap_core::parameter::Preset;
 use flap_core::simulate::Simulator;
-use flap_core::vehicle::Vehicle;
 use toml::de::DeTable;
 
 use super::lookup::Lookup;
@@ -18,16 +17,14 @@ use super::uncertainty;
 use super::value;
 use crate::input::{self, MOST_BYTES};
 use crate::plan::uncertainty::Uncertainty;
-use crate::plan::{Source, Value, WithUnits};
+use crate::plan::{Robot, Source, Value, WithUnits};
 
 /// The keys of a device.
 const KEYS: [&str; 5] = ["description", "preset", "device", "params", "correlation"];
 
 /// The design that a grid begins with.
 pub(super) struct Base {
-    pub(super) simulator: &'static dyn Simulator,
-    /// The vehicle if it is one: the simulator then.
-    pub(super) vehicle: Option<&'static Vehicle>,
+    pub(super) robot: Robot,
     /// The preset at the root.
     pub(super) preset: &'static Preset,
     pub(super) values: Vec<Value>,
@@ -80,11 +77,10 @@ impl Reader<'_> {
             value::text("description", description.value, problems);
         }
         let Some(entry) = table::find(root, "device") else {
-            let (simulator, preset) = preset::read(root, self.models, problems)?;
-            let values = Value::of_preset(simulator, preset);
+            let (model, preset) = preset::read(root, self.models, problems)?;
+            let values = Value::of_preset(model, preset);
             return Some(Base {
-                simulator,
-                vehicle: None,
+                robot: Robot::Wing(model),
                 preset,
                 values,
                 with_units: WithUnits::default(),
@@ -158,7 +154,7 @@ impl Base {
         models: &[&'static dyn Simulator],
         problems: &mut Problems,
     ) -> Vec<(usize, std::ops::Range<usize>)> {
-        let mut lookup = Lookup { simulator: self.simulator, models, problems };
+        let mut lookup = Lookup { simulator: &*self.robot, models, problems };
         let set = params::read(
             table::find(root, "params"),
             &mut self.values,

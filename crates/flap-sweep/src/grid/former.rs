@@ -4,10 +4,13 @@ use flap_core::parameter::Parameter;
 use toml::de::{DeTable, DeValue};
 
 /// The parameters that the grid calls by their former names, in keys, lists and expressions.
-pub(super) fn used(root: &DeTable<'_>, parameters: &'static [Parameter]) -> Vec<&'static Parameter> {
+pub(super) fn used(
+    root: &DeTable<'_>,
+    parameters: &'static [Parameter<'static>],
+) -> Vec<&'static Parameter<'static>> {
     let mut words = Vec::new();
     collect(root, &mut words);
-    let is_used = |parameter: &&Parameter| words.contains(&parameter.former);
+    let is_used = |parameter: &&Parameter<'_>| words.contains(&parameter.former);
     parameters.iter().filter(|parameter| !parameter.former.is_empty()).filter(is_used).collect()
 }
 

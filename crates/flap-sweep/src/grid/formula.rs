@@ -23,8 +23,8 @@ const RESONANCE: &str = "the resonance of each design, which [measure] has as re
 
 /// The names of parameters, of their values in the preset, and of measures. Values stand in this order: the
 /// parameters, the model's measures, the user's own.
-pub(super) struct Names {
-    pub(super) parameters: &'static [Parameter],
+pub(super) struct Names<'n> {
+    pub(super) parameters: &'n [Parameter<'n>],
     /// The values of the preset.
     pub(super) preset: Vec<Value>,
     /// The values of the device, if the grid begins with one.
@@ -48,7 +48,7 @@ pub(super) fn followed(value: Value) -> Option<&'static str> {
     }
 }
 
-impl Names {
+impl Names<'_> {
     fn parameter(&self, name: &str) -> Option<usize> {
         Parameter::index(self.parameters, name)
     }
@@ -95,7 +95,7 @@ impl Names {
     }
 }
 
-impl Scope for Names {
+impl Scope for Names<'_> {
     fn meaning(&self, name: &str) -> Option<Meaning> {
         if let Some(name) = name.strip_prefix(PRESET) {
             return self.parameter(name).and_then(|index| self.of_fixed(&self.preset, index));
@@ -126,7 +126,7 @@ impl Scope for Names {
 /// reports, if it is not.
 pub(super) fn read(
     entry: &Entry<'_>,
-    names: &Names,
+    names: &Names<'_>,
     wanted: Kind,
     problems: &mut Problems,
 ) -> Option<Expression> {
@@ -156,7 +156,7 @@ pub(super) fn read(
 /// The mistakes in the expression, not reported yet.
 pub(super) fn check(
     entry: &Entry<'_>,
-    names: &Names,
+    names: &Names<'_>,
     problems: &mut Problems,
 ) -> Result<Option<Expression>, Vec<ExpressionError>> {
     if let Some(text) = entry.value.get_ref().as_str() {

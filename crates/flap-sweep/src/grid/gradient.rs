@@ -19,8 +19,8 @@ pub(super) const KEYS: [&str; 2] = ["of", "with_respect_to"];
 /// decide.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
-    simulator: &'static dyn Simulator,
-    names: &Names,
+    simulator: &dyn Simulator,
+    names: &Names<'_>,
     derived: &Derived,
     at_resonance: bool,
     problems: &mut Problems,
@@ -34,7 +34,7 @@ pub(super) fn read(
             .note("the resonance moves with the design, and flap does not know how")
             .help("set drive_frequency, or remove [gradient]");
     }
-    if let Err(error) = simulator.motions() {
+    if let Err(error) = simulator.gradients() {
         problems.report(entry.key_span.clone(), error.to_string());
     }
     for key in KEYS {
@@ -78,7 +78,12 @@ fn listed(
 }
 
 /// The index of a measure: the model's columns, then the user's own.
-fn measure(name: &str, item: &Spanned<DeValue<'_>>, names: &Names, problems: &mut Problems) -> Option<usize> {
+fn measure(
+    name: &str,
+    item: &Spanned<DeValue<'_>>,
+    names: &Names<'_>,
+    problems: &mut Problems,
+) -> Option<usize> {
     let columns = names.columns.iter().map(|column| column.name.as_str());
     let own = names.own.iter().map(|own| own.name.as_str());
     let index = columns.clone().chain(own.clone()).position(|known| known == name);
@@ -100,7 +105,7 @@ fn measure(name: &str, item: &Spanned<DeValue<'_>>, names: &Names, problems: &mu
 fn parameter(
     name: &str,
     item: &Spanned<DeValue<'_>>,
-    names: &Names,
+    names: &Names<'_>,
     derived: &Derived,
     problems: &mut Problems,
 ) -> Option<usize> {

@@ -4,21 +4,21 @@ use std::ops::Range;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::Simulator;
-use flap_core::vehicle::why_absent;
 
+use super::absent::why_absent;
 use super::problems::Problems;
 use super::table::Entry;
 
 /// The model in which parameters are looked up, and the list in which unknown ones are reported.
 pub(super) struct Lookup<'l> {
-    pub(super) simulator: &'static dyn Simulator,
+    pub(super) simulator: &'l dyn Simulator,
     pub(super) models: &'l [&'static dyn Simulator],
     pub(super) problems: &'l mut Problems,
 }
 
-impl Lookup<'_> {
+impl<'l> Lookup<'l> {
     /// The parameter called `name`, with its index; a name that is not known is reported at `span`.
-    pub(super) fn named(&mut self, name: &str, span: Range<usize>) -> Option<(usize, &'static Parameter)> {
+    pub(super) fn named(&mut self, name: &str, span: Range<usize>) -> Option<(usize, &'l Parameter<'l>)> {
         let known = self.simulator.parameters();
         let found = Parameter::index(known, name).map(|index| (index, &known[index]));
         if found.is_none() {
@@ -28,11 +28,11 @@ impl Lookup<'_> {
     }
 
     /// The parameter that `entry` is for, with its index.
-    pub(super) fn parameter(&mut self, entry: &Entry<'_>) -> Option<(usize, &'static Parameter)> {
+    pub(super) fn parameter(&mut self, entry: &Entry<'_>) -> Option<(usize, &'l Parameter<'l>)> {
         self.named(entry.key, entry.key_span.clone())
     }
 
-    fn report_unknown(&mut self, name: &str, span: Range<usize>, known: &[Parameter]) {
+    fn report_unknown(&mut self, name: &str, span: Range<usize>, known: &[Parameter<'_>]) {
         let model = self.simulator.name();
         let owners: Vec<&str> = self
             .models
@@ -59,7 +59,7 @@ impl Lookup<'_> {
     }
 
     /// The name of parameter number `index`.
-    pub(super) fn name(&self, index: usize) -> &'static str {
+    pub(super) fn name(&self, index: usize) -> &'l str {
         self.simulator.parameters()[index].name
     }
 }

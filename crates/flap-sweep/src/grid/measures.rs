@@ -10,7 +10,7 @@ use crate::table::fixed::is_fixed;
 /// Puts the measures of the section into `names`, one by one: each may use those above it.
 ///
 /// Returns the names that measures may have, also those of measures whose expressions are wrong.
-pub(super) fn read(entry: Option<&Entry<'_>>, names: &mut Names, problems: &mut Problems) -> Vec<String> {
+pub(super) fn read(entry: Option<&Entry<'_>>, names: &mut Names<'_>, problems: &mut Problems) -> Vec<String> {
     let entries = entry.map(|entry| table::section(entry, problems)).unwrap_or_default();
     for (place, entry) in entries.iter().enumerate() {
         if !name_is_sound(entry.key, names) {
@@ -46,7 +46,7 @@ pub(super) fn read(entry: Option<&Entry<'_>>, names: &mut Names, problems: &mut 
 }
 
 /// True if a column may be called `name`, and be used in expressions.
-fn name_is_sound(name: &str, names: &Names) -> bool {
+fn name_is_sound(name: &str, names: &Names<'_>) -> bool {
     expression::is_free_name(name)
         && !is_fixed(name)
         && names.parameters.iter().all(|parameter| parameter.name != name)

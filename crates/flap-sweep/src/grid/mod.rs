@@ -3,6 +3,7 @@
 //! Each part of the file has its own module below; all report mistakes into one list, so that one check finds all
 //! mistakes of a file. See `docs/grid.md` for the format.
 
+mod absent;
 mod axes;
 mod conditions;
 mod derived;
@@ -33,6 +34,7 @@ mod vehicle;
 mod written;
 mod zip;
 
+pub use absent::why_absent;
 pub use parse::{parse, parse_recorded};
 pub use read::{ReadError, read, read_from};
 pub use written::{device, wing};

@@ -17,7 +17,7 @@ use crate::table::format::Format;
 pub(super) const KEYS: [&str; 2] = ["path", "columns"];
 
 /// A model, and the names of the columns that rows measure, the user's own included.
-type Measured<'m> = (&'static dyn Simulator, &'m [String]);
+type Measured<'m> = (&'m dyn Simulator, &'m [String]);
 
 /// The section; column names are checked only if the model is known.
 pub(super) fn read(

@@ -58,7 +58,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     let document = root.get_ref();
     let root = table::entries(document);
     let base = reader.base(&root, &mut problems);
-    let model = base.as_ref().map(|base| base.simulator);
+    let model = base.as_ref().map(|base| base.robot.model());
     let base = base.and_then(|base| vehicle::read(&root, base, reader, &mut problems));
     report_unknown_keys(&root, model, &mut problems);
     let solver = solver::read(table::find(&root, "solver"), &mut problems);
@@ -69,9 +69,10 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         return Err(problems.into_mistakes());
     };
     let (base, told) = base;
-    let (simulator, vehicle, preset) = (base.simulator, base.vehicle, base.preset);
+    let (robot, preset) = (base.robot.clone(), base.preset);
+    let simulator = &*robot;
     let Points { base, axes, sample_file, resonance, derived, conditions, unreached, mut names } =
-        read_points(&root, base, told, reader.models, &mut problems);
+        read_points(&root, base, simulator, told, reader.models, &mut problems);
     names.are_measured = true;
     let own = measures::read(table::find(&root, "measure"), &mut names, &mut problems);
     let gradient = table::find(&root, "gradient");
@@ -89,8 +90,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         problems.into_mistakes()
     })?;
     Ok(Plan::new(Space {
-        simulator,
-        vehicle,
+        robot: base.robot,
         resonance,
         preset: preset.name,
         base: base.values,
@@ -105,14 +105,14 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         gradient,
         solver,
         output,
-        renamed: former::used(document, simulator.parameters()),
+        renamed: former::used(document, robot.model().parameters()),
         unreached,
         source: (*source).clone(),
     }))
 }
 
 /// The sections of a grid file about its points.
-struct Points {
+struct Points<'n> {
     base: Base,
     axes: Vec<axes::Placed>,
     sample_file: Option<PointsFile>,
@@ -120,24 +120,25 @@ struct Points {
     derived: Derived,
     conditions: Vec<Condition>,
     /// Parameters of all wings that the grid sets, and that each wing has of its own.
-    unreached: Vec<&'static Parameter>,
-    names: Names,
+    unreached: Vec<&'static Parameter<'static>>,
+    names: Names<'n>,
 }
 
 /// The sections `[params]`, `[resonance]`, `[axes]`, `[[zip]]`, `[sample]`, `[derived]` and `[where]`.
-fn read_points(
+fn read_points<'n>(
     root: &[Entry<'_>],
     mut base: Base,
+    simulator: &'n dyn Simulator,
     told: Told,
     models: &[&'static dyn Simulator],
     problems: &mut Problems,
-) -> Points {
-    let (simulator, device) = (base.simulator, base.values.clone());
+) -> Points<'n> {
+    let device = base.values.clone();
     let set = base.set(root, models, problems);
     let mut lookup = Lookup { simulator, models, problems };
     let mut axes = axes::read(table::find(root, "axes"), &mut lookup);
     axes.extend(zip::read(table::find(root, "zip"), &mut lookup));
-    let means = means(&base, &axes);
+    let means = means(&base, simulator, &axes);
     let sample = sample::read(table::find(root, "sample"), &base, &means, &mut lookup);
     let (sampled, sample_file) = sample.map_or((None, None), |(placed, file)| (Some(placed), file));
     axes.extend(sampled);
@@ -163,13 +164,13 @@ fn read_points(
     let chosen: Vec<usize> =
         set.iter().map(|(parameter, _)| *parameter).chain(moved.iter().copied()).collect();
     told.report_frequencies(simulator.parameters(), |parameter| chosen.contains(&parameter), problems);
-    let unreached = base.vehicle.map_or_else(Vec::new, |vehicle| {
+    let unreached = base.robot.vehicle().map_or_else(Vec::new, |vehicle| {
         let is_own = |own: usize| base.values[own].given().is_some() || moved.contains(&own);
         vehicle::unreached(vehicle, &chosen, is_own)
     });
 
-    let is_vehicle = base.vehicle.is_some();
-    let resonance = resonance::read(root, simulator, is_vehicle, &mut base.values, problems);
+    let is_vehicle = base.robot.vehicle().is_some();
+    let resonance = resonance::read(root, base.robot.model(), is_vehicle, &mut base.values, problems);
 
     let mut unset: Vec<Option<&str>> = base.values.iter().map(|value| formula::followed(*value)).collect();
     for parameter in moved {
@@ -187,13 +188,13 @@ fn read_points(
 
 /// The values of parameters that are not sampled, which are the means of normal distributions that name none. A wing's own
 /// parameter that is not set has the value of all wings, unless an axis varies that.
-fn means(base: &Base, axes: &[axes::Placed]) -> Vec<Value> {
+fn means(base: &Base, simulator: &dyn Simulator, axes: &[axes::Placed]) -> Vec<Value> {
     let is_varied = |parameter: usize| {
         axes.iter().flat_map(|placed| placed.axis.parameters()).any(|(varied, _)| *varied == parameter)
     };
     let mean = |index: usize| {
         let own = base.values[index];
-        let shared = of_all_wings(base.simulator.parameters(), index);
+        let shared = of_all_wings(simulator.parameters(), index);
         let shared = shared.filter(|&shared| own.given().is_none() && !is_varied(shared));
         shared.map_or(own, |shared| base.values[shared])
     };

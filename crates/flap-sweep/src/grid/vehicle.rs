@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use std::sync::Arc;
+
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::Simulator as _;
 use flap_core::vehicle::{MOST_WINGS, Mount, Vehicle, VehicleError};
@@ -13,7 +15,7 @@ use super::lookup::Lookup;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::{uncertainty, value};
-use crate::plan::Value;
+use crate::plan::{Robot, Value};
 use crate::resonance::DRIVE_FREQUENCY;
 
 pub(super) const KEYS: [&str; 3] = ["about", "total_mass", "wings"];
@@ -66,15 +68,15 @@ pub(super) fn read(
     table::check_keys(&entries, &KEYS, "in [vehicle]", problems);
     let wings = wings(section, &entries, problems)?;
     let mounts: Option<Vec<Mount>> = wings.iter().map(|wing| mount(wing, problems)).collect();
-    let vehicle = match Vehicle::of(base.simulator, &mounts?) {
-        Ok(vehicle) => vehicle,
+    let vehicle = match Vehicle::of(base.robot.model(), &mounts?) {
+        Ok(vehicle) => Arc::new(vehicle),
         Err(error) => {
             report(&error, section, &wings, problems);
             return None;
         }
     };
     let shared = base.values.len();
-    let mut own = Own { vehicle, shared: base, told: Told::default(), problems, models: reader };
+    let mut own = Own { vehicle: &vehicle, shared: base, told: Told::default(), problems, models: reader };
     let of_vehicle = |parameter: &Parameter| match parameter.kind {
         Kind::Following(_, follows) if parameter.default.is_nan() => Value::Follows(follows),
         _ => Value::Given(parameter.default),
@@ -89,16 +91,17 @@ pub(super) fn read(
     for (index, wing) in wings.iter().enumerate() {
         own.wing(index, wing);
     }
-    Some((Base { simulator: vehicle, vehicle: Some(vehicle), ..own.shared }, own.told))
+    let (shared, told) = (own.shared, own.told);
+    Some((Base { robot: Robot::Vehicle(vehicle), ..shared }, told))
 }
 
 /// The parameters of all wings among those `chosen` by the grid that reach no wing: each has one of its own, as `is_own` says
 /// of a parameter of the vehicle.
 pub(super) fn unreached(
-    vehicle: &'static Vehicle,
+    vehicle: &Vehicle,
     chosen: &[usize],
     is_own: impl Fn(usize) -> bool,
-) -> Vec<&'static Parameter> {
+) -> Vec<&'static Parameter<'static>> {
     let shared = vehicle.model().parameters().iter().enumerate();
     let reaches_none = |parameter: &Parameter| {
         let own = |wing| vehicle.own_parameter(wing, parameter.name);
@@ -178,9 +181,23 @@ fn report(error: &VehicleError, section: &Entry<'_>, wings: &[WingTable<'_>], pr
     };
     let last = named.pop().map(|name| name.value.span());
     let span = one_too_many.or(last).unwrap_or(section.key_span.clone());
-    let diagnostic = problems.report(span, error.to_string()).help(error.help());
+    let diagnostic = problems.report(span, error.to_string()).help(remedy(error));
     if let (VehicleError::SameName(_), Some(first)) = (error, named.first()) {
         diagnostic.related(first.value.span(), "the first of them");
+    }
+}
+
+/// The remedy of a vehicle that cannot be made.
+fn remedy(error: &VehicleError) -> &'static str {
+    match error {
+        VehicleError::NoWings => {
+            "write [[vehicle.wings]] above the keys of each wing, such as name = \"left\""
+        }
+        VehicleError::ManyWings(_) => "remove this wing and those below it",
+        VehicleError::Name(_) => "write a name such as \"left\" or \"front_right\"",
+        VehicleError::SameName(_) => "give each wing a name of its own, such as \"left\" and \"right\"",
+        VehicleError::Clash { .. } => "give the wing another name",
+        VehicleError::NoLoads(_) => "choose a preset of another model: `flap models` lists them",
     }
 }
 
@@ -192,7 +209,7 @@ fn sets(entries: &[Entry<'_>], parameter: &str) -> bool {
 
 /// The values of a vehicle, in which those of its wings are put.
 struct Own<'o> {
-    vehicle: &'static Vehicle,
+    vehicle: &'o Vehicle,
     /// The design of all wings, with the values of the vehicle.
     shared: Base,
     told: Told,
@@ -286,10 +303,10 @@ impl Own<'_> {
         let span = begin.value.span();
         let Some(design) = self.models.base(entries, self.problems) else { return };
         let (model, name) = (self.vehicle.model(), &self.vehicle.mounts()[index].name);
-        if design.simulator.name() != model.name() {
+        if design.robot.name() != model.name() {
             let message = format!(
                 "the wing `{name}` is of the model {}, the vehicle of the model {}",
-                design.simulator.name(),
+                design.robot.name(),
                 model.name()
             );
             self.problems
@@ -343,7 +360,8 @@ impl Own<'_> {
     fn own_parameter(&mut self, index: usize, entry: &Entry<'_>) {
         let model = self.vehicle.model();
         let mut lookup = Lookup { simulator: model, models: self.models.models, problems: self.problems };
-        let Some((_, parameter)) = lookup.parameter(entry) else { return };
+        let Some((place, _)) = lookup.parameter(entry) else { return };
+        let parameter = &model.parameters()[place];
         let Some(target) = self.vehicle.own_parameter(index, parameter.name) else {
             let what = if parameter.name == DRIVE_FREQUENCY { "one frequency" } else { "the same choices" };
             self.problems

@@ -1,7 +1,7 @@
 //! Changes of a plan that keep it true.
 
 use flap_core::parameter::Kind;
-use flap_core::simulate::{Motions, Setting, SettingKind, SolverSettings};
+use flap_core::simulate::{Gradients, Setting, SettingKind, SolverSettings};
 use flap_core::vehicle::of_all_wings;
 
 use crate::notation::expression;
@@ -19,24 +19,24 @@ use crate::plan::value::Value;
 pub enum ChangeError {
     /// An axis varies the parameter.
     #[error("`{0}` is varied by an axis")]
-    Varied(&'static str),
+    Varied(String),
     /// The parameter is computed from others.
     #[error("`{0}` is derived from other parameters")]
-    Derived(&'static str),
+    Derived(String),
     /// The drive frequency is the resonance of each design.
     #[error("`{0}` is the resonance of each design")]
-    Resonance(&'static str),
+    Resonance(String),
     /// The parameter does not take the value.
     #[error("`{parameter}` does not take this value")]
     Value {
         /// Name of the parameter.
-        parameter: &'static str,
+        parameter: String,
         /// The mistake in the value.
         error: Box<ValueError>,
     },
     /// These parameters have no value.
     #[error("these parameters have no value: {}", .0.join(", "))]
-    Missing(Vec<&'static str>),
+    Missing(Vec<String>),
     /// The points would be more than [`Axes::MAX_POINTS`](super::axes::Axes::MAX_POINTS).
     #[error(transparent)]
     TooManyPoints(#[from] TooManyPoints),
@@ -48,7 +48,7 @@ pub enum ChangeError {
     NoColumn(String),
     /// Rows have no derivatives by this parameter.
     #[error("`{0}` {1}")]
-    NoShares(&'static str, NoShares),
+    NoShares(String, NoShares),
     /// The measure is true or false.
     #[error("`{0}` is true or false, and has no derivatives")]
     NoSlope(String),
@@ -92,8 +92,10 @@ impl Plan {
     pub fn with_parameter(mut self, parameter: usize, value: f64) -> Result<Plan, ChangeError> {
         self.check_free(parameter)?;
         let known = &self.parameters()[parameter];
-        let value = value::of_number(known, value)
-            .map_err(|error| ChangeError::Value { parameter: known.name, error: Box::new(error) })?;
+        let value = value::of_number(known, value).map_err(|error| ChangeError::Value {
+            parameter: known.name.to_owned(),
+            error: Box::new(error),
+        })?;
         self.space.base[parameter] = Value::Given(value);
         self.space.with_units.note(parameter, Some(false));
         Ok(self)
@@ -135,7 +137,7 @@ impl Plan {
             let follows = follows(parameter)
                 .and_then(|own| of_all_wings(self.parameters(), parameter).map_or(Some(own), follows));
             gradient::check(known, is_derived, follows)
-                .map_err(|reason| ChangeError::NoShares(known.name, reason))?;
+                .map_err(|reason| ChangeError::NoShares(known.name.to_owned(), reason))?;
         }
         let models = self.rows().columns().len();
         let is_number = |of: usize| match of.checked_sub(models) {
@@ -189,15 +191,14 @@ impl Plan {
     /// [`ChangeError::Missing`] if parameters that neither follow others nor have a default are not among those `given`.
     pub fn without_preset(mut self, given: &[usize]) -> Result<Plan, ChangeError> {
         let mut missing = Vec::new();
-        for (index, parameter) in
-            self.parameters().iter().enumerate().filter(|(index, _)| !given.contains(index))
-        {
+        let parameters = self.space.robot.parameters();
+        for (index, parameter) in parameters.iter().enumerate().filter(|(index, _)| !given.contains(index)) {
             match parameter.kind {
                 Kind::Following(_, follows) => self.space.base[index] = Value::Follows(follows),
                 Kind::Number(_) | Kind::Choice(_) if !parameter.default.is_nan() => {
                     self.space.base[index] = Value::Given(parameter.default);
                 }
-                Kind::Number(_) | Kind::Choice(_) => missing.push(parameter.name),
+                Kind::Number(_) | Kind::Choice(_) => missing.push(parameter.name.to_owned()),
             }
         }
         if !missing.is_empty() {
@@ -218,7 +219,7 @@ impl Plan {
         for (place, (parameter, _)) in parameters.iter().enumerate() {
             self.check_free(*parameter)?;
             if parameters[..place].iter().any(|(before, _)| before == parameter) {
-                return Err(ChangeError::Varied(self.parameters()[*parameter].name));
+                return Err(ChangeError::Varied(self.parameters()[*parameter].name.to_owned()));
             }
         }
         let parameters =
@@ -270,25 +271,25 @@ impl Plan {
     }
 
     /// The components of the states of the model's motions.
-    fn check_motions(&self) -> Result<&'static [&'static str], ChangeError> {
+    fn check_motions(&self) -> Result<Vec<String>, ChangeError> {
         if self.resonance().is_some() {
             return Err(ChangeError::AtResonance);
         }
-        let motions = self.simulator().motions();
-        motions.map(Motions::states).map_err(|error| ChangeError::NoMotions(error.to_string()))
+        let gradients = self.simulator().gradients();
+        gradients.map(Gradients::states).map_err(|error| ChangeError::NoMotions(error.to_string()))
     }
 
     /// Checks that `parameter` may be set or varied.
     fn check_free(&self, parameter: usize) -> Result<(), ChangeError> {
-        let name = self.parameters()[parameter].name;
+        let name = || self.parameters()[parameter].name.to_owned();
         if self.axes().varied().any(|varied| varied == parameter) {
-            return Err(ChangeError::Varied(name));
+            return Err(ChangeError::Varied(name()));
         }
         if self.derived().parameters().any(|derived| derived == parameter) {
-            return Err(ChangeError::Derived(name));
+            return Err(ChangeError::Derived(name()));
         }
         if self.base()[parameter] == Value::Resonance {
-            return Err(ChangeError::Resonance(name));
+            return Err(ChangeError::Resonance(name()));
         }
         Ok(())
     }

@@ -11,6 +11,7 @@ use crate::plan::axes::Axes;
 use crate::plan::files::{Output, PointsFile, Source};
 use crate::plan::formula::{Condition, Derived, OwnMeasure};
 use crate::plan::gradient::Gradient;
+use crate::plan::robot::Robot;
 use crate::plan::selection::Selection;
 use crate::plan::uncertainty::Uncertainty;
 use crate::plan::value::Value;
@@ -28,15 +29,13 @@ pub struct Plan {
     /// One state per point from which its motion begins; `None` for a motion from rest. Empty if all begin at rest.
     pub(super) begins: Vec<Option<Vec<f64>>>,
     /// The components of the state that rows have; empty if they have none.
-    pub(super) states: &'static [&'static str],
+    pub(super) states: Vec<String>,
 }
 
 /// The contents of a grid file that has passed every check.
 pub(crate) struct Space {
-    /// The model.
-    pub(crate) simulator: &'static dyn Simulator,
-    /// The vehicle if the simulator is one.
-    pub(crate) vehicle: Option<&'static Vehicle>,
+    /// The simulator of the points.
+    pub(crate) robot: Robot,
     /// The search for resonances if each design is run at its own.
     pub(crate) resonance: Option<AtResonance>,
     /// Name of the preset that the parameters start from.
@@ -66,9 +65,9 @@ pub(crate) struct Space {
     /// The file that rows go to, and its columns.
     pub(crate) output: Output,
     /// The parameters that the grid file calls by their former names.
-    pub(crate) renamed: Vec<&'static Parameter>,
+    pub(crate) renamed: Vec<&'static Parameter<'static>>,
     /// The parameters of all wings that the grid sets or varies, although each wing has one of its own.
-    pub(crate) unreached: Vec<&'static Parameter>,
+    pub(crate) unreached: Vec<&'static Parameter<'static>>,
     /// The grid file itself, for provenance.
     pub(crate) source: Source,
 }
@@ -76,21 +75,26 @@ pub(crate) struct Space {
 impl Plan {
     /// The plan of a design space, of which all points are run.
     pub(crate) fn new(space: Space) -> Plan {
-        Plan { space, selection: Selection::All, followed: None, begins: Vec::new(), states: &[] }
+        Plan { space, selection: Selection::All, followed: None, begins: Vec::new(), states: Vec::new() }
     }
 
-    /// The model.
-    pub fn simulator(&self) -> &'static dyn Simulator {
-        self.space.simulator
+    /// The simulator of the points: a model or a vehicle.
+    pub fn robot(&self) -> &Robot {
+        &self.space.robot
     }
 
-    /// The vehicle, if the points are vehicles: the simulator then.
-    pub fn vehicle(&self) -> Option<&'static Vehicle> {
-        self.space.vehicle
+    /// The model, or the vehicle if the points are vehicles.
+    pub fn simulator(&self) -> &dyn Simulator {
+        &**self.robot()
+    }
+
+    /// The vehicle, if the points are vehicles.
+    pub fn vehicle(&self) -> Option<&Vehicle> {
+        self.robot().vehicle()
     }
 
     /// The model's parameter table.
-    pub fn parameters(&self) -> &'static [Parameter] {
+    pub fn parameters(&self) -> &[Parameter<'_>] {
         self.simulator().parameters()
     }
 
@@ -173,12 +177,12 @@ impl Plan {
     }
 
     /// The parameters that the grid file calls by the names of earlier versions.
-    pub fn renamed(&self) -> &[&'static Parameter] {
+    pub fn renamed(&self) -> &[&'static Parameter<'static>] {
         &self.space.renamed
     }
 
     /// The parameters of all wings that the grid file sets or varies in vain: each wing has one of its own.
-    pub fn unreached(&self) -> &[&'static Parameter] {
+    pub fn unreached(&self) -> &[&'static Parameter<'static>] {
         &self.space.unreached
     }
 
@@ -198,8 +202,8 @@ impl Plan {
     }
 
     /// The components of the state at the beginning of a motion's period that rows have; empty if they have none.
-    pub fn states(&self) -> &'static [&'static str] {
-        self.states
+    pub fn states(&self) -> &[String] {
+        &self.states
     }
 
     /// Number of points.

@@ -1,12 +1,13 @@
 //! Rows of designs that are each run at their own resonance.
 
+use flap_core::model::OverWings;
 use flap_core::num::Backend;
 use flap_core::simulate::{Column, Jobs, Point, PointRun, Row, Rows, Simulator, SolverSettings};
 
-use super::range::Range;
+use super::range::{Objective, Range};
 use super::search::{Peaks, Search};
 use super::study::{self, Desk};
-use super::target::Target;
+use super::target::{Target, places};
 
 /// A model whose rows are those of each design at its own resonance: the drive frequency of a point does not matter.
 ///
@@ -23,35 +24,42 @@ pub const RESONANCE_HZ: &str = "resonance_hz";
 /// The column with the resonance's distance from the nearer end of the range.
 pub const RESONANCE_MARGIN_HZ: &str = "resonance_margin_hz";
 
-/// The measures that rows of a model can have: its own, then those of designs at their resonance.
-pub fn measures(model: &'static dyn Simulator) -> Vec<Column> {
-    let at_resonance = AtResonance::new(model, Range::default());
-    at_resonance.map_or_else(|| model.columns().to_vec(), |rows| rows.columns)
+/// The measures that rows of a simulator can have: its own, then those of designs at their resonance.
+pub fn measures(simulator: &dyn Simulator) -> Vec<Column> {
+    let of = Range::default().of;
+    if places(simulator, of).is_some() { columns(simulator, of) } else { simulator.columns().to_vec() }
+}
+
+/// The measures of rows of designs at their resonance: those of the model, then those of the resonance.
+fn columns(model: &dyn Simulator, of: Objective) -> Vec<Column> {
+    let of = of.name();
+    let margin =
+        "distance of the resonance from the nearer end of the range; zero if the largest value is there";
+    let gaps = "number of search points without a periodic motion: a larger peak may lie there";
+    let added = [
+        (RESONANCE_HZ, "Hz", &*format!("drive frequency at which the {of} is largest")),
+        (
+            "resonance_second_hz",
+            "Hz",
+            &*format!("another peak of the {of}, if it is within 5 % of the largest"),
+        ),
+        (RESONANCE_MARGIN_HZ, "Hz", margin),
+        ("resonance_points", "", "points run in the search"),
+        ("resonance_gaps", "", gaps),
+    ];
+    let added = added.map(|(name, unit, doc)| Column {
+        name: name.to_owned(),
+        unit,
+        doc: doc.to_owned(),
+        over_wings: OverWings::Omitted,
+    });
+    model.columns().iter().cloned().chain(added).collect()
 }
 
 impl AtResonance {
     /// The resonances of designs of `model`; `None` if that has no drive frequency or does not measure the objective.
     pub fn new(model: &'static dyn Simulator, range: Range) -> Option<AtResonance> {
-        let target = Target::new(model, range)?;
-        let of = range.of.name();
-        let margin =
-            "distance of the resonance from the nearer end of the range; zero if the largest value is there";
-        let gaps = "number of search points without a periodic motion: a larger peak may lie there";
-        let added = [
-            (RESONANCE_HZ, "Hz", &*format!("drive frequency at which the {of} is largest")),
-            (
-                "resonance_second_hz",
-                "Hz",
-                &*format!("another peak of the {of}, if it is within 5 % of the largest"),
-            ),
-            (RESONANCE_MARGIN_HZ, "Hz", margin),
-            ("resonance_points", "", "points run in the search"),
-            ("resonance_gaps", "", gaps),
-        ];
-        let added =
-            added.map(|(name, unit, doc)| Column { name: name.to_owned(), unit, doc: doc.to_owned() });
-        let columns = model.columns().iter().cloned().chain(added).collect();
-        Some(AtResonance { target, columns })
+        Some(AtResonance { target: Target::new(model, range)?, columns: columns(model, range.of) })
     }
 
     /// The range in which resonances are looked for.

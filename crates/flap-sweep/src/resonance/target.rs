@@ -23,8 +23,7 @@ pub(super) struct Target {
 impl Target {
     /// The target for designs of `model`; `None` if that has no drive frequency or does not measure the objective.
     pub(super) fn new(model: &'static dyn Simulator, range: Range) -> Option<Target> {
-        let frequency = model.parameters().iter().position(|parameter| parameter.name == DRIVE_FREQUENCY)?;
-        let objective = model.columns().iter().position(|column| column.name == range.of.column())?;
+        let [frequency, objective] = places(model, range.of)?;
         Some(Target { model, range, frequency, objective })
     }
 
@@ -40,15 +39,24 @@ impl Target {
                 let mut values = values.to_vec();
                 // Small motions do not depend on it, but it must be there.
                 values[self.frequency] = from.or(to).filter(|given| *given > 0.0).unwrap_or(1.0);
-                let natural = self.model.experiments()?.modes(&values)?.map(|mode| mode.frequency);
-                let lowest = 0.5 * natural[0].min(natural[1]);
-                let highest = 1.5 * natural[0].max(natural[1]);
+                let modes = self.model.experiments()?.modes(&values)?;
+                let natural = modes.iter().map(|mode| mode.frequency);
+                let lowest = 0.5 * natural.clone().fold(f64::NAN, f64::min);
+                let highest = 1.5 * natural.fold(f64::NAN, f64::max);
                 [from.unwrap_or(lowest), to.unwrap_or(highest)]
             }
         };
         let is_range = from > 0.0 && from < to && to.is_finite();
         if is_range { Ok([from, to]) } else { Err(SearchError::Range { from, to }) }
     }
+}
+
+/// The places of the drive frequency among the parameters of a model, and of the objective among its columns; `None` if it
+/// lacks one of them.
+pub(super) fn places(model: &dyn Simulator, of: Objective) -> Option<[usize; 2]> {
+    let frequency = model.parameters().iter().position(|parameter| parameter.name == DRIVE_FREQUENCY)?;
+    let objective = model.columns().iter().position(|column| column.name == of.column())?;
+    Some([frequency, objective])
 }
 
 /// True if the stroke of a point is prescribed, and so the same at every frequency.

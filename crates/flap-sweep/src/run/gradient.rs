@@ -28,7 +28,8 @@ pub(super) fn add(
     });
     let changes: Vec<Change> = changes.collect();
     let run = PointRun::new(options.instructions, plan.solver(), &point.values).until(interrupted);
-    let found = plan.simulator().motions().and_then(|motions| motions.gradient(&run, &row.state, &changes));
+    let found =
+        plan.simulator().gradients().and_then(|gradients| gradients.gradient(&run, &row.state, &changes));
     if interrupted() {
         return false;
     }

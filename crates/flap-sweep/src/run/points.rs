@@ -197,7 +197,7 @@ impl Jobs for Points<'_, '_> {
 /// The ledger of a plan: turns the outcomes of points into rows.
 pub(super) struct PointLedger<'a> {
     plan: &'a Plan,
-    layout: Layout,
+    layout: Layout<'a>,
     pub(super) ledger: Ledger<'a>,
 }
 

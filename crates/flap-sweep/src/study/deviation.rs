@@ -13,9 +13,9 @@ pub const FAR: f64 = 100.0;
 
 /// A parameter that does not have the preset's value, or not only.
 #[derive(Clone, Debug)]
-pub struct Deviation {
+pub struct Deviation<'p> {
     /// The parameter.
-    pub parameter: &'static Parameter,
+    pub parameter: &'p Parameter<'p>,
     /// Its value, or the first and the last one.
     pub values: Vec<f64>,
     /// The preset's value; NaN if it sets none.
@@ -25,7 +25,7 @@ pub struct Deviation {
 }
 
 /// The parameters that do not have the preset's values, in the order of the model's table.
-pub fn of(plan: &Plan) -> Vec<Deviation> {
+pub fn of(plan: &Plan) -> Vec<Deviation<'_>> {
     let mut values: Vec<Vec<f64>> = plan.base().iter().map(|value| vec![value.in_point()]).collect();
     for (parameter, along) in plan.axes().parameters() {
         values[*parameter] = ends(along);
@@ -38,11 +38,11 @@ pub fn of(plan: &Plan) -> Vec<Deviation> {
 
 /// The parameters of the point with these values that do not have the preset's, in the order of the model's table. `has_unit`
 /// says whether the value of a parameter is written with its unit.
-pub fn of_point(plan: &Plan, values: &[f64], has_unit: impl Fn(usize) -> bool) -> Vec<Deviation> {
+pub fn of_point<'p>(plan: &'p Plan, values: &[f64], has_unit: impl Fn(usize) -> bool) -> Vec<Deviation<'p>> {
     compare(plan, values.iter().map(|value| vec![*value]).collect(), has_unit)
 }
 
-fn compare(plan: &Plan, values: Vec<Vec<f64>>, has_unit: impl Fn(usize) -> bool) -> Vec<Deviation> {
+fn compare(plan: &Plan, values: Vec<Vec<f64>>, has_unit: impl Fn(usize) -> bool) -> Vec<Deviation<'_>> {
     let preset = plan.simulator().presets().iter().find(|preset| preset.name == plan.preset());
     let preset = match preset {
         Some(preset) => of_preset(plan, preset),
@@ -92,7 +92,7 @@ fn extremes(list: &[f64]) -> Vec<f64> {
     vec![least, list.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
 }
 
-impl Deviation {
+impl Deviation<'_> {
     /// The value in words, or the first and the last one.
     pub fn shown(&self) -> String {
         let values: Vec<String> = self.values.iter().map(|value| self.text(*value)).collect();

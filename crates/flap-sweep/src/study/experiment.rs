@@ -1,9 +1,9 @@
 //! Experiments on single points that have to end and to have finite results: chirps, and forces on a given motion.
 
-use flap_core::resonance::free::INTERVALS_MAX;
 use flap_core::simulate::{
     ChirpRequest, ChirpResponse, Experiments, ImposedMotion, PointRun, Trajectory, Unfinished,
 };
+use flap_experiments::free::INTERVALS_MAX;
 
 /// Most drive periods of a chirp.
 pub const CYCLES_MAX: f64 = 100_000.0;

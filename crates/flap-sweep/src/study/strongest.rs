@@ -20,7 +20,7 @@ pub struct Slopes {
 /// made in `run`. Derived parameters follow, but for those in `fixed`, which have values of their own.
 ///
 /// # Errors
-/// As [`Motions::gradient`](flap_core::simulate::Motions::gradient).
+/// As [`Gradients::gradient`](flap_core::simulate::Gradients::gradient).
 pub fn slopes(
     plan: &Plan,
     simulator: &dyn Simulator,
@@ -42,7 +42,7 @@ pub fn slopes(
         size: Change::SHARE,
     });
     let changes: Vec<Change> = changes.collect();
-    let gradient = simulator.motions()?.gradient(run, &row.state, &changes)?;
+    let gradient = simulator.gradients()?.gradient(run, &row.state, &changes)?;
     let (mut known, mut unknown) = (Vec::new(), Vec::new());
     for (index, slopes) in parameters.into_iter().zip(gradient.slopes) {
         match slopes[measure] {

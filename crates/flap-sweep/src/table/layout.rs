@@ -18,11 +18,11 @@ use crate::plan::gradient::{self, column_name, meaning};
 /// Rows of curves begin with `curve` in place of `point`, have `branch` and the followed parameter before `status`, and
 /// `bistable` behind it.
 #[derive(Debug)]
-pub struct Layout {
+pub struct Layout<'p> {
     /// The varied parameters, then the derived ones, each with its index in the model's parameter table.
-    pub varied: Vec<(usize, &'static Parameter)>,
+    pub varied: Vec<(usize, &'p Parameter<'p>)>,
     /// The parameter that is followed, if one is.
-    pub followed: Option<&'static Parameter>,
+    pub followed: Option<&'p Parameter<'p>>,
     /// The columns behind `status`.
     behind: Vec<Behind>,
 }
@@ -34,7 +34,7 @@ enum Behind {
     /// On the course of the run.
     Run(&'static Fixed),
     /// A component of the state at the beginning of the motion's period, with its place.
-    State(usize, &'static str),
+    State(usize, String),
 }
 
 /// The place of a motion on a curve.
@@ -65,9 +65,9 @@ impl Measure {
     }
 }
 
-impl Layout {
+impl<'p> Layout<'p> {
     /// The columns that `plan` asks for.
-    pub fn of(plan: &Plan) -> Layout {
+    pub fn of(plan: &'p Plan) -> Layout<'p> {
         let parameters = plan.parameters();
         let varied = plan.differing().map(|index| (index, &parameters[index])).collect();
         let columns = plan.rows().columns();
@@ -89,7 +89,8 @@ impl Layout {
             }
             None => measures.into_iter().chain(derivatives).chain(run).collect(),
         };
-        behind.extend(plan.states().iter().enumerate().map(|(place, name)| Behind::State(place, name)));
+        behind
+            .extend(plan.states().iter().enumerate().map(|(place, name)| Behind::State(place, name.clone())));
         let followed = plan.followed().map(|along| &parameters[along.parameter]);
         Layout { varied, followed, behind }
     }
@@ -219,16 +220,16 @@ pub fn special_columns() -> [Column; 3] {
 enum Entry<'l> {
     Fixed(&'static Fixed),
     /// A varied or derived parameter, with its index in the model's table.
-    Parameter(usize, &'static Parameter),
+    Parameter(usize, &'l Parameter<'l>),
     /// The branch of a curve.
     Branch,
     /// The parameter that rises and falls along a curve.
-    Followed(&'static Parameter),
+    Followed(&'l Parameter<'l>),
     /// True where a curve is bistable.
     Bistable,
     Measure(&'l Measure),
     /// A component of the state at the beginning of the motion's period, with its place.
-    State(usize, &'static str),
+    State(usize, &'l str),
 }
 
 impl Entry<'_> {

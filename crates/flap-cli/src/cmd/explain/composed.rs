@@ -47,7 +47,7 @@ fn wings(name: &str) -> impl Iterator<Item = &str> {
 }
 
 /// The vehicle of a model with a wing on the left and its image on the right.
-fn vehicle(model: &'static dyn Simulator, left: &str) -> Option<&'static Vehicle> {
+fn vehicle(model: &'static dyn Simulator, left: &str) -> Option<Vehicle> {
     let mount = |name: &str, mirrored| Mount { name: name.to_owned(), mirrored };
     let right = if left == "right" { "other" } else { "right" };
     Vehicle::of(model, &[mount(left, false), mount(right, true)]).ok()

@@ -7,12 +7,13 @@ use flap_sweep::table::layout::{fixed_columns, special_columns, split_unit};
 use super::composed;
 use super::entry::{Entry, of_column, of_measure, of_parameter};
 use super::tables::TABLES;
+use crate::statuses;
 
 /// Everything that can be explained of these models.
 pub(super) fn entries(models: &[&'static dyn Simulator]) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     for status in Status::ALL {
-        let text = format!("  {}\n", status.describe());
+        let text = format!("  {}\n", statuses::meaning(status));
         entries.push(Entry::new(status.name(), "a status of rows", text));
     }
     for column in fixed_columns() {

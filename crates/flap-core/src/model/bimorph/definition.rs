@@ -1,6 +1,6 @@
 //! Rows and single motions of the bimorph model.
 
-use super::columns::{self, S};
+use super::columns::{self, Signals};
 use super::constants::Constants;
 use super::dynamics::Bimorph;
 use super::params::Params;
@@ -12,13 +12,15 @@ use super::transmission::{Law, Transmission, stroke};
 use super::wing;
 use crate::aero::Wing;
 use crate::drive::{Drive, DriveConstants, Shape, StrokeMode, Wave, Waveform};
-use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Load, Model, Motions, Signal};
+use crate::model::{Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle};
 use crate::modes::Mode;
-use crate::num::Lanes;
+use crate::num::Real;
 use crate::ode::Start;
 use crate::parameter::Invalid;
 
-impl Model<4, S> for Bimorph {
+impl Model<4> for Bimorph {
+    type Signals = Signals;
+
     const DESCRIPTION: Description = Description {
         name: "bimorph",
         doc: "bimorph on a transmission, passive hinge, lumped quasi-steady aerodynamics (Jafferis et al. 2016)",
@@ -26,11 +28,9 @@ impl Model<4, S> for Bimorph {
         presets: Params::PRESETS,
     };
     const STATES: [&'static str; 4] = ["tip_m", "tip_rate_m_s", "pitch_rad", "pitch_rate_rad_s"];
-    const SIGNALS: [Signal; S] = columns::SIGNALS;
     const SIGNALS_OF_SLOPES: bool = false;
-    const DERIVED: &'static [Derived<Bimorph, Constants<f64>, S>] = columns::DERIVED;
+    const DERIVED: &'static [Derived<Bimorph, Constants<f64>, Signals>] = columns::DERIVED;
     const LOADS: bool = true;
-    const ENERGY: Option<EnergyBalance> = Some(columns::ENERGY);
 
     fn variant(&self, values: &[f64]) -> Bimorph {
         let Params { waveform, transmission_growth, .. } = Params::from_values(values);
@@ -61,12 +61,12 @@ impl Model<4, S> for Bimorph {
     }
 
     #[inline(always)]
-    fn drive<R: Lanes>(c: &Constants<R>) -> &DriveConstants<R> {
+    fn drive<R: Real>(c: &Constants<R>) -> &DriveConstants<R> {
         &c.drive
     }
 
     #[inline(always)]
-    fn signals<R: Lanes>(&self, c: &Constants<R>, at: Instant<'_, R, [Plate<R>; 2], 4>) -> [R; S] {
+    fn signals<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, [Plate<R>; 2], 4>) -> Signals<R> {
         let Instant { input: plates, y, .. } = at;
         let [x, x_dot, psi, psi_dot] = *y;
         let (sin, cos) = psi.sin_cos();
@@ -80,30 +80,41 @@ impl Model<4, S> for Bimorph {
         let (i_1, i_2) = (i_1 + leak_1, i_2 + leak_2);
         let [v_1, v_2] = [plates[0].voltage.value, plates[1].voltage.value];
         let (power_1, power_2) = (v_1 * i_1, v_2 * i_2);
-        [
-            stroke(c, self.law, x),
-            psi,
+        Signals {
+            stroke: stroke(c, self.law, x),
+            pitch: psi,
             lift,
             drag,
-            power_1 + power_2,
-            power_1,
-            power_2,
-            (f_1 - f_2) * x_dot,
-            tip_drag(c, cos_2psi) * rate * rate * rate.abs(),
-            c.c_c * psi_dot * psi_dot * psi_dot.abs(),
-            stroke_damping(c, &transmission, x_dot, rate) * x_dot,
-            c.hinge_damping * psi_dot * psi_dot,
-            v_1 * leak_1 + v_2 * leak_2,
-            i_1,
-            i_2,
-            f_1,
-            f_2,
-            power_1 + power_2 - charging_power(c, plates),
-        ]
+            power: power_1 + power_2,
+            power_plate_1: power_1,
+            power_plate_2: power_2,
+            power_mechanical: (f_1 - f_2) * x_dot,
+            power_drag: tip_drag(c, cos_2psi) * rate * rate * rate.abs(),
+            power_rotational: c.c_c * psi_dot * psi_dot * psi_dot.abs(),
+            power_stroke_damping: stroke_damping(c, &transmission, x_dot, rate) * x_dot,
+            power_hinge_damping: c.hinge_damping * psi_dot * psi_dot,
+            power_dielectric: v_1 * leak_1 + v_2 * leak_2,
+            current_1: i_1,
+            current_2: i_2,
+            force_1: f_1,
+            force_2: f_2,
+            power_transduced: power_1 + power_2 - charging_power(c, plates),
+        }
+    }
+
+    /// ⟨V₁i₁ + V₂i₂⟩ − ⟨dielectric loss⟩ = ⟨(F₁ − F₂) ẋ⟩ = ⟨power of the stroke's drag and damping⟩: (1) has no other loss.
+    fn balance_energy(cycle: &mut Signals<SignalCycle>) {
+        let (drag, damping) = (cycle.power_drag, cycle.power_stroke_damping);
+        cycle.power.balance(&[drag, damping, cycle.power_dielectric]);
+        cycle.power_mechanical.balance(&[drag, damping]);
+    }
+
+    fn energy_audit(cycle: &Signals<SignalCycle>) -> f64 {
+        cycle.power.audit(&cycle.power_transduced)
     }
 
     #[inline(always)]
-    fn load<R: Lanes>(&self, c: &Constants<R>, at: Instant<'_, R, [Plate<R>; 2], 4>) -> Load<R> {
+    fn load<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, [Plate<R>; 2], 4>) -> Load<R> {
         let [x, x_dot, psi, psi_dot] = *at.y;
         let rate = Transmission::at(c, self.law, x).times(x_dot);
         load(c, stroke(c, self.law, x), x_dot, rate, [psi, psi_dot])
@@ -116,7 +127,9 @@ impl Model<4, S> for Bimorph {
     }
 }
 
-impl Motions<4, S> for Bimorph {
+impl Motions<4> for Bimorph {
+    const FREE_SIGNALS: &'static [Signal] = &[Signals::SIGNALS.stroke, Signals::SIGNALS.pitch];
+
     fn drive_mut(&mut self) -> &mut Drive {
         &mut self.drive
     }
@@ -125,8 +138,8 @@ impl Motions<4, S> for Bimorph {
         &mut c.drive
     }
 
-    fn modes(c: &Constants<f64>) -> [Mode; 2] {
-        Mode::pair(["mode_stroke", "mode_hinge"], Bimorph::linear_modes(c))
+    fn modes(c: &Constants<f64>) -> Vec<Mode> {
+        Mode::of(["mode_stroke", "mode_hinge"], Bimorph::linear_modes(c))
     }
 
     /// ½V_pp on both plates.

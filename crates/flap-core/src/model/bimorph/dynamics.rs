@@ -4,7 +4,7 @@ use super::constants::Constants;
 use super::rhs::{Plate, derivative, plates, secant_stiffness};
 use super::transmission::Law;
 use crate::drive::{Drive, DriveConstants};
-use crate::num::Lanes;
+use crate::num::Real;
 use crate::ode::Ode;
 
 /// The model.
@@ -17,8 +17,8 @@ pub struct Bimorph {
 }
 
 impl Ode<4> for Bimorph {
-    type Constants<R: Lanes> = Constants<R>;
-    type Input<R: Lanes> = [Plate<R>; 2];
+    type Constants<R: Real> = Constants<R>;
+    type Input<R: Real> = [Plate<R>; 2];
 
     /// The two plates at time `t`, driven in antiphase, (7).
     ///
@@ -28,7 +28,7 @@ impl Ode<4> for Bimorph {
     ///
     /// A bias between the plates moves them apart.
     #[inline(always)]
-    fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> [Plate<R>; 2] {
+    fn input<R: Real>(&self, c: &Constants<R>, t: R) -> [Plate<R>; 2] {
         let DriveConstants { bias, amplitude, .. } = c.drive;
         let wave = self.drive.wave(&c.drive, t);
         let (first, second) = (bias + c.half_offset, bias - c.half_offset);
@@ -36,12 +36,12 @@ impl Ode<4> for Bimorph {
     }
 
     #[inline(always)]
-    fn next_break<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
+    fn next_break<R: Real>(&self, c: &Constants<R>, t: R) -> R {
         self.drive.next_break(&c.drive, t)
     }
 
     #[inline(always)]
-    fn rhs<R: Lanes>(&self, c: &Constants<R>, plates: &[Plate<R>; 2], _side: R, y: &[R; 4]) -> [R; 4] {
+    fn rhs<R: Real>(&self, c: &Constants<R>, plates: &[Plate<R>; 2], _side: R, y: &[R; 4]) -> [R; 4] {
         derivative(c, self.law, plates, y)
     }
 }
@@ -49,7 +49,7 @@ impl Ode<4> for Bimorph {
 impl Bimorph {
     /// Mean voltages of the two plates (V) over a period.
     #[inline(always)]
-    pub(super) fn mean_voltages<R: Lanes>(&self, c: &Constants<R>) -> [R; 2] {
+    pub(super) fn mean_voltages<R: Real>(&self, c: &Constants<R>) -> [R; 2] {
         let DriveConstants { bias, amplitude, .. } = c.drive;
         let swing = amplitude * self.drive.mean();
         [bias + c.half_offset - swing, bias - c.half_offset + swing]

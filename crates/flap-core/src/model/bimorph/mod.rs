@@ -15,7 +15,7 @@ mod transmission;
 mod wing;
 
 pub use actuator::{Actuator, taper_gain};
-pub use columns::S;
+pub use columns::Signals;
 pub use constants::Constants;
 pub use dynamics::Bimorph;
 pub use params::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};

@@ -13,7 +13,6 @@ use super::transmission::{Law, Transmission};
 use crate::drive::Wave;
 use crate::model::Load;
 use crate::num::Real;
-use crate::num::functions::{exp_m1_of_ordinary, exp_of_ordinary, ln_1p_of_normal};
 
 /// A plate under a voltage: its force g at zero strain, and the derivatives of that with respect to the voltage.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +46,7 @@ fn plate<R: Real>(c: &Constants<R>, force_per_stress: R, voltage: Wave<R>) -> Pl
     let field = voltage.value * c.field_per_volt;
     let one = field.lit(1.0);
     // `Constants::derive` keeps the exponent within `EXPONENT_MAX`.
-    let s = one / (exp_of_ordinary(c.a_3 * (c.field_0 - field)) + 1.0);
+    let s = one / ((c.a_3 * (c.field_0 - field)).exp_of_ordinary() + 1.0);
     let a = c.f_max - c.f_decline * field - c.f_taken;
     let f = c.f_min + a * s;
 
@@ -88,7 +87,7 @@ pub fn stiffening<R: Real>(c: &Constants<R>, x: R) -> R {
     let u = c.u_per_tip * x.abs();
     let within = u.min(u.lit(EXPONENT_MAX));
     // Beyond, L grows as u does.
-    ln_1p_of_normal(c.sigma_0 * exp_m1_of_ordinary(within)) + (u - within)
+    (c.sigma_0 * within.exp_m1_of_ordinary()).ln_1p_of_normal() + (u - within)
 }
 
 /// The actuator's elastic force K_act(x) x (N), (3), (4).

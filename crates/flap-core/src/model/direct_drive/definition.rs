@@ -1,6 +1,6 @@
 //! Rows and single motions of the direct-drive model.
 
-use super::columns::{self, S};
+use super::columns::{self, Signals};
 use super::constants::Constants;
 use super::dynamics::DirectDrive;
 use super::params::Params;
@@ -9,13 +9,15 @@ use super::wing;
 use crate::aero::Wing;
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::stroke_and_pitch as states;
-use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Load, Model, Motions, Signal};
+use crate::model::{Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle};
 use crate::modes::Mode;
-use crate::num::Lanes;
+use crate::num::Real;
 use crate::ode::Start;
 use crate::parameter::Invalid;
 
-impl Model<4, S> for DirectDrive {
+impl Model<4> for DirectDrive {
+    type Signals = Signals;
+
     const DESCRIPTION: Description = Description {
         name: "direct-drive",
         doc: "unimorph bolted to the wing, passive pitch, blade-element aerodynamics (Ozaki and Hamaguchi 2018)",
@@ -23,10 +25,8 @@ impl Model<4, S> for DirectDrive {
         presets: Params::PRESETS,
     };
     const STATES: [&'static str; 4] = states::NAMES;
-    const SIGNALS: [Signal; S] = columns::SIGNALS;
-    const DERIVED: &'static [Derived<DirectDrive, Constants<f64>, S>] = columns::DERIVED;
+    const DERIVED: &'static [Derived<DirectDrive, Constants<f64>, Signals>] = columns::DERIVED;
     const LOADS: bool = true;
-    const ENERGY: Option<EnergyBalance> = Some(columns::ENERGY);
 
     fn variant(&self, values: &[f64]) -> DirectDrive {
         let Params { waveform, stroke, flow_direction, .. } = Params::from_values(values);
@@ -48,12 +48,12 @@ impl Model<4, S> for DirectDrive {
     }
 
     #[inline(always)]
-    fn drive<R: Lanes>(c: &Constants<R>) -> &DriveConstants<R> {
+    fn drive<R: Real>(c: &Constants<R>) -> &DriveConstants<R> {
         &c.drive
     }
 
     #[inline(always)]
-    fn signals<R: Lanes>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> [R; S] {
+    fn signals<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> Signals<R> {
         let Instant { input: drive, side, y, dy } = at;
         let y = states::state(&self.drive, drive, y);
         let [phi, psi, phi_dot, psi_dot] = y;
@@ -65,25 +65,40 @@ impl Model<4, S> for DirectDrive {
         let leakage = c.conductance * (drive.value - self.drive.mean_voltage(&c.drive));
         let [current, leakage] =
             if unknown { [phi.lit(f64::NAN); 2] } else { [current(c, drive, phi_dot) + leakage, leakage] };
-        [
-            phi,
-            psi,
-            lift(c, &air, &added, sin),
-            air.lift,
-            air.drag,
-            current * drive.value,
-            -(air.stroke_moment * phi_dot + air.pitch_moment * psi_dot),
-            -(air.rotation_moment * psi_dot),
-            c.stroke_damping * phi_dot * phi_dot,
-            c.hinge_damping * psi_dot * psi_dot,
-            leakage * drive.value,
+        Signals {
+            stroke: phi,
+            pitch: psi,
+            lift: lift(c, &air, &added, sin),
+            lift_translational: air.lift,
+            drag: air.drag,
+            power: current * drive.value,
+            power_translational: -(air.stroke_moment * phi_dot + air.pitch_moment * psi_dot),
+            power_rotational: -(air.rotation_moment * psi_dot),
+            power_stroke_damping: c.stroke_damping * phi_dot * phi_dot,
+            power_hinge_damping: c.hinge_damping * psi_dot * psi_dot,
+            power_dielectric: leakage * drive.value,
             current,
-            (drive.value - c.drive.bias) * (current - c.c_p * drive.rate),
-        ]
+            power_transduced: (drive.value - c.drive.bias) * (current - c.c_p * drive.rate),
+        }
+    }
+
+    /// ⟨Vj⟩ = −⟨M_tr,y φ̇ + (M_tr,x′ + M_rot) ψ̇⟩ + ⟨damping⟩ + ⟨dielectric loss⟩: all else is given back within a period.
+    fn balance_energy(cycle: &mut Signals<SignalCycle>) {
+        cycle.power.balance(&[
+            cycle.power_translational,
+            cycle.power_rotational,
+            cycle.power_stroke_damping,
+            cycle.power_hinge_damping,
+            cycle.power_dielectric,
+        ]);
+    }
+
+    fn energy_audit(cycle: &Signals<SignalCycle>) -> f64 {
+        cycle.power.audit(&cycle.power_transduced)
     }
 
     #[inline(always)]
-    fn load<R: Lanes>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> Load<R> {
+    fn load<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> Load<R> {
         let Instant { input: drive, side, y, dy } = at;
         let y = states::state(&self.drive, drive, y);
         let (sin, cos) = y[1].sin_cos();
@@ -93,7 +108,9 @@ impl Model<4, S> for DirectDrive {
     }
 }
 
-impl Motions<4, S> for DirectDrive {
+impl Motions<4> for DirectDrive {
+    const FREE_SIGNALS: &'static [Signal] = &[Signals::SIGNALS.stroke, Signals::SIGNALS.pitch];
+
     fn drive_mut(&mut self) -> &mut Drive {
         &mut self.drive
     }
@@ -102,8 +119,8 @@ impl Motions<4, S> for DirectDrive {
         &mut c.drive
     }
 
-    fn modes(c: &Constants<f64>) -> [Mode; 2] {
-        Mode::pair(["mode_1", "mode_2"], DirectDrive::linear_modes(c))
+    fn modes(c: &Constants<f64>) -> Vec<Mode> {
+        Mode::of(["mode_1", "mode_2"], DirectDrive::linear_modes(c))
     }
 
     fn rest_voltage(_c: &Constants<f64>) -> f64 {

@@ -6,7 +6,7 @@ use super::rhs::{balance, mean_velocity};
 use crate::drive::{Drive, Wave};
 use crate::model::stroke_and_pitch as states;
 use crate::modes::natural_frequencies;
-use crate::num::Lanes;
+use crate::num::Real;
 use crate::ode::Ode;
 
 /// The model.
@@ -19,11 +19,11 @@ pub struct DirectDrive {
 }
 
 impl Ode<4> for DirectDrive {
-    type Constants<R: Lanes> = Constants<R>;
-    type Input<R: Lanes> = Wave<R>;
+    type Constants<R: Real> = Constants<R>;
+    type Input<R: Real> = Wave<R>;
 
     #[inline(always)]
-    fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> Wave<R> {
+    fn input<R: Real>(&self, c: &Constants<R>, t: R) -> Wave<R> {
         self.drive.at(&c.drive, t)
     }
 
@@ -32,12 +32,12 @@ impl Ode<4> for DirectDrive {
     const SWITCHES: bool = true;
 
     #[inline(always)]
-    fn next_break<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
+    fn next_break<R: Real>(&self, c: &Constants<R>, t: R) -> R {
         self.drive.next_break(&c.drive, t)
     }
 
     #[inline(always)]
-    fn rhs<R: Lanes>(&self, c: &Constants<R>, drive: &Wave<R>, side: R, y: &[R; 4]) -> [R; 4] {
+    fn rhs<R: Real>(&self, c: &Constants<R>, drive: &Wave<R>, side: R, y: &[R; 4]) -> [R; 4] {
         let balance = balance(c, self.flow, side, &states::state(&self.drive, drive, y));
         if self.drive.prescribes_stroke() {
             balance.prescribed(y, drive, c.drive.rate)
@@ -47,7 +47,7 @@ impl Ode<4> for DirectDrive {
     }
 
     #[inline(always)]
-    fn switch<R: Lanes>(&self, c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) -> [R; 2] {
+    fn switch<R: Real>(&self, c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) -> [R; 2] {
         match self.flow {
             FlowDirection::Uniform => mean_velocity(c, y, dy),
             // A function that never changes its sign.

@@ -14,7 +14,7 @@ mod rhs;
 mod wing;
 
 pub use chord::BLADES;
-pub use columns::S;
+pub use columns::Signals;
 pub use constants::Constants;
 pub use dynamics::DirectDrive;
 pub use params::{AddedMass, CentreOfPressure, FlowDirection, LiftSign, Params};

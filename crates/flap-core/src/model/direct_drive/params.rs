@@ -2,7 +2,7 @@
 
 use crate::aero::ChordTable;
 use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
-use crate::linkage::{HingeParameters, TorsionHinge};
+use crate::linkage::HingeParameters;
 use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Preset;
 use crate::parameter::Range::{Any, NonNegative, Positive};
@@ -332,11 +332,5 @@ impl Params {
         let half = 0.5 * self.drive_voltage_pp;
         let levels = self.stroke.levels([self.drive_bias.unwrap_or(half), half]);
         DriveConstants::new(self.drive_frequency, &self.waveform, levels)
-    }
-
-    /// These parameters with the stiffness of a hinge of torsional beams, Eq. (41).
-    #[must_use]
-    pub fn with_hinge(self, hinge: &TorsionHinge) -> Params {
-        Params { hinge_stiffness: hinge.stiffness(), ..self }
     }
 }

@@ -49,17 +49,10 @@ struct Attitude<R> {
 /// `side` does not change.
 #[inline(always)]
 fn attitude<R: Real>(side: R, phi: R) -> Attitude<R> {
-    let k = nearest((phi - side * FRAC_PI_4) * FRAC_1_PI);
+    let k = ((phi - side * FRAC_PI_4) * FRAC_1_PI).round_ties_even();
     let phi_m = k.mul_add(k.lit(-PI), phi);
-    let odd = (k - nearest(k * 0.5) * 2.0).abs();
+    let odd = (k - (k * 0.5).round_ties_even() * 2.0).abs();
     Attitude { attack: -(side * phi_m) + FRAC_PI_2, tilt: (odd * -2.0 + 1.0) * phi_m }
-}
-
-/// The nearest whole number, for |x| up to 10^6.
-#[inline(always)]
-fn nearest<R: Real>(x: R) -> R {
-    const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5 · 2^52
-    (x + ROUND) - ROUND
 }
 
 /// Lift and drag coefficient (9), (10) at the folded attack angle B (rad).

@@ -1,7 +1,7 @@
 //! Rows and single motions of the four-bar model.
 
 use super::aerodynamics::{added_mass_lift, aerodynamics, load};
-use super::columns::{self, S};
+use super::columns::{self, Signals};
 use super::constants::Constants;
 use super::dynamics::FourBar;
 use super::params::Params;
@@ -12,13 +12,15 @@ use super::wing;
 use crate::aero::Wing;
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::stroke_and_pitch as states;
-use crate::model::{Derived, Description, EnergyBalance, Imposed, Instant, Load, Model, Motions, Signal};
+use crate::model::{Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle};
 use crate::modes::Mode;
-use crate::num::Lanes;
+use crate::num::Real;
 use crate::ode::Start;
 use crate::parameter::Invalid;
 
-impl Model<4, S> for FourBar {
+impl Model<4> for FourBar {
+    type Signals = Signals;
+
     const DESCRIPTION: Description = Description {
         name: "four-bar",
         doc: "unimorph, slider-crank and four-bar, passive pitch, strip aerodynamics (Arabagi, Hines and Sitti 2013)",
@@ -26,10 +28,8 @@ impl Model<4, S> for FourBar {
         presets: Params::PRESETS,
     };
     const STATES: [&'static str; 4] = states::NAMES;
-    const SIGNALS: [Signal; S] = columns::SIGNALS;
-    const DERIVED: &'static [Derived<FourBar, Constants<f64>, S>] = columns::DERIVED;
+    const DERIVED: &'static [Derived<FourBar, Constants<f64>, Signals>] = columns::DERIVED;
     const LOADS: bool = true;
-    const ENERGY: Option<EnergyBalance> = Some(columns::ENERGY);
 
     fn variant(&self, values: &[f64]) -> FourBar {
         let Params { waveform, stroke, .. } = Params::from_values(values);
@@ -48,12 +48,12 @@ impl Model<4, S> for FourBar {
     }
 
     #[inline(always)]
-    fn drive<R: Lanes>(c: &Constants<R>) -> &DriveConstants<R> {
+    fn drive<R: Real>(c: &Constants<R>) -> &DriveConstants<R> {
         &c.drive
     }
 
     #[inline(always)]
-    fn signals<R: Lanes>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> [R; S] {
+    fn signals<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> Signals<R> {
         let Instant { input: drive, side, y, dy } = at;
         let y = states::state(&self.drive, drive, y);
         let [theta, phi, theta_dot, phi_dot] = y;
@@ -71,37 +71,52 @@ impl Model<4, S> for FourBar {
             [force(&c.actuator, drive, links.displacement), current + leakage]
         };
         let swing = drive.value - c.drive.bias;
-        [
-            theta,
-            phi,
-            air.lift + air.rotation_lift + added_mass,
-            air.lift,
-            air.rotation_lift,
-            added_mass,
-            air.drag,
-            force * slider_rate,
-            stroke_damping(&c.wing, &links) * theta_dot * theta_dot,
-            c.wing.hinge_damping * phi_dot * phi_dot,
-            -(air.stroke_moment * theta_dot + air.pitch_moment * phi_dot),
-            -(air.rotation_stroke_moment * theta_dot + air.rotation_pitch_moment * phi_dot),
-            current * drive.value,
-            leakage * drive.value,
+        Signals {
+            stroke: theta,
+            pitch: phi,
+            lift: air.lift + air.rotation_lift + added_mass,
+            lift_translational: air.lift,
+            lift_rotational: air.rotation_lift,
+            lift_added_mass: added_mass,
+            drag: air.drag,
+            power_drive: force * slider_rate,
+            power_stroke_damping: stroke_damping(&c.wing, &links) * theta_dot * theta_dot,
+            power_hinge_damping: c.wing.hinge_damping * phi_dot * phi_dot,
+            power_translational: -(air.stroke_moment * theta_dot + air.pitch_moment * phi_dot),
+            power_rotational: -(air.rotation_stroke_moment * theta_dot + air.rotation_pitch_moment * phi_dot),
+            power: current * drive.value,
+            power_dielectric: leakage * drive.value,
             current,
-            tip(&c.actuator, links.displacement, force),
-            swing * (current - charging_current(&c.actuator, drive)),
-            driving_force(&c.actuator, swing) * slider_rate,
-        ]
+            tip: tip(&c.actuator, links.displacement, force),
+            power_transduced: swing * (current - charging_current(&c.actuator, drive)),
+            power_driving: driving_force(&c.actuator, swing) * slider_rate,
+        }
+    }
+
+    /// ⟨Vi⟩ − ⟨dielectric loss⟩ = ⟨F δ̇⟩ = the power that damping and air take: actuator, springs and inertia give back
+    /// everything within a period.
+    fn balance_energy(cycle: &mut Signals<SignalCycle>) {
+        let (stroke, hinge) = (cycle.power_stroke_damping, cycle.power_hinge_damping);
+        let (translation, rotation) = (cycle.power_translational, cycle.power_rotational);
+        cycle.power_drive.balance(&[stroke, hinge, translation, rotation]);
+        cycle.power.balance(&[stroke, hinge, translation, rotation, cycle.power_dielectric]);
+    }
+
+    fn energy_audit(cycle: &Signals<SignalCycle>) -> f64 {
+        cycle.power_drive.audit(&cycle.power_driving)
     }
 
     #[inline(always)]
-    fn load<R: Lanes>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> Load<R> {
+    fn load<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> Load<R> {
         let Instant { input: drive, side, y, dy } = at;
         let y = states::state(&self.drive, drive, y);
         load(c, side, &y, &states::slope(&self.drive, drive, dy))
     }
 }
 
-impl Motions<4, S> for FourBar {
+impl Motions<4> for FourBar {
+    const FREE_SIGNALS: &'static [Signal] = &[Signals::SIGNALS.stroke, Signals::SIGNALS.pitch];
+
     fn drive_mut(&mut self) -> &mut Drive {
         &mut self.drive
     }
@@ -110,8 +125,8 @@ impl Motions<4, S> for FourBar {
         &mut c.drive
     }
 
-    fn modes(c: &Constants<f64>) -> [Mode; 2] {
-        Mode::pair(["mode_1", "mode_2"], FourBar::linear_modes(c))
+    fn modes(c: &Constants<f64>) -> Vec<Mode> {
+        Mode::of(["mode_1", "mode_2"], FourBar::linear_modes(c))
     }
 
     fn rest_voltage(c: &Constants<f64>) -> f64 {

@@ -6,7 +6,7 @@ use super::rhs::{balance, force, mass_matrix, transmission};
 use crate::drive::{Drive, Wave};
 use crate::model::stroke_and_pitch as states;
 use crate::modes::natural_frequencies;
-use crate::num::Lanes;
+use crate::num::Real;
 use crate::ode::Ode;
 
 /// The model.
@@ -17,11 +17,11 @@ pub struct FourBar {
 }
 
 impl Ode<4> for FourBar {
-    type Constants<R: Lanes> = Constants<R>;
-    type Input<R: Lanes> = Wave<R>;
+    type Constants<R: Real> = Constants<R>;
+    type Input<R: Real> = Wave<R>;
 
     #[inline(always)]
-    fn input<R: Lanes>(&self, c: &Constants<R>, t: R) -> Wave<R> {
+    fn input<R: Real>(&self, c: &Constants<R>, t: R) -> Wave<R> {
         self.drive.at(&c.drive, t)
     }
 
@@ -32,12 +32,12 @@ impl Ode<4> for FourBar {
     const SWITCHES: bool = true;
 
     #[inline(always)]
-    fn next_break<R: Lanes>(&self, c: &Constants<R>, t: R) -> R {
+    fn next_break<R: Real>(&self, c: &Constants<R>, t: R) -> R {
         self.drive.next_break(&c.drive, t)
     }
 
     #[inline(always)]
-    fn rhs<R: Lanes>(&self, c: &Constants<R>, drive: &Wave<R>, side: R, y: &[R; 4]) -> [R; 4] {
+    fn rhs<R: Real>(&self, c: &Constants<R>, drive: &Wave<R>, side: R, y: &[R; 4]) -> [R; 4] {
         let at = states::state(&self.drive, drive, y);
         let links = transmission(c, at[0]);
         let balance = balance(c, &links, side, &at);
@@ -49,7 +49,7 @@ impl Ode<4> for FourBar {
     }
 
     #[inline(always)]
-    fn switch<R: Lanes>(&self, _c: &Constants<R>, y: &[R; 4], _dy: &[R; 4]) -> [R; 2] {
+    fn switch<R: Real>(&self, _c: &Constants<R>, y: &[R; 4], _dy: &[R; 4]) -> [R; 2] {
         side_of(y[1], y[3])
     }
 }

@@ -9,7 +9,6 @@
 
 mod aerodynamics;
 mod columns;
-mod composite;
 mod constants;
 mod definition;
 mod dynamics;
@@ -18,8 +17,7 @@ mod rhs;
 mod wing;
 
 pub use aerodynamics::{Aerodynamics, added_mass_lift, aerodynamics, coefficients, side_of};
-pub use columns::S;
-pub use composite::Composite;
+pub use columns::Signals;
 pub use constants::{Actuator, Air, Constants, Wing};
 pub use dynamics::FourBar;
 pub use params::{AddedMassSign, Arms, MAX_STRIPS, Params, Quadrature};

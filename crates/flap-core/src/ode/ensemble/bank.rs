@@ -1,14 +1,14 @@
 //! The numbers in an ensemble's lanes, and a step of all of them.
 
 use super::observer::Observer;
-use super::queue::Continuation;
+use super::queue::Restart;
 use crate::num::{Lanes, PerLane};
 use crate::ode::controller::{Memory, judge};
 use crate::ode::norm::error_squared;
 use crate::ode::start::{first_step, span_step};
 use crate::ode::step::{Attempt, Step};
-use crate::ode::switch::{Crossing, Switching, landing_stretch};
-use crate::ode::{Ending, MIN_STEP, Ode, Start, Tolerances, input, slope};
+use crate::ode::switch::{Crossing, Switching, cross, landing_stretch};
+use crate::ode::{Ending, MIN_STEP, Ode, Start, Tolerances};
 
 /// The numbers of the runs in lanes.
 pub(super) struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> {
@@ -54,10 +54,10 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
         let mut bank = Bank {
             token,
             tolerances: *tolerances,
-            constants: O::Constants::<R>::fill(token, &start.constants),
-            totals: V::Totals::<R>::fill(token, &observer.nothing()),
+            constants: O::Constants::<R>::fill(number, &start.constants),
+            totals: V::Totals::<R>::fill(number, &observer.nothing()),
             span: number.lit(start.span),
-            rtol: number.lit(tolerances.rtol * start.tighten),
+            rtol: number.lit(tolerances.rtol * start.tolerance_factor),
             atol: [number; N],
             t: number,
             h: number.lit(start.span),
@@ -71,7 +71,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
         };
         for i in 0..N {
             bank.step.y[0][i] = number.lit(start.y[i]);
-            bank.atol[i] = number.lit(tolerances.atol * start.tighten * start.scale[i]);
+            bank.atol[i] = number.lit(tolerances.atol * start.tolerance_factor * start.scale[i]);
         }
         bank
     }
@@ -80,16 +80,17 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
     pub(super) fn load(&mut self, lane: usize, start: &Start<O::Constants<f64>, N>, observer: &V) {
         self.constants.set(lane, &start.constants);
         self.span.set_lane(lane, start.span);
-        self.load_continuation(lane, &Continuation::from(start), observer);
+        let Start { y, scale, tolerance_factor, .. } = *start;
+        self.restart(lane, &Restart { y, scale, tolerance_factor }, observer);
     }
 
-    /// Puts the continuation of a lane's run into it.
-    pub(super) fn load_continuation(&mut self, lane: usize, next: &Continuation<N>, observer: &V) {
+    /// Gives a lane's run a new beginning.
+    pub(super) fn restart(&mut self, lane: usize, next: &Restart<N>, observer: &V) {
         self.totals.set(lane, &observer.nothing());
-        self.rtol.set_lane(lane, self.tolerances.rtol * next.tighten);
+        self.rtol.set_lane(lane, self.tolerances.rtol * next.tolerance_factor);
         for i in 0..N {
             self.step.y[0][i].set_lane(lane, next.y[i]);
-            self.atol[i].set_lane(lane, self.tolerances.atol * next.tighten * next.scale[i]);
+            self.atol[i].set_lane(lane, self.tolerances.atol * next.tolerance_factor * next.scale[i]);
         }
     }
 
@@ -153,7 +154,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
         let side = self.switching.side;
         self.step.attempt(ode, &self.constants, self.t, h, side);
         let Step { y: [y, .., y_new], error, .. } = &self.step;
-        self.error = error_squared(error, [y, y_new], &self.atol, self.rtol, O::CONTROLLED);
+        self.error = error_squared(error, [y, y_new], &self.atol, self.rtol);
         let verdict = judge(self.error, &mut self.memory);
         self.steps_in_span = self.steps_in_span + 1.0;
 
@@ -186,14 +187,10 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
     /// Renews the first slope in the lanes that have arrived at their switching surface.
     #[inline(always)]
     fn change_sides(&mut self, ode: &O, arrived: R::Mask) {
-        let u = input(ode, &self.constants, self.t);
         let Step { y: [y, ..], k: [k1, ..], .. } = &mut self.step;
-        let crossed = ode.crossed(&self.constants, &u, self.switching.side, y);
+        let (crossed, slope) = cross(ode, &self.constants, self.t, self.switching.side, y);
         for i in 0..N {
             y[i] = R::select(arrived, crossed[i], y[i]);
-        }
-        let slope = slope(ode, &self.constants, &u, self.switching.side, y);
-        for i in 0..N {
             k1[i] = R::select(arrived, slope[i], k1[i]);
         }
         let value = ode.switch(&self.constants, y, k1);

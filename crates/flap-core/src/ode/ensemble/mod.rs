@@ -6,10 +6,12 @@
 //! its neighbours, and equal those of [`super::solve`] to the last bit.
 
 mod bank;
+mod integrate;
 mod observer;
 mod queue;
 mod schedule;
 
+pub use integrate::{Integrated, integrate};
 pub use observer::{Observer, Unobserved};
-pub use queue::{Continuation, NewRun, Queue};
+pub use queue::{NewRun, Next, Queue, Restart, SpanEnd};
 pub use schedule::{Occupancy, run};

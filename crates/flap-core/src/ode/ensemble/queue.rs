@@ -1,28 +1,49 @@
 //! The source of an ensemble's runs.
 
-use core::ops::ControlFlow;
-
 use super::observer::Observer;
 use crate::ode::{Ode, Outcome, Start};
 
 /// A run to be started: the caller's note of it, and its beginning.
 pub type NewRun<Run, C, const N: usize> = (Run, Start<C, N>);
 
-/// The continuation of a run, with the same constants and the same span.
+/// A new beginning of a run that keeps its lane, with the same constants and the same span.
 #[derive(Clone, Copy, Debug)]
-pub struct Continuation<const N: usize> {
-    /// The state at its beginning.
+pub struct Restart<const N: usize> {
+    /// The initial state.
     pub y: [f64; N],
     /// As [`Start::scale`].
     pub scale: [f64; N],
-    /// As [`Start::tighten`].
-    pub tighten: f64,
+    /// As [`Start::tolerance_factor`].
+    pub tolerance_factor: f64,
 }
 
-impl<C, const N: usize> From<&Start<C, N>> for Continuation<N> {
-    fn from(start: &Start<C, N>) -> Continuation<N> {
-        Continuation { y: start.y, scale: start.scale, tighten: start.tighten }
+impl<const N: usize> Restart<N> {
+    /// The beginning of a run with these constants and spans of this length (s).
+    pub fn start<C>(self, constants: C, span: f64) -> Start<C, N> {
+        let Restart { y, scale, tolerance_factor } = self;
+        Start { constants, y, span, scale, tolerance_factor }
     }
+}
+
+/// A run at the end of a span, or where it has failed.
+#[derive(Clone, Copy, Debug)]
+pub struct SpanEnd<'a, T, const N: usize> {
+    /// The state.
+    pub y: &'a [f64; N],
+    /// The observer's totals since the run's beginning.
+    pub totals: &'a T,
+    /// The ending and the cost since the run's beginning. The ending is [`Stopped`](crate::ode::Ending::Stopped) at the end of
+    /// a span.
+    pub outcome: Outcome,
+}
+
+/// The next work of a run that keeps its lane.
+#[derive(Clone, Copy, Debug)]
+pub enum Next<const N: usize> {
+    /// The next span, from the state at the end of the last one. A run that has failed cannot have one.
+    Span,
+    /// A span from another state, or with other tolerances. Totals and costs begin again.
+    Restart(Restart<N>),
 }
 
 /// A source of runs, which also receives their results.
@@ -35,12 +56,8 @@ pub trait Queue<O: Ode<N>, V: Observer<O, N>, const N: usize> {
     /// With `idle`, no lane is running: the call may wait, and `None` ends the ensemble.
     fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, O::Constants<f64>, N>>;
 
-    /// Looks at a run at the end of a span, and goes on with it or breaks.
-    fn span_end(&mut self, run: &mut Self::Run, y: &[f64; N], totals: &V::Totals<f64>) -> ControlFlow<()>;
-
-    /// Takes leave of a run that has been stopped or has failed; or returns it with its continuation, for which it stays in
-    /// its lane.
-    fn ended(&mut self, run: Self::Run, outcome: Outcome) -> Option<(Self::Run, Continuation<N>)>;
+    /// Takes a run at the end of a span, or where it has failed. Returns it with its next work if it is to keep its lane.
+    fn ended(&mut self, run: Self::Run, end: SpanEnd<'_, V::Totals<f64>, N>) -> Option<(Self::Run, Next<N>)>;
 
     /// True to end at once. Runs in lanes are dropped; see [`Interrupt`](crate::ode::Interrupt).
     fn interrupted(&self) -> bool {

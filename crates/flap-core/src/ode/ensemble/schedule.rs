@@ -4,7 +4,7 @@ use core::ops::AddAssign;
 
 use super::bank::{Bank, Events};
 use super::observer::Observer;
-use super::queue::{NewRun, Queue};
+use super::queue::{NewRun, Next, Queue, SpanEnd};
 use crate::num::{Lanes, Simd, Vector};
 use crate::ode::{Ending, Ode, Outcome, Start, Tolerances, UNASKED};
 
@@ -49,11 +49,14 @@ where
     )
 }
 
+/// The most lanes of any backend: two registers of AVX-512.
+const MOST_LANES: usize = 16;
+
 /// The lanes, and the run in each of them.
 struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> {
     bank: Bank<R, O, V, N>,
     /// The run in each lane; `None` in a lane that waits for work.
-    runs: Vec<Option<Running<Run>>>,
+    runs: [Option<Running<Run>>; MOST_LANES],
     /// Vector steps made.
     steps: u64,
     /// Steps that the runs which have ended took.
@@ -79,9 +82,10 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Schedule<R, O,
         tolerances: &Tolerances,
         (run, start): NewRun<Run, O::Constants<f64>, N>,
     ) -> Self {
+        const { assert!(R::LANES <= MOST_LANES) };
         let mut schedule = Schedule {
             bank: Bank::new(token, observer, tolerances, &start),
-            runs: (0..R::LANES).map(|_| None).collect(),
+            runs: [const { None }; MOST_LANES],
             steps: 0,
             used: 0,
             active: 0,
@@ -141,34 +145,32 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Schedule<R, O,
         }
     }
 
-    /// Asks the queue about the lanes that have landed, and gives up those that have failed.
+    /// Hands the runs at the ends of their spans to the queue, and those that have failed.
     fn settle<Q: Queue<O, V, N, Run = Run>>(&mut self, events: &Events, observer: &V, queue: &mut Q) {
         for lane in 0..R::LANES {
             let bit = 1 << lane;
             if (events.landed | events.failed) & bit == 0 {
                 continue;
             }
-            let Some(running) = &mut self.runs[lane] else { continue };
-            let ending = if events.failed & bit != 0 {
-                Some(self.bank.failure(lane))
-            } else {
-                let (y, totals) = (self.bank.state(lane), self.bank.totals(lane));
-                let verdict = queue.span_end(&mut running.run, &y, &totals);
-                verdict.is_break().then_some(Ending::Stopped)
-            };
-            match ending {
-                None => self.bank.begin_span(lane),
-                Some(ending) => {
+            let Some(Running { run, began }) = self.runs[lane].take() else { continue };
+            let failed = events.failed & bit != 0;
+            let ending = if failed { self.bank.failure(lane) } else { Ending::Stopped };
+            let steps = self.steps - began;
+            let (y, totals) = (&self.bank.state(lane), &self.bank.totals(lane));
+            let outcome = Outcome::new::<O, N>(ending, steps, self.bank.switches(lane));
+            match queue.ended(run, SpanEnd { y, totals, outcome }) {
+                Some((run, Next::Span)) if !failed => {
+                    self.runs[lane] = Some(Running { run, began });
+                    self.bank.begin_span(lane);
+                }
+                Some((run, Next::Restart(next))) => {
+                    self.used += steps;
+                    self.bank.restart(lane, &next, observer);
+                    self.begin(lane, run);
+                }
+                _ => {
+                    self.used += steps;
                     self.active &= !bit;
-                    if let Some(Running { run, began }) = self.runs[lane].take() {
-                        let steps = self.steps - began;
-                        self.used += steps;
-                        let outcome = Outcome::new::<O, N>(ending, steps, self.bank.switches(lane));
-                        if let Some((run, next)) = queue.ended(run, outcome) {
-                            self.bank.load_continuation(lane, &next, observer);
-                            self.begin(lane, run);
-                        }
-                    }
                 }
             }
         }

@@ -78,13 +78,11 @@ impl Sidecar {
     /// The plan whose points are designs with a curve: without the axis of the followed parameter, and with the parameters of
     /// the command line.
     fn follow(&self, followed: &Followed, plan: Plan) -> Option<Plan> {
-        let parameters = plan.parameters();
-        let place = |name: &str| Parameter::index(parameters, name);
-        let parameter = place(&followed.parameter)?;
+        let parameter = Parameter::index(plan.parameters(), &followed.parameter)?;
         let (mut plan, _) = plan.without_axis(parameter);
         for (name, value) in &self.parameters {
-            let index = place(name)?;
-            let number = number(&parameters[index], value)?;
+            let index = Parameter::index(plan.parameters(), name)?;
+            let number = number(&plan.parameters()[index], value)?;
             if plan.base()[index].given() != Some(number) {
                 plan = plan.with_parameter(index, number).ok()?;
             }

@@ -57,7 +57,7 @@ pub(super) fn read(
 
 /// The reader of one distribution. Its methods return `None`, with a report, for what makes no sense.
 struct Reader<'a, 't> {
-    parameter: &'a Parameter,
+    parameter: &'a Parameter<'a>,
     /// The entry of the parameter.
     whole: &'a Entry<'t>,
     /// The entries of the distribution.

@@ -60,9 +60,9 @@ pub(super) fn read(
 }
 
 /// A column of the file.
-struct Column<'t> {
+struct Column<'t, 'p> {
     index: usize,
-    parameter: &'static Parameter,
+    parameter: &'p Parameter<'p>,
     /// The unit in the heading; numbers in cells are in it.
     unit: Option<&'t str>,
 }
@@ -81,7 +81,7 @@ fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values
         lookup.problems.report_in(source, 0..0, "the file of points is empty".to_owned());
         return (Vec::new(), false);
     };
-    let found: Vec<Option<Column<'_>>> =
+    let found: Vec<Option<Column<'_, '_>>> =
         headings.iter().map(|(text, span)| heading(text, span, source, lookup)).collect();
     let Some(found) = found.into_iter().collect::<Option<Vec<_>>>() else {
         return (Vec::new(), false);
@@ -124,12 +124,12 @@ fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values
 }
 
 /// The parameter that a heading names, with or without a unit: `wing_area` or `wing_area [mm^2]`.
-fn heading<'t>(
+fn heading<'t, 'p>(
     text: &'t str,
     span: &Range<usize>,
     source: &Arc<Source>,
-    lookup: &mut Lookup<'_>,
-) -> Option<Column<'t>> {
+    lookup: &mut Lookup<'p>,
+) -> Option<Column<'t, 'p>> {
     let Some((name, unit)) = split_unit(text) else {
         let message = format!("the brackets in the heading `{text}` do not enclose a unit");
         let help = "write the name, then the unit in brackets: `wing_area [mm^2]`";
@@ -166,7 +166,7 @@ fn split_unit(heading: &str) -> Option<(&str, Option<&str>)> {
 }
 
 /// The value of a cell, or the mistake in it with the line on what to do.
-fn value(column: &Column<'_>, text: &str) -> Result<f64, (String, Option<String>)> {
+fn value(column: &Column<'_, '_>, text: &str) -> Result<f64, (String, Option<String>)> {
     let unit = column.unit.map_or(UnitOf::TextOrSi, UnitOf::Column);
     value::of_text(column.parameter, text, unit)
         .map_err(|error| (error.message(column.parameter.name, text), error.help()))

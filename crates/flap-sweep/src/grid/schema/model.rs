@@ -82,7 +82,7 @@ fn sections(model: &'static dyn Simulator) -> Value {
 /// A table with a key for each parameter. Former names are accepted, but editors do not offer them.
 fn keyed<'p>(
     description: &str,
-    parameters: impl IntoIterator<Item = &'p Parameter>,
+    parameters: impl IntoIterator<Item = &'p Parameter<'p>>,
     schema: impl Fn(&Parameter) -> Value,
 ) -> Value {
     let (mut now, mut former) = (Map::new(), Map::new());
@@ -132,7 +132,7 @@ fn correlation(parameters: &[Parameter]) -> Value {
 }
 
 /// The names of parameters of some kinds, former ones included.
-fn names(parameters: &[Parameter], is_wanted: impl Fn(Kind) -> bool) -> Vec<&'static str> {
+fn names<'p>(parameters: &[Parameter<'p>], is_wanted: impl Fn(Kind) -> bool) -> Vec<&'p str> {
     let wanted = parameters.iter().filter(|parameter| is_wanted(parameter.kind));
     let names = wanted.flat_map(|parameter| [parameter.name, parameter.former]);
     names.filter(|name| !name.is_empty()).collect()

@@ -2,7 +2,7 @@
 
 use flap_core::num::Backend;
 use flap_core::simulate::{
-    Change, Interrupt, Motions as _, NoSlope, PointRun, Row, Rows as _, SolverSettings, Status, Unfinished,
+    Change, Gradients as _, Interrupt, NoSlope, PointRun, Row, Rows as _, SolverSettings, Status, Unfinished,
 };
 use flap_core::vehicle::{FORCES, TORQUES, Vehicle, standing};
 use nalgebra::DMatrix;
@@ -52,7 +52,7 @@ fn because(reason: Option<&str>) -> String {
 /// A vehicle at an operating point.
 pub struct Flight<'f> {
     /// The vehicle.
-    pub vehicle: &'static Vehicle,
+    pub vehicle: &'f Vehicle,
     /// Settings of its integration.
     pub solver: &'f SolverSettings,
     /// Ends the work early.

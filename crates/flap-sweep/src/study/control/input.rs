@@ -96,7 +96,7 @@ impl Input {
 }
 
 /// The vehicle's parameter table.
-pub(super) fn parameters(vehicle: &Vehicle) -> &'static [Parameter] {
+pub(super) fn parameters(vehicle: &Vehicle) -> &[Parameter<'_>] {
     use flap_core::simulate::Simulator as _;
     vehicle.parameters()
 }

@@ -38,7 +38,8 @@ impl Along {
         tolerance: Option<f64>,
         unstable: bool,
     ) -> Result<(Plan, Along), AlongError> {
-        let Parameter { name, kind, .. } = &plan.parameters()[parameter];
+        let Parameter { name, kind, .. } = plan.parameters()[parameter];
+        let name = &*name.to_owned();
         if let Kind::Choice(_) = kind {
             return Err(AlongError::new(format!("`{name}` is a choice and cannot rise and fall"), ""));
         }
@@ -66,7 +67,7 @@ impl Along {
     }
 
     /// The parameter, in the table of the plan's model.
-    pub fn parameter(&self, plan: &Plan) -> &'static Parameter {
+    pub fn parameter<'p>(&self, plan: &'p Plan) -> &'p Parameter<'p> {
         &plan.parameters()[self.parameter]
     }
 

@@ -51,7 +51,7 @@ impl Curve {
 
     /// The motions with their cells under the columns of `layout`: the way up, by rising value, then the way down, by falling
     /// value, then the unstable orbits.
-    pub fn rows(&self, layout: &Layout) -> impl Iterator<Item = (Vec<Cell<'static>>, &Row)> {
+    pub fn rows(&self, layout: &Layout<'_>) -> impl Iterator<Item = (Vec<Cell<'static>>, &Row)> {
         let bistable = self.bistable();
         let up = self.up.iter().zip(bistable.clone()).map(|(step, bistable)| ("up", step, bistable));
         let down = self.down.iter().zip(bistable).rev().map(|(step, bistable)| ("down", step, bistable));

@@ -56,7 +56,7 @@ pub enum BandKind {
 
 impl Verdict {
     /// The verdict on a curve along `parameter`, given the index of the stroke's amplitude (deg) among the measures.
-    pub fn new(curve: &Curve, along: &Along, parameter: &'static Parameter, stroke: usize) -> Verdict {
+    pub fn new(curve: &Curve, along: &Along, parameter: &Parameter<'_>, stroke: usize) -> Verdict {
         let steps = curve.up.windows(2).map(|two| two[1].value - two[0].value);
         let step = steps.fold(0.0, f64::max);
         let ends = [curve.up.first(), curve.up.last()];

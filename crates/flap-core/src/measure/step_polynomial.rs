@@ -1,0 +1,165 @@
+//! A signal between the ends of a step, from its values at five places.
+
+use crate::num::Real;
+
+/// A signal within a step or a part of it: its values at five equal distances, and the polynomial of fourth degree through them.
+pub(super) struct StepPolynomial<R> {
+    values: [R; 5],
+    /// middle + a x + b x² + c x³ + d x⁴, with x from −2 to 2.
+    polynomial: [R; 4],
+}
+
+impl<R: Real> StepPolynomial<R> {
+    #[inline(always)]
+    pub(super) fn through(values: [R; 5]) -> StepPolynomial<R> {
+        let [f0, f1, f2, f3, f4] = values;
+        // Odd and even parts, and differences of them.
+        let (odd_1, odd_2) = ((f3 - f1) * 0.5, (f4 - f0) * 0.5);
+        let (even_1, even_2) = ((f3 + f1) * 0.5 - f2, (f4 + f0) * 0.5 - f2);
+        let polynomial = [
+            (odd_1 * 8.0 - odd_2) * (1.0 / 6.0),
+            (even_1 * 16.0 - even_2) * (1.0 / 12.0),
+            (odd_2 - odd_1 * 2.0) * (1.0 / 6.0),
+            (even_2 - even_1 * 4.0) * (1.0 / 12.0),
+        ];
+        StepPolynomial { values, polynomial }
+    }
+
+    /// The value at x.
+    #[inline(always)]
+    fn at(&self, x: R) -> R {
+        let [a, b, c, d] = self.polynomial;
+        x.mul_add(x.mul_add(x.mul_add(x.mul_add(d, c), b), a), self.values[2])
+    }
+
+    /// The smallest and the largest value: at the five points, or where the slope vanishes next to one of them.
+    ///
+    /// A zero of the slope is looked for on the parabolas of both halves. An error of that place counts as its square.
+    #[inline(always)]
+    pub(super) fn extrema(&self) -> [Extremum<R>; 2] {
+        let [first, second] = self.halves();
+        let [first, second] = [first.vertex(), second.vertex()];
+        let [f0, f1, f2, f3, f4] = self.values;
+        let x = f0.lit(1.0);
+        let [mut min, mut max] = [Extremum { value: f0, place: x * -2.0 }; 2];
+        for (value, place) in [
+            (f1, -x),
+            (f2, x * 0.0),
+            (f3, x),
+            (f4, x * 2.0),
+            (self.at(first), first),
+            (self.at(second), second),
+        ] {
+            let other = Extremum { value, place };
+            min = min.or_smaller(other);
+            max = max.or_larger(other);
+        }
+        [min, max]
+    }
+
+    /// The mean of the positive part, for at most one change of sign in each quarter.
+    #[inline(always)]
+    pub(super) fn positive_mean(&self) -> R {
+        let [first, second] = self.halves();
+        (first.positive_mean() + second.positive_mean()) * 0.5
+    }
+
+    #[inline(always)]
+    fn halves(&self) -> [Parabola<R>; 2] {
+        let [f0, f1, f2, f3, f4] = self.values;
+        [Parabola::through(-1.0, f0, f1, f2), Parabola::through(1.0, f2, f3, f4)]
+    }
+}
+
+/// The smallest or the largest value of a signal, and its place: x of the polynomial, or in units of a whole.
+#[derive(Clone, Copy)]
+pub(super) struct Extremum<R> {
+    pub(super) value: R,
+    pub(super) place: R,
+}
+
+impl<R: Real> Extremum<R> {
+    /// Its place in units of a whole, of which the polynomial covers a `share` around the place `middle`.
+    #[inline(always)]
+    pub(super) fn within(self, middle: f64, share: f64) -> Extremum<R> {
+        Extremum { place: self.place * (0.25 * share) + middle, ..self }
+    }
+
+    /// The one with the smaller value; the `other` one, if both are equal or one is not a number.
+    #[inline(always)]
+    pub(super) fn or_smaller(self, other: Extremum<R>) -> Extremum<R> {
+        let place = R::select(self.value.lt(other.value), self.place, other.place);
+        Extremum { value: self.value.min(other.value), place }
+    }
+
+    /// The one with the larger value; the `other` one, if both are equal or one is not a number.
+    #[inline(always)]
+    pub(super) fn or_larger(self, other: Extremum<R>) -> Extremum<R> {
+        let place = R::select(other.value.lt(self.value), self.place, other.place);
+        Extremum { value: self.value.max(other.value), place }
+    }
+}
+
+/// A signal within one half: middle + slope x + ½ curvature x², with x from −1 to 1.
+#[derive(Clone, Copy)]
+struct Parabola<R> {
+    /// The place of its middle on the whole, whose x goes from −2 to 2.
+    centre: f64,
+    begin: R,
+    middle: R,
+    end: R,
+    slope: R,
+    curvature: R,
+}
+
+impl<R: Real> Parabola<R> {
+    #[inline(always)]
+    fn through(centre: f64, begin: R, middle: R, end: R) -> Parabola<R> {
+        Parabola {
+            centre,
+            begin,
+            middle,
+            end,
+            slope: (end - begin) * 0.5,
+            curvature: begin + end - middle * 2.0,
+        }
+    }
+
+    /// The place of the vertex on the whole if it lies within the parabola, otherwise the middle.
+    #[inline(always)]
+    fn vertex(&self) -> R {
+        let inside = self.slope.abs().lt(self.curvature.abs());
+        let zero = self.slope.lit(0.0);
+        let curvature = R::select(inside, self.curvature, self.curvature.lit(1.0));
+        R::select(inside, -self.slope / curvature, zero) + self.centre
+    }
+
+    /// The mean of the positive part, for at most one change of sign on each side of the middle.
+    #[inline(always)]
+    fn positive_mean(&self) -> R {
+        let (zero, one) = (self.middle.lit(0.0), self.middle.lit(1.0));
+        (self.positive_area(-one, self.begin, zero, self.middle)
+            + self.positive_area(zero, self.middle, one, self.end))
+            * 0.5
+    }
+
+    /// ∫ of the positive part from `x0` to `x1`, where the parabola has the values `f0` and `f1`.
+    #[inline(always)]
+    fn positive_area(&self, x0: R, f0: R, x1: R, f1: R) -> R {
+        let mut root = x0 + f0 / (f0 - f1) * (x1 - x0);
+        for _ in 0..3 {
+            let value = root.mul_add(root.mul_add(self.curvature * 0.5, self.slope), self.middle);
+            let slope = root.mul_add(self.curvature, self.slope);
+            root = (root - value / slope).max(x0).min(x1);
+        }
+        let zero = root.lit(0.0);
+        let from = R::select(zero.lt(f0), x0, root);
+        let to = R::select(zero.lt(f1), x1, root);
+        self.antiderivative(to) - self.antiderivative(from)
+    }
+
+    #[inline(always)]
+    fn antiderivative(&self, x: R) -> R {
+        x * x.mul_add(x.mul_add(self.curvature * (1.0 / 6.0), self.slope * 0.5), self.middle)
+    }
+}

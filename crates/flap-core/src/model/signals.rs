@@ -1,0 +1,186 @@
+//! Sets of signals: structs with one field per signal.
+
+use super::signal::{Signal, Taken};
+use crate::num::{Lanes, PerLane};
+
+/// A set of signals, declared by [`signals!`](crate::signals).
+pub trait SignalSet: Copy + 'static {
+    /// A `T` for each signal, as the field of its name.
+    type Of<T: Copy>: Copy;
+
+    /// The signals, in the order of their columns.
+    const TABLE: &'static [Signal];
+
+    /// The same value for each signal.
+    fn all<T: Copy>(value: T) -> Self::Of<T>;
+
+    /// The results of `f` for each signal, from the quantities that are taken of it and two values.
+    fn zip<A: Copy, B: Copy, C: Copy>(
+        one: &Self::Of<A>,
+        other: &Self::Of<B>,
+        f: impl FnMut(Taken, A, B) -> C,
+    ) -> Self::Of<C>;
+
+    /// Calls `f` for each signal, with the quantities that are taken of it, its value in `of` to be changed, and its values
+    /// in `from`.
+    fn update<A: Copy, B: Copy, const L: usize>(
+        of: &mut Self::Of<A>,
+        from: [&Self::Of<B>; L],
+        f: impl FnMut(Taken, &mut A, [B; L]),
+    );
+
+    /// Each signal with its value, in the order of [`SignalSet::TABLE`].
+    fn each<T: Copy>(of: &Self::Of<T>) -> impl Iterator<Item = (&'static Signal, T)>;
+
+    /// The results of `f` for each signal, from the quantities that are taken of it and one value.
+    #[inline(always)]
+    fn map<A: Copy, B: Copy>(of: &Self::Of<A>, mut f: impl FnMut(Taken, A) -> B) -> Self::Of<B> {
+        Self::zip(
+            of,
+            of,
+            #[inline(always)]
+            |taken, value, _| f(taken, value),
+        )
+    }
+}
+
+/// A `T` for each signal of the set `S`: the struct that [`signals!`](crate::signals) declares.
+pub type SignalsOf<S, T> = <S as SignalSet>::Of<T>;
+
+/// [`SignalsOf`] for totals of a cycle, of which every lane has its own.
+#[derive(Clone, Copy, Debug)]
+pub struct Each<S: SignalSet, T: Copy>(pub S::Of<T>);
+
+impl<S: SignalSet, R: Lanes, P: PerLane<R>> PerLane<R> for Each<S, P> {
+    type One = Each<S, P::One>;
+
+    #[inline(always)]
+    fn fill(like: R, one: &Self::One) -> Self {
+        Each(S::map(
+            &one.0,
+            #[inline(always)]
+            |_, one| P::fill(like, &one),
+        ))
+    }
+
+    #[inline(always)]
+    fn set(&mut self, lane: usize, one: &Self::One) {
+        S::update(
+            &mut self.0,
+            [&one.0],
+            #[inline(always)]
+            |_, lanes, [one]| lanes.set(lane, &one),
+        );
+    }
+
+    #[inline(always)]
+    fn get(&self, lane: usize) -> Self::One {
+        Each(S::map(
+            &self.0,
+            #[inline(always)]
+            |_, lanes| lanes.get(lane),
+        ))
+    }
+
+    #[inline(always)]
+    fn is_finite(one: &Self::One) -> bool {
+        S::each(&one.0).all(|(_, one)| P::is_finite(&one))
+    }
+}
+
+/// Declares the signals of a model: a struct with one field per signal.
+///
+/// Each line gives the name, then unit, meaning and [measures](crate::model::Measure), each a column of rows. Behind them may stand
+/// `principal Mean` or `principal First` for the [measure](crate::model::Principal) whose error counts for the error of a
+/// row, `needs [...]` for measures that only derived columns use, and `of_wings [...]` for measures of a force that rows of a
+/// vehicle have of each wing.
+///
+/// `Signals<T>` has a `T` for each signal: `Signals<R>` the values at an instant, `Signals<SignalCycle>` those over a drive
+/// period. `Signals` alone stands for the set, as [`Model::Signals`](crate::model::Model::Signals).
+///
+/// ```
+/// use flap_core::model::{SignalSet, Unit};
+///
+/// flap_core::signals! {
+///     /// Signals of an oscillator.
+///     pub struct Signals {
+///         stroke: (Unit::DEG, "stroke angle", [Amplitude, Mean]) principal First,
+///         power: (Unit::MW, "power of the drive", [Mean]) needs [Supply],
+///     }
+/// }
+///
+/// let now = Signals { stroke: 0.5, power: 1e-3 };
+/// assert_eq!(now.stroke, 0.5);
+/// let names: Vec<&str> = Signals::TABLE.iter().map(|signal| signal.name).collect();
+/// assert_eq!(names, ["stroke", "power"]);
+/// assert!(Signals::TABLE[1].taken().rectified);
+/// ```
+#[macro_export]
+macro_rules! signals {
+    ($(#[$meta:meta])* pub struct $Name:ident {
+        $($signal:ident: ($unit:expr, $doc:literal, [$($measure:ident),*])
+            $(principal $principal:ident)? $(needs [$($needed:ident),*])? $(of_wings [$($of_wings:ident),*])?),* $(,)?
+    }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $Name<T = ()> {
+            $(#[doc = $doc] pub $signal: T,)*
+        }
+
+        impl $Name {
+            /// The description of each signal.
+            pub const SIGNALS: $Name<$crate::model::Signal> = $Name {
+                $($signal: $crate::model::Signal::new(
+                    stringify!($signal),
+                    $unit,
+                    $doc,
+                    &[$($crate::model::Measure::$measure),*],
+                )
+                $(.principal($crate::model::Principal::$principal))?
+                $(.needs(&[$($crate::model::Measure::$needed),*]))?
+                $(.of_wings(&[$($crate::model::Measure::$of_wings),*]))?,)*
+            };
+        }
+
+        impl $crate::model::SignalSet for $Name {
+            type Of<T: Copy> = $Name<T>;
+
+            const TABLE: &'static [$crate::model::Signal] = &[$($Name::SIGNALS.$signal),*];
+
+            #[inline(always)]
+            fn all<T: Copy>(value: T) -> $Name<T> {
+                $Name { $($signal: value),* }
+            }
+
+            #[inline(always)]
+            fn zip<A: Copy, B: Copy, C: Copy>(
+                one: &$Name<A>,
+                other: &$Name<B>,
+                mut f: impl FnMut($crate::model::Taken, A, B) -> C,
+            ) -> $Name<C> {
+                $Name { $($signal: f(const { $Name::SIGNALS.$signal.taken() }, one.$signal, other.$signal)),* }
+            }
+
+            #[inline(always)]
+            fn update<A: Copy, B: Copy, const L: usize>(
+                of: &mut $Name<A>,
+                from: [&$Name<B>; L],
+                mut f: impl FnMut($crate::model::Taken, &mut A, [B; L]),
+            ) {
+                $(
+                    let mut values = [from[0].$signal; L];
+                    for i in 1..L {
+                        values[i] = from[i].$signal;
+                    }
+                    f(const { $Name::SIGNALS.$signal.taken() }, &mut of.$signal, values);
+                )*
+            }
+
+            fn each<T: Copy>(
+                of: &$Name<T>,
+            ) -> impl Iterator<Item = (&'static $crate::model::Signal, T)> {
+                <$Name as $crate::model::SignalSet>::TABLE.iter().zip([$(of.$signal),*])
+            }
+        }
+    };
+}

@@ -1,0 +1,113 @@
+//! Many initial values at once.
+
+use super::observer::Observer;
+use super::queue::{NewRun, Next, Queue, SpanEnd};
+use super::schedule::run;
+use crate::num::{Backend, Kernel, Simd};
+use crate::ode::{Ending, Ode, Outcome, Start, Tolerances};
+
+/// The end of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Integrated<T, const N: usize> {
+    /// The state; where the run has failed, the last one.
+    pub y: [f64; N],
+    /// The observer's totals.
+    pub totals: T,
+    /// The ending and the cost.
+    pub outcome: Outcome,
+}
+
+/// Integrates a run from each of `starts` over so many `spans`, in the SIMD lanes of `backend`, and sums along the runs what
+/// `observer` does ([`Unobserved`](super::Unobserved) for nothing). The ends are in the order of the starts. `spans` is at
+/// least one.
+///
+/// Decays x' = −k x with 1,000 rates k (1/s), from x = 1 over one second:
+///
+/// ```
+/// use flap_core::num::{Backend, Real};
+/// use flap_core::ode::ensemble::{Unobserved, integrate};
+/// use flap_core::ode::{Ode, Start, Tolerances};
+///
+/// struct Decay;
+///
+/// impl Ode<1> for Decay {
+///     type Constants<R: Real> = R;
+///     type Input<R: Real> = ();
+///
+///     #[inline(always)]
+///     fn input<R: Real>(&self, _rate: &R, _t: R) {}
+///
+///     #[inline(always)]
+///     fn rhs<R: Real>(&self, rate: &R, _: &(), _side: R, x: &[R; 1]) -> [R; 1] {
+///         [-(*rate * x[0])]
+///     }
+/// }
+///
+/// let starts: Vec<_> = (0..1000).map(|i| Start::new(f64::from(i) * 0.01, [1.0], 1.0, [1.0])).collect();
+/// let tolerances = Tolerances { rtol: 1e-8, atol: 1e-10, max_steps: 1000 };
+/// let ends = integrate(Backend::best(), &Decay, &Unobserved, &tolerances, &starts, 1);
+/// for (start, end) in starts.iter().zip(&ends) {
+///     assert!((end.y[0] - (-start.constants).exp()).abs() < 1e-7);
+/// }
+/// ```
+pub fn integrate<O: Ode<N>, V: Observer<O, N>, const N: usize>(
+    backend: Backend,
+    ode: &O,
+    observer: &V,
+    tolerances: &Tolerances,
+    starts: &[Start<O::Constants<f64>, N>],
+    spans: u32,
+) -> Vec<Integrated<V::Totals<f64>, N>> {
+    backend.dispatch(Integrate { ode, observer, tolerances, starts, spans })
+}
+
+struct Integrate<'a, O: Ode<N>, V, const N: usize> {
+    ode: &'a O,
+    observer: &'a V,
+    tolerances: &'a Tolerances,
+    starts: &'a [Start<O::Constants<f64>, N>],
+    spans: u32,
+}
+
+impl<O: Ode<N>, V: Observer<O, N>, const N: usize> Kernel for Integrate<'_, O, V, N> {
+    type Output = Vec<Integrated<V::Totals<f64>, N>>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Self::Output {
+        let Integrate { ode, observer, tolerances, starts, spans } = self;
+        let mut queue = Starts { starts, spans, begun: 0, ends: vec![None; starts.len()] };
+        run(simd, ode, observer, tolerances, &mut queue);
+        // Every run ends.
+        queue.ends.into_iter().flatten().collect()
+    }
+}
+
+struct Starts<'a, C, T, const N: usize> {
+    starts: &'a [Start<C, N>],
+    spans: u32,
+    begun: usize,
+    ends: Vec<Option<Integrated<T, N>>>,
+}
+
+impl<O: Ode<N>, V: Observer<O, N>, const N: usize> Queue<O, V, N>
+    for Starts<'_, O::Constants<f64>, V::Totals<f64>, N>
+{
+    /// The position of the run, and the spans that it has left.
+    type Run = (usize, u32);
+
+    fn next(&mut self, _idle: bool) -> Option<NewRun<(usize, u32), O::Constants<f64>, N>> {
+        let start = *self.starts.get(self.begun)?;
+        self.begun += 1;
+        Some(((self.begun - 1, self.spans), start))
+    }
+
+    fn ended(
+        &mut self,
+        (position, spans): (usize, u32),
+        end: SpanEnd<'_, V::Totals<f64>, N>,
+    ) -> Option<((usize, u32), Next<N>)> {
+        let SpanEnd { y, totals, outcome } = end;
+        self.ends[position] = Some(Integrated { y: *y, totals: *totals, outcome });
+        (outcome.ending == Ending::Stopped && spans > 1).then_some(((position, spans - 1), Next::Span))
+    }
+}

@@ -1,0 +1,76 @@
+//! Linear systems of period maps: small, and solved without allocating.
+
+use crate::measure::multipliers::{Matrix, identity};
+
+/// The largest condition number with which a system is solved: beyond, its solution may have no correct digit.
+const MAX_CONDITION: f64 = 1e15;
+
+/// The LU decomposition of a matrix, with rows exchanged so that each pivot is the largest of its column.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lu<const N: usize> {
+    /// U, and L below its diagonal of ones.
+    factors: Matrix<N>,
+    /// The row of the matrix that each row of the factors comes from.
+    rows: [usize; N],
+}
+
+impl<const N: usize> Lu<N> {
+    /// The decomposition of I − M for a monodromy matrix M. `None` if it is singular but for rounding, or not finite.
+    pub(super) fn of_identity_minus(m: &Matrix<N>) -> Option<Lu<N>> {
+        let mut matrix = identity();
+        for i in 0..N {
+            for j in 0..N {
+                matrix[i][j] -= m[i][j];
+            }
+        }
+        let lu = Lu::of(matrix);
+        // Not a number fails too.
+        (row_sum(&matrix) * row_sum(&lu.inverse()) <= MAX_CONDITION).then_some(lu)
+    }
+
+    fn of(mut a: Matrix<N>) -> Lu<N> {
+        let mut rows = core::array::from_fn(|i| i);
+        for k in 0..N {
+            let pivot = (k..N).fold(k, |best, i| if a[i][k].abs() > a[best][k].abs() { i } else { best });
+            a.swap(k, pivot);
+            rows.swap(k, pivot);
+            for i in k + 1..N {
+                a[i][k] /= a[k][k];
+                for j in k + 1..N {
+                    a[i][j] -= a[i][k] * a[k][j];
+                }
+            }
+        }
+        Lu { factors: a, rows }
+    }
+
+    /// The solution x of the system with the right-hand side b.
+    pub(super) fn solve(&self, b: &[f64; N]) -> [f64; N] {
+        let Lu { factors, rows } = self;
+        let mut x = rows.map(|row| b[row]);
+        for i in 0..N {
+            for j in 0..i {
+                x[i] -= factors[i][j] * x[j];
+            }
+        }
+        for i in (0..N).rev() {
+            for j in i + 1..N {
+                x[i] -= factors[i][j] * x[j];
+            }
+            x[i] /= factors[i][i];
+        }
+        x
+    }
+
+    /// The inverse, row by row.
+    pub(super) fn inverse(&self) -> Matrix<N> {
+        let columns = identity().map(|unit| self.solve(&unit));
+        core::array::from_fn(|i| core::array::from_fn(|j| columns[j][i]))
+    }
+}
+
+/// The largest sum of the magnitudes of a row.
+fn row_sum<const N: usize>(matrix: &Matrix<N>) -> f64 {
+    let sums = matrix.map(|row| row.iter().map(|x| x.abs()).sum::<f64>());
+    sums.into_iter().fold(0.0, |largest, sum| if sum.is_nan() { sum } else { sum.max(largest) })
+}

@@ -1,0 +1,624 @@
+//! The search for the settled motion of a point, from its first drive period to its row.
+//!
+//! [`Search::settle`] is the whole way:
+//!
+//! 1. **Find.** The point is marched from rest, one drive period after another, until Newton's iteration leads to a periodic
+//!    orbit near by. A loose tolerance suffices for this.
+//! 2. **Compare.** The orbit of a middle tolerance is found and measured. Its difference from the row is the row's error
+//!    estimate, and it is much nearer to the orbit of the row than the first one.
+//! 3. **Close.** At the tolerance of the row, a period with responses to changes of the state gives the monodromy matrix, and
+//!    with it the orbit. The period of that orbit is measured, and confirms it.
+//! 4. **Judge.** A row that is not accurate enough is computed again with tighter tolerances, from its orbit.
+//!
+//! If the way over the loose tolerance fails, the search begins again, at rest and at the tolerance of the row.
+//! A search integrates nothing itself: it asks for drive periods and waits for them (see [`periods`](super::periods)), and a
+//! driver integrates those of many points in lanes (see [`lanes`](super::lanes)).
+
+use std::rc::Rc;
+
+use super::march::March;
+use super::orbit_row::{self, MeasuredOrbit};
+use super::period_map::{Chord, Marched, Orbit, distance, fixed_point, residual};
+use super::periods::{Exchange, Kind, PeriodEnd, Request};
+use super::row::Row;
+use super::settings::SolverSettings;
+use super::status::Status;
+use crate::measure::cycle::SumsOf;
+use crate::measure::multipliers::{Matrix, identity, product, spectral_radius};
+use crate::model::Model;
+use crate::ode::ensemble::Restart;
+use crate::ode::{Ending, Outcome, Start};
+
+/// The relative tolerance with which a search begins, and the largest tolerance of rows for which it does.
+const LOOSE_RTOL: f64 = 3e-4;
+const LOOSE_FOR: f64 = 4e-6;
+
+/// The most drive periods marched at the loose tolerance.
+const LOOSE_CYCLES: u32 = 16;
+
+/// The residual of an orbit at the loose tolerance. The period map of this tolerance jumps by less.
+const LOOSE_RESIDUAL: f64 = 1e-2;
+
+/// The residual of a march at the loose tolerance that is as near to its orbit as Newton's iteration would lead.
+const ARRIVED: f64 = 1e-3;
+
+/// The drive periods up to which a march with less than [`LOOSE_RESIDUAL`] goes on until it has [`ARRIVED`].
+const ARRIVAL_CYCLES: u32 = 9;
+
+/// The factor between the tolerances of a row and the middle ones. The errors of the two orbits differ by about as much.
+const MIDDLE: f64 = 64.0;
+
+/// The residual at the middle tolerance, relative to that tolerance, after which one more chord step is the last.
+const MIDDLE_RESIDUAL: f64 = 10.0;
+
+/// The relative tolerance of the period with responses that gives the multipliers is this factor times this power of that of
+/// the row, or that of the row if it is larger.
+const RESPONSES: f64 = 2.5e-4;
+const RESPONSES_EXPONENT: f64 = 0.4;
+
+/// The residual at which the monodromy matrix is that of the orbit, relative to the root of the row's tolerance: the multipliers
+/// err by some times as much.
+const MAPPED: f64 = 0.1;
+
+/// The length of a step with the monodromy matrix of the row's orbit that is presumed to be the last, relative to the root of
+/// the residual to be reached: a step leaves a residual of about its square.
+const LAST_STEP: f64 = 0.1;
+
+/// Iterations after which Newton's iteration is given up: where it converges at all, it takes two to four.
+const MAX_ITERATIONS: u32 = 8;
+
+/// The factor by which the residual must at least fall from one iteration to the next.
+const PROGRESS: f64 = 0.5;
+
+/// The residual, in units of `settle_tol`, below which an iteration is stuck in jumps of the period map, and the factor on the
+/// tolerances that makes them smaller.
+const JUMPS: f64 = 100.0;
+const FINER: f64 = 1.0 / 32.0;
+
+/// The finest tolerances at which a point is integrated: relative to those that were asked for, and as `rtol`.
+const FINEST: f64 = 1e-5;
+const FINEST_RTOL: f64 = 1e-12;
+
+/// The most times that a point is integrated again for its row's accuracy.
+const REFINEMENTS: u32 = 3;
+
+/// The smallest residual that such a refinement aims at.
+const SMALLEST_GOAL: f64 = 1e-10;
+
+/// The largest distance between the orbits of two tolerances, in units of the states' typical sizes.
+const ORBITS_DIFFER: f64 = 0.1;
+
+/// A point that has been followed until it settled, or until it was given up.
+pub(super) struct Settled<const N: usize> {
+    pub(super) row: Row,
+    /// The beginning of the row's orbit, with its tolerances.
+    pub(super) orbit: Option<Restart<N>>,
+}
+
+/// The search for a point's orbit.
+struct Search<'a, M: Model<N>, const N: usize> {
+    model: &'a M,
+    solver: &'a SolverSettings,
+    start: Start<M::Constants<f64>, N>,
+    exchange: Rc<Exchange<SumsOf<M, N>, N>>,
+    /// The sizes of the states, of which absolute tolerances are multiples.
+    size: [f64; N],
+    /// The factor on the tolerances that were asked for.
+    tolerance_factor: f64,
+    /// The residual with which an orbit counts as found.
+    goal: f64,
+    march: March<N>,
+    /// Largest modulus of the multipliers of a subharmonic orbit.
+    subharmonic: f64,
+    ending: Ending,
+    /// Drive periods integrated, right-hand sides evaluated, and those that the present run has evaluated.
+    cycles: u32,
+    rhs_evals: u64,
+    rhs_evals_of_run: u64,
+}
+
+/// An orbit near by.
+#[derive(Clone, Copy)]
+struct Near<const N: usize> {
+    orbit: Orbit<N>,
+    /// A period of the march that should lead there.
+    march: Marched<N>,
+    /// Largest modulus of its multipliers; NaN unless the monodromy matrix was computed at the row's tolerance, near enough.
+    floquet_max: f64,
+    /// The residual before the last step, at the tolerance of the last iteration.
+    residual: f64,
+    /// The length of that step, if it was made with the matrix of `floquet_max`.
+    step: f64,
+    /// The march has settled there, though Newton's iteration cannot improve on it.
+    settled: bool,
+}
+
+/// A march or Newton's iteration: at the loose tolerance, or at that of the row.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum At {
+    Loose,
+    Row,
+}
+
+/// An orbit that has been measured.
+struct Measured<T, const N: usize> {
+    orbit: Orbit<N>,
+    /// Largest modulus of its multipliers.
+    floquet_max: f64,
+    residual: f64,
+    /// The end of its measured period.
+    end: PeriodEnd<T, N>,
+}
+
+/// The end of the search for the row's orbit.
+enum Closed<T, const N: usize> {
+    Orbit(Measured<T, N>),
+    /// The period map jumps too much at these tolerances, near this orbit.
+    Jumps(Orbit<N>),
+    /// There is no such orbit.
+    Lost,
+}
+
+/// Follows a point from `start`, which is perhaps near its orbit if it is `nearby`, to its row.
+pub(super) fn settle<'a, M: Model<N>, const N: usize>(
+    model: &'a M,
+    solver: &'a SolverSettings,
+    start: Start<M::Constants<f64>, N>,
+    nearby: bool,
+    exchange: Rc<Exchange<SumsOf<M, N>, N>>,
+) -> impl Future<Output = Settled<N>> + 'a {
+    let mut search = Box::new(Search {
+        model,
+        solver,
+        start,
+        exchange,
+        size: start.scale,
+        tolerance_factor: start.tolerance_factor,
+        goal: solver.settle_tol,
+        march: March::new(&start.y, &start.scale, solver, nearby, 0),
+        subharmonic: f64::NAN,
+        ending: Ending::Stopped,
+        cycles: 0,
+        rhs_evals: 0,
+        rhs_evals_of_run: 0,
+    });
+    async move { search.settle(nearby).await }
+}
+
+impl<M: Model<N>, const N: usize> Search<'_, M, N> {
+    /// The row of the point, whose initial state is perhaps near its orbit if it is `nearby`.
+    async fn settle(&mut self, nearby: bool) -> Settled<N> {
+        let SolverSettings { newton, progressive, max_cycles, .. } = *self.solver;
+        let small = self.rtol() <= LOOSE_FOR && max_cycles > LOOSE_CYCLES;
+        if newton && progressive && !nearby && small {
+            self.begin(nearby, LOOSE_CYCLES);
+            if let Some(near) = self.find(At::Loose).await
+                && let Some(settled) = self.settle_near(near).await
+            {
+                return settled;
+            }
+        }
+        self.begin(nearby, max_cycles);
+        while let Some(near) = self.find(At::Row).await {
+            if let Some(settled) = self.settle_near(near).await {
+                return settled;
+            }
+            if self.march.period().is_some() {
+                if let Some(settled) = self.settle_near(self.marched(near.orbit.monodromy)).await {
+                    return settled;
+                }
+                break;
+            }
+            if self.march.is_exhausted() {
+                break;
+            }
+            self.march.put_off_newton();
+        }
+        Settled { row: self.unsettled(), orbit: None }
+    }
+
+    /// The row of an orbit near by; `None` if it is none of this point.
+    async fn settle_near(&mut self, mut near: Near<N>) -> Option<Settled<N>> {
+        let mut last: Option<Settled<N>> = None;
+        for refinement in 0..=REFINEMENTS {
+            let (measured, coarse) = loop {
+                let coarse = self.compare(&mut near).await;
+                match self.close(&near).await {
+                    Closed::Orbit(measured) => break (measured, coarse),
+                    Closed::Jumps(orbit) => {
+                        self.tighten(FINER);
+                        near = Near { orbit, floquet_max: f64::NAN, step: f64::INFINITY, ..near };
+                    }
+                    Closed::Lost => return last.map(|last| self.charged(last)),
+                }
+            };
+            let Measured { orbit, floquet_max, residual, .. } = measured;
+            near = Near { orbit, floquet_max, residual, ..near };
+            let coarse = match coarse {
+                Some(coarse) => Some(coarse),
+                None => self.compare(&mut near).await,
+            };
+            let (row, doubt) = self.row(&measured, coarse.as_deref());
+            let is_periodic = row.status == Status::Periodic;
+            if !is_periodic && last.is_some() {
+                break;
+            }
+            let settled = Settled { row, orbit: Some(self.from(&orbit.y, 1.0)) };
+            if !is_periodic || doubt <= self.solver.accuracy || self.is_finest() {
+                return Some(self.charged(settled));
+            }
+            last = Some(settled);
+            if refinement < REFINEMENTS {
+                self.refine(doubt);
+                let march = Marched { begin: orbit.y, end: orbit.y, error: ORBITS_DIFFER };
+                near = Near { march, floquet_max: f64::NAN, residual: f64::INFINITY, settled: false, ..near };
+            }
+        }
+        last.map(|last| self.charged(last))
+    }
+
+    /// Marches until Newton's iteration leads to an orbit near by. `None` if the march fails, is exhausted, or settles on
+    /// a subharmonic orbit.
+    async fn find(&mut self, at: At) -> Option<Near<N>> {
+        loop {
+            self.march(at).await?;
+            let settled = match self.march.period() {
+                Some(1) => true,
+                Some(periods) => {
+                    if at == At::Row {
+                        self.subharmonic = self.multiplier_over(periods).await;
+                    }
+                    return None;
+                }
+                None if self.march.is_promising() => false,
+                None => return None,
+            };
+            let marched =
+                Marched { begin: *self.march.before(), end: *self.march.state(), error: LOOSE_RESIDUAL };
+            if at == At::Loose && self.march.change(1) <= ARRIVED.max(self.goal) {
+                // The chord iteration continues the march.
+                let orbit = Orbit { y: marched.end, monodromy: [[0.0; N]; N] };
+                return Some(Near {
+                    orbit,
+                    march: marched,
+                    floquet_max: f64::NAN,
+                    residual: self.march.change(1),
+                    step: f64::INFINITY,
+                    settled: false,
+                });
+            }
+            match self.iterate(at).await {
+                Ok(near) => return Some(near),
+                Err(Some(monodromy)) if settled && at == At::Row => return Some(self.marched(monodromy)),
+                Err(_) if settled || self.march.is_exhausted() => return None,
+                Err(_) => self.march.put_off_newton(),
+            }
+        }
+    }
+
+    /// The orbit on which the march has settled: its state jitters by more than Newton's iteration may leave.
+    fn marched(&self, monodromy: Matrix<N>) -> Near<N> {
+        let march = Marched { begin: *self.march.before(), end: *self.march.state(), error: self.goal };
+        let floquet_max = spectral_radius(&monodromy);
+        let orbit = Orbit { y: march.end, monodromy };
+        Near { orbit, march, floquet_max, residual: self.march.change(1), step: f64::INFINITY, settled: true }
+    }
+
+    /// Marches until the motion has settled or may be near an orbit, or for as many periods as are allowed. `None` if
+    /// a period cannot be integrated.
+    async fn march(&mut self, at: At) -> Option<()> {
+        let factor = self.factor(at);
+        let mut begin = Some(self.from(&self.march.state().clone(), factor));
+        while !self.march.is_exhausted() {
+            let end = self.period(Kind::States, begin.take()).await?;
+            self.march.period_end(&end.y, &end.largest);
+            let change = self.march.change(1);
+            let arrives = at == At::Loose
+                && change <= LOOSE_RESIDUAL
+                && change > ARRIVED.max(self.goal)
+                && self.march.cycles() < ARRIVAL_CYCLES;
+            if self.march.period().is_some() || self.march.is_promising() && !arrives {
+                break;
+            }
+            if self.march.is_oversized(&self.size) && !arrives {
+                self.size = self.march.motion_size();
+                begin = Some(self.from(&end.y, factor));
+            }
+        }
+        self.size = self.march.motion_size();
+        Some(())
+    }
+
+    /// Newton's iteration from the state of the march. An error is the last monodromy matrix, if there is one.
+    async fn iterate(&mut self, at: At) -> Result<Near<N>, Option<Matrix<N>>> {
+        let (goal, error) = match at {
+            At::Loose => (LOOSE_RESIDUAL.max(self.goal), LOOSE_RESIDUAL),
+            At::Row => (self.goal.max(MAPPED * self.rtol().sqrt()), self.goal),
+        };
+        let scale = self.start.scale;
+        let mut y = *self.march.state();
+        let mut march: Option<Marched<N>> = None;
+        let mut last = f64::INFINITY;
+        let mut monodromy = None;
+        for _ in 0..=MAX_ITERATIONS {
+            let Some(end) = self.period(Kind::Responses, Some(self.from(&y, self.factor(at)))).await else {
+                self.ending = Ending::Stopped;
+                return Err(monodromy);
+            };
+            monodromy = Some(end.monodromy);
+            // The first of these periods continues the march.
+            let march = *march.get_or_insert(Marched { begin: y, end: end.y, error });
+            let residual = residual(&y, &end.y, &scale);
+            let orbit = Orbit { y, monodromy: end.monodromy };
+            let next = fixed_point(&orbit, &end.y, &scale);
+            if residual <= goal {
+                let orbit = Orbit { y: next.unwrap_or(end.y), ..orbit };
+                if let Some(floquet_max) = orbit.attracts(&march, &scale) {
+                    let floquet_max = if at == At::Row { floquet_max } else { f64::NAN };
+                    let step = distance(&y, &orbit.y, &scale);
+                    return Ok(Near { orbit, march, floquet_max, residual, step, settled: false });
+                }
+                // Near a fold, the multipliers of an orbit show only close to it.
+                if at == At::Loose || residual <= self.goal {
+                    return Err(monodromy);
+                }
+            }
+            let slow = residual > PROGRESS * last;
+            last = residual;
+            match next {
+                Some(next) if !slow => y = next,
+                _ if at == At::Row && residual <= JUMPS * self.goal && !self.is_finest() => {
+                    self.tighten(FINER);
+                    last = f64::INFINITY;
+                    continue;
+                }
+                _ => return Err(monodromy),
+            }
+            if at == At::Loose {
+                let mut chord = Chord::new(Orbit { y, ..orbit }, &scale);
+                loop {
+                    let Some(end) =
+                        self.period(Kind::States, Some(self.from(&chord.orbit.y, self.factor(at)))).await
+                    else {
+                        return Err(monodromy);
+                    };
+                    let moved = chord.step(&end.y);
+                    if !moved || chord.residual <= LOOSE_RESIDUAL {
+                        break;
+                    }
+                }
+                let orbit = chord.orbit;
+                if chord.residual <= LOOSE_RESIDUAL && orbit.attracts(&march, &scale).is_some() {
+                    return Ok(Near {
+                        orbit,
+                        march,
+                        floquet_max: f64::NAN,
+                        residual: chord.residual,
+                        step: f64::INFINITY,
+                        settled: false,
+                    });
+                }
+                y = orbit.y;
+            }
+        }
+        Err(monodromy)
+    }
+
+    /// Finds the orbit of the middle tolerance and measures its means. An orbit that is not known at the row's tolerance is
+    /// replaced by it. `None` if it is not found.
+    async fn compare(&mut self, near: &mut Near<N>) -> Option<Box<SumsOf<M, N>>> {
+        let mapped = !near.floquet_max.is_nan();
+        // With the monodromy matrix of the row's orbit, one step suffices.
+        let enough =
+            if mapped { f64::INFINITY } else { self.goal.max(MIDDLE_RESIDUAL * MIDDLE * self.rtol()) };
+        let mut chord = Chord::new(near.orbit, &self.start.scale);
+        let ending = self.ending;
+        let mut found = !mapped && near.residual <= self.goal;
+        while !found {
+            let end = self.period(Kind::States, Some(self.from(&chord.orbit.y, MIDDLE))).await;
+            let moved = end.is_some_and(|end| chord.step(&end.y));
+            found = moved && chord.residual <= enough;
+            if !moved {
+                break;
+            }
+        }
+        self.ending = ending;
+        if !mapped && chord.residual <= LOOSE_RESIDUAL {
+            near.orbit = chord.orbit;
+            near.march.error = ORBITS_DIFFER;
+        }
+        if !found {
+            return None;
+        }
+        let end = self.period(Kind::Means, Some(self.from(&chord.orbit.y, MIDDLE))).await;
+        self.ending = ending;
+        end?.sums
+    }
+
+    /// Goes from an orbit near by onto that of the row's tolerance, in chord steps, and measures its period.
+    async fn close(&mut self, near: &Near<N>) -> Closed<SumsOf<M, N>, N> {
+        let scale = self.start.scale;
+        let Near { mut floquet_max, mut residual, mut step, settled: mut accepted, .. } = *near;
+        let mut chord = Chord::new(near.orbit, &scale);
+        // The residual at which the monodromy matrix is computed, and the last at which it was.
+        let mut near_enough = self.goal.max(MAPPED * self.rtol().sqrt());
+        let mut mapped = f64::INFINITY;
+        let mut last_step = LAST_STEP * self.goal.sqrt();
+        loop {
+            while !accepted && (floquet_max.is_nan() || step > last_step && residual > self.goal) {
+                let y = chord.orbit.y;
+                let Some(end) = self.period(Kind::States, Some(self.from(&y, 1.0))).await else {
+                    return Closed::Lost;
+                };
+                let mut moved = chord.step(&end.y);
+                residual = chord.residual;
+                // The matrix is computed where the steps are stuck, too.
+                if floquet_max.is_nan() && residual <= near_enough || !moved && residual <= PROGRESS * mapped
+                {
+                    let Some(monodromy) = self.monodromy(&y).await else { return Closed::Lost };
+                    let orbit = Orbit { y, monodromy };
+                    match orbit.attracts(&near.march, &scale) {
+                        Some(largest) => floquet_max = largest,
+                        None if residual <= self.goal => return Closed::Lost,
+                        None => near_enough = self.goal,
+                    }
+                    mapped = residual;
+                    chord = Chord::new(orbit, &scale);
+                    moved = chord.step(&end.y);
+                }
+                step = distance(&y, &chord.orbit.y, &scale);
+                if !moved {
+                    let SolverSettings { settle_tol, .. } = *self.solver;
+                    accepted = !floquet_max.is_nan() && residual <= settle_tol;
+                    if !accepted {
+                        let jumps = residual <= JUMPS * settle_tol && !self.is_finest();
+                        return if jumps { Closed::Jumps(chord.orbit) } else { Closed::Lost };
+                    }
+                }
+            }
+            accepted |= last_step == 0.0;
+            let orbit = chord.orbit;
+            let Some(end) = self.period(Kind::Signals, Some(self.from(&orbit.y, 1.0))).await else {
+                return Closed::Lost;
+            };
+            chord.step(&end.y);
+            if accepted || chord.residual <= self.goal {
+                let residual = chord.residual.min(residual);
+                return Closed::Orbit(Measured { orbit, floquet_max, residual, end });
+            }
+            // The step was not the last.
+            (residual, step, last_step) = (chord.residual, f64::INFINITY, 0.0);
+            self.exchange.reuse(end.sums);
+        }
+    }
+
+    /// The monodromy matrix of an orbit through `y`. `None` if the period cannot be integrated.
+    async fn monodromy(&mut self, y: &[f64; N]) -> Option<Matrix<N>> {
+        let rtol = RESPONSES * libm::pow(self.rtol(), RESPONSES_EXPONENT);
+        let begin = self.from(y, (rtol / self.rtol()).max(1.0));
+        Some(self.period(Kind::Responses, Some(begin)).await?.monodromy)
+    }
+
+    /// Largest modulus of the multipliers of a subharmonic orbit of so many drive periods, on which the march is.
+    async fn multiplier_over(&mut self, periods: u32) -> f64 {
+        let mut monodromy = identity();
+        let mut y = *self.march.state();
+        for _ in 0..periods {
+            let Some(end) = self.period(Kind::Responses, Some(self.from(&y, 1.0))).await else {
+                self.ending = Ending::Stopped;
+                return f64::NAN;
+            };
+            monodromy = product(&end.monodromy, &monodromy);
+            y = end.y;
+        }
+        spectral_radius(&monodromy)
+    }
+
+    /// Integrates a period. `None`, with the ending, if that fails.
+    async fn period(&mut self, kind: Kind, begin: Option<Restart<N>>) -> Option<PeriodEnd<SumsOf<M, N>, N>> {
+        if begin.is_some() {
+            self.rhs_evals_of_run = 0;
+        }
+        let end = self.exchange.period(Request { kind, begin }).await;
+        let Outcome { ending, rhs_evals, .. } = end.outcome;
+        // With responses, each evaluation is one of the states and one of each response.
+        let motions = if kind == Kind::Responses { 1 + N as u32 } else { 1 };
+        self.rhs_evals += u64::from(motions) * (rhs_evals - self.rhs_evals_of_run);
+        self.rhs_evals_of_run = rhs_evals;
+        self.ending = ending;
+        if ending != Ending::Stopped {
+            return None;
+        }
+        self.cycles += motions;
+        Some(end)
+    }
+
+    /// Begins at the initial state, with the tolerances that were asked for.
+    fn begin(&mut self, nearby: bool, max_cycles: u32) {
+        let Start { y, scale, tolerance_factor, .. } = self.start;
+        self.march = March::new(&y, &scale, self.solver, nearby, max_cycles);
+        self.size = scale;
+        self.tolerance_factor = tolerance_factor;
+        self.goal = self.solver.settle_tol;
+        self.ending = Ending::Stopped;
+    }
+
+    /// The beginning of a period at `y`, with the tolerances of the row times `factor`.
+    fn from(&self, y: &[f64; N], factor: f64) -> Restart<N> {
+        Restart { y: *y, scale: self.size, tolerance_factor: self.tolerance_factor * factor }
+    }
+
+    /// The factor on the tolerances of the row.
+    fn factor(&self, at: At) -> f64 {
+        match at {
+            At::Loose => LOOSE_RTOL / self.rtol(),
+            At::Row => 1.0,
+        }
+    }
+
+    /// The relative tolerance of the row.
+    fn rtol(&self) -> f64 {
+        self.solver.rtol * self.tolerance_factor
+    }
+
+    /// The smallest factor on the tolerances.
+    fn finest(&self) -> f64 {
+        self.start.tolerance_factor * FINEST.max(FINEST_RTOL / self.solver.rtol).min(1.0)
+    }
+
+    fn is_finest(&self) -> bool {
+        self.tolerance_factor <= self.finest()
+    }
+
+    fn tighten(&mut self, factor: f64) {
+        self.tolerance_factor = (self.tolerance_factor * factor).max(self.finest());
+    }
+
+    /// Tightens the tolerances of a row that errs by `doubt`.
+    fn refine(&mut self, doubt: f64) {
+        let SolverSettings { accuracy, settle_tol, .. } = *self.solver;
+        // The error is about proportional to the tolerances.
+        self.tighten(if doubt.is_finite() { (0.25 * accuracy / doubt).clamp(1e-3, 0.125) } else { FINER });
+        self.goal = (settle_tol * self.tolerance_factor).max(SMALLEST_GOAL).min(settle_tol);
+    }
+
+    /// The row of an orbit, and its largest relative error.
+    fn row(&self, measured: &Measured<SumsOf<M, N>, N>, coarse: Option<&SumsOf<M, N>>) -> (Row, f64) {
+        let Measured { orbit: Orbit { y, .. }, floquet_max, residual, end } = measured;
+        let Some(sums) = end.sums.as_deref() else { return (self.unsettled(), 0.0) };
+        let Search { model, solver, start, .. } = self;
+        let orbit = MeasuredOrbit { y, sums, coarse, switches: end.outcome.switches, rtol: self.rtol() };
+        let (row, error) = orbit_row::row_of(*model, solver, start, &orbit);
+        let at_rest = row.status != Status::Periodic || orbit_row::is_at_rest(*model, start, &orbit);
+        let floquet_max = if at_rest { f64::NAN } else { *floquet_max };
+        (Row { residual: *residual, floquet_max, state: y.to_vec(), ..row }, error)
+    }
+
+    /// The row of a point without an orbit of one drive period.
+    fn unsettled(&self) -> Row {
+        let status = match (self.ending, self.march.period()) {
+            (Ending::Stopped, Some(2..)) => Status::Subharmonic,
+            (Ending::Stopped, _) => Status::Unsettled,
+            (Ending::Diverged, _) => Status::Diverged,
+            (Ending::StepLimit, _) => Status::StepLimit,
+        };
+        let period = if status == Status::Subharmonic { self.march.period() } else { None };
+        let marched = self.march.cycles() > 0;
+        Row {
+            cycles: self.cycles,
+            residual: self.march.change(period.unwrap_or(1)),
+            period: period.unwrap_or(0),
+            floquet_max: self.subharmonic,
+            state: if marched { self.march.state().to_vec() } else { Vec::new() },
+            rhs_evals: self.rhs_evals,
+            ..Row::empty(status)
+        }
+    }
+
+    /// The same row, with all that its point has cost.
+    fn charged(&self, mut settled: Settled<N>) -> Settled<N> {
+        settled.row.cycles = self.cycles;
+        settled.row.rhs_evals = self.rhs_evals;
+        settled
+    }
+}

@@ -1,0 +1,94 @@
+//! Stroke and pitch from points tracked in images of a flapping wing.
+//!
+//! Ozaki and Hamaguchi 2018, section 3.2 and (42), (43). Points are in the image's plane, which the stroke axis
+//! crosses at right angles; any unit of length.
+
+use flap_core::parameter::Invalid;
+
+/// A tracked wing in one image: root and tip of its leading edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeadingEdge {
+    /// Root (x, y).
+    pub root: [f64; 2],
+    /// Tip (x, y).
+    pub tip: [f64; 2],
+}
+
+impl LeadingEdge {
+    /// Unit vector from root to tip; not a number if they coincide.
+    fn direction(&self) -> [f64; 2] {
+        let [x, y] = [self.tip[0] - self.root[0], self.tip[1] - self.root[1]];
+        let length = libm::hypot(x, y);
+        [x / length, y / length]
+    }
+
+    /// Stroke angle (rad): that of the line from root to tip against the x-axis.
+    pub fn stroke(&self) -> f64 {
+        let [x, y] = self.direction();
+        libm::atan2(y, x)
+    }
+
+    /// Distance of a point from the leading edge's line, positive to its left.
+    pub fn distance(&self, point: [f64; 2]) -> f64 {
+        let [x, y] = self.direction();
+        x * (point[1] - self.root[1]) - y * (point[0] - self.root[0])
+    }
+}
+
+/// Pitch angle (rad) of a wing whose lower edge appears at a `distance` from its leading edge, where the chord is
+/// `chord` long, (42).
+///
+/// ```text
+/// ψ = arcsin(d/c_edge)
+/// ```
+///
+/// The pitch has the sign of the distance.
+///
+/// # Errors
+/// If the distance is longer than the chord, or the chord is not a positive number.
+pub fn pitch_from_projection(distance: f64, chord: f64) -> Result<f64, Invalid> {
+    if !(chord.is_finite() && chord > 0.0) {
+        return Err(Invalid::new(format!("the chord must be more than zero, not {chord}")));
+    }
+    if distance.is_nan() || distance.abs() > chord {
+        return Err(Invalid::new(format!(
+            "the lower edge appears {distance} away from the leading edge, which is more than the chord of {chord}"
+        )));
+    }
+    Ok(libm::asin(distance / chord))
+}
+
+/// The point nearest to the lines of all leading edges: the centre of the stroke's rotation, (43).
+///
+/// ```text
+/// minimise over p: Σ |e_i × (p − p_tip,i)|²     e_i = (p_root,i − p_tip,i)/|p_root,i − p_tip,i|
+/// ```
+///
+/// # Errors
+/// If there are fewer than two edges, an edge has no direction, or all are parallel.
+pub fn rotation_centre(edges: &[LeadingEdge]) -> Result<[f64; 2], Invalid> {
+    // With the normals n_i of the lines: Σ n_i n_iᵀ p = Σ n_i n_iᵀ p_tip,i.
+    let [mut xx, mut xy, mut yy, mut right_x, mut right_y] = [0.0; 5];
+    for (i, edge) in edges.iter().enumerate() {
+        let [x, y] = edge.direction();
+        if !(x.is_finite() && y.is_finite()) {
+            return Err(Invalid::new(format!("root and tip coincide in image {}", i + 1)));
+        }
+        let normal = [-y, x];
+        let offset = normal[0] * edge.tip[0] + normal[1] * edge.tip[1];
+        xx += normal[0] * normal[0];
+        xy += normal[0] * normal[1];
+        yy += normal[1] * normal[1];
+        right_x += normal[0] * offset;
+        right_y += normal[1] * offset;
+    }
+    let determinant = xx * yy - xy * xy;
+    let count = edges.len() as f64;
+    // The determinant of n lines that differ by an angle of δ is about (n δ/2)².
+    if edges.len() < 2 || determinant <= 1e-12 * count * count {
+        return Err(Invalid::new(
+            "the leading edges are parallel: a centre of rotation needs two images at different strokes",
+        ));
+    }
+    Ok([(yy * right_x - xy * right_y) / determinant, (xx * right_y - xy * right_x) / determinant])
+}

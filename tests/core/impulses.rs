@@ -1,0 +1,120 @@
+//! Free motions after an impulse.
+
+use flap_core::drive::Wave;
+use flap_core::model::Motions;
+use flap_core::model::bimorph::{self, Bimorph};
+use flap_core::model::direct_drive::DirectDrive;
+use flap_core::model::four_bar::FourBar;
+use flap_core::num::Backend;
+use flap_core::ode::Ode;
+use flap_core::simulate::{ImpulseRequest, PointRun, SolverSettings, all, by_name, preset};
+
+/// The values of a preset with some of them set.
+fn values(name: &str, set: &[(&str, f64)]) -> Vec<f64> {
+    let (model, preset) = preset(name).unwrap();
+    let mut values = (preset.values)();
+    for (name, value) in set {
+        let index = model.parameters().iter().position(|parameter| parameter.name == *name).unwrap();
+        values[index] = *value;
+    }
+    values
+}
+
+fn assert_near(actual: f64, expected: f64, distance: f64, what: &str) {
+    assert!((actual - expected).abs() <= distance, "{what}: {actual} is not {expected}");
+}
+
+/// The state after an impulse, and the derivative at rest with the drive held still.
+fn released<M: Motions<4>>(model: &M, values: &[f64]) -> (M::Constants<f64>, [f64; 4], [f64; 4]) {
+    let start = model.start(values).unwrap();
+    let (still, c, y) = model.variant(values).released(&start.constants, 2.0);
+    // At any time: the drive does not change.
+    let rest = still.rhs(&c, &still.input(&c, 0.123), 1.0, &[0.0; 4]);
+    (c, y, rest)
+}
+
+/// An impulse is the limit of a short and strong torque, so it leaves rates in the ratio of the accelerations with which a
+/// drive sets the resting wing in motion. Where it leaves the wing, nothing but the impulse moves it.
+#[test]
+fn an_impulse_moves_the_pitch_as_a_drive_does() {
+    for model in all() {
+        for preset in model.presets() {
+            let values = (preset.values)();
+            let volts = |value| Wave::with_rate(value, 0.0);
+            let (y, rest, driven) = match model.name() {
+                "direct-drive" => {
+                    let (c, y, rest) = released(&DirectDrive::default(), &values);
+                    (y, rest, DirectDrive::default().rhs(&c, &volts(30.0), 1.0, &[0.0; 4]))
+                }
+                "four-bar" => {
+                    let (c, y, rest) = released(&FourBar::default(), &values);
+                    let drive = volts(c.actuator.rest_voltage + 30.0);
+                    (y, rest, FourBar::default().rhs(&c, &drive, 1.0, &[0.0; 4]))
+                }
+                "bimorph" => {
+                    let (c, y, rest) = released(&Bimorph::default(), &values);
+                    let plates = bimorph::plates(&c, [volts(120.0), volts(80.0)]);
+                    (y, rest, bimorph::derivative(&c, bimorph::Law::Constant, &plates, &[0.0; 4]))
+                }
+                other => panic!("no derivative of {other}"),
+            };
+            let rates = if model.name() == "bimorph" { [1, 3] } else { [2, 3] };
+            let [stroke, pitch] = rates.map(|i| y[i]);
+            let [stroke_driven, pitch_driven] = rates.map(|i| driven[i]);
+            assert!(stroke != 0.0 && pitch != 0.0, "{}: {y:?}", preset.name);
+            let error = (pitch / stroke) / (pitch_driven / stroke_driven) - 1.0;
+            assert!(error.abs() < 1e-12, "{}: {y:?} against {driven:?}", preset.name);
+            for i in 0..4 {
+                assert!(rest[i].abs() < 1e-9 * driven[i].abs().max(1e-9), "{}: {rest:?}", preset.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn impulses_that_mean_nothing_are_refused() {
+    let model = by_name("bimorph").unwrap();
+    let values = values("jafferis2016", &[]);
+    let good = ImpulseRequest { stroke_rate: 1.0, duration: 0.01, intervals: 10 };
+    for (request, reason) in [
+        (ImpulseRequest { stroke_rate: 0.0, ..good }, "finite and not zero, not 0 rad/s"),
+        (ImpulseRequest { stroke_rate: f64::NAN, ..good }, "finite and not zero, not NaN rad/s"),
+        (ImpulseRequest { duration: 0.0, ..good }, "not 0 s and 10 intervals"),
+        (ImpulseRequest { duration: f64::INFINITY, ..good }, "not inf s and 10 intervals"),
+        (ImpulseRequest { intervals: 0, ..good }, "0.01 s and 0 intervals"),
+    ] {
+        let solver = SolverSettings::default();
+        let refused = model
+            .experiments()
+            .unwrap()
+            .free_response(&PointRun::new(Backend::best(), &solver, &values), &request)
+            .unwrap_err();
+        assert!(refused.to_string().contains(reason), "{refused}");
+    }
+}
+
+/// The samples are where they were asked for, however the motion is cut into spans.
+#[test]
+fn a_free_motion_does_not_depend_on_how_it_is_sampled() {
+    let model = by_name("direct-drive").unwrap();
+    let values = values("ozaki2018-large", &[]);
+    let solver = SolverSettings { rtol: 1e-9, atol: 1e-11, ..SolverSettings::default() };
+    let run = |intervals| {
+        let request = ImpulseRequest { stroke_rate: 200.0, duration: 0.05, intervals };
+        model
+            .experiments()
+            .unwrap()
+            .free_response(&PointRun::new(Backend::best(), &solver, &values), &request)
+            .unwrap()
+            .rows
+    };
+    let (coarse, fine) = (run(7), run(7 * 131));
+    assert_eq!(coarse.len(), 8);
+    assert_eq!(fine.len(), 7 * 131 + 1);
+    for (one, other) in coarse.iter().zip(fine.iter().step_by(131)) {
+        assert_near(one[0], other[0], 1e-15, "time");
+        assert_near(one[1], other[1], 1e-7, "stroke");
+        assert_near(one[2], other[2], 1e-7, "pitch");
+    }
+    assert_near(coarse[7][0], 0.05, 1e-15, "end");
+}

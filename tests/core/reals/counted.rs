@@ -1,0 +1,170 @@
+//! The operations of right-hand sides, counted: a change of their cost shows here.
+
+use std::cell::Cell;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use flap_core::model::Model;
+use flap_core::num::{PerLane, Real};
+
+use super::{BIMORPH, DIRECT_DRIVE, DIRECT_DRIVE_BLADES, FOUR_BAR, GROWING_BIMORPH, values};
+
+/// Numbers of operations. Constants are free, and so are changes of sign, comparisons and selections.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Operations {
+    /// Additions and subtractions.
+    sums: u32,
+    products: u32,
+    /// Products with a sum in one operation.
+    fused: u32,
+    quotients: u32,
+    roots: u32,
+    /// Elementary functions. Sine and cosine together are one.
+    functions: u32,
+}
+
+thread_local! {
+    static OPERATIONS: Cell<Operations> = const {
+        Cell::new(Operations { sums: 0, products: 0, fused: 0, quotients: 0, roots: 0, functions: 0 })
+    };
+}
+
+/// The operations that `work` computes.
+fn operations(work: impl FnOnce()) -> Operations {
+    OPERATIONS.set(Operations::default());
+    work();
+    OPERATIONS.get()
+}
+
+/// A number that counts the operations with it.
+#[derive(Clone, Copy, Debug)]
+struct Counted(f64);
+
+/// The result of an operation, which is counted in one of the fields.
+macro_rules! counted {
+    ($field:ident, $result:expr) => {{
+        let mut operations = OPERATIONS.get();
+        operations.$field += 1;
+        OPERATIONS.set(operations);
+        Counted($result)
+    }};
+}
+
+macro_rules! operator {
+    ($Trait:ident::$method:ident, $field:ident) => {
+        impl $Trait for Counted {
+            type Output = Counted;
+            fn $method(self, other: Counted) -> Counted {
+                counted!($field, self.0.$method(other.0))
+            }
+        }
+
+        impl $Trait<f64> for Counted {
+            type Output = Counted;
+            fn $method(self, c: f64) -> Counted {
+                counted!($field, self.0.$method(c))
+            }
+        }
+    };
+}
+
+operator!(Add::add, sums);
+operator!(Sub::sub, sums);
+operator!(Mul::mul, products);
+operator!(Div::div, quotients);
+
+impl Neg for Counted {
+    type Output = Counted;
+    fn neg(self) -> Counted {
+        Counted(-self.0)
+    }
+}
+
+macro_rules! functions {
+    ($($function:ident),*) => {
+        $(
+            fn $function(self) -> Counted {
+                counted!(functions, self.0.$function())
+            }
+        )*
+    };
+}
+
+impl Real for Counted {
+    type Mask = bool;
+
+    fn lit(self, c: f64) -> Counted {
+        Counted(c)
+    }
+
+    fn mul_add(self, a: Counted, b: Counted) -> Counted {
+        counted!(fused, self.0.mul_add(a.0, b.0))
+    }
+
+    fn abs(self) -> Counted {
+        Counted(self.0.abs())
+    }
+
+    fn sqrt(self) -> Counted {
+        counted!(roots, self.0.sqrt())
+    }
+
+    fn copysign(self, sign: Counted) -> Counted {
+        Counted(self.0.copysign(sign.0))
+    }
+
+    fn round_ties_even(self) -> Counted {
+        Counted(self.0.round_ties_even())
+    }
+
+    functions!(exp, exp_m1, ln, ln_1p);
+
+    fn sin_cos(self) -> (Counted, Counted) {
+        let (sin, cos) = self.0.sin_cos();
+        (counted!(functions, sin), Counted(cos))
+    }
+
+    fn lt(self, other: Counted) -> bool {
+        self.0 < other.0
+    }
+
+    fn select(mask: bool, yes: Counted, no: Counted) -> Counted {
+        if mask { yes } else { no }
+    }
+
+    fn look_up<const N: usize>(self, table: impl Fn(f64) -> [f64; N]) -> [Counted; N] {
+        table(self.0).map(Counted)
+    }
+}
+
+/// Operations of the inputs and of the right-hand side, as `[sums, products, fused, quotients, roots, functions]`.
+fn counts<M: Model<4>>(model: &M, preset: &str) -> [[u32; 6]; 2] {
+    let start = model.start(&values(preset)).unwrap();
+    let zero = Counted(0.0);
+    let c = M::Constants::<Counted>::fill(zero, &start.constants);
+    let t = Counted(0.1 * start.span);
+    let y = start.scale.map(Counted);
+    let side = Counted(1.0);
+    let input = operations(|| _ = model.input(&c, t));
+    let u = model.input(&c, t);
+    let rhs = operations(|| _ = model.rhs(&c, &u, side, &y));
+    [input, rhs].map(|o| [o.sums, o.products, o.fused, o.quotients, o.roots, o.functions])
+}
+
+#[test]
+fn right_hand_sides_take_these_operations() {
+    let found = [
+        counts(&BIMORPH, "jafferis2016"),
+        counts(&GROWING_BIMORPH, "jafferis2016"),
+        counts(&DIRECT_DRIVE, "ozaki2018-large"),
+        counts(&DIRECT_DRIVE_BLADES, "ozaki2018-large"),
+        counts(&FOUR_BAR, "arabagi2013-75hz"),
+    ];
+    let expected = [
+        [[24, 54, 2, 2, 0, 3], [25, 44, 0, 0, 0, 3]],
+        [[24, 54, 2, 2, 0, 3], [28, 56, 1, 1, 0, 3]],
+        [[0, 6, 1, 0, 0, 1], [34, 76, 0, 1, 0, 1]],
+        [[0, 6, 1, 0, 0, 1], [37, 73, 0, 1, 0, 1]],
+        [[0, 6, 1, 0, 0, 1], [73, 155, 70, 3, 2, 4]],
+    ];
+    assert_eq!(found, expected);
+}

@@ -1,0 +1,22 @@
+//! The models on other numbers than lanes: numbers that count operations, and dual numbers.
+
+mod counted;
+mod dual;
+
+use flap_core::drive::Drive;
+use flap_core::model::bimorph::{Bimorph, Law};
+use flap_core::model::direct_drive::{DirectDrive, FlowDirection};
+use flap_core::model::four_bar::FourBar;
+use flap_core::simulate::preset;
+
+const BIMORPH: Bimorph = Bimorph { drive: Drive::SINE, law: Law::Constant };
+const GROWING_BIMORPH: Bimorph = Bimorph { drive: Drive::SINE, law: Law::Square };
+const DIRECT_DRIVE: DirectDrive = DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform };
+const DIRECT_DRIVE_BLADES: DirectDrive = DirectDrive { drive: Drive::SINE, flow: FlowDirection::Blade };
+const FOUR_BAR: FourBar = FourBar { drive: Drive::SINE };
+
+/// The values of a preset.
+fn values(name: &str) -> Vec<f64> {
+    let (_, preset) = preset(name).unwrap();
+    (preset.values)()
+}
