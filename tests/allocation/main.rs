@@ -43,7 +43,7 @@ fn a_scalar_run_allocates_nothing() {
 #[test]
 fn an_ensemble_allocates_the_same_for_more_cycles() {
     for set in Backend::available() {
-        let starts = [start(); 40];
+        let starts = vec![start(); 40];
         let march = |cycles| {
             allocations(|| {
                 black_box(integrate(set, &MODEL, &Unobserved, &TOLERANCES, &starts, cycles));

@@ -39,14 +39,19 @@ fn operations(work: impl FnOnce()) -> Operations {
 #[derive(Clone, Copy, Debug)]
 struct Counted(f64);
 
+/// The result of an operation, with its count.
+fn counted(count: fn(&mut Operations) -> &mut u32, result: f64) -> Counted {
+    let mut operations = OPERATIONS.get();
+    *count(&mut operations) += 1;
+    OPERATIONS.set(operations);
+    Counted(result)
+}
+
 /// The result of an operation, which is counted in one of the fields.
 macro_rules! counted {
-    ($field:ident, $result:expr) => {{
-        let mut operations = OPERATIONS.get();
-        operations.$field += 1;
-        OPERATIONS.set(operations);
-        Counted($result)
-    }};
+    ($field:ident, $result:expr) => {
+        counted(|operations| &mut operations.$field, $result)
+    };
 }
 
 macro_rules! operator {

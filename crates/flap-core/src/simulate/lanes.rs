@@ -84,7 +84,8 @@ where
     R: Scalar,
     F: Future<Output = T>,
 {
-    let mut single = Single { run: Some(Running::new(0, *start, search)), output: None, interrupted };
+    let mut single =
+        Single { run: Some(Box::new(Running::new(0, *start, search))), output: None, interrupted };
     Driver::<_, _, _, _, N, K>::new(OneLane::<R>::new(), model, solver, &mut single).run();
     single.output
 }
@@ -105,9 +106,9 @@ impl<'a, T, M: Model<N>, const N: usize> Running<'a, T, M, N> {
         index: u64,
         start: Start<M::Constants<f64>, N>,
         search: impl FnOnce(Rc<Exchange<SumsOf<M, N>, N>>) -> F,
-    ) -> Run<'a, T, M, N> {
+    ) -> Self {
         let exchange = Rc::new(Exchange::new());
-        Box::new(Running { index, start, search: Box::pin(search(exchange.clone())), exchange })
+        Running { index, start, search: Box::pin(search(exchange.clone())), exchange }
     }
 }
 
@@ -162,9 +163,8 @@ impl<'a, M: Model<N>, const N: usize> Source<'a, Settled<N>, M, N> for Points<'a
                 Ok(start) => {
                     let (model, solver) = (self.model, self.solver);
                     let nearby = state.is_some();
-                    return Some(Running::new(index, start, |exchange| {
-                        settle(model, solver, start, nearby, exchange)
-                    }));
+                    let search = |exchange| settle(model, solver, start, nearby, exchange);
+                    return Some(Box::new(Running::new(index, start, search)));
                 }
                 Err(error) => self.jobs.done(index, Row::invalid(error)),
             }
@@ -337,7 +337,7 @@ struct Periods<'d, D> {
     kind: Kind,
 }
 
-impl<'a, 's, I, M, Q, T, const N: usize, const K: usize> Periods<'_, Driver<'a, 's, I, M, Q, T, N, K>>
+impl<'a, I, M, Q, T, const N: usize, const K: usize> Periods<'_, Driver<'a, '_, I, M, Q, T, N, K>>
 where
     I: Simd,
     M: Model<N>,
@@ -373,8 +373,8 @@ impl<S: SignalSet, const N: usize> PeriodTotals<Sums<S, f64>, N> for Sums<S, f64
     }
 }
 
-impl<'a, 's, I, M, V, Q, T, const N: usize, const K: usize> Queue<M, V, N>
-    for Periods<'_, Driver<'a, 's, I, M, Q, T, N, K>>
+impl<'a, I, M, V, Q, T, const N: usize, const K: usize> Queue<M, V, N>
+    for Periods<'_, Driver<'a, '_, I, M, Q, T, N, K>>
 where
     I: Simd,
     M: Model<N>,
@@ -402,8 +402,8 @@ where
     }
 }
 
-impl<'a, 's, I, M, Q, T, const N: usize, const K: usize> Queue<Variation<'_, M, N>, Unobserved, K>
-    for Periods<'_, Driver<'a, 's, I, M, Q, T, N, K>>
+impl<'a, I, M, Q, T, const N: usize, const K: usize> Queue<Variation<'_, M, N>, Unobserved, K>
+    for Periods<'_, Driver<'a, '_, I, M, Q, T, N, K>>
 where
     I: Simd,
     M: Model<N>,

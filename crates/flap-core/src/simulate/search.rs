@@ -112,7 +112,7 @@ struct Search<'a, M: Model<N>, const N: usize> {
     subharmonic: f64,
     ending: Ending,
     /// Drive periods integrated, right-hand sides evaluated, and those that the present run has evaluated.
-    cycles: u32,
+    cycles: u64,
     rhs_evals: u64,
     rhs_evals_of_run: u64,
 }
@@ -522,8 +522,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let end = self.exchange.period(Request { kind, begin }).await;
         let Outcome { ending, rhs_evals, .. } = end.outcome;
         // With responses, each evaluation is one of the states and one of each response.
-        let motions = if kind == Kind::Responses { 1 + N as u32 } else { 1 };
-        self.rhs_evals += u64::from(motions) * (rhs_evals - self.rhs_evals_of_run);
+        let motions = if kind == Kind::Responses { 1 + N as u64 } else { 1 };
+        self.rhs_evals += motions * (rhs_evals - self.rhs_evals_of_run);
         self.rhs_evals_of_run = rhs_evals;
         self.ending = ending;
         if ending != Ending::Stopped {
@@ -594,6 +594,11 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         (Row { residual: *residual, floquet_max, state: y.to_vec(), ..row }, error)
     }
 
+    /// Drive periods integrated.
+    fn cycles(&self) -> u32 {
+        u32::try_from(self.cycles).unwrap_or(u32::MAX)
+    }
+
     /// The row of a point without an orbit of one drive period.
     fn unsettled(&self) -> Row {
         let status = match (self.ending, self.march.period()) {
@@ -605,7 +610,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let period = if status == Status::Subharmonic { self.march.period() } else { None };
         let marched = self.march.cycles() > 0;
         Row {
-            cycles: self.cycles,
+            cycles: self.cycles(),
             residual: self.march.change(period.unwrap_or(1)),
             period: period.unwrap_or(0),
             floquet_max: self.subharmonic,
@@ -617,7 +622,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// The same row, with all that its point has cost.
     fn charged(&self, mut settled: Settled<N>) -> Settled<N> {
-        settled.row.cycles = self.cycles;
+        settled.row.cycles = self.cycles();
         settled.row.rhs_evals = self.rhs_evals;
         settled
     }

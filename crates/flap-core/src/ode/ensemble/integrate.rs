@@ -75,14 +75,14 @@ impl<O: Ode<N>, V: Observer<O, N>, const N: usize> Kernel for Integrate<'_, O, V
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Self::Output {
         let Integrate { ode, observer, tolerances, starts, spans } = self;
-        let mut queue = Starts { starts, spans, begun: 0, ends: vec![None; starts.len()] };
+        let mut queue = List { starts, spans, begun: 0, ends: vec![None; starts.len()] };
         run(simd, ode, observer, tolerances, &mut queue);
         // Every run ends.
         queue.ends.into_iter().flatten().collect()
     }
 }
 
-struct Starts<'a, C, T, const N: usize> {
+struct List<'a, C, T, const N: usize> {
     starts: &'a [Start<C, N>],
     spans: u32,
     begun: usize,
@@ -90,7 +90,7 @@ struct Starts<'a, C, T, const N: usize> {
 }
 
 impl<O: Ode<N>, V: Observer<O, N>, const N: usize> Queue<O, V, N>
-    for Starts<'_, O::Constants<f64>, V::Totals<f64>, N>
+    for List<'_, O::Constants<f64>, V::Totals<f64>, N>
 {
     /// The position of the run, and the spans that it has left.
     type Run = (usize, u32);
