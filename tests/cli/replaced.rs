@@ -66,7 +66,7 @@ fn a_killed_force_keeps_the_earlier_results_and_goes_on() {
 fn an_interrupted_force_is_resumed_and_then_the_earlier_results_go() {
     let folder = Folder::with_grid(&quick(3));
     assert_eq!(folder.flap("sweep --grid grid.toml --out grid.csv").code, 0);
-    fs::write(folder.path("grid.toml"), frequencies(2000)).unwrap();
+    fs::write(folder.path("grid.toml"), frequencies(20_000)).unwrap();
     let mut child = start(&folder, &["sweep", "--grid", "grid.toml", "--force", "--checkpoint", "10 ms"]);
     wait_until_begun(&folder, &folder.path("grid.new.csv.journal"), "");
     send("INT", &child);

@@ -1,6 +1,6 @@
 //! Reasons why a single motion is not followed to its end.
 
-use super::status::Status;
+use super::row::Status;
 use crate::ode::{Ending, Interrupt};
 use crate::parameter::Invalid;
 

@@ -5,13 +5,11 @@
 //! implements these traits for a [`Model`](crate::model::Model). [`all`] lists the models of this crate.
 
 mod begin;
-mod column;
 mod error;
 mod gradient;
 mod jobs;
 mod lanes;
 mod linear;
-mod list;
 mod march;
 mod orbit_row;
 mod period;
@@ -26,24 +24,20 @@ mod settings;
 mod simulator;
 mod single;
 mod slope;
-mod status;
 mod trajectory;
 
-pub use column::Column;
 pub use error::{RequestError, Unfinished};
 pub use gradient::Gradient;
 pub use jobs::{Jobs, LaneUse, Point};
-pub use list::run_list;
 pub use request::{
     ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, Trajectory, TrajectoryRequest,
 };
-pub use row::Row;
+pub use row::{Column, Row, Status};
 pub use runner::Runner;
 pub use settings::{Setting, SettingKind, SolverSettings};
-pub use simulator::{Experiments, Gradients, Motions, Rows, Simulator};
+pub use simulator::{Experiments, Gradients, Motions, Rows, Simulator, run_list};
 pub use single::PointRun;
 pub use slope::{Change, NoSlope};
-pub use status::Status;
 
 pub(crate) use sampler::{Sampler, columns as trajectory_columns, sampled, shown};
 pub(crate) use single::{Question, ask};

@@ -4,9 +4,8 @@
 //! a factor of 64. The error of the method is about proportional to its tolerance, so about a sixty-fourth of the difference
 //! would be expected as the error. A single difference may be small by chance, so six tenths of it count.
 
-use super::row::Row;
+use super::row::{Row, Status};
 use super::settings::SolverSettings;
-use super::status::Status;
 use crate::measure::cycle::{SumsOf, finish};
 use crate::model::{Model, Principal, SignalCycle, SignalSet, SignalsOf};
 use crate::ode::{Start, input, slope};

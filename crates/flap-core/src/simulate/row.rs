@@ -1,8 +1,8 @@
-//! Rows: results of points.
+//! Rows: results of points, with their statuses and columns.
 
 use core::fmt::Display;
 
-use super::status::Status;
+use crate::model::{Model, OverWings, SignalSet};
 
 /// Result of one point's run.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,4 +64,82 @@ impl Row {
             (_, false) => Some(self.floquet_max < 1.0),
         }
     }
+}
+
+/// Result of a point's run in one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Status {
+    /// Settled on an orbit with the period of the drive.
+    Periodic,
+    /// On an orbit with the period of the drive that motions leave. No motion settles there: it is found where a branch of
+    /// orbits is continued, and has measures.
+    Unstable,
+    /// Settled on an orbit of two or more drive periods.
+    Subharmonic,
+    /// Not settled within `max_cycles`.
+    Unsettled,
+    /// The state became infinite or not a number.
+    Diverged,
+    /// More than `max_steps` integration steps in one drive period, or steps too small to advance time.
+    StepLimit,
+    /// The parameters are impossible together.
+    Invalid,
+}
+
+impl Status {
+    /// All statuses, in the order of reports.
+    pub const ALL: [Status; 7] = [
+        Status::Periodic,
+        Status::Unstable,
+        Status::Subharmonic,
+        Status::Unsettled,
+        Status::Diverged,
+        Status::StepLimit,
+        Status::Invalid,
+    ];
+
+    /// The word in the `status` column.
+    pub fn name(self) -> &'static str {
+        match self {
+            Status::Periodic => "periodic",
+            Status::Unstable => "unstable",
+            Status::Subharmonic => "subharmonic",
+            Status::Unsettled => "unsettled",
+            Status::Diverged => "diverged",
+            Status::StepLimit => "step_limit",
+            Status::Invalid => "invalid",
+        }
+    }
+}
+
+/// One measured column.
+#[derive(Debug, Clone)]
+pub struct Column {
+    /// Name with its unit, such as `lift_mean_mn`.
+    pub name: String,
+    /// Unit in words as printed by `flap params`, such as `mN`.
+    pub unit: &'static str,
+    /// One line of meaning.
+    pub doc: String,
+    /// The way in which the rows of a vehicle have it.
+    pub over_wings: OverWings,
+}
+
+/// The columns of a model: its signals' measures, then the values derived from them.
+pub(super) fn columns<M: Model<N>, const N: usize>() -> Vec<Column> {
+    let measured = M::Signals::TABLE.iter().flat_map(|signal| {
+        signal.measures.iter().map(move |measure| Column {
+            name: format!("{}_{}_{}", signal.name, measure.name(), signal.unit.suffix),
+            unit: signal.unit.name,
+            doc: format!("{} {}", measure.describe(), signal.doc),
+            over_wings: signal.over_wings(*measure),
+        })
+    });
+    let derived = M::DERIVED.iter().map(|derived| Column {
+        name: derived.name.to_owned(),
+        unit: derived.unit,
+        doc: derived.doc.to_owned(),
+        over_wings: derived.over_wings,
+    });
+    measured.chain(derived).collect()
 }

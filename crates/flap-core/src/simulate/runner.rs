@@ -2,14 +2,13 @@
 
 use std::sync::OnceLock;
 
-use super::column::{Column, columns};
 use super::error::Unfinished;
 use super::gradient::{Gradient, GradientAt};
 use super::jobs::Jobs;
 use super::lanes::LanesKernel;
 use super::period::PeriodFrom;
 use super::request::{Period, Trajectory, TrajectoryRequest};
-use super::row::Row;
+use super::row::{Column, Row, columns};
 use super::sampler;
 use super::settings::SolverSettings;
 use super::simulator::{Experiments, Gradients, Motions, Rows, Simulator};

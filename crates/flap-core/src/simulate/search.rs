@@ -20,9 +20,8 @@ use super::march::March;
 use super::orbit_row::{self, MeasuredOrbit};
 use super::period_map::{Chord, Marched, Orbit, distance, fixed_point, residual};
 use super::periods::{Exchange, Kind, PeriodEnd, Request};
-use super::row::Row;
+use super::row::{Row, Status};
 use super::settings::SolverSettings;
-use super::status::Status;
 use crate::measure::cycle::SumsOf;
 use crate::measure::multipliers::{Matrix, identity, product, spectral_radius};
 use crate::model::Model;
@@ -51,13 +50,12 @@ const MIDDLE: f64 = 64.0;
 /// The residual at the middle tolerance, relative to that tolerance, after which one more chord step is the last.
 const MIDDLE_RESIDUAL: f64 = 10.0;
 
-/// The relative tolerance of the period with responses that gives the multipliers is this factor times this power of that of
-/// the row, or that of the row if it is larger.
-const RESPONSES: f64 = 2.5e-4;
-const RESPONSES_EXPONENT: f64 = 0.4;
+/// The relative tolerance of the period with responses that gives the multipliers, relative to the root of the row's tolerance:
+/// that of the row if this is smaller.
+const RESPONSES: f64 = 1.25e-3;
 
-/// The residual at which the monodromy matrix is that of the orbit, relative to the root of the row's tolerance: the multipliers
-/// err by some times as much.
+/// The residual before the last step to the state whose monodromy matrix is that of the orbit, relative to the root of the row's
+/// tolerance.
 const MAPPED: f64 = 0.1;
 
 /// The length of a step with the monodromy matrix of the row's orbit that is presumed to be the last, relative to the root of
@@ -131,6 +129,13 @@ struct Near<const N: usize> {
     step: f64,
     /// The march has settled there, though Newton's iteration cannot improve on it.
     settled: bool,
+}
+
+impl<const N: usize> Near<N> {
+    /// An orbit whose multipliers are not known.
+    fn unmapped(orbit: Orbit<N>, march: Marched<N>, residual: f64) -> Near<N> {
+        Near { orbit, march, floquet_max: f64::NAN, residual, step: f64::INFINITY, settled: false }
+    }
 }
 
 /// A march or Newton's iteration: at the loose tolerance, or at that of the row.
@@ -227,7 +232,10 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                     Closed::Orbit(measured) => break (measured, coarse),
                     Closed::Jumps(orbit) => {
                         self.tighten(FINER);
-                        near = Near { orbit, floquet_max: f64::NAN, step: f64::INFINITY, ..near };
+                        near = Near {
+                            settled: near.settled,
+                            ..Near::unmapped(orbit, near.march, near.residual)
+                        };
                     }
                     Closed::Lost => return last.map(|last| self.charged(last)),
                 }
@@ -251,7 +259,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             if refinement < REFINEMENTS {
                 self.refine(doubt);
                 let march = Marched { begin: orbit.y, end: orbit.y, error: ORBITS_DIFFER };
-                near = Near { march, floquet_max: f64::NAN, residual: f64::INFINITY, settled: false, ..near };
+                near = Near::unmapped(orbit, march, f64::INFINITY);
             }
         }
         last.map(|last| self.charged(last))
@@ -278,14 +286,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             if at == At::Loose && self.march.change(1) <= ARRIVED.max(self.goal) {
                 // The chord iteration continues the march.
                 let orbit = Orbit { y: marched.end, monodromy: [[0.0; N]; N] };
-                return Some(Near {
-                    orbit,
-                    march: marched,
-                    floquet_max: f64::NAN,
-                    residual: self.march.change(1),
-                    step: f64::INFINITY,
-                    settled: false,
-                });
+                return Some(Near::unmapped(orbit, marched, self.march.change(1)));
             }
             match self.iterate(at).await {
                 Ok(near) => return Some(near),
@@ -376,27 +377,10 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             }
             if at == At::Loose {
                 let mut chord = Chord::new(Orbit { y, ..orbit }, &scale);
-                loop {
-                    let Some(end) =
-                        self.period(Kind::States, Some(self.from(&chord.orbit.y, self.factor(at)))).await
-                    else {
-                        return Err(monodromy);
-                    };
-                    let moved = chord.step(&end.y);
-                    if !moved || chord.residual <= LOOSE_RESIDUAL {
-                        break;
-                    }
-                }
+                let found = self.converge(&mut chord, self.factor(at), LOOSE_RESIDUAL).await;
                 let orbit = chord.orbit;
-                if chord.residual <= LOOSE_RESIDUAL && orbit.attracts(&march, &scale).is_some() {
-                    return Ok(Near {
-                        orbit,
-                        march,
-                        floquet_max: f64::NAN,
-                        residual: chord.residual,
-                        step: f64::INFINITY,
-                        settled: false,
-                    });
+                if found && orbit.attracts(&march, &scale).is_some() {
+                    return Ok(Near::unmapped(orbit, march, chord.residual));
                 }
                 y = orbit.y;
             }
@@ -413,15 +397,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             if mapped { f64::INFINITY } else { self.goal.max(MIDDLE_RESIDUAL * MIDDLE * self.rtol()) };
         let mut chord = Chord::new(near.orbit, &self.start.scale);
         let ending = self.ending;
-        let mut found = !mapped && near.residual <= self.goal;
-        while !found {
-            let end = self.period(Kind::States, Some(self.from(&chord.orbit.y, MIDDLE))).await;
-            let moved = end.is_some_and(|end| chord.step(&end.y));
-            found = moved && chord.residual <= enough;
-            if !moved {
-                break;
-            }
-        }
+        let found = !mapped && near.residual <= self.goal || self.converge(&mut chord, MIDDLE, enough).await;
         self.ending = ending;
         if !mapped && chord.residual <= LOOSE_RESIDUAL {
             near.orbit = chord.orbit;
@@ -435,13 +411,25 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         end?.sums
     }
 
+    /// Chord steps with so many times the tolerances of the row, until the residual is small enough. False if it does not become
+    /// so.
+    async fn converge(&mut self, chord: &mut Chord<N>, factor: f64, enough: f64) -> bool {
+        loop {
+            let begin = self.from(&chord.orbit.y, factor);
+            let Some(end) = self.period(Kind::States, Some(begin)).await else { return false };
+            if !chord.step(&end.y) || chord.residual <= enough {
+                return chord.residual <= enough;
+            }
+        }
+    }
+
     /// Goes from an orbit near by onto that of the row's tolerance, in chord steps, and measures its period.
     async fn close(&mut self, near: &Near<N>) -> Closed<SumsOf<M, N>, N> {
         let scale = self.start.scale;
         let Near { mut floquet_max, mut residual, mut step, settled: mut accepted, .. } = *near;
         let mut chord = Chord::new(near.orbit, &scale);
         // The residual at which the monodromy matrix is computed, and the last at which it was.
-        let mut near_enough = self.goal.max(MAPPED * self.rtol().sqrt());
+        let mut near_enough = self.solver.settle_tol.max(MAPPED * self.rtol().sqrt());
         let mut mapped = f64::INFINITY;
         let mut last_step = LAST_STEP * self.goal.sqrt();
         loop {
@@ -455,15 +443,17 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 // The matrix is computed where the steps are stuck, too.
                 if floquet_max.is_nan() && residual <= near_enough || !moved && residual <= PROGRESS * mapped
                 {
-                    let Some(monodromy) = self.monodromy(&y).await else { return Closed::Lost };
-                    let orbit = Orbit { y, monodromy };
-                    match orbit.attracts(&near.march, &scale) {
-                        Some(largest) => floquet_max = largest,
+                    let nearer = chord.orbit.y;
+                    let Some(monodromy) = self.monodromy(&nearer).await else { return Closed::Lost };
+                    match (Orbit { y: nearer, monodromy }).attracts(&near.march, &scale) {
+                        Some(largest) if residual <= near_enough => floquet_max = largest,
                         None if residual <= self.goal => return Closed::Lost,
-                        None => near_enough = self.goal,
+                        None if residual <= near_enough => near_enough = self.goal,
+                        _ => {}
                     }
                     mapped = residual;
-                    chord = Chord::new(orbit, &scale);
+                    // The same step again, with this matrix.
+                    chord = Chord::new(Orbit { y, monodromy }, &scale);
                     moved = chord.step(&end.y);
                 }
                 step = distance(&y, &chord.orbit.y, &scale);
@@ -494,7 +484,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// The monodromy matrix of an orbit through `y`. `None` if the period cannot be integrated.
     async fn monodromy(&mut self, y: &[f64; N]) -> Option<Matrix<N>> {
-        let rtol = RESPONSES * libm::pow(self.rtol(), RESPONSES_EXPONENT);
+        let rtol = RESPONSES * self.rtol().sqrt();
         let begin = self.from(y, (rtol / self.rtol()).max(1.0));
         Some(self.period(Kind::Responses, Some(begin)).await?.monodromy)
     }

@@ -1,14 +1,16 @@
 //! The object-safe faces of a model: [`Simulator`] for sweeps, with rows and their description; [`Gradients`] for
 //! their derivatives; [`Motions`] and [`Experiments`] for single motions.
 
-use super::column::Column;
+use core::iter::Enumerate;
+use std::vec::IntoIter;
+
 use super::error::Unfinished;
 use super::gradient::Gradient;
-use super::jobs::Jobs;
+use super::jobs::{Jobs, Point};
 use super::request::{
     ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, Trajectory, TrajectoryRequest,
 };
-use super::row::Row;
+use super::row::{Column, Row};
 use super::settings::SolverSettings;
 use super::single::PointRun;
 use super::slope::Change;
@@ -17,6 +19,7 @@ use crate::drive::Samples;
 use crate::model::Signal;
 use crate::modes::Mode;
 use crate::num::Backend;
+use crate::ode::Interrupt;
 use crate::parameter::{Parameter, Preset};
 
 /// A source of rows: turns design points into rows.
@@ -30,9 +33,51 @@ pub trait Rows: Sync {
     /// alone: not on its neighbours, nor on the order of the points, nor on `set` within an arithmetic class.
     fn run(&self, set: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs);
 
-    /// Runs one point on scalars, from rest or from the state `begin` (see [`Point::begin`](super::Point::begin)). Gives the
+    /// Runs one point on scalars, from rest or from the state `begin` (see [`Point::begin`]). Gives the
     /// same bits as [`Rows::run`]. Interrupted, the row means nothing.
     fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row;
+}
+
+/// Runs `points` on the lanes of `backend`. Returns their rows in the order of the points, whose indices do not matter.
+///
+/// # Errors
+/// [`Unfinished::Interrupted`] if `interrupted` says so, or if `rows` leaves a point without a row.
+pub fn run_list(
+    rows: &dyn Rows,
+    backend: Backend,
+    solver: &SolverSettings,
+    points: Vec<Point>,
+    interrupted: Interrupt<'_>,
+) -> Result<Vec<Row>, Unfinished> {
+    let mut list =
+        List { rows: vec![None; points.len()], points: points.into_iter().enumerate(), interrupted };
+    rows.run(backend, solver, &mut list);
+    let rows = if interrupted() { None } else { list.rows.into_iter().collect() };
+    rows.ok_or(Unfinished::Interrupted)
+}
+
+/// Points in order, and rows by the position of their point.
+struct List<'a> {
+    points: Enumerate<IntoIter<Point>>,
+    rows: Vec<Option<Row>>,
+    interrupted: Interrupt<'a>,
+}
+
+impl Jobs for List<'_> {
+    fn next(&mut self, _idle: bool) -> Option<Point> {
+        let (position, point) = self.points.next()?;
+        Some(Point { index: position as u64, ..point })
+    }
+
+    fn done(&mut self, index: u64, row: Row) {
+        if let Some(place) = usize::try_from(index).ok().and_then(|index| self.rows.get_mut(index)) {
+            *place = Some(row);
+        }
+    }
+
+    fn interrupted(&self) -> bool {
+        (self.interrupted)()
+    }
 }
 
 /// A model that turns design points into rows, with all that sweeps need to know of it.

@@ -2,10 +2,9 @@
 
 use super::begin::begin;
 use super::lanes::run_alone;
-use super::row::Row;
+use super::row::{Row, Status};
 use super::search::settle;
 use super::settings::SolverSettings;
-use super::status::Status;
 use crate::model::Model;
 use crate::num::{Backend, Scalar, ScalarKernel};
 use crate::ode::{Interrupt, never};

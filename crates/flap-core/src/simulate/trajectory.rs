@@ -4,10 +4,10 @@ use super::begin::begin;
 use super::error::Unfinished;
 use super::lanes::run_alone;
 use super::request::{Trajectory, TrajectoryRequest};
+use super::row::Status;
 use super::sampler::sampled;
 use super::search::{Settled, settle};
 use super::single::{PointRun, Question};
-use super::status::Status;
 use crate::model::Model;
 use crate::num::Scalar;
 
