@@ -50,7 +50,7 @@ crate::parameters! {
 
 impl ChordTable {
     /// No table.
-    pub const OFF: ChordTable = ChordTable::new(Tabulated::Off, [0.0; STATIONS]);
+    pub(crate) const OFF: ChordTable = ChordTable::new(Tabulated::Off, [0.0; STATIONS]);
 
     /// A table of chords (m).
     pub const fn new(chord_table: Tabulated, chords: [f64; STATIONS]) -> ChordTable {
@@ -71,7 +71,7 @@ impl ChordTable {
     }
 
     /// The chords at the stations (m).
-    pub fn chords(&self) -> [f64; STATIONS] {
+    pub(crate) fn chords(&self) -> [f64; STATIONS] {
         let c = self;
         [
             c.chord_0, c.chord_1, c.chord_2, c.chord_3, c.chord_4, c.chord_5, c.chord_6, c.chord_7,
@@ -80,12 +80,12 @@ impl ChordTable {
     }
 
     /// True if the table is to be used.
-    pub fn is_on(&self) -> bool {
+    pub(crate) fn is_on(&self) -> bool {
         self.chord_table == Tabulated::On
     }
 
     /// The chord (m) at `x`, from 0 at the wing's root to 1 at its tip; `None` if the table is not used.
-    pub fn chord(&self, x: f64) -> Option<f64> {
+    pub(crate) fn chord(&self, x: f64) -> Option<f64> {
         if !self.is_on() {
             return None;
         }
@@ -107,7 +107,7 @@ impl ChordTable {
     ///
     /// # Errors
     /// [`Invalid::Together`] if the table is used and all of it is zero.
-    pub fn check(&self) -> Result<(), Invalid> {
+    pub(crate) fn check(&self) -> Result<(), Invalid> {
         if self.is_on() && self.mean() <= 0.0 {
             return Err(Invalid::together(
                 &["chord_table", "chord_0", "chord_5", "chord_10"],
@@ -119,7 +119,7 @@ impl ChordTable {
 }
 
 /// The parameters of the table for an outline, switched on.
-pub fn chord_table(outline: &Outline) -> Vec<(&'static str, f64)> {
+pub(crate) fn chord_table(outline: &Outline) -> Vec<(&'static str, f64)> {
     let mut parameters = vec![("chord_table", f64::from(Tabulated::On as u8))];
     for (station, parameter) in ChordTable::TABLE[1..].iter().enumerate() {
         let share = station as f64 / (STATIONS - 1) as f64;

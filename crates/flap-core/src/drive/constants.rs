@@ -61,7 +61,7 @@ impl DriveConstants<f64> {
 
     /// A sine in place of the waveform, which begins at `frequency` (Hz) and changes by `rate` (Hz/s).
     #[must_use]
-    pub fn chirped(&self, frequency: f64, rate: f64) -> DriveConstants<f64> {
+    pub(crate) fn chirped(&self, frequency: f64, rate: f64) -> DriveConstants<f64> {
         let levels = [self.bias, self.amplitude];
         let sine = DriveConstants::new(frequency, &WaveformParameters::SINE, levels);
         DriveConstants { growth: 2.0 * PI * rate, ..sine }
@@ -69,7 +69,7 @@ impl DriveConstants<f64> {
 
     /// A voltage (V) that stays as it is.
     #[must_use]
-    pub fn still(&self, voltage: f64) -> DriveConstants<f64> {
+    pub(crate) fn still(&self, voltage: f64) -> DriveConstants<f64> {
         DriveConstants { bias: voltage, amplitude: 0.0, rate: 0.0, ..*self }
     }
 

@@ -39,7 +39,7 @@ impl Drive {
     pub const SINE: Drive = Drive { waveform: Waveform::Shape(Shape::Sine), stroke: StrokeMode::Free };
 
     /// A prescribed stroke.
-    pub const PRESCRIBED: Drive = Drive { stroke: StrokeMode::Prescribed, ..Drive::SINE };
+    pub(crate) const PRESCRIBED: Drive = Drive { stroke: StrokeMode::Prescribed, ..Drive::SINE };
 
     /// The drive of a point, with this one's samples if it has any.
     #[must_use]
@@ -53,13 +53,13 @@ impl Drive {
 
     /// The drive with another waveform.
     #[must_use]
-    pub fn with_waveform(&self, waveform: Waveform) -> Drive {
+    pub(crate) fn with_waveform(&self, waveform: Waveform) -> Drive {
         Drive { waveform, stroke: self.stroke }
     }
 
     /// True if the drive sets the stroke, not the voltage.
     #[inline(always)]
-    pub fn prescribes_stroke(&self) -> bool {
+    pub(crate) fn prescribes_stroke(&self) -> bool {
         self.stroke == StrokeMode::Prescribed
     }
 
@@ -90,7 +90,7 @@ impl Drive {
 
     /// The waveform, of unit amplitude, at time `t` (s) of its period, from 0 to its end.
     #[inline(always)]
-    pub fn wave<R: Real>(&self, c: &DriveConstants<R>, t: R) -> Wave<R> {
+    pub(crate) fn wave<R: Real>(&self, c: &DriveConstants<R>, t: R) -> Wave<R> {
         match &self.waveform {
             Waveform::Shape(Shape::Sine) => c.sine(t),
             Waveform::Shape(Shape::Harmonics) => c.harmonics(t),
@@ -124,7 +124,7 @@ impl Drive {
 
     /// The mean of the waveform over a period: zero but for samples.
     #[inline(always)]
-    pub fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         match &self.waveform {
             Waveform::Samples(samples) => samples.mean(),
             Waveform::Shape(_) | Waveform::Chirp => 0.0,
@@ -133,12 +133,12 @@ impl Drive {
 
     /// The mean voltage (V), or prescribed stroke (rad), over a period.
     #[inline(always)]
-    pub fn mean_voltage<R: Real>(&self, c: &DriveConstants<R>) -> R {
+    pub(crate) fn mean_voltage<R: Real>(&self, c: &DriveConstants<R>) -> R {
         c.bias + c.amplitude * self.mean()
     }
 
     /// The smallest and largest value of the waveform over a period.
-    pub fn range(&self, c: &DriveConstants<f64>) -> [f64; 2] {
+    pub(crate) fn range(&self, c: &DriveConstants<f64>) -> [f64; 2] {
         match &self.waveform {
             Waveform::Shape(_) | Waveform::Chirp => c.range,
             Waveform::Samples(samples) => samples.range(),
@@ -146,7 +146,7 @@ impl Drive {
     }
 
     /// The smallest and largest voltage (V) over a period; not numbers where the stroke is prescribed.
-    pub fn voltage_range(&self, c: &DriveConstants<f64>) -> [f64; 2] {
+    pub(crate) fn voltage_range(&self, c: &DriveConstants<f64>) -> [f64; 2] {
         if self.prescribes_stroke() {
             return [f64::NAN; 2];
         }
@@ -154,7 +154,7 @@ impl Drive {
     }
 
     /// The largest magnitude of the voltage (V) over a period; not a number where the stroke is prescribed.
-    pub fn largest_voltage(&self, c: &DriveConstants<f64>) -> f64 {
+    pub(crate) fn largest_voltage(&self, c: &DriveConstants<f64>) -> f64 {
         let [low, high] = self.voltage_range(c);
         high.max(-low)
     }

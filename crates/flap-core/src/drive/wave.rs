@@ -22,7 +22,7 @@ impl<R: Real> Wave<R> {
 
     /// The quantity `bias + amplitude · self`.
     #[inline(always)]
-    pub fn scaled(&self, bias: R, amplitude: R) -> Wave<R> {
+    pub(crate) fn scaled(&self, bias: R, amplitude: R) -> Wave<R> {
         Wave {
             value: amplitude.mul_add(self.value, bias),
             rate: amplitude * self.rate,

@@ -7,7 +7,7 @@ use crate::parameter::Range::{NonNegative, Positive};
 ///
 /// That is exact for the first harmonic of a periodic motion. Lynch, Gau, Sponberg and Gravish 2021 measured such losses in
 /// insects' thoraxes and in robots' hinges.
-pub fn structural_damping(loss_factor: f64, stiffness: f64, rate: f64) -> f64 {
+pub(crate) fn structural_damping(loss_factor: f64, stiffness: f64, rate: f64) -> f64 {
     loss_factor * stiffness / rate
 }
 
@@ -25,18 +25,18 @@ crate::parameters! {
 
 impl HingeParameters {
     /// No loss, and no size.
-    pub const NONE: HingeParameters =
+    pub(crate) const NONE: HingeParameters =
         HingeParameters { hinge_loss_factor: 0.0, hinge_thickness: None, hinge_length: None };
 
     /// The damping (N·m·s) that stands for the loss factor of a hinge of this `stiffness` (N·m/rad) at the angular frequency
     /// `rate` (rad/s).
-    pub fn damping(&self, stiffness: f64, rate: f64) -> f64 {
+    pub(crate) fn damping(&self, stiffness: f64, rate: f64) -> f64 {
         structural_damping(self.hinge_loss_factor, stiffness, rate)
     }
 
     /// Strain of the flexure's faces per hinge angle (1/rad), bent to an arc of a circle: thickness over twice the length.
     /// Zero if the size is not known.
-    pub fn strain_per_angle(&self) -> f64 {
+    pub(crate) fn strain_per_angle(&self) -> f64 {
         match (self.hinge_thickness, self.hinge_length) {
             (Some(thickness), Some(length)) => 0.5 * thickness / length,
             _ => 0.0,

@@ -10,15 +10,15 @@ use crate::num::Real;
 
 /// Lengths of the links (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinkLengths {
+pub(crate) struct LinkLengths {
     /// Distance of the two fixed pivots, L₀.
-    pub ground: f64,
+    pub(crate) ground: f64,
     /// Input link, L₁.
-    pub input: f64,
+    pub(crate) input: f64,
     /// Coupler, L₂.
-    pub coupler: f64,
+    pub(crate) coupler: f64,
     /// Output link, L₃.
-    pub output: f64,
+    pub(crate) output: f64,
 }
 
 crate::per_lane! {
@@ -62,7 +62,7 @@ impl FourBar<f64> {
     /// The four-bar with links of these lengths, whose output link stands at `neutral` (rad) at zero stroke.
     ///
     /// Numbers are NaN if it cannot be assembled there.
-    pub fn new(lengths: &LinkLengths, neutral: f64) -> FourBar<f64> {
+    pub(crate) fn new(lengths: &LinkLengths, neutral: f64) -> FourBar<f64> {
         let LinkLengths { ground, input, coupler, output } = *lengths;
         let mut four_bar = FourBar {
             ground,
@@ -84,14 +84,7 @@ impl FourBar<f64> {
 impl LinkLengths {
     /// The angle of the output link (rad), between 30° and 80°, at which the transmission θ₁′ is stationary:
     /// θ₁″ = 0. `None` if θ₁″ does not change its sign there.
-    ///
-    /// ```
-    /// use flap_core::linkage::LinkLengths;
-    /// let links = LinkLengths { ground: 13.5e-3, input: 12.1e-3, coupler: 10.0e-3, output: 5.0e-3 };
-    /// let neutral = links.stationary_angle().unwrap();
-    /// assert!((neutral.to_degrees() - 54.896_327_872).abs() < 1e-9);
-    /// ```
-    pub fn stationary_angle(&self) -> Option<f64> {
+    pub(crate) fn stationary_angle(&self) -> Option<f64> {
         let four_bar = FourBar::new(self, 0.0);
         let bend = |angle: f64| four_bar.motion(angle).input[1];
         root(bend, [30.0 / 180.0 * PI, 80.0 / 180.0 * PI])
@@ -172,7 +165,7 @@ impl<R: Real> LinkInertias<R> {
     ///
     /// The links are uniform: their centres are A/2, (A + B)/2 and the middle of the output link.
     #[inline(always)]
-    pub fn about_stroke(&self, motion: &FourBarMotion<R>) -> [R; 2] {
+    pub(crate) fn about_stroke(&self, motion: &FourBarMotion<R>) -> [R; 2] {
         let [_, a_p, a_pp] = motion.a;
         let [_, b_p, b_pp] = motion.b;
         let (middle_p, middle_pp) = (add(a_p, b_p), add(a_pp, b_pp));

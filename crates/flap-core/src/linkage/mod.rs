@@ -5,6 +5,8 @@ mod four_bar;
 mod plane;
 mod slider_crank;
 
-pub use damping::{HingeParameters, structural_damping};
-pub use four_bar::{FourBar, FourBarMotion, LinkInertias, LinkLengths};
-pub use slider_crank::{SliderCrank, SliderMotion};
+pub use damping::HingeParameters;
+pub(crate) use damping::structural_damping;
+pub(crate) use four_bar::LinkLengths;
+pub use four_bar::{FourBar, FourBarMotion, LinkInertias};
+pub use slider_crank::SliderCrank;

@@ -14,13 +14,13 @@ crate::per_lane! {
 
 /// The slider's displacement from rest δ (m) and its derivatives with respect to the crank's angle (m).
 #[derive(Clone, Copy, Debug)]
-pub struct SliderMotion<R> {
+pub(crate) struct SliderMotion<R> {
     /// δ.
-    pub displacement: R,
+    pub(crate) displacement: R,
     /// δ_η.
-    pub slope: R,
+    pub(crate) slope: R,
     /// δ_ηη.
-    pub bend: R,
+    pub(crate) bend: R,
 }
 
 impl<R: Real> SliderCrank<R> {
@@ -31,7 +31,7 @@ impl<R: Real> SliderCrank<R> {
     /// g_η = −e e_η / g     g_ηη = −(e_η² + e e_ηη + g_η²) / g
     /// ```
     #[inline(always)]
-    pub fn motion(&self, sin: R, cos: R) -> SliderMotion<R> {
+    pub(crate) fn motion(&self, sin: R, cos: R) -> SliderMotion<R> {
         let along = self.crank * sin;
         let across = self.crank * cos;
         let e = self.crank - across;

@@ -17,7 +17,7 @@ mod motions;
 pub mod readings;
 mod signal;
 mod signals;
-pub mod stroke_and_pitch;
+mod stroke_and_pitch;
 mod units;
 
 pub use definition::{Derived, Description, Instant, Model};
@@ -26,6 +26,6 @@ pub use motions::{Imposed, Motions};
 pub(crate) use readings::{efficiency, grams_force};
 pub use signal::{Measure, OverWings, Principal, Signal, SignalCycle, Taken};
 pub use signals::{Each, SignalSet, SignalsOf};
-pub use stroke_and_pitch::Balance;
+pub(crate) use stroke_and_pitch::Balance;
 pub(crate) use units::GRAVITY;
 pub use units::Unit;

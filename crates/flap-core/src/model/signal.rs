@@ -85,7 +85,7 @@ impl Signal {
     }
 
     /// True if it has columns of its own.
-    pub fn is_shown(&self) -> bool {
+    pub(crate) fn is_shown(&self) -> bool {
         !self.measures.is_empty()
     }
 
@@ -256,7 +256,7 @@ impl SignalCycle {
     }
 
     /// The size of the signal: the largest magnitude of what is known of it.
-    pub fn size(&self) -> f64 {
+    pub(crate) fn size(&self) -> f64 {
         let known = [self.mean, self.max, self.min, self.positive_mean, self.mean_square.sqrt()];
         known.iter().fold(0.0, |size, value| value.abs().max(size))
     }

@@ -179,7 +179,7 @@ pub(super) const WIDTH_RATIOS: Range = Range::Between(0.0, 2.0);
 
 impl Params {
     /// The published presets.
-    pub const PRESETS: &'static [Preset] = &[
+    pub(super) const PRESETS: &'static [Preset] = &[
         Preset {
             name: "jafferis2016",
             doc: "test vehicle with improved actuators, 200 V at 120 Hz (Jafferis, Graule and Wood 2016, Table I)",

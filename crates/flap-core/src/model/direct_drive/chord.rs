@@ -7,7 +7,7 @@ use crate::quadrature::gauss_legendre;
 
 /// Number of blade elements. At the nodes of the Gauss-Legendre rule, 8 give the shape moments of a cubic chord
 /// exactly, and a settled motion within 1e-5 of that of 64.
-pub const BLADES: usize = 8;
+pub(super) const BLADES: usize = 8;
 
 impl Params {
     /// These parameters with the mean chord, the shape moments (22), (33) and the midspan chord of the chord shape.

@@ -131,22 +131,17 @@ impl Constants<f64> {
         } else {
             p.clone()
         };
-        let laminate = Laminate {
-            layers: [
-                Layer { thickness: p.piezo_thickness, modulus: p.piezo_modulus, density: p.piezo_density },
-                Layer {
-                    thickness: p.adhesive_thickness,
-                    modulus: p.adhesive_modulus,
-                    density: p.adhesive_density,
-                },
-                Layer { thickness: p.shim_thickness, modulus: p.shim_modulus, density: p.shim_density },
-            ],
-        };
+        let layer = |[thickness, modulus, density]: [f64; 3]| Layer { thickness, modulus, density };
+        let laminate = Laminate::of([
+            layer([p.piezo_thickness, p.piezo_modulus, p.piezo_density]),
+            layer([p.adhesive_thickness, p.adhesive_modulus, p.adhesive_density]),
+            layer([p.shim_thickness, p.shim_modulus, p.shim_density]),
+        ]);
         let l_a = p.actuator_length;
-        let z_c = laminate.neutral_axis();
-        let z_0 = laminate.mid_planes()[0];
-        let s_a = laminate.bending_stiffness();
-        let mu = laminate.areal_density();
+        let z_c = laminate.neutral_axis;
+        let z_0 = laminate.mid_planes[0];
+        let s_a = laminate.bending_stiffness;
+        let mu = laminate.areal_density;
         let widths = p.actuator_root_width + p.actuator_tip_width;
         let j_a = mu * (p.actuator_root_width + 5.0 * p.actuator_tip_width) * (l_a * l_a * l_a) / 120.0;
 

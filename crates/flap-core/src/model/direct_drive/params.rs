@@ -190,7 +190,7 @@ const EPSILON_0: f64 = 8.854_187_812_8e-12;
 
 impl Params {
     /// The published presets, and a hypothesis on them.
-    pub const PRESETS: &'static [Preset] = &[
+    pub(super) const PRESETS: &'static [Preset] = &[
         Preset {
             name: "ozaki2018-small",
             doc: "17.0 mm wing on a 10.5 mm actuator, 30 V + 30 V at 209 Hz (Ozaki and Hamaguchi 2018, Table A1)",

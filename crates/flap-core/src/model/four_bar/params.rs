@@ -206,7 +206,7 @@ pub(super) const STRIPS: Range = Range::Whole(1, MOST_STRIPS);
 const MOST_STRIPS: u32 = 64;
 
 /// The largest number of strips.
-pub const MAX_STRIPS: usize = MOST_STRIPS as usize;
+pub(super) const MAX_STRIPS: usize = MOST_STRIPS as usize;
 
 /// The permittivity of free space (F/m), to the digits used for the presets.
 const EPSILON_0: f64 = 8.854_187_812_8e-12;
@@ -217,7 +217,7 @@ const DRAG_PHASE: f64 = 9.82 / 180.0 * core::f64::consts::PI;
 
 impl Params {
     /// The sets that stand for the paper's prototypes.
-    pub const PRESETS: &'static [Preset] = &[
+    pub(super) const PRESETS: &'static [Preset] = &[
         Preset {
             name: "arabagi2013-75hz",
             doc: "75 Hz prototype, 150 V + 50 V (Arabagi, Hines and Sitti 2013); wing and actuator are assumed",
