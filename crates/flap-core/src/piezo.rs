@@ -117,9 +117,9 @@ crate::parameters! {
     /// Dielectric loss, and what the supply recovers.
     pub struct ElectricalParameters {
         /// Dielectric loss of the actuator, tan delta: takes the current G (V - mean of V) with G = w C tan delta. Measured impedances of such plates give 0.13 to 0.16 at large signals.
-        dielectric_loss: f64 = ("", "tan delta", Number(NonNegative), default 0.0),
+        dielectric_loss: f64 = ("", "tan delta", Number(NonNegative), default: 0.0),
         /// Share of the power returned by the actuator that the supply recovers. Acts on power_supply_mw alone. Ozaki and Ohta 2020 measured 0.58 on a capacitive load.
-        charge_recovery: f64 = ("", "r", Number(Share), default 0.0),
+        charge_recovery: f64 = ("", "r", Number(Share), default: 0.0),
     }
 }
 

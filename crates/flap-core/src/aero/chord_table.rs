@@ -22,29 +22,29 @@ crate::parameters! {
     /// The chord at stations along the span, straight between them.
     pub struct ChordTable {
         /// Chord of the wing: by the model's own shape, or by the table chord_0 to chord_10.
-        chord_table: Tabulated = ("", "", Choice(Tabulated::NAMES), default 0.0),
+        chord_table: Tabulated = ("", "", Choice(Tabulated::NAMES), default: 0.0),
         /// Chord at 0 % of the wing's length, the root. Only for chord_table = "on".
-        chord_0: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_0: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 10 % of the wing's length. Only for chord_table = "on".
-        chord_1: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_1: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 20 % of the wing's length. Only for chord_table = "on".
-        chord_2: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_2: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 30 % of the wing's length. Only for chord_table = "on".
-        chord_3: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_3: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 40 % of the wing's length. Only for chord_table = "on".
-        chord_4: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_4: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 50 % of the wing's length. Only for chord_table = "on".
-        chord_5: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_5: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 60 % of the wing's length. Only for chord_table = "on".
-        chord_6: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_6: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 70 % of the wing's length. Only for chord_table = "on".
-        chord_7: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_7: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 80 % of the wing's length. Only for chord_table = "on".
-        chord_8: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_8: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 90 % of the wing's length. Only for chord_table = "on".
-        chord_9: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_9: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 100 % of the wing's length, the tip. Only for chord_table = "on".
-        chord_10: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_10: f64 = ("m", "", Number(NonNegative), default: 0.0),
     }
 }
 

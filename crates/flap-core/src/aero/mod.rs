@@ -6,6 +6,6 @@ mod wing;
 
 pub(crate) use chord_table::chord_table;
 pub use chord_table::{ChordTable, STATIONS, Tabulated};
-pub(crate) use strips::{Cut, sum};
+pub(crate) use strips::{Cut, check_chords, cut, sum};
 pub use strips::{StripSums, Strips};
 pub use wing::{Masses, Material, Outline, OutlineError, Station, Wing};

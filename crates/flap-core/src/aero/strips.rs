@@ -1,6 +1,8 @@
 //! The wing as a row of strips, and the sums over them.
 
 use crate::num::{Lanes, PerLane, Real};
+use crate::parameter::Invalid;
+use crate::quadrature::Node;
 
 /// Position and size of a strip (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,6 +13,30 @@ pub(crate) struct Cut {
     pub(crate) chord: f64,
     /// Width along the span Δr.
     pub(crate) width: f64,
+}
+
+/// Cuts a wing of a `length` (m), which begins at `offset` (m), into strips at the nodes of a rule. `chord` is that (m) at a
+/// place from 0 at the root to 1 at the tip.
+pub(crate) fn cut(rule: &[Node], offset: f64, length: f64, chord: impl Fn(f64) -> f64) -> Vec<Cut> {
+    let cut = |node: &Node| Cut {
+        radius: offset + length * node.x,
+        chord: chord(node.x),
+        width: length * node.weight,
+    };
+    rule.iter().map(cut).collect()
+}
+
+/// Refuses a chord that is negative somewhere. `parameters` describe it, in the order of their numbers.
+pub(crate) fn check_chords(cuts: &[Cut], parameters: &'static [&'static str]) -> Result<(), Invalid> {
+    let Some(cut) = cuts.iter().find(|cut| cut.chord < 0.0) else { return Ok(()) };
+    let (first, last) = (parameters[0], parameters[parameters.len() - 1]);
+    let place = cut.radius;
+    Err(Invalid::together(
+        parameters,
+        format!(
+            "the chord is negative {place} m from the stroke axis: {first} to {last} do not describe a wing"
+        ),
+    ))
 }
 
 /// Σ f(r, c) Δr over the strips.

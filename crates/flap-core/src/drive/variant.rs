@@ -1,9 +1,8 @@
 //! The drive as the lanes of an ensemble share it: its waveform, and the quantity that it sets.
 
-use super::constants::DriveConstants;
+use super::constants::{DriveConstants, Wave};
 use super::parameters::{Shape, StrokeMode, WaveformParameters};
 use super::samples::Samples;
-use super::wave::Wave;
 use crate::num::Real;
 use crate::parameter::Invalid;
 

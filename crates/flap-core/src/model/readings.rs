@@ -1,6 +1,6 @@
 //! Values of derived columns that several models have.
 
-use super::units::{DEGREES, GRAVITY};
+use super::signal::{DEGREES, GRAVITY};
 
 /// Phase of a sine (rad), as [`SignalCycle::phase`](super::SignalCycle::phase) counts it: from the cosine.
 pub(crate) const SINE_PHASE: f64 = -core::f64::consts::FRAC_PI_2;

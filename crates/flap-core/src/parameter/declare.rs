@@ -46,8 +46,7 @@ pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
 /// others until it is set; an enum declared by [`choice!`](crate::choice)), then SI unit, symbol and
 /// [`Kind`](crate::parameter::Kind). A field of the type of another such struct has `(flatten)` in their place: its rows
 /// stand in the table where the field stands. A name in brackets before a field begins a group. Behind the kind may stand
-/// `former "name"` for the name of earlier versions, `default 0.0` for the
-/// value where no preset gives one, and `fitted` for a value that was fitted to one vehicle.
+/// other fields of [`Parameter`](crate::parameter::Parameter), such as `default: 0.0`.
 ///
 /// The struct gets `TABLE`, `from_values` and `to_values`; the table's order is that of the fields.
 ///
@@ -70,7 +69,7 @@ pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
 ///     pub struct Beam {
 ///         ["shape"]
 ///         /// Length.
-///         length: f64 = ("m", "L", Number(Positive), former "beam_length"),
+///         length: f64 = ("m", "L", Number(Positive), former: "beam_length"),
 ///         ["substance"]
 ///         /// Material.
 ///         material: Material = ("", "", Choice(Material::NAMES)),
@@ -141,10 +140,14 @@ macro_rules! parameters {
         <$type>::TABLE
     };
     (@table $type:ty, $field:ident, [$($group:literal)?], [$($doc:literal),+],
-     $unit:literal, $symbol:literal, $kind:expr $(, $mark:ident $($text:literal)?)*) => {
-        &[$crate::parameter::Parameter::new(
-            stringify!($field), $unit, $symbol, $kind, concat!($($doc),+).trim_ascii_start(),
-        )$(.group($group))?$(.$mark($($text)?))*]
+     $unit:literal, $symbol:literal, $kind:expr $(, $more:ident: $value:expr)*) => {
+        &[$crate::parameter::Parameter {
+            $(group: $group,)?
+            $($more: $value,)*
+            ..$crate::parameter::Parameter::new(
+                stringify!($field), $unit, $symbol, $kind, concat!($($doc),+).trim_ascii_start(),
+            )
+        }]
     };
 }
 
@@ -185,4 +188,33 @@ macro_rules! choice {
             }
         }
     };
+}
+
+/// A field of a parameter struct, as values of a design point: one, or those of a struct of parameters.
+pub trait Slot {
+    /// The field from the next of a point's values. Those that are missing count as not set.
+    fn take(values: &mut impl Iterator<Item = f64>) -> Self;
+
+    /// Appends the point's values for the field.
+    fn put(&self, values: &mut Vec<f64>);
+}
+
+impl Slot for f64 {
+    fn take(values: &mut impl Iterator<Item = f64>) -> f64 {
+        values.next().unwrap_or(f64::NAN)
+    }
+
+    fn put(&self, values: &mut Vec<f64>) {
+        values.push(*self);
+    }
+}
+
+impl Slot for Option<f64> {
+    fn take(values: &mut impl Iterator<Item = f64>) -> Option<f64> {
+        values.next().filter(|value| !value.is_nan())
+    }
+
+    fn put(&self, values: &mut Vec<f64>) {
+        values.push(self.unwrap_or(f64::NAN));
+    }
 }

@@ -8,7 +8,6 @@ use super::actuator::Actuator;
 use super::params::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
 use crate::drive::{DriveConstants, Shape};
 use crate::linkage::structural_damping;
-use crate::num::PerLane;
 use crate::parameter::Invalid;
 
 crate::per_lane! {
@@ -166,7 +165,6 @@ impl Constants<f64> {
         let b_1 = 0.5 * (p.drag_coefficient_max + p.drag_coefficient_min);
         let b_2 = 0.5 * (p.drag_coefficient_max - p.drag_coefficient_min);
 
-        let one_if = |yes: bool| if yes { 1.0 } else { 0.0 };
         let drive = p.drive();
         let c_p = 0.25 * p.vehicle_capacitance;
         let stroke_inertia = p.wing_inertia_stroke + p.added_inertia_stroke;
@@ -176,7 +174,7 @@ impl Constants<f64> {
 
             field_per_volt: 1.0 / p.piezo_thickness,
             f_min: p.piezo_stress_min,
-            f_taken: p.piezo_stress_min * (1.0 + one_if(p.field_transition == FieldTransition::Printed)),
+            f_taken: p.piezo_stress_min * (1.0 + f64::from(p.field_transition == FieldTransition::Printed)),
             f_max: p.piezo_stress_max,
             f_decline: p.stress_decline * p.piezo_stress_max,
             field_0: p.stress_field,
@@ -188,7 +186,7 @@ impl Constants<f64> {
             charge_recovery: p.electrical.charge_recovery,
 
             k_soft: actuator.stiffness_per_modulus * soft_modulus + actuator.shim_stiffness,
-            f_stiff: actuator.stiffness_per_modulus * half_range / u_per_tip * one_if(stiffens),
+            f_stiff: actuator.stiffness_per_modulus * half_range / u_per_tip * f64::from(stiffens),
             u_per_tip,
             sigma_0,
             k_t: p.transmission_stiffness,
@@ -211,9 +209,9 @@ impl Constants<f64> {
             hinge_torque: force * (p.wing_area / p.wing_length),
             p_min: p.pressure_min,
             p_swing: p.pressure_max - p.pressure_min,
-            attack_folded: one_if(p.centre_of_pressure == CentreOfPressure::Folded),
-            attack_directional: one_if(p.centre_of_pressure == CentreOfPressure::Directional),
-            attack_literal: one_if(p.centre_of_pressure == CentreOfPressure::Literal),
+            attack_folded: f64::from(p.centre_of_pressure == CentreOfPressure::Folded),
+            attack_directional: f64::from(p.centre_of_pressure == CentreOfPressure::Directional),
+            attack_literal: f64::from(p.centre_of_pressure == CentreOfPressure::Literal),
 
             b_1,
             b_2,
@@ -231,10 +229,6 @@ impl Constants<f64> {
         let stiffening = constants.f_stiff * constants.sigma_0 * constants.u_per_tip;
         let stiffness = constants.k_soft + stiffening + constants.k_t;
         constants.tip_damping = structural_damping(p.stroke_loss_factor, stiffness, drive.rate);
-        if <Constants<f64> as PerLane<f64>>::is_finite(&constants) {
-            Ok(constants)
-        } else {
-            Err(Invalid::NotFinite)
-        }
+        Invalid::unless_finite(constants)
     }
 }

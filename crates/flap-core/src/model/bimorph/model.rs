@@ -14,7 +14,7 @@ use crate::drive::{Drive, DriveConstants, Shape, StrokeMode, Wave, Waveform};
 use crate::model::Measure::{Peak, PeakToPeak, Supply};
 use crate::model::OverWings::{Each, Sum};
 use crate::model::readings::{efficiency, grams_force, hinge_strain, lag_degrees};
-use crate::model::units::DEGREES;
+use crate::model::signal::DEGREES;
 use crate::model::{Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, Unit};
 use crate::modes::Mode;
 use crate::num::Real;

@@ -18,19 +18,19 @@ crate::parameters! {
         /// Parameters of the waveform.
         waveform: WaveformParameters = (flatten),
         /// Bias between the plates: the voltage of plate 1 is half of it higher, that of plate 2 half of it lower. Not in the paper.
-        drive_offset: f64 = ("V", "", Number(Any), default 0.0),
+        drive_offset: f64 = ("V", "", Number(Any), default: 0.0),
 
         ["transmission"]
         /// Transmission ratio: stroke angle per displacement of the actuator's tip.
         transmission_ratio: f64 = ("rad/m", "T", Number(Positive)),
         /// Stiffness of the transmission felt at the actuator's tip: T^2 kappa_t.
-        transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative), fitted),
+        transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative), is_fitted: true),
         /// Growth of the transmission ratio with the square of the tip's displacement x: T + T_3 x^2. Not in the paper.
-        transmission_growth: f64 = ("rad/m^3", "T_3", Number(Any), default 0.0),
+        transmission_growth: f64 = ("rad/m^3", "T_3", Number(Any), default: 0.0),
         /// Damping of the stroke, about the stroke axis. Not in the paper.
-        stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default 0.0),
+        stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0),
         /// Loss factor of the stroke's spring, actuator and transmission together: a damping of loss factor times stiffness over the drive's angular frequency.
-        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default 0.0),
+        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default: 0.0),
 
         ["wing"]
         /// Distance from the transmission's flexure to the wing's tip.
@@ -48,15 +48,15 @@ crate::parameters! {
         /// Inertia of the air moving with the wing, about the stroke axis.
         added_inertia_stroke: f64 = ("kg*m^2", "I_am", Number(NonNegative)),
         /// Wing inertia about the hinge's axis.
-        wing_inertia_hinge: f64 = ("kg*m^2", "I_xx", Number(Positive), fitted),
+        wing_inertia_hinge: f64 = ("kg*m^2", "I_xx", Number(Positive), is_fitted: true),
         /// Product of inertia that couples stroke and hinge.
-        wing_inertia_product: f64 = ("kg*m^2", "I_xz", Number(Any), fitted),
+        wing_inertia_product: f64 = ("kg*m^2", "I_xz", Number(Any), is_fitted: true),
 
         ["hinge"]
         /// Stiffness of the wing hinge.
-        hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive), fitted),
+        hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive), is_fitted: true),
         /// Damping of the wing hinge. Not in the paper.
-        hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default 0.0),
+        hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0),
         /// Loss factor and size of the hinge.
         hinge: HingeParameters = (flatten),
 
@@ -64,19 +64,19 @@ crate::parameters! {
         /// Density of air. Assumed: the paper gives none.
         air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)),
         /// Drag coefficient at an attack angle of 90 deg (hinge angle 0).
-        drag_coefficient_max: f64 = ("", "b_max", Number(NonNegative), former "drag_max", fitted),
+        drag_coefficient_max: f64 = ("", "b_max", Number(NonNegative), former: "drag_max", is_fitted: true),
         /// Drag coefficient at an attack angle of 0 (hinge angle 90 deg).
-        drag_coefficient_min: f64 = ("", "b_min", Number(NonNegative), former "drag_min", fitted),
+        drag_coefficient_min: f64 = ("", "b_min", Number(NonNegative), former: "drag_min", is_fitted: true),
         /// Lift coefficient at an attack angle of 45 deg.
-        lift_coefficient_max: f64 = ("", "b_L", Number(NonNegative), former "lift_max", fitted),
+        lift_coefficient_max: f64 = ("", "b_L", Number(NonNegative), former: "lift_max", is_fitted: true),
         /// Radial centre of pressure: lever of the drag about the stroke axis.
-        pressure_radius: f64 = ("m", "R_cp", Number(Positive), fitted),
+        pressure_radius: f64 = ("m", "R_cp", Number(Positive), is_fitted: true),
         /// Lever of the rotational drag about the hinge's axis.
-        rotation_pressure_width: f64 = ("m", "W_cp1", Number(NonNegative), fitted),
+        rotation_pressure_width: f64 = ("m", "W_cp1", Number(NonNegative), is_fitted: true),
         /// Chordwise centre of pressure at an attack angle of 0, in mean widths A_w/R, Eq. (11).
-        pressure_min: f64 = ("", "p_min", Number(Any), fitted),
+        pressure_min: f64 = ("", "p_min", Number(Any), is_fitted: true),
         /// Chordwise centre of pressure at an attack angle of 90 deg, in mean widths A_w/R, Eq. (11).
-        pressure_max: f64 = ("", "p_max", Number(Any), fitted),
+        pressure_max: f64 = ("", "p_max", Number(Any), is_fitted: true),
 
         ["actuator"]
         /// Length of the active part of the actuator.
@@ -116,13 +116,13 @@ crate::parameters! {
         /// Relative change of the plates' force with strain, Eq. (6).
         force_strain_slope: f64 = ("", "a_2", Number(Any)),
         /// Share of the plates' force that the actuator's attachment leaves.
-        force_factor: f64 = ("", "p_3", Number(Positive), fitted),
+        force_factor: f64 = ("", "p_3", Number(Positive), is_fitted: true),
         /// Share of the actuator's stiffness that its attachment leaves.
-        stiffness_factor: f64 = ("", "p_4", Number(Positive), fitted),
+        stiffness_factor: f64 = ("", "p_4", Number(Positive), is_fitted: true),
         /// Factor on the actuator's stiffness that brings its free deflection to the measured one.
-        deflection_factor: f64 = ("", "p_5", Number(Positive), fitted),
+        deflection_factor: f64 = ("", "p_5", Number(Positive), is_fitted: true),
         /// Force of plate 2 over that of plate 1 at the same voltage. Not in the paper.
-        plate_ratio: f64 = ("", "", Number(NonNegative), default 1.0),
+        plate_ratio: f64 = ("", "", Number(NonNegative), default: 1.0),
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten),
 

@@ -11,7 +11,6 @@ use crate::aero::Strips;
 use crate::drive::DriveConstants;
 use crate::linkage::structural_damping;
 use crate::model::stroke_and_pitch::inertias_apart;
-use crate::num::PerLane;
 use crate::parameter::Invalid;
 use crate::piezo::{Laminate, Layer};
 
@@ -158,7 +157,6 @@ impl Constants<f64> {
         let aspect = 0.5 * r / c;
         let k_lift = FRAC_PI_2 * (r / c) / (1.0 + (aspect * aspect + 1.0).sqrt());
 
-        let one_if = |yes: bool| if yes { 1.0 } else { 0.0 };
         let drive = p.drive();
         let k_phi = 0.5 * s_a * widths / l_a;
         let c_p = p.piezo_permittivity * widths * l_a / (2.0 * p.piezo_thickness);
@@ -185,7 +183,7 @@ impl Constants<f64> {
             a22: 0.25 * FRAC_PI_4 * rho * (c * c * c * c) * r * p.shape_moment_04,
             f1: FRAC_PI_4 * rho * (c * c) * (r * r) * p.shape_moment_12,
             f2: 0.5 * FRAC_PI_4 * rho * (c * c * c) * r * p.shape_moment_03,
-            gyroscopic: one_if(p.added_mass == AddedMass::Lagrangian),
+            gyroscopic: f64::from(p.added_mass == AddedMass::Lagrangian),
 
             mid_radius: 0.5 * r + x_r,
             mid_half_chord: 0.5 * p.midspan_chord.unwrap_or(c),
@@ -208,22 +206,19 @@ impl Constants<f64> {
 
             pressure_slope: p.pressure_slope,
             pressure_offset: p.pressure_offset,
-            attack_directional: one_if(p.centre_of_pressure == CentreOfPressure::Directional),
-            attack_folded: one_if(p.centre_of_pressure == CentreOfPressure::Folded),
-            attack_literal: one_if(p.centre_of_pressure == CentreOfPressure::Literal),
+            attack_directional: f64::from(p.centre_of_pressure == CentreOfPressure::Directional),
+            attack_folded: f64::from(p.centre_of_pressure == CentreOfPressure::Folded),
+            attack_literal: f64::from(p.centre_of_pressure == CentreOfPressure::Literal),
 
             lift_sign: if p.lift_sign == LiftSign::Corrected { 1.0 } else { -1.0 },
 
             piezo_thickness: p.piezo_thickness,
             strain_per_stroke: z_c / l_a,
         };
-        constants.checked()
+        Invalid::unless_finite(constants)?.checked()
     }
 
     fn checked(self) -> Result<Constants<f64>, Invalid> {
-        if !<Constants<f64> as PerLane<f64>>::is_finite(&self) {
-            return Err(Invalid::NotFinite);
-        }
         // The determinant is linear in cos²ψ: positive everywhere if it is at both ends.
         let pitch = self.m22 + self.a22;
         let coupling = self.m12 - self.a12;

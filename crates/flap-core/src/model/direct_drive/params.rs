@@ -51,7 +51,7 @@ crate::parameters! {
         /// Stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "k_w", Number(Positive)),
         /// Damping of the wing hinge. Not in the paper.
-        hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default 0.0),
+        hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0),
         /// Loss factor and size of the hinge.
         hinge: HingeParameters = (flatten),
 
@@ -113,9 +113,9 @@ crate::parameters! {
         /// Permittivity of the piezoelectric layer (free or clamped is not stated in the paper).
         piezo_permittivity: f64 = ("F/m", "eps_pz", Number(NonNegative)),
         /// Damping of the stroke, about the stroke axis. Not in the paper.
-        stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default 0.0),
+        stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0),
         /// Loss factor of the stroke's spring, the actuator: a damping of loss factor times stiffness over the drive's angular frequency.
-        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default 0.0),
+        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default: 0.0),
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten),
 
@@ -123,9 +123,9 @@ crate::parameters! {
         /// Density of air.
         air_density: f64 = ("kg/m^3", "rho_Air", Number(NonNegative)),
         /// Drag coefficient at an attack angle of 90 deg.
-        drag_coefficient_max: f64 = ("", "C_Dmax", Number(NonNegative), former "drag_max"),
+        drag_coefficient_max: f64 = ("", "C_Dmax", Number(NonNegative), former: "drag_max"),
         /// Drag coefficient at an attack angle of 0.
-        drag_coefficient_min: f64 = ("", "C_Dmin", Number(NonNegative), former "drag_min"),
+        drag_coefficient_min: f64 = ("", "C_Dmin", Number(NonNegative), former: "drag_min"),
         /// Rotational drag coefficient, Eq. (32).
         rotation_drag: f64 = ("", "C_rd", Number(NonNegative)),
         /// Centre of pressure: shift in chords per radian of attack, Eq. (24).

@@ -6,7 +6,7 @@
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::params::{AddedMassSign, Arms, MAX_STRIPS, Params, Quadrature, STRIPS};
-use crate::aero::{Cut, Strips, sum};
+use crate::aero::{Cut, Strips, check_chords, cut, sum};
 use crate::drive::DriveConstants;
 use crate::linkage::{FourBar, LinkInertias, LinkLengths, SliderCrank, structural_damping};
 use crate::model::stroke_and_pitch::inertias_apart;
@@ -149,7 +149,7 @@ impl Constants<f64> {
     /// If the four-bar has no neutral position, the chord is negative somewhere, the number of strips is not
     /// allowed, the mass matrix is not positive definite for every position, or a constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
-        let cuts = cut(p)?;
+        let cuts = strips(p)?;
         let drive = p.drive();
         let actuator = actuator(p, drive.rate);
         let constants = Constants {
@@ -162,13 +162,10 @@ impl Constants<f64> {
             air: air(p, &cuts),
             strips: Strips::new(&cuts, p.air_density, arms(p)[0]),
         };
-        constants.checked()
+        Invalid::unless_finite(constants)?.checked()
     }
 
     fn checked(self) -> Result<Constants<f64>, Invalid> {
-        if !<Constants<f64> as PerLane<f64>>::is_finite(&self) {
-            return Err(Invalid::NotFinite);
-        }
         // Linear in cos²φ, so positive everywhere if it is at both ends; the links add at least link 3's inertia.
         let Wing { upright, j_sin, j_cos, coupling, j_pitch, .. } = self.wing;
         let least = upright + self.links.output;
@@ -186,7 +183,7 @@ impl Constants<f64> {
 }
 
 /// Cuts the wing into strips.
-fn cut(p: &Params) -> Result<Vec<Cut>, Invalid> {
+fn strips(p: &Params) -> Result<Vec<Cut>, Invalid> {
     Invalid::unless_within("strips", p.strips, STRIPS)?;
     p.chords.check()?;
     #[expect(
@@ -199,24 +196,10 @@ fn cut(p: &Params) -> Result<Vec<Cut>, Invalid> {
         Quadrature::Gauss => gauss_legendre(count),
         Quadrature::Midpoint => midpoints(count),
     };
-    let cuts: Vec<Cut> = nodes
-        .iter()
-        .map(|node| Cut {
-            radius: p.wing_offset + p.wing_length * node.x,
-            chord: p.chord(node.x),
-            width: p.wing_length * node.weight,
-        })
-        .collect();
-    match cuts.iter().find(|cut| cut.chord < 0.0) {
-        Some(cut) => Err(Invalid::together(
-            &["chord_term_0", "chord_term_1", "chord_term_2", "chord_term_3", "chord_term_4"],
-            format!(
-                "the chord is negative {} m from the stroke axis: chord_term_0 to chord_term_4 do not describe a wing",
-                cut.radius
-            ),
-        )),
-        None => Ok(cuts),
-    }
+    let cuts = cut(&nodes, p.wing_offset, p.wing_length, |x| p.chord(x));
+    let terms = &["chord_term_0", "chord_term_1", "chord_term_2", "chord_term_3", "chord_term_4"];
+    check_chords(&cuts, terms)?;
+    Ok(cuts)
 }
 
 /// Actuator and series spring [(1), (2)] at the angular frequency `rate` (rad/s).

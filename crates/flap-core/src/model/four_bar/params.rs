@@ -85,7 +85,7 @@ crate::parameters! {
         /// Damping of the stroke by the transmission's flexures; assumed: modal damping ratios of 4 to 9 percent.
         stroke_damping: f64 = ("N*m*s", "D", Number(NonNegative)),
         /// Loss factor of the stroke's spring, actuator and series spring together: a damping of loss factor times stiffness over the drive's angular frequency.
-        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default 0.0),
+        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default: 0.0),
 
         ["hinge"]
         /// Stiffness of the wing hinge.
