@@ -48,6 +48,8 @@ pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
 /// stand in the table where the field stands. A name in brackets before a field begins a group. Behind the kind may stand
 /// other fields of [`Parameter`](crate::parameter::Parameter), such as `default: 0.0`.
 ///
+/// If each line ends with a value, a function below the struct returns these: `pub fn published() -> Params;`.
+///
 /// The struct gets `TABLE`, `from_values` and `to_values`; the table's order is that of the fields.
 ///
 /// ```
@@ -80,10 +82,13 @@ pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
 ///     /// Beams in a row.
 ///     pub struct Row {
 ///         /// Number of beams.
-///         beams: f64 = ("", "n", Number(Whole(1, 9))),
+///         beams: f64 = ("", "n", Number(Whole(1, 9))) 2.0,
 ///         /// One of them.
-///         beam: Beam = (flatten),
+///         beam: Beam = (flatten) Beam { length: 0.2, material: Material::Carbon },
 ///     }
+///
+///     /// Two beams of carbon fibre.
+///     pub fn pair() -> Row;
 /// }
 ///
 /// let names: Vec<&str> = Row::TABLE.iter().map(|row| row.name).collect();
@@ -93,6 +98,7 @@ pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
 /// let row = Row::from_values(&[3.0, 0.1, 1.0]);
 /// assert_eq!(row.beam.material, Material::Steel);
 /// assert_eq!(row.to_values(), [3.0, 0.1, 1.0]);
+/// assert_eq!(Row::pair().to_values(), [2.0, 0.2, 0.0]);
 /// ```
 #[macro_export]
 macro_rules! parameters {
@@ -133,6 +139,23 @@ macro_rules! parameters {
 
             fn put(&self, values: &mut Vec<f64>) {
                 $($crate::parameter::Slot::put(&self.$field, values);)*
+            }
+        }
+    };
+    ($(#[$meta:meta])* pub struct $Name:ident {
+        $($([$group:literal])? $(#[doc = $doc:literal])+ $field:ident: $type:ty = ($($row:tt)+) $value:expr,)*
+    }
+    $(#[$preset_meta:meta])* pub fn $preset:ident() -> $Same:ident;) => {
+        $crate::parameters! {
+            $(#[$meta])* pub struct $Name {
+                $($([$group])? $(#[doc = $doc])+ $field: $type = ($($row)+),)*
+            }
+        }
+
+        impl $Name {
+            $(#[$preset_meta])*
+            pub fn $preset() -> $Same {
+                $Same { $($field: $value,)* }
             }
         }
     };
