@@ -72,7 +72,7 @@ crate::parameters! {
 
 impl StrokeParameters {
     /// A stroke that is driven; if it is to be prescribed, by 10°.
-    pub(crate) const FREE: StrokeParameters =
+    pub const FREE: StrokeParameters =
         StrokeParameters { stroke_mode: StrokeMode::Free, stroke_amplitude: 10.0_f64.to_radians() };
 
     /// A prescribed stroke of this amplitude (rad).
@@ -81,7 +81,7 @@ impl StrokeParameters {
     }
 
     /// Constant part and amplitude of the quantity that the drive sets: of the `voltage` (V), or of the prescribed stroke (rad).
-    pub(crate) fn levels(&self, voltage: [f64; 2]) -> [f64; 2] {
+    pub fn levels(&self, voltage: [f64; 2]) -> [f64; 2] {
         match self.stroke_mode {
             StrokeMode::Free => voltage,
             StrokeMode::Prescribed => [0.0, self.stroke_amplitude],

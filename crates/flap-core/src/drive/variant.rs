@@ -58,7 +58,7 @@ impl Drive {
 
     /// True if the drive sets the stroke, not the voltage.
     #[inline(always)]
-    pub(crate) fn prescribes_stroke(&self) -> bool {
+    pub fn prescribes_stroke(&self) -> bool {
         self.stroke == StrokeMode::Prescribed
     }
 
@@ -132,7 +132,7 @@ impl Drive {
 
     /// The mean voltage (V), or prescribed stroke (rad), over a period.
     #[inline(always)]
-    pub(crate) fn mean_voltage<R: Real>(&self, c: &DriveConstants<R>) -> R {
+    pub fn mean_voltage<R: Real>(&self, c: &DriveConstants<R>) -> R {
         c.bias + c.amplitude * self.mean()
     }
 

@@ -17,7 +17,7 @@ mod motions;
 pub mod readings;
 mod signal;
 mod signals;
-mod stroke_and_pitch;
+pub mod stroke_and_pitch;
 
 pub use definition::{Derived, Description, Instant, Model};
 pub use load::Load;
@@ -26,4 +26,3 @@ pub(crate) use readings::{efficiency, grams_force};
 pub(crate) use signal::GRAVITY;
 pub use signal::{Measure, OverWings, Principal, Signal, SignalCycle, Taken, Unit};
 pub use signals::{Each, SignalSet, SignalsOf};
-pub(crate) use stroke_and_pitch::Balance;

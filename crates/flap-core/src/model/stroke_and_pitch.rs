@@ -10,7 +10,7 @@ use crate::ode::Start;
 use crate::parameter::Invalid;
 
 /// Names of the states with their units, as trajectory columns.
-pub(crate) const NAMES: [&str; 4] = ["stroke_rad", "pitch_rad", "stroke_rate_rad_s", "pitch_rate_rad_s"];
+pub const NAMES: [&str; 4] = ["stroke_rad", "pitch_rad", "stroke_rate_rad_s", "pitch_rate_rad_s"];
 
 /// Mass matrix and generalised forces at a state `[stroke, pitch, stroke rate, pitch rate]`, without the drive.
 ///
@@ -19,19 +19,19 @@ pub(crate) const NAMES: [&str; 4] = ["stroke_rad", "pitch_rad", "stroke_rate_rad
 /// ⎣M₁₂ M₂₂⎦ ⎣pitch acceleration ⎦   ⎣Q₂               ⎦
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Balance<R> {
+pub struct Balance<R> {
     /// M₁₁, M₁₂, M₂₂ (kg·m²).
-    pub(crate) mass: [R; 3],
+    pub mass: [R; 3],
     /// Q₁: moment about the stroke axis (N·m).
-    pub(crate) stroke_moment: R,
+    pub stroke_moment: R,
     /// Q₂: moment about the pitch axis (N·m).
-    pub(crate) pitch_moment: R,
+    pub pitch_moment: R,
 }
 
 impl<R: Real> Balance<R> {
     /// The derivative of the state `y` under a moment of the drive about the stroke axis (N·m).
     #[inline(always)]
-    pub(crate) fn driven(&self, y: &[R; 4], drive_moment: R) -> [R; 4] {
+    pub fn driven(&self, y: &[R; 4], drive_moment: R) -> [R; 4] {
         let [m11, m12, m22] = self.mass;
         let (q1, q2) = (self.stroke_moment + drive_moment, self.pitch_moment);
         let inverse_determinant = q1.lit(1.0) / (m11 * m22 - m12 * m12);
@@ -45,7 +45,7 @@ impl<R: Real> Balance<R> {
     /// The stroke's own states follow it; their deviation from it by integration errors decays at the rate `forgetting`
     /// (1/s), so that it cannot add up.
     #[inline(always)]
-    pub(crate) fn prescribed(&self, y: &[R; 4], stroke: &Wave<R>, forgetting: R) -> [R; 4] {
+    pub fn prescribed(&self, y: &[R; 4], stroke: &Wave<R>, forgetting: R) -> [R; 4] {
         let [_, m12, m22] = self.mass;
         [
             (stroke.value - y[0]).mul_add(forgetting, stroke.rate),
@@ -58,19 +58,19 @@ impl<R: Real> Balance<R> {
 
 /// The state `y`, with the stroke of the drive in place of its own where that is prescribed.
 #[inline(always)]
-pub(crate) fn state<R: Real>(drive: &Drive, wave: &Wave<R>, y: &[R; 4]) -> [R; 4] {
+pub fn state<R: Real>(drive: &Drive, wave: &Wave<R>, y: &[R; 4]) -> [R; 4] {
     if drive.prescribes_stroke() { [wave.value, y[1], wave.rate, y[3]] } else { *y }
 }
 
 /// The derivative `dy` of a state, with that of the stroke of the drive in place of its own where that is prescribed.
 #[inline(always)]
-pub(crate) fn slope<R: Real>(drive: &Drive, wave: &Wave<R>, dy: &[R; 4]) -> [R; 4] {
+pub fn slope<R: Real>(drive: &Drive, wave: &Wave<R>, dy: &[R; 4]) -> [R; 4] {
     if drive.prescribes_stroke() { [wave.rate, dy[1], wave.bend, dy[3]] } else { *dy }
 }
 
 /// The run of a point that begins at rest, on the stroke of the drive where that is prescribed: for
 /// [`Model::start`](super::Model::start). `sizes` are typical amplitudes of stroke and pitch (rad).
-pub(crate) fn start<C>(
+pub fn start<C>(
     drive: &Drive,
     drive_constants: &DriveConstants<f64>,
     constants: C,
@@ -84,7 +84,7 @@ pub(crate) fn start<C>(
 
 /// State, derivative and drive of a wing whose stroke and pitch are given: value (rad), rate (rad/s), second derivative
 /// (rad/s²). For [`Motions::placed`](super::Motions::placed).
-pub(crate) fn placed(stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Wave<f64>, 4> {
+pub fn placed(stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Wave<f64>, 4> {
     ([stroke[0], pitch[0], stroke[1], pitch[1]], [stroke[1], pitch[1], stroke[2], pitch[2]], stroke.into())
 }
 
@@ -101,6 +101,6 @@ pub(crate) fn inertias_apart(parameters: &'static [&'static str; 4]) -> Invalid 
 
 /// The state at rest right after an impulse that gives the stroke a rate (rad/s), for a mass matrix
 /// [M₁₁, M₁₂, M₂₂] (kg·m²): `pitch rate = −(M₁₂/M₂₂) stroke rate`. For [`Motions::struck`](super::Motions::struck).
-pub(crate) fn struck([_, m12, m22]: [f64; 3], stroke_rate: f64) -> [f64; 4] {
+pub fn struck([_, m12, m22]: [f64; 3], stroke_rate: f64) -> [f64; 4] {
     [0.0, 0.0, stroke_rate, -(m12 / m22) * stroke_rate]
 }

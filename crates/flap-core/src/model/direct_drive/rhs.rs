@@ -10,7 +10,8 @@ use core::f64::consts::FRAC_PI_2;
 use super::constants::Constants;
 use super::params::FlowDirection;
 use crate::drive::Wave;
-use crate::model::{Balance, Load};
+use crate::model::Load;
+use crate::model::stroke_and_pitch::Balance;
 use crate::num::Real;
 
 /// Translational and rotational aerodynamics at one state.

@@ -7,7 +7,7 @@
 use super::aerodynamics::aerodynamics;
 use super::constants::{Actuator, Constants, Wing};
 use crate::drive::Wave;
-use crate::model::Balance;
+use crate::model::stroke_and_pitch::Balance;
 use crate::num::Real;
 
 /// Actuator, slider-crank and four-bar as the stroke sees them.
