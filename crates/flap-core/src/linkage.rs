@@ -92,19 +92,6 @@ impl<R: Real> SliderCrank<R> {
     }
 }
 
-/// Lengths of the links (m).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct LinkLengths {
-    /// Distance of the two fixed pivots, L₀.
-    pub(crate) ground: f64,
-    /// Input link, L₁.
-    pub(crate) input: f64,
-    /// Coupler, L₂.
-    pub(crate) coupler: f64,
-    /// Output link, L₃.
-    pub(crate) output: f64,
-}
-
 crate::per_lane! {
     /// A four-bar and the position in which its stroke angle is zero.
     pub struct FourBar<R> {
@@ -143,11 +130,11 @@ pub struct FourBarMotion<R> {
 }
 
 impl FourBar<f64> {
-    /// The four-bar with links of these lengths, whose output link stands at `neutral` (rad) at zero stroke.
+    /// The four-bar with ground, input, coupler and output link of these lengths (m), whose output link stands at `neutral` (rad) at zero stroke.
     ///
     /// Numbers are NaN if it cannot be assembled there.
-    pub(crate) fn new(lengths: &LinkLengths, neutral: f64) -> FourBar<f64> {
-        let LinkLengths { ground, input, coupler, output } = *lengths;
+    pub(crate) fn new(lengths: [f64; 4], neutral: f64) -> FourBar<f64> {
+        let [ground, input, coupler, output] = lengths;
         let mut four_bar = FourBar {
             ground,
             output,
@@ -163,13 +150,11 @@ impl FourBar<f64> {
         four_bar.direction_y = y / four_bar.input_square;
         four_bar
     }
-}
 
-impl LinkLengths {
-    /// The angle of the output link (rad), between 30° and 80°, at which the transmission θ₁′ is stationary:
-    /// θ₁″ = 0. `None` if θ₁″ does not change its sign there.
-    pub(crate) fn stationary_angle(&self) -> Option<f64> {
-        let four_bar = FourBar::new(self, 0.0);
+    /// The angle of the output link (rad), between 30° and 80°, at which the transmission θ₁′ of links of these lengths (m) is
+    /// stationary: θ₁″ = 0. `None` if θ₁″ does not change its sign there.
+    pub(crate) fn stationary_angle(lengths: [f64; 4]) -> Option<f64> {
+        let four_bar = FourBar::new(lengths, 0.0);
         let bend = |angle: f64| four_bar.motion(angle).input[1];
         root(bend, [30.0 / 180.0 * PI, 80.0 / 180.0 * PI])
     }

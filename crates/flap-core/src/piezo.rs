@@ -1,4 +1,4 @@
-//! Components of piezoelectric actuators: laminates, unimorphs, electrical losses.
+//! Components of piezoelectric actuators: laminates, and electrical losses.
 
 use crate::parameter::Kind::Number;
 use crate::parameter::Range::{NonNegative, Share};
@@ -48,68 +48,6 @@ impl<const L: usize> Laminate<L> {
         }
         let areal_density = layers.iter().map(|layer| layer.density * layer.thickness).sum();
         Laminate { mid_planes, neutral_axis, bending_stiffness, areal_density }
-    }
-}
-
-/// A cantilever of one piezoelectric layer on a passive one, of uniform width.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Unimorph {
-    /// Length L (m).
-    pub(crate) length: f64,
-    /// Width w (m).
-    pub(crate) width: f64,
-    /// The passive layer, the lower one.
-    pub(crate) shim: Layer,
-    /// The piezoelectric layer.
-    pub(crate) piezo: Layer,
-    /// Piezoelectric coefficient d₃₁ (m/V), positive if a positive voltage bends the tip to positive δ.
-    pub(crate) coefficient: f64,
-    /// Permittivity of the unstressed piezoelectric layer ε (F/m).
-    pub(crate) permittivity: f64,
-}
-
-/// The response of the tip of a [`Unimorph`] to force and voltage: δ = γV − F/k_a.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct TipResponse {
-    /// Stiffness of the tip k_a (N/m).
-    pub(crate) stiffness: f64,
-    /// Deflection of the free tip per voltage γ (m/V).
-    pub(crate) deflection: f64,
-    /// Force on the blocked tip per voltage, and charge per deflection Γ (N/V = C/m).
-    pub(crate) coupling: f64,
-    /// Mass that moves with the tip m_eff (kg).
-    pub(crate) mass: f64,
-    /// Capacitance with the tip blocked C_b (F).
-    pub(crate) capacitance: f64,
-}
-
-impl Unimorph {
-    /// Tip stiffness, deflection, blocking force, mass and capacitance, after Smits and Choi (1991).
-    ///
-    /// ```text
-    /// k_a = 3 S w / L³     γ = E_p d₃₁ (z_p − z_c) L² / (2S)     Γ = k_a γ     m_eff = 33/140 w L Σ ρᵢ hᵢ
-    /// C_b = w L [(ε − d₃₁² E_p)/h_p + d₃₁² E_p²/(E_p h_p + E_s h_s)] + d₃₁² E_p² (z_p − z_c)² w L / (4S)
-    /// ```
-    pub(crate) fn tip_response(&self) -> TipResponse {
-        let laminate = Laminate::of([self.shim, self.piezo]);
-        let s = laminate.bending_stiffness;
-        let arm = laminate.mid_planes[1] - laminate.neutral_axis;
-        let (l, w) = (self.length, self.width);
-        // Stress per field in the clamped piezoelectric layer (N/(V·m)).
-        let e = self.piezo.modulus * self.coefficient;
-        let h_p = self.piezo.thickness;
-        let membrane = self.piezo.modulus * h_p + self.shim.modulus * self.shim.thickness;
-
-        let stiffness = 3.0 * s * w / (l * l * l);
-        let deflection = e * arm * (l * l) / (2.0 * s);
-        let clamped = (self.permittivity - e * self.coefficient) / h_p + e * e / membrane;
-        TipResponse {
-            stiffness,
-            deflection,
-            coupling: stiffness * deflection,
-            mass: 33.0 / 140.0 * w * l * laminate.areal_density,
-            capacitance: w * l * (clamped + e * e * (arm * arm) / (4.0 * s)),
-        }
     }
 }
 

@@ -53,17 +53,17 @@ fn equal_the_reference_to_the_printed_digits() {
         // S22, 2κS13, κ²S04 with κ = ½, times ½ρ.
         (
             "S22",
-            [c75.air.chord_tt * 2.0 / rho, c30.air.chord_tt * 2.0 / rho],
+            [c75.air.chord[0] * 2.0 / rho, c30.air.chord[0] * 2.0 / rho],
             [5.283_728_202e-10, 1.764_079_192e-9],
         ),
         (
             "S13",
-            [c75.air.chord_tw * 2.0 / rho, c30.air.chord_tw * 2.0 / rho],
+            [c75.air.chord[1] * 2.0 / rho, c30.air.chord[1] * 2.0 / rho],
             [3.206_750_576e-10, 9.798_484_182e-10],
         ),
         (
             "S04",
-            [c75.air.chord_ww * 8.0 / rho, c30.air.chord_ww * 8.0 / rho],
+            [c75.air.chord[2] * 8.0 / rho, c30.air.chord[2] * 8.0 / rho],
             [2.293_759_910e-10, 6.444_278_858e-10],
         ),
     ] {

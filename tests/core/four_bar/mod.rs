@@ -69,14 +69,7 @@ fn moments(c: &Constants<f64>, side: f64, y: &[f64; 4]) -> Moments {
     };
     let (mut translating, mut rotating) = (*c, *c);
     translating.air.rotation_pitch = 0.0;
-    for coefficient in [
-        &mut rotating.air.lift_offset,
-        &mut rotating.air.lift_amplitude,
-        &mut rotating.air.drag_offset,
-        &mut rotating.air.drag_amplitude,
-    ] {
-        *coefficient = 0.0;
-    }
+    (rotating.air.lift, rotating.air.drag) = ([0.0; 4], [0.0; 4]);
     let translation = load(&translating, y, [0.0; 4]);
     Moments {
         stroke: -translation.drag_moment,

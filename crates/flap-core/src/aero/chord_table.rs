@@ -49,34 +49,21 @@ crate::parameters! {
 }
 
 impl ChordTable {
-    /// No table.
-    pub(crate) const OFF: ChordTable = ChordTable::new(Tabulated::Off, [0.0; STATIONS]);
-
     /// A table of chords (m).
-    pub const fn new(chord_table: Tabulated, chords: [f64; STATIONS]) -> ChordTable {
-        ChordTable {
-            chord_table,
-            chord_0: chords[0],
-            chord_1: chords[1],
-            chord_2: chords[2],
-            chord_3: chords[3],
-            chord_4: chords[4],
-            chord_5: chords[5],
-            chord_6: chords[6],
-            chord_7: chords[7],
-            chord_8: chords[8],
-            chord_9: chords[9],
-            chord_10: chords[10],
-        }
+    pub fn new(chord_table: Tabulated, chords: [f64; STATIONS]) -> ChordTable {
+        let mut values = vec![f64::from(chord_table as u8)];
+        values.extend(chords);
+        ChordTable::from_values(&values)
+    }
+
+    /// No table.
+    pub(crate) fn off() -> ChordTable {
+        ChordTable::new(Tabulated::Off, [0.0; STATIONS])
     }
 
     /// The chords at the stations (m).
-    pub(crate) fn chords(&self) -> [f64; STATIONS] {
-        let c = self;
-        [
-            c.chord_0, c.chord_1, c.chord_2, c.chord_3, c.chord_4, c.chord_5, c.chord_6, c.chord_7,
-            c.chord_8, c.chord_9, c.chord_10,
-        ]
+    fn chords(&self) -> Vec<f64> {
+        self.to_values().split_off(1)
     }
 
     /// True if the table is to be used.

@@ -118,7 +118,7 @@ impl Outline {
     }
 
     /// Leading and trailing edge (m), as in [`Station`], at a distance from the root (m) within the wing.
-    pub(crate) fn edges(&self, span: f64) -> [f64; 2] {
+    fn edges(&self, span: f64) -> [f64; 2] {
         let after = self.stations.partition_point(|station| station.span <= span);
         let after = after.clamp(1, self.stations.len() - 1);
         let [a, b] = [self.stations[after - 1], self.stations[after]];
@@ -127,7 +127,7 @@ impl Outline {
     }
 
     /// The chord (m) at a distance from the root (m).
-    pub fn chord(&self, span: f64) -> f64 {
+    pub(crate) fn chord(&self, span: f64) -> f64 {
         self.edges(span).iter().sum()
     }
 

@@ -90,12 +90,8 @@ crate::per_lane! {
         pub p_min: R,
         /// Its shift from there to ψ = 0, in mean widths, (11).
         pub p_swing: R,
-        /// 1 if the centre of pressure follows |ψ|, else 0.
-        pub attack_folded: R,
-        /// 1 if it follows ψ relative to the motion, else 0.
-        pub attack_directional: R,
-        /// 1 if it follows ψ as printed, else 0.
-        pub attack_literal: R,
+        /// 1 for the angle that the centre of pressure follows and 0 for the others: |ψ|, ψ relative to the motion, and ψ.
+        pub attack: [R; 3],
 
         /// Mean of the drag coefficient's largest and smallest value b₁.
         pub b_1: R,
@@ -209,9 +205,8 @@ impl Constants<f64> {
             hinge_torque: force * (p.wing_area / p.wing_length),
             p_min: p.pressure_min,
             p_swing: p.pressure_max - p.pressure_min,
-            attack_folded: f64::from(p.centre_of_pressure == CentreOfPressure::Folded),
-            attack_directional: f64::from(p.centre_of_pressure == CentreOfPressure::Directional),
-            attack_literal: f64::from(p.centre_of_pressure == CentreOfPressure::Literal),
+            attack: [CentreOfPressure::Folded, CentreOfPressure::Directional, CentreOfPressure::Literal]
+                .map(|reading| f64::from(p.centre_of_pressure == reading)),
 
             b_1,
             b_2,

@@ -133,7 +133,8 @@ pub(super) fn tip_drag<R: Real>(c: &Constants<R>, cos_2psi: R) -> R {
 pub(super) fn hinge_drag<R: Real>(c: &Constants<R>, psi: R, x_dot: R, sin: R, cos: R) -> R {
     let (sin_2psi, cos_2psi) = double_angle(sin, cos);
     let directed = psi * psi.lit(1.0).copysign(x_dot);
-    let tilt = c.attack_folded * psi.abs() + c.attack_directional * directed + c.attack_literal * psi;
+    let [folded, directional, literal] = c.attack;
+    let tilt = folded * psi.abs() + directional * directed + literal * psi;
     let arm = c.p_min + c.p_swing * (tilt * -FRAC_2_PI + 1.0).abs();
     c.hinge_torque * arm * (drag_coefficient(c, cos_2psi) * cos + c.b_l * sin_2psi * sin)
 }

@@ -65,7 +65,7 @@ crate::parameters! {
         /// Chord shape: coefficient of the Legendre polynomial P_3; not in the paper.
         chord_legendre_3: f64 = ("", "a_3", Number(Any)) 0.176,
         /// The chord as a table. It replaces mean_chord, midspan_chord, the shape moments and rotation_moment, for every flow_direction.
-        chords: ChordTable = (flatten) ChordTable::OFF,
+        chords: ChordTable = (flatten) ChordTable::off(),
         /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22). All shape moments are for flow_direction = "uniform".
         shape_moment_03: f64 = ("", "I_w0,3", Number(Positive)) 1.02,
         /// Wing shape moment: normalised integral of chord^4.

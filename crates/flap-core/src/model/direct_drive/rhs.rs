@@ -91,15 +91,18 @@ struct Pressure<R> {
 /// ```
 #[inline(always)]
 fn uniform_flow<R: Real>(c: &Constants<R>, side: R, psi: R, phi_dot: R, w: R) -> Pressure<R> {
-    let pp = phi_dot * phi_dot * side;
-    let pw = phi_dot * w * side;
-    let ww = w * w * side;
-    let pitch = c.pitch_pp * pp + c.pitch_pw * pw + c.pitch_ww * ww;
+    let products = [phi_dot * phi_dot * side, phi_dot * w * side, w * w * side];
     Pressure {
-        force: c.lift_pp * pp + c.lift_pw * pw + c.lift_ww * ww,
-        stroke: c.stroke_pp * pp + c.stroke_pw * pw + c.stroke_ww * ww,
-        pitch: centre_of_pressure(c, psi, side) * pitch,
+        force: form(c.lift, products),
+        stroke: form(c.stroke, products),
+        pitch: centre_of_pressure(c, psi, side) * form(c.pitch, products),
     }
+}
+
+/// A quadratic form, of its factors and the products of its variables.
+#[inline(always)]
+fn form<R: Real>(factors: [R; 3], products: [R; 3]) -> R {
+    factors[0] * products[0] + factors[1] * products[1] + factors[2] * products[2]
 }
 
 /// A direction of flow for each blade element, its own.
@@ -113,7 +116,8 @@ fn uniform_flow<R: Real>(c: &Constants<R>, side: R, psi: R, phi_dot: R, w: R) ->
 #[inline(always)]
 fn blade_flow<R: Real>(c: &Constants<R>, psi: R, phi_dot: R, w: R) -> Pressure<R> {
     let sums = c.blades.sums(phi_dot, w);
-    let undirected = (c.pitch_pp * phi_dot + c.pitch_pw * w) * phi_dot + c.pitch_ww * w * w;
+    let [pitch_pp, pitch_pw, pitch_ww] = c.pitch;
+    let undirected = (pitch_pp * phi_dot + pitch_pw * w) * phi_dot + pitch_ww * w * w;
     let one = psi.lit(1.0);
     let forth = centre_of_pressure(c, psi, one);
     let back = centre_of_pressure(c, psi, -one);
@@ -146,10 +150,11 @@ pub(super) fn mean_velocity<R: Real>(c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) 
 /// ```
 #[inline(always)]
 fn centre_of_pressure<R: Real>(c: &Constants<R>, psi: R, side: R) -> R {
-    let tilt = c.attack_directional * side * psi + c.attack_folded * psi.abs() + c.attack_literal * psi;
+    let [directional, folded, literal] = c.attack;
+    let tilt = directional * side * psi + folded * psi.abs() + literal * psi;
     let attack = -tilt + FRAC_PI_2;
     // |α|, but for the folded reading, which is signed.
-    let attack = R::select(c.attack_folded.lt(attack.lit(0.5)), attack.abs(), attack);
+    let attack = R::select(folded.lt(attack.lit(0.5)), attack.abs(), attack);
     c.pressure_slope * attack + c.pressure_offset
 }
 

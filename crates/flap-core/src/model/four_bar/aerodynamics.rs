@@ -62,9 +62,11 @@ fn attitude<R: Real>(side: R, phi: R) -> Attitude<R> {
 /// ```
 #[inline(always)]
 pub(super) fn coefficients<R: Real>(c: &Air<R>, attack: R) -> [R; 2] {
-    let lift = c.lift_slope.mul_add(attack, -c.lift_phase).sin();
-    let (_, drag) = c.drag_slope.mul_add(attack, -c.drag_phase).sin_cos();
-    [c.lift_amplitude.mul_add(lift, c.lift_offset), c.drag_offset - c.drag_amplitude * drag]
+    let [lift_offset, lift_amplitude, lift_slope, lift_phase] = c.lift;
+    let [drag_offset, drag_amplitude, drag_slope, drag_phase] = c.drag;
+    let lift = lift_slope.mul_add(attack, -lift_phase).sin();
+    let (_, drag) = drag_slope.mul_add(attack, -drag_phase).sin_cos();
+    [lift_amplitude.mul_add(lift, lift_offset), drag_offset - drag_amplitude * drag]
 }
 
 /// Aerodynamic forces and moments but for the added mass, at a state on one `side`, given sin φ and cos φ.
@@ -93,8 +95,8 @@ pub(super) fn aerodynamics<R: Real>(
 
     let sweep = phi_dot * cos;
     let directed = c.strips.sums(theta_dot, sweep);
-    let undirected =
-        (air.chord_tt * theta_dot + air.chord_tw * sweep) * theta_dot + air.chord_ww * sweep * sweep;
+    let [chord_tt, chord_tw, chord_ww] = air.chord;
+    let undirected = (chord_tt * theta_dot + chord_tw * sweep) * theta_dot + chord_ww * sweep * sweep;
     let pressure = air.pressure_upright * directed.chord + air.pressure_slope * tilt * undirected;
 
     let rotation = -(phi_dot.abs() * phi_dot);

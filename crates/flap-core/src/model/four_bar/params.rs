@@ -113,7 +113,7 @@ crate::parameters! {
         /// The chord polynomial's factor of x^4; assumed: no chord at the tip.
         chord_term_4: f64 = ("", "p_4", Number(Any)) -2.0,
         /// The chord as a table.
-        chords: ChordTable = (flatten) ChordTable::OFF,
+        chords: ChordTable = (flatten) ChordTable::off(),
         /// Position of the rotation axis, in chords behind the leading edge.
         axis_position: f64 = ("", "z_RA/c", Number(Any)) 0.25,
         /// Wing mass; assumed: spar, veins and membrane, scaled to the second resonance.
