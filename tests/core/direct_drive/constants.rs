@@ -1,5 +1,6 @@
 use flap_core::model::direct_drive::{Constants, DirectDrive, FlowDirection, Params};
 use flap_core::piezo::Laminate;
+use flap_core::simulate::preset;
 
 use super::params;
 use crate::by_name::layer;
@@ -150,8 +151,9 @@ fn impossible_inertias_are_refused() {
 #[test]
 fn swapped_presets_swap_the_hinges() {
     let [small, large] = [Params::ozaki2018_small(), Params::ozaki2018_large()];
-    assert_eq!(Params::ozaki2018_small_kw_swapped(), Params { hinge_stiffness: 8.64e-5, ..small });
-    assert_eq!(Params::ozaki2018_large_kw_swapped(), Params { hinge_stiffness: 1.48e-4, ..large });
+    let swapped = |name: &str| Params::from_values(&(preset(name).unwrap().1.values)());
+    assert_eq!(swapped("ozaki2018-small-kw-swapped"), Params { hinge_stiffness: 8.64e-5, ..small });
+    assert_eq!(swapped("ozaki2018-large-kw-swapped"), Params { hinge_stiffness: 1.48e-4, ..large });
 }
 
 #[test]

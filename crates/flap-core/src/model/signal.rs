@@ -135,7 +135,7 @@ pub enum Principal {
 
 impl Principal {
     /// The measure.
-    pub const fn measure(self) -> Measure {
+    pub(crate) const fn measure(self) -> Measure {
         match self {
             Principal::Mean => Measure::Mean,
             Principal::First => Measure::First,

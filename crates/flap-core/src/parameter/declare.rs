@@ -33,13 +33,6 @@ pub const fn joined<'a, const N: usize>(tables: &[&[Parameter<'a>]]) -> [Paramet
     all
 }
 
-/// The option whose position is `value`.
-#[doc(hidden)]
-pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
-    let mut numbered = (0_u32..).map(f64::from).zip(options);
-    numbered.find(|(position, _)| *position == value).map(|(_, &option)| option)
-}
-
 /// Declares a model's parameter struct and, from the same lines, its table.
 ///
 /// Each line gives the field's documentation, name and type (`f64`; `Option<f64>` for a number that follows
@@ -202,8 +195,9 @@ macro_rules! choice {
 
         impl $crate::parameter::Slot for $Name {
             fn take(values: &mut impl Iterator<Item = f64>) -> $Name {
-                let value = values.next().and_then(|value| $crate::parameter::option($Name::ALL, value));
-                value.unwrap_or_default()
+                let value = values.next();
+                let option = $Name::ALL.iter().find(|option| Some(f64::from(**option as u8)) == value);
+                option.copied().unwrap_or_default()
             }
 
             fn put(&self, values: &mut Vec<f64>) {

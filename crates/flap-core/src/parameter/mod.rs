@@ -8,6 +8,6 @@ mod declare;
 mod invalid;
 mod table;
 
-pub use declare::{Slot, joined, option, rows};
+pub use declare::{Slot, joined, rows};
 pub use invalid::Invalid;
 pub use table::{Kind, Parameter, Preset, Range};

@@ -207,12 +207,12 @@ impl Params {
         Preset {
             name: "ozaki2018-small-kw-swapped",
             doc: "HYPOTHESIS: ozaki2018-small with the k_w of the large type, the table's columns of k_w swapped",
-            values: || Params::ozaki2018_small_kw_swapped().to_values(),
+            values: || Params::ozaki2018_small().with_hinge_of(&Params::ozaki2018_large()).to_values(),
         },
         Preset {
             name: "ozaki2018-large-kw-swapped",
             doc: "HYPOTHESIS: ozaki2018-large with the k_w of the small type, the table's columns of k_w swapped",
-            values: || Params::ozaki2018_large_kw_swapped().to_values(),
+            values: || Params::ozaki2018_large().with_hinge_of(&Params::ozaki2018_small()).to_values(),
         },
     ];
 
@@ -257,13 +257,8 @@ impl Params {
     }
 
     /// A hypothesis: Table A1 with its columns of k_w swapped, which cannot be proved from the text.
-    pub fn ozaki2018_small_kw_swapped() -> Params {
-        Params { hinge_stiffness: Params::ozaki2018_large().hinge_stiffness, ..Params::ozaki2018_small() }
-    }
-
-    /// The same hypothesis for the large type.
-    pub fn ozaki2018_large_kw_swapped() -> Params {
-        Params { hinge_stiffness: Params::ozaki2018_small().hinge_stiffness, ..Params::ozaki2018_large() }
+    fn with_hinge_of(self, other: &Params) -> Params {
+        Params { hinge_stiffness: other.hinge_stiffness, ..self }
     }
 
     /// The drive.
