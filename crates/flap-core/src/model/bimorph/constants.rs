@@ -46,7 +46,7 @@ crate::per_lane! {
 
         /// Stiffness of the actuator without the stiffening by strain (N/m), (3).
         pub k_soft: R,
-        /// Force of the stiffening by strain (N) per unit of [`super::stiffening`], (3), (4).
+        /// Force of the stiffening by strain (N) per unit of L, (3), (4).
         pub f_stiff: R,
         /// Strain over the width of the modulus' transition, per displacement a₁ s_ε (1/m), (4).
         pub u_per_tip: R,

@@ -91,7 +91,7 @@ impl Ode<4> for FourBar {
         self.drive.at(&c.drive, t)
     }
 
-    /// The equations of motion hardly jump (see [`side_of`]), but the lift does, and a mean over a step that
+    /// The equations of motion hardly jump (see `side_of`), but the lift does, and a mean over a step that
     /// contains the jump is worth little. On 816 points of the 75 Hz system at rtol 1e-6, locating the jump costs
     /// 7 % more right-hand sides and brings the error of the mean lift, relative to its components, from 9e-4
     /// (median) and 2e-2 (largest) down to 7e-7 and 1e-5. Every point settles; otherwise a few in a thousand do not.
