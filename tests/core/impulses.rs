@@ -54,7 +54,7 @@ fn an_impulse_moves_the_pitch_as_a_drive_does() {
                 "bimorph" => {
                     let (c, y, rest) = released(&Bimorph::default(), &values);
                     let plates = bimorph::plates(&c, [volts(120.0), volts(80.0)]);
-                    (y, rest, bimorph::derivative(&c, bimorph::Law::Constant, &plates, &[0.0; 4]))
+                    (y, rest, Bimorph::default().rhs(&c, &plates, 1.0, &[0.0; 4]))
                 }
                 other => panic!("no derivative of {other}"),
             };

@@ -32,6 +32,7 @@ mod orbits;
 mod outlines;
 mod own_model;
 mod parameters;
+mod probe;
 mod progressive;
 mod quarters;
 mod reals;

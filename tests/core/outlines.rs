@@ -3,6 +3,10 @@
 use core::f64::consts::FRAC_PI_4;
 
 use flap_core::aero::{ChordTable, Material, Outline, OutlineError, STATIONS, Station, Tabulated, Wing};
+use flap_core::model::Model;
+use flap_core::model::bimorph::Bimorph;
+use flap_core::model::direct_drive::DirectDrive;
+use flap_core::model::four_bar::{Constants, Params};
 
 fn rectangle(leading: f64, trailing: f64) -> Outline {
     let station = |span| Station { span, leading, trailing };
@@ -21,15 +25,23 @@ fn close(found: f64, expected: f64) {
 fn a_rectangle_has_its_moments() {
     let wing = wing(Material { membrane: 0.02, spar: 0.0, weighed: None });
     close(wing.area(), 30e-6);
-    close(wing.area_moment(2), 3e-3 * (12e-3_f64.powi(3) - 2e-3_f64.powi(3)) / 3.0);
-    close(wing.width_moment(2), 10e-3 * (1e-9 + 8e-9) / 3.0);
-    close(wing.width_moment(3), 10e-3 * (1e-12 + 16e-12) / 4.0);
-    close(wing.added_inertia(), FRAC_PI_4 * 1.2 * 9e-6 * (12e-3_f64.powi(3) - 8e-9) / 3.0);
+    let of = |parameters: Vec<(&str, f64)>, name: &str| {
+        parameters.iter().find(|(other, _)| *other == name).map(|(_, value)| *value).unwrap()
+    };
+    let lumped = |name| of(Bimorph::wing(&wing), name);
+    let [radius_2, width_2] = [lumped("wing_radius_2") * 12e-3, lumped("wing_width_2") * 2e-3];
+    close(radius_2 * radius_2 * 30e-6, 3e-3 * (12e-3_f64.powi(3) - 2e-3_f64.powi(3)) / 3.0);
+    let width_moment = width_2 * width_2 * 30e-6;
+    close(width_moment, 10e-3 * (1e-9 + 8e-9) / 3.0);
+    close(lumped("rotation_pressure_width") * width_moment, 10e-3 * (1e-12 + 16e-12) / 4.0);
+    close(lumped("added_inertia_stroke"), FRAC_PI_4 * 1.2 * 9e-6 * (12e-3_f64.powi(3) - 8e-9) / 3.0);
     let masses = wing.masses().unwrap();
     close(masses.mass, 0.6e-6);
     close(masses.radius, 7e-3);
     close(masses.depth, 0.5e-3);
-    let [span, product, chord] = masses.about_centre();
+    // About the chordwise axis count distances along the span.
+    let [span, product, chord] = ["wing_inertia_chord", "wing_inertia_product", "wing_inertia_span"]
+        .map(|name| of(DirectDrive::wing(&wing), name));
     close(span, 0.6e-6 * 1e-4 / 12.0);
     close(chord, 0.6e-6 * 9e-6 / 12.0);
     assert!(product.abs() < 1e-24, "{product}");
@@ -63,11 +75,14 @@ fn the_chord_is_straight_between_stations() {
     for (station, chord) in chords.iter_mut().enumerate() {
         *chord = [2e-3, 3e-3][station % 2];
     }
+    let with = |chords| Params { chords, ..Params::arabagi2013_75hz() };
     let table = ChordTable::new(Tabulated::On, chords);
     for (x, chord) in [(0.0, 2e-3), (0.1, 3e-3), (0.05, 2.5e-3), (0.925, 2.75e-3), (1.0, 2e-3)] {
-        assert!((table.chord(x).unwrap() - chord).abs() < 1e-15, "{x}: {:?}", table.chord(x));
+        let found = with(table.clone()).chord(x);
+        assert!((found - chord).abs() < 1e-15, "{x}: {found:?}");
     }
     assert!((table.mean() - 2.5e-3).abs() < 1e-15);
-    assert_eq!(ChordTable::new(Tabulated::Off, chords).chord(0.5), None);
-    assert!(ChordTable::new(Tabulated::On, [0.0; STATIONS]).check().is_err());
+    let off = with(ChordTable::new(Tabulated::Off, chords)).chord(0.5);
+    assert_eq!(off, Params::arabagi2013_75hz().chord(0.5));
+    assert!(Constants::derive(&with(ChordTable::new(Tabulated::On, [0.0; STATIONS]))).is_err());
 }

@@ -31,8 +31,12 @@ fn constants() -> DriveConstants<f64> {
 }
 
 fn wave(waveform: Waveform, t: f64) -> Wave<f64> {
-    let constants =
-        if waveform == Waveform::Chirp { constants().chirped(FREQUENCY, 300.0) } else { constants() };
+    let constants = if waveform == Waveform::Chirp {
+        let sine = DriveConstants::new(FREQUENCY, &WaveformParameters::SINE, [0.0, 1.0]);
+        DriveConstants { growth: 2.0 * PI * 300.0, ..sine }
+    } else {
+        constants()
+    };
     Drive { waveform, stroke: StrokeMode::Free }.at(&constants, t)
 }
 

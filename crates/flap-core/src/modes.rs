@@ -1,5 +1,7 @@
 //! Natural frequencies of small undamped motions.
 
+use core::f64::consts::PI;
+
 use nalgebra::{Matrix2, Vector2};
 
 /// A small undamped motion and its natural frequency.
@@ -13,22 +15,23 @@ pub struct Mode {
 
 impl Mode {
     /// Modes, given their names and natural frequencies (Hz).
-    pub fn of<const N: usize>(names: [&'static str; N], frequencies: [f64; N]) -> Vec<Mode> {
+    pub(crate) fn of<const N: usize>(names: [&'static str; N], frequencies: [f64; N]) -> Vec<Mode> {
         names.into_iter().zip(frequencies).map(|(name, frequency)| Mode { name, frequency }).collect()
     }
-}
 
-/// Natural frequencies (Hz), the lower first, of M q̈ + diag(K) q = 0.
-///
-/// `mass` [M₁₁, M₁₂, M₂₂] must be positive definite, the two entries of `stiffness` positive; otherwise NaN.
-pub fn natural_frequencies([m11, m12, m22]: [f64; 3], stiffness: [f64; 2]) -> [f64; 2] {
-    let Some(cholesky) = Matrix2::new(m11, m12, m12, m22).cholesky() else { return [f64::NAN; 2] };
-    // M = L Lᵀ turns the problem into an ordinary symmetric one, L⁻¹ K L⁻ᵀ.
-    let Some(inverse) = cholesky.l().try_inverse() else { return [f64::NAN; 2] };
-    let squares = (inverse * Matrix2::from_diagonal(&Vector2::from(stiffness)) * inverse.transpose())
-        .symmetric_eigenvalues();
-    let mut frequencies =
-        [squares[0], squares[1]].map(|square| square.sqrt() / (2.0 * core::f64::consts::PI));
-    frequencies.sort_by(f64::total_cmp);
-    frequencies
+    /// The modes of M q̈ + diag(K) q = 0, the lower first.
+    ///
+    /// `mass` [M₁₁, M₁₂, M₂₂] must be positive definite, the two entries of `stiffness` positive; otherwise frequencies are NaN.
+    pub(crate) fn coupled([m11, m12, m22]: [f64; 3], stiffness: [f64; 2]) -> Vec<Mode> {
+        // M = L Lᵀ turns the problem into an ordinary symmetric one, L⁻¹ K L⁻ᵀ.
+        let inverse =
+            Matrix2::new(m11, m12, m12, m22).cholesky().and_then(|cholesky| cholesky.l().try_inverse());
+        let mut frequencies = inverse.map_or([f64::NAN; 2], |inverse| {
+            let squares = (inverse * Matrix2::from_diagonal(&Vector2::from(stiffness)) * inverse.transpose())
+                .symmetric_eigenvalues();
+            [squares[0], squares[1]].map(|square| square.sqrt() / (2.0 * PI))
+        });
+        frequencies.sort_by(f64::total_cmp);
+        Mode::of(["mode_1", "mode_2"], frequencies)
+    }
 }

@@ -15,7 +15,7 @@ pub struct Node {
 }
 
 /// The middles of `n` equal parts: exact for straight lines.
-pub fn midpoints(n: usize) -> Rc<[Node]> {
+pub(crate) fn midpoints(n: usize) -> Rc<[Node]> {
     let weight = 1.0 / n as f64;
     (0..n).map(|i| Node { x: (i as f64 + 0.5) * weight, weight }).collect()
 }

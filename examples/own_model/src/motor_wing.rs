@@ -16,7 +16,7 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use flap_core::drive::{Drive, DriveConstants, Wave, WaveformParameters};
 use flap_core::model::{Derived, Description, Instant, Model, SignalCycle};
-use flap_core::num::{PerLane, Real};
+use flap_core::num::Real;
 use flap_core::ode::{Ode, Start};
 use flap_core::parameter::Invalid;
 use flap_core::quadrature::gauss_legendre;
@@ -101,11 +101,7 @@ impl Constants<f64> {
             attack_slope: p.attack_slope,
             drive,
         };
-        if <Constants<f64> as PerLane<f64>>::is_finite(&constants) {
-            Ok(constants)
-        } else {
-            Err(Invalid::NotFinite)
-        }
+        Invalid::unless_finite(constants)
     }
 }
 

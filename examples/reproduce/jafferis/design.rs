@@ -1,6 +1,7 @@
 //! Claims that follow from Table I without integrating a motion.
 
-use flap_core::model::bimorph::{Actuator, Bimorph, Constants, Params, drag_coefficient, secant_stiffness};
+use flap_core::model::Motions;
+use flap_core::model::bimorph::{Bimorph, Constants, Params, secant_stiffness};
 
 use super::{constants, transmission};
 use crate::claim::{Claim, about, between, closely, said};
@@ -29,7 +30,7 @@ fn masses() -> Vec<Claim> {
 
 fn transmissions() -> Vec<Claim> {
     let stiffness = secant_stiffness(&constants(&transmission(1.0)), 240e-6);
-    let mode = |ratio: f64| Bimorph::linear_modes(&constants(&transmission(ratio)))[0];
+    let mode = |ratio: f64| Bimorph::modes(&constants(&transmission(ratio)))[0].frequency;
     let [t_1, t_2, t_3] = [1.0, 0.8, 0.6].map(mode);
     vec![
         said("II-C", "the transmission is as stiff as the actuator at 480 µm peak to peak", "197.7 N/m").is(
@@ -82,7 +83,7 @@ fn lift_and_drag() -> Vec<Claim> {
 /// Lift over drag at a hinge angle in degrees.
 fn lift_to_drag(c: &Constants<f64>, degrees: f64) -> f64 {
     let (sin, cos) = (2.0 * degrees).to_radians().sin_cos();
-    c.b_l * sin / drag_coefficient(c, cos)
+    c.b_l * sin / (c.b_1 + c.b_2 * cos)
 }
 
 /// Mean lift of a sinusoidal stroke, ∝ ⟨cos²θ sin(2ψ_m cos θ)⟩, for a largest hinge angle ψ_m in degrees.
@@ -129,6 +130,6 @@ fn strains() -> Vec<Claim> {
 
 /// Strain of the plates' outer faces per degree of stroke, peak to peak.
 fn surface_strain_per_degree(p: &Params) -> f64 {
-    let actuator = Actuator::new(p).expect("published parameters are possible");
-    0.5_f64.to_radians() / p.transmission_ratio * actuator.strain_per_tip * actuator.surface_strain_ratio
+    let c = constants(p);
+    0.5_f64.to_radians() / c.ratio * c.strain_per_tip * c.surface_strain_ratio
 }

@@ -19,12 +19,14 @@ struct Variants {
 }
 
 fn variants() -> Variants {
-    let swapped = Params::ozaki2018_small_kw_swapped();
+    let (table_small, table_large) = (Params::ozaki2018_small(), Params::ozaki2018_large());
+    let swapped = Params { hinge_stiffness: table_large.hinge_stiffness, ..table_small.clone() };
+    let swapped_large = Params { hinge_stiffness: table_small.hinge_stiffness, ..table_large };
     Variants {
         lighter_small: Type { params: lighter(&small().params), ..small() },
         both: Type { params: lighter(&swapped), ..small() },
         swapped_small: Type { params: swapped, ..small() },
-        swapped_large: Type { params: Params::ozaki2018_large_kw_swapped(), ..large() },
+        swapped_large: Type { params: swapped_large, ..large() },
     }
 }
 

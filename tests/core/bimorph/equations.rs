@@ -1,14 +1,15 @@
 //! Forces, accelerations, charges and currents against reference vectors, on scalars and lanes.
 
-use flap_core::drive::Wave;
+use flap_core::drive::{Drive, Wave};
 use flap_core::model::bimorph::{
-    Bimorph, Constants, Plate, charges, currents, lift_and_drag, plate_forces, plates, secant_stiffness,
+    Bimorph, CentreOfPressure, Constants, Law, Params, Plate, plates, secant_stiffness,
 };
 use flap_core::num::Real;
 use flap_core::ode::Ode;
 
 use super::params;
 use crate::data::{assert_close, table};
+use crate::probe::Probe;
 use crate::slopes::{self, Driven};
 use crate::waveforms::third_harmonic;
 
@@ -24,6 +25,25 @@ impl Driven<2> for Bimorph {
 
 fn constants() -> Constants<f64> {
     Constants::derive(&params("T1")).unwrap()
+}
+
+/// The model under the voltages of its plates.
+fn probe<'a>(constants: &'a Constants<f64>, plates: &'a [Plate<f64>; 2]) -> Probe<'a, Bimorph> {
+    const MODEL: &Bimorph = &Bimorph { drive: Drive::SINE, law: Law::Constant };
+    Probe { model: MODEL, constants, input: plates, side: 1.0 }
+}
+
+/// Charges of the two plates (C), the reciprocal of (6).
+///
+/// ```text
+/// q₁ = C_p V₁ + g'(V₁) (x − ½ b x²)     q₂ = C_p V₂ − g'(V₂) (x + ½ b x²)
+/// ```
+fn charges(c: &Constants<f64>, [p_1, p_2]: &[Plate<f64>; 2], x: f64) -> [f64; 2] {
+    let bend = c.b * x * x * 0.5;
+    [
+        c.c_p * p_1.voltage.value + p_1.force_per_volt * (x - bend),
+        c.c_p * p_2.voltage.value - p_2.force_per_volt * (x + bend),
+    ]
 }
 
 fn cases() -> Vec<Case> {
@@ -47,29 +67,26 @@ fn accelerations_forces_and_currents_equal_the_reference() {
     let mut largest = (0.0, String::new());
     for Case { voltages, y, record, .. } in cases() {
         let plates = plates(&c, voltages);
-        let [x, x_dot, psi, _] = y;
-        let [_, x_ddot, _, psi_ddot] = Bimorph::default().rhs(&c, &plates, 1.0, &y);
-        let [f_1, f_2] = plate_forces(&c, &plates, x);
-        let (sin_2psi, cos_2psi) = (2.0 * psi).sin_cos();
-        let [lift, drag] = lift_and_drag(&c, x_dot, sin_2psi, cos_2psi);
-        let [q_1, q_2] = charges(&c, &plates, x);
-        let [i_1, i_2] = currents(&c, &plates, x, x_dot);
-        let stiffness = secant_stiffness(&c, x);
+        let dy = Bimorph::default().rhs(&c, &plates, 1.0, &y);
+        let [_, x_ddot, _, psi_ddot] = dy;
+        let signals = probe(&c, &plates).signals(&y, &dy);
+        let [q_1, q_2] = charges(&c, &plates, y[0]);
+        let stiffness = secant_stiffness(&c, y[0]);
         let shim = 575.050_469_826_864_5 * 0.010_625;
         let modulus = (stiffness - shim) / (575.050_469_826_864_5 * 8.160_75e-12);
         for (column, actual) in [
-            ("F1_N", f_1),
-            ("F2_N", f_2),
+            ("F1_N", signals.force_1),
+            ("F2_N", signals.force_2),
             ("K_act_N_per_m", stiffness),
             ("E_e_Pa", modulus),
             ("xdd_m_s2", x_ddot),
             ("psidd_rad_s2", psi_ddot),
-            ("lift_N", lift),
-            ("drag_N", drag),
+            ("lift_N", signals.lift),
+            ("drag_N", signals.drag),
             ("q1_C", q_1),
             ("q2_C", q_2),
-            ("i1_A", i_1),
-            ("i2_A", i_2),
+            ("i1_A", signals.current_1),
+            ("i2_A", signals.current_2),
         ] {
             let expected = record.number(column);
             if expected == 0.0 {
@@ -104,7 +121,8 @@ fn derivatives_of_force_and_charge_are_their_rates() {
             let moved = voltages.map(|v| Wave { value: v.value + dt * v.rate, ..v });
             charges(&c, &plates(&c, moved), y[0] + dt * y[1])
         };
-        let currents = currents(&c, &plates(&c, voltages), y[0], y[1]);
+        let signals = probe(&c, &plates(&c, voltages)).signals(&y, &[0.0; 4]);
+        let currents = [signals.current_1, signals.current_2];
         let (before, after) = (at(-1e-7), at(1e-7));
         for i in 0..2 {
             let rate = (after[i] - before[i]) / 2e-7;
@@ -141,15 +159,14 @@ fn arithmetic_classes_agree_to_rounding() {
 /// The sign function that the reading `directional` needs is that of the velocity.
 #[test]
 fn sign_of_the_velocity_directs_the_attack_angle() {
-    use flap_core::model::bimorph::{CentreOfPressure, Params, hinge_drag};
     let reading =
         |centre_of_pressure| Constants::derive(&Params { centre_of_pressure, ..params("T1") }).unwrap();
     let [folded, directional, literal] =
         [CentreOfPressure::Folded, CentreOfPressure::Directional, CentreOfPressure::Literal].map(reading);
     for psi in [0.3_f64, 1.2] {
         let torque = |c: &Constants<f64>, psi: f64, x_dot: f64| {
-            let (sin, cos) = Real::sin_cos(psi);
-            hinge_drag(c, psi, x_dot, sin, cos)
+            let plates = plates(c, [Wave::with_rate(0.0, 0.0); 2]);
+            probe(c, &plates).load(&[0.0, x_dot, psi, 0.0], &[0.0; 4]).span_moment / (x_dot * x_dot.abs())
         };
         for c in [&folded, &directional, &literal] {
             assert_eq!(torque(c, psi, 0.2), torque(&folded, psi, 0.2));
@@ -164,7 +181,6 @@ fn sign_of_the_velocity_directs_the_attack_angle() {
 /// Harmonics swing beyond 0 and V_pp; the columns of field and capacitive power follow.
 #[test]
 fn harmonics_widen_the_voltages() {
-    use flap_core::model::bimorph::Params;
     let third = |h: f64| Params { waveform: third_harmonic(h), drive_voltage_pp: 100.0, ..params("T1") };
     // sin θ − h sin 3θ has its extremes ±(1 + h) at 90° and 270°.
     let [plain, wide] = [third(0.0), third(-0.25)].map(|p| super::settled(&p, 1e-6));

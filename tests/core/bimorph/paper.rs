@@ -1,7 +1,8 @@
 //! Statements of the paper's text, and how much its misprints and what is assumed matter.
 
+use flap_core::drive::Wave;
 use flap_core::model::bimorph::{
-    Bimorph, CentreOfPressure, Constants, FieldTransition, Params, drag_coefficient, secant_stiffness,
+    Bimorph, CentreOfPressure, Constants, FieldTransition, Params, plates, secant_stiffness,
 };
 use flap_core::num::Backend;
 use flap_core::simulate::{Row, SolverSettings, Status};
@@ -10,6 +11,7 @@ use super::physics::static_tip;
 use super::{measure, model, params, settled};
 use crate::data::assert_close;
 use crate::jafferis_figures::coefficients::{Coefficients, FIG_3, highest};
+use crate::probe::{Probe, modes};
 use crate::rows;
 
 /// The responses of a design to voltages (V), at frequencies from `from` to `to` in steps of 1 Hz.
@@ -81,9 +83,9 @@ fn transmission_is_as_stiff_as_the_strained_actuator() {
 #[test]
 fn undamped_resonances() {
     for (set, stroke) in [("T1", 119.9), ("T2", 151.1), ("T3", 203.6)] {
-        assert_close(Bimorph::linear_modes(&constants(set))[0], stroke, 1e-3, set);
+        assert_close(modes::<Bimorph>(&constants(set))[0], stroke, 1e-3, set);
     }
-    assert_close(Bimorph::linear_modes(&constants("T1"))[1], 175.9, 1e-3, "hinge");
+    assert_close(modes::<Bimorph>(&constants("T1"))[1], 175.9, 1e-3, "hinge");
 }
 
 /// The response to constant voltages: 0.29 degrees per volt from 100 V on, less below the transition.
@@ -104,9 +106,12 @@ fn coefficients_of_figure_3_and_table_1() {
     let figure_3 =
         Constants::derive(&Params { drag_coefficient_max: 3.4, drag_coefficient_min: 0.4, ..params("T1") })
             .unwrap();
+    let still = plates(&figure_3, [Wave::with_rate(0.0, 0.0); 2]);
     for degrees in [0.0, 30.0, 70.0, 90.0_f64] {
         let (sin_2psi, cos_2psi) = (2.0 * degrees).to_radians().sin_cos();
-        assert_close(drag_coefficient(&figure_3, cos_2psi), FIG_3.drag(cos_2psi), 1e-14, "drag");
+        let probe = Probe { model: &Bimorph::default(), constants: &figure_3, input: &still, side: 1.0 };
+        let drag = probe.signals(&[0.0, 1.0, degrees.to_radians(), 0.0], &[0.0; 4]).drag;
+        assert_close(drag / figure_3.force, FIG_3.drag(cos_2psi), 1e-14, "drag");
         assert_eq!(of(&figure_3).lift(sin_2psi), FIG_3.lift(sin_2psi));
     }
     let table_1 = of(&constants("T1"));
@@ -242,7 +247,7 @@ fn the_printed_field_transition_has_no_sharp_resonance() {
 fn a_soft_hinge_meets_the_stroke() {
     let p = params("T1");
     let soft = Params { hinge_stiffness: 0.5 * p.hinge_stiffness, ..p };
-    let [stroke, hinge] = Bimorph::linear_modes(&Constants::derive(&soft).unwrap());
+    let [stroke, hinge] = modes::<Bimorph>(&Constants::derive(&soft).unwrap());
     assert_close(hinge, 124.4, 1e-3, "hinge");
     assert!((hinge - stroke).abs() < 5.0);
 }

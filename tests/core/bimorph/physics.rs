@@ -5,8 +5,7 @@ use std::ops::Range;
 use flap_core::drive::Wave;
 use flap_core::model::Model;
 use flap_core::model::bimorph::{
-    Bimorph, CentreOfPressure, Constants, Law, Params, Plate, currents, elastic_force, lift_and_drag,
-    plate_forces, plates, tip_drag,
+    Bimorph, CentreOfPressure, Constants, Law, Params, Plate, Signals, plates, secant_stiffness,
 };
 use flap_core::num::{Backend, Real};
 use flap_core::ode::{Ode, Start};
@@ -17,7 +16,13 @@ use super::orbit::cycle;
 use super::{model, params};
 use crate::by_name::scaled;
 use crate::data::assert_close;
+use crate::probe::{Probe, modes};
 use crate::span::{self, tolerances};
+
+/// The signals at a state under the voltages of the plates.
+fn signals(model: &Bimorph, c: &Constants<f64>, plates: &[Plate<f64>; 2], y: &[f64; 4]) -> Signals<f64> {
+    Probe { model, constants: c, input: plates, side: 1.0 }.signals(y, &[0.0; 4])
+}
 
 /// Elastic energy of actuator and transmission (J), by Simpson's rule.
 fn elastic_energy(c: &Constants<f64>, x: f64) -> f64 {
@@ -31,7 +36,8 @@ fn elastic_energy(c: &Constants<f64>, x: f64) -> f64 {
         } else {
             2.0
         };
-        weight * elastic_force(c, f64::from(k) * h)
+        let x = f64::from(k) * h;
+        weight * secant_stiffness(c, x) * x
     };
     (0..=n).map(weighted).sum::<f64>() * h / 3.0 + 0.5 * c.k_t * x * x
 }
@@ -94,13 +100,13 @@ proptest! {
         let driven = plates(&c, v);
         let model = Bimorph { law: Law::Square, ..Bimorph::default() };
         let dy = model.rhs(&c, &driven, 1.0, &y);
-        let [i_1, i_2] = currents(&c, &driven, y[0], y[1]);
+        let Signals { current_1, current_2, .. } = signals(&model, &c, &driven, &y);
         let (_, cos_2psi) = Real::sin_cos(2.0 * y[2]);
         // φ̇ over the ratio at rest.
         let rate = (1.0 + c.ratio_growth * y[0] * y[0]) * y[1];
-        let drag = tip_drag(&c, cos_2psi) * rate * rate * rate.abs();
+        let drag = (c.c_a + c.c_b * cos_2psi) * rate * rate * rate.abs();
         let damping = c.tip_damping * y[1] * y[1] + c.stroke_damping * rate * rate;
-        let work = v[0].value * i_1 + v[1].value * i_2 - drag - damping;
+        let work = v[0].value * current_1 + v[1].value * current_2 - drag - damping;
 
         let at = |dt: f64| {
             let y: [f64; 4] = std::array::from_fn(|i| y[i] + dt * dy[i]);
@@ -123,13 +129,11 @@ proptest! {
         let mirror = y.map(|y| -y);
         let dy = Bimorph::default().rhs(&c, &plates, 1.0, &y);
         prop_assert_eq!(Bimorph::default().rhs(&c, &swapped, 1.0, &mirror), dy.map(|d| -d));
-        let [f_1, f_2] = plate_forces(&c, &plates, y[0]);
-        prop_assert_eq!(plate_forces(&c, &swapped, mirror[0]), [f_2, f_1]);
-        let [i_1, i_2] = currents(&c, &plates, y[0], y[1]);
-        prop_assert_eq!(currents(&c, &swapped, mirror[0], mirror[1]), [i_2, i_1]);
-        let (sin, cos) = Real::sin_cos(2.0 * y[2]);
-        let [lift, drag] = lift_and_drag(&c, y[1], sin, cos);
-        prop_assert_eq!(lift_and_drag(&c, mirror[1], -sin, cos), [lift, -drag]);
+        let one = signals(&Bimorph::default(), &c, &plates, &y);
+        let other = signals(&Bimorph::default(), &c, &swapped, &mirror);
+        prop_assert_eq!([other.force_1, other.force_2], [one.force_2, one.force_1]);
+        prop_assert_eq!([other.current_1, other.current_2], [one.current_2, one.current_1]);
+        prop_assert_eq!([other.lift, other.drag], [one.lift, -one.drag]);
     }
 }
 
@@ -177,8 +181,8 @@ pub(super) fn static_tip(c: &Constants<f64>, voltages: [f64; 2]) -> f64 {
     let (mut low, mut high) = (-2e-3, 2e-3);
     for _ in 0..80 {
         let x = 0.5 * (low + high);
-        let [f_1, f_2] = plate_forces(c, &plates, x);
-        if elastic_force(c, x) + c.k_t * x < f_1 - f_2 { low = x } else { high = x }
+        let Signals { force_1, force_2, .. } = signals(&Bimorph::default(), c, &plates, &[x, 0.0, 0.0, 0.0]);
+        if (secant_stiffness(c, x) + c.k_t) * x < force_1 - force_2 { low = x } else { high = x }
     }
     0.5 * (low + high)
 }
@@ -223,7 +227,7 @@ fn small_motions_repeat_with_their_natural_frequencies() {
     for set in ["T1", "T2", "RD"] {
         let p = Params { air_density: 0.0, drive_voltage_pp: 0.0, ..params(set) };
         let c = Constants::derive(&p).unwrap();
-        let modes = Bimorph::linear_modes(&c);
+        let modes = modes::<Bimorph>(&c);
         for (frequency, y) in [(modes[0], [1e-8, 0.0, 0.0, 0.0]), (modes[1], [0.0, 0.0, 1e-3, 0.0])] {
             let start =
                 Start { y, span: 1.0 / frequency, ..Bimorph::default().start(&p.to_values()).unwrap() };

@@ -3,15 +3,14 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use flap_core::drive::Wave;
-use flap_core::model::direct_drive::{
-    Constants, DirectDrive, FlowDirection, Params, added_mass, aerodynamics, current, lift, mean_velocity,
-};
+use flap_core::model::direct_drive::{Constants, DirectDrive, FlowDirection, Params};
 use flap_core::num::Real;
 use flap_core::ode::Ode;
 use flap_core::quadrature::gauss_legendre;
 
 use super::{FLOWS, centre_of_pressure, params};
 use crate::data::{assert_close, table};
+use crate::probe::Probe;
 use crate::slopes::{self, Driven};
 
 const TOLERANCE: f64 = 1e-11;
@@ -54,24 +53,32 @@ fn accelerations_forces_and_moments_equal_the_reference() {
     for case in cases() {
         let Case { model, constants: c, voltages: [drive], side, y, record } = case;
         let dy = model.rhs(&c, &drive, side, &y);
-        let (sin, cos) = y[1].sin_cos();
-        let air = aerodynamics(&c, model.flow, side, &y, sin, cos);
-        let added = added_mass(&c, sin, cos, &dy);
+        let probe = |constants| Probe { model: &model, constants, input: &drive, side };
+        let signals = probe(&c).signals(&y, &dy);
+        // Without accelerations, and with either moment about the span axis: the added mass does nothing.
+        let still = [0.0; 4];
+        let translation = Constants { rotation: 0.0, ..c };
+        let translation = probe(&translation).load(&y, &still);
+        let rotation = Constants { k_lift: 0.0, drag_mean: 0.0, drag_swing: 0.0, ..c };
+        let rotation = probe(&rotation).load(&y, &still);
+        // At rest, with the accelerations of the motion: the added mass alone, along the wing's normal.
+        let added = probe(&c).load(&[y[0], y[1], 0.0, 0.0], &dy);
+        let cos = Real::sin_cos(y[1]).1;
         for (column, actual) in [
             ("phidot", dy[0]),
             ("psidot", dy[1]),
             ("phiddot", dy[2]),
             ("psiddot", dy[3]),
-            ("F_lift_N", lift(&c, &air, &added, sin)),
-            ("F_tr_lift_N", air.lift),
-            ("F_am_N", added.force),
-            ("M_tr_y_Nm", air.stroke_moment),
-            ("M_tr_x_Nm", air.pitch_moment),
-            ("M_rot_Nm", air.rotation_moment),
-            ("M_am_y2_Nm", added.chord_moment),
+            ("F_lift_N", signals.lift),
+            ("F_tr_lift_N", signals.lift_translational),
+            ("F_am_N", -added.drag / cos),
+            ("M_tr_y_Nm", -translation.drag_moment),
+            ("M_tr_x_Nm", translation.span_moment),
+            ("M_rot_Nm", rotation.span_moment),
+            ("M_am_y2_Nm", -added.drag_moment / cos),
             ("M_am_x_Nm", added.span_moment),
-            ("ubar_m_s", mean_velocity(&c, &y, &dy)[0]),
-            ("current_A", current(&c, &drive, y[2])),
+            ("ubar_m_s", model.switch(&c, &y, &dy)[0]),
+            ("current_A", signals.current),
         ] {
             assert_close(actual, record.number(column), TOLERANCE, &format!("{column} of {}", record.name));
         }
@@ -83,8 +90,8 @@ fn accelerations_forces_and_moments_equal_the_reference() {
 fn rate_of_the_mean_velocity_is_its_derivative() {
     for Case { model, constants: c, voltages: [drive], side, y, record } in cases() {
         let dy = model.rhs(&c, &drive, side, &y);
-        let [_, rate] = mean_velocity(&c, &y, &dy);
-        let at = |dt: f64| mean_velocity(&c, &std::array::from_fn(|i| y[i] + dt * dy[i]), &dy)[0];
+        let [_, rate] = model.switch(&c, &y, &dy);
+        let at = |dt: f64| model.switch(&c, &std::array::from_fn(|i| y[i] + dt * dy[i]), &dy)[0];
         let dt = 1e-8;
         assert_close((at(dt) - at(-dt)) / (2.0 * dt), rate, 1e-5, &record.name);
     }
@@ -93,7 +100,7 @@ fn rate_of_the_mean_velocity_is_its_derivative() {
 /// Forces and moments of blade elements, element by element as they are defined.
 #[test]
 fn blade_elements_add_up_to_the_wing() {
-    for Case { model, constants: c, y, record, .. } in cases_with(FlowDirection::Blade) {
+    for Case { model, constants: c, voltages: [drive], y, record, .. } in cases_with(FlowDirection::Blade) {
         let p = params(record.text("type"));
         let [_, psi, phi_dot, psi_dot] = y;
         let (sin, cos) = Real::sin_cos(psi);
@@ -126,8 +133,9 @@ fn blade_elements_add_up_to_the_wing() {
         }
         // A side does not matter.
         for side in [1.0, -1.0] {
-            let air = aerodynamics(&c, model.flow, side, &y, sin, cos);
-            let actual = [air.lift, air.drag, air.stroke_moment, air.pitch_moment];
+            let constants = &Constants { rotation: 0.0, ..c };
+            let air = Probe { model: &model, constants, input: &drive, side }.load(&y, &[0.0; 4]);
+            let actual = [air.lift, air.drag, -air.drag_moment, air.span_moment];
             for (actual, expected) in actual.into_iter().zip(expected) {
                 assert_close(actual, expected, TOLERANCE, &record.name);
             }

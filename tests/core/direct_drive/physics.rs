@@ -4,16 +4,15 @@ use std::ops::Range;
 
 use flap_core::drive::Wave;
 use flap_core::model::direct_drive::{
-    AddedMass, CentreOfPressure, Constants, DirectDrive, FlowDirection, Params, added_mass, aerodynamics,
-    current, lift,
+    AddedMass, CentreOfPressure, Constants, DirectDrive, FlowDirection, Params,
 };
-use flap_core::num::Real;
 use flap_core::ode::{Ode, Start};
 use proptest::prelude::*;
 use proptest::sample::select;
 
 use super::params;
 use crate::by_name::scaled;
+use crate::probe::Probe;
 use crate::span::{self, tolerances};
 
 /// Kinetic energy of structure and added mass plus elastic energy (J).
@@ -57,12 +56,10 @@ proptest! {
         let c = Constants::derive(&p).unwrap();
         let side = if up { 1.0 } else { -1.0 };
         let model = model(&p);
-        let dy = model.rhs(&c, &Wave::with_rate(volts, 0.0), side, &y);
-        let (sin, cos) = Real::sin_cos(y[1]);
-        let air = aerodynamics(&c, model.flow, side, &y, sin, cos);
-        let work = c.gamma * volts * y[2]
-            + air.stroke_moment * y[2]
-            + (air.pitch_moment + air.rotation_moment) * y[3];
+        let drive = Wave::with_rate(volts, 0.0);
+        let dy = model.rhs(&c, &drive, side, &y);
+        let signals = Probe { model: &model, constants: &c, input: &drive, side }.signals(&y, &dy);
+        let work = c.gamma * volts * y[2] - signals.power_translational - signals.power_rotational;
 
         // Central difference along the motion, in a time in which the state changes by a millionth.
         let fastest = (dy[2] / 400.0).abs().max((dy[3] / 800.0).abs()).max(1.0);
@@ -85,10 +82,9 @@ proptest! {
         prop_assert_eq!(dy, mirrored.map(|d| -d));
         let [plus, minus] = [(1.0, dy), (-1.0, mirrored)].map(|(m, dy)| {
             let y = y.map(|y| m * y);
-            let (sin, cos) = Real::sin_cos(y[1]);
-            let added = added_mass(&c, sin, cos, &dy);
             let drive = Wave::with_rate(m * volts, m * 1e4);
-            [lift(&c, &aerodynamics(&c, model.flow, m, &y, sin, cos), &added, sin), current(&c, &drive, y[2]) * drive.value]
+            let signals = Probe { model: &model, constants: &c, input: &drive, side: m }.signals(&y, &dy);
+            [signals.lift, signals.power]
         });
         prop_assert_eq!(plus, minus);
     }

@@ -3,15 +3,13 @@
 use std::f64::consts::PI;
 
 use flap_core::drive::Wave;
-use flap_core::model::four_bar::{
-    Arms, Constants, FourBar, Params, Quadrature, added_mass_lift, aerodynamics, force, mass_matrix, side_of,
-    transmission,
-};
+use flap_core::model::four_bar::{Arms, Constants, FourBar, Params, Quadrature, transmission};
 use flap_core::num::Real;
 use flap_core::ode::Ode;
 
-use super::{arms, assert_close_to, params};
+use super::{Moments, arms, assert_close_to, mass_matrix, moments, params, side};
 use crate::data::table;
+use crate::probe::Probe;
 use crate::slopes::{self, Driven};
 
 type Case = slopes::Case<FourBar, 1>;
@@ -36,7 +34,8 @@ fn cases() -> Vec<Case> {
             let y = ["theta", "phi", "theta_dot", "phi_dot"].map(|column| record.number(column));
             let model = FourBar::default();
             let voltages = [model.input(&constants, record.number("t"))];
-            Case { model, constants, voltages, side: side_of(y[1], y[3])[0].signum(), y, record }
+            let side = side(&constants, &y);
+            Case { model, constants, voltages, side, y, record }
         })
         .collect()
 }
@@ -47,10 +46,11 @@ fn accelerations_forces_and_moments_equal_the_reference() {
     for Case { constants: c, voltages: [drive], side, y, record, .. } in cases() {
         let [theta, phi, theta_dot, phi_dot] = y;
         let dy = FourBar::default().rhs(&c, &drive, side, &y);
-        let (sin, cos) = phi.sin_cos();
-        let air = aerodynamics(&c, side, &y, sin, cos);
+        let probe = Probe { model: &FourBar::default(), constants: &c, input: &drive, side };
+        let signals = probe.signals(&y, &dy);
+        let Moments { stroke, pitch, rotation_stroke, rotation_pitch } = moments(&c, side, &y);
         let links = transmission(&c, theta);
-        let [m11, m12, m22] = mass_matrix(&c, links.inertia, sin, cos);
+        let [m11, m12, m22] = mass_matrix(&c, theta, phi);
         let elastic = c.wing.hinge_stiffness * phi * phi
             + c.actuator.stiffness * links.displacement * links.displacement;
         let kinetic = m11 * theta_dot * theta_dot + 2.0 * m12 * theta_dot * phi_dot + m22 * phi_dot * phi_dot;
@@ -59,14 +59,14 @@ fn accelerations_forces_and_moments_equal_the_reference() {
             ("phi_dot", dy[1]),
             ("theta_ddot", dy[2]),
             ("phi_ddot", dy[3]),
-            ("M_drive", force(&c.actuator, &drive, links.displacement) * links.slope),
-            ("Qth_trans", air.stroke_moment),
-            ("Qphi_trans", air.pitch_moment),
-            ("Qth_rot", air.rotation_stroke_moment),
-            ("Qphi_rot", air.rotation_pitch_moment),
-            ("lift_trans", air.lift),
-            ("lift_rot", air.rotation_lift),
-            ("lift_addmass", added_mass_lift(&c.air, sin, cos, &dy)),
+            ("M_drive", probe.signals(&[theta, phi, 1.0, phi_dot], &dy).power_drive),
+            ("Qth_trans", stroke),
+            ("Qphi_trans", pitch),
+            ("Qth_rot", rotation_stroke),
+            ("Qphi_rot", rotation_pitch),
+            ("lift_trans", signals.lift_translational),
+            ("lift_rot", signals.lift_rotational),
+            ("lift_addmass", signals.lift_added_mass),
             ("M11", m11),
             ("M12", m12),
             ("M22", m22),
@@ -97,7 +97,7 @@ fn mixed_cases() -> Vec<Case> {
         case.constants = Constants::derive(&p).unwrap();
         if i % 4 == 0 {
             case.y[1] += 1.3;
-            case.side = side_of(case.y[1], case.y[3])[0].signum();
+            case.side = side(&case.constants, &case.y);
         }
     }
     cases
@@ -164,11 +164,14 @@ fn directed_sums_are_the_sums_of_the_strips() {
             };
             let mut y = case.y;
             y[1] += 0.9 * f64::from(turn);
-            let side = side_of(y[1], y[3])[0].signum();
-            let (sin, cos) = y[1].sin_cos();
+            let side = side(&case.constants, &y);
             let translation = |p: &Params| {
-                let air = aerodynamics(&Constants::derive(p).unwrap(), side, &y, sin, cos);
-                [air.lift, air.drag, air.stroke_moment, air.pitch_moment]
+                let c = Constants::derive(p).unwrap();
+                let input = &Wave::with_rate(0.0, 0.0);
+                let probe = Probe { model: &FourBar::default(), constants: &c, input, side };
+                let signals = probe.signals(&y, &[0.0; 4]);
+                let Moments { stroke, pitch, .. } = moments(&c, side, &y);
+                [signals.lift_translational, signals.drag, stroke, pitch]
             };
             let sizes = [1e-3, 1e-3, 1e-5, 5e-6];
             let gauss = Params { quadrature: Quadrature::Gauss, strips: 16.0, ..p.clone() };
@@ -189,10 +192,11 @@ fn directed_sums_are_the_sums_of_the_strips() {
 fn rate_of_the_side_is_its_derivative() {
     for case in cases() {
         let [_, phi, _, phi_dot] = case.y;
-        let at = |dt: f64| side_of(phi + dt * phi_dot, phi_dot)[0];
+        let switch = |phi: f64| case.model.switch(&case.constants, &[0.0, phi, 0.0, phi_dot], &[0.0; 4]);
+        let at = |dt: f64| switch(phi + dt * phi_dot)[0];
         let dt = 1e-8;
         let expected = (at(dt) - at(-dt)) / (2.0 * dt);
-        assert_close_to(side_of(phi, phi_dot)[1], expected, phi_dot.abs().max(1.0), 1e-6, &case.record.name);
+        assert_close_to(switch(phi)[1], expected, phi_dot.abs().max(1.0), 1e-6, &case.record.name);
     }
 }
 
@@ -204,7 +208,10 @@ fn equations_go_on_smoothly_past_the_vertical() {
     let y = [0.1, 0.0, 80.0, -100.0];
     let [up, down] = [1.0, -1.0].map(|side| FourBar::default().rhs(&c, &drive, side, &y));
     assert_eq!(up, down);
-    let [up, down] = [1.0, -1.0].map(|side| aerodynamics(&c, side, &y, 0.0, 1.0).lift);
+    let [up, down] = [1.0, -1.0].map(|side| {
+        let probe = Probe { model: &FourBar::default(), constants: &c, input: &drive, side };
+        probe.signals(&y, &[0.0; 4]).lift_translational
+    });
     assert!(up < 0.0);
     assert_eq!(up, -down);
     // With the side held, they go on as a smooth function does.

@@ -1,12 +1,12 @@
 //! Four-bar and slider-crank against reference vectors and central differences.
 
-use flap_core::linkage::LinkLengths;
-use flap_core::model::four_bar::{Constants, transmission};
+use flap_core::model::four_bar::{Constants, Params, transmission};
 
 use super::{assert_close_to, params};
 use crate::data::table;
 
-const LINKS: LinkLengths = LinkLengths { ground: 13.5e-3, input: 12.1e-3, coupler: 10e-3, output: 5e-3 };
+/// Lengths of ground, input, coupler and output link (m).
+const LINKS: [f64; 4] = [13.5e-3, 12.1e-3, 10e-3, 5e-3];
 
 #[test]
 fn equal_the_reference() {
@@ -89,26 +89,27 @@ fn links_keep_their_lengths_all_the_way_round() {
         let motion = c.four_bar.motion(f64::from(degrees).to_radians());
         let [a, b] = [motion.a[0], motion.b[0]];
         let length = |x: f64, y: f64| x.hypot(y);
-        assert_close_to(length(a[0], a[1]), LINKS.input, LINKS.input, 1e-14, "input");
-        assert_close_to(length(b[0] - a[0], b[1] - a[1]), LINKS.coupler, LINKS.coupler, 1e-14, "coupler");
-        assert_close_to(length(b[0] - LINKS.ground, b[1]), LINKS.output, LINKS.output, 1e-14, "output");
+        let [ground, input, coupler, output] = LINKS;
+        assert_close_to(length(a[0], a[1]), input, input, 1e-14, "input");
+        assert_close_to(length(b[0] - a[0], b[1] - a[1]), coupler, coupler, 1e-14, "coupler");
+        assert_close_to(length(b[0] - ground, b[1]), output, output, 1e-14, "output");
     }
 }
 
 #[test]
 fn the_neutral_angle_is_where_the_transmission_is_stationary() {
-    let neutral = LINKS.stationary_angle().unwrap();
-    assert_close_to(neutral, 0.958_121_668_614_6, 1.0, 5e-14, "printed digits");
-    let motion = Constants::derive(&params("sys75")).unwrap().four_bar.motion(0.0);
+    let c = Constants::derive(&params("sys75")).unwrap();
+    assert_close_to(c.four_bar.neutral, 0.958_121_668_614_6, 1.0, 5e-14, "printed digits");
+    let motion = c.four_bar.motion(0.0);
     assert!(motion.input[1].abs() < 1e-15, "{:e}", motion.input[1]);
     assert_close_to(motion.a[0][1].atan2(motion.a[0][0]), 0.869_592_203_526_5, 1.0, 1e-13, "input angle");
     assert_close_to(1.0 / motion.input[0], 2.395, 1.0, 1e-3, "gear");
     // It is a maximum.
-    let c = Constants::derive(&params("sys75")).unwrap();
     for theta in [-0.01, 0.01] {
         assert!(c.four_bar.motion(theta).input[0] < motion.input[0]);
     }
-    assert_eq!(LinkLengths { coupler: 100e-3, ..LINKS }.stationary_angle(), None);
+    let without = Constants::derive(&Params { coupler_link: 100e-3, ..params("sys75") }).unwrap_err();
+    assert!(without.to_string().contains("set neutral_angle"), "{without}");
 }
 
 /// The dead points of the four-bar, where the input link turns back and the drive has no torque.

@@ -10,9 +10,13 @@ mod prescribed;
 mod steady;
 mod transient;
 
-use flap_core::model::four_bar::{Arms, Params};
+use flap_core::drive::Wave;
+use flap_core::model::four_bar::{Arms, Constants, FourBar, Params, transmission};
+use flap_core::num::Real;
+use flap_core::ode::Ode;
 
 use crate::by_name::named;
+use crate::probe::Probe;
 
 /// The parameters of `sys75` or `sys30` in the reference tables.
 fn params(system: &str) -> Params {
@@ -28,4 +32,49 @@ fn arms(name: &str) -> Arms {
 fn assert_close_to(actual: f64, expected: f64, size: f64, tolerance: f64, what: &str) {
     let error = (actual - expected).abs() / size;
     assert!(error <= tolerance, "{what}: {actual} is not {expected}: error {error:.1e} of {size:.1e}");
+}
+
+/// The mass matrix [M₁₁, M₁₂, M₂₂] of (13).
+fn mass_matrix(c: &Constants<f64>, theta: f64, phi: f64) -> [f64; 3] {
+    let (sin, cos) = Real::sin_cos(phi);
+    let links = transmission(c, theta).inertia;
+    let stroke = c.wing.upright + c.wing.j_sin * sin * sin + c.wing.j_cos * cos * cos + links;
+    [stroke, c.wing.coupling * cos, c.wing.j_pitch]
+}
+
+/// The side of a state: the sign of tan φ.
+fn side(c: &Constants<f64>, y: &[f64; 4]) -> f64 {
+    FourBar::default().switch(c, y, y)[0].signum()
+}
+
+/// Moments of the air but for the added mass.
+#[derive(Debug, PartialEq)]
+struct Moments {
+    /// About the stroke axis, of the wing's translation (16).
+    stroke: f64,
+    /// About the rotation axis, of its translation (16), (17).
+    pitch: f64,
+    /// About the stroke axis, of its rotation.
+    rotation_stroke: f64,
+    /// About the rotation axis, of its rotation (18).
+    rotation_pitch: f64,
+}
+
+/// The moments at a state, from loads without accelerations.
+fn moments(c: &Constants<f64>, side: f64, y: &[f64; 4]) -> Moments {
+    let [theta, phi, _, phi_dot] = *y;
+    let load = |constants: &Constants<f64>, y: &[f64; 4], dy: [f64; 4]| {
+        let input = &Wave::with_rate(0.0, 0.0);
+        Probe { model: &FourBar::default(), constants, input, side }.load(y, &dy)
+    };
+    let (mut translating, mut rotating) = (*c, *c);
+    translating.air.rotation_pitch = 0.0;
+    (rotating.air.lift, rotating.air.drag) = ([0.0; 4], [0.0; 4]);
+    let translation = load(&translating, y, [0.0; 4]);
+    Moments {
+        stroke: -translation.drag_moment,
+        pitch: -translation.span_moment,
+        rotation_stroke: -load(c, &[theta, phi, 0.0, 0.0], [0.0, phi_dot, 0.0, 0.0]).drag_moment,
+        rotation_pitch: -load(&rotating, y, [0.0; 4]).span_moment,
+    }
 }

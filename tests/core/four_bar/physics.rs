@@ -3,25 +3,21 @@
 use std::ops::Range;
 
 use flap_core::drive::Wave;
-use flap_core::model::four_bar::{
-    Arms, Constants, FourBar, Params, added_mass_lift, aerodynamics, current, force, mass_matrix, side_of,
-    tip, transmission,
-};
-use flap_core::num::Real;
+use flap_core::model::four_bar::{Arms, Constants, FourBar, Params, Signals, transmission};
 use flap_core::ode::{Ode, Start, Tolerances};
 use proptest::prelude::*;
 use proptest::sample::select;
 
-use super::params;
+use super::{mass_matrix, moments, params, side};
 use crate::by_name::scaled;
+use crate::probe::{Probe, modes};
 use crate::span::{self, tolerances};
 
 /// Kinetic energy plus that of hinge, actuator and series spring, less the work of a constant voltage (J).
 fn energy(c: &Constants<f64>, volts: f64, y: &[f64; 4]) -> f64 {
     let [theta, phi, theta_dot, phi_dot] = *y;
-    let (sin, cos) = Real::sin_cos(phi);
     let links = transmission(c, theta);
-    let [m11, m12, m22] = mass_matrix(c, links.inertia, sin, cos);
+    let [m11, m12, m22] = mass_matrix(c, theta, phi);
     let stretch = links.displacement - c.actuator.deflection * (volts - c.actuator.rest_voltage);
     0.5 * (m11 * theta_dot * theta_dot + 2.0 * m12 * theta_dot * phi_dot + m22 * phi_dot * phi_dot)
         + 0.5 * c.wing.hinge_stiffness * phi * phi
@@ -39,8 +35,9 @@ fn any_params() -> impl Strategy<Value = Params> {
         .prop_map(|(values, arms)| Params { arms, ..Params::from_values(&values) })
 }
 
-fn side(y: &[f64; 4]) -> f64 {
-    side_of(y[1], y[3])[0].signum()
+/// The signals at a state with this derivative.
+fn signals(c: &Constants<f64>, drive: &Wave<f64>, y: &[f64; 4], dy: &[f64; 4]) -> Signals<f64> {
+    Probe { model: &FourBar::default(), constants: c, input: drive, side: side(c, y) }.signals(y, dy)
 }
 
 proptest! {
@@ -48,12 +45,11 @@ proptest! {
     #[test]
     fn energy_changes_by_dissipation_alone(p in any_params(), y in STATES, volts in -100.0..100.0) {
         let c = Constants::derive(&p).unwrap();
-        let side = side(&y);
-        let dy = FourBar::default().rhs(&c, &Wave::with_rate(volts, 0.0), side, &y);
-        let (sin, cos) = Real::sin_cos(y[1]);
-        let air = aerodynamics(&c, side, &y, sin, cos);
-        let work = (air.stroke_moment + air.rotation_stroke_moment - c.wing.stroke_damping * y[2]) * y[2]
-            + (air.pitch_moment + air.rotation_pitch_moment - c.wing.hinge_damping * y[3]) * y[3];
+        let drive = Wave::with_rate(volts, 0.0);
+        let dy = FourBar::default().rhs(&c, &drive, side(&c, &y), &y);
+        let air = signals(&c, &drive, &y, &dy);
+        let damping = c.wing.stroke_damping * y[2] * y[2] + c.wing.hinge_damping * y[3] * y[3];
+        let work = -air.power_translational - air.power_rotational - damping;
 
         // Central difference along the motion, in a time in which the state changes by a hundred-thousandth: the
         // rounding of the links' positions, which a shorter time would magnify, stays below the bound.
@@ -72,11 +68,9 @@ proptest! {
     #[test]
     fn rotational_drag_always_dissipates(p in any_params(), y in STATES) {
         let c = Constants::derive(&p).unwrap();
-        let (sin, cos) = Real::sin_cos(y[1]);
-        let air = aerodynamics(&c, side(&y), &y, sin, cos);
-        prop_assert!(air.rotation_pitch_moment * y[3] <= 0.0);
-        let still = aerodynamics(&c, side(&y), &[y[0], y[1], y[2], 0.0], sin, cos);
-        prop_assert!(still.stroke_moment * y[2] <= 0.0);
+        prop_assert!(moments(&c, side(&c, &y), &y).rotation_pitch * y[3] <= 0.0);
+        let still = moments(&c, side(&c, &y), &[y[0], y[1], y[2], 0.0]);
+        prop_assert!(still.stroke * y[2] <= 0.0);
     }
 
     /// (θ̇, φ, φ̇) → −(θ̇, φ, φ̇) mirrors the forces of the air and leaves lift alone. The four-bar is not symmetric, so
@@ -87,16 +81,10 @@ proptest! {
         let dy = [y[2], y[3], 1e4, -3e4];
         let [one, other] = [1.0, -1.0].map(|m| {
             let y = y.map(|y| m * y);
-            let (sin, cos) = Real::sin_cos(y[1]);
-            let air = aerodynamics(&c, side(&y), &y, sin, cos);
-            let lift = [air.lift, air.rotation_lift, added_mass_lift(&c.air, sin, cos, &dy.map(|d| m * d))];
-            let mirrored = [
-                air.drag,
-                air.stroke_moment,
-                air.pitch_moment,
-                air.rotation_stroke_moment,
-                air.rotation_pitch_moment,
-            ];
+            let air = signals(&c, &Wave::with_rate(0.0, 0.0), &y, &dy.map(|d| m * d));
+            let lift = [air.lift_translational, air.lift_rotational, air.lift_added_mass];
+            let about = moments(&c, side(&c, &y), &y);
+            let mirrored = [air.drag, about.stroke, about.pitch, about.rotation_stroke, about.rotation_pitch];
             (lift, mirrored.map(|x| m * x))
         });
         prop_assert_eq!(one, other);
@@ -107,24 +95,19 @@ proptest! {
     fn the_actuator_loses_nothing(p in any_params(), theta in -1.0..1.0, theta_dot in -200.0..200.0, value in -100.0..100.0, rate in -1e5..1e5) {
         let c = Constants::derive(&p).unwrap();
         let drive = Wave::with_rate(value, rate);
-        let links = transmission(&c, theta);
-        let force_at = |theta: f64, value: f64| {
-            force(&c.actuator, &Wave::with_rate(value, 0.0), transmission(&c, theta).displacement)
-        };
+        let at = |theta: f64, theta_dot: f64, drive: &Wave<f64>| signals(&c, drive, &[theta, 0.0, theta_dot, 0.0], &[0.0; 4]);
         // Tip stiffness k_a from 1/k_eff = 1/k_a + 1/k_sc; the tip is bent by δ_a − γ(V − V_ref) against it.
         let soft = 1.0 / c.actuator.stiffness - c.actuator.series_compliance;
         let stored = |theta: f64, value: f64| {
-            let force = force_at(theta, value);
-            let tip = tip(&c.actuator, transmission(&c, theta).displacement, force);
+            let Signals { power_drive, tip, .. } = at(theta, 1.0, &Wave::with_rate(value, 0.0));
+            let force = power_drive / transmission(&c, theta).slope;
             // Capacitance, bent tip with the offset of V_ref, series spring.
             0.5 * c.actuator.capacitance * value * value
                 + 0.5 * tip * tip / soft
                 + tip * c.actuator.deflection * c.actuator.rest_voltage / soft
                 + 0.5 * c.actuator.series_compliance * force * force
         };
-        let slider_rate = links.slope * theta_dot;
-        let electrical = value * current(&c.actuator, &drive, slider_rate);
-        let mechanical = force_at(theta, value) * slider_rate;
+        let Signals { power: electrical, power_drive: mechanical, .. } = at(theta, theta_dot, &drive);
         let dt = 1e-7;
         let at = |dt: f64| stored(theta + dt * theta_dot, value + dt * rate);
         let change = (at(dt) - at(-dt)) / (2.0 * dt);
@@ -162,11 +145,11 @@ fn small_motions_have_the_natural_frequencies() {
         ..Params::arabagi2013_75hz()
     };
     let constants = Constants::derive(&p).unwrap();
-    let [low, high] = FourBar::linear_modes(&constants);
+    let [low, high] = modes::<FourBar>(&constants);
     // Amplitudes small enough that the air, which is quadratic, does nothing.
     let tolerances = Tolerances { rtol: 1e-10, atol: 1e-18, max_steps: 1_000_000 };
     let links = transmission(&constants, 0.0);
-    let [m11, m12, _] = mass_matrix(&constants, links.inertia, 0.0, 1.0);
+    let [m11, m12, _] = mass_matrix(&constants, 0.0, 0.0);
     let stiffness = constants.actuator.stiffness * links.slope * links.slope;
     for frequency in [low, high] {
         // The mode's shape: (K − ω²M) q = 0.

@@ -22,70 +22,57 @@ crate::parameters! {
     /// The chord at stations along the span, straight between them.
     pub struct ChordTable {
         /// Chord of the wing: by the model's own shape, or by the table chord_0 to chord_10.
-        chord_table: Tabulated = ("", "", Choice(Tabulated::NAMES), default 0.0),
+        chord_table: Tabulated = ("", "", Choice(Tabulated::NAMES), default: 0.0),
         /// Chord at 0 % of the wing's length, the root. Only for chord_table = "on".
-        chord_0: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_0: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 10 % of the wing's length. Only for chord_table = "on".
-        chord_1: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_1: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 20 % of the wing's length. Only for chord_table = "on".
-        chord_2: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_2: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 30 % of the wing's length. Only for chord_table = "on".
-        chord_3: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_3: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 40 % of the wing's length. Only for chord_table = "on".
-        chord_4: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_4: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 50 % of the wing's length. Only for chord_table = "on".
-        chord_5: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_5: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 60 % of the wing's length. Only for chord_table = "on".
-        chord_6: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_6: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 70 % of the wing's length. Only for chord_table = "on".
-        chord_7: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_7: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 80 % of the wing's length. Only for chord_table = "on".
-        chord_8: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_8: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 90 % of the wing's length. Only for chord_table = "on".
-        chord_9: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_9: f64 = ("m", "", Number(NonNegative), default: 0.0),
         /// Chord at 100 % of the wing's length, the tip. Only for chord_table = "on".
-        chord_10: f64 = ("m", "", Number(NonNegative), default 0.0),
+        chord_10: f64 = ("m", "", Number(NonNegative), default: 0.0),
     }
 }
 
 impl ChordTable {
-    /// No table.
-    pub const OFF: ChordTable = ChordTable::new(Tabulated::Off, [0.0; STATIONS]);
-
     /// A table of chords (m).
-    pub const fn new(chord_table: Tabulated, chords: [f64; STATIONS]) -> ChordTable {
-        ChordTable {
-            chord_table,
-            chord_0: chords[0],
-            chord_1: chords[1],
-            chord_2: chords[2],
-            chord_3: chords[3],
-            chord_4: chords[4],
-            chord_5: chords[5],
-            chord_6: chords[6],
-            chord_7: chords[7],
-            chord_8: chords[8],
-            chord_9: chords[9],
-            chord_10: chords[10],
-        }
+    pub fn new(chord_table: Tabulated, chords: [f64; STATIONS]) -> ChordTable {
+        let mut values = vec![f64::from(chord_table as u8)];
+        values.extend(chords);
+        ChordTable::from_values(&values)
+    }
+
+    /// No table.
+    pub(crate) fn off() -> ChordTable {
+        ChordTable::new(Tabulated::Off, [0.0; STATIONS])
     }
 
     /// The chords at the stations (m).
-    pub fn chords(&self) -> [f64; STATIONS] {
-        let c = self;
-        [
-            c.chord_0, c.chord_1, c.chord_2, c.chord_3, c.chord_4, c.chord_5, c.chord_6, c.chord_7,
-            c.chord_8, c.chord_9, c.chord_10,
-        ]
+    fn chords(&self) -> Vec<f64> {
+        self.to_values().split_off(1)
     }
 
     /// True if the table is to be used.
-    pub fn is_on(&self) -> bool {
+    pub(crate) fn is_on(&self) -> bool {
         self.chord_table == Tabulated::On
     }
 
     /// The chord (m) at `x`, from 0 at the wing's root to 1 at its tip; `None` if the table is not used.
-    pub fn chord(&self, x: f64) -> Option<f64> {
+    pub(crate) fn chord(&self, x: f64) -> Option<f64> {
         if !self.is_on() {
             return None;
         }
@@ -107,7 +94,7 @@ impl ChordTable {
     ///
     /// # Errors
     /// [`Invalid::Together`] if the table is used and all of it is zero.
-    pub fn check(&self) -> Result<(), Invalid> {
+    pub(crate) fn check(&self) -> Result<(), Invalid> {
         if self.is_on() && self.mean() <= 0.0 {
             return Err(Invalid::together(
                 &["chord_table", "chord_0", "chord_5", "chord_10"],
@@ -119,7 +106,7 @@ impl ChordTable {
 }
 
 /// The parameters of the table for an outline, switched on.
-pub fn chord_table(outline: &Outline) -> Vec<(&'static str, f64)> {
+pub(crate) fn chord_table(outline: &Outline) -> Vec<(&'static str, f64)> {
     let mut parameters = vec![("chord_table", f64::from(Tabulated::On as u8))];
     for (station, parameter) in ChordTable::TABLE[1..].iter().enumerate() {
         let share = station as f64 / (STATIONS - 1) as f64;

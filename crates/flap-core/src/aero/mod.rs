@@ -4,6 +4,8 @@ mod chord_table;
 mod strips;
 mod wing;
 
-pub use chord_table::{ChordTable, STATIONS, Tabulated, chord_table};
-pub use strips::{Cut, Strip, StripSums, Strips, sum};
+pub(crate) use chord_table::chord_table;
+pub use chord_table::{ChordTable, STATIONS, Tabulated};
+pub(crate) use strips::{Cut, check_chords, cut, sum};
+pub use strips::{StripSums, Strips};
 pub use wing::{Masses, Material, Outline, OutlineError, Station, Wing};

@@ -1,35 +1,47 @@
 //! The wing as a row of strips, and the sums over them.
 
 use crate::num::{Lanes, PerLane, Real};
+use crate::parameter::Invalid;
+use crate::quadrature::Node;
 
 /// Position and size of a strip (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cut {
+pub(crate) struct Cut {
     /// Distance from the stroke axis r.
-    pub radius: f64,
+    pub(crate) radius: f64,
     /// Chord c.
-    pub chord: f64,
+    pub(crate) chord: f64,
     /// Width along the span Δr.
-    pub width: f64,
+    pub(crate) width: f64,
+}
+
+/// Cuts a wing of a `length` (m), which begins at `offset` (m), into strips at the nodes of a rule. `chord` is that (m) at a
+/// place from 0 at the root to 1 at the tip.
+pub(crate) fn cut(rule: &[Node], offset: f64, length: f64, chord: impl Fn(f64) -> f64) -> Vec<Cut> {
+    let cut = |node: &Node| Cut {
+        radius: offset + length * node.x,
+        chord: chord(node.x),
+        width: length * node.weight,
+    };
+    rule.iter().map(cut).collect()
+}
+
+/// Refuses a chord that is negative somewhere. `parameters` describe it, in the order of their numbers.
+pub(crate) fn check_chords(cuts: &[Cut], parameters: &'static [&'static str]) -> Result<(), Invalid> {
+    let Some(cut) = cuts.iter().find(|cut| cut.chord < 0.0) else { return Ok(()) };
+    let (first, last) = (parameters[0], parameters[parameters.len() - 1]);
+    let place = cut.radius;
+    Err(Invalid::together(
+        parameters,
+        format!(
+            "the chord is negative {place} m from the stroke axis: {first} to {last} do not describe a wing"
+        ),
+    ))
 }
 
 /// Σ f(r, c) Δr over the strips.
-pub fn sum(cuts: &[Cut], f: impl Fn(f64, f64) -> f64) -> f64 {
+pub(crate) fn sum(cuts: &[Cut], f: impl Fn(f64, f64) -> f64) -> f64 {
     cuts.iter().map(|cut| f(cut.radius, cut.chord) * cut.width).sum()
-}
-
-crate::per_lane! {
-    /// One strip of width Δr at the radius r, where the chord is c. With a = ½ρcΔr:
-    pub struct Strip<R> {
-        /// Velocity per stroke rate, weighted: √a r.
-        pub stroke: R,
-        /// Velocity per sweep rate, weighted: √a κc.
-        pub sweep: R,
-        /// Radius r (m).
-        pub radius: R,
-        /// Chord c (m).
-        pub chord: R,
-    }
 }
 
 /// The strips of a wing, of which there are at most `MAX`.
@@ -39,22 +51,18 @@ crate::per_lane! {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strips<R, const MAX: usize> {
     count: usize,
-    strips: [Strip<R>; MAX],
+    /// √a r and √a κc, the weighted velocities per stroke rate and per sweep rate, with a = ½ρcΔr; radius r and chord c (m).
+    strips: [[R; 4]; MAX],
 }
 
 impl<const MAX: usize> Strips<f64, MAX> {
     /// The strips of a wing in air of a density (kg/m³); at most `MAX`. The velocity is taken κ chords (`lever`)
     /// from the axis of pitch.
-    pub fn new(cuts: &[Cut], air_density: f64, lever: f64) -> Strips<f64, MAX> {
-        let mut strips = [Strip { stroke: 0.0, sweep: 0.0, radius: 0.0, chord: 0.0 }; MAX];
-        for (strip, cut) in strips.iter_mut().zip(cuts) {
-            let weight = (0.5 * air_density * cut.chord * cut.width).sqrt();
-            *strip = Strip {
-                stroke: weight * cut.radius,
-                sweep: weight * lever * cut.chord,
-                radius: cut.radius,
-                chord: cut.chord,
-            };
+    pub(crate) fn new(cuts: &[Cut], air_density: f64, lever: f64) -> Strips<f64, MAX> {
+        let mut strips = [[0.0; 4]; MAX];
+        for (strip, &Cut { radius, chord, width }) in strips.iter_mut().zip(cuts) {
+            let weight = (0.5 * air_density * chord * width).sqrt();
+            *strip = [weight * radius, weight * lever * chord, radius, chord];
         }
         Strips { count: cuts.len().min(MAX), strips }
     }
@@ -84,12 +92,12 @@ impl<R: Real, const MAX: usize> Strips<R, MAX> {
         let zero = stroke_rate.lit(0.0);
         let mut sums = StripSums { force: zero, radius: zero, chord: zero };
         for i in 0..self.count.min(MAX) {
-            let strip = &self.strips[i];
-            let u = strip.stroke.mul_add(stroke_rate, strip.sweep * sweep_rate);
+            let [stroke, sweep, radius, chord] = self.strips[i];
+            let u = stroke.mul_add(stroke_rate, sweep * sweep_rate);
             let force = u * u.abs();
             sums.force = sums.force + force;
-            sums.radius = strip.radius.mul_add(force, sums.radius);
-            sums.chord = strip.chord.mul_add(force, sums.chord);
+            sums.radius = radius.mul_add(force, sums.radius);
+            sums.chord = chord.mul_add(force, sums.chord);
         }
         sums
     }
@@ -122,6 +130,6 @@ impl<R: Real, const MAX: usize> PerLane<R> for Strips<R, MAX> {
 
     #[inline(always)]
     fn is_finite(one: &Self::One) -> bool {
-        <[Strip<R>; MAX] as PerLane<R>>::is_finite(&one.strips)
+        <[[R; 4]; MAX] as PerLane<R>>::is_finite(&one.strips)
     }
 }

@@ -82,7 +82,7 @@ pub struct Masses {
 
 impl Masses {
     /// [∫ (r − R)² dm, ∫ (r − R)(z − Z) dm, ∫ (z − Z)² dm] about the centre of mass (kg·m²).
-    pub fn about_centre(&self) -> [f64; 3] {
+    pub(crate) fn about_centre(&self) -> [f64; 3] {
         let Masses { mass, radius, depth, rr, rz, zz } = *self;
         [rr - mass * radius * radius, rz - mass * radius * depth, zz - mass * depth * depth]
     }
@@ -118,7 +118,7 @@ impl Outline {
     }
 
     /// Leading and trailing edge (m), as in [`Station`], at a distance from the root (m) within the wing.
-    pub fn edges(&self, span: f64) -> [f64; 2] {
+    fn edges(&self, span: f64) -> [f64; 2] {
         let after = self.stations.partition_point(|station| station.span <= span);
         let after = after.clamp(1, self.stations.len() - 1);
         let [a, b] = [self.stations[after - 1], self.stations[after]];
@@ -127,7 +127,7 @@ impl Outline {
     }
 
     /// The chord (m) at a distance from the root (m).
-    pub fn chord(&self, span: f64) -> f64 {
+    pub(crate) fn chord(&self, span: f64) -> f64 {
         self.edges(span).iter().sum()
     }
 
@@ -140,7 +140,7 @@ impl Outline {
     }
 
     /// ∫ f(span, leading, trailing) d span: exact where f is a polynomial of at most 11th degree.
-    pub fn integral(&self, f: impl Fn(f64, f64, f64) -> f64) -> f64 {
+    pub(crate) fn integral(&self, f: impl Fn(f64, f64, f64) -> f64) -> f64 {
         self.lengths(|span, leading, trailing, _| f(span, leading, trailing))
     }
 
@@ -168,19 +168,19 @@ impl Wing {
     }
 
     /// ∫ rⁿ c d span, r being the distance from the stroke axis (m^(n+2)).
-    pub fn area_moment(&self, power: i32) -> f64 {
+    pub(crate) fn area_moment(&self, power: i32) -> f64 {
         self.outline
             .integral(|span, leading, trailing| (self.offset + span).powi(power) * (leading + trailing))
     }
 
     /// ∫∫ |z|ⁿ dA about the hinge's axis (m^(n+2)).
-    pub fn width_moment(&self, power: i32) -> f64 {
+    pub(crate) fn width_moment(&self, power: i32) -> f64 {
         let one_side = |edge: f64| edge.signum() * edge.abs().powi(power + 1) / f64::from(power + 1);
         self.outline.integral(|_, leading, trailing| one_side(leading) + one_side(trailing))
     }
 
     /// Inertia of the air that moves with the wing about the stroke axis (kg·m²), by strips: ∫ π/4 ρ c² r² d span.
-    pub fn added_inertia(&self) -> f64 {
+    pub(crate) fn added_inertia(&self) -> f64 {
         let strips = self.outline.integral(|span, leading, trailing| {
             let (chord, radius) = (leading + trailing, self.offset + span);
             chord * chord * radius * radius

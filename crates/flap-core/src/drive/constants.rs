@@ -3,8 +3,43 @@
 use core::f64::consts::PI;
 
 use super::parameters::{Shape, WaveformParameters};
-use super::wave::Wave;
 use crate::num::Real;
+
+/// A quantity at a time: a wave of unit amplitude, a voltage (V), or a prescribed stroke (rad).
+#[derive(Clone, Copy, Debug)]
+pub struct Wave<R> {
+    /// Value.
+    pub value: R,
+    /// Rate of change (1/s).
+    pub rate: R,
+    /// Second derivative (1/s²).
+    pub bend: R,
+}
+
+impl<R: Real> Wave<R> {
+    /// A quantity whose second derivative does not matter, such as a voltage.
+    #[inline(always)]
+    pub fn with_rate(value: R, rate: R) -> Wave<R> {
+        Wave { value, rate, bend: value.lit(0.0) }
+    }
+
+    /// The quantity `bias + amplitude · self`.
+    #[inline(always)]
+    pub(crate) fn scaled(&self, bias: R, amplitude: R) -> Wave<R> {
+        Wave {
+            value: amplitude.mul_add(self.value, bias),
+            rate: amplitude * self.rate,
+            bend: amplitude * self.bend,
+        }
+    }
+}
+
+impl<R> From<[R; 3]> for Wave<R> {
+    /// The quantity with this value, rate and second derivative.
+    fn from([value, rate, bend]: [R; 3]) -> Wave<R> {
+        Wave { value, rate, bend }
+    }
+}
 
 crate::per_lane! {
     /// Constants of a point's drive.
@@ -61,7 +96,7 @@ impl DriveConstants<f64> {
 
     /// A sine in place of the waveform, which begins at `frequency` (Hz) and changes by `rate` (Hz/s).
     #[must_use]
-    pub fn chirped(&self, frequency: f64, rate: f64) -> DriveConstants<f64> {
+    pub(crate) fn chirped(&self, frequency: f64, rate: f64) -> DriveConstants<f64> {
         let levels = [self.bias, self.amplitude];
         let sine = DriveConstants::new(frequency, &WaveformParameters::SINE, levels);
         DriveConstants { growth: 2.0 * PI * rate, ..sine }
@@ -69,7 +104,7 @@ impl DriveConstants<f64> {
 
     /// A voltage (V) that stays as it is.
     #[must_use]
-    pub fn still(&self, voltage: f64) -> DriveConstants<f64> {
+    pub(crate) fn still(&self, voltage: f64) -> DriveConstants<f64> {
         DriveConstants { bias: voltage, amplitude: 0.0, rate: 0.0, ..*self }
     }
 

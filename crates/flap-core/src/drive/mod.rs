@@ -8,10 +8,8 @@ mod parameters;
 mod samples;
 mod spline;
 mod variant;
-mod wave;
 
-pub use constants::DriveConstants;
+pub use constants::{DriveConstants, Wave};
 pub use parameters::{Shape, StrokeMode, StrokeParameters, WaveformParameters};
 pub use samples::{Repeat, Samples, SamplesError};
 pub use variant::{Drive, Waveform};
-pub use wave::Wave;

@@ -1,9 +1,8 @@
 //! The drive as the lanes of an ensemble share it: its waveform, and the quantity that it sets.
 
-use super::constants::DriveConstants;
+use super::constants::{DriveConstants, Wave};
 use super::parameters::{Shape, StrokeMode, WaveformParameters};
 use super::samples::Samples;
-use super::wave::Wave;
 use crate::num::Real;
 use crate::parameter::Invalid;
 
@@ -39,7 +38,7 @@ impl Drive {
     pub const SINE: Drive = Drive { waveform: Waveform::Shape(Shape::Sine), stroke: StrokeMode::Free };
 
     /// A prescribed stroke.
-    pub const PRESCRIBED: Drive = Drive { stroke: StrokeMode::Prescribed, ..Drive::SINE };
+    pub(crate) const PRESCRIBED: Drive = Drive { stroke: StrokeMode::Prescribed, ..Drive::SINE };
 
     /// The drive of a point, with this one's samples if it has any.
     #[must_use]
@@ -53,7 +52,7 @@ impl Drive {
 
     /// The drive with another waveform.
     #[must_use]
-    pub fn with_waveform(&self, waveform: Waveform) -> Drive {
+    pub(crate) fn with_waveform(&self, waveform: Waveform) -> Drive {
         Drive { waveform, stroke: self.stroke }
     }
 
@@ -90,7 +89,7 @@ impl Drive {
 
     /// The waveform, of unit amplitude, at time `t` (s) of its period, from 0 to its end.
     #[inline(always)]
-    pub fn wave<R: Real>(&self, c: &DriveConstants<R>, t: R) -> Wave<R> {
+    pub(crate) fn wave<R: Real>(&self, c: &DriveConstants<R>, t: R) -> Wave<R> {
         match &self.waveform {
             Waveform::Shape(Shape::Sine) => c.sine(t),
             Waveform::Shape(Shape::Harmonics) => c.harmonics(t),
@@ -124,7 +123,7 @@ impl Drive {
 
     /// The mean of the waveform over a period: zero but for samples.
     #[inline(always)]
-    pub fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         match &self.waveform {
             Waveform::Samples(samples) => samples.mean(),
             Waveform::Shape(_) | Waveform::Chirp => 0.0,
@@ -138,7 +137,7 @@ impl Drive {
     }
 
     /// The smallest and largest value of the waveform over a period.
-    pub fn range(&self, c: &DriveConstants<f64>) -> [f64; 2] {
+    pub(crate) fn range(&self, c: &DriveConstants<f64>) -> [f64; 2] {
         match &self.waveform {
             Waveform::Shape(_) | Waveform::Chirp => c.range,
             Waveform::Samples(samples) => samples.range(),
@@ -146,7 +145,7 @@ impl Drive {
     }
 
     /// The smallest and largest voltage (V) over a period; not numbers where the stroke is prescribed.
-    pub fn voltage_range(&self, c: &DriveConstants<f64>) -> [f64; 2] {
+    pub(crate) fn voltage_range(&self, c: &DriveConstants<f64>) -> [f64; 2] {
         if self.prescribes_stroke() {
             return [f64::NAN; 2];
         }
@@ -154,7 +153,7 @@ impl Drive {
     }
 
     /// The largest magnitude of the voltage (V) over a period; not a number where the stroke is prescribed.
-    pub fn largest_voltage(&self, c: &DriveConstants<f64>) -> f64 {
+    pub(crate) fn largest_voltage(&self, c: &DriveConstants<f64>) -> f64 {
         let [low, high] = self.voltage_range(c);
         high.max(-low)
     }

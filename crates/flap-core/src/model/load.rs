@@ -23,7 +23,7 @@ pub struct Load<R> {
 
 impl<R: Real> Load<R> {
     /// A load of which nothing is known.
-    pub fn unknown(number: R) -> Load<R> {
+    pub(crate) fn unknown(number: R) -> Load<R> {
         let unknown = number.lit(f64::NAN);
         Load {
             stroke: unknown,

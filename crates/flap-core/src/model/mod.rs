@@ -18,14 +18,11 @@ pub mod readings;
 mod signal;
 mod signals;
 pub mod stroke_and_pitch;
-mod units;
 
 pub use definition::{Derived, Description, Instant, Model};
 pub use load::Load;
 pub use motions::{Imposed, Motions};
 pub(crate) use readings::{efficiency, grams_force};
-pub use signal::{Measure, OverWings, Principal, Signal, SignalCycle, Taken};
+pub(crate) use signal::GRAVITY;
+pub use signal::{Measure, OverWings, Principal, Signal, SignalCycle, Taken, Unit};
 pub use signals::{Each, SignalSet, SignalsOf};
-pub use stroke_and_pitch::Balance;
-pub(crate) use units::GRAVITY;
-pub use units::Unit;

@@ -1,7 +1,5 @@
 //! Signals of a model, and their measures over a drive period.
 
-use super::units::Unit;
-
 /// A quantity followed along the motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Signal {
@@ -16,7 +14,7 @@ pub struct Signal {
     pub measures: &'static [Measure],
     /// Measures that only derived columns use.
     pub needed: &'static [Measure],
-    /// The measure whose error counts for the error of a row, if there is one.
+    /// The measure whose error counts for the error of a row, if there is one. A model has at least one such signal.
     pub principal: Option<Principal>,
     /// Measures of a force that rows of a vehicle have of each wing.
     pub of_wings: &'static [Measure],
@@ -44,24 +42,6 @@ impl Signal {
         Signal { name, unit, doc, measures, needed: &[], principal: None, of_wings: &[] }
     }
 
-    /// The same signal, with a measure whose error counts for the error of a row. A model has at least one.
-    #[must_use]
-    pub const fn principal(self, measure: Principal) -> Signal {
-        Signal { principal: Some(measure), ..self }
-    }
-
-    /// The same signal, of which derived columns use these measures besides.
-    #[must_use]
-    pub const fn needs(self, needed: &'static [Measure]) -> Signal {
-        Signal { needed, ..self }
-    }
-
-    /// The same signal, a force of which rows of a vehicle have these measures of each wing.
-    #[must_use]
-    pub const fn of_wings(self, measures: &'static [Measure]) -> Signal {
-        Signal { of_wings: measures, ..self }
-    }
-
     /// The way in which the rows of a vehicle have a measure of this signal.
     ///
     /// Mean powers add up. The extrema and the root mean square of a sum depend on the times at which the wings have theirs,
@@ -85,7 +65,7 @@ impl Signal {
     }
 
     /// True if it has columns of its own.
-    pub fn is_shown(&self) -> bool {
+    pub(crate) fn is_shown(&self) -> bool {
         !self.measures.is_empty()
     }
 
@@ -155,7 +135,7 @@ pub enum Principal {
 
 impl Principal {
     /// The measure.
-    pub const fn measure(self) -> Measure {
+    pub(crate) const fn measure(self) -> Measure {
         match self {
             Principal::Mean => Measure::Mean,
             Principal::First => Measure::First,
@@ -256,7 +236,7 @@ impl SignalCycle {
     }
 
     /// The size of the signal: the largest magnitude of what is known of it.
-    pub fn size(&self) -> f64 {
+    pub(crate) fn size(&self) -> f64 {
         let known = [self.mean, self.max, self.min, self.positive_mean, self.mean_square.sqrt()];
         known.iter().fold(0.0, |size, value| value.abs().max(size))
     }
@@ -282,3 +262,33 @@ impl SignalCycle {
         libm::atan2(self.first[1], self.first[0])
     }
 }
+
+/// A unit of columns.
+#[derive(Clone, Copy, Debug)]
+pub struct Unit {
+    /// Its name in words, such as `mN`.
+    pub name: &'static str,
+    /// Its name as the last part of column names, such as `mn`.
+    pub suffix: &'static str,
+    /// Factor from the SI unit.
+    pub factor: f64,
+}
+
+impl Unit {
+    /// Degrees, for angles (rad).
+    pub const DEG: Unit = Unit { name: "deg", suffix: "deg", factor: DEGREES };
+    /// Millinewtons, for forces (N).
+    pub const MN: Unit = Unit { name: "mN", suffix: "mn", factor: 1e3 };
+    /// Milliwatts, for powers (W).
+    pub const MW: Unit = Unit { name: "mW", suffix: "mw", factor: 1e3 };
+    /// Milliamperes, for currents (A).
+    pub const MA: Unit = Unit { name: "mA", suffix: "ma", factor: 1e3 };
+    /// Micrometres, for lengths (m).
+    pub const UM: Unit = Unit { name: "um", suffix: "um", factor: 1e6 };
+}
+
+/// Degrees per radian.
+pub(super) const DEGREES: f64 = 180.0 / core::f64::consts::PI;
+
+/// Standard gravity (m/s²): newtons per kilogram-force.
+pub(crate) const GRAVITY: f64 = 9.80665;

@@ -130,15 +130,14 @@ macro_rules! signals {
         impl $Name {
             /// The description of each signal.
             pub const SIGNALS: $Name<$crate::model::Signal> = $Name {
-                $($signal: $crate::model::Signal::new(
-                    stringify!($signal),
-                    $unit,
-                    $doc,
-                    &[$($crate::model::Measure::$measure),*],
-                )
-                $(.principal($crate::model::Principal::$principal))?
-                $(.needs(&[$($crate::model::Measure::$needed),*]))?
-                $(.of_wings(&[$($crate::model::Measure::$of_wings),*]))?,)*
+                $($signal: $crate::model::Signal {
+                    $(principal: Some($crate::model::Principal::$principal),)?
+                    $(needed: &[$($crate::model::Measure::$needed),*],)?
+                    $(of_wings: &[$($crate::model::Measure::$of_wings),*],)?
+                    ..$crate::model::Signal::new(
+                        stringify!($signal), $unit, $doc, &[$($crate::model::Measure::$measure),*],
+                    )
+                },)*
             };
         }
 

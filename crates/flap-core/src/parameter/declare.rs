@@ -33,21 +33,15 @@ pub const fn joined<'a, const N: usize>(tables: &[&[Parameter<'a>]]) -> [Paramet
     all
 }
 
-/// The option whose position is `value`.
-#[doc(hidden)]
-pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
-    let mut numbered = (0_u32..).map(f64::from).zip(options);
-    numbered.find(|(position, _)| *position == value).map(|(_, &option)| option)
-}
-
 /// Declares a model's parameter struct and, from the same lines, its table.
 ///
 /// Each line gives the field's documentation, name and type (`f64`; `Option<f64>` for a number that follows
 /// others until it is set; an enum declared by [`choice!`](crate::choice)), then SI unit, symbol and
 /// [`Kind`](crate::parameter::Kind). A field of the type of another such struct has `(flatten)` in their place: its rows
 /// stand in the table where the field stands. A name in brackets before a field begins a group. Behind the kind may stand
-/// `former "name"` for the name of earlier versions, `default 0.0` for the
-/// value where no preset gives one, and `fitted` for a value that was fitted to one vehicle.
+/// other fields of [`Parameter`](crate::parameter::Parameter), such as `default: 0.0`.
+///
+/// If each line ends with a value, a function below the struct returns these: `pub fn published() -> Params;`.
 ///
 /// The struct gets `TABLE`, `from_values` and `to_values`; the table's order is that of the fields.
 ///
@@ -70,7 +64,7 @@ pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
 ///     pub struct Beam {
 ///         ["shape"]
 ///         /// Length.
-///         length: f64 = ("m", "L", Number(Positive), former "beam_length"),
+///         length: f64 = ("m", "L", Number(Positive), former: "beam_length"),
 ///         ["substance"]
 ///         /// Material.
 ///         material: Material = ("", "", Choice(Material::NAMES)),
@@ -81,10 +75,13 @@ pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
 ///     /// Beams in a row.
 ///     pub struct Row {
 ///         /// Number of beams.
-///         beams: f64 = ("", "n", Number(Whole(1, 9))),
+///         beams: f64 = ("", "n", Number(Whole(1, 9))) 2.0,
 ///         /// One of them.
-///         beam: Beam = (flatten),
+///         beam: Beam = (flatten) Beam { length: 0.2, material: Material::Carbon },
 ///     }
+///
+///     /// Two beams of carbon fibre.
+///     pub fn pair() -> Row;
 /// }
 ///
 /// let names: Vec<&str> = Row::TABLE.iter().map(|row| row.name).collect();
@@ -94,6 +91,7 @@ pub fn option<T: Copy>(options: &[T], value: f64) -> Option<T> {
 /// let row = Row::from_values(&[3.0, 0.1, 1.0]);
 /// assert_eq!(row.beam.material, Material::Steel);
 /// assert_eq!(row.to_values(), [3.0, 0.1, 1.0]);
+/// assert_eq!(Row::pair().to_values(), [2.0, 0.2, 0.0]);
 /// ```
 #[macro_export]
 macro_rules! parameters {
@@ -137,14 +135,35 @@ macro_rules! parameters {
             }
         }
     };
+    ($(#[$meta:meta])* pub struct $Name:ident {
+        $($([$group:literal])? $(#[doc = $doc:literal])+ $field:ident: $type:ty = ($($row:tt)+) $value:expr,)*
+    }
+    $(#[$preset_meta:meta])* pub fn $preset:ident() -> $Same:ident;) => {
+        $crate::parameters! {
+            $(#[$meta])* pub struct $Name {
+                $($([$group])? $(#[doc = $doc])+ $field: $type = ($($row)+),)*
+            }
+        }
+
+        impl $Name {
+            $(#[$preset_meta])*
+            pub fn $preset() -> $Same {
+                $Same { $($field: $value,)* }
+            }
+        }
+    };
     (@table $type:ty, $field:ident, [], $docs:tt, flatten) => {
         <$type>::TABLE
     };
     (@table $type:ty, $field:ident, [$($group:literal)?], [$($doc:literal),+],
-     $unit:literal, $symbol:literal, $kind:expr $(, $mark:ident $($text:literal)?)*) => {
-        &[$crate::parameter::Parameter::new(
-            stringify!($field), $unit, $symbol, $kind, concat!($($doc),+).trim_ascii_start(),
-        )$(.group($group))?$(.$mark($($text)?))*]
+     $unit:literal, $symbol:literal, $kind:expr $(, $more:ident: $value:expr)*) => {
+        &[$crate::parameter::Parameter {
+            $(group: $group,)?
+            $($more: $value,)*
+            ..$crate::parameter::Parameter::new(
+                stringify!($field), $unit, $symbol, $kind, concat!($($doc),+).trim_ascii_start(),
+            )
+        }]
     };
 }
 
@@ -176,8 +195,9 @@ macro_rules! choice {
 
         impl $crate::parameter::Slot for $Name {
             fn take(values: &mut impl Iterator<Item = f64>) -> $Name {
-                let value = values.next().and_then(|value| $crate::parameter::option($Name::ALL, value));
-                value.unwrap_or_default()
+                let value = values.next();
+                let option = $Name::ALL.iter().find(|option| Some(f64::from(**option as u8)) == value);
+                option.copied().unwrap_or_default()
             }
 
             fn put(&self, values: &mut Vec<f64>) {
@@ -185,4 +205,33 @@ macro_rules! choice {
             }
         }
     };
+}
+
+/// A field of a parameter struct, as values of a design point: one, or those of a struct of parameters.
+pub trait Slot {
+    /// The field from the next of a point's values. Those that are missing count as not set.
+    fn take(values: &mut impl Iterator<Item = f64>) -> Self;
+
+    /// Appends the point's values for the field.
+    fn put(&self, values: &mut Vec<f64>);
+}
+
+impl Slot for f64 {
+    fn take(values: &mut impl Iterator<Item = f64>) -> f64 {
+        values.next().unwrap_or(f64::NAN)
+    }
+
+    fn put(&self, values: &mut Vec<f64>) {
+        values.push(*self);
+    }
+}
+
+impl Slot for Option<f64> {
+    fn take(values: &mut impl Iterator<Item = f64>) -> Option<f64> {
+        values.next().filter(|value| !value.is_nan())
+    }
+
+    fn put(&self, values: &mut Vec<f64>) {
+        values.push(self.unwrap_or(f64::NAN));
+    }
 }

@@ -2,7 +2,8 @@
 
 use std::borrow::Cow;
 
-use super::range::Range;
+use super::table::Range;
+use crate::num::PerLane;
 
 /// Parameters that are impossible, or a request that is.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -54,6 +55,14 @@ impl Invalid {
             Invalid::Together { reason, .. } => reason.into_owned(),
             Invalid::OutOfRange { .. } | Invalid::NotFinite => self.to_string(),
         }
+    }
+
+    /// The constants that follow from parameters, if they are all finite.
+    ///
+    /// # Errors
+    /// [`Invalid::NotFinite`] if one of them is infinite or not a number.
+    pub fn unless_finite<C: PerLane<f64, One = C>>(constants: C) -> Result<C, Invalid> {
+        if C::is_finite(&constants) { Ok(constants) } else { Err(Invalid::NotFinite) }
     }
 
     /// Refuses a value that its range does not contain.

@@ -6,12 +6,8 @@
 
 mod declare;
 mod invalid;
-mod range;
-mod slot;
 mod table;
 
-pub use declare::{joined, option, rows};
+pub use declare::{Slot, joined, rows};
 pub use invalid::Invalid;
-pub use range::Range;
-pub use slot::Slot;
-pub use table::{Kind, Parameter, Preset};
+pub use table::{Kind, Parameter, Preset, Range};

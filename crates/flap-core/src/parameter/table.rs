@@ -1,7 +1,5 @@
 //! Rows of a parameter table, and published parameter sets.
 
-use super::range::Range;
-
 /// One row of the parameter table of a model or of a vehicle, which has the texts.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter<'a> {
@@ -26,7 +24,7 @@ pub struct Parameter<'a> {
 }
 
 impl<'a> Parameter<'a> {
-    /// A parameter without a group, without a former name, whose value is not a fit.
+    /// A parameter without a group, a former name and a default, whose value is not a fit.
     pub const fn new(
         name: &'a str,
         unit: &'static str,
@@ -45,30 +43,6 @@ impl<'a> Parameter<'a> {
             default: f64::NAN,
             is_fitted: false,
         }
-    }
-
-    /// The parameter in a group.
-    #[must_use]
-    pub const fn group(self, group: &'a str) -> Parameter<'a> {
-        Parameter { group, ..self }
-    }
-
-    /// The parameter with the name that it had in earlier versions.
-    #[must_use]
-    pub const fn former(self, former: &'static str) -> Parameter<'a> {
-        Parameter { former, ..self }
-    }
-
-    /// The parameter, which has this value where no preset gives one.
-    #[must_use]
-    pub const fn default(self, default: f64) -> Parameter<'a> {
-        Parameter { default, ..self }
-    }
-
-    /// The parameter, whose published value is a fit to one vehicle.
-    #[must_use]
-    pub const fn fitted(self) -> Parameter<'a> {
-        Parameter { is_fitted: true, ..self }
     }
 
     /// The note on a former name that is still understood.
@@ -103,4 +77,50 @@ pub struct Preset {
     pub doc: &'static str,
     /// The values, one per parameter of the model's table.
     pub values: fn() -> Vec<f64>,
+}
+
+/// The finite numbers that a parameter accepts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
+    /// Any finite number.
+    Any,
+    /// Zero or more.
+    NonNegative,
+    /// More than zero.
+    Positive,
+    /// Numbers between two others, both excluded.
+    Between(f64, f64),
+    /// Numbers from 0 to 1, both included.
+    Share,
+    /// Whole numbers from the first to the last, both included.
+    Whole(u32, u32),
+}
+
+impl Range {
+    /// True if `value` is finite and within the range.
+    pub fn contains(self, value: f64) -> bool {
+        value.is_finite()
+            && match self {
+                Range::Any => true,
+                Range::NonNegative => value >= 0.0,
+                Range::Positive => value > 0.0,
+                Range::Between(low, high) => low < value && value < high,
+                Range::Share => (0.0..=1.0).contains(&value),
+                Range::Whole(first, last) => {
+                    value.fract() == 0.0 && (f64::from(first)..=f64::from(last)).contains(&value)
+                }
+            }
+    }
+
+    /// The range in words, for messages: `"more than zero"`, `"between 0 and 2"`, `"a whole number from 1 to 64"`.
+    pub fn describe(self) -> String {
+        match self {
+            Range::Any => "any number".to_owned(),
+            Range::NonNegative => "zero or more".to_owned(),
+            Range::Positive => "more than zero".to_owned(),
+            Range::Between(low, high) => format!("between {low} and {high}"),
+            Range::Share => "from 0 to 1".to_owned(),
+            Range::Whole(first, last) => format!("a whole number from {first} to {last}"),
+        }
+    }
 }

@@ -12,11 +12,10 @@ mod geometry;
 mod gradient;
 mod layout;
 mod mount;
-mod names;
 mod parameters;
 mod rows;
 
 pub use geometry::{FORCES, TORQUES};
 pub use layout::Vehicle;
 pub use mount::{DIFFERENCE, MOST_WINGS, Mount, VehicleError};
-pub use names::{of_all_wings, standing};
+pub use parameters::{of_all_wings, standing};

@@ -22,13 +22,25 @@ const PLACE: [(&str, &str, &str); 6] = [
 ];
 
 /// The parameters of the vehicle as a whole.
-#[rustfmt::skip]
 const WHOLE: [Parameter<'static>; 4] = [
-    Parameter::new("about_x", "m", "", Kind::Number(Any), "Point about which torques are taken, such as the centre of mass: forward.").group(VEHICLE).default(0.0),
-    Parameter::new("about_y", "m", "", Kind::Number(Any), "Point about which torques are taken, to the left.").group(VEHICLE).default(0.0),
-    Parameter::new("about_z", "m", "", Kind::Number(Any), "Point about which torques are taken, upwards.").group(VEHICLE).default(0.0),
-    Parameter::new("total_mass", "kg", "", Kind::Following(Positive, "not known"), "Mass of the whole vehicle, for lift_to_weight.").group(VEHICLE),
+    about("about_x", "Point about which torques are taken, such as the centre of mass: forward."),
+    about("about_y", "Point about which torques are taken, to the left."),
+    about("about_z", "Point about which torques are taken, upwards."),
+    Parameter {
+        group: VEHICLE,
+        ..Parameter::new(
+            "total_mass",
+            "kg",
+            "",
+            Kind::Following(Positive, "not known"),
+            "Mass of the whole vehicle, for lift_to_weight.",
+        )
+    },
 ];
+
+const fn about(name: &'static str, doc: &'static str) -> Parameter<'static> {
+    Parameter { group: VEHICLE, default: 0.0, ..Parameter::new(name, "m", "", Kind::Number(Any), doc) }
+}
 
 /// A parameter of one wing, or a difference.
 struct Own {
@@ -42,9 +54,11 @@ struct Own {
 
 impl Own {
     fn parameter(&self) -> Parameter<'_> {
-        Parameter::new(&self.name, self.unit, "", self.kind, &self.doc)
-            .group(&self.group)
-            .default(self.default)
+        Parameter {
+            group: &self.group,
+            default: self.default,
+            ..Parameter::new(&self.name, self.unit, "", self.kind, &self.doc)
+        }
     }
 }
 
@@ -198,4 +212,17 @@ impl Table {
         }
         Ok(own_values)
     }
+}
+
+/// The parameter of all wings whose value a wing's own one has where it is not set; `None` of other parameters.
+pub fn of_all_wings(parameters: &[Parameter<'_>], index: usize) -> Option<usize> {
+    let Kind::Following(_, follows) = parameters[index].kind else { return None };
+    let wing = parameters[index].name.strip_suffix(follows)?;
+    if wing.ends_with('_') { Parameter::index(parameters, follows) } else { None }
+}
+
+/// The value of a parameter at a point: of a wing's own one that is not set, that of all wings.
+pub fn standing(parameters: &[Parameter<'_>], values: &[f64], index: usize) -> f64 {
+    let shared = of_all_wings(parameters, index).filter(|_| values[index].is_nan());
+    values[shared.unwrap_or(index)]
 }

@@ -5,29 +5,29 @@ use crate::parameter::Invalid;
 
 /// A cantilever of two piezoelectric plates on a carbon-fibre layer, tapered in width, with a rigid extension.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Actuator {
+pub(super) struct Actuator {
     /// Strain of a plate's mid-plane per displacement of the tip s_ε (1/m), (5).
     ///
     /// ```text
     /// s_ε = (t_pzt + t_cf)/(l_pzt² (1 + 2l_r))     ε₁ = −s_ε x     ε₂ = s_ε x
     /// ```
-    pub strain_per_tip: f64,
+    pub(super) strain_per_tip: f64,
     /// Strain of a plate's outer face over that of its mid-plane: (2t_pzt + t_cf)/(t_pzt + t_cf).
-    pub surface_strain_ratio: f64,
+    pub(super) surface_strain_ratio: f64,
     /// Stiffness of the tip (N/m) per Pa of the plates' modulus E_e, (3).
     ///
     /// ```text
     /// K_pre D_E = p₄p₅ w_n G/(l_pzt³ (1 + 2l_r)) · t_pzt (1.5t_cf² + 3t_cf t_pzt + 2t_pzt²)
     /// ```
-    pub stiffness_per_modulus: f64,
+    pub(super) stiffness_per_modulus: f64,
     /// Stiffness of the tip that the carbon fibre gives (N/m), (3): K_pre E_cf t_cf³/4.
-    pub shim_stiffness: f64,
+    pub(super) shim_stiffness: f64,
     /// Blocked force of a plate (N) per piezoelectric stress (Pa), without the effect of strain, (6).
     ///
     /// ```text
     /// F_pre = ¾ p₃ G w_n t_pzt (t_pzt + t_cf)/l_pzt
     /// ```
-    pub force_per_stress: f64,
+    pub(super) force_per_stress: f64,
 }
 
 impl Actuator {
@@ -35,7 +35,7 @@ impl Actuator {
     ///
     /// # Errors
     /// `OutOfRange` if the width ratio is not between 0 and 2: one end would have no width.
-    pub fn new(p: &Params) -> Result<Actuator, Invalid> {
+    pub(super) fn new(p: &Params) -> Result<Actuator, Invalid> {
         let gain = taper_gain(p.actuator_width_ratio, p.actuator_extension_ratio)?;
         let length = p.actuator_length;
         let (t_pzt, t_cf) = (p.piezo_thickness, p.shim_thickness);
@@ -69,7 +69,7 @@ impl Actuator {
 ///
 /// # Errors
 /// `OutOfRange` if the width ratio is not between 0 and 2: one end would have no width.
-pub fn taper_gain(width_ratio: f64, extension_ratio: f64) -> Result<f64, Invalid> {
+fn taper_gain(width_ratio: f64, extension_ratio: f64) -> Result<f64, Invalid> {
     Invalid::unless_within("actuator_width_ratio", width_ratio, WIDTH_RATIOS)?;
     let gain = if (width_ratio - 1.0).abs() < 0.5 {
         series_gain(width_ratio - 1.0, 1.0 + 2.0 * extension_ratio)

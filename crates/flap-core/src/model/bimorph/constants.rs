@@ -8,7 +8,6 @@ use super::actuator::Actuator;
 use super::params::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
 use crate::drive::{DriveConstants, Shape};
 use crate::linkage::structural_damping;
-use crate::num::PerLane;
 use crate::parameter::Invalid;
 
 crate::per_lane! {
@@ -47,7 +46,7 @@ crate::per_lane! {
 
         /// Stiffness of the actuator without the stiffening by strain (N/m), (3).
         pub k_soft: R,
-        /// Force of the stiffening by strain (N) per unit of [`super::stiffening`], (3), (4).
+        /// Force of the stiffening by strain (N) per unit of L, (3), (4).
         pub f_stiff: R,
         /// Strain over the width of the modulus' transition, per displacement a₁ s_ε (1/m), (4).
         pub u_per_tip: R,
@@ -91,12 +90,8 @@ crate::per_lane! {
         pub p_min: R,
         /// Its shift from there to ψ = 0, in mean widths, (11).
         pub p_swing: R,
-        /// 1 if the centre of pressure follows |ψ|, else 0.
-        pub attack_folded: R,
-        /// 1 if it follows ψ relative to the motion, else 0.
-        pub attack_directional: R,
-        /// 1 if it follows ψ as printed, else 0.
-        pub attack_literal: R,
+        /// 1 for the angle that the centre of pressure follows and 0 for the others: |ψ|, ψ relative to the motion, and ψ.
+        pub attack: [R; 3],
 
         /// Mean of the drag coefficient's largest and smallest value b₁.
         pub b_1: R,
@@ -166,7 +161,6 @@ impl Constants<f64> {
         let b_1 = 0.5 * (p.drag_coefficient_max + p.drag_coefficient_min);
         let b_2 = 0.5 * (p.drag_coefficient_max - p.drag_coefficient_min);
 
-        let one_if = |yes: bool| if yes { 1.0 } else { 0.0 };
         let drive = p.drive();
         let c_p = 0.25 * p.vehicle_capacitance;
         let stroke_inertia = p.wing_inertia_stroke + p.added_inertia_stroke;
@@ -176,7 +170,7 @@ impl Constants<f64> {
 
             field_per_volt: 1.0 / p.piezo_thickness,
             f_min: p.piezo_stress_min,
-            f_taken: p.piezo_stress_min * (1.0 + one_if(p.field_transition == FieldTransition::Printed)),
+            f_taken: p.piezo_stress_min * (1.0 + f64::from(p.field_transition == FieldTransition::Printed)),
             f_max: p.piezo_stress_max,
             f_decline: p.stress_decline * p.piezo_stress_max,
             field_0: p.stress_field,
@@ -188,7 +182,7 @@ impl Constants<f64> {
             charge_recovery: p.electrical.charge_recovery,
 
             k_soft: actuator.stiffness_per_modulus * soft_modulus + actuator.shim_stiffness,
-            f_stiff: actuator.stiffness_per_modulus * half_range / u_per_tip * one_if(stiffens),
+            f_stiff: actuator.stiffness_per_modulus * half_range / u_per_tip * f64::from(stiffens),
             u_per_tip,
             sigma_0,
             k_t: p.transmission_stiffness,
@@ -211,9 +205,8 @@ impl Constants<f64> {
             hinge_torque: force * (p.wing_area / p.wing_length),
             p_min: p.pressure_min,
             p_swing: p.pressure_max - p.pressure_min,
-            attack_folded: one_if(p.centre_of_pressure == CentreOfPressure::Folded),
-            attack_directional: one_if(p.centre_of_pressure == CentreOfPressure::Directional),
-            attack_literal: one_if(p.centre_of_pressure == CentreOfPressure::Literal),
+            attack: [CentreOfPressure::Folded, CentreOfPressure::Directional, CentreOfPressure::Literal]
+                .map(|reading| f64::from(p.centre_of_pressure == reading)),
 
             b_1,
             b_2,
@@ -231,10 +224,6 @@ impl Constants<f64> {
         let stiffening = constants.f_stiff * constants.sigma_0 * constants.u_per_tip;
         let stiffness = constants.k_soft + stiffening + constants.k_t;
         constants.tip_damping = structural_damping(p.stroke_loss_factor, stiffness, drive.rate);
-        if <Constants<f64> as PerLane<f64>>::is_finite(&constants) {
-            Ok(constants)
-        } else {
-            Err(Invalid::NotFinite)
-        }
+        Invalid::unless_finite(constants)
     }
 }

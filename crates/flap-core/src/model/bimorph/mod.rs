@@ -5,22 +5,14 @@
 //! stiffness, a lumped mass, quasi-steady aerodynamics of the whole wing, a passive hinge.
 
 mod actuator;
-mod columns;
 mod constants;
-mod definition;
-mod dynamics;
+mod model;
 mod params;
 mod rhs;
 mod transmission;
-mod wing;
 
-pub use actuator::{Actuator, taper_gain};
-pub use columns::Signals;
 pub use constants::Constants;
-pub use dynamics::Bimorph;
+pub use model::{Bimorph, Signals};
 pub use params::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
-pub use rhs::{
-    Plate, charges, charging_power, currents, derivative, drag_coefficient, elastic_force, hinge_drag,
-    leakage, lift_and_drag, plate_forces, plates, secant_stiffness, stiffening, tip_drag,
-};
-pub use transmission::{Law, Transmission};
+pub use rhs::{Plate, plates, secant_stiffness};
+pub use transmission::Law;

@@ -12,134 +12,137 @@ crate::parameters! {
     pub struct Params {
         ["drive"]
         /// Drive voltage, peak to peak: the plates see 0 to this, in antiphase, Eq. (7). With harmonics, that of the fundamental alone.
-        drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)),
+        drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)) 200.0,
         /// Drive frequency. The paper sweeps it at 15 Hz/s.
-        drive_frequency: f64 = ("Hz", "f", Number(Positive)),
+        drive_frequency: f64 = ("Hz", "f", Number(Positive)) 120.0,
         /// Parameters of the waveform.
-        waveform: WaveformParameters = (flatten),
+        waveform: WaveformParameters = (flatten) WaveformParameters::SINE,
         /// Bias between the plates: the voltage of plate 1 is half of it higher, that of plate 2 half of it lower. Not in the paper.
-        drive_offset: f64 = ("V", "", Number(Any), default 0.0),
+        drive_offset: f64 = ("V", "", Number(Any), default: 0.0) 0.0,
 
         ["transmission"]
         /// Transmission ratio: stroke angle per displacement of the actuator's tip.
-        transmission_ratio: f64 = ("rad/m", "T", Number(Positive)),
+        transmission_ratio: f64 = ("rad/m", "T", Number(Positive)) 3333.0,
         /// Stiffness of the transmission felt at the actuator's tip: T^2 kappa_t.
-        transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative), fitted),
+        transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative), is_fitted: true) 197.7,
         /// Growth of the transmission ratio with the square of the tip's displacement x: T + T_3 x^2. Not in the paper.
-        transmission_growth: f64 = ("rad/m^3", "T_3", Number(Any), default 0.0),
+        transmission_growth: f64 = ("rad/m^3", "T_3", Number(Any), default: 0.0) 0.0,
         /// Damping of the stroke, about the stroke axis. Not in the paper.
-        stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default 0.0),
+        stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor of the stroke's spring, actuator and transmission together: a damping of loss factor times stiffness over the drive's angular frequency.
-        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default 0.0),
+        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default: 0.0) 0.0,
 
         ["wing"]
         /// Distance from the transmission's flexure to the wing's tip.
-        wing_length: f64 = ("m", "R", Number(Positive)),
+        wing_length: f64 = ("m", "R", Number(Positive)) 17e-3,
         /// Wing area.
-        wing_area: f64 = ("m^2", "A_w", Number(Positive)),
+        wing_area: f64 = ("m^2", "A_w", Number(Positive)) 54.59e-6,
         /// Wing shape: radius of the area's second moment about the stroke axis, over wing_length.
-        wing_radius_2: f64 = ("", "r_2", Number(Positive)),
+        wing_radius_2: f64 = ("", "r_2", Number(Positive)) 0.564,
         /// Wing width: largest distance from the hinge's axis.
-        wing_width: f64 = ("m", "W", Number(Positive)),
+        wing_width: f64 = ("m", "W", Number(Positive)) 4.5e-3,
         /// Wing shape: radius of the area's second moment about the hinge's axis, over wing_width.
-        wing_width_2: f64 = ("", "w_2", Number(Positive)),
+        wing_width_2: f64 = ("", "w_2", Number(Positive)) 0.43,
         /// Wing inertia about the stroke axis.
-        wing_inertia_stroke: f64 = ("kg*m^2", "I_zz", Number(Positive)),
+        wing_inertia_stroke: f64 = ("kg*m^2", "I_zz", Number(Positive)) 51.1e-12,
         /// Inertia of the air moving with the wing, about the stroke axis.
-        added_inertia_stroke: f64 = ("kg*m^2", "I_am", Number(NonNegative)),
+        added_inertia_stroke: f64 = ("kg*m^2", "I_am", Number(NonNegative)) 10.22e-12,
         /// Wing inertia about the hinge's axis.
-        wing_inertia_hinge: f64 = ("kg*m^2", "I_xx", Number(Positive), fitted),
+        wing_inertia_hinge: f64 = ("kg*m^2", "I_xx", Number(Positive), is_fitted: true) 0.95 * 1.29e-12,
         /// Product of inertia that couples stroke and hinge.
-        wing_inertia_product: f64 = ("kg*m^2", "I_xz", Number(Any), fitted),
+        wing_inertia_product: f64 = ("kg*m^2", "I_xz", Number(Any), is_fitted: true) 0.29 * 2.8e-12,
 
         ["hinge"]
         /// Stiffness of the wing hinge.
-        hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive), fitted),
+        hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive), is_fitted: true) 0.985 * 1.52e-6,
         /// Damping of the wing hinge. Not in the paper.
-        hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default 0.0),
+        hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor and size of the hinge.
-        hinge: HingeParameters = (flatten),
+        hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["air"]
         /// Density of air. Assumed: the paper gives none.
-        air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)),
+        air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)) 1.2,
         /// Drag coefficient at an attack angle of 90 deg (hinge angle 0).
-        drag_coefficient_max: f64 = ("", "b_max", Number(NonNegative), former "drag_max", fitted),
+        drag_coefficient_max: f64 = ("", "b_max", Number(NonNegative), former: "drag_max", is_fitted: true) 1.25 * 3.4,
         /// Drag coefficient at an attack angle of 0 (hinge angle 90 deg).
-        drag_coefficient_min: f64 = ("", "b_min", Number(NonNegative), former "drag_min", fitted),
+        drag_coefficient_min: f64 = ("", "b_min", Number(NonNegative), former: "drag_min", is_fitted: true) 0.39 * 0.4,
         /// Lift coefficient at an attack angle of 45 deg.
-        lift_coefficient_max: f64 = ("", "b_L", Number(NonNegative), former "lift_max", fitted),
+        lift_coefficient_max: f64 = ("", "b_L", Number(NonNegative), former: "lift_max", is_fitted: true) 1.8,
         /// Radial centre of pressure: lever of the drag about the stroke axis.
-        pressure_radius: f64 = ("m", "R_cp", Number(Positive), fitted),
+        pressure_radius: f64 = ("m", "R_cp", Number(Positive), is_fitted: true) 1.42 * 9.56e-3,
         /// Lever of the rotational drag about the hinge's axis.
-        rotation_pressure_width: f64 = ("m", "W_cp1", Number(NonNegative), fitted),
+        rotation_pressure_width: f64 = ("m", "W_cp1", Number(NonNegative), is_fitted: true) 0.39 * 1.93e-3,
         /// Chordwise centre of pressure at an attack angle of 0, in mean widths A_w/R, Eq. (11).
-        pressure_min: f64 = ("", "p_min", Number(Any), fitted),
+        pressure_min: f64 = ("", "p_min", Number(Any), is_fitted: true) 0.132,
         /// Chordwise centre of pressure at an attack angle of 90 deg, in mean widths A_w/R, Eq. (11).
-        pressure_max: f64 = ("", "p_max", Number(Any), fitted),
+        pressure_max: f64 = ("", "p_max", Number(Any), is_fitted: true) 0.151,
 
         ["actuator"]
         /// Length of the active part of the actuator.
-        actuator_length: f64 = ("m", "l_pzt", Number(Positive)),
+        actuator_length: f64 = ("m", "l_pzt", Number(Positive)) 9e-3,
         /// Mean width of the actuator.
-        actuator_width: f64 = ("m", "w_n", Number(Positive)),
+        actuator_width: f64 = ("m", "w_n", Number(Positive)) 1.125e-3,
         /// Width of the actuator at its base over its mean width, between 0 and 2.
-        actuator_width_ratio: f64 = ("", "w_r", Number(WIDTH_RATIOS)),
+        actuator_width_ratio: f64 = ("", "w_r", Number(WIDTH_RATIOS)) 1.556,
         /// Length of the actuator's rigid extension over actuator_length.
-        actuator_extension_ratio: f64 = ("", "l_r", Number(NonNegative)),
+        actuator_extension_ratio: f64 = ("", "l_r", Number(NonNegative)) 0.25,
         /// Mass of the actuator as felt at its tip. Not in the paper's equations, which leave out about 7 mg.
-        actuator_mass: f64 = ("kg", "", Number(NonNegative)),
+        actuator_mass: f64 = ("kg", "", Number(NonNegative)) 0.0,
         /// Thickness of each piezoelectric plate.
-        piezo_thickness: f64 = ("m", "t_pzt", Number(Positive)),
+        piezo_thickness: f64 = ("m", "t_pzt", Number(Positive)) 135e-6,
         /// Thickness of the carbon-fibre layer between the plates.
-        shim_thickness: f64 = ("m", "t_cf", Number(NonNegative)),
+        shim_thickness: f64 = ("m", "t_cf", Number(NonNegative)) 50e-6,
         /// Young's modulus of the carbon-fibre layer.
-        shim_modulus: f64 = ("Pa", "E_cf", Number(NonNegative)),
+        shim_modulus: f64 = ("Pa", "E_cf", Number(NonNegative)) 340e9,
         /// Young's modulus of the plates without compression, Eq. (4).
-        piezo_modulus_min: f64 = ("Pa", "E_min", Number(Positive)),
+        piezo_modulus_min: f64 = ("Pa", "E_min", Number(Positive)) 38.5e9,
         /// Young's modulus of the plates under large compression, Eq. (4).
-        piezo_modulus_max: f64 = ("Pa", "E_max", Number(Positive)),
+        piezo_modulus_max: f64 = ("Pa", "E_max", Number(Positive)) 81e9,
         /// Strain at which the modulus is halfway, negative in compression, Eq. (4).
-        modulus_strain: f64 = ("", "eps_0", Number(Any)),
+        modulus_strain: f64 = ("", "eps_0", Number(Any)) -0.047e-2,
         /// Steepness of the modulus against strain, Eq. (4).
-        modulus_steepness: f64 = ("", "a_1", Number(Positive)),
+        modulus_steepness: f64 = ("", "a_1", Number(Positive)) 8000.0,
         /// Piezoelectric stress per field at small fields, Eq. (6).
-        piezo_stress_min: f64 = ("N/(V*m)", "f_31,min", Number(NonNegative)),
+        piezo_stress_min: f64 = ("N/(V*m)", "f_31,min", Number(NonNegative)) 14.0,
         /// Piezoelectric stress per field after the transition, but for its decline, Eq. (6).
-        piezo_stress_max: f64 = ("N/(V*m)", "f_31,max", Number(NonNegative)),
+        piezo_stress_max: f64 = ("N/(V*m)", "f_31,max", Number(NonNegative)) 29.0,
         /// Field at which the piezoelectric stress per field is halfway, Eq. (6).
-        stress_field: f64 = ("V/m", "E_0", Number(Any)),
+        stress_field: f64 = ("V/m", "E_0", Number(Any)) 0.4e6,
         /// Steepness of the piezoelectric stress per field, Eq. (6).
-        stress_steepness: f64 = ("m/V", "a_3", Number(NonNegative)),
+        stress_steepness: f64 = ("m/V", "a_3", Number(NonNegative)) 10e-6,
         /// Relative decline of the piezoelectric stress per field, Eq. (6).
-        stress_decline: f64 = ("m/V", "a_4", Number(Any)),
+        stress_decline: f64 = ("m/V", "a_4", Number(Any)) 69e-9,
         /// Relative change of the plates' force with strain, Eq. (6).
-        force_strain_slope: f64 = ("", "a_2", Number(Any)),
+        force_strain_slope: f64 = ("", "a_2", Number(Any)) -230.0,
         /// Share of the plates' force that the actuator's attachment leaves.
-        force_factor: f64 = ("", "p_3", Number(Positive), fitted),
+        force_factor: f64 = ("", "p_3", Number(Positive), is_fitted: true) 0.7,
         /// Share of the actuator's stiffness that its attachment leaves.
-        stiffness_factor: f64 = ("", "p_4", Number(Positive), fitted),
+        stiffness_factor: f64 = ("", "p_4", Number(Positive), is_fitted: true) 0.79,
         /// Factor on the actuator's stiffness that brings its free deflection to the measured one.
-        deflection_factor: f64 = ("", "p_5", Number(Positive), fitted),
+        deflection_factor: f64 = ("", "p_5", Number(Positive), is_fitted: true) 0.8,
         /// Force of plate 2 over that of plate 1 at the same voltage. Not in the paper.
-        plate_ratio: f64 = ("", "", Number(NonNegative), default 1.0),
+        plate_ratio: f64 = ("", "", Number(NonNegative), default: 1.0) 1.0,
         /// Dielectric loss and charge recovery.
-        electrical: ElectricalParameters = (flatten),
+        electrical: ElectricalParameters = (flatten) ElectricalParameters::NONE,
 
         ["vehicle"]
         /// Capacitance of a vehicle's two actuators together: four plates.
-        vehicle_capacitance: f64 = ("F", "C_act", Number(NonNegative)),
+        vehicle_capacitance: f64 = ("F", "C_act", Number(NonNegative)) 10.1e-9,
         /// Mass of the vehicle with its two actuators and wings, Table II: what payload_mg is reckoned against.
-        vehicle_mass: f64 = ("kg", "M_f", Number(NonNegative)),
+        vehicle_mass: f64 = ("kg", "M_f", Number(NonNegative)) 80e-6,
 
         ["readings of the paper"]
         /// Transition of the piezoelectric stress with field, Eq. (6): corrected, or as printed (which halves the force).
-        field_transition: FieldTransition = ("", "", Choice(FieldTransition::NAMES)),
+        field_transition: FieldTransition = ("", "", Choice(FieldTransition::NAMES)) FieldTransition::Corrected,
         /// Attack angle that moves the chordwise centre of pressure, Eq. (11): folded to at most 90 deg, relative to the motion, or as printed (which breaks mirror symmetry).
-        centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)),
+        centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)) CentreOfPressure::Folded,
         /// Stiffness of the actuator: growing with strain, Eq. (4), or constant at its value for none.
-        actuator_stiffness: ActuatorStiffness = ("", "", Choice(ActuatorStiffness::NAMES)),
+        actuator_stiffness: ActuatorStiffness = ("", "", Choice(ActuatorStiffness::NAMES)) ActuatorStiffness::StrainDependent,
     }
+
+    /// Table I, at 200 V and the frequency of its largest stroke. Fitted factors are written out as printed.
+    pub fn jafferis2016() -> Params;
 }
 
 crate::choice! {
@@ -179,7 +182,7 @@ pub(super) const WIDTH_RATIOS: Range = Range::Between(0.0, 2.0);
 
 impl Params {
     /// The published presets.
-    pub const PRESETS: &'static [Preset] = &[
+    pub(super) const PRESETS: &'static [Preset] = &[
         Preset {
             name: "jafferis2016",
             doc: "test vehicle with improved actuators, 200 V at 120 Hz (Jafferis, Graule and Wood 2016, Table I)",
@@ -191,69 +194,6 @@ impl Params {
             values: || Params::jafferis2016_improved().to_values(),
         },
     ];
-
-    /// Table I, at 200 V and the frequency of its largest stroke. Fitted factors are written out as printed.
-    pub fn jafferis2016() -> Params {
-        Params {
-            drive_voltage_pp: 200.0,
-            drive_frequency: 120.0,
-            waveform: WaveformParameters::SINE,
-            drive_offset: 0.0,
-            transmission_ratio: 3333.0,
-            transmission_stiffness: 197.7,
-            transmission_growth: 0.0,
-            stroke_damping: 0.0,
-            stroke_loss_factor: 0.0,
-            wing_length: 17e-3,
-            wing_area: 54.59e-6,
-            wing_radius_2: 0.564,
-            wing_width: 4.5e-3,
-            wing_width_2: 0.43,
-            wing_inertia_stroke: 51.1e-12,
-            added_inertia_stroke: 10.22e-12,
-            wing_inertia_hinge: 0.95 * 1.29e-12,
-            wing_inertia_product: 0.29 * 2.8e-12,
-            hinge_stiffness: 0.985 * 1.52e-6,
-            hinge_damping: 0.0,
-            hinge: HingeParameters::NONE,
-            air_density: 1.2,
-            drag_coefficient_max: 1.25 * 3.4,
-            drag_coefficient_min: 0.39 * 0.4,
-            lift_coefficient_max: 1.8,
-            pressure_radius: 1.42 * 9.56e-3,
-            rotation_pressure_width: 0.39 * 1.93e-3,
-            pressure_min: 0.132,
-            pressure_max: 0.151,
-            actuator_length: 9e-3,
-            actuator_width: 1.125e-3,
-            actuator_width_ratio: 1.556,
-            actuator_extension_ratio: 0.25,
-            actuator_mass: 0.0,
-            piezo_thickness: 135e-6,
-            shim_thickness: 50e-6,
-            shim_modulus: 340e9,
-            piezo_modulus_min: 38.5e9,
-            piezo_modulus_max: 81e9,
-            modulus_strain: -0.047e-2,
-            modulus_steepness: 8000.0,
-            piezo_stress_min: 14.0,
-            piezo_stress_max: 29.0,
-            stress_field: 0.4e6,
-            stress_steepness: 10e-6,
-            stress_decline: 69e-9,
-            force_strain_slope: -230.0,
-            force_factor: 0.7,
-            stiffness_factor: 0.79,
-            deflection_factor: 0.8,
-            plate_ratio: 1.0,
-            electrical: ElectricalParameters::NONE,
-            vehicle_capacitance: 10.1e-9,
-            vehicle_mass: 80e-6,
-            field_transition: FieldTransition::Corrected,
-            centre_of_pressure: CentreOfPressure::Folded,
-            actuator_stiffness: ActuatorStiffness::StrainDependent,
-        }
-    }
 
     /// The redesign of section III-B: transmission and hinge of Table II, all else as in Table I.
     pub fn jafferis2016_improved() -> Params {

@@ -70,7 +70,7 @@ fn plate<R: Real>(c: &Constants<R>, force_per_stress: R, voltage: Wave<R>) -> Pl
 /// F₁ = g(V₁) (1 − b x)     F₂ = g(V₂) (1 + b x)     b = a₂ s_ε
 /// ```
 #[inline(always)]
-pub fn plate_forces<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R) -> [R; 2] {
+pub(super) fn plate_forces<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R) -> [R; 2] {
     let change = c.b * x;
     [plates[0].force - plates[0].force * change, plates[1].force + plates[1].force * change]
 }
@@ -83,7 +83,7 @@ pub fn plate_forces<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R) -> 
 ///
 /// Accurate to rounding for any x: L ≈ σ₀ u for small u, u + ln σ₀ for large.
 #[inline(always)]
-pub fn stiffening<R: Real>(c: &Constants<R>, x: R) -> R {
+pub(super) fn stiffening<R: Real>(c: &Constants<R>, x: R) -> R {
     let u = c.u_per_tip * x.abs();
     let within = u.min(u.lit(EXPONENT_MAX));
     // Beyond, L grows as u does.
@@ -98,7 +98,7 @@ pub fn stiffening<R: Real>(c: &Constants<R>, x: R) -> R {
 /// K_act = K_pre (E_e D_E + E_cf t_cf³/4)     E_e = E_min + ½ (E_max − E_min) L/u
 /// ```
 #[inline(always)]
-pub fn elastic_force<R: Real>(c: &Constants<R>, x: R) -> R {
+pub(super) fn elastic_force<R: Real>(c: &Constants<R>, x: R) -> R {
     c.k_soft * x + c.f_stiff * stiffening(c, x).copysign(x)
 }
 
@@ -111,13 +111,13 @@ pub fn secant_stiffness<R: Real>(c: &Constants<R>, x: R) -> R {
 
 /// The drag coefficient of the wing: b₁ + b₂ cos 2ψ.
 #[inline(always)]
-pub fn drag_coefficient<R: Real>(c: &Constants<R>, cos_2psi: R) -> R {
+pub(super) fn drag_coefficient<R: Real>(c: &Constants<R>, cos_2psi: R) -> R {
     c.b_1 + c.b_2 * cos_2psi
 }
 
 /// Drag force at the actuator's tip per ẋ|ẋ| (kg/m), (1), (8): C_A + C_B cos 2ψ.
 #[inline(always)]
-pub fn tip_drag<R: Real>(c: &Constants<R>, cos_2psi: R) -> R {
+pub(super) fn tip_drag<R: Real>(c: &Constants<R>, cos_2psi: R) -> R {
     c.c_a + c.c_b * cos_2psi
 }
 
@@ -130,10 +130,11 @@ pub fn tip_drag<R: Real>(c: &Constants<R>, cos_2psi: R) -> R {
 ///
 /// ψ̃ is |ψ|, ψ sign(ẋ) or, as printed, ψ.
 #[inline(always)]
-pub fn hinge_drag<R: Real>(c: &Constants<R>, psi: R, x_dot: R, sin: R, cos: R) -> R {
+pub(super) fn hinge_drag<R: Real>(c: &Constants<R>, psi: R, x_dot: R, sin: R, cos: R) -> R {
     let (sin_2psi, cos_2psi) = double_angle(sin, cos);
     let directed = psi * psi.lit(1.0).copysign(x_dot);
-    let tilt = c.attack_folded * psi.abs() + c.attack_directional * directed + c.attack_literal * psi;
+    let [folded, directional, literal] = c.attack;
+    let tilt = folded * psi.abs() + directional * directed + literal * psi;
     let arm = c.p_min + c.p_swing * (tilt * -FRAC_2_PI + 1.0).abs();
     c.hinge_torque * arm * (drag_coefficient(c, cos_2psi) * cos + c.b_l * sin_2psi * sin)
 }
@@ -154,7 +155,7 @@ pub(super) fn double_angle<R: Real>(sin: R, cos: R) -> (R, R) {
 /// Not in the paper: damping of stroke and hinge, zero unless asked for; and a [`Transmission`] whose ratio grows. Then
 /// T ẋ is φ̇ and T ẍ is φ̈.
 #[inline(always)]
-pub fn derivative<R: Real>(c: &Constants<R>, law: Law, plates: &[Plate<R>; 2], y: &[R; 4]) -> [R; 4] {
+pub(super) fn derivative<R: Real>(c: &Constants<R>, law: Law, plates: &[Plate<R>; 2], y: &[R; 4]) -> [R; 4] {
     let [x, x_dot, psi, psi_dot] = *y;
     let (sin, cos) = psi.sin_cos();
     let (sin_2psi, cos_2psi) = double_angle(sin, cos);
@@ -197,7 +198,7 @@ pub(super) fn stroke_damping<R: Real>(
 ///
 /// Drag opposes the stroke: its work R_cp T ẋ D is the actuator's loss to the air.
 #[inline(always)]
-pub fn lift_and_drag<R: Real>(c: &Constants<R>, rate: R, sin_2psi: R, cos_2psi: R) -> [R; 2] {
+pub(super) fn lift_and_drag<R: Real>(c: &Constants<R>, rate: R, sin_2psi: R, cos_2psi: R) -> [R; 2] {
     let force = c.force * rate.abs() * rate;
     [force * c.b_l * sin_2psi, force * drag_coefficient(c, cos_2psi)]
 }
@@ -229,38 +230,24 @@ pub(super) fn load<R: Real>(
     }
 }
 
-/// Charges of the two plates (C). Not in the paper: the reciprocal of (6).
-///
-/// ```text
-/// q₁ = C_p V₁ + g'(V₁) (x − ½ b x²)     q₂ = C_p V₂ − g'(V₂) (x + ½ b x²)
-/// ```
-#[inline(always)]
-pub fn charges<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R) -> [R; 2] {
-    let [p_1, p_2] = plates;
-    let bend = c.b * x * x * 0.5;
-    [
-        c.c_p * p_1.voltage.value + p_1.force_per_volt * (x - bend),
-        c.c_p * p_2.voltage.value - p_2.force_per_volt * (x + bend),
-    ]
-}
-
 /// Power that charges the plates' capacitance (W), zero on the mean of a period: C_p (V₁V̇₁ + V₂V̇₂).
 #[inline(always)]
-pub fn charging_power<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2]) -> R {
+pub(super) fn charging_power<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2]) -> R {
     let [v_1, v_2] = [plates[0].voltage, plates[1].voltage];
     c.c_p * (v_1.value * v_1.rate + v_2.value * v_2.rate)
 }
 
-/// Currents into the two plates (A): the rates of their [`charges`].
+/// Currents into the two plates (A): the rates of their charges, which are the reciprocal of (6). Not in the paper.
 ///
 /// ```text
+/// q₁ = C_p V₁ + g'(V₁) (x − ½ b x²)     q₂ = C_p V₂ − g'(V₂) (x + ½ b x²)
 /// i₁ = C_p V̇₁ + g''(V₁) V̇₁ (x − ½ b x²) + g'(V₁) (1 − b x) ẋ
 /// i₂ = C_p V̇₂ − g''(V₂) V̇₂ (x + ½ b x²) − g'(V₂) (1 + b x) ẋ
 /// ```
 ///
 /// Dielectric loss adds [`leakage`] to them.
 #[inline(always)]
-pub fn currents<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R, x_dot: R) -> [R; 2] {
+pub(super) fn currents<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R, x_dot: R) -> [R; 2] {
     let [p_1, p_2] = plates;
     let change = c.b * x;
     let bend = change * x * 0.5;
@@ -273,7 +260,7 @@ pub fn currents<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R, x_dot: 
 
 /// Currents of the dielectric loss (A): conductance times the voltage less its mean.
 #[inline(always)]
-pub fn leakage<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], means: [R; 2]) -> [R; 2] {
+pub(super) fn leakage<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], means: [R; 2]) -> [R; 2] {
     let [v_1, v_2] = [plates[0].voltage.value, plates[1].voltage.value];
     [c.conductance * (v_1 - means[0]), c.conductance * (v_2 - means[1])]
 }

@@ -25,7 +25,7 @@ pub enum Law {
 
 /// The transmission at a displacement of the tip, relative to its ratio T at rest.
 #[derive(Clone, Copy, Debug)]
-pub enum Transmission<R> {
+pub(super) enum Transmission<R> {
     /// T(x) = T.
     Constant,
     /// T(x) = T t with t = 1 + τ x², τ = T₃/T.
@@ -40,7 +40,7 @@ pub enum Transmission<R> {
 impl<R: Real> Transmission<R> {
     /// The transmission at the displacement `x` (m).
     #[inline(always)]
-    pub fn at(c: &Constants<R>, law: Law, x: R) -> Transmission<R> {
+    pub(super) fn at(c: &Constants<R>, law: Law, x: R) -> Transmission<R> {
         match law {
             Law::Constant => Transmission::Constant,
             Law::Square => {
@@ -52,7 +52,7 @@ impl<R: Real> Transmission<R> {
 
     /// t times a number. Of ẋ it makes φ̇/T (m/s); of a moment about the stroke axis times T, its force at the tip (N).
     #[inline(always)]
-    pub fn times(&self, number: R) -> R {
+    pub(super) fn times(&self, number: R) -> R {
         match *self {
             Transmission::Constant => number,
             Transmission::Square { ratio, .. } => ratio * number,
@@ -61,7 +61,7 @@ impl<R: Real> Transmission<R> {
 
     /// Acceleration of the tip (m/s²) by a `force` (N) on it: `ẍ = (F − J T T′ ẋ²)/(m_a + J T²)`.
     #[inline(always)]
-    pub fn acceleration(&self, c: &Constants<R>, force: R, x_dot: R) -> R {
+    pub(super) fn acceleration(&self, c: &Constants<R>, force: R, x_dot: R) -> R {
         match *self {
             Transmission::Constant => force * c.inverse_m_e,
             Transmission::Square { ratio, slope } => {
@@ -73,7 +73,7 @@ impl<R: Real> Transmission<R> {
 
     /// Acceleration of the stroke φ̈/T (m/s²), `t ẍ + t′ ẋ²`.
     #[inline(always)]
-    pub fn stroke_acceleration(&self, x_ddot: R, x_dot: R) -> R {
+    pub(super) fn stroke_acceleration(&self, x_ddot: R, x_dot: R) -> R {
         match *self {
             Transmission::Constant => x_ddot,
             Transmission::Square { ratio, slope } => ratio * x_ddot + slope * x_dot * x_dot,

@@ -1,19 +1,19 @@
 //! The chord along the span, which the paper does not give: blade elements and shape moments.
 
 use super::params::{FlowDirection, Params};
-use crate::aero::{Cut, Strips, sum};
+use crate::aero::{Cut, Strips, check_chords, cut, sum};
 use crate::parameter::Invalid;
 use crate::quadrature::gauss_legendre;
 
 /// Number of blade elements. At the nodes of the Gauss-Legendre rule, 8 give the shape moments of a cubic chord
 /// exactly, and a settled motion within 1e-5 of that of 64.
-pub const BLADES: usize = 8;
+pub(super) const BLADES: usize = 8;
 
 impl Params {
     /// These parameters with the mean chord, the shape moments (22), (33) and the midspan chord of the chord shape.
     #[must_use]
     pub fn with_chord_moments(self) -> Params {
-        let cuts = cut(&self);
+        let cuts = elements(&self);
         let length = self.wing_length;
         // Of the elements, so that the moment of the chord itself is 1.
         let mean = if self.chords.is_on() { sum(&cuts, |_, c| c) / length } else { self.mean_chord };
@@ -55,29 +55,13 @@ impl Params {
 pub(super) fn blades(p: &Params) -> Result<Strips<f64, BLADES>, Invalid> {
     let cuts = match p.flow_direction {
         FlowDirection::Uniform => Vec::new(),
-        FlowDirection::Blade => cut(p),
+        FlowDirection::Blade => elements(p),
     };
-    match cuts.iter().find(|cut| cut.chord < 0.0) {
-        Some(cut) => Err(Invalid::together(
-            &["chord_legendre_1", "chord_legendre_2", "chord_legendre_3"],
-            format!(
-                "the chord is negative {} m from the stroke axis: chord_legendre_1 to chord_legendre_3 do not describe \
-                 a wing",
-                cut.radius
-            ),
-        )),
-        None => Ok(Strips::new(&cuts, p.air_density, -0.5)),
-    }
+    check_chords(&cuts, &["chord_legendre_1", "chord_legendre_2", "chord_legendre_3"])?;
+    Ok(Strips::new(&cuts, p.air_density, -0.5))
 }
 
 /// Cuts the wing into blade elements.
-fn cut(p: &Params) -> Vec<Cut> {
-    gauss_legendre(BLADES)
-        .iter()
-        .map(|node| Cut {
-            radius: p.root_radius() + p.wing_length * node.x,
-            chord: p.chord(node.x),
-            width: p.wing_length * node.weight,
-        })
-        .collect()
+fn elements(p: &Params) -> Vec<Cut> {
+    cut(&gauss_legendre(BLADES), p.root_radius(), p.wing_length, |x| p.chord(x))
 }

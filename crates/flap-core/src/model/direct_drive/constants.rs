@@ -11,7 +11,6 @@ use crate::aero::Strips;
 use crate::drive::DriveConstants;
 use crate::linkage::structural_damping;
 use crate::model::stroke_and_pitch::inertias_apart;
-use crate::num::PerLane;
 use crate::parameter::Invalid;
 use crate::piezo::{Laminate, Layer};
 
@@ -74,24 +73,12 @@ crate::per_lane! {
         /// Half of the drag coefficient's range, (27).
         pub drag_swing: R,
 
-        /// Lift per φ̇² (kg), (21): ½ρA_w R² I₂₁.
-        pub lift_pp: R,
-        /// Lift per φ̇ψ̇cosψ (kg): −½ρA_w R c̄ I₁₂.
-        pub lift_pw: R,
-        /// Lift per (ψ̇cosψ)² (kg): ½ρA_w c̄² I₀₃/4.
-        pub lift_ww: R,
-        /// Stroke moment of the drag per φ̇² (kg·m), (25): ½ρA_w R · R² I₃₁.
-        pub stroke_pp: R,
-        /// The same per φ̇ψ̇cosψ (kg·m): −½ρA_w R · R c̄ I₂₂.
-        pub stroke_pw: R,
-        /// The same per (ψ̇cosψ)² (kg·m): ½ρA_w R · c̄² I₁₃/4.
-        pub stroke_ww: R,
-        /// Pitch moment per φ̇² (kg·m), (23): ½ρA_w c̄ · R² I₂₂.
-        pub pitch_pp: R,
-        /// The same per φ̇ψ̇cosψ (kg·m): −½ρA_w c̄ · R c̄ I₁₃.
-        pub pitch_pw: R,
-        /// The same per (ψ̇cosψ)² (kg·m): ½ρA_w c̄ · c̄² I₀₄/4.
-        pub pitch_ww: R,
+        /// Lift per φ̇², φ̇ψ̇cosψ and (ψ̇cosψ)² (kg), (21): ½ρA_w [R² I₂₁, −R c̄ I₁₂, c̄² I₀₃/4].
+        pub lift: [R; 3],
+        /// Stroke moment of the drag per the same (kg·m), (25): ½ρA_w R [R² I₃₁, −R c̄ I₂₂, c̄² I₁₃/4].
+        pub stroke: [R; 3],
+        /// Pitch moment per the same (kg·m), (23): ½ρA_w c̄ [R² I₂₂, −R c̄ I₁₃, c̄² I₀₄/4].
+        pub pitch: [R; 3],
         /// Rotational drag moment per ψ̇|ψ̇| (kg·m²), (32): ½ρC_rd R I_rd.
         pub rotation: R,
         /// The blade elements, where each has its own direction of flow; else none.
@@ -101,12 +88,8 @@ crate::per_lane! {
         pub pressure_slope: R,
         /// Centre of pressure at zero attack, in chords, (24).
         pub pressure_offset: R,
-        /// 1 if the attack angle is taken relative to the motion (π/2 − σψ), else 0.
-        pub attack_directional: R,
-        /// 1 if the attack angle is folded (π/2 − |ψ|), else 0.
-        pub attack_folded: R,
-        /// 1 if the attack angle is as printed (π/2 − ψ), else 0.
-        pub attack_literal: R,
+        /// 1 for the reading of the attack angle and 0 for the others: π/2 − σψ relative to the motion, π/2 − |ψ|, and π/2 − ψ.
+        pub attack: [R; 3],
 
         /// +1 if F_am sin ψ counts against lift, −1 as printed in (35).
         pub lift_sign: R,
@@ -131,22 +114,17 @@ impl Constants<f64> {
         } else {
             p.clone()
         };
-        let laminate = Laminate {
-            layers: [
-                Layer { thickness: p.piezo_thickness, modulus: p.piezo_modulus, density: p.piezo_density },
-                Layer {
-                    thickness: p.adhesive_thickness,
-                    modulus: p.adhesive_modulus,
-                    density: p.adhesive_density,
-                },
-                Layer { thickness: p.shim_thickness, modulus: p.shim_modulus, density: p.shim_density },
-            ],
-        };
+        let layer = |[thickness, modulus, density]: [f64; 3]| Layer { thickness, modulus, density };
+        let laminate = Laminate::of([
+            layer([p.piezo_thickness, p.piezo_modulus, p.piezo_density]),
+            layer([p.adhesive_thickness, p.adhesive_modulus, p.adhesive_density]),
+            layer([p.shim_thickness, p.shim_modulus, p.shim_density]),
+        ]);
         let l_a = p.actuator_length;
-        let z_c = laminate.neutral_axis();
-        let z_0 = laminate.mid_planes()[0];
-        let s_a = laminate.bending_stiffness();
-        let mu = laminate.areal_density();
+        let z_c = laminate.neutral_axis;
+        let z_0 = laminate.mid_planes[0];
+        let s_a = laminate.bending_stiffness;
+        let mu = laminate.areal_density;
         let widths = p.actuator_root_width + p.actuator_tip_width;
         let j_a = mu * (p.actuator_root_width + 5.0 * p.actuator_tip_width) * (l_a * l_a * l_a) / 120.0;
 
@@ -163,7 +141,6 @@ impl Constants<f64> {
         let aspect = 0.5 * r / c;
         let k_lift = FRAC_PI_2 * (r / c) / (1.0 + (aspect * aspect + 1.0).sqrt());
 
-        let one_if = |yes: bool| if yes { 1.0 } else { 0.0 };
         let drive = p.drive();
         let k_phi = 0.5 * s_a * widths / l_a;
         let c_p = p.piezo_permittivity * widths * l_a / (2.0 * p.piezo_thickness);
@@ -190,7 +167,7 @@ impl Constants<f64> {
             a22: 0.25 * FRAC_PI_4 * rho * (c * c * c * c) * r * p.shape_moment_04,
             f1: FRAC_PI_4 * rho * (c * c) * (r * r) * p.shape_moment_12,
             f2: 0.5 * FRAC_PI_4 * rho * (c * c * c) * r * p.shape_moment_03,
-            gyroscopic: one_if(p.added_mass == AddedMass::Lagrangian),
+            gyroscopic: f64::from(p.added_mass == AddedMass::Lagrangian),
 
             mid_radius: 0.5 * r + x_r,
             mid_half_chord: 0.5 * p.midspan_chord.unwrap_or(c),
@@ -199,36 +176,38 @@ impl Constants<f64> {
             drag_mean: 0.5 * (p.drag_coefficient_max + p.drag_coefficient_min),
             drag_swing: 0.5 * (p.drag_coefficient_max - p.drag_coefficient_min),
 
-            lift_pp: dynamic * r * r * p.shape_moment_21,
-            lift_pw: -dynamic * r * c * p.shape_moment_12,
-            lift_ww: dynamic * c * c * p.shape_moment_03 * 0.25,
-            stroke_pp: dynamic * r * r * r * p.shape_moment_31,
-            stroke_pw: -dynamic * r * r * c * p.shape_moment_22,
-            stroke_ww: dynamic * r * c * c * p.shape_moment_13 * 0.25,
-            pitch_pp: dynamic * c * r * r * p.shape_moment_22,
-            pitch_pw: -dynamic * c * r * c * p.shape_moment_13,
-            pitch_ww: dynamic * c * c * c * p.shape_moment_04 * 0.25,
+            lift: [
+                dynamic * r * r * p.shape_moment_21,
+                -dynamic * r * c * p.shape_moment_12,
+                dynamic * c * c * p.shape_moment_03 * 0.25,
+            ],
+            stroke: [
+                dynamic * r * r * r * p.shape_moment_31,
+                -dynamic * r * r * c * p.shape_moment_22,
+                dynamic * r * c * c * p.shape_moment_13 * 0.25,
+            ],
+            pitch: [
+                dynamic * c * r * r * p.shape_moment_22,
+                -dynamic * c * r * c * p.shape_moment_13,
+                dynamic * c * c * c * p.shape_moment_04 * 0.25,
+            ],
             rotation: 0.5 * rho * p.rotation_drag * r * p.rotation_moment,
             blades: blades(p)?,
 
             pressure_slope: p.pressure_slope,
             pressure_offset: p.pressure_offset,
-            attack_directional: one_if(p.centre_of_pressure == CentreOfPressure::Directional),
-            attack_folded: one_if(p.centre_of_pressure == CentreOfPressure::Folded),
-            attack_literal: one_if(p.centre_of_pressure == CentreOfPressure::Literal),
+            attack: [CentreOfPressure::Directional, CentreOfPressure::Folded, CentreOfPressure::Literal]
+                .map(|reading| f64::from(p.centre_of_pressure == reading)),
 
             lift_sign: if p.lift_sign == LiftSign::Corrected { 1.0 } else { -1.0 },
 
             piezo_thickness: p.piezo_thickness,
             strain_per_stroke: z_c / l_a,
         };
-        constants.checked()
+        Invalid::unless_finite(constants)?.checked()
     }
 
     fn checked(self) -> Result<Constants<f64>, Invalid> {
-        if !<Constants<f64> as PerLane<f64>>::is_finite(&self) {
-            return Err(Invalid::NotFinite);
-        }
         // The determinant is linear in cos²ψ: positive everywhere if it is at both ends.
         let pitch = self.m22 + self.a22;
         let coupling = self.m12 - self.a12;

@@ -5,17 +5,11 @@
 //! quasi-steady translational and rotational aerodynamics in moment form, current and power.
 
 mod chord;
-mod columns;
 mod constants;
-mod definition;
-mod dynamics;
+mod model;
 mod params;
 mod rhs;
-mod wing;
 
-pub use chord::BLADES;
-pub use columns::Signals;
 pub use constants::Constants;
-pub use dynamics::DirectDrive;
+pub use model::{DirectDrive, Signals};
 pub use params::{AddedMass, CentreOfPressure, FlowDirection, LiftSign, Params};
-pub use rhs::{AddedMassLoad, Aerodynamics, added_mass, aerodynamics, balance, current, lift, mean_velocity};

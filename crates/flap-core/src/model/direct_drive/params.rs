@@ -13,134 +13,137 @@ crate::parameters! {
     pub struct Params {
         ["drive"]
         /// Drive voltage, peak to peak: twice the paper's V_0. With harmonics, that of the fundamental alone.
-        drive_voltage_pp: f64 = ("V", "2 V_0", Number(NonNegative)),
+        drive_voltage_pp: f64 = ("V", "2 V_0", Number(NonNegative)) 60.0,
         /// Constant part of the drive voltage. The paper drives with V_0 sin(wt) + V_0.
-        drive_bias: Option<f64> = ("V", "V_0", Following(Any, "half of drive_voltage_pp")),
+        drive_bias: Option<f64> = ("V", "V_0", Following(Any, "half of drive_voltage_pp")) None,
         /// Drive frequency.
-        drive_frequency: f64 = ("Hz", "f", Number(Positive)),
+        drive_frequency: f64 = ("Hz", "f", Number(Positive)) 209.0,
         /// Parameters of the waveform.
-        waveform: WaveformParameters = (flatten),
+        waveform: WaveformParameters = (flatten) WaveformParameters::SINE,
         /// Parameters of a prescribed stroke.
-        stroke: StrokeParameters = (flatten),
+        stroke: StrokeParameters = (flatten) StrokeParameters::FREE,
 
         ["wing"]
         /// Wing length, from the wing's root to its tip.
-        wing_length: f64 = ("m", "R", Number(Positive)),
+        wing_length: f64 = ("m", "R", Number(Positive)) 17.0e-3,
         /// Mean chord.
-        mean_chord: f64 = ("m", "c", Number(Positive)),
+        mean_chord: f64 = ("m", "c", Number(Positive)) 6.51e-3,
         /// Distance from the stroke axis to the wing's root. Not given in the paper.
-        wing_offset: Option<f64> = ("m", "x_r", Following(Any, "half of actuator_length: the stroke axis is at mid-actuator")),
+        wing_offset: Option<f64> = ("m", "x_r", Following(Any, "half of actuator_length: the stroke axis is at mid-actuator")) None,
         /// Chord at half the wing's length. Not given in the paper. For flow_direction = "uniform".
-        midspan_chord: Option<f64> = ("m", "c(R/2)", Following(Positive, "mean_chord")),
+        midspan_chord: Option<f64> = ("m", "c(R/2)", Following(Positive, "mean_chord")) None,
         /// Wing mass.
-        wing_mass: f64 = ("kg", "M_w", Number(Positive)),
+        wing_mass: f64 = ("kg", "M_w", Number(Positive)) 2.31e-6,
         /// Distance of the wing's centre of mass from its root, along the span.
-        mass_centre_span: f64 = ("m", "r_g", Number(Any)),
+        mass_centre_span: f64 = ("m", "r_g", Number(Any)) 9.42e-3,
         /// Chordwise position of the wing's centre of mass, positive towards the leading edge: negative in a real wing (the paper prints its magnitude).
-        mass_centre_chord: f64 = ("m", "y_g", Number(Any)),
+        mass_centre_chord: f64 = ("m", "y_g", Number(Any)) -2.48e-3,
         /// Wing inertia about the spanwise axis through the centre of mass.
-        wing_inertia_span: f64 = ("kg*m^2", "J_wx", Number(NonNegative)),
+        wing_inertia_span: f64 = ("kg*m^2", "J_wx", Number(NonNegative)) 4.81e-12,
         /// Wing inertia about the chordwise axis through the centre of mass.
-        wing_inertia_chord: f64 = ("kg*m^2", "J_wy", Number(NonNegative)),
+        wing_inertia_chord: f64 = ("kg*m^2", "J_wy", Number(NonNegative)) 5.07e-11,
         /// Product of inertia of the wing about its centre of mass, signed as in Eq. (17).
-        wing_inertia_product: f64 = ("kg*m^2", "J_wxy", Number(Any)),
+        wing_inertia_product: f64 = ("kg*m^2", "J_wxy", Number(Any)) 3.62e-13,
         /// Inertia of the leading-edge part about the stroke axis.
-        leading_edge_inertia: f64 = ("kg*m^2", "J_B", Number(NonNegative)),
+        leading_edge_inertia: f64 = ("kg*m^2", "J_B", Number(NonNegative)) 3.89e-9,
 
         ["hinge"]
         /// Stiffness of the wing hinge.
-        hinge_stiffness: f64 = ("N*m/rad", "k_w", Number(Positive)),
+        hinge_stiffness: f64 = ("N*m/rad", "k_w", Number(Positive)) 1.48e-4,
         /// Damping of the wing hinge. Not in the paper.
-        hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default 0.0),
+        hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor and size of the hinge.
-        hinge: HingeParameters = (flatten),
+        hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["wing shape"]
         /// Direction of flow that the translational forces follow: that of the wing's mean velocity, one for the whole wing as in the paper, or that of each blade element's own velocity. With "blade" the shape moments, rotation_moment and midspan_chord are computed from the chord shape, and what is given for them is not used.
-        flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)),
+        flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)) FlowDirection::Uniform,
         /// Chord shape: coefficient of the Legendre polynomial P_1(2r/R - 1) in chord / mean_chord, whose constant term is 1; not in the paper: fitted to its shape moments. Only for flow_direction = "blade".
-        chord_legendre_1: f64 = ("", "a_1", Number(Any)),
+        chord_legendre_1: f64 = ("", "a_1", Number(Any)) 0.0562,
         /// Chord shape: coefficient of the Legendre polynomial P_2; not in the paper.
-        chord_legendre_2: f64 = ("", "a_2", Number(Any)),
+        chord_legendre_2: f64 = ("", "a_2", Number(Any)) -0.0913,
         /// Chord shape: coefficient of the Legendre polynomial P_3; not in the paper.
-        chord_legendre_3: f64 = ("", "a_3", Number(Any)),
+        chord_legendre_3: f64 = ("", "a_3", Number(Any)) 0.176,
         /// The chord as a table. It replaces mean_chord, midspan_chord, the shape moments and rotation_moment, for every flow_direction.
-        chords: ChordTable = (flatten),
+        chords: ChordTable = (flatten) ChordTable::off(),
         /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22). All shape moments are for flow_direction = "uniform".
-        shape_moment_03: f64 = ("", "I_w0,3", Number(Positive)),
+        shape_moment_03: f64 = ("", "I_w0,3", Number(Positive)) 1.02,
         /// Wing shape moment: normalised integral of chord^4.
-        shape_moment_04: f64 = ("", "I_w0,4", Number(Positive)),
+        shape_moment_04: f64 = ("", "I_w0,4", Number(Positive)) 1.04,
         /// Wing shape moment: normalised integral of radius * chord^2.
-        shape_moment_12: f64 = ("", "I_w1,2", Number(Positive)),
+        shape_moment_12: f64 = ("", "I_w1,2", Number(Positive)) 0.88,
         /// Wing shape moment: normalised integral of radius * chord^3.
-        shape_moment_13: f64 = ("", "I_w1,3", Number(Positive)),
+        shape_moment_13: f64 = ("", "I_w1,3", Number(Positive)) 0.89,
         /// Wing shape moment: normalised integral of radius^2 * chord.
-        shape_moment_21: f64 = ("", "I_w2,1", Number(Positive)),
+        shape_moment_21: f64 = ("", "I_w2,1", Number(Positive)) 0.82,
         /// Wing shape moment: normalised integral of radius^2 * chord^2.
-        shape_moment_22: f64 = ("", "I_w2,2", Number(Positive)),
+        shape_moment_22: f64 = ("", "I_w2,2", Number(Positive)) 0.84,
         /// Wing shape moment: normalised integral of radius^3 * chord.
-        shape_moment_31: f64 = ("", "I_w3,1", Number(Positive)),
+        shape_moment_31: f64 = ("", "I_w3,1", Number(Positive)) 0.85,
         /// Moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord, averaged along the span. For flow_direction = "uniform".
-        rotation_moment: f64 = ("m^4", "I_rd", Number(NonNegative)),
+        rotation_moment: f64 = ("m^4", "I_rd", Number(NonNegative)) 4.68e-10,
 
         ["actuator"]
         /// Actuator length.
-        actuator_length: f64 = ("m", "L_A", Number(Positive)),
+        actuator_length: f64 = ("m", "L_A", Number(Positive)) 10.5e-3,
         /// Actuator width at the root.
-        actuator_root_width: f64 = ("m", "w_r", Number(Positive)),
+        actuator_root_width: f64 = ("m", "w_r", Number(Positive)) 6.0e-3,
         /// Actuator width at the tip.
-        actuator_tip_width: f64 = ("m", "w_t", Number(NonNegative)),
+        actuator_tip_width: f64 = ("m", "w_t", Number(NonNegative)) 2.4e-3,
         /// Thickness of the piezoelectric layer.
-        piezo_thickness: f64 = ("m", "t_0", Number(Positive)),
+        piezo_thickness: f64 = ("m", "t_0", Number(Positive)) 100e-6,
         /// Thickness of the adhesive layer.
-        adhesive_thickness: f64 = ("m", "t_1", Number(NonNegative)),
+        adhesive_thickness: f64 = ("m", "t_1", Number(NonNegative)) 10e-6,
         /// Thickness of the shim.
-        shim_thickness: f64 = ("m", "t_2", Number(NonNegative)),
+        shim_thickness: f64 = ("m", "t_2", Number(NonNegative)) 100e-6,
         /// Young's modulus of the piezoelectric layer.
-        piezo_modulus: f64 = ("Pa", "E_0", Number(Positive)),
+        piezo_modulus: f64 = ("Pa", "E_0", Number(Positive)) 14.3e9,
         /// Young's modulus of the adhesive.
-        adhesive_modulus: f64 = ("Pa", "E_1", Number(NonNegative)),
+        adhesive_modulus: f64 = ("Pa", "E_1", Number(NonNegative)) 5.0e9,
         /// Young's modulus of the shim, already halved for its slits.
-        shim_modulus: f64 = ("Pa", "E_2", Number(NonNegative)),
+        shim_modulus: f64 = ("Pa", "E_2", Number(NonNegative)) 50.3e9,
         /// Density of the piezoelectric layer.
-        piezo_density: f64 = ("kg/m^3", "rho_0", Number(NonNegative)),
+        piezo_density: f64 = ("kg/m^3", "rho_0", Number(NonNegative)) 8000.0,
         /// Density of the adhesive.
-        adhesive_density: f64 = ("kg/m^3", "rho_1", Number(NonNegative)),
+        adhesive_density: f64 = ("kg/m^3", "rho_1", Number(NonNegative)) 1500.0,
         /// Density of the shim, already halved for its slits.
-        shim_density: f64 = ("kg/m^3", "rho_2", Number(NonNegative)),
+        shim_density: f64 = ("kg/m^3", "rho_2", Number(NonNegative)) 2250.0,
         /// Piezoelectric coefficient. Its sign only mirrors the motion.
-        piezo_coefficient: f64 = ("m/V", "d_pz", Number(Any)),
+        piezo_coefficient: f64 = ("m/V", "d_pz", Number(Any)) 950e-12,
         /// Permittivity of the piezoelectric layer (free or clamped is not stated in the paper).
-        piezo_permittivity: f64 = ("F/m", "eps_pz", Number(NonNegative)),
+        piezo_permittivity: f64 = ("F/m", "eps_pz", Number(NonNegative)) 2920.0 * EPSILON_0,
         /// Damping of the stroke, about the stroke axis. Not in the paper.
-        stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default 0.0),
+        stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor of the stroke's spring, the actuator: a damping of loss factor times stiffness over the drive's angular frequency.
-        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default 0.0),
+        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default: 0.0) 0.0,
         /// Dielectric loss and charge recovery.
-        electrical: ElectricalParameters = (flatten),
+        electrical: ElectricalParameters = (flatten) ElectricalParameters::NONE,
 
         ["air"]
         /// Density of air.
-        air_density: f64 = ("kg/m^3", "rho_Air", Number(NonNegative)),
+        air_density: f64 = ("kg/m^3", "rho_Air", Number(NonNegative)) 1.29,
         /// Drag coefficient at an attack angle of 90 deg.
-        drag_coefficient_max: f64 = ("", "C_Dmax", Number(NonNegative), former "drag_max"),
+        drag_coefficient_max: f64 = ("", "C_Dmax", Number(NonNegative), former: "drag_max") 5.0,
         /// Drag coefficient at an attack angle of 0.
-        drag_coefficient_min: f64 = ("", "C_Dmin", Number(NonNegative), former "drag_min"),
+        drag_coefficient_min: f64 = ("", "C_Dmin", Number(NonNegative), former: "drag_min") 0.4,
         /// Rotational drag coefficient, Eq. (32).
-        rotation_drag: f64 = ("", "C_rd", Number(NonNegative)),
+        rotation_drag: f64 = ("", "C_rd", Number(NonNegative)) 3.5,
         /// Centre of pressure: shift in chords per radian of attack, Eq. (24).
-        pressure_slope: f64 = ("", "0.82/pi", Number(Any)),
+        pressure_slope: f64 = ("", "0.82/pi", Number(Any)) 0.82 / core::f64::consts::PI,
         /// Centre of pressure at zero attack, in chords from the leading edge, Eq. (24).
-        pressure_offset: f64 = ("", "0.05", Number(Any)),
+        pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
 
         ["readings of the paper"]
         /// Attack angle that moves the centre of pressure: relative to the motion, folded to at most 90 deg, or as printed (which breaks mirror symmetry).
-        centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)),
+        centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)) CentreOfPressure::Directional,
         /// Moments of the added mass: as in the paper, or with the gyroscopic terms of the Lagrangian form.
-        added_mass: AddedMass = ("", "", Choice(AddedMass::NAMES)),
+        added_mass: AddedMass = ("", "", Choice(AddedMass::NAMES)) AddedMass::Paper,
         /// Sign of the added-mass part of lift, Eq. (35): corrected, or as printed.
-        lift_sign: LiftSign = ("", "", Choice(LiftSign::NAMES)),
+        lift_sign: LiftSign = ("", "", Choice(LiftSign::NAMES)) LiftSign::Corrected,
     }
+
+    /// The small type of Table A1, at the largest voltage and the frequency of Fig. 13.
+    pub fn ozaki2018_small() -> Params;
 }
 
 crate::choice! {
@@ -190,7 +193,7 @@ const EPSILON_0: f64 = 8.854_187_812_8e-12;
 
 impl Params {
     /// The published presets, and a hypothesis on them.
-    pub const PRESETS: &'static [Preset] = &[
+    pub(super) const PRESETS: &'static [Preset] = &[
         Preset {
             name: "ozaki2018-small",
             doc: "17.0 mm wing on a 10.5 mm actuator, 30 V + 30 V at 209 Hz (Ozaki and Hamaguchi 2018, Table A1)",
@@ -204,78 +207,14 @@ impl Params {
         Preset {
             name: "ozaki2018-small-kw-swapped",
             doc: "HYPOTHESIS: ozaki2018-small with the k_w of the large type, the table's columns of k_w swapped",
-            values: || Params::ozaki2018_small_kw_swapped().to_values(),
+            values: || Params::ozaki2018_small().with_hinge_of(&Params::ozaki2018_large()).to_values(),
         },
         Preset {
             name: "ozaki2018-large-kw-swapped",
             doc: "HYPOTHESIS: ozaki2018-large with the k_w of the small type, the table's columns of k_w swapped",
-            values: || Params::ozaki2018_large_kw_swapped().to_values(),
+            values: || Params::ozaki2018_large().with_hinge_of(&Params::ozaki2018_small()).to_values(),
         },
     ];
-
-    /// The small type of Table A1, at the largest voltage and the frequency of Fig. 13.
-    pub fn ozaki2018_small() -> Params {
-        Params {
-            drive_voltage_pp: 60.0,
-            drive_bias: None,
-            drive_frequency: 209.0,
-            waveform: WaveformParameters::SINE,
-            stroke: StrokeParameters::FREE,
-            wing_length: 17.0e-3,
-            mean_chord: 6.51e-3,
-            wing_offset: None,
-            midspan_chord: None,
-            wing_mass: 2.31e-6,
-            mass_centre_span: 9.42e-3,
-            mass_centre_chord: -2.48e-3,
-            wing_inertia_span: 4.81e-12,
-            wing_inertia_chord: 5.07e-11,
-            wing_inertia_product: 3.62e-13,
-            leading_edge_inertia: 3.89e-9,
-            hinge_stiffness: 1.48e-4,
-            hinge_damping: 0.0,
-            hinge: HingeParameters::NONE,
-            flow_direction: FlowDirection::Uniform,
-            chord_legendre_1: 0.0562,
-            chord_legendre_2: -0.0913,
-            chord_legendre_3: 0.176,
-            chords: ChordTable::OFF,
-            shape_moment_03: 1.02,
-            shape_moment_04: 1.04,
-            shape_moment_12: 0.88,
-            shape_moment_13: 0.89,
-            shape_moment_21: 0.82,
-            shape_moment_22: 0.84,
-            shape_moment_31: 0.85,
-            rotation_moment: 4.68e-10,
-            actuator_length: 10.5e-3,
-            actuator_root_width: 6.0e-3,
-            actuator_tip_width: 2.4e-3,
-            piezo_thickness: 100e-6,
-            adhesive_thickness: 10e-6,
-            shim_thickness: 100e-6,
-            piezo_modulus: 14.3e9,
-            adhesive_modulus: 5.0e9,
-            shim_modulus: 50.3e9,
-            piezo_density: 8000.0,
-            adhesive_density: 1500.0,
-            shim_density: 2250.0,
-            piezo_coefficient: 950e-12,
-            piezo_permittivity: 2920.0 * EPSILON_0,
-            stroke_damping: 0.0,
-            stroke_loss_factor: 0.0,
-            electrical: ElectricalParameters::NONE,
-            air_density: 1.29,
-            drag_coefficient_max: 5.0,
-            drag_coefficient_min: 0.4,
-            rotation_drag: 3.5,
-            pressure_slope: 0.82 / core::f64::consts::PI,
-            pressure_offset: 0.05,
-            centre_of_pressure: CentreOfPressure::Directional,
-            added_mass: AddedMass::Paper,
-            lift_sign: LiftSign::Corrected,
-        }
-    }
 
     /// The large type of Table A1, at the largest voltage and the frequency of Fig. 14.
     pub fn ozaki2018_large() -> Params {
@@ -318,13 +257,8 @@ impl Params {
     }
 
     /// A hypothesis: Table A1 with its columns of k_w swapped, which cannot be proved from the text.
-    pub fn ozaki2018_small_kw_swapped() -> Params {
-        Params { hinge_stiffness: Params::ozaki2018_large().hinge_stiffness, ..Params::ozaki2018_small() }
-    }
-
-    /// The same hypothesis for the large type.
-    pub fn ozaki2018_large_kw_swapped() -> Params {
-        Params { hinge_stiffness: Params::ozaki2018_small().hinge_stiffness, ..Params::ozaki2018_large() }
+    fn with_hinge_of(self, other: &Params) -> Params {
+        Params { hinge_stiffness: other.hinge_stiffness, ..self }
     }
 
     /// The drive.

@@ -10,24 +10,25 @@ use core::f64::consts::FRAC_PI_2;
 use super::constants::Constants;
 use super::params::FlowDirection;
 use crate::drive::Wave;
-use crate::model::{Balance, Load};
+use crate::model::Load;
+use crate::model::stroke_and_pitch::Balance;
 use crate::num::Real;
 
 /// Translational and rotational aerodynamics at one state.
 #[derive(Clone, Copy, Debug)]
-pub struct Aerodynamics<R> {
+pub(super) struct Aerodynamics<R> {
     /// Translational lift F_tr,Lift (N), (21).
-    pub lift: R,
+    pub(super) lift: R,
     /// Translational drag F_tr,Drag along the wing's motion (N), (21).
-    pub drag: R,
+    pub(super) drag: R,
     /// Moment about the stroke axis M_tr,y (N·m), (25).
-    pub stroke_moment: R,
+    pub(super) stroke_moment: R,
     /// Moment of the lift ∫ X dF_tr,Lift (N·m): not in the paper, nor in the equations of motion.
-    pub lift_moment: R,
+    pub(super) lift_moment: R,
     /// Moment about the span axis M_tr,x′ (N·m), (23) with corrected sign.
-    pub pitch_moment: R,
+    pub(super) pitch_moment: R,
     /// Rotational drag moment M_rot (N·m), (32).
-    pub rotation_moment: R,
+    pub(super) rotation_moment: R,
 }
 
 /// Aerodynamic forces and moments but for the added mass, (21)–(27), (32).
@@ -41,7 +42,7 @@ pub struct Aerodynamics<R> {
 /// `flow` says whose direction u|u| and d_cp follow. `side` is σ, the
 /// sign of the wing's [`mean_velocity`].
 #[inline(always)]
-pub fn aerodynamics<R: Real>(
+pub(super) fn aerodynamics<R: Real>(
     c: &Constants<R>,
     flow: FlowDirection,
     side: R,
@@ -90,15 +91,18 @@ struct Pressure<R> {
 /// ```
 #[inline(always)]
 fn uniform_flow<R: Real>(c: &Constants<R>, side: R, psi: R, phi_dot: R, w: R) -> Pressure<R> {
-    let pp = phi_dot * phi_dot * side;
-    let pw = phi_dot * w * side;
-    let ww = w * w * side;
-    let pitch = c.pitch_pp * pp + c.pitch_pw * pw + c.pitch_ww * ww;
+    let products = [phi_dot * phi_dot * side, phi_dot * w * side, w * w * side];
     Pressure {
-        force: c.lift_pp * pp + c.lift_pw * pw + c.lift_ww * ww,
-        stroke: c.stroke_pp * pp + c.stroke_pw * pw + c.stroke_ww * ww,
-        pitch: centre_of_pressure(c, psi, side) * pitch,
+        force: form(c.lift, products),
+        stroke: form(c.stroke, products),
+        pitch: centre_of_pressure(c, psi, side) * form(c.pitch, products),
     }
+}
+
+/// A quadratic form, of its factors and the products of its variables.
+#[inline(always)]
+fn form<R: Real>(factors: [R; 3], products: [R; 3]) -> R {
+    factors[0] * products[0] + factors[1] * products[1] + factors[2] * products[2]
 }
 
 /// A direction of flow for each blade element, its own.
@@ -112,7 +116,8 @@ fn uniform_flow<R: Real>(c: &Constants<R>, side: R, psi: R, phi_dot: R, w: R) ->
 #[inline(always)]
 fn blade_flow<R: Real>(c: &Constants<R>, psi: R, phi_dot: R, w: R) -> Pressure<R> {
     let sums = c.blades.sums(phi_dot, w);
-    let undirected = (c.pitch_pp * phi_dot + c.pitch_pw * w) * phi_dot + c.pitch_ww * w * w;
+    let [pitch_pp, pitch_pw, pitch_ww] = c.pitch;
+    let undirected = (pitch_pp * phi_dot + pitch_pw * w) * phi_dot + pitch_ww * w * w;
     let one = psi.lit(1.0);
     let forth = centre_of_pressure(c, psi, one);
     let back = centre_of_pressure(c, psi, -one);
@@ -129,7 +134,7 @@ fn blade_flow<R: Real>(c: &Constants<R>, psi: R, phi_dot: R, w: R) -> Pressure<R
 /// ū = (R/2 + x_r) φ̇ − ½ c(R/2) ψ̇ cos ψ
 /// ```
 #[inline(always)]
-pub fn mean_velocity<R: Real>(c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) -> [R; 2] {
+pub(super) fn mean_velocity<R: Real>(c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) -> [R; 2] {
     let [_, psi, phi_dot, psi_dot] = *y;
     let [_, _, phi_ddot, psi_ddot] = *dy;
     let (sin, cos) = psi.sin_cos();
@@ -145,10 +150,11 @@ pub fn mean_velocity<R: Real>(c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) -> [R; 
 /// ```
 #[inline(always)]
 fn centre_of_pressure<R: Real>(c: &Constants<R>, psi: R, side: R) -> R {
-    let tilt = c.attack_directional * side * psi + c.attack_folded * psi.abs() + c.attack_literal * psi;
+    let [directional, folded, literal] = c.attack;
+    let tilt = directional * side * psi + folded * psi.abs() + literal * psi;
     let attack = -tilt + FRAC_PI_2;
     // |α|, but for the folded reading, which is signed.
-    let attack = R::select(c.attack_folded.lt(attack.lit(0.5)), attack.abs(), attack);
+    let attack = R::select(folded.lt(attack.lit(0.5)), attack.abs(), attack);
     c.pressure_slope * attack + c.pressure_offset
 }
 
@@ -167,7 +173,7 @@ fn centre_of_pressure<R: Real>(c: &Constants<R>, psi: R, side: R) -> R {
 ///
 /// The Lagrangian form of the added mass adds ψ̇ e to Q₁ and −φ̇ e to Q₂, e = (a₁₁ φ̇ c − a₁₂ ψ̇) s.
 #[inline(always)]
-pub fn balance<R: Real>(c: &Constants<R>, flow: FlowDirection, side: R, y: &[R; 4]) -> Balance<R> {
+pub(super) fn balance<R: Real>(c: &Constants<R>, flow: FlowDirection, side: R, y: &[R; 4]) -> Balance<R> {
     let [phi, psi, phi_dot, psi_dot] = *y;
     let (sin, cos) = psi.sin_cos();
     let air = aerodynamics(c, flow, side, y, sin, cos);
@@ -199,13 +205,13 @@ fn gyroscopic<R: Real>(c: &Constants<R>, [phi_dot, psi_dot]: &[R; 2], sin: R, co
 
 /// The added-mass force and moments (28)–(30) at known accelerations.
 #[derive(Clone, Copy, Debug)]
-pub struct AddedMassLoad<R> {
+pub(super) struct AddedMassLoad<R> {
     /// Force along the wing's normal F_am (N), (28).
-    pub force: R,
+    pub(super) force: R,
     /// Moment about the chord axis M_am,y″ (N·m), (29).
-    pub chord_moment: R,
+    pub(super) chord_moment: R,
     /// Moment about the span axis M_am,x′ (N·m), (30).
-    pub span_moment: R,
+    pub(super) span_moment: R,
 }
 
 /// ```text
@@ -213,7 +219,7 @@ pub struct AddedMassLoad<R> {
 /// F_am = −f₁ A + f₂ ψ̈     M_am,y″ = −a₁₁ A + a₁₂ ψ̈     M_am,x′ = a₁₂ A − a₂₂ ψ̈
 /// ```
 #[inline(always)]
-pub fn added_mass<R: Real>(c: &Constants<R>, sin: R, cos: R, dy: &[R; 4]) -> AddedMassLoad<R> {
+pub(super) fn added_mass<R: Real>(c: &Constants<R>, sin: R, cos: R, dy: &[R; 4]) -> AddedMassLoad<R> {
     let [phi_dot, psi_dot, phi_ddot, psi_ddot] = *dy;
     let a = phi_ddot * cos - phi_dot * psi_dot * sin;
     AddedMassLoad {
@@ -225,7 +231,7 @@ pub fn added_mass<R: Real>(c: &Constants<R>, sin: R, cos: R, dy: &[R; 4]) -> Add
 
 /// Lift (N), positive upwards, (35) with corrected sign: F_tr,Lift − F_am sin ψ.
 #[inline(always)]
-pub fn lift<R: Real>(c: &Constants<R>, air: &Aerodynamics<R>, added: &AddedMassLoad<R>, sin: R) -> R {
+pub(super) fn lift<R: Real>(c: &Constants<R>, air: &Aerodynamics<R>, added: &AddedMassLoad<R>, sin: R) -> R {
     air.lift - c.lift_sign * added.force * sin
 }
 
@@ -261,6 +267,6 @@ pub(super) fn load<R: Real>(
 
 /// Current into the actuator j_A (A), (39) with the reciprocal coupling: C_p V̇ + Γ φ̇. Dielectric loss adds to it.
 #[inline(always)]
-pub fn current<R: Real>(c: &Constants<R>, drive: &Wave<R>, phi_dot: R) -> R {
+pub(super) fn current<R: Real>(c: &Constants<R>, drive: &Wave<R>, phi_dot: R) -> R {
     c.c_p * drive.rate + c.gamma * phi_dot
 }

@@ -11,23 +11,23 @@ use crate::num::Real;
 
 /// Forces and moments of the air on a wing that translates and rotates.
 #[derive(Clone, Copy, Debug)]
-pub struct Aerodynamics<R> {
+pub(super) struct Aerodynamics<R> {
     /// Translational lift L_t (N), (5).
-    pub lift: R,
+    pub(super) lift: R,
     /// Translational drag (N), (5): the horizontal force against the motion for θ̇ > 0.
-    pub drag: R,
+    pub(super) drag: R,
     /// Its moment about the stroke axis (N·m), (16).
-    pub stroke_moment: R,
+    pub(super) stroke_moment: R,
     /// Moment of the translational lift Σ r L_t (N·m): not in the paper, nor in the equations of motion.
-    pub lift_moment: R,
+    pub(super) lift_moment: R,
     /// Moment of translational lift and drag about the rotation axis (N·m), (16), (17).
-    pub pitch_moment: R,
+    pub(super) pitch_moment: R,
     /// Rotational lift L_r (N), (6).
-    pub rotation_lift: R,
+    pub(super) rotation_lift: R,
     /// Moment of the rotational force about the stroke axis (N·m).
-    pub rotation_stroke_moment: R,
+    pub(super) rotation_stroke_moment: R,
     /// Moment of the rotational force about the rotation axis (N·m), (18).
-    pub rotation_pitch_moment: R,
+    pub(super) rotation_pitch_moment: R,
 }
 
 /// The wing's attitude as the coefficients see it.
@@ -61,10 +61,12 @@ fn attitude<R: Real>(side: R, phi: R) -> Attitude<R> {
 /// C_l = 0.225 + 1.58 sin(2.13 B − 7.2°)     C_d = 1.92 − 1.55 cos(2.04 B − 9.82°)
 /// ```
 #[inline(always)]
-pub fn coefficients<R: Real>(c: &Air<R>, attack: R) -> [R; 2] {
-    let lift = c.lift_slope.mul_add(attack, -c.lift_phase).sin();
-    let (_, drag) = c.drag_slope.mul_add(attack, -c.drag_phase).sin_cos();
-    [c.lift_amplitude.mul_add(lift, c.lift_offset), c.drag_offset - c.drag_amplitude * drag]
+pub(super) fn coefficients<R: Real>(c: &Air<R>, attack: R) -> [R; 2] {
+    let [lift_offset, lift_amplitude, lift_slope, lift_phase] = c.lift;
+    let [drag_offset, drag_amplitude, drag_slope, drag_phase] = c.drag;
+    let lift = lift_slope.mul_add(attack, -lift_phase).sin();
+    let (_, drag) = drag_slope.mul_add(attack, -drag_phase).sin_cos();
+    [lift_amplitude.mul_add(lift, lift_offset), drag_offset - drag_amplitude * drag]
 }
 
 /// Aerodynamic forces and moments but for the added mass, at a state on one `side`, given sin φ and cos φ.
@@ -78,7 +80,13 @@ pub fn coefficients<R: Real>(c: &Air<R>, attack: R) -> [R; 2] {
 /// The strips of both directions of flow share C_l, C_d and B, because |α| of one is π − |α| of the other. With d_cp
 /// put in, Σ c q s and Σ c q remain, of which the latter is a quadratic form of the rates.
 #[inline(always)]
-pub fn aerodynamics<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], sin: R, cos: R) -> Aerodynamics<R> {
+pub(super) fn aerodynamics<R: Real>(
+    c: &Constants<R>,
+    side: R,
+    y: &[R; 4],
+    sin: R,
+    cos: R,
+) -> Aerodynamics<R> {
     let [_, phi, theta_dot, phi_dot] = *y;
     let air = &c.air;
     let Attitude { attack, tilt } = attitude(side, phi);
@@ -87,8 +95,8 @@ pub fn aerodynamics<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], sin: R, cos:
 
     let sweep = phi_dot * cos;
     let directed = c.strips.sums(theta_dot, sweep);
-    let undirected =
-        (air.chord_tt * theta_dot + air.chord_tw * sweep) * theta_dot + air.chord_ww * sweep * sweep;
+    let [chord_tt, chord_tw, chord_ww] = air.chord;
+    let undirected = (chord_tt * theta_dot + chord_tw * sweep) * theta_dot + chord_ww * sweep * sweep;
     let pressure = air.pressure_upright * directed.chord + air.pressure_slope * tilt * undirected;
 
     let rotation = -(phi_dot.abs() * phi_dot);
@@ -109,7 +117,7 @@ pub fn aerodynamics<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], sin: R, cos:
 /// At φ = 0, where the chord is vertical, C_l jumps between ±C_l(90°): the lift jumps, the equations of motion do not,
 /// as C_l enters them times sin φ. At |φ| = 90° it jumps between ±C_l(0), and so do the equations.
 #[inline(always)]
-pub fn side_of<R: Real>(phi: R, phi_dot: R) -> [R; 2] {
+pub(super) fn side_of<R: Real>(phi: R, phi_dot: R) -> [R; 2] {
     let (sin, cos) = (phi * 2.0).sin_cos();
     [sin, phi_dot * 2.0 * cos]
 }
@@ -153,7 +161,7 @@ pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) 
 /// L_a = −(AM₁ (θ̈ cos φ − θ̇φ̇ sin φ) + AM₂ φ̈) sin φ
 /// ```
 #[inline(always)]
-pub fn added_mass_lift<R: Real>(air: &Air<R>, sin: R, cos: R, dy: &[R; 4]) -> R {
+pub(super) fn added_mass_lift<R: Real>(air: &Air<R>, sin: R, cos: R, dy: &[R; 4]) -> R {
     let [theta_dot, phi_dot, theta_ddot, phi_ddot] = *dy;
     let normal = theta_ddot * cos - theta_dot * phi_dot * sin;
     -((air.added_stroke * normal + air.added_pitch * phi_ddot) * sin)

@@ -6,13 +6,13 @@
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::params::{AddedMassSign, Arms, MAX_STRIPS, Params, Quadrature, STRIPS};
-use crate::aero::{Cut, Strips, sum};
+use crate::aero::{Cut, Strips, check_chords, cut, sum};
 use crate::drive::DriveConstants;
-use crate::linkage::{FourBar, LinkInertias, LinkLengths, SliderCrank, structural_damping};
+use crate::linkage::{FourBar, LinkInertias, SliderCrank, structural_damping};
 use crate::model::stroke_and_pitch::inertias_apart;
 use crate::num::PerLane;
 use crate::parameter::Invalid;
-use crate::piezo::{Layer, TipResponse, Unimorph};
+use crate::piezo::{Laminate, Layer};
 use crate::quadrature::{gauss_legendre, midpoints};
 
 crate::per_lane! {
@@ -72,33 +72,16 @@ crate::per_lane! {
 crate::per_lane! {
     /// Aerodynamic coefficients and moments of the wing's shape.
     pub struct Air<R> {
-        /// Constant term of the lift coefficient (9).
-        pub lift_offset: R,
-        /// Amplitude of its sine.
-        pub lift_amplitude: R,
-        /// Factor of the attack angle in it.
-        pub lift_slope: R,
-        /// Angle subtracted in it (rad).
-        pub lift_phase: R,
-        /// Constant term of the drag coefficient (10).
-        pub drag_offset: R,
-        /// Amplitude of its cosine.
-        pub drag_amplitude: R,
-        /// Factor of the attack angle in it.
-        pub drag_slope: R,
-        /// Angle subtracted in it (rad).
-        pub drag_phase: R,
-
+        /// Lift coefficient (9): constant term, amplitude of the sine, factor of the attack angle, angle subtracted (rad).
+        pub lift: [R; 4],
+        /// Drag coefficient (10): the same with a cosine.
+        pub drag: [R; 4],
         /// Arm of the centre of pressure at an attack angle of 90°, in chords, (17).
         pub pressure_upright: R,
         /// Shift of the centre of pressure per radian, in chords, (17).
         pub pressure_slope: R,
-        /// Σ c ½ρU²cΔr per θ̇² (kg·m²).
-        pub chord_tt: R,
-        /// The same per θ̇φ̇cosφ (kg·m²).
-        pub chord_tw: R,
-        /// The same per (φ̇cosφ)² (kg·m²).
-        pub chord_ww: R,
+        /// Σ c ½ρU²cΔr per θ̇², θ̇φ̇cosφ and (φ̇cosφ)² (kg·m²).
+        pub chord: [R; 3],
 
         /// Rotational force per |φ̇|φ̇ (kg·m), (6): ½C_rotρ I₁ Σ c³Δr.
         pub rotation_force: R,
@@ -149,7 +132,7 @@ impl Constants<f64> {
     /// If the four-bar has no neutral position, the chord is negative somewhere, the number of strips is not
     /// allowed, the mass matrix is not positive definite for every position, or a constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
-        let cuts = cut(p)?;
+        let cuts = strips(p)?;
         let drive = p.drive();
         let actuator = actuator(p, drive.rate);
         let constants = Constants {
@@ -162,13 +145,10 @@ impl Constants<f64> {
             air: air(p, &cuts),
             strips: Strips::new(&cuts, p.air_density, arms(p)[0]),
         };
-        constants.checked()
+        Invalid::unless_finite(constants)?.checked()
     }
 
     fn checked(self) -> Result<Constants<f64>, Invalid> {
-        if !<Constants<f64> as PerLane<f64>>::is_finite(&self) {
-            return Err(Invalid::NotFinite);
-        }
         // Linear in cos²φ, so positive everywhere if it is at both ends; the links add at least link 3's inertia.
         let Wing { upright, j_sin, j_cos, coupling, j_pitch, .. } = self.wing;
         let least = upright + self.links.output;
@@ -186,7 +166,7 @@ impl Constants<f64> {
 }
 
 /// Cuts the wing into strips.
-fn cut(p: &Params) -> Result<Vec<Cut>, Invalid> {
+fn strips(p: &Params) -> Result<Vec<Cut>, Invalid> {
     Invalid::unless_within("strips", p.strips, STRIPS)?;
     p.chords.check()?;
     #[expect(
@@ -199,47 +179,43 @@ fn cut(p: &Params) -> Result<Vec<Cut>, Invalid> {
         Quadrature::Gauss => gauss_legendre(count),
         Quadrature::Midpoint => midpoints(count),
     };
-    let cuts: Vec<Cut> = nodes
-        .iter()
-        .map(|node| Cut {
-            radius: p.wing_offset + p.wing_length * node.x,
-            chord: p.chord(node.x),
-            width: p.wing_length * node.weight,
-        })
-        .collect();
-    match cuts.iter().find(|cut| cut.chord < 0.0) {
-        Some(cut) => Err(Invalid::together(
-            &["chord_term_0", "chord_term_1", "chord_term_2", "chord_term_3", "chord_term_4"],
-            format!(
-                "the chord is negative {} m from the stroke axis: chord_term_0 to chord_term_4 do not describe a wing",
-                cut.radius
-            ),
-        )),
-        None => Ok(cuts),
-    }
+    let cuts = cut(&nodes, p.wing_offset, p.wing_length, |x| p.chord(x));
+    let terms = &["chord_term_0", "chord_term_1", "chord_term_2", "chord_term_3", "chord_term_4"];
+    check_chords(&cuts, terms)?;
+    Ok(cuts)
 }
 
-/// Actuator and series spring [(1), (2)] at the angular frequency `rate` (rad/s).
+/// Actuator and series spring [(1), (2)] at the angular frequency `rate` (rad/s). The tip of the unimorph is that of Smits and
+/// Choi (1991): δ = γV − F/k_a.
+///
+/// ```text
+/// k_a = 3 S w / L³     γ = E_p d₃₁ (z_p − z_c) L² / (2S)     Γ = k_a γ     m_eff = 33/140 w L Σ ρᵢ hᵢ
+/// C_b = w L [(ε − d₃₁² E_p)/h_p + d₃₁² E_p²/(E_p h_p + E_s h_s)] + d₃₁² E_p² (z_p − z_c)² w L / (4S)
+/// ```
 fn actuator(p: &Params, rate: f64) -> Actuator<f64> {
-    let unimorph = Unimorph {
-        length: p.actuator_length,
-        width: p.actuator_width,
-        shim: Layer { thickness: p.shim_thickness, modulus: p.shim_modulus, density: p.shim_density },
-        piezo: Layer { thickness: p.piezo_thickness, modulus: p.piezo_modulus, density: p.piezo_density },
-        coefficient: p.piezo_coefficient,
-        permittivity: p.piezo_permittivity,
-    };
-    let TipResponse { stiffness, deflection, coupling, mass, capacitance } = unimorph.tip_response();
+    let laminate = Laminate::of([
+        Layer { thickness: p.shim_thickness, modulus: p.shim_modulus, density: p.shim_density },
+        Layer { thickness: p.piezo_thickness, modulus: p.piezo_modulus, density: p.piezo_density },
+    ]);
+    let (l, w, s) = (p.actuator_length, p.actuator_width, laminate.bending_stiffness);
+    let arm = laminate.mid_planes[1] - laminate.neutral_axis;
+    // Stress per field in the clamped piezoelectric layer (N/(V·m)).
+    let e = p.piezo_modulus * p.piezo_coefficient;
+    let membrane = p.piezo_modulus * p.piezo_thickness + p.shim_modulus * p.shim_thickness;
+    let clamped = (p.piezo_permittivity - e * p.piezo_coefficient) / p.piezo_thickness + e * e / membrane;
+    let capacitance = w * l * (clamped + e * e * (arm * arm) / (4.0 * s));
+    let stiffness = 3.0 * s * w / (l * l * l);
+    let deflection = e * arm * (l * l) / (2.0 * s);
     Actuator {
         stiffness: stiffness * p.series_stiffness / (stiffness + p.series_stiffness),
         deflection,
         rest_voltage: p.rest_voltage.unwrap_or(p.drive_bias),
         series_compliance: 1.0 / p.series_stiffness,
-        coupling,
+        coupling: stiffness * deflection,
         capacitance,
         conductance: p.electrical.conductance(capacitance, rate),
         charge_recovery: p.electrical.charge_recovery,
-        mass,
+        mass: 33.0 / 140.0 * w * l * laminate.areal_density,
         piezo_thickness: p.piezo_thickness,
     }
 }
@@ -249,19 +225,14 @@ const LINKS: [&str; 5] = ["ground_link", "input_link", "coupler_link", "output_l
 
 /// The four-bar in its neutral position.
 fn four_bar(p: &Params) -> Result<FourBar<f64>, Invalid> {
-    let lengths = LinkLengths {
-        ground: p.ground_link,
-        input: p.input_link,
-        coupler: p.coupler_link,
-        output: p.output_link,
-    };
-    let Some(neutral) = p.neutral_angle.or_else(|| lengths.stationary_angle()) else {
+    let lengths = [p.ground_link, p.input_link, p.coupler_link, p.output_link];
+    let Some(neutral) = p.neutral_angle.or_else(|| FourBar::stationary_angle(lengths)) else {
         return Err(Invalid::together(
             &LINKS,
             "the four-bar has no largest transmission between 30 and 80 deg: set neutral_angle",
         ));
     };
-    let four_bar = FourBar::new(&lengths, neutral);
+    let four_bar = FourBar::new(lengths, neutral);
     if <FourBar<f64> as PerLane<f64>>::is_finite(&four_bar) {
         Ok(four_bar)
     } else {
@@ -335,19 +306,15 @@ fn air(p: &Params, cuts: &[Cut]) -> Air<f64> {
         AddedMassSign::Printed => p.axis_position - 0.5,
     };
     Air {
-        lift_offset: p.lift_offset,
-        lift_amplitude: p.lift_amplitude,
-        lift_slope: p.lift_slope,
-        lift_phase: p.lift_phase,
-        drag_offset: p.drag_offset,
-        drag_amplitude: p.drag_amplitude,
-        drag_slope: p.drag_slope,
-        drag_phase: p.drag_phase,
+        lift: [p.lift_offset, p.lift_amplitude, p.lift_slope, p.lift_phase],
+        drag: [p.drag_offset, p.drag_amplitude, p.drag_slope, p.drag_phase],
         pressure_upright: FRAC_PI_2 * p.pressure_slope + p.pressure_offset - origin,
         pressure_slope: p.pressure_slope,
-        chord_tt: dynamic * sum(cuts, |r, c| r * r * c * c),
-        chord_tw: dynamic * 2.0 * kappa * sum(cuts, |r, c| r * c * c * c),
-        chord_ww: dynamic * kappa * kappa * sum(cuts, |_, c| c * c * c * c),
+        chord: [
+            dynamic * sum(cuts, |r, c| r * r * c * c),
+            dynamic * 2.0 * kappa * sum(cuts, |r, c| r * c * c * c),
+            dynamic * kappa * kappa * sum(cuts, |_, c| c * c * c * c),
+        ],
         rotation_force: drag * i_1 * sum(cuts, |_, c| c * c * c),
         rotation_stroke: drag * i_1 * sum(cuts, |r, c| r * c * c * c),
         rotation_pitch: drag * i_2 * sum(cuts, |_, c| c * c * c * c),

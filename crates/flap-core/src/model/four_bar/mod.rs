@@ -8,19 +8,12 @@
 //! assumed. Current and power are an extension.
 
 mod aerodynamics;
-mod columns;
 mod constants;
-mod definition;
-mod dynamics;
+mod model;
 mod params;
 mod rhs;
-mod wing;
 
-pub use aerodynamics::{Aerodynamics, added_mass_lift, aerodynamics, coefficients, side_of};
-pub use columns::Signals;
-pub use constants::{Actuator, Air, Constants, Wing};
-pub use dynamics::FourBar;
-pub use params::{AddedMassSign, Arms, MAX_STRIPS, Params, Quadrature};
-pub use rhs::{
-    Transmission, balance, charging_current, current, driving_force, force, mass_matrix, tip, transmission,
-};
+pub use constants::Constants;
+pub use model::{FourBar, Signals};
+pub use params::{AddedMassSign, Arms, Params, Quadrature};
+pub use rhs::{Transmission, transmission};

@@ -16,158 +16,161 @@ crate::parameters! {
     pub struct Params {
         ["drive"]
         /// Drive voltage, peak to peak.
-        drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)),
+        drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)) 150.0,
         /// Constant part of the drive voltage.
-        drive_bias: f64 = ("V", "V_dc", Number(Any)),
+        drive_bias: f64 = ("V", "V_dc", Number(Any)) 50.0,
         /// Drive frequency.
-        drive_frequency: f64 = ("Hz", "f", Number(Positive)),
+        drive_frequency: f64 = ("Hz", "f", Number(Positive)) 75.0,
         /// Parameters of the waveform.
-        waveform: WaveformParameters = (flatten),
+        waveform: WaveformParameters = (flatten) WaveformParameters::SINE,
         /// Parameters of a prescribed stroke.
-        stroke: StrokeParameters = (flatten),
+        stroke: StrokeParameters = (flatten) StrokeParameters::FREE,
         /// Voltage at which the mechanism stands unloaded at zero stroke; assumed: not in the paper.
-        rest_voltage: Option<f64> = ("V", "V_ref", Following(Any, "drive_bias")),
+        rest_voltage: Option<f64> = ("V", "V_ref", Following(Any, "drive_bias")) None,
 
         ["actuator"]
         /// Actuator length; assumed: gives the drive its strength.
-        actuator_length: f64 = ("m", "L", Number(Positive)),
+        actuator_length: f64 = ("m", "L", Number(Positive)) 16e-3,
         /// Actuator width, uniform; assumed: gives the drive its strength.
-        actuator_width: f64 = ("m", "w", Number(Positive)),
+        actuator_width: f64 = ("m", "w", Number(Positive)) 18e-3,
         /// Thickness of the piezoelectric layer; assumed: a commercial sheet.
-        piezo_thickness: f64 = ("m", "h_p", Number(Positive)),
+        piezo_thickness: f64 = ("m", "h_p", Number(Positive)) 127e-6,
         /// Thickness of the shim; assumed.
-        shim_thickness: f64 = ("m", "h_s", Number(NonNegative)),
+        shim_thickness: f64 = ("m", "h_s", Number(NonNegative)) 76e-6,
         /// Young's modulus of the piezoelectric layer; assumed: PZT-5H.
-        piezo_modulus: f64 = ("Pa", "E_p", Number(Positive)),
+        piezo_modulus: f64 = ("Pa", "E_p", Number(Positive)) 62e9,
         /// Young's modulus of the shim; assumed: steel.
-        shim_modulus: f64 = ("Pa", "E_s", Number(NonNegative)),
+        shim_modulus: f64 = ("Pa", "E_s", Number(NonNegative)) 193e9,
         /// Density of the piezoelectric layer; assumed: PZT-5H.
-        piezo_density: f64 = ("kg/m^3", "rho_p", Number(NonNegative)),
+        piezo_density: f64 = ("kg/m^3", "rho_p", Number(NonNegative)) 7800.0,
         /// Density of the shim; assumed: steel.
-        shim_density: f64 = ("kg/m^3", "rho_s", Number(NonNegative)),
+        shim_density: f64 = ("kg/m^3", "rho_s", Number(NonNegative)) 7900.0,
         /// Piezoelectric coefficient, its magnitude; assumed: PZT-5H.
-        piezo_coefficient: f64 = ("m/V", "d_31", Number(Any)),
+        piezo_coefficient: f64 = ("m/V", "d_31", Number(Any)) 320e-12,
         /// Permittivity of the unstressed piezoelectric layer; assumed: PZT-5H. Acts on the current alone.
-        piezo_permittivity: f64 = ("F/m", "eps_T", Number(NonNegative)),
+        piezo_permittivity: f64 = ("F/m", "eps_T", Number(NonNegative)) 3800.0 * EPSILON_0,
         /// Dielectric loss and charge recovery.
-        electrical: ElectricalParameters = (flatten),
+        electrical: ElectricalParameters = (flatten) ElectricalParameters::NONE,
 
         ["transmission"]
         /// Stiffness in series between the actuator's tip and the slider-crank.
-        series_stiffness: f64 = ("N/m", "k_sc", Number(Positive)),
+        series_stiffness: f64 = ("N/m", "k_sc", Number(Positive)) 1400.0,
 
         /// Radius of the slider-crank on the input link; assumed: tuned to the first resonance.
-        crank_radius: f64 = ("m", "L_c", Number(Positive)),
+        crank_radius: f64 = ("m", "L_c", Number(Positive)) 3.285e-3,
         /// Length of the slider-crank's connecting rod; assumed.
-        connecting_rod: f64 = ("m", "L_s", Number(Positive)),
+        connecting_rod: f64 = ("m", "L_s", Number(Positive)) 5e-3,
         /// Ground link: distance of the four-bar's fixed pivots.
-        ground_link: f64 = ("m", "L_0", Number(Positive)),
+        ground_link: f64 = ("m", "L_0", Number(Positive)) 13.5e-3,
         /// Input link, driven by the slider-crank.
-        input_link: f64 = ("m", "L_1", Number(Positive)),
+        input_link: f64 = ("m", "L_1", Number(Positive)) 12.1e-3,
         /// Coupler link.
-        coupler_link: f64 = ("m", "L_2", Number(Positive)),
+        coupler_link: f64 = ("m", "L_2", Number(Positive)) 10e-3,
         /// Output link, which carries the wing.
-        output_link: f64 = ("m", "L_3", Number(Positive)),
+        output_link: f64 = ("m", "L_3", Number(Positive)) 5e-3,
         /// Angle of the output link to the ground link at zero stroke; assumed: where the transmission is largest.
-        neutral_angle: Option<f64> = ("rad", "psi_n", Following(Any, "the angle between 30 and 80 deg at which the transmission is stationary")),
+        neutral_angle: Option<f64> = ("rad", "psi_n", Following(Any, "the angle between 30 and 80 deg at which the transmission is stationary")) None,
         /// Mass of the input link; assumed: carbon fibre.
-        input_link_mass: f64 = ("kg", "m_L1", Number(NonNegative)),
+        input_link_mass: f64 = ("kg", "m_L1", Number(NonNegative)) 11.616e-6,
         /// Mass of the coupler link; assumed: carbon fibre.
-        coupler_link_mass: f64 = ("kg", "m_L2", Number(NonNegative)),
+        coupler_link_mass: f64 = ("kg", "m_L2", Number(NonNegative)) 9.6e-6,
         /// Mass of the output link; assumed: carbon fibre.
-        output_link_mass: f64 = ("kg", "m_L3", Number(NonNegative)),
+        output_link_mass: f64 = ("kg", "m_L3", Number(NonNegative)) 4.8e-6,
         /// Inertia of the input link about its centre; assumed: a uniform rod.
-        input_link_inertia: Option<f64> = ("kg*m^2", "J_L1", Following(NonNegative, "input_link_mass * input_link^2 / 12")),
+        input_link_inertia: Option<f64> = ("kg*m^2", "J_L1", Following(NonNegative, "input_link_mass * input_link^2 / 12")) None,
         /// Inertia of the coupler link about its centre; assumed: a uniform rod.
-        coupler_link_inertia: Option<f64> = ("kg*m^2", "J_L2", Following(NonNegative, "coupler_link_mass * coupler_link^2 / 12")),
+        coupler_link_inertia: Option<f64> = ("kg*m^2", "J_L2", Following(NonNegative, "coupler_link_mass * coupler_link^2 / 12")) None,
         /// Inertia of the output link about its centre; assumed: a uniform rod.
-        output_link_inertia: Option<f64> = ("kg*m^2", "J_L3", Following(NonNegative, "output_link_mass * output_link^2 / 12")),
+        output_link_inertia: Option<f64> = ("kg*m^2", "J_L3", Following(NonNegative, "output_link_mass * output_link^2 / 12")) None,
         /// Damping of the stroke by the transmission's flexures; assumed: modal damping ratios of 4 to 9 percent.
-        stroke_damping: f64 = ("N*m*s", "D", Number(NonNegative)),
+        stroke_damping: f64 = ("N*m*s", "D", Number(NonNegative)) 2e-7,
         /// Loss factor of the stroke's spring, actuator and series spring together: a damping of loss factor times stiffness over the drive's angular frequency.
-        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default 0.0),
+        stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default: 0.0) 0.0,
 
         ["hinge"]
         /// Stiffness of the wing hinge.
-        hinge_stiffness: f64 = ("N*m/rad", "k_rot", Number(Positive)),
+        hinge_stiffness: f64 = ("N*m/rad", "k_rot", Number(Positive)) 50e-6,
         /// Damping of the wing hinge.
-        hinge_damping: f64 = ("N*m*s", "d", Number(NonNegative)),
+        hinge_damping: f64 = ("N*m*s", "d", Number(NonNegative)) 5e-9,
         /// Loss factor and size of the hinge.
-        hinge: HingeParameters = (flatten),
+        hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["wing"]
         /// Distance from the stroke axis to the wing's root; assumed.
-        wing_offset: f64 = ("m", "r_0", Number(NonNegative)),
+        wing_offset: f64 = ("m", "r_0", Number(NonNegative)) 4e-3,
         /// Wing length, from root to tip; assumed.
-        wing_length: f64 = ("m", "L_w", Number(Positive)),
+        wing_length: f64 = ("m", "L_w", Number(Positive)) 24e-3,
         /// Chord at the root; assumed. The chord is root_chord times a polynomial in x, 0 at the root and 1 at the tip.
-        root_chord: f64 = ("m", "c_0", Number(Positive)),
+        root_chord: f64 = ("m", "c_0", Number(Positive)) 8.3e-3,
         /// The chord polynomial's constant term; assumed.
-        chord_term_0: f64 = ("", "p_0", Number(Any)),
+        chord_term_0: f64 = ("", "p_0", Number(Any)) 1.0,
         /// The chord polynomial's factor of x; assumed.
-        chord_term_1: f64 = ("", "p_1", Number(Any)),
+        chord_term_1: f64 = ("", "p_1", Number(Any)) 1.0,
         /// The chord polynomial's factor of x^2; assumed.
-        chord_term_2: f64 = ("", "p_2", Number(Any)),
+        chord_term_2: f64 = ("", "p_2", Number(Any)) 0.0,
         /// The chord polynomial's factor of x^3; assumed.
-        chord_term_3: f64 = ("", "p_3", Number(Any)),
+        chord_term_3: f64 = ("", "p_3", Number(Any)) 0.0,
         /// The chord polynomial's factor of x^4; assumed: no chord at the tip.
-        chord_term_4: f64 = ("", "p_4", Number(Any)),
+        chord_term_4: f64 = ("", "p_4", Number(Any)) -2.0,
         /// The chord as a table.
-        chords: ChordTable = (flatten),
+        chords: ChordTable = (flatten) ChordTable::off(),
         /// Position of the rotation axis, in chords behind the leading edge.
-        axis_position: f64 = ("", "z_RA/c", Number(Any)),
+        axis_position: f64 = ("", "z_RA/c", Number(Any)) 0.25,
         /// Wing mass; assumed: spar, veins and membrane, scaled to the second resonance.
-        wing_mass: f64 = ("kg", "m_w", Number(Positive)),
+        wing_mass: f64 = ("kg", "m_w", Number(Positive)) 9.577e-6,
         /// Distance of the wing's centre of mass from the stroke axis; assumed.
-        mass_centre_radius: f64 = ("m", "R_CG", Number(Any)),
+        mass_centre_radius: f64 = ("m", "R_CG", Number(Any)) 15.22e-3,
         /// Distance of the wing's centre of mass from the rotation axis, positive towards the trailing edge; assumed.
-        mass_centre_depth: f64 = ("m", "beta_CG", Number(Any)),
+        mass_centre_depth: f64 = ("m", "beta_CG", Number(Any)) 1.569e-3,
         /// Wing inertia about the spanwise axis through the centre of mass; assumed.
-        wing_inertia_span: f64 = ("kg*m^2", "J_xx", Number(NonNegative)),
+        wing_inertia_span: f64 = ("kg*m^2", "J_xx", Number(NonNegative)) 8.333e-11,
         /// Wing inertia about the normal through the centre of mass; assumed.
-        wing_inertia_normal: f64 = ("kg*m^2", "J_yy", Number(NonNegative)),
+        wing_inertia_normal: f64 = ("kg*m^2", "J_yy", Number(NonNegative)) 4.269e-10,
         /// Wing inertia about the chordwise axis through the centre of mass; assumed.
-        wing_inertia_chord: f64 = ("kg*m^2", "J_zz", Number(NonNegative)),
+        wing_inertia_chord: f64 = ("kg*m^2", "J_zz", Number(NonNegative)) 3.436e-10,
         /// Product of inertia about the centre of mass, positive if the wing is deeper farther out; assumed.
-        wing_inertia_product: f64 = ("kg*m^2", "J_xz", Number(Any)),
+        wing_inertia_product: f64 = ("kg*m^2", "J_xz", Number(Any)) -8.38e-12,
 
         ["air"]
         /// Density of air; assumed.
-        air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)),
+        air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)) 1.2,
         /// Lift coefficient, Eq. (9): constant term.
-        lift_offset: f64 = ("", "0.225", Number(Any)),
+        lift_offset: f64 = ("", "0.225", Number(Any)) 0.225,
         /// Lift coefficient, Eq. (9): amplitude of the sine.
-        lift_amplitude: f64 = ("", "1.58", Number(Any)),
+        lift_amplitude: f64 = ("", "1.58", Number(Any)) 1.58,
         /// Lift coefficient, Eq. (9): factor of the attack angle.
-        lift_slope: f64 = ("", "2.13", Number(Any)),
+        lift_slope: f64 = ("", "2.13", Number(Any)) 2.13,
         /// Lift coefficient, Eq. (9): angle subtracted.
-        lift_phase: f64 = ("rad", "7.2 deg", Number(Any)),
+        lift_phase: f64 = ("rad", "7.2 deg", Number(Any)) LIFT_PHASE,
         /// Drag coefficient, Eq. (10): constant term.
-        drag_offset: f64 = ("", "1.92", Number(Any)),
+        drag_offset: f64 = ("", "1.92", Number(Any)) 1.92,
         /// Drag coefficient, Eq. (10): amplitude of the cosine.
-        drag_amplitude: f64 = ("", "1.55", Number(Any)),
+        drag_amplitude: f64 = ("", "1.55", Number(Any)) 1.55,
         /// Drag coefficient, Eq. (10): factor of the attack angle.
-        drag_slope: f64 = ("", "2.04", Number(Any)),
+        drag_slope: f64 = ("", "2.04", Number(Any)) 2.04,
         /// Drag coefficient, Eq. (10): angle subtracted.
-        drag_phase: f64 = ("rad", "9.82 deg", Number(Any)),
+        drag_phase: f64 = ("rad", "9.82 deg", Number(Any)) DRAG_PHASE,
         /// Rotational drag coefficient, Eq. (6).
-        rotation_drag: f64 = ("", "C_rot", Number(NonNegative)),
+        rotation_drag: f64 = ("", "C_rot", Number(NonNegative)) 2.0,
         /// Centre of pressure: shift in chords per radian of attack, Eq. (17).
-        pressure_slope: f64 = ("", "0.82/pi", Number(Any)),
+        pressure_slope: f64 = ("", "0.82/pi", Number(Any)) 0.82 / core::f64::consts::PI,
         /// Centre of pressure at zero attack, in chords, Eq. (17).
-        pressure_offset: f64 = ("", "0.05", Number(Any)),
+        pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
 
         ["readings of the paper"]
         /// Chordwise arms of Eqs. (8) and (17): as printed, as if the rotation axis were the leading edge; or from the rotation axis.
-        arms: Arms = ("", "", Choice(Arms::NAMES)),
+        arms: Arms = ("", "", Choice(Arms::NAMES)) Arms::Printed,
         /// Sign of the pitch acceleration's part of the added-mass lift, Eq. (7): corrected, or as printed.
-        am_sign: AddedMassSign = ("", "", Choice(AddedMassSign::NAMES)),
+        am_sign: AddedMassSign = ("", "", Choice(AddedMassSign::NAMES)) AddedMassSign::Corrected,
         ["strips of the wing"]
         /// Strips of the wing: at Gauss-Legendre nodes, or of equal widths taken at their middles.
-        quadrature: Quadrature = ("", "", Choice(Quadrature::NAMES)),
+        quadrature: Quadrature = ("", "", Choice(Quadrature::NAMES)) Quadrature::Gauss,
         /// Number of strips, a whole number from 1 to 64.
-        strips: f64 = ("", "N", Number(STRIPS)),
+        strips: f64 = ("", "N", Number(STRIPS)) 16.0,
     }
+
+    /// The 75 Hz system, with voltages and hinge of the 70 Hz prototype of Figs. 13 to 15.
+    pub fn arabagi2013_75hz() -> Params;
 }
 
 crate::choice! {
@@ -206,7 +209,7 @@ pub(super) const STRIPS: Range = Range::Whole(1, MOST_STRIPS);
 const MOST_STRIPS: u32 = 64;
 
 /// The largest number of strips.
-pub const MAX_STRIPS: usize = MOST_STRIPS as usize;
+pub(super) const MAX_STRIPS: usize = MOST_STRIPS as usize;
 
 /// The permittivity of free space (F/m), to the digits used for the presets.
 const EPSILON_0: f64 = 8.854_187_812_8e-12;
@@ -217,7 +220,7 @@ const DRAG_PHASE: f64 = 9.82 / 180.0 * core::f64::consts::PI;
 
 impl Params {
     /// The sets that stand for the paper's prototypes.
-    pub const PRESETS: &'static [Preset] = &[
+    pub(super) const PRESETS: &'static [Preset] = &[
         Preset {
             name: "arabagi2013-75hz",
             doc: "75 Hz prototype, 150 V + 50 V (Arabagi, Hines and Sitti 2013); wing and actuator are assumed",
@@ -229,81 +232,6 @@ impl Params {
             values: || Params::arabagi2013_30hz().to_values(),
         },
     ];
-
-    /// The 75 Hz system, with voltages and hinge of the 70 Hz prototype of Figs. 13 to 15.
-    pub fn arabagi2013_75hz() -> Params {
-        Params {
-            drive_voltage_pp: 150.0,
-            drive_bias: 50.0,
-            drive_frequency: 75.0,
-            waveform: WaveformParameters::SINE,
-            stroke: StrokeParameters::FREE,
-            rest_voltage: None,
-            actuator_length: 16e-3,
-            actuator_width: 18e-3,
-            piezo_thickness: 127e-6,
-            shim_thickness: 76e-6,
-            piezo_modulus: 62e9,
-            shim_modulus: 193e9,
-            piezo_density: 7800.0,
-            shim_density: 7900.0,
-            piezo_coefficient: 320e-12,
-            piezo_permittivity: 3800.0 * EPSILON_0,
-            electrical: ElectricalParameters::NONE,
-            series_stiffness: 1400.0,
-            crank_radius: 3.285e-3,
-            connecting_rod: 5e-3,
-            ground_link: 13.5e-3,
-            input_link: 12.1e-3,
-            coupler_link: 10e-3,
-            output_link: 5e-3,
-            neutral_angle: None,
-            input_link_mass: 11.616e-6,
-            coupler_link_mass: 9.6e-6,
-            output_link_mass: 4.8e-6,
-            input_link_inertia: None,
-            coupler_link_inertia: None,
-            output_link_inertia: None,
-            stroke_damping: 2e-7,
-            stroke_loss_factor: 0.0,
-            hinge_stiffness: 50e-6,
-            hinge_damping: 5e-9,
-            hinge: HingeParameters::NONE,
-            wing_offset: 4e-3,
-            wing_length: 24e-3,
-            root_chord: 8.3e-3,
-            chord_term_0: 1.0,
-            chord_term_1: 1.0,
-            chord_term_2: 0.0,
-            chord_term_3: 0.0,
-            chord_term_4: -2.0,
-            chords: ChordTable::OFF,
-            axis_position: 0.25,
-            wing_mass: 9.577e-6,
-            mass_centre_radius: 15.22e-3,
-            mass_centre_depth: 1.569e-3,
-            wing_inertia_span: 8.333e-11,
-            wing_inertia_normal: 4.269e-10,
-            wing_inertia_chord: 3.436e-10,
-            wing_inertia_product: -8.38e-12,
-            air_density: 1.2,
-            lift_offset: 0.225,
-            lift_amplitude: 1.58,
-            lift_slope: 2.13,
-            lift_phase: LIFT_PHASE,
-            drag_offset: 1.92,
-            drag_amplitude: 1.55,
-            drag_slope: 2.04,
-            drag_phase: DRAG_PHASE,
-            rotation_drag: 2.0,
-            pressure_slope: 0.82 / core::f64::consts::PI,
-            pressure_offset: 0.05,
-            arms: Arms::Printed,
-            am_sign: AddedMassSign::Corrected,
-            quadrature: Quadrature::Gauss,
-            strips: 16.0,
-        }
-    }
 
     /// The 30 Hz system of Figs. 7 to 9, with the links of the 75 Hz one.
     pub fn arabagi2013_30hz() -> Params {

@@ -7,7 +7,7 @@
 use super::aerodynamics::aerodynamics;
 use super::constants::{Actuator, Constants, Wing};
 use crate::drive::Wave;
-use crate::model::Balance;
+use crate::model::stroke_and_pitch::Balance;
 use crate::num::Real;
 
 /// Actuator, slider-crank and four-bar as the stroke sees them.
@@ -55,7 +55,7 @@ pub fn transmission<R: Real>(c: &Constants<R>, theta: R) -> Transmission<R> {
 /// F = k_eff (γ (V − V_ref) − δ)
 /// ```
 #[inline(always)]
-pub fn force<R: Real>(c: &Actuator<R>, drive: &Wave<R>, displacement: R) -> R {
+pub(super) fn force<R: Real>(c: &Actuator<R>, drive: &Wave<R>, displacement: R) -> R {
     c.stiffness * (c.deflection * (drive.value - c.rest_voltage) - displacement)
 }
 
@@ -65,7 +65,7 @@ pub fn force<R: Real>(c: &Actuator<R>, drive: &Wave<R>, displacement: R) -> R {
 /// δ_a = δ + F/k_sc
 /// ```
 #[inline(always)]
-pub fn tip<R: Real>(c: &Actuator<R>, displacement: R, force: R) -> R {
+pub(super) fn tip<R: Real>(c: &Actuator<R>, displacement: R, force: R) -> R {
     displacement + force * c.series_compliance
 }
 
@@ -75,7 +75,7 @@ pub fn tip<R: Real>(c: &Actuator<R>, displacement: R, force: R) -> R {
 /// i = C_b V̇ + Γ δ̇_a     δ̇_a = δ′θ̇ + k_eff (γV̇ − δ′θ̇)/k_sc
 /// ```
 #[inline(always)]
-pub fn current<R: Real>(c: &Actuator<R>, drive: &Wave<R>, slider_rate: R) -> R {
+pub(super) fn current<R: Real>(c: &Actuator<R>, drive: &Wave<R>, slider_rate: R) -> R {
     let force_rate = c.stiffness * (c.deflection * drive.rate - slider_rate);
     c.capacitance * drive.rate + c.coupling * tip(c, slider_rate, force_rate)
 }
@@ -86,13 +86,13 @@ pub fn current<R: Real>(c: &Actuator<R>, drive: &Wave<R>, slider_rate: R) -> R {
 /// (C_b + Γ k_eff γ/k_sc) V̇
 /// ```
 #[inline(always)]
-pub fn charging_current<R: Real>(c: &Actuator<R>, drive: &Wave<R>) -> R {
+pub(super) fn charging_current<R: Real>(c: &Actuator<R>, drive: &Wave<R>) -> R {
     (c.capacitance + c.coupling * c.stiffness * c.deflection * c.series_compliance) * drive.rate
 }
 
 /// The part of the actuator's [`force`] that a change of voltage by `swing` (V) makes (N): k_eff γ swing.
 #[inline(always)]
-pub fn driving_force<R: Real>(c: &Actuator<R>, swing: R) -> R {
+pub(super) fn driving_force<R: Real>(c: &Actuator<R>, swing: R) -> R {
     c.stiffness * c.deflection * swing
 }
 
@@ -102,7 +102,7 @@ pub fn driving_force<R: Real>(c: &Actuator<R>, swing: R) -> R {
 /// M₁₁ = m R² + (m β² + J_yy) sin²φ + J_zz cos²φ + G     M₁₂ = P cos φ     M₂₂ = J_φ
 /// ```
 #[inline(always)]
-pub fn mass_matrix<R: Real>(c: &Constants<R>, inertia: R, sin: R, cos: R) -> [R; 3] {
+pub(super) fn mass_matrix<R: Real>(c: &Constants<R>, inertia: R, sin: R, cos: R) -> [R; 3] {
     let wing = &c.wing;
     [
         wing.upright + wing.j_sin * sin * sin + wing.j_cos * cos * cos + inertia,
@@ -120,7 +120,7 @@ pub fn mass_matrix<R: Real>(c: &Constants<R>, inertia: R, sin: R, cos: R) -> [R;
 ///
 /// D is the viscous damping of the stroke with that of the loss factor of the drive spring, D + γ k_eff δ′²/ω.
 #[inline(always)]
-pub fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: R, y: &[R; 4]) -> Balance<R> {
+pub(super) fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: R, y: &[R; 4]) -> Balance<R> {
     let [_, phi, theta_dot, phi_dot] = *y;
     let (sin, cos) = phi.sin_cos();
     let air = aerodynamics(c, side, y, sin, cos);

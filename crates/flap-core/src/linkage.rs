@@ -1,24 +1,95 @@
-//! A planar four-bar: positions, and how they change with the output's angle.
+//! Hinges and transmissions, and their losses.
 //!
-//! The input link L₁ turns about the origin, the output link L₃ about (L₀, 0); the coupler L₂ connects their
-//! ends A and B. The independent variable is the stroke angle θ: the output link stands at ψ = ψ_n + θ.
+//! In the planar four-bar the input link L₁ turns about the origin, the output link L₃ about (L₀, 0); the coupler L₂ connects
+//! their ends A and B. The independent variable is the stroke angle θ: the output link stands at ψ = ψ_n + θ.
 
 use core::f64::consts::PI;
 
-use super::plane::{add, cross, dot, scale, scale_add, sub, turn};
 use crate::num::Real;
+use crate::parameter::Kind::{Following, Number};
+use crate::parameter::Range::{NonNegative, Positive};
 
-/// Lengths of the links (m).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinkLengths {
-    /// Distance of the two fixed pivots, L₀.
-    pub ground: f64,
-    /// Input link, L₁.
-    pub input: f64,
-    /// Coupler, L₂.
-    pub coupler: f64,
-    /// Output link, L₃.
-    pub output: f64,
+/// Damping that stands for the loss factor γ of a spring of `stiffness` k, at the angular frequency `rate` ω (rad/s): γ k/ω.
+///
+/// That is exact for the first harmonic of a periodic motion. Lynch, Gau, Sponberg and Gravish 2021 measured such losses in
+/// insects' thoraxes and in robots' hinges.
+pub(crate) fn structural_damping(loss_factor: f64, stiffness: f64, rate: f64) -> f64 {
+    loss_factor * stiffness / rate
+}
+
+crate::parameters! {
+    /// Loss factor and size of the wing hinge.
+    pub struct HingeParameters {
+        /// Loss factor of the wing hinge: a damping of loss factor times stiffness over the drive's angular frequency.
+        hinge_loss_factor: f64 = ("", "gamma_h", Number(NonNegative), default: 0.0),
+        /// Thickness of the hinge's flexure. For hinge_strain_max alone.
+        hinge_thickness: Option<f64> = ("m", "t_h", Following(Positive, "nothing: hinge_strain_max is empty without it")),
+        /// Length of the hinge's flexure from one rigid part to the other. For hinge_strain_max alone.
+        hinge_length: Option<f64> = ("m", "l_h", Following(Positive, "nothing: hinge_strain_max is empty without it")),
+    }
+}
+
+impl HingeParameters {
+    /// No loss, and no size.
+    pub(crate) const NONE: HingeParameters =
+        HingeParameters { hinge_loss_factor: 0.0, hinge_thickness: None, hinge_length: None };
+
+    /// The damping (N·m·s) that stands for the loss factor of a hinge of this `stiffness` (N·m/rad) at the angular frequency
+    /// `rate` (rad/s).
+    pub(crate) fn damping(&self, stiffness: f64, rate: f64) -> f64 {
+        structural_damping(self.hinge_loss_factor, stiffness, rate)
+    }
+
+    /// Strain of the flexure's faces per hinge angle (1/rad), bent to an arc of a circle: thickness over twice the length.
+    /// Zero if the size is not known.
+    pub(crate) fn strain_per_angle(&self) -> f64 {
+        match (self.hinge_thickness, self.hinge_length) {
+            (Some(thickness), Some(length)) => 0.5 * thickness / length,
+            _ => 0.0,
+        }
+    }
+}
+
+crate::per_lane! {
+    /// A slider-crank: a crank at right angles to the slider's line at rest, and a rod along that line.
+    pub struct SliderCrank<R> {
+        /// Radius of the crank L_c (m).
+        pub crank: R,
+        /// Length of the connecting rod L_s (m).
+        pub rod: R,
+    }
+}
+
+/// The slider's displacement from rest δ (m) and its derivatives with respect to the crank's angle (m).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SliderMotion<R> {
+    /// δ.
+    pub(crate) displacement: R,
+    /// δ_η.
+    pub(crate) slope: R,
+    /// δ_ηη.
+    pub(crate) bend: R,
+}
+
+impl<R: Real> SliderCrank<R> {
+    /// The slider when the crank has turned by η, given sine and cosine.
+    ///
+    /// ```text
+    /// e = L_c (1 − cos η)     g = √(L_s² − e²)     δ = L_c sin η + L_s − g
+    /// g_η = −e e_η / g     g_ηη = −(e_η² + e e_ηη + g_η²) / g
+    /// ```
+    #[inline(always)]
+    pub(crate) fn motion(&self, sin: R, cos: R) -> SliderMotion<R> {
+        let along = self.crank * sin;
+        let across = self.crank * cos;
+        let e = self.crank - across;
+        let g = self.rod.mul_add(self.rod, -(e * e)).sqrt();
+        let inverse_g = sin.lit(1.0) / g;
+        // e_η = L_c sin η, e_ηη = L_c cos η.
+        let g_slope = -(e * along * inverse_g);
+        let g_bend = -((along * along + e * across + g_slope * g_slope) * inverse_g);
+        SliderMotion { displacement: along + self.rod - g, slope: across - g_slope, bend: -along - g_bend }
+    }
 }
 
 crate::per_lane! {
@@ -59,11 +130,11 @@ pub struct FourBarMotion<R> {
 }
 
 impl FourBar<f64> {
-    /// The four-bar with links of these lengths, whose output link stands at `neutral` (rad) at zero stroke.
+    /// The four-bar with ground, input, coupler and output link of these lengths (m), whose output link stands at `neutral` (rad) at zero stroke.
     ///
     /// Numbers are NaN if it cannot be assembled there.
-    pub fn new(lengths: &LinkLengths, neutral: f64) -> FourBar<f64> {
-        let LinkLengths { ground, input, coupler, output } = *lengths;
+    pub(crate) fn new(lengths: [f64; 4], neutral: f64) -> FourBar<f64> {
+        let [ground, input, coupler, output] = lengths;
         let mut four_bar = FourBar {
             ground,
             output,
@@ -79,20 +150,11 @@ impl FourBar<f64> {
         four_bar.direction_y = y / four_bar.input_square;
         four_bar
     }
-}
 
-impl LinkLengths {
-    /// The angle of the output link (rad), between 30° and 80°, at which the transmission θ₁′ is stationary:
-    /// θ₁″ = 0. `None` if θ₁″ does not change its sign there.
-    ///
-    /// ```
-    /// use flap_core::linkage::LinkLengths;
-    /// let links = LinkLengths { ground: 13.5e-3, input: 12.1e-3, coupler: 10.0e-3, output: 5.0e-3 };
-    /// let neutral = links.stationary_angle().unwrap();
-    /// assert!((neutral.to_degrees() - 54.896_327_872).abs() < 1e-9);
-    /// ```
-    pub fn stationary_angle(&self) -> Option<f64> {
-        let four_bar = FourBar::new(self, 0.0);
+    /// The angle of the output link (rad), between 30° and 80°, at which the transmission θ₁′ of links of these lengths (m) is
+    /// stationary: θ₁″ = 0. `None` if θ₁″ does not change its sign there.
+    pub(crate) fn stationary_angle(lengths: [f64; 4]) -> Option<f64> {
+        let four_bar = FourBar::new(lengths, 0.0);
         let bend = |angle: f64| four_bar.motion(angle).input[1];
         root(bend, [30.0 / 180.0 * PI, 80.0 / 180.0 * PI])
     }
@@ -172,7 +234,7 @@ impl<R: Real> LinkInertias<R> {
     ///
     /// The links are uniform: their centres are A/2, (A + B)/2 and the middle of the output link.
     #[inline(always)]
-    pub fn about_stroke(&self, motion: &FourBarMotion<R>) -> [R; 2] {
+    pub(crate) fn about_stroke(&self, motion: &FourBarMotion<R>) -> [R; 2] {
         let [_, a_p, a_pp] = motion.a;
         let [_, b_p, b_pp] = motion.b;
         let (middle_p, middle_pp) = (add(a_p, b_p), add(a_pp, b_pp));
@@ -217,4 +279,48 @@ fn root(f: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Option<f64> {
         (b, f_b) = (x, f_x);
     }
     Some(x)
+}
+
+// Vectors in the plane of the linkage.
+
+/// a + b.
+#[inline(always)]
+fn add<R: Real>(a: [R; 2], b: [R; 2]) -> [R; 2] {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+/// a − b.
+#[inline(always)]
+fn sub<R: Real>(a: [R; 2], b: [R; 2]) -> [R; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+/// k a.
+#[inline(always)]
+fn scale<R: Real>(k: R, a: [R; 2]) -> [R; 2] {
+    [k * a[0], k * a[1]]
+}
+
+/// k a + b.
+#[inline(always)]
+fn scale_add<R: Real>(k: R, a: [R; 2], b: [R; 2]) -> [R; 2] {
+    [k.mul_add(a[0], b[0]), k.mul_add(a[1], b[1])]
+}
+
+/// a · b.
+#[inline(always)]
+fn dot<R: Real>(a: [R; 2], b: [R; 2]) -> R {
+    a[0].mul_add(b[0], a[1] * b[1])
+}
+
+/// a × b, the component out of the plane.
+#[inline(always)]
+fn cross<R: Real>(a: [R; 2], b: [R; 2]) -> R {
+    a[0].mul_add(b[1], -(a[1] * b[0]))
+}
+
+/// a turned by 90° to the left.
+#[inline(always)]
+fn turn<R: Real>(a: [R; 2]) -> [R; 2] {
+    [-a[1], a[0]]
 }

@@ -1,0 +1,364 @@
+//! The bimorph model: its equations of motion, signals, columns of rows, and single motions.
+
+use core::f64::consts::{FRAC_PI_2, PI};
+
+use super::constants::Constants;
+use super::params::Params;
+use super::rhs::{
+    Plate, charging_power, currents, derivative, double_angle, leakage, lift_and_drag, load, plate_forces,
+    plates, secant_stiffness, stroke_damping, tip_drag,
+};
+use super::transmission::{Law, Transmission, stroke};
+use crate::aero::Wing;
+use crate::drive::{Drive, DriveConstants, Shape, StrokeMode, Wave, Waveform};
+use crate::model::Measure::{Peak, PeakToPeak, Supply};
+use crate::model::OverWings::{Each, Sum};
+use crate::model::readings::{efficiency, grams_force, hinge_strain, lag_degrees};
+use crate::model::signal::DEGREES;
+use crate::model::{Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, Unit};
+use crate::modes::Mode;
+use crate::num::Real;
+use crate::ode::{Ode, Start};
+use crate::parameter::Invalid;
+use crate::piezo::supplied;
+
+/// Share of the largest lift that a vehicle can hover with, the rest being needed for control; section IV.
+const HOVER_SHARE: f64 = 0.8;
+
+crate::signals! {
+    /// Signals of the bimorph model.
+    pub struct Signals {
+        stroke: (Unit::DEG, "stroke angle", [Amplitude, PeakToPeak, Mean, Max, Min, First]) principal First,
+        pitch: (Unit::DEG, "hinge angle of the wing", [Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]) principal First,
+        lift: (Unit::MN, "lift of the wing", [Mean, Max, Min]) principal Mean of_wings [Mean],
+        drag: (Unit::MN, "drag of the wing along the stroke", [Mean, Magnitude]),
+        power: (Unit::MW, "electrical power of both plates, current x voltage; its mean is that of power_drag, power_stroke_damping and power_dielectric", [Mean]) principal Mean,
+        power_plate_1: (Unit::MW, "electrical power of plate 1", [Supply]),
+        power_plate_2: (Unit::MW, "electrical power of plate 2", [Supply]),
+        power_mechanical: (Unit::MW, "power of the plates' forces at the actuator's tip; its mean is that of power_drag and power_stroke_damping", [Mean]),
+        power_drag: (Unit::MW, "power taken by the drag of the stroke, Eq. (8)", [Mean]),
+        power_rotational: (Unit::MW, "power taken by the hinge's rotational drag, Eq. (9)", [Mean]),
+        power_stroke_damping: (Unit::MW, "power taken by the damping of the stroke", [Mean]),
+        power_hinge_damping: (Unit::MW, "power taken by the damping of the hinge", [Mean]),
+        power_dielectric: (Unit::MW, "power taken by the dielectric loss of both plates", [Mean]),
+        current_1: (Unit::MA, "current into plate 1", [Rms, Peak]),
+        current_2: (Unit::MA, "current into plate 2", [Rms, Peak]),
+        force_1: (Unit::MN, "force of plate 1 at the actuator's tip, Eq. (6)", [Peak]),
+        force_2: (Unit::MN, "force of plate 2 at the actuator's tip, Eq. (6)", [Peak]),
+        power_transduced: (Unit::MW, "electrical power of both plates without that of charging their capacitance", []),
+    }
+}
+
+type Column = Derived<Bimorph, Constants<f64>, Signals>;
+
+#[rustfmt::skip]
+const DERIVED: &[Column] = &[
+    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the drive -sin(wt), the sense of F_1 - F_2, in (-180, 180]",
+        |_, _, cycle| lag_degrees(cycle.stroke.phase(), DRIVE_PHASE)).over_wings(Each),
+    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the hinge angle lags that of the stroke, in (-180, 180]",
+        |_, _, cycle| lag_degrees(cycle.pitch.phase(), cycle.stroke.phase())).over_wings(Each),
+    Column::new("stroke_pp_deg_per_v", "deg/V", "stroke_pp_deg over drive_voltage_pp, the ordinate of Fig. 4a and 5",
+        |_, c, cycle| cycle.stroke.measure(PeakToPeak) * DEGREES / (2.0 * c.drive.amplitude)),
+    Column::new("tip_pp_um", "um", "displacement of the actuator's tip, largest minus smallest",
+        |_, c, cycle| tip_pp(c, cycle) * 1e6).over_wings(Each),
+    Column::new("tip_peak_um", "um", "largest displacement of the actuator's tip from rest",
+        |_, c, cycle| tip_peak(c, cycle) * 1e6).over_wings(Each),
+    Column::new("lift_mean_gf", "gf", "mean lift of the wing in grams-force",
+        |_, _, cycle| grams_force(cycle.lift.mean)),
+    Column::new("vehicle_lift_mgf", "mgf", "mean lift of a vehicle's two wings in milligrams-force",
+        |_, _, cycle| vehicle_lift(cycle)),
+    Column::new("payload_mg", "mg", "80 % of vehicle_lift_mgf, the rest being left for control, less vehicle_mass; Table II",
+        |_, c, cycle| HOVER_SHARE * vehicle_lift(cycle) - c.vehicle_mass * 1e6),
+    Column::new("power_supply_mw", "mW", "mean power of the supply: the positive part of each plate's power, summed, less charge_recovery times what it takes back",
+        |_, c, cycle| supplied(positive_power(cycle), cycle.power.mean, c.charge_recovery) * 1e3).over_wings(Sum),
+    Column::new("power_capacitive_mw", "mW", "C_act V_pp^2 f / 4: the paper's P, per actuator",
+        |model, c, _| capacitive_power(model, c) * 1e3).over_wings(Sum),
+    Column::new("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw); empty where that is not more than zero",
+        |_, _, cycle| efficiency(grams_force(cycle.lift.mean), cycle.power.mean)),
+    Column::new("efficiency_capacitive_gf_per_w", "gf/W", "mean lift over power_capacitive_mw: the paper's lift-to-power ratio, in mg/mW too",
+        |model, c, cycle| grams_force(cycle.lift.mean) / capacitive_power(model, c)),
+    Column::new("energy_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error",
+        |_, _, cycle| Bimorph::energy_audit(cycle)),
+    Column::new("strain_mid_max", "", "largest strain of the plates' mid-planes, Eq. (5)",
+        |_, c, cycle| tip_peak(c, cycle) * c.strain_per_tip).over_wings(Each),
+    Column::new("strain_surface_max", "", "largest strain of the plates' outer faces, which Table II quotes",
+        |_, c, cycle| tip_peak(c, cycle) * c.strain_per_tip * c.surface_strain_ratio).over_wings(Each),
+    Column::new("hinge_strain_max", "", "largest strain of the hinge's faces, bent to an arc; empty without hinge_thickness and hinge_length",
+        |_, c, cycle| hinge_strain(c.hinge_strain, cycle.pitch.measure(Peak))).over_wings(Each),
+    Column::new("field_max_v_per_um", "V/um", "largest electric field in the plates",
+        |model, c, _| voltage_max(model, c) * c.field_per_volt * 1e-6).over_wings(Each),
+    Column::new("mode_stroke_hz", "Hz", "natural frequency of small strokes, without drag",
+        |_, c, _| Bimorph::modes(c)[0].frequency),
+    Column::new("mode_hinge_hz", "Hz", "natural frequency of small hinge angles, without drag",
+        |_, c, _| Bimorph::modes(c)[1].frequency),
+];
+
+/// Phase of the drive (rad): F₁ − F₂ goes as −sin ωt, which has the phase π/2 against the cosine.
+const DRIVE_PHASE: f64 = FRAC_PI_2;
+
+/// Largest displacement of the actuator's tip (m).
+fn tip_peak(c: &Constants<f64>, cycle: &Signals<SignalCycle>) -> f64 {
+    c.tip(cycle.stroke.measure(Peak))
+}
+
+/// Displacement of the actuator's tip, largest minus smallest (m).
+fn tip_pp(c: &Constants<f64>, cycle: &Signals<SignalCycle>) -> f64 {
+    if c.ratio_growth == 0.0 {
+        return cycle.stroke.measure(PeakToPeak) / c.ratio;
+    }
+    c.tip(cycle.stroke.max) - c.tip(cycle.stroke.min)
+}
+
+/// Mean of the positive part of each plate's power (W), summed.
+fn positive_power(cycle: &Signals<SignalCycle>) -> f64 {
+    [cycle.power_plate_1, cycle.power_plate_2].iter().map(|plate| plate.measure(Supply)).sum()
+}
+
+/// Mean lift of two wings in milligrams-force.
+fn vehicle_lift(cycle: &Signals<SignalCycle>) -> f64 {
+    2e3 * grams_force(cycle.lift.mean)
+}
+
+/// Power (W) of charging two plates, which see ½V_pp (1 ± wave).
+fn capacitive_power(model: &Bimorph, c: &Constants<f64>) -> f64 {
+    let [low, high] = model.drive.range(&c.drive);
+    let voltage_pp = c.drive.amplitude * (high - low);
+    c.c_p * voltage_pp * voltage_pp * c.drive.rate / (2.0 * PI)
+}
+
+/// Largest voltage (V) on a plate.
+fn voltage_max(model: &Bimorph, c: &Constants<f64>) -> f64 {
+    let [low, high] = model.drive.range(&c.drive);
+    let (bias, offset) = (c.drive.amplitude, c.half_offset);
+    let plates = [
+        bias * (1.0 - low) + offset,
+        bias * (1.0 - high) + offset,
+        bias * (1.0 + low) - offset,
+        bias * (1.0 + high) - offset,
+    ];
+    plates.into_iter().map(f64::abs).fold(0.0, f64::max)
+}
+
+/// The model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Bimorph {
+    /// The drive voltage.
+    pub drive: Drive,
+    /// Law of the transmission ratio.
+    pub law: Law,
+}
+
+impl Ode<4> for Bimorph {
+    type Constants<R: Real> = Constants<R>;
+    type Input<R: Real> = [Plate<R>; 2];
+
+    /// The two plates at time `t`, driven in antiphase, (7).
+    ///
+    /// ```text
+    /// V₁ = ½V_pp (1 − sin ωt)     V₂ = ½V_pp (1 + sin ωt)
+    /// ```
+    ///
+    /// A bias between the plates moves them apart.
+    #[inline(always)]
+    fn input<R: Real>(&self, c: &Constants<R>, t: R) -> [Plate<R>; 2] {
+        let DriveConstants { bias, amplitude, .. } = c.drive;
+        let wave = self.drive.wave(&c.drive, t);
+        let (first, second) = (bias + c.half_offset, bias - c.half_offset);
+        plates(c, [wave.scaled(first, -amplitude), wave.scaled(second, amplitude)])
+    }
+
+    #[inline(always)]
+    fn next_break<R: Real>(&self, c: &Constants<R>, t: R) -> R {
+        self.drive.next_break(&c.drive, t)
+    }
+
+    #[inline(always)]
+    fn rhs<R: Real>(&self, c: &Constants<R>, plates: &[Plate<R>; 2], _side: R, y: &[R; 4]) -> [R; 4] {
+        derivative(c, self.law, plates, y)
+    }
+}
+
+impl Bimorph {
+    /// Mean voltages of the two plates (V) over a period.
+    #[inline(always)]
+    fn mean_voltages<R: Real>(&self, c: &Constants<R>) -> [R; 2] {
+        let DriveConstants { bias, amplitude, .. } = c.drive;
+        let swing = amplitude * self.drive.mean();
+        [bias + c.half_offset - swing, bias - c.half_offset + swing]
+    }
+}
+
+impl Model<4> for Bimorph {
+    type Signals = Signals;
+
+    const DESCRIPTION: Description = Description {
+        name: "bimorph",
+        doc: "bimorph on a transmission, passive hinge, lumped quasi-steady aerodynamics (Jafferis et al. 2016)",
+        parameters: Params::TABLE,
+        presets: Params::PRESETS,
+    };
+    const STATES: [&'static str; 4] = ["tip_m", "tip_rate_m_s", "pitch_rad", "pitch_rate_rad_s"];
+    const SIGNALS_OF_SLOPES: bool = false;
+    const DERIVED: &'static [Column] = DERIVED;
+    const LOADS: bool = true;
+
+    fn variant(&self, values: &[f64]) -> Bimorph {
+        let Params { waveform, transmission_growth, .. } = Params::from_values(values);
+        Bimorph {
+            drive: self.drive.of_point(waveform.drive_shape, StrokeMode::Free),
+            law: if transmission_growth == 0.0 { Law::Constant } else { Law::Square },
+        }
+    }
+
+    fn with_all_terms(&self) -> Bimorph {
+        Bimorph { law: Law::Square, ..self.clone() }
+    }
+
+    /// Starts at rest. The scales are those of the direct-drive model, so that tolerances and residuals mean the
+    /// same: strokes of 0.1 rad, hinge angles of 0.3 rad, times the drive's angular frequency for the rates.
+    fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
+        let params = Params::from_values(values);
+        self.drive.check(&params.waveform)?;
+        let constants = Constants::derive(&params)?;
+        let DriveConstants { rate, .. } = constants.drive;
+        let tip = 0.1 / params.transmission_ratio;
+        let scale = [tip, tip * rate, 0.3, 0.3 * rate];
+        Ok(Start::new(constants, [0.0; 4], constants.drive.period(), scale))
+    }
+
+    /// The parameters that a wing decides.
+    ///
+    /// Centres of pressure are those of blade elements: the presets have them times factors fitted to one vehicle.
+    fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
+        let length = wing.offset + wing.outline.length();
+        let (area, width) = (wing.area(), wing.outline.width());
+        let mut found = vec![
+            ("wing_length", length),
+            ("wing_area", area),
+            ("wing_radius_2", (wing.area_moment(2) / area).sqrt() / length),
+            ("wing_width", width),
+            ("wing_width_2", (wing.width_moment(2) / area).sqrt() / width),
+            ("added_inertia_stroke", wing.added_inertia()),
+            ("pressure_radius", wing.area_moment(3) / wing.area_moment(2)),
+            ("rotation_pressure_width", wing.width_moment(3) / wing.width_moment(2)),
+        ];
+        if let Some(masses) = wing.masses() {
+            found.extend([
+                ("wing_inertia_stroke", masses.rr),
+                ("wing_inertia_hinge", masses.zz),
+                ("wing_inertia_product", masses.rz),
+            ]);
+        }
+        found
+    }
+
+    #[inline(always)]
+    fn drive<R: Real>(c: &Constants<R>) -> &DriveConstants<R> {
+        &c.drive
+    }
+
+    #[inline(always)]
+    fn signals<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, [Plate<R>; 2], 4>) -> Signals<R> {
+        let Instant { input: plates, y, .. } = at;
+        let [x, x_dot, psi, psi_dot] = *y;
+        let (sin, cos) = psi.sin_cos();
+        let (sin_2psi, cos_2psi) = double_angle(sin, cos);
+        let transmission = Transmission::at(c, self.law, x);
+        let rate = transmission.times(x_dot);
+        let [lift, drag] = lift_and_drag(c, rate, sin_2psi, cos_2psi);
+        let [f_1, f_2] = plate_forces(c, plates, x);
+        let [i_1, i_2] = currents(c, plates, x, x_dot);
+        let [leak_1, leak_2] = leakage(c, plates, self.mean_voltages(c));
+        let (i_1, i_2) = (i_1 + leak_1, i_2 + leak_2);
+        let [v_1, v_2] = [plates[0].voltage.value, plates[1].voltage.value];
+        let (power_1, power_2) = (v_1 * i_1, v_2 * i_2);
+        Signals {
+            stroke: stroke(c, self.law, x),
+            pitch: psi,
+            lift,
+            drag,
+            power: power_1 + power_2,
+            power_plate_1: power_1,
+            power_plate_2: power_2,
+            power_mechanical: (f_1 - f_2) * x_dot,
+            power_drag: tip_drag(c, cos_2psi) * rate * rate * rate.abs(),
+            power_rotational: c.c_c * psi_dot * psi_dot * psi_dot.abs(),
+            power_stroke_damping: stroke_damping(c, &transmission, x_dot, rate) * x_dot,
+            power_hinge_damping: c.hinge_damping * psi_dot * psi_dot,
+            power_dielectric: v_1 * leak_1 + v_2 * leak_2,
+            current_1: i_1,
+            current_2: i_2,
+            force_1: f_1,
+            force_2: f_2,
+            power_transduced: power_1 + power_2 - charging_power(c, plates),
+        }
+    }
+
+    /// ⟨V₁i₁ + V₂i₂⟩ − ⟨dielectric loss⟩ = ⟨(F₁ − F₂) ẋ⟩ = ⟨power of the stroke's drag and damping⟩: (1) has no other loss.
+    fn balance_energy(cycle: &mut Signals<SignalCycle>) {
+        let (drag, damping) = (cycle.power_drag, cycle.power_stroke_damping);
+        cycle.power.balance(&[drag, damping, cycle.power_dielectric]);
+        cycle.power_mechanical.balance(&[drag, damping]);
+    }
+
+    fn energy_audit(cycle: &Signals<SignalCycle>) -> f64 {
+        cycle.power.audit(&cycle.power_transduced)
+    }
+
+    #[inline(always)]
+    fn load<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, [Plate<R>; 2], 4>) -> Load<R> {
+        let [x, x_dot, psi, psi_dot] = *at.y;
+        let rate = Transmission::at(c, self.law, x).times(x_dot);
+        load(c, stroke(c, self.law, x), x_dot, rate, [psi, psi_dot])
+    }
+
+    /// Currents follow the edges of the force's transition, (6), which the drive crosses in a fraction of a step.
+    #[inline(always)]
+    fn parts(&self) -> u32 {
+        if self.drive.waveform == Waveform::Shape(Shape::Square) { 6 } else { 2 }
+    }
+}
+
+impl Motions<4> for Bimorph {
+    const FREE_SIGNALS: &'static [Signal] = &[Signals::SIGNALS.stroke, Signals::SIGNALS.pitch];
+
+    fn drive_mut(&mut self) -> &mut Drive {
+        &mut self.drive
+    }
+
+    fn drive_constants_mut(c: &mut Constants<f64>) -> &mut DriveConstants<f64> {
+        &mut c.drive
+    }
+
+    /// Stroke and hinge without drag. (1) contains no reaction of the hinge, so each is its own oscillator:
+    ///
+    /// ```text
+    /// √((K_act(0) + K_t)/m_e)/2π     √(κ_wh/I_xx)/2π
+    /// ```
+    fn modes(c: &Constants<f64>) -> Vec<Mode> {
+        let stiffness = secant_stiffness(c, 0.0) + c.k_t;
+        let squares = [stiffness * c.inverse_m_e, c.kappa_wh * c.inverse_i_xx];
+        Mode::of(["mode_stroke", "mode_hinge"], squares.map(|square| square.sqrt() / (2.0 * PI)))
+    }
+
+    /// ½V_pp on both plates.
+    fn rest_voltage(c: &Constants<f64>) -> f64 {
+        c.drive.bias
+    }
+
+    /// ψ̇ = I_xz T ẋ/I_xx, by (2).
+    fn struck(c: &Constants<f64>, stroke_rate: f64) -> [f64; 4] {
+        let tip_rate = stroke_rate / c.ratio;
+        [0.0, tip_rate, 0.0, c.coupling * tip_rate * c.inverse_i_xx]
+    }
+
+    fn placed(c: &Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<[Plate<f64>; 2], 4> {
+        let x = c.tip(stroke[0]);
+        // φ = T (x + τ x³/3), differentiated twice.
+        let (ratio, slope) = (c.ratio * (1.0 + c.ratio_growth * x * x), 2.0 * c.ratio * c.ratio_growth * x);
+        let x_dot = stroke[1] / ratio;
+        let x_ddot = (stroke[2] - slope * x_dot * x_dot) / ratio;
+        let unknown = plates(c, [Wave::with_rate(f64::NAN, f64::NAN); 2]);
+        ([x, x_dot, pitch[0], pitch[1]], [x_dot, x_ddot, pitch[1], pitch[2]], unknown)
+    }
+}

@@ -1,0 +1,257 @@
+//! The direct-drive model: its equations of motion, signals, columns of rows, and single motions.
+
+use super::constants::Constants;
+use super::params::{FlowDirection, Params};
+use super::rhs::{added_mass, aerodynamics, balance, current, lift, load, mean_velocity};
+use crate::aero::{Wing, chord_table};
+use crate::drive::{Drive, DriveConstants, Wave};
+use crate::model::Measure::{Peak, Supply};
+use crate::model::OverWings::{Each, Sum};
+use crate::model::readings::{SINE_PHASE, charging, efficiency, grams_force, hinge_strain, lag_degrees};
+use crate::model::stroke_and_pitch as states;
+use crate::model::{Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, Unit};
+use crate::modes::Mode;
+use crate::num::Real;
+use crate::ode::{Ode, Start};
+use crate::parameter::Invalid;
+use crate::piezo::supplied;
+
+crate::signals! {
+    /// Signals of the direct-drive model.
+    pub struct Signals {
+        stroke: (Unit::DEG, "stroke angle", [Amplitude, PeakToPeak, Mean, Max, Min, First]) principal First,
+        pitch: (Unit::DEG, "pitch angle of the wing on its hinge", [Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]) principal First,
+        lift: (Unit::MN, "lift of the wing, Eq. (35)", [Mean, Max, Min]) principal Mean of_wings [Mean],
+        lift_translational: (Unit::MN, "lift without the part of the added mass, Eq. (21)", [Mean]),
+        drag: (Unit::MN, "translational drag along the stroke, Eq. (21)", [Magnitude]),
+        power: (Unit::MW, "electrical power current x voltage, Eq. (40); its mean is that of what the air, damping and dielectric take", [Mean]) principal Mean needs [Supply],
+        power_translational: (Unit::MW, "power taken by translational aerodynamics", [Mean]),
+        power_rotational: (Unit::MW, "power taken by rotational drag, Eq. (32)", [Mean]),
+        power_stroke_damping: (Unit::MW, "power taken by the damping of the stroke", [Mean]),
+        power_hinge_damping: (Unit::MW, "power taken by the damping of the hinge", [Mean]),
+        power_dielectric: (Unit::MW, "power taken by the dielectric loss", [Mean]),
+        current: (Unit::MA, "current into the actuator, Eq. (39)", [Rms, Peak]),
+        power_transduced: (Unit::MW, "electrical power without that of charging the capacitance and of the constant part of the voltage", []),
+    }
+}
+
+type Column = Derived<DirectDrive, Constants<f64>, Signals>;
+
+#[rustfmt::skip]
+const DERIVED: &[Column] = &[
+    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags that of the drive voltage, in (-180, 180]",
+        |_, _, cycle| lag_degrees(cycle.stroke.phase(), SINE_PHASE)).over_wings(Each),
+    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags that of the stroke, in (-180, 180]",
+        |_, _, cycle| lag_degrees(cycle.pitch.phase(), cycle.stroke.phase())).over_wings(Each),
+    Column::new("lift_mean_gf", "gf", "mean lift in grams-force",
+        |_, _, cycle| grams_force(cycle.lift.mean)),
+    Column::new("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw); empty where that is not more than zero",
+        |_, _, cycle| efficiency(grams_force(cycle.lift.mean), cycle.power.mean)),
+    Column::new("power_supply_mw", "mW", "mean power of the supply: that of the positive part, less charge_recovery times what it takes back",
+        |_, c, cycle| supplied(cycle.power.measure(Supply), cycle.power.mean, c.charge_recovery) * 1e3).over_wings(Sum),
+    Column::new("power_capacitive_mw", "mW", "C V_pp^2 f / 2, the power of charging the actuator's capacitance without recovery",
+        |model, c, _| charging(c.c_p, model.drive.voltage_range(&c.drive), c.drive.frequency()) * 1e3).over_wings(Sum),
+    Column::new("energy_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error",
+        |_, _, cycle| DirectDrive::energy_audit(cycle)),
+    Column::new("strain_surface_max", "", "largest strain of the piezoelectric layer's outer face, from the bending of the actuator",
+        |_, c, cycle| cycle.stroke.measure(Peak) * c.strain_per_stroke.abs()).over_wings(Each),
+    Column::new("hinge_strain_max", "", "largest strain of the hinge's faces, bent to an arc; empty without hinge_thickness and hinge_length",
+        |_, c, cycle| hinge_strain(c.hinge_strain, cycle.pitch.measure(Peak))).over_wings(Each),
+    Column::new("field_max_v_per_um", "V/um", "largest electric field in the piezoelectric layer",
+        |model, c, _| model.drive.largest_voltage(&c.drive) / c.piezo_thickness * 1e-6).over_wings(Each),
+    Column::new("mode_1_hz", "Hz", "lower natural frequency of small motions in still air, without aerodynamic damping",
+        |_, c, _| DirectDrive::modes(c)[0].frequency),
+    Column::new("mode_2_hz", "Hz", "upper natural frequency of small motions",
+        |_, c, _| DirectDrive::modes(c)[1].frequency),
+];
+
+/// The model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DirectDrive {
+    /// The drive voltage, or the prescribed stroke.
+    pub drive: Drive,
+    /// Direction of the air's flow over the wing while it reverses.
+    pub flow: FlowDirection,
+}
+
+impl Ode<4> for DirectDrive {
+    type Constants<R: Real> = Constants<R>;
+    type Input<R: Real> = Wave<R>;
+
+    #[inline(always)]
+    fn input<R: Real>(&self, c: &Constants<R>, t: R) -> Wave<R> {
+        self.drive.at(&c.drive, t)
+    }
+
+    /// The paper takes one direction of flow for the whole wing: forces jump where it changes. Those of blade elements
+    /// do not.
+    const SWITCHES: bool = true;
+
+    #[inline(always)]
+    fn next_break<R: Real>(&self, c: &Constants<R>, t: R) -> R {
+        self.drive.next_break(&c.drive, t)
+    }
+
+    #[inline(always)]
+    fn rhs<R: Real>(&self, c: &Constants<R>, drive: &Wave<R>, side: R, y: &[R; 4]) -> [R; 4] {
+        let balance = balance(c, self.flow, side, &states::state(&self.drive, drive, y));
+        if self.drive.prescribes_stroke() {
+            balance.prescribed(y, drive, c.drive.rate)
+        } else {
+            balance.driven(y, c.gamma * drive.value)
+        }
+    }
+
+    #[inline(always)]
+    fn switch<R: Real>(&self, c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) -> [R; 2] {
+        match self.flow {
+            FlowDirection::Uniform => mean_velocity(c, y, dy),
+            // A function that never changes its sign.
+            FlowDirection::Blade => [y[0].lit(1.0), y[0].lit(0.0)],
+        }
+    }
+}
+
+impl DirectDrive {
+    /// The mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²) at ψ = 0, with the added mass.
+    fn mass_at_rest(c: &Constants<f64>) -> [f64; 3] {
+        [c.m11 + c.a11, c.m12 - c.a12, c.m22 + c.a22]
+    }
+}
+
+impl Model<4> for DirectDrive {
+    type Signals = Signals;
+
+    const DESCRIPTION: Description = Description {
+        name: "direct-drive",
+        doc: "unimorph bolted to the wing, passive pitch, blade-element aerodynamics (Ozaki and Hamaguchi 2018)",
+        parameters: Params::TABLE,
+        presets: Params::PRESETS,
+    };
+    const STATES: [&'static str; 4] = states::NAMES;
+    const DERIVED: &'static [Column] = DERIVED;
+    const LOADS: bool = true;
+
+    fn variant(&self, values: &[f64]) -> DirectDrive {
+        let Params { waveform, stroke, flow_direction, .. } = Params::from_values(values);
+        DirectDrive {
+            drive: self.drive.of_point(waveform.drive_shape, stroke.stroke_mode),
+            flow: flow_direction,
+        }
+    }
+
+    fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
+        let params = Params::from_values(values);
+        self.drive.check(&params.waveform)?;
+        let constants = Constants::derive(&params)?;
+        Ok(states::start(&self.drive, &constants.drive, constants, [0.1, 0.3]))
+    }
+
+    /// The parameters that a wing decides. The model takes the hinge's axis for the leading edge.
+    fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
+        let mut found = vec![("wing_length", wing.outline.length()), ("wing_offset", wing.offset)];
+        found.extend(chord_table(&wing.outline));
+        if let Some(masses) = wing.masses() {
+            let [chord, product, span] = masses.about_centre();
+            found.extend([
+                ("wing_mass", masses.mass),
+                ("mass_centre_span", masses.radius - wing.offset),
+                // Positive towards the leading edge.
+                ("mass_centre_chord", -masses.depth),
+                ("wing_inertia_span", span),
+                ("wing_inertia_chord", chord),
+                ("wing_inertia_product", -product),
+            ]);
+        }
+        found
+    }
+
+    #[inline(always)]
+    fn drive<R: Real>(c: &Constants<R>) -> &DriveConstants<R> {
+        &c.drive
+    }
+
+    #[inline(always)]
+    fn signals<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> Signals<R> {
+        let Instant { input: drive, side, y, dy } = at;
+        let y = states::state(&self.drive, drive, y);
+        let [phi, psi, phi_dot, psi_dot] = y;
+        let (sin, cos) = psi.sin_cos();
+        let air = aerodynamics(c, self.flow, side, &y, sin, cos);
+        let added = added_mass(c, sin, cos, &states::slope(&self.drive, drive, dy));
+        // A prescribed stroke says nothing about the actuator.
+        let unknown = self.drive.prescribes_stroke();
+        let leakage = c.conductance * (drive.value - self.drive.mean_voltage(&c.drive));
+        let [current, leakage] =
+            if unknown { [phi.lit(f64::NAN); 2] } else { [current(c, drive, phi_dot) + leakage, leakage] };
+        Signals {
+            stroke: phi,
+            pitch: psi,
+            lift: lift(c, &air, &added, sin),
+            lift_translational: air.lift,
+            drag: air.drag,
+            power: current * drive.value,
+            power_translational: -(air.stroke_moment * phi_dot + air.pitch_moment * psi_dot),
+            power_rotational: -(air.rotation_moment * psi_dot),
+            power_stroke_damping: c.stroke_damping * phi_dot * phi_dot,
+            power_hinge_damping: c.hinge_damping * psi_dot * psi_dot,
+            power_dielectric: leakage * drive.value,
+            current,
+            power_transduced: (drive.value - c.drive.bias) * (current - c.c_p * drive.rate),
+        }
+    }
+
+    /// ⟨Vj⟩ = −⟨M_tr,y φ̇ + (M_tr,x′ + M_rot) ψ̇⟩ + ⟨damping⟩ + ⟨dielectric loss⟩: all else is given back within a period.
+    fn balance_energy(cycle: &mut Signals<SignalCycle>) {
+        cycle.power.balance(&[
+            cycle.power_translational,
+            cycle.power_rotational,
+            cycle.power_stroke_damping,
+            cycle.power_hinge_damping,
+            cycle.power_dielectric,
+        ]);
+    }
+
+    fn energy_audit(cycle: &Signals<SignalCycle>) -> f64 {
+        cycle.power.audit(&cycle.power_transduced)
+    }
+
+    #[inline(always)]
+    fn load<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> Load<R> {
+        let Instant { input: drive, side, y, dy } = at;
+        let y = states::state(&self.drive, drive, y);
+        let (sin, cos) = y[1].sin_cos();
+        let air = aerodynamics(c, self.flow, side, &y, sin, cos);
+        let added = added_mass(c, sin, cos, &states::slope(&self.drive, drive, dy));
+        load(c, &air, &added, &y, [sin, cos])
+    }
+}
+
+impl Motions<4> for DirectDrive {
+    const FREE_SIGNALS: &'static [Signal] = &[Signals::SIGNALS.stroke, Signals::SIGNALS.pitch];
+
+    fn drive_mut(&mut self) -> &mut Drive {
+        &mut self.drive
+    }
+
+    fn drive_constants_mut(c: &mut Constants<f64>) -> &mut DriveConstants<f64> {
+        &mut c.drive
+    }
+
+    /// About ψ = 0, with the added mass of still air.
+    fn modes(c: &Constants<f64>) -> Vec<Mode> {
+        Mode::coupled(DirectDrive::mass_at_rest(c), [c.k_phi, c.k_w])
+    }
+
+    fn rest_voltage(_c: &Constants<f64>) -> f64 {
+        0.0
+    }
+
+    fn struck(c: &Constants<f64>, stroke_rate: f64) -> [f64; 4] {
+        states::struck(DirectDrive::mass_at_rest(c), stroke_rate)
+    }
+
+    fn placed(_c: &Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Wave<f64>, 4> {
+        states::placed(stroke, pitch)
+    }
+}
