@@ -55,13 +55,7 @@ where
     O: Ode<N, Constants<f64> = Drive<f64>>,
 {
     // A run starts from rest and is cut into spans of one drive period.
-    let mut start = Start {
-        constants,
-        y: [0.0; N],
-        span: TAU / constants.frequency,
-        scale: [1.0; N],
-        tolerance_factor: 1.0,
-    };
+    let mut start = Start::new(constants, [0.0; N], TAU / constants.frequency, [1.0; N]);
     let mut strobe = Strobe::new(&start.y, &start.scale, SETTLED);
     solve::<O, f64, N>(
         ode,

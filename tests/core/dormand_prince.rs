@@ -179,13 +179,8 @@ impl Ode<4> for Arenstorf {
 }
 
 fn arenstorf(rtol: f64) -> Span<4> {
-    let start = Start {
-        constants: (),
-        y: [0.994, 0.0, 0.0, -2.001_585_106_379_082_5],
-        span: 17.065_216_560_157_964,
-        scale: [1.0; 4],
-        tolerance_factor: 1.0,
-    };
+    let y = [0.994, 0.0, 0.0, -2.001_585_106_379_082_5];
+    let start = Start::new((), y, 17.065_216_560_157_964, [1.0; 4]);
     span::run(&Arenstorf, &Tolerances { rtol, atol: rtol, max_steps: 10_000 }, &start)
 }
 

@@ -14,12 +14,14 @@ pub struct Start<C, const N: usize> {
     /// Factor on both tolerances: 1 for most runs, less for one that is integrated more finely than others, more for one that
     /// is integrated more coarsely.
     pub tolerance_factor: f64,
+    /// Size of the change of each state whose response is integrated, where responses are.
+    pub change: [f64; N],
 }
 
 impl<C, const N: usize> Start<C, N> {
     /// A run with the tolerances that are asked for.
     pub const fn new(constants: C, y: [f64; N], span: f64, scale: [f64; N]) -> Start<C, N> {
-        Start { constants, y, span, scale, tolerance_factor: 1.0 }
+        Start { constants, y, span, scale, tolerance_factor: 1.0, change: scale }
     }
 }
 

@@ -2,10 +2,10 @@
 //!
 //! - [`tableau`]: the coefficients, checked when the crate is compiled
 //! - [`step`]: one step: stages, new state, error estimate; no policy
-//! - [`norm`], [`controller`], [`start`]: the size of the error, the next step size, the first one
+//! - [`norm`], [`controller`], `start`: the size of the error, the next step size, the first one
 //! - [`switch`]: right-hand sides that jump where a function changes sign
 //! - [`replay`]: a run again on the same steps, with other constants and initial states
-//! - [`variation`]: a run with its response to small changes of its initial state
+//! - `variation`: a run with its response to small changes of its initial state
 //! - [`dense`]: the solution between the ends of a step
 //! - [`solve`]: one run on scalars, in simple code; the reference of the ensemble
 //! - [`ensemble`]: many runs in lanes, each with its own time, step size and constants
@@ -26,11 +26,11 @@ pub mod norm;
 mod outcome;
 pub mod replay;
 pub mod solve;
-pub mod start;
+mod start;
 pub mod step;
 pub mod switch;
 pub mod tableau;
-pub mod variation;
+mod variation;
 
 pub use begin::{Start, Tolerances};
 pub use equation::Ode;

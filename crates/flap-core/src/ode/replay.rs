@@ -9,7 +9,7 @@ use core::ops::ControlFlow;
 use super::ensemble::Observer;
 use super::solve::solve_until;
 use super::step::{Attempt, Step};
-use super::switch::{cross, landing_size};
+use super::switch::landing_size;
 use super::{Interrupt, Ode, Outcome, Start, Tolerances, input, slope};
 use crate::num::{Lanes, PerLane, Scalar, Simd, Vector};
 
@@ -141,7 +141,7 @@ fn in_lanes<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize>(
         t = t + h;
         step.advance(all);
         if leg.lands {
-            (step.y[0], step.k[0]) = cross(ode, &c, t, -side, &step.y[0]);
+            step.k[0] = slope(ode, &c, &input(ode, &c, t), -side, &step.y[0]);
         }
     }
     for lane in 0..starts.len() {

@@ -7,8 +7,9 @@ use super::controller::{Memory, judge};
 use super::norm::error_squared;
 use super::start::{first_step, span_step};
 use super::step::{Attempt, Step};
-use super::switch::{Crossing, Switching, cross, landing_stretch};
-use super::{Ending, Interrupt, MIN_STEP, Ode, Outcome, Start, Tolerances, UNASKED, never};
+use super::switch::{Crossing, Switching, landing_stretch};
+use super::variation::Varied;
+use super::{Ending, Interrupt, MIN_STEP, Ode, Outcome, Start, Tolerances, UNASKED, input, never, slope};
 use crate::num::{PerLane, Scalar};
 
 /// Integrates one run until `at_span_end` breaks, or until it fails.
@@ -76,9 +77,10 @@ impl<O: Ode<N>, R: Scalar, const N: usize> March<'_, O, R, N> {
         }
 
         let mut switching = Switching::begin(ode, &c, &y);
-        let (k1, mut h) = first_step(ode, &c, switching.side, &y, span, &atol, rtol);
-        switching.value = ode.switch(&c, &y, &k1);
-        let mut step = Step::new(y, k1);
+        let alone = Varied::alone(y);
+        let (k1, mut h) = first_step(ode, &c, switching.side, &alone, span, [&atol; 2], rtol);
+        switching.value = ode.switch(&c, &y, &k1.motion);
+        let mut step = Step::new(y, k1.motion);
         let mut h_begin = h;
         let mut memory = Memory::new(span);
         let mut t = number(0.0);
@@ -113,7 +115,7 @@ impl<O: Ode<N>, R: Scalar, const N: usize> March<'_, O, R, N> {
                 step.advance(true);
             }
             if crossing.arrived {
-                (step.y[0], step.k[0]) = cross(ode, &c, t, switching.side, &step.y[0]);
+                step.k[0] = slope(ode, &c, &input(ode, &c, t), switching.side, &step.y[0]);
                 switching.value = ode.switch(&c, &step.y[0], &step.k[0]);
                 switches += 1;
             }

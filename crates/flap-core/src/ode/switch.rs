@@ -11,6 +11,7 @@
 //! again up to this minimum, beyond the first crossing.
 
 use super::step::Step;
+use super::variation::{Varied, crossed, slopes_outlined};
 use super::{Ode, STRETCH, input, slope};
 use crate::num::{Lanes, Real};
 
@@ -156,16 +157,16 @@ pub fn landing_size<R: Real>(h: R, [value, rate]: [R; 2]) -> R {
 
 /// The state and the first slope of a run that has arrived at its surface at time `t` (s), on its new `side`.
 #[inline(always)]
-pub(crate) fn cross<O: Ode<N>, R: Lanes, const N: usize>(
+pub(super) fn cross<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     ode: &O,
     c: &O::Constants<R>,
     t: R,
     side: R,
-    y: &[R; N],
-) -> ([R; N], [R; N]) {
+    y: &Varied<[R; N], D>,
+) -> [Varied<[R; N], D>; 2] {
     let u = input(ode, c, t);
-    let y = ode.crossed(c, &u, side, y);
-    (y, slope(ode, c, &u, side, &y))
+    let y = crossed(ode, c, &u, side, y);
+    [y, slopes_outlined(ode, c, &u, side, &y)]
 }
 
 /// g₀ + d₀ θ + b θ² + a θ³: the switching function over the fraction θ of a step.

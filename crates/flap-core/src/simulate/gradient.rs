@@ -73,7 +73,7 @@ pub(super) struct GradientAt<'a> {
     pub(super) changes: &'a [Change],
 }
 
-impl<M: Model<N>, const N: usize, const K: usize> Question<M, N, K> for GradientAt<'_> {
+impl<M: Model<N>, const N: usize> Question<M, N> for GradientAt<'_> {
     type Answer = Result<Gradient, Unfinished>;
 
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Gradient, Unfinished> {

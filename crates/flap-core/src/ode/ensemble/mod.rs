@@ -15,3 +15,5 @@ pub use integrate::{Integrated, integrate};
 pub use observer::{Observer, Unobserved};
 pub use queue::{NewRun, Next, Queue, Restart, SpanEnd};
 pub use schedule::{Occupancy, run};
+
+pub(crate) use schedule::run_with_responses;

@@ -15,13 +15,15 @@ pub struct Restart<const N: usize> {
     pub scale: [f64; N],
     /// As [`Start::tolerance_factor`].
     pub tolerance_factor: f64,
+    /// As [`Start::change`].
+    pub change: [f64; N],
 }
 
 impl<const N: usize> Restart<N> {
     /// The beginning of a run with these constants and spans of this length (s).
     pub fn start<C>(self, constants: C, span: f64) -> Start<C, N> {
-        let Restart { y, scale, tolerance_factor } = self;
-        Start { constants, y, span, scale, tolerance_factor }
+        let Restart { y, scale, tolerance_factor, change } = self;
+        Start { constants, y, span, scale, tolerance_factor, change }
     }
 }
 
@@ -32,6 +34,8 @@ pub struct SpanEnd<'a, T, const N: usize> {
     pub y: &'a [f64; N],
     /// The observer's totals since the run's beginning.
     pub totals: &'a T,
+    /// The response of the state to the change of each initial state by [`Start::change`]; empty in [`run`](super::run).
+    pub responses: &'a [[f64; N]],
     /// The ending and the cost since the run's beginning. The ending is [`Stopped`](crate::ode::Ending::Stopped) at the end of
     /// a span.
     pub outcome: Outcome,

@@ -38,12 +38,46 @@ where
     V: Observer<O, N>,
     Q: Queue<O, V, N>,
 {
+    run_varied::<S, O, V, Q, N, 0>(simd, ode, observer, tolerances, queue)
+}
+
+/// [`run`], with the responses of the states to changes of their initial values.
+pub(crate) fn run_with_responses<S, O, V, Q, const N: usize>(
+    simd: S,
+    ode: &O,
+    observer: &V,
+    tolerances: &Tolerances,
+    queue: &mut Q,
+) -> Occupancy
+where
+    S: Simd,
+    O: Ode<N>,
+    V: Observer<O, N>,
+    Q: Queue<O, V, N>,
+{
+    run_varied::<S, O, V, Q, N, N>(simd, ode, observer, tolerances, queue)
+}
+
+/// [`run`], with responses to D changes.
+fn run_varied<S, O, V, Q, const N: usize, const D: usize>(
+    simd: S,
+    ode: &O,
+    observer: &V,
+    tolerances: &Tolerances,
+    queue: &mut Q,
+) -> Occupancy
+where
+    S: Simd,
+    O: Ode<N>,
+    V: Observer<O, N>,
+    Q: Queue<O, V, N>,
+{
     let Some(first) = queue.next(true) else { return Occupancy::default() };
     // The callbacks of a queue may call this again: enter a function with these instructions enabled.
     simd.vectorize(
         #[inline(always)]
         || {
-            Schedule::<Vector<S>, O, V, Q::Run, N>::new(simd, observer, tolerances, first)
+            Schedule::<Vector<S>, O, V, Q::Run, N, D>::new(simd, observer, tolerances, first)
                 .drive(ode, observer, queue)
         },
     )
@@ -53,8 +87,8 @@ where
 const MOST_LANES: usize = 16;
 
 /// The lanes, and the run in each of them.
-struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> {
-    bank: Bank<R, O, V, N>,
+struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize> {
+    bank: Bank<R, O, V, N, D>,
     /// The run in each lane; `None` in a lane that waits for work.
     runs: [Option<Running<Run>>; MOST_LANES],
     /// Vector steps made.
@@ -73,7 +107,9 @@ struct Running<Run> {
     began: u64,
 }
 
-impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Schedule<R, O, V, Run, N> {
+impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize>
+    Schedule<R, O, V, Run, N, D>
+{
     /// A schedule with one run, in lane 0.
     #[inline(always)]
     fn new(
@@ -157,8 +193,9 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Schedule<R, O,
             let ending = if failed { self.bank.failure(lane) } else { Ending::Stopped };
             let steps = self.steps - began;
             let (y, totals) = (&self.bank.state(lane), &self.bank.totals(lane));
+            let responses = &self.bank.responses(lane);
             let outcome = Outcome::new::<O, N>(ending, steps, self.bank.switches(lane));
-            match queue.ended(run, SpanEnd { y, totals, outcome }) {
+            match queue.ended(run, SpanEnd { y, totals, responses, outcome }) {
                 Some((run, Next::Span)) if !failed => {
                     self.runs[lane] = Some(Running { run, began });
                     self.bank.begin_span(lane);
