@@ -61,7 +61,7 @@ impl<R: Lanes> Totals<R> {
 pub type Sums<S, R> = (Each<S, Totals<R>>, [R; 6]);
 
 /// Sums over the signals of the model `M` on one lane.
-pub type SumsOf<M, const N: usize> = Sums<<M as Model<N>>::Signals, f64>;
+pub(crate) type SumsOf<M, const N: usize> = Sums<<M as Model<N>>::Signals, f64>;
 
 /// Sums up the signals of a model along a run.
 #[derive(Clone, Copy, Debug)]
@@ -81,7 +81,7 @@ impl<'a, M> Signals<'a, M> {
     }
 
     /// Sums up means and first harmonics.
-    pub fn means(model: &'a M) -> Self {
+    pub(crate) fn means(model: &'a M) -> Self {
         Signals { model, extrema: false, loads: false }
     }
 

@@ -14,17 +14,17 @@ pub type Matrix<const N: usize> = [[f64; N]; N];
 
 /// The monodromy matrix, given the responses over a period to changes by `scale`. Column j: response to a change of component j
 /// by its scale, in units of the scales.
-pub fn monodromy<const N: usize>(responses: &[[f64; N]], scale: &[f64; N]) -> Matrix<N> {
+pub(crate) fn monodromy<const N: usize>(responses: &[[f64; N]], scale: &[f64; N]) -> Matrix<N> {
     core::array::from_fn(|i| core::array::from_fn(|j| responses[j][i] / scale[i]))
 }
 
 /// The identity matrix.
-pub fn identity<const N: usize>() -> Matrix<N> {
+pub(crate) fn identity<const N: usize>() -> Matrix<N> {
     core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j))))
 }
 
 /// The product `second * first`.
-pub fn product<const N: usize>(second: &Matrix<N>, first: &Matrix<N>) -> Matrix<N> {
+pub(crate) fn product<const N: usize>(second: &Matrix<N>, first: &Matrix<N>) -> Matrix<N> {
     core::array::from_fn(|i| core::array::from_fn(|j| (0..N).map(|k| second[i][k] * first[k][j]).sum()))
 }
 

@@ -2,9 +2,9 @@
 //!
 //! - [`tableau`]: the coefficients, checked when the crate is compiled
 //! - [`step`]: one step: stages, new state, error estimate; no policy
-//! - [`norm`], [`controller`], `start`: the size of the error, the next step size, the first one
-//! - [`switch`]: right-hand sides that jump where a function changes sign
-//! - [`replay`]: a run again on the same steps, with other constants and initial states
+//! - [`norm`], `controller`, `start`: the size of the error, the next step size, the first one
+//! - `switch`: right-hand sides that jump where a function changes sign
+//! - `replay`: a run again on the same steps, with other constants and initial states
 //! - `variation`: a run with its response to small changes of its initial state
 //! - [`dense`]: the solution between the ends of a step
 //! - [`solve`]: one run on scalars, in simple code; the reference of the ensemble
@@ -18,17 +18,17 @@
 //! `examples/own_equations` runs thousands of points in lanes.
 
 mod begin;
-pub mod controller;
+mod controller;
 pub mod dense;
 pub mod ensemble;
 mod equation;
 pub mod norm;
 mod outcome;
-pub mod replay;
+pub(crate) mod replay;
 pub mod solve;
 mod start;
 pub mod step;
-pub mod switch;
+mod switch;
 pub mod tableau;
 mod variation;
 

@@ -15,29 +15,29 @@ use crate::num::{Lanes, PerLane, Scalar, Simd, Vector};
 
 /// A step of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Leg {
+pub(crate) struct Leg {
     /// Its end, as a share of the span.
-    pub end: f64,
+    pub(crate) end: f64,
     /// The side of the switching surface: +1 or −1.
-    pub side: f64,
+    pub(crate) side: f64,
     /// It ends on the surface, where the run changes sides.
-    pub lands: bool,
+    pub(crate) lands: bool,
 }
 
 /// The end of a run that was made again.
 #[derive(Clone, Copy, Debug)]
-pub struct Repeated<T, const N: usize> {
+pub(crate) struct Repeated<T, const N: usize> {
     /// The state.
-    pub y: [f64; N],
+    pub(crate) y: [f64; N],
     /// The observer's totals.
-    pub totals: T,
+    pub(crate) totals: T,
     /// The run met the switching surface where the first one did, but for a small share of a mean step. Otherwise its
     /// end means nothing.
-    pub meets: bool,
+    pub(crate) meets: bool,
 }
 
 /// The accepted steps of a run over one span, and its outcome. Of a run that fails, the steps mean nothing.
-pub fn record<O: Ode<N>, R: Scalar, const N: usize>(
+pub(crate) fn record<O: Ode<N>, R: Scalar, const N: usize>(
     ode: &O,
     tolerances: &Tolerances,
     start: &Start<O::Constants<f64>, N>,
@@ -67,7 +67,7 @@ pub fn record<O: Ode<N>, R: Scalar, const N: usize>(
 
 /// Makes runs from `starts` on the steps of `legs`, in lanes, each over its own span. Every run evaluates six right-hand sides
 /// per step, eighteen where a step lands, and some at changes of sides.
-pub fn replay<S, O, V, const N: usize>(
+pub(crate) fn replay<S, O, V, const N: usize>(
     simd: S,
     ode: &O,
     observer: &V,

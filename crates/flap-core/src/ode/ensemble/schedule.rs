@@ -25,59 +25,41 @@ impl AddAssign for Occupancy {
 }
 
 /// Integrates the runs of `queue` until it has no more or is interrupted. Returns the use of the lanes.
-pub fn run<S, O, V, Q, const N: usize>(
+pub fn run<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     simd: S,
     ode: &O,
     observer: &V,
     tolerances: &Tolerances,
-    queue: &mut Q,
-) -> Occupancy
-where
-    S: Simd,
-    O: Ode<N>,
-    V: Observer<O, N>,
-    Q: Queue<O, V, N>,
-{
-    run_varied::<S, O, V, Q, N, 0>(simd, ode, observer, tolerances, queue)
+    queue: &mut impl Queue<O, V, N>,
+) -> Occupancy {
+    run_varied::<_, _, _, N, 0>(simd, ode, observer, tolerances, queue)
 }
 
 /// [`run`], with the responses of the states to changes of their initial values.
-pub(crate) fn run_with_responses<S, O, V, Q, const N: usize>(
+pub(crate) fn run_with_responses<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     simd: S,
     ode: &O,
     observer: &V,
     tolerances: &Tolerances,
-    queue: &mut Q,
-) -> Occupancy
-where
-    S: Simd,
-    O: Ode<N>,
-    V: Observer<O, N>,
-    Q: Queue<O, V, N>,
-{
-    run_varied::<S, O, V, Q, N, N>(simd, ode, observer, tolerances, queue)
+    queue: &mut impl Queue<O, V, N>,
+) -> Occupancy {
+    run_varied::<_, _, _, N, N>(simd, ode, observer, tolerances, queue)
 }
 
 /// [`run`], with responses to D changes.
-fn run_varied<S, O, V, Q, const N: usize, const D: usize>(
+fn run_varied<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize>(
     simd: S,
     ode: &O,
     observer: &V,
     tolerances: &Tolerances,
-    queue: &mut Q,
-) -> Occupancy
-where
-    S: Simd,
-    O: Ode<N>,
-    V: Observer<O, N>,
-    Q: Queue<O, V, N>,
-{
+    queue: &mut impl Queue<O, V, N>,
+) -> Occupancy {
     let Some(first) = queue.next(true) else { return Occupancy::default() };
     // The callbacks of a queue may call this again: enter a function with these instructions enabled.
     simd.vectorize(
         #[inline(always)]
         || {
-            Schedule::<Vector<S>, O, V, Q::Run, N, D>::new(simd, observer, tolerances, first)
+            Schedule::<Vector<S>, O, V, _, N, D>::new(simd, observer, tolerances, first)
                 .drive(ode, observer, queue)
         },
     )
@@ -146,7 +128,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize
 
     /// Runs the queue empty.
     #[inline(always)]
-    fn drive<Q: Queue<O, V, N, Run = Run>>(mut self, ode: &O, observer: &V, queue: &mut Q) -> Occupancy {
+    fn drive(mut self, ode: &O, observer: &V, queue: &mut impl Queue<O, V, N, Run = Run>) -> Occupancy {
         loop {
             self.refill(observer, queue);
             if self.active == 0 || queue.interrupted() {
@@ -169,7 +151,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize
     }
 
     /// Fills the lanes that wait, as far as there are runs.
-    fn refill<Q: Queue<O, V, N, Run = Run>>(&mut self, observer: &V, queue: &mut Q) {
+    fn refill(&mut self, observer: &V, queue: &mut impl Queue<O, V, N, Run = Run>) {
         for lane in 0..R::LANES {
             if self.active & (1 << lane) != 0 {
                 continue;
@@ -182,7 +164,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize
     }
 
     /// Hands the runs at the ends of their spans to the queue, and those that have failed.
-    fn settle<Q: Queue<O, V, N, Run = Run>>(&mut self, events: &Events, observer: &V, queue: &mut Q) {
+    fn settle(&mut self, events: &Events, observer: &V, queue: &mut impl Queue<O, V, N, Run = Run>) {
         for lane in 0..R::LANES {
             let bit = 1 << lane;
             if (events.landed | events.failed) & bit == 0 {
