@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use flap_core::measure::strobe::Strobe;
-use flap_core::ode::dense::interpolate;
 use flap_core::ode::solve::solve;
 use flap_core::ode::{Ode, Start, Tolerances};
 
@@ -80,7 +79,7 @@ where
         &start,
         |_, accepted| {
             for part in 1..=8 {
-                let y = interpolate(accepted.step, accepted.h, 0.125 * f64::from(part));
+                let y = accepted.step.interpolate(accepted.h, 0.125 * f64::from(part));
                 for i in 0..N {
                     least[i] = least[i].min(y[i]);
                     most[i] = most[i].max(y[i]);

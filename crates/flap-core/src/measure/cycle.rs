@@ -8,7 +8,6 @@
 use super::step_polynomial::{Extremum, StepPolynomial};
 use crate::model::{Each, Instant, Model, SignalCycle, SignalSet, SignalsOf, Taken};
 use crate::num::Lanes;
-use crate::ode::dense::interpolate;
 use crate::ode::ensemble::Observer;
 use crate::ode::step::Attempt;
 use crate::ode::tableau::{B, C};
@@ -326,7 +325,7 @@ fn between<M: Model<N>, R: Lanes, const N: usize>(
 ) -> SignalsOf<M::Signals, R> {
     let Attempt { t, h, side, step } = *attempt;
     let at = h.mul_add(h.lit(theta), t);
-    let y = interpolate(step, h, h.lit(theta));
+    let y = step.interpolate(h, h.lit(theta));
     let u = input(model, c, at);
     let dy = if M::SIGNALS_OF_SLOPES { slope(model, c, &u, side, &y) } else { [h.lit(f64::NAN); N] };
     signals(model, c, Instant { input: &u, side, y: &y, dy: &dy })

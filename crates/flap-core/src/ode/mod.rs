@@ -1,12 +1,11 @@
 //! Dormand-Prince 5(4) for one run at a time, or for many runs in SIMD lanes.
 //!
 //! - [`tableau`]: the coefficients, checked when the crate is compiled
-//! - [`step`]: one step: stages, new state, error estimate; no policy
+//! - [`step`]: one step: stages, new state, error estimate, the solution between its ends; no policy
 //! - [`norm`], `controller`, `start`: the size of the error, the next step size, the first one
 //! - `switch`: right-hand sides that jump where a function changes sign
 //! - `replay`: a run again on the same steps, with other constants and initial states
 //! - `variation`: a run with its response to small changes of its initial state
-//! - [`dense`]: the solution between the ends of a step
 //! - [`solve`]: one run on scalars, in simple code; the reference of the ensemble
 //! - [`ensemble`]: many runs in lanes, each with its own time, step size and constants
 //!
@@ -19,7 +18,6 @@
 
 mod begin;
 mod controller;
-pub mod dense;
 pub mod ensemble;
 mod equation;
 pub mod norm;

@@ -38,6 +38,9 @@ pub(crate) fn solve_until<O: Ode<N>, R: Scalar, const N: usize>(
     march(ode, tolerances, start, interrupted, &mut on_step, &mut at_span_end)
 }
 
+/// The callback that sees the accepted steps.
+type OnStep<'a, O, R, const N: usize> = dyn FnMut(&<O as Ode<N>>::Constants<R>, &Attempt<'_, R, N>) + 'a;
+
 /// Integrates. Compiled once per system of equations: the callbacks are not part of it.
 #[inline(never)]
 fn march<O: Ode<N>, R: Scalar, const N: usize>(
@@ -45,7 +48,7 @@ fn march<O: Ode<N>, R: Scalar, const N: usize>(
     tolerances: &Tolerances,
     start: &Start<O::Constants<f64>, N>,
     interrupted: Interrupt<'_>,
-    on_step: &mut dyn FnMut(&O::Constants<R>, &Attempt<'_, R, N>),
+    on_step: &mut OnStep<'_, O, R, N>,
     at_span_end: &mut dyn FnMut(&[f64; N]) -> ControlFlow<()>,
 ) -> Outcome {
     R::enter(

@@ -1,7 +1,7 @@
 //! One step of the method: stages, new state, error estimate. No policy, no allocation.
 
 use super::Ode;
-use super::tableau::{A, C, E, STAGES};
+use super::tableau::{self, A, C, E, STAGES};
 use super::variation::{Varied, slopes};
 use crate::num::Real;
 
@@ -102,6 +102,31 @@ impl<R: Real, const N: usize> Step<R, N> {
             y[i] = last[i].mul_add(weight, y[i]);
         }
         y
+    }
+
+    /// The state at the fraction `theta` of the step, by the fourth-order continuous extension of DOPRI5; Hairer I,
+    /// section II.6. The step has the size `h`.
+    ///
+    /// ```text
+    /// y(θ) = y₀ + θ (Δy + (1 − θ) (b + θ (Δy − h k₇ − b + (1 − θ) h Σ dᵢ kᵢ)))   with b = h k₁ − Δy
+    /// ```
+    #[inline(always)]
+    pub fn interpolate(&self, h: R, theta: R) -> [R; N] {
+        let Step { y, k, .. } = self;
+        let rest = -theta + 1.0;
+        let mut out = y[0];
+        for i in 0..N {
+            let change = y[6][i] - y[0][i];
+            let bend = h * k[0][i] - change;
+            let mut fourth = k[0][i] * tableau::D[0];
+            for s in 2..STAGES {
+                fourth = k[s][i].mul_add(h.lit(tableau::D[s]), fourth);
+            }
+            let skew = change - h * k[6][i] - bend;
+            let inner = theta.mul_add((rest * h).mul_add(fourth, skew), bend);
+            out[i] = theta.mul_add(rest.mul_add(inner, change), y[0][i]);
+        }
+        out
     }
 
     /// Moves the beginning to the end of the attempt, in the lanes in which it was `accepted`.

@@ -1,7 +1,6 @@
 //! The numbers in an ensemble's lanes, and a step of all of them.
 
-use super::observer::Observer;
-use super::queue::Restart;
+use super::queue::{Observer, Restart};
 use crate::num::{Lanes, PerLane};
 use crate::ode::controller::{Memory, judge};
 use crate::ode::norm::add_squares;

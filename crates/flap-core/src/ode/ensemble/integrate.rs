@@ -1,7 +1,6 @@
 //! Many initial values at once.
 
-use super::observer::Observer;
-use super::queue::{NewRun, Next, Queue, SpanEnd};
+use super::queue::{NewRun, Next, Observer, Queue, SpanEnd};
 use super::schedule::run;
 use crate::num::{Backend, Kernel, Simd};
 use crate::ode::{Ending, Ode, Outcome, Start, Tolerances};

@@ -3,8 +3,7 @@
 use core::ops::AddAssign;
 
 use super::bank::{Bank, Events};
-use super::observer::Observer;
-use super::queue::{NewRun, Next, Queue, SpanEnd};
+use super::queue::{NewRun, Next, Observer, Queue, SpanEnd};
 use crate::num::{Lanes, Simd, Vector};
 use crate::ode::{Ending, Ode, Outcome, Start, Tolerances, UNASKED};
 
