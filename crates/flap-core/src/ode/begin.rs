@@ -37,8 +37,16 @@ pub struct Tolerances {
     pub max_steps: u32,
 }
 
+impl Tolerances {
+    /// The absolute tolerances of a run with this [`Start::tolerance_factor`], given the sizes of its states.
+    pub(super) fn absolute<const N: usize>(&self, tolerance_factor: f64, scale: &[f64; N]) -> [f64; N] {
+        let atol = self.atol * tolerance_factor;
+        scale.map(|scale| atol * scale)
+    }
+}
+
 /// Steps within a span between two questions to an [`Interrupt`]: a few milliseconds of work.
-pub(crate) const UNASKED: u32 = 4096;
+pub(crate) const INTERRUPT_STEPS: u32 = 4096;
 
 /// The smallest step, as a fraction of the span, before a run counts as stuck.
 pub(crate) const MIN_STEP: f64 = 1e-14;

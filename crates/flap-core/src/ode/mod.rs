@@ -34,5 +34,5 @@ pub use begin::{Start, Tolerances};
 pub use equation::Ode;
 pub use outcome::{Ending, Interrupt, Outcome, never};
 
-pub(crate) use begin::{MIN_STEP, STRETCH, UNASKED};
+pub(crate) use begin::{INTERRUPT_STEPS, MIN_STEP, STRETCH};
 pub(crate) use equation::{input, slope};

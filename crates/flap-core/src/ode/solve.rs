@@ -9,7 +9,9 @@ use super::start::{first_step, span_step};
 use super::step::{Attempt, Step};
 use super::switch::{Crossing, Switching, landing_stretch};
 use super::variation::Varied;
-use super::{Ending, Interrupt, MIN_STEP, Ode, Outcome, Start, Tolerances, UNASKED, input, never, slope};
+use super::{
+    Ending, INTERRUPT_STEPS, Interrupt, MIN_STEP, Ode, Outcome, Start, Tolerances, input, never, slope,
+};
 use crate::num::{PerLane, Scalar};
 
 /// Integrates one run until `at_span_end` breaks, or until it fails.
@@ -58,12 +60,8 @@ fn march<O: Ode<N>, R: Scalar, const N: usize>(
             let c = O::Constants::<R>::fill(number(0.0), &start.constants);
             let span = number(start.span);
             let rtol = number(tolerances.rtol * start.tolerance_factor);
-            let mut y = [span; N];
-            let mut atol = [span; N];
-            for i in 0..N {
-                y[i] = number(start.y[i]);
-                atol[i] = number(tolerances.atol * start.tolerance_factor * start.scale[i]);
-            }
+            let y = <[R; N]>::fill(span, &start.y);
+            let atol = <[R; N]>::fill(span, &tolerances.absolute(start.tolerance_factor, &start.scale));
 
             let mut switching = Switching::begin(ode, &c, &y);
             let alone = Varied::alone(y);
@@ -110,11 +108,7 @@ fn march<O: Ode<N>, R: Scalar, const N: usize>(
                 }
 
                 if accepted && landing && !target.lt(span) {
-                    let mut state = [0.0; N];
-                    for i in 0..N {
-                        state[i] = step.y[0][i].lane(0);
-                    }
-                    if at_span_end(&state).is_break() || interrupted() {
+                    if at_span_end(&step.y[0].get(0)).is_break() || interrupted() {
                         return Outcome::new::<O, N>(Ending::Stopped, attempts, switches);
                     }
                     h = number(span_step(h_begin.lane(0), h.lane(0)));
@@ -124,7 +118,7 @@ fn march<O: Ode<N>, R: Scalar, const N: usize>(
                     steps_in_span = 0;
                 } else if steps_in_span >= tolerances.max_steps || h.lt(span * MIN_STEP) {
                     return Outcome::new::<O, N>(Ending::of_failure(error.lane(0)), attempts, switches);
-                } else if steps_in_span % UNASKED == 0 && interrupted() {
+                } else if steps_in_span % INTERRUPT_STEPS == 0 && interrupted() {
                     return Outcome::new::<O, N>(Ending::Stopped, attempts, switches);
                 }
             }

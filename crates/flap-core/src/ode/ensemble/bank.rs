@@ -53,36 +53,31 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         start: &Start<O::Constants<f64>, N>,
     ) -> Self {
         let number = R::splat(token, 0.0);
-        let mut bank = Bank {
+        let Start { constants, y, span, scale, tolerance_factor, change } = start;
+        let mut responses = [Step::new([number; N], [number; N]); D];
+        for (i, response) in responses.iter_mut().enumerate() {
+            response.y[0][i] = number.lit(change[i]);
+        }
+        Bank {
             token,
             tolerances: *tolerances,
-            constants: O::Constants::<R>::fill(number, &start.constants),
+            constants: O::Constants::<R>::fill(number, constants),
             totals: V::Totals::<R>::fill(number, &observer.nothing()),
-            span: number.lit(start.span),
-            rtol: number.lit(tolerances.rtol * start.tolerance_factor),
-            atol: [number; N],
-            atol_of_responses: [number; N],
+            span: number.lit(*span),
+            rtol: number.lit(tolerances.rtol * tolerance_factor),
+            atol: PerLane::fill(number, &tolerances.absolute(*tolerance_factor, scale)),
+            atol_of_responses: PerLane::fill(number, &of_responses(tolerances, *tolerance_factor, change)),
             t: number,
-            h: number.lit(start.span),
-            h_begin: number.lit(start.span),
-            step: Step::new([number; N], [number; N]),
-            responses: [Step::new([number; N], [number; N]); D],
+            h: number.lit(*span),
+            h_begin: number.lit(*span),
+            step: Step::new(PerLane::fill(number, y), [number; N]),
+            responses,
             memory: Memory::new(number),
             switching: Switching::new(number),
             steps_in_span: number,
             switches: number,
             error: number,
-        };
-        for i in 0..N {
-            bank.step.y[0][i] = number.lit(start.y[i]);
-            bank.atol[i] = number.lit(tolerances.atol * start.tolerance_factor * start.scale[i]);
-            if D > 0 {
-                bank.responses[i].y[0][i] = number.lit(start.change[i]);
-                bank.atol_of_responses[i] =
-                    number.lit(tolerances.atol * start.tolerance_factor * (RESPONSE_SCALE * start.change[i]));
-            }
         }
-        bank
     }
 
     /// Puts a run into a lane.
@@ -97,16 +92,16 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
     pub(super) fn restart(&mut self, lane: usize, next: &Restart<N>, observer: &V) {
         self.totals.set(lane, &observer.nothing());
         self.rtol.set_lane(lane, self.tolerances.rtol * next.tolerance_factor);
-        let atol = self.tolerances.atol * next.tolerance_factor;
-        for i in 0..N {
-            self.step.y[0][i].set_lane(lane, next.y[i]);
-            self.atol[i].set_lane(lane, atol * next.scale[i]);
+        let Restart { y, scale, tolerance_factor, change } = next;
+        self.step.y[0].set(lane, y);
+        self.atol.set(lane, &self.tolerances.absolute(*tolerance_factor, scale));
+        if D > 0 {
+            self.atol_of_responses.set(lane, &of_responses(&self.tolerances, *tolerance_factor, change));
         }
         for (i, response) in self.responses.iter_mut().enumerate() {
-            for j in 0..N {
-                response.y[0][j].set_lane(lane, if i == j { next.change[i] } else { 0.0 });
-            }
-            self.atol_of_responses[i].set_lane(lane, atol * (RESPONSE_SCALE * next.change[i]));
+            let mut begin = [0.0; N];
+            begin[i] = change[i];
+            response.y[0].set(lane, &begin);
         }
     }
 
@@ -252,11 +247,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
 
     /// The responses in one lane.
     pub(super) fn responses(&self, lane: usize) -> [[f64; N]; D] {
-        let mut responses = [[0.0; N]; D];
-        for i in 0..D {
-            responses[i] = self.responses[i].y[0].get(lane);
-        }
-        responses
+        core::array::from_fn(|i| self.responses[i].y[0].get(lane))
     }
 
     /// The totals of one lane.
@@ -278,4 +269,13 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
     pub(super) fn switches(&self, lane: usize) -> u64 {
         self.switches.lane(lane) as u64
     }
+}
+
+/// The absolute tolerances of responses to changes of these sizes.
+fn of_responses<const N: usize>(
+    tolerances: &Tolerances,
+    tolerance_factor: f64,
+    change: &[f64; N],
+) -> [f64; N] {
+    tolerances.absolute(tolerance_factor, &change.map(|change| RESPONSE_SCALE * change))
 }

@@ -5,7 +5,7 @@ use core::ops::AddAssign;
 use super::bank::{Bank, Events};
 use super::queue::{NewRun, Next, Observer, Queue, SpanEnd};
 use crate::num::{Lanes, Simd, Vector};
-use crate::ode::{Ending, Ode, Outcome, Start, Tolerances, UNASKED};
+use crate::ode::{Ending, INTERRUPT_STEPS, Ode, Outcome, Start, Tolerances};
 
 /// Use of the lanes: the steps that served a run, and all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -137,11 +137,11 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize
                 self.bank.begin(ode, self.fresh);
                 self.fresh = 0;
             }
-            let mut unasked = UNASKED;
+            let mut left = INTERRUPT_STEPS;
             let events = loop {
                 let events = self.advance(ode, observer);
-                unasked -= 1;
-                if events.landed | events.failed != 0 || unasked == 0 {
+                left -= 1;
+                if events.landed | events.failed != 0 || left == 0 {
                     break events;
                 }
             };
