@@ -138,14 +138,7 @@ impl Queue<Wing, Unobserved, 4> for Alike<'_> {
         if self.left == 0 {
             (self.mark)();
         }
-        let start = Start {
-            constants: Drive::new(0.1, 120.0),
-            y: [0.0; 4],
-            span: 1.0 / 120.0,
-            scale: SCALE,
-            tolerance_factor: 1.0,
-        };
-        Some((self.periods, start))
+        Some((self.periods, Start::new(Drive::new(0.1, 120.0), [0.0; 4], 1.0 / 120.0, SCALE)))
     }
 
     fn ended(&mut self, left: u64, end: SpanEnd<'_, (), 4>) -> Option<(u64, Next<4>)> {

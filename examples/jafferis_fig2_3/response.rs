@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use flap_core::measure::strobe::Strobe;
-use flap_core::ode::dense::interpolate;
 use flap_core::ode::solve::solve;
 use flap_core::ode::{Ode, Start, Tolerances};
 
@@ -55,13 +54,7 @@ where
     O: Ode<N, Constants<f64> = Drive<f64>>,
 {
     // A run starts from rest and is cut into spans of one drive period.
-    let mut start = Start {
-        constants,
-        y: [0.0; N],
-        span: TAU / constants.frequency,
-        scale: [1.0; N],
-        tolerance_factor: 1.0,
-    };
+    let mut start = Start::new(constants, [0.0; N], TAU / constants.frequency, [1.0; N]);
     let mut strobe = Strobe::new(&start.y, &start.scale, SETTLED);
     solve::<O, f64, N>(
         ode,
@@ -86,7 +79,7 @@ where
         &start,
         |_, accepted| {
             for part in 1..=8 {
-                let y = interpolate(accepted.step, accepted.h, 0.125 * f64::from(part));
+                let y = accepted.step.interpolate(accepted.h, 0.125 * f64::from(part));
                 for i in 0..N {
                     least[i] = least[i].min(y[i]);
                     most[i] = most[i].max(y[i]);

@@ -10,7 +10,6 @@ use core::f64::consts::FRAC_1_PI;
 
 use flap_core::num::{Lanes, Real};
 use flap_core::ode::Ode;
-use flap_core::ode::dense::interpolate;
 use flap_core::ode::ensemble::Observer;
 use flap_core::ode::step::Attempt;
 use flap_core::ode::tableau::B;
@@ -131,7 +130,7 @@ fn peak<R: Lanes>(attempt: &Attempt<'_, R, 4>, accepted: R::Mask, state: usize, 
     let slope = R::select(turns, end - begin, h.lit(1.0));
     let mut at = -begin / slope;
     for _ in 0..3 {
-        at = (at - interpolate(step, h, at)[rate] / slope).max(h.lit(0.0)).min(h.lit(1.0));
+        at = (at - step.interpolate(h, at)[rate] / slope).max(h.lit(0.0)).min(h.lit(1.0));
     }
-    R::select(turns, interpolate(step, h, at)[state].abs().max(so_far), so_far)
+    R::select(turns, step.interpolate(h, at)[state].abs().max(so_far), so_far)
 }

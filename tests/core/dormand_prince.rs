@@ -3,7 +3,6 @@
 use std::ops::ControlFlow;
 
 use flap_core::num::Real;
-use flap_core::ode::dense::interpolate;
 use flap_core::ode::solve::solve;
 use flap_core::ode::step::Step;
 use flap_core::ode::tableau::{A, B, C, D, E, STAGES};
@@ -112,7 +111,7 @@ fn fixed_steps(n: u32) -> (f64, f64) {
         let k1 = Growth.rhs(&(), &Growth.input(&(), t), 1.0, &y);
         let mut step = Step::new(y, k1);
         step.attempt(&Growth, &(), t, h, 1.0);
-        let middle = interpolate(&step, h, 0.4)[0];
+        let middle = step.interpolate(h, 0.4)[0];
         between = between.max((middle - (t + 0.4 * h).sin().exp()).abs());
         y = step.y[6];
     }
@@ -138,8 +137,8 @@ fn interpolation_meets_both_ends() {
     let k1 = Growth.rhs(&(), &Growth.input(&(), 0.2), 1.0, &y);
     let mut step = Step::new(y, k1);
     step.attempt(&Growth, &(), 0.2, 0.1, 1.0);
-    assert_eq!(interpolate(&step, 0.1, 0.0), y);
-    assert!((interpolate(&step, 0.1, 1.0)[0] - step.y[6][0]).abs() < 1e-15);
+    assert_eq!(step.interpolate(0.1, 0.0), y);
+    assert!((step.interpolate(0.1, 1.0)[0] - step.y[6][0]).abs() < 1e-15);
 }
 
 #[test]
@@ -179,13 +178,8 @@ impl Ode<4> for Arenstorf {
 }
 
 fn arenstorf(rtol: f64) -> Span<4> {
-    let start = Start {
-        constants: (),
-        y: [0.994, 0.0, 0.0, -2.001_585_106_379_082_5],
-        span: 17.065_216_560_157_964,
-        scale: [1.0; 4],
-        tolerance_factor: 1.0,
-    };
+    let y = [0.994, 0.0, 0.0, -2.001_585_106_379_082_5];
+    let start = Start::new((), y, 17.065_216_560_157_964, [1.0; 4]);
     span::run(&Arenstorf, &Tolerances { rtol, atol: rtol, max_steps: 10_000 }, &start)
 }
 

@@ -4,10 +4,9 @@ use flap_core::model::Model;
 use flap_core::model::bimorph::Bimorph;
 use flap_core::model::direct_drive::{self, DirectDrive};
 use flap_core::num::Backend;
-use flap_core::ode::variation::{Variation, initial, response};
 use flap_core::ode::{Start, Tolerances};
 use flap_core::parameter::Parameter;
-use flap_core::simulate::{Row, SolverSettings, all, preset};
+use flap_core::simulate::{Period, PointRun, Row, SolverSettings, all, by_name, preset};
 use nalgebra::Matrix4;
 
 use crate::data::{Record, assert_close, table};
@@ -15,42 +14,42 @@ use crate::{rows, span};
 
 const TOLERANCES: Tolerances = Tolerances { rtol: 1e-8, atol: 1e-10, max_steps: 20_000 };
 
-/// States at the end of a period that begins at `y`, without and with responses to changes of `y`.
-fn period<M: Model<4>>(model: &M, values: &[f64], y: [f64; 4]) -> ([f64; 4], [f64; 20], [f64; 4]) {
+/// The state at the end of a period that begins at `y`, in units of the typical sizes.
+fn end<M: Model<4>>(model: &M, values: &[f64], y: [f64; 4]) -> [f64; 4] {
     let model = &model.variant(values);
     let start = Start { y, ..model.start(values).unwrap() };
-    let alone = span::end(model, &TOLERANCES, &start);
-    let scale = std::array::from_fn(|i| start.scale[i % 4]);
-    let varied = Start {
-        constants: start.constants,
-        y: initial(&y, &start.scale),
-        span: start.span,
-        scale,
-        tolerance_factor: 1.0,
-    };
-    let all = span::end(&Variation(model), &TOLERANCES, &varied);
-    (alone, all, start.scale)
+    let end = span::end(model, &TOLERANCES, &start);
+    std::array::from_fn(|i| end[i] / start.scale[i])
+}
+
+/// The period that begins at `y`, with responses to changes of `y`.
+fn period<M: Model<4>>(values: &[f64], y: [f64; 4]) -> Period {
+    let Tolerances { rtol, atol, max_steps } = TOLERANCES;
+    let solver = SolverSettings { rtol, atol, max_steps, ..SolverSettings::DEFAULT };
+    let motions = by_name(M::DESCRIPTION.name).unwrap().motions().unwrap();
+    motions.period(&PointRun::new(Backend::best(), &solver, values), &y).unwrap()
 }
 
 /// The largest modulus of the multipliers, from the responses of a period.
-fn largest_multiplier(all: &[f64; 20], scale: &[f64; 4]) -> f64 {
-    let monodromy = Matrix4::from_fn(|i, j| response::<4, 20>(all, j)[i] / scale[i]);
+fn largest_multiplier(responses: &[Vec<f64>]) -> f64 {
+    let monodromy = Matrix4::from_fn(|i, j| responses[j][i]);
     monodromy.complex_eigenvalues().iter().fold(0.0, |largest, multiplier| multiplier.norm().max(largest))
 }
 
 /// Compares the largest multiplier of the orbit through the states in `states` with the column `multiplier`.
 fn check<M: Model<4>>(model: &M, values: &[f64], record: &Record, states: [&str; 4], multiplier: &str) {
     let y = states.map(|column| record.number(column));
-    let (alone, all, scale) = period(model, values, y);
+    let Period { end: varied, responses, scale, floquet_max, .. } = period::<M>(values, y);
     for (one, other) in
-        alone.iter().zip(&all).zip(&scale).map(|((one, other), scale)| (one / scale, other / scale))
+        end(model, values, y).into_iter().zip(varied.iter().zip(&scale).map(|(y, scale)| y / scale))
     {
         assert!(
             (one - other).abs() < 1e-6 * (1.0 + one.abs()),
             "the responses do not change the states: {one} and {other}"
         );
     }
-    assert_close(largest_multiplier(&all, &scale), record.number(multiplier), 1e-4, &record.name);
+    assert_close(largest_multiplier(&responses), record.number(multiplier), 1e-4, &record.name);
+    assert_close(floquet_max, record.number(multiplier), 1e-4, &record.name);
 }
 
 #[test]

@@ -106,7 +106,7 @@ impl Model<2> for Oscillator {
     }
 }
 
-static OSCILLATOR: Runner<Oscillator, 2, 6> = Runner::new(Oscillator);
+static OSCILLATOR: Runner<Oscillator, 2> = Runner::new(Oscillator);
 
 fn row(params: &Params, solver: &SolverSettings) -> Row {
     let row = OSCILLATOR.run_point(&PointRun::new(Backend::best(), solver, &params.to_values()), None);

@@ -11,7 +11,7 @@ use std::process::ExitCode;
 use flap_core::simulate::{self, Runner, Simulator};
 
 /// The wing with its three states and their 3 + 9 responses to changes.
-static MOTOR_WING: Runner<motor_wing::MotorWing, 3, 12> = Runner::new(motor_wing::MotorWing);
+static MOTOR_WING: Runner<motor_wing::MotorWing, 3> = Runner::new(motor_wing::MotorWing);
 
 fn main() -> ExitCode {
     let own: &[&'static dyn Simulator] = &[&MOTOR_WING];

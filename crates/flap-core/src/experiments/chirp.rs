@@ -16,7 +16,7 @@ use crate::simulate::{
 };
 
 /// The chirp begins at rest.
-impl<M: Motions<N>, const N: usize, const K: usize> Question<M, N, K> for &ChirpRequest {
+impl<M: Motions<N>, const N: usize> Question<M, N> for &ChirpRequest {
     type Answer = Result<ChirpResponse, Unfinished>;
 
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<ChirpResponse, Unfinished> {

@@ -6,7 +6,7 @@ use crate::ode::Start;
 use crate::simulate::{ImpulseRequest, PointRun, Question, RequestError, Trajectory, Unfinished, sampled};
 
 /// The drive is held still.
-impl<M: Motions<N>, const N: usize, const K: usize> Question<M, N, K> for &ImpulseRequest {
+impl<M: Motions<N>, const N: usize> Question<M, N> for &ImpulseRequest {
     type Answer = Result<Trajectory, Unfinished>;
 
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Trajectory, Unfinished> {

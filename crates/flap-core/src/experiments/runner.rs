@@ -9,13 +9,13 @@ use crate::simulate::{
     Trajectory, Unfinished, ask,
 };
 
-impl<M: Motions<N>, const N: usize, const K: usize> Experiments for Runner<M, N, K> {
+impl<M: Motions<N>, const N: usize> Experiments for Runner<M, N> {
     fn chirp(&self, run: &PointRun<'_>, request: &ChirpRequest) -> Result<ChirpResponse, Unfinished> {
-        ask::<M, _, N, K>(&self.model, run, request)
+        ask::<M, _, N>(&self.model, run, request)
     }
 
     fn free_response(&self, run: &PointRun<'_>, request: &ImpulseRequest) -> Result<Trajectory, Unfinished> {
-        ask::<M, _, N, K>(&self.model, run, request)
+        ask::<M, _, N>(&self.model, run, request)
     }
 
     fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Unfinished> {
@@ -32,6 +32,6 @@ impl<M: Motions<N>, const N: usize, const K: usize> Experiments for Runner<M, N,
     }
 
     fn with_samples(&self, samples: Samples) -> Box<dyn Simulator> {
-        Box::new(Runner::<M, N, K>::with_experiments(self.model.sampled(samples)))
+        Box::new(Runner::<M, N>::with_experiments(self.model.sampled(samples)))
     }
 }

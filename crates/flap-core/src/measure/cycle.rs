@@ -8,7 +8,6 @@
 use super::step_polynomial::{Extremum, StepPolynomial};
 use crate::model::{Each, Instant, Model, SignalCycle, SignalSet, SignalsOf, Taken};
 use crate::num::Lanes;
-use crate::ode::dense::interpolate;
 use crate::ode::ensemble::Observer;
 use crate::ode::step::Attempt;
 use crate::ode::tableau::{B, C};
@@ -61,7 +60,7 @@ impl<R: Lanes> Totals<R> {
 pub type Sums<S, R> = (Each<S, Totals<R>>, [R; 6]);
 
 /// Sums over the signals of the model `M` on one lane.
-pub type SumsOf<M, const N: usize> = Sums<<M as Model<N>>::Signals, f64>;
+pub(crate) type SumsOf<M, const N: usize> = Sums<<M as Model<N>>::Signals, f64>;
 
 /// Sums up the signals of a model along a run.
 #[derive(Clone, Copy, Debug)]
@@ -81,7 +80,7 @@ impl<'a, M> Signals<'a, M> {
     }
 
     /// Sums up means and first harmonics.
-    pub fn means(model: &'a M) -> Self {
+    pub(crate) fn means(model: &'a M) -> Self {
         Signals { model, extrema: false, loads: false }
     }
 
@@ -326,7 +325,7 @@ fn between<M: Model<N>, R: Lanes, const N: usize>(
 ) -> SignalsOf<M::Signals, R> {
     let Attempt { t, h, side, step } = *attempt;
     let at = h.mul_add(h.lit(theta), t);
-    let y = interpolate(step, h, h.lit(theta));
+    let y = step.interpolate(h, h.lit(theta));
     let u = input(model, c, at);
     let dy = if M::SIGNALS_OF_SLOPES { slope(model, c, &u, side, &y) } else { [h.lit(f64::NAN); N] };
     signals(model, c, Instant { input: &u, side, y: &y, dy: &dy })

@@ -2,13 +2,13 @@
 //!
 //! - [`cycle`]: signals over one drive period: means, extrema, first harmonics
 //! - [`quarters`]: extrema in each quarter of a drive period
-//! - [`size`]: the largest magnitude of each state
+//! - `size`: the largest magnitude of each state
 //! - [`multipliers`]: the monodromy matrix of an orbit and its Floquet multipliers
 //! - [`strobe`]: repetition of the state from period to period
 
 pub mod cycle;
 pub mod multipliers;
 pub mod quarters;
-pub mod size;
+pub(crate) mod size;
 mod step_polynomial;
 pub mod strobe;

@@ -3,8 +3,6 @@
 use nalgebra::DMatrix;
 use nalgebra::linalg::Schur;
 
-use crate::ode::variation::response;
-
 /// Iterations for the eigenvalues of a matrix after which they are given up: some ten are usual.
 const LONGEST: usize = 200;
 
@@ -14,26 +12,19 @@ const SQUARINGS: u32 = 54;
 /// A matrix of N rows and columns, row by row.
 pub type Matrix<const N: usize> = [[f64; N]; N];
 
-/// The monodromy matrix, given the end of a period with its responses to changes by `scale`. Column j: response to a change
-/// of component j by its scale, in units of the scales.
-pub fn monodromy<const N: usize, const K: usize>(all: &[f64; K], scale: &[f64; N]) -> Matrix<N> {
-    let mut monodromy = [[0.0; N]; N];
-    for j in 0..N {
-        let column = response::<N, K>(all, j);
-        for i in 0..N {
-            monodromy[i][j] = column[i] / scale[i];
-        }
-    }
-    monodromy
+/// The monodromy matrix, given the responses over a period to changes by `scale`. Column j: response to a change of component j
+/// by its scale, in units of the scales.
+pub(crate) fn monodromy<const N: usize>(responses: &[[f64; N]], scale: &[f64; N]) -> Matrix<N> {
+    core::array::from_fn(|i| core::array::from_fn(|j| responses[j][i] / scale[i]))
 }
 
 /// The identity matrix.
-pub fn identity<const N: usize>() -> Matrix<N> {
+pub(crate) fn identity<const N: usize>() -> Matrix<N> {
     core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j))))
 }
 
 /// The product `second * first`.
-pub fn product<const N: usize>(second: &Matrix<N>, first: &Matrix<N>) -> Matrix<N> {
+pub(crate) fn product<const N: usize>(second: &Matrix<N>, first: &Matrix<N>) -> Matrix<N> {
     core::array::from_fn(|i| core::array::from_fn(|j| (0..N).map(|k| second[i][k] * first[k][j]).sum()))
 }
 

@@ -106,7 +106,7 @@ impl Shifts {
 
 /// The sums of `runs` whose first is a motion and the others slight changes of it; but extrema that differ by less than an
 /// `error`, as a share of them, are made equal in the motion, and shifted by as much in the others. `None` if there are no such.
-pub fn with_equal_extrema<S: SignalSet>(
+pub(crate) fn with_equal_extrema<S: SignalSet>(
     runs: &[InQuarters<S, f64>],
     error: f64,
 ) -> Option<Vec<Sums<S, f64>>> {

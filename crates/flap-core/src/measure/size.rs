@@ -7,7 +7,7 @@ use crate::ode::step::Attempt;
 
 /// Keeps the largest magnitude of each of the N states at the ends of the steps of a run.
 #[derive(Clone, Copy, Debug)]
-pub struct Size;
+pub(crate) struct Size;
 
 impl<O: Ode<N>, const N: usize> Observer<O, N> for Size {
     type Totals<R: Lanes> = [R; N];

@@ -3,7 +3,7 @@
 //! It knows no model and no waveform, so a new model needs no change here.
 
 /// Longest orbit that is looked for, in drive periods.
-pub const LONGEST_PERIOD: u32 = 8;
+const LONGEST_PERIOD: u32 = 8;
 
 const LONGEST: usize = LONGEST_PERIOD as usize;
 

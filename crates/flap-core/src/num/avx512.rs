@@ -17,12 +17,10 @@ use core::mem::transmute;
 use super::bits::{
     Bits, EXPONENT_BITS, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52, TWO_52_BITS,
 };
-use super::functions_of_lanes::functions_of_lanes;
-use super::lanes::Lanes;
-use super::operators::{constants_on_the_right, operator};
+use super::lanes::{Lanes, Simd};
+use super::macros::{constants_on_the_right, functions_of_lanes, operator};
 use super::pair::Pair;
 use super::real::Real;
-use super::simd::Simd;
 
 /// Proof that the processor has AVX-512 F, DQ, BW, VL and CD, and FMA.
 #[derive(Clone, Copy, Debug)]

@@ -6,9 +6,8 @@
 use core::ops::{BitAnd, BitOr, Not};
 
 use super::bits::Bits;
-use super::functions_of_lanes::functions_of_lanes;
 use super::lanes::Lanes;
-use super::operators::{constants_on_the_right, operator};
+use super::macros::{constants_on_the_right, functions_of_lanes, of_both, operator};
 use super::real::Real;
 
 /// Two groups of lanes that go side by side.
@@ -45,25 +44,7 @@ impl<L: Lanes> Real for Pair<L> {
         Pair { lo: half, hi: half }
     }
 
-    #[inline(always)]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        Pair { lo: self.lo.mul_add(a.lo, b.lo), hi: self.hi.mul_add(a.hi, b.hi) }
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Pair { lo: self.lo.abs(), hi: self.hi.abs() }
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Pair { lo: self.lo.sqrt(), hi: self.hi.sqrt() }
-    }
-
-    #[inline(always)]
-    fn copysign(self, sign: Self) -> Self {
-        Pair { lo: self.lo.copysign(sign.lo), hi: self.hi.copysign(sign.hi) }
-    }
+    of_both!(Pair: mul_add(a, b), abs(), sqrt(), copysign(sign), min(other), max(other));
 
     functions_of_lanes!();
 
@@ -75,16 +56,6 @@ impl<L: Lanes> Real for Pair<L> {
     #[inline(always)]
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
         Pair { lo: L::select(mask.lo, yes.lo, no.lo), hi: L::select(mask.hi, yes.hi, no.hi) }
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Pair { lo: self.lo.min(other.lo), hi: self.hi.min(other.hi) }
-    }
-
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Pair { lo: self.lo.max(other.lo), hi: self.hi.max(other.hi) }
     }
 }
 
@@ -130,32 +101,11 @@ impl<L: Lanes> Lanes for Pair<L> {
 }
 
 impl<L: Lanes> Bits for Pair<L> {
-    #[inline(always)]
-    fn flip_sign_by_lowest_bit(self, selector: Self) -> Self {
-        Pair {
-            lo: self.lo.flip_sign_by_lowest_bit(selector.lo),
-            hi: self.hi.flip_sign_by_lowest_bit(selector.hi),
-        }
-    }
+    of_both!(Pair: flip_sign_by_lowest_bit(selector), linear_log2(), reciprocal_guess(), times_power_of_two(k));
 
     #[inline(always)]
     fn exponent_and_mantissa(self) -> (Self, Self) {
         let (lo, hi) = (self.lo.exponent_and_mantissa(), self.hi.exponent_and_mantissa());
         (Pair { lo: lo.0, hi: hi.0 }, Pair { lo: lo.1, hi: hi.1 })
-    }
-
-    #[inline(always)]
-    fn linear_log2(self) -> Self {
-        Pair { lo: self.lo.linear_log2(), hi: self.hi.linear_log2() }
-    }
-
-    #[inline(always)]
-    fn reciprocal_guess(self) -> Self {
-        Pair { lo: self.lo.reciprocal_guess(), hi: self.hi.reciprocal_guess() }
-    }
-
-    #[inline(always)]
-    fn times_power_of_two(self, k: Self) -> Self {
-        Pair { lo: self.lo.times_power_of_two(k.lo), hi: self.hi.times_power_of_two(k.hi) }
     }
 }

@@ -5,9 +5,8 @@ use fearless_simd::{Bytes, ExtractToken, Select, Simd, SimdBase, SimdFloat, Simd
 use super::bits::{
     Bits, EXPONENT_BITS, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52, TWO_52_BITS,
 };
-use super::functions_of_lanes::functions_of_lanes;
 use super::lanes::Lanes;
-use super::operators::{constants_on_the_right, of_inner, operator};
+use super::macros::{constants_on_the_right, functions_of_lanes, of_inner, operator};
 use super::real::Real;
 
 /// 4 lanes with AVX2, 2 with SSE2 and NEON.

@@ -5,12 +5,11 @@ use core::marker::PhantomData;
 use super::bits::{
     Bits, EXPONENT_BITS, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52, TWO_52_BITS,
 };
-use super::functions_of_lanes::functions_of_lanes;
-use super::lanes::Lanes;
+use super::lanes::{Lanes, Simd};
+use super::macros::{constants_on_the_right, functions_of_lanes, of_inner, operator};
 use super::real::Real;
-use super::simd::Simd;
 
-/// One number at a time: `f64`, or [`Unfused`](super::Unfused) for machines without fused multiply-add.
+/// One number at a time: `f64`, or [`Unfused`] for machines without fused multiply-add.
 pub trait Scalar: Bits + Lanes<Token = OneLane<Self>, Mask = bool> {
     /// The scalar with this value.
     fn new(value: f64) -> Self;
@@ -178,4 +177,70 @@ impl Bits for f64 {
     fn times_power_of_two(self, k: f64) -> f64 {
         f64::from_bits(self.to_bits().wrapping_add((k + ROUND).to_bits() << 52))
     }
+}
+
+/// A single `f64` whose `mul_add` rounds twice: the scalar of [`super::Arithmetic::Unfused`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unfused(pub f64);
+
+operator!([] Unfused, Add::add, |a, b| Unfused(a.0 + b.0));
+operator!([] Unfused, Sub::sub, |a, b| Unfused(a.0 - b.0));
+operator!([] Unfused, Mul::mul, |a, b| Unfused(a.0 * b.0));
+operator!([] Unfused, Div::div, |a, b| Unfused(a.0 / b.0));
+operator!([] Unfused, Neg::neg, |a| Unfused(-a.0));
+constants_on_the_right!([] Unfused);
+
+impl Scalar for Unfused {
+    #[inline(always)]
+    fn new(value: f64) -> Unfused {
+        Unfused(value)
+    }
+
+    #[inline(always)]
+    fn value(self) -> f64 {
+        self.0
+    }
+
+    #[inline(always)]
+    fn enter<T>(work: impl FnOnce() -> T) -> T {
+        work()
+    }
+}
+
+impl Real for Unfused {
+    type Mask = bool;
+
+    #[inline(always)]
+    fn lit(self, c: f64) -> Unfused {
+        Unfused(c)
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: Unfused, b: Unfused) -> Unfused {
+        self * a + b
+    }
+
+    of_inner!(Unfused: abs(), sqrt(), copysign(sign));
+
+    functions_of_lanes!();
+
+    #[inline(always)]
+    fn lt(self, other: Unfused) -> bool {
+        self.0 < other.0
+    }
+
+    #[inline(always)]
+    fn select(mask: bool, yes: Unfused, no: Unfused) -> Unfused {
+        if mask { yes } else { no }
+    }
+}
+
+impl Bits for Unfused {
+    #[inline(always)]
+    fn exponent_and_mantissa(self) -> (Unfused, Unfused) {
+        let (exponent, mantissa) = self.0.exponent_and_mantissa();
+        (Unfused(exponent), Unfused(mantissa))
+    }
+
+    of_inner!(Unfused: flip_sign_by_lowest_bit(selector), linear_log2(), reciprocal_guess(), times_power_of_two(k));
 }

@@ -14,12 +14,14 @@ pub struct Start<C, const N: usize> {
     /// Factor on both tolerances: 1 for most runs, less for one that is integrated more finely than others, more for one that
     /// is integrated more coarsely.
     pub tolerance_factor: f64,
+    /// Size of the change of each state whose response is integrated, where responses are.
+    pub change: [f64; N],
 }
 
 impl<C, const N: usize> Start<C, N> {
     /// A run with the tolerances that are asked for.
     pub const fn new(constants: C, y: [f64; N], span: f64, scale: [f64; N]) -> Start<C, N> {
-        Start { constants, y, span, scale, tolerance_factor: 1.0 }
+        Start { constants, y, span, scale, tolerance_factor: 1.0, change: scale }
     }
 }
 
@@ -35,8 +37,16 @@ pub struct Tolerances {
     pub max_steps: u32,
 }
 
+impl Tolerances {
+    /// The absolute tolerances of a run with this [`Start::tolerance_factor`], given the sizes of its states.
+    pub(super) fn absolute<const N: usize>(&self, tolerance_factor: f64, scale: &[f64; N]) -> [f64; N] {
+        let atol = self.atol * tolerance_factor;
+        scale.map(|scale| atol * scale)
+    }
+}
+
 /// Steps within a span between two questions to an [`Interrupt`]: a few milliseconds of work.
-pub(crate) const UNASKED: u32 = 4096;
+pub(crate) const INTERRUPT_STEPS: u32 = 4096;
 
 /// The smallest step, as a fraction of the span, before a run counts as stuck.
 pub(crate) const MIN_STEP: f64 = 1e-14;

@@ -20,33 +20,33 @@ const LOG2_ERROR_MIN: f64 = -26.575_424_759_098_897;
 
 /// The controller's memory from step to step.
 #[derive(Clone, Copy, Debug)]
-pub struct Memory<R> {
+pub(super) struct Memory<R> {
     /// log2 of the square of the last accepted error.
     pub log2_error: R,
     /// The largest factor allowed now, in octaves: 0, which is a factor of 1, right after a rejection.
-    pub octaves_max: R,
+    pub(super) octaves_max: R,
 }
 
 impl<R: Lanes> Memory<R> {
     /// The memory of a run that has made no step.
     #[inline(always)]
-    pub fn new(like: R) -> Memory<R> {
+    pub(super) fn new(like: R) -> Memory<R> {
         Memory { log2_error: like.lit(LOG2_ERROR_MIN), octaves_max: like.lit(OCTAVES_MAX) }
     }
 }
 
 /// A decision of the controller.
 #[derive(Clone, Copy)]
-pub struct Verdict<R: Lanes> {
+pub(super) struct Verdict<R: Lanes> {
     /// The step is accepted.
-    pub accepted: R::Mask,
+    pub(super) accepted: R::Mask,
     /// The factor on the step size.
-    pub factor: R,
+    pub(super) factor: R,
 }
 
 /// Judges a step by its squared error (see [`super::norm`]) and updates the memory. NaN is rejected.
 #[inline(always)]
-pub fn judge<R: Lanes>(error_squared: R, memory: &mut Memory<R>) -> Verdict<R> {
+pub(super) fn judge<R: Lanes>(error_squared: R, memory: &mut Memory<R>) -> Verdict<R> {
     let accepted = error_squared.lt(error_squared.lit(1.0));
     // Finite for any error, NaN included: the factor is then the smallest.
     let log2_error = error_squared.linear_log2();

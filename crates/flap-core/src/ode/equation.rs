@@ -37,13 +37,6 @@ pub trait Ode<const N: usize>: Sync {
         let _ = (c, dy);
         [y[0].lit(1.0), y[0].lit(0.0)]
     }
-
-    /// The state right after it has crossed the surface to this `side`.
-    #[inline(always)]
-    fn crossed<R: Lanes>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N] {
-        let _ = (c, u, side);
-        *y
-    }
 }
 
 /// The inputs [`Ode::input`] at time `t`. Integrators call it here, for the same reason as [`slope`].

@@ -1,12 +1,11 @@
 //! Dormand-Prince 5(4) for one run at a time, or for many runs in SIMD lanes.
 //!
 //! - [`tableau`]: the coefficients, checked when the crate is compiled
-//! - [`step`]: one step: stages, new state, error estimate; no policy
-//! - [`norm`], [`controller`], [`start`]: the size of the error, the next step size, the first one
-//! - [`switch`]: right-hand sides that jump where a function changes sign
-//! - [`replay`]: a run again on the same steps, with other constants and initial states
-//! - [`variation`]: a run with its response to small changes of its initial state
-//! - [`dense`]: the solution between the ends of a step
+//! - [`step`]: one step: stages, new state, error estimate, the solution between its ends; no policy
+//! - [`norm`], `controller`, `start`: the size of the error, the next step size, the first one
+//! - `switch`: right-hand sides that jump where a function changes sign
+//! - `replay`: a run again on the same steps, with other constants and initial states
+//! - `variation`: a run with its response to small changes of its initial state
 //! - [`solve`]: one run on scalars, in simple code; the reference of the ensemble
 //! - [`ensemble`]: many runs in lanes, each with its own time, step size and constants
 //!
@@ -18,23 +17,22 @@
 //! `examples/own_equations` runs thousands of points in lanes.
 
 mod begin;
-pub mod controller;
-pub mod dense;
+mod controller;
 pub mod ensemble;
 mod equation;
 pub mod norm;
 mod outcome;
-pub mod replay;
+pub(crate) mod replay;
 pub mod solve;
-pub mod start;
+mod start;
 pub mod step;
-pub mod switch;
+mod switch;
 pub mod tableau;
-pub mod variation;
+mod variation;
 
 pub use begin::{Start, Tolerances};
 pub use equation::Ode;
 pub use outcome::{Ending, Interrupt, Outcome, never};
 
-pub(crate) use begin::{MIN_STEP, STRETCH, UNASKED};
+pub(crate) use begin::{INTERRUPT_STEPS, MIN_STEP, STRETCH};
 pub(crate) use equation::{input, slope};

@@ -16,11 +16,22 @@ pub fn error_squared<R: Lanes, const N: usize>(
     atol: &[R; N],
     rtol: R,
 ) -> R {
-    let mut sum = rtol.lit(0.0);
+    add_squares(rtol.lit(0.0), error, [y, y_new], atol, rtol) * (1.0 / N as f64)
+}
+
+/// A sum plus the squares of error over tolerance.
+#[inline(always)]
+pub(super) fn add_squares<R: Lanes, const N: usize>(
+    mut sum: R,
+    error: &[R; N],
+    [y, y_new]: [&[R; N]; 2],
+    atol: &[R; N],
+    rtol: R,
+) -> R {
     for i in 0..N {
         let tolerance = rtol.mul_add(y[i].abs().max(y_new[i].abs()), atol[i]);
         let ratio = error[i] * tolerance.rough_reciprocal();
         sum = ratio.mul_add(ratio, sum);
     }
-    sum * (1.0 / N as f64)
+    sum
 }

@@ -9,41 +9,41 @@ use core::ops::ControlFlow;
 use super::ensemble::Observer;
 use super::solve::solve_until;
 use super::step::{Attempt, Step};
-use super::switch::{cross, landing_size};
+use super::switch::landing_size;
 use super::{Interrupt, Ode, Outcome, Start, Tolerances, input, slope};
 use crate::num::{Lanes, PerLane, Scalar, Simd, Vector};
 
 /// A step of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Leg {
+pub(crate) struct RecordedStep {
     /// Its end, as a share of the span.
-    pub end: f64,
+    pub(crate) end: f64,
     /// The side of the switching surface: +1 or −1.
-    pub side: f64,
+    pub(crate) side: f64,
     /// It ends on the surface, where the run changes sides.
-    pub lands: bool,
+    pub(crate) lands: bool,
 }
 
 /// The end of a run that was made again.
 #[derive(Clone, Copy, Debug)]
-pub struct Repeated<T, const N: usize> {
+pub(crate) struct Repeated<T, const N: usize> {
     /// The state.
-    pub y: [f64; N],
+    pub(crate) y: [f64; N],
     /// The observer's totals.
-    pub totals: T,
+    pub(crate) totals: T,
     /// The run met the switching surface where the first one did, but for a small share of a mean step. Otherwise its
     /// end means nothing.
-    pub meets: bool,
+    pub(crate) meets: bool,
 }
 
 /// The accepted steps of a run over one span, and its outcome. Of a run that fails, the steps mean nothing.
-pub fn record<O: Ode<N>, R: Scalar, const N: usize>(
+pub(crate) fn record<O: Ode<N>, R: Scalar, const N: usize>(
     ode: &O,
     tolerances: &Tolerances,
     start: &Start<O::Constants<f64>, N>,
     interrupted: Interrupt<'_>,
-) -> (Vec<Leg>, Outcome) {
-    let mut legs: Vec<Leg> = Vec::new();
+) -> (Vec<RecordedStep>, Outcome) {
+    let mut recording: Vec<RecordedStep> = Vec::new();
     let outcome = solve_until::<O, R, N>(
         ode,
         tolerances,
@@ -51,27 +51,27 @@ pub fn record<O: Ode<N>, R: Scalar, const N: usize>(
         interrupted,
         |_, attempt| {
             let side = attempt.side.lane(0);
-            if let Some(last) = legs.last_mut() {
+            if let Some(last) = recording.last_mut() {
                 last.lands = last.side != side;
             }
             let end = (attempt.t.lane(0) + attempt.h.lane(0)) / start.span;
-            legs.push(Leg { end, side, lands: false });
+            recording.push(RecordedStep { end, side, lands: false });
         },
         |_| ControlFlow::Break(()),
     );
-    if let Some(last) = legs.last_mut() {
+    if let Some(last) = recording.last_mut() {
         last.end = 1.0;
     }
-    (legs, outcome)
+    (recording, outcome)
 }
 
-/// Makes runs from `starts` on the steps of `legs`, in lanes, each over its own span. Every run evaluates six right-hand sides
-/// per step, eighteen where a step lands, and some at changes of sides.
-pub fn replay<S, O, V, const N: usize>(
+/// Makes runs from `starts` on the steps of `recording`, in lanes, each over its own span. Every run evaluates six right-hand
+/// sides per step, eighteen where a step lands, and some at changes of sides.
+pub(crate) fn replay<S, O, V, const N: usize>(
     simd: S,
     ode: &O,
     observer: &V,
-    legs: &[Leg],
+    recording: &[RecordedStep],
     starts: &[Start<O::Constants<f64>, N>],
 ) -> Vec<Repeated<V::Totals<f64>, N>>
 where
@@ -83,7 +83,7 @@ where
     for starts in starts.chunks(Vector::<S>::LANES) {
         simd.vectorize(
             #[inline(always)]
-            || in_lanes::<Vector<S>, O, V, N>(simd, ode, observer, legs, starts, &mut ends),
+            || in_lanes::<Vector<S>, O, V, N>(simd, ode, observer, recording, starts, &mut ends),
         );
     }
     ends
@@ -101,7 +101,7 @@ fn in_lanes<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     token: R::Token,
     ode: &O,
     observer: &V,
-    legs: &[Leg],
+    recording: &[RecordedStep],
     starts: &[Start<O::Constants<f64>, N>],
     ends: &mut Vec<Repeated<V::Totals<f64>, N>>,
 ) {
@@ -114,22 +114,20 @@ fn in_lanes<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize>(
         let start = if lane < starts.len() { &starts[lane] } else { &starts[0] };
         c.set(lane, &start.constants);
         span.set_lane(lane, start.span);
-        for i in 0..N {
-            y[i].set_lane(lane, start.y[i]);
-        }
+        y.set(lane, &start.y);
     }
     let all = number.lt(number.lit(1.0));
     let mut totals = V::Totals::<R>::fill(number, &observer.nothing());
     let mut t = number;
     let mut moved = number;
-    let side = number.lit(if legs.is_empty() { 1.0 } else { legs[0].side });
+    let side = number.lit(if recording.is_empty() { 1.0 } else { recording[0].side });
     let k1 = slope(ode, &c, &input(ode, &c, t), side, &y);
     let mut step = Step::new(y, k1);
-    for leg in legs {
-        let side = number.lit(leg.side);
-        let whole = span * leg.end - t;
+    for recorded in recording {
+        let side = number.lit(recorded.side);
+        let whole = span * recorded.end - t;
         let mut h = whole;
-        let tries = if leg.lands { 1 + LANDINGS } else { 1 };
+        let tries = if recorded.lands { 1 + LANDINGS } else { 1 };
         for attempt in 0..tries {
             if attempt > 0 {
                 h = landing_size(h, ode.switch(&c, &step.y[6], &step.k[6]));
@@ -140,17 +138,14 @@ fn in_lanes<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize>(
         observer.add(&c, &Attempt { t, h, side, step: &step }, all, &mut totals);
         t = t + h;
         step.advance(all);
-        if leg.lands {
-            (step.y[0], step.k[0]) = cross(ode, &c, t, -side, &step.y[0]);
+        if recorded.lands {
+            step.k[0] = slope(ode, &c, &input(ode, &c, t), -side, &step.y[0]);
         }
     }
     for lane in 0..starts.len() {
-        let mut y = [0.0; N];
-        for i in 0..N {
-            y[i] = step.y[0][i].lane(lane);
-        }
+        let y: [f64; N] = step.y[0].get(lane);
         // The state is not a number where the surface was missed altogether.
-        let steps = moved.lane(lane) * legs.len() as f64;
+        let steps = moved.lane(lane) * recording.len() as f64;
         let meets = steps <= NEAR && y.iter().all(|y| y.is_finite());
         ends.push(Repeated { y, totals: totals.get(lane), meets });
     }

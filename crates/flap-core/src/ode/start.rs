@@ -1,28 +1,30 @@
 //! The first slope and the first step size.
 
-use super::norm::error_squared;
-use super::{Ode, input, slope};
+use super::norm::add_squares;
+use super::variation::{Varied, slopes_outlined};
+use super::{Ode, input};
 use crate::num::Lanes;
 
 /// Right-hand sides evaluated by [`first_step`].
-pub const RHS_EVALS: u64 = 2;
+pub(super) const RHS_EVALS: u64 = 2;
 
-/// The slope at time 0 and a starting step size, by the algorithm of Hairer I, section II.4.
+/// The slope at time 0 and a starting step size, by the algorithm of Hairer I, section II.4, with the absolute tolerances of
+/// states and of responses.
 ///
 /// The trial step is a ten-thousandth of the span where the state or its slope is too small to judge by, for example at
 /// rest.
 #[inline(always)]
-pub fn first_step<O: Ode<N>, R: Lanes, const N: usize>(
+pub(super) fn first_step<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     ode: &O,
     c: &O::Constants<R>,
     side: R,
-    y: &[R; N],
+    y: &Varied<[R; N], D>,
     span: R,
-    atol: &[R; N],
+    atol: [&[R; N]; 2],
     rtol: R,
-) -> ([R; N], R) {
+) -> (Varied<[R; N], D>, R) {
     let zero = span.lit(0.0);
-    let k1 = slope(ode, c, &input(ode, c, zero), side, y);
+    let k1 = slopes_outlined(ode, c, &input(ode, c, zero), side, y);
 
     let size_y = weighted_norm(y, y, atol, rtol);
     let size_k = weighted_norm(&k1, y, atol, rtol);
@@ -36,12 +38,18 @@ pub fn first_step<O: Ode<N>, R: Lanes, const N: usize>(
     // An explicit Euler step shows how fast the slope changes.
     let mut y1 = *y;
     for i in 0..N {
-        y1[i] = k1[i].mul_add(h0, y[i]);
+        y1.motion[i] = k1.motion[i].mul_add(h0, y.motion[i]);
+        for j in 0..D {
+            y1.responses[j][i] = k1.responses[j][i].mul_add(h0, y.responses[j][i]);
+        }
     }
-    let k_euler = slope(ode, c, &input(ode, c, h0), side, &y1);
+    let k_euler = slopes_outlined(ode, c, &input(ode, c, h0), side, &y1);
     let mut change = k1;
     for i in 0..N {
-        change[i] = k_euler[i] - k1[i];
+        change.motion[i] = k_euler.motion[i] - k1.motion[i];
+        for j in 0..D {
+            change.responses[j][i] = k_euler.responses[j][i] - k1.responses[j][i];
+        }
     }
     let curvature = weighted_norm(&change, y, atol, rtol) / h0;
 
@@ -53,8 +61,17 @@ pub fn first_step<O: Ode<N>, R: Lanes, const N: usize>(
 
 /// Root mean square of `x` over the tolerances at `y`.
 #[inline(always)]
-fn weighted_norm<R: Lanes, const N: usize>(x: &[R; N], y: &[R; N], atol: &[R; N], rtol: R) -> R {
-    error_squared(x, [y, y], atol, rtol).sqrt()
+fn weighted_norm<R: Lanes, const N: usize, const D: usize>(
+    x: &Varied<[R; N], D>,
+    y: &Varied<[R; N], D>,
+    [atol, atol_of_responses]: [&[R; N]; 2],
+    rtol: R,
+) -> R {
+    let mut sum = add_squares(rtol.lit(0.0), &x.motion, [&y.motion; 2], atol, rtol);
+    for i in 0..D {
+        sum = add_squares(sum, &x.responses[i], [&y.responses[i]; 2], atol_of_responses, rtol);
+    }
+    (sum * (1.0 / (N * (1 + D)) as f64)).sqrt()
 }
 
 /// The step size with which the next span begins, given that of the last and the one that the controller proposes.
@@ -63,6 +80,6 @@ fn weighted_norm<R: Lanes, const N: usize>(x: &[R; N], y: &[R; N], atol: &[R; N]
 /// as the motion does, where otherwise it would jitter with the integration error. So the old size stays, and
 /// with it a fresh controller, unless it is out of proportion.
 #[inline(always)]
-pub fn span_step(last: f64, proposed: f64) -> f64 {
+pub(super) fn span_step(last: f64, proposed: f64) -> f64 {
     if 0.5 * last < proposed && proposed < 2.0 * last { last } else { proposed }
 }

@@ -1,7 +1,8 @@
 //! One step of the method: stages, new state, error estimate. No policy, no allocation.
 
 use super::Ode;
-use super::tableau::{A, C, E, STAGES};
+use super::tableau::{self, A, C, E, STAGES};
+use super::variation::{Varied, slopes};
 use crate::num::Real;
 
 /// A step: its beginning, and the results of an attempt.
@@ -39,6 +40,20 @@ impl<R: Real, const N: usize> Step<R, N> {
     /// sides.
     #[inline(always)]
     pub fn attempt<O: Ode<N>>(&mut self, ode: &O, c: &O::Constants<R>, t: R, h: R, side: R) {
+        self.attempt_with(&mut [], ode, c, t, h, side);
+    }
+
+    /// [`Step::attempt`] together with the same steps of the `responses`.
+    #[inline(always)]
+    pub(super) fn attempt_with<O: Ode<N>, const D: usize>(
+        &mut self,
+        responses: &mut [Step<R, N>; D],
+        ode: &O,
+        c: &O::Constants<R>,
+        t: R,
+        h: R,
+        side: R,
+    ) {
         // The inputs of all stages do not wait for each other. Of inputs that are many numbers, those that the right-hand side
         // does not need would be computed too. Stages 6 and 7 are both at the end of the step and share theirs.
         let ahead = size_of::<O::Input<R>>() <= AHEAD * size_of::<R>();
@@ -50,24 +65,68 @@ impl<R: Real, const N: usize> Step<R, N> {
         }
         // A loop, so that the right-hand side is compiled once: six copies of it take the compiler minutes, and are no
         // faster.
-        let mut last = self.k[0];
+        let mut last = Varied { motion: self.k[0], responses: [self.k[0]; D] };
+        for i in 0..D {
+            last.responses[i] = responses[i].k[0];
+        }
         for stage in 1..STAGES {
-            let mut y = combine(&self.y[0], h, &self.k, &A[stage], stage - 1);
-            // The last slope comes last, from its registers: the other terms are ready before it.
-            let weight = h * A[stage][stage - 1];
-            for i in 0..N {
-                y[i] = last[i].mul_add(weight, y[i]);
+            let mut y = last;
+            y.motion = self.state(stage, h, &last.motion);
+            for i in 0..D {
+                y.responses[i] = responses[i].state(stage, h, &last.responses[i]);
             }
             let at = if ahead { stage.min(STAGES - 2) - 1 } else { 0 };
             if !ahead && stage > 1 && C[stage] != C[stage - 1] {
                 inputs[0] = ode.input(c, h.mul_add(h.lit(C[stage]), t));
             }
-            last = ode.rhs(c, &inputs[at], side, &y);
-            self.k[stage] = last;
-            self.y[stage] = y;
+            last = slopes(ode, c, &inputs[at], side, &y);
+            (self.y[stage], self.k[stage]) = (y.motion, last.motion);
+            for i in 0..D {
+                (responses[i].y[stage], responses[i].k[stage]) = (y.responses[i], last.responses[i]);
+            }
         }
         let zero = [h.lit(0.0); N];
         self.error = combine(&zero, h, &self.k, &E, STAGES);
+        for response in responses {
+            response.error = combine(&zero, h, &response.k, &E, STAGES);
+        }
+    }
+
+    /// The state at a stage, given the slope at the stage before.
+    #[inline(always)]
+    fn state(&self, stage: usize, h: R, last: &[R; N]) -> [R; N] {
+        let mut y = combine(&self.y[0], h, &self.k, &A[stage], stage - 1);
+        // The last slope comes last, from its registers: the other terms are ready before it.
+        let weight = h * A[stage][stage - 1];
+        for i in 0..N {
+            y[i] = last[i].mul_add(weight, y[i]);
+        }
+        y
+    }
+
+    /// The state at the fraction `theta` of the step, by the fourth-order continuous extension of DOPRI5; Hairer I,
+    /// section II.6. The step has the size `h`.
+    ///
+    /// ```text
+    /// y(θ) = y₀ + θ (Δy + (1 − θ) (b + θ (Δy − h k₇ − b + (1 − θ) h Σ dᵢ kᵢ)))   with b = h k₁ − Δy
+    /// ```
+    #[inline(always)]
+    pub fn interpolate(&self, h: R, theta: R) -> [R; N] {
+        let Step { y, k, .. } = self;
+        let rest = -theta + 1.0;
+        let mut out = y[0];
+        for i in 0..N {
+            let change = y[6][i] - y[0][i];
+            let bend = h * k[0][i] - change;
+            let mut fourth = k[0][i] * tableau::D[0];
+            for s in 2..STAGES {
+                fourth = k[s][i].mul_add(h.lit(tableau::D[s]), fourth);
+            }
+            let skew = change - h * k[6][i] - bend;
+            let inner = theta.mul_add((rest * h).mul_add(fourth, skew), bend);
+            out[i] = theta.mul_add(rest.mul_add(inner, change), y[0][i]);
+        }
+        out
     }
 
     /// Moves the beginning to the end of the attempt, in the lanes in which it was `accepted`.

@@ -11,6 +11,7 @@
 //! again up to this minimum, beyond the first crossing.
 
 use super::step::Step;
+use super::variation::{Varied, crossed, slopes_outlined};
 use super::{Ode, STRETCH, input, slope};
 use crate::num::{Lanes, Real};
 
@@ -31,34 +32,34 @@ const EARLIEST: f64 = 1e-2;
 
 /// The position of a run relative to its switching surface, remembered from step to step.
 #[derive(Clone, Copy)]
-pub struct Switching<R: Lanes> {
+pub(super) struct Switching<R: Lanes> {
     /// The side of the surface on which the right-hand side is evaluated: +1 or −1.
-    pub side: R,
+    pub(super) side: R,
     /// The switching function and its rate at the beginning of the step.
-    pub value: [R; 2],
+    pub(super) value: [R; 2],
     /// The step is being taken again, up to a crossing.
-    pub heading: R::Mask,
+    pub(super) heading: R::Mask,
     /// The number of times that the size of that step has been corrected.
-    pub corrections: R,
+    pub(super) corrections: R,
     /// The step size to go on with after the crossing.
-    pub resume: R,
+    pub(super) resume: R,
 }
 
 /// The judgement of an attempted step with regard to the surface.
 #[derive(Clone, Copy)]
-pub struct Crossing<R: Lanes> {
+pub(super) struct Crossing<R: Lanes> {
     /// The step is accepted all the same.
-    pub accepted: R::Mask,
+    pub(super) accepted: R::Mask,
     /// The step size to go on with.
-    pub h: R,
+    pub(super) h: R,
     /// The step ends on the surface, where the side has changed: the first slope is to be renewed.
-    pub arrived: R::Mask,
+    pub(super) arrived: R::Mask,
 }
 
 impl<R: Lanes> Switching<R> {
     /// The memory of a run that begins at `y`, before its side is known.
     #[inline(always)]
-    pub fn new(like: R) -> Switching<R> {
+    pub(super) fn new(like: R) -> Switching<R> {
         let zero = like.lit(0.0);
         let none = zero.lt(zero);
         Switching { side: like.lit(1.0), value: [zero; 2], heading: none, corrections: zero, resume: zero }
@@ -66,7 +67,7 @@ impl<R: Lanes> Switching<R> {
 
     /// Chooses the side at the beginning of a run; on the surface, that to which the motion goes.
     #[inline(always)]
-    pub fn begin<O: Ode<N>, const N: usize>(ode: &O, c: &O::Constants<R>, y: &[R; N]) -> Switching<R> {
+    pub(super) fn begin<O: Ode<N>, const N: usize>(ode: &O, c: &O::Constants<R>, y: &[R; N]) -> Switching<R> {
         let mut memory = Switching::new(y[0]);
         if O::SWITCHES {
             let zero = y[0].lit(0.0);
@@ -80,7 +81,7 @@ impl<R: Lanes> Switching<R> {
 
     /// Judges a step that the error control has `accepted` or not, and that goes on with step size `h_next`.
     #[inline(always)]
-    pub fn judge<O: Ode<N>, const N: usize>(
+    pub(super) fn judge<O: Ode<N>, const N: usize>(
         &mut self,
         ode: &O,
         c: &O::Constants<R>,
@@ -142,7 +143,7 @@ impl<R: Lanes> Switching<R> {
 
 /// The factor by which a step may be stretched to land on the end of its span: 1 on the way to a crossing.
 #[inline(always)]
-pub fn landing_stretch<R: Lanes>(switching: &Switching<R>) -> R {
+pub(super) fn landing_stretch<R: Lanes>(switching: &Switching<R>) -> R {
     let one = switching.side.lit(1.0);
     R::select(switching.heading, one, one.lit(STRETCH))
 }
@@ -150,22 +151,22 @@ pub fn landing_stretch<R: Lanes>(switching: &Switching<R>) -> R {
 /// The size with which a step of size `h` ends on the surface, given the switching function and its rate at its end: Newton's
 /// step.
 #[inline(always)]
-pub fn landing_size<R: Real>(h: R, [value, rate]: [R; 2]) -> R {
+pub(super) fn landing_size<R: Real>(h: R, [value, rate]: [R; 2]) -> R {
     h - value / rate
 }
 
 /// The state and the first slope of a run that has arrived at its surface at time `t` (s), on its new `side`.
 #[inline(always)]
-pub(crate) fn cross<O: Ode<N>, R: Lanes, const N: usize>(
+pub(super) fn cross<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     ode: &O,
     c: &O::Constants<R>,
     t: R,
     side: R,
-    y: &[R; N],
-) -> ([R; N], [R; N]) {
+    y: &Varied<[R; N], D>,
+) -> [Varied<[R; N], D>; 2] {
     let u = input(ode, c, t);
-    let y = ode.crossed(c, &u, side, y);
-    (y, slope(ode, c, &u, side, &y))
+    let y = crossed(ode, c, &u, side, y);
+    [y, slopes_outlined(ode, c, &u, side, &y)]
 }
 
 /// g₀ + d₀ θ + b θ² + a θ³: the switching function over the fraction θ of a step.

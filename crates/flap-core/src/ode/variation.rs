@@ -1,114 +1,118 @@
-//! A run together with its response to small changes of its initial state.
+//! Motions with their responses to small changes of the initial state.
+//!
+//! Step sizes are chosen for states and responses: where a force has a kink, its derivative jumps, and responses err by more than
+//! states. Slopes of responses are forward differences of the right-hand side, with changes of 1e-7 of the states' scales: they
+//! err by about 1e-7 of the second derivative, and by rounding of about 1e-9. Where the right-hand side jumps, the responses
+//! jump too, as a changed motion reaches the surface earlier or later.
 
 use super::{Ode, slope};
 use crate::num::{Lanes, Real};
 
-/// Size of the changes that are followed, relative to [`initial`]'s scales: their squares, which are neglected, and
-/// rounding, which is magnified, are both far below any tolerance.
+/// Size of the changes that are followed, relative to [`Start::change`](super::Start::change): their squares, which are
+/// neglected, and rounding, which is magnified, are both far below any tolerance.
 const SMALL: f64 = 1e-7;
 
-/// N states and N responses to changes of them, each of N components: K = N (N + 1) in all.
-///
-/// Step sizes are chosen for states and responses: where a force has a kink, its derivative jumps, and responses err by more than
-/// states. Slopes of responses are forward differences of the right-hand side, with changes of 1e-7 of the states' scales: they
-/// err by about 1e-7 of the second derivative, and by rounding of about 1e-9. Where the right-hand side jumps, the responses
-/// jump too, as a changed motion reaches the surface earlier or later.
+/// The scale of responses, relative to the change that they respond to: the absolute tolerance is a hundredth of the relative
+/// one by default. Errors of responses count relative to this, not to responses near zero.
+pub(super) const RESPONSE_SCALE: f64 = 100.0;
+
+/// A quantity of a motion, and the same of its responses to D changes of its initial state. D is the number of states, or 0.
 #[derive(Clone, Copy, Debug)]
-pub struct Variation<'a, O, const N: usize>(pub &'a O);
-
-/// The states `y`, and responses to changes of each component by its `scale`.
-pub fn initial<const N: usize, const K: usize>(y: &[f64; N], scale: &[f64; N]) -> [f64; K] {
-    const { assert!(K == N * (N + 1)) }
-    let mut all = [0.0; K];
-    all[..N].copy_from_slice(y);
-    for i in 0..N {
-        all[(i + 1) * N + i] = scale[i];
-    }
-    all
+pub(super) struct Varied<T, const D: usize> {
+    pub(super) motion: T,
+    pub(super) responses: [T; D],
 }
 
-/// The response to a change of one component by its scale.
-pub fn response<const N: usize, const K: usize>(all: &[f64; K], component: usize) -> [f64; N] {
-    core::array::from_fn(|i| all[(component + 1) * N + i])
-}
-
-impl<O: Ode<N>, const N: usize, const K: usize> Ode<K> for Variation<'_, O, N> {
-    type Constants<R: Real> = O::Constants<R>;
-    type Input<R: Real> = O::Input<R>;
-
-    const SWITCHES: bool = O::SWITCHES;
-
+impl<T> Varied<T, 0> {
+    /// A motion without responses.
     #[inline(always)]
-    fn input<R: Real>(&self, c: &O::Constants<R>, t: R) -> O::Input<R> {
-        self.0.input(c, t)
-    }
-
-    #[inline(always)]
-    fn rhs<R: Real>(&self, c: &O::Constants<R>, u: &O::Input<R>, side: R, all: &[R; K]) -> [R; K] {
-        let y = states(all);
-        let mut f = y;
-        let mut out = *all;
-        // A loop, so that the right-hand side is compiled once, as in a step.
-        for i in 0..=N {
-            let moved = if i == 0 { y } else { changed(&y, all, i) };
-            let slope = self.0.rhs(c, u, side, &moved);
-            if i == 0 {
-                f = slope;
-            }
-            for j in 0..N {
-                out[i * N + j] = if i == 0 { slope[j] } else { (slope[j] - f[j]) * (1.0 / SMALL) };
-            }
-        }
-        out
-    }
-
-    #[inline(always)]
-    fn next_break<R: Real>(&self, c: &O::Constants<R>, t: R) -> R {
-        self.0.next_break(c, t)
-    }
-
-    #[inline(always)]
-    fn switch<R: Real>(&self, c: &O::Constants<R>, all: &[R; K], dy: &[R; K]) -> [R; 2] {
-        self.0.switch(c, &states(all), &states(dy))
-    }
-
-    /// A change w that alters the switching function by dg moves the crossing by −dg/ġ; in between, the changed motion
-    /// has the slope of the other side:
-    ///
-    /// ```text
-    /// w⁺ = w + (f⁺ − f⁻) dg/ġ⁻
-    /// ```
-    #[inline(always)]
-    fn crossed<R: Lanes>(&self, c: &O::Constants<R>, u: &O::Input<R>, side: R, all: &[R; K]) -> [R; K] {
-        let y = states(all);
-        let [before, after] = [slope(self.0, c, u, -side, &y), slope(self.0, c, u, side, &y)];
-        let [value, rate] = self.0.switch(c, &y, &before);
-        let mut out = *all;
-        for i in 1..=N {
-            let [moved, _] = self.0.switch(c, &changed(&y, all, i), &before);
-            let earlier = (moved - value) * (1.0 / SMALL) / rate;
-            for j in 0..N {
-                out[i * N + j] = all[i * N + j] + (after[j] - before[j]) * earlier;
-            }
-        }
-        out
+    pub(super) fn alone(motion: T) -> Self {
+        Varied { motion, responses: [] }
     }
 }
 
+/// The derivatives of the state and of its responses, as [`Ode::rhs`].
 #[inline(always)]
-fn states<R: Real, const N: usize, const K: usize>(all: &[R; K]) -> [R; N] {
-    core::array::from_fn(
+pub(super) fn slopes<O: Ode<N>, R: Real, const N: usize, const D: usize>(
+    ode: &O,
+    c: &O::Constants<R>,
+    u: &O::Input<R>,
+    side: R,
+    y: &Varied<[R; N], D>,
+) -> Varied<[R; N], D> {
+    if D == 0 {
+        // The loop below would copy states.
+        return Varied { motion: ode.rhs(c, u, side, &y.motion), responses: y.responses };
+    }
+    let mut out = *y;
+    // A loop, so that the right-hand side is compiled once, as in a step.
+    for i in 0..=D {
+        let state = if i == 0 { y.motion } else { changed(&y.motion, &y.responses[i - 1]) };
+        let slope = ode.rhs(c, u, side, &state);
+        if i == 0 {
+            out.motion = slope;
+        } else {
+            for j in 0..N {
+                out.responses[i - 1][j] = (slope[j] - out.motion[j]) * (1.0 / SMALL);
+            }
+        }
+    }
+    out
+}
+
+/// [`slopes`] in a function of its own, as [`slope`].
+#[inline(always)]
+pub(super) fn slopes_outlined<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
+    ode: &O,
+    c: &O::Constants<R>,
+    u: &O::Input<R>,
+    side: R,
+    y: &Varied<[R; N], D>,
+) -> Varied<[R; N], D> {
+    side.outlined(
         #[inline(always)]
-        |i| all[i],
+        || slopes(ode, c, u, side, y),
     )
 }
 
-/// The states with the `i`-th change, counted from 1.
+/// The state and its responses right after the motion has crossed the switching surface to this `side`.
+///
+/// A change w that alters the switching function by dg moves the crossing by −dg/ġ; in between, the changed motion
+/// has the slope of the other side:
+///
+/// ```text
+/// w⁺ = w + (f⁺ − f⁻) dg/ġ⁻
+/// ```
 #[inline(always)]
-fn changed<R: Real, const N: usize, const K: usize>(y: &[R; N], all: &[R; K], i: usize) -> [R; N] {
+pub(super) fn crossed<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
+    ode: &O,
+    c: &O::Constants<R>,
+    u: &O::Input<R>,
+    side: R,
+    y: &Varied<[R; N], D>,
+) -> Varied<[R; N], D> {
+    let mut out = *y;
+    if D > 0 {
+        let y = &y.motion;
+        let [before, after] = [slope(ode, c, u, -side, y), slope(ode, c, u, side, y)];
+        let [value, rate] = ode.switch(c, y, &before);
+        for response in &mut out.responses {
+            let [moved, _] = ode.switch(c, &changed(y, response), &before);
+            let earlier = (moved - value) * (1.0 / SMALL) / rate;
+            for j in 0..N {
+                response[j] = response[j] + (after[j] - before[j]) * earlier;
+            }
+        }
+    }
+    out
+}
+
+/// The state with a small change in the direction of a response.
+#[inline(always)]
+fn changed<R: Real, const N: usize>(y: &[R; N], response: &[R; N]) -> [R; N] {
     let mut out = *y;
     for j in 0..N {
-        out[j] = all[i * N + j].mul_add(y[j].lit(SMALL), y[j]);
+        out[j] = response[j].mul_add(y[j].lit(SMALL), y[j]);
     }
     out
 }

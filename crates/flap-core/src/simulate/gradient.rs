@@ -26,7 +26,7 @@ use crate::measure::quarters::{InQuarters, Quarters, with_equal_extrema};
 use crate::model::{Model, SignalSet};
 use crate::num::{Kernel, Scalar, Simd};
 use crate::ode::ensemble::Unobserved;
-use crate::ode::replay::{Leg, Repeated, record, replay};
+use crate::ode::replay::{RecordedStep, Repeated, record, replay};
 use crate::ode::{Ending, Start};
 use crate::parameter::{Kind, Parameter};
 
@@ -73,7 +73,7 @@ pub(super) struct GradientAt<'a> {
     pub(super) changes: &'a [Change],
 }
 
-impl<M: Model<N>, const N: usize, const K: usize> Question<M, N, K> for GradientAt<'_> {
+impl<M: Model<N>, const N: usize> Question<M, N> for GradientAt<'_> {
     type Answer = Result<Gradient, Unfinished>;
 
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Gradient, Unfinished> {
@@ -81,14 +81,15 @@ impl<M: Model<N>, const N: usize, const K: usize> Question<M, N, K> for Gradient
         let model = &if changes_terms { model.with_all_terms() } else { model.clone() };
         let mut start = begin(model, run.values, Some(self.state))?;
         start.tolerance_factor = tolerance_factor(run.solver.rtol);
-        let (legs, outcome) = record::<M, R, N>(model, &run.solver.tolerances(), &start, run.interrupted);
+        let (recording, outcome) =
+            record::<M, R, N>(model, &run.solver.tolerances(), &start, run.interrupted);
         let sides = self.changes.iter().map(|change| sides(model, change)).collect();
         let orbit = Orbit {
             model,
             solver: run.solver,
             values: run.values,
             start: &start,
-            legs: &legs,
+            recording: &recording,
             changes: self.changes,
             sides,
         };
@@ -146,7 +147,7 @@ struct Orbit<'a, M: Model<N>, const N: usize> {
     solver: &'a SolverSettings,
     values: &'a [f64],
     start: &'a Start<M::Constants<f64>, N>,
-    legs: &'a [Leg],
+    recording: &'a [RecordedStep],
     changes: &'a [Change],
     sides: Vec<Sides<M::Constants<f64>>>,
 }
@@ -156,16 +157,16 @@ impl<M: Model<N>, const N: usize> Kernel for Orbit<'_, M, N> {
 
     #[inline(always)]
     fn run<I: Simd>(self, simd: I) -> Gradient {
-        let Orbit { model, legs, .. } = self;
+        let Orbit { model, recording, .. } = self;
         let starts = self.for_responses();
-        let ends = replay(simd, model, &Unobserved, legs, &starts);
+        let ends = replay(simd, model, &Unobserved, recording, &starts);
         let mut periods = starts.len();
         let fold = |periods| Gradient { rhs_evals: self.rhs_evals(periods), ..self.without(NoSlope::Fold) };
         let Some(response) = self.response(&ends) else { return fold(periods) };
         if response.amax() > LARGE_RESPONSE {
             let doubted = self.in_doubt(&response, &ends[0]);
             periods += doubted.len();
-            let ends = replay(simd, model, &Unobserved, legs, &doubted);
+            let ends = replay(simd, model, &Unobserved, recording, &doubted);
             if self.response(&ends).is_none_or(|other| (other - response).amax() > DOUBT * response.amax()) {
                 return fold(periods);
             }
@@ -173,7 +174,7 @@ impl<M: Model<N>, const N: usize> Kernel for Orbit<'_, M, N> {
         let moves = self.moves(&response, &ends);
         let measured = self.along(&moves);
         let signals = Quarters(Signals::all(model).with_loads(self.solver.loads));
-        let cycles = replay(simd, model, &signals, legs, &measured);
+        let cycles = replay(simd, model, &signals, recording, &measured);
         let slopes = self.slopes(&measured, &cycles);
         Gradient { slopes, rhs_evals: self.rhs_evals(periods + measured.len()) }
     }
@@ -311,7 +312,8 @@ impl<M: Model<N>, const N: usize> Orbit<'_, M, N> {
 
     /// Right-hand sides of so many periods on the recorded steps.
     fn rhs_evals(&self, periods: usize) -> u64 {
-        let steps = self.legs.len() + 2 * self.legs.iter().filter(|leg| leg.lands).count();
+        let steps =
+            self.recording.len() + 2 * self.recording.iter().filter(|recorded| recorded.lands).count();
         (6 * steps * periods) as u64
     }
 

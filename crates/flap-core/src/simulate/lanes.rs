@@ -22,8 +22,9 @@ use crate::measure::multipliers::monodromy;
 use crate::measure::size::Size;
 use crate::model::{Model, SignalSet};
 use crate::num::{Kernel, Lanes, OneLane, Scalar, Simd, Vector};
-use crate::ode::ensemble::{NewRun, Next, Observer, Occupancy, Queue, Restart, SpanEnd, Unobserved, run};
-use crate::ode::variation::{Variation, initial};
+use crate::ode::ensemble::{
+    NewRun, Next, Observer, Occupancy, Queue, Restart, SpanEnd, Unobserved, run, run_with_responses,
+};
 use crate::ode::{Interrupt, Start};
 
 /// Searches that wait for one kind of period and are continued together: many times the lanes, some of which are empty while
@@ -34,18 +35,14 @@ const BATCH: usize = 64;
 /// are lanes, so that lanes are seldom empty.
 const ASIDE: usize = 512;
 
-/// The scale of responses, relative to the change that they respond to: the absolute tolerance is a hundredth of the relative
-/// one by default.
-const RESPONSE_SCALE: f64 = 100.0;
-
-/// The points of `jobs` on SIMD lanes, for a model with N states, K = N (N + 1) states and responses, and S signals.
-pub(super) struct LanesKernel<'a, M, const N: usize, const K: usize> {
+/// The points of `jobs` on SIMD lanes, for a model with N states.
+pub(super) struct LanesKernel<'a, M, const N: usize> {
     pub(super) model: &'a M,
     pub(super) solver: &'a SolverSettings,
     pub(super) jobs: &'a mut dyn Jobs,
 }
 
-impl<M: Model<N>, const N: usize, const K: usize> Kernel for LanesKernel<'_, M, N, K> {
+impl<M: Model<N>, const N: usize> Kernel for LanesKernel<'_, M, N> {
     type Output = ();
 
     #[inline(always)]
@@ -61,7 +58,7 @@ impl<M: Model<N>, const N: usize, const K: usize> Kernel for LanesKernel<'_, M, 
             }
             let model = &model.variant(&waiting[0].1.values);
             let mut points = Points { model, solver, jobs: &mut *jobs, waiting };
-            let mut driver = Driver::<_, _, _, _, N, K>::new(simd, model, solver, &mut points);
+            let mut driver = Driver::<_, _, _, _, N>::new(simd, model, solver, &mut points);
             driver.lane_use = lane_use;
             driver.run();
             lane_use = driver.lane_use;
@@ -72,7 +69,7 @@ impl<M: Model<N>, const N: usize, const K: usize> Kernel for LanesKernel<'_, M, 
 }
 
 /// The output of one search on scalars, which begins at `start`; `None` if it is interrupted.
-pub(super) fn run_alone<M, R, T, F, const N: usize, const K: usize>(
+pub(super) fn run_alone<M, R, T, F, const N: usize>(
     model: &M,
     solver: &SolverSettings,
     start: &Start<M::Constants<f64>, N>,
@@ -86,7 +83,7 @@ where
 {
     let mut single =
         Single { run: Some(Box::new(Running::new(0, *start, search))), output: None, interrupted };
-    Driver::<_, _, _, _, N, K>::new(OneLane::<R>::new(), model, solver, &mut single).run();
+    Driver::<_, _, _, _, N>::new(OneLane::<R>::new(), model, solver, &mut single).run();
     single.output
 }
 
@@ -202,7 +199,7 @@ impl<'a, T, M: Model<N>, const N: usize> Source<'a, T, M, N> for Single<'a, '_, 
 }
 
 /// Searches and the ensembles that integrate their periods.
-struct Driver<'a, 's, I, M: Model<N>, Q, T, const N: usize, const K: usize> {
+struct Driver<'a, 's, I, M: Model<N>, Q, T, const N: usize> {
     simd: I,
     model: &'a M,
     solver: &'a SolverSettings,
@@ -212,7 +209,7 @@ struct Driver<'a, 's, I, M: Model<N>, Q, T, const N: usize, const K: usize> {
     lane_use: LaneUse,
 }
 
-impl<'a, 's, I, M, Q, T, const N: usize, const K: usize> Driver<'a, 's, I, M, Q, T, N, K>
+impl<'a, 's, I, M, Q, T, const N: usize> Driver<'a, 's, I, M, Q, T, N>
 where
     I: Simd,
     M: Model<N>,
@@ -263,7 +260,7 @@ where
         let mut periods = Periods { driver: self, kind };
         match kind {
             Kind::States => run(simd, model, &Size, &tolerances, &mut periods),
-            Kind::Responses => run(simd, &Variation(model), &Unobserved, &tolerances, &mut periods),
+            Kind::Responses => run_with_responses(simd, model, &Unobserved, &tolerances, &mut periods),
             Kind::Means => run(simd, model, &Signals::means(model), &tolerances, &mut periods),
             Kind::Signals => {
                 run(simd, model, &Signals::all(model).with_loads(loads), &tolerances, &mut periods)
@@ -337,7 +334,7 @@ struct Periods<'d, D> {
     kind: Kind,
 }
 
-impl<'a, I, M, Q, T, const N: usize, const K: usize> Periods<'_, Driver<'a, '_, I, M, Q, T, N, K>>
+impl<'a, I, M, Q, T, const N: usize> Periods<'_, Driver<'a, '_, I, M, Q, T, N>>
 where
     I: Simd,
     M: Model<N>,
@@ -367,14 +364,17 @@ impl<T, const N: usize> PeriodTotals<T, N> for [f64; N] {
     }
 }
 
+impl<T, const N: usize> PeriodTotals<T, N> for () {
+    fn add_to(&self, _end: &mut PeriodEnd<T, N>, _exchange: &Exchange<T, N>) {}
+}
+
 impl<S: SignalSet, const N: usize> PeriodTotals<Sums<S, f64>, N> for Sums<S, f64> {
     fn add_to(&self, end: &mut PeriodEnd<Sums<S, f64>, N>, exchange: &Exchange<Sums<S, f64>, N>) {
         end.sums = Some(exchange.boxed(*self));
     }
 }
 
-impl<'a, I, M, V, Q, T, const N: usize, const K: usize> Queue<M, V, N>
-    for Periods<'_, Driver<'a, '_, I, M, Q, T, N, K>>
+impl<'a, I, M, V, Q, T, const N: usize> Queue<M, V, N> for Periods<'_, Driver<'a, '_, I, M, Q, T, N>>
 where
     I: Simd,
     M: Model<N>,
@@ -393,6 +393,9 @@ where
     fn ended(&mut self, run: Self::Run, end: SpanEnd<'_, V::Totals<f64>, N>) -> Option<(Self::Run, Next<N>)> {
         let mut period = PeriodEnd::new(*end.y, end.outcome);
         end.totals.add_to(&mut period, &run.exchange);
+        if self.kind == Kind::Responses {
+            period.monodromy = monodromy(end.responses, &run.start.scale);
+        }
         let (run, begin) = self.period_end(run, period)?;
         Some((run, begin.map_or(Next::Span, Next::Restart)))
     }
@@ -400,40 +403,4 @@ where
     fn interrupted(&self) -> bool {
         self.driver.source.interrupted()
     }
-}
-
-impl<'a, I, M, Q, T, const N: usize, const K: usize> Queue<Variation<'_, M, N>, Unobserved, K>
-    for Periods<'_, Driver<'a, '_, I, M, Q, T, N, K>>
-where
-    I: Simd,
-    M: Model<N>,
-    Q: Source<'a, T, M, N>,
-{
-    type Run = Run<'a, T, M, N>;
-
-    fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, K>> {
-        let (run, begin) = self.driver.next(self.kind, idle)?;
-        let start = with_responses(&begin, &run.start.scale).start(run.start.constants, run.start.span);
-        Some((run, start))
-    }
-
-    fn ended(&mut self, run: Self::Run, end: SpanEnd<'_, (), K>) -> Option<(Self::Run, Next<K>)> {
-        let scale = run.start.scale;
-        let mut period = PeriodEnd::new(core::array::from_fn(|i| end.y[i]), end.outcome);
-        period.monodromy = monodromy(end.y, &scale);
-        let (run, begin) = self.period_end(run, period)?;
-        Some((run, begin.map_or(Next::Span, |begin| Next::Restart(with_responses(&begin, &scale)))))
-    }
-
-    fn interrupted(&self) -> bool {
-        self.driver.source.interrupted()
-    }
-}
-
-/// The same beginning with responses to changes of the state, each of the size `change`.
-fn with_responses<const N: usize, const K: usize>(begin: &Restart<N>, change: &[f64; N]) -> Restart<K> {
-    // Errors of responses count relative to changes of the typical sizes, not to responses near zero.
-    let mut scale = core::array::from_fn(|i| RESPONSE_SCALE * change[i % N]);
-    scale[..N].copy_from_slice(&begin.scale);
-    Restart { y: initial(&begin.y, change), scale, tolerance_factor: begin.tolerance_factor }
 }

@@ -50,11 +50,11 @@ use crate::model::direct_drive::{DirectDrive, FlowDirection};
 use crate::model::four_bar::FourBar;
 use crate::parameter::Preset;
 
-static BIMORPH: Runner<Bimorph, 4, 20> =
+static BIMORPH: Runner<Bimorph, 4> =
     Runner::with_experiments(Bimorph { drive: Drive::SINE, law: Law::Constant });
-static DIRECT_DRIVE: Runner<DirectDrive, 4, 20> =
+static DIRECT_DRIVE: Runner<DirectDrive, 4> =
     Runner::with_experiments(DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform });
-static FOUR_BAR: Runner<FourBar, 4, 20> = Runner::with_experiments(FourBar { drive: Drive::SINE });
+static FOUR_BAR: Runner<FourBar, 4> = Runner::with_experiments(FourBar { drive: Drive::SINE });
 static ALL: &[&dyn Simulator] = &[&BIMORPH, &DIRECT_DRIVE, &FOUR_BAR];
 
 /// Every model, in the order `flap models` lists them.

@@ -15,15 +15,16 @@ use crate::ode::ensemble::Restart;
 /// The period that begins at this state.
 pub(super) struct PeriodFrom<'a>(pub(super) &'a [f64]);
 
-impl<M: Model<N>, const N: usize, const K: usize> Question<M, N, K> for PeriodFrom<'_> {
+impl<M: Model<N>, const N: usize> Question<M, N> for PeriodFrom<'_> {
     type Answer = Result<Period, Unfinished>;
 
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Period, Unfinished> {
         let PointRun { solver, values, interrupted, .. } = *run;
         let start = begin(model, values, Some(self.0))?;
         let scale = start.scale;
-        let begin = Some(Restart { y: start.y, scale, tolerance_factor: start.tolerance_factor });
-        let ends = run_alone::<_, R, _, _, N, K>(model, solver, &start, interrupted, |exchange| async move {
+        let begin =
+            Some(Restart { y: start.y, scale, tolerance_factor: start.tolerance_factor, change: scale });
+        let ends = run_alone::<_, R, _, _, N>(model, solver, &start, interrupted, |exchange| async move {
             let varied = exchange.period(Request { kind: Kind::Responses, begin }).await;
             let measured = exchange.period(Request { kind: Kind::Signals, begin }).await;
             [varied, measured]

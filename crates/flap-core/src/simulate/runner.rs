@@ -22,9 +22,8 @@ use crate::parameter::{Parameter, Preset};
 
 /// A model behind the object-safe faces: all that a sweep needs of a model of one's own.
 ///
-/// The model has N states, and K = N (N + 1) states and responses to their changes. K cannot be computed from N in a type:
-/// it is written down, and [`Runner::new`] does not compile if it is another number. At least one signal has a
-/// [principal measure](crate::model::Principal), by which the error of a row is judged.
+/// The model has N states. At least one signal has a [principal measure](crate::model::Principal), by which the error of a row
+/// is judged.
 ///
 /// A driven oscillator, with the drive at its resonance:
 ///
@@ -127,7 +126,7 @@ use crate::parameter::{Parameter, Preset};
 ///     decay: 20.0,
 /// };
 ///
-/// static OSCILLATOR: Runner<Oscillator, 2, 6> = Runner::new(Oscillator);
+/// static OSCILLATOR: Runner<Oscillator, 2> = Runner::new(Oscillator);
 ///
 /// let model: &'static dyn Simulator = &OSCILLATOR;
 /// let values = EXAMPLE.to_values();
@@ -142,13 +141,13 @@ use crate::parameter::{Parameter, Preset};
 /// // A free oscillation decays by this factor in a drive period.
 /// assert!((row.floquet_max - (-0.2_f64).exp()).abs() < 1e-4);
 /// ```
-pub struct Runner<M, const N: usize, const K: usize> {
+pub struct Runner<M, const N: usize> {
     pub(crate) model: M,
     columns: OnceLock<Vec<Column>>,
     experiments: fn(&Self) -> Option<&dyn Experiments>,
 }
 
-impl<M: model::Motions<N>, const N: usize, const K: usize> Runner<M, N, K> {
+impl<M: model::Motions<N>, const N: usize> Runner<M, N> {
     /// The faces of a model that knows experiments too. Compiles under the conditions of [`Runner::new`].
     pub const fn with_experiments(model: M) -> Self {
         const { Self::CHECKED }
@@ -156,17 +155,16 @@ impl<M: model::Motions<N>, const N: usize, const K: usize> Runner<M, N, K> {
     }
 }
 
-impl<M: Model<N>, const N: usize, const K: usize> Runner<M, N, K> {
-    /// Compiles if K is right, and if rows have a measure to judge their errors by.
+impl<M: Model<N>, const N: usize> Runner<M, N> {
+    /// Compiles if rows have a measure to judge their errors by.
     const CHECKED: () = {
-        assert!(K == N * (N + 1), "K counts states and responses: it is N (N + 1)");
         assert!(
             has_principal(M::Signals::TABLE),
             "no signal has a principal measure: mark one in signals!, such as the stroke with `principal First`"
         );
     };
 
-    /// The faces of a model: rows and motions. Does not compile unless K is N (N + 1), and a signal has a
+    /// The faces of a model: rows and motions. Does not compile unless a signal has a
     /// [principal measure](crate::model::Principal).
     pub const fn new(model: M) -> Self {
         const { Self::CHECKED }
@@ -186,21 +184,21 @@ const fn has_principal(signals: &[Signal]) -> bool {
     false
 }
 
-impl<M: Model<N>, const N: usize, const K: usize> Rows for Runner<M, N, K> {
+impl<M: Model<N>, const N: usize> Rows for Runner<M, N> {
     fn columns(&self) -> &[Column] {
         self.columns.get_or_init(columns::<M, N>)
     }
 
     fn run(&self, set: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs) {
-        set.dispatch(LanesKernel::<M, N, K> { model: &self.model, solver, jobs });
+        set.dispatch(LanesKernel::<M, N> { model: &self.model, solver, jobs });
     }
 
     fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row {
-        ask::<M, _, N, K>(&self.model, run, RowFrom(begin))
+        ask::<M, _, N>(&self.model, run, RowFrom(begin))
     }
 }
 
-impl<M: Model<N>, const N: usize, const K: usize> Simulator for Runner<M, N, K> {
+impl<M: Model<N>, const N: usize> Simulator for Runner<M, N> {
     fn name(&self) -> &'static str {
         M::DESCRIPTION.name
     }
@@ -238,7 +236,7 @@ impl<M: Model<N>, const N: usize, const K: usize> Simulator for Runner<M, N, K> 
     }
 }
 
-impl<M: Model<N>, const N: usize, const K: usize> Gradients for Runner<M, N, K> {
+impl<M: Model<N>, const N: usize> Gradients for Runner<M, N> {
     fn states(&self) -> Vec<String> {
         M::STATES.map(str::to_owned).to_vec()
     }
@@ -249,13 +247,13 @@ impl<M: Model<N>, const N: usize, const K: usize> Gradients for Runner<M, N, K> 
         state: &[f64],
         changes: &[Change],
     ) -> Result<Gradient, Unfinished> {
-        ask::<M, _, N, K>(&self.model, run, GradientAt { state, changes })
+        ask::<M, _, N>(&self.model, run, GradientAt { state, changes })
     }
 }
 
-impl<M: Model<N>, const N: usize, const K: usize> Motions for Runner<M, N, K> {
+impl<M: Model<N>, const N: usize> Motions for Runner<M, N> {
     fn period(&self, run: &PointRun<'_>, begin: &[f64]) -> Result<Period, Unfinished> {
-        ask::<M, _, N, K>(&self.model, run, PeriodFrom(begin))
+        ask::<M, _, N>(&self.model, run, PeriodFrom(begin))
     }
 
     fn trajectory_columns(&self) -> Vec<String> {
@@ -272,6 +270,6 @@ impl<M: Model<N>, const N: usize, const K: usize> Motions for Runner<M, N, K> {
         begin: Option<&[f64]>,
         request: &TrajectoryRequest,
     ) -> Result<Trajectory, Unfinished> {
-        ask::<M, _, N, K>(&self.model, run, TrajectoryFrom { begin, request })
+        ask::<M, _, N>(&self.model, run, TrajectoryFrom { begin, request })
     }
 }

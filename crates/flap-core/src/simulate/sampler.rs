@@ -7,7 +7,6 @@ use super::request::Trajectory;
 use super::settings::SolverSettings;
 use crate::model::{Instant, Model, Signal, SignalSet};
 use crate::num::Scalar;
-use crate::ode::dense::interpolate;
 use crate::ode::solve::solve_until;
 use crate::ode::step::Attempt;
 use crate::ode::{Interrupt, Start};
@@ -91,7 +90,7 @@ impl Sampler {
                 break;
             }
             let theta = ((time - t) / h).clamp(0.0, 1.0);
-            let y = interpolate(attempt.step, attempt.h, number(theta));
+            let y = attempt.step.interpolate(attempt.h, number(theta));
             self.rows.push(sample(model, c, number(time), attempt.side, &y, self.began + time));
             self.next += 1;
         }

@@ -535,7 +535,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// The beginning of a period at `y`, with the tolerances of the row times `factor`.
     fn from(&self, y: &[f64; N], factor: f64) -> Restart<N> {
-        Restart { y: *y, scale: self.size, tolerance_factor: self.tolerance_factor * factor }
+        let tolerance_factor = self.tolerance_factor * factor;
+        Restart { y: *y, scale: self.size, tolerance_factor, change: self.start.scale }
     }
 
     /// The factor on the tolerances of the row.

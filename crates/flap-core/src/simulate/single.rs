@@ -37,38 +37,34 @@ impl<'a> PointRun<'a> {
 
 /// A question about one point, answered in either arithmetic of scalars.
 ///
-/// The model has N states, and K = N (N + 1) states and responses. It is the point's variant.
-pub(crate) trait Question<M: Model<N>, const N: usize, const K: usize> {
+/// The model has N states. It is the point's variant.
+pub(crate) trait Question<M: Model<N>, const N: usize> {
     type Answer;
 
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Self::Answer;
 }
 
 /// The answer to a question about the point of `run`.
-pub(crate) fn ask<M, Q, const N: usize, const K: usize>(
-    model: &M,
-    run: &PointRun<'_>,
-    question: Q,
-) -> Q::Answer
+pub(crate) fn ask<M, Q, const N: usize>(model: &M, run: &PointRun<'_>, question: Q) -> Q::Answer
 where
     M: Model<N>,
-    Q: Question<M, N, K>,
+    Q: Question<M, N>,
 {
     let model = &model.variant(run.values);
-    run.backend.dispatch_scalar(Asked::<M, Q, N, K> { model, run, question })
+    run.backend.dispatch_scalar(Asked::<M, Q, N> { model, run, question })
 }
 
 /// A question with the point that it is about.
-struct Asked<'a, M, Q, const N: usize, const K: usize> {
+struct Asked<'a, M, Q, const N: usize> {
     model: &'a M,
     run: &'a PointRun<'a>,
     question: Q,
 }
 
-impl<M, Q, const N: usize, const K: usize> ScalarKernel for Asked<'_, M, Q, N, K>
+impl<M, Q, const N: usize> ScalarKernel for Asked<'_, M, Q, N>
 where
     M: Model<N>,
-    Q: Question<M, N, K>,
+    Q: Question<M, N>,
 {
     type Output = Q::Answer;
 
@@ -80,7 +76,7 @@ where
 /// The row of a point from this state, or from rest. Interrupted, the row means nothing.
 pub(super) struct RowFrom<'a>(pub(super) Option<&'a [f64]>);
 
-impl<M: Model<N>, const N: usize, const K: usize> Question<M, N, K> for RowFrom<'_> {
+impl<M: Model<N>, const N: usize> Question<M, N> for RowFrom<'_> {
     type Answer = Row;
 
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Row {
@@ -89,7 +85,7 @@ impl<M: Model<N>, const N: usize, const K: usize> Question<M, N, K> for RowFrom<
             Ok(start) => start,
             Err(error) => return Row::invalid(error),
         };
-        let settled = run_alone::<_, R, _, _, N, K>(model, solver, &start, interrupted, |exchange| {
+        let settled = run_alone::<_, R, _, _, N>(model, solver, &start, interrupted, |exchange| {
             settle(model, solver, start, self.0.is_some(), exchange)
         });
         settled.map_or_else(|| Row::empty(Status::Unsettled), |settled| settled.row)

@@ -17,7 +17,7 @@ pub(super) struct TrajectoryFrom<'a> {
     pub(super) request: &'a TrajectoryRequest,
 }
 
-impl<M: Model<N>, const N: usize, const K: usize> Question<M, N, K> for TrajectoryFrom<'_> {
+impl<M: Model<N>, const N: usize> Question<M, N> for TrajectoryFrom<'_> {
     type Answer = Result<Trajectory, Unfinished>;
 
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Trajectory, Unfinished> {
@@ -26,7 +26,7 @@ impl<M: Model<N>, const N: usize, const K: usize> Question<M, N, K> for Trajecto
         let mut start = begin(model, values, self.begin)?;
         if settled {
             let nearby = self.begin.is_some();
-            let settled = run_alone::<_, R, _, _, N, K>(model, solver, &start, interrupted, |exchange| {
+            let settled = run_alone::<_, R, _, _, N>(model, solver, &start, interrupted, |exchange| {
                 settle(model, solver, start, nearby, exchange)
             });
             let Settled { row, orbit } = settled.ok_or(Unfinished::Interrupted)?;

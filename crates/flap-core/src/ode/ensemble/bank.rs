@@ -1,17 +1,17 @@
 //! The numbers in an ensemble's lanes, and a step of all of them.
 
-use super::observer::Observer;
-use super::queue::Restart;
+use super::queue::{Observer, Restart};
 use crate::num::{Lanes, PerLane};
 use crate::ode::controller::{Memory, judge};
-use crate::ode::norm::error_squared;
+use crate::ode::norm::add_squares;
 use crate::ode::start::{first_step, span_step};
 use crate::ode::step::{Attempt, Step};
 use crate::ode::switch::{Crossing, Switching, cross, landing_stretch};
+use crate::ode::variation::{RESPONSE_SCALE, Varied};
 use crate::ode::{Ending, MIN_STEP, Ode, Start, Tolerances};
 
-/// The numbers of the runs in lanes.
-pub(super) struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> {
+/// The numbers of the runs in lanes, with responses to D changes.
+pub(super) struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> {
     token: R::Token,
     tolerances: Tolerances,
 
@@ -21,11 +21,13 @@ pub(super) struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> {
     span: R,
     rtol: R,
     atol: [R; N],
+    atol_of_responses: [R; N],
     t: R,
     h: R,
     /// The step size with which a span begins.
     h_begin: R,
     step: Step<R, N>,
+    responses: [Step<R, N>; D],
     memory: Memory<R>,
     switching: Switching<R>,
     steps_in_span: R,
@@ -41,7 +43,7 @@ pub(super) struct Events {
     pub(super) failed: u64,
 }
 
-impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
+impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Bank<R, O, V, N, D> {
     /// A bank with the same run in every lane, so that idle ones compute nothing odd.
     #[inline(always)]
     pub(super) fn new(
@@ -51,46 +53,55 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
         start: &Start<O::Constants<f64>, N>,
     ) -> Self {
         let number = R::splat(token, 0.0);
-        let mut bank = Bank {
+        let Start { constants, y, span, scale, tolerance_factor, change } = start;
+        let mut responses = [Step::new([number; N], [number; N]); D];
+        for (i, response) in responses.iter_mut().enumerate() {
+            response.y[0][i] = number.lit(change[i]);
+        }
+        Bank {
             token,
             tolerances: *tolerances,
-            constants: O::Constants::<R>::fill(number, &start.constants),
+            constants: O::Constants::<R>::fill(number, constants),
             totals: V::Totals::<R>::fill(number, &observer.nothing()),
-            span: number.lit(start.span),
-            rtol: number.lit(tolerances.rtol * start.tolerance_factor),
-            atol: [number; N],
+            span: number.lit(*span),
+            rtol: number.lit(tolerances.rtol * tolerance_factor),
+            atol: PerLane::fill(number, &tolerances.absolute(*tolerance_factor, scale)),
+            atol_of_responses: PerLane::fill(number, &of_responses(tolerances, *tolerance_factor, change)),
             t: number,
-            h: number.lit(start.span),
-            h_begin: number.lit(start.span),
-            step: Step::new([number; N], [number; N]),
+            h: number.lit(*span),
+            h_begin: number.lit(*span),
+            step: Step::new(PerLane::fill(number, y), [number; N]),
+            responses,
             memory: Memory::new(number),
             switching: Switching::new(number),
             steps_in_span: number,
             switches: number,
             error: number,
-        };
-        for i in 0..N {
-            bank.step.y[0][i] = number.lit(start.y[i]);
-            bank.atol[i] = number.lit(tolerances.atol * start.tolerance_factor * start.scale[i]);
         }
-        bank
     }
 
     /// Puts a run into a lane.
     pub(super) fn load(&mut self, lane: usize, start: &Start<O::Constants<f64>, N>, observer: &V) {
         self.constants.set(lane, &start.constants);
         self.span.set_lane(lane, start.span);
-        let Start { y, scale, tolerance_factor, .. } = *start;
-        self.restart(lane, &Restart { y, scale, tolerance_factor }, observer);
+        let Start { y, scale, tolerance_factor, change, .. } = *start;
+        self.restart(lane, &Restart { y, scale, tolerance_factor, change }, observer);
     }
 
     /// Gives a lane's run a new beginning.
     pub(super) fn restart(&mut self, lane: usize, next: &Restart<N>, observer: &V) {
         self.totals.set(lane, &observer.nothing());
         self.rtol.set_lane(lane, self.tolerances.rtol * next.tolerance_factor);
-        for i in 0..N {
-            self.step.y[0][i].set_lane(lane, next.y[i]);
-            self.atol[i].set_lane(lane, self.tolerances.atol * next.tolerance_factor * next.scale[i]);
+        let Restart { y, scale, tolerance_factor, change } = next;
+        self.step.y[0].set(lane, y);
+        self.atol.set(lane, &self.tolerances.absolute(*tolerance_factor, scale));
+        if D > 0 {
+            self.atol_of_responses.set(lane, &of_responses(&self.tolerances, *tolerance_factor, change));
+        }
+        for (i, response) in self.responses.iter_mut().enumerate() {
+            let mut begin = [0.0; N];
+            begin[i] = change[i];
+            response.y[0].set(lane, &begin);
         }
     }
 
@@ -103,16 +114,19 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
             ode,
             &self.constants,
             switching.side,
-            &self.step.y[0],
+            &self.begins(),
             self.span,
-            &self.atol,
+            [&self.atol, &self.atol_of_responses],
             self.rtol,
         );
-        let value = ode.switch(&self.constants, &self.step.y[0], &k1);
+        let value = ode.switch(&self.constants, &self.step.y[0], &k1.motion);
         let zero = self.t.lit(0.0);
         let memory = Memory::new(zero);
         for i in 0..N {
-            self.step.k[0][i] = R::select(fresh, k1[i], self.step.k[0][i]);
+            self.step.k[0][i] = R::select(fresh, k1.motion[i], self.step.k[0][i]);
+            for (response, k1) in self.responses.iter_mut().zip(&k1.responses) {
+                response.k[0][i] = R::select(fresh, k1[i], response.k[0][i]);
+            }
         }
         self.h = R::select(fresh, h, self.h);
         self.h_begin = R::select(fresh, h, self.h_begin);
@@ -152,9 +166,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
         let h = R::select(landing, remaining, self.h);
 
         let side = self.switching.side;
-        self.step.attempt(ode, &self.constants, self.t, h, side);
-        let Step { y: [y, .., y_new], error, .. } = &self.step;
-        self.error = error_squared(error, [y, y_new], &self.atol, self.rtol);
+        self.step.attempt_with(&mut self.responses, ode, &self.constants, self.t, h, side);
+        self.error = self.error_squared();
         let verdict = judge(self.error, &mut self.memory);
         self.steps_in_span = self.steps_in_span + 1.0;
 
@@ -173,6 +186,9 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
         let t = R::select(landing, target, self.t + h);
         self.t = R::select(accepted, t, self.t);
         self.step.advance(accepted);
+        for response in &mut self.responses {
+            response.advance(accepted);
+        }
         if O::SWITCHES && R::bits(crossing.arrived) != 0 {
             self.change_sides(ode, crossing.arrived);
         }
@@ -187,11 +203,14 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
     /// Renews the first slope in the lanes that have arrived at their switching surface.
     #[inline(always)]
     fn change_sides(&mut self, ode: &O, arrived: R::Mask) {
+        let [crossed, slopes] = cross(ode, &self.constants, self.t, self.switching.side, &self.begins());
         let Step { y: [y, ..], k: [k1, ..], .. } = &mut self.step;
-        let (crossed, slope) = cross(ode, &self.constants, self.t, self.switching.side, y);
         for i in 0..N {
-            y[i] = R::select(arrived, crossed[i], y[i]);
-            k1[i] = R::select(arrived, slope[i], k1[i]);
+            k1[i] = R::select(arrived, slopes.motion[i], k1[i]);
+            for (j, Step { y: [y, ..], k: [k1, ..], .. }) in self.responses.iter_mut().enumerate() {
+                y[i] = R::select(arrived, crossed.responses[j][i], y[i]);
+                k1[i] = R::select(arrived, slopes.responses[j][i], k1[i]);
+            }
         }
         let value = ode.switch(&self.constants, y, k1);
         for i in 0..2 {
@@ -200,13 +219,35 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
         self.switches = R::select(arrived, self.switches + 1.0, self.switches);
     }
 
+    /// The states and responses at the beginning of the step.
+    #[inline(always)]
+    fn begins(&self) -> Varied<[R; N], D> {
+        let mut begins = Varied { motion: self.step.y[0], responses: [self.step.y[0]; D] };
+        for i in 0..D {
+            begins.responses[i] = self.responses[i].y[0];
+        }
+        begins
+    }
+
+    /// The mean square of error over tolerance of the step, as in [`crate::ode::norm`].
+    #[inline(always)]
+    fn error_squared(&self) -> R {
+        let Step { y: [y, .., y_new], error, .. } = &self.step;
+        let mut sum = add_squares(self.rtol.lit(0.0), error, [y, y_new], &self.atol, self.rtol);
+        for Step { y: [y, .., y_new], error, .. } in &self.responses {
+            sum = add_squares(sum, error, [y, y_new], &self.atol_of_responses, self.rtol);
+        }
+        sum * (1.0 / (N * (1 + D)) as f64)
+    }
+
     /// The state of one lane.
     pub(super) fn state(&self, lane: usize) -> [f64; N] {
-        let mut y = [0.0; N];
-        for i in 0..N {
-            y[i] = self.step.y[0][i].lane(lane);
-        }
-        y
+        self.step.y[0].get(lane)
+    }
+
+    /// The responses in one lane.
+    pub(super) fn responses(&self, lane: usize) -> [[f64; N]; D] {
+        core::array::from_fn(|i| self.responses[i].y[0].get(lane))
     }
 
     /// The totals of one lane.
@@ -228,4 +269,13 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize> Bank<R, O, V, N> {
     pub(super) fn switches(&self, lane: usize) -> u64 {
         self.switches.lane(lane) as u64
     }
+}
+
+/// The absolute tolerances of responses to changes of these sizes.
+fn of_responses<const N: usize>(
+    tolerances: &Tolerances,
+    tolerance_factor: f64,
+    change: &[f64; N],
+) -> [f64; N] {
+    tolerances.absolute(tolerance_factor, &change.map(|change| RESPONSE_SCALE * change))
 }

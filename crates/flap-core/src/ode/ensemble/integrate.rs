@@ -1,7 +1,6 @@
 //! Many initial values at once.
 
-use super::observer::Observer;
-use super::queue::{NewRun, Next, Queue, SpanEnd};
+use super::queue::{NewRun, Next, Observer, Queue, SpanEnd};
 use super::schedule::run;
 use crate::num::{Backend, Kernel, Simd};
 use crate::ode::{Ending, Ode, Outcome, Start, Tolerances};
@@ -106,7 +105,7 @@ impl<O: Ode<N>, V: Observer<O, N>, const N: usize> Queue<O, V, N>
         (position, spans): (usize, u32),
         end: SpanEnd<'_, V::Totals<f64>, N>,
     ) -> Option<((usize, u32), Next<N>)> {
-        let SpanEnd { y, totals, outcome } = end;
+        let SpanEnd { y, totals, outcome, .. } = end;
         self.ends[position] = Some(Integrated { y: *y, totals: *totals, outcome });
         (outcome.ending == Ending::Stopped && spans > 1).then_some(((position, spans - 1), Next::Span))
     }

@@ -7,11 +7,11 @@
 
 mod bank;
 mod integrate;
-mod observer;
 mod queue;
 mod schedule;
 
 pub use integrate::{Integrated, integrate};
-pub use observer::{Observer, Unobserved};
-pub use queue::{NewRun, Next, Queue, Restart, SpanEnd};
+pub use queue::{NewRun, Next, Observer, Queue, Restart, SpanEnd, Unobserved};
 pub use schedule::{Occupancy, run};
+
+pub(crate) use schedule::run_with_responses;

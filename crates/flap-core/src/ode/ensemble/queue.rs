@@ -1,6 +1,7 @@
-//! The source of an ensemble's runs.
+//! The source of an ensemble's runs, and sums along them.
 
-use super::observer::Observer;
+use crate::num::{Lanes, PerLane};
+use crate::ode::step::Attempt;
 use crate::ode::{Ode, Outcome, Start};
 
 /// A run to be started: the caller's note of it, and its beginning.
@@ -15,13 +16,15 @@ pub struct Restart<const N: usize> {
     pub scale: [f64; N],
     /// As [`Start::tolerance_factor`].
     pub tolerance_factor: f64,
+    /// As [`Start::change`].
+    pub change: [f64; N],
 }
 
 impl<const N: usize> Restart<N> {
     /// The beginning of a run with these constants and spans of this length (s).
     pub fn start<C>(self, constants: C, span: f64) -> Start<C, N> {
-        let Restart { y, scale, tolerance_factor } = self;
-        Start { constants, y, span, scale, tolerance_factor }
+        let Restart { y, scale, tolerance_factor, change } = self;
+        Start { constants, y, span, scale, tolerance_factor, change }
     }
 }
 
@@ -32,6 +35,8 @@ pub struct SpanEnd<'a, T, const N: usize> {
     pub y: &'a [f64; N],
     /// The observer's totals since the run's beginning.
     pub totals: &'a T,
+    /// The response of the state to the change of each initial state by [`Start::change`]; empty in [`run`](super::run).
+    pub responses: &'a [[f64; N]],
     /// The ending and the cost since the run's beginning. The ending is [`Stopped`](crate::ode::Ending::Stopped) at the end of
     /// a span.
     pub outcome: Outcome,
@@ -63,4 +68,36 @@ pub trait Queue<O: Ode<N>, V: Observer<O, N>, const N: usize> {
     fn interrupted(&self) -> bool {
         false
     }
+}
+
+/// Sums along a run, lane by lane.
+pub trait Observer<O: Ode<N>, const N: usize> {
+    /// The sums.
+    type Totals<R: Lanes>: PerLane<R, One = Self::Totals<f64>>;
+
+    /// The sums before the first step.
+    fn nothing(&self) -> Self::Totals<f64>;
+
+    /// Adds a step of a run with the constants `c`, in the lanes in which it was `accepted`.
+    fn add<R: Lanes>(
+        &self,
+        c: &O::Constants<R>,
+        attempt: &Attempt<'_, R, N>,
+        accepted: R::Mask,
+        totals: &mut Self::Totals<R>,
+    );
+}
+
+/// Observes nothing.
+#[derive(Clone, Copy, Debug)]
+pub struct Unobserved;
+
+impl<O: Ode<N>, const N: usize> Observer<O, N> for Unobserved {
+    type Totals<R: Lanes> = ();
+
+    #[inline(always)]
+    fn nothing(&self) {}
+
+    #[inline(always)]
+    fn add<R: Lanes>(&self, _: &O::Constants<R>, _: &Attempt<'_, R, N>, _: R::Mask, (): &mut ()) {}
 }

@@ -3,10 +3,9 @@
 use core::ops::AddAssign;
 
 use super::bank::{Bank, Events};
-use super::observer::Observer;
-use super::queue::{NewRun, Next, Queue, SpanEnd};
+use super::queue::{NewRun, Next, Observer, Queue, SpanEnd};
 use crate::num::{Lanes, Simd, Vector};
-use crate::ode::{Ending, Ode, Outcome, Start, Tolerances, UNASKED};
+use crate::ode::{Ending, INTERRUPT_STEPS, Ode, Outcome, Start, Tolerances};
 
 /// Use of the lanes: the steps that served a run, and all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,25 +24,41 @@ impl AddAssign for Occupancy {
 }
 
 /// Integrates the runs of `queue` until it has no more or is interrupted. Returns the use of the lanes.
-pub fn run<S, O, V, Q, const N: usize>(
+pub fn run<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     simd: S,
     ode: &O,
     observer: &V,
     tolerances: &Tolerances,
-    queue: &mut Q,
-) -> Occupancy
-where
-    S: Simd,
-    O: Ode<N>,
-    V: Observer<O, N>,
-    Q: Queue<O, V, N>,
-{
+    queue: &mut impl Queue<O, V, N>,
+) -> Occupancy {
+    run_varied::<_, _, _, N, 0>(simd, ode, observer, tolerances, queue)
+}
+
+/// [`run`], with the responses of the states to changes of their initial values.
+pub(crate) fn run_with_responses<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize>(
+    simd: S,
+    ode: &O,
+    observer: &V,
+    tolerances: &Tolerances,
+    queue: &mut impl Queue<O, V, N>,
+) -> Occupancy {
+    run_varied::<_, _, _, N, N>(simd, ode, observer, tolerances, queue)
+}
+
+/// [`run`], with responses to D changes.
+fn run_varied<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize>(
+    simd: S,
+    ode: &O,
+    observer: &V,
+    tolerances: &Tolerances,
+    queue: &mut impl Queue<O, V, N>,
+) -> Occupancy {
     let Some(first) = queue.next(true) else { return Occupancy::default() };
     // The callbacks of a queue may call this again: enter a function with these instructions enabled.
     simd.vectorize(
         #[inline(always)]
         || {
-            Schedule::<Vector<S>, O, V, Q::Run, N>::new(simd, observer, tolerances, first)
+            Schedule::<Vector<S>, O, V, _, N, D>::new(simd, observer, tolerances, first)
                 .drive(ode, observer, queue)
         },
     )
@@ -53,8 +68,8 @@ where
 const MOST_LANES: usize = 16;
 
 /// The lanes, and the run in each of them.
-struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> {
-    bank: Bank<R, O, V, N>,
+struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize> {
+    bank: Bank<R, O, V, N, D>,
     /// The run in each lane; `None` in a lane that waits for work.
     runs: [Option<Running<Run>>; MOST_LANES],
     /// Vector steps made.
@@ -73,7 +88,9 @@ struct Running<Run> {
     began: u64,
 }
 
-impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Schedule<R, O, V, Run, N> {
+impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize>
+    Schedule<R, O, V, Run, N, D>
+{
     /// A schedule with one run, in lane 0.
     #[inline(always)]
     fn new(
@@ -110,7 +127,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Schedule<R, O,
 
     /// Runs the queue empty.
     #[inline(always)]
-    fn drive<Q: Queue<O, V, N, Run = Run>>(mut self, ode: &O, observer: &V, queue: &mut Q) -> Occupancy {
+    fn drive(mut self, ode: &O, observer: &V, queue: &mut impl Queue<O, V, N, Run = Run>) -> Occupancy {
         loop {
             self.refill(observer, queue);
             if self.active == 0 || queue.interrupted() {
@@ -120,11 +137,11 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Schedule<R, O,
                 self.bank.begin(ode, self.fresh);
                 self.fresh = 0;
             }
-            let mut unasked = UNASKED;
+            let mut left = INTERRUPT_STEPS;
             let events = loop {
                 let events = self.advance(ode, observer);
-                unasked -= 1;
-                if events.landed | events.failed != 0 || unasked == 0 {
+                left -= 1;
+                if events.landed | events.failed != 0 || left == 0 {
                     break events;
                 }
             };
@@ -133,7 +150,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Schedule<R, O,
     }
 
     /// Fills the lanes that wait, as far as there are runs.
-    fn refill<Q: Queue<O, V, N, Run = Run>>(&mut self, observer: &V, queue: &mut Q) {
+    fn refill(&mut self, observer: &V, queue: &mut impl Queue<O, V, N, Run = Run>) {
         for lane in 0..R::LANES {
             if self.active & (1 << lane) != 0 {
                 continue;
@@ -146,7 +163,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Schedule<R, O,
     }
 
     /// Hands the runs at the ends of their spans to the queue, and those that have failed.
-    fn settle<Q: Queue<O, V, N, Run = Run>>(&mut self, events: &Events, observer: &V, queue: &mut Q) {
+    fn settle(&mut self, events: &Events, observer: &V, queue: &mut impl Queue<O, V, N, Run = Run>) {
         for lane in 0..R::LANES {
             let bit = 1 << lane;
             if (events.landed | events.failed) & bit == 0 {
@@ -157,8 +174,9 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize> Schedule<R, O,
             let ending = if failed { self.bank.failure(lane) } else { Ending::Stopped };
             let steps = self.steps - began;
             let (y, totals) = (&self.bank.state(lane), &self.bank.totals(lane));
+            let responses = &self.bank.responses(lane);
             let outcome = Outcome::new::<O, N>(ending, steps, self.bank.switches(lane));
-            match queue.ended(run, SpanEnd { y, totals, outcome }) {
+            match queue.ended(run, SpanEnd { y, totals, responses, outcome }) {
                 Some((run, Next::Span)) if !failed => {
                     self.runs[lane] = Some(Running { run, began });
                     self.bank.begin_span(lane);
