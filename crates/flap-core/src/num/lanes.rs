@@ -2,9 +2,7 @@
 
 use super::bits::Bits;
 use super::functions;
-use super::pair::Pair;
 use super::real::Real;
-use super::register::Register;
 
 /// One or more independent numbers, one per lane. `f64` is the case of one lane.
 pub trait Lanes: Real + Bits {
@@ -64,12 +62,3 @@ pub trait Simd: Copy {
 
 /// SIMD lanes: 16 with AVX-512, 8 with AVX2, 4 with SSE2 and NEON.
 pub type Vector<S> = <S as Simd>::Vector;
-
-impl<S: fearless_simd::Simd> Simd for S {
-    type Vector = Pair<Register<S>>;
-
-    #[inline(always)]
-    fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
-        fearless_simd::Simd::vectorize(self, work)
-    }
-}

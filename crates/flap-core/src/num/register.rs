@@ -7,6 +7,7 @@ use super::bits::{
 };
 use super::lanes::Lanes;
 use super::macros::{constants_on_the_right, functions_of_lanes, of_inner, operator};
+use super::pair::Pair;
 use super::real::Real;
 
 /// 4 lanes with AVX2, 2 with SSE2 and NEON.
@@ -121,5 +122,14 @@ impl<S: Simd> Bits for Register<S> {
     #[inline(always)]
     fn times_power_of_two(self, k: Self) -> Self {
         Self::from_bits(self.to_bits() + ((k + ROUND).to_bits() << 52))
+    }
+}
+
+impl<S: Simd> super::lanes::Simd for S {
+    type Vector = Pair<Register<S>>;
+
+    #[inline(always)]
+    fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
+        Simd::vectorize(self, work)
     }
 }
