@@ -9,6 +9,7 @@
 
 use core::pin::Pin;
 use core::task::{Context, Poll, Waker};
+use std::collections::VecDeque;
 use std::rc::Rc;
 
 use super::begin::begin;
@@ -204,8 +205,8 @@ struct Driver<'a, 's, I, M: Model<N>, Q, T, const N: usize> {
     model: &'a M,
     solver: &'a SolverSettings,
     source: &'s mut Q,
-    /// Searches that wait for a period, by its kind.
-    waiting: [Vec<Run<'a, T, M, N>>; 4],
+    /// Searches that wait for a period, by its kind: the first to wait goes on first, so that none is left behind.
+    waiting: [VecDeque<Run<'a, T, M, N>>; 4],
     lane_use: LaneUse,
 }
 
@@ -216,7 +217,7 @@ where
     Q: Source<'a, T, M, N>,
 {
     fn new(simd: I, model: &'a M, solver: &'a SolverSettings, source: &'s mut Q) -> Self {
-        let waiting = core::array::from_fn(|_| Vec::with_capacity(2 * BATCH));
+        let waiting = core::array::from_fn(|_| VecDeque::with_capacity(2 * BATCH));
         Driver { simd, model, solver, source, waiting, lane_use: LaneUse::default() }
     }
 
@@ -233,15 +234,19 @@ where
     }
 
     /// Integrates the periods of the searches that wait for others than the states alone, until some are to march or none
-    /// waits any more. Measures last, when the most orbits have been found.
+    /// waits any more.
     fn integrate_others(&mut self) {
         while self.waiting[Kind::States as usize].is_empty() && !self.source.interrupted() {
-            let Some(kind) = Kind::ALL.into_iter().find(|&kind| !self.waiting[kind as usize].is_empty())
-            else {
-                return;
-            };
-            self.integrate_batch(kind);
+            let Some(other) = self.other_that_waits(1) else { return };
+            self.integrate_batch(other);
         }
+    }
+
+    /// A kind of period besides the states alone for which so many searches wait. Measures last, when the most orbits have been
+    /// found.
+    fn other_that_waits(&self, searches: usize) -> Option<Kind> {
+        let mut others = Kind::ALL.into_iter().skip(1);
+        others.find(|&kind| self.waiting[kind as usize].len() >= searches)
     }
 
     fn integrate_batch(&mut self, kind: Kind) {
@@ -282,11 +287,12 @@ where
         if request.kind == kind {
             return Some((run, request.begin));
         }
-        let waiting = &mut self.waiting[request.kind as usize];
-        waiting.push(run);
+        self.waiting[request.kind as usize].push_back(run);
         // The lanes of the states keep their state meanwhile.
-        if kind == Kind::States && waiting.len() >= BATCH {
-            self.integrate_batch(request.kind);
+        while kind == Kind::States
+            && let Some(other) = self.other_that_waits(BATCH)
+        {
+            self.integrate_batch(other);
         }
         None
     }
@@ -294,7 +300,7 @@ where
     /// The next search that waits for a period of this kind, or that begins with one.
     fn next(&mut self, kind: Kind, idle: bool) -> Option<(Run<'a, T, M, N>, Restart<N>)> {
         loop {
-            if let Some(run) = self.waiting[kind as usize].pop() {
+            if let Some(run) = self.waiting[kind as usize].pop_front() {
                 let begin = run.exchange.request()?.begin?;
                 return Some((run, begin));
             }
@@ -307,11 +313,8 @@ where
                 // The source may wait for outputs of searches that wait here. With few of them most lanes would be empty.
                 if idle {
                     self.integrate_others();
-                } else if let Some(kind) = Kind::ALL
-                    .into_iter()
-                    .find(|&kind| self.waiting[kind as usize].len() >= Vector::<I>::LANES)
-                {
-                    self.integrate_batch(kind);
+                } else if let Some(other) = self.other_that_waits(Vector::<I>::LANES) {
+                    self.integrate_batch(other);
                 }
                 if !self.waiting[kind as usize].is_empty() {
                     continue;

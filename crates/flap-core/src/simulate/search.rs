@@ -432,7 +432,6 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let mut near_enough = self.solver.settle_tol.max(MAPPED * self.rtol().sqrt());
         let mut mapped = f64::INFINITY;
         let mut last_step = LAST_STEP * self.goal.sqrt();
-        let mut tries = 0;
         loop {
             while !accepted && (floquet_max.is_nan() || step > last_step && residual > self.goal) {
                 let y = chord.orbit.y;
@@ -460,16 +459,10 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 step = distance(&y, &chord.orbit.y, &scale);
                 if !moved {
                     let SolverSettings { settle_tol, .. } = *self.solver;
-                    let jumps = residual <= JUMPS * settle_tol;
                     accepted = !floquet_max.is_nan() && residual <= settle_tol;
-                    if !accepted && jumps && self.is_finest() && tries < MAX_ITERATIONS {
-                        // Nothing makes these jumps smaller: one of a few more steps may meet the residual.
-                        tries += 1;
-                        chord = Chord::new(chord.orbit, &scale);
-                        chord.step(&end.y);
-                    } else if !accepted {
-                        let finer = jumps && !self.is_finest();
-                        return if finer { Closed::Jumps(chord.orbit) } else { Closed::Lost };
+                    if !accepted {
+                        let jumps = residual <= JUMPS * settle_tol && !self.is_finest();
+                        return if jumps { Closed::Jumps(chord.orbit) } else { Closed::Lost };
                     }
                 }
             }
