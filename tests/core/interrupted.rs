@@ -151,3 +151,55 @@ fn motions_of_one_point_end_when_interrupted() {
     );
     assert!(motions.period(&PointRun::new(set, &ENDLESS, values), &[0.0; 4]).is_ok());
 }
+
+/// Points without end, until so many rows are there.
+struct Endless {
+    values: Vec<f64>,
+    given: u64,
+    wanted: u64,
+    rows: u64,
+    /// The most points that were on their way at once.
+    most: u64,
+    /// The first points that have no row yet.
+    first: Vec<u64>,
+}
+
+impl Jobs for Endless {
+    fn next(&mut self, _idle: bool) -> Option<Point> {
+        self.given += 1;
+        self.most = self.most.max(self.given - self.rows);
+        Some(Point::at_rest(self.given - 1, self.values.clone()))
+    }
+
+    fn done(&mut self, index: u64, _row: Row) {
+        self.rows += 1;
+        self.first.retain(|&first| first != index);
+    }
+
+    fn interrupted(&self) -> bool {
+        self.rows >= self.wanted
+    }
+}
+
+/// Rows come while more points do: no point waits for the end of the sweep.
+#[test]
+fn no_point_is_left_behind_while_others_come() {
+    for name in ["ozaki2018-large", "jafferis2016", "arabagi2013-75hz"] {
+        for progressive in [true, false] {
+            let (model, preset) = preset(name).unwrap();
+            let solver = SolverSettings { progressive, ..SolverSettings::DEFAULT };
+            let mut jobs = Endless {
+                values: (preset.values)(),
+                given: 0,
+                wanted: 3000,
+                rows: 0,
+                most: 0,
+                first: (0..100).collect(),
+            };
+            model.run(Backend::best(), &solver, &mut jobs);
+            println!("{name}: at most {} points on their way", jobs.most);
+            assert!(jobs.first.is_empty(), "{name}: no rows of {:?}", jobs.first);
+            assert!(jobs.most < 1000, "{name}: {} points on their way", jobs.most);
+        }
+    }
+}
