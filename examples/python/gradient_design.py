@@ -109,7 +109,7 @@ class Search:
                 bounds=np.column_stack([LOWEST, HIGHEST]),
                 constraints=[room],
                 method="SLSQP",
-                options={"maxiter": 60, "ftol": 1e-5},
+                options={"maxiter": 60, "ftol": 1e-4},
             )
         except NoDerivative:
             return None

@@ -412,7 +412,7 @@ def designs(printed):
 
 def test_derivatives_find_a_better_design_in_less_work():
     example = load("gradient_design")
-    found = designs(run("gradient_design", "--starts", 1, "--generations", 20))
+    found = designs(run("gradient_design", "--starts", 1, "--generations", 40))
     exact, evolved = found["SLSQP with derivatives"], found["differential evolution"]
     assert exact[0] < 0.1 * evolved[0] and exact[1] < evolved[1] / 3
     assert exact[2]["efficiency_gf_per_w"] > evolved[2]["efficiency_gf_per_w"] > 15
