@@ -14,7 +14,7 @@ const PATIENCE: u32 = 400;
 
 /// Random designs of all models that docs/numerics.md counts: possible, settled by search and march, by the search alone, and
 /// by marching alone.
-const DOCUMENTED: [usize; 4] = [4594, 3420, 928, 1];
+const DOCUMENTED: [usize; 4] = [4594, 3419, 929, 0];
 
 fn progressive() -> SolverSettings {
     SolverSettings { max_cycles: PATIENCE, ..SolverSettings::default() }

@@ -6,8 +6,8 @@ use crate::measure::multipliers::{Matrix, spectral_radius};
 /// Chord steps after which an iteration is given up: one to three are usual.
 const MAX_CHORD_STEPS: u32 = 6;
 
-/// The factor by which the residual must at least fall from one step to the next.
-const PROGRESS: f64 = 0.5;
+/// The factor by which the residual must at least fall from one step of an iteration to the next.
+pub(super) const PROGRESS: f64 = 0.5;
 
 /// The largest distance between a march and the prediction of the orbit's linear map, relative to the distance between march
 /// and orbit.

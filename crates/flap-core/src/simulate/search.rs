@@ -18,7 +18,7 @@ use std::rc::Rc;
 
 use super::march::March;
 use super::orbit_row::{self, MeasuredOrbit};
-use super::period_map::{Chord, Marched, Orbit, distance, fixed_point, residual};
+use super::period_map::{Chord, Marched, Orbit, PROGRESS, distance, fixed_point, residual};
 use super::periods::{Exchange, Kind, PeriodEnd, Request};
 use super::row::{Row, Status};
 use super::settings::SolverSettings;
@@ -50,12 +50,12 @@ const MIDDLE: f64 = 64.0;
 /// The residual at the middle tolerance, relative to that tolerance, after which one more chord step is the last.
 const MIDDLE_RESIDUAL: f64 = 10.0;
 
-/// The relative tolerance of the period with responses that gives the multipliers, relative to the root of the row's tolerance:
-/// that of the row if this is smaller.
+/// The relative tolerance of the period with responses that gives the multipliers, relative to the root of the row's tolerance.
+/// It is never finer than the row's tolerance.
 const RESPONSES: f64 = 1.25e-3;
 
-/// The residual before the last step to the state whose monodromy matrix is that of the orbit, relative to the root of the row's
-/// tolerance.
+/// The residual from which one more step leads to a state with the monodromy matrix of the orbit, relative to the root of the
+/// row's tolerance.
 const MAPPED: f64 = 0.1;
 
 /// The length of a step with the monodromy matrix of the row's orbit that is presumed to be the last, relative to the root of
@@ -64,9 +64,6 @@ const LAST_STEP: f64 = 0.1;
 
 /// Iterations after which Newton's iteration is given up: where it converges at all, it takes two to four.
 const MAX_ITERATIONS: u32 = 8;
-
-/// The factor by which the residual must at least fall from one iteration to the next.
-const PROGRESS: f64 = 0.5;
 
 /// The residual, in units of `settle_tol`, below which an iteration is stuck in jumps of the period map, and the factor on the
 /// tolerances that makes them smaller.
@@ -155,9 +152,8 @@ struct Measured<T, const N: usize> {
     end: PeriodEnd<T, N>,
 }
 
-/// The end of the search for the row's orbit.
-enum Closed<T, const N: usize> {
-    Orbit(Measured<T, N>),
+/// The reason why the row's orbit is not found.
+enum NoOrbit<const N: usize> {
     /// The period map jumps too much at these tolerances, near this orbit.
     Jumps(Orbit<N>),
     /// There is no such orbit.
@@ -196,7 +192,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let SolverSettings { newton, progressive, max_cycles, .. } = *self.solver;
         let small = self.rtol() <= LOOSE_FOR && max_cycles > LOOSE_CYCLES;
         if newton && progressive && !nearby && small {
-            self.begin(nearby, LOOSE_CYCLES);
+            self.begin(false, LOOSE_CYCLES);
             if let Some(near) = self.find(At::Loose).await
                 && let Some(settled) = self.settle_near(near).await
             {
@@ -229,15 +225,15 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             let (measured, coarse) = loop {
                 let coarse = self.compare(&mut near).await;
                 match self.close(&near).await {
-                    Closed::Orbit(measured) => break (measured, coarse),
-                    Closed::Jumps(orbit) => {
+                    Ok(measured) => break (measured, coarse),
+                    Err(NoOrbit::Jumps(orbit)) => {
                         self.tighten(FINER);
                         near = Near {
                             settled: near.settled,
                             ..Near::unmapped(orbit, near.march, near.residual)
                         };
                     }
-                    Closed::Lost => return last.map(|last| self.charged(last)),
+                    Err(NoOrbit::Lost) => return last.map(|last| self.charged(last)),
                 }
             };
             let Measured { orbit, floquet_max, residual, .. } = measured;
@@ -334,7 +330,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     async fn iterate(&mut self, at: At) -> Result<Near<N>, Option<Matrix<N>>> {
         let (goal, error) = match at {
             At::Loose => (LOOSE_RESIDUAL.max(self.goal), LOOSE_RESIDUAL),
-            At::Row => (self.goal.max(MAPPED * self.rtol().sqrt()), self.goal),
+            At::Row => (self.mapped_residual(), self.goal),
         };
         let scale = self.start.scale;
         let mut y = *self.march.state();
@@ -423,31 +419,34 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// Goes from an orbit near by onto that of the row's tolerance, in chord steps, and measures its period.
-    async fn close(&mut self, near: &Near<N>) -> Closed<SumsOf<M, N>, N> {
+    /// Goes from an orbit near by onto the orbit of the row's tolerance, in chord steps, and measures its period.
+    async fn close(&mut self, near: &Near<N>) -> Result<Measured<SumsOf<M, N>, N>, NoOrbit<N>> {
         let scale = self.start.scale;
         let Near { mut floquet_max, mut residual, mut step, settled: mut accepted, .. } = *near;
         let mut chord = Chord::new(near.orbit, &scale);
         // The residual at which the monodromy matrix is computed, and the last at which it was.
-        let mut near_enough = self.solver.settle_tol.max(MAPPED * self.rtol().sqrt());
+        let mut near_enough = self.mapped_residual();
         let mut mapped = f64::INFINITY;
-        let mut last_step = LAST_STEP * self.goal.sqrt();
+        // A short step is presumed to be the last, until one was not.
+        let mut presumes = true;
+        let last_step = LAST_STEP * self.goal.sqrt();
         loop {
-            while !accepted && (floquet_max.is_nan() || step > last_step && residual > self.goal) {
+            while !accepted
+                && (floquet_max.is_nan() || residual > self.goal && !(presumes && step <= last_step))
+            {
                 let y = chord.orbit.y;
-                let Some(end) = self.period(Kind::States, Some(self.from(&y, 1.0))).await else {
-                    return Closed::Lost;
-                };
+                let begin = self.from(&y, 1.0);
+                let end = self.period(Kind::States, Some(begin)).await.ok_or(NoOrbit::Lost)?;
                 let mut moved = chord.step(&end.y);
                 residual = chord.residual;
                 // The matrix is computed where the steps are stuck, too.
                 if floquet_max.is_nan() && residual <= near_enough || !moved && residual <= PROGRESS * mapped
                 {
                     let nearer = chord.orbit.y;
-                    let Some(monodromy) = self.monodromy(&nearer).await else { return Closed::Lost };
+                    let monodromy = self.monodromy(&nearer).await.ok_or(NoOrbit::Lost)?;
                     match (Orbit { y: nearer, monodromy }).attracts(&near.march, &scale) {
                         Some(largest) if residual <= near_enough => floquet_max = largest,
-                        None if residual <= self.goal => return Closed::Lost,
+                        None if residual <= self.goal => return Err(NoOrbit::Lost),
                         None if residual <= near_enough => near_enough = self.goal,
                         _ => {}
                     }
@@ -462,22 +461,19 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                     accepted = !floquet_max.is_nan() && residual <= settle_tol;
                     if !accepted {
                         let jumps = residual <= JUMPS * settle_tol && !self.is_finest();
-                        return if jumps { Closed::Jumps(chord.orbit) } else { Closed::Lost };
+                        return Err(if jumps { NoOrbit::Jumps(chord.orbit) } else { NoOrbit::Lost });
                     }
                 }
             }
-            accepted |= last_step == 0.0;
             let orbit = chord.orbit;
-            let Some(end) = self.period(Kind::Signals, Some(self.from(&orbit.y, 1.0))).await else {
-                return Closed::Lost;
-            };
+            let begin = self.from(&orbit.y, 1.0);
+            let end = self.period(Kind::Signals, Some(begin)).await.ok_or(NoOrbit::Lost)?;
             chord.step(&end.y);
-            if accepted || chord.residual <= self.goal {
+            if accepted || !presumes || chord.residual <= self.goal {
                 let residual = chord.residual.min(residual);
-                return Closed::Orbit(Measured { orbit, floquet_max, residual, end });
+                return Ok(Measured { orbit, floquet_max, residual, end });
             }
-            // The step was not the last.
-            (residual, step, last_step) = (chord.residual, f64::INFINITY, 0.0);
+            (residual, presumes) = (chord.residual, false);
             self.exchange.reuse(end.sums);
         }
     }
@@ -550,6 +546,11 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// The relative tolerance of the row.
     fn rtol(&self) -> f64 {
         self.solver.rtol * self.tolerance_factor
+    }
+
+    /// The residual near which the monodromy matrix is the matrix of the row's orbit.
+    fn mapped_residual(&self) -> f64 {
+        self.solver.settle_tol.max(MAPPED * self.rtol().sqrt())
     }
 
     /// The smallest factor on the tolerances.
