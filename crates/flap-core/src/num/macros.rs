@@ -24,7 +24,7 @@ macro_rules! operator {
     };
 }
 
-/// Implements the operators with a constant on the right, by those with two numbers.
+/// Implements the operators with a constant on the right, by the operators with two numbers.
 macro_rules! constants_on_the_right {
     ([$($generics:tt)*] $Type:ty) => {
         $crate::num::macros::constants_on_the_right!([$($generics)*] $Type, Add::add);
@@ -42,7 +42,7 @@ macro_rules! constants_on_the_right {
     };
 }
 
-/// Methods of a wrapper of numbers, which are those of the numbers within.
+/// Methods of a wrapper, computed with the number in it.
 macro_rules! of_inner {
     ($Wrapper:ident: $($method:ident($($argument:ident),*)),*) => {
         $(
@@ -54,7 +54,7 @@ macro_rules! of_inner {
     };
 }
 
-/// Methods of a pair of numbers, which are those of both.
+/// Methods of a pair, computed with both of its numbers.
 macro_rules! of_both {
     ($Pair:ident: $($method:ident($($argument:ident),*)),*) => {
         $(

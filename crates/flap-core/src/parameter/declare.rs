@@ -207,7 +207,7 @@ macro_rules! choice {
     };
 }
 
-/// A field of a parameter struct, as values of a design point: one, or those of a struct of parameters.
+/// A field of a parameter struct, as values of a design point: one value, or the values of a struct of parameters.
 pub trait Slot {
     /// The field from the next of a point's values. Those that are missing count as not set.
     fn take(values: &mut impl Iterator<Item = f64>) -> Self;

@@ -221,7 +221,7 @@ pub fn of_all_wings(parameters: &[Parameter<'_>], index: usize) -> Option<usize>
     if wing.ends_with('_') { Parameter::index(parameters, follows) } else { None }
 }
 
-/// The value of a parameter at a point: of a wing's own one that is not set, that of all wings.
+/// The value of a parameter at a point. A wing's own parameter that is not set has the value of all wings.
 pub fn standing(parameters: &[Parameter<'_>], values: &[f64], index: usize) -> f64 {
     let shared = of_all_wings(parameters, index).filter(|_| values[index].is_nan());
     values[shared.unwrap_or(index)]

@@ -55,7 +55,7 @@ type Column = Derived<Bimorph, Constants<f64>, Signals>;
 const DERIVED: &[Column] = &[
     Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the drive -sin(wt), the sense of F_1 - F_2, in (-180, 180]",
         |_, _, cycle| lag_degrees(cycle.stroke.phase(), DRIVE_PHASE)).over_wings(Each),
-    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the hinge angle lags that of the stroke, in (-180, 180]",
+    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the hinge angle lags the first harmonic of the stroke, in (-180, 180]",
         |_, _, cycle| lag_degrees(cycle.pitch.phase(), cycle.stroke.phase())).over_wings(Each),
     Column::new("stroke_pp_deg_per_v", "deg/V", "stroke_pp_deg over drive_voltage_pp, the ordinate of Fig. 4a and 5",
         |_, c, cycle| cycle.stroke.measure(PeakToPeak) * DEGREES / (2.0 * c.drive.amplitude)),
@@ -214,8 +214,8 @@ impl Model<4> for Bimorph {
         Bimorph { law: Law::Square, ..self.clone() }
     }
 
-    /// Starts at rest. The scales are those of the direct-drive model, so that tolerances and residuals mean the
-    /// same: strokes of 0.1 rad, hinge angles of 0.3 rad, times the drive's angular frequency for the rates.
+    /// Starts at rest. The scales are the same as in the direct-drive model, so that tolerances and residuals mean
+    /// the same: strokes of 0.1 rad, hinge angles of 0.3 rad, times the drive's angular frequency for the rates.
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         self.drive.check(&params.waveform)?;
@@ -228,7 +228,7 @@ impl Model<4> for Bimorph {
 
     /// The parameters that a wing decides.
     ///
-    /// Centres of pressure are those of blade elements: the presets have them times factors fitted to one vehicle.
+    /// The centres of pressure come from blade elements, without the factors fitted to one vehicle that the presets have.
     fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
         let length = wing.offset + wing.outline.length();
         let (area, width) = (wing.area(), wing.outline.width());

@@ -39,15 +39,15 @@ type Column = Derived<DirectDrive, Constants<f64>, Signals>;
 
 #[rustfmt::skip]
 const DERIVED: &[Column] = &[
-    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags that of the drive voltage, in (-180, 180]",
+    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the first harmonic of the drive voltage, in (-180, 180]",
         |_, _, cycle| lag_degrees(cycle.stroke.phase(), SINE_PHASE)).over_wings(Each),
-    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags that of the stroke, in (-180, 180]",
+    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags the first harmonic of the stroke, in (-180, 180]",
         |_, _, cycle| lag_degrees(cycle.pitch.phase(), cycle.stroke.phase())).over_wings(Each),
     Column::new("lift_mean_gf", "gf", "mean lift in grams-force",
         |_, _, cycle| grams_force(cycle.lift.mean)),
     Column::new("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw); empty where that is not more than zero",
         |_, _, cycle| efficiency(grams_force(cycle.lift.mean), cycle.power.mean)),
-    Column::new("power_supply_mw", "mW", "mean power of the supply: that of the positive part, less charge_recovery times what it takes back",
+    Column::new("power_supply_mw", "mW", "mean power of the supply: the mean of the positive part, less charge_recovery times what the supply takes back",
         |_, c, cycle| supplied(cycle.power.measure(Supply), cycle.power.mean, c.charge_recovery) * 1e3).over_wings(Sum),
     Column::new("power_capacitive_mw", "mW", "C V_pp^2 f / 2, the power of charging the actuator's capacitance without recovery",
         |model, c, _| charging(c.c_p, model.drive.voltage_range(&c.drive), c.drive.frequency()) * 1e3).over_wings(Sum),

@@ -185,8 +185,8 @@ fn strips(p: &Params) -> Result<Vec<Cut>, Invalid> {
     Ok(cuts)
 }
 
-/// Actuator and series spring [(1), (2)] at the angular frequency `rate` (rad/s). The tip of the unimorph is that of Smits and
-/// Choi (1991): δ = γV − F/k_a.
+/// Actuator and series spring [(1), (2)] at the angular frequency `rate` (rad/s). The unimorph's tip follows
+/// Smits and Choi (1991): δ = γV − F/k_a.
 ///
 /// ```text
 /// k_a = 3 S w / L³     γ = E_p d₃₁ (z_p − z_c) L² / (2S)     Γ = k_a γ     m_eff = 33/140 w L Σ ρᵢ hᵢ

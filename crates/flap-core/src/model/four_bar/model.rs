@@ -47,15 +47,15 @@ type Column = Derived<FourBar, Constants<f64>, Signals>;
 
 #[rustfmt::skip]
 const DERIVED: &[Column] = &[
-    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags that of the drive voltage, in (-180, 180]",
+    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the first harmonic of the drive voltage, in (-180, 180]",
         |_, _, cycle| lag_degrees(cycle.stroke.phase(), SINE_PHASE)).over_wings(Each),
-    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags that of the stroke, in (-180, 180]: the paper's phase shift",
+    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags the first harmonic of the stroke, in (-180, 180]: the paper's phase shift",
         |_, _, cycle| lag_degrees(cycle.pitch.phase(), cycle.stroke.phase())).over_wings(Each),
     Column::new("lift_mean_gf", "gf", "mean lift in grams-force",
         |_, _, cycle| grams_force(cycle.lift.mean)),
     Column::new("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw)",
         |_, _, cycle| efficiency(grams_force(cycle.lift.mean), cycle.power.mean)),
-    Column::new("power_supply_mw", "mW", "mean power of the supply: that of the positive part, less charge_recovery times what it takes back",
+    Column::new("power_supply_mw", "mW", "mean power of the supply: the mean of the positive part, less charge_recovery times what the supply takes back",
         |_, c, cycle| supplied(cycle.power.measure(Supply), cycle.power.mean, c.actuator.charge_recovery) * 1e3).over_wings(Sum),
     Column::new("power_capacitive_mw", "mW", "C V_pp^2 f / 2, the power of charging the blocked actuator's capacitance without recovery",
         |model, c, _| {
@@ -145,8 +145,8 @@ impl Model<4> for FourBar {
         Ok(states::start(&self.drive, &constants.drive, constants, [0.3, 0.5]))
     }
 
-    /// The parameters that a wing decides. The axis is at one share of the chord all along the span: that of the areas before
-    /// and behind it.
+    /// The parameters that a wing decides. The axis is at one share of the chord all along the span: the share of the wing's
+    /// area before the axis.
     fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
         let before = wing.outline.integral(|_, leading, _| leading);
         let mut found = vec![("wing_offset", wing.offset), ("wing_length", wing.outline.length())];
