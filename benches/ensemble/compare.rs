@@ -8,20 +8,20 @@ use crate::sweep::{POINTS, Sweep};
 
 const ROUNDS: usize = 9;
 
-/// Prints a line per instruction set.
+/// Prints a line per backend.
 pub(crate) fn lanes_with_scalars() {
     let sweep = Sweep::new();
     println!("lanes against scalars of the same arithmetic class, medians of {ROUNDS} interleaved runs:");
-    for set in Backend::available() {
+    for backend in Backend::available() {
         let mut ratios = Vec::new();
         let mut lane_seconds = Vec::new();
         let mut rhs_evals = 0;
         for _ in 0..ROUNDS {
             let begin = Instant::now();
-            rhs_evals = sweep.lanes(set);
+            rhs_evals = sweep.lanes(backend);
             let lanes = begin.elapsed().as_secs_f64();
             let begin = Instant::now();
-            sweep.scalars(set);
+            sweep.scalars(backend);
             let scalars = begin.elapsed().as_secs_f64();
             ratios.push(scalars / lanes);
             lane_seconds.push(lanes);
@@ -29,11 +29,11 @@ pub(crate) fn lanes_with_scalars() {
         let seconds = median(&mut lane_seconds);
         println!(
             "{:7} {:5.2} x the points of scalars: {:.0} points/s, {:.1} M right-hand sides/s{}",
-            set.name(),
+            backend.name(),
             median(&mut ratios),
             POINTS as f64 / seconds,
             rhs_evals as f64 / seconds * 1e-6,
-            instructions(set),
+            instructions(backend),
         );
     }
 }
@@ -46,12 +46,12 @@ fn median(values: &mut [f64]) -> f64 {
 /// Instructions per right-hand side and lane while marching, as a phrase.
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[expect(clippy::print_stderr, reason = "a bench reports")]
-fn instructions(set: Backend) -> String {
+fn instructions(backend: Backend) -> String {
     use crate::counter::count;
     use crate::workload::{Task, Work};
 
     let per_rhs = |task| {
-        let work = Work { preset: "ozaki2018-large", set, task };
+        let work = Work { preset: "ozaki2018-large", backend, task };
         let instructions = count(&work.to_string(), &mut |_| Ok(()))?;
         std::io::Result::Ok(instructions as f64 / work.rhs_evals() as f64)
     };

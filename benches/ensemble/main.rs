@@ -1,4 +1,4 @@
-//! A sweep, by the lanes of every instruction set of this machine and by scalars, on one thread.
+//! A sweep, by the lanes of every backend of this machine and by scalars, on one thread.
 //!
 //! Criterion reports points per second. The lines at the end compare lanes with scalars in interleaved runs,
 //! so that what else the machine does slows both alike.
@@ -44,12 +44,12 @@ fn points_per_second(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(POINTS as u64));
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
     group.warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(4));
-    for set in Backend::available() {
-        group.bench_function(format!("lanes/{set}"), |bench| bench.iter(|| sweep.lanes(set)));
+    for backend in Backend::available() {
+        group.bench_function(format!("lanes/{backend}"), |bench| bench.iter(|| sweep.lanes(backend)));
     }
-    for set in sweep::scalar_sets() {
-        let class = set.arithmetic().name();
-        group.bench_function(format!("scalars/{class}"), |bench| bench.iter(|| sweep.scalars(set)));
+    for backend in sweep::scalar_backends() {
+        let class = backend.arithmetic().name();
+        group.bench_function(format!("scalars/{class}"), |bench| bench.iter(|| sweep.scalars(backend)));
     }
     group.finish();
 }

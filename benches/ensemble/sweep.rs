@@ -35,25 +35,25 @@ impl Sweep {
     }
 
     /// Runs it in lanes. Returns the right-hand sides evaluated.
-    pub(crate) fn lanes(&self, set: Backend) -> u64 {
+    pub(crate) fn lanes(&self, backend: Backend) -> u64 {
         let points = self.points.iter().map(|values| Point::at_rest(0, values.clone())).collect();
-        let rows = run_list(self.simulator, set, &SolverSettings::default(), points, &never);
+        let rows = run_list(self.simulator, backend, &SolverSettings::default(), points, &never);
         rows.expect("every point has a row").iter().map(|row| row.rhs_evals).sum()
     }
 
-    /// Runs it point by point on scalars of the set's arithmetic class. Returns the right-hand sides evaluated.
-    pub(crate) fn scalars(&self, set: Backend) -> u64 {
+    /// Runs it point by point on scalars of the backend's arithmetic class. Returns the right-hand sides evaluated.
+    pub(crate) fn scalars(&self, backend: Backend) -> u64 {
         let settings = SolverSettings::default();
         self.points
             .iter()
-            .map(|point| self.simulator.run_point(&PointRun::new(set, &settings, point), None).rhs_evals)
+            .map(|point| self.simulator.run_point(&PointRun::new(backend, &settings, point), None).rhs_evals)
             .sum()
     }
 }
 
-/// One instruction set per arithmetic class of this machine.
-pub(crate) fn scalar_sets() -> Vec<Backend> {
-    let mut sets = Backend::available();
-    sets.dedup_by_key(|set| set.arithmetic());
-    sets
+/// One backend per arithmetic class of this machine.
+pub(crate) fn scalar_backends() -> Vec<Backend> {
+    let mut backends = Backend::available();
+    backends.dedup_by_key(|backend| backend.arithmetic());
+    backends
 }

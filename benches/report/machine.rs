@@ -8,12 +8,12 @@ use flap_core::num::Backend;
 
 pub(crate) fn print() {
     let threads = thread::available_parallelism().map_or(1, usize::from);
-    let sets: Vec<&str> = Backend::available().into_iter().map(Backend::name).collect();
+    let backends: Vec<&str> = Backend::available().into_iter().map(Backend::name).collect();
     println!(
         "## Machine\n\n| | |\n|---|---|\n| processor | {} |\n| hardware threads | {threads} |\n\
          | instructions | {} |\n| compiler | {} |\n| load average | {} |\n",
         processor(),
-        sets.join(", "),
+        backends.join(", "),
         compiler(),
         fs::read_to_string("/proc/loadavg").map_or("unknown".into(), |text| first_words(&text, 3)),
     );

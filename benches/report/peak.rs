@@ -27,28 +27,31 @@ pub(crate) fn print(effort: Effort) {
                     | instructions | executed | arithmetic | of which fused | divisions | with the stack | peak, GFLOP/s | \
                     share of the peak's instructions |\n|---|---|---|---|---|---|---|---|"
     );
-    for set in Backend::available().into_iter().filter(|set| set.name() != "sse2") {
-        println!("{}", line(set, effort).unwrap_or_else(|error| format!("| {set} | not counted: {error} |")));
+    for backend in Backend::available().into_iter().filter(|backend| backend.name() != "sse2") {
+        println!(
+            "{}",
+            line(backend, effort).unwrap_or_else(|error| format!("| {backend} | not counted: {error} |"))
+        );
     }
 }
 
-fn line(set: Backend, effort: Effort) -> std::io::Result<String> {
-    let executed = Executed::of(&format!("{set} {COUNTED}"))?;
-    let lanes = set.lanes() as f64;
-    let counted = rhs_evals(set, COUNTED) / lanes;
+fn line(backend: Backend, effort: Effort) -> std::io::Result<String> {
+    let executed = Executed::of(&format!("{backend} {COUNTED}"))?;
+    let lanes = backend.lanes() as f64;
+    let counted = rhs_evals(backend, COUNTED) / lanes;
     let [mut peaks, mut shares] = [Vec::new(), Vec::new()];
     for _ in 0..effort.rounds {
         let iterations = effort.periods * 10_000;
-        let fused_per_second = set.dispatch(Fused { iterations });
-        let seconds = march_seconds(set, effort.periods);
-        let vectors = rhs_evals(set, effort.periods) / lanes;
+        let fused_per_second = backend.dispatch(Fused { iterations });
+        let seconds = march_seconds(backend, effort.periods);
+        let vectors = rhs_evals(backend, effort.periods) / lanes;
         let per_second = executed.arithmetic() as f64 / counted * vectors / seconds;
         peaks.push(fused_per_second * lanes * 1e-9);
         shares.push(100.0 * per_second / fused_per_second);
     }
     let per_rhs = |count: u64| digits(count as f64 / counted);
     Ok(format!(
-        "| {set} | {} | {} | {} | {} | {} | {} | {} % |",
+        "| {backend} | {} | {} | {} | {} | {} | {} | {} % |",
         per_rhs(executed.all),
         per_rhs(executed.arithmetic()),
         per_rhs(executed.fused),
@@ -59,22 +62,22 @@ fn line(set: Backend, effort: Effort) -> std::io::Result<String> {
     ))
 }
 
-/// Marches as many periods as `name` says, which is a set of instructions and a number.
+/// Marches as many periods as `name` says, which is a backend and a number.
 pub(crate) fn march_by_name(name: &str, mark: &mut dyn FnMut()) {
-    let (set, periods) = name.split_once(' ').expect("a set and periods");
-    let set = Backend::by_name(set).expect("a set of this machine");
-    set.dispatch(March { periods: periods.parse().expect("a number"), mark });
+    let (backend, periods) = name.split_once(' ').expect("a backend and periods");
+    let backend = Backend::by_name(backend).expect("a backend of this machine");
+    backend.dispatch(March { periods: periods.parse().expect("a number"), mark });
 }
 
-fn march_seconds(set: Backend, periods: u64) -> f64 {
+fn march_seconds(backend: Backend, periods: u64) -> f64 {
     let mut marks = Vec::new();
-    set.dispatch(March { periods, mark: &mut || marks.push(Instant::now()) });
+    backend.dispatch(March { periods, mark: &mut || marks.push(Instant::now()) });
     (marks[1] - marks[0]).as_secs_f64()
 }
 
 /// Right-hand sides of all lanes.
-fn rhs_evals(set: Backend, periods: u64) -> f64 {
-    set.dispatch(March { periods, mark: &mut || () }) as f64
+fn rhs_evals(backend: Backend, periods: u64) -> f64 {
+    backend.dispatch(March { periods, mark: &mut || () }) as f64
 }
 
 /// Fused multiplications and additions. Results in instructions per second.

@@ -34,11 +34,12 @@ type Point = (String, f64, f64);
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let ([points, rtol, out], set) = match &arguments[..] {
+    let ([points, rtol, out], backend) = match &arguments[..] {
         [points, rtol, out] => ([points, rtol, out], Backend::best()),
-        [points, rtol, out, set] => {
-            let set = Backend::by_name(set).ok_or_else(|| format!("this machine has no {set}"))?;
-            ([points, rtol, out], set)
+        [points, rtol, out, backend] => {
+            let backend =
+                Backend::by_name(backend).ok_or_else(|| format!("this machine has no {backend}"))?;
+            ([points, rtol, out], backend)
         }
         _ => return Err("arguments are needed: POINTS.csv RTOL OUT.csv [SET]".into()),
     };
@@ -47,7 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let tolerances = Tolerances { rtol, atol: 0.1 * rtol, max_steps: 100_000 };
 
     let (wall, cpu) = (Instant::now(), cpu_time()?);
-    let found = integrated(set, &points, &tolerances);
+    let found = integrated(backend, &points, &tolerances);
     let (wall, cpu) = (wall.elapsed(), cpu_time()?.saturating_sub(cpu));
 
     let mut table = vec!["id,F0,f,max_x,max_psi,lift".to_owned()];
@@ -86,17 +87,17 @@ struct Found {
     rhs_evals: u64,
 }
 
-fn integrated(set: Backend, points: &[Point], tolerances: &Tolerances) -> Found {
+fn integrated(backend: Backend, points: &[Point], tolerances: &Tolerances) -> Found {
     let begin = |(_, force, frequency): &Point| {
         Start::new(Drive::new(*force, *frequency), [0.0; 4], 1.0 / frequency, SCALE)
     };
     // Most periods are not looked at, which is cheaper; the last ones are.
     let mut starts: Vec<Begin> = points.iter().map(begin).collect();
-    let settled = integrate(set, &Wing, &Unobserved, tolerances, &starts, PERIODS[0]);
+    let settled = integrate(backend, &Wing, &Unobserved, tolerances, &starts, PERIODS[0]);
     for (start, end) in starts.iter_mut().zip(&settled) {
         start.y = end.y;
     }
-    let measured = integrate(set, &Wing, &Measured, tolerances, &starts, PERIODS[1]);
+    let measured = integrate(backend, &Wing, &Measured, tolerances, &starts, PERIODS[1]);
     let evals = settled.iter().map(|end| end.outcome).chain(measured.iter().map(|end| end.outcome));
     Found {
         rhs_evals: evals.map(|outcome| outcome.rhs_evals).sum(),
@@ -119,14 +120,14 @@ mod tests {
         let points = read(&format!("id,F0,f\n{}", begins.join("\n"))).expect("points");
         for (rtol, worst) in [(1e-6, 1e-4), (1e-8, 1e-6)] {
             let tolerances = Tolerances { rtol, atol: 0.1 * rtol, max_steps: 100_000 };
-            for set in Backend::available() {
-                let found = integrated(set, &points, &tolerances);
+            for backend in Backend::available() {
+                let found = integrated(backend, &points, &tolerances);
                 for ((row, (_, _, frequency)), sums) in rows.iter().zip(&points).zip(&found.sums) {
                     let lift = sums.lift * frequency / f64::from(PERIODS[1]);
                     for (computed, known) in [sums.tip, sums.psi, lift].into_iter().zip(&row[3..]) {
                         let known: f64 = known.parse().expect("a number");
                         let error = (computed / known - 1.0).abs();
-                        assert!(error < worst, "{set} at {rtol}: {computed} for {known} in {row:?}");
+                        assert!(error < worst, "{backend} at {rtol}: {computed} for {known} in {row:?}");
                     }
                 }
             }

@@ -21,8 +21,8 @@ fn the_count_sees_allocations() {
 fn a_step_allocates_nothing() {
     let start = start();
     assert_eq!(allocations(|| one_step::<f64>(OneLane::new(), &start)), 0);
-    for set in Backend::available() {
-        assert_eq!(allocations(|| set.dispatch(OneStep(&start))), 0, "{set}");
+    for backend in Backend::available() {
+        assert_eq!(allocations(|| backend.dispatch(OneStep(&start))), 0, "{backend}");
     }
 }
 
@@ -42,31 +42,31 @@ fn a_scalar_run_allocates_nothing() {
 
 #[test]
 fn an_ensemble_allocates_the_same_for_more_cycles() {
-    for set in Backend::available() {
+    for backend in Backend::available() {
         let starts = vec![start(); 40];
         let march = |cycles| {
             allocations(|| {
-                black_box(integrate(set, &MODEL, &Unobserved, &TOLERANCES, &starts, cycles));
+                black_box(integrate(backend, &MODEL, &Unobserved, &TOLERANCES, &starts, cycles));
             })
         };
-        assert_eq!(march(10), march(1), "{set}");
+        assert_eq!(march(10), march(1), "{backend}");
     }
 }
 
 #[test]
 fn a_sweep_allocates_the_same_for_more_cycles() {
     for preset in ["ozaki2018-large", "jafferis2016", "arabagi2013-75hz"] {
-        for set in Backend::available() {
+        for backend in Backend::available() {
             // The first sweep of a thread finds the quadrature rules, and keeps them.
-            sweep(preset, set, 1e-1, false);
+            sweep(preset, backend, 1e-1, false);
             for (progressive, loose) in [(false, 1e-1), (true, 1e-6)] {
-                let (few, few_cycles) = sweep(preset, set, loose, progressive);
-                let (many, many_cycles) = sweep(preset, set, 1e-12, progressive);
+                let (few, few_cycles) = sweep(preset, backend, loose, progressive);
+                let (many, many_cycles) = sweep(preset, backend, 1e-12, progressive);
                 assert!(
                     many_cycles > few_cycles,
-                    "{preset}, {set}: {many_cycles} cycles against {few_cycles}"
+                    "{preset}, {backend}: {many_cycles} cycles against {few_cycles}"
                 );
-                assert_eq!(many, few, "{preset}, {set}, progressive tolerances: {progressive}");
+                assert_eq!(many, few, "{preset}, {backend}, progressive tolerances: {progressive}");
             }
         }
     }

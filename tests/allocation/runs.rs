@@ -63,11 +63,11 @@ pub(crate) fn count_down(left: &mut u32) -> ControlFlow<()> {
 }
 
 /// Allocations and cycles of a sweep over equal points of a preset, from points to rows.
-pub(crate) fn sweep(name: &str, set: Backend, settle_tol: f64, progressive: bool) -> (u64, u64) {
+pub(crate) fn sweep(name: &str, backend: Backend, settle_tol: f64, progressive: bool) -> (u64, u64) {
     let (simulator, preset) = preset(name).expect("a published preset");
     let solver = SolverSettings { settle_tol, progressive, ..SolverSettings::default().with_rtol(1e-8) };
     let mut points = Points { left: 48, cycles: 0, values: (preset.values)() };
-    let allocations = allocations(|| simulator.run(set, &solver, &mut points));
+    let allocations = allocations(|| simulator.run(backend, &solver, &mut points));
     (allocations, points.cycles)
 }
 

@@ -240,8 +240,8 @@ fn all_magnitudes() -> Vec<f64> {
 #[test]
 fn exponentials_and_logarithms_of_any_number_are_those_of_the_standard_library() {
     let numbers = all_magnitudes();
-    for set in Backend::available() {
-        for (&x, found) in numbers.iter().zip(set.dispatch(Exponentials(&numbers))) {
+    for backend in Backend::available() {
+        for (&x, found) in numbers.iter().zip(backend.dispatch(Exponentials(&numbers))) {
             for ((name, found), expected) in
                 ["exp", "exp_m1", "ln", "ln_1p"].into_iter().zip(found).zip(std_exponentials(x))
             {
@@ -249,7 +249,7 @@ fn exponentials_and_logarithms_of_any_number_are_those_of_the_standard_library()
                 let close = (found - expected).abs() <= 7e-16 * expected.abs() + f64::from_bits(1);
                 assert!(
                     found == expected || close || found.is_nan() && expected.is_nan(),
-                    "{name} of {x:e} with {set}: {found:e} is not {expected:e}"
+                    "{name} of {x:e} with {backend}: {found:e} is not {expected:e}"
                 );
             }
         }
@@ -270,13 +270,13 @@ fn unchecked_exponentials_and_logarithms_have_the_same_bits() {
 #[test]
 fn lanes_equal_scalars_bit_for_bit() {
     let x = arguments(-30.0, 30.0);
-    for set in Backend::available() {
-        for (&x, lane) in x.iter().zip(set.dispatch(OnLanes(&x))) {
-            let scalar = match set.arithmetic() {
+    for backend in Backend::available() {
+        for (&x, lane) in x.iter().zip(backend.dispatch(OnLanes(&x))) {
+            let scalar = match backend.arithmetic() {
                 Arithmetic::Fused => everything(x),
                 Arithmetic::Unfused => everything(Unfused(x)).map(|v| v.0),
             };
-            assert_eq!(lane.map(f64::to_bits), scalar.map(f64::to_bits), "{set} at {x}");
+            assert_eq!(lane.map(f64::to_bits), scalar.map(f64::to_bits), "{backend} at {x}");
         }
     }
 }
@@ -307,8 +307,8 @@ impl Kernel for Masks {
 
 #[test]
 fn masks_hold_one_bit_per_lane() {
-    for set in Backend::available() {
-        set.dispatch(Masks);
+    for backend in Backend::available() {
+        backend.dispatch(Masks);
     }
 }
 

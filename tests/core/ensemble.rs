@@ -67,10 +67,13 @@ fn instruction_sets_of_a_class_give_the_same_bits() {
     let points = mixed_points();
     let best = Backend::best();
     let expected = rows::of(model(), &points, best, &QUICK);
-    for set in Backend::available() {
-        if set.arithmetic() == best.arithmetic() {
-            let rows = rows::of(model(), &points, set, &QUICK);
-            assert!(rows.iter().zip(&expected).all(|(a, b)| bits(a) == bits(b)), "{set} differs from {best}");
+    for backend in Backend::available() {
+        if backend.arithmetic() == best.arithmetic() {
+            let rows = rows::of(model(), &points, backend, &QUICK);
+            assert!(
+                rows.iter().zip(&expected).all(|(a, b)| bits(a) == bits(b)),
+                "{backend} differs from {best}"
+            );
         }
     }
 }
@@ -82,10 +85,10 @@ proptest! {
     #[test]
     fn a_row_depends_on_its_point_alone(chosen in prop::collection::vec(0..150_usize, 1..70)) {
         let points = mixed_points();
-        let set = Backend::best();
-        let together = rows::of(model(), &points, set, &QUICK);
+        let backend = Backend::best();
+        let together = rows::of(model(), &points, backend, &QUICK);
         let few: Vec<_> = chosen.iter().map(|&i| points[i].clone()).collect();
-        let some = rows::of(model(), &few, set, &QUICK);
+        let some = rows::of(model(), &few, backend, &QUICK);
         for (row, &i) in some.iter().zip(&chosen) {
             prop_assert_eq!(bits(row), bits(&together[i]));
         }

@@ -257,14 +257,14 @@ fn derivatives_are_the_same_in_all_lanes_of_an_arithmetic() {
             })
             .collect();
         let motions = model.motions().unwrap();
-        let slopes = |set: Backend, changes: &[Change]| {
-            let run = PointRun::new(set, &solver, &values);
+        let slopes = |backend: Backend, changes: &[Change]| {
+            let run = PointRun::new(backend, &solver, &values);
             format!("{:?}", motions.gradient(&run, &row.state, changes).unwrap().slopes)
         };
         let all = slopes(best, &changes);
-        for set in Backend::available() {
-            if set.arithmetic() == best.arithmetic() {
-                assert_eq!(slopes(set, &changes), all, "{} {set}", model.name());
+        for backend in Backend::available() {
+            if backend.arithmetic() == best.arithmetic() {
+                assert_eq!(slopes(backend, &changes), all, "{} {backend}", model.name());
             }
         }
         let last = slopes(best, &changes[changes.len() - 1..]);

@@ -42,25 +42,25 @@ fn at_rest(points: &[Vec<f64>]) -> Vec<Point> {
     (0..).zip(points).map(|(index, values)| Point::at_rest(index, values.clone())).collect()
 }
 
-/// The rows of `points` on the lanes of `set`, in their order, each from rest.
+/// The rows of `points` on the lanes of `backend`, in their order, each from rest.
 pub(crate) fn of(
     model: &dyn Simulator,
     points: &[Vec<f64>],
-    set: Backend,
+    backend: Backend,
     solver: &SolverSettings,
 ) -> Vec<Row> {
-    of_points(model, &at_rest(points), set, solver)
+    of_points(model, &at_rest(points), backend, solver)
 }
 
-/// The rows of `points` on the lanes of `set`, in their order, which is that of their indices.
+/// The rows of `points` on the lanes of `backend`, in their order, which is that of their indices.
 pub(crate) fn of_points(
     model: &dyn Simulator,
     points: &[Point],
-    set: Backend,
+    backend: Backend,
     solver: &SolverSettings,
 ) -> Vec<Row> {
     let mut listed = Listed { next: 0, rows: vec![None; points.len()], points };
-    model.run(set, solver, &mut listed);
+    model.run(backend, solver, &mut listed);
     listed.rows.into_iter().map(|row| row.expect("every point has a row")).collect()
 }
 
@@ -72,8 +72,8 @@ pub(crate) fn bits(row: &Row) -> (Status, Vec<u64>, u32, u32, u64, &Option<Strin
     (row.status, numbers, row.cycles, row.period, row.rhs_evals, &row.reason)
 }
 
-/// Fails unless rows from the lanes of every instruction set equal those of the scalar path to the last bit; gives
-/// those of the best set.
+/// Fails unless rows from the lanes of every backend equal those of the scalar path to the last bit; gives
+/// those of the best backend.
 pub(crate) fn assert_lanes_equal_scalars(
     model: &dyn Simulator,
     points: &[Vec<f64>],
@@ -89,11 +89,12 @@ pub(crate) fn assert_lanes_equal_scalars_at(
     solver: &SolverSettings,
 ) -> Vec<Row> {
     let mut best = None;
-    for set in Backend::available() {
-        let rows = of_points(model, points, set, solver);
+    for backend in Backend::available() {
+        let rows = of_points(model, points, backend, solver);
         for (i, (point, row)) in points.iter().zip(&rows).enumerate() {
-            let alone = model.run_point(&PointRun::new(set, solver, &point.values), point.begin.as_deref());
-            assert_eq!(bits(row), bits(&alone), "point {i} with {set}");
+            let alone =
+                model.run_point(&PointRun::new(backend, solver, &point.values), point.begin.as_deref());
+            assert_eq!(bits(row), bits(&alone), "point {i} with {backend}");
             let measured = row.status == Status::Periodic;
             assert_eq!(row.measures.len(), if measured { model.columns().len() } else { 0 });
         }

@@ -74,14 +74,14 @@ impl<M: Driven<W>, const W: usize> ScalarKernel for OnScalars<'_, M, W> {
     }
 }
 
-/// Fails unless the derivatives from the lanes of every instruction set equal those of scalars to the last bit.
+/// Fails unless the derivatives from the lanes of every backend equal those of scalars to the last bit.
 pub(crate) fn assert_lanes_equal_scalars<M: Driven<W>, const W: usize>(cases: &[Case<M, W>]) {
-    for set in Backend::available() {
-        assert!(set.lanes() >= 4, "{set} has {} lanes", set.lanes());
-        let (lanes, scalars) = (set.dispatch(OnLanes(cases)), set.dispatch_scalar(OnScalars(cases)));
+    for backend in Backend::available() {
+        assert!(backend.lanes() >= 4, "{backend} has {} lanes", backend.lanes());
+        let (lanes, scalars) = (backend.dispatch(OnLanes(cases)), backend.dispatch_scalar(OnScalars(cases)));
         assert_eq!(lanes.len(), cases.len());
         for ((case, lane), scalar) in cases.iter().zip(lanes).zip(scalars) {
-            assert_eq!(lane.map(f64::to_bits), scalar.map(f64::to_bits), "{set}, {}", case.record.name);
+            assert_eq!(lane.map(f64::to_bits), scalar.map(f64::to_bits), "{backend}, {}", case.record.name);
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! The program starts itself again with the work's name in its environment. That child asks to be traced and
 //! stops at the beginning and at the end of the work; its parent lets it go from the one stop to the other
-//! instruction by instruction. This needs no hardware counters, sees every instruction set, and gives the
+//! instruction by instruction. This needs no hardware counters, counts the instructions of every backend, and gives the
 //! same number every time (but for a handful in the allocator), however busy the machine is.
 
 use std::io;

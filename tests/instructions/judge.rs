@@ -34,17 +34,17 @@ pub(crate) fn judge() -> Result<(), String> {
 
     let compiled_in = PRESETS.into_iter().filter(|preset| simulate::preset(preset).is_some());
     for (i, preset) in compiled_in.enumerate() {
-        for (j, set) in Backend::available().into_iter().enumerate() {
-            // Models and sets share most of their source: one model with every set, the others with the best.
+        for (j, backend) in Backend::available().into_iter().enumerate() {
+            // Models and backends share most of their source: one model with every backend, the others with the best.
             if i > 0 && j > 0 {
                 continue;
             }
-            let scalar = per_rhs(Work { preset, set, task: Task::ScalarMarch })?;
-            let march = per_rhs(Work { preset, set, task: Task::March })?;
-            let limit = ALLOWANCE * 2.0 / set.lanes() as f64;
-            check(format!("{preset}, {set} lanes against scalars"), march / scalar, limit);
+            let scalar = per_rhs(Work { preset, backend, task: Task::ScalarMarch })?;
+            let march = per_rhs(Work { preset, backend, task: Task::March })?;
+            let limit = ALLOWANCE * 2.0 / backend.lanes() as f64;
+            check(format!("{preset}, {backend} lanes against scalars"), march / scalar, limit);
             if j == 0 {
-                let measure = per_rhs(Work { preset, set, task: Task::Measure })?;
+                let measure = per_rhs(Work { preset, backend, task: Task::Measure })?;
                 check(format!("{preset}, orbits against marching"), measure / march, MEASURING);
             }
         }

@@ -14,7 +14,7 @@ pub(crate) struct Work {
     /// The point, one of [`PRESETS`].
     pub(crate) preset: &'static str,
     /// The instructions it is done with.
-    pub(crate) set: Backend,
+    pub(crate) backend: Backend,
     /// The task.
     pub(crate) task: Task,
 }
@@ -22,7 +22,7 @@ pub(crate) struct Work {
 /// A task for the instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Task {
-    /// Marching a point for a period on scalars of the set's arithmetic class.
+    /// Marching a point for a period on scalars of the backend's arithmetic class.
     ScalarMarch,
     /// Marching a point per lane for a period.
     March,
@@ -42,7 +42,7 @@ impl Task {
 
 impl fmt::Display for Work {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {} {}", self.preset, self.set, self.task.name())
+        write!(f, "{} {} {}", self.preset, self.backend, self.task.name())
     }
 }
 
@@ -52,11 +52,11 @@ impl Work {
         let mut words = name.split(' ');
         let preset = words.next()?;
         let preset = PRESETS.into_iter().find(|&one| one == preset)?;
-        let set = Backend::by_name(words.next()?)?;
+        let backend = Backend::by_name(words.next()?)?;
         let task = words.next()?;
         let task =
             [Task::ScalarMarch, Task::March, Task::Measure].into_iter().find(|one| one.name() == task)?;
-        Some(Work { preset, set, task })
+        Some(Work { preset, backend, task })
     }
 
     /// Does the work, calling `mark` where the count is to begin and where it is to end.
@@ -65,7 +65,7 @@ impl Work {
             Task::ScalarMarch => {
                 let (simulator, values) = self.point();
                 mark();
-                simulator.run_point(&PointRun::new(self.set, &MARCH, &values), None);
+                simulator.run_point(&PointRun::new(self.backend, &MARCH, &values), None);
                 mark();
             }
             Task::March => {
@@ -83,7 +83,7 @@ impl Work {
         match self.task {
             Task::ScalarMarch => {
                 let (simulator, values) = self.point();
-                simulator.run_point(&PointRun::new(self.set, &MARCH, &values), None).rhs_evals
+                simulator.run_point(&PointRun::new(self.backend, &MARCH, &values), None).rhs_evals
             }
             Task::March => evals(&MARCH),
             Task::Measure => evals(&SETTLE_AND_MEASURE) - evals(&SETTLE),
@@ -92,8 +92,8 @@ impl Work {
 
     fn run_lanes(self, settings: &SolverSettings, begin: Begin, mark: &mut dyn FnMut()) -> u64 {
         let (simulator, values) = self.point();
-        let mut jobs = Alike { values, left: self.set.lanes(), begin, marks: 0, rhs_evals: 0, mark };
-        simulator.run(self.set, settings, &mut jobs);
+        let mut jobs = Alike { values, left: self.backend.lanes(), begin, marks: 0, rhs_evals: 0, mark };
+        simulator.run(self.backend, settings, &mut jobs);
         jobs.rhs_evals
     }
 

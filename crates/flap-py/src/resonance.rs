@@ -45,7 +45,7 @@ pub(crate) fn resonance<'py>(
         spectrum_window: convert::quantity("spectrum_window", "s", true, spectrum_window)?,
         samples_per_cycle: SAMPLES,
     };
-    let set = Backend::best();
+    let backend = Backend::best();
     let experiments = simulator.experiments().map_err(|reason| error::unfinished(&reason))?;
     let modes = experiments.modes(values).map_err(|reason| error::unfinished(&reason))?;
     let search = PeakSearch {
@@ -54,7 +54,7 @@ pub(crate) fn resonance<'py>(
         tolerance: convert::quantity("tolerance", "Hz", true, tolerance)?,
     };
     let found = interruptible(py, |interrupted| {
-        let run = PointRun::new(set, solver, values).until(interrupted);
+        let run = PointRun::new(backend, solver, values).until(interrupted);
         Ok((free::examine(experiments, &run, &request)?, driven::search(simulator, &run, &search)?))
     })?;
     let (free, driven) = found.map_err(|reason: SearchError| PyValueError::new_err(reason.to_string()))?;

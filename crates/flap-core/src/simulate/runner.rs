@@ -189,8 +189,8 @@ impl<M: Model<N>, const N: usize> Rows for Runner<M, N> {
         self.columns.get_or_init(columns::<M, N>)
     }
 
-    fn run(&self, set: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs) {
-        set.dispatch(LanesKernel::<M, N> { model: &self.model, solver, jobs });
+    fn run(&self, backend: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs) {
+        backend.dispatch(LanesKernel::<M, N> { model: &self.model, solver, jobs });
     }
 
     fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row {

@@ -27,11 +27,11 @@ pub trait Rows: Sync {
     /// The measured columns of each row, in order.
     fn columns(&self) -> &[Column];
 
-    /// Runs the points of `jobs` on the SIMD lanes of `set` until there are none left.
+    /// Runs the points of `jobs` on the SIMD lanes of `backend` until there are none left.
     ///
     /// Rows are handed back in the order in which points finish. A row depends on its point and `solver`
-    /// alone: not on its neighbours, nor on the order of the points, nor on `set` within an arithmetic class.
-    fn run(&self, set: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs);
+    /// alone: not on its neighbours, nor on the order of the points, nor on `backend` within an arithmetic class.
+    fn run(&self, backend: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs);
 
     /// Runs one point on scalars, from rest or from the state `begin` (see [`Point::begin`]). Gives the
     /// same bits as [`Rows::run`]. Interrupted, the row means nothing.
@@ -91,7 +91,7 @@ pub trait Simulator: Rows {
     /// The parameter table. A point is one `f64` per entry, see [`Parameter`].
     fn parameters(&self) -> &[Parameter<'_>];
 
-    /// Published parameter sets.
+    /// Published parameter backends.
     fn presets(&self) -> &'static [Preset];
 
     /// The parameters that a wing of one's own decides, by name, in SI units; none if the model has no such wing.

@@ -16,11 +16,11 @@ impl Rows for Vehicle {
         &self.columns.all
     }
 
-    fn run(&self, set: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs) {
+    fn run(&self, backend: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs) {
         let solver = SolverSettings { loads: true, ..*solver };
         let mut wings =
             WingJobs { vehicle: self, jobs, waiting: VecDeque::new(), begun: HashMap::new(), next: 0 };
-        self.model.run(set, &solver, &mut wings);
+        self.model.run(backend, &solver, &mut wings);
     }
 
     fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row {

@@ -73,8 +73,8 @@ impl Rows for AtResonance {
         &self.columns
     }
 
-    fn run(&self, set: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs) {
-        study::run_all(self.target.model, set, solver, &mut Designs { at: self, jobs });
+    fn run(&self, backend: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs) {
+        study::run_all(self.target.model, backend, solver, &mut Designs { at: self, jobs });
     }
 
     /// A resonance is looked for from rest: `begin` does not matter.

@@ -34,9 +34,9 @@ pub trait Desk {
 /// Studies that are open at once, as long as none of them has a point to run.
 const MOST_OPEN: usize = 256;
 
-/// Runs the studies of `desk` on the lanes of `set` until there are none left.
-pub fn run_all(rows: &dyn Rows, set: Backend, solver: &SolverSettings, desk: &mut impl Desk) {
-    rows.run(set, solver, &mut Interleaved { desk, open: Vec::new() });
+/// Runs the studies of `desk` on the lanes of `backend` until there are none left.
+pub fn run_all(rows: &dyn Rows, backend: Backend, solver: &SolverSettings, desk: &mut impl Desk) {
+    rows.run(backend, solver, &mut Interleaved { desk, open: Vec::new() });
 }
 
 /// Runs one study on scalars. Gives it the same bits as [`run_all`].

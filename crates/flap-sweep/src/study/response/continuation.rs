@@ -35,7 +35,7 @@ pub(super) fn unstable(
     plan: &Plan,
     along: &Along,
     curve: &Curve,
-    set: Backend,
+    backend: Backend,
     interrupted: Interrupt<'_>,
 ) -> Vec<Step> {
     let sizes = component_sizes(&curve.up, &curve.down);
@@ -59,7 +59,7 @@ pub(super) fn unstable(
         let SolverSettings { rtol, atol, .. } = *plan.solver();
         let solver = SolverSettings { rtol: FINER * rtol, atol: FINER * atol, ..*plan.solver() };
         let design = &curve.design;
-        let branch = Branch { plan, set, solver, along, design, sizes: &units, width, interrupted };
+        let branch = Branch { plan, backend, solver, along, design, sizes: &units, width, interrupted };
         found.extend(branch.turn(&curve.up[last - 1], &curve.up[last]));
     }
     found
@@ -68,7 +68,7 @@ pub(super) fn unstable(
 /// A branch of orbits as points of a space: the state in units of its sizes, then the parameter in widths of the band.
 struct Branch<'a> {
     plan: &'a Plan,
-    set: Backend,
+    backend: Backend,
     solver: SolverSettings,
     along: &'a Along,
     design: &'a Point,
@@ -139,7 +139,7 @@ impl Branch<'_> {
         self.plan
             .simulator()
             .motions()?
-            .period(&PointRun::new(self.set, &self.solver, &values).until(self.interrupted), &state)
+            .period(&PointRun::new(self.backend, &self.solver, &values).until(self.interrupted), &state)
     }
 
     /// The orbit nearest to `guess` on the plane through it across `direction`, by Newton's iteration.

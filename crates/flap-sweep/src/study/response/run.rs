@@ -74,10 +74,10 @@ impl<'a> Responses<'a> {
             ledger.flush()
         };
         let mut take = |batch: &mut Vec<Followed>| write(batch).map_err(RunError::Sink);
-        let set = options.instructions;
+        let backend = options.instructions;
         let worker = |hand: &mut Hand<'_, Followed>| {
-            let mut designs = Designs { responses: self, set, hand };
-            study::run_all(self.plan.simulator(), set, self.plan.solver(), &mut designs);
+            let mut designs = Designs { responses: self, backend, hand };
+            study::run_all(self.plan.simulator(), backend, self.plan.solver(), &mut designs);
         };
         let options = RunOptions { window: self.window(options), ..*options };
         let worked = ordered::run(designs, &options, stop, &worker, &mut take, progress);
@@ -92,18 +92,18 @@ impl<'a> Responses<'a> {
 
     /// The response of one design, on scalars. Gives the same bits as [`Responses::run`].
     pub fn curve(self, design: Point) -> Curve {
-        let set = Backend::best();
+        let backend = Backend::best();
         let mut follow = Follow::new(self.plan, self.along, design);
-        study::run_one(self.plan.simulator(), set, self.plan.solver(), &mut follow);
-        self.complete(follow.finish(), set, &never)
+        study::run_one(self.plan.simulator(), backend, self.plan.solver(), &mut follow);
+        self.complete(follow.finish(), backend, &never)
     }
 
     /// Adds the unstable orbits to a curve, if they are wanted, and the plan's own measures to all of its rows. Interrupted,
     /// it leaves orbits out.
-    fn complete(self, mut curve: Curve, set: Backend, interrupted: Interrupt<'_>) -> Curve {
+    fn complete(self, mut curve: Curve, backend: Backend, interrupted: Interrupt<'_>) -> Curve {
         let Responses { plan, along } = self;
         if along.unstable {
-            curve.unstable = continuation::unstable(plan, along, &curve, set, interrupted);
+            curve.unstable = continuation::unstable(plan, along, &curve, backend, interrupted);
         }
         let Curve { design, up, down, unstable } = &mut curve;
         for Step { value, row } in up.iter_mut().chain(down).chain(unstable) {
@@ -116,7 +116,7 @@ impl<'a> Responses<'a> {
 /// Designs on their way from the queue to their curves.
 struct Designs<'a, 'h, 'q> {
     responses: Responses<'a>,
-    set: Backend,
+    backend: Backend,
     hand: &'h mut Hand<'q, Followed>,
 }
 
@@ -148,7 +148,7 @@ impl<'a> Desk for Designs<'a, '_, '_> {
             self.hand.fail(format!("it returned {found} measures, not {measures}, for design {index}"));
             return;
         }
-        let curve = self.responses.complete(curve, self.set, &|| self.hand.is_cancelled());
+        let curve = self.responses.complete(curve, self.backend, &|| self.hand.is_cancelled());
         // Interrupted, it may lack orbits.
         if !self.hand.is_cancelled() {
             let position = self.responses.plan.selection().position(curve.design.index);
