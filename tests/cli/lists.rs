@@ -46,7 +46,7 @@ OTHER THAN THE PRESET  HERE             PRESET  RATIO
 drive_voltage_pp       100 V to 150 V   100 V   1 to 1.5
 drive_frequency        60 Hz to 200 Hz  109 Hz  0.55 to 1.83
 
-rtol = 1e-6, atol = 1e-8, settle_tol = 1e-6, max_cycles = 1000, max_steps = 20000, accuracy = 0.001, newton = true, progressive = true
+rtol = 1e-6, atol = 1e-8, settle_tol = 1e-6, max_cycles = 1000, max_steps = 20000, accuracy = 0.001, newton = true, progressive = true, symmetry = true
 
 "
     );

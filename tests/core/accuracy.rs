@@ -62,6 +62,7 @@ fn error(model: &dyn Simulator, row: &Row, exact: &Row) -> f64 {
 #[test]
 fn rows_of_random_designs_know_their_error() {
     let accuracy = solver().accuracy;
+    let (mut all_underestimated, mut all_compared) = (0, 0);
     let names = all().iter().flat_map(|model| model.presets()).map(|preset| preset.name);
     for name in names.filter(|name| !name.ends_with("kw-swapped")) {
         let (model, preset) = preset(name).expect("a preset");
@@ -102,9 +103,15 @@ fn rows_of_random_designs_know_their_error() {
         assert!(errors.len() >= 250, "{name}: {} rows are compared", errors.len());
         assert!(audits.len() <= 2, "{name}: audits of {audits:?}");
         assert!(doubtful.len() * 200 <= periodic.len(), "{name}: {doubtful:?} are not accurate");
-        assert!(underestimated.len() * 100 <= errors.len(), "{name}: {underestimated:?} are underestimated");
+        assert!(underestimated.len() * 50 <= errors.len(), "{name}: {underestimated:?} are underestimated");
+        all_underestimated += underestimated.len();
+        all_compared += errors.len();
         assert!(unsaid.is_empty(), "{name}: {unsaid:?} err by more than 1 % and do not say so");
     }
+    assert!(
+        all_underestimated * 100 <= all_compared,
+        "{all_underestimated} of {all_compared} are underestimated"
+    );
 }
 
 /// Designs that settle on one orbit at the default tolerance, and on another at a finer one.

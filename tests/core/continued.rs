@@ -17,6 +17,7 @@ const SOLVER: SolverSettings = SolverSettings {
     accuracy: 1e-3,
     newton: true,
     progressive: true,
+    symmetry: true,
     loads: false,
 };
 
@@ -38,8 +39,14 @@ fn a_motion_that_begins_on_its_orbit_is_found_there_at_once() {
         let again = rows::assert_lanes_equal_scalars_at(model, &again, &SOLVER);
         for (row, again) in from_rest.iter().zip(&again) {
             assert_eq!((row.status, again.status), (Status::Periodic, Status::Periodic));
-            // A period of marching, one with responses, one measured, and two for its error.
-            assert_eq!(again.cycles, 1 + 5 + 1 + 2, "{again:?}");
+            // A period of marching, one with responses, one measured, and two for its error. Those of symmetric orbits are half
+            // periods, but for the measured ones of an orbit that is not centred on zero.
+            let cycles = match model.name() {
+                "bimorph" => 1 + (5 + 1 + 2) / 2,
+                "direct-drive" => 1 + (5 + 1) / 2 + 2,
+                _ => 1 + 5 + 1 + 2,
+            };
+            assert_eq!(again.cycles, cycles, "{}: {again:?}", model.name());
             for (column, (one, other)) in model.columns().iter().zip(row.measures.iter().zip(&again.measures))
             {
                 let size = one.abs().max(0.1);
@@ -85,9 +92,10 @@ fn follow(model: &dyn Simulator, values: &[f64], begin: &[f64], periods: u32) ->
 
 #[test]
 fn a_period_is_what_rows_are_made_of() {
+    let whole = SolverSettings { symmetry: false, ..SOLVER };
     for &model in all() {
         for values in presets(model) {
-            let row = model.run_point(&PointRun::new(Backend::best(), &SOLVER, &values), None);
+            let row = model.run_point(&PointRun::new(Backend::best(), &whole, &values), None);
             let period = model
                 .motions()
                 .unwrap()

@@ -20,6 +20,7 @@ const ENDLESS: SolverSettings = SolverSettings {
     accuracy: 1e-3,
     newton: false,
     progressive: false,
+    symmetry: true,
     loads: false,
 };
 

@@ -44,6 +44,7 @@ mod slopes;
 mod span;
 mod strobe;
 mod switching;
+mod symmetry;
 mod terms;
 mod vehicle;
 mod waveforms;

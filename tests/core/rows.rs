@@ -13,6 +13,7 @@ pub(crate) const QUICK: SolverSettings = SolverSettings {
     accuracy: 1e-3,
     newton: true,
     progressive: true,
+    symmetry: true,
     loads: false,
 };
 

@@ -2,8 +2,17 @@
 
 use flap_core::simulate::{SettingKind, SolverSettings};
 
-const NAMES: [&str; 8] =
-    ["rtol", "atol", "settle_tol", "max_cycles", "max_steps", "accuracy", "newton", "progressive"];
+const NAMES: [&str; 9] = [
+    "rtol",
+    "atol",
+    "settle_tol",
+    "max_cycles",
+    "max_steps",
+    "accuracy",
+    "newton",
+    "progressive",
+    "symmetry",
+];
 
 /// Settings of which none is the default, and none follows another.
 const OTHERS: SolverSettings = SolverSettings {
@@ -15,6 +24,7 @@ const OTHERS: SolverSettings = SolverSettings {
     accuracy: 6e-2,
     newton: false,
     progressive: false,
+    symmetry: false,
     loads: false,
 };
 

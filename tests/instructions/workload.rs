@@ -113,6 +113,7 @@ const MARCH: SolverSettings = SolverSettings {
     accuracy: f64::INFINITY,
     newton: true,
     progressive: true,
+    symmetry: true,
     loads: false,
 };
 

@@ -187,6 +187,7 @@ fn solver_settings() {
             accuracy: 0.02,
             newton: true,
             progressive: true,
+            symmetry: true,
             loads: false,
         }
     );

@@ -201,7 +201,16 @@ fn slopes<'py>(py: Python<'py>, plan: &Plan, gradient: &Gradient) -> PyResult<Bo
 pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> PyResult<Bound<'py, PyDict>> {
     let identity = Identity::of(plan, options);
     let SolverSettings {
-        rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton, progressive, ..
+        rtol,
+        atol,
+        settle_tol,
+        max_cycles,
+        max_steps,
+        accuracy,
+        newton,
+        progressive,
+        symmetry,
+        ..
     } = *plan.solver();
     let solver = PyDict::new(py);
     solver.set_item("rtol", rtol)?;
@@ -212,6 +221,7 @@ pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> P
     solver.set_item("accuracy", accuracy)?;
     solver.set_item("newton", newton)?;
     solver.set_item("progressive", progressive)?;
+    solver.set_item("symmetry", symmetry)?;
     let dict = PyDict::new(py);
     dict.set_item("flap", identity.flap)?;
     dict.set_item("build", identity.build)?;

@@ -215,12 +215,22 @@ fn at_resonance(range: &Range) -> String {
 
 fn solver(settings: &SolverSettings) -> String {
     let SolverSettings {
-        rtol, atol, settle_tol, max_cycles, max_steps, accuracy, newton, progressive, ..
+        rtol,
+        atol,
+        settle_tol,
+        max_cycles,
+        max_steps,
+        accuracy,
+        newton,
+        progressive,
+        symmetry,
+        ..
     } = *settings;
     let [rtol, atol, settle_tol, accuracy] = [rtol, atol, settle_tol, accuracy].map(text::float);
     let line = format!(
         "rtol = {rtol}, atol = {atol}, settle_tol = {settle_tol}, max_cycles = {max_cycles}, \
-         max_steps = {max_steps}, accuracy = {accuracy}, newton = {newton}, progressive = {progressive}"
+         max_steps = {max_steps}, accuracy = {accuracy}, newton = {newton}, progressive = {progressive}, \
+         symmetry = {symmetry}"
     );
     wrapped(&line, 0) + "\n"
 }

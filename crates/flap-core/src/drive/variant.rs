@@ -121,6 +121,15 @@ impl Drive {
         }
     }
 
+    /// True if the second half of each period is the negative of the first.
+    pub(crate) fn is_symmetric(&self, c: &DriveConstants<f64>) -> bool {
+        match &self.waveform {
+            Waveform::Shape(Shape::Sine | Shape::Square) => true,
+            Waveform::Shape(Shape::Harmonics) => c.second == [0.0; 2],
+            Waveform::Samples(_) | Waveform::Chirp => false,
+        }
+    }
+
     /// The mean of the waveform over a period: zero but for samples.
     #[inline(always)]
     pub(crate) fn mean(&self) -> f64 {

@@ -6,58 +6,47 @@
 //! parabolas through three of them each. Of each signal, only what its measures need is found.
 
 use super::step_polynomial::{Extremum, StepPolynomial};
-use crate::model::{Each, Instant, Model, SignalCycle, SignalSet, SignalsOf, Taken};
+use crate::model::{Each, Instant, Model, SignalCycle, SignalSet, SignalsOf, Taken, Totals};
 use crate::num::Lanes;
 use crate::ode::ensemble::Observer;
 use crate::ode::step::Attempt;
 use crate::ode::tableau::{B, C};
 use crate::ode::{input, slope};
 
-crate::per_lane! {
-    /// Sums over one signal so far.
-    pub struct Totals<R> {
-        /// ∫ s dt.
-        pub integral: R,
-        /// ∫ s² dt.
-        pub square: R,
-        /// ∫ max(s, 0) dt.
-        pub positive: R,
-        /// ∫ s cos ωt dt.
-        pub cosine: R,
-        /// ∫ s sin ωt dt.
-        pub sine: R,
-        /// Largest value.
-        pub max: R,
-        /// Smallest value.
-        pub min: R,
+/// Replaces the sums that are taken by others, in the lanes in which the step was `accepted`.
+#[inline(always)]
+fn replace<R: Lanes>(total: &mut Totals<R>, taken: Taken, accepted: R::Mask, sum: &Totals<R>) {
+    total.integral = R::select(accepted, sum.integral, total.integral);
+    if taken.squared {
+        total.square = R::select(accepted, sum.square, total.square);
     }
-}
-
-impl<R: Lanes> Totals<R> {
-    /// Replaces the sums that are taken by others, in the lanes in which the step was `accepted`.
-    #[inline(always)]
-    fn replace(&mut self, taken: Taken, accepted: R::Mask, sum: &Totals<R>) {
-        self.integral = R::select(accepted, sum.integral, self.integral);
-        if taken.squared {
-            self.square = R::select(accepted, sum.square, self.square);
-        }
-        if taken.harmonic {
-            self.cosine = R::select(accepted, sum.cosine, self.cosine);
-            self.sine = R::select(accepted, sum.sine, self.sine);
-        }
-        if taken.rectified {
-            self.positive = R::select(accepted, sum.positive, self.positive);
-        }
-        if taken.ranged {
-            self.max = R::select(accepted, sum.max, self.max);
-            self.min = R::select(accepted, sum.min, self.min);
-        }
+    if taken.harmonic {
+        total.cosine = R::select(accepted, sum.cosine, total.cosine);
+        total.sine = R::select(accepted, sum.sine, total.sine);
+    }
+    if taken.rectified {
+        total.positive = R::select(accepted, sum.positive, total.positive);
+    }
+    if taken.ranged {
+        total.max = R::select(accepted, sum.max, total.max);
+        total.min = R::select(accepted, sum.min, total.min);
     }
 }
 
 /// Sums over the signals `S` so far, and the time integrals of the load at the wing's shoulder, see
 /// [`Load::at_shoulder`](crate::model::Load::at_shoulder).
 pub type Sums<S, R> = (Each<S, Totals<R>>, [R; 6]);
+
+/// Sums over a period, from those over its first half, where the signals have sums over the second half that follow from
+/// them as `second_half` says. The wing of a mirrored stroke is loaded by the mirrored force and moment.
+pub(crate) fn over_both_halves<S: SignalSet>(
+    (Each(first), load): &Sums<S, f64>,
+    second_half: fn(&S::Of<Totals<f64>>) -> S::Of<Totals<f64>>,
+) -> Sums<S, f64> {
+    let totals = S::zip(first, &second_half(first), |_, first, second| first.with(second));
+    let [_, along_span, lift, about_x, ..] = load.map(|sum| 2.0 * sum);
+    (Each(totals), [0.0, along_span, lift, about_x, 0.0, 0.0])
+}
 
 /// Sums over the signals of the model `M` on one lane.
 pub(crate) type SumsOf<M, const N: usize> = Sums<<M as Model<N>>::Signals, f64>;
@@ -190,7 +179,7 @@ impl<'a, M> Signals<'a, M> {
             totals,
             [&sums],
             #[inline(always)]
-            |taken, total, [sum]| total.replace(taken, accepted, &sum),
+            |taken, total, [sum]| replace(total, taken, accepted, &sum),
         );
         if self.loads {
             let sums = impulse(model, c, attempt);

@@ -5,9 +5,9 @@
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::cycle::{Signals, Sums, Totals};
+use super::cycle::{Signals, Sums};
 use super::step_polynomial::Extremum;
-use crate::model::{Each, Model, SignalSet};
+use crate::model::{Each, Model, SignalSet, Totals};
 use crate::num::Lanes;
 use crate::ode::ensemble::Observer;
 use crate::ode::step::Attempt;

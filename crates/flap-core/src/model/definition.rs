@@ -3,6 +3,7 @@
 use super::load::Load;
 use super::signal::{OverWings, SignalCycle};
 use super::signals::{SignalSet, SignalsOf};
+use super::totals::Totals;
 use crate::aero::Wing;
 use crate::drive::DriveConstants;
 use crate::num::Real;
@@ -56,6 +57,17 @@ impl<M, C, S: SignalSet> Derived<M, C, S> {
     }
 }
 
+/// The symmetry of a point with signals `S`: from half a drive period later on, its motions can go on as they began, mirrored.
+/// If y(t) solves its equations, so does 2 · centre − y(t + T/2).
+#[derive(Clone, Copy, Debug)]
+pub struct Symmetry<S: SignalSet, const N: usize> {
+    /// The state about which motions are mirrored.
+    pub centre: [f64; N],
+    /// The sums of the signals over the second half of a mirrored period, from those over the first. `None` if they do not
+    /// follow from these; then whole periods are measured.
+    pub second_half: Option<fn(&S::Of<Totals<f64>>) -> S::Of<Totals<f64>>>,
+}
+
 /// An instant of a motion of N states, with inputs `I`.
 #[derive(Clone, Copy, Debug)]
 pub struct Instant<'a, R, I, const N: usize> {
@@ -105,6 +117,12 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     /// [`Invalid`] if a parameter is out of its range, parameters are impossible together, or a derived constant is not
     /// finite.
     fn start(&self, values: &[f64]) -> Result<Start<Self::Constants<f64>, N>, Invalid>;
+
+    /// The symmetry of a point with these constants. By default there is none; then all periods are integrated to their end.
+    fn symmetry(&self, c: &Self::Constants<f64>) -> Option<Symmetry<Self::Signals, N>> {
+        let _ = c;
+        None
+    }
 
     /// The parameters that a wing of one's own decides, by name, in SI units; none if the model has no such wing.
     fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {

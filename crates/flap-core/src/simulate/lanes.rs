@@ -389,7 +389,7 @@ where
 
     fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, N>> {
         let (run, begin) = self.driver.next(self.kind, idle)?;
-        let start = begin.start(run.start.constants, run.start.span);
+        let start = begin.start(run.start.constants);
         Some((run, start))
     }
 

@@ -10,6 +10,7 @@ use super::single::{PointRun, Question};
 use crate::measure::multipliers::spectral_radius;
 use crate::model::Model;
 use crate::num::Scalar;
+use crate::ode::Start;
 use crate::ode::ensemble::Restart;
 
 /// The period that begins at this state.
@@ -21,9 +22,8 @@ impl<M: Model<N>, const N: usize> Question<M, N> for PeriodFrom<'_> {
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Period, Unfinished> {
         let PointRun { solver, values, interrupted, .. } = *run;
         let start = begin(model, values, Some(self.0))?;
-        let scale = start.scale;
-        let begin =
-            Some(Restart { y: start.y, scale, tolerance_factor: start.tolerance_factor, change: scale });
+        let Start { y, span, scale, tolerance_factor, .. } = start;
+        let begin = Some(Restart { y, span, scale, tolerance_factor, change: scale });
         let ends = run_alone::<_, R, _, _, N>(model, solver, &start, interrupted, |exchange| async move {
             let varied = exchange.period(Request { kind: Kind::Responses, begin }).await;
             let measured = exchange.period(Request { kind: Kind::Signals, begin }).await;

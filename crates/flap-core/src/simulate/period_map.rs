@@ -1,4 +1,7 @@
 //! The map from the state at the beginning of a drive period to that at its end, near a fixed point.
+//!
+//! In the search for a symmetric orbit the map is that from the beginning to the middle of a period, mirrored. The map of the
+//! period is the square of this one, and has the same fixed point.
 
 use super::linear::Lu;
 use crate::measure::multipliers::{Matrix, spectral_radius};
@@ -18,11 +21,11 @@ const LINEAR: f64 = 0.3;
 pub(super) struct Orbit<const N: usize> {
     /// The state at its beginning.
     pub(super) y: [f64; N],
-    /// Responses of the state after a period to changes of `y`, in units of the states' typical sizes.
+    /// Responses of the state that the map leads to, to changes of `y`, in units of the states' typical sizes.
     pub(super) monodromy: Matrix<N>,
 }
 
-/// A period that a march has taken.
+/// A part of a march.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Marched<const N: usize> {
     /// The state at its beginning.
@@ -31,26 +34,28 @@ pub(super) struct Marched<const N: usize> {
     pub(super) end: [f64; N],
     /// The error of both, in units of the states' typical sizes.
     pub(super) error: f64,
+    /// The number of times that the map was applied in between.
+    pub(super) maps: i32,
 }
 
 impl<const N: usize> Orbit<N> {
-    /// The largest modulus of the orbit's multipliers, if it is stable, and a march that has taken this period is on its way to
-    /// it: it moved as the orbit's linear map predicts.
+    /// The largest modulus of the map's multipliers, if the orbit is stable, and a march with this part is on its way to it: it
+    /// moved as the orbit's linear map predicts.
     pub(super) fn attracts(&self, march: &Marched<N>, scale: &[f64; N]) -> Option<f64> {
         let offset = |state: &[f64; N]| core::array::from_fn(|i| (state[i] - self.y[i]) / scale[i]);
-        let (begin, end): ([f64; N], [f64; N]) = (offset(&march.begin), offset(&march.end));
-        let mut deviation = 0.0_f64;
-        for (row, end) in self.monodromy.iter().zip(end) {
-            let predicted: f64 = row.iter().zip(begin).map(|(m, x)| m * x).sum();
-            deviation = deviation.max((end - predicted).abs());
+        let end: [f64; N] = offset(&march.end);
+        let mut predicted: [f64; N] = offset(&march.begin);
+        for _ in 0..march.maps {
+            predicted = self.monodromy.map(|row| row.iter().zip(predicted).map(|(m, x)| m * x).sum());
         }
+        let deviation = end.iter().zip(predicted).fold(0.0_f64, |most, (end, x)| most.max((end - x).abs()));
         let distance = distance(&march.begin, &self.y, scale);
-        let predicted = deviation <= LINEAR * distance + march.error;
-        predicted.then(|| spectral_radius(&self.monodromy)).filter(|multiplier| *multiplier < 1.0)
+        let is_predicted = deviation <= LINEAR * distance + march.error;
+        is_predicted.then(|| spectral_radius(&self.monodromy)).filter(|multiplier| *multiplier < 1.0)
     }
 }
 
-/// The chord iteration `y ← y + (I − M)⁻¹ (Φ(y) − y)` for a fixed point of the period map Φ: M is the monodromy matrix of an
+/// The chord iteration `y ← y + (I − M)⁻¹ (Φ(y) − y)` for a fixed point of the map Φ: M is the monodromy matrix of an
 /// orbit nearby, updated after each step by Broyden's formula.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Chord<const N: usize> {

@@ -13,7 +13,8 @@ pub struct Row {
     pub measures: Vec<f64>,
     /// Drive periods integrated, measuring included.
     pub cycles: u32,
-    /// Change of the strobed state over the last orbit period, in units of each state's typical size.
+    /// Change of the strobed state over the last orbit period, or over half a period of a symmetric orbit, in units of each
+    /// state's typical size.
     /// NaN if no period was completed.
     pub residual: f64,
     /// Drive periods per orbit: 1, or more for a subharmonic; 0 if no orbit was found.

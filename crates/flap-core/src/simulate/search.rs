@@ -10,6 +10,8 @@
 //!    with it the orbit. The period of that orbit is measured, and confirms it.
 //! 4. **Judge.** A row that is not accurate enough is computed again with tighter tolerances, from its orbit.
 //!
+//! If the point is [symmetric](Symmetry), its orbit presumably is so too: then steps 2 to 4 integrate half periods, each mirrored
+//! at its end. If there is no such orbit near by, the search goes on with whole periods.
 //! If the way over the loose tolerance fails, the search begins again, at rest and at the tolerance of the row.
 //! A search integrates nothing itself: it asks for drive periods and waits for them (see [`periods`](super::periods)), and a
 //! driver integrates those of many points in lanes (see [`lanes`](super::lanes)).
@@ -18,13 +20,13 @@ use std::rc::Rc;
 
 use super::march::March;
 use super::orbit_row::{self, MeasuredOrbit};
-use super::period_map::{Chord, Marched, Orbit, PROGRESS, distance, fixed_point, residual};
+use super::period_map::{self, Chord, Marched, Orbit, PROGRESS, distance, fixed_point};
 use super::periods::{Exchange, Kind, PeriodEnd, Request};
 use super::row::{Row, Status};
 use super::settings::SolverSettings;
-use crate::measure::cycle::SumsOf;
+use crate::measure::cycle::{SumsOf, over_both_halves};
 use crate::measure::multipliers::{Matrix, identity, product, spectral_radius};
-use crate::model::Model;
+use crate::model::{Model, Symmetry};
 use crate::ode::ensemble::Restart;
 use crate::ode::{Ending, Outcome, Start};
 
@@ -96,6 +98,8 @@ struct Search<'a, M: Model<N>, const N: usize> {
     solver: &'a SolverSettings,
     start: Start<M::Constants<f64>, N>,
     exchange: Rc<Exchange<SumsOf<M, N>, N>>,
+    /// The symmetry of the orbit, as long as it is presumed to have one.
+    symmetry: Option<Symmetry<M::Signals, N>>,
     /// The sizes of the states, of which absolute tolerances are multiples.
     size: [f64; N],
     /// The factor on the tolerances that were asked for.
@@ -106,8 +110,8 @@ struct Search<'a, M: Model<N>, const N: usize> {
     /// Largest modulus of the multipliers of a subharmonic orbit.
     subharmonic: f64,
     ending: Ending,
-    /// Drive periods integrated, right-hand sides evaluated, and those that the present run has evaluated.
-    cycles: u64,
+    /// Half drive periods integrated, right-hand sides evaluated, and those that the present run has evaluated.
+    half_cycles: u64,
     rhs_evals: u64,
     rhs_evals_of_run: u64,
 }
@@ -116,9 +120,9 @@ struct Search<'a, M: Model<N>, const N: usize> {
 #[derive(Clone, Copy)]
 struct Near<const N: usize> {
     orbit: Orbit<N>,
-    /// A period of the march that should lead there.
+    /// A part of the march that should lead there.
     march: Marched<N>,
-    /// Largest modulus of its multipliers; NaN unless the monodromy matrix was computed at the row's tolerance, near enough.
+    /// Largest modulus of the map's multipliers; NaN unless its matrix was computed at the row's tolerance, near enough.
     floquet_max: f64,
     /// The residual before the last step, at the tolerance of the last iteration.
     residual: f64,
@@ -145,7 +149,7 @@ enum At {
 /// An orbit that has been measured.
 struct Measured<T, const N: usize> {
     orbit: Orbit<N>,
-    /// Largest modulus of its multipliers.
+    /// Largest modulus of the map's multipliers.
     floquet_max: f64,
     residual: f64,
     /// The end of its measured period.
@@ -173,13 +177,14 @@ pub(super) fn settle<'a, M: Model<N>, const N: usize>(
         solver,
         start,
         exchange,
+        symmetry: if solver.symmetry { model.symmetry(&start.constants) } else { None },
         size: start.scale,
         tolerance_factor: start.tolerance_factor,
         goal: solver.settle_tol,
         march: March::new(&start.y, &start.scale, solver, nearby, 0),
         subharmonic: f64::NAN,
         ending: Ending::Stopped,
-        cycles: 0,
+        half_cycles: 0,
         rhs_evals: 0,
         rhs_evals_of_run: 0,
     });
@@ -193,29 +198,15 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let small = self.rtol() <= LOOSE_FOR && max_cycles > LOOSE_CYCLES;
         if newton && progressive && !nearby && small {
             self.begin(false, LOOSE_CYCLES);
-            if let Some(near) = self.find(At::Loose).await
-                && let Some(settled) = self.settle_near(near).await
-            {
+            if let Some(settled) = self.follow(At::Loose).await {
                 return settled;
             }
         }
         self.begin(nearby, max_cycles);
-        while let Some(near) = self.find(At::Row).await {
-            if let Some(settled) = self.settle_near(near).await {
-                return settled;
-            }
-            if self.march.period().is_some() {
-                if let Some(settled) = self.settle_near(self.marched(near.orbit.monodromy)).await {
-                    return settled;
-                }
-                break;
-            }
-            if self.march.is_exhausted() {
-                break;
-            }
-            self.march.put_off_newton();
+        match self.follow(At::Row).await {
+            Some(settled) => settled,
+            None => Settled { row: self.unsettled(), orbit: None },
         }
-        Settled { row: self.unsettled(), orbit: None }
     }
 
     /// The row of an orbit near by; `None` if it is none of this point.
@@ -254,16 +245,16 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             last = Some(settled);
             if refinement < REFINEMENTS {
                 self.refine(doubt);
-                let march = Marched { begin: orbit.y, end: orbit.y, error: ORBITS_DIFFER };
+                let march = Marched { begin: orbit.y, end: orbit.y, error: ORBITS_DIFFER, maps: 1 };
                 near = Near::unmapped(orbit, march, f64::INFINITY);
             }
         }
         last.map(|last| self.charged(last))
     }
 
-    /// Marches until Newton's iteration leads to an orbit near by. `None` if the march fails, is exhausted, or settles on
-    /// a subharmonic orbit.
-    async fn find(&mut self, at: At) -> Option<Near<N>> {
+    /// Marches until an orbit near by is that of the point. `None` if the march fails, is exhausted, or settles on a subharmonic
+    /// orbit; at the loose tolerance also if an orbit near by turns out to be none.
+    async fn follow(&mut self, at: At) -> Option<Settled<N>> {
         loop {
             self.march(at).await?;
             let settled = match self.march.period() {
@@ -277,28 +268,70 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 None if self.march.is_promising() => false,
                 None => return None,
             };
-            let marched =
-                Marched { begin: *self.march.before(), end: *self.march.state(), error: LOOSE_RESIDUAL };
-            if at == At::Loose && self.march.change(1) <= ARRIVED.max(self.goal) {
-                // The chord iteration continues the march.
-                let orbit = Orbit { y: marched.end, monodromy: [[0.0; N]; N] };
-                return Some(Near::unmapped(orbit, marched, self.march.change(1)));
+            // As long as the orbit is presumed to be symmetric, half periods are searched first.
+            let mut is_lost = false;
+            loop {
+                if let Some(near) = self.find(at, settled).await {
+                    if let Some(row) = self.settle_near(near).await {
+                        return Some(row);
+                    }
+                    if settled && at == At::Row && self.symmetry.is_none() {
+                        return self.settle_near(self.marched(near.orbit.monodromy)).await;
+                    }
+                    is_lost = true;
+                }
+                if !self.give_up_symmetry() {
+                    break;
+                }
             }
-            match self.iterate(at).await {
-                Ok(near) => return Some(near),
-                Err(Some(monodromy)) if settled && at == At::Row => return Some(self.marched(monodromy)),
-                Err(_) if settled || self.march.is_exhausted() => return None,
-                Err(_) => self.march.put_off_newton(),
+            if settled || self.march.is_exhausted() || is_lost && at == At::Loose {
+                return None;
             }
+            self.march.put_off_newton();
         }
+    }
+
+    /// The orbit near the state of the march, which has perhaps `settled`; `None` if Newton's iteration leads to none.
+    async fn find(&mut self, at: At, settled: bool) -> Option<Near<N>> {
+        let change = self.march.change(1);
+        if at == At::Loose && change <= ARRIVED.max(self.goal) {
+            // The chord iteration continues the march.
+            let marched = self.last_marched(LOOSE_RESIDUAL);
+            let orbit = Orbit { y: marched.end, monodromy: [[0.0; N]; N] };
+            return Some(Near::unmapped(orbit, marched, change));
+        }
+        match self.iterate(at).await {
+            Ok(near) => Some(near),
+            Err(Some(monodromy)) if settled && at == At::Row && self.symmetry.is_none() => {
+                Some(self.marched(monodromy))
+            }
+            Err(_) => None,
+        }
+    }
+
+    /// Goes on with whole periods and the tolerances that were asked for, if the orbit was presumed to be symmetric. False if
+    /// it was not.
+    fn give_up_symmetry(&mut self) -> bool {
+        let was_presumed = self.symmetry.take().is_some();
+        if was_presumed {
+            self.tolerance_factor = self.start.tolerance_factor;
+            self.goal = self.solver.settle_tol;
+        }
+        was_presumed
     }
 
     /// The orbit on which the march has settled: its state jitters by more than Newton's iteration may leave.
     fn marched(&self, monodromy: Matrix<N>) -> Near<N> {
-        let march = Marched { begin: *self.march.before(), end: *self.march.state(), error: self.goal };
+        let march = self.last_marched(self.goal);
         let floquet_max = spectral_radius(&monodromy);
         let orbit = Orbit { y: march.end, monodromy };
         Near { orbit, march, floquet_max, residual: self.march.change(1), step: f64::INFINITY, settled: true }
+    }
+
+    /// The last period of the march, with this error.
+    fn last_marched(&self, error: f64) -> Marched<N> {
+        let (begin, end) = (*self.march.before(), *self.march.state());
+        Marched { begin, end, error, maps: self.maps_per_period() }
     }
 
     /// Marches until the motion has settled or may be near an orbit, or for as many periods as are allowed. `None` if
@@ -338,14 +371,14 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let mut last = f64::INFINITY;
         let mut monodromy = None;
         for _ in 0..=MAX_ITERATIONS {
-            let Some(end) = self.period(Kind::Responses, Some(self.from(&y, self.factor(at)))).await else {
+            let Some(end) = self.map(Kind::Responses, &y, self.factor(at)).await else {
                 self.ending = Ending::Stopped;
                 return Err(monodromy);
             };
             monodromy = Some(end.monodromy);
-            // The first of these periods continues the march.
-            let march = *march.get_or_insert(Marched { begin: y, end: end.y, error });
-            let residual = residual(&y, &end.y, &scale);
+            // The first of these continues the march.
+            let march = *march.get_or_insert(Marched { begin: y, end: end.y, error, maps: 1 });
+            let residual = period_map::residual(&y, &end.y, &scale);
             let orbit = Orbit { y, monodromy: end.monodromy };
             let next = fixed_point(&orbit, &end.y, &scale);
             if residual <= goal {
@@ -402,7 +435,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         if !found {
             return None;
         }
-        let end = self.period(Kind::Means, Some(self.from(&chord.orbit.y, MIDDLE))).await;
+        let end = self.measure(Kind::Means, &chord.orbit.y, MIDDLE).await;
         self.ending = ending;
         end?.sums
     }
@@ -411,8 +444,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// so.
     async fn converge(&mut self, chord: &mut Chord<N>, factor: f64, enough: f64) -> bool {
         loop {
-            let begin = self.from(&chord.orbit.y, factor);
-            let Some(end) = self.period(Kind::States, Some(begin)).await else { return false };
+            let y = chord.orbit.y;
+            let Some(end) = self.map(Kind::States, &y, factor).await else { return false };
             if !chord.step(&end.y) || chord.residual <= enough {
                 return chord.residual <= enough;
             }
@@ -435,8 +468,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 && (floquet_max.is_nan() || residual > self.goal && !(presumes && step <= last_step))
             {
                 let y = chord.orbit.y;
-                let begin = self.from(&y, 1.0);
-                let end = self.period(Kind::States, Some(begin)).await.ok_or(NoOrbit::Lost)?;
+                let end = self.map(Kind::States, &y, 1.0).await.ok_or(NoOrbit::Lost)?;
                 let mut moved = chord.step(&end.y);
                 residual = chord.residual;
                 // The matrix is computed where the steps are stuck, too.
@@ -466,23 +498,22 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 }
             }
             let orbit = chord.orbit;
-            let begin = self.from(&orbit.y, 1.0);
-            let end = self.period(Kind::Signals, Some(begin)).await.ok_or(NoOrbit::Lost)?;
-            chord.step(&end.y);
-            if accepted || !presumes || chord.residual <= self.goal {
-                let residual = chord.residual.min(residual);
+            let end = self.measure(Kind::Signals, &orbit.y, 1.0).await.ok_or(NoOrbit::Lost)?;
+            let confirmed = period_map::residual(&orbit.y, &end.y, &scale);
+            if accepted || !presumes || confirmed <= self.goal {
+                let residual = confirmed.min(residual);
                 return Ok(Measured { orbit, floquet_max, residual, end });
             }
-            (residual, presumes) = (chord.residual, false);
+            (residual, presumes) = (confirmed, false);
             self.exchange.reuse(end.sums);
         }
     }
 
     /// The monodromy matrix of an orbit through `y`. `None` if the period cannot be integrated.
     async fn monodromy(&mut self, y: &[f64; N]) -> Option<Matrix<N>> {
-        let rtol = RESPONSES * self.rtol().sqrt();
-        let begin = self.from(y, (rtol / self.rtol()).max(1.0));
-        Some(self.period(Kind::Responses, Some(begin)).await?.monodromy)
+        // The multipliers of a period are powers of those of the map, and err by as many times more.
+        let rtol = RESPONSES / f64::from(self.maps_per_period()) * self.rtol().sqrt();
+        Some(self.map(Kind::Responses, y, (rtol / self.rtol()).max(1.0)).await?.monodromy)
     }
 
     /// Largest modulus of the multipliers of a subharmonic orbit of so many drive periods, on which the march is.
@@ -500,8 +531,40 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         spectral_radius(&monodromy)
     }
 
-    /// Integrates a period. `None`, with the ending, if that fails.
+    /// Integrates the map of which an orbit is a fixed point, with so many times the tolerances of the row: over a period, or
+    /// over half a period that is mirrored at its end.
+    async fn map(&mut self, kind: Kind, y: &[f64; N], factor: f64) -> Option<PeriodEnd<SumsOf<M, N>, N>> {
+        let begin = self.from(y, factor);
+        let Some(Symmetry { centre, .. }) = self.symmetry else {
+            return self.period(kind, Some(begin)).await;
+        };
+        let mut end = self.period(kind, Some(Restart { span: 0.5 * begin.span, ..begin })).await?;
+        end.y = core::array::from_fn(|i| 2.0 * centre[i] - end.y[i]);
+        end.monodromy = end.monodromy.map(|row| row.map(|response| -response));
+        Some(end)
+    }
+
+    /// Integrates a period of an orbit with sums over the signals, or half of it if the rest follows.
+    async fn measure(&mut self, kind: Kind, y: &[f64; N], factor: f64) -> Option<PeriodEnd<SumsOf<M, N>, N>> {
+        let Some(Symmetry { second_half: Some(second_half), .. }) = self.symmetry else {
+            return self.period(kind, Some(self.from(y, factor))).await;
+        };
+        let mut end = self.map(kind, y, factor).await?;
+        if let Some(sums) = end.sums.as_deref_mut() {
+            *sums = over_both_halves::<M::Signals>(sums, second_half);
+        }
+        end.outcome.switches *= 2;
+        Some(end)
+    }
+
+    /// The number of times that the map of which an orbit is a fixed point is applied in a period.
+    fn maps_per_period(&self) -> i32 {
+        if self.symmetry.is_some() { 2 } else { 1 }
+    }
+
+    /// Integrates a period, or half of one. `None`, with the ending, if that fails.
     async fn period(&mut self, kind: Kind, begin: Option<Restart<N>>) -> Option<PeriodEnd<SumsOf<M, N>, N>> {
+        let halves = if begin.is_some_and(|begin| begin.span < self.start.span) { 1 } else { 2 };
         if begin.is_some() {
             self.rhs_evals_of_run = 0;
         }
@@ -515,7 +578,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         if ending != Ending::Stopped {
             return None;
         }
-        self.cycles += motions;
+        self.half_cycles += halves * motions;
         Some(end)
     }
 
@@ -532,7 +595,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// The beginning of a period at `y`, with the tolerances of the row times `factor`.
     fn from(&self, y: &[f64; N], factor: f64) -> Restart<N> {
         let tolerance_factor = self.tolerance_factor * factor;
-        Restart { y: *y, scale: self.size, tolerance_factor, change: self.start.scale }
+        let Start { span, scale, .. } = self.start;
+        Restart { y: *y, span, scale: self.size, tolerance_factor, change: scale }
     }
 
     /// The factor on the tolerances of the row.
@@ -582,13 +646,13 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let orbit = MeasuredOrbit { y, sums, coarse, switches: end.outcome.switches, rtol: self.rtol() };
         let (row, error) = orbit_row::row_of(*model, solver, start, &orbit);
         let at_rest = row.status != Status::Periodic || orbit_row::is_at_rest(*model, start, &orbit);
-        let floquet_max = if at_rest { f64::NAN } else { *floquet_max };
+        let floquet_max = if at_rest { f64::NAN } else { floquet_max.powi(self.maps_per_period()) };
         (Row { residual: *residual, floquet_max, state: y.to_vec(), ..row }, error)
     }
 
     /// Drive periods integrated.
     fn cycles(&self) -> u32 {
-        u32::try_from(self.cycles).unwrap_or(u32::MAX)
+        u32::try_from(self.half_cycles.div_ceil(2)).unwrap_or(u32::MAX)
     }
 
     /// The row of a point without an orbit of one drive period.

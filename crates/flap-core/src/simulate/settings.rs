@@ -24,6 +24,8 @@ pub struct SolverSettings {
     pub newton: bool,
     /// Newton's iteration begins at looser tolerances.
     pub progressive: bool,
+    /// The orbits of symmetric points are searched for and measured over half periods.
+    pub symmetry: bool,
     /// Rows have the mean load of the air at the wing's shoulder behind their measures, see
     /// [`Load::at_shoulder`](crate::model::Load::at_shoulder): N and N·m. For vehicles, not for grid files.
     pub loads: bool,
@@ -40,6 +42,7 @@ impl SolverSettings {
         accuracy: 1e-3,
         newton: true,
         progressive: true,
+        symmetry: true,
         loads: false,
     };
 
@@ -91,6 +94,12 @@ impl SolverSettings {
             "progressive",
             SettingKind::Flag { get: |s| s.progressive, set: |s, progressive| s.progressive = progressive },
             "the search for an orbit begins at looser tolerances and ends at rtol; without it the whole search is at rtol",
+        ),
+        Setting::new(
+            "symmetry",
+            SettingKind::Flag { get: |s| s.symmetry, set: |s, symmetry| s.symmetry = symmetry },
+            "orbits whose second half mirrors the first are found and measured over half periods; without it all periods \
+             are whole",
         ),
     ];
 

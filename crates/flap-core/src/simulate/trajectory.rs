@@ -33,7 +33,7 @@ impl<M: Model<N>, const N: usize> Question<M, N> for TrajectoryFrom<'_> {
             let Some(orbit) = orbit.filter(|_| row.status == Status::Periodic) else {
                 return Err(Unfinished::NotPeriodic { status: row.status, cycles: row.cycles });
             };
-            start = orbit.start(start.constants, start.span);
+            start = orbit.start(start.constants);
         }
         sampled::<M, R, N>(model, solver, &start, cycles, samples_per_cycle, interrupted)
     }

@@ -33,6 +33,7 @@ def run(
     accuracy: SupportsFloat | None = None,
     newton: bool | None = None,
     progressive: bool | None = None,
+    symmetry: bool | None = None,
     **parameters: Value,
 ) -> dict[str, Any]:
     """Run one design point until its motion repeats with the drive, then measure one drive period.
@@ -91,6 +92,9 @@ def run(
     progressive : bool, optional
         True to begin the search for the orbit at looser tolerances, and to end it at rtol. If False, the whole search
         is at rtol: to the same orbit, for about twice the work. Default True.
+    symmetry : bool, optional
+        True to find and measure an orbit whose second half mirrors the first over half periods. If False, all periods
+        are whole: the same orbit, for more work. Default True.
     **parameters : float or str
         Parameters of the model by name: a number in SI units, text with a unit such as
         ``"1.5 uN*m/rad"``, or the name of an option if the parameter is a choice.
@@ -148,7 +152,7 @@ def run(
     """
     solver = {"rtol": rtol, "atol": atol, "settle_tol": settle_tol, "accuracy": accuracy}
     steps = {"max_cycles": max_cycles, "max_steps": max_steps}
-    search = {"newton": newton, "progressive": progressive}
+    search = {"newton": newton, "progressive": progressive, "symmetry": symmetry}
     with one_step(progress):
         row: dict[str, Any] = _worker.call(
             client,

@@ -12,20 +12,13 @@ pub(crate) struct SolverFields {
     settle_tol: f64,
     max_cycles: u32,
     max_steps: u32,
-    #[serde(default = "default_accuracy")]
     accuracy: f64,
     newton: bool,
-    /// False for results of versions that did not know it.
-    #[serde(default)]
     progressive: bool,
+    symmetry: bool,
     /// Vehicles set it for themselves.
     #[serde(skip)]
     loads: bool,
-}
-
-/// The accuracy of results whose files do not record it.
-fn default_accuracy() -> f64 {
-    SolverSettings::default().accuracy
 }
 
 /// Solver settings as a table of their own.

@@ -15,7 +15,10 @@ use crate::model::Measure::{Peak, PeakToPeak, Supply};
 use crate::model::OverWings::{Each, Sum};
 use crate::model::readings::{efficiency, grams_force, hinge_strain, lag_degrees};
 use crate::model::signal::DEGREES;
-use crate::model::{Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, Unit};
+use crate::model::{
+    Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, SignalSet, Symmetry,
+    Totals, Unit,
+};
 use crate::modes::Mode;
 use crate::num::Real;
 use crate::ode::{Ode, Start};
@@ -92,6 +95,23 @@ const DERIVED: &[Column] = &[
     Column::new("mode_hinge_hz", "Hz", "natural frequency of small hinge angles, without drag",
         |_, c, _| Bimorph::modes(c)[1].frequency),
 ];
+
+/// Sums over the second half of a mirrored period: the plates have changed places, and the stroke its direction.
+fn second_half(first: &Signals<Totals<f64>>) -> Signals<Totals<f64>> {
+    let same = Signals::map(first, |_, totals| totals.repeated());
+    Signals {
+        stroke: first.stroke.negated(),
+        pitch: first.pitch.negated(),
+        drag: first.drag.negated(),
+        power_plate_1: same.power_plate_2,
+        power_plate_2: same.power_plate_1,
+        current_1: same.current_2,
+        current_2: same.current_1,
+        force_1: same.force_2,
+        force_2: same.force_1,
+        ..same
+    }
+}
 
 /// Phase of the drive (rad): F₁ − F₂ goes as −sin ωt, which has the phase π/2 against the cosine.
 const DRIVE_PHASE: f64 = FRAC_PI_2;
@@ -224,6 +244,15 @@ impl Model<4> for Bimorph {
         let tip = 0.1 / params.transmission_ratio;
         let scale = [tip, tip * rate, 0.3, 0.3 * rate];
         Ok(Start::new(constants, [0.0; 4], constants.drive.period(), scale))
+    }
+
+    /// About the origin, if the plates are alike and see mirrored voltages.
+    fn symmetry(&self, c: &Constants<f64>) -> Option<Symmetry<Signals, 4>> {
+        let [f_1, f_2] = c.force_per_stress;
+        let [.., literal] = c.attack;
+        let is_symmetric =
+            f_1 == f_2 && c.half_offset == 0.0 && literal == 0.0 && self.drive.is_symmetric(&c.drive);
+        is_symmetric.then_some(Symmetry { centre: [0.0; 4], second_half: Some(second_half) })
     }
 
     /// The parameters that a wing decides.

@@ -9,7 +9,10 @@ use crate::model::Measure::{Peak, Supply};
 use crate::model::OverWings::{Each, Sum};
 use crate::model::readings::{SINE_PHASE, charging, efficiency, grams_force, hinge_strain, lag_degrees};
 use crate::model::stroke_and_pitch as states;
-use crate::model::{Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, Unit};
+use crate::model::{
+    Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, SignalSet, Symmetry,
+    Totals, Unit,
+};
 use crate::modes::Mode;
 use crate::num::Real;
 use crate::ode::{Ode, Start};
@@ -64,6 +67,17 @@ const DERIVED: &[Column] = &[
     Column::new("mode_2_hz", "Hz", "upper natural frequency of small motions",
         |_, c, _| DirectDrive::modes(c)[1].frequency),
 ];
+
+/// Sums over the second half of a period that is mirrored about the origin.
+fn second_half(first: &Signals<Totals<f64>>) -> Signals<Totals<f64>> {
+    Signals {
+        stroke: first.stroke.negated(),
+        pitch: first.pitch.negated(),
+        drag: first.drag.negated(),
+        current: first.current.negated(),
+        ..Signals::map(first, |_, totals| totals.repeated())
+    }
+}
 
 /// The model.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -145,6 +159,17 @@ impl Model<4> for DirectDrive {
         self.drive.check(&params.waveform)?;
         let constants = Constants::derive(&params)?;
         Ok(states::start(&self.drive, &constants.drive, constants, [0.1, 0.3]))
+    }
+
+    /// About the stroke at rest under the constant part of the voltage, which only shifts the stroke.
+    fn symmetry(&self, c: &Constants<f64>) -> Option<Symmetry<Signals, 4>> {
+        let [.., literal] = c.attack;
+        if literal != 0.0 || !self.drive.is_symmetric(&c.drive) {
+            return None;
+        }
+        let stroke = c.gamma * c.drive.bias / c.k_phi;
+        let second_half = (stroke == 0.0).then_some(second_half as fn(&_) -> _);
+        Some(Symmetry { centre: [stroke, 0.0, 0.0, 0.0], second_half })
     }
 
     /// The parameters that a wing decides. The model takes the hinge's axis for the leading edge.

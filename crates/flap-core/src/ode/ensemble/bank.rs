@@ -83,16 +83,16 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
     /// Puts a run into a lane.
     pub(super) fn load(&mut self, lane: usize, start: &Start<O::Constants<f64>, N>, observer: &V) {
         self.constants.set(lane, &start.constants);
-        self.span.set_lane(lane, start.span);
-        let Start { y, scale, tolerance_factor, change, .. } = *start;
-        self.restart(lane, &Restart { y, scale, tolerance_factor, change }, observer);
+        let Start { y, span, scale, tolerance_factor, change, .. } = *start;
+        self.restart(lane, &Restart { y, span, scale, tolerance_factor, change }, observer);
     }
 
     /// Gives a lane's run a new beginning.
     pub(super) fn restart(&mut self, lane: usize, next: &Restart<N>, observer: &V) {
         self.totals.set(lane, &observer.nothing());
         self.rtol.set_lane(lane, self.tolerances.rtol * next.tolerance_factor);
-        let Restart { y, scale, tolerance_factor, change } = next;
+        let Restart { y, span, scale, tolerance_factor, change } = next;
+        self.span.set_lane(lane, *span);
         self.step.y[0].set(lane, y);
         self.atol.set(lane, &self.tolerances.absolute(*tolerance_factor, scale));
         if D > 0 {

@@ -7,11 +7,13 @@ use crate::ode::{Ode, Outcome, Start};
 /// A run to be started: the caller's note of it, and its beginning.
 pub type NewRun<Run, C, const N: usize> = (Run, Start<C, N>);
 
-/// A new beginning of a run that keeps its lane, with the same constants and the same span.
+/// A new beginning of a run that keeps its lane, with the same constants.
 #[derive(Clone, Copy, Debug)]
 pub struct Restart<const N: usize> {
     /// The initial state.
     pub y: [f64; N],
+    /// As [`Start::span`].
+    pub span: f64,
     /// As [`Start::scale`].
     pub scale: [f64; N],
     /// As [`Start::tolerance_factor`].
@@ -21,9 +23,9 @@ pub struct Restart<const N: usize> {
 }
 
 impl<const N: usize> Restart<N> {
-    /// The beginning of a run with these constants and spans of this length (s).
-    pub fn start<C>(self, constants: C, span: f64) -> Start<C, N> {
-        let Restart { y, scale, tolerance_factor, change } = self;
+    /// The beginning of a run with these constants.
+    pub fn start<C>(self, constants: C) -> Start<C, N> {
+        let Restart { y, span, scale, tolerance_factor, change } = self;
         Start { constants, y, span, scale, tolerance_factor, change }
     }
 }
