@@ -83,16 +83,17 @@ impl<M: Model<4>> Motion<M> {
         }
     }
 
+    /// The derivatives of a state at time `t`, along parameters too.
     fn slopes(&self, t: f64, side: f64, y: &State<Number>) -> State<Number> {
-        let (mut slopes, _) = slopes(&self.model, &self.constants, t, side, y);
+        let (mut dy, _) = slopes(&self.model, &self.constants, t, side, y);
         let y = y.map(|y| y.value);
         for (direction, sides) in (4..).zip(&self.changed) {
-            let [ahead, behind] = sides.each_ref().map(|c| self::slopes(&self.model, c, t, side, &y).0);
+            let [ahead, behind] = sides.each_ref().map(|c| slopes(&self.model, c, t, side, &y).0);
             for i in 0..5 {
-                slopes[i].slopes[direction] += (ahead[i] - behind[i]) / (2.0 * CHANGE);
+                dy[i].slopes[direction] += (ahead[i] - behind[i]) / (2.0 * CHANGE);
             }
         }
-        slopes
+        dy
     }
 
     /// A step of the classical Runge-Kutta method of order 4.
@@ -118,6 +119,7 @@ impl<M: Model<4>> Motion<M> {
         self.advance(t + 0.5 * h, 0.5 * h, side, &middle)
     }
 
+    /// The switching function and its rate.
     fn switch(&self, t: f64, side: f64, y: &State<Number>) -> [Number; 2] {
         slopes(&self.model, &self.constants, t, side, y).1
     }
