@@ -6,6 +6,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use flap_core::model::Model;
 use flap_core::num::{PerLane, Real};
 
+use super::dual::Dual;
 use super::{BIMORPH, DIRECT_DRIVE, DIRECT_DRIVE_BLADES, FOUR_BAR, GROWING_BIMORPH, values};
 
 /// Numbers of operations. Constants are free, and so are changes of sign, comparisons and selections.
@@ -141,28 +142,34 @@ impl Real for Counted {
     }
 }
 
-/// Operations of the inputs and of the right-hand side, as `[sums, products, fused, quotients, roots, functions]`.
-fn counts<M: Model<4>>(model: &M, preset: &str) -> [[u32; 6]; 2] {
+/// Operations as `[sums, products, fused, quotients, roots, functions]`.
+fn numbers(o: Operations) -> [u32; 6] {
+    [o.sums, o.products, o.fused, o.quotients, o.roots, o.functions]
+}
+
+/// Operations of the inputs and of the right-hand side, on numbers made of a counted one by `number`.
+fn counts<M: Model<4>, R: Real>(model: &M, preset: &str, number: fn(Counted) -> R) -> [[u32; 6]; 2] {
     let start = model.start(&values(preset)).unwrap();
-    let zero = Counted(0.0);
-    let c = M::Constants::<Counted>::fill(zero, &start.constants);
-    let t = Counted(0.1 * start.span);
-    let y = start.scale.map(Counted);
-    let side = Counted(1.0);
+    let number = |value| number(Counted(value));
+    let c = M::Constants::<R>::fill(number(0.0), &start.constants);
+    let t = number(0.1 * start.span);
+    let y = start.scale.map(number);
+    let side = number(1.0);
     let input = operations(|| _ = model.input(&c, t));
     let u = model.input(&c, t);
     let rhs = operations(|| _ = model.rhs(&c, &u, side, &y));
-    [input, rhs].map(|o| [o.sums, o.products, o.fused, o.quotients, o.roots, o.functions])
+    [input, rhs].map(numbers)
 }
 
 #[test]
 fn right_hand_sides_take_these_operations() {
+    let plain = |number| number;
     let found = [
-        counts(&BIMORPH, "jafferis2016"),
-        counts(&GROWING_BIMORPH, "jafferis2016"),
-        counts(&DIRECT_DRIVE, "ozaki2018-large"),
-        counts(&DIRECT_DRIVE_BLADES, "ozaki2018-large"),
-        counts(&FOUR_BAR, "arabagi2013-75hz"),
+        counts(&BIMORPH, "jafferis2016", plain),
+        counts(&GROWING_BIMORPH, "jafferis2016", plain),
+        counts(&DIRECT_DRIVE, "ozaki2018-large", plain),
+        counts(&DIRECT_DRIVE_BLADES, "ozaki2018-large", plain),
+        counts(&FOUR_BAR, "arabagi2013-75hz", plain),
     ];
     let expected = [
         [[24, 54, 2, 2, 0, 3], [25, 44, 0, 0, 0, 3]],
@@ -172,4 +179,39 @@ fn right_hand_sides_take_these_operations() {
         [[0, 6, 1, 0, 0, 1], [73, 155, 70, 3, 2, 4]],
     ];
     assert_eq!(found, expected);
+}
+
+/// Arithmetic operations and elementary functions of the slopes of a motion with four responses: by dual numbers, and by five
+/// motions.
+fn costs<M: Model<4>>(model: &M, preset: &str) -> [[u32; 2]; 2] {
+    let sum = |o: [u32; 6]| [o[..5].iter().sum(), o[5]];
+    let [dual, plain] = [
+        counts::<M, Dual<Counted, 4>>(model, preset, Dual::constant)[1],
+        counts(model, preset, |number| number)[1],
+    ]
+    .map(sum);
+    // Each component of a response is added to the state, and its slope is a difference over the size of the change.
+    [dual, [5 * plain[0] + 3 * 16, 5 * plain[1]]]
+}
+
+#[test]
+fn dual_numbers_take_more_arithmetic_than_five_motions() {
+    let found = [
+        costs(&BIMORPH, "jafferis2016"),
+        costs(&GROWING_BIMORPH, "jafferis2016"),
+        costs(&DIRECT_DRIVE, "ozaki2018-large"),
+        costs(&DIRECT_DRIVE_BLADES, "ozaki2018-large"),
+        costs(&FOUR_BAR, "arabagi2013-75hz"),
+    ];
+    let expected = [
+        [[538, 3], [393, 15]],
+        [[680, 3], [478, 15]],
+        [[868, 1], [603, 5]],
+        [[856, 1], [603, 5]],
+        [[2512, 4], [1563, 20]],
+    ];
+    assert_eq!(found, expected);
+    // The documented ratios.
+    let ratios = found.map(|[[dual, _], [motions, _]]| f64::from(dual) / f64::from(motions));
+    assert!(ratios.iter().all(|ratio| (1.35..1.65).contains(ratio)), "{ratios:?}");
 }

@@ -2,6 +2,7 @@
 
 mod counted;
 mod dual;
+mod responses;
 
 use flap_core::drive::Drive;
 use flap_core::model::bimorph::{Bimorph, Law};

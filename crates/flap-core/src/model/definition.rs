@@ -24,6 +24,9 @@ pub struct Description {
 }
 
 /// A column computed from the signals `S` of a periodic orbit of the model `M` with constants `C`.
+///
+/// Give the type a name, `type Column = Derived<MyModel, Constants<f64>, Signals>`, and begin each column with
+/// `Column::new`: with `Derived::new`, the compiler cannot infer the argument types of the closure.
 #[derive(Debug)]
 pub struct Derived<M, C, S: SignalSet> {
     /// Column name.
@@ -111,11 +114,15 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
         self.clone()
     }
 
-    /// The run of a point, given one value per parameter: constants, initial state, drive period, scales.
+    /// The run of a point, given one value per parameter: constants, initial state, drive period, and a typical size of each
+    /// state, see [`Start::scale`].
+    ///
+    /// Grid files check each value against its [`Range`](crate::parameter::Range). If a program takes values from
+    /// elsewhere, it checks them itself, or this function does with [`Invalid::unless_within`].
     ///
     /// # Errors
-    /// [`Invalid`] if a parameter is out of its range, parameters are impossible together, or a derived constant is not
-    /// finite.
+    /// [`Invalid`] if parameters are impossible together, or a derived constant is not finite: see
+    /// [`Invalid::together`] and [`Invalid::unless_finite`].
     fn start(&self, values: &[f64]) -> Result<Start<Self::Constants<f64>, N>, Invalid>;
 
     /// The symmetry of a point with these constants. By default there is none; then all periods are integrated to their end.

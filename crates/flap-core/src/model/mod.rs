@@ -7,6 +7,8 @@
 //! - the signals to be measured, a struct with one field for each ([`crate::signals!`]),
 //! - equations of motion ([`crate::ode::Ode`]) and the values of the signals ([`Model`]), written once for scalars and lanes,
 //! - for single motions, the states and drives with which they begin ([`Motions`]).
+//!
+//! [`Runner`](crate::simulate::Runner) computes the rows of a model. Its page has a complete model of your own.
 
 pub mod bimorph;
 mod definition;

@@ -263,7 +263,7 @@ impl SignalCycle {
     }
 }
 
-/// A unit of columns.
+/// A unit of columns. Besides the constants below, a model may declare its own.
 #[derive(Clone, Copy, Debug)]
 pub struct Unit {
     /// Its name in words, such as `mN`.

@@ -14,13 +14,16 @@ pub trait Ode<const N: usize>: Sync {
     /// Inputs that depend on time alone: the drive.
     type Input<R: Real>: Copy;
 
-    /// True if the right-hand side jumps where [`Ode::switch`] changes sign.
+    /// True if the right-hand side jumps where [`Ode::switch`] changes sign. A model with such a jump sets it and implements `switch`.
     const SWITCHES: bool = false;
 
     /// The inputs at time `t` (s).
     fn input<R: Real>(&self, c: &Self::Constants<R>, t: R) -> Self::Input<R>;
 
-    /// The derivative ẏ, on one `side` (+1 or −1) of the surface on which [`Ode::switch`] is zero.
+    /// The derivative ẏ on one `side` of the surface on which [`Ode::switch`] is zero.
+    ///
+    /// `side` is the sign of `switch`, +1 or −1. Use it where the equations contain this sign: a friction torque against the
+    /// rate, for example, is `-friction * side`. It stays fixed within a step, and the integrator changes it on the surface.
     fn rhs<R: Real>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N];
 
     /// The next time after `t` (s) at which the inputs are not smooth, such as the edge of a square wave; infinite if
@@ -31,7 +34,13 @@ pub trait Ode<const N: usize>: Sync {
         t.lit(f64::INFINITY)
     }
 
-    /// The switching function and its rate, at a state with derivative `dy`.
+    /// The switching function and its derivative by time, at a state with derivative `dy`.
+    ///
+    /// The function is continuous along a motion; its derivative may jump. For a friction torque against the rate `y[1]`,
+    /// return `[y[1], dy[1]]`.
+    ///
+    /// A motion that stays on the surface, such as a stroke that sticks by friction, crosses it again and again in short steps.
+    /// Its row has the status [`StepLimit`](crate::simulate::Status::StepLimit), or an infinite error estimate.
     #[inline(always)]
     fn switch<R: Real>(&self, c: &Self::Constants<R>, y: &[R; N], dy: &[R; N]) -> [R; 2] {
         let _ = (c, dy);
