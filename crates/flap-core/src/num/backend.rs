@@ -10,6 +10,7 @@ use fearless_simd::{Avx2, Sse2};
 
 #[cfg(target_arch = "x86_64")]
 use super::avx512::Avx512;
+use super::register::Instructions;
 use super::{Lanes, Scalar, Simd, Unfused, Vector};
 
 /// The rounding of `mul_add`: once or twice. Results are equal to the last bit within a class.
@@ -34,8 +35,8 @@ impl Arithmetic {
 /// Computing hardware of this machine: its processor with one set of SIMD instructions.
 ///
 /// Whoever starts a computation asks for a backend once, with [`Backend::best`] or [`Backend::by_name`], and hands it on.
-/// Work that is generic over numbers then runs on its lanes ([`Backend::dispatch`]) or on its scalars
-/// ([`Backend::dispatch_scalar`]), with the same bits from both.
+/// Work that is generic over numbers then runs on its lanes ([`Backend::dispatch`]), or on scalars of its
+/// [`Arithmetic`] with the same bits.
 #[derive(Clone, Copy, Debug)]
 pub struct Backend(Proof);
 
@@ -49,7 +50,7 @@ pub trait Kernel {
 }
 
 /// Work on one number at a time, generic over its arithmetic.
-pub trait ScalarKernel {
+pub(crate) trait ScalarKernel {
     /// The result of the work.
     type Output;
 
@@ -63,11 +64,11 @@ enum Proof {
     #[cfg(target_arch = "x86_64")]
     Avx512(Avx512),
     #[cfg(target_arch = "x86_64")]
-    Avx2(Avx2),
+    Avx2(Instructions<Avx2>),
     #[cfg(target_arch = "x86_64")]
-    Sse2(Sse2),
+    Sse2(Instructions<Sse2>),
     #[cfg(target_arch = "aarch64")]
-    Neon(Neon),
+    Neon(Instructions<Neon>),
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
     Other(Level),
 }
@@ -84,11 +85,11 @@ impl Backend {
         #[cfg(target_arch = "x86_64")]
         let proofs = [
             Avx512::detect().map(Proof::Avx512),
-            level.as_avx2().map(Proof::Avx2),
-            level.as_sse2().map(Proof::Sse2),
+            level.as_avx2().map(Instructions).map(Proof::Avx2),
+            level.as_sse2().map(Instructions).map(Proof::Sse2),
         ];
         #[cfg(target_arch = "aarch64")]
-        let proofs = [level.as_neon().map(Proof::Neon)];
+        let proofs = [level.as_neon().map(Instructions).map(Proof::Neon)];
         #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
         let proofs = [Some(Proof::Other(level))];
         proofs.into_iter().flatten().map(Backend).collect()
@@ -146,7 +147,7 @@ impl Backend {
     }
 
     /// Runs `kernel` on scalars of this backend's arithmetic.
-    pub fn dispatch_scalar<K: ScalarKernel>(self, kernel: K) -> K::Output {
+    pub(crate) fn dispatch_scalar<K: ScalarKernel>(self, kernel: K) -> K::Output {
         match self.arithmetic() {
             Arithmetic::Fused => kernel.run::<f64>(),
             Arithmetic::Unfused => kernel.run::<Unfused>(),
@@ -166,7 +167,7 @@ impl Backend {
             #[cfg(target_arch = "aarch64")]
             Proof::Neon(simd) => enter(simd, kernel),
             #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-            Proof::Other(level) => fearless_simd::dispatch!(level, simd => enter(simd, kernel)),
+            Proof::Other(level) => fearless_simd::dispatch!(level, simd => enter(Instructions(simd), kernel)),
         }
     }
 }

@@ -27,7 +27,8 @@ mod real;
 mod register;
 mod scalar;
 
-pub use backend::{Arithmetic, Backend, Kernel, ScalarKernel};
+pub(crate) use backend::ScalarKernel;
+pub use backend::{Arithmetic, Backend, Kernel};
 pub use lanes::{Lanes, Simd, Vector};
 pub use per_lane::PerLane;
 pub use real::Real;

@@ -12,14 +12,14 @@ use super::real::Real;
 
 /// Two groups of lanes that go side by side.
 #[derive(Clone, Copy, Debug)]
-pub struct Pair<L> {
+pub(super) struct Pair<L> {
     lo: L,
     hi: L,
 }
 
 /// The mask of a [`Pair`].
 #[derive(Clone, Copy)]
-pub struct PairMask<M> {
+pub(super) struct PairMask<M> {
     lo: M,
     hi: M,
 }

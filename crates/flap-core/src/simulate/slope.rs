@@ -22,7 +22,7 @@ impl Change {
     pub const SHARE: f64 = 1e-8;
 
     /// True if it changes nothing. NaN stands for a parameter that follows others.
-    pub fn is_none(&self) -> bool {
+    pub(crate) fn is_none(&self) -> bool {
         let mut both = self.ahead.iter().zip(&self.behind);
         both.all(|(ahead, behind)| ahead.total_cmp(behind).is_eq())
     }

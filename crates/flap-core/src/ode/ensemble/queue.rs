@@ -22,7 +22,7 @@ pub struct Restart<const N: usize> {
 
 impl<const N: usize> Restart<N> {
     /// The beginning of a run with these constants and spans of this length (s).
-    pub fn start<C>(self, constants: C, span: f64) -> Start<C, N> {
+    pub(crate) fn start<C>(self, constants: C, span: f64) -> Start<C, N> {
         let Restart { y, scale, tolerance_factor, change } = self;
         Start { constants, y, span, scale, tolerance_factor, change }
     }
