@@ -48,7 +48,7 @@ impl<M: Motions<N>, const N: usize> Question<M, N> for &ChirpRequest {
                 &solver.tolerances(),
                 &cycle,
                 interrupted,
-                |c, attempt| {
+                &mut |c, attempt| {
                     R::enter(
                         #[inline(always)]
                         || observer.add(c, attempt, true, &mut totals),
@@ -57,7 +57,7 @@ impl<M: Motions<N>, const N: usize> Question<M, N> for &ChirpRequest {
                         sampler.step(&model, c, attempt);
                     }
                 },
-                |end| {
+                &mut |end| {
                     y = *end;
                     ControlFlow::Break(())
                 },

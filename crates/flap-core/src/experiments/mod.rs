@@ -2,9 +2,8 @@
 //!
 //! - `chirp`: a drive whose frequency changes steadily
 //! - `impulse`: the free motion after an impulse, with the drive held still
-//! - `imposed`: forces along a given motion
+//! - `runner`: forces along a given motion
 
 mod chirp;
-mod imposed;
 mod impulse;
 mod runner;

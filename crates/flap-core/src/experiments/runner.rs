@@ -1,12 +1,11 @@
-//! Experiments of a model behind their object-safe face.
+//! Experiments of a model behind their object-safe face; forces along a motion that is given.
 
-use super::imposed;
 use crate::drive::Samples;
 use crate::model::{Motions, Signal};
 use crate::modes::Mode;
 use crate::simulate::{
-    ChirpRequest, ChirpResponse, Experiments, ImposedMotion, ImpulseRequest, PointRun, Runner, Simulator,
-    Trajectory, Unfinished, ask,
+    ChirpRequest, ChirpResponse, Experiments, ImposedMotion, ImpulseRequest, PointRun, RequestError, Runner,
+    Simulator, Trajectory, Unfinished, ask, shown, trajectory_columns,
 };
 
 impl<M: Motions<N>, const N: usize> Experiments for Runner<M, N> {
@@ -18,8 +17,24 @@ impl<M: Motions<N>, const N: usize> Experiments for Runner<M, N> {
         ask::<M, _, N>(&self.model, run, request)
     }
 
+    /// Nothing to integrate: forces are evaluated at equal distances from the first sample to the last.
     fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Unfinished> {
-        imposed::follow(&self.model, values, motion)
+        let ImposedMotion { stroke, pitch, samples } = motion;
+        let (duration, other) = (stroke.duration(), pitch.duration());
+        if (duration - other).abs() > 1e-9 * duration {
+            return Err(RequestError::Durations { stroke: duration, pitch: other }.into());
+        }
+        let model = self.model.variant(values);
+        let constants = model.start(values)?.constants;
+        let rows = (0..=*samples).map(|i| {
+            let time = duration * (f64::from(i) / f64::from((*samples).max(1)));
+            let (y, signals) = model.imposed(&constants, stroke.motion(time), pitch.motion(time));
+            let mut row = vec![time];
+            row.extend(y);
+            row.extend(shown::<M::Signals>(&signals));
+            row
+        });
+        Ok(Trajectory { columns: trajectory_columns::<M, N>(), rows: rows.collect() })
     }
 
     fn modes(&self, values: &[f64]) -> Result<Vec<Mode>, Unfinished> {

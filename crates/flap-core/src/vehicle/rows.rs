@@ -90,10 +90,8 @@ impl Wings {
         let states = vehicle.states.len() / vehicle.mounts.len();
         let mut wings = Wings { values, designs: Vec::new(), of_wing: Vec::new() };
         for (wing, mount) in vehicle.mounts.iter().enumerate() {
-            let values = vehicle
-                .table
-                .of_wing(&wings.values, wing)
-                .map_err(|invalid| Invalid::new(format!("wing {}: {}", mount.name, invalid.into_reason())))?;
+            let values = vehicle.table.of_wing(&wings.values, wing);
+            let values = values.map_err(|invalid| Invalid::new(format!("wing {}: {invalid}", mount.name)))?;
             let begin = begin.map(|all| all.iter().copied().skip(wing * states).take(states).collect());
             let design = Design { values, begin, row: None };
             let same = wings.designs.iter().position(|other| other.is(&design));
