@@ -27,7 +27,6 @@ mod real;
 mod register;
 mod scalar;
 
-pub(crate) use backend::ScalarKernel;
 pub use backend::{Arithmetic, Backend, Kernel};
 pub use lanes::{Lanes, Simd, Vector};
 pub use per_lane::PerLane;

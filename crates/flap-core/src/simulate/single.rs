@@ -11,7 +11,7 @@ use super::search::{Settled, settle};
 use super::settings::SolverSettings;
 use crate::measure::multipliers::spectral_radius;
 use crate::model::Model;
-use crate::num::{Backend, Scalar, ScalarKernel};
+use crate::num::{Arithmetic, Backend, Scalar, Unfused};
 use crate::ode::ensemble::Restart;
 use crate::ode::{Interrupt, never};
 
@@ -57,25 +57,9 @@ where
     Q: Question<M, N>,
 {
     let model = &model.variant(run.values);
-    run.backend.dispatch_scalar(Asked::<M, Q, N> { model, run, question })
-}
-
-/// A question with the point that it is about.
-struct Asked<'a, M, Q, const N: usize> {
-    model: &'a M,
-    run: &'a PointRun<'a>,
-    question: Q,
-}
-
-impl<M, Q, const N: usize> ScalarKernel for Asked<'_, M, Q, N>
-where
-    M: Model<N>,
-    Q: Question<M, N>,
-{
-    type Output = Q::Answer;
-
-    fn run<R: Scalar>(self) -> Q::Answer {
-        self.question.answer::<R>(self.model, self.run)
+    match run.backend.arithmetic() {
+        Arithmetic::Fused => question.answer::<f64>(model, run),
+        Arithmetic::Unfused => question.answer::<Unfused>(model, run),
     }
 }
 
