@@ -90,7 +90,7 @@ pub trait Simulator: Rows {
     /// The parameter table. A point is one `f64` per entry, see [`Parameter`].
     fn parameters(&self) -> &[Parameter<'_>];
 
-    /// Published parameter backends.
+    /// Published parameter sets.
     fn presets(&self) -> &'static [Preset];
 
     /// The parameters that a wing of one's own decides, by name, in SI units; none if the model has no such wing.
