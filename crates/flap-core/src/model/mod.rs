@@ -22,7 +22,6 @@ pub mod stroke_and_pitch;
 pub use definition::{Derived, Description, Instant, Model};
 pub use load::Load;
 pub use motions::{Imposed, Motions};
-pub(crate) use readings::{efficiency, grams_force};
 pub(crate) use signal::GRAVITY;
 pub use signal::{Measure, OverWings, Principal, Signal, SignalCycle, Taken, Unit};
 pub use signals::{Each, SignalSet, SignalsOf};

@@ -3,7 +3,7 @@
 //! Sine and cosine are minimax polynomials, the logarithm is that of FreeBSD's msun (`e_log.c`; Sun Microsystems, 1993),
 //! the exponential is a Taylor polynomial on |r| ≤ ½ ln 2.
 
-use super::bits::{Bits, ROUND};
+use super::lanes::{Bits, ROUND};
 use super::real::Real;
 
 /// π in two parts. The first has 33 significant bits, so its products with whole numbers up to 2^20 are exact; the second

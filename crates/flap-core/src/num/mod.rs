@@ -17,7 +17,6 @@
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod backend;
-mod bits;
 mod functions;
 mod lanes;
 mod macros;

@@ -5,8 +5,7 @@
 
 use core::ops::{BitAnd, BitOr, Not};
 
-use super::bits::Bits;
-use super::lanes::Lanes;
+use super::lanes::{Bits, Lanes};
 use super::macros::{constants_on_the_right, functions_of_lanes, of_both, operator};
 use super::real::Real;
 

@@ -2,10 +2,10 @@
 
 use fearless_simd::{Bytes, ExtractToken, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask};
 
-use super::bits::{
-    Bits, EXPONENT_BITS, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52, TWO_52_BITS,
+use super::lanes::{
+    self, Bits, EXPONENT_BITS, Lanes, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52,
+    TWO_52_BITS,
 };
-use super::lanes::{self, Lanes};
 use super::macros::{constants_on_the_right, functions_of_lanes, of_inner, operator};
 use super::pair::Pair;
 use super::real::Real;

@@ -2,7 +2,8 @@
 
 use super::geometry::{FORCES, TORQUES, Wrench};
 use super::mount::Mount;
-use crate::model::{GRAVITY, OverWings, efficiency, grams_force};
+use crate::model::readings::{efficiency, grams_force};
+use crate::model::{GRAVITY, OverWings};
 use crate::simulate::Column;
 
 /// The columns.
