@@ -52,11 +52,11 @@ impl HingeParameters {
 
 crate::per_lane! {
     /// A slider-crank: a crank at right angles to the slider's line at rest, and a rod along that line.
-    pub struct SliderCrank<R> {
+    pub(crate) struct SliderCrank<R> {
         /// Radius of the crank L_c (m).
-        pub crank: R,
+        pub(crate) crank: R,
         /// Length of the connecting rod L_s (m).
-        pub rod: R,
+        pub(crate) rod: R,
     }
 }
 
@@ -96,21 +96,21 @@ crate::per_lane! {
     /// A four-bar and the position in which its stroke angle is zero.
     pub struct FourBar<R> {
         /// Length of the ground link L₀ (m).
-        pub ground: R,
+        ground: R,
         /// Length of the output link L₃ (m).
-        pub output: R,
+        output: R,
         /// Square of the input link's length, L₁² (m²).
-        pub input_square: R,
+        input_square: R,
         /// ½(L₁² − L₂²) (m²).
-        pub half_difference: R,
+        half_difference: R,
         /// 1/L₂² (1/m²).
-        pub inverse_coupler_square: R,
+        inverse_coupler_square: R,
         /// Angle of the output link at zero stroke ψ_n (rad).
         pub neutral: R,
         /// The input link's direction at zero stroke, over its length: component along the ground link (1/m).
-        pub direction_x: R,
+        direction_x: R,
         /// The component across it (1/m).
-        pub direction_y: R,
+        direction_y: R,
     }
 }
 

@@ -3,6 +3,9 @@
 use crate::parameter::Kind::Number;
 use crate::parameter::Range::{NonNegative, Share};
 
+/// The permittivity of free space (F/m), to the digits used for the presets.
+pub(crate) const EPSILON_0: f64 = 8.854_187_812_8e-12;
+
 /// One layer of a laminate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layer {

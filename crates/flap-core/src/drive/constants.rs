@@ -114,7 +114,7 @@ impl DriveConstants<f64> {
     }
 
     /// Frequency (Hz).
-    pub fn frequency(&self) -> f64 {
+    pub(crate) fn frequency(&self) -> f64 {
         self.rate / (2.0 * PI)
     }
 

@@ -6,7 +6,6 @@
 mod constants;
 mod parameters;
 mod samples;
-mod spline;
 mod variant;
 
 pub use constants::{DriveConstants, Wave};

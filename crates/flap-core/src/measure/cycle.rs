@@ -75,7 +75,7 @@ impl<'a, M> Signals<'a, M> {
 
     /// The same, with the load if `loads` says so.
     #[must_use]
-    pub fn with_loads(self, loads: bool) -> Self {
+    pub(crate) fn with_loads(self, loads: bool) -> Self {
         Signals { loads, ..self }
     }
 

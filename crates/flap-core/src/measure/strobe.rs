@@ -78,7 +78,7 @@ impl<const N: usize> Strobe<N> {
     }
 
     /// The state a period before the latest.
-    pub fn before(&self) -> &[f64; N] {
+    pub(crate) fn before(&self) -> &[f64; N] {
         &self.states[1]
     }
 

@@ -25,7 +25,6 @@ mod totals;
 pub use definition::{Derived, Description, Instant, Model, Symmetry};
 pub use load::Load;
 pub use motions::{Imposed, Motions};
-pub(crate) use readings::{efficiency, grams_force};
 pub(crate) use signal::GRAVITY;
 pub use signal::{Measure, OverWings, Principal, Signal, SignalCycle, Taken, Unit};
 pub use signals::{Each, SignalSet, SignalsOf};

@@ -14,8 +14,9 @@ pub trait Motions<const N: usize>: Model<N> {
     /// The signals whose frequencies describe a free motion; first the one that an impulse excites.
     const FREE_SIGNALS: &'static [Signal];
 
-    /// The drive of all points of the variant, to be changed.
-    fn drive_mut(&mut self) -> &mut Drive;
+    /// The model with another drive, common to all points of the variant.
+    #[must_use]
+    fn with_drive(&self, change: impl FnOnce(&Drive) -> Drive) -> Self;
 
     /// The drive of a point, to be changed.
     fn drive_constants_mut(c: &mut Self::Constants<f64>) -> &mut DriveConstants<f64>;
@@ -32,15 +33,6 @@ pub trait Motions<const N: usize>: Model<N> {
     /// The states of a wing whose stroke and pitch are given: value (rad), rate, second derivative. Inputs of the
     /// actuator are not numbers.
     fn placed(c: &Self::Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Self::Input<f64>, N>;
-
-    /// The model with another drive.
-    #[must_use]
-    fn with_drive(&self, change: impl FnOnce(&Drive) -> Drive) -> Self {
-        let mut model = self.clone();
-        let drive = model.drive_mut();
-        *drive = change(drive);
-        model
-    }
 
     /// The model with samples for a waveform.
     #[must_use]

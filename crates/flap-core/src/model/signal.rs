@@ -170,7 +170,7 @@ pub enum Measure {
 
 impl Measure {
     /// The middle part of column names.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Measure::Amplitude => "amplitude",
             Measure::PeakToPeak => "pp",
@@ -186,7 +186,7 @@ impl Measure {
     }
 
     /// In words, to be followed by the signal's description.
-    pub fn describe(self) -> &'static str {
+    pub(crate) fn describe(self) -> &'static str {
         match self {
             Measure::Amplitude => "half of largest minus smallest",
             Measure::PeakToPeak => "largest minus smallest",

@@ -10,7 +10,8 @@ use fearless_simd::{Avx2, Sse2};
 
 #[cfg(target_arch = "x86_64")]
 use super::avx512::Avx512;
-use super::{Lanes, Scalar, Simd, Unfused, Vector};
+use super::register::Instructions;
+use super::{Lanes, Simd, Vector};
 
 /// The rounding of `mul_add`: once or twice. Results are equal to the last bit within a class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,10 +35,14 @@ impl Arithmetic {
 /// Computing hardware of this machine: its processor with one set of SIMD instructions.
 ///
 /// Whoever starts a computation asks for a backend once, with [`Backend::best`] or [`Backend::by_name`], and hands it on.
-/// Work that is generic over numbers then runs on its lanes ([`Backend::dispatch`]) or on its scalars
-/// ([`Backend::dispatch_scalar`]), with the same bits from both.
+/// Work that is generic over numbers then runs on its lanes ([`Backend::dispatch`]), or on scalars of its
+/// [`Arithmetic`] with the same bits.
 #[derive(Clone, Copy, Debug)]
-pub struct Backend(Proof);
+pub struct Backend {
+    name: &'static str,
+    arithmetic: Arithmetic,
+    proof: Proof,
+}
 
 /// Work that is generic over SIMD instructions.
 pub trait Kernel {
@@ -48,26 +53,17 @@ pub trait Kernel {
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
-/// Work on one number at a time, generic over its arithmetic.
-pub trait ScalarKernel {
-    /// The result of the work.
-    type Output;
-
-    /// Does the work with the scalar `R`: `f64` or [`Unfused`].
-    fn run<R: Scalar>(self) -> Self::Output;
-}
-
 /// Proof that the processor has the instructions of a backend.
 #[derive(Clone, Copy, Debug)]
 enum Proof {
     #[cfg(target_arch = "x86_64")]
     Avx512(Avx512),
     #[cfg(target_arch = "x86_64")]
-    Avx2(Avx2),
+    Avx2(Instructions<Avx2>),
     #[cfg(target_arch = "x86_64")]
-    Sse2(Sse2),
+    Sse2(Instructions<Sse2>),
     #[cfg(target_arch = "aarch64")]
-    Neon(Neon),
+    Neon(Instructions<Neon>),
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
     Other(Level),
 }
@@ -83,15 +79,18 @@ impl Backend {
         let level = Level::new();
         #[cfg(target_arch = "x86_64")]
         let proofs = [
-            Avx512::detect().map(Proof::Avx512),
-            level.as_avx2().map(Proof::Avx2),
-            level.as_sse2().map(Proof::Sse2),
+            ("avx512", Arithmetic::Fused, Avx512::detect().map(Proof::Avx512)),
+            ("avx2", Arithmetic::Fused, level.as_avx2().map(Instructions).map(Proof::Avx2)),
+            ("sse2", Arithmetic::Unfused, level.as_sse2().map(Instructions).map(Proof::Sse2)),
         ];
         #[cfg(target_arch = "aarch64")]
-        let proofs = [level.as_neon().map(Proof::Neon)];
+        let proofs = [("neon", Arithmetic::Fused, level.as_neon().map(Instructions).map(Proof::Neon))];
         #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-        let proofs = [Some(Proof::Other(level))];
-        proofs.into_iter().flatten().map(Backend).collect()
+        let proofs = [("scalar", Arithmetic::Unfused, Some(Proof::Other(level)))];
+        let backend = |(name, arithmetic, proof): (_, _, Option<_>)| {
+            proof.map(|proof| Backend { name, arithmetic, proof })
+        };
+        proofs.into_iter().filter_map(backend).collect()
     }
 
     /// The available backend with this [name](Backend::name).
@@ -101,32 +100,12 @@ impl Backend {
 
     /// The name in the provenance of a run: `avx512`, `avx2`, `sse2` or `neon`.
     pub fn name(self) -> &'static str {
-        match self.0 {
-            #[cfg(target_arch = "x86_64")]
-            Proof::Avx512(_) => "avx512",
-            #[cfg(target_arch = "x86_64")]
-            Proof::Avx2(_) => "avx2",
-            #[cfg(target_arch = "x86_64")]
-            Proof::Sse2(_) => "sse2",
-            #[cfg(target_arch = "aarch64")]
-            Proof::Neon(_) => "neon",
-            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-            Proof::Other(_) => "scalar",
-        }
+        self.name
     }
 
     /// The class of its arithmetic.
     pub fn arithmetic(self) -> Arithmetic {
-        match self.0 {
-            #[cfg(target_arch = "x86_64")]
-            Proof::Avx512(_) | Proof::Avx2(_) => Arithmetic::Fused,
-            #[cfg(target_arch = "x86_64")]
-            Proof::Sse2(_) => Arithmetic::Unfused,
-            #[cfg(target_arch = "aarch64")]
-            Proof::Neon(_) => Arithmetic::Fused,
-            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-            Proof::Other(_) => Arithmetic::Unfused,
-        }
+        self.arithmetic
     }
 
     /// The number of SIMD lanes: two registers of `f64`.
@@ -145,18 +124,10 @@ impl Backend {
         self.dispatch(Count)
     }
 
-    /// Runs `kernel` on scalars of this backend's arithmetic.
-    pub fn dispatch_scalar<K: ScalarKernel>(self, kernel: K) -> K::Output {
-        match self.arithmetic() {
-            Arithmetic::Fused => kernel.run::<f64>(),
-            Arithmetic::Unfused => kernel.run::<Unfused>(),
-        }
-    }
-
     /// Runs `kernel` on SIMD lanes, compiled for this backend's instructions.
     #[inline]
     pub fn dispatch<K: Kernel>(self, kernel: K) -> K::Output {
-        match self.0 {
+        match self.proof {
             #[cfg(target_arch = "x86_64")]
             Proof::Avx512(simd) => enter(simd, kernel),
             #[cfg(target_arch = "x86_64")]
@@ -166,7 +137,7 @@ impl Backend {
             #[cfg(target_arch = "aarch64")]
             Proof::Neon(simd) => enter(simd, kernel),
             #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-            Proof::Other(level) => fearless_simd::dispatch!(level, simd => enter(simd, kernel)),
+            Proof::Other(level) => fearless_simd::dispatch!(level, simd => enter(Instructions(simd), kernel)),
         }
     }
 }

@@ -3,7 +3,7 @@
 //! Sine and cosine are minimax polynomials, the logarithm is that of FreeBSD's msun (`e_log.c`; Sun Microsystems, 1993),
 //! the exponential is a Taylor polynomial on |r| ≤ ½ ln 2.
 
-use super::bits::{Bits, ROUND};
+use super::lanes::{Bits, ROUND};
 use super::real::Real;
 
 /// π in two parts. The first has 33 significant bits, so its products with whole numbers up to 2^20 are exact; the second
@@ -115,7 +115,7 @@ const EXP_MAX: f64 = 709.782_712_893_384_1;
 /// Smallest argument whose exponential is a normal number: ln(2^-1022).
 const EXP_MIN: f64 = -708.396_418_532_264_1;
 
-/// e^x: infinite above 709.78, zero below −708.39 (where it would be subnormal), NaN for NaN.
+/// [`Real::exp`].
 #[inline(always)]
 pub(super) fn exp<R: Bits>(x: R) -> R {
     // Infinity for large arguments, NaN for NaN.
@@ -124,14 +124,14 @@ pub(super) fn exp<R: Bits>(x: R) -> R {
     R::select(x.lt(x.lit(EXP_MIN)), x.lit(0.0), power)
 }
 
-/// e^x for x from −708 to 709. Beyond, the bits have no meaning: no instruction checks the range.
+/// [`Real::exp_of_ordinary`].
 #[inline(always)]
 pub(super) fn exp_of_ordinary<R: Bits>(x: R) -> R {
     let (k, r) = reduce(x);
     polynomial(r, r * r, &EXP).mul_add(r, r.lit(1.0)).times_power_of_two(k)
 }
 
-/// e^x − 1, accurate for small x too: infinite above 709.78, NaN for NaN.
+/// [`Real::exp_m1`].
 #[inline(always)]
 pub(super) fn exp_m1<R: Bits>(x: R) -> R {
     // Below −40 the result rounds to −1. NaN stays.
@@ -142,8 +142,7 @@ pub(super) fn exp_m1<R: Bits>(x: R) -> R {
     R::select(x.lt(x.lit(EXP_MAX)), power, x * f64::INFINITY)
 }
 
-/// e^x − 1 for x from −708 to 709, accurate for small x too. Beyond, the bits have no meaning: no instruction checks
-/// the range.
+/// [`Real::exp_m1_of_ordinary`].
 #[inline(always)]
 pub(super) fn exp_m1_of_ordinary<R: Bits>(x: R) -> R {
     let (k, r) = reduce(x);
@@ -163,7 +162,7 @@ const LN: [f64; 7] = [
     1.479_819_860_511_658_6e-1,
 ];
 
-/// Natural logarithm: −∞ for 0 and subnormal numbers, NaN for negative numbers and NaN.
+/// [`Real::ln`].
 #[inline(always)]
 pub(super) fn ln<R: Bits>(x: R) -> R {
     let none = R::select(x.lt(x.lit(0.0)), x.lit(f64::NAN), x.lit(f64::NEG_INFINITY));
@@ -172,7 +171,7 @@ pub(super) fn ln<R: Bits>(x: R) -> R {
     R::select(x.lt(x.lit(f64::INFINITY)), finite, x)
 }
 
-/// Natural logarithm of a normal positive number. For other numbers the bits have no meaning: no instruction checks them.
+/// [`Real::ln_of_normal`].
 #[inline(always)]
 pub(super) fn ln_of_normal<R: Bits>(x: R) -> R {
     let (e, m) = x.exponent_and_mantissa();
@@ -191,15 +190,14 @@ pub(super) fn ln_of_normal<R: Bits>(x: R) -> R {
     e.mul_add(e.lit(LN_2[0]), f - (half_square - small))
 }
 
-/// ln(1 + x), accurate for small x too: −∞ for −1, NaN for smaller numbers and NaN.
+/// [`Real::ln_1p`].
 #[inline(always)]
 pub(super) fn ln_1p<R: Bits>(x: R) -> R {
     let (sum, lost) = one_more(x);
     ln(sum) + lost
 }
 
-/// ln(1 + x) for x > −1 with 1 + x a normal number, accurate for small x too. For other numbers the bits have no meaning:
-/// no instruction checks them.
+/// [`Real::ln_1p_of_normal`].
 #[inline(always)]
 pub(super) fn ln_1p_of_normal<R: Bits>(x: R) -> R {
     let (sum, lost) = one_more(x);
@@ -215,31 +213,8 @@ fn one_more<R: Bits>(x: R) -> (R, R) {
     (sum, R::select(sum.lt(sum.lit(2.0)), lost, lost.lit(0.0)))
 }
 
-/// The nearest whole number, the even one of two, for |x| up to 2^51.
+/// [`Real::round_ties_even`].
 #[inline(always)]
 pub(super) fn round_ties_even<R: Real>(x: R) -> R {
     (x + ROUND) - ROUND
-}
-
-/// 1/x of a normal positive number up to 2^1022; relative errors stay below 1.74·10^-3.
-#[inline(always)]
-pub(super) fn rough_reciprocal<R: Bits>(x: R) -> R {
-    let guess = x.reciprocal_guess();
-    // Newton's step, with coefficients that make errors as large below as above.
-    guess * (x * guess).mul_add(x.lit(-0.887_348_353_552_859_6), x.lit(1.885_615_251_299_826_8))
-}
-
-/// The nearest multiple of 1/8, for |x| up to 2^48.
-#[inline(always)]
-pub(super) fn round_to_eighths<R: Real>(x: R) -> R {
-    (x + ROUND * 0.125) - ROUND * 0.125
-}
-
-/// 2^x for |x| up to 700, exact for whole numbers; relative errors stay below 2.0·10^-3.
-#[inline(always)]
-pub(super) fn rough_exp2<R: Bits>(x: R) -> R {
-    let k = round_ties_even(x);
-    let r = x - k;
-    let slope = r.mul_add(r.lit(0.2398), r.lit(0.703));
-    slope.mul_add(r, r.lit(1.0)).times_power_of_two(k)
 }

@@ -17,7 +17,6 @@
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod backend;
-mod bits;
 mod functions;
 mod lanes;
 mod macros;
@@ -27,7 +26,7 @@ mod real;
 mod register;
 mod scalar;
 
-pub use backend::{Arithmetic, Backend, Kernel, ScalarKernel};
+pub use backend::{Arithmetic, Backend, Kernel};
 pub use lanes::{Lanes, Simd, Vector};
 pub use per_lane::PerLane;
 pub use real::Real;

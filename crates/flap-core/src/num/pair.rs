@@ -5,21 +5,20 @@
 
 use core::ops::{BitAnd, BitOr, Not};
 
-use super::bits::Bits;
-use super::lanes::Lanes;
+use super::lanes::{Bits, Lanes};
 use super::macros::{constants_on_the_right, functions_of_lanes, of_both, operator};
 use super::real::Real;
 
 /// Two groups of lanes that go side by side.
 #[derive(Clone, Copy, Debug)]
-pub struct Pair<L> {
+pub(super) struct Pair<L> {
     lo: L,
     hi: L,
 }
 
 /// The mask of a [`Pair`].
 #[derive(Clone, Copy)]
-pub struct PairMask<M> {
+pub(super) struct PairMask<M> {
     lo: M,
     hi: M,
 }

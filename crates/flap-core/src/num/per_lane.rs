@@ -147,7 +147,7 @@ impl<R: Real, P: PerLane<R>, const N: usize> PerLane<R> for [P; N] {
 }
 
 /// Declares a struct of which every lane has its own: its fields are numbers `R` or groups of them, and
-/// `Name<f64>` is one lane's set.
+/// `Name<f64>` is one lane's set. The struct and its fields have the visibilities that stand before them.
 ///
 /// ```
 /// flap_core::per_lane! {
@@ -164,13 +164,13 @@ impl<R: Real, P: PerLane<R>, const N: usize> PerLane<R> for [P; N] {
 /// ```
 #[macro_export]
 macro_rules! per_lane {
-    ($(#[$meta:meta])* pub struct $Name:ident<R> {
-        $($(#[$field_meta:meta])* pub $field:ident: $type:ty),* $(,)?
+    ($(#[$meta:meta])* $vis:vis struct $Name:ident<R> {
+        $($(#[$field_meta:meta])* $field_vis:vis $field:ident: $type:ty),* $(,)?
     }) => {
         $(#[$meta])*
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct $Name<R> {
-            $($(#[$field_meta])* pub $field: $type,)*
+        $vis struct $Name<R> {
+            $($(#[$field_meta])* $field_vis $field: $type,)*
         }
 
         impl<R: $crate::num::Real> $crate::num::PerLane<R> for $Name<R> {

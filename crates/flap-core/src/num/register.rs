@@ -2,17 +2,30 @@
 
 use fearless_simd::{Bytes, ExtractToken, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask};
 
-use super::bits::{
-    Bits, EXPONENT_BITS, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52, TWO_52_BITS,
+use super::lanes::{
+    self, Bits, EXPONENT_BITS, Lanes, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52,
+    TWO_52_BITS,
 };
-use super::lanes::Lanes;
 use super::macros::{constants_on_the_right, functions_of_lanes, of_inner, operator};
 use super::pair::Pair;
 use super::real::Real;
 
+/// Proof that the processor has the instructions of `S`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Instructions<S>(pub(super) S);
+
+impl<S: Simd> lanes::Simd for Instructions<S> {
+    type Vector = Pair<Register<S>>;
+
+    #[inline(always)]
+    fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
+        self.0.vectorize(work)
+    }
+}
+
 /// 4 lanes with AVX2, 2 with SSE2 and NEON.
 #[derive(Clone, Copy, Debug)]
-pub struct Register<S: Simd>(S::f64s);
+pub(super) struct Register<S: Simd>(S::f64s);
 
 impl<S: Simd> Register<S> {
     #[inline(always)]
@@ -38,7 +51,7 @@ impl<S: Simd> Real for Register<S> {
 
     #[inline(always)]
     fn lit(self, c: f64) -> Self {
-        Self::splat(self.0.token(), c)
+        Register(S::f64s::simd_from(self.0.token(), c))
     }
 
     of_inner!(Register: mul_add(a, b), abs(), sqrt(), copysign(sign));
@@ -62,11 +75,11 @@ impl<S: Simd> Real for Register<S> {
 
 impl<S: Simd> Lanes for Register<S> {
     const LANES: usize = S::f64s::LEN;
-    type Token = S;
+    type Token = Instructions<S>;
 
     #[inline(always)]
-    fn splat(token: S, c: f64) -> Self {
-        Register(S::f64s::simd_from(token, c))
+    fn splat(token: Instructions<S>, c: f64) -> Self {
+        Register(S::f64s::simd_from(token.0, c))
     }
 
     #[inline(always)]
@@ -80,8 +93,8 @@ impl<S: Simd> Lanes for Register<S> {
     }
 
     #[inline(always)]
-    fn mask(token: S, bits: u64) -> S::mask64s {
-        S::mask64s::from_bitmask(token, bits)
+    fn mask(token: Instructions<S>, bits: u64) -> S::mask64s {
+        S::mask64s::from_bitmask(token.0, bits)
     }
 
     #[inline(always)]
@@ -122,14 +135,5 @@ impl<S: Simd> Bits for Register<S> {
     #[inline(always)]
     fn times_power_of_two(self, k: Self) -> Self {
         Self::from_bits(self.to_bits() + ((k + ROUND).to_bits() << 52))
-    }
-}
-
-impl<S: Simd> super::lanes::Simd for S {
-    type Vector = Pair<Register<S>>;
-
-    #[inline(always)]
-    fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
-        Simd::vectorize(self, work)
     }
 }

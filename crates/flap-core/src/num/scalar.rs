@@ -2,10 +2,10 @@
 
 use core::marker::PhantomData;
 
-use super::bits::{
-    Bits, EXPONENT_BITS, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, TWO_52, TWO_52_BITS,
+use super::lanes::{
+    Bits, EXPONENT_BITS, Lanes, MANTISSA_BITS, OCTAVE, ONE_BITS, RECIPROCAL_BITS, ROUND, Simd, TWO_52,
+    TWO_52_BITS,
 };
-use super::lanes::{Lanes, Simd};
 use super::macros::{constants_on_the_right, functions_of_lanes, of_inner, operator};
 use super::real::Real;
 

@@ -16,12 +16,10 @@
 //! Other equations implement [`Ode`]: `examples/jafferis_fig2_3` brings three of them to their settled motions,
 //! `examples/own_equations` runs thousands of points in lanes.
 
-mod begin;
 mod controller;
 pub mod ensemble;
-mod equation;
 pub mod norm;
-mod outcome;
+mod problem;
 pub(crate) mod replay;
 pub mod solve;
 mod start;
@@ -30,9 +28,5 @@ mod switch;
 pub mod tableau;
 mod variation;
 
-pub use begin::{Start, Tolerances};
-pub use equation::Ode;
-pub use outcome::{Ending, Interrupt, Outcome, never};
-
-pub(crate) use begin::{INTERRUPT_STEPS, MIN_STEP, STRETCH};
-pub(crate) use equation::{input, slope};
+pub use problem::{Ending, Interrupt, Ode, Outcome, Start, Tolerances, never};
+pub(crate) use problem::{INTERRUPT_STEPS, MIN_STEP, STRETCH, input, slope};

@@ -49,7 +49,7 @@ pub(crate) fn record<O: Ode<N>, R: Scalar, const N: usize>(
         tolerances,
         start,
         interrupted,
-        |_, attempt| {
+        &mut |_, attempt| {
             let side = attempt.side.lane(0);
             if let Some(last) = recording.last_mut() {
                 last.lands = last.side != side;
@@ -57,7 +57,7 @@ pub(crate) fn record<O: Ode<N>, R: Scalar, const N: usize>(
             let end = (attempt.t.lane(0) + attempt.h.lane(0)) / start.span;
             recording.push(RecordedStep { end, side, lands: false });
         },
-        |_| ControlFlow::Break(()),
+        &mut |_| ControlFlow::Break(()),
     );
     if let Some(last) = recording.last_mut() {
         last.end = 1.0;

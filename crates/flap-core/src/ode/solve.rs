@@ -22,30 +22,19 @@ pub fn solve<O: Ode<N>, R: Scalar, const N: usize>(
     ode: &O,
     tolerances: &Tolerances,
     start: &Start<O::Constants<f64>, N>,
-    on_step: impl FnMut(&O::Constants<R>, &Attempt<'_, R, N>),
-    at_span_end: impl FnMut(&[f64; N]) -> ControlFlow<()>,
-) -> Outcome {
-    solve_until::<O, R, N>(ode, tolerances, start, &never, on_step, at_span_end)
-}
-
-/// [`solve`], which also ends when `interrupted` is true. It then ends as if stopped; the caller asks `interrupted`, too.
-pub(crate) fn solve_until<O: Ode<N>, R: Scalar, const N: usize>(
-    ode: &O,
-    tolerances: &Tolerances,
-    start: &Start<O::Constants<f64>, N>,
-    interrupted: Interrupt<'_>,
     mut on_step: impl FnMut(&O::Constants<R>, &Attempt<'_, R, N>),
     mut at_span_end: impl FnMut(&[f64; N]) -> ControlFlow<()>,
 ) -> Outcome {
-    march(ode, tolerances, start, interrupted, &mut on_step, &mut at_span_end)
+    solve_until::<O, R, N>(ode, tolerances, start, &never, &mut on_step, &mut at_span_end)
 }
 
 /// The callback that sees the accepted steps.
 type OnStep<'a, O, R, const N: usize> = dyn FnMut(&<O as Ode<N>>::Constants<R>, &Attempt<'_, R, N>) + 'a;
 
-/// Integrates. Compiled once per system of equations: the callbacks are not part of it.
+/// [`solve`], which also ends when `interrupted` is true. It then ends as if stopped; the caller asks `interrupted`, too.
+/// Compiled once per system of equations: the callbacks are not part of it.
 #[inline(never)]
-fn march<O: Ode<N>, R: Scalar, const N: usize>(
+pub(crate) fn solve_until<O: Ode<N>, R: Scalar, const N: usize>(
     ode: &O,
     tolerances: &Tolerances,
     start: &Start<O::Constants<f64>, N>,

@@ -5,13 +5,10 @@ use super::variation::{Varied, slopes_outlined};
 use super::{Ode, input};
 use crate::num::Lanes;
 
-/// Right-hand sides evaluated by [`first_step`].
-pub(super) const RHS_EVALS: u64 = 2;
-
 /// The slope at time 0 and a starting step size, by the algorithm of Hairer I, section II.4, with the absolute tolerances of
 /// states and of responses.
 ///
-/// The trial step is a ten-thousandth of the span where the state or its slope is too small to judge by, for example at
+/// It evaluates two right-hand sides. The trial step is a ten-thousandth of the span where the state or its slope is too small to judge by, for example at
 /// rest.
 #[inline(always)]
 pub(super) fn first_step<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(

@@ -131,7 +131,7 @@ impl<R: Real, const N: usize> Step<R, N> {
 
     /// Moves the beginning to the end of the attempt, in the lanes in which it was `accepted`.
     #[inline(always)]
-    pub fn advance(&mut self, accepted: R::Mask) {
+    pub(crate) fn advance(&mut self, accepted: R::Mask) {
         for i in 0..N {
             self.y[0][i] = R::select(accepted, self.y[STAGES - 1][i], self.y[0][i]);
             self.k[0][i] = R::select(accepted, self.k[STAGES - 1][i], self.k[0][i]);

@@ -48,15 +48,6 @@ impl Invalid {
         Invalid::Together { parameters, reason: reason.into() }
     }
 
-    /// The error in words.
-    pub fn into_reason(self) -> String {
-        match self {
-            Invalid::Request { reason } => reason,
-            Invalid::Together { reason, .. } => reason.into_owned(),
-            Invalid::OutOfRange { .. } | Invalid::NotFinite => self.to_string(),
-        }
-    }
-
     /// The constants that follow from parameters, if they are all finite.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! Initial values of runs: at rest or at a given state.
 
-use super::error::{RequestError, Unfinished};
+use super::request::{RequestError, Unfinished};
 use crate::model::Model;
 use crate::ode::Start;
 

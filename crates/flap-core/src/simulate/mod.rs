@@ -5,14 +5,12 @@
 //! implements these traits for a [`Model`](crate::model::Model). [`all`] lists the models of this crate.
 
 mod begin;
-mod error;
 mod gradient;
 mod jobs;
 mod lanes;
 mod linear;
 mod march;
 mod orbit_row;
-mod period;
 mod period_map;
 mod periods;
 mod request;
@@ -23,21 +21,18 @@ mod search;
 mod settings;
 mod simulator;
 mod single;
-mod slope;
-mod trajectory;
 
-pub use error::{RequestError, Unfinished};
-pub use gradient::Gradient;
+pub use gradient::{Change, Gradient, NoSlope};
 pub use jobs::{Jobs, LaneUse, Point};
 pub use request::{
-    ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, Trajectory, TrajectoryRequest,
+    ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, RequestError, Trajectory,
+    TrajectoryRequest, Unfinished,
 };
 pub use row::{Column, Row, Status};
 pub use runner::Runner;
 pub use settings::{Setting, SettingKind, SolverSettings};
 pub use simulator::{Experiments, Gradients, Motions, Rows, Simulator, run_list};
 pub use single::PointRun;
-pub use slope::{Change, NoSlope};
 
 pub(crate) use sampler::{Sampler, columns as trajectory_columns, sampled, shown};
 pub(crate) use single::{Question, ask};

@@ -2,19 +2,15 @@
 
 use std::sync::OnceLock;
 
-use super::error::Unfinished;
-use super::gradient::{Gradient, GradientAt};
+use super::gradient::{Change, Gradient, GradientAt};
 use super::jobs::Jobs;
 use super::lanes::LanesKernel;
-use super::period::PeriodFrom;
-use super::request::{Period, Trajectory, TrajectoryRequest};
+use super::request::{Period, Trajectory, TrajectoryRequest, Unfinished};
 use super::row::{Column, Row, columns};
 use super::sampler;
 use super::settings::SolverSettings;
 use super::simulator::{Experiments, Gradients, Motions, Rows, Simulator};
-use super::single::{PointRun, RowFrom, ask};
-use super::slope::Change;
-use super::trajectory::TrajectoryFrom;
+use super::single::{PeriodFrom, PointRun, RowFrom, TrajectoryFrom, ask};
 use crate::aero::Wing;
 use crate::model::{self, Model, Signal, SignalSet};
 use crate::num::Backend;

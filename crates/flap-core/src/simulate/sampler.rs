@@ -2,8 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use super::error::Unfinished;
-use super::request::Trajectory;
+use super::request::{Trajectory, Unfinished};
 use super::settings::SolverSettings;
 use crate::model::{Instant, Model, Signal, SignalSet};
 use crate::num::Scalar;
@@ -31,13 +30,13 @@ where
         &solver.tolerances(),
         start,
         interrupted,
-        |c, attempt| {
+        &mut |c, attempt| {
             if attempt.t.lane(0) == 0.0 {
                 sampler.begin_cycle(start.span);
             }
             sampler.step(model, c, attempt);
         },
-        |_| {
+        &mut |_| {
             ended += 1;
             if ended == spans { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         },

@@ -4,16 +4,15 @@
 use core::iter::Enumerate;
 use std::vec::IntoIter;
 
-use super::error::Unfinished;
-use super::gradient::Gradient;
+use super::gradient::{Change, Gradient};
 use super::jobs::{Jobs, Point};
 use super::request::{
     ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, Trajectory, TrajectoryRequest,
+    Unfinished,
 };
 use super::row::{Column, Row};
 use super::settings::SolverSettings;
 use super::single::PointRun;
-use super::slope::Change;
 use crate::aero::Wing;
 use crate::drive::Samples;
 use crate::model::Signal;

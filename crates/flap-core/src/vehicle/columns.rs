@@ -2,7 +2,8 @@
 
 use super::geometry::{FORCES, TORQUES, Wrench};
 use super::mount::Mount;
-use crate::model::{GRAVITY, OverWings, efficiency, grams_force};
+use crate::model::readings::{efficiency, grams_force};
+use crate::model::{GRAVITY, OverWings};
 use crate::simulate::Column;
 
 /// The columns.
@@ -37,35 +38,26 @@ impl Columns {
             "mean torque about the z axis, which turns the nose to the left",
         ];
         for (i, (name, doc)) in FORCES.into_iter().chain(TORQUES).zip(words).enumerate() {
-            columns.add(
-                name.to_owned(),
-                if i < 3 { "mN" } else { "uN*m" },
-                doc.to_owned(),
-                Source::Wrench(i),
-            );
+            columns.add(name, if i < 3 { "mN" } else { "uN*m" }, doc, Source::Wrench(i));
         }
         let doc = "force_up_mn over the weight of total_mass; empty where that is not known";
-        columns.add("lift_to_weight".to_owned(), "", doc.to_owned(), Source::LiftToWeight);
+        columns.add("lift_to_weight", "", doc, Source::LiftToWeight);
         for (i, column) in model.iter().enumerate() {
             if column.over_wings == OverWings::Sum {
                 let doc = format!("sum over the wings: {}", column.doc);
-                columns.add(column.name.clone(), column.unit, doc, Source::Sum(i));
+                columns.add(&*column.name, column.unit, doc, Source::Sum(i));
             }
         }
         if let Some(power) = model.iter().position(|column| column.name == "power_mean_mw") {
             let doc = "force_up_mn in grams-force over power_mean_mw; empty where that is not more than zero";
-            columns.add("efficiency_gf_per_w".to_owned(), "gf/W", doc.to_owned(), Source::Efficiency(power));
+            columns.add("efficiency_gf_per_w", "gf/W", doc, Source::Efficiency(power));
         }
         for (wing, mount) in mounts.iter().enumerate() {
             for (i, column) in model.iter().enumerate() {
                 if column.over_wings == OverWings::Each {
+                    let name = format!("{}_{}", mount.name, column.name);
                     let doc = format!("wing {}: {}", mount.name, column.doc);
-                    columns.add(
-                        format!("{}_{}", mount.name, column.name),
-                        column.unit,
-                        doc,
-                        Source::Wing(wing, i),
-                    );
+                    columns.add(name, column.unit, doc, Source::Wing(wing, i));
                 }
             }
         }
@@ -87,7 +79,8 @@ impl Columns {
         self.sources.iter().map(value).collect()
     }
 
-    fn add(&mut self, name: String, unit: &'static str, doc: String, source: Source) {
+    fn add(&mut self, name: impl Into<String>, unit: &'static str, doc: impl Into<String>, source: Source) {
+        let (name, doc) = (name.into(), doc.into());
         self.all.push(Column { name, unit, doc, over_wings: OverWings::Omitted });
         self.sources.push(source);
     }

@@ -102,14 +102,12 @@ impl Vehicle {
         let side = |side: &[f64]| {
             self.table.of_wing(side, wing).unwrap_or_else(|_| vec![f64::INFINITY; values.len()])
         };
-        let own: Vec<Change> = changes
-            .iter()
-            .map(|change| Change {
-                ahead: side(&change.ahead),
-                behind: side(&change.behind),
-                size: change.size,
-            })
-            .collect();
+        let own = |change: &Change| Change {
+            ahead: side(&change.ahead),
+            behind: side(&change.behind),
+            size: change.size,
+        };
+        let own: Vec<Change> = changes.iter().map(own).collect();
         let concerned: Vec<Change> = own.iter().filter(|change| !change.is_none()).cloned().collect();
         let gradient = motions.gradient(&run, state, &concerned)?;
         let mut slopes = gradient.slopes.into_iter();

@@ -90,10 +90,8 @@ impl Wings {
         let states = vehicle.states.len() / vehicle.mounts.len();
         let mut wings = Wings { values, designs: Vec::new(), of_wing: Vec::new() };
         for (wing, mount) in vehicle.mounts.iter().enumerate() {
-            let values = vehicle
-                .table
-                .of_wing(&wings.values, wing)
-                .map_err(|invalid| Invalid::new(format!("wing {}: {}", mount.name, invalid.into_reason())))?;
+            let values = vehicle.table.of_wing(&wings.values, wing);
+            let values = values.map_err(|invalid| Invalid::new(format!("wing {}: {invalid}", mount.name)))?;
             let begin = begin.map(|all| all.iter().copied().skip(wing * states).take(states).collect());
             let design = Design { values, begin, row: None };
             let same = wings.designs.iter().position(|other| other.is(&design));
@@ -116,39 +114,22 @@ impl Wings {
         let largest = |value: fn(&Row) -> f64| rows.iter().map(|row| value(row)).fold(f64::NAN, f64::max);
         let settled = rows.iter().all(|row| !row.measures.is_empty());
         let known = rows.iter().all(|row| !row.state.is_empty());
+        let repeats = rows.iter().all(|row| row.period > 0);
         let all = |is_known: bool, value: fn(&Row) -> f64| if is_known { largest(value) } else { f64::NAN };
+        let measures: Vec<&[f64]> = rows.iter().map(|row| row.measures.as_slice()).collect();
+        let designs = || self.designs.iter().filter_map(|design| design.row.as_ref());
+        let reason = rows[worst].reason.as_ref();
         Some(Row {
             status: rows[worst].status,
-            measures: if settled {
-                let measures: Vec<&[f64]> = rows.iter().map(|row| row.measures.as_slice()).collect();
-                vehicle.measures(&self.values, &measures)
-            } else {
-                Vec::new()
-            },
-            cycles: self.designs.iter().filter_map(|design| design.row.as_ref()).map(|row| row.cycles).sum(),
+            measures: if settled { vehicle.measures(&self.values, &measures) } else { Vec::new() },
+            cycles: designs().map(|row| row.cycles).sum(),
             residual: all(known, |row| row.residual),
-            period: if rows.iter().all(|row| row.period > 0) {
-                rows.iter().map(|row| row.period).max().unwrap_or(0)
-            } else {
-                0
-            },
+            period: rows.iter().map(|row| row.period).max().filter(|_| repeats).unwrap_or(0),
             floquet_max: all(settled, |row| row.floquet_max),
             error_estimate: all(settled, |row| row.error_estimate),
-            state: if known {
-                rows.iter().flat_map(|row| row.state.iter().copied()).collect()
-            } else {
-                Vec::new()
-            },
-            rhs_evals: self
-                .designs
-                .iter()
-                .filter_map(|design| design.row.as_ref())
-                .map(|row| row.rhs_evals)
-                .sum(),
-            reason: rows[worst]
-                .reason
-                .as_ref()
-                .map(|reason| format!("wing {}: {reason}", vehicle.mounts[worst].name)),
+            state: rows.iter().filter(|_| known).flat_map(|row| row.state.iter().copied()).collect(),
+            rhs_evals: designs().map(|row| row.rhs_evals).sum(),
+            reason: reason.map(|reason| format!("wing {}: {reason}", vehicle.mounts[worst].name)),
         })
     }
 }
@@ -156,15 +137,9 @@ impl Wings {
 impl Design {
     /// True of the same bits.
     fn is(&self, other: &Design) -> bool {
-        let same = |one: &[f64], other: &[f64]| {
-            one.len() == other.len() && one.iter().zip(other).all(|(a, b)| a.to_bits() == b.to_bits())
-        };
-        let begins = match (&self.begin, &other.begin) {
-            (Some(one), Some(other)) => same(one, other),
-            (None, None) => true,
-            _ => false,
-        };
-        begins && same(&self.values, &other.values)
+        let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<u64>>();
+        bits(&self.values) == bits(&other.values)
+            && self.begin.as_deref().map(bits) == other.begin.as_deref().map(bits)
     }
 }
 

@@ -174,7 +174,7 @@ impl Trial<'_> {
                 }
                 Verdict::Invalid(invalid) if in_sample => {
                     self.works.push(0.0);
-                    self.note_invalid(number, invalid.into_reason());
+                    self.note_invalid(number, invalid.to_string());
                 }
                 Verdict::Invalid(_) | Verdict::Excluded(_) => {}
             }

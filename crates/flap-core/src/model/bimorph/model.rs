@@ -351,8 +351,8 @@ impl Model<4> for Bimorph {
 impl Motions<4> for Bimorph {
     const FREE_SIGNALS: &'static [Signal] = &[Signals::SIGNALS.stroke, Signals::SIGNALS.pitch];
 
-    fn drive_mut(&mut self) -> &mut Drive {
-        &mut self.drive
+    fn with_drive(&self, change: impl FnOnce(&Drive) -> Drive) -> Bimorph {
+        Bimorph { drive: change(&self.drive), ..*self }
     }
 
     fn drive_constants_mut(c: &mut Constants<f64>) -> &mut DriveConstants<f64> {

@@ -6,7 +6,7 @@ use crate::linkage::HingeParameters;
 use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Preset;
 use crate::parameter::Range::{Any, NonNegative, Positive};
-use crate::piezo::ElectricalParameters;
+use crate::piezo::{EPSILON_0, ElectricalParameters};
 
 crate::parameters! {
     /// Parameters of the direct-drive model, in SI units. Symbols as in Ozaki and Hamaguchi 2018, Table A1.
@@ -187,9 +187,6 @@ crate::choice! {
         Printed = "printed",
     }
 }
-
-/// The permittivity of free space (F/m), to the digits used for the presets.
-const EPSILON_0: f64 = 8.854_187_812_8e-12;
 
 impl Params {
     /// The published presets, and a hypothesis on them.

@@ -111,7 +111,7 @@ crate::per_lane! {
         /// Actuator and series spring.
         pub actuator: Actuator<R>,
         /// From tip displacement to the four-bar's input link.
-        pub slider_crank: SliderCrank<R>,
+        pub(crate) slider_crank: SliderCrank<R>,
         /// From input link to stroke.
         pub four_bar: FourBar<R>,
         /// Inertias of the links.

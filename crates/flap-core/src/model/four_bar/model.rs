@@ -237,8 +237,8 @@ impl Model<4> for FourBar {
 impl Motions<4> for FourBar {
     const FREE_SIGNALS: &'static [Signal] = &[Signals::SIGNALS.stroke, Signals::SIGNALS.pitch];
 
-    fn drive_mut(&mut self) -> &mut Drive {
-        &mut self.drive
+    fn with_drive(&self, change: impl FnOnce(&Drive) -> Drive) -> FourBar {
+        FourBar { drive: change(&self.drive) }
     }
 
     fn drive_constants_mut(c: &mut Constants<f64>) -> &mut DriveConstants<f64> {

@@ -9,7 +9,7 @@ use crate::linkage::HingeParameters;
 use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
 use crate::parameter::{Preset, Range};
-use crate::piezo::ElectricalParameters;
+use crate::piezo::{EPSILON_0, ElectricalParameters};
 
 crate::parameters! {
     /// Parameters of the four-bar model, in SI units. Symbols as in Arabagi, Hines and Sitti 2013 where it has any.
@@ -210,9 +210,6 @@ const MOST_STRIPS: u32 = 64;
 
 /// The largest number of strips.
 pub(super) const MAX_STRIPS: usize = MOST_STRIPS as usize;
-
-/// The permittivity of free space (F/m), to the digits used for the presets.
-const EPSILON_0: f64 = 8.854_187_812_8e-12;
 
 /// 7.2° and 9.82° in radians: the angles of (9) and (10).
 const LIFT_PHASE: f64 = 7.2 / 180.0 * core::f64::consts::PI;

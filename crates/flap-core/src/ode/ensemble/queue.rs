@@ -24,7 +24,7 @@ pub struct Restart<const N: usize> {
 
 impl<const N: usize> Restart<N> {
     /// The beginning of a run with these constants.
-    pub fn start<C>(self, constants: C) -> Start<C, N> {
+    pub(crate) fn start<C>(self, constants: C) -> Start<C, N> {
         let Restart { y, span, scale, tolerance_factor, change } = self;
         Start { constants, y, span, scale, tolerance_factor, change }
     }

@@ -1,0 +1,192 @@
+//! Experiments on single points of a model: the implementation of [`Experiments`].
+//!
+//! A chirp is a drive whose frequency changes steadily: a chain of cycles. Each begins at phase zero with the frequency that
+//! the last one ended with, so every cycle can be measured like a drive period, and no growing phase loses digits.
+
+use core::ops::ControlFlow;
+
+use crate::drive::Samples;
+use crate::measure::cycle::{Signals, Sums, finish};
+use crate::model::{Measure, Model, Motions, Signal, SignalSet};
+use crate::modes::Mode;
+use crate::num::{PerLane, Scalar};
+use crate::ode::Start;
+use crate::ode::ensemble::Observer;
+use crate::ode::solve::solve_until;
+use crate::simulate::{
+    ChirpRequest, ChirpResponse, Experiments, ImposedMotion, ImpulseRequest, PointRun, Question,
+    RequestError, Runner, Sampler, Simulator, Trajectory, Unfinished, ask, sampled, shown,
+    trajectory_columns,
+};
+
+impl<M: Motions<N>, const N: usize> Experiments for Runner<M, N> {
+    fn chirp(&self, run: &PointRun<'_>, request: &ChirpRequest) -> Result<ChirpResponse, Unfinished> {
+        ask::<M, _, N>(&self.model, run, request)
+    }
+
+    fn free_response(&self, run: &PointRun<'_>, request: &ImpulseRequest) -> Result<Trajectory, Unfinished> {
+        ask::<M, _, N>(&self.model, run, request)
+    }
+
+    /// Nothing to integrate: forces are evaluated at equal distances from the first sample to the last.
+    fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Unfinished> {
+        let ImposedMotion { stroke, pitch, samples } = motion;
+        let (duration, other) = (stroke.duration(), pitch.duration());
+        if (duration - other).abs() > 1e-9 * duration {
+            return Err(RequestError::Durations { stroke: duration, pitch: other }.into());
+        }
+        let model = self.model.variant(values);
+        let constants = model.start(values)?.constants;
+        let rows = (0..=*samples).map(|i| {
+            let time = duration * (f64::from(i) / f64::from((*samples).max(1)));
+            let (y, signals) = model.imposed(&constants, stroke.motion(time), pitch.motion(time));
+            let mut row = vec![time];
+            row.extend(y);
+            row.extend(shown::<M::Signals>(&signals));
+            row
+        });
+        Ok(Trajectory { columns: trajectory_columns::<M, N>(), rows: rows.collect() })
+    }
+
+    fn modes(&self, values: &[f64]) -> Result<Vec<Mode>, Unfinished> {
+        let model = self.model.variant(values);
+        Ok(M::modes(&model.start(values)?.constants))
+    }
+
+    fn free_signals(&self) -> &'static [Signal] {
+        M::FREE_SIGNALS
+    }
+
+    fn with_samples(&self, samples: Samples) -> Box<dyn Simulator> {
+        Box::new(Runner::<M, N>::with_experiments(self.model.sampled(samples)))
+    }
+}
+
+/// The chirp begins at rest.
+impl<M: Motions<N>, const N: usize> Question<M, N> for &ChirpRequest {
+    type Answer = Result<ChirpResponse, Unfinished>;
+
+    fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<ChirpResponse, Unfinished> {
+        let PointRun { solver, values, interrupted, .. } = *run;
+        let ChirpRequest { from, to, rate, samples_per_cycle } = *self;
+        if !(from > 0.0 && to > 0.0 && (to - from) * rate > 0.0) {
+            return Err(RequestError::Chirp { from, to, rate }.into());
+        }
+        let start = model.start(values)?;
+        let mut sampler = Sampler::new(samples_per_cycle);
+        let mut rows = Vec::new();
+        let (mut frequency, mut time, mut y) = (from, 0.0, start.y);
+        // The frequency at the end is rounded: a chirp that has arrived but for that is over.
+        while (to - frequency) * rate > 1e-9 * to * rate.abs() {
+            // One cycle: f T + r T²/2 = 1, ending with the frequency f + r T = √(f² + 2r).
+            let square = frequency * frequency + 2.0 * rate;
+            if square <= 0.0 {
+                break;
+            }
+            let end = square.sqrt();
+            let span = 2.0 / (frequency + end);
+            let (model, constants) = model.chirped(&start.constants, frequency, rate);
+            let cycle = Start { constants, y, span, ..start };
+            let observer = Signals::<M>::all(&model);
+            let mut totals = Sums::<M::Signals, R>::fill(R::new(0.0), &Observer::<M, N>::nothing(&observer));
+            sampler.begin_cycle(span);
+            let outcome = solve_until::<M, R, N>(
+                &model,
+                &solver.tolerances(),
+                &cycle,
+                interrupted,
+                &mut |c, attempt| {
+                    R::enter(
+                        #[inline(always)]
+                        || observer.add(c, attempt, true, &mut totals),
+                    );
+                    if samples_per_cycle > 0 {
+                        sampler.step(&model, c, attempt);
+                    }
+                },
+                &mut |end| {
+                    y = *end;
+                    ControlFlow::Break(())
+                },
+            );
+            Unfinished::check(outcome.ending, interrupted)?;
+
+            let mut row = vec![time, time + span, 1.0 / span];
+            let cycle = finish::<M::Signals>(&totals.get(0), span);
+            for (signal, cycle) in M::Signals::each(&cycle) {
+                row.extend(
+                    measures(signal.measures).map(|measure| cycle.measure(measure) * signal.unit.factor),
+                );
+            }
+            rows.push(row);
+            time += span;
+            frequency = end;
+        }
+        let envelope = Trajectory { columns: envelope_columns::<M, N>(), rows };
+        Ok(ChirpResponse { envelope, motion: sampler.finish::<M, N>() })
+    }
+}
+
+/// The measures that mean something in a cycle that is not periodic.
+fn measures(of_signal: &[Measure]) -> impl Iterator<Item = Measure> + '_ {
+    of_signal.iter().copied().filter(|&measure| measure != Measure::First)
+}
+
+/// Names of the envelope's columns.
+fn envelope_columns<M: Model<N>, const N: usize>() -> Vec<String> {
+    let mut columns = ["begin_s", "end_s", "frequency_hz"].map(str::to_owned).to_vec();
+    for signal in M::Signals::TABLE {
+        columns.extend(
+            measures(signal.measures)
+                .map(|measure| format!("{}_{}_{}", signal.name, measure.name(), signal.unit.suffix)),
+        );
+    }
+    columns
+}
+
+/// The drive is held still.
+impl<M: Motions<N>, const N: usize> Question<M, N> for &ImpulseRequest {
+    type Answer = Result<Trajectory, Unfinished>;
+
+    fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Trajectory, Unfinished> {
+        let PointRun { solver, values, interrupted, .. } = *run;
+        let ImpulseRequest { stroke_rate, duration, intervals } = *self;
+        refuse_nonsense(self)?;
+        let Start { constants, mut scale, .. } = model.start(values)?;
+        let period = M::modes(&constants).first().map_or(f64::NAN, |mode| 1.0 / mode.frequency);
+        let (model, constants, y) = model.released(&constants, stroke_rate);
+
+        // Absolute tolerances shrink with a small motion, so that it is as exact as a large one.
+        let largest = y.iter().zip(&scale).fold(0.0_f64, |largest, (y, scale)| largest.max(y.abs() / scale));
+        for scale in &mut scale {
+            *scale *= largest.min(1.0);
+        }
+
+        // A span is about a period and a whole number of intervals. The last may reach beyond the duration.
+        let interval = duration / f64::from(intervals);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "within the range of intervals"
+        )]
+        let per_span = (period / interval).round().clamp(1.0, f64::from(intervals)) as u32;
+        let span = interval * f64::from(per_span);
+        let start = Start::new(constants, y, span, scale);
+        let spans = intervals.div_ceil(per_span);
+        let mut motion = sampled::<M, R, N>(&model, solver, &start, spans, per_span, interrupted)?;
+        motion.rows.truncate(intervals as usize + 1);
+        Ok(motion)
+    }
+}
+
+/// Checks that there is an impulse, and a motion to sample.
+fn refuse_nonsense(request: &ImpulseRequest) -> Result<(), RequestError> {
+    let ImpulseRequest { stroke_rate, duration, intervals } = *request;
+    if !(stroke_rate.is_finite() && stroke_rate != 0.0) {
+        return Err(RequestError::StrokeRate(stroke_rate));
+    }
+    if !(duration.is_finite() && duration > 0.0) || intervals == 0 {
+        return Err(RequestError::Sampling { duration, intervals });
+    }
+    Ok(())
+}
