@@ -39,8 +39,8 @@ pub(super) struct MeasuredOrbit<'a, T, const N: usize> {
     /// The state at its beginning.
     pub(super) y: &'a [f64; N],
     pub(super) sums: &'a T,
-    /// Sums over the orbit of coarser tolerances, if they are known.
-    pub(super) coarse: Option<&'a T>,
+    /// Sums over the orbit of the middle tolerances, if they are known.
+    pub(super) middle: Option<&'a T>,
     /// Crossings of the switching surface.
     pub(super) switches: u64,
     /// The relative tolerance.
@@ -61,9 +61,9 @@ pub(super) fn row_of<M: Model<N>, const N: usize>(
     }
     let cycle = |sums| on_orbit::<M, N>(sums, start.span);
     let fine = cycle(orbit.sums);
-    let coarse = orbit.coarse.map(cycle);
+    let middle = orbit.middle.map(cycle);
     let slides = orbit.switches > MANY_SWITCHES;
-    let difference = coarse.map_or(f64::INFINITY, |coarse| difference::<M, N>(&fine, &coarse));
+    let difference = middle.map_or(f64::INFINITY, |middle| difference::<M, N>(&fine, &middle));
     let estimate = if slides { f64::INFINITY } else { (SHARE * difference).max(LEAST * orbit.rtol) };
     let audit = M::energy_audit(&fine).abs();
     // An audit that is not a number compares nothing: the power is zero or not known.
@@ -125,12 +125,12 @@ fn values<M: Model<N>, const N: usize>(
 /// relative to the measure, or to a share of its signal's size if the measure is nothing beside that.
 fn difference<M: Model<N>, const N: usize>(
     fine: &SignalsOf<M::Signals, SignalCycle>,
-    coarse: &SignalsOf<M::Signals, SignalCycle>,
+    middle: &SignalsOf<M::Signals, SignalCycle>,
 ) -> f64 {
     let mut largest = 0.0_f64;
-    for ((signal, fine), (_, coarse)) in M::Signals::each(fine).zip(M::Signals::each(coarse)) {
+    for ((signal, fine), (_, middle)) in M::Signals::each(fine).zip(M::Signals::each(middle)) {
         let Some(principal) = signal.principal else { continue };
-        let [value, other] = [fine, coarse].map(|cycle| cycle.measure(principal.measure()));
+        let [value, other] = [fine, middle].map(|cycle| cycle.measure(principal.measure()));
         let difference = (other - value).abs();
         // A prescribed stroke has no power, and a wing at rest nothing.
         if difference > 0.0 {

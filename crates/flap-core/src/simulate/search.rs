@@ -4,7 +4,7 @@
 //!
 //! 1. **Find.** The point is marched from rest, one drive period after another, until Newton's iteration leads to a periodic
 //!    orbit near by. A loose tolerance suffices for this.
-//! 2. **Compare.** The orbit of a middle tolerance is found and measured. Its difference from the row is the row's error
+//! 2. **Middle.** The orbit of a middle tolerance is found and measured. Its difference from the row is the row's error
 //!    estimate, and it is much nearer to the orbit of the row than the first one.
 //! 3. **Close.** At the tolerance of the row, a period with responses to changes of the state gives the monodromy matrix, and
 //!    with it the orbit. The period of that orbit is measured, and confirms it.
@@ -58,7 +58,7 @@ const RESPONSES: f64 = 1.25e-3;
 
 /// The residual from which one more step leads to a state with the monodromy matrix of the orbit, relative to the root of the
 /// row's tolerance.
-const MAPPED: f64 = 0.1;
+const MATRIX_RESIDUAL: f64 = 0.1;
 
 /// The length of a step with the monodromy matrix of the row's orbit that is presumed to be the last, relative to the root of
 /// the residual to be reached: a step leaves a residual of about its square.
@@ -128,21 +128,23 @@ struct Near<const N: usize> {
     residual: f64,
     /// The length of that step, if it was made with the matrix of `floquet_max`.
     step: f64,
-    /// The march has settled there, though Newton's iteration cannot improve on it.
-    settled: bool,
+    /// The march has settled there, and Newton's iteration cannot improve on it: the orbit is measured as it is.
+    is_final: bool,
 }
 
 impl<const N: usize> Near<N> {
     /// An orbit whose multipliers are not known.
-    fn unmapped(orbit: Orbit<N>, march: Marched<N>, residual: f64) -> Near<N> {
-        Near { orbit, march, floquet_max: f64::NAN, residual, step: f64::INFINITY, settled: false }
+    fn without_multipliers(orbit: Orbit<N>, march: Marched<N>, residual: f64) -> Near<N> {
+        Near { orbit, march, floquet_max: f64::NAN, residual, step: f64::INFINITY, is_final: false }
     }
 }
 
-/// A march or Newton's iteration: at the loose tolerance, or at that of the row.
+/// The tolerance of a march or of Newton's iteration.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum At {
+enum Tolerance {
+    /// [`LOOSE_RTOL`].
     Loose,
+    /// That of the row.
     Row,
 }
 
@@ -164,7 +166,8 @@ enum NoOrbit<const N: usize> {
     Lost,
 }
 
-/// Follows a point from `start`, which is perhaps near its orbit if it is `nearby`, to its row.
+/// Follows a point from `start` to its row. `nearby` says that this is a given state, such as one on the orbit of a neighbouring
+/// point, and not rest.
 pub(super) fn settle<'a, M: Model<N>, const N: usize>(
     model: &'a M,
     solver: &'a SolverSettings,
@@ -192,75 +195,75 @@ pub(super) fn settle<'a, M: Model<N>, const N: usize>(
 }
 
 impl<M: Model<N>, const N: usize> Search<'_, M, N> {
-    /// The row of the point, whose initial state is perhaps near its orbit if it is `nearby`.
+    /// The row of the point; for `nearby` see [`settle`].
     async fn settle(&mut self, nearby: bool) -> Settled<N> {
         let SolverSettings { newton, progressive, max_cycles, .. } = *self.solver;
         let small = self.rtol() <= LOOSE_FOR && max_cycles > LOOSE_CYCLES;
         if newton && progressive && !nearby && small {
             self.begin(false, LOOSE_CYCLES);
-            if let Some(settled) = self.follow(At::Loose).await {
+            if let Some(settled) = self.follow(Tolerance::Loose).await {
                 return settled;
             }
         }
         self.begin(nearby, max_cycles);
-        match self.follow(At::Row).await {
+        match self.follow(Tolerance::Row).await {
             Some(settled) => settled,
             None => Settled { row: self.unsettled(), orbit: None },
         }
     }
 
-    /// The row of an orbit near by; `None` if it is none of this point.
+    /// The row of an orbit near by; `None` if no orbit of the row's tolerance lies near it.
     async fn settle_near(&mut self, mut near: Near<N>) -> Option<Settled<N>> {
         let mut last: Option<Settled<N>> = None;
         for refinement in 0..=REFINEMENTS {
-            let (measured, coarse) = loop {
-                let coarse = self.compare(&mut near).await;
+            let (measured, middle) = loop {
+                let middle = self.measure_middle(&mut near).await;
                 match self.close(&near).await {
-                    Ok(measured) => break (measured, coarse),
+                    Ok(measured) => break (measured, middle),
                     Err(NoOrbit::Jumps(orbit)) => {
                         self.tighten(FINER);
                         near = Near {
-                            settled: near.settled,
-                            ..Near::unmapped(orbit, near.march, near.residual)
+                            is_final: near.is_final,
+                            ..Near::without_multipliers(orbit, near.march, near.residual)
                         };
                     }
-                    Err(NoOrbit::Lost) => return last.map(|last| self.charged(last)),
+                    Err(NoOrbit::Lost) => return last.map(|last| self.with_costs(last)),
                 }
             };
             let Measured { orbit, floquet_max, residual, .. } = measured;
             near = Near { orbit, floquet_max, residual, ..near };
-            let coarse = match coarse {
-                Some(coarse) => Some(coarse),
-                None => self.compare(&mut near).await,
+            let middle = match middle {
+                Some(middle) => Some(middle),
+                None => self.measure_middle(&mut near).await,
             };
-            let (row, doubt) = self.row(&measured, coarse.as_deref());
+            let (row, error) = self.row(&measured, middle.as_deref());
             let is_periodic = row.status == Status::Periodic;
             if !is_periodic && last.is_some() {
                 break;
             }
             let settled = Settled { row, orbit: Some(self.from(&orbit.y, 1.0)) };
-            if !is_periodic || doubt <= self.solver.accuracy || self.is_finest() {
-                return Some(self.charged(settled));
+            if !is_periodic || error <= self.solver.accuracy || self.is_finest() {
+                return Some(self.with_costs(settled));
             }
             last = Some(settled);
             if refinement < REFINEMENTS {
-                self.refine(doubt);
+                self.refine(error);
                 let march = Marched { begin: orbit.y, end: orbit.y, error: ORBITS_DIFFER, maps: 1 };
-                near = Near::unmapped(orbit, march, f64::INFINITY);
+                near = Near::without_multipliers(orbit, march, f64::INFINITY);
             }
         }
-        last.map(|last| self.charged(last))
+        last.map(|last| self.with_costs(last))
     }
 
     /// Marches until an orbit near by is that of the point. `None` if the march fails, is exhausted, or settles on a subharmonic
     /// orbit; at the loose tolerance also if an orbit near by turns out to be none.
-    async fn follow(&mut self, at: At) -> Option<Settled<N>> {
+    async fn follow(&mut self, at: Tolerance) -> Option<Settled<N>> {
         loop {
             self.march(at).await?;
             let settled = match self.march.period() {
                 Some(1) => true,
                 Some(periods) => {
-                    if at == At::Row {
+                    if at == Tolerance::Row {
                         self.subharmonic = self.multiplier_over(periods).await;
                     }
                     return None;
@@ -275,7 +278,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                     if let Some(row) = self.settle_near(near).await {
                         return Some(row);
                     }
-                    if settled && at == At::Row && self.symmetry.is_none() {
+                    // The march has settled all the same: on an orbit that is measured as it is.
+                    if settled && at == Tolerance::Row && self.symmetry.is_none() {
                         return self.settle_near(self.marched(near.orbit.monodromy)).await;
                     }
                     is_lost = true;
@@ -284,7 +288,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                     break;
                 }
             }
-            if settled || self.march.is_exhausted() || is_lost && at == At::Loose {
+            if settled || self.march.is_exhausted() || is_lost && at == Tolerance::Loose {
                 return None;
             }
             self.march.put_off_newton();
@@ -292,17 +296,17 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     }
 
     /// The orbit near the state of the march, which has perhaps `settled`; `None` if Newton's iteration leads to none.
-    async fn find(&mut self, at: At, settled: bool) -> Option<Near<N>> {
+    async fn find(&mut self, at: Tolerance, settled: bool) -> Option<Near<N>> {
         let change = self.march.change(1);
-        if at == At::Loose && change <= ARRIVED.max(self.goal) {
+        if at == Tolerance::Loose && change <= ARRIVED.max(self.goal) {
             // The chord iteration continues the march.
             let marched = self.last_marched(LOOSE_RESIDUAL);
             let orbit = Orbit { y: marched.end, monodromy: [[0.0; N]; N] };
-            return Some(Near::unmapped(orbit, marched, change));
+            return Some(Near::without_multipliers(orbit, marched, change));
         }
         match self.iterate(at).await {
             Ok(near) => Some(near),
-            Err(Some(monodromy)) if settled && at == At::Row && self.symmetry.is_none() => {
+            Err(Some(monodromy)) if settled && at == Tolerance::Row && self.symmetry.is_none() => {
                 Some(self.marched(monodromy))
             }
             Err(_) => None,
@@ -325,7 +329,14 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let march = self.last_marched(self.goal);
         let floquet_max = spectral_radius(&monodromy);
         let orbit = Orbit { y: march.end, monodromy };
-        Near { orbit, march, floquet_max, residual: self.march.change(1), step: f64::INFINITY, settled: true }
+        Near {
+            orbit,
+            march,
+            floquet_max,
+            residual: self.march.change(1),
+            step: f64::INFINITY,
+            is_final: true,
+        }
     }
 
     /// The last period of the march, with this error.
@@ -336,14 +347,14 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// Marches until the motion has settled or may be near an orbit, or for as many periods as are allowed. `None` if
     /// a period cannot be integrated.
-    async fn march(&mut self, at: At) -> Option<()> {
+    async fn march(&mut self, at: Tolerance) -> Option<()> {
         let factor = self.factor(at);
         let mut begin = Some(self.from(&self.march.state().clone(), factor));
         while !self.march.is_exhausted() {
             let end = self.period(Kind::States, begin.take()).await?;
             self.march.period_end(&end.y, &end.largest);
             let change = self.march.change(1);
-            let arrives = at == At::Loose
+            let arrives = at == Tolerance::Loose
                 && change <= LOOSE_RESIDUAL
                 && change > ARRIVED.max(self.goal)
                 && self.march.cycles() < ARRIVAL_CYCLES;
@@ -360,10 +371,10 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     }
 
     /// Newton's iteration from the state of the march. An error is the last monodromy matrix, if there is one.
-    async fn iterate(&mut self, at: At) -> Result<Near<N>, Option<Matrix<N>>> {
+    async fn iterate(&mut self, at: Tolerance) -> Result<Near<N>, Option<Matrix<N>>> {
         let (goal, error) = match at {
-            At::Loose => (LOOSE_RESIDUAL.max(self.goal), LOOSE_RESIDUAL),
-            At::Row => (self.mapped_residual(), self.goal),
+            Tolerance::Loose => (LOOSE_RESIDUAL.max(self.goal), LOOSE_RESIDUAL),
+            Tolerance::Row => (self.matrix_residual(), self.goal),
         };
         let scale = self.start.scale;
         let mut y = *self.march.state();
@@ -384,12 +395,12 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             if residual <= goal {
                 let orbit = Orbit { y: next.unwrap_or(end.y), ..orbit };
                 if let Some(floquet_max) = orbit.attracts(&march, &scale) {
-                    let floquet_max = if at == At::Row { floquet_max } else { f64::NAN };
+                    let floquet_max = if at == Tolerance::Row { floquet_max } else { f64::NAN };
                     let step = distance(&y, &orbit.y, &scale);
-                    return Ok(Near { orbit, march, floquet_max, residual, step, settled: false });
+                    return Ok(Near { orbit, march, floquet_max, residual, step, is_final: false });
                 }
                 // Near a fold, the multipliers of an orbit show only close to it.
-                if at == At::Loose || residual <= self.goal {
+                if at == Tolerance::Loose || residual <= self.goal {
                     return Err(monodromy);
                 }
             }
@@ -397,19 +408,19 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             last = residual;
             match next {
                 Some(next) if !slow => y = next,
-                _ if at == At::Row && residual <= JUMPS * self.goal && !self.is_finest() => {
+                _ if at == Tolerance::Row && residual <= JUMPS * self.goal && !self.is_finest() => {
                     self.tighten(FINER);
                     last = f64::INFINITY;
                     continue;
                 }
                 _ => return Err(monodromy),
             }
-            if at == At::Loose {
+            if at == Tolerance::Loose {
                 let mut chord = Chord::new(Orbit { y, ..orbit }, &scale);
                 let found = self.converge(&mut chord, self.factor(at), LOOSE_RESIDUAL).await;
                 let orbit = chord.orbit;
                 if found && orbit.attracts(&march, &scale).is_some() {
-                    return Ok(Near::unmapped(orbit, march, chord.residual));
+                    return Ok(Near::without_multipliers(orbit, march, chord.residual));
                 }
                 y = orbit.y;
             }
@@ -419,16 +430,18 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// Finds the orbit of the middle tolerance and measures its means. An orbit that is not known at the row's tolerance is
     /// replaced by it. `None` if it is not found.
-    async fn compare(&mut self, near: &mut Near<N>) -> Option<Box<SumsOf<M, N>>> {
-        let mapped = !near.floquet_max.is_nan();
+    async fn measure_middle(&mut self, near: &mut Near<N>) -> Option<Box<SumsOf<M, N>>> {
+        let is_known = !near.floquet_max.is_nan();
         // With the monodromy matrix of the row's orbit, one step suffices.
         let enough =
-            if mapped { f64::INFINITY } else { self.goal.max(MIDDLE_RESIDUAL * MIDDLE * self.rtol()) };
+            if is_known { f64::INFINITY } else { self.goal.max(MIDDLE_RESIDUAL * MIDDLE * self.rtol()) };
         let mut chord = Chord::new(near.orbit, &self.start.scale);
+        // A period that fails at this tolerance is no failure of the row.
         let ending = self.ending;
-        let found = !mapped && near.residual <= self.goal || self.converge(&mut chord, MIDDLE, enough).await;
+        let found =
+            !is_known && near.residual <= self.goal || self.converge(&mut chord, MIDDLE, enough).await;
         self.ending = ending;
-        if !mapped && chord.residual <= LOOSE_RESIDUAL {
+        if !is_known && chord.residual <= LOOSE_RESIDUAL {
             near.orbit = chord.orbit;
             near.march.error = ORBITS_DIFFER;
         }
@@ -455,16 +468,17 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// Goes from an orbit near by onto the orbit of the row's tolerance, in chord steps, and measures its period.
     async fn close(&mut self, near: &Near<N>) -> Result<Measured<SumsOf<M, N>, N>, NoOrbit<N>> {
         let scale = self.start.scale;
-        let Near { mut floquet_max, mut residual, mut step, settled: mut accepted, .. } = *near;
+        let Near { mut floquet_max, mut residual, mut step, mut is_final, .. } = *near;
         let mut chord = Chord::new(near.orbit, &scale);
         // The residual at which the monodromy matrix is computed, and the last at which it was.
-        let mut near_enough = self.mapped_residual();
-        let mut mapped = f64::INFINITY;
-        // A short step is presumed to be the last, until one was not.
+        let mut near_enough = self.matrix_residual();
+        let mut residual_of_matrix = f64::INFINITY;
+        // After a short step the period is measured without another one before it, until a measured period shows that the step
+        // was not the last.
         let mut presumes = true;
         let last_step = LAST_STEP * self.goal.sqrt();
         loop {
-            while !accepted
+            while !is_final
                 && (floquet_max.is_nan() || residual > self.goal && !(presumes && step <= last_step))
             {
                 let y = chord.orbit.y;
@@ -472,7 +486,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 let mut moved = chord.step(&end.y);
                 residual = chord.residual;
                 // The matrix is computed where the steps are stuck, too.
-                if floquet_max.is_nan() && residual <= near_enough || !moved && residual <= PROGRESS * mapped
+                if floquet_max.is_nan() && residual <= near_enough
+                    || !moved && residual <= PROGRESS * residual_of_matrix
                 {
                     let nearer = chord.orbit.y;
                     let monodromy = self.monodromy(&nearer).await.ok_or(NoOrbit::Lost)?;
@@ -482,16 +497,17 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                         None if residual <= near_enough => near_enough = self.goal,
                         _ => {}
                     }
-                    mapped = residual;
+                    residual_of_matrix = residual;
                     // The same step again, with this matrix.
                     chord = Chord::new(Orbit { y, monodromy }, &scale);
                     moved = chord.step(&end.y);
                 }
                 step = distance(&y, &chord.orbit.y, &scale);
                 if !moved {
+                    // A smaller goal may be below the jumps of the period map.
                     let SolverSettings { settle_tol, .. } = *self.solver;
-                    accepted = !floquet_max.is_nan() && residual <= settle_tol;
-                    if !accepted {
+                    is_final = !floquet_max.is_nan() && residual <= settle_tol;
+                    if !is_final {
                         let jumps = residual <= JUMPS * settle_tol && !self.is_finest();
                         return Err(if jumps { NoOrbit::Jumps(chord.orbit) } else { NoOrbit::Lost });
                     }
@@ -500,7 +516,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             let orbit = chord.orbit;
             let end = self.measure(Kind::Signals, &orbit.y, 1.0).await.ok_or(NoOrbit::Lost)?;
             let confirmed = period_map::residual(&orbit.y, &end.y, &scale);
-            if accepted || !presumes || confirmed <= self.goal {
+            if is_final || !presumes || confirmed <= self.goal {
                 let residual = confirmed.min(residual);
                 return Ok(Measured { orbit, floquet_max, residual, end });
             }
@@ -600,10 +616,10 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     }
 
     /// The factor on the tolerances of the row.
-    fn factor(&self, at: At) -> f64 {
+    fn factor(&self, at: Tolerance) -> f64 {
         match at {
-            At::Loose => LOOSE_RTOL / self.rtol(),
-            At::Row => 1.0,
+            Tolerance::Loose => LOOSE_RTOL / self.rtol(),
+            Tolerance::Row => 1.0,
         }
     }
 
@@ -613,8 +629,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     }
 
     /// The residual near which the monodromy matrix is the matrix of the row's orbit.
-    fn mapped_residual(&self) -> f64 {
-        self.solver.settle_tol.max(MAPPED * self.rtol().sqrt())
+    fn matrix_residual(&self) -> f64 {
+        self.solver.settle_tol.max(MATRIX_RESIDUAL * self.rtol().sqrt())
     }
 
     /// The smallest factor on the tolerances.
@@ -630,20 +646,20 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         self.tolerance_factor = (self.tolerance_factor * factor).max(self.finest());
     }
 
-    /// Tightens the tolerances of a row that errs by `doubt`.
-    fn refine(&mut self, doubt: f64) {
+    /// Tightens the tolerances of a row that errs by `error`.
+    fn refine(&mut self, error: f64) {
         let SolverSettings { accuracy, settle_tol, .. } = *self.solver;
         // The error is about proportional to the tolerances.
-        self.tighten(if doubt.is_finite() { (0.25 * accuracy / doubt).clamp(1e-3, 0.125) } else { FINER });
+        self.tighten(if error.is_finite() { (0.25 * accuracy / error).clamp(1e-3, 0.125) } else { FINER });
         self.goal = (settle_tol * self.tolerance_factor).max(SMALLEST_GOAL).min(settle_tol);
     }
 
     /// The row of an orbit, and its largest relative error.
-    fn row(&self, measured: &Measured<SumsOf<M, N>, N>, coarse: Option<&SumsOf<M, N>>) -> (Row, f64) {
+    fn row(&self, measured: &Measured<SumsOf<M, N>, N>, middle: Option<&SumsOf<M, N>>) -> (Row, f64) {
         let Measured { orbit: Orbit { y, .. }, floquet_max, residual, end } = measured;
         let Some(sums) = end.sums.as_deref() else { return (self.unsettled(), 0.0) };
         let Search { model, solver, start, .. } = self;
-        let orbit = MeasuredOrbit { y, sums, coarse, switches: end.outcome.switches, rtol: self.rtol() };
+        let orbit = MeasuredOrbit { y, sums, middle, switches: end.outcome.switches, rtol: self.rtol() };
         let (row, error) = orbit_row::row_of(*model, solver, start, &orbit);
         let at_rest = row.status != Status::Periodic || orbit_row::is_at_rest(*model, start, &orbit);
         let floquet_max = if at_rest { f64::NAN } else { floquet_max.powi(self.maps_per_period()) };
@@ -677,7 +693,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     }
 
     /// The same row, with all that its point has cost.
-    fn charged(&self, mut settled: Settled<N>) -> Settled<N> {
+    fn with_costs(&self, mut settled: Settled<N>) -> Settled<N> {
         settled.row.cycles = self.cycles();
         settled.row.rhs_evals = self.rhs_evals;
         settled
