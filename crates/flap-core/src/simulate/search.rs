@@ -520,6 +520,9 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 let residual = confirmed.min(residual);
                 return Ok(Measured { orbit, floquet_max, residual, end });
             }
+            if self.measures_maps() {
+                chord.step(&end.y);
+            }
             (residual, presumes) = (confirmed, false);
             self.exchange.reuse(end.sums);
         }
@@ -571,6 +574,11 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
         end.outcome.switches *= 2;
         Some(end)
+    }
+
+    /// True if what is measured of an orbit is what a map integrates, and not more.
+    fn measures_maps(&self) -> bool {
+        self.symmetry.as_ref().is_none_or(|symmetry| symmetry.second_half.is_some())
     }
 
     /// The number of times that the map of which an orbit is a fixed point is applied in a period.
