@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use flap_core::drive::{DriveConstants, WaveformParameters};
-use flap_core::model::{Derived, Description, Instant, Model, Unit};
+use flap_core::model::{Derived, Description, Instant, Model, SignalSet, Symmetry, Totals, Unit};
 use flap_core::num::{Backend, Real};
 use flap_core::ode::{Ode, Start};
 use flap_core::parameter::Invalid;
@@ -94,6 +94,12 @@ impl Model<2> for Oscillator {
         let drive = DriveConstants::new(FREQUENCY, &WaveformParameters::SINE, [0.0, drive_strength]);
         let constants = Constants { drive, load, stiffness: OMEGA * OMEGA, damping: 2.0 * decay };
         Ok(Start::new(constants, [0.0; 2], drive.period(), [0.1, 0.1 * OMEGA]))
+    }
+
+    /// Claims more than is true: a load breaks the symmetry. The search notices that.
+    fn symmetry(&self, _c: &Constants<f64>) -> Option<Symmetry<Signals, 2>> {
+        let second_half = |first: &Signals<Totals<f64>>| Signals::map(first, |_, totals| totals.negated());
+        Some(Symmetry { centre: [0.0; 2], second_half: Some(second_half) })
     }
 
     fn drive<R: Real>(c: &Constants<R>) -> &DriveConstants<R> {

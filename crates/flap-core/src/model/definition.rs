@@ -61,13 +61,18 @@ impl<M, C, S: SignalSet> Derived<M, C, S> {
 }
 
 /// The symmetry of a point with signals `S`: from half a drive period later on, its motions can go on as they began, mirrored.
-/// If y(t) solves its equations, so does 2 · centre − y(t + T/2).
+/// If y(t) solves its equations, so does 2 · centre − y(t + T/2). A switching function changes its sign as well.
+///
+/// A constant part of the drive or an even harmonic breaks the symmetry, unless it only shifts the centre. The search compares
+/// the equations at two states, and integrates whole periods where they differ. It does not check `second_half`: compare rows
+/// with and without [`SolverSettings::symmetry`](crate::simulate::SolverSettings::symmetry).
 #[derive(Clone, Copy, Debug)]
 pub struct Symmetry<S: SignalSet, const N: usize> {
     /// The state about which motions are mirrored.
     pub centre: [f64; N],
-    /// The sums of the signals over the second half of a mirrored period, from those over the first. `None` if they do not
-    /// follow from these; then whole periods are measured.
+    /// The sums of the signals over the second half of a mirrored period, from those over the first: [`Totals::negated`] of
+    /// signals that change their sign, such as angles, and [`Totals::repeated`] of others, such as lift and power. `None` if they
+    /// do not follow from these; then whole periods are measured.
     pub second_half: Option<fn(&S::Of<Totals<f64>>) -> S::Of<Totals<f64>>>,
 }
 

@@ -14,7 +14,8 @@ pub trait Ode<const N: usize>: Sync {
     /// Inputs that depend on time alone: the drive.
     type Input<R: Real>: Copy;
 
-    /// True if the right-hand side jumps where [`Ode::switch`] changes sign. A model with such a jump sets it and implements `switch`.
+    /// True if the right-hand side jumps where [`Ode::switch`] changes sign. A model with such a jump sets it and implements
+    /// `switch`. If it is false, `switch` is never called, and `side` is always +1.
     const SWITCHES: bool = false;
 
     /// The inputs at time `t` (s).
@@ -40,7 +41,8 @@ pub trait Ode<const N: usize>: Sync {
     /// return `[y[1], dy[1]]`.
     ///
     /// A motion that stays on the surface, such as a stroke that sticks by friction, crosses it again and again in short steps.
-    /// Its row has the status [`StepLimit`](crate::simulate::Status::StepLimit), or an infinite error estimate.
+    /// Its row has the status [`StepLimit`](crate::simulate::Status::StepLimit), or an infinite error estimate. This includes
+    /// a motion that begins on the surface, at rest with a drive that begins at zero: give the initial state a small rate.
     #[inline(always)]
     fn switch<R: Real>(&self, c: &Self::Constants<R>, y: &[R; N], dy: &[R; N]) -> [R; 2] {
         let _ = (c, dy);

@@ -4,15 +4,17 @@
 //!
 //! 1. **Find.** The point is marched from rest, one drive period after another, until Newton's iteration leads to a periodic
 //!    orbit near by. A loose tolerance suffices for this.
-//! 2. **Middle.** The orbit of a middle tolerance is found and measured. Its difference from the row is the row's error
-//!    estimate, and it is much nearer to the orbit of the row than the first one.
-//! 3. **Close.** At the tolerance of the row, a period with responses to changes of the state gives the monodromy matrix, and
-//!    with it the orbit. The period of that orbit is measured, and confirms it.
+//! 2. **Middle.** The orbit of a middle tolerance is found and measured. This orbit is much nearer to that of the row than the
+//!    first one, and the difference of its measures from the row gives the row's error estimate.
+//! 3. **Close.** Chord steps at the tolerance of the row lead near its orbit. A period with responses to changes of the state
+//!    gives the monodromy matrix, and with it the orbit. The period of that orbit is measured, and confirms it.
 //! 4. **Judge.** A row that is not accurate enough is computed again with tighter tolerances, from its orbit.
 //!
-//! If the point is [symmetric](Symmetry), its orbit presumably is so too: then steps 2 to 4 integrate half periods, each mirrored
-//! at its end. If there is no such orbit near by, the search goes on with whole periods.
-//! If the way over the loose tolerance fails, the search begins again, at rest and at the tolerance of the row.
+//! If the point is [symmetric](Symmetry), its orbit presumably is so too: Newton's iteration, the chord steps and the measured
+//! periods then integrate half a period and mirror its end. The march always integrates whole periods. If no symmetric orbit is
+//! found, the search gives up the symmetry and goes on with whole periods.
+//!
+//! If the search at the loose tolerance fails, it begins again, at rest and at the tolerance of the row.
 //! A search integrates nothing itself: it asks for drive periods and waits for them (see [`periods`](super::periods)), and a
 //! driver integrates those of many points in lanes (see [`lanes`](super::lanes)).
 
@@ -28,7 +30,7 @@ use crate::measure::cycle::{SumsOf, over_both_halves};
 use crate::measure::multipliers::{Matrix, identity, product, spectral_radius};
 use crate::model::{Model, Symmetry};
 use crate::ode::ensemble::Restart;
-use crate::ode::{Ending, Outcome, Start};
+use crate::ode::{Ending, Outcome, Start, input, slope};
 
 /// The relative tolerance with which a search begins, and the largest tolerance of rows for which it does.
 const LOOSE_RTOL: f64 = 3e-4;
@@ -82,6 +84,9 @@ const REFINEMENTS: u32 = 3;
 /// The smallest residual that such a refinement aims at.
 const SMALLEST_GOAL: f64 = 1e-10;
 
+/// The largest difference between the rates of mirrored states in symmetric equations, as a share of the largest rate.
+const ASYMMETRY: f64 = 1e-9;
+
 /// The largest distance between the orbits of two tolerances, in units of the states' typical sizes.
 const ORBITS_DIFFER: f64 = 0.1;
 
@@ -124,7 +129,7 @@ struct Near<const N: usize> {
     march: Marched<N>,
     /// Largest modulus of the map's multipliers; NaN unless its matrix was computed at the row's tolerance, near enough.
     floquet_max: f64,
-    /// The residual before the last step, at the tolerance of the last iteration.
+    /// The residual before the last step, at the tolerance of the last iteration; of a march that has arrived, its last change.
     residual: f64,
     /// The length of that step, if it was made with the matrix of `floquet_max`.
     step: f64,
@@ -162,8 +167,8 @@ struct Measured<T, const N: usize> {
 enum NoOrbit<const N: usize> {
     /// The period map jumps too much at these tolerances, near this orbit.
     Jumps(Orbit<N>),
-    /// There is no such orbit.
-    Lost,
+    /// No stable orbit was found that the march approaches, or a period could not be integrated.
+    Failed,
 }
 
 /// Follows a point from `start` to its row. `nearby` says that this is a given state, such as one on the orbit of a neighbouring
@@ -195,7 +200,7 @@ pub(super) fn settle<'a, M: Model<N>, const N: usize>(
 }
 
 impl<M: Model<N>, const N: usize> Search<'_, M, N> {
-    /// The row of the point; for `nearby` see [`settle`].
+    /// The point's row and orbit; for `nearby` see [`settle`].
     async fn settle(&mut self, nearby: bool) -> Settled<N> {
         let SolverSettings { newton, progressive, max_cycles, .. } = *self.solver;
         let small = self.rtol() <= LOOSE_FOR && max_cycles > LOOSE_CYCLES;
@@ -222,12 +227,9 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                     Ok(measured) => break (measured, middle),
                     Err(NoOrbit::Jumps(orbit)) => {
                         self.tighten(FINER);
-                        near = Near {
-                            is_final: near.is_final,
-                            ..Near::without_multipliers(orbit, near.march, near.residual)
-                        };
+                        near = Near::without_multipliers(orbit, near.march, near.residual);
                     }
-                    Err(NoOrbit::Lost) => return last.map(|last| self.with_costs(last)),
+                    Err(NoOrbit::Failed) => return last.map(|last| self.with_costs(last)),
                 }
             };
             let Measured { orbit, floquet_max, residual, .. } = measured;
@@ -271,23 +273,25 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 None if self.march.is_promising() => false,
                 None => return None,
             };
+            self.check_symmetry();
             // As long as the orbit is presumed to be symmetric, half periods are searched first.
-            let mut is_lost = false;
-            loop {
-                if let Some(near) = self.find(at, settled).await {
+            let is_lost = loop {
+                let found = self.find(at, settled).await;
+                if let Some(near) = found {
                     if let Some(row) = self.settle_near(near).await {
                         return Some(row);
                     }
                     // The march has settled all the same: on an orbit that is measured as it is.
-                    if settled && at == Tolerance::Row && self.symmetry.is_none() {
+                    if settled && at == Tolerance::Row && self.symmetry.is_none() && !near.is_final {
+                        self.reset_tolerances();
                         return self.settle_near(self.marched(near.orbit.monodromy)).await;
                     }
-                    is_lost = true;
                 }
-                if !self.give_up_symmetry() {
-                    break;
+                self.reset_tolerances();
+                if self.symmetry.take().is_none() {
+                    break found.is_some();
                 }
-            }
+            };
             if settled || self.march.is_exhausted() || is_lost && at == Tolerance::Loose {
                 return None;
             }
@@ -313,15 +317,25 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// Goes on with whole periods and the tolerances that were asked for, if the orbit was presumed to be symmetric. False if
-    /// it was not.
-    fn give_up_symmetry(&mut self) -> bool {
-        let was_presumed = self.symmetry.take().is_some();
-        if was_presumed {
-            self.tolerance_factor = self.start.tolerance_factor;
-            self.goal = self.solver.settle_tol;
+    /// Gives up the symmetry if the equations do not have it at the state of the march, whatever the model says.
+    fn check_symmetry(&mut self) {
+        let Some(Symmetry { centre, .. }) = self.symmetry else { return };
+        let Start { constants: c, span, scale, .. } = &self.start;
+        let rate = |t: f64, side: f64, y: &[f64; N]| slope(self.model, c, &input(self.model, c, t), side, y);
+        let y = *self.march.state();
+        let now = rate(0.0, 1.0, &y);
+        let later = rate(0.5 * span, -1.0, &core::array::from_fn(|i| 2.0 * centre[i] - y[i]));
+        let deviation = distance(&now, &later.map(|rate| -rate), scale);
+        if deviation > ASYMMETRY * distance(&now, &[0.0; N], scale) {
+            self.symmetry = None;
         }
-        was_presumed
+    }
+
+    /// Goes back to the tolerances that were asked for, after a try that has failed.
+    fn reset_tolerances(&mut self) {
+        self.tolerance_factor = self.start.tolerance_factor;
+        self.goal = self.solver.settle_tol;
+        self.ending = Ending::Stopped;
     }
 
     /// The orbit on which the march has settled: its state jitters by more than Newton's iteration may leave.
@@ -370,7 +384,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Some(())
     }
 
-    /// Newton's iteration from the state of the march. An error is the last monodromy matrix, if there is one.
+    /// Newton's iteration from the state of the march. An error is the monodromy matrix there, if there is one.
     async fn iterate(&mut self, at: Tolerance) -> Result<Near<N>, Option<Matrix<N>>> {
         let (goal, error) = match at {
             Tolerance::Loose => (LOOSE_RESIDUAL.max(self.goal), LOOSE_RESIDUAL),
@@ -386,7 +400,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 self.ending = Ending::Stopped;
                 return Err(monodromy);
             };
-            monodromy = Some(end.monodromy);
+            // That of the march's state.
+            monodromy.get_or_insert(end.monodromy);
             // The first of these continues the march.
             let march = *march.get_or_insert(Marched { begin: y, end: end.y, error, maps: 1 });
             let residual = period_map::residual(&y, &end.y, &scale);
@@ -482,7 +497,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 && (floquet_max.is_nan() || residual > self.goal && !(presumes && step <= last_step))
             {
                 let y = chord.orbit.y;
-                let end = self.map(Kind::States, &y, 1.0).await.ok_or(NoOrbit::Lost)?;
+                let end = self.map(Kind::States, &y, 1.0).await.ok_or(NoOrbit::Failed)?;
                 let mut moved = chord.step(&end.y);
                 residual = chord.residual;
                 // The matrix is computed where the steps are stuck, too.
@@ -490,10 +505,10 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                     || !moved && residual <= PROGRESS * residual_of_matrix
                 {
                     let nearer = chord.orbit.y;
-                    let monodromy = self.monodromy(&nearer).await.ok_or(NoOrbit::Lost)?;
+                    let monodromy = self.monodromy(&nearer).await.ok_or(NoOrbit::Failed)?;
                     match (Orbit { y: nearer, monodromy }).attracts(&near.march, &scale) {
                         Some(largest) if residual <= near_enough => floquet_max = largest,
-                        None if residual <= self.goal => return Err(NoOrbit::Lost),
+                        None if residual <= self.goal => return Err(NoOrbit::Failed),
                         None if residual <= near_enough => near_enough = self.goal,
                         _ => {}
                     }
@@ -509,12 +524,12 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                     is_final = !floquet_max.is_nan() && residual <= settle_tol;
                     if !is_final {
                         let jumps = residual <= JUMPS * settle_tol && !self.is_finest();
-                        return Err(if jumps { NoOrbit::Jumps(chord.orbit) } else { NoOrbit::Lost });
+                        return Err(if jumps { NoOrbit::Jumps(chord.orbit) } else { NoOrbit::Failed });
                     }
                 }
             }
             let orbit = chord.orbit;
-            let end = self.measure(Kind::Signals, &orbit.y, 1.0).await.ok_or(NoOrbit::Lost)?;
+            let end = self.measure(Kind::Signals, &orbit.y, 1.0).await.ok_or(NoOrbit::Failed)?;
             let confirmed = period_map::residual(&orbit.y, &end.y, &scale);
             if is_final || !presumes || confirmed <= self.goal {
                 let residual = confirmed.min(residual);
@@ -608,12 +623,10 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// Begins at the initial state, with the tolerances that were asked for.
     fn begin(&mut self, nearby: bool, max_cycles: u32) {
-        let Start { y, scale, tolerance_factor, .. } = self.start;
+        let Start { y, scale, .. } = self.start;
         self.march = March::new(&y, &scale, self.solver, nearby, max_cycles);
         self.size = scale;
-        self.tolerance_factor = tolerance_factor;
-        self.goal = self.solver.settle_tol;
-        self.ending = Ending::Stopped;
+        self.reset_tolerances();
     }
 
     /// The beginning of a period at `y`, with the tolerances of the row times `factor`.

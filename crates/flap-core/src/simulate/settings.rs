@@ -20,7 +20,7 @@ pub struct SolverSettings {
     /// integrated again with tighter tolerances, up to a limit.
     pub accuracy: f64,
     /// Newton's iteration on the period map looks for the orbit to which a motion is on its way. Without it, points
-    /// settle by marching alone: to the same orbits, in more periods.
+    /// settle by marching: to the same orbits, in more periods. Newton's iteration then only improves on the settled orbit.
     pub newton: bool,
     /// Newton's iteration begins at looser tolerances.
     pub progressive: bool,
