@@ -79,7 +79,7 @@ fn symmetric_orbits_have_the_measures_of_their_whole_periods() {
         assert_eq!((half.status, whole.status), (Status::Periodic, Status::Periodic), "{name} {changes:?}");
         assert!(half.rhs_evals < whole.rhs_evals, "{name} {changes:?}");
         assert!((half.floquet_max - whole.floquet_max).abs() < 1e-4, "{name} {changes:?}");
-        let columns: Vec<String> = model.columns().iter().map(|column| column.name.to_string()).collect();
+        let columns: Vec<String> = model.columns().iter().map(|column| column.name.clone()).collect();
         assert_eq!(half.measures.len(), columns.len() + 6);
         for (i, size) in sizes(model, &whole).into_iter().enumerate() {
             let (half, whole) = (half.measures[i], whole.measures[i]);

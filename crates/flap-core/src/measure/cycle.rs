@@ -6,7 +6,7 @@
 //! parabolas through three of them each. Of each signal, only what its measures need is found.
 
 use super::step_polynomial::{Extremum, StepPolynomial};
-use crate::model::{Each, Instant, Model, SignalCycle, SignalSet, SignalsOf, Taken, Totals};
+use crate::model::{Each, Instant, Model, SecondHalf, SignalCycle, SignalSet, SignalsOf, Taken, Totals};
 use crate::num::Lanes;
 use crate::ode::ensemble::Observer;
 use crate::ode::step::Attempt;
@@ -41,7 +41,7 @@ pub type Sums<S, R> = (Each<S, Totals<R>>, [R; 6]);
 /// them as `second_half` says. The wing of a mirrored stroke is loaded by the mirrored force and moment.
 pub(crate) fn over_both_halves<S: SignalSet>(
     (Each(first), load): &Sums<S, f64>,
-    second_half: fn(&S::Of<Totals<f64>>) -> S::Of<Totals<f64>>,
+    second_half: SecondHalf<S>,
 ) -> Sums<S, f64> {
     let totals = S::zip(first, &second_half(first), |_, first, second| first.with(second));
     let [_, along_span, lift, about_x, ..] = load.map(|sum| 2.0 * sum);

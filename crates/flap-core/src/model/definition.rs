@@ -73,8 +73,11 @@ pub struct Symmetry<S: SignalSet, const N: usize> {
     /// The sums of the signals over the second half of a mirrored period, from those over the first: [`Totals::negated`] of
     /// signals that change their sign, such as angles, and [`Totals::repeated`] of others, such as lift and power. `None` if they
     /// do not follow from these; then whole periods are measured.
-    pub second_half: Option<fn(&S::Of<Totals<f64>>) -> S::Of<Totals<f64>>>,
+    pub second_half: Option<SecondHalf<S>>,
 }
+
+/// Sums of the signals `S` over the second half of a period, from those over the first.
+pub type SecondHalf<S> = fn(&SignalsOf<S, Totals<f64>>) -> SignalsOf<S, Totals<f64>>;
 
 /// An instant of a motion of N states, with inputs `I`.
 #[derive(Clone, Copy, Debug)]

@@ -22,7 +22,7 @@ mod signals;
 pub mod stroke_and_pitch;
 mod totals;
 
-pub use definition::{Derived, Description, Instant, Model, Symmetry};
+pub use definition::{Derived, Description, Instant, Model, SecondHalf, Symmetry};
 pub use load::Load;
 pub use motions::{Imposed, Motions};
 pub(crate) use signal::GRAVITY;

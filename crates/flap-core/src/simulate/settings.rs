@@ -4,6 +4,7 @@ use crate::ode::Tolerances;
 
 /// Settings of the integrator, and the conditions under which a point counts as settled.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a setting of its own")]
 pub struct SolverSettings {
     /// Relative tolerance of the integrator, per step and component.
     pub rtol: f64,

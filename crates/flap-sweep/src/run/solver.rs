@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 /// The names under which files record [`SolverSettings`]: for `#[serde(with = "SolverFields")]`.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "SolverSettings")]
+#[expect(clippy::struct_excessive_bools, reason = "each is a setting of its own")]
 pub(crate) struct SolverFields {
     rtol: f64,
     atol: f64,
