@@ -113,7 +113,7 @@ def test_derivatives_at_almost_nothing_are_those_at_zero():
     assert almost != 0.0
     found = [flapwing.evaluate(robot, {"drive_offset": [value]}, **options).gradient[0, 4, 0] for value in (0.0, almost, 1e-9)]
     assert found[0] < -0.01
-    assert found[1] == pytest.approx(found[0], rel=1e-6) and found[2] == pytest.approx(found[0], rel=1e-6)
+    assert found[1] == pytest.approx(found[0], rel=1e-5) and found[2] == pytest.approx(found[0], rel=1e-5)
     # A wing's own value that is not set is that of all wings.
     own = flapwing.evaluate(robot, {"drive_offset": [5.0]}, measures=TORQUES, gradient=["left_drive_offset"])
     given = flapwing.evaluate(robot, {"drive_offset": [5.0], "left_drive_offset": [5.0]}, measures=TORQUES, gradient=["left_drive_offset"])

@@ -85,7 +85,7 @@ def respond(
     --------
     >>> curve = flapwing.respond("ozaki2018-large", start=100, stop=120, step=5)
     >>> curve.meta["verdicts"]
-    ['no hysteresis from 100 to 120 Hz wider than 1.25 Hz (0.3125 Hz where the motion changes by a tenth; branches agree to 2.3e-6 deg)']
+    ['no hysteresis from 100 to 120 Hz wider than 1.25 Hz (0.3125 Hz where the motion changes by a tenth; branches agree to 1.6e-6 deg)']
     """
     if not isinstance(along, str):
         raise _mistakes.refused("along", along, 'it must be the name of a parameter, such as "drive_frequency"')
