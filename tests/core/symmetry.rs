@@ -32,7 +32,7 @@ fn changed(name: &str, changes: &[(&str, f64)]) -> (&'static dyn Simulator, Vec<
     (model, values)
 }
 
-/// The sizes of the measures of a row: of each, the largest magnitude of all with its unit. The loads stand behind the columns.
+/// The size of each measure of a row: the largest magnitude of all measures with its unit. The loads stand behind the columns.
 fn sizes(model: &dyn Simulator, row: &Row) -> Vec<f64> {
     let columns = model.columns();
     let loads = columns.len();
@@ -98,7 +98,7 @@ fn symmetric_orbits_have_the_measures_of_their_whole_periods() {
     }
 }
 
-/// What breaks the symmetry is integrated as if there were none.
+/// Points without the symmetry have the same rows with and without the setting.
 #[test]
 fn other_points_have_the_same_rows() {
     let cases: [(&str, &[(&str, f64)]); 8] = [

@@ -4,7 +4,7 @@
 //!
 //! 1. **Find.** The point is marched from rest, one drive period after another, until Newton's iteration leads to a periodic
 //!    orbit near by. A loose tolerance suffices for this.
-//! 2. **Middle.** The orbit of a middle tolerance is found and measured. This orbit is much nearer to that of the row than the
+//! 2. **Middle.** The orbit of a middle tolerance is found and measured. This orbit is much nearer to the row's orbit than the
 //!    first one, and the difference of its measures from the row gives the row's error estimate.
 //! 3. **Close.** Chord steps at the tolerance of the row lead near its orbit. A period with responses to changes of the state
 //!    gives the monodromy matrix, and with it the orbit. The period of that orbit is measured, and confirms it.
@@ -203,8 +203,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// The point's row and orbit; for `nearby` see [`settle`].
     async fn settle(&mut self, nearby: bool) -> Settled<N> {
         let SolverSettings { newton, progressive, max_cycles, .. } = *self.solver;
-        let small = self.rtol() <= LOOSE_FOR && max_cycles > LOOSE_CYCLES;
-        if newton && progressive && !nearby && small {
+        let is_long = self.rtol() <= LOOSE_FOR && max_cycles > LOOSE_CYCLES;
+        if newton && progressive && !nearby && is_long {
             self.begin(false, LOOSE_CYCLES);
             if let Some(settled) = self.follow(Tolerance::Loose).await {
                 return settled;
@@ -257,7 +257,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         last.map(|last| self.with_costs(last))
     }
 
-    /// Marches until an orbit near by is that of the point. `None` if the march fails, is exhausted, or settles on a subharmonic
+    /// Marches until an orbit near by is the orbit of the point. `None` if the march fails, is exhausted, or settles on a subharmonic
     /// orbit; at the loose tolerance also if an orbit near by turns out to be none.
     async fn follow(&mut self, at: Tolerance) -> Option<Settled<N>> {
         loop {
@@ -443,8 +443,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Err(monodromy)
     }
 
-    /// Finds the orbit of the middle tolerance and measures its means. An orbit that is not known at the row's tolerance is
-    /// replaced by it. `None` if it is not found.
+    /// Finds the orbit of the middle tolerance and measures its means; `None` if it is not found. If the orbit near by was not
+    /// found at the row's tolerance, the state that the chord steps lead to takes its place.
     async fn measure_middle(&mut self, near: &mut Near<N>) -> Option<Box<SumsOf<M, N>>> {
         let is_known = !near.floquet_max.is_nan();
         // With the monodromy matrix of the row's orbit, one step suffices.
