@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use flap_core::simulate::SolverSettings;
+use flap_core::simulate::{Setting, SettingKind, SolverSettings};
 use flap_sweep::files::job::{self, Begin, Job, Notice, Outcome};
 use flap_sweep::files::session::SessionOptions;
 use flap_sweep::plan::Plan;
@@ -200,28 +200,14 @@ fn slopes<'py>(py: Python<'py>, plan: &Plan, gradient: &Gradient) -> PyResult<Bo
 /// The origin of rows, as a dictionary: versions, model, solver settings, and the text of the grid.
 pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> PyResult<Bound<'py, PyDict>> {
     let identity = Identity::of(plan, options);
-    let SolverSettings {
-        rtol,
-        atol,
-        settle_tol,
-        max_cycles,
-        max_steps,
-        accuracy,
-        newton,
-        progressive,
-        symmetry,
-        ..
-    } = *plan.solver();
     let solver = PyDict::new(py);
-    solver.set_item("rtol", rtol)?;
-    solver.set_item("atol", atol)?;
-    solver.set_item("settle_tol", settle_tol)?;
-    solver.set_item("max_cycles", max_cycles)?;
-    solver.set_item("max_steps", max_steps)?;
-    solver.set_item("accuracy", accuracy)?;
-    solver.set_item("newton", newton)?;
-    solver.set_item("progressive", progressive)?;
-    solver.set_item("symmetry", symmetry)?;
+    for Setting { name, kind, .. } in SolverSettings::TABLE {
+        match kind {
+            SettingKind::Number { get, .. } => solver.set_item(name, get(plan.solver()))?,
+            SettingKind::Count { get, .. } => solver.set_item(name, get(plan.solver()))?,
+            SettingKind::Flag { get, .. } => solver.set_item(name, get(plan.solver()))?,
+        }
+    }
     let dict = PyDict::new(py);
     dict.set_item("flap", identity.flap)?;
     dict.set_item("build", identity.build)?;

@@ -5,7 +5,7 @@ mod estimate;
 use std::fmt::Write as _;
 
 use flap_core::parameter::Parameter;
-use flap_core::simulate::SolverSettings;
+use flap_core::simulate::{Setting, SettingKind, SolverSettings};
 use flap_core::vehicle::Vehicle;
 use flap_sweep::notation::text;
 use flap_sweep::plan::axis::Values;
@@ -214,23 +214,11 @@ fn at_resonance(range: &Range) -> String {
 }
 
 fn solver(settings: &SolverSettings) -> String {
-    let SolverSettings {
-        rtol,
-        atol,
-        settle_tol,
-        max_cycles,
-        max_steps,
-        accuracy,
-        newton,
-        progressive,
-        symmetry,
-        ..
-    } = *settings;
-    let [rtol, atol, settle_tol, accuracy] = [rtol, atol, settle_tol, accuracy].map(text::float);
-    let line = format!(
-        "rtol = {rtol}, atol = {atol}, settle_tol = {settle_tol}, max_cycles = {max_cycles}, \
-         max_steps = {max_steps}, accuracy = {accuracy}, newton = {newton}, progressive = {progressive}, \
-         symmetry = {symmetry}"
-    );
+    let values = SolverSettings::TABLE.iter().map(|Setting { name, kind, .. }| match kind {
+        SettingKind::Number { get, .. } => format!("{name} = {}", text::float(get(settings))),
+        SettingKind::Count { get, .. } => format!("{name} = {}", get(settings)),
+        SettingKind::Flag { get, .. } => format!("{name} = {}", get(settings)),
+    });
+    let line = values.collect::<Vec<String>>().join(", ");
     wrapped(&line, 0) + "\n"
 }
