@@ -203,8 +203,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// The point's row and orbit; for `nearby` see [`settle`].
     async fn settle(&mut self, nearby: bool) -> Settled<N> {
         let SolverSettings { newton, progressive, max_cycles, .. } = *self.solver;
-        let is_long = self.rtol() <= LOOSE_FOR && max_cycles > LOOSE_CYCLES;
-        if newton && progressive && !nearby && is_long {
+        let is_worth_it = self.rtol() <= LOOSE_FOR && max_cycles > LOOSE_CYCLES;
+        if newton && progressive && !nearby && is_worth_it {
             self.begin(false, LOOSE_CYCLES);
             if let Some(settled) = self.follow(Tolerance::Loose).await {
                 return settled;
