@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use flap_core::drive::Drive;
 use flap_core::model::Model;
-use flap_core::model::bimorph::{Bimorph, Law};
+use flap_core::model::bimorph::Bimorph;
 use flap_core::model::direct_drive::{DirectDrive, FlowDirection};
 use flap_core::model::four_bar::FourBar;
 use flap_core::num::{Arithmetic, Kernel, Lanes, OneLane, PerLane, Simd, Unfused, Vector};
@@ -15,7 +15,7 @@ use flap_core::ode::norm::error_squared;
 use flap_core::ode::step::Step;
 use flap_core::simulate::preset;
 
-const BIMORPH: Bimorph = Bimorph { drive: Drive::SINE, law: Law::Constant };
+const BIMORPH: Bimorph = Bimorph::SINE;
 const DIRECT_DRIVE: DirectDrive = DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform };
 const DIRECT_DRIVE_BLADES: DirectDrive = DirectDrive { drive: Drive::SINE, flow: FlowDirection::Blade };
 const FOUR_BAR: FourBar = FourBar { drive: Drive::SINE };

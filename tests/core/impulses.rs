@@ -2,12 +2,14 @@
 
 use flap_core::drive::Wave;
 use flap_core::model::Motions;
-use flap_core::model::bimorph::{self, Bimorph};
+use flap_core::model::bimorph::Bimorph;
 use flap_core::model::direct_drive::DirectDrive;
 use flap_core::model::four_bar::FourBar;
 use flap_core::num::Backend;
 use flap_core::ode::Ode;
 use flap_core::simulate::{ImpulseRequest, PointRun, SolverSettings, all, by_name, preset};
+
+use crate::bimorph::plates_under;
 
 /// The values of a preset with some of them set.
 fn values(name: &str, set: &[(&str, f64)]) -> Vec<f64> {
@@ -53,7 +55,7 @@ fn an_impulse_moves_the_pitch_as_a_drive_does() {
                 }
                 "bimorph" => {
                     let (c, y, rest) = released(&Bimorph::default(), &values);
-                    let plates = bimorph::plates(&c, [volts(120.0), volts(80.0)]);
+                    let plates = plates_under(&c, [volts(120.0), volts(80.0)]);
                     (y, rest, Bimorph::default().rhs(&c, &plates, 1.0, &[0.0; 4]))
                 }
                 other => panic!("no derivative of {other}"),

@@ -295,7 +295,7 @@ fn bias_between_the_plates_moves_the_mean_stroke() {
 #[test]
 fn a_constant_transmission_is_the_limit() {
     let c = Constants::derive(&Params::jafferis2016()).unwrap();
-    let [constant, square] = [Law::Constant, Law::Square].map(|law| Bimorph { law, ..Bimorph::default() });
+    let [constant, square] = [Law::Constant, Law::Square].map(|law| Bimorph { law, ..Bimorph::SINE });
     let plates = square.input(&c, 1e-3);
     for y in [[2e-4, -0.3, 0.7, 900.0], [-3e-4, 0.1, -1.2, -400.0], [1e-5, 0.2, 0.1, 50.0]] {
         let [a, b] = [&constant, &square].map(|model| model.rhs(&c, &plates, 1.0, &y));

@@ -1,13 +1,11 @@
 //! Forces, accelerations, charges and currents against reference vectors, on scalars and lanes.
 
-use flap_core::drive::{Drive, Wave};
-use flap_core::model::bimorph::{
-    Bimorph, CentreOfPressure, Constants, Law, Params, Plate, plates, secant_stiffness,
-};
+use flap_core::drive::Wave;
+use flap_core::model::bimorph::{Bimorph, CentreOfPressure, Constants, Params, Plate, secant_stiffness};
 use flap_core::num::Real;
 use flap_core::ode::Ode;
 
-use super::params;
+use super::{params, plates_under};
 use crate::data::{assert_close, table};
 use crate::probe::Probe;
 use crate::slopes::{self, Driven};
@@ -19,7 +17,7 @@ type Case = slopes::Case<Bimorph, 2>;
 
 impl Driven<2> for Bimorph {
     fn under<R: Real>(c: &Constants<R>, voltages: &[Wave<R>; 2]) -> [Plate<R>; 2] {
-        plates(c, *voltages)
+        plates_under(c, *voltages)
     }
 }
 
@@ -29,7 +27,7 @@ fn constants() -> Constants<f64> {
 
 /// The model under the voltages of its plates.
 fn probe<'a>(constants: &'a Constants<f64>, plates: &'a [Plate<f64>; 2]) -> Probe<'a, Bimorph> {
-    const MODEL: &Bimorph = &Bimorph { drive: Drive::SINE, law: Law::Constant };
+    const MODEL: &Bimorph = &Bimorph::SINE;
     Probe { model: MODEL, constants, input: plates, side: 1.0 }
 }
 
@@ -66,7 +64,7 @@ fn accelerations_forces_and_currents_equal_the_reference() {
     let c = constants();
     let mut largest = (0.0, String::new());
     for Case { voltages, y, record, .. } in cases() {
-        let plates = plates(&c, voltages);
+        let plates = plates_under(&c, voltages);
         let dy = Bimorph::default().rhs(&c, &plates, 1.0, &y);
         let [_, x_ddot, _, psi_ddot] = dy;
         let signals = probe(&c, &plates).signals(&y, &dy);
@@ -110,7 +108,7 @@ fn derivatives_of_force_and_charge_are_their_rates() {
     let c = constants();
     for Case { voltages, y, record, .. } in cases() {
         for voltage in voltages {
-            let at = |dv: f64| plates(&c, [Wave { value: voltage.value + dv, ..voltage }; 2])[0];
+            let at = |dv: f64| plates_under(&c, [Wave { value: voltage.value + dv, ..voltage }; 2])[0];
             let (low, mid, high) = (at(-1e-3), at(0.0), at(1e-3));
             let per_volt = (high.force - low.force) / 2e-3;
             let bend = (high.force_per_volt - low.force_per_volt) / 2e-3;
@@ -119,9 +117,9 @@ fn derivatives_of_force_and_charge_are_their_rates() {
         }
         let at = |dt: f64| {
             let moved = voltages.map(|v| Wave { value: v.value + dt * v.rate, ..v });
-            charges(&c, &plates(&c, moved), y[0] + dt * y[1])
+            charges(&c, &plates_under(&c, moved), y[0] + dt * y[1])
         };
-        let signals = probe(&c, &plates(&c, voltages)).signals(&y, &[0.0; 4]);
+        let signals = probe(&c, &plates_under(&c, voltages)).signals(&y, &[0.0; 4]);
         let currents = [signals.current_1, signals.current_2];
         let (before, after) = (at(-1e-7), at(1e-7));
         for i in 0..2 {
@@ -159,22 +157,23 @@ fn arithmetic_classes_agree_to_rounding() {
 /// The sign function that the reading `directional` needs is that of the velocity.
 #[test]
 fn sign_of_the_velocity_directs_the_attack_angle() {
-    let reading =
-        |centre_of_pressure| Constants::derive(&Params { centre_of_pressure, ..params("T1") }).unwrap();
+    let c = constants();
+    let plates = plates_under(&c, [Wave::with_rate(0.0, 0.0); 2]);
+    let torque = |centre_of_pressure, psi: f64, x_dot: f64| {
+        let model = &Bimorph { centre_of_pressure, ..Bimorph::SINE };
+        let probe = Probe { model, constants: &c, input: &plates, side: 1.0 };
+        probe.load(&[0.0, x_dot, psi, 0.0], &[0.0; 4]).span_moment / (x_dot * x_dot.abs())
+    };
     let [folded, directional, literal] =
-        [CentreOfPressure::Folded, CentreOfPressure::Directional, CentreOfPressure::Literal].map(reading);
+        [CentreOfPressure::Folded, CentreOfPressure::Directional, CentreOfPressure::Literal];
     for psi in [0.3_f64, 1.2] {
-        let torque = |c: &Constants<f64>, psi: f64, x_dot: f64| {
-            let plates = plates(c, [Wave::with_rate(0.0, 0.0); 2]);
-            probe(c, &plates).load(&[0.0, x_dot, psi, 0.0], &[0.0; 4]).span_moment / (x_dot * x_dot.abs())
-        };
-        for c in [&folded, &directional, &literal] {
-            assert_eq!(torque(c, psi, 0.2), torque(&folded, psi, 0.2));
+        for reading in [folded, directional, literal] {
+            assert_eq!(torque(reading, psi, 0.2), torque(folded, psi, 0.2));
         }
-        assert_eq!(torque(&directional, -psi, -0.2), torque(&folded, psi, 0.2));
-        assert_eq!(torque(&directional, psi, -0.2), torque(&literal, -psi, 0.2));
-        assert!(torque(&literal, -psi, 0.2) > torque(&folded, psi, 0.2));
-        assert_eq!(torque(&literal, psi, 0.2), torque(&literal, psi, -0.2));
+        assert_eq!(torque(directional, -psi, -0.2), torque(folded, psi, 0.2));
+        assert_eq!(torque(directional, psi, -0.2), torque(literal, -psi, 0.2));
+        assert!(torque(literal, -psi, 0.2) > torque(folded, psi, 0.2));
+        assert_eq!(torque(literal, psi, 0.2), torque(literal, psi, -0.2));
     }
 }
 

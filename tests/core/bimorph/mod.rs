@@ -10,8 +10,9 @@ mod steady;
 mod transient;
 mod variants;
 
-use flap_core::model::bimorph::Params;
-use flap_core::num::Backend;
+use flap_core::drive::Wave;
+use flap_core::model::bimorph::{Constants, Params, Plate, plates};
+use flap_core::num::{Backend, Real};
 use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, by_name};
 
 use crate::by_name::named;
@@ -26,6 +27,17 @@ pub(crate) fn params(set: &str) -> Params {
     let scaled = |factor| Params::jafferis2016().with_transmission_scaled(factor);
     let sets = [Params::jafferis2016(), scaled(0.8), scaled(0.6), Params::jafferis2016_improved()];
     named(set, &["T1", "T2", "T3", "RD"], &sets)
+}
+
+/// The plates under any two voltages, each as under a drive that is such a wave about zero.
+pub(crate) fn plates_under<R: Real>(c: &Constants<R>, [first, second]: [Wave<R>; 2]) -> [Plate<R>; 2] {
+    let (zero, one) = (c.b.lit(0.0), c.b.lit(1.0));
+    let mut c = *c;
+    (c.drive.bias, c.drive.amplitude, c.half_offset) = (zero, one, zero);
+    c.transition = [(c.a_3 * c.field_0).exp(); 2];
+    c.transition_swing = c.a_3 * c.field_per_volt;
+    let opposite = Wave { value: -first.value, rate: -first.rate, bend: -first.bend };
+    [plates(&c, &opposite)[0], plates(&c, &second)[1]]
 }
 
 /// `p` driven at the voltage and frequency of a reference row.

@@ -25,7 +25,7 @@ pub(super) fn march(p: &Params, y: [f64; 4], cycles: u32, rtol: f64) -> [f64; 4]
         return end;
     }
     let outcome = solve::<_, f64, 4>(
-        &Bimorph::default(),
+        &Bimorph::default().variant(&p.to_values()),
         &tolerances(rtol),
         &start,
         |_, _| {},
@@ -42,11 +42,11 @@ pub(super) fn march(p: &Params, y: [f64; 4], cycles: u32, rtol: f64) -> [f64; 4]
 /// The signals over one drive period from `y`, and the right-hand sides evaluated in it.
 pub(super) fn cycle(p: &Params, y: [f64; 4], rtol: f64) -> (Signals<SignalCycle>, u64) {
     let start = start(p, y);
-    let model = Bimorph::default();
+    let model = Bimorph::default().variant(&p.to_values());
     let observer = cycle::Signals::all(&model);
     let mut totals = Sums::<Signals, f64>::fill(0.0, &Observer::<Bimorph, 4>::nothing(&observer));
     let outcome = solve::<_, f64, 4>(
-        &Bimorph::default(),
+        &model,
         &tolerances(rtol),
         &start,
         |c, accepted| observer.add(c, accepted, true, &mut totals),

@@ -2,13 +2,13 @@
 
 use flap_core::drive::Wave;
 use flap_core::model::bimorph::{
-    Bimorph, CentreOfPressure, Constants, FieldTransition, Params, plates, secant_stiffness,
+    Bimorph, CentreOfPressure, Constants, FieldTransition, Params, secant_stiffness,
 };
 use flap_core::num::Backend;
 use flap_core::simulate::{Row, SolverSettings, Status};
 
 use super::physics::static_tip;
-use super::{measure, model, params, settled};
+use super::{measure, model, params, plates_under, settled};
 use crate::data::assert_close;
 use crate::jafferis_figures::coefficients::{Coefficients, FIG_3, highest};
 use crate::probe::{Probe, modes};
@@ -106,7 +106,7 @@ fn coefficients_of_figure_3_and_table_1() {
     let figure_3 =
         Constants::derive(&Params { drag_coefficient_max: 3.4, drag_coefficient_min: 0.4, ..params("T1") })
             .unwrap();
-    let still = plates(&figure_3, [Wave::with_rate(0.0, 0.0); 2]);
+    let still = plates_under(&figure_3, [Wave::with_rate(0.0, 0.0); 2]);
     for degrees in [0.0, 30.0, 70.0, 90.0_f64] {
         let (sin_2psi, cos_2psi) = (2.0 * degrees).to_radians().sin_cos();
         let probe = Probe { model: &Bimorph::default(), constants: &figure_3, input: &still, side: 1.0 };

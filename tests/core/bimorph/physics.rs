@@ -5,7 +5,7 @@ use std::ops::Range;
 use flap_core::drive::Wave;
 use flap_core::model::Model;
 use flap_core::model::bimorph::{
-    Bimorph, CentreOfPressure, Constants, Law, Params, Plate, Signals, plates, secant_stiffness,
+    Bimorph, CentreOfPressure, Constants, Law, Params, Plate, Signals, secant_stiffness,
 };
 use flap_core::num::{Backend, Real};
 use flap_core::ode::{Ode, Start};
@@ -13,7 +13,7 @@ use flap_core::simulate::{PointRun, SolverSettings, TrajectoryRequest};
 use proptest::prelude::*;
 
 use super::orbit::cycle;
-use super::{model, params};
+use super::{model, params, plates_under};
 use crate::by_name::scaled;
 use crate::data::assert_close;
 use crate::probe::{Probe, modes};
@@ -97,8 +97,8 @@ proptest! {
     #[test]
     fn energy_changes_by_electrical_work_and_losses_alone(p in any_robot(), y in STATES, v in any_voltages()) {
         let c = Constants::derive(&p).unwrap();
-        let driven = plates(&c, v);
-        let model = Bimorph { law: Law::Square, ..Bimorph::default() };
+        let driven = plates_under(&c, v);
+        let model = Bimorph { law: Law::Square, ..Bimorph::SINE };
         let dy = model.rhs(&c, &driven, 1.0, &y);
         let Signals { current_1, current_2, .. } = signals(&model, &c, &driven, &y);
         let (_, cos_2psi) = Real::sin_cos(2.0 * y[2]);
@@ -110,7 +110,7 @@ proptest! {
 
         let at = |dt: f64| {
             let y: [f64; 4] = std::array::from_fn(|i| y[i] + dt * dy[i]);
-            let plates = plates(&c, v.map(|v| Wave { value: v.value + dt * v.rate, ..v }));
+            let plates = plates_under(&c, v.map(|v| Wave { value: v.value + dt * v.rate, ..v }));
             electric_energy(&c, &plates, y[0]) + tip_energy(&c, &y)
         };
         let dt = 1e-8;
@@ -123,14 +123,15 @@ proptest! {
     #[test]
     fn half_strokes_are_mirror_images(p in any_params(), y in STATES, v in any_voltages(), folded in prop::bool::ANY) {
         let reading = if folded { CentreOfPressure::Folded } else { CentreOfPressure::Directional };
-        let c = Constants::derive(&Params { centre_of_pressure: reading, ..p }).unwrap();
-        let plates = plates(&c, v);
+        let model = Bimorph { centre_of_pressure: reading, ..Bimorph::SINE };
+        let c = Constants::derive(&p).unwrap();
+        let plates = plates_under(&c, v);
         let swapped = [plates[1], plates[0]];
         let mirror = y.map(|y| -y);
-        let dy = Bimorph::default().rhs(&c, &plates, 1.0, &y);
-        prop_assert_eq!(Bimorph::default().rhs(&c, &swapped, 1.0, &mirror), dy.map(|d| -d));
-        let one = signals(&Bimorph::default(), &c, &plates, &y);
-        let other = signals(&Bimorph::default(), &c, &swapped, &mirror);
+        let dy = model.rhs(&c, &plates, 1.0, &y);
+        prop_assert_eq!(model.rhs(&c, &swapped, 1.0, &mirror), dy.map(|d| -d));
+        let one = signals(&model, &c, &plates, &y);
+        let other = signals(&model, &c, &swapped, &mirror);
         prop_assert_eq!([other.force_1, other.force_2], [one.force_2, one.force_1]);
         prop_assert_eq!([other.current_1, other.current_2], [one.current_2, one.current_1]);
         prop_assert_eq!([other.lift, other.drag], [one.lift, -one.drag]);
@@ -140,11 +141,11 @@ proptest! {
 /// As printed, Eq. (11) treats the two half strokes differently.
 #[test]
 fn the_literal_reading_breaks_the_mirror_symmetry() {
-    let p = Params { centre_of_pressure: CentreOfPressure::Literal, ..params("T1") };
-    let c = Constants::derive(&p).unwrap();
-    let plates = plates(&c, [Wave::with_rate(100.0, 0.0); 2]);
+    let model = Bimorph { centre_of_pressure: CentreOfPressure::Literal, ..Bimorph::SINE };
+    let c = Constants::derive(&params("T1")).unwrap();
+    let plates = plates_under(&c, [Wave::with_rate(100.0, 0.0); 2]);
     let y = [0.0, 0.2, 1.0, 0.0];
-    let [dy, mirrored] = [1.0, -1.0].map(|m| Bimorph::default().rhs(&c, &plates, 1.0, &y.map(|y| m * y)));
+    let [dy, mirrored] = [1.0, -1.0].map(|m| model.rhs(&c, &plates, 1.0, &y.map(|y| m * y)));
     assert!((dy[3] + mirrored[3]).abs() > 0.05 * dy[3].abs());
 }
 
@@ -177,7 +178,7 @@ fn model_scale(values: &[f64]) -> [f64; 4] {
 
 /// The place at which the tip rests under constant voltages: K(x) x = F₁ − F₂.
 pub(super) fn static_tip(c: &Constants<f64>, voltages: [f64; 2]) -> f64 {
-    let plates = plates(c, voltages.map(|value| Wave::with_rate(value, 0.0)));
+    let plates = plates_under(c, voltages.map(|value| Wave::with_rate(value, 0.0)));
     let (mut low, mut high) = (-2e-3, 2e-3);
     for _ in 0..80 {
         let x = 0.5 * (low + high);

@@ -172,8 +172,8 @@ fn right_hand_sides_take_these_operations() {
         counts(&FOUR_BAR, "arabagi2013-75hz", plain),
     ];
     let expected = [
-        [[24, 54, 2, 2, 0, 3], [25, 44, 0, 0, 0, 3]],
-        [[24, 54, 2, 2, 0, 3], [28, 56, 1, 1, 0, 3]],
+        [[19, 57, 3, 1, 0, 2], [23, 40, 0, 0, 0, 3]],
+        [[19, 57, 3, 1, 0, 2], [26, 52, 1, 1, 0, 3]],
         [[0, 6, 1, 0, 0, 1], [34, 76, 0, 1, 0, 1]],
         [[0, 6, 1, 0, 0, 1], [37, 73, 0, 1, 0, 1]],
         [[0, 6, 1, 0, 0, 1], [73, 155, 70, 3, 2, 4]],
@@ -204,8 +204,8 @@ fn dual_numbers_take_more_arithmetic_than_five_motions() {
         costs(&FOUR_BAR, "arabagi2013-75hz"),
     ];
     let expected = [
-        [[538, 3], [393, 15]],
-        [[680, 3], [478, 15]],
+        [[487, 3], [363, 15]],
+        [[629, 3], [448, 15]],
         [[868, 1], [603, 5]],
         [[856, 1], [603, 5]],
         [[2512, 4], [1563, 20]],
@@ -213,5 +213,5 @@ fn dual_numbers_take_more_arithmetic_than_five_motions() {
     assert_eq!(found, expected);
     // The documented ratios.
     let ratios = found.map(|[[dual, _], [motions, _]]| f64::from(dual) / f64::from(motions));
-    assert!(ratios.iter().all(|ratio| (1.35..1.65).contains(ratio)), "{ratios:?}");
+    assert!(ratios.iter().all(|ratio| (1.3..1.65).contains(ratio)), "{ratios:?}");
 }

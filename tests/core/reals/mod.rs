@@ -10,8 +10,8 @@ use flap_core::model::direct_drive::{DirectDrive, FlowDirection};
 use flap_core::model::four_bar::FourBar;
 use flap_core::simulate::preset;
 
-const BIMORPH: Bimorph = Bimorph { drive: Drive::SINE, law: Law::Constant };
-const GROWING_BIMORPH: Bimorph = Bimorph { drive: Drive::SINE, law: Law::Square };
+const BIMORPH: Bimorph = Bimorph::SINE;
+const GROWING_BIMORPH: Bimorph = Bimorph { law: Law::Square, ..Bimorph::SINE };
 const DIRECT_DRIVE: DirectDrive = DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform };
 const DIRECT_DRIVE_BLADES: DirectDrive = DirectDrive { drive: Drive::SINE, flow: FlowDirection::Blade };
 const FOUR_BAR: FourBar = FourBar { drive: Drive::SINE };

@@ -18,8 +18,8 @@ pub trait Motions<const N: usize>: Model<N> {
     #[must_use]
     fn with_drive(&self, change: impl FnOnce(&Drive) -> Drive) -> Self;
 
-    /// The drive of a point, to be changed.
-    fn drive_constants_mut(c: &mut Self::Constants<f64>) -> &mut DriveConstants<f64>;
+    /// The constants of a point with another drive.
+    fn with_drive_constants(c: &Self::Constants<f64>, drive: DriveConstants<f64>) -> Self::Constants<f64>;
 
     /// Small undamped motions; first the one that an impulse on the stroke is to excite.
     fn modes(c: &Self::Constants<f64>) -> Vec<Mode>;
@@ -43,18 +43,14 @@ pub trait Motions<const N: usize>: Model<N> {
     /// The model and constants for one cycle of a chirp, which begins at `frequency` (Hz) and phase zero and
     /// changes by `rate` (Hz/s).
     fn chirped(&self, c: &Self::Constants<f64>, frequency: f64, rate: f64) -> (Self, Self::Constants<f64>) {
-        let mut c = *c;
-        let drive = Self::drive_constants_mut(&mut c);
-        *drive = drive.chirped(frequency, rate);
+        let c = Self::with_drive_constants(c, Self::drive(c).chirped(frequency, rate));
         (self.with_drive(|drive| drive.with_waveform(Waveform::Chirp)), c)
     }
 
     /// The model and constants with the drive held still at [`Motions::rest_voltage`], and the state
     /// [`Motions::struck`].
     fn released(&self, c: &Self::Constants<f64>, stroke_rate: f64) -> (Self, Self::Constants<f64>, [f64; N]) {
-        let mut still = *c;
-        let drive = Self::drive_constants_mut(&mut still);
-        *drive = drive.still(Self::rest_voltage(c));
+        let still = Self::with_drive_constants(c, Self::drive(c).still(Self::rest_voltage(c)));
         (self.with_drive(|_| Drive::SINE), still, Self::struck(c, stroke_rate))
     }
 

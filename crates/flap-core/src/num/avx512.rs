@@ -172,10 +172,9 @@ impl Lanes for F64x8 {
 
     #[inline(always)]
     fn set_lane(&mut self, lane: usize, value: f64) {
-        let mut lanes = self.to_array();
+        // SAFETY: as in `to_array`. A copy of all lanes would be stored, too.
+        let lanes = unsafe { &mut *(&raw mut self.0).cast::<[f64; 8]>() };
         lanes[lane] = value;
-        // SAFETY: as in `to_array`.
-        self.0 = unsafe { transmute::<[f64; 8], __m512d>(lanes) };
     }
 
     #[inline(always)]

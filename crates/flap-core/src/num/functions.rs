@@ -1,7 +1,7 @@
 //! Elementary functions on lanes: polynomials, the same bits on every machine of an arithmetic class.
 //!
 //! Sine and cosine are minimax polynomials, the logarithm is that of FreeBSD's msun (`e_log.c`; Sun Microsystems, 1993),
-//! the exponential is a Taylor polynomial on |r| ≤ ½ ln 2.
+//! the exponential a minimax polynomial on |r| ≤ ½ ln 2.
 
 use super::lanes::{Bits, ROUND};
 use super::real::Real;
@@ -83,21 +83,20 @@ pub(super) fn sin_cos<R: Bits>(x: R) -> (R, R) {
 /// ln 2 in two parts; the first has 33 significant bits.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 
-/// 1/n! for n = 1 … 13.
-const EXP: [f64; 13] = [
+/// Coefficients of 1, r, r², … in (e^r − 1)/r up to ½ ln 2; errors below 3·10^-17. The first is 1, so that small numbers stay
+/// right.
+const EXP: [f64; 11] = [
     1.0,
-    1.0 / 2.0,
-    1.0 / 6.0,
-    1.0 / 24.0,
-    1.0 / 120.0,
-    1.0 / 720.0,
-    1.0 / 5040.0,
-    1.0 / 40320.0,
-    1.0 / 362_880.0,
-    1.0 / 3_628_800.0,
-    1.0 / 39_916_800.0,
-    1.0 / 479_001_600.0,
-    1.0 / 6_227_020_800.0,
+    0.500_000_000_000_000_7,
+    0.166_666_666_666_666_96,
+    0.041_666_666_666_562_5,
+    0.008_333_333_333_293_249,
+    0.001_388_888_893_615_144_1,
+    0.000_198_412_699_868_442_82,
+    2.480_149_978_715_675_8e-5,
+    2.755_711_697_104_583e-6,
+    2.762_821_657_964_224_7e-7,
+    2.516_134_467_493_302_5e-8,
 ];
 
 /// A whole number k and r with x = k ln 2 + r, |r| ≤ ½ ln 2.
@@ -193,24 +192,22 @@ pub(super) fn ln_of_normal<R: Bits>(x: R) -> R {
 /// [`Real::ln_1p`].
 #[inline(always)]
 pub(super) fn ln_1p<R: Bits>(x: R) -> R {
-    let (sum, lost) = one_more(x);
-    ln(sum) + lost
+    let is_usual = x.lit(-1.0).lt(x) & x.lt(x.lit(1e300));
+    R::select(is_usual, ln_1p_of_normal(x), ln(x + 1.0))
 }
 
 /// [`Real::ln_1p_of_normal`].
 #[inline(always)]
 pub(super) fn ln_1p_of_normal<R: Bits>(x: R) -> R {
-    let (sum, lost) = one_more(x);
-    ln_of_normal(sum) + lost
-}
-
-/// The sum 1 + x, and what the logarithm of the rounded sum lacks.
-#[inline(always)]
-fn one_more<R: Bits>(x: R) -> (R, R) {
-    let sum = x + 1.0;
-    // The rounding error of the sum. Far from 1 it does not change the logarithm.
-    let lost = x - (sum - 1.0);
-    (sum, R::select(sum.lt(sum.lit(2.0)), lost, lost.lit(0.0)))
+    // (1 + x)/2^e is between √½ and √2, and equals (1 + s)/(1 − s).
+    let (e, _) = ((x + 1.0) * core::f64::consts::SQRT_2).exponent_and_mantissa();
+    let power = x.lit(1.0).times_power_of_two(e);
+    let s = (x - (power - 1.0)) / (x + (power + 1.0));
+    let z = s * s;
+    let rest = z * polynomial(z, z * z, &LN);
+    // 2s + s rest, with e ln 2 added from its small part up.
+    let small = s.mul_add(rest, e * LN_2[1]);
+    e.mul_add(e.lit(LN_2[0]), s.mul_add(s.lit(2.0), small))
 }
 
 /// [`Real::round_ties_even`].

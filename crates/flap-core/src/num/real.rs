@@ -100,8 +100,8 @@ pub trait Real:
         self.ln()
     }
 
-    /// [`Real::ln_1p`] of x > −1 with 1 + x a normal number. For other numbers the bits have no meaning: no instruction
-    /// checks them.
+    /// [`Real::ln_1p`] of x > −1 with 1 + x a normal number up to 10^300. For other numbers the bits have no meaning: no
+    /// instruction checks them.
     #[inline(always)]
     fn ln_1p_of_normal(self) -> Self {
         self.ln_1p()

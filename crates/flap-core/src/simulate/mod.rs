@@ -40,13 +40,12 @@ pub(crate) use single::{Question, ask};
 pub use crate::ode::{Interrupt, never};
 
 use crate::drive::Drive;
-use crate::model::bimorph::{Bimorph, Law};
+use crate::model::bimorph::Bimorph;
 use crate::model::direct_drive::{DirectDrive, FlowDirection};
 use crate::model::four_bar::FourBar;
 use crate::parameter::Preset;
 
-static BIMORPH: Runner<Bimorph, 4> =
-    Runner::with_experiments(Bimorph { drive: Drive::SINE, law: Law::Constant });
+static BIMORPH: Runner<Bimorph, 4> = Runner::with_experiments(Bimorph::SINE);
 static DIRECT_DRIVE: Runner<DirectDrive, 4> =
     Runner::with_experiments(DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform });
 static FOUR_BAR: Runner<FourBar, 4> = Runner::with_experiments(FourBar { drive: Drive::SINE });

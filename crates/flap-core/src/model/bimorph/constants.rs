@@ -5,7 +5,7 @@
 //! multiplied out here.
 
 use super::actuator::Actuator;
-use super::params::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
+use super::params::{ActuatorStiffness, FieldTransition, Params};
 use crate::drive::{DriveConstants, Shape};
 use crate::linkage::structural_damping;
 use crate::parameter::Invalid;
@@ -23,16 +23,19 @@ crate::per_lane! {
         pub field_per_volt: R,
         /// Piezoelectric stress per field at small fields f_31,min (N/(V·m)), (6).
         pub f_min: R,
-        /// Stress per field that the transition subtracts at its end (N/(V·m)): f_31,min; twice that if (6) is read as printed.
-        pub f_taken: R,
-        /// Piezoelectric stress per field at the transition's end f_31,max (N/(V·m)), (6).
-        pub f_max: R,
+        /// Rise of the stress per field in the transition at zero field (N/(V·m)): f_31,max − f_31,min; less f_31,min once more
+        /// if (6) is read as printed.
+        pub f_rise: R,
         /// Its decline with field a₄ f_31,max (N/V²), (6).
         pub f_decline: R,
         /// Field of the transition ℰ₀ (V/m), (6).
         pub field_0: R,
         /// Steepness of the transition a₃ (m/V), (6).
         pub a_3: R,
+        /// e^p with the exponent p = a₃ (ℰ₀ − V/t_pzt) of the transition at the constant part of each plate's voltage.
+        pub transition: [R; 2],
+        /// Change of these exponents over the drive's wave: γ = a₃ A/t_pzt, of opposite sign for the two plates.
+        pub transition_swing: R,
         /// Blocked force per piezoelectric stress F_pre (N/Pa) of each plate, (6).
         pub force_per_stress: [R; 2],
         /// Relative change of a plate's force per displacement of the tip b = a₂ s_ε (1/m), (5), (6).
@@ -90,8 +93,6 @@ crate::per_lane! {
         pub p_min: R,
         /// Its shift from there to ψ = 0, in mean widths, (11).
         pub p_swing: R,
-        /// 1 for the angle that the centre of pressure follows and 0 for the others: |ψ|, ψ relative to the motion, and ψ.
-        pub attack: [R; 3],
 
         /// Mean of the drag coefficient's largest and smallest value b₁.
         pub b_1: R,
@@ -117,8 +118,8 @@ crate::per_lane! {
     }
 }
 
-/// Largest magnitude of an exponent in the equations: their exponential does not check its range.
-pub(super) const EXPONENT_MAX: f64 = 600.0;
+/// Largest magnitude of an exponent in the equations, in which two of their powers are multiplied and none is checked.
+pub(super) const EXPONENT_MAX: f64 = 300.0;
 
 impl Constants<f64> {
     /// Derives the constants of a point.
@@ -142,7 +143,7 @@ impl Constants<f64> {
             return Err(Invalid::together(
                 &["stress_steepness", "stress_field", "modulus_steepness", "modulus_strain"],
                 "a transition is too steep: stress_steepness times field, or modulus_steepness times \
-                 modulus_strain, exceeds 600",
+                 modulus_strain, exceeds 300",
             ));
         }
         let sigma_0 = 1.0 / (1.0 + libm::exp(-z_0));
@@ -170,11 +171,13 @@ impl Constants<f64> {
 
             field_per_volt: 1.0 / p.piezo_thickness,
             f_min: p.piezo_stress_min,
-            f_taken: p.piezo_stress_min * (1.0 + f64::from(p.field_transition == FieldTransition::Printed)),
-            f_max: p.piezo_stress_max,
+            f_rise: p.piezo_stress_max
+                - p.piezo_stress_min * (1.0 + f64::from(p.field_transition == FieldTransition::Printed)),
             f_decline: p.stress_decline * p.piezo_stress_max,
             field_0: p.stress_field,
             a_3: p.stress_steepness,
+            transition: [f64::NAN; 2],
+            transition_swing: f64::NAN,
             force_per_stress: [actuator.force_per_stress, actuator.force_per_stress * p.plate_ratio],
             b: p.force_strain_slope * actuator.strain_per_tip,
             c_p,
@@ -205,8 +208,6 @@ impl Constants<f64> {
             hinge_torque: force * (p.wing_area / p.wing_length),
             p_min: p.pressure_min,
             p_swing: p.pressure_max - p.pressure_min,
-            attack: [CentreOfPressure::Folded, CentreOfPressure::Directional, CentreOfPressure::Literal]
-                .map(|reading| f64::from(p.centre_of_pressure == reading)),
 
             b_1,
             b_2,
@@ -224,6 +225,18 @@ impl Constants<f64> {
         let stiffening = constants.f_stiff * constants.sigma_0 * constants.u_per_tip;
         let stiffness = constants.k_soft + stiffening + constants.k_t;
         constants.tip_damping = structural_damping(p.stroke_loss_factor, stiffness, drive.rate);
-        Invalid::unless_finite(constants)
+        Invalid::unless_finite(constants.with_drive(drive))
+    }
+
+    /// The constants with another drive.
+    #[must_use]
+    pub(super) fn with_drive(&self, drive: DriveConstants<f64>) -> Constants<f64> {
+        let DriveConstants { bias, amplitude, .. } = drive;
+        let transition = [self.half_offset, -self.half_offset].map(|offset| {
+            let field = (bias + offset) * self.field_per_volt;
+            libm::exp(self.a_3 * (self.field_0 - field))
+        });
+        let transition_swing = self.a_3 * amplitude * self.field_per_volt;
+        Constants { drive, transition, transition_swing, ..*self }
     }
 }

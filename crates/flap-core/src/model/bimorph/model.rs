@@ -3,7 +3,7 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use super::constants::Constants;
-use super::params::Params;
+use super::params::{CentreOfPressure, Params};
 use super::rhs::{
     Plate, charging_power, currents, derivative, double_angle, leakage, lift_and_drag, load, plate_forces,
     plates, secant_stiffness, stroke_damping, tip_drag,
@@ -160,31 +160,36 @@ fn voltage_max(model: &Bimorph, c: &Constants<f64>) -> f64 {
 }
 
 /// The model.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Bimorph {
     /// The drive voltage.
     pub drive: Drive,
     /// Law of the transmission ratio.
     pub law: Law,
+    /// The hinge angle that the centre of pressure follows.
+    pub centre_of_pressure: CentreOfPressure,
+}
+
+impl Bimorph {
+    /// A sinusoidal drive, a constant ratio, and (11) with the attack angle.
+    pub const SINE: Bimorph =
+        Bimorph { drive: Drive::SINE, law: Law::Constant, centre_of_pressure: CentreOfPressure::Folded };
+}
+
+impl Default for Bimorph {
+    fn default() -> Bimorph {
+        Bimorph::SINE
+    }
 }
 
 impl Ode<4> for Bimorph {
     type Constants<R: Real> = Constants<R>;
     type Input<R: Real> = [Plate<R>; 2];
 
-    /// The two plates at time `t`, driven in antiphase, (7).
-    ///
-    /// ```text
-    /// V₁ = ½V_pp (1 − sin ωt)     V₂ = ½V_pp (1 + sin ωt)
-    /// ```
-    ///
-    /// A bias between the plates moves them apart.
+    /// The two plates at time `t`.
     #[inline(always)]
     fn input<R: Real>(&self, c: &Constants<R>, t: R) -> [Plate<R>; 2] {
-        let DriveConstants { bias, amplitude, .. } = c.drive;
-        let wave = self.drive.wave(&c.drive, t);
-        let (first, second) = (bias + c.half_offset, bias - c.half_offset);
-        plates(c, [wave.scaled(first, -amplitude), wave.scaled(second, amplitude)])
+        plates(c, &self.drive.wave(&c.drive, t))
     }
 
     #[inline(always)]
@@ -194,7 +199,7 @@ impl Ode<4> for Bimorph {
 
     #[inline(always)]
     fn rhs<R: Real>(&self, c: &Constants<R>, plates: &[Plate<R>; 2], _side: R, y: &[R; 4]) -> [R; 4] {
-        derivative(c, self.law, plates, y)
+        derivative(c, self.law, self.centre_of_pressure, plates, y)
     }
 }
 
@@ -223,10 +228,11 @@ impl Model<4> for Bimorph {
     const LOADS: bool = true;
 
     fn variant(&self, values: &[f64]) -> Bimorph {
-        let Params { waveform, transmission_growth, .. } = Params::from_values(values);
+        let Params { waveform, transmission_growth, centre_of_pressure, .. } = Params::from_values(values);
         Bimorph {
             drive: self.drive.of_point(waveform.drive_shape, StrokeMode::Free),
             law: if transmission_growth == 0.0 { Law::Constant } else { Law::Square },
+            centre_of_pressure,
         }
     }
 
@@ -249,9 +255,10 @@ impl Model<4> for Bimorph {
     /// About the origin, if the plates are alike and see mirrored voltages.
     fn symmetry(&self, c: &Constants<f64>) -> Option<Symmetry<Signals, 4>> {
         let [f_1, f_2] = c.force_per_stress;
-        let [.., literal] = c.attack;
-        let is_symmetric =
-            f_1 == f_2 && c.half_offset == 0.0 && literal == 0.0 && self.drive.is_symmetric(&c.drive);
+        let is_symmetric = f_1 == f_2
+            && c.half_offset == 0.0
+            && self.centre_of_pressure != CentreOfPressure::Literal
+            && self.drive.is_symmetric(&c.drive);
         is_symmetric.then_some(Symmetry { centre: [0.0; 4], second_half: Some(second_half) })
     }
 
@@ -338,7 +345,7 @@ impl Model<4> for Bimorph {
     fn load<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, [Plate<R>; 2], 4>) -> Load<R> {
         let [x, x_dot, psi, psi_dot] = *at.y;
         let rate = Transmission::at(c, self.law, x).times(x_dot);
-        load(c, stroke(c, self.law, x), x_dot, rate, [psi, psi_dot])
+        load(c, self.centre_of_pressure, stroke(c, self.law, x), x_dot, rate, [psi, psi_dot])
     }
 
     /// Currents follow the edges of the force's transition, (6), which the drive crosses in a fraction of a step.
@@ -355,8 +362,8 @@ impl Motions<4> for Bimorph {
         Bimorph { drive: change(&self.drive), ..*self }
     }
 
-    fn drive_constants_mut(c: &mut Constants<f64>) -> &mut DriveConstants<f64> {
-        &mut c.drive
+    fn with_drive_constants(c: &Constants<f64>, drive: DriveConstants<f64>) -> Constants<f64> {
+        c.with_drive(drive)
     }
 
     /// Stroke and hinge without drag. (1) contains no reaction of the hinge, so each is its own oscillator:
@@ -387,7 +394,7 @@ impl Motions<4> for Bimorph {
         let (ratio, slope) = (c.ratio * (1.0 + c.ratio_growth * x * x), 2.0 * c.ratio * c.ratio_growth * x);
         let x_dot = stroke[1] / ratio;
         let x_ddot = (stroke[2] - slope * x_dot * x_dot) / ratio;
-        let unknown = plates(c, [Wave::with_rate(f64::NAN, f64::NAN); 2]);
+        let unknown = plates(c, &Wave::with_rate(f64::NAN, f64::NAN));
         ([x, x_dot, pitch[0], pitch[1]], [x_dot, x_ddot, pitch[1], pitch[2]], unknown)
     }
 }

@@ -9,8 +9,9 @@
 use core::f64::consts::FRAC_2_PI;
 
 use super::constants::{Constants, EXPONENT_MAX};
+use super::params::CentreOfPressure;
 use super::transmission::{Law, Transmission};
-use crate::drive::Wave;
+use crate::drive::{DriveConstants, Wave};
 use crate::model::Load;
 use crate::num::Real;
 
@@ -27,27 +28,52 @@ pub struct Plate<R> {
     pub force_bend: R,
 }
 
-/// Both plates under their voltages. They have the same force but for the factor that `c` has.
-#[inline(always)]
-pub fn plates<R: Real>(c: &Constants<R>, voltages: [Wave<R>; 2]) -> [Plate<R>; 2] {
-    let [f_1, f_2] = c.force_per_stress;
-    [plate(c, f_1, voltages[0]), plate(c, f_2, voltages[1])]
-}
-
-/// The force of a plate at zero strain (6), with its derivatives, which the current needs.
+/// The two plates at a wave of the drive, in antiphase, (7).
 ///
 /// ```text
-/// g = F_pre ℰ f₃₁(ℰ)     f₃₁ = f_min + A S     A = f_max (1 − a₄ℰ) − f_min     S = σ(a₃ (ℰ − ℰ₀))
+/// V₁ = ½V_pp (1 − wave)     V₂ = ½V_pp (1 + wave)
+/// ```
+///
+/// A bias between the plates moves them apart. They have the same force but for the factor that `c` has.
+#[inline(always)]
+pub fn plates<R: Real>(c: &Constants<R>, wave: &Wave<R>) -> [Plate<R>; 2] {
+    let DriveConstants { bias, amplitude, .. } = c.drive;
+    let (first, second) = (bias + c.half_offset, bias - c.half_offset);
+    let [f_1, f_2] = c.force_per_stress;
+    let [s_1, s_2] = transitions(c, wave.value);
+    [plate(c, f_1, wave.scaled(first, -amplitude), s_1), plate(c, f_2, wave.scaled(second, amplitude), s_2)]
+}
+
+/// Progress of the transition S = σ(a₃ (ℰ − ℰ₀)) in each plate, (6).
+///
+/// Their fields are waves of opposite sign about constant parts: one exponential and one division serve both.
+///
+/// ```text
+/// S₁ = 1/(1 + e^(p₁ + γ wave))     S₂ = 1/(1 + e^(p₂ − γ wave))
+/// ```
+///
+/// `Constants::derive` keeps these exponents within `EXPONENT_MAX`.
+#[inline(always)]
+fn transitions<R: Real>(c: &Constants<R>, wave: R) -> [R; 2] {
+    let [e_1, e_2] = c.transition;
+    let power = (c.transition_swing * wave).exp_of_ordinary();
+    let (first, second) = (e_1.mul_add(power, power.lit(1.0)), power + e_2);
+    let both = power.lit(1.0) / (first * second);
+    [second * both, first * power * both]
+}
+
+/// The force of a plate at zero strain (6), with its derivatives, which the current needs, at the progress `s` of the transition.
+///
+/// ```text
+/// g = F_pre ℰ f₃₁(ℰ)     f₃₁ = f_min + A S     A = f_max (1 − a₄ℰ) − f_min
 /// ```
 ///
 /// As printed, A has 2 f_min.
 #[inline(always)]
-fn plate<R: Real>(c: &Constants<R>, force_per_stress: R, voltage: Wave<R>) -> Plate<R> {
+fn plate<R: Real>(c: &Constants<R>, force_per_stress: R, voltage: Wave<R>, s: R) -> Plate<R> {
     let field = voltage.value * c.field_per_volt;
     let one = field.lit(1.0);
-    // `Constants::derive` keeps the exponent within `EXPONENT_MAX`.
-    let s = one / ((c.a_3 * (c.field_0 - field)).exp_of_ordinary() + 1.0);
-    let a = c.f_max - c.f_decline * field - c.f_taken;
+    let a = c.f_rise - c.f_decline * field;
     let f = c.f_min + a * s;
 
     // Derivatives with respect to the field.
@@ -121,20 +147,25 @@ pub(super) fn tip_drag<R: Real>(c: &Constants<R>, cos_2psi: R) -> R {
     c.c_a + c.c_b * cos_2psi
 }
 
-/// Aerodynamic torque about the hinge per ẋ|ẋ|: C_D (kg), (10), (11).
+/// The hinge angle ψ̃ that the centre of pressure follows in this reading of (11).
+#[inline(always)]
+pub(super) fn tilt<R: Real>(reading: CentreOfPressure, psi: R, x_dot: R) -> R {
+    match reading {
+        CentreOfPressure::Folded => psi.abs(),
+        CentreOfPressure::Directional => psi * psi.lit(1.0).copysign(x_dot),
+        CentreOfPressure::Literal => psi,
+    }
+}
+
+/// Aerodynamic torque about the hinge per ẋ|ẋ|: C_D (kg), (10), (11), with the centre of pressure at the [`tilt`] ψ̃.
 ///
 /// ```text
 /// C_D = ½ρA_w r̂₂²T²R² W_cp2 ((b₁ + b₂ cos 2ψ) cos ψ + b_L sin 2ψ sin ψ)
 /// W_cp2 = A_w/R (p_min + (p_max − p_min) |1 − 2/π ψ̃|)
 /// ```
-///
-/// ψ̃ is |ψ|, ψ sign(ẋ) or, as printed, ψ.
 #[inline(always)]
-pub(super) fn hinge_drag<R: Real>(c: &Constants<R>, psi: R, x_dot: R, sin: R, cos: R) -> R {
+pub(super) fn hinge_drag<R: Real>(c: &Constants<R>, tilt: R, sin: R, cos: R) -> R {
     let (sin_2psi, cos_2psi) = double_angle(sin, cos);
-    let directed = psi * psi.lit(1.0).copysign(x_dot);
-    let [folded, directional, literal] = c.attack;
-    let tilt = folded * psi.abs() + directional * directed + literal * psi;
     let arm = c.p_min + c.p_swing * (tilt * -FRAC_2_PI + 1.0).abs();
     c.hinge_torque * arm * (drag_coefficient(c, cos_2psi) * cos + c.b_l * sin_2psi * sin)
 }
@@ -155,7 +186,13 @@ pub(super) fn double_angle<R: Real>(sin: R, cos: R) -> (R, R) {
 /// Not in the paper: damping of stroke and hinge, zero unless asked for; and a [`Transmission`] whose ratio grows. Then
 /// T ẋ is φ̇ and T ẍ is φ̈.
 #[inline(always)]
-pub(super) fn derivative<R: Real>(c: &Constants<R>, law: Law, plates: &[Plate<R>; 2], y: &[R; 4]) -> [R; 4] {
+pub(super) fn derivative<R: Real>(
+    c: &Constants<R>,
+    law: Law,
+    centre_of_pressure: CentreOfPressure,
+    plates: &[Plate<R>; 2],
+    y: &[R; 4],
+) -> [R; 4] {
     let [x, x_dot, psi, psi_dot] = *y;
     let (sin, cos) = psi.sin_cos();
     let (sin_2psi, cos_2psi) = double_angle(sin, cos);
@@ -169,7 +206,7 @@ pub(super) fn derivative<R: Real>(c: &Constants<R>, law: Law, plates: &[Plate<R>
     let force = f_1 - f_2 - restoring - drag - stroke_damping(c, &transmission, x_dot, rate);
     let x_ddot = transmission.acceleration(c, force, x_dot);
 
-    let psi_ddot = (hinge_drag(c, psi, x_dot, sin, cos) * flow
+    let psi_ddot = (hinge_drag(c, tilt(centre_of_pressure, psi, x_dot), sin, cos) * flow
         + c.coupling * transmission.stroke_acceleration(x_ddot, x_dot) * cos
         + c.centrifugal * rate * rate * sin_2psi
         - c.kappa_wh * psi
@@ -211,6 +248,7 @@ pub(super) fn lift_and_drag<R: Real>(c: &Constants<R>, rate: R, sin_2psi: R, cos
 #[inline(always)]
 pub(super) fn load<R: Real>(
     c: &Constants<R>,
+    centre_of_pressure: CentreOfPressure,
     stroke: R,
     x_dot: R,
     rate: R,
@@ -225,7 +263,7 @@ pub(super) fn load<R: Real>(
         drag,
         lift_moment: c.pressure_radius * lift,
         drag_moment: c.pressure_radius * drag,
-        span_moment: hinge_drag(c, psi, x_dot, sin, cos) * rate.abs() * rate
+        span_moment: hinge_drag(c, tilt(centre_of_pressure, psi, x_dot), sin, cos) * rate.abs() * rate
             - c.c_c * psi_dot.abs() * psi_dot,
     }
 }

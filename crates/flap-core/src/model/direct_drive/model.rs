@@ -259,8 +259,8 @@ impl Motions<4> for DirectDrive {
         DirectDrive { drive: change(&self.drive), ..*self }
     }
 
-    fn drive_constants_mut(c: &mut Constants<f64>) -> &mut DriveConstants<f64> {
-        &mut c.drive
+    fn with_drive_constants(c: &Constants<f64>, drive: DriveConstants<f64>) -> Constants<f64> {
+        Constants { drive, ..*c }
     }
 
     /// About ψ = 0, with the added mass of still air.

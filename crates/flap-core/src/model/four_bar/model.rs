@@ -241,8 +241,8 @@ impl Motions<4> for FourBar {
         FourBar { drive: change(&self.drive) }
     }
 
-    fn drive_constants_mut(c: &mut Constants<f64>) -> &mut DriveConstants<f64> {
-        &mut c.drive
+    fn with_drive_constants(c: &Constants<f64>, drive: DriveConstants<f64>) -> Constants<f64> {
+        Constants { drive, ..*c }
     }
 
     /// Of M(0) and K = diag(k_eff δ′(0)², k_rot): the actuator unloaded there, at the voltage V_ref.
