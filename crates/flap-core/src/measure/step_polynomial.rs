@@ -57,7 +57,7 @@ impl<R: Real> StepPolynomial<R> {
         [min, max]
     }
 
-    /// The mean of the positive part, for at most one change of sign in each quarter.
+    /// The mean of the positive part.
     #[inline(always)]
     pub(super) fn positive_mean(&self) -> R {
         let [first, second] = self.halves();
@@ -105,9 +105,7 @@ impl<R: Real> Extremum<R> {
 struct Parabola<R> {
     /// The place of its middle on the whole, whose x goes from −2 to 2.
     centre: f64,
-    begin: R,
     middle: R,
-    end: R,
     slope: R,
     curvature: R,
 }
@@ -115,14 +113,7 @@ struct Parabola<R> {
 impl<R: Real> Parabola<R> {
     #[inline(always)]
     fn through(centre: f64, begin: R, middle: R, end: R) -> Parabola<R> {
-        Parabola {
-            centre,
-            begin,
-            middle,
-            end,
-            slope: (end - begin) * 0.5,
-            curvature: begin + end - middle * 2.0,
-        }
+        Parabola { centre, middle, slope: (end - begin) * 0.5, curvature: begin + end - middle * 2.0 }
     }
 
     /// The place of the vertex on the whole if it lies within the parabola, otherwise the middle.
@@ -134,28 +125,21 @@ impl<R: Real> Parabola<R> {
         R::select(inside, -self.slope / curvature, zero) + self.centre
     }
 
-    /// The mean of the positive part, for at most one change of sign on each side of the middle.
+    /// The mean of the positive part.
     #[inline(always)]
     fn positive_mean(&self) -> R {
-        let (zero, one) = (self.middle.lit(0.0), self.middle.lit(1.0));
-        (self.positive_area(-one, self.begin, zero, self.middle)
-            + self.positive_area(zero, self.middle, one, self.end))
-            * 0.5
-    }
-
-    /// ∫ of the positive part from `x0` to `x1`, where the parabola has the values `f0` and `f1`.
-    #[inline(always)]
-    fn positive_area(&self, x0: R, f0: R, x1: R, f1: R) -> R {
-        let mut root = x0 + f0 / (f0 - f1) * (x1 - x0);
-        for _ in 0..3 {
-            let value = root.mul_add(root.mul_add(self.curvature * 0.5, self.slope), self.middle);
-            let slope = root.mul_add(self.curvature, self.slope);
-            root = (root - value / slope).max(x0).min(x1);
-        }
-        let zero = root.lit(0.0);
-        let from = R::select(zero.lt(f0), x0, root);
-        let to = R::select(zero.lt(f1), x1, root);
-        self.antiderivative(to) - self.antiderivative(from)
+        let Parabola { middle, slope, curvature, .. } = *self;
+        let (zero, one) = (middle.lit(0.0), middle.lit(1.0));
+        let discriminant = slope * slope - curvature * middle * 2.0;
+        // The roots, without cancellation; one of them twice if there are none. A straight line has the other at infinity.
+        let q = -(slope + discriminant.max(zero).sqrt().copysign(slope));
+        let first = q / curvature;
+        let second = R::select(discriminant.lt(zero), first, middle * 2.0 / q);
+        let (first, second) = (first.max(-one).min(one), second.max(-one).min(one));
+        let between = self.antiderivative(first.max(second)) - self.antiderivative(first.min(second));
+        let all = middle * 2.0 + curvature * (1.0 / 3.0);
+        let opens_upwards = zero.lt(one.copysign(curvature));
+        R::select(opens_upwards, all - between, between) * 0.5
     }
 
     #[inline(always)]
