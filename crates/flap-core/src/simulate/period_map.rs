@@ -4,7 +4,7 @@
 //! period is the square of this one, and has the same fixed point.
 
 use super::linear::Lu;
-use crate::measure::multipliers::{Matrix, spectral_radius};
+use crate::measure::multipliers::{Matrix, is_stable};
 
 /// Chord steps after which an iteration is given up: one to three are usual.
 const MAX_CHORD_STEPS: u32 = 6;
@@ -39,9 +39,8 @@ pub(super) struct Marched<const N: usize> {
 }
 
 impl<const N: usize> Orbit<N> {
-    /// The largest modulus of the map's multipliers, if the orbit is stable, and a march with this part is on its way to it: it
-    /// moved as the orbit's linear map predicts.
-    pub(super) fn attracts(&self, march: &Marched<N>, scale: &[f64; N]) -> Option<f64> {
+    /// True if the orbit is stable, and a march with this part is on its way to it: it moved as the orbit's linear map predicts.
+    pub(super) fn attracts(&self, march: &Marched<N>, scale: &[f64; N]) -> bool {
         let offset = |state: &[f64; N]| core::array::from_fn(|i| (state[i] - self.y[i]) / scale[i]);
         let end: [f64; N] = offset(&march.end);
         let mut predicted: [f64; N] = offset(&march.begin);
@@ -50,8 +49,7 @@ impl<const N: usize> Orbit<N> {
         }
         let deviation = end.iter().zip(predicted).fold(0.0_f64, |most, (end, x)| most.max((end - x).abs()));
         let distance = distance(&march.begin, &self.y, scale);
-        let is_predicted = deviation <= LINEAR * distance + march.error;
-        is_predicted.then(|| spectral_radius(&self.monodromy)).filter(|multiplier| *multiplier < 1.0)
+        deviation <= LINEAR * distance + march.error && is_stable(&self.monodromy)
     }
 }
 

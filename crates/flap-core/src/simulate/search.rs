@@ -39,6 +39,9 @@ const LOOSE_FOR: f64 = 4e-6;
 /// The most drive periods marched at the loose tolerance.
 const LOOSE_CYCLES: u32 = 16;
 
+/// The order of the method: step sizes are proportional to this root of the tolerances.
+const ORDER: f64 = 5.0;
+
 /// The residual of an orbit at the loose tolerance. The period map of this tolerance jumps by less.
 const LOOSE_RESIDUAL: f64 = 1e-2;
 
@@ -115,6 +118,8 @@ struct Search<'a, M: Model<N>, const N: usize> {
     /// Largest modulus of the multipliers of a subharmonic orbit.
     subharmonic: f64,
     ending: Ending,
+    /// The step size with which a run like the last one should begin (s), and the tolerances of that run, as a factor.
+    step_size: Option<(f64, f64)>,
     /// Half drive periods integrated, right-hand sides evaluated, and those that the present run has evaluated.
     half_cycles: u64,
     rhs_evals: u64,
@@ -127,20 +132,20 @@ struct Near<const N: usize> {
     orbit: Orbit<N>,
     /// A part of the march that should lead there.
     march: Marched<N>,
-    /// Largest modulus of the map's multipliers; NaN unless its matrix was computed at the row's tolerance, near enough.
-    floquet_max: f64,
+    /// The monodromy matrix of the row's orbit, if it is known: computed at the row's tolerance, near enough.
+    monodromy: Option<Matrix<N>>,
     /// The residual before the last step, at the tolerance of the last iteration; of a march that has arrived, its last change.
     residual: f64,
-    /// The length of that step, if it was made with the matrix of `floquet_max`.
+    /// The length of that step, if it was made with `monodromy`.
     step: f64,
     /// The march has settled there, and Newton's iteration cannot improve on it: the orbit is measured as it is.
     is_final: bool,
 }
 
 impl<const N: usize> Near<N> {
-    /// An orbit whose multipliers are not known.
-    fn without_multipliers(orbit: Orbit<N>, march: Marched<N>, residual: f64) -> Near<N> {
-        Near { orbit, march, floquet_max: f64::NAN, residual, step: f64::INFINITY, is_final: false }
+    /// An orbit whose own monodromy matrix is not known.
+    fn without_matrix(orbit: Orbit<N>, march: Marched<N>, residual: f64) -> Near<N> {
+        Near { orbit, march, monodromy: None, residual, step: f64::INFINITY, is_final: false }
     }
 }
 
@@ -156,8 +161,8 @@ enum Tolerance {
 /// An orbit that has been measured.
 struct Measured<T, const N: usize> {
     orbit: Orbit<N>,
-    /// Largest modulus of the map's multipliers.
-    floquet_max: f64,
+    /// Its monodromy matrix.
+    monodromy: Option<Matrix<N>>,
     residual: f64,
     /// The end of its measured period.
     end: PeriodEnd<T, N>,
@@ -192,6 +197,7 @@ pub(super) fn settle<'a, M: Model<N>, const N: usize>(
         march: March::new(&start.y, &start.scale, solver, nearby, 0),
         subharmonic: f64::NAN,
         ending: Ending::Stopped,
+        step_size: None,
         half_cycles: 0,
         rhs_evals: 0,
         rhs_evals_of_run: 0,
@@ -227,13 +233,13 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                     Ok(measured) => break (measured, middle),
                     Err(NoOrbit::Jumps(orbit)) => {
                         self.tighten(FINER);
-                        near = Near::without_multipliers(orbit, near.march, near.residual);
+                        near = Near::without_matrix(orbit, near.march, near.residual);
                     }
                     Err(NoOrbit::Failed) => return last.map(|last| self.with_costs(last)),
                 }
             };
-            let Measured { orbit, floquet_max, residual, .. } = measured;
-            near = Near { orbit, floquet_max, residual, ..near };
+            let Measured { orbit, monodromy, residual, .. } = measured;
+            near = Near { orbit, monodromy, residual, ..near };
             let middle = match middle {
                 Some(middle) => Some(middle),
                 None => self.measure_middle(&mut near).await,
@@ -251,7 +257,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             if refinement < REFINEMENTS {
                 self.refine(error);
                 let march = Marched { begin: orbit.y, end: orbit.y, error: ORBITS_DIFFER, maps: 1 };
-                near = Near::without_multipliers(orbit, march, f64::INFINITY);
+                near = Near::without_matrix(orbit, march, f64::INFINITY);
             }
         }
         last.map(|last| self.with_costs(last))
@@ -306,7 +312,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             // The chord iteration continues the march.
             let marched = self.last_marched(LOOSE_RESIDUAL);
             let orbit = Orbit { y: marched.end, monodromy: [[0.0; N]; N] };
-            return Some(Near::without_multipliers(orbit, marched, change));
+            return Some(Near::without_matrix(orbit, marched, change));
         }
         match self.iterate(at).await {
             Ok(near) => Some(near),
@@ -341,16 +347,9 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// The orbit on which the march has settled: its state jitters by more than Newton's iteration may leave.
     fn marched(&self, monodromy: Matrix<N>) -> Near<N> {
         let march = self.last_marched(self.goal);
-        let floquet_max = spectral_radius(&monodromy);
         let orbit = Orbit { y: march.end, monodromy };
-        Near {
-            orbit,
-            march,
-            floquet_max,
-            residual: self.march.change(1),
-            step: f64::INFINITY,
-            is_final: true,
-        }
+        let residual = self.march.change(1);
+        Near { monodromy: Some(monodromy), is_final: true, ..Near::without_matrix(orbit, march, residual) }
     }
 
     /// The last period of the march, with this error.
@@ -409,10 +408,13 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             let next = fixed_point(&orbit, &end.y, &scale);
             if residual <= goal {
                 let orbit = Orbit { y: next.unwrap_or(end.y), ..orbit };
-                if let Some(floquet_max) = orbit.attracts(&march, &scale) {
-                    let floquet_max = if at == Tolerance::Row { floquet_max } else { f64::NAN };
+                if orbit.attracts(&march, &scale) {
+                    let near = Near::without_matrix(orbit, march, residual);
+                    if at == Tolerance::Loose {
+                        return Ok(near);
+                    }
                     let step = distance(&y, &orbit.y, &scale);
-                    return Ok(Near { orbit, march, floquet_max, residual, step, is_final: false });
+                    return Ok(Near { monodromy: Some(orbit.monodromy), step, ..near });
                 }
                 // Near a fold, the multipliers of an orbit show only close to it.
                 if at == Tolerance::Loose || residual <= self.goal {
@@ -434,8 +436,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 let mut chord = Chord::new(Orbit { y, ..orbit }, &scale);
                 let found = self.converge(&mut chord, self.factor(at), LOOSE_RESIDUAL).await;
                 let orbit = chord.orbit;
-                if found && orbit.attracts(&march, &scale).is_some() {
-                    return Ok(Near::without_multipliers(orbit, march, chord.residual));
+                if found && orbit.attracts(&march, &scale) {
+                    return Ok(Near::without_matrix(orbit, march, chord.residual));
                 }
                 y = orbit.y;
             }
@@ -446,7 +448,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// Finds the orbit of the middle tolerance and measures its means; `None` if it is not found. If the orbit near by was not
     /// found at the row's tolerance, the state that the chord steps lead to takes its place.
     async fn measure_middle(&mut self, near: &mut Near<N>) -> Option<Box<SumsOf<M, N>>> {
-        let is_known = !near.floquet_max.is_nan();
+        let is_known = near.monodromy.is_some();
         // With the monodromy matrix of the row's orbit, one step suffices.
         let enough =
             if is_known { f64::INFINITY } else { self.goal.max(MIDDLE_RESIDUAL * MIDDLE * self.rtol()) };
@@ -483,7 +485,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// Goes from an orbit near by onto the orbit of the row's tolerance, in chord steps, and measures its period.
     async fn close(&mut self, near: &Near<N>) -> Result<Measured<SumsOf<M, N>, N>, NoOrbit<N>> {
         let scale = self.start.scale;
-        let Near { mut floquet_max, mut residual, mut step, mut is_final, .. } = *near;
+        let Near { monodromy: mut of_orbit, mut residual, mut step, mut is_final, .. } = *near;
         let mut chord = Chord::new(near.orbit, &scale);
         // The residual at which the monodromy matrix is computed, and the last at which it was.
         let mut near_enough = self.matrix_residual();
@@ -494,23 +496,28 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let last_step = LAST_STEP * self.goal.sqrt();
         loop {
             while !is_final
-                && (floquet_max.is_nan() || residual > self.goal && !(presumes && step <= last_step))
+                && (of_orbit.is_none() || residual > self.goal && !(presumes && step <= last_step))
             {
                 let y = chord.orbit.y;
                 let end = self.map(Kind::States, &y, 1.0).await.ok_or(NoOrbit::Failed)?;
                 let mut moved = chord.step(&end.y);
                 residual = chord.residual;
                 // The matrix is computed where the steps are stuck, too.
-                if floquet_max.is_nan() && residual <= near_enough
+                if of_orbit.is_none() && residual <= near_enough
                     || !moved && residual <= PROGRESS * residual_of_matrix
                 {
                     let nearer = chord.orbit.y;
                     let monodromy = self.monodromy(&nearer).await.ok_or(NoOrbit::Failed)?;
-                    match (Orbit { y: nearer, monodromy }).attracts(&near.march, &scale) {
-                        Some(largest) if residual <= near_enough => floquet_max = largest,
-                        None if residual <= self.goal => return Err(NoOrbit::Failed),
-                        None if residual <= near_enough => near_enough = self.goal,
-                        _ => {}
+                    let attracts = (Orbit { y: nearer, monodromy }).attracts(&near.march, &scale);
+                    if !attracts && residual <= self.goal {
+                        return Err(NoOrbit::Failed);
+                    }
+                    if residual <= near_enough {
+                        if attracts {
+                            of_orbit = Some(monodromy);
+                        } else {
+                            near_enough = self.goal;
+                        }
                     }
                     residual_of_matrix = residual;
                     // The same step again, with this matrix.
@@ -521,7 +528,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 if !moved {
                     // A smaller goal may be below the jumps of the period map.
                     let SolverSettings { settle_tol, .. } = *self.solver;
-                    is_final = !floquet_max.is_nan() && residual <= settle_tol;
+                    is_final = of_orbit.is_some() && residual <= settle_tol;
                     if !is_final {
                         let jumps = residual <= JUMPS * settle_tol && !self.is_finest();
                         return Err(if jumps { NoOrbit::Jumps(chord.orbit) } else { NoOrbit::Failed });
@@ -533,7 +540,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             let confirmed = period_map::residual(&orbit.y, &end.y, &scale);
             if is_final || !presumes || confirmed <= self.goal {
                 let residual = confirmed.min(residual);
-                return Ok(Measured { orbit, floquet_max, residual, end });
+                return Ok(Measured { orbit, monodromy: of_orbit, residual, end });
             }
             if self.measures_maps() {
                 chord.step(&end.y);
@@ -617,6 +624,12 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         if ending != Ending::Stopped {
             return None;
         }
+        // At an edge of the drive, the end of a period does not tell how the next one begins.
+        if !self.model.next_break(&self.start.constants, 0.0).is_finite() {
+            let factor = begin.map(|begin| begin.tolerance_factor);
+            let factor = factor.or(self.step_size.map(|(_, factor)| factor));
+            self.step_size = factor.map(|factor| (end.next_step, factor));
+        }
         self.half_cycles += halves * motions;
         Some(end)
     }
@@ -626,6 +639,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let Start { y, scale, .. } = self.start;
         self.march = March::new(&y, &scale, self.solver, nearby, max_cycles);
         self.size = scale;
+        self.step_size = None;
         self.reset_tolerances();
     }
 
@@ -633,7 +647,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     fn from(&self, y: &[f64; N], factor: f64) -> Restart<N> {
         let tolerance_factor = self.tolerance_factor * factor;
         let Start { span, scale, .. } = self.start;
-        Restart { y: *y, span, scale: self.size, tolerance_factor, change: scale }
+        let first_step = self.step_size.map(|(h, factor)| h * (tolerance_factor / factor).powf(1.0 / ORDER));
+        Restart { y: *y, span, scale: self.size, tolerance_factor, change: scale, first_step }
     }
 
     /// The factor on the tolerances of the row.
@@ -677,13 +692,14 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// The row of an orbit, and its largest relative error.
     fn row(&self, measured: &Measured<SumsOf<M, N>, N>, middle: Option<&SumsOf<M, N>>) -> (Row, f64) {
-        let Measured { orbit: Orbit { y, .. }, floquet_max, residual, end } = measured;
+        let Measured { orbit: Orbit { y, .. }, monodromy, residual, end } = measured;
         let Some(sums) = end.sums.as_deref() else { return (self.unsettled(), 0.0) };
         let Search { model, solver, start, .. } = self;
         let orbit = MeasuredOrbit { y, sums, middle, switches: end.outcome.switches, rtol: self.rtol() };
         let (row, error) = orbit_row::row_of(*model, solver, start, &orbit);
         let at_rest = row.status != Status::Periodic || orbit_row::is_at_rest(*model, start, &orbit);
-        let floquet_max = if at_rest { f64::NAN } else { floquet_max.powi(self.maps_per_period()) };
+        let multiplier = monodromy.as_ref().filter(|_| !at_rest).map(spectral_radius);
+        let floquet_max = multiplier.map_or(f64::NAN, |largest| largest.powi(self.maps_per_period()));
         (Row { residual: *residual, floquet_max, state: y.to_vec(), ..row }, error)
     }
 
