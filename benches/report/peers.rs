@@ -23,8 +23,9 @@ const WORKS: [Work; 3] = [
         name: "settled",
         text: "## Settled motions beside other solvers\n\nThe preset `jafferis2016` around its flight (120 to 200 V, 102 to \
                132 Hz), from rest until a drive period changes the state by at most 1e-6, and one more period that is \
-               measured: the other solvers march, flap runs as `flap sweep` and writes rows with all columns. See \
-               [benches/peers](../benches/peers/README.md#the-works-settled-and-responses).\n",
+               measured: the other solvers march, flap runs as `flap sweep` and writes rows with all columns. Its rate is in \
+               [verified periodic orbits per second and \
+               core](../benches/peers/README.md#verified-periodic-orbits-per-second).\n",
     },
     Work {
         name: "responses",

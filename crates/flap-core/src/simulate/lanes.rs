@@ -30,7 +30,7 @@ use crate::ode::{Interrupt, Start};
 
 /// Searches that wait for one kind of period and are continued together: many times the lanes, some of which are empty while
 /// the last runs end.
-const BATCH: usize = 64;
+const BATCH: usize = 128;
 
 /// Points of other variants that are put aside before the ensemble is emptied for them: many more than there
 /// are lanes, so that lanes are seldom empty.
