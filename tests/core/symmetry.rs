@@ -33,7 +33,7 @@ fn changed(name: &str, changes: &[(&str, f64)]) -> (&'static dyn Simulator, Vec<
 }
 
 /// The size of each measure of a row: the largest magnitude of all measures with its unit. The loads stand behind the columns.
-pub(crate) fn sizes(model: &dyn Simulator, row: &Row) -> Vec<f64> {
+fn sizes(model: &dyn Simulator, row: &Row) -> Vec<f64> {
     let columns = model.columns();
     let loads = columns.len();
     let unit = |i: usize| match i.checked_sub(loads) {
@@ -77,11 +77,10 @@ fn symmetric_orbits_have_the_measures_of_their_whole_periods() {
         let (model, values) = changed(name, changes);
         let [half, whole] = both(model, &[values], 1e-8).map(|mut rows| rows.remove(0));
         assert_eq!((half.status, whole.status), (Status::Periodic, Status::Periodic), "{name} {changes:?}");
-        // The edges of a square wave take most steps of a bimorph, whose search has other lengths from case to case.
+        // The edges of a square wave take most steps of a bimorph, and jumps of the map decide how often it is integrated.
         let is_edgy = name.starts_with("jafferis") && changes.contains(&("drive_shape", SQUARE));
-        let limit = if is_edgy { 1.05 } else { 0.95 };
-        let ratio = half.rhs_evals as f64 / whole.rhs_evals as f64;
-        assert!(ratio < limit, "{name} {changes:?}: {ratio}");
+        let limit = whole.rhs_evals / 20 * if is_edgy { 21 } else { 19 };
+        assert!(half.rhs_evals < limit, "{name} {changes:?}: {} of {}", half.rhs_evals, whole.rhs_evals);
         assert!((half.floquet_max - whole.floquet_max).abs() < 1e-4, "{name} {changes:?}");
         let columns: Vec<String> = model.columns().iter().map(|column| column.name.clone()).collect();
         assert_eq!(half.measures.len(), columns.len() + 6);
@@ -162,6 +161,6 @@ fn random_designs_settle_on_the_orbits_of_whole_periods() {
         let ratio = f64::from(u32::try_from(evals[0]).unwrap()) / f64::from(u32::try_from(evals[1]).unwrap());
         println!("{name}: {periodic} of {} periodic, {ratio:.3} of the right-hand sides", designs.len());
         assert!(periodic > designs.len() / 2, "{name}");
-        assert!(ratio < if name == "jafferis2016" { 0.76 } else { 0.9 }, "{name}: {ratio}");
+        assert!(ratio < if name == "jafferis2016" { 0.7 } else { 0.9 }, "{name}: {ratio}");
     }
 }

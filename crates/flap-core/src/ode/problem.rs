@@ -93,15 +93,12 @@ pub struct Start<C, const N: usize> {
     pub tolerance_factor: f64,
     /// Size of the change of each state whose response is integrated, where responses are.
     pub change: [f64; N],
-    /// Size of the first step (s) if a good one is known, such as [`SpanEnd::next_step`](super::ensemble::SpanEnd::next_step) of
-    /// a similar run. To find one takes a right-hand side more.
-    pub first_step: Option<f64>,
 }
 
 impl<C, const N: usize> Start<C, N> {
     /// A run with the tolerances that are asked for.
     pub const fn new(constants: C, y: [f64; N], span: f64, scale: [f64; N]) -> Start<C, N> {
-        Start { constants, y, span, scale, tolerance_factor: 1.0, change: scale, first_step: None }
+        Start { constants, y, span, scale, tolerance_factor: 1.0, change: scale }
     }
 }
 
@@ -124,6 +121,9 @@ impl Tolerances {
         scale.map(|scale| atol * scale)
     }
 }
+
+/// Right-hand sides evaluated to find the first step size.
+const START_RHS_EVALS: u64 = 2;
 
 /// Steps within a span between two questions to an [`Interrupt`]: a few milliseconds of work.
 pub(crate) const INTERRUPT_STEPS: u32 = 4096;
@@ -159,22 +159,16 @@ pub struct Outcome {
     pub ending: Ending,
     /// Attempted steps, rejected ones included.
     pub attempts: u64,
-    /// Evaluations of the right-hand side: six per attempted step, one per switch, and one to three at the start.
+    /// Evaluations of the right-hand side: six per attempted step, one per switch, and those of the start.
     pub rhs_evals: u64,
     /// Crossings of the switching surface.
     pub switches: u64,
 }
 
 impl Outcome {
-    /// `finds_first_step` if none was given.
-    pub(crate) fn new<O: Ode<N>, const N: usize>(
-        ending: Ending,
-        attempts: u64,
-        switches: u64,
-        finds_first_step: bool,
-    ) -> Outcome {
-        // The first slope, a trial step, and the side on which the run begins.
-        let start = 1 + u64::from(finds_first_step) + u64::from(O::SWITCHES);
+    pub(crate) fn new<O: Ode<N>, const N: usize>(ending: Ending, attempts: u64, switches: u64) -> Outcome {
+        // The side on which a run begins takes one more.
+        let start = START_RHS_EVALS + u64::from(O::SWITCHES);
         Outcome { ending, attempts, rhs_evals: start + 6 * attempts + switches, switches }
     }
 }

@@ -53,16 +53,10 @@ pub(crate) fn solve_until<O: Ode<N>, R: Scalar, const N: usize>(
             let atol = <[R; N]>::fill(span, &tolerances.absolute(start.tolerance_factor, &start.scale));
 
             let mut switching = Switching::begin(ode, &c, &y);
-            let k1 = slope(ode, &c, &input(ode, &c, number(0.0)), switching.side, &y);
-            let mut h = if let Some(h) = start.first_step {
-                number(h).min(span)
-            } else {
-                let [y, k1] = [y, k1].map(Varied::alone);
-                first_step(ode, &c, switching.side, [&y, &k1], span, [&atol; 2], rtol)
-            };
-            let finds_first_step = start.first_step.is_none();
-            switching.value = ode.switch(&c, &y, &k1);
-            let mut step = Step::new(y, k1);
+            let alone = Varied::alone(y);
+            let (k1, mut h) = first_step(ode, &c, switching.side, &alone, span, [&atol; 2], rtol);
+            switching.value = ode.switch(&c, &y, &k1.motion);
+            let mut step = Step::new(y, k1.motion);
             let mut h_begin = h;
             let mut memory = Memory::new(span);
             let mut t = number(0.0);
@@ -104,7 +98,7 @@ pub(crate) fn solve_until<O: Ode<N>, R: Scalar, const N: usize>(
 
                 if accepted && landing && !target.lt(span) {
                     if at_span_end(&step.y[0].get(0)).is_break() || interrupted() {
-                        return Outcome::new::<O, N>(Ending::Stopped, attempts, switches, finds_first_step);
+                        return Outcome::new::<O, N>(Ending::Stopped, attempts, switches);
                     }
                     h = number(span_step(h_begin.lane(0), h.lane(0)));
                     h_begin = h;
@@ -112,14 +106,9 @@ pub(crate) fn solve_until<O: Ode<N>, R: Scalar, const N: usize>(
                     t = number(0.0);
                     steps_in_span = 0;
                 } else if steps_in_span >= tolerances.max_steps || h.lt(span * MIN_STEP) {
-                    return Outcome::new::<O, N>(
-                        Ending::of_failure(error.lane(0)),
-                        attempts,
-                        switches,
-                        finds_first_step,
-                    );
+                    return Outcome::new::<O, N>(Ending::of_failure(error.lane(0)), attempts, switches);
                 } else if steps_in_span % INTERRUPT_STEPS == 0 && interrupted() {
-                    return Outcome::new::<O, N>(Ending::Stopped, attempts, switches, finds_first_step);
+                    return Outcome::new::<O, N>(Ending::Stopped, attempts, switches);
                 }
             }
         },

@@ -1,28 +1,30 @@
-//! The first step size.
+//! The first slope and the first step size.
 
 use super::norm::add_squares;
 use super::variation::{Varied, slopes_outlined};
 use super::{Ode, input};
 use crate::num::Lanes;
 
-/// A starting step size, by the algorithm of Hairer I, section II.4, given the state and its slope `k1` at time 0, and the absolute tolerances of
+/// The slope at time 0 and a starting step size, by the algorithm of Hairer I, section II.4, with the absolute tolerances of
 /// states and of responses.
 ///
-/// It evaluates a right-hand side. The trial step is a ten-thousandth of the span where the state or its slope is too small to judge by, for example at
+/// It evaluates two right-hand sides. The trial step is a ten-thousandth of the span where the state or its slope is too small to judge by, for example at
 /// rest.
 #[inline(always)]
 pub(super) fn first_step<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     ode: &O,
     c: &O::Constants<R>,
     side: R,
-    [y, k1]: [&Varied<[R; N], D>; 2],
+    y: &Varied<[R; N], D>,
     span: R,
     atol: [&[R; N]; 2],
     rtol: R,
-) -> R {
+) -> (Varied<[R; N], D>, R) {
     let zero = span.lit(0.0);
+    let k1 = slopes_outlined(ode, c, &input(ode, c, zero), side, y);
+
     let size_y = weighted_norm(y, y, atol, rtol);
-    let size_k = weighted_norm(k1, y, atol, rtol);
+    let size_k = weighted_norm(&k1, y, atol, rtol);
     let tiny = zero.lit(1e-5);
     let unknown_y = size_y.lt(tiny);
     let unknown_k = size_k.lt(tiny);
@@ -39,7 +41,7 @@ pub(super) fn first_step<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
         }
     }
     let k_euler = slopes_outlined(ode, c, &input(ode, c, h0), side, &y1);
-    let mut change = *k1;
+    let mut change = k1;
     for i in 0..N {
         change.motion[i] = k_euler.motion[i] - k1.motion[i];
         for j in 0..D {
@@ -51,7 +53,7 @@ pub(super) fn first_step<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     // h1 = (0.01 / max(slope, curvature))^(1/5)
     let largest = size_k.max(curvature).max(zero.lit(1e-15));
     let h1 = ((largest.lit(0.01) / largest).ln_of_normal() * 0.2).exp_of_ordinary();
-    (h0 * 100.0).min(h1).min(span)
+    (k1, (h0 * 100.0).min(h1).min(span))
 }
 
 /// Root mean square of `x` over the tolerances at `y`.

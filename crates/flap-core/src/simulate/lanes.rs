@@ -394,7 +394,7 @@ where
     }
 
     fn ended(&mut self, run: Self::Run, end: SpanEnd<'_, V::Totals<f64>, N>) -> Option<(Self::Run, Next<N>)> {
-        let mut period = PeriodEnd::new(*end.y, end.next_step, end.outcome);
+        let mut period = PeriodEnd::new(*end.y, end.outcome);
         end.totals.add_to(&mut period, &run.exchange);
         if self.kind == Kind::Responses {
             period.monodromy = monodromy(end.responses, &run.start.scale);

@@ -45,17 +45,14 @@ pub(super) struct PeriodEnd<T, const N: usize> {
     pub(super) monodromy: Matrix<N>,
     /// Sums over the signals; known of [`Kind::Means`] and [`Kind::Signals`].
     pub(super) sums: Option<Box<T>>,
-    /// The step size with which a similar period should begin (s).
-    pub(super) next_step: f64,
     /// The ending, and the cost since the beginning of the run.
     pub(super) outcome: Outcome,
 }
 
 impl<T, const N: usize> PeriodEnd<T, N> {
     /// A period of which nothing else is known.
-    pub(super) fn new(y: [f64; N], next_step: f64, outcome: Outcome) -> Self {
-        let (largest, monodromy) = ([f64::NAN; N], [[f64::NAN; N]; N]);
-        PeriodEnd { y, largest, monodromy, sums: None, next_step, outcome }
+    pub(super) fn new(y: [f64; N], outcome: Outcome) -> Self {
+        PeriodEnd { y, largest: [f64::NAN; N], monodromy: [[f64::NAN; N]; N], sums: None, outcome }
     }
 }
 

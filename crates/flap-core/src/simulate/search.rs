@@ -39,9 +39,6 @@ const LOOSE_FOR: f64 = 4e-6;
 /// The most drive periods marched at the loose tolerance.
 const LOOSE_CYCLES: u32 = 16;
 
-/// The order of the method: step sizes are proportional to this root of the tolerances.
-const ORDER: f64 = 5.0;
-
 /// The residual of an orbit at the loose tolerance. The period map of this tolerance jumps by less.
 const LOOSE_RESIDUAL: f64 = 1e-2;
 
@@ -118,8 +115,6 @@ struct Search<'a, M: Model<N>, const N: usize> {
     /// Largest modulus of the multipliers of a subharmonic orbit.
     subharmonic: f64,
     ending: Ending,
-    /// The step size with which a run like the last one should begin (s), and the tolerances of that run, as a factor.
-    step_size: Option<(f64, f64)>,
     /// Half drive periods integrated, right-hand sides evaluated, and those that the present run has evaluated.
     half_cycles: u64,
     rhs_evals: u64,
@@ -197,7 +192,6 @@ pub(super) fn settle<'a, M: Model<N>, const N: usize>(
         march: March::new(&start.y, &start.scale, solver, nearby, 0),
         subharmonic: f64::NAN,
         ending: Ending::Stopped,
-        step_size: None,
         half_cycles: 0,
         rhs_evals: 0,
         rhs_evals_of_run: 0,
@@ -587,15 +581,18 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// Integrates a period of an orbit with sums over the signals, or half of it if the rest follows.
     async fn measure(&mut self, kind: Kind, y: &[f64; N], factor: f64) -> Option<PeriodEnd<SumsOf<M, N>, N>> {
-        let Some(Symmetry { second_half: Some(second_half), .. }) = self.symmetry else {
-            return self.period(kind, Some(self.from(y, factor))).await;
+        let second_half = self.symmetry.as_ref().and_then(|symmetry| symmetry.second_half);
+        let mut end = match second_half {
+            Some(_) => self.map(kind, y, factor).await,
+            None => self.period(kind, Some(self.from(y, factor))).await,
         };
-        let mut end = self.map(kind, y, factor).await?;
-        if let Some(sums) = end.sums.as_deref_mut() {
-            *sums = over_both_halves::<M::Signals>(sums, second_half);
+        if let (Some(end), Some(second_half)) = (&mut end, second_half) {
+            if let Some(sums) = end.sums.as_deref_mut() {
+                *sums = over_both_halves::<M::Signals>(sums, second_half);
+            }
+            end.outcome.switches *= 2;
         }
-        end.outcome.switches *= 2;
-        Some(end)
+        end
     }
 
     /// True if what is measured of an orbit is what a map integrates, and not more.
@@ -624,12 +621,6 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         if ending != Ending::Stopped {
             return None;
         }
-        // At an edge of the drive, the end of a period does not tell how the next one begins.
-        if !self.model.next_break(&self.start.constants, 0.0).is_finite() {
-            let factor = begin.map(|begin| begin.tolerance_factor);
-            let factor = factor.or(self.step_size.map(|(_, factor)| factor));
-            self.step_size = factor.map(|factor| (end.next_step, factor));
-        }
         self.half_cycles += halves * motions;
         Some(end)
     }
@@ -639,7 +630,6 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let Start { y, scale, .. } = self.start;
         self.march = March::new(&y, &scale, self.solver, nearby, max_cycles);
         self.size = scale;
-        self.step_size = None;
         self.reset_tolerances();
     }
 
@@ -647,8 +637,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     fn from(&self, y: &[f64; N], factor: f64) -> Restart<N> {
         let tolerance_factor = self.tolerance_factor * factor;
         let Start { span, scale, .. } = self.start;
-        let first_step = self.step_size.map(|(h, factor)| h * (tolerance_factor / factor).powf(1.0 / ORDER));
-        Restart { y: *y, span, scale: self.size, tolerance_factor, change: scale, first_step }
+        Restart { y: *y, span, scale: self.size, tolerance_factor, change: scale }
     }
 
     /// The factor on the tolerances of the row.

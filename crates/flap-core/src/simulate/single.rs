@@ -120,7 +120,7 @@ impl<M: Model<N>, const N: usize> Question<M, N> for PeriodFrom<'_> {
         let PointRun { solver, values, interrupted, .. } = *run;
         let start = begin(model, values, Some(self.0))?;
         let Start { y, span, scale, tolerance_factor, .. } = start;
-        let begin = Some(Restart { y, span, scale, tolerance_factor, change: scale, first_step: None });
+        let begin = Some(Restart { y, span, scale, tolerance_factor, change: scale });
         let ends = run_alone::<_, R, _, _, N>(model, solver, &start, interrupted, |exchange| async move {
             let varied = exchange.period(Request { kind: Kind::Responses, begin }).await;
             let measured = exchange.period(Request { kind: Kind::Signals, begin }).await;

@@ -7,8 +7,8 @@ use crate::ode::norm::add_squares;
 use crate::ode::start::{first_step, span_step};
 use crate::ode::step::{Attempt, Step};
 use crate::ode::switch::{Crossing, Switching, cross, landing_stretch};
-use crate::ode::variation::{RESPONSE_SCALE, Varied, slopes_outlined};
-use crate::ode::{Ending, MIN_STEP, Ode, Start, Tolerances, input};
+use crate::ode::variation::{RESPONSE_SCALE, Varied};
+use crate::ode::{Ending, MIN_STEP, Ode, Start, Tolerances};
 
 /// The numbers of the runs in lanes, with responses to D changes.
 pub(super) struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> {
@@ -24,7 +24,7 @@ pub(super) struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, c
     atol_of_responses: [R; N],
     t: R,
     h: R,
-    /// The step size with which the span begins.
+    /// The step size with which a span begins.
     h_begin: R,
     step: Step<R, N>,
     responses: [Step<R, N>; D],
@@ -34,9 +34,6 @@ pub(super) struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, c
     switches: R,
     error: R,
 }
-
-/// A first step size that is to be found.
-const UNKNOWN: f64 = -1.0;
 
 /// Lanes to which something has happened in a step, one bit each.
 pub(super) struct Events {
@@ -56,7 +53,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         start: &Start<O::Constants<f64>, N>,
     ) -> Self {
         let number = R::splat(token, 0.0);
-        let Start { constants, y, span, scale, tolerance_factor, change, .. } = start;
+        let Start { constants, y, span, scale, tolerance_factor, change } = start;
         let mut responses = [Step::new([number; N], [number; N]); D];
         for (i, response) in responses.iter_mut().enumerate() {
             response.y[0][i] = number.lit(change[i]);
@@ -86,17 +83,16 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
     /// Puts a run into a lane.
     pub(super) fn load(&mut self, lane: usize, start: &Start<O::Constants<f64>, N>, observer: &V) {
         self.constants.set(lane, &start.constants);
-        let Start { y, span, scale, tolerance_factor, change, first_step, .. } = *start;
-        self.restart(lane, &Restart { y, span, scale, tolerance_factor, change, first_step }, observer);
+        let Start { y, span, scale, tolerance_factor, change, .. } = *start;
+        self.restart(lane, &Restart { y, span, scale, tolerance_factor, change }, observer);
     }
 
     /// Gives a lane's run a new beginning.
     pub(super) fn restart(&mut self, lane: usize, next: &Restart<N>, observer: &V) {
         self.totals.set(lane, &observer.nothing());
         self.rtol.set_lane(lane, self.tolerances.rtol * next.tolerance_factor);
-        let Restart { y, span, scale, tolerance_factor, change, first_step } = next;
+        let Restart { y, span, scale, tolerance_factor, change } = next;
         self.span.set_lane(lane, *span);
-        self.h_begin.set_lane(lane, first_step.unwrap_or(UNKNOWN));
         self.step.y[0].set(lane, y);
         self.atol.set(lane, &self.tolerances.absolute(*tolerance_factor, scale));
         if D > 0 {
@@ -109,26 +105,22 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         }
     }
 
-    /// Finds the first slope in the `fresh` lanes, one bit each, and the first step size where it is not given. The others compute
-    /// along and keep theirs.
+    /// Finds first slope and step size in the `fresh` lanes, one bit each. The others compute along and keep theirs.
     #[inline(always)]
     pub(super) fn begin(&mut self, ode: &O, fresh: u64) {
-        let zero = self.t.lit(0.0);
-        let is_given = zero.lt(self.h_begin);
-        let finds = R::bits(!is_given) & fresh != 0;
         let fresh = R::mask(self.token, fresh);
         let switching = Switching::begin(ode, &self.constants, &self.step.y[0]);
-        let y = self.begins();
-        let k1 =
-            slopes_outlined(ode, &self.constants, &input(ode, &self.constants, zero), switching.side, &y);
-        let mut h = self.h_begin.min(self.span);
-        if finds {
-            let atol = [&self.atol, &self.atol_of_responses];
-            let found =
-                first_step(ode, &self.constants, switching.side, [&y, &k1], self.span, atol, self.rtol);
-            h = R::select(is_given, h, found);
-        }
+        let (k1, h) = first_step(
+            ode,
+            &self.constants,
+            switching.side,
+            &self.begins(),
+            self.span,
+            [&self.atol, &self.atol_of_responses],
+            self.rtol,
+        );
         let value = ode.switch(&self.constants, &self.step.y[0], &k1.motion);
+        let zero = self.t.lit(0.0);
         let memory = Memory::new(zero);
         for i in 0..N {
             self.step.k[0][i] = R::select(fresh, k1.motion[i], self.step.k[0][i]);
@@ -153,13 +145,9 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         }
     }
 
-    /// The step size with which a lane's next span should begin.
-    pub(super) fn next_step(&self, lane: usize) -> f64 {
-        span_step(self.h_begin.lane(lane), self.h.lane(lane))
-    }
-
-    /// Makes a lane ready for the next span, with this first step.
-    pub(super) fn begin_span(&mut self, lane: usize, h: f64) {
+    /// Makes a lane ready for the next span.
+    pub(super) fn begin_span(&mut self, lane: usize) {
+        let h = span_step(self.h_begin.lane(lane), self.h.lane(lane));
         let memory = Memory::new(0.0);
         self.t.set_lane(lane, 0.0);
         self.steps_in_span.set_lane(lane, 0.0);

@@ -20,15 +20,13 @@ pub struct Restart<const N: usize> {
     pub tolerance_factor: f64,
     /// As [`Start::change`].
     pub change: [f64; N],
-    /// As [`Start::first_step`].
-    pub first_step: Option<f64>,
 }
 
 impl<const N: usize> Restart<N> {
     /// The beginning of a run with these constants.
     pub(crate) fn start<C>(self, constants: C) -> Start<C, N> {
-        let Restart { y, span, scale, tolerance_factor, change, first_step } = self;
-        Start { constants, y, span, scale, tolerance_factor, change, first_step }
+        let Restart { y, span, scale, tolerance_factor, change } = self;
+        Start { constants, y, span, scale, tolerance_factor, change }
     }
 }
 
@@ -41,8 +39,6 @@ pub struct SpanEnd<'a, T, const N: usize> {
     pub totals: &'a T,
     /// The response of the state to the change of each initial state by [`Start::change`]; empty in [`run`](super::run).
     pub responses: &'a [[f64; N]],
-    /// The step size with which a span from a similar state should begin (s).
-    pub next_step: f64,
     /// The ending and the cost since the run's beginning. The ending is [`Stopped`](crate::ode::Ending::Stopped) at the end of
     /// a span.
     pub outcome: Outcome,

@@ -86,7 +86,6 @@ struct Running<Run> {
     run: Run,
     /// Vector steps made when it began.
     began: u64,
-    finds_first_step: bool,
 }
 
 impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize>
@@ -116,12 +115,12 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize
     /// Puts a run into a lane.
     fn load(&mut self, lane: usize, run: Run, start: &Start<O::Constants<f64>, N>, observer: &V) {
         self.bank.load(lane, start, observer);
-        self.begin(lane, run, start.first_step);
+        self.begin(lane, run);
     }
 
     /// Begins a run in a lane that has been loaded.
-    fn begin(&mut self, lane: usize, run: Run, first_step: Option<f64>) {
-        self.runs[lane] = Some(Running { run, began: self.steps, finds_first_step: first_step.is_none() });
+    fn begin(&mut self, lane: usize, run: Run) {
+        self.runs[lane] = Some(Running { run, began: self.steps });
         self.active |= 1 << lane;
         self.fresh |= 1 << lane;
     }
@@ -170,24 +169,22 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize
             if (events.landed | events.failed) & bit == 0 {
                 continue;
             }
-            let Some(Running { run, began, finds_first_step }) = self.runs[lane].take() else { continue };
+            let Some(Running { run, began }) = self.runs[lane].take() else { continue };
             let failed = events.failed & bit != 0;
             let ending = if failed { self.bank.failure(lane) } else { Ending::Stopped };
             let steps = self.steps - began;
             let (y, totals) = (&self.bank.state(lane), &self.bank.totals(lane));
             let responses = &self.bank.responses(lane);
-            let next_step = self.bank.next_step(lane);
-            let switches = self.bank.switches(lane);
-            let outcome = Outcome::new::<O, N>(ending, steps, switches, finds_first_step);
-            match queue.ended(run, SpanEnd { y, totals, responses, next_step, outcome }) {
+            let outcome = Outcome::new::<O, N>(ending, steps, self.bank.switches(lane));
+            match queue.ended(run, SpanEnd { y, totals, responses, outcome }) {
                 Some((run, Next::Span)) if !failed => {
-                    self.runs[lane] = Some(Running { run, began, finds_first_step });
-                    self.bank.begin_span(lane, next_step);
+                    self.runs[lane] = Some(Running { run, began });
+                    self.bank.begin_span(lane);
                 }
                 Some((run, Next::Restart(next))) => {
                     self.used += steps;
                     self.bank.restart(lane, &next, observer);
-                    self.begin(lane, run, next.first_step);
+                    self.begin(lane, run);
                 }
                 _ => {
                     self.used += steps;
