@@ -581,18 +581,15 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// Integrates a period of an orbit with sums over the signals, or half of it if the rest follows.
     async fn measure(&mut self, kind: Kind, y: &[f64; N], factor: f64) -> Option<PeriodEnd<SumsOf<M, N>, N>> {
-        let second_half = self.symmetry.as_ref().and_then(|symmetry| symmetry.second_half);
-        let mut end = match second_half {
-            Some(_) => self.map(kind, y, factor).await,
-            None => self.period(kind, Some(self.from(y, factor))).await,
+        let Some(Symmetry { second_half: Some(second_half), .. }) = self.symmetry else {
+            return self.period(kind, Some(self.from(y, factor))).await;
         };
-        if let (Some(end), Some(second_half)) = (&mut end, second_half) {
-            if let Some(sums) = end.sums.as_deref_mut() {
-                *sums = over_both_halves::<M::Signals>(sums, second_half);
-            }
-            end.outcome.switches *= 2;
+        let mut end = self.map(kind, y, factor).await?;
+        if let Some(sums) = end.sums.as_deref_mut() {
+            *sums = over_both_halves::<M::Signals>(sums, second_half);
         }
-        end
+        end.outcome.switches *= 2;
+        Some(end)
     }
 
     /// True if what is measured of an orbit is what a map integrates, and not more.
