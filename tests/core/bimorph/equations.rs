@@ -1,7 +1,8 @@
 //! Forces, accelerations, charges and currents against reference vectors, on scalars and lanes.
 
-use flap_core::drive::Wave;
+use flap_core::drive::{Shape, Wave, WaveformParameters};
 use flap_core::model::bimorph::{Bimorph, CentreOfPressure, Constants, Params, Plate, secant_stiffness};
+use flap_core::model::{Model, Motions};
 use flap_core::num::Real;
 use flap_core::ode::Ode;
 
@@ -141,6 +142,37 @@ fn voltages_are_those_of_eq_7() {
         assert!((p_1.voltage.value + p_2.voltage.value - 200.0).abs() < 1e-11);
         assert!((p_1.voltage.rate + 100.0 * 2.0 * std::f64::consts::PI * 120.0 * cos).abs() < 1e-8);
         assert_eq!(p_1.voltage.rate, -p_2.voltage.rate);
+    }
+}
+
+/// Forces under a drive are those under its voltages, also where the drive is replaced.
+#[test]
+fn the_drive_acts_through_its_voltages() {
+    let p = params("T1");
+    let waveform = WaveformParameters {
+        drive_shape: Shape::Harmonics,
+        drive_third_harmonic: 0.3,
+        drive_third_phase: 0.4,
+        ..WaveformParameters::SINE
+    };
+    let designs =
+        [Params { drive_offset: 30.0, waveform, ..p.clone() }, Params { drive_voltage_pp: 90.0, ..p }];
+    for p in designs {
+        let model = Bimorph::default().variant(&p.to_values());
+        let c = Constants::derive(&p).unwrap();
+        let (chirp, chirped) = model.chirped(&c, 40.0, 5.0);
+        let (still, held, _) = model.released(&c, 1.0);
+        for (model, c) in [(&model, &c), (&chirp, &chirped), (&still, &held)] {
+            for i in 0..20 {
+                let driven = model.input(c, f64::from(i) * 4e-4);
+                let alone = plates_under(c, driven.map(|plate| plate.voltage));
+                for (one, other) in driven.into_iter().zip(alone) {
+                    assert_close(one.force, other.force, 1e-13, "force");
+                    assert_close(one.force_per_volt, other.force_per_volt, 1e-12, "force per volt");
+                    assert!((one.force_bend - other.force_bend).abs() < 1e-12 * other.force_per_volt);
+                }
+            }
+        }
     }
 }
 
