@@ -118,8 +118,8 @@ crate::per_lane! {
     }
 }
 
-/// Largest magnitude of an exponent in the equations, in which two of their powers are multiplied and none is checked.
-pub(super) const EXPONENT_MAX: f64 = 300.0;
+/// Largest magnitude of an exponent in the equations: their exponential does not check its range.
+pub(super) const EXPONENT_MAX: f64 = 600.0;
 
 impl Constants<f64> {
     /// Derives the constants of a point.
@@ -143,7 +143,7 @@ impl Constants<f64> {
             return Err(Invalid::together(
                 &["stress_steepness", "stress_field", "modulus_steepness", "modulus_strain"],
                 "a transition is too steep: stress_steepness times field, or modulus_steepness times \
-                 modulus_strain, exceeds 300",
+                 modulus_strain, exceeds 600",
             ));
         }
         let sigma_0 = 1.0 / (1.0 + libm::exp(-z_0));

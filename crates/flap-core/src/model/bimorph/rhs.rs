@@ -52,7 +52,8 @@ pub fn plates<R: Real>(c: &Constants<R>, wave: &Wave<R>) -> [Plate<R>; 2] {
 /// S₁ = 1/(1 + e^(p₁ + γ wave))     S₂ = 1/(1 + e^(p₂ − γ wave))
 /// ```
 ///
-/// `Constants::derive` keeps these exponents within `EXPONENT_MAX`.
+/// `Constants::derive` keeps these exponents within `EXPONENT_MAX`. The product of both is then infinite only where both S are
+/// below 1e-47; they come out as zero.
 #[inline(always)]
 fn transitions<R: Real>(c: &Constants<R>, wave: R) -> [R; 2] {
     let [e_1, e_2] = c.transition;
