@@ -32,7 +32,7 @@ fn changed(name: &str, changes: &[(&str, f64)]) -> (&'static dyn Simulator, Vec<
     (model, values)
 }
 
-/// The size of each measure of a row: the largest magnitude of all measures with its unit. The loads stand behind the columns.
+/// The size of each measure of a row: the largest magnitude among the measures that have its unit. The loads come after the columns.
 fn sizes(model: &dyn Simulator, row: &Row) -> Vec<f64> {
     let columns = model.columns();
     let loads = columns.len();

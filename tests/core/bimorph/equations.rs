@@ -145,7 +145,7 @@ fn voltages_are_those_of_eq_7() {
     }
 }
 
-/// Forces under a drive are those under its voltages, also where the drive is replaced.
+/// The forces of the plates follow from their voltages alone, for every drive of a point.
 #[test]
 fn the_drive_acts_through_its_voltages() {
     let p = params("T1");
@@ -176,6 +176,7 @@ fn the_drive_acts_through_its_voltages() {
                     let force = f_pre * field * (c.f_min + (c.f_rise - c.f_decline * field) * s);
                     assert!((plate.force - force).abs() <= 1e-11 * force.abs(), "{}: {force}", plate.force);
                 }
+                // `plates_under` has the whole field in one exponent.
                 if c.a_3 * c.field_per_volt * p.drive_voltage_pp > 100.0 || c.field_0 > 1e6 {
                     continue;
                 }

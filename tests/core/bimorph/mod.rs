@@ -29,7 +29,7 @@ pub(crate) fn params(set: &str) -> Params {
     named(set, &["T1", "T2", "T3", "RD"], &sets)
 }
 
-/// The plates under any two voltages, each as under a drive that is such a wave about zero.
+/// The plates under any two voltages. Each voltage is taken as the wave of a drive without a constant part.
 pub(crate) fn plates_under<R: Real>(c: &Constants<R>, [first, second]: [Wave<R>; 2]) -> [Plate<R>; 2] {
     let (zero, one) = (c.b.lit(0.0), c.b.lit(1.0));
     let mut c = *c;

@@ -6,8 +6,8 @@ use nalgebra::linalg::Schur;
 /// Iterations for the eigenvalues of a matrix after which they are given up: some ten are usual.
 const LONGEST: usize = 200;
 
-/// Squarings of a stable matrix after which its powers usually have vanished: some three are usual.
-const VANISHED: u32 = 8;
+/// Squarings of a matrix after which its eigenvalues decide whether it is stable: usually some three show that it is.
+const STABILITY_SQUARINGS: u32 = 8;
 
 /// Squarings of a matrix after which its powers tell its spectral radius to rounding.
 const SQUARINGS: u32 = 54;
@@ -31,10 +31,10 @@ pub(crate) fn product<const N: usize>(second: &Matrix<N>, first: &Matrix<N>) -> 
     core::array::from_fn(|i| core::array::from_fn(|j| (0..N).map(|k| second[i][k] * first[k][j]).sum()))
 }
 
-/// True if all eigenvalues are smaller than 1: then the powers of the matrix vanish.
+/// True if every eigenvalue is less than 1 in magnitude. The powers of such a matrix go to zero.
 pub(crate) fn is_stable<const N: usize>(m: &Matrix<N>) -> bool {
     let mut power = *m;
-    for _ in 0..VANISHED {
+    for _ in 0..STABILITY_SQUARINGS {
         let row_sums = power.map(|row| row.iter().map(|x| x.abs()).sum());
         if row_sums.iter().all(|&sum: &f64| sum < 1.0) {
             return true;

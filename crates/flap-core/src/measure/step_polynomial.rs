@@ -131,7 +131,8 @@ impl<R: Real> Parabola<R> {
         let Parabola { middle, slope, curvature, .. } = *self;
         let (zero, one) = (middle.lit(0.0), middle.lit(1.0));
         let discriminant = slope * slope - curvature * middle * 2.0;
-        // The roots, without cancellation; one of them twice if there are none. A straight line has the other at infinity.
+        // The roots, without cancellation. If there are none, both are the place of the vertex. The first root of a straight
+        // line is infinite.
         let q = -(slope + discriminant.max(zero).sqrt().copysign(slope));
         let first = q / curvature;
         let second = R::select(discriminant.lt(zero), first, middle * 2.0 / q);

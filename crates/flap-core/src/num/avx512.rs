@@ -172,7 +172,7 @@ impl Lanes for F64x8 {
 
     #[inline(always)]
     fn set_lane(&mut self, lane: usize, value: f64) {
-        // SAFETY: as in `to_array`. A copy of all lanes would be stored, too.
+        // SAFETY: both are eight numbers of the same size, whatever their bits. Through `to_array`, all lanes would be copied.
         let lanes = unsafe { &mut *(&raw mut self.0).cast::<[f64; 8]>() };
         lanes[lane] = value;
     }

@@ -479,9 +479,9 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// Goes from an orbit near by onto the orbit of the row's tolerance, in chord steps, and measures its period.
     async fn close(&mut self, near: &Near<N>) -> Result<Measured<SumsOf<M, N>, N>, NoOrbit<N>> {
         let scale = self.start.scale;
-        let Near { monodromy: mut of_orbit, mut residual, mut step, mut is_final, .. } = *near;
+        let Near { monodromy: mut matrix, mut residual, mut step, mut is_final, .. } = *near;
         let mut chord = Chord::new(near.orbit, &scale);
-        // The residual at which the monodromy matrix is computed, and the last at which it was.
+        // The residual at which the monodromy matrix of the row's orbit is computed, and the last at which it was.
         let mut near_enough = self.matrix_residual();
         let mut residual_of_matrix = f64::INFINITY;
         // After a short step the period is measured without another one before it, until a measured period shows that the step
@@ -489,29 +489,23 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let mut presumes = true;
         let last_step = LAST_STEP * self.goal.sqrt();
         loop {
-            while !is_final
-                && (of_orbit.is_none() || residual > self.goal && !(presumes && step <= last_step))
+            while !is_final && (matrix.is_none() || residual > self.goal && !(presumes && step <= last_step))
             {
                 let y = chord.orbit.y;
                 let end = self.map(Kind::States, &y, 1.0).await.ok_or(NoOrbit::Failed)?;
                 let mut moved = chord.step(&end.y);
                 residual = chord.residual;
                 // The matrix is computed where the steps are stuck, too.
-                if of_orbit.is_none() && residual <= near_enough
+                if matrix.is_none() && residual <= near_enough
                     || !moved && residual <= PROGRESS * residual_of_matrix
                 {
                     let nearer = chord.orbit.y;
                     let monodromy = self.monodromy(&nearer).await.ok_or(NoOrbit::Failed)?;
-                    let attracts = (Orbit { y: nearer, monodromy }).attracts(&near.march, &scale);
-                    if !attracts && residual <= self.goal {
-                        return Err(NoOrbit::Failed);
-                    }
-                    if residual <= near_enough {
-                        if attracts {
-                            of_orbit = Some(monodromy);
-                        } else {
-                            near_enough = self.goal;
-                        }
+                    match (Orbit { y: nearer, monodromy }).attracts(&near.march, &scale) {
+                        true if residual <= near_enough => matrix = Some(monodromy),
+                        false if residual <= self.goal => return Err(NoOrbit::Failed),
+                        false if residual <= near_enough => near_enough = self.goal,
+                        _ => {}
                     }
                     residual_of_matrix = residual;
                     // The same step again, with this matrix.
@@ -522,7 +516,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 if !moved {
                     // A smaller goal may be below the jumps of the period map.
                     let SolverSettings { settle_tol, .. } = *self.solver;
-                    is_final = of_orbit.is_some() && residual <= settle_tol;
+                    is_final = matrix.is_some() && residual <= settle_tol;
                     if !is_final {
                         let jumps = residual <= JUMPS * settle_tol && !self.is_finest();
                         return Err(if jumps { NoOrbit::Jumps(chord.orbit) } else { NoOrbit::Failed });
@@ -534,7 +528,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             let confirmed = period_map::residual(&orbit.y, &end.y, &scale);
             if is_final || !presumes || confirmed <= self.goal {
                 let residual = confirmed.min(residual);
-                return Ok(Measured { orbit, monodromy: of_orbit, residual, end });
+                return Ok(Measured { orbit, monodromy: matrix, residual, end });
             }
             if self.measures_maps() {
                 chord.step(&end.y);

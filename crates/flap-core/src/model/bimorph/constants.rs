@@ -176,6 +176,7 @@ impl Constants<f64> {
             f_decline: p.stress_decline * p.piezo_stress_max,
             field_0: p.stress_field,
             a_3: p.stress_steepness,
+            // They follow from the drive, in `with_drive` below.
             transition: [f64::NAN; 2],
             transition_swing: f64::NAN,
             force_per_stress: [actuator.force_per_stress, actuator.force_per_stress * p.plate_ratio],
