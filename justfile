@@ -39,7 +39,7 @@ docs:
 
 # The example sweep of the README.
 example:
-    cargo run --release -- sweep --grid examples/ozaki_large.toml --force
+    cargo run --release -- sweep --grid examples/ozaki_large.toml --restart
 
 # Computes the statements of the papers with flap: writes docs/reproduction.md.
 reproduce:

@@ -5,7 +5,7 @@
 #
 # When all tasks are done:
 #
-#   flap merge grid.csv grid.*of8.csv
+#   flap results merge grid.csv grid.*of8.csv
 #
 # If a task was killed, preempted or ran out of time, submit it again, alone if need be. It continues its sweep:
 #
@@ -21,4 +21,4 @@
 # The number of tasks of the whole array: Slurm's own count is that of the tasks submitted together.
 shards=8
 
-exec flap sweep "$1" --shard "$SLURM_ARRAY_TASK_ID/$shards" --threads "$SLURM_CPUS_PER_TASK" --resume
+exec flap sweep "$1" --shard "$SLURM_ARRAY_TASK_ID/$shards" --threads "$SLURM_CPUS_PER_TASK"

@@ -25,8 +25,8 @@ preset = "$preset"
 [axes]
 drive_voltage_pp = { from = 100, to = 150, n = 6 }
 GRID
-    "${flap[@]}" -- sweep --grid "$out/$preset.toml" --out "$out/here.csv" --force
-    "${flap[@]}" --target "$target" -- sweep --grid "$out/$preset.toml" --out "$out/there.csv" --force
+    "${flap[@]}" -- sweep --grid "$out/$preset.toml" --out "$out/here.csv" --restart
+    "${flap[@]}" --target "$target" -- sweep --grid "$out/$preset.toml" --out "$out/there.csv" --restart
     cmp "$out/here.csv" "$out/there.csv"
     echo "$preset: the same bytes on $(grep ^instructions "$out/here.csv.meta.toml") and $(grep ^instructions "$out/there.csv.meta.toml")"
 done

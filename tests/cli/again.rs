@@ -4,7 +4,7 @@ use std::fs;
 
 use crate::support::{Folder, frequencies, quick};
 
-const COMPLETE: &str = "is complete: nothing is left to run; --force runs its points again\n";
+const COMPLETE: &str = "is complete: nothing is left to run; `flap sweep --restart` runs its points again\n";
 
 #[test]
 fn a_second_sweep_of_the_same_grid_runs_nothing() {
@@ -44,7 +44,7 @@ fn rows_of_another_grid_or_shard_are_not_replaced_unasked() {
         "error: grid.csv exists already, with other rows: the grid file differs; the solver settings differ\n\
          help: line 7 of the grid was `rtol = 1e-3`, it is `rtol = 1e-4`\n\
          help: an edited grid is another sweep: give its rows another file with --out FILE\n\
-         help: --out FILE writes to another file, --force replaces it\n"
+         help: --out FILE writes to another file, --restart replaces it\n"
     );
     fs::write(folder.path("grid.toml"), quick(3)).unwrap();
     folder
@@ -66,7 +66,7 @@ fn damaged_rows_do_not_count_as_complete() {
     folder
         .ends(3, "sweep grid.toml")
         .says("grid.csv is damaged")
-        .says("`flap sweep --force` computes the rows again");
+        .says("`flap sweep --restart` computes the rows again");
     assert_eq!(folder.read("grid.csv"), rows);
 }
 
@@ -81,7 +81,8 @@ fn a_grid_is_named_once() {
         .says("the argument '[GRID]' cannot be used with '--grid <GRID>'")
         .says("Usage: flap sweep");
     folder.ends(2, "sweep").says("<GRID>");
-    folder.ends(2, "sweep grid.toml --from-sidecar a.meta.toml --out b.csv").says("cannot be used with");
+    folder.ends(2, "sweep a.meta.toml").says("help: name their file: --out FILE");
+    folder.ends(2, "sweep a.meta.toml --out b.csv --shard 1/2").says("--shard needs a grid file");
 }
 
 #[test]
@@ -112,8 +113,11 @@ fn a_grid_may_come_from_stdin() {
     folder.ends(0, "sweep grid.toml");
     assert_eq!(folder.read("rows.csv"), folder.read("grid.csv"));
     assert!(reading(&["sweep", "-", "--out", "rows.csv"]).stderr.contains("nothing is left to run"));
-    assert_eq!(folder.flap("resume rows.csv").stderr, "rows.csv is complete: nothing is left to run\n");
-    folder.ends(0, "convert rows.csv rows.parquet");
+    assert_eq!(
+        folder.flap("results resume rows.csv").stderr,
+        "rows.csv is complete: nothing is left to run; `flap sweep --restart` runs its points again\n"
+    );
+    folder.ends(0, "results convert rows.csv rows.parquet");
     let with_path = grid.clone() + "[output]\npath = \"here.csv\"\n";
     assert_eq!(folder.flap_reading(&with_path, &["sweep", "-", "--shard", "1/2"]).code, 0);
     assert!(folder.path("here.1of2.csv").exists());

@@ -7,10 +7,10 @@ use crate::support::{Folder, quick};
 /// Commands that write `out.csv` or `out.parquet`.
 const COMMANDS: [&str; 7] = [
     "sweep grid.toml --out OUT",
-    "rerun rows.csv --status unsettled --max-cycles 2 --out OUT",
+    "results rerun rows.csv --status unsettled --max-cycles 2 --out OUT",
     "respond grid.toml --out OUT",
-    "convert rows.csv OUT",
-    "merge OUT grid.1of2.csv grid.2of2.csv",
+    "results convert rows.csv OUT",
+    "results merge OUT grid.1of2.csv grid.2of2.csv",
     "run ozaki2018-large --trajectory OUT",
     "sweep grid.toml --shard 1/2 --out OUT",
 ];
@@ -57,7 +57,7 @@ fn they_stay_as_they_are() {
                         );
                         assert!(ended.stderr.ends_with(&message), "{command}: {}", ended.stderr);
                         assert!(!folder.path(&out).exists(), "{command}");
-                        refused.push((command.split(' ').next().unwrap().to_owned(), beside));
+                        refused.push((name(&command), beside));
                     }
                     for name in folder.names() {
                         if !before.contains(&name) {
@@ -69,7 +69,7 @@ fn they_stay_as_they_are() {
         }
     }
     // Only files that a command would write are in its way.
-    let runs = ["sweep", "rerun", "respond"];
+    let runs = ["sweep", "results rerun", "respond"];
     for (command, beside) in &refused {
         let is_written = *beside == ".meta.toml"
             || (runs.contains(&command.as_str()) && [".journal", ".part"].contains(beside));
@@ -77,6 +77,12 @@ fn they_stay_as_they_are() {
     }
     // Four runs and two other commands in two formats, each with and without --force, and `run` in one.
     assert_eq!(refused.len(), 2 * (4 * (2 + 3) + 2 * 2 + 1));
+}
+
+/// The words of a command up to its first file.
+fn name(command: &str) -> String {
+    let words = command.split(' ').take_while(|word| !word.contains(['.', '-', '/']));
+    words.collect::<Vec<_>>().join(" ")
 }
 
 /// Complete results stay until they are replaced, with files of the user beside them.
@@ -89,7 +95,7 @@ fn results_are_replaced_beside_them() {
     }
     fs::write(folder.path("rows.old.csv"), PRECIOUS).unwrap();
     let before = folder.names();
-    folder.ends(0, "sweep grid.toml --out rows.csv --force");
+    folder.ends(0, "sweep grid.toml --out rows.csv --restart");
     assert_eq!(folder.read("rows.csv").lines().count(), 3);
     assert_eq!(folder.names(), before);
     for beside in
@@ -107,7 +113,7 @@ fn a_sidecar_without_its_rows_is_kept() {
     fs::rename(folder.path("rows.csv"), folder.path("moved.csv")).unwrap();
     let commands = [
         "sweep grid.toml --out rows.csv",
-        "convert grid.1of2.csv rows.csv",
+        "results convert grid.1of2.csv rows.csv",
         "run ozaki2018-large --trajectory rows.csv",
     ];
     for command in commands {
@@ -116,8 +122,8 @@ fn a_sidecar_without_its_rows_is_kept() {
         assert_eq!(folder.read("rows.csv.meta.toml"), sidecar);
         assert!(!folder.path("rows.csv").exists(), "{command}");
     }
-    folder.ends(0, "sweep grid.toml --out rows.csv --force");
-    folder.ends(0, "verify rows.csv");
+    folder.ends(0, "sweep grid.toml --out rows.csv --restart");
+    folder.ends(0, "results verify rows.csv");
 }
 
 /// A journal that is a device file of the user: an input that lies beside the output.
@@ -186,7 +192,7 @@ fn outputs_are_written_through_links() {
             let beside = fs::read_dir(folder.path("elsewhere")).unwrap().count();
             assert_eq!(beside, 1, "{command} leaves files beside the target");
             if !command.starts_with("run ") {
-                folder.ends(0, "verify link.csv");
+                folder.ends(0, "results verify link.csv");
             }
         }
         fs::remove_file(target).unwrap();
@@ -203,7 +209,7 @@ fn a_file_that_grows_too_large_is_an_error() {
     folder.ends(0, "sweep grid.toml --out rows.csv");
     let before = folder.names();
     let mut commands =
-        vec!["convert rows.csv out.csv", "run ozaki2018-large --samples 20000 --trajectory out.csv"];
+        vec!["results convert rows.csv out.csv", "run ozaki2018-large --samples 20000 --trajectory out.csv"];
     if cfg!(feature = "plots") {
         commands.push("plot rows.csv --y cycles --html out.html");
     }

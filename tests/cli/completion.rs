@@ -28,13 +28,13 @@ fn candidates(folder: &Folder, shell: &str, line: &str) -> Vec<String> {
 fn every_shell_completes_commands_and_options() {
     let folder = Folder::new();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
-        let script = folder.ends(0, &format!("completions {shell}")).stdout;
+        let script = folder.ends(0, &format!("generate completions {shell}")).stdout;
         assert!(script.contains("COMPLETE") && script.contains(FLAP), "{shell}: {script}");
         for (line, wanted) in [
-            ("flap ", &["sweep", "explain", "resonance"][..]),
+            ("flap ", &["sweep", "models", "test"][..]),
             ("flap run x --max", &["--max-cycles"]),
             ("flap sweep --q", &["--quiet"]),
-            ("flap completions ", &["bash", "zsh", "fish", "powershell", "elvish"]),
+            ("flap generate completions ", &["bash", "zsh", "fish", "powershell", "elvish"]),
         ] {
             let found = candidates(&folder, shell, line);
             for word in wanted {
@@ -66,12 +66,12 @@ fn columns_come_from_the_header() {
 fn names_are_completed() {
     let folder = Folder::with_grid(&frequencies(3));
     folder.ends(0, "sweep grid.toml --out rows.csv");
-    folder.ends(0, "convert rows.csv rows.parquet");
+    folder.ends(0, "results convert rows.csv rows.parquet");
     for (line, wanted) in [
         ("flap run jaff", "jafferis2016 jafferis2016-improved"),
         ("flap run gri", "grid.toml"),
-        ("flap params four", "four-bar"),
-        ("flap schema --preset ozaki2018-l", "ozaki2018-large ozaki2018-large-kw-swapped"),
+        ("flap models four", "four-bar"),
+        ("flap generate schema --preset ozaki2018-l", "ozaki2018-large ozaki2018-large-kw-swapped"),
         ("flap run ozaki2018-large --set hinge_s", "hinge_stiffness="),
         ("flap run ozaki2018-large --set transmission_", ""),
         (
@@ -87,10 +87,10 @@ fn names_are_completed() {
         ("flap top rows.parquet --by drive_", "drive_frequency"),
         ("flap top rows.csv --by lift_mean_mn --columns period,stab", "period,stable"),
         ("flap top rows.csv --by lift_mean_mn --where stat", "status="),
-        ("flap rerun rows.csv --status unsettled,step", "unsettled,step_limit"),
-        ("flap explain floq", "floquet_max"),
-        ("flap explain unsett", "unsettled"),
-        ("flap explain series_", "series_stiffness"),
+        ("flap results rerun rows.csv --status unsettled,step", "unsettled,step_limit"),
+        ("flap models floq", "floquet_max"),
+        ("flap models unsett", "unsettled"),
+        ("flap models series_", "series_stiffness"),
     ] {
         assert_eq!(candidates(&folder, "bash", line).join(" "), wanted, "{line}");
     }
@@ -102,7 +102,7 @@ fn names_are_completed() {
 fn bash_completes_with_the_script() {
     let folder = Folder::with_grid(&frequencies(3));
     folder.ends(0, "sweep grid.toml --out rows.csv");
-    std::fs::write(folder.path("flap.bash"), folder.ends(0, "completions bash").stdout).unwrap();
+    std::fs::write(folder.path("flap.bash"), folder.ends(0, "generate completions bash").stdout).unwrap();
     let script = "source flap.bash
         COMP_WORDS=(flap top rows.csv --by lift_me) COMP_CWORD=4 COMP_TYPE=9
         _clap_complete_flap flap lift_me --by

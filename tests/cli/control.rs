@@ -70,7 +70,7 @@ fn per_cents_of_almost_nothing_are_exact() {
             "{HEAD}[params]\ndrive_offset = {offset}\n{gradient}[output]\ncolumns = [\"torque_pitch_unm\"]\n"
         );
         fs::write(folder.path("tiny.toml"), grid).unwrap();
-        folder.ends(0, "sweep tiny.toml --force");
+        folder.ends(0, "sweep tiny.toml --restart");
         let rows = folder.read("tiny.csv");
         let place =
             rows.lines().next().unwrap().split(',').position(|name| name.starts_with("d_torque")).unwrap();

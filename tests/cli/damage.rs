@@ -128,7 +128,7 @@ fn is_damaged(path: &Path) -> bool {
     }
 }
 
-/// True if `flap resume` calls it complete.
+/// True if `flap results resume` calls it complete.
 fn is_complete(path: &Path) -> bool {
     let sidecar = Sidecar::read(&sidecar_of(path)).unwrap();
     let plan = sidecar.plan(flap_core::simulate::all()).unwrap();
@@ -214,12 +214,12 @@ fn commands_refuse_what_is_damaged() {
         fs::write(folder.path(&name), edited).unwrap();
         let told = "rows 1 to 256 have changed since they were written";
 
-        let ended = folder.ends(3, &format!("verify {name} grid.1of2.csv"));
-        assert_eq!(ended.stdout, format!("{name}: damaged: {told}\ngrid.1of2.csv: sound, 350 rows\n"));
+        let ended = folder.ends(3, &format!("results verify {name} grid.1of2.csv"));
+        assert_eq!(ended.stdout, format!("{name}: damaged: {told}\ngrid.1of2.csv: sound: 350 rows\n"));
         for command in [
-            "resume NAME",
-            "rerun NAME --status periodic --out out.csv",
-            "convert NAME out.csv",
+            "results resume NAME",
+            "results rerun NAME --status periodic --out out.csv",
+            "results convert NAME out.csv",
             "plot NAME --y cycles",
         ] {
             let command = command.replace("NAME", &name);
@@ -241,17 +241,20 @@ fn commands_refuse_what_is_damaged() {
             }
         }
         fs::write(folder.path(&name), bytes).unwrap();
-        assert_eq!(folder.flap(&format!("verify {name}")).stdout, format!("{name}: sound, {ROWS} rows\n"));
+        assert_eq!(
+            folder.flap(&format!("results verify {name}")).stdout,
+            format!("{name}: sound: {ROWS} rows\n")
+        );
     }
 
     let shard = folder.read("grid.2of2.csv");
     fs::write(folder.path("grid.2of2.csv"), shard.replacen(",unsettled,", ",periodic,", 1)).unwrap();
-    let merge = "merge merged.csv grid.1of2.csv grid.2of2.csv";
+    let merge = "results merge merged.csv grid.1of2.csv grid.2of2.csv";
     let ended = folder.ends(3, merge);
     assert!(ended.stderr.starts_with("error: grid.2of2.csv is damaged: rows 1 to 256"), "{}", ended.stderr);
     folder.ends(0, &format!("{merge} --ignore-damage"));
-    let ended = folder.ends(1, "verify merged.csv");
-    assert_eq!(ended.stdout, "merged.csv: could not be verified: its sidecar has no checksums\n");
+    let ended = folder.ends(1, "results verify merged.csv");
+    assert_eq!(ended.stdout, "merged.csv: unverified: its sidecar has no checksums\n");
 }
 
 /// Damaged rows stay damaged in another format.
@@ -264,9 +267,9 @@ fn conversion_does_not_heal() {
     fs::write(folder.path("rows.csv"), missing).unwrap();
     let told =
         "rows 257 to 700 have changed since they were written; it holds 699 rows, but 700 were written";
-    assert_eq!(folder.flap("verify rows.csv").stdout, format!("rows.csv: damaged: {told}\n"));
-    assert_eq!(folder.flap("convert rows.csv out.parquet --ignore-damage").code, 0);
-    let ended = folder.flap("verify out.parquet");
+    assert_eq!(folder.flap("results verify rows.csv").stdout, format!("rows.csv: damaged: {told}\n"));
+    assert_eq!(folder.flap("results convert rows.csv out.parquet --ignore-damage").code, 0);
+    let ended = folder.flap("results verify out.parquet");
     assert_eq!((ended.code, ended.stdout), (3, format!("out.parquet: damaged: {told}\n")));
 }
 
@@ -278,7 +281,7 @@ fn what_is_no_row_is_left_out() {
     let broken = rows.replacen("\n5,", "\n5,7,", 1).replacen("\n6,", "\n9999,", 1);
     fs::write(folder.path("rows.csv"), broken).unwrap();
     folder
-        .ends(0, "convert rows.csv out.csv --ignore-damage")
+        .ends(0, "results convert rows.csv out.csv --ignore-damage")
         .says("warning: rows.csv: 2 lines are not rows and are left out\n");
     assert_eq!(folder.read("out.csv").lines().count(), 1 + 698);
 }
@@ -290,17 +293,17 @@ fn rows_without_checksums_must_be_those_of_the_grid() {
     let mut sidecar = Sidecar::read(&folder.path("rows.csv.meta.toml")).unwrap();
     sidecar.checksums = None;
     sidecar.write(&folder.path("rows.csv.meta.toml")).unwrap();
-    let ended = folder.ends(1, "verify rows.csv");
-    assert_eq!(ended.stdout, "rows.csv: could not be verified: its sidecar has no checksums\n");
-    let ended = folder.ends(0, "convert rows.csv out.csv");
+    let ended = folder.ends(1, "results verify rows.csv");
+    assert_eq!(ended.stdout, "rows.csv: unverified: its sidecar has no checksums\n");
+    let ended = folder.ends(0, "results convert rows.csv out.csv");
     assert!(ended.stderr.starts_with("warning: rows.csv could not be verified: "), "{}", ended.stderr);
-    assert_eq!(folder.flap("verify out.csv").code, 0, "the copy has checksums");
+    assert_eq!(folder.flap("results verify out.csv").code, 0, "the copy has checksums");
 
     // Flap wrote no builds before it wrote checksums.
     folder.rewrite_sidecar("rows.csv", |sidecar| sidecar.build = String::new());
     let old = folder.read("rows.csv.meta.toml").split_once('\n').unwrap().1.to_owned();
     fs::write(folder.path("rows.csv.meta.toml"), old).unwrap();
-    assert_eq!(folder.flap("convert rows.csv old.csv").code, 0);
+    assert_eq!(folder.flap("results convert rows.csv old.csv").code, 0);
 
     let rows = folder.read("rows.csv");
     let lines: Vec<&str> = rows.lines().collect();
@@ -325,7 +328,7 @@ fn rows_without_checksums_must_be_those_of_the_grid() {
         ),
     ] {
         fs::write(folder.path("rows.csv"), edited).unwrap();
-        folder.ends(3, "convert rows.csv other.csv").says(message);
+        folder.ends(3, "results convert rows.csv other.csv").says(message);
         assert!(!folder.path("other.csv").exists());
     }
 }
@@ -334,13 +337,13 @@ fn rows_without_checksums_must_be_those_of_the_grid() {
 fn results_without_a_sidecar_could_not_be_verified() {
     let folder = finished();
     fs::remove_file(folder.path("rows.csv.meta.toml")).unwrap();
-    let ended = folder.ends(1, "verify rows.csv");
-    assert_eq!(ended.stdout, "rows.csv: could not be verified: there is no sidecar beside it\n");
+    let ended = folder.ends(1, "results verify rows.csv");
+    assert_eq!(ended.stdout, "rows.csv: unverified: there is no sidecar beside it\n");
     folder
         .ends(0, "plot rows.csv --y cycles")
         .says("warning: rows.csv could not be verified: there is no sidecar");
-    assert_eq!(folder.flap("verify missing.csv").code, 3);
-    assert_eq!(folder.flap("verify").code, 2);
+    assert_eq!(folder.flap("results verify missing.csv").code, 3);
+    assert_eq!(folder.flap("results verify").code, 2);
 }
 
 #[test]
@@ -349,11 +352,11 @@ fn an_edited_sidecar_is_noticed() {
     let sidecar = folder.read("rows.csv.meta.toml").replace("max_cycles = 1\n", "max_cycles = 2\n");
     fs::write(folder.path("rows.csv.meta.toml"), sidecar).unwrap();
     for command in [
-        "resume rows.csv",
-        "convert rows.csv out.csv",
+        "results resume rows.csv",
+        "results convert rows.csv out.csv",
         "plot rows.csv",
-        "verify rows.csv",
-        "sweep --from-sidecar rows.csv.meta.toml --out out.csv",
+        "results verify rows.csv",
+        "sweep rows.csv.meta.toml --out out.csv",
     ] {
         let ended = folder.ends(3, command);
         let told = ended.stderr + &ended.stdout;
@@ -366,7 +369,7 @@ fn an_edited_sidecar_is_noticed() {
     edited.grid.text = edited.grid.text.replace("rtol = 1e-3", "rtol = 1e-4");
     edited.write(&folder.path("rows.csv.meta.toml")).unwrap();
     folder
-        .ends(2, "sweep --from-sidecar rows.csv.meta.toml --out out.csv")
+        .ends(2, "sweep rows.csv.meta.toml --out out.csv")
         .says("the grid in it was edited after the sweep");
     assert!(!folder.path("out.csv").exists());
 }
@@ -399,15 +402,16 @@ fn unfinished_results_say_so_and_are_read_as_far_as_they_are_safe() {
     for ending in ENDINGS {
         let folder = unfinished(ending);
         let name = format!("rows.{ending}");
-        let ended = folder.ends(0, &format!("verify {name}"));
-        let told = ended.stdout.strip_prefix(&format!("{name}: unfinished, sound so far (")).unwrap();
+        let ended = folder.ends(0, &format!("results verify {name}"));
+        let told = ended.stdout.strip_prefix(&format!("{name}: unfinished: sound so far (")).unwrap();
         let done: usize = told.strip_suffix(" points done)\n").unwrap().parse().unwrap();
         assert!(done > 0);
-        let warning =
-            format!("warning: {name} is unfinished: {done} points done so far, `flap resume` continues it\n");
+        let warning = format!(
+            "warning: {name} is unfinished: {done} points done so far, `flap results resume` continues it\n"
+        );
         let ended = folder.ends(0, &format!("plot {name} --y cycles --html page.html"));
         assert!(ended.stderr.starts_with(&warning), "{}", ended.stderr);
-        let ended = folder.flap(&format!("convert {name} out.csv"));
+        let ended = folder.flap(&format!("results convert {name} out.csv"));
         assert_eq!((ended.code, ended.stderr), (0, format!("{warning}{done} rows in out.csv\n")));
         let rows = folder.read("out.csv");
         assert_eq!(rows.lines().count(), 1 + done);
@@ -422,7 +426,9 @@ fn unfinished_results_say_so_and_are_read_as_far_as_they_are_safe() {
         let mut bytes = fs::read(&path).unwrap();
         bytes[700] ^= 1;
         fs::write(&path, bytes).unwrap();
-        for command in ["verify NAME", "convert NAME other.csv", "plot NAME --y cycles --force"] {
+        for command in
+            ["results verify NAME", "results convert NAME other.csv", "plot NAME --y cycles --force"]
+        {
             let ended = folder.ends(3, &command.replace("NAME", &name));
             assert!((ended.stdout + &ended.stderr).contains("it has changed since the sweep wrote it"));
         }
@@ -471,21 +477,23 @@ fn lost_rows_of_unfinished_results_are_damage() {
             assert!(rows <= last.rows && rows + lost >= last.rows, "{ending}: {rows} rows of {bytes} bytes");
         }
         fs::write(&path, &sound[..recorded - 1]).unwrap();
-        let ended = folder.ends(3, &format!("verify {name}"));
+        let ended = folder.ends(3, &format!("results verify {name}"));
         assert!(ended.stdout.starts_with(&format!("{name}: damaged: it lacks ")), "{}", ended.stdout);
-        for command in
-            ["convert NAME out.csv", "plot NAME --y cycles", "rerun NAME --status periodic --out out.csv"]
-        {
+        for command in [
+            "results convert NAME out.csv",
+            "plot NAME --y cycles",
+            "results rerun NAME --status periodic --out out.csv",
+        ] {
             let ended = folder.ends(3, &command.replace("NAME", &name));
             ended.says(&format!("error: {name} is damaged: it lacks "));
-            ended.says(&format!("help: `flap resume {name}` computes the rows again\n"));
+            ended.says(&format!("help: `flap results resume {name}` computes the rows again\n"));
         }
-        folder.ends(0, &format!("convert {name} out.csv --ignore-damage"));
+        folder.ends(0, &format!("results convert {name} out.csv --ignore-damage"));
 
         fs::write(&path, &sound).unwrap();
         let done = last.rows;
-        let ended = folder.ends(0, &format!("verify {name}"));
-        ended.prints(&format!("{name}: unfinished, sound so far ({done} points done)\n"));
+        let ended = folder.ends(0, &format!("results verify {name}"));
+        ended.prints(&format!("{name}: unfinished: sound so far ({done} points done)\n"));
     }
 }
 
@@ -499,12 +507,12 @@ fn the_sidecar_of_another_sweep_is_noticed() {
         let own = fs::read(folder.path(&sidecar)).unwrap();
         fs::copy(other.path(&sidecar), folder.path(&sidecar)).unwrap();
         let told = format!("{name} is damaged: its sidecar is of another sweep: the grid file differs\n");
-        let ended = folder.ends(3, &format!("verify {name}"));
+        let ended = folder.ends(3, &format!("results verify {name}"));
         assert_eq!(ended.stdout, told.replace(" is damaged", ": damaged"));
         for command in [
-            "resume NAME",
-            "rerun NAME --status periodic --out out.csv",
-            "convert NAME out.csv",
+            "results resume NAME",
+            "results rerun NAME --status periodic --out out.csv",
+            "results convert NAME out.csv",
             "plot NAME --y cycles",
             "top NAME --by cycles",
             "describe NAME",
@@ -514,13 +522,13 @@ fn the_sidecar_of_another_sweep_is_noticed() {
         }
         // The rows are sound, but nothing tells their grid.
         folder.ends(0, &format!("top {name} --by cycles --all --ignore-damage"));
-        folder.ends(3, &format!("convert {name} out.csv --ignore-damage")).says(&told);
+        folder.ends(3, &format!("results convert {name} out.csv --ignore-damage")).says(&told);
         assert!(!folder.path("out.csv").exists());
         let opened = integrity::open(&folder.path(&name), OnDamage::Tolerate).unwrap();
         assert!(opened.sidecar.is_none());
 
         fs::write(folder.path(&sidecar), own).unwrap();
-        folder.ends(0, &format!("verify {name}"));
+        folder.ends(0, &format!("results verify {name}"));
     }
 }
 
@@ -534,7 +542,7 @@ fn results_without_a_checkpoint_have_no_rows_yet() {
         let text = fs::read(&journal).unwrap();
         let header = text.iter().position(|&byte| byte == b'\n').unwrap() + 1;
         fs::write(&journal, &text[..header]).unwrap();
-        for command in ["convert NAME out.csv", "plot NAME --y cycles", "top NAME --by cycles"] {
+        for command in ["results convert NAME out.csv", "plot NAME --y cycles", "top NAME --by cycles"] {
             let ended = folder.ends(2, &command.replace("NAME", &name));
             ended.says(&format!("error: {name} has no rows yet: its sweep has not reached a checkpoint\n"));
         }
@@ -547,13 +555,13 @@ fn results_without_a_checkpoint_have_no_rows_yet() {
 fn a_sidecar_that_is_not_utf8_is_damaged() {
     let folder = Folder::with_grid(&format!("# \u{FFFD}\n{}", quick(3)));
     folder.ends(0, "sweep grid.toml --out rows.csv");
-    folder.ends(0, "verify rows.csv");
+    folder.ends(0, "results verify rows.csv");
     let path = folder.path("rows.csv.meta.toml");
     let sound = fs::read(&path).unwrap();
     let place = sound.windows(3).position(|bytes| bytes == "\u{FFFD}".as_bytes()).unwrap();
     fs::write(&path, [&sound[..place], &[0xFF], &sound[place + 3..]].concat()).unwrap();
     folder
-        .ends(3, "verify rows.csv")
+        .ends(3, "results verify rows.csv")
         .prints("rows.csv.meta.toml is damaged: its first line is not the checksum");
 }
 
@@ -567,6 +575,6 @@ fn half_a_row_at_the_end_is_no_row() {
     });
     let rows = folder.read("rows.csv");
     fs::write(folder.path("rows.csv"), &rows[..rows.len() - 2]).unwrap();
-    folder.ends(0, "convert rows.csv out.csv").says("warning: rows.csv is unfinished: ");
+    folder.ends(0, "results convert rows.csv out.csv").says("warning: rows.csv is unfinished: ");
     assert_eq!(folder.read("out.csv"), rows[..=rows.trim_end().rfind('\n').unwrap()]);
 }

@@ -40,7 +40,8 @@ fn values_far_from_the_preset_are_warned_of() {
     ] {
         let grid = "preset = \"ozaki2018-large\"\n".to_owned() + grid + "[solver]\nmax_cycles = 1\n";
         let folder = Folder::with_grid(&grid);
-        for command in ["check grid.toml", "sweep --grid grid.toml --out rows.csv --force", "run grid.toml"] {
+        for command in ["check grid.toml", "sweep --grid grid.toml --out rows.csv --restart", "run grid.toml"]
+        {
             let ended = folder.ends(0, command);
             let told = &ended.stderr;
             assert!(
@@ -76,7 +77,8 @@ fn values_with_their_units_are_not_doubted() {
     ] {
         let grid = "preset = \"ozaki2018-large\"\n".to_owned() + grid + "[solver]\nmax_cycles = 1\n";
         fs::write(folder.path("grid.toml"), &grid).unwrap();
-        for command in ["check grid.toml", "sweep --grid grid.toml --out rows.csv --force", "run grid.toml"] {
+        for command in ["check grid.toml", "sweep --grid grid.toml --out rows.csv --restart", "run grid.toml"]
+        {
             let ended = folder.ends(0, command);
             assert!(!ended.stderr.contains("warning"), "{grid}{command}: {}", ended.stderr);
         }

@@ -36,13 +36,13 @@ fn folder() -> Folder {
 fn a_device_written_from_a_preset_has_its_rows() {
     let folder = Folder::new();
     for preset in ["jafferis2016", "jafferis2016-improved", "ozaki2018-small", "arabagi2013-30hz"] {
-        let text = folder.ends(0, &format!("new {preset}")).stdout;
+        let text = folder.ends(0, &format!("device new {preset}")).stdout;
         fs::write(folder.path("mybee.toml"), &text).unwrap();
         let [of_device, of_preset] =
             ["mybee.toml", preset].map(|what| folder.ends(0, &format!("run {what}")).stdout);
         assert_eq!(of_device, of_preset, "{preset}");
         // A device is written again as it is.
-        assert_eq!(folder.ends(0, "new mybee.toml").stdout, text, "{preset}");
+        assert_eq!(folder.ends(0, "device new mybee.toml").stdout, text, "{preset}");
     }
 }
 
@@ -67,8 +67,8 @@ fn results_carry_the_device_and_resume_compares_it() {
     assert!(sidecar.contains("[[devices]]") && sidecar.contains("the robot on bench 2"), "{sidecar}");
     // Other work on the results takes the recorded device, wherever the file has gone.
     fs::rename(folder.path("mybee.toml"), folder.path("moved.toml")).unwrap();
-    folder.ends(0, "rerun rows.csv --status periodic --rtol 1e-7 --out again.csv");
-    folder.ends(0, "convert rows.csv rows.parquet");
+    folder.ends(0, "results rerun rows.csv --status periodic --rtol 1e-7 --out again.csv");
+    folder.ends(0, "results convert rows.csv rows.parquet");
     // So does a Parquet file whose sidecar is lost, whatever device lies there now.
     fs::write(folder.path("mybee.toml"), DEVICE.replace("160 V", "161 V")).unwrap();
     let reader = Reader::new(File::open(folder.path("rows.parquet")).unwrap(), Format::Parquet).unwrap();
@@ -79,13 +79,13 @@ fn results_carry_the_device_and_resume_compares_it() {
     assert_eq!(plan.point(0).values[voltage], 160.0);
     fs::remove_file(folder.path("mybee.toml")).unwrap();
 
-    folder.ends(2, "sweep grid.toml --out rows.csv --resume").says("mybee.toml: ");
+    folder.ends(2, "sweep grid.toml --out rows.csv").says("mybee.toml: ");
     fs::write(folder.path("mybee.toml"), DEVICE.replace("160 V", "161 V")).unwrap();
-    folder.ends(2, "sweep grid.toml --out rows.csv --resume").says("the device differs").says(
+    folder.ends(2, "sweep grid.toml --out rows.csv").says("the device differs").says(
         "line 7 of mybee.toml was `drive_voltage_pp = \"160 V\"`, it is `drive_voltage_pp = \"161 V\"`",
     );
     // A device is an input: results do not overwrite it.
-    folder.ends(2, "sweep grid.toml --out mybee.toml --force");
+    folder.ends(2, "sweep grid.toml --out mybee.toml --restart");
 }
 
 #[test]
@@ -102,7 +102,7 @@ fn devices_begin_with_devices_in_other_folders() {
     folder.ends(0, "sweep preset.toml --out preset.csv");
     assert_eq!(folder.read("stiff.csv"), folder.read("preset.csv"));
     // A value that is set anew has no standard error, and its correlation has ended.
-    let text = folder.ends(0, "new lab/stiff.toml").stdout;
+    let text = folder.ends(0, "device new lab/stiff.toml").stdout;
     assert!(
         text.contains("hinge_stiffness = \"3 uN*m/rad\"\n") && !text.contains("[[correlation]]"),
         "{text}"
@@ -141,16 +141,16 @@ fn builds_are_drawn_from_errors_and_correlations() {
 fn commands_take_a_device_for_a_preset() {
     let folder = folder();
     folder.ends(0, "run mybee.toml").prints("lift_mean_mn");
-    folder.ends(0, "resonance mybee.toml");
+    folder.ends(0, "test resonance mybee.toml");
     folder.ends(0, "respond mybee.toml --from 110 --to 130 --step 5 --out curves.csv");
     folder.ends(0, "check mybee.toml").prints("hinge_stiffness");
-    let listed = folder.ends(0, "params mybee.toml");
+    let listed = folder.ends(0, "models mybee.toml");
     listed.prints("mybee.toml: begins with jafferis2016\n");
     listed.prints("hinge_stiffness           2 uN*m/rad ± 100 nN*m/rad");
     listed.prints("drive_voltage_pp          160 V");
     // Numbers as they are for other programs.
-    folder.ends(0, "params mybee.toml --format csv").prints(",hinge_stiffness,2e-6,N*m/rad,");
-    folder.ends(2, "params none.toml").says("none.toml: there is no such file");
+    folder.ends(0, "models mybee.toml --format csv").prints(",hinge_stiffness,2e-6,N*m/rad,");
+    folder.ends(2, "models none.toml").says("none.toml: there is no such file");
 }
 
 /// A grid that begins with this device is refused with a message at a place.

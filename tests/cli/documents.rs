@@ -99,7 +99,7 @@ fn the_slurm_example_works() {
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     }
     let shards: Vec<String> = folder.names().into_iter().filter(|name| name.ends_with("of8.csv")).collect();
-    folder.ends(0, &format!("merge grid.csv {}", shards.join(" ")));
+    folder.ends(0, &format!("results merge grid.csv {}", shards.join(" ")));
     assert_eq!(folder.read("grid.csv").lines().count(), 51);
 }
 

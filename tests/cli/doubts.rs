@@ -8,17 +8,18 @@ fn rows_that_miss_the_accuracy_are_counted_and_can_be_run_again() {
         "preset = \"ozaki2018-large\"\n[axes]\ndrive_frequency = [100, 110]\n[solver]\naccuracy = 1e-14\n";
     let folder = Folder::with_grid(grid);
     let said = "2 rows miss the accuracy of [solver], see their error_estimate. This command runs them again: \
-                flap rerun rows.csv --inaccurate --rtol 1e-10 --out rows.accurate.csv\n";
+                flap results rerun rows.csv --inaccurate --rtol 1e-10 --out rows.accurate.csv\n";
     folder.ends(0, "sweep --grid grid.toml --out rows.csv").says(said);
     assert!(folder.read("rows.csv.meta.toml").contains("[doubts]\ninaccurate = 2\n"));
 
-    let again = folder.ends(0, "rerun rows.csv --inaccurate --rtol 1e-8 --accuracy 1e-2 --out again.csv");
+    let again =
+        folder.ends(0, "results rerun rows.csv --inaccurate --rtol 1e-8 --accuracy 1e-2 --out again.csv");
     assert!(again.stderr.contains("2 periodic") && !again.stderr.contains("miss"), "{}", again.stderr);
     assert_eq!(folder.read("again.csv").lines().count(), 3);
 
-    let none = folder.flap("rerun again.csv --inaccurate --out third.csv");
+    let none = folder.flap("results rerun again.csv --inaccurate --out third.csv");
     none.says("no point in again.csv is inaccurate");
-    folder.ends(2, "rerun again.csv --out third.csv");
+    folder.ends(2, "results rerun again.csv --out third.csv");
 }
 
 /// The rows do not tell which of them are inaccurate.
@@ -32,15 +33,15 @@ fn rows_without_their_estimate_cannot_be_chosen_by_it() {
     );
     assert_eq!(folder.read("rows.csv").lines().next(), Some("point,status,lift_mean_mn"));
     folder.refuses(
-        "rerun rows.csv --inaccurate --rtol 1e-10 --out again.csv",
+        "results rerun rows.csv --inaccurate --rtol 1e-10 --out again.csv",
         "error: rows.csv: the rows have no column `error_estimate`: their grid leaves it out of `columns` in [output]\n\
          help: name it there and sweep again, or choose points with --status\n",
     );
     // Everything else reads such rows.
-    folder.ends(0, "rerun rows.csv --status periodic --out again.csv");
-    folder.ends(0, "sweep grid.toml --out rows.csv --resume").says("nothing is left to run");
-    folder.ends(0, "convert rows.csv rows.parquet");
-    folder.ends(0, "verify rows.csv rows.parquet again.csv");
+    folder.ends(0, "results rerun rows.csv --status periodic --out again.csv");
+    folder.ends(0, "sweep grid.toml --out rows.csv").says("nothing is left to run");
+    folder.ends(0, "results convert rows.csv rows.parquet");
+    folder.ends(0, "results verify rows.csv rows.parquet again.csv");
     folder.ends(0, "top rows.parquet --by lift_mean_mn").prints("lift_mean_mn");
     folder.ends(2, "top rows.csv --by cycles").says("there is no column `cycles`");
 }

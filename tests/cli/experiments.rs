@@ -68,7 +68,8 @@ fn lift_of_a_given_motion_is_that_of_the_simulation() {
         let simulated = folder
             .flap(&format!("run {preset} --trajectory motion.csv --cycles 1 --samples 800 --rtol 1e-8"));
         assert_eq!(simulated.code, 0, "{}", simulated.stderr);
-        let ended = folder.ends(0, &format!("lift {preset} motion.csv --periodic --trajectory forces.csv"));
+        let ended =
+            folder.ends(0, &format!("test lift {preset} motion.csv --periodic --trajectory forces.csv"));
         let (lift, expected) = (value(&ended.stdout, "lift_mn"), value(&simulated.stdout, "lift_mean_mn"));
         assert!((lift - expected).abs() < 2e-3 * expected, "{preset}: {lift} and {expected}");
         assert!(!ended.stdout.contains("power_mw"), "the voltage is not known:\n{}", ended.stdout);
@@ -90,7 +91,7 @@ fn tracked_points_become_a_motion() {
         let _ = writeln!(points, "{},{a},{b},{c},{d},{e},{f}", 1e-4 * f64::from(i));
     }
     let folder = folder_with("points.csv", &points);
-    let ended = folder.ends(0, "track points.csv --chord 6.5 --out motion.csv");
+    let ended = folder.ends(0, "test track points.csv --chord 6.5 --out motion.csv");
     assert_eq!(ended.stdout, "rotation centre at x = 3.0, y = -1.0\n");
     let motion = folder.read("motion.csv");
     let mut lines = motion.lines();
@@ -98,11 +99,11 @@ fn tracked_points_become_a_motion() {
     let row: Vec<f64> = lines.nth(9).unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
     assert!((row[1] - (0.2 * 0.9_f64.sin()).to_degrees()).abs() < 1e-9, "{row:?}");
     assert!((row[2] - (0.6 * 0.9_f64.cos()).to_degrees()).abs() < 1e-9, "{row:?}");
-    assert_eq!(folder.flap("lift ozaki2018-small motion.csv").code, 0);
+    assert_eq!(folder.flap("test lift ozaki2018-small motion.csv").code, 0);
     // To stdout, with the centre beside it.
-    let piped = folder.flap("track points.csv");
+    let piped = folder.flap("test track points.csv");
     assert!(piped.stdout.starts_with("time_s,stroke_deg\n") && piped.stderr.contains("rotation centre"));
-    let short = folder.flap("track points.csv --chord 3");
+    let short = folder.flap("test track points.csv --chord 3");
     assert!(short.code == 2 && short.stderr.contains("image 1: the lower edge appears"), "{}", short.stderr);
 }
 
@@ -115,14 +116,14 @@ fn a_stroke_alone_is_run_and_not_lifted() {
         let _ = writeln!(stroke, "{},{}", 1e-4 * f64::from(i), if i == 100 { 0.0 } else { angle });
     }
     let folder = folder_with("stroke.csv", &stroke);
-    let ended = folder.ends(2, "lift ozaki2018-large stroke.csv");
+    let ended = folder.ends(2, "test lift ozaki2018-large stroke.csv");
     ended.says("stroke.csv: there is no column pitch_rad or pitch_deg");
     let command = "run ozaki2018-large --stroke stroke.csv";
     ended.says(&format!(
         "help: `flap {command}` computes the pitch of a wing that follows the stroke, and its lift\n"
     ));
     folder.ends(0, command).prints("lift_mean_mn");
-    folder.ends(2, "lift jafferis2016 stroke.csv").says("`flap run PRESET --stroke stroke.csv`");
+    folder.ends(2, "test lift jafferis2016 stroke.csv").says("`flap run PRESET --stroke stroke.csv`");
 }
 
 /// Two columns of the time may stand in a file if they agree.
@@ -130,7 +131,7 @@ fn a_stroke_alone_is_run_and_not_lifted() {
 fn contradictory_columns_are_refused() {
     let lift = |text: &str| {
         let folder = folder_with("motion.csv", text);
-        folder.flap("lift ozaki2018-small motion.csv")
+        folder.flap("test lift ozaki2018-small motion.csv")
     };
     let rows = |third: &str| format!("0,0,0,0\n0.001,1,1,2\n0.002,{third},2,4\n0.003,3,3,6\n0.004,4,4,8\n");
     let headings = "time_s,time_ms,stroke_deg,pitch_deg\n";
@@ -161,7 +162,7 @@ fn unusable_files_are_named_with_line_and_column() {
     refused(run, "time_s,wave\n0,0\n2,1\n1,1\n3,0\n", "times do not increase");
     refused("run ozaki2018-small --waveform none.csv", "", "none.csv");
     refused(
-        "lift ozaki2018-small file.csv",
+        "test lift ozaki2018-small file.csv",
         "time_s,stroke_deg\n0,0\n1,1\n2,0\n3,1\n",
         "no column pitch_rad or pitch_deg",
     );
@@ -172,20 +173,20 @@ fn unusable_files_are_named_with_line_and_column() {
 #[test]
 fn chirps_end() {
     let folder = Folder::new();
-    let chirp = "run jafferis2016 --drive chirp --chirp-from 100 --chirp-to";
+    let chirp = "test chirp jafferis2016 --from 100 --to";
     for (rest, numbers) in [
-        ("400 --chirp-rate 1e-9", "lasts 3.000e11 s, which are 7.500e13 drive periods: 100000 are allowed\n"),
-        ("400 --chirp-rate 1e-300", "at 1e-300 Hz/s lasts 3.000e302 s, which are 7.500e304 drive periods"),
+        ("400 --rate 1e-9", "lasts 3.000e11 s, which are 7.500e13 drive periods: 100000 are allowed\n"),
+        ("400 --rate 1e-300", "at 1e-300 Hz/s lasts 3.000e302 s, which are 7.500e304 drive periods"),
         ("1e308", "to 1e308 Hz at 15.0 Hz/s lasts 6.667e306 s, which are inf drive periods"),
-        ("1 --chirp-rate=-1e-9", "lasts 9.900e10 s, which are 5.000e12 drive periods"),
+        ("1 --rate=-1e-9", "lasts 9.900e10 s, which are 5.000e12 drive periods"),
     ] {
         let ended = folder.ends(2, &format!("{chirp} {rest} --trajectory chirp.csv"));
         ended.says(numbers);
         assert_eq!(ended.stdout, "");
     }
-    let ended = folder.ends(2, &format!("{chirp} 400 --chirp-rate 1e-9"));
+    let ended = folder.ends(2, &format!("{chirp} 400 --rate 1e-9"));
     ended.says("help: sweep at 7.500e-1 Hz/s or faster");
-    let samples = "--chirp-rate 1 --samples 1000 --trajectory chirp.csv";
+    let samples = "--rate 1 --samples 1000 --trajectory chirp.csv";
     folder
         .ends(2, &format!("{chirp} 400 {samples}"))
         .says(
@@ -193,14 +194,12 @@ fn chirps_end() {
         )
         .says("help: take at most 66 samples per drive period");
     // The estimate is the number of rows.
-    let ended =
-        folder.ends(0, "run ozaki2018-small --drive chirp --chirp-from 150 --chirp-to 170 --chirp-rate 100");
+    let ended = folder.ends(0, "test chirp ozaki2018-small --from 150 --to 170 --rate 100");
     assert_eq!(ended.stdout.lines().count(), 1 + 32, "160 Hz for 0.2 s");
     assert!(folder.names().is_empty(), "{:?}", folder.names());
     // The motion goes to stdout, and the rows per cycle to their file.
-    let short =
-        "run ozaki2018-small --drive chirp --chirp-from 150 --chirp-to 152 --trajectory - --samples 50";
-    let ended = folder.ends(0, &format!("{short} --envelope envelope.csv"));
+    let short = "test chirp ozaki2018-small --from 150 --to 152 --trajectory - --samples 50";
+    let ended = folder.ends(0, &format!("{short} --out envelope.csv"));
     assert!(ended.stdout.starts_with("time_s,stroke_rad,"), "{}", ended.stdout);
     assert_eq!(folder.ends(0, short).stdout, ended.stdout);
     assert_eq!(folder.names(), ["envelope.csv"]);
@@ -232,15 +231,15 @@ fn motions_have_finite_forces() {
         (motion(["0.001", "1e308"], "0", "0"), "time_s is 1e308 in row 3, and must be from -1e12 to 1e12\n"),
     ] {
         let folder = folder_with("motion.csv", &text);
-        folder.refuses("lift ozaki2018-small motion.csv", message);
+        folder.refuses("test lift ozaki2018-small motion.csv", message);
     }
     let folder = folder_with("motion.csv", &motion(usual, "2", "2"));
-    folder.ends(0, "lift ozaki2018-small motion.csv").prints("lift_mn");
+    folder.ends(0, "test lift ozaki2018-small motion.csv").prints("lift_mn");
     let folder = folder_with("motion.csv", &motion(usual, "3e6", "2"));
     folder
-        .ends(2, "lift ozaki2018-small motion.csv --set drag_coefficient_max=1e308")
+        .ends(2, "test lift ozaki2018-small motion.csv --set drag_coefficient_max=1e308")
         .says("the forces on this motion are beyond the range of numbers\nhelp: compare the parameters");
     let points = "time_s,root_x,root_y,tip_x,tip_y\n0,0,0,1e308,0\n1,0,0,1,1\n";
     fs::write(folder.path("points.csv"), points).unwrap();
-    folder.refuses("track points.csv", "tip_x is 1e308 in row 1, and must be from -1e12 to 1e12\n");
+    folder.refuses("test track points.csv", "tip_x is 1e308 in row 1, and must be from -1e12 to 1e12\n");
 }

@@ -22,7 +22,7 @@ fn every_format_holds_the_same_rows() {
         assert!(ended.stderr.ends_with(&format!("40 rows in rows.{ending}\n")), "{}", ended.stderr);
         let sidecar: toml::Table = folder.read(&format!("rows.{ending}.meta.toml")).parse().unwrap();
         assert_eq!(sidecar["state"].as_str(), Some("complete"));
-        folder.ends(0, &format!("convert rows.{ending} from-{ending}.csv"));
+        folder.ends(0, &format!("results convert rows.{ending} from-{ending}.csv"));
         assert_eq!(folder.read("rows.csv"), folder.read(&format!("from-{ending}.csv")));
     }
     for left in ["rows.csv.journal", "rows.parquet.journal", "rows.parquet.part"] {
@@ -38,7 +38,7 @@ fn converted_files_have_the_bytes_of_written_ones() {
     }
     for from in ENDINGS {
         for to in ENDINGS {
-            let ended = folder.flap(&format!("convert {from}.{from} out.{to} --force"));
+            let ended = folder.flap(&format!("results convert {from}.{from} out.{to} --force"));
             assert_eq!(ended.code, 0, "{from} to {to}: {}", ended.stderr);
             assert_eq!(ended.stdout, "");
             let bytes = |name: &str| fs::read(folder.path(name)).unwrap();
@@ -132,7 +132,7 @@ high = "resonance_hz > 50"
     );
     for ending in ENDINGS {
         folder.ends(0, &format!("sweep --grid grid.toml --out rows.{ending} --strict"));
-        folder.ends(0, &format!("convert rows.{ending} from-{ending}.csv"));
+        folder.ends(0, &format!("results convert rows.{ending} from-{ending}.csv"));
         assert_eq!(folder.read("rows.csv"), folder.read(&format!("from-{ending}.csv")));
     }
     let text = folder.read("rows.csv");
@@ -169,14 +169,14 @@ fn endings_that_stand_for_no_format() {
         ("sweep --grid grid.toml --out rows", rows),
         ("sweep --grid at.toml", rows),
         ("check at.toml", rows),
-        ("resume rows.tsv", rows),
-        ("rerun rows.csv --status unsettled --out rows.json", rows),
-        ("rerun rows.tsv --status unsettled --out again.csv", rows),
-        ("convert rows.csv rows.tsv", rows),
-        ("convert rows.tsv out.csv", rows),
-        ("merge rows.xlsx rows.csv", rows),
+        ("results resume rows.tsv", rows),
+        ("results rerun rows.csv --status unsettled --out rows.json", rows),
+        ("results rerun rows.tsv --status unsettled --out again.csv", rows),
+        ("results convert rows.csv rows.tsv", rows),
+        ("results convert rows.tsv out.csv", rows),
+        ("results merge rows.xlsx rows.csv", rows),
         ("run ozaki2018-large --trajectory motion.parquet", ".csv"),
-        ("run ozaki2018-large --drive chirp --envelope envelope.tsv", ".csv"),
+        ("test chirp ozaki2018-large --out envelope.tsv", ".csv"),
         ("respond ozaki2018-large --from 90 --to 100 --step 5 --out rows.tsv", rows),
         #[cfg(feature = "plots")]
         ("plot rows.tsv", rows),
@@ -197,7 +197,7 @@ fn endings_are_those_of_any_system() {
     let folder = Folder::with_grid(&quick(3));
     for name in ["A.CSV", "B.CSV.ZST", "C.Parquet"] {
         assert_eq!(folder.flap(&format!("sweep --grid grid.toml --out {name}")).code, 0);
-        assert_eq!(folder.flap(&format!("convert {name} {name}.csv")).code, 0);
+        assert_eq!(folder.flap(&format!("results convert {name} {name}.csv")).code, 0);
         assert_eq!(folder.read("A.CSV"), folder.read(&format!("{name}.csv")), "{name}");
     }
 }
@@ -207,14 +207,14 @@ fn rows_are_converted_and_merged_to_stdout() {
     let folder = Folder::with_grid(&grid());
     for ending in ENDINGS {
         assert_eq!(folder.flap(&format!("sweep --grid grid.toml --out rows.{ending}")).code, 0);
-        let ended = folder.flap(&format!("convert rows.{ending} -"));
+        let ended = folder.flap(&format!("results convert rows.{ending} -"));
         assert_eq!((ended.code, ended.stderr.as_str()), (0, ""));
         assert!(ended.stdout == folder.read("rows.csv"), "{ending}");
     }
     for shard in ["1/2", "2/2"] {
         assert_eq!(folder.flap(&format!("sweep --grid grid.toml --shard {shard}")).code, 0);
     }
-    let ended = folder.flap("merge - grid.1of2.csv grid.2of2.csv");
+    let ended = folder.flap("results merge - grid.1of2.csv grid.2of2.csv");
     assert_eq!((ended.code, ended.stderr.as_str()), (0, ""));
     assert!(ended.stdout == folder.read("rows.csv"));
     assert!(!folder.path("-").exists());
@@ -225,14 +225,16 @@ fn what_cannot_be_converted() {
     let folder = Folder::with_grid(&quick(10));
     assert_eq!(folder.flap("sweep --grid grid.toml --out rows.csv").code, 0);
     fs::write(folder.path("alone.csv"), folder.read("rows.csv")).unwrap();
-    folder.ends(2, "convert alone.csv out.parquet").says("alone.csv.meta.toml: cannot be read");
+    folder.ends(2, "results convert alone.csv out.parquet").says("alone.csv.meta.toml: cannot be read");
 
-    folder.ends(2, "convert rows.csv rows.csv").says("writing rows.csv would overwrite the results rows.csv");
+    folder
+        .ends(2, "results convert rows.csv rows.csv")
+        .says("writing rows.csv would overwrite the results rows.csv");
 
     fs::write(folder.path("rows.csv"), "point,other\n0,1\n").unwrap();
     folder.rewrite_sidecar("rows.csv", |sidecar| sidecar.checksums = None);
     folder
-        .ends(3, "convert rows.csv out.parquet")
+        .ends(3, "results convert rows.csv out.parquet")
         .says("its columns differ from those of the grid in its sidecar");
     assert!(!folder.path("out.parquet").exists());
 }

@@ -48,10 +48,10 @@ fn rows_with_derivatives_have_the_same_bytes_however_they_are_made() {
     for shard in ["1/3", "2/3", "3/3"] {
         folder.ends(0, &format!("sweep grid.toml --shard {shard}"));
     }
-    folder.ends(0, "merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv");
+    folder.ends(0, "results merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv");
     assert!(one == folder.read("merged.csv"));
-    folder.ends(0, "convert one.csv rows.parquet");
-    folder.ends(0, "convert rows.parquet again.csv");
+    folder.ends(0, "results convert one.csv rows.parquet");
+    folder.ends(0, "results convert rows.parquet again.csv");
     assert!(one == folder.read("again.csv"));
     folder.ends(0, "sweep grid.toml --out swept.parquet");
     assert!(
@@ -206,5 +206,5 @@ fn one_point_prints_the_parameters_that_move_a_measure_most() {
     assert!(
         told.contains("there is no measure `lift_meen_mn`") && told.contains("did you mean `lift_mean_mn`?")
     );
-    folder.ends(2, "run ozaki2018-large --drive chirp --gradient lift_mean_mn");
+    folder.ends(2, "test chirp ozaki2018-large --gradient lift_mean_mn");
 }

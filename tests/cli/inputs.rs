@@ -62,37 +62,37 @@ fn no_command_overwrites_what_it_reads() {
     let folder = folder();
     let before = contents(&folder);
     for arguments in [
-        "sweep --force --grid grid.toml --out hard-grid.csv",
-        "sweep --force --grid grid.toml --out ./soft-grid.csv",
-        "sweep --force --grid grid.toml --out beside.csv",
-        "sweep --force --grid sample.toml --out points.csv",
-        "sweep --force --grid sample.toml --out hard-points.csv",
-        "sweep --force --grid sample.toml --out soft-points.csv",
-        "sweep --resume --grid sample.toml --out points.csv",
-        "sweep --force --from-sidecar rows.csv.meta.toml --out rows.csv",
-        "sweep --force --from-sidecar rows.csv.meta.toml --out hard-rows.csv.meta.csv",
-        "sweep --force --from-sidecar sampled.csv.meta.toml --out soft-points.csv",
-        "rerun rows.csv --status unsettled --force --out rows.csv",
-        "rerun rows.csv --status unsettled --force --out hard-rows.csv",
-        "rerun rows.csv --status unsettled --force --out soft-rows.csv.meta.csv",
-        "rerun sampled.csv --status unsettled --force --out points.csv",
-        "merge --force grid.1of2.csv grid.1of2.csv grid.2of2.csv",
-        "merge --force soft-grid.1of2.csv grid.1of2.csv grid.2of2.csv",
-        "convert --force rows.csv rows.csv",
-        "convert --force rows.csv soft-rows.csv",
-        "convert --force sampled.csv hard-points.csv",
+        "sweep --restart --grid grid.toml --out hard-grid.csv",
+        "sweep --restart --grid grid.toml --out ./soft-grid.csv",
+        "sweep --restart --grid grid.toml --out beside.csv",
+        "sweep --restart --grid sample.toml --out points.csv",
+        "sweep --restart --grid sample.toml --out hard-points.csv",
+        "sweep --restart --grid sample.toml --out soft-points.csv",
+        "sweep --grid sample.toml --out points.csv",
+        "sweep --restart rows.csv.meta.toml --out rows.csv",
+        "sweep --restart rows.csv.meta.toml --out hard-rows.csv.meta.csv",
+        "sweep --restart sampled.csv.meta.toml --out soft-points.csv",
+        "results rerun rows.csv --status unsettled --restart --out rows.csv",
+        "results rerun rows.csv --status unsettled --restart --out hard-rows.csv",
+        "results rerun rows.csv --status unsettled --restart --out soft-rows.csv.meta.csv",
+        "results rerun sampled.csv --status unsettled --restart --out points.csv",
+        "results merge --force grid.1of2.csv grid.1of2.csv grid.2of2.csv",
+        "results merge --force soft-grid.1of2.csv grid.1of2.csv grid.2of2.csv",
+        "results convert --force rows.csv rows.csv",
+        "results convert --force rows.csv soft-rows.csv",
+        "results convert --force sampled.csv hard-points.csv",
         "run grid.toml --force --trajectory hard-grid.csv",
         "run sample.toml --force --trajectory points.csv",
-        "run grid.toml --drive chirp --force --envelope soft-grid.csv",
+        "test chirp grid.toml --force --out soft-grid.csv",
         "run arabagi2013-75hz --waveform motion.csv --force --trajectory motion.csv",
         "run arabagi2013-75hz --stroke motion.csv --force --trajectory hard-motion.csv",
-        "run grid.toml --drive impulse --force --trajectory hard-grid.csv",
-        "lift ozaki2018-small motion.csv --force --trajectory motion.csv",
-        "lift ozaki2018-small motion.csv --force --trajectory soft-motion.csv",
-        "track images.csv --force --out images.csv",
-        "track images.csv --force --out hard-images.csv",
-        "respond grid.toml --force --out hard-grid.csv",
-        "respond sample.toml --along drive_voltage_pp --from 50 --to 60 --step 5 --force --out points.csv",
+        "test impulse grid.toml --force --trajectory hard-grid.csv",
+        "test lift ozaki2018-small motion.csv --force --trajectory motion.csv",
+        "test lift ozaki2018-small motion.csv --force --trajectory soft-motion.csv",
+        "test track images.csv --force --out images.csv",
+        "test track images.csv --force --out hard-images.csv",
+        "respond grid.toml --restart --out hard-grid.csv",
+        "respond sample.toml --along drive_voltage_pp --from 50 --to 60 --step 5 --restart --out points.csv",
         #[cfg(feature = "plots")]
         "plot rows.csv --force --out shot.svg",
         #[cfg(feature = "plots")]
@@ -106,7 +106,7 @@ fn no_command_overwrites_what_it_reads() {
 #[test]
 fn two_outputs_are_two_files() {
     let folder = Folder::with_grid(&quick(3));
-    let run = "run ozaki2018-large --drive chirp --trajectory one.csv --envelope";
+    let run = "test chirp ozaki2018-large --trajectory one.csv --out";
     for name in ["one.csv", "./one.csv"] {
         folder.ends(2, &format!("{run} {name}")).says("is the name of two outputs");
     }
@@ -142,17 +142,6 @@ fn no_more_than_twenty_mistakes_are_shown() {
 }
 
 #[test]
-fn options_of_a_chirp_need_a_chirp() {
-    for (option, value) in [("--chirp-from", "60"), ("--chirp-to", "90"), ("--chirp-rate", "5")] {
-        for drive in ["steady", "impulse"] {
-            let ended =
-                Folder::new().ends(2, &format!("run ozaki2018-large --drive {drive} {option} {value}"));
-            assert_eq!(ended.stderr, format!("error: {option} needs --drive chirp\n"));
-        }
-    }
-}
-
-#[test]
 fn a_sample_without_parameters_is_a_mistake() {
     let grid = "preset = \"ozaki2018-large\"\n[sample]\nmethod = \"sobol\"\nn = 8\n[sample.parameters]\n";
     let folder = Folder::with_grid(grid);
@@ -175,7 +164,7 @@ fn a_small_file_does_not_fill_the_memory() {
     }
     assert!(bomb.len() < 1 << 20, "{}", bomb.len());
     fs::write(folder.path("rows.csv.zst"), bomb).unwrap();
-    let commands = ["plot rows.csv.zst", "rerun rows.csv.zst --status unsettled --out again.csv"];
+    let commands = ["plot rows.csv.zst", "results rerun rows.csv.zst --status unsettled --out again.csv"];
     let commands =
         commands.into_iter().filter(|command| cfg!(feature = "plots") || !command.starts_with("plot"));
     for arguments in commands.clone() {
@@ -220,38 +209,38 @@ fn inputs_end() {
     for (arguments, message) in [
         ("check grid.toml", size),
         ("check sampled.toml", listed),
-        ("sweep --from-sidecar large.meta.toml --out o.csv", listed),
-        ("wing large.csv --preset jafferis2016", size),
+        ("sweep large.meta.toml --out o.csv", listed),
+        ("device wing large.csv --preset jafferis2016", size),
         ("run ozaki2018-large --waveform large.csv", size),
-        ("lift ozaki2018-small large.csv", size),
-        ("track large.csv", size),
+        ("test lift ozaki2018-small large.csv", size),
+        ("test track large.csv", size),
         ("check /dev/zero", endless),
         ("run /dev/zero", endless),
         ("check zeros.toml", endless),
         ("check zeros-sampled.toml", endless),
-        ("sweep --from-sidecar /dev/zero --out o.csv", endless),
-        ("wing /dev/zero --preset jafferis2016", endless),
-        ("wing grid.csv --preset /dev/zero", endless),
+        ("sweep /dev/zero --out o.csv", endless),
+        ("device wing /dev/zero --preset jafferis2016", endless),
+        ("device wing grid.csv --preset /dev/zero", endless),
         ("run ozaki2018-large --waveform /dev/zero", endless),
         ("run arabagi2013-75hz --stroke /dev/zero", endless),
-        ("lift ozaki2018-small /dev/zero", endless),
-        ("track /dev/zero", endless),
+        ("test lift ozaki2018-small /dev/zero", endless),
+        ("test track /dev/zero", endless),
         ("check pipe", endless),
         ("check pipe-device.toml", endless),
         ("check pipe-sampled.toml", endless),
-        ("sweep --from-sidecar pipe --out o.csv", endless),
-        ("wing pipe --preset jafferis2016", endless),
+        ("sweep pipe --out o.csv", endless),
+        ("device wing pipe --preset jafferis2016", endless),
         ("run ozaki2018-large --waveform pipe", endless),
-        ("lift ozaki2018-small pipe", endless),
-        ("track pipe", endless),
+        ("test lift ozaki2018-small pipe", endless),
+        ("test track pipe", endless),
         ("check ./", is_folder),
         ("check folder-device.toml", is_folder),
         ("check folder-sampled.toml", is_folder),
-        ("sweep --from-sidecar ./ --out o.csv", is_folder),
-        ("wing ./ --preset jafferis2016", is_folder),
+        ("sweep ./ --out o.csv", is_folder),
+        ("device wing ./ --preset jafferis2016", is_folder),
         ("run ozaki2018-large --waveform ./", is_folder),
-        ("lift ozaki2018-small ./", is_folder),
-        ("track ./", is_folder),
+        ("test lift ozaki2018-small ./", is_folder),
+        ("test track ./", is_folder),
     ] {
         let ended = bounded(&folder, arguments);
         assert_eq!((ended.code, &*ended.stdout), (2, ""), "{arguments}: {}", ended.stderr);

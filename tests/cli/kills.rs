@@ -62,13 +62,15 @@ fn replaces(folder: &Folder, out: &str, command: &str) {
     let whole = names(&done);
     assert!(whole.contains(&sidecar), "{whole:?}");
 
-    let resumes = command.starts_with("sweep") || command.starts_with("re");
+    let resumes = command.starts_with("sweep")
+        || command.starts_with("respond")
+        || command.starts_with("results rerun");
     let kills = kill_everywhere(&begin, command, |left, place| {
         let rows = bytes(left, out);
         assert!(rows == old || rows == new, "{place}: {:?}", left.names());
-        let verdict = left.flap(&format!("verify {out}"));
+        let verdict = left.flap(&format!("results verify {out}"));
         match verdict.code {
-            0 => verdict.prints(": sound, "),
+            0 => verdict.prints(": sound: "),
             1 => verdict.prints("there is no sidecar"),
             _ => panic!("{place}: {}", verdict.stdout),
         };
@@ -78,14 +80,14 @@ fn replaces(folder: &Folder, out: &str, command: &str) {
         assert_eq!(ended.code, 0, "{place}: {}", ended.stderr);
         assert!(bytes(&again, out) == new, "{place}");
         assert_eq!(names(&again), whole, "{place}");
-        assert_eq!(again.flap(&format!("verify {out}")).code, 0, "{place}");
+        assert_eq!(again.flap(&format!("results verify {out}")).code, 0, "{place}");
 
         if resumes {
-            let ended = left.flap(&format!("resume {out}"));
+            let ended = left.flap(&format!("results resume {out}"));
             assert_eq!(ended.code, 0, "{place}: {}", ended.stderr);
             let rows = bytes(left, out);
             assert!(rows == old || rows == new, "{place}");
-            assert_eq!(left.flap(&format!("verify {out}")).code, 0, "{place}");
+            assert_eq!(left.flap(&format!("results verify {out}")).code, 0, "{place}");
             if rows == new {
                 assert_eq!(names(left), whole, "{place}");
             }
@@ -104,18 +106,18 @@ fn replaced(out: &str) -> Folder {
 
 #[test]
 fn a_forced_sweep_into_csv() {
-    replaces(&replaced("rows.csv"), "rows.csv", "sweep grid.toml --out rows.csv --force --threads 1");
+    replaces(&replaced("rows.csv"), "rows.csv", "sweep grid.toml --out rows.csv --restart --threads 1");
 }
 
 #[test]
 fn a_forced_sweep_into_compressed_csv() {
-    let command = "sweep grid.toml --out rows.csv.zst --force --threads 1";
+    let command = "sweep grid.toml --out rows.csv.zst --restart --threads 1";
     replaces(&replaced("rows.csv.zst"), "rows.csv.zst", command);
 }
 
 #[test]
 fn a_forced_sweep_into_parquet() {
-    let command = "sweep grid.toml --out rows.parquet --force --threads 1";
+    let command = "sweep grid.toml --out rows.parquet --restart --threads 1";
     replaces(&replaced("rows.parquet"), "rows.parquet", command);
 }
 
@@ -123,7 +125,7 @@ fn a_forced_sweep_into_parquet() {
 fn a_forced_rerun() {
     let folder = replaced("rows.csv");
     folder.ends(0, "sweep grid.toml --out earlier.csv");
-    let command = "rerun earlier.csv --status unsettled --max-cycles 2 --out rows.csv -f --threads 1";
+    let command = "results rerun earlier.csv --status unsettled --max-cycles 2 --out rows.csv -f --threads 1";
     replaces(&folder, "rows.csv", command);
 }
 
@@ -137,7 +139,7 @@ fn a_forced_response() {
 fn a_forced_conversion() {
     let folder = replaced("rows.csv");
     folder.ends(0, "sweep grid.toml --out earlier.parquet");
-    replaces(&folder, "rows.csv", "convert earlier.parquet rows.csv --force");
+    replaces(&folder, "rows.csv", "results convert earlier.parquet rows.csv --force");
 }
 
 #[test]
@@ -145,7 +147,7 @@ fn a_forced_merge() {
     let folder = replaced("rows.parquet");
     folder.ends(0, "sweep grid.toml --shard 1/2");
     folder.ends(0, "sweep grid.toml --shard 2/2");
-    replaces(&folder, "rows.parquet", "merge rows.parquet grid.1of2.csv grid.2of2.csv --force");
+    replaces(&folder, "rows.parquet", "results merge rows.parquet grid.1of2.csv grid.2of2.csv --force");
 }
 
 /// Unfinished results can be replaced too.
@@ -159,16 +161,16 @@ fn a_forced_sweep_over_unfinished_rows() {
     fs::write(folder.path("grid.toml"), quick(2)).unwrap();
     let begin = files(&folder);
     kill_everywhere(&begin, &format!("{into} --force"), |left, place| {
-        for (end, code) in [(format!("{into} --force"), 0), ("resume rows.csv".to_owned(), 0)] {
+        for (end, code) in [(format!("{into} --force"), 0), ("results resume rows.csv".to_owned(), 0)] {
             let left = copy(&files(left));
             let ended = left.flap(&end);
             assert_eq!(ended.code, code, "{place}, {end}: {}", ended.stderr);
-            assert_eq!(left.flap("verify rows.csv").code, 0, "{place}, {end}");
+            assert_eq!(left.flap("results verify rows.csv").code, 0, "{place}, {end}");
         }
     });
 }
 
-/// A sweep without `--force`: where it is killed, it can be begun again or resumed.
+/// A sweep: where it is killed, the same command completes it.
 #[test]
 fn a_new_sweep() {
     for ending in ["csv", "parquet"] {
@@ -179,18 +181,13 @@ fn a_new_sweep() {
         folder.ends(0, &command);
         let (whole, rows) = (names(&folder), bytes(&folder, &out));
         let kills = kill_everywhere(&begin, &command, |left, place| {
-            for end in ["", " --resume", " --force"] {
+            for end in ["", " --restart"] {
                 let left = copy(&files(left));
                 let ended = left.flap(&format!("{command}{end}"));
-                if ended.code != 0 {
-                    assert_eq!((ended.code, end), (2, ""), "{place}: {}", ended.stderr);
-                    ended.says(&format!("help: `flap resume {out}` continues it"));
-                    let ended = left.flap(&format!("resume {out}"));
-                    assert_eq!(ended.code, 0, "{place}: {}", ended.stderr);
-                }
+                assert_eq!(ended.code, 0, "{place}{end}: {}", ended.stderr);
                 assert_eq!(names(&left), whole, "{place}{end}");
                 assert!(bytes(&left, &out) == rows, "{place}{end}");
-                assert_eq!(left.flap(&format!("verify {out}")).code, 0, "{place}{end}");
+                assert_eq!(left.flap(&format!("results verify {out}")).code, 0, "{place}{end}");
             }
         });
         assert!(kills > 20, "{kills}");
@@ -217,7 +214,7 @@ fn names_are_durable_before_what_leads_to_them_is_removed() {
     let folder_synced = calls[header..rows].iter().any(|call| call.name == "sync" && call.files == ["."]);
     assert!(folder_synced, "{calls:#?}");
 
-    let command = "sweep grid.toml --out rows.csv --threads 1 --force";
+    let command = "sweep grid.toml --out rows.csv --threads 1 --restart";
     let Traced { calls, .. } = trace(&folder, command, |_, _| Fate::Goes);
     let complete = place(&calls, "remove", &["rows.csv.meta.toml"]);
     let renamed = place(&calls, "rename", &["rows.new.csv", "rows.csv"]);
@@ -228,7 +225,7 @@ fn names_are_durable_before_what_leads_to_them_is_removed() {
         assert_eq!((calls[at + 1].name, &calls[at + 1].files[..]), ("sync", &[".".to_owned()][..]));
     }
 
-    let Traced { calls, .. } = trace(&folder, "convert rows.csv other.csv", |_, _| Fate::Goes);
+    let Traced { calls, .. } = trace(&folder, "results convert rows.csv other.csv", |_, _| Fate::Goes);
     let rows = place(&calls, "rename", &["?", "other.csv"]);
     let sidecar = place(&calls, "rename", &["?", "other.csv.meta.toml"]);
     assert!(rows < sidecar);
@@ -247,8 +244,8 @@ fn a_missing_lock_is_mentioned_once() {
     };
     let commands = [
         ("sweep grid.toml --out rows.csv", "rows.csv"),
-        ("sweep grid.toml --out rows.csv --force", "rows.csv"),
-        ("convert rows.csv rows.parquet", "rows.parquet"),
+        ("sweep grid.toml --out rows.csv --restart", "rows.csv"),
+        ("results convert rows.csv rows.parquet", "rows.parquet"),
     ];
     for (command, out) in commands {
         let Traced { code, stderr, .. } = without(command);
@@ -269,10 +266,15 @@ fn complete_results_are_only_read() {
     for out in ["rows.csv", "rows.parquet"] {
         folder.ends(0, &format!("sweep grid.toml --out {out}"));
         let before = files(&folder);
-        for command in [format!("resume {out}"), format!("sweep grid.toml --out {out} --resume")] {
+        for command in [format!("results resume {out}"), format!("sweep grid.toml --out {out}")] {
             let Traced { code, stderr, calls } = trace(&folder, &command, |_, _| Fate::Fails(Errno::EROFS));
             assert_eq!((code, calls), (Some(0), Vec::new()), "{stderr}");
-            assert_eq!(stderr, format!("{out} is complete: nothing is left to run\n"));
+            assert_eq!(
+                stderr,
+                format!(
+                    "{out} is complete: nothing is left to run; `flap sweep --restart` runs its points again\n"
+                )
+            );
         }
         assert!(files(&folder) == before);
     }

@@ -1,4 +1,4 @@
-//! `flap check`, `flap params`, `flap models` and help.
+//! `flap check`, `flap models`, `flap models` and help.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -12,7 +12,7 @@ const STATUSES: [&str; 7] = [
     "settled on an orbit of one drive period; the row has measures",
     "an unstable orbit: motions near it move away; only in the branches that `flap respond --unstable` continues",
     "settled on an orbit of 2 to 8 drive periods, one of which differs from the next: no measures",
-    "not settled after max_cycles drive periods: quasi-periodic, chaotic or slow. `flap rerun --status unsettled --max-cycles N` runs such points longer",
+    "not settled after max_cycles drive periods: quasi-periodic, chaotic or slow. `flap results rerun --status unsettled --max-cycles N` runs such points longer",
     "the state became infinite or not a number: check the parameters against their units",
     "more than max_steps integration steps in one drive period: check the parameters against their units, or raise max_steps under [solver]",
     "the parameters are impossible together, or a derived one is out of its range; `flap run GRID --point N` prints the reason",
@@ -51,6 +51,19 @@ rtol = 1e-6, atol = 1e-8, settle_tol = 1e-6, max_cycles = 1000, max_steps = 2000
 "
     );
     assert_eq!(ended.stderr, "");
+    let json: serde_json::Value =
+        serde_json::from_str(&folder.ends(0, "check grid.toml --format json").stdout).unwrap();
+    let value = |section: &str, name: &str, key: &str| {
+        let is_named = |row: &&serde_json::Value| {
+            row["section"] == section && row["key"] == key && row["name"].as_str().unwrap_or_default() == name
+        };
+        json.as_array().unwrap().iter().find(is_named).unwrap()["value"].clone()
+    };
+    assert_eq!(value("sweep", "", "points"), 30);
+    assert_eq!(value("axes", "drive_frequency", "to"), 200.0);
+    assert_eq!(value("solver", "rtol", "value"), 1e-6);
+    let seconds = ["seconds_from", "seconds_to"].map(|key| value("estimate", "", key).as_f64().unwrap());
+    assert!(0.0 < seconds[0] && seconds[0] < seconds[1], "{seconds:?}");
     assert_eq!(folder.names(), ["grid.toml"], "nothing is written");
 }
 
@@ -84,8 +97,8 @@ fn models_and_presets_are_listed() {
 #[test]
 fn parameters_are_listed_with_units_and_values() {
     let folder = Folder::new();
-    let model = folder.ends(0, "params direct-drive");
-    let preset = folder.ends(0, "params ozaki2018-large");
+    let model = folder.ends(0, "models direct-drive");
+    let preset = folder.ends(0, "models ozaki2018-large");
     let line = |text: &str, name: &str| {
         let found = text.lines().find(|line| line.split_whitespace().next() == Some(name));
         found.unwrap_or_else(|| panic!("{name} is missing in\n{text}")).to_owned()
@@ -108,7 +121,7 @@ fn parameters_are_listed_with_units_and_values() {
     assert!(line(&preset.stdout, "PARAMETER").contains("VALUE"));
 }
 
-/// The output of `flap params` in a terminal of 80 characters.
+/// The output of `flap models` in a terminal of 80 characters.
 fn narrow(arguments: &str) -> String {
     let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_flap"));
     let output = command.env("COLUMNS", "80").args(arguments.split(' ')).output().unwrap();
@@ -125,7 +138,7 @@ fn tables_fit_the_terminal() {
     let [grid, rows] = ["grid.toml", "rows.csv"].map(|name| folder.path(name).display().to_string());
     for arguments in [
         "run ozaki2018-large",
-        "resonance ozaki2018-large",
+        "test resonance ozaki2018-large",
         "models",
         &format!("check {grid}"),
         &format!("describe {rows}"),
@@ -147,8 +160,8 @@ fn tables_fit_the_terminal() {
 fn parameters_fit_the_terminal() {
     for model in flap_core::simulate::all() {
         for what in model.presets().iter().map(|preset| preset.name).chain([model.name()]) {
-            let short = narrow(&format!("params {what}"));
-            let long = narrow(&format!("params {what} --long"));
+            let short = narrow(&format!("models {what}"));
+            let long = narrow(&format!("models {what} --long"));
             for line in short.lines().chain(long.lines()) {
                 assert!(line.chars().count() <= 80, "{what}: {line}");
             }
@@ -161,7 +174,7 @@ fn parameters_fit_the_terminal() {
             assert!(short.len() < long.len());
         }
     }
-    for line in narrow("explain drag_coefficient_max mode_stroke_hz").lines() {
+    for line in narrow("models drag_coefficient_max mode_stroke_hz").lines() {
         assert!(line.chars().count() <= 80, "{line}");
     }
 }
@@ -169,7 +182,7 @@ fn parameters_fit_the_terminal() {
 #[test]
 fn long_lists_have_symbols_and_allowed_values() {
     let folder = Folder::new();
-    let long = folder.ends(0, "params jafferis2016 --long").stdout;
+    let long = folder.ends(0, "models jafferis2016 --long").stdout;
     let line = long.lines().find(|line| line.starts_with("hinge_stiffness ")).unwrap();
     assert!(line.contains(". Symbol: kappa_wh. Allowed: more than zero"), "{line}");
 }
@@ -183,7 +196,7 @@ fn lists_mark_fits_to_one_vehicle() {
         let found = text.lines().find(|line| line.starts_with(&format!("{name} ")));
         found.unwrap_or_else(|| panic!("{name} is missing in\n{text}")).to_owned()
     };
-    let short = folder.ends(0, "params jafferis2016").stdout;
+    let short = folder.ends(0, "models jafferis2016").stdout;
     assert_eq!(short.matches(below).count(), 1, "{short}");
     for name in ["pressure_min", "pressure_max", "drag_coefficient_max", "lift_coefficient_max"] {
         let marked = line(&short, name);
@@ -192,22 +205,22 @@ fn lists_mark_fits_to_one_vehicle() {
     assert!(line(&short, "hinge_stiffness").contains(" uN*m/rad * "), "{short}");
     assert!(!line(&short, "wing_area").contains('*'), "{short}");
 
-    let own = folder.ends(0, "params grid.toml").stdout;
+    let own = folder.ends(0, "models grid.toml").stdout;
     assert!(!line(&own, "pressure_min").contains('*') && line(&own, "pressure_max").contains(" * "), "{own}");
-    for other in ["params jafferis2016 --long", "params bimorph", "params ozaki2018-large"] {
+    for other in ["models jafferis2016 --long", "models bimorph", "models ozaki2018-large"] {
         assert!(!folder.ends(0, other).stdout.contains(below), "{other}");
     }
-    let csv = folder.ends(0, "params jafferis2016 --format csv").stdout;
+    let csv = folder.ends(0, "models jafferis2016 --format csv").stdout;
     assert!(csv.contains(",pressure_min,0.132,"), "{csv}");
 }
 
 #[test]
 fn programs_read_parameters_and_columns() {
     let folder = Folder::new();
-    let csv = folder.ends(0, "params jafferis2016 --format csv").stdout;
+    let csv = folder.ends(0, "models jafferis2016 --format csv").stdout;
     assert!(csv.starts_with("kind,group,name,value,unit,symbol,allowed,meaning\n"), "{csv}");
     assert!(csv.contains("\nparameter,hinge,hinge_stiffness,1.4972"), "{csv}");
-    let json = folder.ends(0, "params jafferis2016 --format json").stdout;
+    let json = folder.ends(0, "models jafferis2016 --format json").stdout;
     let list: serde_json::Value = serde_json::from_str(&json).unwrap();
     let list = list.as_array().unwrap();
     assert_eq!(list.len(), csv.lines().count() - 1);
@@ -227,26 +240,84 @@ fn programs_read_parameters_and_columns() {
     assert!(find("lift_mean_mn")["value"].is_null());
 }
 
+/// Every command that prints a summary has the three formats.
+#[test]
+fn summaries_are_read_by_programs() {
+    let folder = Folder::new();
+    let json = |arguments: &str| -> Vec<serde_json::Value> {
+        let text = folder.ends(0, &format!("{arguments} --format json")).stdout;
+        serde_json::from_str(&text).unwrap_or_else(|error| panic!("{arguments}: {error}\n{text}"))
+    };
+    let row = json("run ozaki2018-large");
+    let find = |name: &str| row.iter().find(|entry| entry["column"] == name).unwrap();
+    assert_eq!(find("status")["value"], "periodic");
+    let lift = find("lift_mean_mn");
+    assert_eq!(lift["unit"], "mN");
+    let page = folder.ends(0, "run ozaki2018-large").stdout;
+    let shown = page.lines().find(|line| line.starts_with("lift_mean_mn ")).unwrap();
+    let shown: f64 = shown.split_whitespace().nth(1).unwrap().parse().unwrap();
+    assert!((lift["value"].as_f64().unwrap() / shown - 1.0).abs() < 1e-5, "{lift} {shown}");
+    let csv = folder.ends(0, "run ozaki2018-large --format csv").stdout;
+    assert!(csv.starts_with("column,value,unit,meaning\nstatus,periodic,,"), "{csv}");
+
+    let slopes = json("run ozaki2018-large --gradient lift_mean_mn");
+    assert!(slopes.len() > 20 && slopes[0]["change_per_pct"].is_number(), "{slopes:?}");
+    let models = json("models");
+    assert_eq!((&models[0]["kind"], &models[0]["name"]), (&"model".into(), &"bimorph".into()));
+    let meanings = json("models hinge_stiffness");
+    assert!(meanings.len() > 1 && meanings.iter().all(|entry| entry["name"] == "hinge_stiffness"));
+    folder.ends(2, "models hinge_stiffness jafferis2016 --format csv").says("one table");
+    let chirp = json("test chirp jafferis2016 --from 100 --to 101 --rate 50");
+    assert_eq!(chirp[0]["begin_s"], 0.0);
+    folder
+        .ends(0, "test chirp jafferis2016 --from 100 --to 101 --rate 50 --format table")
+        .prints("frequency_hz");
+    assert!(json("test resonance ozaki2018-large --from 100 --to 120").len() > 3);
+
+    let folder = Folder::with_grid(&frequencies(2));
+    folder.ends(0, "sweep grid.toml");
+    let verdict = folder.ends(3, "results verify grid.csv other.csv --format csv").stdout;
+    assert!(verdict.starts_with("file,verdict,detail\ngrid.csv,sound,2 rows\n"), "{verdict}");
+}
+
+#[test]
+fn help_lists_the_groups_of_commands() {
+    let help = Folder::new().flap("--help").stdout;
+    for title in ["Compute:", "Results:", "Your robot:", "Reference:"] {
+        assert!(help.contains(title), "{title}: {help}");
+    }
+    // The groups have all commands.
+    let listed = |name: &str| help.lines().any(|line| line.trim_start().starts_with(&format!("{name} ")));
+    for name in [
+        "sweep", "run", "respond", "vehicle", "check", "top", "describe", "results", "test", "device",
+        "models", "generate",
+    ] {
+        assert!(listed(name), "{name}: {help}");
+    }
+    let sweep = Folder::new().flap("sweep --help").stdout;
+    assert!(sweep.starts_with("Run every point of a grid file and write one row per point\n\nExample: flap sweep grid.toml\n\nUsage: flap sweep"), "{sweep}");
+}
+
 #[test]
 fn names_are_explained_in_one_model() {
     let folder = Folder::new();
-    let one = folder.ends(0, "explain hinge_stiffness cycles --model ozaki2018-large").stdout;
+    let one = folder.ends(0, "models hinge_stiffness cycles --model ozaki2018-large").stdout;
     assert!(one.starts_with("hinge_stiffness: a parameter of direct-drive\n"), "{one}");
     assert!(
         !one.contains("four-bar") && one.contains("cycles: a column of the rows of every model"),
         "{one}"
     );
-    let other = folder.ends(2, "explain transmission_ratio --model four-bar");
+    let other = folder.ends(2, "models transmission_ratio --model four-bar");
     other.says("the model four-bar has no `transmission_ratio`");
-    other.says("other models have it: `flap explain transmission_ratio`");
-    folder.ends(2, "explain cycles --model four-baar").says("did you mean `four-bar`?");
+    other.says("other models have it: `flap models transmission_ratio`");
+    folder.ends(2, "models cycles --model four-baar").says("did you mean `four-bar`?");
 }
 
 #[test]
 fn help_has_examples_and_exit_codes() {
     let folder = Folder::new();
     assert!(folder.flap("--help").stdout.contains("Exit codes:"));
-    for command in ["sweep", "run", "check", "params"] {
+    for command in ["sweep", "run", "check", "models", "test chirp", "results merge"] {
         folder.ends(0, &format!("{command} --help")).prints(&format!("  flap {command} "));
     }
     let (version, build) = (env!("CARGO_PKG_VERSION"), flap_sweep::run::identity::build());
@@ -267,7 +338,7 @@ fn former_names_still_work_with_a_warning() {
     assert_eq!(folder.read("former.csv"), folder.read("new.csv"));
     let run = folder.ends(0, "run jafferis2016 --set drag_max=3.0");
     run.says("`drag_max` is called `drag_coefficient_max` now");
-    let told = folder.ends(0, "explain lift_max").stdout;
+    let told = folder.ends(0, "models lift_max").stdout;
     assert!(told.contains("the former name of lift_coefficient_max"), "{told}");
     fs::write(folder.path("both.toml"), grid("drag_max") + "drag_coefficient_max = 3.0\n").unwrap();
     folder
@@ -285,12 +356,12 @@ fn all_columns_are_explained() {
     folder.ends(0, "sweep grid.toml --out rows.csv");
     folder.ends(0, "run jafferis2016 --trajectory motion.csv");
     folder.ends(0, "respond jafferis2016 --from 100 --to 104 --step 2 --out loop.csv");
-    folder.ends(
-        0,
-        "run jafferis2016 --drive chirp --chirp-from 100 --chirp-to 101 --chirp-rate 50 --envelope chirp.csv",
-    );
-    fs::write(folder.path("resonance.csv"), folder.ends(0, "resonance jafferis2016 --format csv").stdout)
-        .unwrap();
+    folder.ends(0, "test chirp jafferis2016 --from 100 --to 101 --rate 50 --out chirp.csv");
+    fs::write(
+        folder.path("resonance.csv"),
+        folder.ends(0, "test resonance jafferis2016 --format csv").stdout,
+    )
+    .unwrap();
     let vehicle =
         fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/vehicle.toml")).unwrap();
     fs::write(folder.path("vehicle.toml"), vehicle).unwrap();
@@ -299,9 +370,9 @@ fn all_columns_are_explained() {
         let header = folder.read(file).lines().next().unwrap().to_owned();
         let own = ["meaning"];
         let names: Vec<&str> = header.split(',').filter(|name| !own.contains(name)).collect();
-        folder.ends(0, &format!("explain {}", names.join(" ")));
+        folder.ends(0, &format!("models {}", names.join(" ")));
     }
-    let told = folder.ends(0, "explain d_lift_mean_mn_per_pct_piezo_thickness").stdout;
+    let told = folder.ends(0, "models d_lift_mean_mn_per_pct_piezo_thickness").stdout;
     assert!(told.contains("  change of lift_mean_mn (mN) per 1 % of piezo_thickness\n"), "{told}");
     for name in [
         "rtol",
@@ -311,28 +382,28 @@ fn all_columns_are_explained() {
         "left_drive_voltage_pp",
         "left_stroke_pp_deg",
     ] {
-        folder.ends(0, &format!("explain {name}"));
+        folder.ends(0, &format!("models {name}"));
     }
 }
 
 #[test]
 fn one_unknown_name_does_not_hide_others() {
     let folder = Folder::new();
-    let ended = folder.ends(2, "explain branch foo rtol bar");
+    let ended = folder.ends(2, "models branch foo rtol bar");
     assert!(
         ended.stdout.starts_with("branch: ") && ended.stdout.contains("\nrtol: a setting of [solver]"),
         "{}",
         ended.stdout
     );
     ended.says("status `foo`").says("status `bar`");
-    let nearest = folder.ends(2, "explain lift_coefficient_ma lift_ma").stderr;
+    let nearest = folder.ends(2, "models lift_coefficient_ma lift_ma").stderr;
     assert!(!nearest.contains("did you mean `lift_max`?"), "former names are no advice: {nearest}");
 }
 
 #[test]
 fn names_are_explained() {
     let folder = Folder::new();
-    let parameter = folder.ends(0, "explain hinge_stiffness").stdout;
+    let parameter = folder.ends(0, "models hinge_stiffness").stdout;
     for model in ["bimorph", "direct-drive", "four-bar"] {
         assert!(parameter.contains(&format!("hinge_stiffness: a parameter of {model}\n")), "{parameter}");
     }
@@ -342,42 +413,45 @@ fn names_are_explained() {
     );
     assert!(parameter.contains("  86.4 uN*m/rad in ozaki2018-large\n"), "{parameter}");
 
-    let measure = folder.ends(0, "explain lift_mean_mn resonance_hz").stdout;
+    let measure = folder.ends(0, "models lift_mean_mn resonance_hz").stdout;
     assert!(
         measure.contains("lift_mean_mn: a measure of bimorph\n  mean lift of the wing\n  unit      mN\n"),
         "{measure}"
     );
-    let several = folder.ends(0, "explain left_wing_mass").stdout;
+    let several = folder.ends(0, "models left_wing_mass").stdout;
     let kind = "a parameter of vehicles of the models direct-drive and four-bar with a wing called left";
     assert!(several.starts_with(&format!("left_wing_mass: {kind}\n")), "{several}");
     let resonance = "resonance_hz: a measure of the models bimorph, direct-drive and four-bar with drive_frequency = \"resonance\"\n";
     assert!(measure.contains(resonance), "{measure}");
-    let gaps = folder.ends(0, "explain resonance_gaps").stdout;
+    let gaps = folder.ends(0, "models resonance_gaps").stdout;
     let meaning = "number of search points without a periodic motion: a larger peak may lie there";
     assert_eq!(gaps, resonance.replace("_hz", "_gaps") + "  " + meaning + "\n", "once for all models");
 
-    let fixed = folder.ends(0, "explain floquet_max").stdout;
+    let fixed = folder.ends(0, "models floquet_max").stdout;
     assert!(
         fixed.starts_with("floquet_max: a column of the rows of every model\n  factor by which"),
         "{fixed}"
     );
     assert!(fixed.contains("below 1 the motion is stable, near 1 it settles slowly"), "{fixed}");
     for (status, meaning) in Status::ALL.into_iter().zip(STATUSES) {
-        let told = folder.ends(0, &format!("explain {}", status.name())).stdout;
+        let told = folder.ends(0, &format!("models {}", status.name())).stdout;
         assert_eq!(told, format!("{}: a status of rows\n  {meaning}\n", status.name()));
     }
 
-    let unknown = folder.ends(2, "explain lift_meen_mn").stderr;
-    assert!(unknown.contains("there is no parameter, column, setting or status `lift_meen_mn`"), "{unknown}");
+    let unknown = folder.ends(2, "models lift_meen_mn").stderr;
+    assert!(
+        unknown.contains("there is no model, preset, parameter, column, setting or status `lift_meen_mn`"),
+        "{unknown}"
+    );
     assert!(unknown.contains("did you mean `lift_mean_mn`?"), "{unknown}");
 }
 
 #[test]
 fn manuals_know_every_command() {
     let folder = Folder::new();
-    folder.ends(0, "man manual/man1");
+    folder.ends(0, "generate man manual/man1");
     let pages = folder.path("manual/man1");
-    for page in ["flap.1", "flap-sweep.1", "flap-top.1", "flap-run.1"] {
+    for page in ["flap.1", "flap-sweep.1", "flap-top.1", "flap-run.1", "flap-results-merge.1"] {
         let text = std::fs::read_to_string(pages.join(page)).unwrap();
         assert!(text.contains(".SH SYNOPSIS"), "{page}");
     }
@@ -388,7 +462,7 @@ fn no_color_turns_colours_off() {
     let stderr = |variables: &[(&str, &str)]| {
         let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_flap"));
         command.env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE").envs(variables.iter().copied());
-        String::from_utf8(command.args(["explain", "nothing"]).output().unwrap().stderr).unwrap()
+        String::from_utf8(command.args(["models", "nothing"]).output().unwrap().stderr).unwrap()
     };
     let is_coloured = |text: &str| text.contains('\u{1b}');
     assert!(is_coloured(&stderr(&[("CLICOLOR_FORCE", "1")])), "a terminal shows colours");
@@ -400,7 +474,7 @@ fn no_color_turns_colours_off() {
 #[test]
 fn parameters_of_a_file_have_its_values() {
     let folder = Folder::with_grid("preset = \"jafferis2016\"\n[params]\nwing_area = \"50 mm^2\"\n");
-    let ended = folder.ends(0, "params grid.toml");
+    let ended = folder.ends(0, "models grid.toml");
     ended.prints("grid.toml: begins with jafferis2016").prints("50 mm^2");
-    folder.refuses("params nothing.toml", "nothing.toml: there is no such file");
+    folder.refuses("models nothing.toml", "nothing.toml: there is no such file");
 }

@@ -77,7 +77,7 @@ fn check_family(arguments: &[&str], folder: &Folder, family: &Value) {
     let saved = live.answer("save", wanted);
     fs::write(folder.path("family.toml"), saved["text"].as_str().unwrap()).unwrap();
     folder.ends(0, "check family.toml");
-    folder.ends(0, "sweep family.toml --out family.csv --force");
+    folder.ends(0, "sweep family.toml --out family.csv --restart");
     assert_same_rows(&answer, &folder.read("family.csv"));
 }
 
@@ -126,7 +126,7 @@ fn a_device_is_saved_whole() {
     let design = json!({ "wing_area": "50 mm^2" });
     let saved = live.answer("save", json!({ "kind": "device", "design": design }));
     fs::write(folder.path("saved.toml"), saved["text"].as_str().unwrap()).unwrap();
-    let ended = folder.ends(0, "params saved.toml --format csv");
+    let ended = folder.ends(0, "models saved.toml --format csv");
     assert!(ended.stdout.contains("hinge_stiffness,2.2e-6,"), "{}", ended.stdout);
     assert!(ended.stdout.contains("wing_area,5e-5,"));
 

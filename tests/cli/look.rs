@@ -178,7 +178,7 @@ fn every_format_is_read() {
     let expected = folder.ends(0, &format!("top rows.csv {top}")).stdout;
     let described = folder.ends(0, "describe rows.csv --format csv").stdout;
     for ending in ["csv.zst", "parquet"] {
-        folder.ends(0, &format!("convert rows.csv rows.{ending}"));
+        folder.ends(0, &format!("results convert rows.csv rows.{ending}"));
         assert_eq!(folder.ends(0, &format!("top rows.{ending} {top}")).stdout, expected);
         assert_eq!(folder.ends(0, &format!("describe rows.{ending} --format csv")).stdout, described);
     }
@@ -436,7 +436,7 @@ fn names_that_are_near_come_first_and_lists_are_short() {
     assert!(ended.stderr.len() < 1000, "{} bytes", ended.stderr.len());
     fs::write(folder.path("wide-motion.csv"), format!("{}\n{}1\n", names.join(","), "1,".repeat(999_999)))
         .unwrap();
-    let ended = folder.ends(2, "lift ozaki2018-small wide-motion.csv");
+    let ended = folder.ends(2, "test lift ozaki2018-small wide-motion.csv");
     assert!(ended.stderr.len() < 1000, "{} bytes", ended.stderr.len());
     let flap = env!("CARGO_BIN_EXE_flap");
     let ended = folder.shell(&format!("ulimit -t 20; exec {flap} describe wide.csv --format csv"));
@@ -463,7 +463,7 @@ fn names_of_any_length_are_shown() {
         format!("[[vehicle.wings]]\nname = \"{long}\"\n[[vehicle.wings]]\nname = \"b\"\nmirrored = true\n");
     let vehicle = format!("preset = \"jafferis2016\"\n[vehicle]\n{wings}");
     fs::write(folder.path("vehicle.toml"), vehicle).unwrap();
-    for command in ["run", "params", "check"] {
+    for command in ["run", "models", "check"] {
         let ended = folder.flap(&format!("{command} vehicle.toml"));
         assert!(ended.code == 0 || ended.code == 2, "{command}: {}", ended.stderr);
     }

@@ -65,17 +65,17 @@ fn results_are_not_overwritten_unasked() {
     let ended = folder.ends(2, "sweep --grid grid.toml");
     assert_eq!(
         ended.stderr,
-        "error: grid.csv exists already\nhelp: --out FILE writes to another file, --force replaces it\n"
+        "error: grid.csv exists already\nhelp: --out FILE writes to another file, --restart replaces it\n"
     );
     assert_eq!(folder.read("grid.csv"), "precious\n");
-    assert_eq!(folder.flap("sweep --grid grid.toml --force").code, 0);
+    assert_eq!(folder.flap("sweep --grid grid.toml --restart").code, 0);
     assert_eq!(folder.read("grid.csv").lines().count(), 3);
 }
 
 #[test]
 fn the_grid_file_is_not_overwritten_at_all() {
     let folder = Folder::with_grid(&frequencies(2));
-    folder.ends(2, "sweep --grid grid.toml --out ./grid.toml --force").says("overwrite the grid file");
+    folder.ends(2, "sweep --grid grid.toml --out ./grid.toml --restart").says("overwrite the grid file");
     assert_eq!(folder.read("grid.toml"), frequencies(2));
 }
 
@@ -83,7 +83,7 @@ fn the_grid_file_is_not_overwritten_at_all() {
 fn places_that_cannot_be_written() {
     let folder = Folder::with_grid(&frequencies(2));
     for out in ["missing/rows.csv", "."] {
-        let ended = folder.ends(3, &format!("sweep --grid grid.toml --force --out {out}"));
+        let ended = folder.ends(3, &format!("sweep --grid grid.toml --restart --out {out}"));
         assert!(ended.stderr.starts_with(&format!("error: cannot write {out}: ")), "{}", ended.stderr);
         assert_eq!(ended.stdout, "");
     }
@@ -93,7 +93,7 @@ fn places_that_cannot_be_written() {
 #[cfg(target_os = "linux")]
 fn a_full_disk_is_reported() {
     let folder = Folder::with_grid(&frequencies(2));
-    let ended = folder.ends(3, "sweep --grid grid.toml --force --out /dev/full");
+    let ended = folder.ends(3, "sweep --grid grid.toml --restart --out /dev/full");
     assert!(ended.stderr.starts_with("error: cannot write rows: "), "{}", ended.stderr);
 }
 
@@ -127,12 +127,12 @@ fn wrong_command_lines() {
         "sweep --grid grid.toml --threads many",
         "sweep --grid grid.toml --out rows.json",
         "sweep --grid grid.toml --shard 4/3",
-        "sweep --grid grid.toml --resume --force",
+        "sweep --grid grid.toml --resume",
         "sweep --grid grid.toml --checkpoint=-1s",
-        "sweep --from-sidecar missing.meta.toml --out rows.csv",
-        "resume grid.csv",
-        "merge rows.csv",
-        "convert missing.csv rows.csv",
+        "sweep missing.meta.toml --out rows.csv",
+        "results resume grid.csv",
+        "results merge rows.csv",
+        "results convert missing.csv rows.csv",
         "run ozaki2018-large --rtol 0",
         "run ozaki2018-large --rtol nan",
         "run ozaki2018-large --settle-tol 1",
@@ -153,9 +153,9 @@ fn wrong_command_lines() {
 fn misspelt_names_are_recognised() {
     let folder = Folder::new();
     for (arguments, hint) in [
-        ("params ozaki2018-larg", "help: did you mean `ozaki2018-large`?\n"),
-        ("params direct_drive", "help: did you mean `direct-drive`?\n"),
-        ("params zebra", "help: `flap models` lists models and presets\n"),
+        ("models ozaki2018-larg", "help: did you mean `ozaki2018-large`?\n"),
+        ("models direct_drive", "help: did you mean `direct-drive`?\n"),
+        ("models zebra", "help: `flap models MODEL` lists parameters and columns\n"),
         ("run ozaki2018-larg", "help: did you mean `ozaki2018-large`?\n"),
         ("run ozaki2018-large --set drive_freqency=100", "help: did you mean `drive_frequency`?\n"),
     ] {
@@ -195,15 +195,16 @@ fn grids_and_sidecars_are_not_results() {
         "plot",
         "top --by cycles",
         "describe",
-        "resume",
-        "convert --force",
-        "rerun --status unsettled --out o.csv",
+        "results resume",
+        "results convert --force",
+        "results rerun --status unsettled --out o.csv",
     ] {
-        let (name, options) = command.split_once(' ').unwrap_or((command, ""));
+        let end = command.find(" --").unwrap_or(command.len());
+        let (name, options) = command.split_at(end);
         if cfg!(not(feature = "plots")) && name == "plot" {
             continue;
         }
-        let out = if name == "convert" { "o.csv" } else { "" };
+        let out = if name == "results convert" { "o.csv" } else { "" };
         folder.refuses(
             &format!("{name} grid.toml {out} {options}"),
             "error: grid.toml is a grid file, not a file of results\nhelp: `flap sweep grid.toml` computes its results\n",
@@ -227,10 +228,10 @@ fn impossible_numbers_are_named() {
         ("run ozaki2018-large --accuracy 1e999", "expected a finite number more than zero"),
         ("run ozaki2018-large --max-cycles 1e999", "expected a whole number from 1 to 4294967295"),
         ("run ozaki2018-large --max-cycles 0", "expected a whole number from 1 to 4294967295"),
-        ("run ozaki2018-large --drive chirp --chirp-from 1e999", "`1e999` is too large for the value"),
-        ("run ozaki2018-large --drive chirp --chirp-rate 1e999", "expected a finite number"),
-        ("resonance ozaki2018-large --from 1e999", "`1e999` is too large for the value"),
-        ("resonance ozaki2018-large --tolerance 0", "the tolerance must be more than zero, not 0 Hz\n"),
+        ("test chirp ozaki2018-large --from 1e999", "`1e999` is too large for the value"),
+        ("test chirp ozaki2018-large --rate 1e999", "expected a finite number"),
+        ("test resonance ozaki2018-large --from 1e999", "`1e999` is too large for the value"),
+        ("test resonance ozaki2018-large --tolerance 0", "the tolerance must be more than zero, not 0 Hz\n"),
     ] {
         folder.refuses(arguments, message);
     }
@@ -241,15 +242,15 @@ fn impossible_numbers_are_named() {
 fn unsettled_points_come_with_a_command() {
     let grid = frequencies(2) + "[solver]\nmax_cycles = 4\n";
     let folder = Folder::with_grid(&grid);
-    let command = "rerun grid.csv --status unsettled --max-cycles 40 --out grid.unsettled.csv";
+    let command = "results rerun grid.csv --status unsettled --max-cycles 40 --out grid.unsettled.csv";
     folder.ends(0, "sweep grid.toml").says(&format!(
         "2 points did not settle within 4 drive periods. This command runs them longer: flap {command}. If"
     ));
     // A rerun that changes nothing does not recommend itself.
-    let ended = folder.ends(0, "rerun grid.csv --status unsettled --max-cycles 4 --out same.csv");
+    let ended = folder.ends(0, "results rerun grid.csv --status unsettled --max-cycles 4 --out same.csv");
     ended.says("2 points did not settle within 4 drive periods. Run them longer with --max-cycles only if ");
     ended.says("a motion that stays unsettled is quasi-periodic or chaotic\n");
-    assert!(!ended.stderr.contains("flap rerun"), "{}", ended.stderr);
+    assert!(!ended.stderr.contains("flap results rerun"), "{}", ended.stderr);
     folder.ends(0, command).says("2 periodic in ").says("2 rows in grid.unsettled.csv\n");
     folder.ends(0, "sweep grid.toml --out -").says("A larger max_cycles in [solver] runs them longer");
 
@@ -261,5 +262,5 @@ fn unsettled_points_come_with_a_command() {
     let one = Folder::with_grid(&(frequencies(1) + "[solver]\nmax_cycles = 1\n"));
     one.ends(0, "sweep grid.toml")
         .says("1 point did not settle within 1 drive period. This command runs it longer");
-    one.ends(0, "convert grid.csv o.csv").says("1 row in o.csv\n");
+    one.ends(0, "results convert grid.csv o.csv").says("1 row in o.csv\n");
 }

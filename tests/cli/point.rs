@@ -75,24 +75,21 @@ fn a_trajectory_is_sampled() {
 #[test]
 fn a_chirp_gives_one_row_per_cycle_and_the_motion() {
     let folder = Folder::new();
-    let ended =
-        folder.flap("run ozaki2018-small --drive chirp --chirp-from 180 --chirp-to 200 --chirp-rate 100");
+    let ended = folder.flap("test chirp ozaki2018-small --from 180 --to 200 --rate 100");
     assert_eq!(ended.code, 0, "{}", ended.stderr);
     let rows: Vec<&str> = ended.stdout.lines().collect();
     assert!(rows[0].starts_with("begin_s,end_s,frequency_hz,stroke_amplitude_deg,"), "{}", rows[0]);
     // 0.2 s at 190 Hz on average.
     assert_eq!(rows.len(), 1 + 38);
 
-    let files = "run ozaki2018-small --drive chirp --chirp-from 180 --chirp-to 200 --chirp-rate 100 \
-                 --envelope e.csv --trajectory t.csv --samples 10";
+    let files = "test chirp ozaki2018-small --from 180 --to 200 --rate 100 \
+                 --out e.csv --trajectory t.csv --samples 10";
     assert_eq!(folder.flap(files).code, 0);
     assert_eq!(folder.read("e.csv"), ended.stdout);
     assert_eq!(folder.read("t.csv").lines().count(), 1 + 38 * 10 + 1);
     assert_eq!(folder.flap(files).code, 2, "existing files are not overwritten unasked");
     assert_eq!(folder.flap(&format!("{files} --force")).code, 0);
 
-    folder
-        .ends(2, "run ozaki2018-small --drive chirp --chirp-from 200 --chirp-to 100")
-        .says("sign of the change");
-    assert_eq!(folder.flap("run ozaki2018-small --envelope e.csv").code, 2);
+    folder.ends(2, "test chirp ozaki2018-small --from 200 --to 100").says("sign of the change");
+    assert_eq!(folder.flap("test impulse ozaki2018-small --out e.csv").code, 2);
 }

@@ -18,7 +18,7 @@ fn folder(ending: &str) -> (Folder, Vec<u8>, String) {
 fn assert_kept(folder: &Folder, ending: &str, rows: &[u8], sidecar: &str) {
     assert!(fs::read(folder.path(&format!("rows.{ending}"))).unwrap() == rows);
     assert_eq!(folder.read(&format!("rows.{ending}.meta.toml")), sidecar);
-    folder.ends(0, &format!("verify rows.{ending}"));
+    folder.ends(0, &format!("results verify rows.{ending}"));
 }
 
 /// Waits until checkpoints are in the journal, and not those of the journal `before`.
@@ -72,11 +72,7 @@ fn an_interrupted_force_is_resumed_and_then_the_earlier_results_go() {
     send("INT", &child);
     assert_eq!(wait(&mut child), Some(130));
     assert_eq!(folder.read("grid.csv").lines().count(), 4);
-    let unfinished = "grid.csv is the unfinished result of an interrupted sweep\n\
-                      help: `flap resume grid.csv` continues it\n\
-                      help: `flap sweep --force` drops its rows and starts over\n";
-    folder.ends(2, "sweep --grid grid.toml").says(unfinished);
-    folder.ends(0, "resume grid.csv");
+    folder.ends(0, "sweep --grid grid.toml").says(" of 20000 points of grid.csv are done\n");
     assert_eq!(folder.names(), ["grid.csv", "grid.csv.meta.toml", "grid.toml"]);
     assert_eq!(folder.read("grid.csv").lines().count(), 20_001);
 }
@@ -85,7 +81,7 @@ fn an_interrupted_force_is_resumed_and_then_the_earlier_results_go() {
 fn a_completed_force_leaves_nothing_of_the_earlier_results() {
     let (folder, ..) = folder("csv");
     fs::write(folder.path("grid.toml"), quick(5)).unwrap();
-    assert_eq!(folder.flap("sweep --grid grid.toml --out rows.csv --force").code, 0);
+    assert_eq!(folder.flap("sweep --grid grid.toml --out rows.csv --restart").code, 0);
     assert_eq!(folder.names(), ["grid.toml", "rows.csv", "rows.csv.meta.toml"]);
     assert_eq!(folder.read("rows.csv").lines().count(), 6);
 }
@@ -97,7 +93,7 @@ fn a_file_in_the_way_stays() {
     fs::write(folder.path("grid.toml"), quick(5)).unwrap();
     fs::write(folder.path("rows.new.csv"), "precious").unwrap();
     folder
-        .ends(2, "sweep --grid grid.toml --out rows.csv --force")
+        .ends(2, "sweep --grid grid.toml --out rows.csv --restart")
         .says("rows.new.csv exists already: writing rows.csv would overwrite it");
     assert_eq!(folder.read("rows.new.csv"), "precious");
     assert!(fs::read(folder.path("rows.csv")).unwrap() == rows);
@@ -115,8 +111,8 @@ fn a_file_in_the_way_stays() {
     child.kill().unwrap();
     wait(&mut child);
     let before = folder.read("rows.new.csv");
-    folder.ends(2, "sweep grid.toml --out rows.csv --force").says("rows.new.csv exists already");
-    folder.ends(0, "resume rows.csv").says("rows.csv is complete: nothing is left to run");
+    folder.ends(2, "sweep grid.toml --out rows.csv --restart").says("rows.new.csv exists already");
+    folder.ends(0, "results resume rows.csv").says("rows.csv is complete: nothing is left to run");
     assert_eq!(folder.read("rows.new.csv"), before);
 }
 
@@ -124,18 +120,22 @@ fn a_file_in_the_way_stays() {
 #[test]
 fn a_conversion_ends_an_unfinished_replacement() {
     let (folder, ..) = folder("csv");
-    folder.ends(0, "convert rows.csv other.parquet");
+    folder.ends(0, "results convert rows.csv other.parquet");
     let arguments = ["sweep", "grid.toml", "--out", "rows.csv", "--force", "--checkpoint", "10 ms"];
     let mut child = start(&folder, &arguments);
     wait_until_begun(&folder, &folder.path("rows.new.csv.journal"), "");
-    folder.ends(3, "convert other.parquet rows.csv --force").says("another run is writing to rows.csv");
+    folder
+        .ends(3, "results convert other.parquet rows.csv --force")
+        .says("another run is writing to rows.csv");
     child.kill().unwrap();
     wait(&mut child);
-    folder.ends(2, "convert other.parquet rows.csv").says("is the unfinished result of an interrupted sweep");
-    folder.ends(0, "convert other.parquet rows.csv --force");
+    folder
+        .ends(2, "results convert other.parquet rows.csv")
+        .says("is the unfinished result of an interrupted sweep");
+    folder.ends(0, "results convert other.parquet rows.csv --force");
     let left = ["grid.toml", "other.parquet", "other.parquet.meta.toml", "rows.csv", "rows.csv.meta.toml"];
     assert_eq!(folder.names(), left);
-    folder.ends(0, "verify rows.csv");
+    folder.ends(0, "results verify rows.csv");
 }
 
 /// A link stays a link: rows go where it points to.
@@ -145,7 +145,7 @@ fn a_link_to_results_stays_one() {
     let (folder, ..) = folder("csv");
     fs::write(folder.path("grid.toml"), quick(5)).unwrap();
     std::os::unix::fs::symlink("rows.csv", folder.path("link.csv")).unwrap();
-    assert_eq!(folder.flap("sweep --grid grid.toml --out link.csv --force").code, 0);
+    assert_eq!(folder.flap("sweep --grid grid.toml --out link.csv --restart").code, 0);
     assert!(fs::symlink_metadata(folder.path("link.csv")).unwrap().is_symlink());
     assert_eq!(folder.read("rows.csv").lines().count(), 6);
     assert!(!folder.path("rows.new.csv").exists());

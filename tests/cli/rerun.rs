@@ -39,13 +39,13 @@ fn points(folder: &Folder, name: &str) -> Vec<(String, String)> {
 fn a_sidecar_is_enough_to_repeat_a_sweep() {
     let folder = unsettled();
     fs::remove_file(folder.path("grid.toml")).unwrap();
-    folder.ends(0, "sweep --from-sidecar rows.csv.meta.toml --out again.csv");
+    folder.ends(0, "sweep rows.csv.meta.toml --out again.csv");
     assert_eq!(folder.read("rows.csv"), folder.read("again.csv"));
 
     folder
-        .ends(2, "sweep --from-sidecar rows.csv --out other.csv")
-        .says("rows.csv: not a sidecar of results");
-    folder.ends(2, "sweep --from-sidecar rows.csv.meta.toml").says("--out");
+        .ends(2, "sweep rows.csv --out other.csv")
+        .says("rows.csv: this looks like results, not like a grid file");
+    folder.ends(2, "sweep rows.csv.meta.toml").says("--out");
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn failed_points_are_run_again_with_other_settings() {
     let failed: Vec<(String, String)> =
         points(&folder, "rows.csv").into_iter().filter(|(_, status)| status == "unsettled").collect();
     assert!(!failed.is_empty() && failed.len() < 48, "{}", folder.read("rows.csv"));
-    folder.ends(0, "rerun rows.csv --status unsettled --max-cycles 500 --out again.csv");
+    folder.ends(0, "results rerun rows.csv --status unsettled --max-cycles 500 --out again.csv");
     let again = points(&folder, "again.csv");
     assert!(again.iter().map(|(point, _)| point).eq(failed.iter().map(|(point, _)| point)));
     assert!(again.iter().all(|(_, status)| status == "periodic"), "{again:?}");
@@ -66,27 +66,29 @@ fn failed_points_are_run_again_with_other_settings() {
     assert_eq!(sidecar["rerun"]["statuses"].as_array().unwrap().len(), 1);
 
     // The sidecar of a rerun repeats the rerun.
-    folder.ends(0, "sweep --from-sidecar again.csv.meta.toml --out third.csv");
+    folder.ends(0, "sweep again.csv.meta.toml --out third.csv");
     assert_eq!(folder.read("again.csv"), folder.read("third.csv"));
 }
 
 #[test]
 fn what_cannot_be_run_again() {
     let folder = unsettled();
-    let ended = folder.ends(0, "rerun rows.csv --status diverged --out again.csv");
+    let ended = folder.ends(0, "results rerun rows.csv --status diverged --out again.csv");
     assert_eq!(ended.stderr, "no point in rows.csv is diverged: nothing is left to run\n");
     assert!(!folder.path("again.csv").exists());
 
     fs::copy(folder.path("rows.csv.meta.toml"), folder.path("edited.meta.toml")).unwrap();
     folder.rewrite_sidecar("edited", |sidecar| sidecar.solver.max_cycles = 0);
     folder
-        .ends(2, "sweep --from-sidecar edited.meta.toml --out again.csv")
+        .ends(2, "sweep edited.meta.toml --out again.csv")
         .says("its solver settings are outside the limits");
 
-    folder.ends(2, "rerun rows.csv --status unsetled --out again.csv").says("did you mean `unsettled`?");
+    folder
+        .ends(2, "results rerun rows.csv --status unsetled --out again.csv")
+        .says("did you mean `unsettled`?");
 
     folder
-        .ends(2, "rerun rows.csv --status unsettled --out rows.csv --force")
+        .ends(2, "results rerun rows.csv --status unsettled --out rows.csv --restart")
         .says("writing rows.csv would overwrite the results rows.csv");
 }
 
@@ -102,17 +104,20 @@ fn a_sweep_of_a_file_of_points_is_repeated_from_its_sidecar() {
     folder.ends(0, "sweep --grid designs/grid.toml --out rows.csv");
     assert_eq!(folder.read("rows.csv").lines().count(), 7);
     fs::remove_file(folder.path("designs/grid.toml")).unwrap();
-    folder.ends(0, "sweep --from-sidecar rows.csv.meta.toml --out again.csv");
+    folder.ends(0, "sweep rows.csv.meta.toml --out again.csv");
     assert_eq!(folder.read("rows.csv"), folder.read("again.csv"));
-    folder.ends(0, "rerun rows.csv --status unsettled --max-cycles 2 --out rerun.csv");
-    assert_eq!(folder.flap("resume rerun.csv").stderr, "rerun.csv is complete: nothing is left to run\n");
+    folder.ends(0, "results rerun rows.csv --status unsettled --max-cycles 2 --out rerun.csv");
+    assert_eq!(
+        folder.flap("results resume rerun.csv").stderr,
+        "rerun.csv is complete: nothing is left to run; `flap sweep --restart` runs its points again\n"
+    );
 
     fs::write(folder.path("designs/points.csv"), points.replace("30", "31")).unwrap();
     for arguments in [
-        "sweep --from-sidecar rows.csv.meta.toml --out third.csv",
-        "resume rows.csv",
-        "rerun rows.csv --status unsettled --out third.csv",
-        "convert rows.csv third.parquet",
+        "sweep rows.csv.meta.toml --out third.csv",
+        "results resume rows.csv",
+        "results rerun rows.csv --status unsettled --out third.csv",
+        "results convert rows.csv third.parquet",
     ] {
         let ended = folder.ends(2, arguments);
         assert_eq!(
@@ -123,5 +128,5 @@ fn a_sweep_of_a_file_of_points_is_repeated_from_its_sidecar() {
         );
     }
     fs::remove_file(folder.path("designs/points.csv")).unwrap();
-    folder.ends(2, "resume rows.csv").says("designs/points.csv: ");
+    folder.ends(2, "results resume rows.csv").says("designs/points.csv: ");
 }

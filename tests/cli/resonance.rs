@@ -1,4 +1,4 @@
-//! `flap run --drive impulse` and `flap resonance`.
+//! `flap run --drive impulse` and `flap test resonance`.
 
 use crate::support::Folder;
 
@@ -13,8 +13,7 @@ fn number(text: &str, name: &str) -> f64 {
 fn an_impulse_sets_the_resting_wing_in_motion() {
     let folder = Folder::new();
     let run = |more: &str| {
-        let words =
-            ["run", "ozaki2018-small", "--drive", "impulse", "--impulse", "20 deg", "--duration", "50 ms"];
+        let words = ["test", "impulse", "ozaki2018-small", "--amplitude", "20 deg", "--duration", "50 ms"];
         folder.flap_with(&words.into_iter().chain(more.split_whitespace()).collect::<Vec<_>>())
     };
     let ended = run("--trajectory free.csv --samples 100");
@@ -40,21 +39,27 @@ fn an_impulse_sets_the_resting_wing_in_motion() {
     assert_eq!(run("--trajectory free.csv").code, 2, "existing files are not overwritten unasked");
     let piped = run("--trajectory - --samples 100");
     assert_eq!(piped.stdout, motion);
-    piped.says("stroke_rate_rad_s");
+    assert_eq!(piped.stderr, "");
+    let json: serde_json::Value = serde_json::from_str(&run("--format json").stdout).unwrap();
+    assert_eq!(json[2]["column"], "stroke_rate_rad_s");
+    assert!((json[2]["value"].as_f64().unwrap() / rate - 1.0).abs() < 1e-5, "{json}");
 }
 
 #[test]
 fn resonances_are_compared() {
     let folder = Folder::new();
-    let ended = folder.ends(0, "resonance ozaki2018-large --impulse 20deg --from 90 --to 130");
+    let ended = folder.ends(0, "test resonance ozaki2018-large --impulse 20deg --from 90 --to 130");
     let text = &ended.stdout;
     assert!(text.starts_with("direct-drive from ozaki2018-large\n\nRESONANCE "), "{text}");
     assert!((number(text, "mode_1") - 102.2).abs() < 0.1, "{text}");
     assert!((number(text, "impulse_fit") - 107.9).abs() < 1.5, "{text}");
     assert!((number(text, "driven_1") - 110.7).abs() < 0.1, "{text}");
-    assert_eq!(folder.flap("resonance ozaki2018-large --from 90 --to 130 --impulse 20deg").stdout, *text);
+    assert_eq!(
+        folder.flap("test resonance ozaki2018-large --from 90 --to 130 --impulse 20deg").stdout,
+        *text
+    );
 
-    let csv = folder.flap("resonance ozaki2018-large --from 90 --to 130 --format csv").stdout;
+    let csv = folder.flap("test resonance ozaki2018-large --from 90 --to 130 --format csv").stdout;
     let lines: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(lines[0][..3], ["resonance", "frequency_hz", "relative_height"]);
     assert!(lines.iter().all(|line| line.len() == lines[0].len()), "{csv}");
@@ -67,11 +72,11 @@ fn resonances_are_compared() {
 #[test]
 fn what_hides_a_peak_is_told() {
     let folder = Folder::new();
-    let ended = folder.ends(0, "resonance ozaki2018-large --from 60 --to 90");
+    let ended = folder.ends(0, "test resonance ozaki2018-large --from 60 --to 90");
     ended.says("larger at the end of the range, 90.0 Hz");
     assert!(!ended.stdout.contains("driven_1"), "{}", ended.stdout);
 
-    let ended = folder.ends(0, "resonance ozaki2018-large --from 100 --to 120 --max-cycles 3");
+    let ended = folder.ends(0, "test resonance ozaki2018-large --from 100 --to 120 --max-cycles 3");
     ended.says("11 of 11 drive frequencies did not become periodic");
     ended.says("100.0 to 120.0 Hz unsettled (11)");
 }
@@ -80,42 +85,34 @@ fn what_hides_a_peak_is_told() {
 fn impossible_motions_and_searches_are_refused() {
     let folder = Folder::new();
     for (arguments, message) in [
-        ("run ozaki2018-small --impulse 20deg", "--impulse needs --drive impulse"),
-        ("run ozaki2018-small --duration 50ms", "--duration needs --drive impulse"),
-        ("run ozaki2018-small --drive chirp --impulse 20deg", "--impulse needs --drive impulse"),
-        ("run ozaki2018-small --drive impulse --envelope e.csv", "--envelope needs --drive chirp"),
-        ("run ozaki2018-small --drive impulse --impulse 20", "write a number with a unit, such as `20 deg`"),
+        ("test impulse ozaki2018-small --amplitude 20", "write a number with a unit, such as `20 deg`"),
+        ("test impulse ozaki2018-small --amplitude 20mm", "write a number with a unit, such as `20 deg`"),
         (
-            "run ozaki2018-small --drive impulse --impulse 20mm",
-            "write a number with a unit, such as `20 deg`",
-        ),
-        (
-            "run ozaki2018-small --drive impulse --impulse 200deg",
+            "test impulse ozaki2018-small --amplitude 200deg",
             "is larger than half a turn: give at most 180 deg",
         ),
-        ("resonance ozaki2018-small --impulse 20rad", "an impulse of 1145.9 deg (20 rad) is larger"),
-        ("run ozaki2018-small --drive impulse --impulse 0deg", "must be finite and not zero"),
-        ("run ozaki2018-small --drive impulse --duration 0s", "cannot be sampled"),
-        ("run ozaki2018-small --drive impulse --duration 1e9s", "cannot be sampled"),
+        ("test resonance ozaki2018-small --impulse 20rad", "an impulse of 1145.9 deg (20 rad) is larger"),
+        ("test impulse ozaki2018-small --amplitude 0deg", "must be finite and not zero"),
+        ("test impulse ozaki2018-small --duration 0s", "cannot be sampled"),
+        ("test impulse ozaki2018-small --duration 1e9s", "cannot be sampled"),
         (
-            "run ozaki2018-small --drive impulse --from-rest --trajectory t.csv",
-            "--from-rest needs --drive steady",
+            "test resonance ozaki2018-small --from 100 --to 90",
+            "there are no drive frequencies from 100 to 90 Hz",
         ),
-        ("resonance ozaki2018-small --from 100 --to 90", "there are no drive frequencies from 100 to 90 Hz"),
-        ("resonance ozaki2018-small --from 0", "more than zero"),
-        ("resonance ozaki2018-small --from 5mm", "write a number with a unit, such as `120 Hz`"),
-        ("resonance ozaki2018-small --tolerance 0", "the tolerance must be more than zero, not 0 Hz"),
-        ("resonance ozaki2018-small --window-cycles 1", "2..=1000"),
-        ("resonance ozaki2018-small --spectrum-window 0s", "cannot be sampled"),
-        ("resonance ozaki2018-small --set drive_freqency=100", "did you mean `drive_frequency`?"),
-        ("resonance ozaki2018-small --point 1", "there is no point 1"),
+        ("test resonance ozaki2018-small --from 0", "more than zero"),
+        ("test resonance ozaki2018-small --from 5mm", "write a number with a unit, such as `120 Hz`"),
+        ("test resonance ozaki2018-small --tolerance 0", "the tolerance must be more than zero, not 0 Hz"),
+        ("test resonance ozaki2018-small --window-cycles 1", "2..=1000"),
+        ("test resonance ozaki2018-small --spectrum-window 0s", "cannot be sampled"),
+        ("test resonance ozaki2018-small --set drive_freqency=100", "did you mean `drive_frequency`?"),
+        ("test resonance ozaki2018-small --point 1", "there is no point 1"),
         (
-            "resonance ozaki2018-small --set stroke_mode=prescribed",
+            "test resonance ozaki2018-small --set stroke_mode=prescribed",
             "the same at every frequency, set it to free",
         ),
     ] {
         folder.refuses(arguments, message);
     }
-    folder.ends(2, "resonance ozaki2018-small --set wing_inertia_product=1").says("mass matrix");
+    folder.ends(2, "test resonance ozaki2018-small --set wing_inertia_product=1").says("mass matrix");
     assert_eq!(folder.names(), [""; 0]);
 }

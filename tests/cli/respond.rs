@@ -87,19 +87,19 @@ fn an_interrupted_response_goes_on() {
             let next = whole[text.len()..].lines().next();
             assert_ne!(curve(text.lines().last()), curve(next), "each with all of its rows");
         }
-        let verified = folder.flap(&format!("verify {name}"));
-        assert!(verified.stdout.contains("unfinished, sound so far"), "{}", verified.stdout);
-        let again = folder.flap(&format!("respond grid.toml --out {name}"));
-        assert_eq!(again.code, 2, "protected");
-        assert!(again.stderr.contains("is the unfinished result"), "{}", again.stderr);
+        let verified = folder.flap(&format!("results verify {name}"));
+        assert!(verified.stdout.contains("unfinished: sound so far"), "{}", verified.stdout);
 
-        let resumed = folder.flap(&format!("resume {name}"));
+        let resumed = folder.flap(&format!("results resume {name}"));
         assert_eq!(resumed.code, 0, "{}", resumed.stderr);
         assert!(resumed.stderr.contains(&format!("5000 curves in {name}")), "{}", resumed.stderr);
         let rows = whole.lines().count() - 1;
-        assert_eq!(folder.flap(&format!("verify {name}")).stdout, format!("{name}: sound, {rows} rows\n"));
-        assert_eq!(folder.flap(&format!("convert {name} -")).stdout, whole, "{name}");
-        let complete = folder.flap(&format!("respond grid.toml --out {name} --resume"));
+        assert_eq!(
+            folder.flap(&format!("results verify {name}")).stdout,
+            format!("{name}: sound: {rows} rows\n")
+        );
+        assert_eq!(folder.flap(&format!("results convert {name} -")).stdout, whole, "{name}");
+        let complete = folder.flap(&format!("respond grid.toml --out {name}"));
         assert!(complete.stderr.contains("is complete: nothing is left to run"), "{}", complete.stderr);
     }
 }
@@ -111,15 +111,15 @@ fn options_are_those_of_the_sidecar() {
                    --set lift_sign=printed --rtol 1e-5 --out rows.csv";
     assert_eq!(folder.flap(respond).code, 0);
     let rows = folder.read("rows.csv");
-    let again = folder.flap("sweep --from-sidecar rows.csv.meta.toml --out again.csv");
+    let again = folder.flap("sweep rows.csv.meta.toml --out again.csv");
     assert_eq!(again.code, 0, "{}", again.stderr);
     assert_eq!(folder.read("again.csv"), rows);
     let others = folder.flap(&format!("{respond} --set drive_frequency=3"));
     assert_eq!(others.code, 2, "{}", others.stderr);
-    let others = folder.flap(&format!("{} --resume", respond.replace("=70", "=71")));
+    let others = folder.flap(&respond.replace("=70", "=71"));
     assert_eq!(others.code, 2, "{}", others.stderr);
     assert!(others.stderr.contains("the followed parameter"), "{}", others.stderr);
-    let rerun = folder.flap("rerun rows.csv --status periodic --out rerun.csv");
+    let rerun = folder.flap("results rerun rows.csv --status periodic --out rerun.csv");
     assert_eq!(rerun.code, 2);
     assert!(rerun.stderr.contains("holds curves"), "{}", rerun.stderr);
 }

@@ -77,7 +77,7 @@ fn killed(ending: &str, kills: u32, mut random: u64) {
     let folder = folder(POINTS, ending);
     let out = format!("rows.{ending}");
     let journal = format!("{out}.journal");
-    let mut arguments = vec!["sweep", "--grid", "grid.toml", "--out", &out, "--resume", "--threads", "1"];
+    let mut arguments = vec!["sweep", "--grid", "grid.toml", "--out", &out, "--threads", "1"];
     arguments.extend(OFTEN);
     for _ in 0..kills {
         let before = length(&folder, &journal);
@@ -96,7 +96,7 @@ fn killed(ending: &str, kills: u32, mut random: u64) {
             wait(&mut child);
         }
     }
-    folder.ends(0, &format!("resume {out}"));
+    folder.ends(0, &format!("results resume {out}"));
     assert_same(&folder, ending);
 }
 
@@ -127,13 +127,8 @@ fn an_interrupted_sweep_goes_on() {
         let sidecar: toml::Table = folder.read(&format!("{out}.meta.toml")).parse().unwrap();
         assert_eq!(sidecar["state"].as_str(), Some("interrupted"));
 
-        let ended = folder.ends(2, &format!("sweep --grid grid.toml --out {out}"));
-        ended.says("is the unfinished result of an interrupted sweep");
-        ended.says(&format!(
-            "help: `flap resume {out}` continues it\nhelp: `flap sweep --force` drops its rows and starts over\n"
-        ));
         folder
-            .ends(0, &format!("sweep --grid grid.toml --out {out} --resume"))
+            .ends(0, &format!("sweep --grid grid.toml --out {out}"))
             .says(&format!("of {POINTS} points of {out} are done\n"));
         assert_same(&folder, ending);
     }
@@ -150,7 +145,7 @@ fn an_interrupted_sweep_of_derivatives_goes_on() {
         let mut child = begin(&folder, &out);
         send("INT", &child);
         assert_eq!(wait(&mut child), Some(130), "{ending}");
-        let ended = folder.ends(0, &format!("resume {out}"));
+        let ended = folder.ends(0, &format!("results resume {out}"));
         assert!(!ended.stderr.starts_with("0 of 1500 points"), "{}", ended.stderr);
         assert_same(&folder, ending);
     }
@@ -171,10 +166,10 @@ fn a_full_disk_loses_nothing() {
         assert_eq!(limited.status.code(), Some(3), "{stderr}");
         assert!(stderr.starts_with("error: cannot write rows: "), "{stderr}");
         assert!(
-            stderr.ends_with(&format!("help: `flap resume rows.{ending}` continues the run\n")),
+            stderr.ends_with(&format!("help: `flap results resume rows.{ending}` continues the run\n")),
             "{stderr}"
         );
-        folder.ends(0, &format!("resume rows.{ending}"));
+        folder.ends(0, &format!("results resume rows.{ending}"));
         assert_same(&folder, ending);
     }
 }
@@ -232,11 +227,11 @@ fn a_lost_permission_loses_nothing() {
     assert!(wait_until(&mut child, || length(&folder, "rows.csv") > 10_000));
     writable(false);
     assert_eq!(wait(&mut child), Some(3));
-    let (code, stderr) = run("resume rows.csv");
+    let (code, stderr) = run("results resume rows.csv");
     assert_eq!(code, Some(3), "{stderr}");
     assert!(stderr.contains("error: cannot write rows.csv.meta.toml: "), "{stderr}");
     writable(true);
-    let (code, stderr) = run("resume rows.csv");
+    let (code, stderr) = run("results resume rows.csv");
     assert_eq!(code, Some(0), "{stderr}");
     assert_same(&folder, "csv");
 }
@@ -252,7 +247,9 @@ fn results_removed_meanwhile_are_noticed() {
         let stderr = std::io::read_to_string(child.stderr.take().unwrap()).unwrap();
         assert!(stderr.contains(&format!("{removed} was removed or replaced meanwhile")), "{stderr}");
 
-        folder.ends(0, &format!("resume {out}")).says(&format!(" missing from {out}, and computed again\n"));
+        folder
+            .ends(0, &format!("results resume {out}"))
+            .says(&format!(" missing from {out}, and computed again\n"));
         assert_same(&folder, ending);
     }
 }
@@ -262,7 +259,7 @@ fn results_removed_meanwhile_are_noticed() {
 fn a_running_sweep_is_not_resumed() {
     let folder = Folder::with_grid(&frequencies(100_000_000));
     let mut child = sweep_until(&folder, 1);
-    for arguments in ["resume grid.csv", "sweep --grid grid.toml --resume", "sweep --grid grid.toml --force"]
+    for arguments in ["results resume grid.csv", "sweep --grid grid.toml", "sweep --grid grid.toml --restart"]
     {
         let ended = folder.ends(3, arguments);
         assert!(ended.stderr.ends_with("error: another run is writing to grid.csv\n"), "{}", ended.stderr);
@@ -286,33 +283,28 @@ fn a_changed_grid_is_not_resumed() {
     let rows = folder.read("grid.csv");
     let grid = folder.read("grid.toml").replace("rtol = 1e-3", "rtol = 1e-4");
     fs::write(folder.path("grid.toml"), grid).unwrap();
-    let ended = folder.ends(2, "sweep --grid grid.toml --resume");
+    let ended = folder.ends(2, "sweep --grid grid.toml");
     let told = "error: grid.csv cannot be resumed: the grid file differs; the solver settings differ\n\
-                help: `flap resume grid.csv` continues it with the grid that began it\n\
+                help: `flap results resume grid.csv` continues it with the grid that began it\n\
                 help: line 7 of the grid was `rtol = 1e-3`, it is `rtol = 1e-4`\n\
                 help: an edited grid is another sweep: give its rows another file with --out FILE\n\
-                help: `flap sweep --force` drops its rows and starts over\n";
+                help: `flap sweep --restart` drops its rows and starts over\n";
     assert!(ended.stderr.ends_with(told), "{}", ended.stderr);
-    let (reason, ways) = told.split_once('\n').unwrap();
-    let reason = reason
-        .replace("cannot be resumed:", "is the unfinished result of an interrupted sweep, with other rows:");
-    let ended = folder.ends(2, "sweep --grid grid.toml");
-    assert!(ended.stderr.ends_with(&format!("{reason}\n{ways}")), "{}", ended.stderr);
     assert_eq!(folder.read("grid.csv"), rows, "nothing is lost");
 
     // Complete results of another grid have nothing to be continued.
     folder.ends(0, "sweep grid.toml --shard 1/1000000 --out part.csv");
-    let ended = folder.ends(2, "sweep grid.toml --resume --out part.csv");
+    let ended = folder.ends(2, "sweep grid.toml --out part.csv");
     ended.says(
         "error: part.csv exists already, with other rows: the rows cover shard 1/1000000, not all points\n",
     );
-    ended.says("help: --out FILE writes to another file, --force replaces it\n");
+    ended.says("help: --out FILE writes to another file, --restart replaces it\n");
 }
 
 #[test]
 fn another_shard_is_not_resumed() {
     let folder = unfinished();
-    let ended = folder.ends(2, "sweep --grid grid.toml --out grid.csv --shard 2/3 --resume");
+    let ended = folder.ends(2, "sweep --grid grid.toml --out grid.csv --shard 2/3");
     let message = "grid.csv cannot be resumed: the rows cover all points, not shard 2/3\n";
     ended.says(message);
 }
@@ -322,28 +314,30 @@ fn rows_edited_meanwhile_are_not_resumed() {
     let folder = unfinished();
     let rows = folder.read("grid.csv").replacen("unsettled", "periodic!", 1);
     fs::write(folder.path("grid.csv"), &rows).unwrap();
-    folder.ends(2, "resume grid.csv").says("it has changed since the sweep wrote it");
+    folder.ends(2, "results resume grid.csv").says("it has changed since the sweep wrote it");
     assert_eq!(folder.read("grid.csv"), rows);
 }
 
 #[test]
 fn there_may_be_nothing_to_resume() {
     let folder = Folder::with_grid(&quick(10));
-    folder.ends(2, "resume grid.csv").says("error: grid.csv does not exist\n");
-    folder.ends(2, "convert grid.csv grid.parquet").says("error: grid.csv does not exist\n");
+    folder.ends(2, "results resume grid.csv").says("error: grid.csv does not exist\n");
+    folder.ends(2, "results convert grid.csv grid.parquet").says("error: grid.csv does not exist\n");
 
-    // A job script may always say --resume.
-    folder.ends(0, "sweep --grid grid.toml --resume");
+    // A job script may always use the same line.
+    folder.ends(0, "sweep --grid grid.toml");
     let rows = folder.read("grid.csv");
-    let ended = folder.ends(1, "sweep --grid grid.toml --resume --strict");
-    assert_eq!(ended.stderr, "grid.csv is complete: nothing is left to run\n");
+    let ended = folder.ends(1, "sweep --grid grid.toml --strict");
+    assert_eq!(
+        ended.stderr,
+        "grid.csv is complete: nothing is left to run; `flap sweep --restart` runs its points again\n"
+    );
     assert_eq!(folder.read("grid.csv"), rows);
 
     fs::write(folder.path("grid.toml"), quick(11)).unwrap();
-    folder.ends(2, "sweep --grid grid.toml --resume").says("the grid file differs");
+    folder.ends(2, "sweep --grid grid.toml").says("the grid file differs");
 
     fs::write(folder.path("alone.csv"), "precious\n").unwrap();
-    folder.ends(2, "sweep --grid grid.toml --out alone.csv --resume").says("alone.csv has no journal");
+    folder.ends(2, "sweep --grid grid.toml --out alone.csv").says("error: alone.csv exists already\n");
     assert_eq!(folder.read("alone.csv"), "precious\n");
-    assert_eq!(folder.flap("sweep --grid grid.toml --out - --resume").code, 2);
 }

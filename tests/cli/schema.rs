@@ -1,4 +1,4 @@
-//! The schema of grid files that `flap schema` prints, as validators of JSON schemas understand it.
+//! The schema of grid files that `flap generate schema` prints, as validators of JSON schemas understand it.
 
 use std::fs;
 
@@ -51,21 +51,21 @@ fn grids() -> Vec<(String, String)> {
 
 #[test]
 fn grids_of_the_examples_and_documents_satisfy_the_schema() {
-    let all = validator("schema");
+    let all = validator("generate schema");
     let grids = grids();
     assert!(grids.len() > 20, "{} grids found", grids.len());
     for (name, grid) in grids {
         assert_eq!(mistakes(&all, &grid), [""; 0], "{name}\n{grid}");
         let table: toml::Table = grid.parse().unwrap();
         let preset = table.get("preset").and_then(toml::Value::as_str).unwrap_or("jafferis2016");
-        let own = validator(&format!("schema --preset {preset}"));
+        let own = validator(&format!("generate schema --preset {preset}"));
         assert_eq!(mistakes(&own, &grid), [""; 0], "{name} with --preset {preset}\n{grid}");
     }
 }
 
 #[test]
 fn every_form_of_a_value_satisfies_the_schema() {
-    let all = validator("schema");
+    let all = validator("generate schema");
     for section in [
         "[params]\nwing_area = 54e-6",
         "[params]\nwing_area = \"54 mm^2\"",
@@ -95,7 +95,7 @@ fn every_form_of_a_value_satisfies_the_schema() {
 
 #[test]
 fn mistakes_do_not_satisfy_the_schema() {
-    let all = validator("schema");
+    let all = validator("generate schema");
     for (section, place, message) in [
         ("[parms]\n", "", "'parms' was unexpected"),
         ("[params]\nwing_lenght = 1\n", "/params", "'wing_lenght' was unexpected"),
@@ -159,7 +159,7 @@ fn mistakes_do_not_satisfy_the_schema() {
     }
     let found = mistakes(&all, "preset = \"ozaki\"\n");
     assert!(found.len() == 1 && found[0].starts_with("/preset: \"ozaki\" is not one of"), "{found:?}");
-    let own = validator("schema --preset ozaki2018-large");
+    let own = validator("generate schema --preset ozaki2018-large");
     for validator in [&all, &own] {
         assert_eq!(mistakes(validator, ""), [": \"preset\" is a required property"]);
         let both = mistakes(validator, "preset = \"ozaki2018-large\"\ndevice = \"mine.toml\"\n");
@@ -169,7 +169,7 @@ fn mistakes_do_not_satisfy_the_schema() {
 
 #[test]
 fn every_key_has_a_description() {
-    let schema = schema("schema");
+    let schema = schema("generate schema");
     for section in schema["properties"].as_object().unwrap() {
         assert_described(section.0, section.1);
     }
@@ -205,16 +205,16 @@ fn assert_described(name: &str, schema: &Value) {
 
 #[test]
 fn a_preset_chooses_its_model_and_the_defaults() {
-    let own = schema("schema --preset jafferis2016");
+    let own = schema("generate schema --preset jafferis2016");
     assert_eq!(own["$defs"]["bimorph.wing_length.value"]["default"], "17 mm");
     assert!(own["$defs"]["direct-drive"].is_null());
-    let all = schema("schema");
+    let all = schema("generate schema");
     assert!(all["$defs"]["bimorph.wing_length.value"]["default"].is_null());
 
     // The schema of all models does not know the model of a device; that of one model does.
     let grid = "device = \"mybee.toml\"\n[params]\nwing_lenght = 1\n";
-    assert_eq!(mistakes(&validator("schema"), grid), [""; 0]);
-    let own = mistakes(&validator("schema --preset jafferis2016"), grid);
+    assert_eq!(mistakes(&validator("generate schema"), grid), [""; 0]);
+    let own = mistakes(&validator("generate schema --preset jafferis2016"), grid);
     assert!(own.len() == 1 && own[0].starts_with("/params: "), "{own:?}");
-    Folder::new().ends(2, "schema --preset jafferis2017").says("did you mean `jafferis2016`?");
+    Folder::new().ends(2, "generate schema --preset jafferis2017").says("did you mean `jafferis2016`?");
 }

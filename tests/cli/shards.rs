@@ -27,9 +27,10 @@ fn merged_shards_are_the_file_of_one_machine() {
         let folder = folder(points);
         for ending in ["csv", "csv.zst", "parquet"] {
             let merged = format!("merged.{ending}");
-            let ended = folder.ends(0, &format!("merge {merged} grid.3of3.csv grid.1of3.csv grid.2of3.csv"));
+            let ended =
+                folder.ends(0, &format!("results merge {merged} grid.3of3.csv grid.1of3.csv grid.2of3.csv"));
             assert_eq!(ended.stderr, format!("{points} rows of 3 shards in {merged}\n"));
-            assert_eq!(folder.flap(&format!("convert whole.csv one.{ending}")).code, 0);
+            assert_eq!(folder.flap(&format!("results convert whole.csv one.{ending}")).code, 0);
             let bytes = |name: &str| fs::read(folder.path(name)).unwrap();
             assert!(bytes(&merged) == bytes(&format!("one.{ending}")), "{merged}");
             let sidecar =
@@ -61,7 +62,7 @@ strong = "lift_mean_mn > 1"
     assert!(rows("grid.1of3.csv") + 100 < rows("grid.2of3.csv"));
     for ending in ["csv", "csv.zst", "parquet"] {
         let merged = format!("merged.{ending}");
-        folder.ends(0, &format!("merge {merged} grid.2of3.csv grid.1of3.csv grid.3of3.csv"));
+        folder.ends(0, &format!("results merge {merged} grid.2of3.csv grid.1of3.csv grid.3of3.csv"));
         assert_eq!(folder.flap(&format!("sweep --grid grid.toml --out one.{ending}")).code, 0);
         let bytes = |name: &str| fs::read(folder.path(name)).unwrap();
         assert!(bytes(&merged) == bytes(&format!("one.{ending}")), "{merged}");
@@ -108,10 +109,10 @@ fn shards_that_do_not_belong_together_are_refused() {
         ),
         ("whole.csv", "error: whole.csv is not a shard\n"),
     ] {
-        let ended = folder.ends(2, &format!("merge merged.csv {shards}"));
+        let ended = folder.ends(2, &format!("results merge merged.csv {shards}"));
         assert_eq!(ended.stderr, message, "{shards}");
     }
-    folder.ends(2, "merge merged.csv missing.csv").says("missing.csv does not exist");
+    folder.ends(2, "results merge merged.csv missing.csv").says("missing.csv does not exist");
     assert!(!folder.path("merged.csv").exists());
 }
 
@@ -133,7 +134,7 @@ fn shards_that_do_not_hold_what_they_should_are_refused() {
         fs::write(folder.path("grid.2of3.csv"), rows).unwrap();
         // Checksums would have told before.
         folder.rewrite_sidecar("grid.2of3.csv", |sidecar| sidecar.checksums = None);
-        let ended = folder.ends(3, "merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv");
+        let ended = folder.ends(3, "results merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv");
         assert!(
             ended.stderr.ends_with(&format!("error: cannot read grid.2of3.csv: {message}\n")),
             "{}",
@@ -148,7 +149,7 @@ fn shards_that_do_not_hold_what_they_should_are_refused() {
 fn unfinished_shards_are_refused() {
     let folder = folder(100);
     folder.rewrite_sidecar("grid.2of3.csv", |sidecar| sidecar.state = State::Interrupted);
-    let ended = folder.ends(2, "merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv");
+    let ended = folder.ends(2, "results merge merged.csv grid.1of3.csv grid.2of3.csv grid.3of3.csv");
     assert_eq!(ended.stderr, "error: grid.2of3.csv is not complete\n");
 }
 
@@ -166,7 +167,7 @@ fn wrong_shards_are_explained() {
 #[test]
 fn shards_of_several_builds_are_merged_if_asked() {
     let folder = folder(100);
-    let merge = "merge merged.parquet grid.1of3.csv grid.2of3.csv grid.3of3.csv";
+    let merge = "results merge merged.parquet grid.1of3.csv grid.2of3.csv grid.3of3.csv";
     let (flap, build) = (env!("CARGO_PKG_VERSION"), flap_sweep::run::identity::build());
     let build_of = |name: &str| {
         let sidecar = Sidecar::read(&folder.path(&format!("{name}.meta.toml"))).unwrap();
@@ -191,8 +192,8 @@ fn shards_of_several_builds_are_merged_if_asked() {
         .ends(0, &format!("{merge} --mixed-builds"))
         .says(&format!("the rows are by build {build}, zfed of flap {flap}, as their sidecar says\n"));
     assert_eq!(build_of("merged.parquet"), format!("{build}, zfed"));
-    folder.ends(0, "verify merged.parquet");
-    folder.ends(0, "convert merged.parquet merged.csv");
+    folder.ends(0, "results verify merged.parquet");
+    folder.ends(0, "results convert merged.parquet merged.csv");
     assert_eq!(folder.read("merged.csv"), folder.read("whole.csv"));
     // No build calls rows of several ones its own.
     folder
@@ -213,6 +214,6 @@ fn results_of_another_build_are_not_gone_on_with() {
     let folder = folder(10);
     folder.rewrite_sidecar("whole.csv", |sidecar| sidecar.build = "fed0".to_owned());
     folder
-        .ends(2, "sweep --grid grid.toml --out whole.csv --resume")
+        .ends(2, "sweep --grid grid.toml --out whole.csv")
         .says("whole.csv exists already, with other rows: the rows were computed by build fed0");
 }

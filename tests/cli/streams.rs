@@ -22,7 +22,7 @@ fn stdout_carries_rows_and_nothing_else() {
 fn a_reader_who_has_seen_enough_is_no_error() {
     let folder = Folder::with_grid(&frequencies(100_000_000));
     for arguments in
-        [&["sweep", "--grid", "grid.toml", "--out", "-"][..], &["params", "ozaki2018-large"], &["models"]]
+        [&["sweep", "--grid", "grid.toml", "--out", "-"][..], &["models", "ozaki2018-large"], &["models"]]
     {
         let mut child = start(&folder, arguments);
         let mut line = String::new();
@@ -54,7 +54,7 @@ fn an_interrupted_sweep_keeps_the_rows_of_the_first_points() {
         child.stderr.take().unwrap().read_to_string(&mut stderr).unwrap();
         let last = format!(
             "interrupted: the rows of the first {rows} of 100000000 points are in grid.csv\n\
-             `flap resume grid.csv` continues the run\n"
+             `flap results resume grid.csv` continues the run\n"
         );
         assert!(stderr.ends_with(&last), "{stderr}");
         let sidecar: toml::Table = folder.read("grid.csv.meta.toml").parse().unwrap();
@@ -99,7 +99,7 @@ fn signals_end_every_command_within_a_point() {
         "check grid.toml".to_owned(),
         format!("run {design} --set drive_frequency=82"),
         format!("run {design} --set drive_frequency=82 --trajectory motion.csv"),
-        format!("resonance {design} --from 81 --to 83"),
+        format!("test resonance {design} --from 81 --to 83"),
     ] {
         let arguments: Vec<&str> = command.split_whitespace().collect();
         for signal in ["INT", "TERM"] {
@@ -159,17 +159,17 @@ fn quiet_commands_print_neither_progress_nor_notes() {
     for arguments in [
         "sweep grid.toml --out a.csv",
         "sweep grid.toml --out a.csv",
-        "resume a.csv",
+        "results resume a.csv",
         "sweep grid.toml --shard 1/2 --out 1of2.csv",
         "sweep grid.toml --shard 2/2 --out 2of2.csv",
-        "merge --force a.csv 1of2.csv 2of2.csv",
-        "convert a.csv b.csv.zst",
-        "rerun a.csv --status unsettled --out c.csv",
+        "results merge --force a.csv 1of2.csv 2of2.csv",
+        "results convert a.csv b.csv.zst",
+        "results rerun a.csv --status unsettled --out c.csv",
         "top rows.csv --by lift_mean_mn",
         "run ozaki2018-large --trajectory motion.csv",
         "respond ozaki2018-large --from 100Hz --to 102Hz --step 1Hz --out response.csv",
-        "resonance ozaki2018-large",
-        "man pages",
+        "test resonance ozaki2018-large",
+        "generate man pages",
     ] {
         let loud = folder.ends(0, &arguments.replace(".csv", ".loud.csv").replace("rows.loud", "rows"));
         let quiet = folder.ends(0, &format!("{arguments} --quiet"));
@@ -182,7 +182,7 @@ fn quiet_commands_print_neither_progress_nor_notes() {
 #[test]
 fn quiet_commands_print_warnings_and_errors() {
     let folder = folder_of_quiet_commands();
-    folder.ends(2, "explain nothing --quiet").says("error: there is no parameter");
+    folder.ends(2, "models nothing --quiet").says("error: there is no model");
     let far = folder.ends(0, "run ozaki2018-large --set wing_length=17 --quiet");
     far.says("warning: wing_length");
     std::fs::write(folder.path("grid.toml"), "preset = 3\n").unwrap();

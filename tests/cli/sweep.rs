@@ -67,7 +67,7 @@ fn strict_counts_points_that_are_not_periodic() {
     let folder = Folder::with_grid(&(frequencies(2) + "[solver]\nmax_cycles = 2\n"));
     folder.ends(0, "sweep --grid grid.toml").says("2 unsettled in ");
     assert!(folder.read("grid.csv").contains("unsettled,,"));
-    assert_eq!(folder.flap("sweep --grid grid.toml --strict --force").code, 1);
+    assert_eq!(folder.flap("sweep --grid grid.toml --strict --restart").code, 1);
 }
 
 #[test]
@@ -85,6 +85,6 @@ fn old_rows_stay_if_new_ones_cannot_be_written() {
     std::fs::write(folder.path("old.csv"), "precious").unwrap();
     // The sidecar cannot be written where a folder has its name.
     std::fs::create_dir(folder.path("old.csv.meta.toml")).unwrap();
-    folder.ends(2, "sweep --grid grid.toml --out old.csv --force").says("old.csv.meta.toml exists already");
+    folder.ends(2, "sweep --grid grid.toml --out old.csv --restart").says("old.csv.meta.toml exists already");
     assert_eq!(folder.read("old.csv"), "precious");
 }

@@ -67,12 +67,12 @@ fn rows_have_the_same_bytes_however_they_are_made() {
     assert_eq!(folder.read("all.csv"), folder.read("one.csv"));
     folder.ends(0, "sweep grid.toml --out part1.csv --shard 1/2");
     folder.ends(0, "sweep grid.toml --out part2.csv --shard 2/2");
-    folder.ends(0, "merge merged.csv part1.csv part2.csv");
+    folder.ends(0, "results merge merged.csv part1.csv part2.csv");
     assert_eq!(folder.read("all.csv"), folder.read("merged.csv"));
     folder.ends(0, "sweep grid.toml --out rows.parquet");
-    folder.ends(0, "convert rows.parquet converted.csv");
+    folder.ends(0, "results convert rows.parquet converted.csv");
     assert_eq!(folder.read("all.csv"), folder.read("converted.csv"));
-    folder.ends(0, "verify all.csv merged.csv rows.parquet");
+    folder.ends(0, "results verify all.csv merged.csv rows.parquet");
 }
 
 /// A sweep that was interrupted goes on to the same bytes.
@@ -85,7 +85,7 @@ fn an_interrupted_sweep_goes_on() {
     send("INT", &child);
     assert_eq!(wait(&mut child), Some(130));
     assert!(folder.read("grid.csv").lines().count() < 3000);
-    folder.ends(0, "resume grid.csv");
+    folder.ends(0, "results resume grid.csv");
     folder.ends(0, "sweep grid.toml --out whole.csv");
     assert!(folder.read("grid.csv") == folder.read("whole.csv"));
 }
@@ -117,7 +117,7 @@ fn a_wing_has_a_design_of_its_own() {
     assert!(column(&folder, "flat.toml.csv", "torque_roll_unm")[0].abs() > 1e-3);
     // Results know the device, wherever the file is.
     fs::remove_file(folder.path("worn.toml")).unwrap();
-    folder.ends(0, "rerun device.toml.csv --status periodic --rtol 1e-7 --out again.csv");
+    folder.ends(0, "results rerun device.toml.csv --status periodic --rtol 1e-7 --out again.csv");
 }
 
 /// The matrix is that of derivatives as columns.
@@ -327,11 +327,11 @@ fn what_a_vehicle_cannot_do_is_told() {
     folder.refuses("vehicle grid.toml --trim torque_yaw=far", "`far` is not a number");
     for (command, taker) in [
         ("run grid.toml --trajectory motion.csv", "`flap run` with --trajectory"),
-        ("run grid.toml --drive chirp", "`flap run` with --drive chirp"),
-        ("run grid.toml --drive impulse", "`flap run` with --drive impulse"),
+        ("test chirp grid.toml", "`flap test chirp`"),
+        ("test impulse grid.toml", "`flap test impulse`"),
         ("respond grid.toml --from 90 --to 100 --step 5", "`flap respond`"),
-        ("resonance grid.toml", "`flap resonance`"),
-        ("new grid.toml", "a device, which `flap new` writes,"),
+        ("test resonance grid.toml", "`flap test resonance`"),
+        ("device new grid.toml", "a device, which `flap device new` writes,"),
     ] {
         let ended = folder.ends(2, command);
         ended.says(&format!("grid.toml is a vehicle of 2 wings: {taker} takes one wing"));

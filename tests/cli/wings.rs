@@ -1,4 +1,4 @@
-//! `flap wing`: outlines into devices.
+//! `flap device wing`: outlines into devices.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -37,7 +37,7 @@ fn an_elliptic_wing_has_its_integrals() {
     let folder = Folder::new();
     let (span, chord) = (15e-3, 5e-3);
     fs::write(folder.path("ellipse.csv"), outline(15.0, |x| [0.0, 5.0 * (1.0 - x * x).sqrt()])).unwrap();
-    let arguments = ["wing", "ellipse.csv", "--preset", "jafferis2016", "--mass", "0.5 mg"];
+    let arguments = ["device", "wing", "ellipse.csv", "--preset", "jafferis2016", "--mass", "0.5 mg"];
     let device = folder.ends_with(0, &arguments).stdout;
     let area = std::f64::consts::FRAC_PI_4 * span * chord;
     let close = |name: &str, expected: f64| {
@@ -69,7 +69,7 @@ fn the_outline_of_a_preset_gives_its_rows() {
     let folder = Folder::new();
     let chord = |x: f64| 8.3 * (1.0 + x - 2.0 * x.powi(4));
     fs::write(folder.path("own.csv"), outline(24.0, |x| [0.25 * chord(x), 0.75 * chord(x)])).unwrap();
-    let arguments = ["wing", "own.csv", "--preset", "arabagi2013-75hz", "--offset", "4 mm"];
+    let arguments = ["device", "wing", "own.csv", "--preset", "arabagi2013-75hz", "--offset", "4 mm"];
     let ended = folder.ends_with(0, &arguments);
     ended.says("stay those of the preset");
     assert!(ended.stdout.contains("chord_table = \"on\""), "{}", ended.stdout);
@@ -100,15 +100,15 @@ fn a_table_of_chords_that_loses_area_is_told() {
         outline / table
     );
     for preset in ["ozaki2018-large", "arabagi2013-75hz"] {
-        let arguments = ["wing", "square.csv", "--preset", preset, "--offset", "2 mm"];
+        let arguments = ["device", "wing", "square.csv", "--preset", preset, "--offset", "2 mm"];
         folder.ends_with(0, &arguments).says(&told);
         let quiet = folder.ends_with(0, &[&arguments[..], &["--quiet"]].concat());
         assert_eq!(quiet.stderr, "");
     }
-    let bimorph = folder.ends_with(0, &["wing", "square.csv", "--preset", "jafferis2016"]);
+    let bimorph = folder.ends_with(0, &["device", "wing", "square.csv", "--preset", "jafferis2016"]);
     assert!(!bimorph.stderr.contains("area than"), "{}", bimorph.stderr);
     fs::write(folder.path("straight.csv"), outline_of_a_rectangle()).unwrap();
-    let straight = folder.ends_with(0, &["wing", "straight.csv", "--preset", "ozaki2018-large"]);
+    let straight = folder.ends_with(0, &["device", "wing", "straight.csv", "--preset", "ozaki2018-large"]);
     assert!(!straight.stderr.contains("area than"), "{}", straight.stderr);
 }
 
@@ -125,7 +125,7 @@ fn a_root_that_moves_to_the_stroke_axis_is_told() {
         ("arabagi2013-75hz", "is at 4 mm: --offset '4 mm' keeps that"),
         ("ozaki2018-large", "is at half of actuator_length, 10.5 mm: --offset '10.5 mm' keeps that"),
     ] {
-        let arguments = ["wing", "wing.csv", "--preset", preset];
+        let arguments = ["device", "wing", "wing.csv", "--preset", preset];
         folder.ends_with(0, &arguments).says(&format!("{begin} {preset} {end}"));
         let quiet = folder.ends_with(0, &[&arguments[..], &["--quiet"]].concat());
         assert_eq!(quiet.stderr, "");
@@ -137,7 +137,7 @@ fn a_root_that_moves_to_the_stroke_axis_is_told() {
     // A device whose root is on the axis.
     fs::write(folder.path("axis.toml"), "preset = \"arabagi2013-75hz\"\n[params]\nwing_offset = \"0 mm\"\n")
         .unwrap();
-    let device = folder.ends_with(0, &["wing", "wing.csv", "--preset", "axis.toml"]);
+    let device = folder.ends_with(0, &["device", "wing", "wing.csv", "--preset", "axis.toml"]);
     assert!(!device.stderr.contains("--offset"), "{}", device.stderr);
 }
 
@@ -147,7 +147,7 @@ fn materials_give_masses() {
     fs::write(folder.path("wing.csv"), outline(32.0, |_| [0.0, 8.0])).unwrap();
     let options =
         ["--thickness", "2 um", "--density", "1400 kg/m^3", "--spar", "20 mg/m", "--offset", "10 mm"];
-    let arguments = [&["wing", "wing.csv", "--preset", "ozaki2018-large"][..], &options].concat();
+    let arguments = [&["device", "wing", "wing.csv", "--preset", "ozaki2018-large"][..], &options].concat();
     let device = folder.ends_with(0, &arguments).stdout;
     let (membrane, spar) = (2e-6 * 1400.0 * 32e-3 * 8e-3, 20e-6 * 32e-3);
     let mass = value(&folder, &device, "wing_mass");
@@ -164,7 +164,7 @@ fn mistakes_are_told_with_their_place() {
     let folder = Folder::new();
     let told = |text: &str, message: &str| {
         fs::write(folder.path("wing.csv"), text).unwrap();
-        folder.ends(2, "wing wing.csv --preset jafferis2016").says(message).says("span [mm]");
+        folder.ends(2, "device wing wing.csv --preset jafferis2016").says(message).says("span [mm]");
     };
     let head = "span [mm],leading_edge [mm],trailing_edge [mm]\n";
     told("span,chord\n0,1\n", "wing.csv:1: there is no column `leading_edge`");
@@ -176,15 +176,17 @@ fn mistakes_are_told_with_their_place() {
     told(&format!("{head}0,0,1\n2,0,1\n1,0,1\n"), "station 3 is not farther out");
     told(&format!("{head}0,0,1\n2,0,-1\n"), "the chord is negative at station 2");
     told(&format!("{head}0,0,0\n2,0,0\n"), "the wing has no area");
-    folder.ends(2, "wing nothing.csv --preset jafferis2016").says("nothing.csv: there is no such file");
+    folder
+        .ends(2, "device wing nothing.csv --preset jafferis2016")
+        .says("nothing.csv: there is no such file");
     fs::write(folder.path("wing.csv"), outline(15.0, |_| [0.0, 5.0])).unwrap();
     folder
-        .ends_with(2, &["wing", "wing.csv", "--preset", "jafferis2016", "--thickness", "2 um"])
+        .ends_with(2, &["device", "wing", "wing.csv", "--preset", "jafferis2016", "--thickness", "2 um"])
         .says("go together");
     folder
-        .ends_with(2, &["wing", "wing.csv", "--preset", "jafferis2016", "--mass", "0 mg"])
+        .ends_with(2, &["device", "wing", "wing.csv", "--preset", "jafferis2016", "--mass", "0 mg"])
         .says("the mass must be more than zero");
-    folder.ends_with(2, &["wing", "wing.csv", "--preset", "jaferis2016"]).says("jafferis2016");
+    folder.ends_with(2, &["device", "wing", "wing.csv", "--preset", "jaferis2016"]).says("jafferis2016");
 }
 
 /// A device that could not be read back is not printed.
@@ -196,17 +198,18 @@ fn wings_without_finite_parameters_are_refused() {
     fs::write(folder.path("tiny.csv"), format!("{head}0,0,1e-150\n1e-150,0,1e-150\n")).unwrap();
     fs::write(folder.path("wing.csv"), outline_of_a_rectangle()).unwrap();
     for preset in ["jafferis2016", "ozaki2018-large", "arabagi2013-75hz"] {
-        let ended = folder.ends_with(2, &["wing", "huge.csv", "--preset", preset, "--mass", "1 mg"]);
+        let ended =
+            folder.ends_with(2, &["device", "wing", "huge.csv", "--preset", preset, "--mass", "1 mg"]);
         ended.says("of this wing is ").says(", and must be ").says("is 1e299 Gm long and reaches 1e299 Gm");
         assert_eq!(ended.stdout, "");
         for options in [["--offset", "1e300 m"], ["--mass", "1e308 kg"]] {
-            let arguments = [&["wing", "wing.csv", "--preset", preset][..], &options].concat();
+            let arguments = [&["device", "wing", "wing.csv", "--preset", preset][..], &options].concat();
             let ended = folder.flap_with(&arguments);
             assert!(!ended.stdout.contains("inf") && !ended.stdout.contains("NaN"), "{}", ended.stdout);
             fs::write(folder.path("device.toml"), &ended.stdout).unwrap();
             assert!(ended.code == 2 || folder.flap("check device.toml").code == 0, "{arguments:?}");
         }
-        let tiny = folder.flap_with(&["wing", "tiny.csv", "--preset", preset]);
+        let tiny = folder.flap_with(&["device", "wing", "tiny.csv", "--preset", preset]);
         assert!(!tiny.stdout.contains("NaN"), "{}", tiny.stdout);
     }
 }

@@ -19,8 +19,8 @@ def same(table, path):
 
 
 def test_chirps_are_those_of_the_command(flap, tmp_path):
-    options = ["--drive", "chirp", "--chirp-from", "150", "--chirp-to", "160", "--chirp-rate", "200"]
-    flap("run", PRESET, *options, "--envelope", tmp_path / "rows.csv", "--trajectory", tmp_path / "motion.csv", "--samples", "20")
+    options = ["--from", "150", "--to", "160", "--rate", "200"]
+    flap("test", "chirp", PRESET, *options, "--out", tmp_path / "rows.csv", "--trajectory", tmp_path / "motion.csv", "--samples", "20")
     rows = flapwing.chirp(PRESET, start="0.15 kHz", stop=160, rate="200 Hz/s")
     same(rows, tmp_path / "rows.csv")
     same(flapwing.chirp(PRESET, start=150, stop=160, rate=200, samples=20), tmp_path / "motion.csv")
@@ -49,7 +49,7 @@ def test_impulses_beyond_half_a_turn_are_refused():
 
 
 def test_impulses_are_those_of_the_command(flap, tmp_path):
-    flap("run", PRESET, "--drive", "impulse", "--impulse", "10 deg", "--duration", "20 ms", "--trajectory", tmp_path / "a.csv")
+    flap("test", "impulse", PRESET, "--amplitude", "10 deg", "--duration", "20 ms", "--trajectory", tmp_path / "a.csv")
     free = flapwing.impulse(PRESET, amplitude="10 deg", duration="20 ms")
     same(free, tmp_path / "a.csv")
     assert free.meta["stroke_rate_rad_s"] == pytest.approx(2 * np.pi * free.meta["mode_hz"] * np.radians(10))
@@ -206,7 +206,7 @@ def test_forces_of_filmed_wings_are_those_of_the_command(flap, tmp_path):
         "edge_x": 1 - 3 * np.sin(pitch) * np.sin(stroke), "edge_y": 2 + 3 * np.sin(pitch) * np.cos(stroke),
     })
     film.to_csv(tmp_path / "film.csv", index=False)
-    flap("track", tmp_path / "film.csv", "--chord", "3", "--out", tmp_path / "motion.csv")
+    flap("test", "track", tmp_path / "film.csv", "--chord", "3", "--out", tmp_path / "motion.csv")
     for source in (film, tmp_path / "film.csv", flapwing.read(tmp_path / "film.csv")):
         motion = flapwing.track(source, chord=3)
         same(motion, tmp_path / "motion.csv")
@@ -214,7 +214,7 @@ def test_forces_of_filmed_wings_are_those_of_the_command(flap, tmp_path):
     np.testing.assert_allclose(motion["pitch_deg"], np.degrees(pitch), atol=1e-6)
     assert flapwing.track(film).columns == ["time_s", "stroke_deg"]
 
-    flap("lift", PRESET, tmp_path / "motion.csv", "--trajectory", tmp_path / "forces.csv", "--samples", "100")
+    flap("test", "lift", PRESET, tmp_path / "motion.csv", "--trajectory", tmp_path / "forces.csv", "--samples", "100")
     for source in (motion, tmp_path / "motion.csv", dict(motion)):
         same(flapwing.lift(PRESET, source, samples=100), tmp_path / "forces.csv")
     with pytest.raises(ValueError, match="image 1: the lower edge appears"):

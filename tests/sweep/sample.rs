@@ -175,7 +175,7 @@ fn mistakes_in_files_of_points_have_a_line_and_a_column() {
             "points.csv:1:18: `mm` is a length, but `hinge_position` is a pure number |hinge_position [mm]| \
              write a bare number, or use %",
             "points.csv:1:39: model `flapper` has no parameter `speed` |speed| the first line names the parameters; \
-             `flap params` lists them",
+             `flap models` lists them",
         ]
     );
     assert_eq!(

@@ -70,7 +70,7 @@ def sweep(flap: Path, points: int, rtol: float, way: Way, folder: Path) -> Swept
                     for number, part in enumerate(parts, 1)
                 ]
             )
-            merged = together([[str(flap), "merge", str(out), *map(str, parts)]])
+            merged = together([[str(flap), "results", "merge", str(out), *map(str, parts)]])
             merge_s = merged.wall_s
             usage = Usage(
                 swept.wall_s + merged.wall_s, swept.cpu_s + merged.cpu_s, max(swept.peak_mib, merged.peak_mib)

@@ -6,7 +6,7 @@ use std::env;
 use std::ffi::OsStr;
 use std::path::Path;
 
-use clap::{Arg, Command, CommandFactory as _};
+use clap::{Arg, Command};
 use clap_complete::CompleteEnv;
 use clap_complete::engine::{
     ArgValueCandidates, ArgValueCompleter, CompletionCandidate, PathCompleter, ValueCompleter as _,
@@ -19,7 +19,7 @@ use flap_sweep::plan::Robot;
 use flap_sweep::resonance;
 use flap_sweep::table::layout::fixed_columns;
 
-use crate::args::Args;
+use crate::args;
 use crate::models;
 use crate::statuses;
 
@@ -33,22 +33,26 @@ pub(crate) fn answer() {
 
 /// The command line, whose arguments know their candidates by the names of their values.
 fn command() -> Command {
-    Args::command().mut_subcommands(|command| command.mut_args(with_candidates))
+    with_candidates(args::command())
 }
 
-fn with_candidates(arg: Arg) -> Arg {
+fn with_candidates(command: Command) -> Command {
+    command.mut_args(completed).mut_subcommands(with_candidates)
+}
+
+/// The argument, with its candidates.
+fn completed(arg: Arg) -> Arg {
     let value = arg.get_value_names().and_then(|names| names.first()).map(ToString::to_string);
     match value.as_deref().unwrap_or_default() {
         "PRESET" => arg.add(ArgValueCandidates::new(presets)),
         "MODEL|PRESET" => arg.add(ArgValueCandidates::new(models_and_presets)),
-        "MODEL|PRESET|FILE" => arg.add(ArgValueCompleter::new(models_presets_and_files)),
+        "NAME|FILE" => arg.add(ArgValueCompleter::new(names_and_files)),
         "PRESET|FILE" => arg.add(ArgValueCompleter::new(presets_and_files)),
         "PARAMETER" => arg.add(ArgValueCandidates::new(parameters)),
         "NAME=VALUE" => arg.add(ArgValueCompleter::new(assignments)),
         "COLUMN" | "COLUMN,..." => arg.add(ArgValueCandidates::new(columns)),
         "COLUMN=VALUE|COMPARISON" => arg.add(ArgValueCandidates::new(conditions)),
         "STATUS,..." => arg.add(ArgValueCandidates::new(statuses)),
-        "NAME" => arg.add(ArgValueCandidates::new(names)),
         _ => arg,
     }
 }
@@ -68,8 +72,9 @@ fn models_and_presets() -> Vec<CompletionCandidate> {
     models.chain(presets()).collect()
 }
 
-fn models_presets_and_files(word: &OsStr) -> Vec<CompletionCandidate> {
-    let mut found = begun(word, models_and_presets());
+/// All that `flap models` lists and explains.
+fn names_and_files(word: &OsStr) -> Vec<CompletionCandidate> {
+    let mut found = begun(word, models_and_presets().into_iter().chain(names()).collect());
     found.extend(PathCompleter::any().complete(word));
     found
 }
@@ -122,7 +127,7 @@ fn conditions() -> Vec<CompletionCandidate> {
     columns.map(|column| candidate(&format!("{}=", column.get_value().display()), "")).collect()
 }
 
-/// All that `flap explain` explains.
+/// All that `flap models` explains.
 fn names() -> Vec<CompletionCandidate> {
     let settings = SolverSettings::TABLE.iter().map(|setting| candidate(setting.name, setting.doc));
     distinct(parameters().into_iter().chain(columns()).chain(settings).chain(statuses()))

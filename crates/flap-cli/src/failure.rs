@@ -35,7 +35,7 @@ pub(crate) const IGNORE_HELP: &str = "--ignore-damage uses the rows that can be 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Exit {
     Done = 0,
-    /// Done, but with `--strict` some points are not periodic, or `flap verify` could not verify some results.
+    /// Done, but with `--strict` some points are not periodic, or `flap results verify` could not verify some results.
     NotAll = 1,
     Usage = 2,
     System = 3,
@@ -98,7 +98,7 @@ impl Failure {
             JobError::Create(error) => error.into(),
             JobError::Exists { ref changed, .. } => {
                 edited(Failure::usage(error.to_string()), changed.as_ref())
-                    .help("--out FILE writes to another file, --force replaces it")
+                    .help("--out FILE writes to another file, --restart replaces it")
             }
             JobError::Unfinished { ref changed, continues, .. } => {
                 unfinished(Failure::usage(error.to_string()), out, changed.as_ref(), continues)
@@ -108,7 +108,7 @@ impl Failure {
             }
             JobError::Resume { error, .. } => error.into(),
             JobError::Open(OpenError::Damaged { .. }) => {
-                Failure::damaged(error.to_string()).help("`flap sweep --force` computes the rows again")
+                Failure::damaged(error.to_string()).help("`flap sweep --restart` computes the rows again")
             }
             JobError::Open(error) => error.into(),
             JobError::Write { path, source, .. } => Failure::cannot_write(&path, &source),
@@ -117,7 +117,7 @@ impl Failure {
         if !resumable {
             return failure;
         }
-        let failure = failure.help(format!("`flap resume {}` continues the run", out.display()));
+        let failure = failure.help(format!("`flap results resume {}` continues the run", out.display()));
         still_kept(out).into_iter().fold(failure, Failure::help)
     }
 
@@ -174,15 +174,15 @@ fn edited(failure: Failure, changed: Option<&String>) -> Failure {
         .help("an edited grid is another sweep: give its rows another file with --out FILE")
 }
 
-/// Adds the ways on from unfinished results at `out`, the one that loses rows last. With `continues`, `flap resume` is one.
+/// Adds the ways on from unfinished results at `out`, the one that loses rows last. With `continues`, `flap results resume` is one.
 fn unfinished(failure: Failure, out: &Path, changed: Option<&String>, continues: bool) -> Failure {
     let grid = if changed.is_some() { " with the grid that began it" } else { "" };
     let failure = if continues {
-        failure.help(format!("`flap resume {}` continues it{grid}", out.display()))
+        failure.help(format!("`flap results resume {}` continues it{grid}", out.display()))
     } else {
         failure
     };
-    edited(failure, changed).help("`flap sweep --force` drops its rows and starts over")
+    edited(failure, changed).help("`flap sweep --restart` drops its rows and starts over")
 }
 
 /// The help line for new results that are to replace earlier ones; `None` if there are no earlier ones.
@@ -254,8 +254,10 @@ impl From<CreateError> for Failure {
             CreateError::Exists { .. } => {
                 Failure::usage(error.to_string()).help("use --force to overwrite it, or name another file")
             }
-            CreateError::Unfinished(ref path) => Failure::usage(error.to_string())
-                .help(format!("`flap resume {}` continues it, --force starts over", path.display())),
+            CreateError::Unfinished(ref path) => Failure::usage(error.to_string()).help(format!(
+                "`flap results resume {}` continues it, --restart starts over",
+                path.display()
+            )),
             CreateError::InTheWay { .. } => Failure::usage(error.to_string())
                 .help("rename or remove that file, or choose another name for the results"),
             CreateError::Busy { .. } | CreateError::Io { .. } => {
@@ -274,7 +276,7 @@ impl From<OpenError> for Failure {
             OpenError::Damaged { ref path, ref damage } => {
                 let failure = Failure::damaged(error.to_string());
                 let failure = if damage.lost > 0 {
-                    failure.help(format!("`flap resume {}` computes the rows again", path.display()))
+                    failure.help(format!("`flap results resume {}` computes the rows again", path.display()))
                 } else {
                     failure
                 };
@@ -297,7 +299,7 @@ impl From<ResumeError> for Failure {
             ResumeError::Create(error) => error.into(),
             ResumeError::Format(error) => error.into(),
             ResumeError::NoJournal { .. } | ResumeError::Changed { .. } | ResumeError::Altered { .. } => {
-                Failure::usage(message).help("use `flap sweep --force` to start over, or name another file")
+                Failure::usage(message).help("use `flap sweep --restart` to start over, or name another file")
             }
         }
     }

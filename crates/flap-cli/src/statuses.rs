@@ -13,7 +13,7 @@ pub(crate) fn meaning(status: Status) -> &'static str {
             "settled on an orbit of 2 to 8 drive periods, one of which differs from the next: no measures"
         }
         Status::Unsettled => {
-            "not settled after max_cycles drive periods: quasi-periodic, chaotic or slow. `flap rerun --status unsettled \
+            "not settled after max_cycles drive periods: quasi-periodic, chaotic or slow. `flap results rerun --status unsettled \
              --max-cycles N` runs such points longer"
         }
         Status::Diverged => {

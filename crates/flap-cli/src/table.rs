@@ -9,6 +9,8 @@ use flap_core::parameter::{Kind, Parameter};
 use flap_sweep::notation::text::{self, shortened};
 use flap_sweep::notation::units::prefixed;
 
+use crate::console;
+
 /// The number with six digits, for people to read.
 pub(crate) fn six_digits(number: f64) -> String {
     format!("{number:.5e}").parse().map_or_else(|_| String::new(), text::float)
@@ -41,6 +43,15 @@ impl Table {
     /// A table with a first row of headings.
     pub(crate) fn with_headings(headings: &[&str]) -> Table {
         Table::with_names(headings.iter().map(|heading| heading.to_uppercase()).collect())
+    }
+
+    /// A table with headings and these rows.
+    pub(crate) fn of(headings: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> Table {
+        let mut table = Table::with_headings(headings);
+        for row in rows {
+            table.row(row);
+        }
+        table
     }
 
     /// A table with a first row of names of columns, as they are written.
@@ -150,6 +161,17 @@ fn parts(widths: &[usize], keys: usize, width: usize) -> Vec<Range<usize>> {
     }
     parts.push(begin..widths.len());
     parts
+}
+
+/// The text in lines that fit the terminal, each but the first behind `indent` blanks.
+pub(crate) fn wrapped(text: &str, indent: usize) -> String {
+    let blanks = " ".repeat(indent);
+    console::width().map_or_else(
+        || text.to_owned(),
+        |width| {
+            textwrap::fill(text, textwrap::Options::new(width.max(indent + 20)).subsequent_indent(&blanks))
+        },
+    )
 }
 
 #[cfg(test)]

@@ -138,7 +138,7 @@ fn its_parameters_and_columns_are_listed() {
     let folder = Path::new(".");
     let models = text(&flap(folder, &["models"]));
     assert!(models.contains("motor-wing") && models.contains("direct-drive"), "{models}");
-    let page = text(&flap(folder, &["params", "park2024-5v"]));
+    let page = text(&flap(folder, &["models", "park2024-5v"]));
     for name in ["inductance", "spring_stiffness", "stroke_amplitude_deg", "efficiency"] {
         assert!(page.contains(name), "{name} is not in\n{page}");
     }

@@ -3,10 +3,8 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use clap::ValueEnum;
-
 use super::filter::{Filter, filter};
-use super::options::{Aim, ReadArgs};
+use super::options::{Aim, OutputFormat, ReadArgs};
 use super::values;
 
 #[derive(clap::Args)]
@@ -71,7 +69,7 @@ Examples:
 /// The choice of rows, and the format of a summary.
 #[derive(clap::Args)]
 pub(crate) struct LookArgs {
-    /// Results of `flap sweep`, `rerun`, `merge` or `respond --out`
+    /// Results of `flap sweep`, `flap respond --out` or `flap results`
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 
@@ -89,20 +87,9 @@ pub(crate) struct LookArgs {
     pub(crate) all: bool,
 
     /// Output format
-    #[arg(long, value_enum, default_value_t = Listing::Table)]
-    pub(crate) format: Listing,
+    #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
+    pub(crate) format: OutputFormat,
 
     #[command(flatten)]
     pub(crate) read: ReadArgs,
-}
-
-/// The format of a summary.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Listing {
-    /// Aligned columns with six digits, to be read
-    Table,
-    /// Comma-separated values with all digits
-    Csv,
-    /// JSON with all digits
-    Json,
 }

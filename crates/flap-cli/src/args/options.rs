@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use clap::ValueEnum;
 use flap_sweep::files::integrity::OnDamage;
+use flap_sweep::files::job::Begin;
 use flap_sweep::table::labels::{self, Direction};
 
 use super::values::{assignment, count, interval, positive, threads, tolerance};
@@ -70,16 +71,34 @@ pub(crate) struct OverwriteArgs {
     pub(crate) force: bool,
 }
 
-/// Options of commands that begin results.
+/// Options of commands that begin or continue results.
 #[derive(clap::Args)]
 pub(crate) struct BeginArgs {
-    /// Replace existing results when the new ones are complete. Until then the new ones have another name, as in
-    /// results.new.csv
-    #[arg(short, long)]
-    pub(crate) force: bool,
+    /// Start over, and replace existing results when the new ones are complete. Until then the new ones have another
+    /// name, as in results.new.csv
+    #[arg(short = 'f', long, visible_alias = "force")]
+    pub(crate) restart: bool,
 
     #[command(flatten)]
     pub(crate) work: WorkArgs,
+}
+
+impl BeginArgs {
+    /// The treatment of results that are there already.
+    pub(crate) fn treatment(&self) -> Begin {
+        if self.restart { Begin::Overwrite } else { Begin::Resume }
+    }
+}
+
+/// The format in which a command prints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum OutputFormat {
+    /// Aligned columns with six digits, to be read
+    Table,
+    /// Comma-separated values with all digits
+    Csv,
+    /// JSON with all digits
+    Json,
 }
 
 /// The better direction of a measure.

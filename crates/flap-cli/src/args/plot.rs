@@ -10,7 +10,7 @@ use super::options::{Aim, OverwriteArgs, ReadArgs};
 #[derive(clap::Args)]
 #[command(after_help = PLOT_HELP)]
 pub(crate) struct PlotArgs {
-    /// Results of `flap sweep`, `rerun`, `merge` or `respond --out`, or a trajectory of `flap run`
+    /// Results of `flap sweep`, `flap respond --out` or `flap results`, or a trajectory of `flap run`
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 

@@ -46,10 +46,6 @@ pub(crate) struct RespondArgs {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// Continue the run if it was interrupted, start it if there are no results, do nothing if they are complete
-    #[arg(long, requires = "out", conflicts_with = "force")]
-    pub(crate) resume: bool,
-
     #[command(flatten)]
     pub(crate) begin: BeginArgs,
 
@@ -66,8 +62,7 @@ with --out - to stderr.
 
 Rows leave in the order of the designs, a whole curve at a time. Ctrl-C and SIGTERM give the running curves half a \
 second to finish, keep the rows and exit with 130; a second one exits at once. Beside FILE, FILE.meta.toml records the command's \
-options. Until all curves are there, FILE.journal records the progress, so that `flap resume FILE` can continue the run, \
-whatever ended it.
+options. Until all curves are there, FILE.journal records the progress. Whatever ended the run, the same command continues it.
 
 Examples:
   flap respond jafferis2016 --from '60 Hz' --to '200 Hz' --step '1 Hz'

@@ -1,11 +1,26 @@
-//! Commands on results: `resume`, `rerun`, `merge`, `convert`, `verify`.
+//! Commands on results: `results resume`, `rerun`, `merge`, `convert`, `verify`.
 
 use std::path::PathBuf;
 
+use clap::Subcommand;
 use flap_core::simulate::Status;
 
-use super::options::{BeginArgs, OverwriteArgs, ReadArgs, SolverArgs, WorkArgs};
+use super::options::{BeginArgs, OutputFormat, OverwriteArgs, ReadArgs, SolverArgs, WorkArgs};
 use super::values::status;
+
+#[derive(Subcommand)]
+pub(crate) enum ResultsCommand {
+    /// Continue an interrupted sweep with the grid that its results recorded
+    Resume(ResumeArgs),
+    /// Run points of earlier results again with other solver settings
+    Rerun(RerunArgs),
+    /// Join the shards of a sweep into one file
+    Merge(MergeArgs),
+    /// Write results in another format
+    Convert(ConvertArgs),
+    /// Compare results with their recorded checksums
+    Verify(VerifyArgs),
+}
 
 #[derive(clap::Args)]
 #[command(after_help = VERIFY_HELP)]
@@ -13,6 +28,10 @@ pub(crate) struct VerifyArgs {
     /// Results with their sidecars beside them
     #[arg(value_name = "FILE", required = true)]
     pub(crate) results: Vec<PathBuf>,
+
+    /// Output format: `table` prints a line per file
+    #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
+    pub(crate) format: OutputFormat,
 }
 
 const VERIFY_HELP: &str = "\
@@ -27,7 +46,7 @@ Exit codes:
   3    some files are damaged or cannot be read
 
 Example:
-  flap verify results/*.parquet";
+  flap results verify results/*.parquet";
 
 #[derive(clap::Args)]
 #[command(after_help = RESUME_HELP)]
@@ -49,7 +68,7 @@ interruption. The grid is the one in FILE.meta.toml. Refuses if another build of
 the sweep, or if complete results are damaged.
 
 Example:
-  flap resume results/run1.csv";
+  flap results resume results/run1.csv";
 
 #[derive(clap::Args)]
 #[command(after_help = RERUN_HELP)]
@@ -90,9 +109,9 @@ const RERUN_HELP: &str = "\
 The new rows keep the point indices of RESULTS. Solver settings that are not given are those of RESULTS.
 
 Examples:
-  flap rerun sweep.csv --status unsettled --max-cycles 10000 --out again.csv
-  flap rerun sweep.csv --status diverged,step_limit --rtol 1e-8 --out again.csv
-  flap rerun sweep.csv --inaccurate --rtol 1e-10 --out again.csv";
+  flap results rerun sweep.csv --status unsettled --max-cycles 10000 --out again.csv
+  flap results rerun sweep.csv --status diverged,step_limit --rtol 1e-8 --out again.csv
+  flap results rerun sweep.csv --inaccurate --rtol 1e-10 --out again.csv";
 
 #[derive(clap::Args)]
 #[command(after_help = MERGE_HELP)]
@@ -124,7 +143,7 @@ builds need --mixed-builds, since their rows may differ.
 Examples:
   flap sweep grid.toml --shard 1/2
   flap sweep grid.toml --shard 2/2
-  flap merge grid.csv grid.1of2.csv grid.2of2.csv";
+  flap results merge grid.csv grid.1of2.csv grid.2of2.csv";
 
 #[derive(clap::Args)]
 #[command(after_help = CONVERT_HELP)]
@@ -149,5 +168,5 @@ OUT has the same bytes as a sweep that writes this format. Of unfinished results
 converted.
 
 Examples:
-  flap convert sweep.csv sweep.parquet
-  flap convert sweep.parquet - | head";
+  flap results convert sweep.csv sweep.parquet
+  flap results convert sweep.parquet - | head";

@@ -1,7 +1,6 @@
 //! `flap vehicle`.
 
-use super::look::Listing;
-use super::options::{PointArgs, SolverArgs};
+use super::options::{OutputFormat, PointArgs, SolverArgs};
 use super::values::assignment;
 
 #[derive(clap::Args)]
@@ -20,8 +19,8 @@ pub(crate) struct VehicleArgs {
     pub(crate) trim: Vec<(String, String)>,
 
     /// Output format: csv and json have the matrix with all digits
-    #[arg(long, value_enum, default_value_t = Listing::Table)]
-    pub(crate) format: Listing,
+    #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
+    pub(crate) format: OutputFormat,
 
     #[command(flatten)]
     pub(crate) solver: SolverArgs,

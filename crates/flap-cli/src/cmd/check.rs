@@ -15,19 +15,69 @@ use flap_sweep::resonance::Range;
 use flap_sweep::study::deviation;
 use flap_sweep::study::survey;
 
-use super::params::wrapped;
-use super::{far, grid};
-use crate::args::CheckArgs;
+use super::{far, grid, print};
+use crate::args::{CheckArgs, OutputFormat};
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::job::exclusion;
-use crate::table::{self, Table};
+use crate::table::{self, Table, wrapped};
 
-pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
+pub(super) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
     let plan = grid::read(&args.grid)?;
     far::warn(&deviation::of(&plan));
-    console::results(&page(&plan))?;
+    match args.format {
+        OutputFormat::Table => console::results(&page(&plan))?,
+        format => print::table(format, &NAMES, &rows(&plan), String::new)?,
+    }
     Ok(Exit::Done)
+}
+
+/// Columns of the table for programs.
+const NAMES: [&str; 4] = ["section", "name", "key", "value"];
+
+/// The summary for programs, one value per row.
+fn rows(plan: &Plan) -> Vec<Vec<String>> {
+    let row = |section: &str, name: &str, key: &str, value: String| {
+        vec![section.to_owned(), name.to_owned(), key.to_owned(), value]
+    };
+    let excluded = Excluded::of(plan);
+    let estimate = estimate::of(plan, excluded.runs);
+    let mut rows = vec![
+        row("sweep", "", "model", plan.simulator().name().to_owned()),
+        row("sweep", "", "preset", plan.preset().to_owned()),
+        row("sweep", "", "points", plan.len().to_string()),
+        row("sweep", "", "points_run", excluded.runs.to_string()),
+    ];
+    if let Some(path) = &plan.output().path {
+        rows.push(row("sweep", "", "path", path.display().to_string()));
+    }
+    for (number, axis) in plan.axes().as_slice().iter().enumerate() {
+        for (index, values) in axis.parameters() {
+            let parameter = &plan.parameters()[*index];
+            let [from, to] = span(parameter, values);
+            let count = values.len().to_string();
+            for (key, value) in
+                [("axis", (number + 1).to_string()), ("from", from), ("to", to), ("count", count)]
+            {
+                rows.push(row("axes", parameter.name, key, value));
+            }
+            rows.push(row("axes", parameter.name, "unit", parameter.unit.to_owned()));
+        }
+    }
+    for deviation in deviation::of(plan) {
+        let name = deviation.parameter.name;
+        rows.push(row("differs_from_preset", name, "here", deviation.shown()));
+        rows.push(row("differs_from_preset", name, "preset", deviation.preset_shown()));
+    }
+    rows.extend(settings(plan.solver()).map(|(name, value)| row("solver", name, "value", value)));
+    if let Some([low, high]) = estimate.seconds {
+        rows.push(row("estimate", "", "seconds_from", text::float(low)));
+        rows.push(row("estimate", "", "seconds_to", text::float(high)));
+        rows.push(row("estimate", "", "threads", estimate.threads.to_string()));
+        rows.push(row("estimate", "", "points_tried", estimate.tried.to_string()));
+    }
+    rows.extend(estimate.invalid.map(|invalid| row("estimate", "", "invalid", invalid)));
+    rows
 }
 
 fn page(plan: &Plan) -> String {
@@ -46,19 +96,16 @@ fn page(plan: &Plan) -> String {
         page += "\n";
         page += &at_resonance(resonance.range());
     }
-    let (excluded, runs) = excluded(plan);
-    page += &excluded;
+    let excluded = Excluded::of(plan);
+    page += &excluded.line;
     page += "\n";
     page += &solver(plan.solver());
     if let Some(path) = &plan.output().path {
         let _ = write!(page, "\nrows go to {}\n", path.display());
     }
-    let trial = estimate::of(plan, runs);
-    if let Some(invalid) = trial.invalid {
-        let _ = write!(page, "\n{}\n", wrapped(&invalid, 0));
-    }
-    if let Some(time) = trial.time {
-        let _ = write!(page, "\n{}\n", wrapped(&time, 0));
+    let estimate = estimate::of(plan, excluded.runs);
+    for line in estimate.line().into_iter().chain(estimate.invalid) {
+        let _ = write!(page, "\n{}\n", wrapped(&line, 0));
     }
     page
 }
@@ -160,24 +207,33 @@ fn samples(plan: &Plan) -> String {
 /// Most points that are checked one by one to count the excluded ones.
 const MOST_COUNTED: u64 = 1_000_000;
 
-/// A line about excluded points, and the approximate number of the others.
-fn excluded(plan: &Plan) -> (String, u64) {
-    if plan.conditions().is_empty() {
-        return (String::new(), plan.len());
+/// The points that `[where]` excludes.
+struct Excluded {
+    /// A line about them; empty without conditions.
+    line: String,
+    /// The number of the other points; approximate for a large grid.
+    runs: u64,
+}
+
+impl Excluded {
+    fn of(plan: &Plan) -> Excluded {
+        if plan.conditions().is_empty() {
+            return Excluded { line: String::new(), runs: plan.len() };
+        }
+        let found = survey::exclusions(plan, MOST_COUNTED);
+        let line = exclusion::text(found.excluded, &found.unsatisfied);
+        if found.looked_at == plan.len() {
+            return Excluded { line: format!("\n{line}\n"), runs: plan.len() - found.excluded };
+        }
+        let share = 1.0 - found.excluded as f64 / found.looked_at as f64;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of the points")]
+        let runs = (plan.len() as f64 * share) as u64;
+        let looked_at = found.looked_at;
+        let line = format!(
+            "\nof {looked_at} points spread over the grid, which is too large to check each, {line}\n"
+        );
+        Excluded { line, runs }
     }
-    let found = survey::exclusions(plan, MOST_COUNTED);
-    let line = exclusion::text(found.excluded, &found.unsatisfied);
-    if found.looked_at == plan.len() {
-        return (format!("\n{line}\n"), plan.len() - found.excluded);
-    }
-    let share = 1.0 - found.excluded as f64 / found.looked_at as f64;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of the points")]
-    let runs = (plan.len() as f64 * share) as u64;
-    let looked_at = found.looked_at;
-    (
-        format!("\nof {looked_at} points spread over the grid, which is too large to check each, {line}\n"),
-        runs,
-    )
 }
 
 /// The varied and derived parameters of the first and the last point, and whether each is run.
@@ -213,12 +269,20 @@ fn at_resonance(range: &Range) -> String {
     wrapped(&line, 2) + "\n"
 }
 
-fn solver(settings: &SolverSettings) -> String {
-    let values = SolverSettings::TABLE.iter().map(|Setting { name, kind, .. }| match kind {
-        SettingKind::Number { get, .. } => format!("{name} = {}", text::float(get(settings))),
-        SettingKind::Count { get, .. } => format!("{name} = {}", get(settings)),
-        SettingKind::Flag { get, .. } => format!("{name} = {}", get(settings)),
-    });
-    let line = values.collect::<Vec<String>>().join(", ");
+fn solver(solver: &SolverSettings) -> String {
+    let line =
+        settings(solver).map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ");
     wrapped(&line, 0) + "\n"
+}
+
+/// Names and values of the settings of the solver.
+fn settings(solver: &SolverSettings) -> impl Iterator<Item = (&'static str, String)> {
+    SolverSettings::TABLE.iter().map(|Setting { name, kind, .. }| {
+        let value = match kind {
+            SettingKind::Number { get, .. } => text::float(get(solver)),
+            SettingKind::Count { get, .. } => get(solver).to_string(),
+            SettingKind::Flag { get, .. } => get(solver).to_string(),
+        };
+        (*name, value)
+    })
 }

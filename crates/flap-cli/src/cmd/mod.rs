@@ -1,38 +1,53 @@
 //! Commands, one module each, and the code that they share.
 
-pub(crate) mod check;
-pub(crate) mod completions;
-pub(crate) mod convert;
-pub(crate) mod describe;
-pub(crate) mod explain;
-pub(crate) mod far;
+mod check;
+mod describe;
+mod device;
+mod far;
+mod generate;
 mod gradient;
 mod grid;
-mod impulse;
-pub(crate) mod lift;
-mod listed;
 #[cfg(feature = "live")]
-pub(crate) mod live;
+mod live;
 mod look;
-pub(crate) mod man;
-pub(crate) mod merge;
-pub(crate) mod models;
+mod models;
 mod motion;
-pub(crate) mod new;
 pub(crate) mod outputs;
-pub(crate) mod params;
 mod point;
-pub(crate) mod rerun;
-pub(crate) mod resonance;
-pub(crate) mod respond;
-pub(crate) mod resume;
-pub(crate) mod run;
+mod print;
+mod respond;
+mod results;
+mod run;
 mod samples;
-pub(crate) mod schema;
 mod shown;
-pub(crate) mod sweep;
-pub(crate) mod top;
-pub(crate) mod track;
-pub(crate) mod vehicle;
-pub(crate) mod verify;
-pub(crate) mod wing;
+mod sweep;
+mod test;
+mod top;
+mod vehicle;
+
+use crate::args::Command;
+use crate::failure::{Exit, Failure};
+#[cfg(feature = "plots")]
+use crate::plot;
+
+/// Runs a command.
+pub(crate) fn run(command: &Command) -> Result<Exit, Failure> {
+    match command {
+        Command::Sweep(args) => sweep::run(args),
+        Command::Run(args) => run::run(args),
+        Command::Respond(args) => respond::run(args),
+        Command::Vehicle(args) => vehicle::run(args),
+        #[cfg(feature = "live")]
+        Command::Live(args) => live::run(args),
+        Command::Check(args) => check::run(args),
+        Command::Top(args) => top::run(args),
+        Command::Describe(args) => describe::run(args),
+        #[cfg(feature = "plots")]
+        Command::Plot(args) => plot::run(args),
+        Command::Results(command) => results::run(command),
+        Command::Test(command) => test::run(command),
+        Command::Device(command) => device::run(command),
+        Command::Models(args) => models::run(args),
+        Command::Generate(command) => generate::run(command),
+    }
+}

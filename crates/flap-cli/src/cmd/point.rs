@@ -174,7 +174,7 @@ pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usi
         if let Some(reason) = grid::why_absent(parameters, name) {
             return failure.help(reason);
         }
-        failure.nearest(name, names, "`flap params` lists the parameters of a model")
+        failure.nearest(name, names, "`flap models` lists the parameters of a model")
     })
 }
 

@@ -10,14 +10,13 @@ use flap_sweep::run::{RunOptions, Summary};
 use flap_sweep::study::response::AlongError;
 use flap_sweep::table::layout::Cell;
 
-use super::outputs::is_stdout;
 use super::point;
 use crate::args::RespondArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
-use crate::job::{self, Begin, Lines, Verdicts};
+use crate::job::{self, Lines, Verdicts};
 
-pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
+pub(super) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     let plan = point::plan(&args.what)?;
     point::check_one_wing(&plan, &args.what, "`flap respond`")?;
     let plan = point::with_solver(plan, &args.solver)?;
@@ -37,12 +36,7 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
         return Err(Failure::usage(format!("the model {} measures no stroke", plan.simulator().name())));
     }
     match &args.out {
-        Some(out) if args.resume && is_stdout(out) => {
-            Err(Failure::usage("--resume needs a file of results: rows on stdout cannot be resumed"))
-        }
-        Some(out) => {
-            job::run(&plan, out.clone(), Begin::of(args.resume, args.begin.force), &args.begin.work, None)
-        }
+        Some(out) => job::run(&plan, out.clone(), args.begin.treatment(), &args.begin.work, None),
         None => lines_alone(&plan, args),
     }
 }

@@ -3,25 +3,24 @@
 use std::fmt::Write as _;
 use std::io;
 
-use flap_core::simulate::{ChirpRequest, Row, Status, TrajectoryRequest};
+use flap_core::simulate::{Row, Status, TrajectoryRequest};
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::notation::expression::Kind;
 use flap_sweep::notation::text::{self, count};
-use flap_sweep::study::{deviation, experiment};
+use flap_sweep::study::deviation;
+use flap_sweep::table::layout::fixed_columns;
 
+use super::gradient::{self, Gradient};
 use super::motion::{write_csv, write_file};
-use super::outputs::is_stdout;
-use super::params::wrapped;
 use super::point::{Chosen, check_one_wing};
-use super::{far, gradient, impulse, outputs, samples};
-use crate::args::{Drive, PointArgs, RunArgs};
+use super::{far, outputs, print, samples};
+use crate::args::{OutputFormat, PointArgs, RunArgs};
 use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
-use crate::table::{Table, six_digits};
+use crate::table::{Table, six_digits, wrapped};
 
-pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
+pub(super) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     let mut chosen = Chosen::new(&args.point, &args.solver)?;
-    refuse_strays(args)?;
     if let Some(option) = of_one_wing(args) {
         check_one_wing(&chosen.plan, &args.point.what, &format!("`flap run` with {option}"))?;
     }
@@ -32,20 +31,14 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
         inputs.add("the record", record);
     }
     let measure = args.gradient.as_deref().map(|column| gradient::measure(&chosen, column)).transpose()?;
-    outputs::check_tables(&inputs, [args.trajectory.as_deref(), args.envelope.as_deref()])?;
+    outputs::check_tables(&inputs, [args.trajectory.as_deref()])?;
     samples::apply(&mut chosen, args)?;
-    match args.drive {
-        Drive::Steady => steady(&chosen, args, measure),
-        Drive::Chirp => chirp(&chosen, args),
-        Drive::Impulse => impulse::run(&chosen, args),
-    }
+    settle(&chosen, args, measure)
 }
 
 /// The option that follows the motion of a wing, if there is one.
 fn of_one_wing(args: &RunArgs) -> Option<&'static str> {
     let options = [
-        (args.drive == Drive::Chirp, "--drive chirp"),
-        (args.drive == Drive::Impulse, "--drive impulse"),
         (args.trajectory.is_some(), "--trajectory"),
         (args.waveform.is_some(), "--waveform"),
         (args.stroke.is_some(), "--stroke"),
@@ -53,26 +46,8 @@ fn of_one_wing(args: &RunArgs) -> Option<&'static str> {
     options.into_iter().find_map(|(is_given, option)| is_given.then_some(option))
 }
 
-/// Refuses options of another drive.
-fn refuse_strays(args: &RunArgs) -> Result<(), Failure> {
-    let stray = |option: &str, drive: &str| Err(Failure::usage(format!("{option} needs --drive {drive}")));
-    match args.drive {
-        Drive::Steady | Drive::Impulse if args.envelope.is_some() => stray("--envelope", "chirp"),
-        Drive::Steady | Drive::Impulse if args.chirp_from.is_some() => stray("--chirp-from", "chirp"),
-        Drive::Steady | Drive::Impulse if args.chirp_to.is_some() => stray("--chirp-to", "chirp"),
-        Drive::Steady | Drive::Impulse if args.chirp_rate.is_some() => stray("--chirp-rate", "chirp"),
-        Drive::Steady | Drive::Chirp if args.impulse.is_some() => stray("--impulse", "impulse"),
-        Drive::Steady | Drive::Chirp if args.duration.is_some() => stray("--duration", "impulse"),
-        Drive::Chirp | Drive::Impulse if args.from_rest => stray("--from-rest", "steady"),
-        Drive::Chirp | Drive::Impulse if args.gradient.is_some() => stray("--gradient", "steady"),
-        Drive::Chirp | Drive::Impulse if args.waveform.is_some() => stray("--waveform", "steady"),
-        Drive::Chirp | Drive::Impulse if args.stroke.is_some() => stray("--stroke", "steady"),
-        _ => Ok(()),
-    }
-}
-
-/// Runs the point's own drive until the motion settles.
-fn steady(chosen: &Chosen, args: &RunArgs, measure: Option<usize>) -> Result<Exit, Failure> {
+/// Runs the point until its motion settles, and prints its row.
+fn settle(chosen: &Chosen, args: &RunArgs, measure: Option<usize>) -> Result<Exit, Failure> {
     let Chosen { plan, values, .. } = chosen;
     if let Some(path) = &args.trajectory {
         check_length(args)?;
@@ -97,9 +72,15 @@ fn steady(chosen: &Chosen, args: &RunArgs, measure: Option<usize>) -> Result<Exi
     if let (Status::Invalid, Some(reason)) = (row.status, &row.reason) {
         return Err(Failure::usage(format!("the parameters are impossible together: {reason}")));
     }
-    console::results(&page(chosen, &row))?;
-    if let Some(measure) = measure {
-        console::results(&format!("\n{}", gradient::strongest(chosen, &row, measure)?))?;
+    let gradient = measure.map(|measure| Gradient::of(chosen, &row, measure)).transpose()?;
+    match gradient {
+        Some(gradient) if args.format != OutputFormat::Table => gradient.print(args.format)?,
+        gradient => {
+            print::table(args.format, &NAMES, &cells(chosen, &row), || page(chosen, &row))?;
+            if let Some(gradient) = gradient {
+                console::results(&format!("\n{}", gradient.page()))?;
+            }
+        }
     }
     if row.status == Status::Unsettled {
         console::say(&longer(chosen, args));
@@ -138,68 +119,62 @@ fn check_length(args: &RunArgs) -> Result<(), Failure> {
     Err(Failure::usage(message))
 }
 
-/// The default frequency at which a chirp begins (Hz).
-const CHIRP_FROM: f64 = 1.0;
+/// Columns of the table of a row.
+const NAMES: [&str; 4] = ["column", "value", "unit", "meaning"];
 
-/// The default rate of a chirp's frequency (Hz/s).
-const CHIRP_RATE: f64 = 15.0;
-
-/// Sweeps the frequency: rows per cycle to stdout or a file, the motion to a file.
-fn chirp(chosen: &Chosen, args: &RunArgs) -> Result<Exit, Failure> {
-    let Chosen { plan, values, .. } = chosen;
-    let parameters = plan.parameters();
-    let frequency = parameters.iter().position(|parameter| parameter.name == "drive_frequency");
-    let from = args.chirp_from.unwrap_or(CHIRP_FROM);
-    let request = ChirpRequest {
-        from,
-        to: args.chirp_to.or(frequency.map(|index| 2.0 * values[index])).unwrap_or(from),
-        rate: args.chirp_rate.unwrap_or(CHIRP_RATE),
-        samples_per_cycle: if args.trajectory.is_some() { args.samples } else { 0 },
-    };
-    let response = experiment::chirp(plan.simulator().experiments()?, &chosen.run(), &request)?;
-    if let Some(path) = args.trajectory.as_deref().filter(|path| !is_stdout(path)) {
-        write_file(&response.motion, path, args.overwrite.force, "sample")?;
-    }
-    if let Some(path) = args.envelope.as_deref().filter(|path| !is_stdout(path)) {
-        write_file(&response.envelope, path, args.overwrite.force, "cycle")?;
-    }
-    if args.trajectory.as_deref().is_some_and(is_stdout) {
-        write_csv(&response.motion, io::stdout().lock())?;
-    } else if args.envelope.as_deref().is_none_or(is_stdout) {
-        write_csv(&response.envelope, io::stdout().lock())?;
-    }
-    Ok(Exit::Done)
-}
-
-/// The summary of a run.
+/// The row as a page: the course of the run, and a table of the measures.
 fn page(chosen: &Chosen, row: &Row) -> String {
-    let mut page = chosen.title();
-    let residual = if row.residual.is_nan() { "none".to_owned() } else { six_digits(row.residual) };
-    let Row { cycles, period, rhs_evals, .. } = row;
-    let multiplier = if row.floquet_max.is_nan() { "none".to_owned() } else { six_digits(row.floquet_max) };
-    let mut course = format!("status = {}, cycles = {cycles}, residual = {residual}, ", row.status.name());
-    let stable = row.stable().map_or_else(|| "none".to_owned(), |stable| stable.to_string());
-    let _ = write!(course, "period = {period}, floquet_max = {multiplier}, stable = {stable}, ");
-    if !row.error_estimate.is_nan() {
-        let _ = write!(course, "error_estimate = {}, ", six_digits(row.error_estimate));
-    }
-    let _ = write!(course, "rhs_evals = {rhs_evals}");
-    let _ = writeln!(page, "\n{}", wrapped(&course, 0));
+    let course = course(row, six_digits).into_iter();
+    let course = course.filter(|(name, value)| !(*name == "error_estimate" && value.is_empty()));
+    let course =
+        course.map(|(name, value)| format!("{name} = {}", if value.is_empty() { "none" } else { &value }));
+    let mut page = format!("{}\n{}\n", chosen.title(), wrapped(&course.collect::<Vec<_>>().join(", "), 0));
     if !row.measures.is_empty() {
-        let mut table = Table::with_headings(&["column", "value", "unit", "meaning"]);
-        let columns = chosen.plan.simulator().columns();
-        for (column, &measure) in columns.iter().zip(&row.measures) {
-            table.row([column.name.clone(), six_digits(measure), column.unit.to_owned(), column.doc.clone()]);
-        }
-        for (own, &measure) in chosen.plan.measures().iter().zip(&row.measures[columns.len()..]) {
-            let value = match own.kind() {
-                Kind::Number => six_digits(measure),
-                Kind::Condition => text::truth(measure),
-            };
-            table.row([own.name.clone(), value, String::new(), "[measure] in the grid file".to_owned()]);
-        }
         page += "\n";
-        page += &table.text_within(console::width());
+        page += &Table::of(&NAMES, measures(chosen, row, six_digits)).text_within(console::width());
     }
     page
+}
+
+/// The row below [`NAMES`], with all digits.
+fn cells(chosen: &Chosen, row: &Row) -> Vec<Vec<String>> {
+    let columns = fixed_columns();
+    let meaning =
+        |name: &str| columns.iter().find(|column| column.name == name).map(|column| column.doc.clone());
+    let course = course(row, text::float)
+        .into_iter()
+        .map(|(name, value)| vec![name.to_owned(), value, String::new(), meaning(name).unwrap_or_default()]);
+    course.chain(measures(chosen, row, text::float)).collect()
+}
+
+/// Status and course of a run, by the names of the columns. A number that does not apply is empty.
+fn course(row: &Row, number: fn(f64) -> String) -> [(&'static str, String); 8] {
+    let number = |value: f64| if value.is_nan() { String::new() } else { number(value) };
+    [
+        ("status", row.status.name().to_owned()),
+        ("cycles", row.cycles.to_string()),
+        ("residual", number(row.residual)),
+        ("period", row.period.to_string()),
+        ("floquet_max", number(row.floquet_max)),
+        ("stable", row.stable().map_or_else(String::new, |stable| stable.to_string())),
+        ("error_estimate", number(row.error_estimate)),
+        ("rhs_evals", row.rhs_evals.to_string()),
+    ]
+}
+
+/// The measures below [`NAMES`], if the row has any.
+fn measures(chosen: &Chosen, row: &Row, number: fn(f64) -> String) -> Vec<Vec<String>> {
+    let columns = chosen.plan.simulator().columns();
+    let of_model = columns.iter().zip(&row.measures).map(|(column, &measure)| {
+        vec![column.name.clone(), number(measure), column.unit.to_owned(), column.doc.clone()]
+    });
+    let own = chosen.plan.measures().iter().zip(row.measures.iter().skip(columns.len()));
+    let own = own.map(|(own, &measure)| {
+        let value = match own.kind() {
+            Kind::Number => number(measure),
+            Kind::Condition => text::truth(measure),
+        };
+        vec![own.name.clone(), value, String::new(), "[measure] in the grid file".to_owned()]
+    });
+    of_model.chain(own).collect()
 }

@@ -12,10 +12,12 @@ use flap_sweep::study::deviation;
 use crate::args::SweepArgs;
 use crate::cmd::{far, grid};
 use crate::failure::{Exit, Failure};
-use crate::job::{self, Begin};
+use crate::job;
 
-pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
-    let (mut plan, origin) = plan(args)?;
+pub(super) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
+    let grid = args.grid();
+    let is_sidecar = grid.to_string_lossy().ends_with(".meta.toml");
+    let (mut plan, origin) = if is_sidecar { repeated(args)? } else { (grid::read(grid)?, None) };
     if let Some(shard) = args.shard {
         plan = plan.with_shard(shard);
     }
@@ -23,36 +25,40 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
         Some(out) => out.clone(),
         None => default_path(&plan, args)?,
     };
-    if out.as_os_str() == "-" && args.resume {
-        return Err(Failure::usage("--resume needs a file of results: rows on stdout cannot be resumed"));
-    }
-    if let Some(sidecar) = &args.from_sidecar {
-        Inputs::new().add("the sidecar", sidecar).protect_from_results(&out)?;
+    if is_sidecar {
+        Inputs::new().add("the sidecar", grid).protect_from_results(&out)?;
     }
     far::warn(&deviation::of(&plan));
-    job::run(&plan, out, Begin::of(args.resume, args.begin.force), &args.begin.work, origin)
+    job::run(&plan, out, args.begin.treatment(), &args.begin.work, origin)
 }
 
-/// The plan, and the origin of its points if it is the plan of a rerun.
-fn plan(args: &SweepArgs) -> Result<(Plan, Option<Origin>), Failure> {
-    if let Some(path) = &args.from_sidecar {
-        let sidecar = Sidecar::read(path)?;
-        return Ok((job::plan_of(path, &sidecar)?, sidecar.origin().cloned()));
+/// The plan of the earlier results whose sidecar the command line names, and the origin of its points if it is the plan
+/// of a rerun.
+fn repeated(args: &SweepArgs) -> Result<(Plan, Option<Origin>), Failure> {
+    let path = args.grid();
+    if args.shard.is_some() {
+        return Err(Failure::usage(
+            "a sidecar has a selection of points of its own: --shard needs a grid file",
+        ));
     }
-    let grid = args.grid().ok_or_else(|| Failure::usage("name a grid file: flap sweep FILE"))?;
-    Ok((grid::read(grid)?, None))
+    if args.out.is_none() {
+        return Err(Failure::usage("the sidecar of earlier results needs a name for the new ones")
+            .help("name their file: --out FILE"));
+    }
+    let sidecar = Sidecar::read(path)?;
+    Ok((job::plan_of(path, &sidecar)?, sidecar.origin().cloned()))
 }
 
 /// The file of the rows by default.
 fn default_path(plan: &Plan, args: &SweepArgs) -> Result<PathBuf, Failure> {
-    let whole = match (&plan.output().path, args.grid()) {
-        (Some(path), _) => path.clone(),
-        (None, Some(grid)) if grid::is_stdin(grid) => {
+    let whole = match &plan.output().path {
+        Some(path) => path.clone(),
+        None if grid::is_stdin(args.grid()) => {
             let failure = Failure::usage("a grid from stdin needs a name for its results");
             return Err(failure.help("name their file: --out FILE, or `path` in [output] of the grid"));
         }
-        (None, grid) => {
-            let mut name = grid.and_then(Path::file_stem).unwrap_or_default().to_owned();
+        None => {
+            let mut name = args.grid().file_stem().unwrap_or_default().to_owned();
             name.push(".csv");
             PathBuf::from(name)
         }

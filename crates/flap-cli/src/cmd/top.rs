@@ -6,16 +6,16 @@ use csv::StringRecord;
 use flap_core::simulate::Status;
 use flap_sweep::notation::text::count;
 
-use super::listed;
+use super::print;
 use super::shown::Shown;
-use crate::args::{Aim, Listing, LookArgs, TopArgs};
+use crate::args::{Aim, LookArgs, TopArgs};
 use crate::console;
 use crate::data::filter::Filters;
 use crate::data::source::Source;
 use crate::failure::{Exit, Failure};
 use crate::table::Table;
 
-pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
+pub(super) fn run(args: &TopArgs) -> Result<Exit, Failure> {
     let LookArgs { results, aim, filters, all, format, read } = &args.look;
     let mut source = Source::open(results, read, true)?;
     let filters = Filters::of(filters, &source)?;
@@ -56,11 +56,7 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
         count(ranked, if status.is_some() { "periodic row" } else { "row" }),
     );
     console::say(&format!("{shown} with the {direction} {ranking} of {of}{}", left_out.text()));
-    match format {
-        Listing::Table => console::results(&table(&names, &units, &rows))?,
-        Listing::Csv => console::results(&listed::csv(&names, &rows)?)?,
-        Listing::Json => console::results(&listed::objects(&names, &rows)?)?,
-    }
+    print::table(*format, &names, &rows, || table(&names, &units, &rows))?;
     Ok(Exit::Done)
 }
 

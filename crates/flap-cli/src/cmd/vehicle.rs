@@ -10,9 +10,9 @@ use flap_sweep::study::control::{
     COMPONENTS, ControlError, Effectiveness, Flight, Input, InputError, Target, TrimError, trim,
 };
 
-use super::listed;
 use super::point::Chosen;
-use crate::args::{Listing, VehicleArgs};
+use super::print;
+use crate::args::VehicleArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::table::{Table, six_digits};
@@ -26,7 +26,7 @@ const SMALL: f64 = 0.1;
 /// The share of the largest singular value below which a combination does nothing.
 const NOTHING: f64 = 1e-9;
 
-pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
+pub(super) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
     let chosen = Chosen::new(&args.point, &args.solver)?;
     let Some(vehicle) = chosen.plan.vehicle() else {
         let failure = Failure::usage(format!("{} describes one wing, not a vehicle", args.point.what));
@@ -59,10 +59,8 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
     };
     let names: Vec<String> =
         ["input", "unit", "value"].into_iter().chain(COMPONENTS).map(str::to_owned).collect();
-    console::results(&match args.format {
-        Listing::Table => format!("{}\n\n{page}{}", title(&chosen, vehicle), table(&found)),
-        Listing::Csv => listed::csv(&names, &cells(&found))?,
-        Listing::Json => listed::objects(&names, &cells(&found))?,
+    print::table(args.format, &names, &cells(&found), || {
+        format!("{}\n\n{page}{}", title(&chosen, vehicle), table(&found))
     })?;
     Ok(Exit::Done)
 }

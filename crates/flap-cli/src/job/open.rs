@@ -80,7 +80,7 @@ pub(crate) fn require_checkpoint(results: &Path, opened: &Opened) -> Result<(), 
     let results = results.display();
     let failure =
         Failure::usage(format!("{results} has no rows yet: its sweep has not reached a checkpoint"));
-    Err(failure.help(format!("if the sweep is not running, `flap resume {results}` continues it")))
+    Err(failure.help(format!("if the sweep is not running, `flap results resume {results}` continues it")))
 }
 
 /// Requires that the sidecar of unfinished results describes the rows that their journal records.

@@ -61,7 +61,7 @@ fn report_doubts(plan: &Plan, done: &Done) {
             }
             Some(place) => format!(
                 "{said}, see their error_estimate. This command runs {it} again: \
-                 flap rerun {} --inaccurate --rtol 1e-10 --out {}",
+                 flap results rerun {} --inaccurate --rtol 1e-10 --out {}",
                 shell_word(&place.to_string_lossy()),
                 beside(place, "accurate")
             ),
@@ -103,7 +103,7 @@ fn report_unsettled(plan: &Plan, done: &Done) {
                 .to_owned()
         }
         Some(place) => format!(
-            "This command runs {it} longer: flap rerun {} --status unsettled --max-cycles {} --out {}. \
+            "This command runs {it} longer: flap results rerun {} --status unsettled --max-cycles {} --out {}. \
              If the column residual does not fall with more periods, lower rtol or raise settle_tol",
             shell_word(&place.to_string_lossy()),
             cycles.saturating_mul(10),

@@ -62,8 +62,10 @@ pub(crate) fn run(
     match outcome.map_err(|error| Failure::of_job(error, &job.out))? {
         Outcome::Ran(done) => Ok(ended(plan, &done, Some(&job.out), work)),
         Outcome::Complete { all_periodic } => {
-            let again = if job.begin == Begin::New { "; --force runs its points again" } else { "" };
-            console::say(&format!("{place} is complete: nothing is left to run{again}"));
+            let command = if plan.followed().is_some() { "respond" } else { "sweep" };
+            console::say(&format!(
+                "{place} is complete: nothing is left to run; `flap {command} --restart` runs its points again"
+            ));
             Ok(exit(all_periodic, work))
         }
     }
@@ -78,7 +80,7 @@ fn ended(plan: &Plan, done: &Done, resumable: Option<&Path>, work: &WorkArgs) ->
     }
     if done.summary.interrupted {
         if let Some(out) = resumable {
-            console::say(&format!("`flap resume {}` continues the run", out.display()));
+            console::say(&format!("`flap results resume {}` continues the run", out.display()));
             if let Some(kept) = still_kept(out) {
                 console::say(&kept);
             }

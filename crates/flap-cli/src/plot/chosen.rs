@@ -44,7 +44,8 @@ impl Chosen {
     pub(super) fn nothing(&self, table: &Table, column: usize) -> Failure {
         let (name, rows) = (&table.columns[column].name, self.rows.len());
         let message = format!("none of {rows} rows has a value of {name}: there is nothing to draw");
-        Failure::usage(message)
-            .help("points whose status is not `periodic` have no measures; `flap rerun` runs them again")
+        Failure::usage(message).help(
+            "points whose status is not `periodic` have no measures; `flap results rerun` runs them again",
+        )
     }
 }

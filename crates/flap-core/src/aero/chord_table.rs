@@ -98,7 +98,7 @@ impl ChordTable {
         if self.is_on() && self.mean() <= 0.0 {
             return Err(Invalid::together(
                 &["chord_table", "chord_0", "chord_5", "chord_10"],
-                "chord_table is \"on\", but chord_0 to chord_10 are all zero: `flap wing OUTLINE.csv` writes them",
+                "chord_table is \"on\", but chord_0 to chord_10 are all zero: `flap device wing OUTLINE.csv` writes them",
             ));
         }
         Ok(())

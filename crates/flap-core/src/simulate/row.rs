@@ -118,7 +118,7 @@ impl Status {
 pub struct Column {
     /// Name with its unit, such as `lift_mean_mn`.
     pub name: String,
-    /// Unit in words as printed by `flap params`, such as `mN`.
+    /// Unit in words as printed by `flap models`, such as `mN`.
     pub unit: &'static str,
     /// One line of meaning.
     pub doc: String,

@@ -1,4 +1,4 @@
-//! New results that are to replace earlier ones (`--force`).
+//! New results that are to replace earlier ones (`--restart`).
 //!
 //! The earlier results keep their names until the new ones are complete. Until then the new results of `rows.csv` are
 //! `rows.new.csv`, with a sidecar and a journal of that name. The journal records that they are a replacement, so a file that
@@ -25,7 +25,7 @@ pub fn unfinished(results: &Path) -> Option<PathBuf> {
     past.header.replaces.then_some(new)
 }
 
-/// The results that `flap resume` continues: the unfinished replacement if there is one, else `results`.
+/// The results that `flap results resume` continues: the unfinished replacement if there is one, else `results`.
 pub fn to_resume(results: &Path) -> PathBuf {
     unfinished(results).filter(|new| sidecar_of(new).exists()).unwrap_or_else(|| results.to_owned())
 }

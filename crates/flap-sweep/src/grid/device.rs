@@ -114,7 +114,7 @@ impl Reader<'_> {
                 problems
                     .report(entry.value.span(), format!("{}: {reason}", path.display()))
                     .note("the path is relative to the folder of the file that names it")
-                    .help("`flap new PRESET > mybee.toml` writes a device");
+                    .help("`flap device new PRESET > mybee.toml` writes a device");
                 return None;
             }
         };

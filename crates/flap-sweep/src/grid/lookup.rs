@@ -54,7 +54,7 @@ impl<'l> Lookup<'l> {
             diagnostic.note(format!("it is a parameter of the {models} {}", owners.join(" and ")));
         }
         if diagnostic.help.is_empty() {
-            diagnostic.help("`flap params` lists the parameters of every model");
+            diagnostic.help("`flap models` lists the parameters of every model");
         }
     }
 

@@ -47,7 +47,7 @@ pub(super) fn read(
         problems
             .report(asked.value.span(), "vehicles are not run at their resonance")
             .note("wings that differ have resonances that differ")
-            .help("vary drive_frequency under [axes], or give it the number that `flap resonance` prints for one wing");
+            .help("vary drive_frequency under [axes], or give it the number that `flap test resonance` prints for one wing");
         return None;
     }
     let range = section.map_or_else(Range::default, |section| range(section, problems));

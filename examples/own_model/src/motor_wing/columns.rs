@@ -9,7 +9,7 @@ flap_core::signals! {
     /// Signals of the motor-driven wing.
     pub struct Signals {
         stroke: (Unit::DEG, "flap angle", [Amplitude, Max, First]) principal First,
-        lift: (Unit::MN, "lift of the wing", [Mean, Max]) principal Mean,
+        lift: (Unit::MN, "test lift of the wing", [Mean, Max]) principal Mean,
         power: (Unit::MW, "electrical power current x voltage", [Mean, Magnitude]) principal Mean,
         power_air: (Unit::MW, "power that the air takes", [Mean]),
         power_resistive: (Unit::MW, "heat in the motor's winding", [Mean]),

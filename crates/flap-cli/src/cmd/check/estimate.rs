@@ -34,8 +34,29 @@ const SMALLEST_ERROR: f64 = 0.1;
 pub(super) struct Estimate {
     /// A message if every checked point is invalid, with the reason of the first one.
     pub(super) invalid: Option<String>,
-    /// One line with the estimated time. `None` if no point was run.
-    pub(super) time: Option<String>,
+    /// The shortest and the longest time that is likely (s). `None` if no point was run.
+    pub(super) seconds: Option<[f64; 2]>,
+    /// True if all tried points were run to their ends; otherwise the sweep takes longer than the shortest time.
+    is_complete: bool,
+    /// Number of threads.
+    pub(super) threads: usize,
+    /// Number of points that were run.
+    pub(super) tried: usize,
+}
+
+impl Estimate {
+    /// The estimated time in a line.
+    pub(super) fn line(&self) -> Option<String> {
+        let [low, high] = self.seconds?;
+        let time = if self.is_complete {
+            duration::between(low, high)
+        } else {
+            format!("more than {}", duration::words(low))
+        };
+        let threads = count(self.threads as u64, "thread");
+        let points = count(self.tried as u64, "point");
+        Some(format!("estimate: {time} on {threads}, from runs of {points} spread over the grid"))
+    }
 }
 
 /// Runs some points of `plan` to estimate a sweep of `points` points.
@@ -46,20 +67,15 @@ pub(super) fn of(plan: &Plan, points: u64) -> Estimate {
         && trial.is_complete()
     {
         let text = format!("all points that were tried are invalid, such as point {index}: {reason}");
-        return Estimate { invalid: Some(text), time: None };
+        return Estimate { invalid: Some(text), ..Estimate::default() };
     }
-    let Some([low, high]) = trial.seconds(points) else { return Estimate::default() };
-    let time = if trial.is_complete() {
-        duration::between(low, high)
-    } else {
-        format!("more than {}", duration::words(low))
-    };
-    let time = format!(
-        "estimate: {time} on {}, from runs of {} spread over the grid",
-        count(threads as u64, "thread"),
-        count(trial.works.len() as u64, "point")
-    );
-    Estimate { invalid: None, time: Some(time) }
+    Estimate {
+        invalid: None,
+        seconds: trial.seconds(points),
+        is_complete: trial.is_complete(),
+        threads,
+        tried: trial.works.len(),
+    }
 }
 
 /// A sample of points that are spread over a plan. Further points keep all lanes full, as in a sweep, until the last point of

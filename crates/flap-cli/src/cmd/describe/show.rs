@@ -7,18 +7,20 @@ use flap_sweep::notation::text;
 use super::best::{Axis, Best, Place};
 use super::description::Description;
 use super::words::{WordCount, Words};
-use crate::args::Listing;
+use crate::args::OutputFormat;
 use crate::cmd::shown::Shown;
 use crate::console;
 use crate::failure::Failure;
 use crate::table::Table;
 
 /// The text of a description.
-pub(super) fn text(description: &Description, format: Listing) -> Result<String, Failure> {
+pub(super) fn text(description: &Description, format: OutputFormat) -> Result<String, Failure> {
     match format {
-        Listing::Table => Ok(page(description)),
-        Listing::Csv => csv(description).ok_or_else(|| Failure::Bug("no comma-separated values".to_owned())),
-        Listing::Json => {
+        OutputFormat::Table => Ok(page(description)),
+        OutputFormat::Csv => {
+            csv(description).ok_or_else(|| Failure::Bug("no comma-separated values".to_owned()))
+        }
+        OutputFormat::Json => {
             let json = serde_json::to_string_pretty(description);
             json.map(|json| json + "\n").map_err(|error| Failure::Bug(error.to_string()))
         }

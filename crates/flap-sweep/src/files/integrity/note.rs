@@ -50,7 +50,7 @@ pub enum Unverified {
 
 fn so_far(done: Option<u64>) -> String {
     match done {
-        Some(done) => format!("{} done so far, `flap resume` continues it", count(done, "point")),
+        Some(done) => format!("{} done so far, `flap results resume` continues it", count(done, "point")),
         None => "there are fewer rows than points to be run".to_owned(),
     }
 }

@@ -22,12 +22,13 @@ impl Job<'_> {
         engine: Engine<'_>,
         tell: &mut dyn FnMut(Notice),
     ) -> Result<Outcome, JobError> {
+        let format = Format::of(&self.out)?;
         let Some(new) = replacement::unfinished(&self.out) else {
             return self.resume_at(&self.out, engine, tell);
         };
         // Locked until the end of the job.
         let held = output::hold(&self.out)?;
-        if replacement::is_over(&new, Format::of(&self.out)?) {
+        if replacement::is_over(&new, format) {
             replacement::discard(&self.out).map_err(|error| JobError::write(&self.out, error, false))?;
             drop(held);
             return self.resume_at(&self.out, engine, tell);
@@ -45,8 +46,11 @@ impl Job<'_> {
         let has_journal =
             companions::has_journal(place).map_err(|error| JobError::write(place, error, false))?;
         let sidecar = Sidecar::read(&sidecar_of(place));
+        // Rows that were moved away leave a sidecar in the way of others.
+        let is_alone = place == self.out && !place.exists();
         if let Ok(sidecar) = &sidecar
             && sidecar.state == State::Complete
+            && !is_alone
         {
             return self.is_complete(place, sidecar, has_journal);
         }
@@ -54,6 +58,7 @@ impl Job<'_> {
             return match sidecar {
                 _ if disk::is_empty(place) => self.start(engine, tell),
                 Err(error @ ReadError::Damaged { .. }) => Err(JobError::Open(error.into())),
+                Err(_) => self.existing(),
                 _ => Err(self.cannot_resume(place, ResumeError::NoJournal(place.to_owned()))),
             };
         }

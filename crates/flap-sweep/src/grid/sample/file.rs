@@ -141,7 +141,7 @@ fn heading<'t, 'p>(
         let message = format!("model `{}` has no parameter `{name}`", lookup.simulator.name());
         let diagnostic = lookup.problems.report_in(source, span.clone(), message);
         if diagnostic.did_you_mean(name, known.iter().map(|parameter| parameter.name)).help.is_empty() {
-            diagnostic.help("the first line names the parameters; `flap params` lists them");
+            diagnostic.help("the first line names the parameters; `flap models` lists them");
         }
         return None;
     };

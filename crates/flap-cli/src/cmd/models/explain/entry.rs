@@ -5,9 +5,10 @@ use std::fmt::Write as _;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Column, Simulator};
 
-use crate::cmd::params::{allowed, shown};
+use crate::cmd::models::parameters::{allowed, shown};
 
 /// A name and its meaning.
+#[derive(Clone)]
 pub(super) struct Entry {
     pub(super) name: String,
     /// Whatever it names, as in `a column of trajectories of`.
@@ -58,6 +59,12 @@ impl Entry {
             [first @ .., last] => format!(" of the models {} and {last}", first.join(", ")),
         };
         format!("{what}{of}{rest}")
+    }
+
+    /// Name, kind and text, as a row of a table.
+    pub(super) fn row(&self) -> Vec<String> {
+        let lines: Vec<&str> = self.text.lines().map(str::trim).collect();
+        vec![self.name.clone(), self.kind(), lines.join("\n")]
     }
 
     /// Adds an entry to others; those that say the same of several models become one.

@@ -1,4 +1,4 @@
-//! `flap resume`: an interrupted sweep, from its results alone.
+//! `flap results resume`: an interrupted sweep, from its results alone.
 
 use flap_sweep::files::integrity::OnDamage;
 use flap_sweep::files::results::Format;
@@ -9,7 +9,7 @@ use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::job::{self, Begin};
 
-pub(crate) fn run(args: &ResumeArgs) -> Result<Exit, Failure> {
+pub(super) fn run(args: &ResumeArgs) -> Result<Exit, Failure> {
     Failure::not_results(&args.results).map_or(Ok(()), Err)?;
     Format::of(&args.results)?;
     let on_damage = args.read.on_damage();

@@ -1,4 +1,4 @@
-//! `flap convert`: results in another format.
+//! `flap results convert`: results in another format.
 
 use std::io::ErrorKind;
 
@@ -16,7 +16,7 @@ use crate::console;
 use crate::failure::{Exit, Failure, IGNORE_HELP};
 use crate::job;
 
-pub(crate) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
+pub(super) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
     let to_stdout = is_stdout(&args.to);
     let to = if to_stdout { Format::Csv } else { Format::of(&args.to)? };
     let mut inputs = Inputs::new();

@@ -1,15 +1,13 @@
-//! `flap resonance`: the resonances of one point, by every way of looking for them.
-
-use std::io;
+//! `flap test resonance`: the resonances of one point, by every way of looking for them.
 
 use flap_experiments::free::{self, FreeMotion, FreeRequest};
 use flap_experiments::spectrum::SpectrumPeak;
-use flap_sweep::files::csv_sink;
 use flap_sweep::notation::text;
 use flap_sweep::resonance::driven::{self, DrivenPeaks, Gap, PeakSearch};
 
-use super::point::{Chosen, check_one_wing};
-use crate::args::{Format, ResonanceArgs};
+use crate::args::ResonanceArgs;
+use crate::cmd::point::{Chosen, check_one_wing};
+use crate::cmd::print;
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::table::{Table, six_digits};
@@ -23,10 +21,10 @@ const POOR_FIT: f64 = 0.1;
 /// A second peak at least this high, relative to the highest, is commented on.
 const RIVAL: f64 = 0.95;
 
-pub(crate) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
+pub(super) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
     let chosen = Chosen::new(&args.point, &args.solver)?;
     let Chosen { plan, values, .. } = &chosen;
-    check_one_wing(plan, &args.point.what, "`flap resonance`")?;
+    check_one_wing(plan, &args.point.what, "`flap test resonance`")?;
     let simulator = plan.robot().model();
     let experiments = simulator.experiments()?;
     let modes = experiments.modes(values)?;
@@ -46,10 +44,12 @@ pub(crate) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
     }
     lines.extend(free_lines(&free, args));
     lines.extend(driven_lines(&driven));
-    match args.format {
-        Format::Text => console::results(&format!("{}\n\n{}", chosen.title(), table(&lines)))?,
-        Format::Csv => write_lines(&lines)?,
-    }
+    let rows =
+        |number| -> Vec<Vec<String>> { lines.iter().map(|line| line.cells(number).to_vec()).collect() };
+    print::table(args.format, &HEADINGS, &rows(text::float), || {
+        let table = Table::of(&HEADINGS, rows(six_digits)).text_within(console::width());
+        format!("{}\n\n{table}", chosen.title())
+    })?;
     comment_on_free(&free, args);
     comment_on_driven(&driven);
     Ok(Exit::Done)
@@ -98,7 +98,7 @@ impl Line {
         [frequency, height, stroke_pp, pitch_pp, decay, left_over]
     }
 
-    fn cells(&self, number: impl Fn(f64) -> String) -> [String; 8] {
+    fn cells(&self, number: fn(f64) -> String) -> [String; 8] {
         let [a, b, c, d, e, f] = self.numbers().map(number);
         [self.name.clone(), a, b, c, d, e, f, self.meaning.clone()]
     }
@@ -147,23 +147,6 @@ fn driven_lines(driven: &DrivenPeaks) -> Vec<Line> {
         )
     };
     (1..).zip(&driven.peaks).map(line).collect()
-}
-
-fn table(lines: &[Line]) -> String {
-    let mut table = Table::with_headings(&HEADINGS);
-    for line in lines {
-        table.row(line.cells(six_digits));
-    }
-    table.text_within(console::width())
-}
-
-fn write_lines(lines: &[Line]) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(io::stdout().lock());
-    writer.write_record(HEADINGS).map_err(csv_sink::cause)?;
-    for line in lines {
-        writer.write_record(line.cells(text::float)).map_err(csv_sink::cause)?;
-    }
-    writer.flush()
 }
 
 fn comment_on_free(free: &FreeMotion, args: &ResonanceArgs) {

@@ -1,4 +1,4 @@
-//! `flap lift`: forces on a wing with a given motion.
+//! `flap test lift`: forces on a wing with a given motion.
 
 use std::io;
 
@@ -6,18 +6,20 @@ use flap_core::drive::Repeat;
 use flap_core::simulate::{ImposedMotion, Trajectory};
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::record::{self, Record, RecordError};
+use flap_sweep::notation::text;
 use flap_sweep::plan::Plan;
 use flap_sweep::study::experiment;
 
-use super::motion::{write_csv, write_file};
-use super::outputs;
-use super::point::Chosen;
 use crate::args::{LiftArgs, SolverArgs};
+use crate::cmd::motion::{write_csv, write_file};
+use crate::cmd::outputs;
+use crate::cmd::point::Chosen;
+use crate::cmd::print;
 use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
 use crate::table::{Table, six_digits};
 
-pub(crate) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
+pub(super) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
     let Chosen { plan, values, .. } = Chosen::new(&args.point, &SolverArgs::default())?;
     let mut inputs = Inputs::new();
     inputs.add_plan(&plan).add("the motion", &args.motion);
@@ -40,7 +42,9 @@ pub(crate) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
         Some(path) => write_file(&forces, path, args.overwrite.force, "sample")?,
         None => {}
     }
-    console::results(&summary(&forces))?;
+    print::table(args.format, &NAMES, &summary(&forces, text::float), || {
+        Table::of(&NAMES, summary(&forces, six_digits)).text_within(console::width())
+    })?;
     Ok(Exit::Done)
 }
 
@@ -60,17 +64,19 @@ fn stroke_alone(error: RecordError, plan: &Plan, args: &LiftArgs) -> Failure {
     })
 }
 
-/// Mean, least and largest of every column but the time.
-fn summary(forces: &Trajectory) -> String {
-    let mut table = Table::with_headings(&["column", "mean", "min", "max"]);
-    for (i, column) in forces.columns.iter().enumerate().skip(1) {
+/// Columns of the summary.
+const NAMES: [&str; 4] = ["column", "mean", "min", "max"];
+
+/// Mean, least and largest of every column but the time, below [`NAMES`].
+fn summary(forces: &Trajectory, number: fn(f64) -> String) -> Vec<Vec<String>> {
+    let of_column = |(i, column): (usize, &String)| {
         let values: Vec<f64> = forces.rows.iter().map(|row| row[i]).collect();
         // Equally spaced: the ends count half.
         let ends = 0.5 * (values[0] + values[values.len() - 1]);
         let mean = (values.iter().sum::<f64>() - ends) / (values.len() - 1) as f64;
         let min = values.iter().copied().fold(f64::INFINITY, f64::min);
         let max = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        table.row([column.clone(), six_digits(mean), six_digits(min), six_digits(max)]);
-    }
-    table.text_within(console::width())
+        vec![column.clone(), number(mean), number(min), number(max)]
+    };
+    forces.columns.iter().enumerate().skip(1).map(of_column).collect()
 }

@@ -1,4 +1,4 @@
-//! `flap wing`: the parameters of a wing of one's own.
+//! `flap device wing`: the parameters of a wing of one's own.
 
 use flap_core::aero::{ChordTable, Material, STATIONS, Tabulated, Wing};
 use flap_core::parameter::{Kind, Parameter};
@@ -7,8 +7,8 @@ use flap_sweep::grid;
 use flap_sweep::notation::units::prefixed;
 use flap_sweep::plan::{Plan, Value};
 
-use super::point;
 use crate::args::WingArgs;
+use crate::cmd::point;
 use crate::console;
 use crate::failure::{Exit, Failure};
 
@@ -18,7 +18,7 @@ const AIR_DENSITY: f64 = 1.2;
 /// The share of the area by which a table of chords may miss that of the outline without a note.
 const CLOSE: f64 = 5e-3;
 
-pub(crate) fn run(args: &WingArgs) -> Result<Exit, Failure> {
+pub(super) fn run(args: &WingArgs) -> Result<Exit, Failure> {
     let plan = point::plan(&args.preset)?;
     let outline = outline::read(&args.outline)
         .map_err(|error| error.help().into_iter().fold(Failure::usage(error.to_string()), Failure::help))?;

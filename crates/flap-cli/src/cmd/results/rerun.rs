@@ -1,4 +1,4 @@
-//! `flap rerun`: points of earlier results, run again with other solver settings.
+//! `flap results rerun`: points of earlier results, run again with other solver settings.
 
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::rerun::{self, RerunError, Wanted};
@@ -8,9 +8,9 @@ use crate::args::RerunArgs;
 use crate::cmd::point::with_solver;
 use crate::console;
 use crate::failure::{Exit, Failure};
-use crate::job::{self, Begin};
+use crate::job;
 
-pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
+pub(super) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     let of = args.results.display();
     Inputs::new().add_results("the results", &args.results).protect_from_results(&args.out)?;
     let (mut source, plan, sidecar) = job::open_recorded(&args.results, &args.read)?;
@@ -36,6 +36,5 @@ pub(crate) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     }
     let plan = with_solver(plan.with_points(list)?, &args.solver)?;
     let origin = Some(Origin { of: of.to_string(), statuses });
-    let begin = if args.begin.force { Begin::Overwrite } else { Begin::New };
-    job::run(&plan, args.out.clone(), begin, &args.begin.work, origin)
+    job::run(&plan, args.out.clone(), args.begin.treatment(), &args.begin.work, origin)
 }

@@ -6,7 +6,7 @@ type Columns = (&'static str, &'static [(&'static str, &'static str)]);
 /// Columns by the command that writes them.
 pub(super) const TABLES: &[Columns] = &[
     (
-        "a column of chirps (`flap run --drive chirp --envelope`)",
+        "a column of chirps (`flap test chirp`)",
         &[
             ("begin_s", "beginning of the cycle, since that of the chirp"),
             ("end_s", "end of the cycle, since the beginning of the chirp"),
@@ -14,7 +14,7 @@ pub(super) const TABLES: &[Columns] = &[
         ],
     ),
     (
-        "a column of resonances (`flap resonance`)",
+        "a column of resonances (`flap test resonance`)",
         &[
             ("resonance", "way in which the resonance was found"),
             ("frequency_hz", "frequency of the resonance"),
@@ -24,7 +24,7 @@ pub(super) const TABLES: &[Columns] = &[
         ],
     ),
     (
-        "a value of an impulse (`flap run --drive impulse`)",
+        "a value of an impulse (`flap test impulse`)",
         &[("impulse_deg", "amplitude of the first mode alone, without damping")],
     ),
 ];

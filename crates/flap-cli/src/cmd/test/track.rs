@@ -1,20 +1,18 @@
-//! `flap track`: stroke, pitch and rotation centre of a filmed wing.
-
-use std::io;
+//! `flap test track`: stroke, pitch and rotation centre of a filmed wing.
 
 use flap_core::simulate::Trajectory;
 use flap_experiments::tracking::{LeadingEdge, pitch_from_projection, rotation_centre};
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::record::{self, Record};
 
-use super::motion::{write_csv, write_file};
-use super::outputs;
 use crate::args::TrackArgs;
+use crate::cmd::motion::write_file;
+use crate::cmd::{outputs, print};
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::table::six_digits;
 
-pub(crate) fn run(args: &TrackArgs) -> Result<Exit, Failure> {
+pub(super) fn run(args: &TrackArgs) -> Result<Exit, Failure> {
     outputs::check_tables(Inputs::new().add("the points", &args.points), [args.out.as_deref()])?;
     let record = Record::read(&args.points)?;
     let times = record.column(&record::TIME)?;
@@ -45,7 +43,7 @@ pub(crate) fn run(args: &TrackArgs) -> Result<Exit, Failure> {
         console::results(&(found + "\n"))?;
     } else {
         console::say(&found);
-        write_csv(&motion, io::stdout().lock())?;
+        print::motion(args.format, &motion)?;
     }
     Ok(Exit::Done)
 }

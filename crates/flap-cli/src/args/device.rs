@@ -1,11 +1,31 @@
-//! The command `wing`.
+//! Device files: `device new`, `wing`.
 
 use std::path::PathBuf;
 
+use clap::Subcommand;
+
 use super::values::{density, length, line_density, mass};
 
+#[derive(Subcommand)]
+pub(crate) enum DeviceCommand {
+    /// Print the device file of a preset, to be edited: every parameter with value, unit, range and meaning
+    New(NewArgs),
+    /// Turn the outline of a wing into a device file: areas, radii, inertias, and the chord as a table
+    Wing(WingArgs),
+}
+
 #[derive(clap::Args)]
-#[command(after_help = HELP)]
+#[command(
+    after_help = "Examples:\n  flap device new jafferis2016 > mybee.toml\n  flap run mybee.toml\n  flap device new mybee.toml > copy.toml"
+)]
+pub(crate) struct NewArgs {
+    /// A preset, or a device or grid file whose values are written out
+    #[arg(value_name = "PRESET|FILE")]
+    pub(crate) what: String,
+}
+
+#[derive(clap::Args)]
+#[command(after_help = WING_HELP)]
 pub(crate) struct WingArgs {
     /// CSV file with the columns `span [mm]`, `leading_edge [mm]` and `trailing_edge [mm]`, from root to tip
     #[arg(value_name = "OUTLINE")]
@@ -36,10 +56,10 @@ pub(crate) struct WingArgs {
     pub(crate) mass: Option<f64>,
 }
 
-const HELP: &str = "\
+const WING_HELP: &str = "\
 The edges are distances from the hinge's axis: the leading edge ahead of it, the trailing edge behind it. Between stations they are \
 straight. docs/wings.md says which numbers belong together when a wing changes.
 
 Examples:
-  flap wing outline.csv --preset jafferis2016 --offset '2 mm' --mass '0.6 mg' > wing.toml
+  flap device wing outline.csv --preset jafferis2016 --offset '2 mm' --mass '0.6 mg' > wing.toml
   flap run wing.toml";

@@ -1,4 +1,4 @@
-//! `flap merge`: the shards of a sweep joined into one file.
+//! `flap results merge`: the shards of a sweep joined into one file.
 
 use std::path::Path;
 
@@ -16,7 +16,7 @@ use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::job;
 
-pub(crate) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
+pub(super) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let to_stdout = is_stdout(&args.out);
     let format = if to_stdout { Format::Csv } else { Format::of(&args.out)? };
     let mut inputs = Inputs::new();

@@ -1,4 +1,4 @@
-//! `flap params`: the parameters of a model, and the columns of its rows.
+//! The parameters of a model, and the columns of its rows.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -11,24 +11,28 @@ use flap_sweep::plan::Robot;
 use flap_sweep::resonance;
 use flap_sweep::table::layout::fixed_columns;
 
-use super::{listed, point};
-use crate::args::{Listing, ParamsArgs};
+use crate::args::ModelsArgs;
+use crate::cmd::{point, print};
 use crate::console;
-use crate::failure::{Exit, Failure};
+use crate::failure::Failure;
 use crate::models;
-use crate::table::Table;
+use crate::table::{Table, wrapped};
 
-pub(crate) fn run(args: &ParamsArgs) -> Result<Exit, Failure> {
-    let values = Values::of(&args.what)?;
+/// True if the word names a model or a preset, or a device or grid file, whose parameters can be listed.
+pub(super) fn is_listed(what: &str) -> bool {
+    let path = Path::new(what);
+    models::preset(what).is_some()
+        || models::by_name(what).is_some()
+        || path.extension().is_some()
+        || path.is_file()
+}
+
+/// Prints the parameters and columns of a model, with the values of a preset or file.
+pub(super) fn list(what: &str, args: &ModelsArgs) -> Result<(), Failure> {
+    let values = Values::of(what)?;
     let entries: Vec<Entry> = parameters(&values).into_iter().chain(columns(&*values.robot)).collect();
-    let rows = || entries.iter().map(Entry::row).collect::<Vec<_>>();
-    let page = match args.format {
-        Listing::Table => head(&values.lines) + &listing(&entries, args.long),
-        Listing::Csv => listed::csv(&NAMES.map(str::to_owned), &rows())?,
-        Listing::Json => listed::objects(&NAMES.map(str::to_owned), &rows())?,
-    };
-    console::results(&page)?;
-    Ok(Exit::Done)
+    let rows: Vec<Vec<String>> = entries.iter().map(Entry::row).collect();
+    print::table(args.format, &NAMES, &rows, || head(&values.lines) + &listing(&entries, args.long))
 }
 
 /// The model of that name, or that of the preset of that name, with the preset.
@@ -56,9 +60,7 @@ struct Values {
 impl Values {
     /// Of a model, a preset, a device or a grid file: of the first point of that.
     fn of(what: &str) -> Result<Values, Failure> {
-        let is_named = models::preset(what).is_some() || models::by_name(what).is_some();
-        let path = Path::new(what);
-        if !is_named && (path.exists() || path.extension().is_some()) {
+        if models::preset(what).is_none() && models::by_name(what).is_none() {
             let plan = point::plan(what)?;
             let robot = plan.robot().clone();
             let lines = [format!("{what}: begins with {}", plan.preset()), of_model(&*robot)];
@@ -265,15 +267,4 @@ fn first_sentence(text: &str) -> &str {
     let ends = text.match_indices(". ").map(|(end, _)| end);
     let mut ends = ends.filter(|end| text[end + 2..].starts_with(char::is_uppercase));
     text[..ends.next().unwrap_or(text.len())].trim_end_matches('.')
-}
-
-/// The text in lines that fit the terminal, each but the first behind `indent` blanks.
-pub(super) fn wrapped(text: &str, indent: usize) -> String {
-    let blanks = " ".repeat(indent);
-    console::width().map_or_else(
-        || text.to_owned(),
-        |width| {
-            textwrap::fill(text, textwrap::Options::new(width.max(indent + 20)).subsequent_indent(&blanks))
-        },
-    )
 }

@@ -1,0 +1,49 @@
+//! Files for other programs: `generate completions`, `man`, `schema`.
+
+use std::path::PathBuf;
+
+use clap::Subcommand;
+use clap_complete::Shell;
+
+#[derive(Subcommand)]
+pub(crate) enum GenerateCommand {
+    /// Print a script that completes commands and options in a shell
+    Completions(CompletionsArgs),
+    /// Write manual pages
+    Man(ManArgs),
+    /// Print a JSON schema of grid files, for editors that complete their keys
+    Schema(SchemaArgs),
+}
+
+#[derive(clap::Args)]
+#[command(after_help = COMPLETIONS_HELP)]
+pub(crate) struct CompletionsArgs {
+    /// The shell
+    #[arg(value_name = "SHELL")]
+    pub(crate) shell: Shell,
+}
+
+const COMPLETIONS_HELP: &str = "\
+Examples:
+  flap generate completions bash > ~/.local/share/bash-completion/completions/flap
+  source <(flap generate completions zsh)               (in ~/.zshrc, behind compinit)
+  flap generate completions fish > ~/.config/fish/completions/flap.fish
+  flap generate completions powershell >> $PROFILE";
+
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  flap generate man ~/.local/share/man/man1")]
+pub(crate) struct ManArgs {
+    /// Folder for the pages, one per command; pages that are there are overwritten
+    #[arg(value_name = "FOLDER")]
+    pub(crate) folder: PathBuf,
+}
+
+#[derive(clap::Args)]
+#[command(
+    after_help = "Example:\n  flap generate schema > flap.schema.json     (and #:schema ./flap.schema.json as the first line of a grid)"
+)]
+pub(crate) struct SchemaArgs {
+    /// Only the parameters of this preset's model, with the preset's values as defaults
+    #[arg(long, value_name = "PRESET")]
+    pub(crate) preset: Option<String>,
+}

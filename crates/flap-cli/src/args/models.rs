@@ -1,0 +1,33 @@
+//! `flap models`.
+
+use super::options::OutputFormat;
+
+#[derive(clap::Args)]
+#[command(after_help = HELP)]
+pub(crate) struct ModelsArgs {
+    /// Models, presets, devices and grid files, whose parameters and columns are listed; parameters, columns, settings
+    /// and statuses, which are explained [default: list the models and their presets]
+    #[arg(value_name = "NAME|FILE")]
+    pub(crate) names: Vec<String>,
+
+    /// Explain names only as names of this model, or of the model of this preset
+    #[arg(long, value_name = "MODEL|PRESET", requires = "names")]
+    pub(crate) model: Option<String>,
+
+    /// Print whole meanings, not their first sentences, and the symbols and allowed values of parameters
+    #[arg(long, requires = "names")]
+    pub(crate) long: bool,
+
+    /// Output format: csv and json have all texts, and numbers in SI units
+    #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
+    pub(crate) format: OutputFormat,
+}
+
+const HELP: &str = "\
+Examples:
+  flap models
+  flap models jafferis2016
+  flap models direct-drive --long
+  flap models hinge_stiffness floquet_max unsettled
+  flap models hinge_stiffness --model four-bar
+  flap models mybee.toml --format csv > parameters.csv";

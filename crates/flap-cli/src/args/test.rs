@@ -1,0 +1,227 @@
+//! Experiments on one wing: `test chirp`, `impulse`, `resonance`, `lift`, `track`.
+
+use std::path::PathBuf;
+
+use clap::{Subcommand, value_parser};
+
+use super::options::{OutputFormat, OverwriteArgs, PointArgs, SolverArgs};
+use super::values::{finite, frequency, impulse, positive, time};
+
+#[derive(Subcommand)]
+pub(crate) enum TestCommand {
+    /// Sweep the drive frequency from rest, and print a row per drive period
+    Chirp(ChirpArgs),
+    /// Give the resting stroke an impulse, and compute the free motion
+    Impulse(ImpulseArgs),
+    /// Compare the resonances of a design point: linear, free and driven
+    Resonance(ResonanceArgs),
+    /// Compute the forces on a wing whose stroke and pitch are given, as filmed
+    Lift(LiftArgs),
+    /// Compute stroke, pitch and rotation centre of a filmed wing from tracked points
+    Track(TrackArgs),
+}
+
+#[derive(clap::Args)]
+#[command(after_help = CHIRP_HELP)]
+pub(crate) struct ChirpArgs {
+    #[command(flatten)]
+    pub(crate) point: PointArgs,
+
+    /// Frequency at which the chirp begins (Hz)
+    #[arg(long, value_name = "HZ", default_value_t = 1.0, value_parser = frequency)]
+    pub(crate) from: f64,
+
+    /// Frequency at which the chirp ends (Hz) [default: twice the point's drive frequency]
+    #[arg(long, value_name = "HZ", value_parser = frequency)]
+    pub(crate) to: Option<f64>,
+
+    /// Rate of change of the frequency (Hz/s); negative for a falling chirp. A chirp has at most 100,000 drive periods
+    #[arg(long, value_name = "HZ/S", default_value_t = 15.0, value_parser = finite, allow_negative_numbers = true)]
+    pub(crate) rate: f64,
+
+    /// CSV file for the rows per drive period [default: stdout, in the format of --format]
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+
+    /// CSV file for the motion over time, or `-` for stdout in place of the rows
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) trajectory: Option<PathBuf>,
+
+    /// Samples of the trajectory per drive period
+    #[arg(long, value_name = "N", default_value_t = 200, requires = "trajectory",
+          value_parser = value_parser!(u32).range(1..=1_000_000))]
+    pub(crate) samples: u32,
+
+    /// Output format of the rows on stdout
+    #[arg(long, value_enum, default_value_t = OutputFormat::Csv)]
+    pub(crate) format: OutputFormat,
+
+    #[command(flatten)]
+    pub(crate) overwrite: OverwriteArgs,
+
+    #[command(flatten)]
+    pub(crate) solver: SolverArgs,
+}
+
+const CHIRP_HELP: &str = "\
+Examples:
+  flap test chirp ozaki2018-small --from 150 --to 250 --out chirp.csv
+  flap test chirp mybee.toml --rate 5 --trajectory motion.csv > chirp.csv";
+
+#[derive(clap::Args)]
+#[command(after_help = IMPULSE_HELP)]
+pub(crate) struct ImpulseArgs {
+    #[command(flatten)]
+    pub(crate) point: PointArgs,
+
+    /// Size of the impulse on the stroke, as the amplitude that the first mode alone would reach without damping:
+    /// `20 deg` is a stroke rate of 2 pi f_1 20 deg
+    #[arg(long, value_name = "ANGLE", default_value = "20 deg", value_parser = impulse, allow_hyphen_values = true)]
+    pub(crate) amplitude: f64,
+
+    /// Duration of the motion, such as `50 ms` [default: ten periods of the first mode]
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    pub(crate) duration: Option<f64>,
+
+    /// CSV file for the motion over time, or `-` for stdout in place of the summary
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) trajectory: Option<PathBuf>,
+
+    /// Samples per period of the first mode, at least
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = value_parser!(u32).range(1..=1_000_000))]
+    pub(crate) samples: u32,
+
+    /// Output format of the summary
+    #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
+    pub(crate) format: OutputFormat,
+
+    #[command(flatten)]
+    pub(crate) overwrite: OverwriteArgs,
+
+    #[command(flatten)]
+    pub(crate) solver: SolverArgs,
+}
+
+const IMPULSE_HELP: &str = "\
+The drive is held still.
+
+Examples:
+  flap test impulse ozaki2018-small
+  flap test impulse ozaki2018-small --amplitude '5 deg' --duration '50 ms' --trajectory free.csv";
+
+#[derive(clap::Args)]
+#[command(after_help = RESONANCE_HELP)]
+pub(crate) struct ResonanceArgs {
+    #[command(flatten)]
+    pub(crate) point: PointArgs,
+
+    /// Size of the impulse on the stroke, as the amplitude that the first mode alone would reach without damping
+    #[arg(long, value_name = "ANGLE", default_value = "20 deg", value_parser = impulse, allow_hyphen_values = true)]
+    pub(crate) impulse: f64,
+
+    /// Periods of the first mode to which the damped sine is fitted
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = value_parser!(u32).range(2..=1000))]
+    pub(crate) window_cycles: u32,
+
+    /// Duration of the motion from which the spectrum is computed
+    #[arg(long, value_name = "TIME", default_value = "1 s", value_parser = time)]
+    pub(crate) spectrum_window: f64,
+
+    /// Lowest drive frequency of the search (Hz) [default: half of the lower natural frequency]
+    #[arg(long, value_name = "HZ", value_parser = frequency)]
+    pub(crate) from: Option<f64>,
+
+    /// Highest drive frequency of the search (Hz) [default: one and a half times the upper natural frequency]
+    #[arg(long, value_name = "HZ", value_parser = frequency)]
+    pub(crate) to: Option<f64>,
+
+    /// Largest error of the frequencies at which the driven stroke peaks (Hz)
+    #[arg(long, value_name = "HZ", default_value = "0.05", value_parser = frequency)]
+    pub(crate) tolerance: f64,
+
+    /// Output format
+    #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
+    pub(crate) format: OutputFormat,
+
+    #[command(flatten)]
+    pub(crate) solver: SolverArgs,
+}
+
+const RESONANCE_HELP: &str = "\
+Prints three kinds of resonance. Linear: the natural frequencies of small undamped motions. Free: a damped sine and the \
+peaks of a spectrum, both of the motion after an impulse on the resting stroke. Driven: the drive frequencies at which \
+the settled stroke is largest, at the point's own voltage.
+
+Examples:
+  flap test resonance ozaki2018-large
+  flap test resonance ozaki2018-large --impulse '5 deg' --window-cycles 10
+  flap test resonance jafferis2016 --set 'drive_voltage_pp=160 V' --from 100 --to 150 --format csv";
+
+#[derive(clap::Args)]
+#[command(after_help = LIFT_HELP)]
+pub(crate) struct LiftArgs {
+    #[command(flatten)]
+    pub(crate) point: PointArgs,
+
+    /// CSV file with the motion: columns time_s (or time_ms), stroke_deg (or stroke_rad), pitch_deg (or pitch_rad)
+    #[arg(value_name = "MOTION")]
+    pub(crate) motion: PathBuf,
+
+    /// The motion is one period: its last sample is the first of the next period
+    #[arg(long)]
+    pub(crate) periodic: bool,
+
+    /// CSV file for motion and forces over time, or `-` for stdout in place of the summary
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) trajectory: Option<PathBuf>,
+
+    /// Number of samples from the beginning of the motion to its end
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = value_parser!(u32).range(1..=5_000_000))]
+    pub(crate) samples: u32,
+
+    /// Output format of the summary
+    #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
+    pub(crate) format: OutputFormat,
+
+    #[command(flatten)]
+    pub(crate) overwrite: OverwriteArgs,
+}
+
+const LIFT_HELP: &str = "\
+Angles follow the conventions of the model, see docs/model.md. Between samples the motion is a cubic spline. Its \
+acceleration amplifies the noise of the samples, so smooth them first.
+
+Examples:
+  flap test track points.csv --chord 6.5 --out motion.csv
+  flap test lift ozaki2018-small motion.csv --trajectory forces.csv";
+
+#[derive(clap::Args)]
+#[command(after_help = TRACK_HELP)]
+pub(crate) struct TrackArgs {
+    /// CSV file with the points of every image: columns root_x, root_y, tip_x, tip_y of the leading edge, and edge_x,
+    /// edge_y of a point of the lower edge for the pitch, all in one unit; and time_s or time_ms
+    #[arg(value_name = "POINTS")]
+    pub(crate) points: PathBuf,
+
+    /// Chord from the leading edge to the point of the lower edge, in the unit of the points
+    #[arg(long, value_name = "LENGTH", value_parser = positive)]
+    pub(crate) chord: Option<f64>,
+
+    /// CSV file for stroke_deg and pitch_deg over time [default: stdout, in the format of --format]
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+
+    /// Output format of the motion on stdout
+    #[arg(long, value_enum, default_value_t = OutputFormat::Csv)]
+    pub(crate) format: OutputFormat,
+
+    #[command(flatten)]
+    pub(crate) overwrite: OverwriteArgs,
+}
+
+const TRACK_HELP: &str = "\
+Uses the method of Ozaki and Hamaguchi 2018: the stroke is the angle from the x-axis to the leading edge, the pitch \
+follows from the projected chord (eq. 42), the centre of rotation is a least-squares fit (eq. 43).
+
+Example:
+  flap test track points.csv --chord 6.5 --out motion.csv";

@@ -1,0 +1,15 @@
+//! `flap device new`: a device as text, to be edited.
+
+use flap_sweep::grid;
+
+use crate::args::NewArgs;
+use crate::cmd::point;
+use crate::console;
+use crate::failure::{Exit, Failure};
+
+pub(super) fn run(args: &NewArgs) -> Result<Exit, Failure> {
+    let plan = point::plan(&args.what)?;
+    point::check_one_wing(&plan, &args.what, "a device, which `flap device new` writes,")?;
+    console::results(&grid::device(&plan))?;
+    Ok(Exit::Done)
+}

@@ -1,0 +1,68 @@
+//! `flap generate`: files for shells, for `man`, and for editors.
+
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+use clap_complete::env::Shells;
+use clap_mangen::generate_to;
+use flap_sweep::grid::schema;
+
+use crate::args::{self, CompletionsArgs, GenerateCommand, ManArgs, SchemaArgs};
+use crate::complete::VARIABLE;
+use crate::console;
+use crate::failure::{Exit, Failure};
+use crate::models;
+
+/// Runs a command of the group.
+pub(super) fn run(command: &GenerateCommand) -> Result<Exit, Failure> {
+    match command {
+        GenerateCommand::Completions(args) => completions(args),
+        GenerateCommand::Man(args) => man(args),
+        GenerateCommand::Schema(args) => schema(args),
+    }
+}
+
+/// Prints a script with which a shell asks this program for completions.
+fn completions(args: &CompletionsArgs) -> Result<Exit, Failure> {
+    let program = env::args_os().next().map_or_else(|| "flap".into(), PathBuf::from);
+    let name = program.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    // A program that the shell found by its name keeps that name: another version may be installed later.
+    let is_found = program.parent().is_none_or(|folder| folder == Path::new(""));
+    let called = if is_found { program } else { std::path::absolute(program)? };
+    let mut script = Vec::new();
+    let shell = args.shell.to_string();
+    let shells = Shells::builtins();
+    let shell = shells.completer(&shell).ok_or_else(|| Failure::Bug(format!("no scripts for {shell}")))?;
+    shell.write_registration(VARIABLE, &name, &name, &called.to_string_lossy(), &mut script)?;
+    console::results(&String::from_utf8_lossy(&script))?;
+    Ok(Exit::Done)
+}
+
+/// Writes the manual pages, one per command.
+fn man(args: &ManArgs) -> Result<Exit, Failure> {
+    let folder = &args.folder;
+    let written = fs::create_dir_all(folder).and_then(|()| generate_to(args::command(), folder));
+    written.map_err(|error| Failure::cannot_write(folder, &error))?;
+    console::say(&format!(
+        "manual pages in {}: `man -l {}` shows the first",
+        folder.display(),
+        folder.join("flap.1").display()
+    ));
+    Ok(Exit::Done)
+}
+
+/// Prints a JSON schema of grid files.
+fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
+    let schema = match &args.preset {
+        None => schema::of_models(models::all()),
+        Some(name) => {
+            let (model, preset) = models::preset(name).ok_or_else(|| {
+                let failure = Failure::usage(format!("there is no preset `{name}`"));
+                failure.nearest(name, models::presets(), "`flap models` lists models and presets")
+            })?;
+            schema::of_preset(model, preset)
+        }
+    };
+    console::results(&format!("{schema:#}\n"))?;
+    Ok(Exit::Done)
+}

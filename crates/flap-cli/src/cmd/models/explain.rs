@@ -1,0 +1,84 @@
+//! The meaning of parameters, columns, settings and statuses.
+
+mod composed;
+mod entry;
+mod known;
+mod tables;
+
+use std::fmt::Write as _;
+
+use entry::Entry;
+use flap_core::simulate::Simulator;
+
+use super::parameters::of_name;
+use crate::args::ModelsArgs;
+use crate::cmd::print;
+use crate::failure::Failure;
+use crate::models;
+use crate::table::wrapped;
+
+/// Columns of explanations for programs.
+const NAMES: [&str; 3] = ["name", "kind", "text"];
+
+/// Explains names, as names of all models or of the one that the command line chooses.
+pub(super) fn explain(names: &[&str], args: &ModelsArgs) -> Result<(), Failure> {
+    let models = match &args.model {
+        None => models::all().to_vec(),
+        Some(name) => vec![of_name(name)?.0],
+    };
+    let known = known::entries(&models);
+    let (mut found, mut failures) = (Vec::new(), Vec::new());
+    for name in names {
+        match meanings(name, &known, &models) {
+            Ok(entries) => found.push(entries),
+            Err(failure) => failures.push(failure),
+        }
+    }
+    // An unknown name does not hide the meanings of the others.
+    let rows: Vec<Vec<String>> = found.iter().flatten().map(Entry::row).collect();
+    if !rows.is_empty() {
+        print::table(args.format, &NAMES, &rows, || {
+            found.iter().map(|entries| page(entries)).collect::<Vec<_>>().join("\n")
+        })?;
+    }
+    let last = failures.pop();
+    for failure in failures {
+        failure.report();
+    }
+    last.map_or(Ok(()), Err)
+}
+
+/// The meanings of a name: it may be a parameter of several models, and a column of others.
+fn meanings(name: &str, known: &[Entry], models: &[&'static dyn Simulator]) -> Result<Vec<Entry>, Failure> {
+    let mut found: Vec<Entry> = known.iter().filter(|entry| entry.name == name).cloned().collect();
+    if found.is_empty() {
+        found = composed::entries(name, models);
+    }
+    if !found.is_empty() {
+        return Ok(found);
+    }
+    if models.len() < models::all().len()
+        && meanings(name, &known::entries(models::all()), models::all()).is_ok()
+    {
+        let failure = Failure::usage(format!("the model {} has no `{name}`", models[0].name()));
+        return Err(failure.help(format!("other models have it: `flap models {name}`")));
+    }
+    let failure =
+        Failure::usage(format!("there is no model, preset, parameter, column, setting or status `{name}`"));
+    let mut names: Vec<&str> =
+        models::all().iter().map(|model| model.name()).chain(models::presets()).collect();
+    names.extend(known.iter().filter(|entry| !entry.is_former).map(|entry| entry.name.as_str()));
+    Err(failure.nearest(name, names, "`flap models MODEL` lists parameters and columns"))
+}
+
+/// The meanings of a name as text.
+fn page(entries: &[Entry]) -> String {
+    let mut page = String::new();
+    for entry in entries {
+        let _ = writeln!(page, "{}: {}", entry.name, entry.kind());
+        for line in entry.text.lines() {
+            let _ = writeln!(page, "{}", wrapped(line, line.len() - line.trim_start().len()));
+        }
+    }
+    page
+}

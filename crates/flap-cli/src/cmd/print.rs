@@ -1,0 +1,73 @@
+//! Tables in the format that the user chose: for people, as comma-separated values, or as JSON.
+
+use std::io;
+
+use flap_core::simulate::Trajectory;
+use flap_sweep::notation::text;
+use serde::Serializer as _;
+
+use super::motion::write_csv;
+use super::shown::json;
+use crate::args::OutputFormat;
+use crate::console;
+use crate::failure::Failure;
+use crate::table::{Table, six_digits};
+
+/// Prints `page`, or the rows with all digits below their names.
+pub(super) fn table(
+    format: OutputFormat,
+    names: &[impl AsRef<str>],
+    rows: &[Vec<String>],
+    page: impl FnOnce() -> String,
+) -> Result<(), Failure> {
+    console::results(&match format {
+        OutputFormat::Table => page(),
+        OutputFormat::Csv => csv(names, rows)?,
+        OutputFormat::Json => objects(names, rows)?,
+    })?;
+    Ok(())
+}
+
+/// Prints a motion over time.
+pub(super) fn motion(format: OutputFormat, motion: &Trajectory) -> Result<(), Failure> {
+    let cells = |number: fn(f64) -> String| {
+        motion.rows.iter().map(move |row| row.iter().map(|value| number(*value)).collect())
+    };
+    match format {
+        OutputFormat::Table => {
+            let mut table = Table::with_names(motion.columns.clone());
+            cells(six_digits).for_each(|row: Vec<String>| table.row(row));
+            console::results(&table.text_within(console::width()))?;
+        }
+        OutputFormat::Csv => write_csv(motion, io::stdout().lock())?,
+        OutputFormat::Json => {
+            let rows: Vec<Vec<String>> = cells(text::float).collect();
+            console::results(&objects(&motion.columns, &rows)?)?;
+        }
+    }
+    Ok(())
+}
+
+/// The rows as comma-separated values below their names.
+fn csv(names: &[impl AsRef<str>], rows: &[Vec<String>]) -> Result<String, Failure> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let names = names.iter().map(AsRef::as_ref);
+    let written =
+        writer.write_record(names).and_then(|()| rows.iter().try_for_each(|row| writer.write_record(row)));
+    let bytes = written.ok().and_then(|()| writer.into_inner().ok());
+    let bytes = bytes.ok_or_else(|| Failure::Bug("rows are no comma-separated values".to_owned()))?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// The rows as a list of JSON objects.
+fn objects(names: &[impl AsRef<str>], rows: &[Vec<String>]) -> Result<String, Failure> {
+    let object = |row: &Vec<String>| {
+        let mut bytes = Vec::new();
+        let cells = names.iter().map(AsRef::as_ref).zip(row.iter().map(|cell| json(cell)));
+        serde_json::Serializer::new(&mut bytes).collect_map(cells)?;
+        Ok(format!("  {}", String::from_utf8_lossy(&bytes)))
+    };
+    let objects: Result<Vec<String>, serde_json::Error> = rows.iter().map(object).collect();
+    let objects = objects.map_err(|error| Failure::Bug(error.to_string()))?;
+    Ok(format!("[\n{}\n]\n", objects.join(",\n")))
+}

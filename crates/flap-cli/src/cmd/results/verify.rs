@@ -1,0 +1,50 @@
+//! `flap results verify`: results compared with their recorded checksums.
+
+use std::path::Path;
+
+use flap_sweep::files::integrity::{self, Verdict};
+use flap_sweep::notation::text::count;
+
+use crate::args::{OutputFormat, VerifyArgs};
+use crate::cmd::print;
+use crate::console;
+use crate::failure::{Exit, Failure};
+
+/// Columns of the table for programs.
+const NAMES: [&str; 3] = ["file", "verdict", "detail"];
+
+pub(super) fn run(args: &VerifyArgs) -> Result<Exit, Failure> {
+    let mut worst = Exit::Done;
+    let mut rows = Vec::new();
+    for results in &args.results {
+        let (verdict, detail, exit) = verdict(results);
+        let file = results.display().to_string();
+        if args.format == OutputFormat::Table {
+            // Large files take a while: each line appears as soon as it is known.
+            console::results(&format!("{file}: {verdict}: {detail}\n"))?;
+        }
+        rows.push(vec![file, verdict.to_owned(), detail]);
+        worst = if exit as u8 > worst as u8 { exit } else { worst };
+    }
+    if args.format != OutputFormat::Table {
+        print::table(args.format, &NAMES, &rows, String::new)?;
+    }
+    Ok(worst)
+}
+
+/// The verdict on a file in a word, its detail, and its exit code.
+fn verdict(results: &Path) -> (&'static str, String, Exit) {
+    match integrity::verify(results) {
+        Ok(Verdict::Sound { rows }) => ("sound", count(rows, "row"), Exit::Done),
+        Ok(Verdict::Unfinished { done: Some(done) }) => {
+            ("unfinished", format!("sound so far ({} done)", count(done, "point")), Exit::Done)
+        }
+        Ok(Verdict::Unfinished { done: None }) => {
+            ("unfinished", "it has no journal, so nothing could be verified".to_owned(), Exit::NotAll)
+        }
+        Ok(Verdict::Unverified(why)) => ("unverified", why.to_string(), Exit::NotAll),
+        Ok(Verdict::Damaged(damage)) => ("damaged", damage.to_string(), Exit::System),
+        Err(error @ integrity::OpenError::Format(_)) => ("unreadable", error.to_string(), Exit::Usage),
+        Err(error) => ("unreadable", error.to_string(), Exit::System),
+    }
+}

@@ -1,0 +1,21 @@
+//! `flap test`: experiments on one wing.
+
+mod chirp;
+mod impulse;
+mod lift;
+mod resonance;
+mod track;
+
+use crate::args::TestCommand;
+use crate::failure::{Exit, Failure};
+
+/// Runs a command of the group.
+pub(super) fn run(command: &TestCommand) -> Result<Exit, Failure> {
+    match command {
+        TestCommand::Chirp(args) => chirp::run(args),
+        TestCommand::Impulse(args) => impulse::run(args),
+        TestCommand::Lift(args) => lift::run(args),
+        TestCommand::Resonance(args) => resonance::run(args),
+        TestCommand::Track(args) => track::run(args),
+    }
+}
