@@ -1,21 +1,24 @@
 #!/usr/bin/env bash
-# All tests of flap: formatting, lints, documentation, Rust, Python. Needs cargo (by rustup) and python3 with venv.
+# All tests of flap, or the named stages of them:
+#
+#   scripts/test.sh [format|lint|docs|rust|python]...
+#
+# Needs cargo (by rustup) and python3 with venv.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-step() { printf '\n== %s\n' "$1"; }
-
-step "Formatting"
-cargo fmt --all --check
-
-step "Lints"
-cargo clippy --workspace --all-targets --locked -- -D warnings
-
-step "Documentation"
-RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
-
-step "Rust tests"
-cargo test --workspace --locked
-
-step "Python tests"
-./scripts/test-python.sh
+[[ $# -gt 0 ]] || set -- format lint docs rust python
+for stage in "$@"; do
+    printf '\n== %s\n' "$stage"
+    case $stage in
+        format) cargo fmt --all --check ;;
+        lint) cargo clippy --workspace --all-targets --locked -- -D warnings ;;
+        docs) RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked ;;
+        rust) cargo test --workspace --locked ;;
+        python) ./scripts/test-python.sh ;;
+        *)
+            printf 'test: there is no stage %s: choose format, lint, docs, rust or python\n' "$stage" >&2
+            exit 2
+            ;;
+    esac
+done
