@@ -45,21 +45,18 @@ fi
 export PATH="$tools/bin:$PATH"
 
 version=$(sed -n '/^\[workspace.package\]/,/^\[/s/^version = "\(.*\)"$/\1/p' Cargo.toml)
-# The wheel carries what is in this folder: it lands beside the interpreter.
-command=crates/flap-py/flapwing.data/scripts/flap
-trap 'rm -rf -- "$command" "${folder:-}"' EXIT
+trap 'rm -rf -- "${folder:-}"' EXIT
 mkdir -p dist
 
 for arch in "$@"; do
     triple=$arch-unknown-linux-gnu
     printf '\n== The command for %s\n' "$arch"
     cargo zigbuild --release --locked -p flap-cli --target "$triple.$glibc"
-    install -m 755 "$target/$triple/release/flap" "$command"
 
     folder=$(mktemp -d)
     package=flap-$version-$arch-linux
     mkdir "$folder/$package"
-    cp "$command" README.md CHANGELOG.md LICENSE-APACHE LICENSE-MIT CITATION.cff "$folder/$package"
+    cp "$target/$triple/release/flap" README.md CHANGELOG.md LICENSE-APACHE LICENSE-MIT CITATION.cff "$folder/$package"
     # The same files give the same archive.
     tar --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 -C "$folder" -c "$package" |
         gzip -9 --no-name >"dist/$package.tar.gz"
@@ -68,7 +65,6 @@ for arch in "$@"; do
     printf '\n== The wheel for %s\n' "$arch"
     maturin build --release --locked --zig --target "$triple" --compatibility "$platform" \
         --manifest-path crates/flap-py/Cargo.toml --out dist
-    rm -- "$command"
 
     wheel=$(echo dist/flapwing-"$version"-*"$platform"_"$arch"*.whl)
     [[ -f $wheel ]] || die "maturin wrote no wheel for $arch to dist"

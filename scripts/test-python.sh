@@ -56,14 +56,11 @@ if ! diff -q - "$made_from" >/dev/null 2>&1 < <(printf '%s\n' "$work" "$version"
 fi
 export PATH="$work/bin:$PATH"
 
-# Rows are compared with those of the command, and the wheel carries it as a published one does.
+# Rows are compared with those of the command.
 cargo build --quiet --profile "$profile" --locked -p flap-cli
 folder=$profile
 [[ $profile == dev ]] && folder=debug
 export FLAP=${CARGO_TARGET_DIR:-$PWD/target}/$folder/flap
-command=crates/flap-py/flapwing.data/scripts/flap
-trap 'rm -f -- "$command"' EXIT
-install -s -m 755 "$FLAP" "$command"
 
 # pip would take the directory's name for a name and a version, and keep every build in its cache.
 rm -rf -- "$work/wheels"
@@ -73,7 +70,6 @@ FLAPWING_WHEEL=$(echo "$work"/wheels/*.whl)
 export FLAPWING_WHEEL
 export FLAPWING_PACKAGES=$work/packages
 python -m pip install --quiet --disable-pip-version-check --no-index --no-deps --force-reinstall "$FLAPWING_WHEEL"
-rm -- "$command"
 
 export PYTHONDONTWRITEBYTECODE=1
 python -m pytest --quiet -o "cache_dir=$work/pytest-cache" tests/python "$@"

@@ -18,8 +18,9 @@ mod test;
 mod values;
 mod vehicle;
 
+use std::ffi::OsString;
 use std::fmt::Write as _;
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 pub(crate) use device::{DeviceCommand, NewArgs, WingArgs};
@@ -117,9 +118,21 @@ Exit codes:
   130  interrupted; the same command continues a sweep
   101  a mistake in flap itself";
 
-/// The command line of this process. A command line with mistakes ends the process.
+static LINE: OnceLock<Vec<OsString>> = OnceLock::new();
+
+/// Sets the command line. Later calls change nothing.
+pub(crate) fn set_line(line: Vec<OsString>) {
+    LINE.get_or_init(|| line);
+}
+
+/// The words of the command line, the name of the program first.
+pub(crate) fn line() -> &'static [OsString] {
+    LINE.get().map_or(&[], Vec::as_slice)
+}
+
+/// The arguments of the command line. A command line with mistakes ends the process.
 pub(crate) fn parse() -> Args {
-    let matches = command().get_matches();
+    let matches = command().get_matches_from(line());
     Args::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
 }
 

@@ -2,9 +2,9 @@
 //!
 //! The names of models that a program brings, and of columns of a file in the working directory, are known only then.
 
-use std::env;
 use std::ffi::OsStr;
 use std::path::Path;
+use std::{env, process};
 
 use clap::{Arg, Command};
 use clap_complete::CompleteEnv;
@@ -28,7 +28,12 @@ pub(crate) const VARIABLE: &str = "COMPLETE";
 
 /// Prints candidates and ends the process, if a shell asks for them.
 pub(crate) fn answer() {
-    CompleteEnv::with_factory(command).var(VARIABLE).complete();
+    let completion = CompleteEnv::with_factory(command).var(VARIABLE);
+    match completion.try_complete(args::line(), env::current_dir().ok().as_deref()) {
+        Ok(true) => process::exit(0),
+        Ok(false) => {}
+        Err(error) => error.exit(),
+    }
 }
 
 /// The command line, whose arguments know their candidates by the names of their values.
@@ -153,7 +158,7 @@ fn distinct(candidates: impl Iterator<Item = CompletionCandidate>) -> Vec<Comple
 
 /// The words of the command line that is completed, behind the name of the command.
 fn words() -> impl Iterator<Item = String> {
-    let words = env::args_os().map(|word| word.to_string_lossy().into_owned());
+    let words = args::line().iter().map(|word| word.to_string_lossy().into_owned());
     words.skip_while(|word| word != "--").skip(2)
 }
 

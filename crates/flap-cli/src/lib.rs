@@ -26,6 +26,8 @@ mod signals;
 mod statuses;
 mod table;
 
+use std::env;
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use flap_core::simulate::Simulator;
@@ -34,7 +36,16 @@ use flap_core::simulate::Simulator;
 ///
 /// Returns its exit code; a command line with mistakes ends the process. Only the first call of a process sets the models.
 pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
+    ExitCode::from(run_line(env::args_os().collect(), models))
+}
+
+/// Runs a command line, whose first word is the name of the program, with these models.
+///
+/// Returns its exit code; a command line with mistakes ends the process. Only the first call of a process sets the line and
+/// the models.
+pub fn run_line(line: Vec<OsString>, models: Vec<&'static dyn Simulator>) -> u8 {
     models::set(models);
+    args::set_line(line);
     complete::answer();
     let args = args::parse();
     if args.quiet {
@@ -42,6 +53,5 @@ pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
     }
     signals::refuse_large_files();
     let ended = cmd::run(&args.command);
-    let exit = ended.unwrap_or_else(failure::Failure::report);
-    ExitCode::from(exit as u8)
+    ended.unwrap_or_else(failure::Failure::report) as u8
 }

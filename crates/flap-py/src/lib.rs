@@ -8,6 +8,7 @@
 mod begin;
 mod cluster;
 mod columns;
+mod command;
 mod convert;
 mod design;
 mod diagnostic;
@@ -42,6 +43,7 @@ mod _flapwing {
     use crate::{
         begin::states,
         cluster::{identity, part},
+        command::command,
         diagnostic::Diagnostic,
         error::GridError,
         evaluate::{check, evaluate},

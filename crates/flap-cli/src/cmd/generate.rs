@@ -1,7 +1,7 @@
 //! `flap generate`: files for shells, for `man`, and for editors.
 
+use std::fs;
 use std::path::{Path, PathBuf};
-use std::{env, fs};
 
 use clap_complete::env::Shells;
 use clap_mangen::generate_to;
@@ -24,7 +24,7 @@ pub(super) fn run(command: &GenerateCommand) -> Result<Exit, Failure> {
 
 /// Prints a script with which a shell asks this program for completions.
 fn completions(args: &CompletionsArgs) -> Result<Exit, Failure> {
-    let program = env::args_os().next().map_or_else(|| "flap".into(), PathBuf::from);
+    let program = args::line().first().map_or_else(|| "flap".into(), PathBuf::from);
     let name = program.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     // A program that the shell found by its name keeps that name: another version may be installed later.
     let is_found = program.parent().is_none_or(|folder| folder == Path::new(""));

@@ -1,0 +1,19 @@
+//! The command `flap` of an installed wheel.
+
+use std::ffi::OsString;
+use std::panic;
+
+use flap_core::simulate;
+use pyo3::prelude::*;
+
+/// The exit code of a panic, as of any Rust program.
+const PANICKED: u8 = 101;
+
+/// Runs a command line, whose first word is the name of the program, and returns the exit code.
+#[pyfunction]
+pub(crate) fn command(py: Python<'_>, line: Vec<OsString>) -> u8 {
+    py.detach(|| {
+        // The panic itself prints its message.
+        panic::catch_unwind(|| flap_cli::run_line(line, simulate::all().to_vec())).unwrap_or(PANICKED)
+    })
+}
