@@ -11,6 +11,11 @@ test:
 test-rust:
     cargo test --workspace
 
+# The code of the pages: types, lints, formatting and unit tests (needs npm).
+[positional-arguments]
+test-web *ARGS:
+    ./scripts/test-web.sh "$@"
+
 # The wheel and its tests, in a virtual environment below target/.
 test-python:
     ./scripts/test-python.sh

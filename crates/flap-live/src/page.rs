@@ -1,56 +1,25 @@
 //! Pages for a browser, each in one text with its style, code and data.
 
-/// The chart library's style and code, then those of all pages.
+/// The chart library's style, then the style of all pages.
 const STYLES: [&str; 2] = [include_str!("../web/uplot/uPlot.min.css"), include_str!("../web/shared.css")];
-const SCRIPTS: [&str; 11] = [
-    include_str!("../web/uplot/uPlot.iife.min.js"),
-    include_str!("../web/shared.js"),
-    include_str!("../web/typed.js"),
-    include_str!("../web/chart.js"),
-    include_str!("../web/chart-axes.js"),
-    include_str!("../web/chart-points.js"),
-    include_str!("../web/chart-gaps.js"),
-    include_str!("../web/chart-fingers.js"),
-    include_str!("../web/chart-legend.js"),
-    include_str!("../web/chart-picture.js"),
-    include_str!("../web/chart-svg.js"),
-];
+/// The chart library.
+const CHART_LIBRARY: &str = include_str!("../web/uplot/uPlot.iife.min.js");
 
 /// The page of results, with this heading. `data` is JSON for its code.
 pub fn results(heading: &str, data: &str) -> String {
-    let scripts = [
-        include_str!("../web/results-data.js"),
-        include_str!("../web/results-state.js"),
-        include_str!("../web/results-scene.js"),
-        include_str!("../web/results-table.js"),
-        include_str!("../web/results-controls.js"),
-        include_str!("../web/results-page.js"),
-    ];
-    filled(include_str!("../web/results.html"), heading, include_str!("../web/results.css"), data, &scripts)
+    let script = include_str!(concat!(env!("OUT_DIR"), "/results.js"));
+    filled(include_str!("../web/results.html"), heading, include_str!("../web/results.css"), data, script)
 }
 
 /// The live page, with this heading. `data` is JSON for its code.
 #[cfg(feature = "server")]
 pub(crate) fn live(heading: &str, data: &str) -> String {
-    let scripts = [
-        include_str!("../web/live-state.js"),
-        include_str!("../web/live-banner.js"),
-        include_str!("../web/live-api.js"),
-        include_str!("../web/live-symbol.js"),
-        include_str!("../web/live-wing.js"),
-        include_str!("../web/live-panel.js"),
-        include_str!("../web/live-family.js"),
-        include_str!("../web/live-numbers.js"),
-        include_str!("../web/live-motion.js"),
-        include_str!("../web/live-pins.js"),
-        include_str!("../web/live-save.js"),
-        include_str!("../web/live-page.js"),
-    ];
-    filled(include_str!("../web/live.html"), heading, include_str!("../web/live.css"), data, &scripts)
+    let script = include_str!(concat!(env!("OUT_DIR"), "/live.js"));
+    filled(include_str!("../web/live.html"), heading, include_str!("../web/live.css"), data, script)
 }
 
 /// A page with everything in its places.
-fn filled(html: &str, heading: &str, style: &str, data: &str, scripts: &[&str]) -> String {
+fn filled(html: &str, heading: &str, style: &str, data: &str, script: &str) -> String {
     let mut page = String::new();
     // In this order: what is put in is not searched again.
     for (number, part) in html.split("{{").enumerate() {
@@ -62,10 +31,7 @@ fn filled(html: &str, heading: &str, style: &str, data: &str, scripts: &[&str]) 
             "title" => page += &escaped(heading),
             "style" => page.extend(STYLES.into_iter().chain([style]).flat_map(|text| [text, "\n"])),
             "data" => page += &harmless(data),
-            _ => {
-                page += "\"use strict\";\n";
-                page.extend(SCRIPTS.iter().chain(scripts).flat_map(|text| [*text, "\n"]));
-            }
+            _ => page.extend(["\"use strict\";\n", CHART_LIBRARY, "\nconst modules = {};\n", script]),
         }
         page += rest;
     }

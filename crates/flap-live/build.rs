@@ -1,0 +1,92 @@
+//! Joins the modules of each page's code into one script.
+//!
+//! A page is one file that works without network and from a folder, where browsers load no modules. Each module becomes
+//! a function of its own in the script, after the modules that it imports, and its imports become variables. The Content
+//! Security Policy of the pages allows inline scripts and no others, so this needs no change of it.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+fn main() {
+    println!("cargo::rerun-if-changed=web");
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    for page in ["live", "results"] {
+        let mut joined = Joined::default();
+        joined.add(&format!("{page}/page.js"), &mut Vec::new());
+        fs::write(out.join(format!("{page}.js")), joined.script).expect("OUT_DIR can be written");
+    }
+}
+
+/// The script of a page, and the paths of the modules in it.
+#[derive(Default)]
+struct Joined {
+    script: String,
+    modules: BTreeSet<String>,
+}
+
+impl Joined {
+    /// Adds a module after the modules that it imports. `importers` is the chain of modules that leads to it.
+    fn add(&mut self, module: &str, importers: &mut Vec<String>) {
+        if self.modules.contains(module) {
+            return;
+        }
+        assert!(!importers.iter().any(|each| each == module), "{module} imports itself by {importers:?}");
+        importers.push(module.to_owned());
+        let source = fs::read_to_string(Path::new("web").join(module));
+        let source = source.unwrap_or_else(|error| panic!("{error}: the module at the end of {importers:?}"));
+        let (imports, body) = split(&source);
+        let mut variables = String::new();
+        for (names, path) in imports {
+            let imported = resolved(module, path);
+            self.add(&imported, importers);
+            let _ = writeln!(variables, "const {} = modules[\"{imported}\"];", names.replace(" as ", ": "));
+        }
+        let exports: Vec<&str> = body.lines().filter_map(exported).collect();
+        let (body, exports) = (body.replace("\nexport ", "\n"), exports.join(", "));
+        let function = format!("(() => {{\n{variables}{body}return {{ {exports} }};\n}})()");
+        let _ = writeln!(self.script, "modules[\"{module}\"] = {function};");
+        importers.pop();
+        self.modules.insert(module.to_owned());
+    }
+}
+
+/// The imports of a module, as names in braces and a path, and the rest of its text.
+fn split(source: &str) -> (Vec<(&str, &str)>, String) {
+    let (mut imports, mut body) = (Vec::new(), String::new());
+    let mut rest = source;
+    while let Some((before, after)) = rest.split_once("\nimport ") {
+        let (import, after) = after.split_once(';').expect("an import ends with a semicolon");
+        let (names, path) = import.split_once(" from ").expect("an import is `import { … } from \"…\";`");
+        imports.push((names, path.trim_matches('"')));
+        body += before;
+        rest = after;
+    }
+    body += rest;
+    (imports, body)
+}
+
+/// The name that a line exports.
+fn exported(line: &str) -> Option<&str> {
+    let line = line.strip_prefix("export ")?;
+    let kinds = ["const ", "class ", "function ", "async function "];
+    // Importers would keep the first value of a variable that changes.
+    let declared = kinds.iter().find_map(|kind| line.strip_prefix(kind));
+    let declared = declared.unwrap_or_else(|| panic!("no constant, class or function: {line}"));
+    declared.split(|letter: char| !(letter.is_alphanumeric() || letter == '_')).next()
+}
+
+/// The path of the module that `module` imports by a relative path.
+fn resolved(module: &str, path: &str) -> String {
+    let mut parts: Vec<&str> = module.split('/').collect();
+    parts.pop();
+    for part in path.split('/').filter(|part| *part != ".") {
+        if part == ".." {
+            assert!(parts.pop().is_some(), "{module}: {path} leads out of the folder");
+        } else {
+            parts.push(part);
+        }
+    }
+    parts.join("/")
+}
