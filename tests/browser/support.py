@@ -1,6 +1,5 @@
 """Parts that tests of both pages share: the command, and a page in the browser."""
 
-import base64
 import contextlib
 import csv
 import os
@@ -8,6 +7,7 @@ import subprocess
 import time
 from pathlib import Path
 
+from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.wait import WebDriverWait
@@ -52,10 +52,11 @@ def contrast(one, other):
 
 
 class Page:
-    """A page in the browser."""
+    """A page in the browser.
 
-    # A script that says when the page has drawn what it was asked for.
-    ready = "return true"
+    Tests look at what a user sees. What is painted on the canvas of a chart is not in the DOM: `chart` reads it from the page's
+    `flapTestHook`.
+    """
 
     def __init__(self, browser):
         self.browser = browser
@@ -65,25 +66,40 @@ class Page:
         self.browser.get(address)
         return self.rest()
 
+    def reload(self):
+        self.browser.refresh()
+        return self.rest()
+
+    def rest(self):
+        """Waits until the page shows its state."""
+        raise NotImplementedError
+
     def script(self, text, *arguments):
         return self.browser.execute_script(text, *arguments)
 
-    def wait(self, text, *arguments, seconds=20):
-        """Waits until a script says yes."""
-        WebDriverWait(self.browser, seconds, poll_frequency=0.03).until(lambda _: self.script(text, *arguments), text)
-
-    def rest(self):
-        self.wait(self.ready)
-        return self
+    def wait(self, condition, *arguments, seconds=20):
+        """Waits until a condition holds: a function, or an expression of the page's language."""
+        is_script = isinstance(condition, str)
+        holds = (lambda _: self.script(f"return {condition}", *arguments)) if is_script else (lambda _: condition())
+        WebDriverWait(self.browser, seconds, poll_frequency=0.03).until(holds, condition if is_script else "")
 
     def find(self, selector):
         return self.browser.find_element(By.CSS_SELECTOR, selector)
+
+    def find_all(self, selector):
+        return self.browser.find_elements(By.CSS_SELECTOR, selector)
 
     def click(self, selector):
         self.find(selector).click()
 
     def text(self, selector):
-        return self.script("return document.querySelector(arguments[0]).textContent", selector)
+        return self.find(selector).get_attribute("textContent")
+
+    def texts(self, selector):
+        return [each.get_attribute("textContent") for each in self.find_all(selector)]
+
+    def value(self, selector):
+        return self.find(selector).get_attribute("value")
 
     def type(self, selector, text):
         field = self.find(selector)
@@ -92,6 +108,61 @@ class Page:
             field.send_keys(Keys.DELETE, Keys.TAB)
         else:
             field.send_keys(text, Keys.ENTER)
+
+    def keys(self, *keys):
+        """Keys to the element that has the focus."""
+        ActionChains(self.browser).send_keys(*keys).perform()
+
+    def focused(self):
+        return self.browser.switch_to.active_element
+
+    def chart(self, expression, number=0):
+        """A value of a chart: its `scene`, `view`, `mark`, `ticks`, or its `plot`."""
+        return self.script(f"const chart = flapTestHook.charts[arguments[0]]; return {expression}", number)
+
+    def range(self, axis, number=0):
+        """The ends of an axis."""
+        return self.chart(f"[chart.plot.scales.{axis}.min, chart.plot.scales.{axis}.max]", number)
+
+    def labels(self, axis, number=0):
+        """The labels of an axis."""
+        return self.chart(f"chart.ticks.{axis}.map((tick) => tick.label)", number)
+
+    def lines(self, number=0):
+        """The lines of a chart that the legend has not switched off."""
+        keys = "{ key, name, group, x, y, color, ghost: Boolean(ghost) }"
+        shown = f"chart.scene.lines.map(({keys.replace(': Boolean(ghost)', '')}) => ({keys}))"
+        lines, hidden = self.chart(f"[{shown}, [...chart.hidden]]", number)
+        return [line for line in lines if line["ghost"] or line["group"] not in hidden]
+
+    def over(self, number=0):
+        """The part of a chart that listens to the pointer."""
+        return self.find_all(".chart-box .u-over")[number]
+
+    def point_at(self, left, top, number=0):
+        """Moves the pointer to pixels from the top left of a chart."""
+        over = self.over(number)
+        offset = round(left - over.size["width"] / 2), round(top - over.size["height"] / 2)
+        ActionChains(self.browser).move_to_element_with_offset(over, *offset).perform()
+
+    def point_at_value(self, line, place, number=0):
+        """Moves the pointer to a value of a line."""
+        value = f"{{ x: chart.scene.lines[{line}].x[{place}], y: chart.scene.lines[{line}].y[{place}] }}"
+        to_pixels = "[chart.plot.valToPos(x, 'x'), chart.plot.valToPos(y, 'y')]"
+        self.point_at(*self.chart(f"(({{ x, y }}) => {to_pixels})({value})", number), number)
+
+    def point_at_gap(self, number=0):
+        """Moves the pointer to the first gap, in the lowest row of marks; returns the gap."""
+        gap, left, height = self.chart(
+            "((gap) => [gap, chart.plot.valToPos(gap.x, 'x'), chart.plot.over.clientHeight])(chart.scene.gaps[0])", number
+        )
+        self.point_at(left, height - 6, number)
+        return gap
+
+    def box(self, selector):
+        """Left, top, width and height of an element in the window."""
+        place = "const { left, top, width, height } = arguments[0].getBoundingClientRect(); return [left, top, width, height]"
+        return self.script(place, self.find(selector))
 
     def downloads(self, folder):
         """Downloads go to this folder."""
@@ -102,9 +173,25 @@ class Page:
         points = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(places)]
         self.browser.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
 
-    def picture(self):
-        """The window as a PNG."""
-        return base64.b64decode(self.browser.execute_cdp_cmd("Page.captureScreenshot", {"format": "png"})["data"])
+    def pinch(self, x, y):
+        """Two fingers around a place of the window, from 60 to 120 pixels apart."""
+        self.fingers("touchStart", (x - 30, y), (x + 30, y))
+        self.fingers("touchMove", (x - 60, y), (x + 60, y))
+        self.fingers("touchEnd")
+
+    def fits_width(self):
+        return self.script("return document.documentElement.scrollWidth <= innerWidth")
+
+    def background(self):
+        return self.find("body").value_of_css_property("background-color")
+
+    def resources(self):
+        """The addresses of everything that the page has fetched."""
+        return self.script("return performance.getEntriesByType('resource').map((entry) => entry.name)")
+
+    def durations(self, name):
+        """Milliseconds of all measures of a name."""
+        return self.script("return performance.getEntriesByName(arguments[0]).map((entry) => entry.duration)", name)
 
 
 def downloaded(path):

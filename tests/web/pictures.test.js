@@ -9,7 +9,7 @@ import { sliderPlace, sliderValue } from "../../crates/flap-live/web/live/slider
 import { symbolParts } from "../../crates/flap-live/web/live/symbol.js";
 import { wingOutline } from "../../crates/flap-live/web/live/wing-outline.js";
 import { lineColour, packedColour, unpackedColour, viridis } from "../../crates/flap-live/web/shared/colours.js";
-import { labelWithUnit, roundedNumber, shortNumber } from "../../crates/flap-live/web/shared/format.js";
+import { differenceText, labelWithUnit, roundedNumber, shortNumber } from "../../crates/flap-live/web/shared/format.js";
 import { STATUS_MARKS, statusEntries, statusMark } from "../../crates/flap-live/web/shared/status.js";
 
 const line = (key, more) => ({ key, name: key, color: "#0072b2", x: [0, 1, 2], y: [0, 1, 2], ...more });
@@ -161,6 +161,19 @@ test("numbers as text", () => {
   assert.equal(roundedNumber(123.456, 4), "123.5");
   assert.equal(labelWithUnit({ label: "Lift", unit: "mN" }), "Lift (mN)");
   assert.equal(labelWithUnit({ label: "Ratio", unit: "" }), "Ratio");
+});
+
+test("differences are in per cent where per cent make sense", () => {
+  const cases = [
+    [110, 100, "+10 %"],
+    [-90, -100, "+10 %"],
+    [98.7654, 100, "−1.23 %"],
+    [100.001, 100, ""],
+    [1, 0, ""],
+    [1, 1e-5, ""],
+    [null, 1, ""],
+  ];
+  for (const [value, published, text] of cases) assert.equal(differenceText(value, published), text);
 });
 
 test("symbols have Greek letters and subscripts", () => {

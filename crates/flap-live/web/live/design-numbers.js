@@ -2,7 +2,7 @@
 // The numbers of the design beside those of the published design, and the derivatives of the measure.
 
 import { byId, element } from "../shared/dom.js";
-import { isFiniteNumber, roundedNumber } from "../shared/format.js";
+import { differenceText, roundedNumber } from "../shared/format.js";
 import { setMessage, setStaleNote } from "./banner.js";
 import { hasMeasure, measureNamed, opened, parameterNamed } from "./opened.js";
 import { focusParameter } from "./panel.js";
@@ -69,19 +69,6 @@ export const requestNumbers = async () => {
     const shown = designNumbers.answer ? "These are the numbers of the last possible design." : "";
     setStaleNote("numbers", shown || "There is no possible design yet.");
   }
-};
-
-/**
- * The difference from the published value in per cent; empty where per cent make no sense.
- *
- * @param {unknown} value
- * @param {unknown} published
- */
-export const differenceText = (value, published) => {
-  if (!isFiniteNumber(value) || !isFiniteNumber(published) || published === 0) return "";
-  const share = (100 * (value - published)) / Math.abs(published);
-  if (Math.abs(share) < 0.005 || Math.abs(share) >= 1e4) return "";
-  return `${share > 0 ? "+" : "−"}${roundedNumber(Math.abs(share), 3)} %`;
 };
 
 /**

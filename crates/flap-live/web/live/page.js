@@ -157,7 +157,7 @@ const start = () => {
 start();
 
 window.flapTestHook = {
-  chart: family.chart,
+  charts: [family.chart],
   /** True if the picture and the numbers belong to the present design. */
   isSettled: () => isFamilyFine() && areNumbersShown(),
   /** The rows behind the picture: { columns, rows }. */

@@ -26,3 +26,16 @@ export const roundedNumber = (value, digits) => shortNumber(Number(value.toPreci
 /** A label with its unit. */
 export const labelWithUnit = (/** @type {{ label: string, unit: string }} */ { label, unit }) =>
   unit ? `${label} (${unit})` : label;
+
+/**
+ * The difference from the published value in per cent; empty where per cent make no sense.
+ *
+ * @param {unknown} value
+ * @param {unknown} published
+ */
+export const differenceText = (value, published) => {
+  if (!isFiniteNumber(value) || !isFiniteNumber(published) || published === 0) return "";
+  const share = (100 * (value - published)) / Math.abs(published);
+  if (Math.abs(share) < 0.005 || Math.abs(share) >= 1e4) return "";
+  return `${share > 0 ? "+" : "−"}${roundedNumber(Math.abs(share), 3)} %`;
+};
