@@ -22,7 +22,8 @@ PRESETS = {
     "ozaki2018-large": "hinge_stiffness",
     "arabagi2013-75hz": "wing_length",
 }
-AT_REST = "return family.rested !== null && !family.isBusy && numbers.answer !== null"
+AT_REST = "return window.flapTestHook?.isSettled() === true"
+POINTS = "return flapTestHook.rows().request.x.n"
 MEASURES = "return performance.getEntriesByName('flap-slider-to-picture').map((entry) => entry.duration)"
 
 
@@ -35,9 +36,14 @@ def browser():
 
 
 def drag(driver, name, steps):
-    """Drags the slider of a parameter to and fro around its value, one pixel per step."""
-    driver.execute_script("panel.focus(arguments[0])", name)
-    place = "const box = panel.rows.get(arguments[0]).slider.getBoundingClientRect(); return [box.left, box.top, box.width, box.height]"
+    """Drags the slider of a parameter to and fro around its value, one pixel per step: seconds, and the values of x in a line at the end."""
+    place = """
+      const slider = document.querySelector(`[data-name="${arguments[0]}"] input[type=range]`);
+      slider.closest("details").open = true;
+      slider.scrollIntoView({ block: "nearest" });
+      const { left, top, width, height } = slider.getBoundingClientRect();
+      return [left, top, width, height];
+    """
     left, top, width, height = driver.execute_script(place, name)
     middle, y, reach = round(left + width / 2), top + height / 2, round(width / 5)
 
@@ -52,8 +58,10 @@ def drag(driver, name, steps):
         offset = step % (4 * reach)
         mouse("mouseMoved", middle + (offset if offset <= reach else 2 * reach - offset if offset <= 3 * reach else offset - 4 * reach))
     took = time.perf_counter() - begun
+    # The last picture is coarse until the slider is released.
+    points = driver.execute_script(POINTS)
     mouse("mouseReleased", middle)
-    return took
+    return took, points
 
 
 def measured(driver, command, preset, name, steps):
@@ -65,9 +73,9 @@ def measured(driver, command, preset, name, steps):
         drag(driver, name, 20)
         time.sleep(1)
         driver.execute_script("performance.clearMeasures()")
-        took = drag(driver, name, steps)
+        took, points = drag(driver, name, steps)
         time.sleep(0.5)
-        return driver.execute_script(MEASURES), driver.execute_script("return family.n"), steps / took
+        return driver.execute_script(MEASURES), points, steps / took
     finally:
         server.send_signal(signal.SIGTERM)
         server.wait()

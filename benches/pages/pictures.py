@@ -24,12 +24,18 @@ LARGEST = 60_000
 # The distance of two colours that are kept, among red, green and blue from 0 to 255.
 APART = 16
 
-# A moment of the cycle at which stroke, pitch and forces are seen.
-STILL = """
-if (motion.isPlaying) byId("play").click();
-motion.share = 0.18;
+# A stiffer hinge than the published one, in its field.
+STIFFER = """
+const field = document.querySelector("#p-hinge_stiffness");
+field.value = "1.6";
+field.dispatchEvent(new Event("change"));
 """
-DRAWN = "return motion.signals && motion.charts.length > 0 && numbers.answer.gradient !== null"
+DRAWN = """
+return document.querySelectorAll("#series .u-over").length > 0 && document.querySelectorAll("#gradient .slope").length > 0
+  && flapTestHook.isSettled() && flapTestHook.charts[0].scene.lines.some(({ ghost }) => ghost);
+"""
+# A moment of the cycle at which stroke, pitch and forces are seen.
+STILL = "flapTestHook.showMoment(0.18)"
 
 
 def window(driver, width, height, scheme):
@@ -77,8 +83,8 @@ def live(driver, flap, folder):
             driver.get(address)
             wait = WebDriverWait(driver, 60)
             wait.until(lambda _: driver.execute_script(AT_REST))
-            driver.execute_script("panel.set('hinge_stiffness', 1.6e-6, true)")
-            wait.until(lambda _: driver.execute_script("return family.ghost.length > 0 && family.isFine && " + DRAWN.removeprefix("return ")))
+            driver.execute_script(STIFFER)
+            wait.until(lambda _: driver.execute_script(DRAWN))
             driver.execute_script(STILL)
             save(driver, folder / f"{name}.png")
     finally:
@@ -94,12 +100,14 @@ def results(driver, flap, folder):
         subprocess.run([flap, "plot", "ozaki_large.csv", "--html", "ozaki_large.html"], cwd=place, check=True, capture_output=True)
         window(driver, 1300, 800, "light")
         driver.get((place / "ozaki_large.html").as_uri())
-        WebDriverWait(driver, 60).until(lambda _: driver.execute_script("return charts.length === 2 && charts[0].plot !== null"))
+        WebDriverWait(driver, 60).until(lambda _: driver.execute_script("return window.flapTestHook?.charts[0].plot != null"))
         driver.execute_script("""
-          byId("two").click();
-          byId("kind").value = "map"; byId("kind").onchange();
-          const { rows } = charts[0].scene.lines[5];
-          shown.pinned = rows[13]; mark();
+          const [first] = flapTestHook.charts, kind = document.querySelector("#kind");
+          document.querySelector("#two").click();
+          kind.value = "map";
+          kind.dispatchEvent(new Event("change"));
+          const line = first.scene.lines[5];
+          first.options.onPin({ row: line.rows[13] });
         """)
         save(driver, folder / "cli-page.png")
 

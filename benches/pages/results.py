@@ -33,8 +33,11 @@ VIEWS = {
 }
 ALL_SLICES = """
 const begun = performance.now();
-for (const { place } of slicedAxes) shown.slices[place] = null;
-refresh(false);
+for (const menu of document.querySelectorAll("#slices select")) {
+  if (menu.value === "") continue;
+  menu.value = "";
+  menu.dispatchEvent(new Event("change"));
+}
 requestAnimationFrame(() => arguments[0](performance.now() - begun));
 """
 
@@ -46,10 +49,11 @@ def measures(driver, name):
 
 def steps_of_a_slider(driver, steps):
     """Milliseconds of each picture while the lower bound of a filter rises."""
-    driver.execute_script("byId('add').click()")
+    driver.execute_script("document.querySelector('#add').click()")
     for step in range(steps):
         driver.execute_script(
-            "const slider = document.querySelector('.filter input[type=range]'); slider.value = arguments[0]; slider.oninput()", 5 * (step + 1)
+            "const slider = document.querySelector('.filter input[type=range]'); slider.value = arguments[0]; slider.oninput()",
+            5 * (step + 1),
         )
         time.sleep(0.02)
     WebDriverWait(driver, 30).until(lambda _: len(measures(driver, "flap-filter-to-picture")) > 0)
@@ -81,7 +85,7 @@ def main():
                 last = statistics.quantiles(times, n=20)[-1] if len(times) > 1 else times[0]
                 print(f"{view:17}  {first:15.2f}  {len(times):8}  {statistics.median(times):9.1f}  {last:18.1f}", flush=True)
                 if view == "lines":
-                    driver.execute_script("byId('reset').click()")
+                    driver.execute_script("document.querySelector('#reset').click()")
                     taken = driver.execute_async_script(ALL_SLICES) / 1000
                     print(f"{'lines, all slices':17}  {taken:15.2f}", flush=True)
         finally:

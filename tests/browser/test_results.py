@@ -538,11 +538,12 @@ def test_a_large_page_draws_soon(browser, tmp_path):
     assert page.durations("flap-first-picture")[0] < 2000
     took = page.browser.execute_async_script(
         """
-        const [menus, done] = arguments, begun = performance.now();
-        for (const menu of menus) { menu.value = ""; menu.dispatchEvent(new Event("change")); }
-        requestAnimationFrame(() => done((performance.now() - begun) / menus.length));
+        const [menu, done] = arguments, begun = performance.now();
+        menu.value = "";
+        menu.dispatchEvent(new Event("change"));
+        requestAnimationFrame(() => done(performance.now() - begun));
         """,
-        page.find_all("#slices select"),
+        page.find("#slices [data-column=hinge_stiffness]"),
     )
     assert took < 2000
     assert "60 of 3000 lines are drawn" in page.text("#status")

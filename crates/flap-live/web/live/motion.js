@@ -257,6 +257,12 @@ const setPlaying = (/** @type {boolean} */ isPlaying) => {
   byId("play").textContent = isPlaying ? "Pause" : "Play";
 };
 
+/** Stops at a moment, which is a share of the cycle. */
+export const showMoment = (/** @type {number} */ share) => {
+  setPlaying(false);
+  motion.share = share;
+};
+
 export const startMotion = () => {
   if (!hasMotion) {
     const reason = isVehicle ? ": the numbers are those of several wings" : "";

@@ -18,7 +18,7 @@ import {
   requestFine,
   showReadout,
 } from "./family.js";
-import { requestMotion, startMotion } from "./motion.js";
+import { requestMotion, showMoment, startMotion } from "./motion.js";
 import { opened } from "./opened.js";
 import { buildPanel, panelEvents, showPanel } from "./panel.js";
 import { addPin, showPins } from "./pins.js";
@@ -162,4 +162,5 @@ window.flapTestHook = {
   isSettled: () => isFamilyFine() && areNumbersShown(),
   /** The rows behind the picture: { columns, rows }. */
   rows: () => family.answer,
+  showMoment,
 };

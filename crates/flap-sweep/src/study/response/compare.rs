@@ -4,6 +4,9 @@ use flap_core::simulate::{Row, Status};
 
 /// Periodic motions are different if a component of the state at the beginning of a period differs by more than this, as a
 /// share of the largest absolute value of the component on the curve.
+///
+/// This is the only definition of bistability: the column `bistable` of the rows has its result, which pictures and the
+/// live page show. It compares states, because a measure may have the same value in two motions.
 const DIFFERENT: f64 = 1e-2;
 
 /// A response is steep in a step if a component of the state changes by more than this across the step, as the same share.
