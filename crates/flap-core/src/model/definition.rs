@@ -106,6 +106,9 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     /// True if the signals depend on the derivatives of the states, [`Instant::dy`]. If not, they may be NaN between the
     /// stages of a step.
     const SIGNALS_OF_SLOPES: bool = true;
+    /// 1 if the trailing edge lags a wing that moves to positive stroke at a positive pitch, -1 if it leads: pictures of the
+    /// wing need it.
+    const PITCH_SIGN: i8 = 1;
     /// True if the [`load`](Model::load) of the wing is known.
     const LOADS: bool = false;
 

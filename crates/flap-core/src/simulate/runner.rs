@@ -211,6 +211,10 @@ impl<M: Model<N>, const N: usize> Simulator for Runner<M, N> {
         M::DESCRIPTION.presets
     }
 
+    fn pitch_sign(&self) -> i8 {
+        M::PITCH_SIGN
+    }
+
     fn wing(&self, wing: &Wing) -> Vec<(&'static str, f64)> {
         M::wing(wing)
     }

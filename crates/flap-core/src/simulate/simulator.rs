@@ -93,6 +93,11 @@ pub trait Simulator: Rows {
     /// Published parameter sets.
     fn presets(&self) -> &'static [Preset];
 
+    /// 1 if the trailing edge lags a wing that moves to positive stroke at a positive pitch, -1 if it leads.
+    fn pitch_sign(&self) -> i8 {
+        1
+    }
+
     /// The parameters that a wing of one's own decides, by name, in SI units; none if the model has no such wing.
     fn wing(&self, wing: &Wing) -> Vec<(&'static str, f64)> {
         let _ = wing;

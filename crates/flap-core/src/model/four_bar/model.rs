@@ -130,6 +130,7 @@ impl Model<4> for FourBar {
         presets: Params::PRESETS,
     };
     const STATES: [&'static str; 4] = states::NAMES;
+    const PITCH_SIGN: i8 = -1;
     const DERIVED: &'static [Column] = DERIVED;
     const LOADS: bool = true;
 
