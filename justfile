@@ -20,6 +20,12 @@ test-web *ARGS:
 test-python:
     ./scripts/test-python.sh
 
+# Tests of the harnesses in benches/peers and benches/growth, in the environment that `just test-python` makes.
+test-benches:
+    cargo build --locked -p flap-cli
+    FLAP="${CARGO_TARGET_DIR:-$PWD/target}/debug/flap" "${CARGO_TARGET_DIR:-target}/python/bin/python" -m pytest --quiet \
+        -c tests/python/pytest.ini --rootdir . benches/tests
+
 # Lanes of aarch64 in an emulator, and sweeps of both architectures to the same bytes: see the script for what it needs.
 test-aarch64:
     ./scripts/test-aarch64.sh
